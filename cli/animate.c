@@ -6,7 +6,7 @@
 #include "memory.h"
 #include "message.h"
 #include "player.h"
-#include "shot_words.h"
+#include "shot_story.h"
 
 #include <jansson.h>
 #include <math.h>

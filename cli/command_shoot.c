@@ -9,6 +9,7 @@
 #include "picture.h"
 #include "shoot_flags.h"
 #include "shot_file.h"
+#include "shot_story.h"
 #include "shot_words.h"
 #include "subcommands.h"
 
@@ -28,6 +29,7 @@ typedef struct shoot_job {
   player_error error;
   bool together; /* the shots came from options: they are drawn over each other, */
   bool words;    /* and told in words, unless --events asks for lines */
+  bool csv;      /* as rows of moments instead of words */
   bool cite;     /* the sources of the models are told instead */
 } shoot_job;
 
@@ -66,6 +68,9 @@ OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_cho
        "what to write of events: nothing; time, type and ids; or the states before and after too "
        "(default full). With a shot by options: write it as a line like those of a file, instead "
        "of words");
+OPTION(shoot_job, option_story, "csv", csv, 0, NULL, set_flag, 0,
+       "with a shot by options: write what the balls do as rows, instead of words: where each "
+       "leaves, rolls from, meets a rail, passes another ball and rests");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
        "largest number of events of a shot (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
@@ -224,10 +229,16 @@ static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], co
   for (int k = 0; k < count; k++) {
     if (count > 1)
       fprintf(said, "%d: ", k + 1);
-    shot_tell(said, shots[k].line, shots[k].shot, shots[k].spread);
+    shot_tell(said, shots[k].line, shots[k].shot, shots[k].spread, count > 1);
+  }
+  for (int k = 0; k < count && job->csv; k++) {
+    const int number = (int)shots[k].line->number;
+    if (number == 1)
+      fputs(STORY_COLUMNS "\n", out);
+    story_rows(out, number, shots[k].line, shots[k].shot);
   }
   close_text(said, &words);
-  if (job->words)
+  if (job->words && !job->csv)
     fputs(words, out);
   if (count > 0)
     draw(job, to, shots, count, words);
@@ -389,35 +400,17 @@ static const command_form form = {
              "are ignored) and writes each table and each shot with its events and final states. "
              "IN may be -. Or plays a shot that options describe, and tells it in words; several "
              "values with commas give several shots, drawn over each other.\n",
-    .options = (const option_row *const[]){&option_table,
-                                           &option_cue,
-                                           &option_balls,
-                                           &option_aim,
-                                           &option_at_ball,
-                                           &option_shot_cut,
-                                           &option_shot_speed,
-                                           &option_tip,
-                                           &option_elevation,
-                                           &option_tip_time,
-                                           &option_json,
-                                           &option_models,
-                                           &option_ball_ball,
-                                           &option_cushion_model,
-                                           &option_space,
-                                           &option_simultaneous,
-                                           &option_events,
-                                           &option_steps,
-                                           &option_events_most,
-                                           &option_time_most,
-                                           &option_threads,
-                                           &option_plot,
-                                           &option_spread,
-                                           &option_animate,
-                                           &option_shot_id,
-                                           &option_strict,
-                                           &option_cite,
-                                           &option_output,
-                                           NULL},
+    .options =
+        (const option_row *const[]){&option_table,      &option_cue,          &option_balls,
+                                    &option_aim,        &option_at_ball,      &option_shot_cut,
+                                    &option_shot_speed, &option_tip,          &option_elevation,
+                                    &option_tip_time,   &option_json,         &option_story,
+                                    &option_models,     &option_ball_ball,    &option_cushion_model,
+                                    &option_space,      &option_simultaneous, &option_events,
+                                    &option_steps,      &option_events_most,  &option_time_most,
+                                    &option_threads,    &option_plot,         &option_spread,
+                                    &option_animate,    &option_shot_id,      &option_strict,
+                                    &option_cite,       &option_output,       NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
         "the error; the others are played); 2 for bad usage or unreadable input\n",
@@ -432,7 +425,7 @@ static shot_file *shots_of(shoot_job *job, char **text) {
   size_t size;
   FILE *lines = open_text(text, &size);
   const carom_shot_options options = options_of(job);
-  const bool good = flags_write(lines, &job->from, &options);
+  const bool good = flags_write(lines, &job->from, &options, job->csv ? MOST_ROWS : MOST_SHOTS);
   close_text(lines, text);
   FILE *in = good ? fmemopen(*text, size, "r") : NULL;
   if (good && in == NULL)
@@ -471,6 +464,11 @@ int command_shoot(int argc, char **argv) {
                  : "shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 "
                    "--speed 2");
     return usage_hint(&form);
+  }
+  if (job.csv && !job.words) {
+    complain("--csv writes a shot by options, without --events; a file's shots are written as "
+             "lines of JSON");
+    return EXIT_USAGE;
   }
   if (job.time_most < 0.0) {
     complain("--time-most is a number of seconds above 0");

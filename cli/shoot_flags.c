@@ -308,7 +308,7 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
   return true;
 }
 
-bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options) {
+bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most) {
   static layout l;
   if (f->aim.count > 0 && (f->cut.count > 0 || f->at_ball != NULL)) {
     complain("--aim is a direction, --at-ball and --cut aim at a ball: give one of both");
@@ -329,9 +329,13 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options) {
     return false;
   const int ways = f->cut.count > 0 ? f->cut.count : f->aim.count;
   const int count = f->speed.count * f->tip.count * f->elevation.count * ways;
-  bool good = count <= MOST_SHOTS && f->cue.count <= 1;
-  if (!good)
-    complain("--cue is one place, and at most %d shots are played at once", MOST_SHOTS);
+  const bool good_cue = f->cue.count <= 1;
+  bool good = good_cue && count <= most;
+  if (!good_cue)
+    complain("--cue is one place");
+  else if (!good)
+    complain("these are %d shots; at most %d are told and drawn at once, and %d with --csv", count,
+             MOST_SHOTS, MOST_ROWS);
   good = good && lay_out(f, &l);
   for (int k = 0; k < count && good; k++)
     good = write_shot(out, f, &l, options, k);

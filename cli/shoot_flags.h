@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-enum { MOST_PLACES = 32, PLACE_NAME = 16, MOST_SHOTS = 16 };
+enum { MOST_PLACES = 32, PLACE_NAME = 16, MOST_SHOTS = 16, MOST_ROWS = 1001 };
 
 /* Pairs of numbers, each with the name that stood before it. */
 typedef struct place_list {
@@ -35,8 +35,8 @@ extern const option_row option_table, option_cue, option_balls, option_aim, opti
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);
 
-/* Writes the shots as lines of JSON, one for each combination, aimed for a play by these
- * options; false after a complaint. */
-bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options);
+/* Writes the shots as lines of JSON, one for each combination and at most `most`, aimed for a play
+ * by these options; false after a complaint. */
+bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most);
 
 #endif

@@ -6,7 +6,7 @@
 #include "labels.h"
 #include "memory.h"
 #include "picture.h"
-#include "shot_words.h"
+#include "shot_story.h"
 
 #include <math.h>
 #include <stdint.h>

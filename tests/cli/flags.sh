@@ -4,7 +4,7 @@ shot="--cue 0.6,0.8 --balls 0.5,1.6:8=0.9,1.2 --at-ball 1"
 try carom shoot $shot --cut 20 --speed 2
 try carom shoot --cue 0.6,0.8 --aim 35 --speed 3 --tip 0.2,-0.3
 cat > flags.py <<'PYTHON'
-import json, math, os, re, subprocess
+import csv, io, json, math, os, re, subprocess
 import xml.etree.ElementTree as tree
 from drawn import SVG
 carom, R = os.environ["CAROM"], 0.028575
@@ -45,6 +45,23 @@ for rack, count in (("nineball", 10), ("eightball", 16), ("tenball", 11)):
     assert next(event for event in played["events"] if event[1] == "ball_ball")[2] == ["cue", head]
 [(given, _)] = shots("--balls", "snooker", "--table", "snooker", "--speed", 1)
 print([ball["id"] for ball in given["balls"]][::5], given["balls"][0]["params"])
+
+# What balls do, as rows: contacts are those of the events, ends those of the shot; a ball that lies 5 mm beside a straight path is passed.
+rows = lambda *words: list(csv.DictReader(io.StringIO(run(*words, "--csv"))))
+told = rows(*balls, "--at-ball", 1, "--cut", "10,-20", "--speed", 3)
+for number, (_, played) in enumerate(shots(*balls, "--at-ball", 1, "--cut", "10,-20", "--speed", 3), 1):
+    for ball, state in played["final"]["balls"].items():
+        of = [row for row in told if row["shot"] == str(number) and row["ball"] == ball]
+        met = sorted({event[0] for event in played["events"] if event[1] == "ball_ball" and ball in event[2]})
+        assert [float(row["time_s"]) for row in of if row["what"] == "meets"] == met, (ball, met)
+        rolls = [event for event in played["events"] if event[1] == "sliding_rolling" and event[2] == [ball]]
+        assert [[float(row[key]) for key in ("time_s", "x_m", "y_m")] for row in of if row["what"] == "rolls"] == [[event[0], *event[4][0][1:3]] for event in rolls]
+        if of and of[-1]["what"] == "rests":
+            assert [float(of[-1]["x_m"]), float(of[-1]["y_m"])] == state[1:3]
+[past] = [row for row in rows("--cue", "0.6,0.8", "--balls", f"{0.6 + 2 * R + 0.005!r},1.3", "--aim", 90) if row["what"] == "passes"]
+print("passes by", round(float(past["gap_mm"]), 6), "mm at y =", round(float(past["y_m"]), 4))
+[rail] = [row for row in rows("--cue", "0.6,0.8", "--aim", 180, "--speed", 1) if row["what"] == "rail"][:1]
+print(rail["with"], round(float(rail["diamonds"]), 6), round(8 * 0.8 / 2.54, 6), run("--cue", "0.3,0.3", "--aim", 225, "--speed", 2).splitlines()[-1].strip())
 
 # Each option alone is a shot by options, though it may lack another one.
 alone = "--table snooker,--at-ball 1,--json,--cue 0.6_0.8,--balls 0.5_1.6,--balls nineball,--tip 0.1_0,--speed 1,--aim 10,--cut 10,--elevation 5,--tip-time 0.001"
@@ -90,7 +107,7 @@ carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --events brief --plot lines.
 carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --plot words.svg > words
 cmp lines.svg words.svg && try carom shoot --cue 5,5 --events none
 echo "--- refused"
-for words in "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--table attic" \
+for words in "--cue 0.6,0.8 --csv --events brief" "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--table attic" \
   "--balls 0.5,1.6:8=0.55,1.2 --cue 0.6,0.8 --at-ball 1" "--balls 0.5,1.6 --cue 0.6,0.8 --at-ball 1 --speed 0.2" "--balls 0.6,1.1 --cue 0.6,0.8 --at-ball 1 --elevation 30 --speed 4 --tip-time 0.0006" \
   "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--elevation 90" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
   # shellcheck disable=SC2086

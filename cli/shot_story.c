@@ -1,0 +1,311 @@
+/* A shot as moments of its balls, from its events.
+ *
+ * Contacts of one instant, as in a rack that breaks, change a ball at the first of them alone, so
+ * the others are left out. A ball passes another where the gap between them has a minimum below a
+ * radius and they never meet: found by samples and the golden section. */
+#include "shot_story.h"
+
+#include "derived.h"
+#include "number.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double same_contact = 0.1; /* s */
+enum { SAMPLES = 1024, REFINEMENTS = 40 };
+
+static bool has_ball(const carom_event *e, int ball) {
+  return e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
+}
+
+static int64_t kept_events(const carom_shot *shot) {
+  return shot->count < shot->room ? shot->count : shot->room;
+}
+
+/* ---- What counts */
+
+static double length_of(const carom_rail *r) {
+  return hypot(r->q[0] - r->p[0], r->q[1] - r->p[1]);
+}
+
+bool is_cushion(const carom_table *t, int rail) {
+  double longest = 0.0;
+  for (int r = 0; r < t->rails; r++)
+    longest = fmax(longest, length_of(&t->rail[r]));
+  return length_of(&t->rail[rail]) > 0.2 * longest;
+}
+
+bool counts_as_rail(const shot_line *line, const carom_shot *shot, int64_t k, int ball) {
+  const carom_event *e = &shot->events[k];
+  const carom_table *t = &line->table->table;
+  bool counts = e->type == CAROM_EVENT_RAIL && e->a == ball && is_cushion(t, (int)e->b);
+  for (int64_t before = k - 1;
+       before >= 0 && counts && e->time - shot->events[before].time < same_contact; before--)
+    counts = !(shot->events[before].type == e->type && shot->events[before].a == ball &&
+               shot->events[before].b == e->b);
+  return counts;
+}
+
+bool ball_moved(const carom_shot *shot, int ball) {
+  for (int64_t k = 0; k < shot->count && k < shot->room; k++)
+    if (has_ball(&shot->events[k], ball))
+      return true;
+  return false;
+}
+
+/* ---- Places in words */
+
+/* Along which side a rail lies, 0 to 3: top, bottom, left, right; -1 for none. */
+static int side_of_rail(const carom_table *t, int rail) {
+  const carom_rail *r = &t->rail[rail];
+  const double along = 1e-6 * (t->width + t->length);
+  if (fabs(r->p[0] - r->q[0]) < along)
+    return r->p[0] < 0.5 * t->width ? 0 : 1;
+  if (fabs(r->p[1] - r->q[1]) < along)
+    return r->p[1] < 0.5 * t->length ? 2 : 3;
+  return -1;
+}
+
+/* Whether all cushions lie along the sides of a rectangle. */
+static bool is_rectangle(const carom_table *t) {
+  for (int k = 0; k < t->rails; k++)
+    if (is_cushion(t, k) && side_of_rail(t, k) < 0)
+      return false;
+  return true;
+}
+
+static const char *const sides[] = {"the top rail", "the bottom rail", "the left rail",
+                                    "the right rail"};
+
+const char *rail_words(const named_table *t, int rail, char text[WHERE_TEXT]) {
+  const int side = is_rectangle(&t->table) ? side_of_rail(&t->table, rail) : -1;
+  snprintf(text, WHERE_TEXT, side < 0 ? "rail %.40s" : "%s",
+           side < 0 ? t->rail[rail] : sides[side]);
+  return text;
+}
+
+const char *pocket_words(const named_table *t, int pocket, char text[WHERE_TEXT]) {
+  const double *centre = t->table.pocket[pocket].centre, y = centre[1] / t->table.length;
+  if (is_rectangle(&t->table))
+    snprintf(text, WHERE_TEXT, "the %s %s pocket",
+             centre[0] < 0.5 * t->table.width ? "top" : "bottom",
+             fabs(y - 0.5) < 0.2 ? "side"
+             : y < 0.5           ? "left"
+                                 : "right");
+  else
+    snprintf(text, WHERE_TEXT, "pocket %.40s", t->pocket[pocket]);
+  return text;
+}
+
+const char *side_words(const named_table *t, double x, double y) {
+  const double beyond[4] = {-x, x - t->table.width, -y, y - t->table.length};
+  int side = 0;
+  for (int k = 1; k < 4; k++)
+    side = beyond[k] > beyond[side] ? k : side;
+  return sides[side];
+}
+
+static int nearest_pocket(const carom_table *t, const double r[2]) {
+  int nearest = -1;
+  double least = (double)INFINITY;
+  for (int k = 0; k < t->pockets; k++) {
+    const double d = hypot(t->pocket[k].centre[0] - r[0], t->pocket[k].centre[1] - r[1]);
+    nearest = d < least ? k : nearest;
+    least = fmin(d, least);
+  }
+  return nearest;
+}
+
+/* A place along a rail in diamonds: 8 on a long side, 4 on a short one, from the corner at the top
+ * left. */
+static double diamonds_at(const carom_table *t, int rail, const double r[2]) {
+  const int side = side_of_rail(t, rail);
+  return side < 0 ? (double)NAN : side < 2 ? 8.0 * r[1] / t->length : 4.0 * r[0] / t->width;
+}
+
+/* ---- Moments */
+
+static moment moment_at(moment_kind kind, double time, const carom_ball_state *s) {
+  const double speed = hypot(s->v[0], s->v[1]), turn = atan2(s->v[1], s->v[0]) / degree;
+  return (moment){.kind = kind,
+                  .with = -1,
+                  .time = time,
+                  .x = s->r[0],
+                  .y = s->r[1],
+                  .value = (double)NAN,
+                  .speed = speed,
+                  .direction = !(speed > 0.0) ? (double)NAN
+                               : turn < 0.0   ? turn + 360.0
+                                              : turn};
+}
+
+/* The cut of a ball on another one at rest, degrees. */
+static double cut_of(const carom_ball_state *own, const carom_ball_state *other) {
+  const double along[2] = {other->r[0] - own->r[0], other->r[1] - own->r[1]};
+  return hypot(other->v[0], other->v[1]) == 0.0 && hypot(own->v[0], own->v[1]) > 0.0
+             ? fabs(angle_between(own->v, along))
+             : (double)NAN;
+}
+
+/* The moment of an event, if it is one that is told. */
+static bool moment_of(const shot_line *line, const carom_shot *shot, int64_t k, int ball,
+                      moment *m) {
+  const carom_event *e = &shot->events[k];
+  const carom_table *t = &line->table->table;
+  const int side = e->a == ball ? 0 : 1;
+  *m = moment_at(MOMENT_LEAVES, e->time, &e->after[side]);
+  switch (e->type) {
+  case CAROM_EVENT_STRIKE:
+    return true;
+  case CAROM_EVENT_BALL_BALL:
+    m->kind = MOMENT_MEETS;
+    m->with = (int)(side == 0 ? e->b : e->a);
+    m->value = cut_of(&e->before[side], &e->before[1 - side]);
+    return true;
+  case CAROM_EVENT_RAIL:
+  case CAROM_EVENT_JAW:
+    m->kind = MOMENT_JAW;
+    m->with = nearest_pocket(t, e->after[0].r);
+    if (e->type == CAROM_EVENT_RAIL && is_cushion(t, (int)e->b)) {
+      m->kind = MOMENT_RAIL;
+      m->with = (int)e->b;
+      m->value = diamonds_at(t, m->with, e->after[0].r);
+      return counts_as_rail(line, shot, k, ball);
+    }
+    return true;
+  case CAROM_EVENT_SLIDING_ROLLING:
+    m->kind = MOMENT_ROLLS;
+    return true;
+  case CAROM_EVENT_POCKET:
+    m->kind = MOMENT_FALLS;
+    m->with = (int)e->b;
+    return true;
+  case CAROM_EVENT_LEFT_TABLE:
+    m->kind = MOMENT_OFF;
+    return true;
+  default:
+    return false;
+  }
+}
+
+/* ---- Balls that pass */
+
+static double gap_at(const shot_line *line, const carom_shot *shot, int a, int b, double time) {
+  carom_ball_state s[CAROM_BALLS_MOST];
+  carom_shot_at(line->ball, line->count, shot, time, s);
+  if (s[a].label == CAROM_BALL_POCKETED || s[b].label == CAROM_BALL_POCKETED)
+    return (double)INFINITY;
+  const double d[3] = {s[a].r[0] - s[b].r[0], s[a].r[1] - s[b].r[1], s[a].r[2] - s[b].r[2]};
+  return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - line->ball[a].kind.radius -
+         line->ball[b].kind.radius;
+}
+
+static bool ever_meet(const carom_shot *shot, int a, int b) {
+  for (int64_t k = 0; k < kept_events(shot); k++)
+    if (shot->events[k].type == CAROM_EVENT_BALL_BALL && has_ball(&shot->events[k], a) &&
+        has_ball(&shot->events[k], b))
+      return true;
+  return false;
+}
+
+/* The least gap of two balls on the way, where it is below a radius, as a moment of `ball`. */
+static bool passes(const shot_line *line, const carom_shot *shot, int ball, int other, moment *m) {
+  double gap[SAMPLES + 1];
+  int least = 0;
+  for (int k = 0; k <= SAMPLES; k++) {
+    gap[k] = gap_at(line, shot, ball, other, shot->time * k / SAMPLES);
+    least = gap[k] < gap[least] ? k : least;
+  }
+  /* at the ends they only begin or rest side by side */
+  if (least == 0 || gap[least] >= gap[SAMPLES] || gap[least] > line->ball[ball].kind.radius)
+    return false;
+  double early = shot->time * (least - 1) / SAMPLES, late = shot->time * (least + 1) / SAMPLES;
+  for (int k = 0; k < REFINEMENTS; k++) {
+    const double one = early + 0.382 * (late - early), two = early + 0.618 * (late - early);
+    if (gap_at(line, shot, ball, other, one) < gap_at(line, shot, ball, other, two))
+      late = two;
+    else
+      early = one;
+  }
+  carom_ball_state s[CAROM_BALLS_MOST];
+  const double time = 0.5 * (early + late);
+  carom_shot_at(line->ball, line->count, shot, time, s);
+  *m = moment_at(MOMENT_PASSES, time, &s[ball]);
+  m->with = other;
+  m->value = gap_at(line, shot, ball, other, time);
+  /* of two that move the faster one passes */
+  const double own = hypot(s[ball].v[0], s[ball].v[1]), its = hypot(s[other].v[0], s[other].v[1]);
+  return own > its || (own == its && ball < other);
+}
+
+int story_of(const shot_line *line, const carom_shot *shot, int ball, moment to[MOST_MOMENTS]) {
+  int count = 0;
+  double last = 0.0;
+  for (int64_t k = 0; k < kept_events(shot) && count < MOST_MOMENTS - 2 * CAROM_BALLS_MOST; k++) {
+    const carom_event *e = &shot->events[k];
+    moment m;
+    if (!has_ball(e, ball))
+      continue;
+    last = e->time;
+    if (!moment_of(line, shot, k, ball, &m))
+      continue;
+    const moment *before = count > 0 ? &to[count - 1] : NULL;
+    if (m.kind == MOMENT_MEETS && before != NULL && before->kind == MOMENT_MEETS &&
+        before->time == m.time)
+      continue;
+    to[count++] = m;
+  }
+  const carom_ball_state *final = &shot->final[ball];
+  if (final->label != CAROM_BALL_POCKETED && final->label != CAROM_BALL_OFF) {
+    const bool rests = final->label == CAROM_BALL_STATIONARY;
+    to[count++] = moment_at(rests ? MOMENT_RESTS : MOMENT_MOVES, rests ? last : shot->time, final);
+  }
+  for (int other = 0; other < line->count; other++) {
+    moment m;
+    if (other == ball || ever_meet(shot, ball, other) || !passes(line, shot, ball, other, &m))
+      continue;
+    int at = count++;
+    for (; at > 0 && to[at - 1].time > m.time; at--)
+      to[at] = to[at - 1];
+    to[at] = m;
+  }
+  return count;
+}
+
+/* ---- Rows */
+
+static void put_number(FILE *out, double x) {
+  char text[NUMBER_TEXT];
+  fprintf(out, ",%s", isnan(x) ? "" : number_text(x, text));
+}
+
+void story_rows(FILE *out, int number, const shot_line *line, const carom_shot *shot) {
+  static const char *const what[] = {"leaves", "meets", "rail", "jaw",   "rolls",
+                                     "passes", "falls", "off",  "rests", "moves"};
+  static moment m[MOST_MOMENTS];
+  const json_t *id = json_object_get(line->json, "id");
+  for (int ball = 0; ball < line->count; ball++) {
+    const int count = ball_moved(shot, ball) ? story_of(line, shot, ball, m) : 0;
+    for (int k = 0; k < count; k++) {
+      const moment_kind kind = m[k].kind;
+      char text[WHERE_TEXT] = "";
+      const char *with = kind == MOMENT_MEETS || kind == MOMENT_PASSES ? line->name[m[k].with]
+                         : kind == MOMENT_RAIL ? rail_words(line->table, m[k].with, text)
+                         : (kind == MOMENT_JAW && m[k].with >= 0) || kind == MOMENT_FALLS
+                             ? pocket_words(line->table, m[k].with, text)
+                         : kind == MOMENT_OFF ? side_words(line->table, m[k].x, m[k].y)
+                                              : "";
+      fprintf(out, "%d,\"%s\",%s,%s,%s", number, json_is_string(id) ? json_string_value(id) : "",
+              line->name[ball], what[kind], with);
+      put_number(out, m[k].time);
+      put_number(out, m[k].x);
+      put_number(out, m[k].y);
+      put_number(out, m[k].speed);
+      put_number(out, m[k].direction);
+      put_number(out, kind == MOMENT_MEETS ? m[k].value : (double)NAN);
+      put_number(out, kind == MOMENT_RAIL ? m[k].value : (double)NAN);
+      put_number(out, kind == MOMENT_PASSES ? 1e3 * m[k].value : (double)NAN);
+      putc('\n', out);
+    }
+  }
+}
