@@ -152,8 +152,8 @@
     "options.simultaneous must be one of carom_simultaneous")                                      \
   X(ERROR_CLUSTER_STEPS, -100, "bad_cluster_steps",                                                \
     "options.cluster_steps must be 0 to 10000 (0 is the default)")                                 \
-  X(ERROR_RECORD, -101, "bad_record", "the recording is wrong; record.fault says where and why")  \
-  X(ERROR_REVISION, -102, "other_revision",                                                       \
+  X(ERROR_RECORD, -101, "bad_record", "the recording is wrong; record.fault says where and why")   \
+  X(ERROR_REVISION, -102, "other_revision",                                                        \
     "the recording is of another revision of the physics, with which its shots have other bits")
 
 #define AGREES(NAME, value, name, text) \

@@ -1,4 +1,5 @@
-/* A number is a decimal one, or in quotes a hexadecimal one as C has it: 0.25, "0x1.999999999999ap-4".
+/* A number is a decimal one, or in quotes a hexadecimal one as C has it: 0.25,
+ * "0x1.999999999999ap-4".
  *
  * A decimal number m 10^e is read exactly where m <= 2^53 and |e| <= 22: then m and 10^|e| are
  * doubles, and one product or quotient rounds once (W. D. Clinger, "How to read floating point

@@ -42,12 +42,13 @@ static const struct {
                  "  year = {1995},\n"
                  "  isbn = {0-9645370-0-1}\n"
                  "}\n"},
-    {EVERY_SHOT, "@misc{alciatore-squirt,\n"
-                 "  author = {Alciatore, David G.},\n"
-                 "  title = {{TP} {A.30}: The effect of cue tip offset, cue weight, and cue speed on "
-                 "cue ball speed and spin; {TP} {A.31}: The physics of squirt},\n"
-                 "  url = {https://billiards.colostate.edu/technical-proofs/}\n"
-                 "}\n"},
+    {EVERY_SHOT,
+     "@misc{alciatore-squirt,\n"
+     "  author = {Alciatore, David G.},\n"
+     "  title = {{TP} {A.30}: The effect of cue tip offset, cue weight, and cue speed on "
+     "cue ball speed and spin; {TP} {A.31}: The physics of squirt},\n"
+     "  url = {https://billiards.colostate.edu/technical-proofs/}\n"
+     "}\n"},
     {SLIP_LAW, "@misc{alciatore-throw,\n"
                "  author = {Alciatore, David G.},\n"
                "  title = {{TP} {A.14}: The effects of cut angle, speed, and spin on object ball "

@@ -1,10 +1,12 @@
-/* A program for Windows without a C library, so that it can be compiled and linked as by MSVC where there is no SDK: plays a break and
- * writes the line of its recording, with the hash of its bits. */
+/* A program for Windows without a C library, so that it can be compiled and linked as by MSVC where
+ * there is no SDK: plays a break and writes the line of its recording, with the hash of its bits.
+ */
 #include <carom_record.h>
 
 #define WINDOWS __declspec(dllimport)
 WINDOWS void *__stdcall GetStdHandle(unsigned long which);
-WINDOWS int __stdcall WriteFile(void *file, const void *bytes, unsigned long size, unsigned long *written, void *unused);
+WINDOWS int __stdcall WriteFile(void *file, const void *bytes, unsigned long size,
+                                unsigned long *written, void *unused);
 WINDOWS void __stdcall ExitProcess(unsigned code);
 
 int _fltused; /* what MSVC asks for where there are doubles */
