@@ -19,6 +19,7 @@ static class Program {
           Console.Error.WriteLine($"shot {recording.Shots} has other bits than were recorded");
           return 1;
         }
+      if (!recording.Ended) return 1;
       Console.WriteLine($"recording: {recording.Shots} shots, {recording.Hash:x16}");
       try {
         recording.Read("{}");

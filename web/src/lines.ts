@@ -1,7 +1,7 @@
 // Shots as the JSON lines that `carom shoot` reads and writes (docs/using/shots.md has the format).
 import type { Carom } from "./carom.js";
+import { labels as LABELS } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
-import { LABELS } from "./structs.js";
 import type { BallKind, Cue, Game, ShotBall, Table, TableName } from "./types.js";
 
 /** A shot as a line has it. */

@@ -1,8 +1,8 @@
 // Objects to structs in the module's memory, and back.
-import { layout, values } from "./generated/layout.js";
+import { labels as LABELS, layout, values } from "./generated/layout.js";
 import { KEYS, meant, refuseUnknown } from "./keys.js";
 import type { Memory, Pointer } from "./memory.js";
-import type { BallState, EventType, Label, Motion, ShotBall, ShotEvent, Table, Vec3 } from "./types.js";
+import type { BallState, EventType, Motion, ShotBall, ShotEvent, Table, Vec3 } from "./types.js";
 
 export type StructName = keyof typeof layout;
 
@@ -22,9 +22,6 @@ export function refuseName(option: string, name: string, names: readonly string[
   throw new TypeError(`${option}: it must be one of ${names.join(", ")}, not ${JSON.stringify(name)}${meant(String(name), names)}`);
 }
 
-/** Fields that are whole numbers of 64 bits. */
-const WHOLE: readonly string[] = ["carom_rail.side", "carom_cue.ball", "carom_ball_state.label"];
-
 /** Where the numbers of a field of a struct are, and how many. */
 interface Field {
   key: string;
@@ -33,9 +30,14 @@ interface Field {
   whole: boolean;
 }
 const FIELDS = Object.fromEntries(
-  Object.entries(layout).map(([struct, { offset, bytes }]) => [
+  Object.entries(layout).map(([struct, { offset, bytes, whole }]) => [
     struct,
-    Object.entries(offset).map(([key, begin]) => ({ key, begin, size: (bytes as Record<string, number>)[key]! / 8, whole: WHOLE.includes(`${struct}.${key}`) })),
+    Object.entries(offset).map(([key, begin]) => ({
+      key,
+      begin,
+      size: (bytes as Record<string, number>)[key]! / 8,
+      whole: (whole as readonly string[]).includes(key),
+    })),
   ]),
 ) as Record<StructName, Field[]>;
 const KEYS_OF = Object.fromEntries(Object.entries(FIELDS).map(([struct, fields]) => [struct, fields.map(({ key }) => key)])) as Record<StructName, string[]>;
@@ -79,9 +81,6 @@ export function readMotion(f64: Float64Array, at: Pointer): Motion {
   return { v: vec3(f64, at + layout.carom_motion.offset.v), w: vec3(f64, at + layout.carom_motion.offset.w) };
 }
 
-/** The labels, by number. */
-export const LABELS: readonly Label[] = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
-
 const STATE = layout.carom_ball_state.offset;
 
 export function readState(memory: Memory, at: Pointer): BallState {
@@ -97,7 +96,7 @@ export function writeBalls(memory: Memory, at: Pointer, balls: readonly ShotBall
     const name = `balls[${k}]`;
     refuseUnknown(ball, KEYS.ball, name);
     writeStruct(memory, ballAt + kind, "carom_ball_kind", ball.kind, `${name}.kind`);
-    const label = LABELS.indexOf(ball.state.label ?? "stationary");
+    const label = (LABELS as readonly string[]).indexOf(ball.state.label ?? "stationary");
     if (label < 0) refuseName(`${name}.state.label`, ball.state.label, LABELS);
     writeStruct(memory, ballAt + state, "carom_ball_state", { ...ball.state, label }, `${name}.state`);
   }

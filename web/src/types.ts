@@ -1,26 +1,18 @@
 // What users hand in and get back. Units are SI: metres, kilograms, seconds, rad/s for spins. Directions of a cue are in degrees. The
 // table is the plane x, y; z points up; vectors are right-handed. Field names are those of carom.h and carom_shot.h in camel case.
 
+import type * as C from "./generated/structs.js";
+
+/** A type some of whose keys may be missing. */
+type Optional<T, K extends keyof T> = Omit<T, K> & Partial<Pick<T, K>>;
+
 /** x, y, z. */
 export type Vec3 = readonly [number, number, number];
 /** x, y. */
 export type Vec2 = readonly [number, number];
 
-/** One ball just before a collision. */
-export interface Ball {
-  /** Centre, m. Both balls of a pair are at the same height. Default (0, 0, 0). */
-  r?: Vec3;
-  /** Velocity, m/s; its z must be 0. Default 0. */
-  v?: Vec3;
-  /** Angular velocity, rad/s. Default 0. */
-  w?: Vec3;
-  /** m. Default 0.028575, a pool ball. */
-  radius?: number;
-  /** kg. Default 0.17. */
-  mass?: number;
-  /** Sliding friction of ball and cloth, 0 to 1. Default 0.2. */
-  muCloth?: number;
-}
+/** One ball just before a collision. What is missing is at rest in the origin, of radius 0.028575 m and mass 0.17 kg, with muCloth 0.2. */
+export type Ball = Partial<C.Ball>;
 
 /** Two touching balls. */
 export interface Impact {
@@ -34,20 +26,14 @@ export interface Impact {
   restitution?: number;
 }
 
-/** The motion of a ball. */
-export interface Motion {
-  /** Velocity, m/s. */
-  v: Vec3;
-  /** Angular velocity, rad/s. */
-  w: Vec3;
-}
+export type Motion = C.Motion;
 
 /** Options of collisions. */
 export interface CollideOptions {
   /** "exact" (default): the limit of infinitely many steps. "euler": Mathavan's steps of impulse. */
-  solver?: "exact" | "euler";
+  solver?: C.Solver;
   /** The sign of spin in the slip on the cloth: the 2014 paper's (default), or pooltool's. */
-  slip?: "paper" | "pooltool";
+  slip?: C.Slip;
   /** Steps of Euler's method; default 1000. */
   steps?: number;
 }
@@ -106,111 +92,33 @@ export interface TracePoint {
   state: { a: Motion; b: Motion };
 }
 
-/** A ball that touches a cushion. */
-export interface CushionImpact {
-  /** Velocity, m/s; its z must be 0. */
-  v: Vec3;
-  /** Angular velocity, rad/s. Default 0. */
-  w?: Vec3;
-  /** Horizontal direction from the ball into the cushion, of any length but 0. */
-  normal: Vec2;
-  /** Height of the cushion's nose above the cloth, m. Default 0.0365. */
-  height?: number;
-  /** m. Default 0.028575. */
-  radius?: number;
-  /** kg. Default 0.17. */
-  mass?: number;
-  /** Friction of ball and cloth, 0 to 1. Default 0.2. */
-  muCloth?: number;
-  /** Friction of ball and cushion, 0 to 1. Default 0.2. */
-  muCushion?: number;
-  /** Coefficient of restitution, 0 to 1. Default 0.85. */
-  restitution?: number;
-  /** Radius of a jaw, m; default 0, a straight rail. Read by Stronge's model with pooltool's convention only. */
-  jawRadius?: number;
-}
+/** A ball that touches a cushion. What is missing: no spin, the ball of a collision, height 0.0365, muCushion 0.2, restitution 0.85, jawRadius 0. */
+export type CushionImpact = Optional<C.CushionImpact, Exclude<keyof C.CushionImpact, "v" | "normal">>;
 
-export type CushionModel = "mathavan" | "stronge" | "han" | "mirror" | "euler" | "smooth";
+export type CushionModel = C.CushionModel;
 
 /** Options of impacts on cushions. */
 export interface CushionOptions {
   /** Default "mathavan", the exact limit of the 2010 model. */
   model?: CushionModel;
   /** The papers' conventions (default), or pooltool's. */
-  convention?: "paper" | "pooltool";
+  convention?: C.CushionConvention;
   /** Restitution and friction of the fields (default), or by Han's fits. */
-  law?: "constant" | "han";
+  law?: C.CushionLaw;
   /** Steps of Euler's method; default 1000. */
   steps?: number;
 }
 
 /** A game: whose balls, cloth and cue. docs/understanding/constants.md has the source of each number. */
-export type Game = "pool" | "snooker" | "billiard" | "pooltool_pool" | "pooltool_snooker" | "pooltool_billiard";
+export type Game = C.Game;
 
-/** The constants of a ball and of its cloth. */
-export interface BallKind {
-  /** kg. */
-  mass: number;
-  /** m; the same for all balls of a shot. */
-  radius: number;
-  /** Sliding friction of ball and cloth, above 0, at most 1. */
-  muSlide: number;
-  /** Rolling resistance, above 0, at most 1. */
-  muRoll: number;
-  /** Friction of a ball that turns on the spot, above 0, at most 1. */
-  muSpin: number;
-  /** Friction of two balls, 0 to 1; read with the option friction: "constant" only. */
-  muBall: number;
-  /** Restitution of two balls, 0 to 1; a pair has the mean. */
-  restitution: number;
-  /** Friction of ball and cushion, 0 to 1. */
-  muCushion: number;
-  /** Restitution of ball and cushion, 0 to 1. */
-  restitutionCushion: number;
-  /** m/s^2. */
-  gravity: number;
-  /** 1/m, 0 to 1: a rolling ball slows by muRoll gravity + drag v^2. */
-  drag: number;
-  /** 0 to 1: the part of its speed along a cushion that an impact takes from the ball's roll along it. */
-  rollLoss: number;
-  /** Friction of two balls at a slip of u m/s: lawA + lawB exp(-lawC u). All 0: Alciatore's law. */
-  lawA: number;
-  lawB: number;
-  /** s/m. */
-  lawC: number;
-  /** Height of every cushion's nose for this ball, m; 0: the table's. */
-  noseHeight: number;
-  /** Of Stronge's cushions, 1 to 2; 0: 1.8. */
-  omegaRatio: number;
-  /** Restitution of ball and slate, at most 0.98; 0: 0.5, which is a convention; -1: none. */
-  restitutionTable: number;
-  /** Stiffness of the material, E/(1 - nu^2), Pa; 0: 6.6e9. It counts where several balls touch at one instant. */
-  modulus: number;
-  /** Restitution and friction of cushions change by these for each unit of ln(v), v in m/s the speed across the cushion, -1 to 1. */
-  restitutionLog: number;
-  muLog: number;
-  /** Of smooth cushions: width of the passage from sticking to sliding, up to 0.5. 0: the five are those measured on one table. */
-  smoothQ: number;
-  /** The parts of the slip along and across the cushion that friction takes if it can, above 0, at most 2. */
-  smoothX: number;
-  smoothT: number;
-  /** Friction across the cushion reaches 1 + smoothA times as far, 0 to 1. */
-  smoothA: number;
-  /** Rebound gains this part of the impulse where friction is used up, 0 to 1. */
-  smoothK: number;
-}
+export type BallKind = C.BallKind;
 
 /** How a ball moves. */
-export type Label = "stationary" | "spinning" | "sliding" | "rolling" | "pocketed" | "airborne" | "off";
+export type Label = C.Label;
 
 /** Where a ball is and how it moves. */
-export interface BallState {
-  /** Centre, m; z is the radius on the table. */
-  r: Vec3;
-  /** Velocity, m/s. */
-  v: Vec3;
-  /** Angular velocity, rad/s. */
-  w: Vec3;
+export interface BallState extends Omit<C.BallState, "label"> {
   label: Label;
 }
 
@@ -220,40 +128,13 @@ export interface ShotBall {
   state: BallState;
 }
 
-/** A straight piece of cushion from p to q. */
-export interface Rail {
-  p: Vec2;
-  q: Vec2;
-  /** Of the nose above the cloth, m. */
-  height: number;
-  /** lx, ly, l0 of the line lx x + ly y + l0 = 0; all 0 (the default) to have it derived. */
-  line?: Vec3;
-  /** On which side balls are: with a derived line, 1 is on the left of p -> q, 0 on its right. */
-  side: number;
-  /** Its own friction and restitution, 0 to 1; 0 (the default): those of the ball. */
-  muCushion?: number;
-  restitution?: number;
-}
+/** A straight piece of cushion. Without a line it is derived; without muCushion or restitution it has those of the ball. */
+export type Rail = Optional<C.Rail, "line" | "muCushion" | "restitution">;
 
-/** A rounded end of a cushion. */
-export interface Jaw {
-  centre: Vec2;
-  /** m. */
-  radius: number;
-  /** Of the nose above the cloth, m. */
-  height: number;
-  muCushion?: number;
-  restitution?: number;
-}
+/** A rounded end of a cushion, as a rail. */
+export type Jaw = Optional<C.Jaw, "muCushion" | "restitution">;
 
-/** A pocket takes a ball when the ball's centre crosses the circle inward. */
-export interface Pocket {
-  centre: Vec2;
-  /** m. */
-  radius: number;
-  /** m; a pocketed ball is at z = -depth. */
-  depth: number;
-}
+export type Pocket = C.Pocket;
 
 /** A table of any geometry. The playing surface of the built-in ones is 0 <= x <= width, 0 <= y <= length, in m. */
 export interface Table {
@@ -270,31 +151,7 @@ export interface Table {
   pockets: Pocket[];
 }
 
-/** A cue and its strike. */
-export interface Cue {
-  /** Speed of the cue before the strike, m/s. 0: no strike. */
-  speed: number;
-  /** Direction in the plane, degrees from +x towards +y. */
-  phi: number;
-  /** Elevation of the butt, degrees, 0 to 90. The tip presses the ball on the slate. */
-  theta: number;
-  /** Where the tip touches, in radii: a > 0 left; a^2 + b^2 < miscue^2. */
-  a: number;
-  /** Where the tip touches, in radii: b > 0 above the centre. */
-  b: number;
-  /** kg. */
-  mass: number;
-  /** Effective mass of the tip's end, which makes squirt, kg. */
-  endMass: number;
-  /** m; kept with the cue, not used by the strike. */
-  tipRadius: number;
-  /** Index of the ball that is struck. */
-  ball: number;
-  /** 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. */
-  miscue: number;
-  /** s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.002, a leather tip; hard resin 0.0006. -1: no time. */
-  tipTime: number;
-}
+export type Cue = C.Cue;
 
 /** What happened, in the words of files of `carom shoot`. */
 export type EventType =
@@ -327,19 +184,19 @@ export interface StopOptions {
 /** Options of shots. */
 export interface ShotOptions extends StopOptions {
   /** The rules of contact: carom's (default), or pooltool's. */
-  world?: "carom" | "pooltool";
+  world?: C.World;
   /** The collision of two balls; default exact in the world carom. */
-  ballModel?: "default" | "exact" | "euler" | "inelastic" | "mirror";
+  ballModel?: C.BallModel;
   /** The impact on a cushion; default han in the world carom. "mathavan", the exact limit, takes more than ten times as long. */
-  cushionModel?: "default" | CushionModel;
+  cushionModel?: C.ShotCushion;
   /** "3d" (default): balls hop, jump and leave the table. "flat": they stay on the cloth. */
-  space?: "3d" | "flat";
+  space?: C.Space;
   /** Contacts of several balls at one instant: they last and overlap in time (default), or they are resolved one after the other. */
-  simultaneous?: "cluster" | "pairs";
+  simultaneous?: C.Simultaneous;
   /** Of the integrator of clusters, for the duration of a contact; default 25. */
   clusterSteps?: number;
   /** Between balls: by their speed of slip (default), or muBall. */
-  friction?: "alciatore" | "constant";
+  friction?: C.BallFriction;
   /** Of Euler's models; default 1000. */
   steps?: number;
 }
@@ -372,34 +229,15 @@ export interface Contact {
 }
 
 export type TableName = "7ft" | "8ft" | "9ft" | "snooker" | "threecushion" | "pooltool";
-export type RackName = "nineball" | "eightball" | "tenball" | "snooker" | "threecushion";
+export type RackName = C.RackKind;
 
-/** How the strokes of a player differ from those that are meant: standard deviations of independent normal errors, and bounds. */
-export interface Player {
-  /** m/s. */
-  speed: number;
-  /** As a share of the speed; both are added in squares. Default 0. */
-  speedShare?: number;
-  /** Degrees. */
-  phi: number;
-  /** Degrees. */
-  theta: number;
-  /** Radii of the ball. */
-  a: number;
-  /** Radii of the ball. */
-  b: number;
-  /** Bounds of the cue's speed, m/s. Default 0.5. */
-  speedLeast?: number;
-  /** Default 8. */
-  speedMost?: number;
-  /** Bound of |a| and |b|, radii. Default 0.5. */
-  tipMost?: number;
-}
+/** How the strokes of a player differ from those that are meant. What is missing is 0. */
+export type Player = Optional<C.Player, "speedShare" | "speedLeast" | "speedMost" | "tipMost">;
 
 /** A game between two strokes, as the player at the table sees it. Ball k is ball k of the game, ball 0 the cue ball. */
 export interface GameState {
   /** Eight-ball and nine-ball by the rules of the WPA; or a drill for one. Default "eightball". */
-  rules: "eightball" | "nineball" | "potting";
+  rules: C.RulesKind;
   /** Of eight-ball: whose balls the player has. Default "open". */
   group: "open" | "solids" | "stripes";
   /** Whether the next stroke is the break. Default false. */
@@ -432,7 +270,7 @@ export interface Choice {
   /** Where the cue ball lies or is put, m. */
   place: Vec2;
   /** "pot" is a direct pot; "scan" was found by shots in all directions; "foul": nothing better was found; "given" was asked for. */
-  kind: "pot" | "scan" | "foul" | "given";
+  kind: C.PlanKind;
   /** The ball that falls without errors and keeps the turn, and its pocket; -1: none. */
   ball: number;
   pocket: number;
@@ -450,16 +288,12 @@ export interface Choice {
   seen: number;
 }
 
-/** The ball and the pocket that are called. */
-export interface Call {
-  ball: number;
-  pocket: number;
-}
+export type Call = C.Call;
 
 /** What a shot amounts to. */
 export interface Ruling {
   /** Whether the player plays on, the other one plays, or the player has won or lost. */
-  turn: "keep" | "pass" | "win" | "lose";
+  turn: C.TurnIs;
   foul: boolean;
   /** Where whoever plays next may put the cue ball. */
   hand: "no" | "anywhere" | "kitchen";

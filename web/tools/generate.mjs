@@ -1,30 +1,67 @@
-// generate.mjs MADE OUT: what the build knows, as TypeScript: the layout of the structs, the values of the enumerators, both modules.
-import { readFileSync, writeFileSync } from "node:fs";
+// generate.mjs MADE OUT: what the build knows, as TypeScript: structs and enumerators of the headers, both modules. bindings/README.md says what
+// MADE/api.json has.
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 
 const [made, out] = process.argv.slice(2);
+const api = JSON.parse(readFileSync(`${made}/api.json`, "utf8"));
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
+const pascal = (name) => camel(name.replace(/^carom/, ""));
+const note = "// Written by tools/generate.mjs from the headers of the C library.\n";
+
+// The package gets the layouts and values that its sources name, and enumerations that it looks names up in.
+const sources = readdirSync("src").filter((name) => name.endsWith(".ts")).map((name) => readFileSync(`src/${name}`, "utf8")).join("");
+const isNamed = (name) => new RegExp(`\\b${name}\\b`).test(sources);
+const prefixes = [...sources.matchAll(/"(CAROM_\w+_)"/g)].map(([, prefix]) => prefix);
 
 const structs = {};
-const values = {};
-let struct;
-for (const line of readFileSync(`${made}/abi.txt`, "utf8").split("\n")) {
-  let match;
-  if ((match = /^(carom_\w+): (\d+) bytes/.exec(line))) {
-    struct = structs[match[1]] = { size: Number(match[2]), offset: {}, bytes: {} };
-  } else if ((match = /^ +(\d+) (\w+): (\d+)$/.exec(line))) {
-    struct.offset[camel(match[2])] = Number(match[1]);
-    struct.bytes[camel(match[2])] = Number(match[3]);
-  } else if ((match = /^(CAROM_\w+) = (-?\d+)$/.exec(line))) {
-    values[match[1]] = Number(match[2]);
-  } else if (line !== "") {
-    throw new Error(`${made}/abi.txt: a line that is neither a struct, a field nor a value: ${line}`);
-  }
+for (const { name, fields, wasm32 } of api.structs.filter(({ name }) => isNamed(name))) {
+  const keys = fields.map((field) => camel(field.name));
+  const numbers = (list) => Object.fromEntries(keys.map((key, k) => [key, list[k]]));
+  const whole = keys.filter((_, k) => fields[k].type === "int64_t" && !fields[k].pointer);
+  structs[name] = { size: wasm32.size, offset: numbers(wasm32.offsets), bytes: numbers(wasm32.sizes), whole };
 }
-const note = "// Written by tools/generate.mjs from the headers of the C library.\n";
+const enumerators = [...api.enums.flatMap((one) => one.values), ...api.constants].filter(
+  ({ name, value }) => Number.isInteger(value) && (isNamed(name) || prefixes.some((prefix) => name.startsWith(prefix))),
+);
+const values = Object.fromEntries(enumerators.sort((a, b) => (a.name < b.name ? -1 : 1)).map(({ name, value }) => [name, value]));
+
+/** The ends of the names of an enumeration: ["stationary", "spinning", ...]. */
+function names({ values }) {
+  let common = values[0].name;
+  while (!values.every(({ name }) => name.startsWith(common))) common = common.slice(0, -1);
+  common = common.slice(0, common.lastIndexOf("_") + 1);
+  return values.map(({ name }) => name.slice(common.length).toLowerCase());
+}
+const enums = Object.fromEntries(api.enums.map((one) => [one.name, names(one)]));
+
+// Comments speak of fields; these have their names in TypeScript.
+const known = new Set(api.structs.flatMap(({ fields }) => fields.map(({ name }) => name)));
+const words = (comment) => comment.replace(/\b[a-z]+(_[a-z]+)+\b/g, (name) => (known.has(name) ? camel(name) : name)).replaceAll("*/", "");
+const comment = (text, indent) => (text ? `${indent}/** ${words(text)} */\n` : "");
+const isEnum = new Set(api.enums.map(({ name }) => name));
+const isStruct = new Set(api.structs.map(({ name }) => name));
+
+function typeOf({ type, array = [], pointer }) {
+  if (pointer) return undefined;
+  const [length] = array;
+  if (isStruct.has(type)) return length ? `${pascal(type)}[]` : pascal(type);
+  if (isEnum.has(type)) return pascal(type);
+  return length === undefined ? "number" : length === 2 || length === 3 ? `Vec${length}` : "number[]";
+}
+let types = `${note}import type { Vec2, Vec3 } from "../types.js";\n`;
+for (const [name, ends] of Object.entries(enums)) types += `\nexport type ${pascal(name)} = ${ends.map((end) => `"${end}"`).join(" | ")};\n`;
+for (const one of api.structs) {
+  const fields = one.fields.filter((field) => !/^(reserved|unused|opaque)$/.test(field.name) && typeOf(field));
+  const lines = fields.map((field) => `${comment(field.comment, "  ")}  ${camel(field.name)}: ${typeOf(field)};\n`);
+  types += `\n${comment(one.comment, "")}export interface ${pascal(one.name)} {\n${lines.join("")}}\n`;
+}
+writeFileSync(`${out}/structs.ts`, types);
 writeFileSync(
   `${out}/layout.ts`,
-  `${note}/** Sizes of the structs in bytes; offsets and sizes of their fields. */\nexport const layout = ${JSON.stringify(structs, null, 1)} as const;\n` +
-    `/** Values of the enumerators. */\nexport const values = ${JSON.stringify(values, null, 1)} as const;\n`,
+  `${note}/** Sizes of the structs in bytes; offsets and sizes of their fields; those that are whole numbers of 64 bits. */\n` +
+    `export const layout = ${JSON.stringify(structs, null, 1)} as const;\n` +
+    `/** Values of the enumerators. */\nexport const values = ${JSON.stringify(values, null, 1)} as const;\n` +
+    `/** Names of the labels of balls, by their values. */\nexport const labels = ${JSON.stringify(enums.carom_label)} as const;\n`,
 );
 for (const name of ["plain", "simd"])
   writeFileSync(`${out}/${name}.ts`, `${note}export default ${JSON.stringify(readFileSync(`${made}/${name}.wasm`).toString("base64"))};\n`);

@@ -123,6 +123,9 @@ namespace Carom {
     public long Shots { get { return record->shots; } }
     public ulong Hash { get { return record->hash; } }
 
+    /// <summary>Whether the last line was the end; without it a recording was cut off.</summary>
+    public bool Ended { get { return record->kind == (long)RecordKind.End; } }
+
     public void Dispose() {
       Marshal.FreeHGlobal((IntPtr)record);
       record = null;

@@ -216,6 +216,11 @@ impl Recording {
         self.record.shots
     }
 
+    /// Whether the last line was the end; without it a recording was cut off.
+    pub fn ended(&self) -> bool {
+        self.record.kind == i64::from(sys::CAROM_RECORD_END)
+    }
+
     /// The hash of all their hashes.
     pub fn hash(&self) -> u64 {
         self.record.hash

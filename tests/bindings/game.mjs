@@ -1,0 +1,87 @@
+// As game.c, in JavaScript: the recording is read here, by its page (docs/using/games.md), and played by the npm package.
+import { readFileSync } from "node:fs";
+import { load } from "../../web/dist/index.js";
+
+const carom = await load();
+const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
+const word = (x) => BigInt.asUintN(64, x);
+
+/** One step of the hash of a shot, or of a game. */
+function stir(hash, bits) {
+  const mixed = hash ^ bits;
+  return word(word((mixed << 27n) | (mixed >> 37n)) * 0x9e3779b97f4a7c15n);
+}
+
+/** The bits of a double. */
+function bitsOf(number) {
+  const bytes = new DataView(new ArrayBuffer(8));
+  bytes.setFloat64(0, number);
+  return bytes.getBigUint64(0);
+}
+
+/** The fingerprint of words, and of those before: four chains, which are joined at the end. */
+function fingerprint(before, words) {
+  const chains = [before, 1n, 2n, 3n];
+  const whole = words.length - (words.length % 4);
+  words.forEach((bits, k) => (chains[k < whole ? k % 4 : 0] = stir(chains[k < whole ? k % 4 : 0], bits)));
+  return chains.reduce(stir);
+}
+
+/** FNV-1a of the bits of numbers, the lowest byte first. */
+function add(hash, numbers) {
+  for (const number of numbers) for (let k = 0n; k < 64n; k += 8n) hash = word((hash ^ ((bitsOf(number) >> k) & 255n)) * 0x100000001b3n);
+  return hash;
+}
+
+/** A value of a recording as the package has it: keys in camel case, hexadecimal numbers as numbers. */
+function read(value) {
+  if (Array.isArray(value)) {
+    // In a list a key that is missing has the value of the object before.
+    const list = value.map(read);
+    return typeof list[0] === "object" ? list.map((_, k) => Object.assign({}, ...list.slice(0, k + 1))) : list;
+  }
+  if (typeof value === "object") return Object.fromEntries(Object.entries(value).map(([key, one]) => [key.replace(/_(.)/g, (_, c) => c.toUpperCase()), read(one)]));
+  const hexadecimal = /^(-?)0x([0-9a-f])\.?([0-9a-f]*)p([+-]?\d+)$/.exec(value);
+  if (!hexadecimal) return value;
+  const [, sign, first, more, power] = hexadecimal;
+  return (sign ? -1 : 1) * (parseInt(first + more, 16) / 16 ** more.length) * 2 ** Number(power);
+}
+const hex = (hash) => hash.toString(16).padStart(16, "0");
+
+const kindKeys = Object.keys(carom.kind("pool"));
+let shots = 0;
+let game = 0n;
+let table, balls;
+for (const line of readFileSync(process.argv[2], "utf8").trim().split("\n")) {
+  const [[kind, value]] = Object.entries(JSON.parse(line));
+  const given = read(value);
+  if (kind === "recording" && given.revision !== carom.physicsRevision) throw new Error(`the recording is of revision ${given.revision}`);
+  else if (kind === "options" && Object.keys(given).length > 0) throw new Error("only the usual models are known here");
+  else if (kind === "table") {
+    const PART = { p: [0, 0], q: [0, 0], height: 0, line: [0, 0, 0], muCushion: 0, restitution: 0, side: 0 };
+    table = { ...given, rails: given.rails.map((one) => ({ ...PART, ...one })), jaws: given.jaws ?? [], pockets: given.pockets ?? [] };
+  } else if (kind === "balls") {
+    const zero = [0, 0, 0];
+    balls = given.list.map((one) => ({
+      kind: Object.fromEntries(kindKeys.map((key) => [key, one[key] ?? 0])),
+      state: { r: one.r ?? zero, v: one.v ?? zero, w: one.w ?? zero, label: LABELS[one.label ?? 0] },
+    }));
+  } else if (kind === "shot") {
+    const { status, events, time, hash, ...cue } = given;
+    const shot = carom.simulate(table, balls, { miscue: 0, tipTime: 0, ball: 0, phi: 0, theta: 0, a: 0, b: 0, ...cue });
+    const words = shot.final.flatMap(({ r, v, w, label }) => [...[...r, ...v, ...w].map(bitsOf), BigInt(LABELS.indexOf(label))]);
+    const played = fingerprint(fingerprint(0n, [BigInt(status), BigInt(shot.events.length), bitsOf(shot.time)]), words);
+    if (shot.status !== "ok" || status !== 0 || hex(played) !== hash) throw new Error(`shot ${shots + 1} has other bits than were recorded`);
+    shots++;
+    game = stir(game, played);
+    balls = balls.map(({ kind: of }, k) => ({ kind: of, state: shot.final[k] }));
+  } else if (kind === "end" && (given.shots !== shots || given.hash !== hex(game))) throw new Error("the hash of the game is another one");
+}
+console.log(`recording: ${shots} shots, ${hex(game)}`);
+
+table = carom.table("9ft");
+const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
+let hash = 0xcbf29ce484222325n;
+for (const event of shot.events) hash = add(hash, [event.time]);
+for (const { r, v, w } of shot.final) hash = add(hash, [...r, ...v, ...w]);
+console.log(`break: ${shot.events.length} events, ${hex(hash)}`);

@@ -1,0 +1,37 @@
+"""As game.c, in Python."""
+
+import sys
+
+import numpy as np
+
+import carom
+from carom.record import replay
+
+WORD = 2**64 - 1
+
+
+def stir(hash_, word):
+    """The hash of a game, after one more shot."""
+    hash_ ^= word
+    return (hash_ << 27 & WORD | hash_ >> 37) * 0x9E3779B97F4A7C15 & WORD
+
+
+def add(hash_, numbers):
+    """FNV-1a of the bits of numbers, the lowest byte first."""
+    for byte in np.ascontiguousarray(numbers, "<f8").tobytes():
+        hash_ = (hash_ ^ byte) * 0x100000001B3 & WORD
+    return hash_
+
+
+shots, game = 0, 0
+for shot in replay(sys.argv[1]):
+    assert shot.same, f"shot {shot.shot} has other bits than were recorded"
+    shots, game = shots + 1, stir(game, shot.played.hash)
+print(f"recording: {shots} shots, {game:016x}")
+
+table = carom.tables.pool_9ft()
+shot = carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=8.0), plain=True)
+hash_ = add(0xCBF29CE484222325, shot.events["time"])
+for state in shot.final:
+    hash_ = add(add(add(hash_, state["r"]), state["v"]), state["w"])
+print(f"break: {len(shot.events)} events, {hash_:016x}")
