@@ -87,7 +87,7 @@ static carom_turn give(uint64_t *user, carom_turn turn) {
 static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
                                   const carom_facts *facts, carom_call call) {
   const uint32_t on = eightball_on(user, in_play);
-  const int32_t bad = carom_foul_of(facts, on, cue_ball);
+  const int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
 
   /* The break: nothing is called, the eight comes back, and the table is open after it. */
   if (user[BREAK] != 0) {
@@ -154,7 +154,7 @@ static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
     return give_nine(user, pass);
 
   /* A push-out may meet any ball or none, and needs no cushion. */
-  int32_t bad = carom_foul_of(facts, nineball_on(user, in_play), cue_ball);
+  int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(user, in_play), cue_ball);
   if (pushes && bad != CAROM_FOUL_CUE_BALL)
     bad = facts->off != 0 ? CAROM_FOUL_OFF : CAROM_FOUL_NONE;
   if (bad == CAROM_FOUL_NONE && opening && !is_break(facts, cue_ball))
@@ -198,7 +198,7 @@ static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball,
                                 const carom_facts *facts, carom_call call) {
   (void)call;
   const uint32_t on = potting_on(user, in_play);
-  int32_t bad = carom_foul_of(facts, on, cue_ball);
+  int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
   bad = bad == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : bad;
   carom_turn turn = bad                        ? foul_for(bad)
                     : facts->down == 0         ? pass
