@@ -5,6 +5,7 @@ import { layout, values } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { Build, Memory, Pointer } from "./memory.js";
 import { Plans } from "./plans.js";
+import { type Host as RecordingHost, Recording, type Replayed, replayed } from "./recording.js";
 import { type Kept, type Reader, Shot } from "./shot.js";
 import {
   readBalls,
@@ -100,6 +101,7 @@ export class Carom {
   readonly #library: Library;
   readonly #reader: Reader;
   readonly #plans: Plans;
+  readonly #recordings: RecordingHost;
   readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number", Pointer>;
   #points: Pointer = 0;
   #pointRoom = 0;
@@ -191,6 +193,13 @@ export class Carom {
       placeBall: (table, balls, ball, x, y) => this.placeBall(table, balls, ball, x, y),
       refuse: (code, field) => this.#refuse(code, field),
     });
+    this.#recordings = {
+      memory,
+      statusName: (code) => this.statusName(code),
+      cue: (fields) => this.cue(fields),
+      writeShotOptions: (options) => this.#writeShotOptions(options),
+      refuse: (code, field) => this.#refuse(code, field),
+    };
     const names = (name: (kind: number) => Pointer, found = new Map<string, number>()): Map<string, number> => {
       for (let text; (text = memory.text(name(found.size))) !== undefined; ) found.set(text, found.size);
       return found;
@@ -660,6 +669,19 @@ export class Carom {
   #look(shot: Shot, time: number): void {
     this.#reside(shot);
     this.#refuse(this.#call.carom_shot_at(this.#at.balls, shot.balls.length, this.#at.shot, time, this.#at.final), `time ${time}`);
+  }
+
+  /** Begins a recording, of a game on this table with these models, that verifies itself. */
+  record(table: Table, balls: readonly ShotBall[], options: ShotOptions = {}): Recording {
+    return new Recording(this.#recordings, table, balls, options);
+  }
+
+  /**
+   * Plays a recording again, a text or its lines as they come, and yields each of its shots. Throws a CaromError with the line where it is wrong,
+   * cut off, or of another revision of the physics.
+   */
+  replay(recording: string | Iterable<string>): Generator<Replayed, void> {
+    return replayed(this.#recordings, recording);
   }
 
   /** What the cue ball touches first, or undefined. The shot is followed until then only, so this costs a fraction of `simulate`. */

@@ -19,6 +19,7 @@ export type { Carom } from "./carom.js";
 export { CaromError } from "./error.js";
 export { fromLine, toLine, type Line } from "./lines.js";
 export type { Build } from "./memory.js";
+export { type Replayed, Recording, type ShotEnd } from "./recording.js";
 export { Shot } from "./shot.js";
 export type * from "./types.js";
 

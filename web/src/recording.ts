@@ -1,0 +1,232 @@
+// Recordings of games that verify themselves: the calls of carom_record.h. docs/using/games.md has the format.
+import { CaromError } from "./error.js";
+import { layout, values } from "./generated/layout.js";
+import type { Memory, Pointer } from "./memory.js";
+import { readBalls, readState, readStruct, readTable, writeBalls, writeStruct, writeTable } from "./structs.js";
+import type { BallState, Cue, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
+
+const RECORD = layout.carom_record.offset;
+const END = layout.carom_record_end.offset;
+const OPTIONS = layout.carom_shot_options;
+
+/** How a shot ended. */
+export interface ShotEnd {
+  status: string;
+  /** Their number. */
+  events: number;
+  /** s */
+  time: number;
+  /** Of these and of all final states: 16 hexadecimal digits. */
+  hash: string;
+}
+
+/** A shot of a recording that was played again. */
+export interface Replayed {
+  /** From 1. */
+  shot: number;
+  /** Of the recording, from 1. */
+  line: number;
+  /** Whether it goes on with the shot before, which was stopped. */
+  continues: boolean;
+  table: Table;
+  /** The layout at its start; of one that continues, at the start of the shot. */
+  balls: ShotBall[];
+  cue: Cue;
+  recorded: ShotEnd;
+  played: ShotEnd;
+  /** Whether every bit of its end agrees. */
+  same: boolean;
+  final: BallState[];
+}
+
+/** What the calls of this file need of the library. */
+export interface Host {
+  readonly memory: Memory;
+  statusName(code: number): string;
+  cue(fields: Partial<Cue>): Cue;
+  writeShotOptions(options: ShotOptions): Pointer;
+  refuse(code: number, field?: string): void;
+}
+
+/** A carom_record in memory, with room for a line. */
+class Game {
+  readonly #host: Host;
+  readonly at: Pointer;
+  readonly text: Pointer;
+
+  constructor(host: Host) {
+    this.#host = host;
+    this.at = host.memory.allocate(layout.carom_record.size);
+    this.text = host.memory.allocate(values.CAROM_RECORD_TEXT);
+  }
+
+  number(offset: number): number {
+    return Number(this.#host.memory.i64[(this.at + offset) / 8]);
+  }
+
+  end(offset: number): ShotEnd {
+    const hash = BigInt.asUintN(64, this.#host.memory.i64[(this.at + offset + END.hash) / 8]!);
+    return {
+      status: this.#host.statusName(this.number(offset + END.status)),
+      events: this.number(offset + END.events),
+      time: this.#host.memory.f64[(this.at + offset + END.time) / 8]!,
+      hash: hash.toString(16).padStart(16, "0"),
+    };
+  }
+
+  get final(): BallState[] {
+    return Array.from({ length: this.number(RECORD.count) }, (_, k) => readState(this.#host.memory, this.at + RECORD.final + k * layout.carom_ball_state.size));
+  }
+
+  /** Throws what is wrong with a line. */
+  refuse(code: number): void {
+    const line = `line ${this.number(RECORD.line)}`;
+    if (code === values.CAROM_ERROR_RECORD)
+      throw new CaromError(code, this.#host.statusName(code), this.#host.memory.text(this.at + RECORD.fault)!, line);
+    if (code === values.CAROM_ERROR_REVISION) {
+      const own = this.#host.memory.exports.carom_physics_revision();
+      const text = `the recording is of revision ${this.number(RECORD.revision)} of the physics, not ${own}: its shots have other bits here`;
+      throw new CaromError(code, this.#host.statusName(code), text, line);
+    }
+  }
+
+  free(): void {
+    this.#host.memory.free(this.at);
+    this.#host.memory.free(this.text);
+  }
+}
+
+/** A game on its way, played and written: `carom.record(table, balls)`. */
+export class Recording {
+  /** The text so far, a line each, with its end of line. */
+  readonly lines: string[] = [];
+  readonly #host: Host;
+  readonly #game: Game;
+
+  /** @internal */
+  constructor(host: Host, table: Table, balls: readonly ShotBall[], options: ShotOptions) {
+    this.#host = host;
+    this.#game = new Game(host);
+    writeTable(host.memory, this.#game.at + RECORD.table, table);
+    const given = host.writeShotOptions(options);
+    host.memory.u8.copyWithin(this.#game.at + RECORD.options, given, given + OPTIONS.size);
+    this.#until({});
+    this.#write(values.CAROM_RECORD_HEAD);
+    this.#write(values.CAROM_RECORD_TABLE);
+    this.#write(values.CAROM_RECORD_OPTIONS);
+    this.setBalls(balls);
+  }
+
+  /** The layout after the last shot. */
+  get balls(): ShotBall[] {
+    this.#host.memory.exports.carom_record_settle(this.#game.at);
+    return readBalls(this.#host.memory, this.#game.at + RECORD.balls, this.#game.number(RECORD.count));
+  }
+
+  /** Another layout, which is recorded. */
+  setBalls(balls: readonly ShotBall[]): void {
+    if (balls.length < 1 || balls.length > values.CAROM_BALLS_MOST) throw new RangeError(`balls: 1 to ${values.CAROM_BALLS_MOST} are needed, not ${balls.length}`);
+    this.#host.memory.exports.carom_record_settle(this.#game.at);
+    writeBalls(this.#host.memory, this.#game.at + RECORD.balls, balls);
+    this.#host.memory.i64[(this.#game.at + RECORD.count) / 8] = BigInt(balls.length);
+    this.#write(values.CAROM_RECORD_BALLS);
+  }
+
+  /** Ball in hand, at x, y (m). A place that is not free is refused, and nothing is recorded. */
+  place(ball: number, x: number, y: number): void {
+    this.#host.refuse(this.#host.memory.exports.carom_record_place(this.#game.at, ball, x, y, 0), `ball ${ball} at ${x}, ${y}`);
+    this.#write(values.CAROM_RECORD_PLACE);
+  }
+
+  /** Plays a stroke, up to where the options stop it, and records it. */
+  shoot(cue: Partial<Cue>, options: StopOptions = {}): ShotEnd {
+    writeStruct(this.#host.memory, this.#game.at + RECORD.cue, "carom_cue", this.#host.cue(cue), "cue");
+    this.#until(options);
+    return this.#play(values.CAROM_RECORD_SHOT);
+  }
+
+  /** Goes on with the shot that was stopped, and records it. */
+  continue(options: StopOptions = {}): ShotEnd {
+    this.#until(options);
+    return this.#play(values.CAROM_RECORD_CONTINUE);
+  }
+
+  /** The whole text, with its last line. Nothing follows, and its memory is given back. */
+  end(): string {
+    this.#write(values.CAROM_RECORD_END);
+    this.#game.free();
+    return this.lines.join("");
+  }
+
+  #until(options: StopOptions): void {
+    const { memory } = this.#host;
+    const at = this.#game.at + RECORD.options;
+    const { timeMost, stopAt, eventsMost } = OPTIONS.offset;
+    const given = this.#host.writeShotOptions(options);
+    for (const offset of [timeMost, stopAt]) memory.i64[(at + offset) / 8] = memory.i64[(given + offset) / 8]!;
+    memory.i32[(at + eventsMost) / 4] = memory.i32[(given + eventsMost) / 4]!;
+  }
+
+  #play(kind: number): ShotEnd {
+    const { memory } = this.#host;
+    memory.i64[(this.#game.at + RECORD.pending) / 8] = 0n;
+    const code = memory.exports.carom_record_play(this.#game.at, kind, 0);
+    this.#game.refuse(code);
+    if (this.#game.number(RECORD.pending) === 0) this.#host.refuse(code); // Nothing was played.
+    this.#write(kind);
+    return this.#game.end(RECORD.played);
+  }
+
+  #write(kind: number): void {
+    const { memory } = this.#host;
+    if (memory.exports.carom_record_write(this.#game.at, kind, this.#game.text, values.CAROM_RECORD_TEXT) === 0)
+      throw new RangeError("the recording has ended, or a number in it is not finite");
+    this.lines.push(memory.text(this.#game.text)!);
+  }
+}
+
+/** The shots of a recording, played again. */
+export function* replayed(host: Host, recording: string | Iterable<string>): Generator<Replayed, void> {
+  const { memory } = host;
+  const game = new Game(host);
+  const lines = typeof recording === "string" ? recording.split("\n") : recording;
+  let room = 0;
+  let at: Pointer = 0;
+  try {
+    for (const line of lines) {
+      const bytes = new TextEncoder().encode(line);
+      if (bytes.length > room) {
+        if (at !== 0) memory.free(at);
+        at = memory.allocate((room = 2 * bytes.length));
+      }
+      memory.u8.set(bytes, at);
+      // Blank lines are lines too, but for the end of a text.
+      game.refuse(bytes.length === 0 ? 0 : memory.exports.carom_record_read(game.at, at, bytes.length));
+      if (game.number(RECORD.pending) !== 1) continue;
+      const kind = game.number(RECORD.kind);
+      const code = memory.exports.carom_record_play(game.at, kind, 0);
+      if (game.number(RECORD.pending) === 1) host.refuse(code, `line ${game.number(RECORD.line)}`);
+      const recorded = game.end(RECORD.recorded);
+      const played = game.end(RECORD.played);
+      yield {
+        shot: game.number(RECORD.shots),
+        line: game.number(RECORD.line),
+        continues: kind === values.CAROM_RECORD_CONTINUE,
+        table: readTable(memory, game.at + RECORD.table),
+        balls: readBalls(memory, game.at + RECORD.balls, game.number(RECORD.count)),
+        cue: readStruct<Cue>(memory, game.at + RECORD.cue, "carom_cue"),
+        recorded,
+        played,
+        same: (Object.keys(played) as (keyof ShotEnd)[]).every((key) => Object.is(played[key], recorded[key])),
+        final: game.final,
+      };
+    }
+    if (game.number(RECORD.kind) !== values.CAROM_RECORD_END) {
+      const code = values.CAROM_ERROR_RECORD;
+      throw new CaromError(code, host.statusName(code), 'cut off: there is no line {"end": ...}', `line ${game.number(RECORD.line)}`);
+    }
+  } finally {
+    game.free();
+    if (at !== 0) memory.free(at);
+  }
+}

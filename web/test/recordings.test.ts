@@ -1,0 +1,46 @@
+// Recordings: a game recorded, replayed and verified by the command, and what is refused.
+import { expect, test } from "vitest";
+import { type Carom, CaromError, type Recording } from "../dist/index.js";
+import { builds, root, run, thereIsACommand } from "./support.js";
+
+function aGame(carom: Carom): Recording {
+  const table = carom.table("9ft");
+  const game = carom.record(table, carom.rack("nineball", table), { cushionModel: "stronge" });
+  expect(game.shoot({ speed: 8, phi: 90.2 }, { timeMost: 0.5 }).status).toBe("stopped_at_time");
+  expect(game.continue().status).toBe("ok");
+  game.place(0, 0.6, 0.5);
+  expect(game.shoot({ speed: 2.5, phi: 70 }).status).toBe("ok");
+  return game;
+}
+
+test.each(builds)("a game is replayed with the same bits, by $name", ({ carom }) => {
+  const game = aGame(carom);
+  const { balls } = game;
+  const text = game.end();
+  const shots = [...carom.replay(text)];
+  expect(shots.map(({ shot, same, continues }) => [shot, same, continues])).toEqual([[1, true, false], [2, true, true], [3, true, false]]);
+  expect(shots[2]!.final).toEqual(balls.map(({ state }) => state));
+  // As simulate() plays them.
+  const third = shots[2]!;
+  const again = carom.simulate(third.table, third.balls, third.cue, { cushionModel: "stronge" });
+  expect([again.time, again.count, again.final]).toEqual([third.played.time, third.played.events, third.final]);
+  if (thereIsACommand) expect(run(["verify", "-"], text)).toContain("3 shots, every bit agrees");
+});
+
+test.runIf(thereIsACommand)("what the command records is replayed here", () => {
+  const text = run(["record", `${root}data/shots-pooltool.jsonl`]);
+  for (const { carom } of builds) expect([...carom.replay(text)].filter(({ same }) => same).length).toBe(30);
+});
+
+test("a forged stroke, damage and other revisions are told", () => {
+  const { carom } = builds[0]!;
+  const text = aGame(carom).end();
+  expect([...carom.replay(text.replace('"speed":2.5', '"speed":2.6'))].map(({ same }) => same)).toEqual([true, true, false]);
+  const refused = (damaged: string, said: RegExp): void => {
+    expect(() => [...carom.replay(damaged)]).toThrow(CaromError);
+    expect(() => [...carom.replay(damaged)]).toThrow(said);
+  };
+  refused(text.replace('"phi"', '"phy"'), /line 5: shot.phy is no key of the format/);
+  refused(text.replace('"revision":', '"revision":9'), /line 1: the recording is of revision 9/);
+  refused(text.split("\n").slice(0, -2).join("\n"), /cut off/);
+});
