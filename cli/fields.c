@@ -181,8 +181,10 @@ ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
 ROW(option_model, "model", rail.model, 0, CUSHION_WORDS, set_choice, 0, CUSHION_ONLY,
-    "mathavan: the exact limit of Mathavan's model (default); stronge, han: closed forms; mirror: "
-    "the velocity into the cushion is reversed and multiplied by e; euler: Mathavan's model in N "
+    "mathavan: the exact limit of Mathavan's model (default, but of `carom rail` han, as in "
+    "shots); "
+    "stronge, han: closed forms; mirror: the velocity into the cushion is reversed and multiplied "
+    "by e; euler: Mathavan's model in N "
     "steps; smooth: a closed form read off recorded impacts");
 ROW(option_convention, "convention", rail.convention, 0, "paper|pooltool", set_choice, 0,
     CUSHION_ONLY,

@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_ROWS = 32, FIRST_CODE = UCHAR_MAX + 1 };
+enum { MOST_ROWS = 48, FIRST_CODE = UCHAR_MAX + 1 };
 enum { HELP_WIDTH = 80, OPTION_WIDTH = 23 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};

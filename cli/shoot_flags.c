@@ -81,10 +81,13 @@ ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
     "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
-    "speed of the cue ball just after the strike, m/s, or with a unit: mph, km/h (default 2)");
+    "speed of the cue just before the strike, m/s, or with a unit: mph, km/h (default 2)");
+ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
+    "speed of the cue ball just after the strike instead, which a level cue gives it");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip. Right is "
-    "positive, as english is everywhere in this command (default 0,0). Beyond 0.5 R a chalked tip "
+    "positive, as english is everywhere in this command (default 0,0.25). Beyond 0.5 R a chalked "
+    "tip "
     "slips off the ball, of which carom warns");
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ANGLE,
     "of the butt of the cue (default 0)");
@@ -98,7 +101,8 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
 bool has_flags(const shoot_flags *f) {
   return f->table != NULL || f->at_ball != NULL || f->json || f->cue.count > 0 ||
          f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 || f->speed.count > 0 ||
-         f->aim.count > 0 || f->cut.count > 0 || f->elevation.count > 0 || f->tip_time != 0.0;
+         f->ball_speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 ||
+         f->elevation.count > 0 || f->tip_time != 0.0;
 }
 
 /* The balls on the table, the cue ball first. */
@@ -226,22 +230,46 @@ static void name_value(char *id, const char *what, const values *list, int k) {
              list->at[k].name);
 }
 
+/* Gives a level cue the speed with which its ball leaves it at `speed`; false after a complaint.
+ * The ball's speed is in proportion to the cue's. Along x, and by a root, it has the same bits in
+ * other languages. */
+static bool strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue) {
+  carom_motion after;
+  if (cue->theta > 0.0) {
+    complain(
+        "--ball-speed is that which a level cue gives the ball; with --elevation give --speed, "
+        "the speed of the cue");
+    return false;
+  }
+  cue->speed = 1.0;
+  if (carom_strike(cue, kind, &after) != CAROM_OK)
+    return true; /* which is told when it is played */
+  cue->speed = speed / sqrt(after.v[0] * after.v[0] + after.v[1] * after.v[1]);
+  return true;
+}
+
 /* One of the combinations; false after a complaint. */
 static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
                        const carom_shot_options *options, int index) {
-  const int speed = index % f->speed.count, tip = index / f->speed.count % f->tip.count;
-  const int rise = index / f->speed.count / f->tip.count % f->elevation.count;
-  const int way = index / f->speed.count / f->tip.count / f->elevation.count;
+  const values *const speeds = f->ball_speed.count > 0 ? &f->ball_speed : &f->speed;
+  const int speed = index % speeds->count, tip = index / speeds->count % f->tip.count;
+  const int rise = index / speeds->count / f->tip.count % f->elevation.count;
+  const int way = index / speeds->count / f->tip.count / f->elevation.count;
   const double R = l->ball[0].kind.radius;
   char id[MOST_TEXT] = "", number[NUMBER_TEXT];
   carom_cue cue = carom_cue_of(l->game);
   carom_motion after;
-  cue.speed = 1.0;
+  cue.speed = speeds->at[speed].x;
   cue.phi = 0.0;
   cue.theta = f->elevation.at[rise].x;
   cue.tip_time = f->tip_time;
   cue.a = -tip_of(&f->tip.at[tip].x, R);
   cue.b = tip_of(&f->tip.at[tip].y, R);
+  if (!(cue.speed > 0.0)) {
+    complain("--%s is above 0", f->ball_speed.count > 0 ? "ball-speed" : "speed");
+    return false;
+  }
+  /* Whether there is such a strike. */
   const carom_status bad = carom_strike(&cue, &l->ball[0].kind, &after);
   if (bad == CAROM_ERROR_MISCUE)
     complain(
@@ -249,30 +277,8 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
         hypot(cue.a, cue.b), TIP_LIMIT);
   else if (bad != CAROM_OK)
     complain("no such strike: %s", carom_status_string(bad));
-  if (bad != CAROM_OK) {
+  if (bad != CAROM_OK || (f->ball_speed.count > 0 && !strike_to(cue.speed, &l->ball[0].kind, &cue)))
     return false;
-  }
-  /* In space a raised cue drives the ball otherwise than on the plane, and its speed is not quite
-   * in proportion to that of the cue: the shot itself tells. */
-  const double asked = f->speed.at[speed].x;
-  double ratio = 0.0, off = 1.0;
-  for (int tries = 0; tries < 100 && off > 1e-13; tries++) {
-    carom_event strike = {0};
-    carom_shot shot = {.events = &strike, .room = 1};
-    carom_shot_options only_strike = *options;
-    only_strike.events_most = 1;
-    carom_shoot(&l->table, l->ball, l->count, &cue, &only_strike, &shot);
-    if (shot.count == 0 && tries > 0)
-      break; /* which is told when it is played */
-    const double *v = shot.count > 0 ? strike.after[0].v : after.v;
-    ratio = hypot(v[0], v[1]) / cue.speed;
-    if (!(ratio > 1e-6) || !(asked > 0.0)) {
-      complain("the ball has no speed on the cloth: --speed is above 0, --elevation below 90");
-      return false;
-    }
-    off = cue.theta > 0.0 && shot.count > 0 ? fabs(ratio * cue.speed - asked) / asked : 0.0;
-    cue.speed = asked / ratio;
-  }
   if (f->cut.count == 0)
     cue.phi = f->aim.at[way].x;
   else if (!aim_at_ball(f, l, options, f->cut.at[way].x, &cue))
@@ -280,7 +286,7 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
   name_value(id, "aim", &f->aim, way);
   name_value(id, "cut", &f->cut, way);
   name_value(id, "elevation", &f->elevation, rise);
-  name_value(id, "speed", &f->speed, speed);
+  name_value(id, "speed", speeds, speed);
   if (f->tip.count > 1)
     snprintf(id + strlen(id), sizeof id - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "",
              f->tip.at[tip].x.name, f->tip.at[tip].y.name);
@@ -314,7 +320,11 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
     complain("--aim is a direction, --at-ball and --cut aim at a ball: give one of both");
     return false;
   }
-  /* What is not given. */
+  if (f->speed.count > 0 && f->ball_speed.count > 0) {
+    complain("--speed is that of the cue, --ball-speed that of the ball: give one of both");
+    return false;
+  }
+  /* What is not given: carom_cue_of() says the same. */
   if (f->at_ball != NULL && f->cut.count == 0)
     values_default(&f->cut, MEASURE_CUT, "0");
   if (f->aim.count == 0 && f->cut.count == 0)
@@ -324,11 +334,13 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   if (f->elevation.count == 0)
     values_default(&f->elevation, MEASURE_ANGLE, "0");
   if (f->tip.count == 0)
-    f->tip.count = 1; /* 0,0 */
-  if (f->shared.strict && (f->aim.comma || f->cut.comma || f->speed.comma || f->elevation.comma))
+    f->tip = (place_list){.count = 1, .at = {{.y = {.x = 0.25}}}};
+  if (f->shared.strict &&
+      (f->aim.comma || f->cut.comma || f->speed.comma || f->ball_speed.comma || f->elevation.comma))
     return false;
   const int ways = f->cut.count > 0 ? f->cut.count : f->aim.count;
-  const int count = f->speed.count * f->tip.count * f->elevation.count * ways;
+  const int speeds = f->ball_speed.count > 0 ? f->ball_speed.count : f->speed.count;
+  const int count = speeds * f->tip.count * f->elevation.count * ways;
   const bool good_cue = f->cue.count <= 1;
   bool good = good_cue && count <= most;
   if (!good_cue)

@@ -23,14 +23,15 @@ typedef struct place_list {
 typedef struct shoot_flags {
   shared_options shared;
   const char *table, *at_ball;
-  values speed, aim, cut, elevation;
+  values speed, ball_speed, aim, cut, elevation;
   place_list cue, balls, tip;
   double tip_time; /* s */
   bool json;
 } shoot_flags;
 
 extern const option_row option_table, option_cue, option_balls, option_aim, option_at_ball,
-    option_shot_cut, option_shot_speed, option_tip, option_elevation, option_tip_time, option_json;
+    option_shot_cut, option_shot_speed, option_ball_speed, option_tip, option_elevation,
+    option_tip_time, option_json;
 
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);

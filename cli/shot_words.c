@@ -112,15 +112,19 @@ void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const s
                bool shortly) {
   const carom_cue *cue = &line->cue;
   const double *v = shot->events[0].after[0].v;
-  fprintf(out, "%s table, %s at %.4g m/s, aim %.2f degrees", line->table->id, line->name[cue->ball],
-          hypot(v[0], v[1]), cue->phi);
+  fprintf(out, "%s table, cue at %.4g m/s, ball %s at %.4g m/s, aim %.2f degrees", line->table->id,
+          cue->speed, line->name[cue->ball], hypot(v[0], v[1]), cue->phi);
   if (cue->theta != 0.0)
     fprintf(out, ", cue raised by %.4g degrees", cue->theta);
   if (cue->a == 0.0 && cue->b == 0.0)
     fputs(", tip at the centre\n", out);
   else
-    fprintf(out, ", tip %.3g R %s and %.3g R %s the centre\n", fabs(cue->a),
-            cue->a > 0.0 ? "left" : "right", fabs(cue->b), cue->b < 0.0 ? "below" : "above");
+    fputs(", tip ", out);
+  if (cue->a != 0.0)
+    fprintf(out, "%.3g R %s%s", fabs(cue->a), cue->a > 0.0 ? "left" : "right",
+            cue->b != 0.0 ? " and " : " of the centre\n");
+  if (cue->b != 0.0)
+    fprintf(out, "%.3g R %s the centre\n", fabs(cue->b), cue->b < 0.0 ? "below" : "above");
   int moved = 0;
   for (int k = 0; k < line->count; k++)
     moved += ball_moved(shot, k);

@@ -34,6 +34,39 @@ def test_the_command_gives_the_same_bits():
     assert [event[0] for event in theirs["events"] if event[1] != "none"] == shot.events["time"].tolist()
 
 
+@pytest.mark.parametrize(
+    ("words", "fields"),
+    [
+        ("", {}),
+        ("--speed 3 --aim 95 --tip 0.2,-0.3", {"speed": 3.0, "phi": 95.0, "tip": (0.2, -0.3)}),
+        ("--ball-speed 3 --aim 80 --tip -0.1,0.1", {"ball_speed": 3.0, "phi": 80.0, "tip": (-0.1, 0.1)}),
+        ("--speed 3 --aim 80 --tip -0.1,0.1 --elevation 20", {"speed": 3.0, "phi": 80.0, "a": 0.1, "b": 0.1, "theta": 20.0}),
+    ],
+)
+def test_a_shot_has_one_meaning(words, fields):
+    """What is typed to the command is the same stroke here, and ends with the same bits."""
+    command = os.path.join(os.environ.get("CAROM_BUILD", ""), "carom")
+    if not os.access(command, os.X_OK) or os.path.isdir(command):
+        pytest.skip("CAROM_BUILD names no build with the command carom")
+    given = [command, "shoot", "--cue", "0.6,0.8", "--balls", "0.5,1.6", *words.split(), "--events", "none"]
+    theirs = json.loads(subprocess.run(given, capture_output=True, text=True, check=True).stdout.splitlines()[-1])
+    cue = carom.cue(**fields)
+    for theirs_name, name in (("V0", "speed"), ("phi", "phi"), ("theta", "theta"), ("a", "a"), ("b", "b")):
+        assert theirs["cue"][theirs_name] == cue[name], name
+    shot = carom.simulate(TABLE, carom.balls([[0.6, 0.8], [0.5, 1.6]]), cue)
+    for name, state in zip(("cue", "1"), shot.final, strict=True):
+        assert theirs["final"]["balls"][name][1:4] == state["r"].tolist()
+
+
+def test_the_speed_of_a_ball():
+    """`ball_speed` is what a ball of the game gets, for many cues too."""
+    cues = carom.cue(ball_speed=[[1.0], [4.0]], tip=[[0.0, 0.0], [0.3, -0.2], [-0.4, 0.1]], game="snooker")
+    kind = carom.balls([[0.5, 0.5]], game="snooker")[0]["kind"]
+    speeds = [[np.hypot(*carom.struck(cue, kind)["v"][:2]) for cue in row] for row in cues]
+    np.testing.assert_allclose(speeds, [[1.0] * 3, [4.0] * 3], rtol=1e-14)
+    assert (cues["a"][0] == [0.0, -0.3, 0.4]).all()
+
+
 def test_a_batch_has_the_bits_of_single_shots():
     cues = carom.cue(speed=[[6.0], [9.0]], phi=np.linspace(88.0, 92.0, 5))
     options = {"cushion_model": "han"}

@@ -56,7 +56,7 @@ said = table("hit", "--cut", "0:60:20", "--spin", "stun,draw", "--quantity", "th
 print(len(derived), all(abs(float(a["throw_deg"]) + float(b[-1])) < 1e-9 for a, b in zip(derived, said)))
 impacts = run("rail", "--angle", "10:60:10", "--side", "-50,50%", "--csv")
 open("impacts.csv", "w").write(impacts)
-derived = list(csv.DictReader(run("resolve", "--cushion", "--derived", "impacts.csv").splitlines()))
+derived = list(csv.DictReader(run("resolve", "--cushion", "--model", "han", "--derived", "impacts.csv").splitlines()))
 said = table("rail", "--angle", "10:60:10", "--side", "-50,50%", "--quantity", "rebound")
 print(len(derived), all(abs(float(a["angle_out_deg"]) + float(b[-1])) < 1e-9 for a, b in zip(derived, said)))
 run("hit", "--cut", "0:80", "--speed", "1,3,7mph", "--plot", "throw.svg")

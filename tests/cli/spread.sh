@@ -1,9 +1,9 @@
 # What a player's error makes of a shot: numbers and bands beside 2,000 shots with such errors, what is told, what is refused.
 error=1%,0.05,0.01,0.02
 small=0.2%,0.01,0.002,0.004
-bank="--table threecushion --cue 0.4,0.6 --aim 60 --speed 2.5 --tip 0.3,0.2"
-hit="--cue 0.6,0.8 --balls 0.75,1.6 --at-ball 1 --cut 40 --tip 0,0.1 --speed 2.2"
-hop="--table threecushion --cue 0.4,0.6 --aim 60 --speed 2 --elevation 30 --tip-time 0.0006"
+bank="--table threecushion --cue 0.4,0.6 --aim 60 --ball-speed 2.5 --tip 0.3,0.2"
+hit="--cue 0.6,0.8 --balls 0.75,1.6 --at-ball 1 --cut 40 --tip 0,0.1 --ball-speed 2.2"
+hop="--table threecushion --cue 0.4,0.6 --aim 60 --speed 1.9135791290702795 --tip 0,0 --elevation 30 --tip-time 0.0006"
 echo "--- in words"
 # shellcheck disable=SC2086
 carom shoot $bank --spread $error --plot bank.svg
@@ -69,12 +69,12 @@ for name, ball, time in (("bank", "cue", 0.3), ("bank", "cue", 0.9), ("bank", "c
     print(f"{name} {ball} after {time} s:", "the band is as sampled" if good else f"{widths}, not {across}")
 PYTHON
 echo "--- beyond reach, and beyond 0.3 m"
-carom shoot --table threecushion --cue 0.3,0.5 --balls 0.9,2.3:1.1,0.4 --aim 60 --speed 4 --tip 0.4,0.2 --spread 1%,0.05,0.01 --plot far.svg --animate far.html
+carom shoot --table threecushion --cue 0.3,0.5 --balls 0.9,2.3:1.1,0.4 --aim 60 --ball-speed 4 --tip 0.4,0.2 --spread 1%,0.05,0.01 --plot far.svg --animate far.html
 grep -c 'class="band"' far.html
 for file in bank.svg far.svg; do
   echo "$file: $(grep -c '<path class="band"' $file) bands, $(grep -c 'class="band".*dasharray' $file) dashed, $(grep -c '<ellipse' $file) ends"
 done
-carom shoot --table threecushion --cue 0.3,0.5 --balls 0.9,2.3:1.1,0.4 --aim 60 --speed 4 --tip 0.4,0.2 --json > far.jsonl
+carom shoot --table threecushion --cue 0.3,0.5 --balls 0.9,2.3:1.1,0.4 --aim 60 --ball-speed 4 --tip 0.4,0.2 --json > far.jsonl
 carom shoot --events none --spread 1%,0.05,0.01 -o far.out far.jsonl
 python - <<'PYTHON'
 # Before `until` no standard deviation is beyond reach, and from then on one is.
@@ -88,7 +88,7 @@ for later in (-1e-9, 1e-9):
     part = json.loads(subprocess.run(words, text=True, stdout=subprocess.PIPE, check=True).stdout)["spread"]
     print("within" if part["until"] is None else part["until"] == whole["until"], part["together"] < 1)
 PYTHON
-carom shoot --cue 0.6,0.8 --balls 0.5,1.6:0.9,2.1 --at-ball 1 --cut 30 --speed 3 --spread 1%,0.05,0.01,0.01 --plot figure.svg > /dev/null
+carom shoot --cue 0.6,0.8 --balls 0.5,1.6:0.9,2.1 --at-ball 1 --cut 30 --ball-speed 3 --tip 0,0 --spread 1%,0.05,0.01,0.01 --plot figure.svg > /dev/null
 cmp figure.svg "$DATA/../docs/figures/spread.svg" && echo "as in the docs"
 echo "--- a file"
 carom shoot --spread 1%,0.05,0.01 --events none --plot file.svg bank.jsonl | grep -o '"spread".*' | sed 's/\(\.[0-9]\{5\}\)[0-9]*/\1/g'
@@ -105,7 +105,7 @@ try carom shoot --spread 1%,0.05,0.01 --models pooltool -o refused.out bank.json
 try carom shoot --spread 1%,0.05,0.01 --ball-ball euler -o refused.out bank.jsonl
 ls refused.out 2> /dev/null || echo "nothing written"
 echo "--- a shot that is stopped by an error has no spread"
-try carom shoot --speed 2 --spread 1%,0.05,0.01 --events-most 3 --plot stopped.svg
+try carom shoot --ball-speed 2 --tip 0,0 --spread 1%,0.05,0.01 --events-most 3 --plot stopped.svg
 grep 'class="band"' stopped.svg || echo "no band"
 try carom shoot --events none --spread 1%,0.05,0.01 --events-most 3 -o two.out bank.jsonl
 grep -o '"spread": null.*' two.out

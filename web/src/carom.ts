@@ -186,7 +186,7 @@ export class Carom {
     this.#plans = new Plans({
       memory,
       at: this.#at,
-      cue: (fields) => this.cue(fields),
+      cue: (fields) => this.#cue(fields),
       writeLayout: (table, balls) => this.#writeLayout(table, balls),
       writeShotOptions: (options) => this.#writeShotOptions(options),
       writeShot: () => this.#writeShot(0),
@@ -507,8 +507,23 @@ export class Carom {
     return balls.map((one, k) => (k === ball ? { kind: one.kind, state: placed.state } : one));
   }
 
-  /** A cue: that of the game with the fields given. By default 2 m/s along the table, 0.25 radii above the centre, ball 0. */
-  cue(fields: Partial<Cue> = {}, game: Game = "pool"): Cue {
+  /**
+   * A cue: that of the game with the fields given. By default 2 m/s along the table, 0.25 radii above the centre, ball 0. `tip` says `a` and
+   * `b` as a player does, to the right and above; `ballSpeed` is the speed that a level cue gives a ball of the game, instead of `speed`.
+   */
+  cue(fields: Partial<Cue> & { ballSpeed?: number; tip?: readonly [number, number] } = {}, game: Game = "pool"): Cue {
+    const { ballSpeed, tip, ...rest } = fields;
+    if (tip !== undefined && (rest.a !== undefined || rest.b !== undefined)) throw new TypeError("cue.tip: it says what a and b say; one of both is needed");
+    const cue = this.#cue(tip === undefined ? rest : { ...rest, a: 0 - tip[0], b: tip[1] }, game);
+    if (ballSpeed === undefined) return cue;
+    if (rest.speed !== undefined) throw new TypeError("cue.ballSpeed: speed is that of the cue, ballSpeed that of the ball; one of both is needed");
+    if (cue.theta !== 0) throw new RangeError("cue.ballSpeed: it is that which a level cue gives the ball; with theta give speed, the speed of the cue");
+    // Along x, and by a root, it has the same bits in other languages.
+    const [x, y] = this.strike({ ...cue, speed: 1, phi: 0 }, this.kind(game)).v;
+    return { ...cue, speed: ballSpeed / Math.sqrt(x * x + y * y) };
+  }
+
+  #cue(fields: Partial<Cue> = {}, game: Game = "pool"): Cue {
     this.#call.carom_cue_of(this.#at.detail, value("CAROM_GAME_", game, "game"));
     const cue = readStruct<Cue>(this.#memory, this.#at.detail, "carom_cue");
     refuseUnknownOf("carom_cue", fields, "cue");
@@ -579,7 +594,7 @@ export class Carom {
    */
   simulate(table: Table, balls: readonly ShotBall[], cue?: Partial<Cue>, options: ShotOptions = {}): Shot {
     const at = this.#at;
-    const struck = cue === undefined ? undefined : this.cue(cue);
+    const struck = cue === undefined ? undefined : this.#cue(cue);
     this.#writeLayout(table, balls);
     if (struck !== undefined) writeStruct(this.#memory, at.cue, "carom_cue", struck, "cue");
     const cueAt = struck === undefined ? 0 : at.cue;
@@ -693,7 +708,7 @@ export class Carom {
   strike(cue: Partial<Cue>, kind: BallKind): Motion {
     const { cue: at, detail, motion } = this.#at;
     this.#resident = undefined;
-    writeStruct(this.#memory, at, "carom_cue", this.cue(cue), "cue");
+    writeStruct(this.#memory, at, "carom_cue", this.#cue(cue), "cue");
     writeStruct(this.#memory, detail, "carom_ball_kind", kind, "kind");
     const code = this.#call.carom_strike(at, detail, motion);
     if (code < 0) throw this.#error(code, this.#where(code, -1));
@@ -708,7 +723,7 @@ export class Carom {
     refuseUnknown(options, KEYS.room);
     const layouts = (Array.isArray(balls[0]) ? balls : [balls]) as readonly (readonly ShotBall[])[];
     const shots = new Shots(this.#library, structuredClone(table), structuredClone(layouts), n, options.room ?? 0);
-    const cue = this.cue();
+    const cue = this.#cue();
     for (let k = 0; k < n; k++) shots.setCue(k, cue);
     return shots;
   }

@@ -29,6 +29,22 @@ function expectFinal(shot: Shot, names: string[], recorded: Recorded): void {
 }
 
 describe.each(builds)("shots by $name", ({ carom, name }) => {
+  test.runIf(thereIsACommand)("a shot has one meaning: what is typed to the command is the same stroke", () => {
+    const typed = (...words: string[]) => fromLine(carom, run(["shoot", "--cue", "0.6,0.8", ...words, "--json"])).cue;
+    expect(carom.cue()).toMatchObject({ speed: 2, phi: 90, theta: 0, a: 0, b: 0.25 });
+    for (const [words, fields] of [
+      [[], {}],
+      [["--speed", "3", "--aim", "95", "--tip", "0.2,-0.3"], { speed: 3, phi: 95, tip: [0.2, -0.3] }],
+      [["--ball-speed", "3", "--tip", "-0.1,0.1"], { ballSpeed: 3, tip: [-0.1, 0.1] }],
+    ] as const) {
+      const { speed, phi, theta, a, b } = carom.cue(fields);
+      expect(typed(...words)).toMatchObject({ speed, phi, theta, a, b });
+    }
+    expect(() => carom.cue({ speed: 1, ballSpeed: 1 })).toThrow("cue.ballSpeed");
+    expect(() => carom.cue({ theta: 5, ballSpeed: 1 })).toThrow("level cue");
+    expect(() => carom.cue({ tip: [0, 0], b: 0 })).toThrow("cue.tip");
+  });
+
   test.runIf(thereIsACommand)("the break of data/, event by event: the command's doubles", () => {
     const recorded = run(["shoot", "-"], break9).trim().split("\n").map((line) => JSON.parse(line) as Recorded).find((line) => line.kind === "shot")!;
     const shot = played(carom, break9);

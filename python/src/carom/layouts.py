@@ -243,21 +243,22 @@ def balls(
 
 
 def cue(
-    *, speed: npt.ArrayLike = 2.0, phi: npt.ArrayLike = 90.0, theta: npt.ArrayLike = 0.0, a: npt.ArrayLike = 0.0,
-    b: npt.ArrayLike = 0.25, ball: npt.ArrayLike = 0, game: Game = "pool", mass: npt.ArrayLike | None = None,
+    *, speed: npt.ArrayLike | None = None, phi: npt.ArrayLike = 90.0, theta: npt.ArrayLike = 0.0, a: npt.ArrayLike | None = None,
+    b: npt.ArrayLike | None = None, ball: npt.ArrayLike = 0, game: Game = "pool", mass: npt.ArrayLike | None = None,
     end_mass: npt.ArrayLike | None = None, tip_radius: npt.ArrayLike | None = None, miscue: npt.ArrayLike = 0.0,
-    tip_time: npt.ArrayLike = 0.0
+    tip_time: npt.ArrayLike = 0.0, ball_speed: npt.ArrayLike | None = None, tip: npt.ArrayLike | None = None
 ) -> dtypes.Records:  # fmt: skip
     """Build a cue with its strike, or many. The fields are broadcast against each other.
 
     Parameters
     ----------
     speed : array_like, shape (...)
-        Speed of the cue before the strike, m/s; 0: no strike.
+        Speed of the cue before the strike, m/s; 0: no strike. Default 2.
     phi, theta : array_like, shape (...)
         Direction in the plane from +x towards +y, and elevation of the butt, degrees.
     a, b : array_like, shape (...)
-        Where the tip touches the ball, in units of its radius: a > 0 left, b > 0 above the centre; a^2 + b^2 < miscue^2.
+        Where the tip touches the ball, in units of its radius, with pooltool's sign: a > 0 left, b > 0 above the centre;
+        a^2 + b^2 < miscue^2. Default 0 and 0.25.
     ball : array_like of int, shape (...)
         Index of the ball that is struck.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
@@ -269,9 +270,22 @@ def cue(
     tip_time : array_like, shape (...)
         s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.002, a leather tip. Hard resin, with which balls
         jump, has 0.0006. -1: no time, so that the blow and the landing are two events, as before revision 8.
+    ball_speed : array_like, shape (...)
+        Instead of `speed`: that of a ball of `game` just after the strike of a level cue, m/s.
+    tip : array_like, shape (..., 2)
+        Instead of `a` and `b`: where the tip touches, right of and above the centre, as `carom shoot --tip` has it.
 
     Returns an ndarray of `carom.dtypes.cue`, shape (...).
     """
+    if speed is not None and ball_speed is not None:
+        raise ValueError("cue: speed is that of the cue, ball_speed that of the ball: one of both is needed")
+    if tip is not None:
+        if a is not None or b is not None:
+            raise ValueError("cue: tip says what a and b say: one of both is needed")
+        places = as_array(tip, "tip", np.float64)
+        if places.ndim < 1 or places.shape[-1] != 2:
+            raise ValueError(f"tip: the shape must be (..., 2), right of and above the centre, not {places.shape}")
+        a, b = 0.0 - places[..., 0], places[..., 1]
     for name, angle in (("phi", phi), ("theta", theta)):
         _doubt_radians(name, angle)
     if type(ball) is not int or abs(ball) >= 2**31:
@@ -280,8 +294,26 @@ def cue(
         if not whole_ones.all():
             raise ValueError(f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}")
     usual = bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(_GAMES, game, "game")))))
-    given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball, "miscue": miscue, "tip_time": tip_time}
-    return fill(dtypes.cue, {}, {**given, "mass": mass, "end_mass": end_mass, "tip_radius": tip_radius}, usual)
+    given = {"speed": speed if ball_speed is None else ball_speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
+    more = {"miscue": miscue, "tip_time": tip_time, "mass": mass, "end_mass": end_mass, "tip_radius": tip_radius}
+    made = fill(dtypes.cue, {}, {**given, **more}, usual)
+    if ball_speed is not None:
+        _strike_to(made, game)
+    return made
+
+
+def _strike_to(cues: dtypes.Records, game: Game) -> None:
+    """Gives cues, whose speeds are those of balls, the speeds that they need. The ball's speed is in proportion to the level cue's."""
+    if (cues["theta"] != 0.0).any():
+        raise ValueError("ball_speed: it is that which a level cue gives the ball; with theta give speed, the speed of the cue")
+    kind = balls([[0.0, 0.0]], game=game)[0]["kind"]
+    flat = cues.reshape(-1)
+    wanted, phi = flat["speed"].copy(), flat["phi"].copy()
+    flat["speed"], flat["phi"] = 1.0, 0.0  # along x, and by a root, it has the same bits in other languages
+    for k in range(flat.size):
+        x, y, _ = struck(flat[k : k + 1].reshape(()), kind)["v"]
+        flat["speed"][k] = wanted[k] / np.sqrt(x * x + y * y)
+    flat["phi"] = phi
 
 
 def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
