@@ -438,20 +438,30 @@ static void take_back(state *c, double before) {
   const double after = energy_of(c);
   if (!(after > before))
     return;
+  /* of the balls that were touched; a bystander keeps its motion */
+  bool touched[CAROM_CLUSTER_BALLS] = {false};
+  for (int k = 0; k < c->contacts; k++)
+    if (c->contact[k].impulse > 0.0)
+      touched[c->contact[k].i] = touched[c->contact[k].j] = true;
+
   double mass = 0.0, P[3] = {0.0, 0.0, 0.0}, about = 0.0;
   for (int k = 0; k < c->balls; k++) {
+    if (!touched[k])
+      continue;
     mass += 1.0 / c->ball[k].inverse_mass;
     cluster_add(false, P, 1.0 / c->ball[k].inverse_mass, c->ball[k].v);
   }
   const double centre[3] = {P[0] / mass, P[1] / mass, P[2] / mass};
   for (int k = 0; k < c->balls; k++) {
+    if (!touched[k])
+      continue;
     double v[3];
     cluster_minus(false, c->ball[k].v, centre, v);
     about += 0.5 * cluster_dot(false, v, v) / c->ball[k].inverse_mass;
   }
   const double share = sqrt(greater(1.0 - (after - before) / about, 0.0)) * (1.0 - 1e-15);
   for (int k = 0; k < c->balls; k++)
-    for (int axis = 0; axis < 3; axis++)
+    for (int axis = 0; axis < 3 && touched[k]; axis++)
       c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
 }
 

@@ -428,6 +428,27 @@ END_TEST
 
 /* ---- 10, 11: scaling */
 
+/* A member that nothing touches keeps its motion to the last bit, also where the integrator's gain
+ * is taken back. */
+START_TEST(bystander) {
+  int rises = 0;
+  for (int n = 0; n < 40; n++) {
+    layout l = {.ball = {ball_at(-0.02 * n * R, -2.0 * R), ball_at(0.0, 0.0), ball_at(0.0, 2.0 * R),
+                         ball_at(-2.0 * R - 1e-3, 0.0)},
+                .count = 4};
+    l.ball[0].state.r[1] = -sqrt(4.0 - 4e-4 * n * n) * R;
+    l.ball[0].state.v[1] = 8.0;
+    l.ball[3].state.v[1] = 0.3;
+    polish(&l);
+    restitution(&l, 1.0);
+    resolve(&l, 0);
+    rises += energy(&l, out) > energy_before(&l) * (1.0 - 1e-14);
+    ck_assert_int_eq(memcmp(out[3].v, l.ball[3].state.v, sizeof out[3].v), 0);
+  }
+  ck_assert_int_gt(rises, 0);
+}
+END_TEST
+
 START_TEST(scaling) {
   random_source random = {test_seed()};
   /* no gaps, constant friction: velocities scale with the speed */
@@ -765,7 +786,7 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("cluster", one_contact_is_a_collision, two_at_once, rows_of_balls, symmetries,
-                   symmetric_rack, balances, scaling, break_of_a_rack, frozen_kiss,
+                   symmetric_rack, balances, bystander, scaling, break_of_a_rack, frozen_kiss,
                    wing_ball_from_the_side, balls_to_a_rail, default_steps, fast_after_slow,
                    ball_on_three, crowds, gap_has_no_step, arguments);
 }
