@@ -391,9 +391,11 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     const begun = performance.now();
     await one.locator("#best").click();
     await expect.poll(() => text(one, "game-state"), { timeout: 20_000 }).toMatch(/Best of/);
+    const took = performance.now() - begun;
     const longest = await one.evaluate(() => (window as unknown as { longest: number }).longest);
-    console.log(`a plan took ${(performance.now() - begun).toFixed(0)} ms; the longest time between two frames was ${longest.toFixed(0)} ms`);
-    expect(longest).toBeLessThan(100);
+    console.log(`a plan took ${took.toFixed(0)} ms; the longest time between two frames was ${longest.toFixed(0)} ms`);
+    // Planned by the page itself, one frame would last as long as the plan. On a busy machine both grow.
+    expect(longest).toBeLessThan(took / 8);
     await one.close();
   });
 
