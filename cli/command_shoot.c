@@ -230,6 +230,9 @@ static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], co
     if (count > 1)
       fprintf(said, "%d: ", k + 1);
     shot_tell(said, shots[k].line, shots[k].shot, shots[k].spread, count > 1);
+    const size_t number = shots[k].line->number;
+    if (number <= MOST_SHOTS)
+      fputs(job->from.aimed[number - 1], said);
   }
   for (int k = 0; k < count && job->csv; k++) {
     const int number = (int)shots[k].line->number;
@@ -400,37 +403,16 @@ static const command_form form = {
              "are ignored) and writes each table and each shot with its events and final states. "
              "IN may be -. Or plays a shot that options describe, and tells it in words; several "
              "values with commas give several shots, drawn over each other.\n",
-    .options = (const option_row *const[]){&option_table,
-                                           &option_cue,
-                                           &option_balls,
-                                           &option_aim,
-                                           &option_at_ball,
-                                           &option_shot_cut,
-                                           &option_shot_speed,
-                                           &option_ball_speed,
-                                           &option_tip,
-                                           &option_elevation,
-                                           &option_tip_time,
-                                           &option_json,
-                                           &option_story,
-                                           &option_models,
-                                           &option_ball_ball,
-                                           &option_cushion_model,
-                                           &option_space,
-                                           &option_simultaneous,
-                                           &option_events,
-                                           &option_steps,
-                                           &option_events_most,
-                                           &option_time_most,
-                                           &option_threads,
-                                           &option_plot,
-                                           &option_spread,
-                                           &option_animate,
-                                           &option_shot_id,
-                                           &option_strict,
-                                           &option_cite,
-                                           &option_output,
-                                           NULL},
+    .options =
+        (const option_row *const[]){
+            &option_table,         &option_cue,         &option_balls,        &option_aim,
+            &option_at_ball,       &option_pocket,      &option_shot_cut,     &option_shot_speed,
+            &option_ball_speed,    &option_tip,         &option_elevation,    &option_tip_time,
+            &option_json,          &option_story,       &option_models,       &option_ball_ball,
+            &option_cushion_model, &option_space,       &option_simultaneous, &option_events,
+            &option_steps,         &option_events_most, &option_time_most,    &option_threads,
+            &option_plot,          &option_spread,      &option_animate,      &option_shot_id,
+            &option_strict,        &option_cite,        &option_output,       NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
         "the error; the others are played); 2 for bad usage or unreadable input\n",

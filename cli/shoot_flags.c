@@ -7,6 +7,8 @@
 #include "doubts.h"
 #include "message.h"
 #include "number.h"
+#include "pot.h"
+#include "shot_story.h"
 #include "words.h"
 
 #include <ctype.h>
@@ -78,6 +80,10 @@ ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
 ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
     "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, "
     "swerve and hops do; an error where no direction does");
+ROW(option_pocket, "pocket", pocket, "BALL:POCKET", set_text, 0,
+    "aim so that this ball falls into this pocket, whatever squirt and throw do: 1:top-right, "
+    "1:bottom-side, or by its id, 1:lt. Tells the cut, how far the ball may leave to either jaw, "
+    "and with which speeds of the cue it falls; or why there is no such aim");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
     "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
@@ -99,9 +105,9 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
     "holds: a > 0 is left");
 
 bool has_flags(const shoot_flags *f) {
-  return f->table != NULL || f->at_ball != NULL || f->json || f->cue.count > 0 ||
-         f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 || f->speed.count > 0 ||
-         f->ball_speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 ||
+  return f->table != NULL || f->at_ball != NULL || f->pocket != NULL || f->json ||
+         f->cue.count > 0 || f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 ||
+         f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 ||
          f->elevation.count > 0 || f->tip_time != 0.0;
 }
 
@@ -219,6 +225,76 @@ static bool aim_at_ball(const shoot_flags *f, const layout *l, const carom_shot_
   return false;
 }
 
+/* Aims a cue at a pocket, and tells of it; false after a complaint. */
+static bool aim_at_pocket(const shoot_flags *f, const layout *l, const carom_shot_options *options,
+                          carom_cue *cue, char told[AIMED_TEXT]) {
+  const char *colon = strchr(f->pocket, ':'), *name = colon != NULL ? colon + 1 : "";
+  char text[WHERE_TEXT], known[512] = "", where[40], hint[HINT_TEXT];
+  named_table *t = built_in_table(f->table != NULL ? f->table : "9ft");
+  int ball = 1, pocket = -1;
+  while (ball < l->count &&
+         (colon == NULL || strlen(l->name[ball]) != (size_t)(colon - f->pocket) ||
+          strncmp(l->name[ball], f->pocket, strlen(l->name[ball])) != 0))
+    ball++;
+  /* A pocket is "top-right" where its words are "the top right pocket". */
+  for (int p = 0; p < l->table.pockets; p++) {
+    char *words = (char *)pocket_words(t, p, text) + strlen("the ");
+    words[strlen(words) - strlen(" pocket")] = '\0';
+    *strchr(words, ' ') = '-';
+    snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", p > 0 ? "|" : "", words);
+    pocket = strcmp(words, name) == 0 || strcmp(t->pocket[p], name) == 0 ? p : pocket;
+  }
+  pot found;
+  bool good = false;
+  if (l->table.pockets == 0)
+    complain("--pocket: the table has none");
+  else if (ball >= l->count || pocket < 0)
+    complain("--pocket is BALL:POCKET, such as 1:top-right, with a ball of --balls and one of %s "
+             "or its id; not '%.60s'%s",
+             known, f->pocket, did_you_mean(name, known, hint));
+  else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
+    good = true; /* which is told when it is played */
+  else
+    switch (pot_aim(&l->table, l->ball, l->count, options, ball, pocket, cue, &found)) {
+    case POT_FOUND:
+      good = true;
+      snprintf(
+          told, AIMED_TEXT,
+          "aim    at %s for %s: cut %.1f degrees to the %s; the ball may leave %.2f degrees to "
+          "the right and %.2f to the left\n       falls with %.3g to %.3g m/s of the cue in "
+          "this direction\n",
+          l->name[ball], pocket_words(t, pocket, text), fabs(found.cut),
+          found.cut < 0.0 ? "right" : "left", found.right, found.left, found.least, found.most);
+      break;
+    case POT_NO_CUT:
+      complain("--pocket %s: no such aim: the ball cannot be cut there directly, by 80 degrees at "
+               "most and past the jaws",
+               f->pocket);
+      break;
+    case POT_BARRED:
+      if (found.obstacle.type == 0)
+        complain("--pocket %s: no such aim: the cue ball does not reach the ball; give a higher "
+                 "--speed",
+                 f->pocket);
+      else
+        complain("--pocket %s: no such aim: %s is in the way of the cue ball", f->pocket,
+                 obstacle(l, &found.obstacle, where));
+      break;
+    case POT_MET:
+      complain("--pocket %s: no such aim: the ball meets ball %s on its way", f->pocket,
+               l->name[found.obstacle.a == ball ? found.obstacle.b : found.obstacle.a]);
+      break;
+    case POT_SHORT:
+      complain("--pocket %s: no such aim: the ball comes to rest before it; give a higher --speed",
+               f->pocket);
+      break;
+    default:
+      complain("--pocket %s: no such aim: the jaws send the ball back at this speed", f->pocket);
+    }
+  free_table(t);
+  return good;
+}
+
 static double tip_of(const value *v, double radius) {
   return v->times == OFFSET ? v->x / radius : v->x;
 }
@@ -249,7 +325,7 @@ static bool strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue)
 }
 
 /* One of the combinations; false after a complaint. */
-static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
+static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
                        const carom_shot_options *options, int index) {
   const values *const speeds = f->ball_speed.count > 0 ? &f->ball_speed : &f->speed;
   const int speed = index % speeds->count, tip = index / speeds->count % f->tip.count;
@@ -279,7 +355,13 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
     complain("no such strike: %s", carom_status_string(bad));
   if (bad != CAROM_OK || (f->ball_speed.count > 0 && !strike_to(cue.speed, &l->ball[0].kind, &cue)))
     return false;
-  if (f->cut.count == 0)
+  char told[AIMED_TEXT] = "";
+  if (f->pocket != NULL) {
+    if (!aim_at_pocket(f, l, options, &cue, told))
+      return false;
+    if (index < MOST_SHOTS)
+      memcpy(f->aimed[index], told, sizeof told);
+  } else if (f->cut.count == 0)
     cue.phi = f->aim.at[way].x;
   else if (!aim_at_ball(f, l, options, f->cut.at[way].x, &cue))
     return false;
@@ -318,6 +400,10 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   static layout l;
   if (f->aim.count > 0 && (f->cut.count > 0 || f->at_ball != NULL)) {
     complain("--aim is a direction, --at-ball and --cut aim at a ball: give one of both");
+    return false;
+  }
+  if (f->pocket != NULL && (f->aim.count > 0 || f->cut.count > 0 || f->at_ball != NULL)) {
+    complain("--pocket says the direction, and so do --aim, --at-ball and --cut: give one of them");
     return false;
   }
   if (f->speed.count > 0 && f->ball_speed.count > 0) {
