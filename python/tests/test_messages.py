@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import carom
+from carom import _shot_options, collisions, cushions
+from carom._rows import numbered
 from carom.potting import Potting
 
 TABLE = carom.tables.pool_9ft()
@@ -16,6 +18,20 @@ ROWS = np.tile(carom.dtypes.plain(GOOD), (4, 1))
 POCKETED = RACK.copy()
 POCKETED["state"]["label"][3] = carom.Label.POCKETED
 MASKED = np.ma.masked_array(ROWS, mask=np.zeros_like(ROWS, bool))
+
+
+def test_names_of_options_are_those_of_c():
+    pairs = [
+        (_shot_options.World, "carom_world"), (_shot_options.BallModel, "carom_ball_model"), (_shot_options.ShotCushion, "carom_shot_cushion"),
+        (_shot_options.Friction, "carom_ball_friction"), (_shot_options.Space, "carom_space"), (_shot_options.Simultaneous, "carom_simultaneous"),
+        (collisions.Solver, "carom_solver"), (collisions.Slip, "carom_slip"), (cushions.CushionModel, "carom_cushion_model"),
+        (cushions.CushionConvention, "carom_cushion_convention"), (cushions.CushionLaw, "carom_cushion_law"),
+    ]  # fmt: skip
+    for names, enum in pairs:
+        assert names.__args__ == tuple(numbered(enum)), enum
+    assert _shot_options.StopAt.__args__ == ("contact", *numbered("carom_event_type"))
+    for members, enum in ((carom.Label, "carom_label"), (carom.EventType, "carom_event_type")):
+        assert {member.name.lower(): member.value for member in members} == numbered(enum)
 
 
 def shot(**cue):

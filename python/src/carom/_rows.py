@@ -210,6 +210,13 @@ def listing(module: str) -> Callable[[], list[str]]:
     return names
 
 
+def numbered(enum: str) -> dict[str, int]:
+    """The values of an enumeration of C by their names as options have them: carom_world has carom and pooltool."""
+    values: dict[str, int] = ffi.typeof(enum).relements
+    common = os.path.commonprefix(list(values)).rindex("_") + 1
+    return {name[common:].lower(): value for name, value in sorted(values.items(), key=operator.itemgetter(1))}
+
+
 def choice(names: dict[str, int], value: str, option: str) -> int:
     """The number of a named option."""
     try:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 import numpy as np
 
 from carom._carom import ffi
-from carom._rows import choice, whole
+from carom._rows import choice, numbered, whole
 
 World = Literal["carom", "pooltool"]
 BallModel = Literal["default", "exact", "euler", "inelastic", "mirror"]
@@ -21,14 +21,10 @@ StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
     "spinning_stationary", "slate", "rail_top", "left_table",
 ]  # fmt: skip
-_WORLDS = {"carom": 0, "pooltool": 1}
-_BALL_MODELS = {"default": 0, "exact": 1, "euler": 2, "inelastic": 3, "mirror": 4}
-_CUSHIONS: dict[str, int] = {name: k for k, name in enumerate(ShotCushion.__args__)}  # type: ignore[attr-defined]
-_FRICTIONS = {"alciatore": 0, "constant": 1}
-_SPACES = {"3d": 0, "flat": 1}
-_SIMULTANEOUS = {"cluster": 0, "pairs": 1}
+_WORLDS, _BALL_MODELS, _CUSHIONS = numbered("carom_world"), numbered("carom_ball_model"), numbered("carom_shot_cushion")
+_FRICTIONS, _SPACES, _SIMULTANEOUS = numbered("carom_ball_friction"), numbered("carom_space"), numbered("carom_simultaneous")
 # CAROM_STOP_AT_CONTACT, and CAROM_STOP_AT() of the values of carom_event_type.
-_STOPS: dict[str, int] = {name: k for k, name in enumerate(StopAt.__args__)}  # type: ignore[attr-defined]
+_STOPS = {"contact": 0, **numbered("carom_event_type")}
 
 
 class Options(NamedTuple):

@@ -12,12 +12,11 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._impacts import BALLS, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, choice, fill, in_chunks, pointer, rows, whole
+from carom._rows import Array, choice, fill, in_chunks, numbered, pointer, rows, whole
 
 Solver = Literal["exact", "euler"]
 Slip = Literal["paper", "pooltool"]
-_SOLVERS = {"exact": 0, "euler": 1}
-_SLIPS = {"paper": 0, "pooltool": 1}
+_SOLVERS, _SLIPS = numbered("carom_solver"), numbered("carom_slip")
 
 ALL_THREADS = -1
 """For `threads`: one thread for each processor that the process may use."""

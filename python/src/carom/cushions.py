@@ -12,14 +12,12 @@ from carom import dtypes
 from carom._carom import ffi
 from carom._impacts import CUSHION, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, choice, fill, whole
+from carom._rows import Array, choice, fill, numbered, whole
 
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler", "smooth"]
 CushionConvention = Literal["paper", "pooltool"]
 CushionLaw = Literal["constant", "han"]
-_MODELS: dict[str, int] = {name: k for k, name in enumerate(CushionModel.__args__)}  # type: ignore[attr-defined]
-_CONVENTIONS = {"paper": 0, "pooltool": 1}
-_LAWS = {"constant": 0, "han": 1}
+_MODELS, _CONVENTIONS, _LAWS = numbered("carom_cushion_model"), numbered("carom_cushion_convention"), numbered("carom_cushion_law")
 
 
 @functools.lru_cache(maxsize=256)
