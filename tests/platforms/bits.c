@@ -255,7 +255,7 @@ static void cushions(void) {
   state = 3;
   for (size_t k = 0; k < CUSHIONS; k++)
     rail[k] = draw_cushion(k);
-  for (int model = CAROM_CUSHION_MATHAVAN; model <= CAROM_CUSHION_EULER; model++)
+  for (int model = CAROM_CUSHION_MATHAVAN; model <= CAROM_CUSHION_SMOOTH; model++)
     for (int way = 0; way < 4; way++) {
       const carom_cushion_options options = {
           .model = (carom_cushion_model)model,
@@ -371,7 +371,8 @@ static void shots(void) {
         .ball_model = CAROM_BALL_MODEL_EULER,
         .steps = 100}},
       {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}},
-      {"mathavan", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}}};
+      {"mathavan", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}},
+      {"smooth", {.cushion_model = CAROM_SHOT_CUSHION_SMOOTH}}};
   static carom_event events[ROOM];
   static carom_shot_ball balls[CAROM_BALLS_MOST];
   static carom_ball_state final[CAROM_BALLS_MOST], later[CAROM_BALLS_MOST];
