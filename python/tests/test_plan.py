@@ -24,6 +24,22 @@ def test_plan():
     assert len(weak) == 1 and weak["value"][0] < best["value"][0] - 0.1
 
 
+def test_aim():
+    layout = carom.balls([[0.6, 0.8], [0.4, 1.7]])
+    for tip in ((0.0, 0.25), (0.4, 0.0), (-0.3, -0.2)):
+        cue, (low, high) = carom.aim(TABLE, layout, carom.cue(tip=tip), ball=1, pocket=2)
+        shot = carom.simulate(TABLE, layout, cue)
+        met = next(event for event in shot.events if event["type"] == carom.EventType.BALL_BALL)
+        vx, vy, _ = met["after"]["v"][1]
+        assert low < np.degrees(np.arctan2(vy, vx)) < high and high - low > 1.0
+        fallen = [(event["a"], event["b"]) for event in shot.events if event["type"] == carom.EventType.POCKET]
+        assert (1, 2) in fallen
+    with pytest.raises(ValueError, match="pocket: no such aim: ball 1 cannot be cut to pocket 3"):
+        carom.aim(TABLE, layout, carom.cue(), ball=1, pocket=3)
+    with pytest.raises(ValueError, match="ball: there are 2, not 3"):
+        carom.aim(TABLE, layout, carom.cue(), ball=2, pocket=3)
+
+
 def test_ball_in_hand():
     layout = LAYOUT.copy()
     layout["state"]["label"][0] = carom.Label.POCKETED

@@ -55,6 +55,54 @@ def with_errors(cue: dtypes.Records, player: dtypes.Records, seed: int, number: 
     return made
 
 
+def aim(
+    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, ball: int, pocket: int, options: Options = _USUAL, **changes: Unpack[Changes]
+) -> tuple[dtypes.Records, tuple[float, float]]:
+    """Aim a direct pot: the cue with the direction in which `ball` leaves for the middle of `pocket`, with squirt and throw.
+
+    The other balls are not looked at: `simulate` tells what comes of it.
+
+    Parameters
+    ----------
+    table, balls, cue, options, **changes
+        As for `simulate`. The speed and the tip of the cue count.
+    ball, pocket : int
+        Indices of the ball and of the table's pocket.
+
+    Returns
+    -------
+    cue : ndarray of `carom.dtypes.cue`, shape ()
+    window : (float, float)
+        Directions of the ball, degrees, between which it passes the jaws.
+
+    Raises
+    ------
+    ValueError
+        There is no such aim: the ball cannot be cut to the pocket from there, by more than 80 degrees.
+    CaromError
+        The layout, the cue or an option is in error.
+    """
+    check_table(table)
+    layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+    if layout.ndim != 1:
+        raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
+    made = copied(one_cue(cue))
+    for name, index, most in (("ball", ball, len(layout)), ("pocket", pocket, int(table.record["pockets"]))):
+        if whole(index, name, least=0) >= most:
+            raise ValueError(f"{name}: there are {most}, not {index + 1}")
+    shot = shot_options(options.changed(changes))
+    window: Array = np.zeros(2)
+    code = lib.carom_plan_aim(
+        pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), ball, pocket, shot,
+        pointer("carom_cue[]", made), pointer("double[]", window),
+    )  # fmt: skip
+    if code == lib.CAROM_SEPARATING:
+        raise ValueError(f"pocket: no such aim: ball {ball} cannot be cut to pocket {pocket} from there")
+    if code < 0:
+        raise argument_error(shot_arguments(table, layout, made, shot), layout, made) or CaromError(code, "balls")
+    return made, (float(window[0]), float(window[1]))
+
+
 _usual_player = player
 
 
