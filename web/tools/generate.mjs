@@ -1,5 +1,6 @@
 // generate.mjs MADE OUT: what the build knows, as TypeScript: structs and enumerators of the headers, both modules. bindings/README.md says what
 // MADE/api.json has.
+import { gzipSync } from "node:zlib";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 
 const [made, out] = process.argv.slice(2);
@@ -64,4 +65,4 @@ writeFileSync(
     `/** Names of the labels of balls, by their values. */\nexport const labels = ${JSON.stringify(enums.carom_label)} as const;\n`,
 );
 for (const name of ["plain", "simd"])
-  writeFileSync(`${out}/${name}.ts`, `${note}export default ${JSON.stringify(readFileSync(`${made}/${name}.wasm`).toString("base64"))};\n`);
+  writeFileSync(`${out}/${name}.ts`, `${note}export default ${JSON.stringify(gzipSync(readFileSync(`${made}/${name}.wasm`), { level: 9 }).toString("base64"))};\n`);
