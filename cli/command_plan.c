@@ -177,7 +177,7 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
                          FILE *out) {
   int times[WAYS] = {0}, good = 0;
   uint32_t in_play = 0;
-  for (int k = 0; k < line->count; k++)
+  for (int k = 0; k < line->count && k < CAROM_BALLS_MOST; k++)
     in_play |= (uint32_t)(line->ball[k].state.label != CAROM_BALL_POCKETED) << k;
   for (int n = 0; n < TRIED; n++) {
     carom_facts facts;
