@@ -115,7 +115,7 @@ static void write_shot(FILE *out, const played *p) {
   const char *between = "";
   for (int64_t k = 0; k < p->shot->count && k < p->shot->room; k++) {
     const carom_event *e = &p->shot->events[k];
-    const char *name = carom_event_name(e->type);
+    const char *name = carom_event_name((carom_event_type)e->type);
     if (name == NULL)
       continue;
     fprintf(out, "%s[%.6f,\"%s\",%d,%d]", between, e->time, name, (int)e->a, (int)e->b);
