@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { SHOTS = 150, ROOM = 1000 }; /* threads take 64 shots at a time */
 
@@ -218,66 +217,6 @@ TEST(one_for_all) {
   same_results(single, batch);
   free_results(single);
   free_results(batch);
-}
-
-/* What a game waits for: a break as a whole, to the first contact and in frames, each with the
- * status that it must have. The times that are printed are medians over interleaved rounds. */
-TEST(costs_of_a_game) {
-  enum { ROUNDS = 25, MODELS = 2, FIGURES = 5 };
-  static const carom_shot_cushion models[MODELS] = {CAROM_SHOT_CUSHION_HAN,
-                                                    CAROM_SHOT_CUSHION_MATHAVAN};
-  static const char *const what[FIGURES] = {"the break", "to the first contact",
-                                            "a frame by carom_shot_continue()", "carom_shot_at()",
-                                            "carom_shot_orientation()"};
-  static carom_shot_state state;
-  static double us[FIGURES][ROUNDS];
-  static carom_ball_state states[16];
-  static double turned[16][4];
-  make_breaks();
-  for (int m = 0; m < MODELS; m++) {
-    for (int n = 0; n < ROUNDS; n++)
-      for (int f = 0; f < FIGURES; f++) {
-        carom_shot_options options = {.cushion_model = models[m]};
-        static carom_event events[ROOM];
-        carom_shot shot = {.events = events, .room = ROOM};
-        struct timespec begin, end;
-        int calls = 1;
-        if (f == 3 || f == 4)
-          carom_shoot(&table, balls, 16, &cues[0], &options, &shot);
-        clock_gettime(CLOCK_MONOTONIC, &begin);
-        if (f == 0) {
-          ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot), CAROM_OK);
-        } else if (f == 1) {
-          options.stop_at = CAROM_STOP_AT_CONTACT;
-          ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot),
-                           CAROM_STOPPED_AT_EVENT);
-        } else if (f == 2) {
-          shot.state = &state;
-          options.time_most = 1.0 / 60.0;
-          carom_status status = carom_shoot(&table, balls, 16, &cues[0], &options, &shot);
-          for (; status == CAROM_STOPPED_AT_TIME; calls++) {
-            options.time_most = (calls + 1) / 60.0;
-            status = carom_shot_continue(&table, balls, 16, &options, &shot);
-          }
-          ck_assert_int_eq(status, CAROM_OK);
-        } else
-          for (calls = 0; calls <= 60.0 * shot.time; calls++)
-            if (f == 3)
-              carom_shot_at(balls, 16, &shot, calls / 60.0, states);
-            else
-              carom_shot_orientation(balls, 16, &shot, calls / 60.0, turned);
-        clock_gettime(CLOCK_MONOTONIC, &end);
-        us[f][n] = (1e6 * (double)(end.tv_sec - begin.tv_sec) +
-                    1e-3 * (double)(end.tv_nsec - begin.tv_nsec)) /
-                   calls;
-      }
-    printf("cushions by %s:", carom_cushion_model_name((carom_cushion_model)(models[m] - 1)));
-    for (int f = 0; f < FIGURES; f++) {
-      qsort(us[f], ROUNDS, sizeof us[f][0], by_size);
-      printf("%s %s %.3g us", f > 0 ? "," : "", what[f], us[f][ROUNDS / 2]);
-    }
-    printf("\n");
-  }
 }
 
 /* Brief events tell what full ones do, in place of them and beside them, and no more of them

@@ -158,7 +158,7 @@ static carom_impact impact_of(const layout *l, bool space, double *closing) {
 /* One contact beside carom_collide(), and in space beside the closed form of carom_impact3().
  * Nearly all pairs are within 1e-4 at 40 steps. The others have a ball whose slip on the cloth
  * turns back within a step, which is of order 1. */
-START_TEST(one_contact_is_a_collision) {
+TEST(one_contact_is_a_collision) {
   enum { EACH = 1000 };
   static const int steps[2][2] = {{40, 160}, {20, 80}};
   static const double bound[2][2] = {{5e-4, 1e-4}, {5e-4, 5e-5}};
@@ -191,11 +191,10 @@ START_TEST(one_contact_is_a_collision) {
     ck_assert(space || large[0] <= EACH / 50);
   }
 }
-END_TEST
 
 /* ---- 2: the cue ball on two balls that touch, closed form */
 
-START_TEST(two_at_once) {
+TEST(two_at_once) {
   static const double e[4] = {1.0, 0.95, 0.8, 0.5};
   for (int q = 0; q < 4; q++)
     for (int fine = 0; fine < 2; fine++) {
@@ -212,7 +211,6 @@ START_TEST(two_at_once) {
       ck_assert_double_eq_tol(out[1].v[0], -out[2].v[0], 1e-14);
     }
 }
-END_TEST
 
 /* ---- 3, 4, 5: rows of balls */
 
@@ -255,7 +253,7 @@ static layout row(int n, double e) {
   return l;
 }
 
-START_TEST(rows_of_balls) {
+TEST(rows_of_balls) {
   static const struct {
     int n;
     double e, v[5];
@@ -282,7 +280,6 @@ START_TEST(rows_of_balls) {
   ck_assert_double_eq_tol(out[24].v[0], 0.986, 2e-3);
   ck_assert_double_eq_tol(out[0].v[0], -0.071, 1e-3);
 }
-END_TEST
 
 /* ---- 6 to 9: momentum, energy, mirror, turn, order of the balls, on random racks */
 
@@ -322,7 +319,7 @@ static layout random_rack(int n, random_source *random) {
   return l;
 }
 
-START_TEST(symmetries) {
+TEST(symmetries) {
   random_source random = {test_seed()};
   double mirrored = 0.0, turned = 0.0, renumbered = 0.0;
   for (int n = 0; n < 100; n++) {
@@ -366,9 +363,8 @@ START_TEST(symmetries) {
   ck_assert_double_lt(turned, 1e-9);
   ck_assert_double_lt(renumbered, 1e-9);
 }
-END_TEST
 
-START_TEST(symmetric_rack) {
+TEST(symmetric_rack) {
   static const int rows[2][5] = {{1, 2, 3, 4, 5}, {1, 2, 3, 2, 1}};
   for (int game = 8; game < 10; game++)
     for (int speed = 2; speed < 12; speed += 2) {
@@ -385,11 +381,10 @@ START_TEST(symmetric_rack) {
       }
     }
 }
-END_TEST
 
 /* Momentum, without the cloth; energy, with and without friction; and the impulses are those
  * that change the motion. */
-START_TEST(balances) {
+TEST(balances) {
   random_source random = {test_seed()};
   double momentum = 0.0, rise = -1.0, impulses = 0.0;
   for (int n = 0; n < 400; n++) {
@@ -424,13 +419,12 @@ START_TEST(balances) {
   ck_assert_double_lt(impulses, 4e-3); /* where e = 1 what the integrator adds is taken back from
                                           the motion */
 }
-END_TEST
 
 /* ---- 10, 11: scaling */
 
 /* A member that nothing touches keeps its motion to the last bit, also where the integrator's gain
  * is taken back. */
-START_TEST(bystander) {
+TEST(bystander) {
   int rises = 0;
   for (int n = 0; n < 40; n++) {
     layout l = {.ball = {ball_at(-0.02 * n * R, -2.0 * R), ball_at(0.0, 0.0), ball_at(0.0, 2.0 * R),
@@ -447,9 +441,8 @@ START_TEST(bystander) {
   }
   ck_assert_int_gt(rises, 0);
 }
-END_TEST
 
-START_TEST(scaling) {
+TEST(scaling) {
   random_source random = {test_seed()};
   /* no gaps, constant friction: velocities scale with the speed */
   layout slow = rack(9, 0.0, 1.0, 0.1, NULL), fast = slow;
@@ -478,11 +471,10 @@ START_TEST(scaling) {
   resolve(&stiff, 0);
   ck_assert_double_lt(difference(first, out, soft.count, true), 8.0 * 4.3e-3);
 }
-END_TEST
 
 /* ---- 13, 14, 15: what players see */
 
-START_TEST(break_of_a_rack) {
+TEST(break_of_a_rack) {
   layout l = rack(8, 0.0, 10.0, 0.0, NULL);
   polish(&l);
   resolve(&l, 100);
@@ -493,7 +485,6 @@ START_TEST(break_of_a_rack) {
   ck_assert_double_eq_tol(share[11] / total, 0.314, 5e-3);
   ck_assert_double_eq_tol(share[15] / total, 0.314, 5e-3);
 }
-END_TEST
 
 /* Two frozen balls along y; the cue ball drives the first at an angle from the kiss line, x. Its
  * path, as the part of the way from the kiss line to the drive: "ten times fuller" says 0.1. */
@@ -508,16 +499,15 @@ static double kiss(double angle, bool apart) {
   return out[1].v[1] / out[1].v[0] * tan(t);
 }
 
-START_TEST(frozen_kiss) {
+TEST(frozen_kiss) {
   static const double degrees[5] = {10.0, 30.0, 50.0, 70.0, 80.0},
                       known[5] = {0.050, 0.067, 0.082, 0.107, 0.117};
   for (int k = 0; k < 5; k++)
     ck_assert_double_eq_tol(kiss(degrees[k] * PI / 180.0, false), known[k], 2e-3);
   ck_assert_double_eq_tol(kiss(PI / 3.0, false), 0.092, 2e-3);
 }
-END_TEST
 
-START_TEST(wing_ball_from_the_side) {
+TEST(wing_ball_from_the_side) {
   const double side = atan2(0.45, 1.27), speed = 10.5;
   layout l = rack(9, 0.0, 0.0, -side, NULL);
   l.ball[0].state.v[0] = -speed * sin(side);
@@ -529,11 +519,10 @@ START_TEST(wing_ball_from_the_side) {
   ck_assert_double_eq_tol(atan2(out[6].v[1], out[6].v[0]) * 180.0 / PI, 39.8, 0.2);
   ck_assert_double_eq_tol(hypot(out[6].v[0], out[6].v[1]) / speed, 0.34, 5e-3);
 }
-END_TEST
 
 /* Of 40 full breaks at 10 m/s from the middle, the balls that meet a rail or fall. Pair by pair
  * it is a third of them. */
-START_TEST(balls_to_a_rail) {
+TEST(balls_to_a_rail) {
   carom_table table;
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
   double mean[2] = {0.0, 0.0};
@@ -559,7 +548,6 @@ START_TEST(balls_to_a_rail) {
   ck_assert_double_ge(mean[0], 12.0);
   ck_assert_double_lt(mean[1], 7.0);
 }
-END_TEST
 
 /* ---- 16: 25 steps beside many */
 
@@ -577,7 +565,7 @@ static void resolve_in_play(const layout *l, int steps) {
     memcpy(out[i].v, final[i].v, sizeof out[i].v);
 }
 
-START_TEST(default_steps) {
+TEST(default_steps) {
   random_source random = {test_seed()};
   static const char *const name[3] = {"eight-ball", "nine-ball", "three balls"};
   static const double mean_most[3] = {1e-3, 1e-3, 4e-4};
@@ -612,11 +600,10 @@ START_TEST(default_steps) {
     ck_assert_double_lt(worst, 5e-3);
   }
 }
-END_TEST
 
 /* A fast ball reaches two that touch slowly, in whose long steps it moves by as much as it
  * compresses. */
-START_TEST(fast_after_slow) {
+TEST(fast_after_slow) {
   double worst = 0.0;
   for (int k = 0; k < 50; k++) {
     const double d = 2.0 * R + 2e-4 * k;
@@ -636,11 +623,10 @@ START_TEST(fast_after_slow) {
   printf("a fast ball after a slow contact: %.1e of its speed beside 400 steps\n", worst);
   ck_assert_double_lt(worst, 1e-3);
 }
-END_TEST
 
 /* ---- 17: a ball falls on three */
 
-START_TEST(ball_on_three) {
+TEST(ball_on_three) {
   layout l = {.count = 4};
   for (int k = 0; k < 3; k++)
     l.ball[k] = ball_at(2.0 * R / sqrt(3.0) * cos(2.0 / 3.0 * PI * k),
@@ -654,7 +640,6 @@ START_TEST(ball_on_three) {
   ck_assert_double_eq_tol(out[3].v[2], 2.0 / 3.0, 1e-4);
   ck_assert_int_eq(contacts_count, 3);
 }
-END_TEST
 
 /* ---- 18: long rows and lattices, all speeds and restitutions */
 
@@ -680,7 +665,7 @@ static layout crowd(int kind, double speed, random_source *random) {
   return l;
 }
 
-START_TEST(crowds) {
+TEST(crowds) {
   random_source random = {test_seed()};
   static const double e[7] = {1.0, 0.95, 0.8, 0.5, 0.2, 0.05, 0.0};
   int unresolved = 0;
@@ -710,13 +695,12 @@ START_TEST(crowds) {
       }
   printf("%d of %d crowds take too many steps\n", unresolved, 3 * 4 * FEWER(30));
 }
-END_TEST
 
 /* ---- 12: continuity over the gap behind a ball that is hit. The largest step is that of a row:
  * up to the border, a gap of 1.42 times the compression, the cue ball touches the second ball
  * again within the cluster, at 6e-4 of its speed; beyond it that touch is a later event. */
 
-START_TEST(gap_has_no_step) {
+TEST(gap_has_no_step) {
   enum { STEPS = 250 };
   static const double aim[3] = {0.0, 0.3, 0.2}, behind[3] = {0.0, 0.4, 1.0};
   const carom_table table = empty_table(4.0);
@@ -748,11 +732,10 @@ START_TEST(gap_has_no_step) {
     ck_assert_double_lt(worst, kind == 0 ? 6e-4 : 1.5e-4);
   }
 }
-END_TEST
 
 /* ---- Arguments */
 
-START_TEST(arguments) {
+TEST(arguments) {
   layout l = row(3, 0.95);
   const carom_shot_options pairs = {.ball_model = CAROM_BALL_MODEL_EULER},
                            flat = {.space = CAROM_SPACE_FLAT},
@@ -781,12 +764,4 @@ START_TEST(arguments) {
   ck_assert_int_eq(carom_cluster(l.ball, 3, &flat, out, NULL, 0, NULL), CAROM_ERROR_RADII_DIFFER);
   l.ball[1] = l.ball[0];
   ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, out, NULL, 0, NULL), CAROM_ERROR_COINCIDENT);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("cluster", one_contact_is_a_collision, two_at_once, rows_of_balls, symmetries,
-                   symmetric_rack, balances, bystander, scaling, break_of_a_rack, frozen_kiss,
-                   wing_ball_from_the_side, balls_to_a_rail, default_steps, fast_after_slow,
-                   ball_on_three, crowds, gap_has_no_step, arguments);
 }

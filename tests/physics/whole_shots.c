@@ -20,7 +20,7 @@ TEST(invariants) {
   static random_shot s;
   static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE,
                                               CAROM_SHOT_CUSHION_MATHAVAN};
-  const int each = draws_of_each(60), flat = random_shot_kinds();
+  const int each = draws_of_each(30), flat = random_shot_kinds();
   random_source random = {test_seed()};
   int64_t landings = 0, many = 0, shots = 0;
   for (int kind = 0; kind < random_shot_kinds_in_space(); kind++)

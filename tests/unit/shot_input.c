@@ -462,7 +462,6 @@ TEST(many_times) {
   }
 }
 
-/* A table with a hole in its rails loses a ball: that is told. */
 /* A cue of speed 0 is not read, so it may name any ball; a stopped shot goes on. */
 TEST(cue_that_is_not_read) {
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
@@ -481,6 +480,7 @@ TEST(cue_that_is_not_read) {
   }
 }
 
+/* A table with a hole in its rails loses a ball: that is told. */
 TEST(lost_ball) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   table.rail[1] = table.rail[2];
@@ -601,82 +601,4 @@ TEST(measures) {
             table.pockets == 0);
   for (int k = 0; k < 4; k++)
     ck_assert_double_eq(table.rail[k].height, 0.037);
-}
-
-/* A number of any size, or none. */
-static double wild(random_source *r, double least, double most) {
-  const double kind = random_between(r, 0.0, 1.0);
-  if (kind < 0.01)
-    return kind < 0.003 ? NAN : kind < 0.006 ? INFINITY : 0.0;
-  return kind < 0.6 ? random_between(r, least, most)
-                    : most * pow(10.0, random_between(r, -12.0, 0.0));
-}
-
-#define RANGE(field, least, most) \
-  { offsetof(carom_ball_kind, field), least, most }
-static const struct {
-  size_t at;
-  double least, most;
-} ranges[] = {
-    RANGE(mass, 0.01, 10.0),     RANGE(mu_slide, 0.01, 1.0),   RANGE(mu_roll, 0.001, 1.0),
-    RANGE(mu_spin, 0.001, 1.0),  RANGE(restitution, 0.0, 1.0), RANGE(restitution_cushion, 0.0, 1.0),
-    RANGE(mu_cushion, 0.0, 1.0), RANGE(gravity, 1.0, 100.0),   RANGE(drag, 0.0, 1.0),
-    RANGE(roll_loss, 0.0, 1.0),  RANGE(law_a, 0.0, 0.5),       RANGE(law_b, 0.0, 0.5),
-    RANGE(law_c, 0.0, 100.0),    RANGE(nose_height, 0.0, 2.0), RANGE(omega_ratio, 1.01, 1.99)};
-
-/* Whatever numbers a shot is made of, it ends, with a status, and its states are numbers. */
-TEST(wild_shots) {
-  random_source r = {test_seed()};
-  static carom_event events[2100]; /* those of a cluster are not parted */
-  int played = 0, statuses[128] = {0};
-  for (int n = 0; n < FEWER(2500); n++) {
-    set_up();
-    carom_table_make((carom_table_kind)(int)random_between(&r, 0.0, 4.99), &table);
-    const int count = 1 + (int)random_between(&r, 0.0, 9.99);
-    for (int k = 0; k < count; k++) {
-      carom_ball_kind *b = &balls[k].kind;
-      for (size_t f = 0; f < (n % 2 == 1 ? 15 : 8); f++)
-        *(double *)((char *)b + ranges[f].at) = wild(&r, ranges[f].least, ranges[f].most);
-      if (n % 2 == 1)
-        b->nose_height *= b->radius;
-      carom_ball_state *s = &balls[k].state;
-      s->r[0] = random_between(&r, 0.03, table.width - 0.03);
-      s->r[1] = random_between(&r, 0.03, table.length - 0.03);
-      for (int axis = 0; axis < 2; axis++)
-        s->v[axis] = random_between(&r, 0.0, 1.0) < 0.5 ? 0.0 : wild(&r, -10.0, 1e4);
-      for (int axis = 0; axis < 3; axis++)
-        s->w[axis] = random_between(&r, 0.0, 1.0) < 0.5 ? 0.0 : wild(&r, -300.0, 1e6);
-    }
-    cue.speed = wild(&r, 0.0, 1e3);
-    cue.phi = wild(&r, 0.0, 1e9);
-    cue.theta = wild(&r, 0.0, 90.0);
-    cue.a = wild(&r, -1.0, 1.0);
-    options.world = n % 2 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM;
-    options.events_most = 2000;
-    options.cushion_model = n % 3 == 0 ? 0 : CAROM_SHOT_CUSHION_HAN;
-    carom_ball_state final[10];
-    carom_shot shot = {.events = events, .room = 2100, .final = final};
-    const carom_status status = carom_shoot(&table, balls, count, &cue, &options, &shot);
-    ck_assert_str_ne(carom_status_name(status), "unknown");
-    if (shot.count == 0)
-      continue;
-    const int64_t together = events[shot.count - 1].cluster;
-    ck_assert_int_le(shot.count, together > 0 ? 2000 - 1 + together : 2000);
-    played++;
-    statuses[-status]++;
-    for (int k = 0; k < count; k++)
-      for (int axis = 0; axis < 3; axis++)
-        ck_assert_msg(isfinite(final[k].r[axis]) && isfinite(final[k].v[axis]) &&
-                          isfinite(final[k].w[axis]),
-                      "shot %d ends with states that are no numbers, status %s", n,
-                      carom_status_name(status));
-    for (int k = 1; k < shot.count; k++)
-      ck_assert_double_ge(events[k].time, events[k - 1].time);
-  }
-  printf("%d were played:", played);
-  for (int k = 0; k < 128; k++)
-    if (statuses[k] > 0)
-      printf(" %d %s", statuses[k], carom_status_name((carom_status)-k));
-  printf("\n");
-  ck_assert_int_gt(played, FEWER(200));
 }

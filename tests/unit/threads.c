@@ -172,7 +172,7 @@ TEST(signals_stay_with_the_caller) {
 
 /* The sanitizer of threads lets none start in a child of a process with threads; that of
  * addresses may wait there for ever for a lock that another thread held at the fork. */
-enum { CHILD_THREADS = SANITIZED ? 0 : 3, CALLERS = 16, ROUNDS = 2, FORKS = 12, INPUTS = 4 };
+enum { CHILD_THREADS = SANITIZED ? 0 : 3, CALLERS = 16, ROUNDS = 1, FORKS = 12, INPUTS = 4 };
 static every_input shared[INPUTS];
 static uint64_t alone[INPUTS][EVERY_COUNT];
 static atomic_int others[EVERY_COUNT], calling;
