@@ -91,7 +91,7 @@
 #define CAROM_VERSION_MINOR 2
 #define CAROM_VERSION_PATCH 0
 
-/* Marks what the library exports. On Windows define CAROM_DLL to use it as a DLL; CAROM_BUILD is
+/* Marks an exported function. On Windows define CAROM_DLL to use it as a DLL; CAROM_BUILD is
  * for its own build. */
 #if defined(_WIN32) && defined(CAROM_BUILD)
 #define CAROM_API __declspec(dllexport)
@@ -107,7 +107,7 @@
 extern "C" {
 #endif
 
-/* ---- One collision: what goes in and what comes out ------------------------------------------ */
+/* ---- One collision: input and result -------------------------------------------------------  */
 
 /* One ball just before the collision. */
 typedef struct carom_ball {
@@ -316,7 +316,7 @@ enum {
 };
 
 /* Options of a call. All zero means the defaults: `carom_options options = {0};` in C, `{}` in
- * C++, then set what you need. A pointer to options may be NULL for the defaults. */
+ * C++, then set the ones you need. A pointer to options may be NULL for the defaults. */
 typedef struct carom_options {
   carom_solver solver;  /* default CAROM_SOLVER_EXACT. */
   carom_slip slip;      /* default CAROM_SLIP_PAPER. */
@@ -500,8 +500,8 @@ typedef struct carom_trace_point {
  * points[0] to the end, which is the result of carom_collide() (by the exact solver within about
  * 1e-6, because the precise solver computes it). Euler's method gives the nearest whole steps.
  * `opt` may be NULL; `points` may not overlap `in`. It is not made for speed: it takes about a
- * millisecond by the exact solver, n/2 times a collision by Euler's method. Returns what
- * carom_collide() does. CAROM_SEPARATING: every point is the state before, with impulse 0. An
+ * millisecond by the exact solver, n/2 times a collision by Euler's method. Returns the
+ * status of carom_collide(). CAROM_SEPARATING: every point is the state before, with impulse 0. An
  * error: every number is NaN (but nothing is written when a pointer is NULL or n < 2). */
 CAROM_API carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t n,
                                    carom_trace_point *points);

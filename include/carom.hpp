@@ -1,8 +1,10 @@
-/* carom.hpp: the library from C++20, header only. Structs and functions are those of the headers of C; here is what C++ adds: spans
- * for arrays with their lengths, vectors where memory is owned, exceptions where they are on.
+/* carom.hpp: the library from C++20, header only. Structs and functions are those of the headers of
+ * C; C++ adds spans for arrays with their lengths, vectors where memory is owned, exceptions where
+ * they are on.
  *
- * A function that can fail returns its carom_status. With exceptions, a negative one is thrown as carom::error instead; without
- * them (-fno-exceptions) the caller looks at it. Positive ones, such as CAROM_STOPPED_AT_TIME, are always returned.
+ * A function that can fail returns its carom_status. With exceptions, a negative one is thrown as
+ * carom::error instead; without them (-fno-exceptions) the caller looks at it. Positive ones, such
+ * as CAROM_STOPPED_AT_TIME, are always returned.
  *
  *     const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
  *     const std::vector<carom_shot_ball> balls = carom::rack(CAROM_RACK_NINEBALL, table, 1e-4, 1);
@@ -56,8 +58,8 @@ inline carom_status checked(carom_status code) {
 
 /* ---- Impacts */
 
-/* Resolves in[k] to out[k]. The spans have the same length; `status` may be empty. A row in error is no error of the call: its
- * status is in status[k], and the first one is returned. */
+/* Resolves in[k] to out[k]. The spans have the same length; `status` may be empty. A row in error
+ * is no error of the call: its status is in status[k], and the first one is returned. */
 inline carom_status collide(std::span<const carom_impact> in, std::span<carom_result> out,
                             std::span<std::int8_t> status = {}, const carom_options &options = {}) {
   if (out.size() != in.size() || (!status.empty() && status.size() != in.size()))
@@ -93,8 +95,8 @@ inline std::vector<carom_shot_ball> rack(carom_rack_kind kind, const carom_table
 
 /* ---- Shots */
 
-/* A shot with its events, however many, and its final states. It keeps the balls that it began with, so that states at any time can be
- * asked for. */
+/* A shot with its events, however many, and its final states. It keeps the balls that it began
+ * with, so that states at any time can be asked for. */
 class shot {
 public:
   /* Plays it; with options.time_most or stop_at up to there. */
@@ -210,8 +212,8 @@ inline std::vector<carom_choice> plan(carom_plan_job job, int most = 1, bool in_
 
 /* ---- Recordings */
 
-/* A game that is recorded, or read: see carom_record.h. `game()` is the record; its table, balls, count, cue and options are set before
- * their lines are written. */
+/* A game that is recorded, or read: see carom_record.h. `game()` is the record; its table, balls,
+ * count, cue and options are set before their lines are written. */
 class recording {
 public:
   recording() : game_(std::make_unique<carom_record>()), text_(CAROM_RECORD_TEXT) {
@@ -224,7 +226,7 @@ public:
     return *game_;
   }
 
-  /* A line of what the game holds, until the next one; empty where it cannot be written. */
+  /* The game's next line, valid until the next call; empty where it cannot be written. */
   std::string_view write(carom_record_kind kind) {
     return {text_.data(), carom_record_write(game_.get(), kind, text_.data(), text_.size())};
   }

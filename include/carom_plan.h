@@ -91,8 +91,8 @@ typedef enum carom_foul {
   CAROM_FOUL_OTHER = 7     /* by a rule of the caller's */
 } carom_foul;
 
-/* The foul of a shot by what all games have in common, up to CAROM_FOUL_CUSHION; `on` are the balls
- * that may be met first, as a set. */
+/* The foul of a shot by the rules that all games share, up to CAROM_FOUL_CUSHION; `on` are the
+ * balls that may be met first, as a set. */
 CAROM_API carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball);
 
 /* Why, in words, such as "the cue ball met no ball"; "" for NONE and for a value not listed. */
@@ -133,7 +133,7 @@ typedef enum carom_race {
  * carom_rules_on: the balls that may be met first, and potted. */
 typedef uint32_t carom_rules_on(const uint64_t *user, uint32_t in_play);
 
-/* carom_rules_judge: what a shot amounts to. `in_play` are the balls before it; cue_ball is the
+/* carom_rules_judge: the outcome of a shot. `in_play` are the balls before it; cue_ball is the
  * index of the cue ball. Facts in which no ball was met stand for a shot that ended in an error,
  * and for one that was passed. */
 typedef carom_turn carom_rules_judge(uint64_t *user, uint32_t in_play, int cue_ball,
@@ -256,7 +256,7 @@ typedef struct carom_choice {
   uint64_t reserved[4]; /* 0. */
 } carom_choice;
 
-/* Of what a plan is. */
+/* The position for which a plan is made. */
 typedef struct carom_plan_job {
   const carom_table *table;
   const carom_shot_ball *balls; /* the layout, at rest. */
@@ -297,7 +297,7 @@ CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double l
                                        int *found);
 
 /* The chances of `n` strokes of the caller's, each of which is played options->shots / n times
- * with errors, at least 10 times. choices[k] becomes what is known of cues[k], in their order. n
+ * with errors, at least 10 times. choices[k] becomes the estimate of cues[k], in their order. n
  * at most 1000. Statuses as of carom_plan(). */
 CAROM_API carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n,
                                       carom_choice *choices);

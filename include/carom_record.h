@@ -54,7 +54,7 @@ typedef struct carom_record_end {
                      but for 1 chance in 2^64 not elsewhere. It is no signature. */
 } carom_record_end;
 
-/* A game on its way: what its lines have said so far. All zero before the first line. */
+/* A game on its way: its state after the lines so far. All zero before the first line. */
 typedef struct carom_record {
   int64_t kind;     /* of the last line: a carom_record_kind. */
   int64_t line;     /* lines so far. */
@@ -80,7 +80,7 @@ typedef struct carom_record {
   int64_t moved;             /* 1: final[] has not been put into balls[] yet. */
   carom_facts facts;         /* of the last shot. */
   carom_shot_state state;
-  char fault[192]; /* what is wrong, with the key, after CAROM_ERROR_RECORD. */
+  char fault[192]; /* the fault, with the key, after CAROM_ERROR_RECORD. */
 } carom_record;
 
 /* Reads a line of `size` bytes, with its end of line or without, into the record. A ball in hand
@@ -90,13 +90,13 @@ typedef struct carom_record {
  * CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_REVISION for a recording of another revision of the
  * physics, which would give other bits: it is not read on; CAROM_ERROR_RECORD for a line that is
  * wrong, by a key or a value or its place, or at the end other shots than were read: record->fault
- * says what is wrong. */
+ * names the fault. */
 CAROM_API carom_status carom_record_read(carom_record *record, const char *line, size_t size);
 
 /* Plays the shot of record->cue, or with CAROM_RECORD_CONTINUE goes on with one that was stopped,
  * with the bits of options.plain. The balls begin where the shot before left them. `shot` may be
- * NULL; else events, brief and room in it are the caller's, and the rest is set. Returns what
- * carom_shoot() does, or CAROM_ERROR_NULL or CAROM_ERROR_RECORD where there is nothing to play.
+ * NULL; else events, brief and room in it are the caller's, and the rest is set. Returns the status
+ * of carom_shoot(), or CAROM_ERROR_NULL or CAROM_ERROR_RECORD where there is nothing to play.
  * record->played says how it ended; after a line that was read it is to be compared with
  * record->recorded. A shot with a wrong argument changes nothing. */
 CAROM_API carom_status carom_record_play(carom_record *record, carom_record_kind kind,
@@ -110,7 +110,7 @@ CAROM_API carom_status carom_record_place(carom_record *record, int ball, double
  * them and writes CAROM_RECORD_BALLS. */
 CAROM_API carom_status carom_record_settle(carom_record *record);
 
-/* Writes a line of what the record holds, with its end of line and a closing 0, to text[room]:
+/* Writes the next line of the record, with its end of line and a closing 0, to text[room]:
  * CAROM_RECORD_TEXT bytes are enough. Returns its length without the 0; 0 where the room is too
  * small, or the line cannot stand here, as of a shot that was not played. */
 CAROM_API size_t carom_record_write(carom_record *record, carom_record_kind kind, char *text,

@@ -159,7 +159,7 @@ CAROM_API carom_status carom_cushion_check(const carom_cushion_impact *in,
 CAROM_API const char *carom_cushion_field_name(int field);
 
 /* One point of an impact. Slips are in the frame of the cushion: x along it, y into it, z up. A
- * slip is the velocity, m/s, of the surface of the ball over what it touches. */
+ * slip is the velocity, m/s, of the surface of the ball over the body it touches. */
 typedef struct carom_cushion_point {
   double normal;      /* normal impulse so far, N s. It grows during the whole impact. */
   double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
@@ -179,10 +179,10 @@ typedef struct carom_cushion_point {
 /* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of
  * normal impulse (EULER: the nearest whole steps) from 0 at points[0] to the end, which is the
  * result of carom_cushion(). `opt` may be NULL. It is not made for speed: MATHAVAN may take 400
- * iterations for each point, EULER takes n/2 times an impact. Returns what carom_cushion() does,
- * or CAROM_ERROR_CUSHION_MODEL for a model in closed form. CAROM_SEPARATING: every point is the
- * motion before, with impulse 0. An error: every number is NaN (but nothing is written when a
- * pointer is NULL or n < 2). */
+ * iterations for each point, EULER takes n/2 times an impact. Returns the status of
+ * carom_cushion(), or CAROM_ERROR_CUSHION_MODEL for a model in closed form. CAROM_SEPARATING: every
+ * point is the motion before, with impulse 0. An error: every number is NaN (but nothing is written
+ * when a pointer is NULL or n < 2). */
 CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
                                            const carom_cushion_options *opt, size_t n,
                                            carom_cushion_point *points);
@@ -661,7 +661,7 @@ typedef struct carom_facts {
 } carom_facts;
 
 /* The result of a shot. All zero is a shot of which only count and time are wanted; the caller
- * sets what else is. */
+ * sets the others. */
 typedef struct carom_shot {
   carom_event *events;      /* in the order in which they happened; the first `room` of them are
                                kept. May be NULL, */
@@ -675,10 +675,10 @@ typedef struct carom_shot {
                   events_most ended the shot while balls with drag rolled, up to when they were
                   followed. carom_shot_at() knows no later state of a shot that ended while balls
                   moved. */
-  carom_shot_state *state; /* where the shot leaves what carom_shot_continue() needs; may be
+  carom_shot_state *state; /* where the shot stopped, for carom_shot_continue(); may be
                               NULL. */
-  carom_facts *facts;      /* what happened; may be NULL. carom_shot_continue() adds to the facts
-                              of the shot so far. */
+  carom_facts *facts;      /* of the whole shot; may be NULL. carom_shot_continue() adds to the
+                              facts of the shot so far. */
   uint64_t reserved[3];    /* not read or written yet. */
 } carom_shot;
 
@@ -706,7 +706,7 @@ typedef struct carom_cluster_contact {
  * Coulomb's friction, for which mu falls with the greatest slip so far; on the cloth, the
  * friction of the cloth too. Balls that are not in contact yet, but near, take part where they
  * are touched while a contact lasts (0.2 to 0.6 ms in truth). docs/understanding/clusters.md has
- * the equations, their limits and what they explain. One contact alone has the law of
+ * the equations, their limits and what follows. One contact alone has the law of
  * carom_collide(), within 4e-4 of the closing speed.
  *
  * Balls touch that are less than 1e-9 m apart. They are in space where one of them is
@@ -757,10 +757,10 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
  *       status = carom_shot_continue(&table, balls, 10, &options, &shot);
  *     }
  *
- * Returns what carom_shoot() does. With nothing written: CAROM_ERROR_STATE: shot->state is
+ * Returns the status of carom_shoot(). With nothing written: CAROM_ERROR_STATE: shot->state is
  * damaged or of another build, the shot ended in an error other than a bound, or shot->count or
  * ->time cannot be. CAROM_ERROR_STATE_TABLE, CAROM_ERROR_STATE_BALLS, CAROM_ERROR_STATE_OPTIONS:
- * the table, the balls or their layout, or what `options` say besides when to stop, are not
+ * the table, the balls or their layout, or `options` other than those of when to stop, are not
  * those of the call that stopped. CAROM_ERROR_TIME_MOST: time_most is before the time at which
  * the shot stopped. */
 CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls,
@@ -778,7 +778,7 @@ CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count,
 
 /* The states at `n` times: those of times[k] go to states[k * count ...], each with the bits of
  * carom_shot_at(). Times in ascending order cost some 20 ns a ball; every one before the last
- * begins anew with the first event. Returns what carom_shot_at() does, for the first time in
+ * begins anew with the first event. Returns the status of carom_shot_at(), of the first time in
  * error; the states of the times before it have been written. */
 CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int count,
                                            const carom_shot *shot, const double *times, size_t n,
@@ -814,8 +814,8 @@ typedef struct carom_shot_job {
                                         first. */
   uint64_t n;                        /* shots. */
   const carom_shot_options *options; /* NULL: the defaults. `threads` is read here only. */
-  carom_shot *shots;                 /* n results, in which the caller has set what is wanted, as
-                                        for carom_shoot(). */
+  carom_shot *shots;                 /* n results, in which the caller has set the wanted members,
+                                        as for carom_shoot(). */
   int8_t *status;                    /* n statuses; may be NULL. */
   uint64_t reserved[4];              /* must be 0. */
 } carom_shot_job;
@@ -851,11 +851,11 @@ CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_bal
                                         int ball, double x, double y, carom_part *in_the_way);
 
 /* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x,
- * y, z), which take what is painted on a ball at the start to where it is at the time. They
+ * y, z), which turn the marks on a ball from the start to the time. They
  * follow from the events alone, whatever was asked before. Exact but for rounding while the axis
  * of the spin keeps its direction (in flight, on the spot, rolling without side spin, in
  * straight slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of
- * them. Returns what carom_shot_at() does. A call costs some 0.1 us for each radian that balls
+ * them. Returns the status of carom_shot_at(). A call costs some 0.1 us for each radian that balls
  * with side spin have turned. */
 CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count,
                                               const carom_shot *shot, double time,

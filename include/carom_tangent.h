@@ -3,7 +3,7 @@
  *
  * A direction says how all inputs change together: numbers of the cue, constants of the balls,
  * their states, noses and cushions of the table. A tangent is the derivative of a result in a
- * direction: what changes, per unit of the direction, while the events and their order stay as
+ * direction: its change, per unit of the direction, while the events and their order stay as
  * they are. It is exact for small changes and says nothing about larger ones. With table, balls,
  * cue and shot of the sample of whole shots in carom_shot.h:
  *
@@ -24,7 +24,7 @@
  *     // change[i][0][1]: by how many metres the place x of ball i moves per degree of phi,
  *     // for less than reach[1] degrees
  *
- * docs/using/derivatives.md tells what tangents mean and what they cannot tell;
+ * docs/using/derivatives.md tells the meaning and the limits of tangents;
  * docs/understanding/gradients.md has the equations and the errors that were measured.
  *
  * Units are those of carom_shot.h; of the angles phi and theta degrees. Arrays are in row order
@@ -74,8 +74,8 @@ typedef enum carom_tangent_flag {
                              pieces that shots follow. */
 } carom_tangent_flag;
 
-/* What changes in each of `directions` m, 1 to 64. NULL stands for zeros. Numbers for what a
- * shot does not read are not read: nose heights and cushions of the table count where the ball,
+/* The changes in each of `directions` m, 1 to 64. NULL stands for zeros. Numbers that a
+ * shot does not use are not read: nose heights and cushions of the table count where the ball,
  * or the part, has none of its own. */
 typedef struct carom_tangent_seeds {
   int64_t directions;
@@ -150,16 +150,15 @@ typedef struct carom_tangent_job {
  * has them, with nothing written. */
 CAROM_API carom_status carom_shot_tangent_batch(const carom_tangent_job *job);
 
-/* Derivatives of carom_collide() by the exact solver: tangent[12][m] = J seeds[26][m], in the
- * order of the doubles of carom_result and carom_impact. Of the seeds only those of r[0] and
- * r[1], v[0] and v[1], w, radius of a, mass, mu_cloth, mu_ball and restitution are read. By the
- * slip of a ball that rolls and is pressed into the cloth there is no derivative: it is taken to
- * go on rolling in every direction, and directions in which it would slide set
- * CAROM_TANGENT_KINK. It rolls where its slip is at most 1e-12 of its speeds. *flags (may be
- * NULL) becomes a sum of CAROM_TANGENT_KINK and CAROM_TANGENT_DIFFERENCES.
- * Returns what carom_collide() does: after CAROM_SEPARATING the tangents are those of the motion
- * before, after an error all are NaN; CAROM_ERROR_DIRECTIONS; CAROM_ERROR_TANGENT for options
- * other than the exact solver and the slip of the paper. */
+/* Derivatives of carom_collide() by the exact solver: tangent[12][m] = J seeds[26][m], in the order
+ * of the doubles of carom_result and carom_impact. Of the seeds only those of r[0] and r[1], v[0]
+ * and v[1], w, radius of a, mass, mu_cloth, mu_ball and restitution are read. By the slip of a ball
+ * that rolls and is pressed into the cloth there is no derivative: it is taken to go on rolling in
+ * every direction, and directions in which it would slide set CAROM_TANGENT_KINK. It rolls where
+ * its slip is at most 1e-12 of its speeds. *flags (may be NULL) becomes a sum of CAROM_TANGENT_KINK
+ * and CAROM_TANGENT_DIFFERENCES. Returns the status of carom_collide(): after CAROM_SEPARATING the
+ * tangents are those of the motion before, after an error all are NaN; CAROM_ERROR_DIRECTIONS;
+ * CAROM_ERROR_TANGENT for options other than the exact solver and the slip of the paper. */
 CAROM_API carom_status carom_collide_tangent(const carom_impact *in, const carom_options *opt,
                                              int64_t directions, const double *seeds,
                                              double *tangent, int32_t *flags);

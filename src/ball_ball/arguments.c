@@ -13,7 +13,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Radii, heights and vertical velocities come out of other programs' arithmetic; what is below
+/* Radii, heights and vertical velocities come out of other programs' arithmetic; an amount below
  * this share of the radius, of the distance or of the speed moves no result beyond rounding of
  * the solvers' own size. */
 static const double level = 1e-9;

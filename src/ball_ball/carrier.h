@@ -8,8 +8,8 @@
  *
  * A batch computes LANES collisions at once: a vreal has a lane for each, and so has a reg,
  * which holds one node of each of them. A single call (CAROM_LANES_ONE) computes one: a vreal is
- * a float, and a reg or two hold all nodes, so that a chain of dependent operations, which is
- * what a single call waits for, is gone through once for all of them. Sums over nodes are taken
+ * a float, and a reg or two hold all nodes, so that the chain of dependent operations, which
+ * bounds the time of a single call, is gone through once for all of them. Sums over nodes are taken
  * in the same order in both, so the bits are the same. In a step of four nodes a reg of eight
  * has four to spare, whose junk no sum and no maximum takes in.
  */

@@ -259,8 +259,8 @@ static size_t solve_part(const void *job, size_t from, size_t end) {
                                  b->status != NULL ? b->status + from : NULL);
 }
 
-/* Fewer pairs than this are not worth a thread: about 50 us of work, some times what starting
- * one costs. */
+/* Fewer pairs than this are not worth a thread: about 50 us of work, some times the cost of
+ * starting one. */
 static size_t least_part(const carom_options *opt) {
   const size_t exact = 4096, least = 4, euler = 4000 / (size_t)carom_steps(opt);
   if (opt->solver != CAROM_SOLVER_EULER)
@@ -298,8 +298,8 @@ carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const
   return collide_batch(CAROM_F32, in, n, opt, out, status);
 }
 
-/* ---- Friction around the collision: between the balls, by the speed of their slip; and what
- * the cloth makes of a ball later ---- */
+/* ---- Friction around the collision: between the balls, by the speed of their slip; and the
+ * cloth's friction on a ball later ---- */
 
 carom_speed_law carom_alciatore(void) {
   return (carom_speed_law){.a = 0.009951, .b = 0.108, .c = 1.088};

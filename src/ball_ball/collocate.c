@@ -48,7 +48,7 @@ static const float MOST_EASY_MU_MU_B = 5e-3f; /* and its mu mu_b q^2 */
 static const float FULL_Q = 0.66f;            /* q of a FULL step over even nodes, */
 static const float FULL_GRADED_Q = 0.96f;     /* and over graded ones */
 static const float BEND_4 = 20,
-                   BEND_8 = 30;     /* by q^2: what a way that is not straight adds to the error,
+                   BEND_8 = 30;     /* by q^2: a way that is not straight adds this to the error,
                                        with 4 nodes and with more */
 static const float STICK_Q = 1.05f; /* q from which the balls will stick */
 static const float TURN_Q = 0.5f;   /* q of a TURN step */

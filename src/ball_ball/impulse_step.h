@@ -18,8 +18,8 @@
  * THE ITERATION takes the directions at the nodes through the integration matrix to the slips
  * there, and these to new directions. The cloth converges by itself, since mu mu_b is
  * small. An angle rho by which u has moved would turn friction the wrong way, and u back: rho
- * less the integral of D rho, where D = mu_b L kappa (5/2 + sigma^2) / |u|, is nearly what
- * Newton's method would leave of it, since |u| falls at about the rate D |u|.
+ * less the integral of D rho, where D = mu_b L kappa (5/2 + sigma^2) / |u|, is nearly the
+ * remainder after a step of Newton's method, since |u| falls at about the rate D |u|.
  *
  * A collision's iteration ends when its error estimate is small enough, whatever the other lanes
  * do. */

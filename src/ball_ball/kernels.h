@@ -27,8 +27,8 @@ typedef float step_inputs[IN_COLUMNS][MOST_LANES];
 typedef float step_outputs[OUT_COLUMNS][MOST_LANES];
 typedef float lane_state[LANE_COLUMNS][MOST_LANES];
 
-/* Kinds of steps (collocate.c), FULL over even or over graded nodes; and what else may come
- * next: a collision is solved, or collocation refuses it. */
+/* Kinds of steps (collocate.c), FULL over even or over graded nodes; and the other things that may
+ * come next: a collision is solved, or collocation refuses it. */
 enum step_kind {
   EASY,
   FULL,
@@ -113,7 +113,7 @@ CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES
 
 /* In a source of kernels: the name of one, of the build's instruction set or of its precision
- * too; and what that is. */
+ * too; and that set's name. */
 #ifdef CAROM_LANES_SUFFIX
 #ifdef CAROM_LANES_F32
 #define KERNEL_SUFFIX f32
@@ -143,8 +143,8 @@ static inline size_t carom_result_size(carom_precision precision) {
   return precision == CAROM_F64 ? sizeof(carom_result) : sizeof(carom_result_f32);
 }
 
-/* One pair by a single call, with the checks and the status of carom_collide(): what lanes leave
- * to it is a row that is not plainly good. `in` and `out` are of the precision. */
+/* One pair by a single call, with the checks and the status of carom_collide(): lanes leave to it
+ * each row that is not plainly good. `in` and `out` are of the precision. */
 carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt,
                                void *out);
 

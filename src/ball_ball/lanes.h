@@ -2,8 +2,8 @@
  * so that its algebra reads like docs/understanding/physics.md.
  *
  * A `vreal` holds LANES numbers of type `real`, one pair of balls in each. + - * / and unary -
- * are the compiler's own (GNU vector extensions); comparisons, selection and what else the
- * extensions lack are the functions below. A `vmask` holds a truth value for each lane; masks
+ * are the compiler's own (GNU vector extensions); comparisons, selection and all else that
+ * the extensions lack are the functions below. A `vmask` holds a truth value for each lane; masks
  * combine with & and | and v_not().
  *
  * A source is compiled once for each instruction set and precision, with exactly one of
@@ -36,8 +36,8 @@
 #endif
 #endif
 
-/* WebAssembly's vectors are no instruction set of its own: PLAIN has instructions there for what
- * the extensions lack, with the same bits. */
+/* WebAssembly's vectors are no instruction set of its own: PLAIN has instructions there for the
+ * operations that the extensions lack, with the same bits. */
 #if defined(CAROM_LANES_PLAIN) && defined(__wasm_simd128__)
 #include <wasm_simd128.h>
 #define LANES_WASM 1

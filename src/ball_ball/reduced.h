@@ -86,8 +86,8 @@ static inline void carom_restore(const carom_reduced *r, const carom_integrals *
   c->w_jz += r->j_pressed ? p_wz : o_wz;
 }
 
-/* ---- In the terms of impact/law.h, for the precise solver: it solves what the fast steps
- * refuse, and follows traces ---- */
+/* ---- In the terms of impact/law.h, for the precise solver: it solves inputs that the fast
+ * steps refuse, and follows traces ---- */
 
 static inline carom_law carom_law_of_balls(const carom_reduced *c) {
   return (carom_law){.K_x = 3.5 * c->kappa,

@@ -1,7 +1,7 @@
 /* The step in the slip between the balls, to where they stick.
  *
- * With u_z = u_z0 lambda^5, lambda falls from 1 to 0. Nothing can be overshot, and what is
- * singular in p is smooth in lambda. With tau = t / (kappa + mu t_y) and W = u_x / lambda^5 the
+ * With u_z = u_z0 lambda^5, lambda falls from 1 to 0. Nothing can be overshot, and functions
+ * singular in p are smooth in lambda. With tau = t / (kappa + mu t_y) and W = u_x / lambda^5 the
  * equations of reduced.h become
  *
  *     p = 2 / (mu_b kappa) int lambda^4 sqrt(u_z0^2 + W^2) (1 - mu tau_y)

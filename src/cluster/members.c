@@ -14,7 +14,7 @@
 #include <string.h>
 
 static const double reach = 2.0;     /* of delta */
-static const double touching = 1e-9; /* m: what is nearer touches */
+static const double touching = 1e-9; /* m: a nearer ball touches */
 static const double far = 0.01;      /* m: balls that are farther apart do not come to touch
                                         within a cluster */
 static const double least_restitution = 0.2;

@@ -195,7 +195,7 @@ static void plan_carefully(const carom_trajectory *path, const step_start *s, pl
 }
 
 /* Whether the equations for b are stiff: b is quasi-steady, so that friction nearly balances
- * what drives it, or begins from zero while friction is strong. */
+ * the force that drives it, or begins from zero while friction is strong. */
 static bool cloth_is_stiff(const carom_trajectory *path, const step_start *s) {
   /* |b|' by friction alone; it must be able to stop b several times before the goal */
   const double friction = path->terms.H_y * s->w;
@@ -493,7 +493,7 @@ carom_status CAROM_IMPACT_ADVANCE(carom_trajectory *path, double to, int most) {
     if (path->iterations >= most || !next_step(path, to) || !(path->at.growth <= MOST_GROWTH) ||
         !(path->across <= MOST_ACROSS) || (path->restitution && path->at.v > AGAIN))
       return CAROM_ERROR_UNRESOLVED;
-    /* the first stick; and what holds both contacts ends the impact */
+    /* the first stick; a regime in which both contacts hold ends the impact */
     if (path->regime.held && isnan(path->p_stick))
       path->p_stick = path->at.p;
     if ((path->regime.held && path->regime.cloth_held) || carom_impact_jams(path))

@@ -46,7 +46,7 @@ typedef struct carom_trajectory {
   bool restitution, ended; /* v = 0 is passed; nothing follows */
   double W_c;              /* int v dp over compression */
   double across;           /* of planar motion, where H < 0: the slip across the plane that
-                              friction may have made of what counts as none there. 0 if there is
+                              friction may have made of a slip that counts as none. 0 if there is
                               none */
   double p_stick;          /* p where friction first held the driving contact; NaN before that */
   int iterations;          /* of all steps so far; each computes the rates at eight nodes */

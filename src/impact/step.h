@@ -8,7 +8,7 @@
  *     w  = (w_0 + w_u u_y) / (1 - w_t t_y)
  *
  * Where the driving contact holds there is no u, and where the cloth holds or bears no load w =
- * 0; the coefficients contain what holds (contact.c).
+ * 0; the coefficients contain the holding contacts (contact.c).
  *
  * COLLOCATION. A map takes X in [0, 1] to p, with dp = z dX. With M the matrix that integrates
  * the polynomial through the nodes, the directions u, t at the nodes have to be those of
@@ -29,8 +29,8 @@
  * END. The step ends at a given p or at one of the events of `enum goal`. Then its length is
  * unknown, and each iteration corrects it by Newton's method from the rates at the last node.
  *
- * ERROR. The error at the end is of the order of the square of what the polynomials of a' and b'
- * miss. The estimate of that is the coefficient of their highest Legendre polynomial. */
+ * ERROR. The error at the end is of the order of the square of the misfit of the polynomials of a'
+ * and b'. The estimate of the misfit is the coefficient of their highest Legendre polynomial. */
 #ifndef CAROM_SRC_IMPACT_STEP_H
 #define CAROM_SRC_IMPACT_STEP_H
 

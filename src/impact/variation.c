@@ -293,8 +293,8 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
       const double near = (f[2][r] - f[1][r]) / (2 * h), far = (f[3][r] - f[0][r]) / (4 * h);
       error = fmax(error, fabs(near - far) / 3);
       most = fmax(most, fabs(near));
-      /* what the slopes to both sides differ by, less what a smooth function has in proportion
-       * to h */
+      /* the difference of the slopes to both sides, less a smooth function's, which is in
+       * proportion to h */
       const double less = f[2][r] + f[1][r] - 2 * here[r], more = f[3][r] + f[0][r] - 2 * here[r];
       bend = fmax(bend, fabs(2 * less - 0.5 * more) / h);
     }

@@ -38,7 +38,7 @@ typedef struct carom_variation {
   /* the derivatives of the coefficients of path->terms by the variables, for `regime` */
   double d_terms[sizeof(carom_terms) / sizeof(double)][CAROM_VARIABLES];
   double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: that of path->at; those
-                                              by what is not asked are 0 */
+                                              by others than those asked are 0 */
   const carom_law *d_law;                  /* by lambda */
   unsigned asked;                          /* bit k: by variable k */
   int regime;

@@ -29,8 +29,8 @@ static const double ESTIMATE_AT_STICK = 1e-12; /* of one at whose end a slip is 
 static const double SHORTEST = 1e-8;           /* length of a step that is taken in any case */
 static const double SHARE = 0.8;  /* of the longest step that slides: a longer one would often be
                                      refused, or be inaccurate */
-static const double SMALL = 0.05; /* a slip that may turn fast: what a shift along the motion
-                                     changes is split off */
+static const double SMALL = 0.05; /* a slip that may turn fast: the change by a shift along
+                                     the motion is split off */
 
 /* Rates at the nodes times z, or their derivatives: of a_x, a_y, b_x, b_y, v. */
 typedef nodes node_rates[5];
@@ -196,8 +196,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   node_derivatives(k, z, u_x, u_y, t_x, t_y, w, per, by_u, by_t);
   if (parameters)
     parameter_derivatives(k, g, z, u_x, u_y, t_x, t_y, w, per, by);
-  /* the angles: of u as if t did not change, of t by the Schur complement, and what t changes of
-   * u */
+  /* the angles: of u as if t did not change, of t by the Schur complement, and the change of u
+   * by t */
   matrix of_u, of_t, of_tu;
   table phi, psi, right;
   nodes rate_x, rate_y, along;

@@ -13,9 +13,9 @@
  *
  *   v = V (cos(alpha) (cos(theta) d - sin(theta) z) + sin(alpha) l)
  *
- * the blow alone, which drives the ball into the slate; shot/fixed.c has what the slate makes of
- * it. With theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30 and TP
- * A-31; pooltool's. */
+ * the blow alone, which drives the ball into the slate; shot/fixed.c has the impact of the
+ * ball on it. With theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30
+ * and TP A-31; pooltool's. */
 #include "motion/strike.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"

@@ -152,7 +152,7 @@ static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state 
                .pocket = -1,
                .first = (int8_t)facts->first[0]};
 
-  /* what it calls */
+  /* its call */
   if (call.ball == CAROM_CALL_PUSH)
     o.ball = CAROM_CALL_PUSH;
   if (call.ball >= 0 && (turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN)) {
@@ -547,7 +547,8 @@ static double scan_of(const carom_plan_options *o) {
   return o->scan == 0.0 ? 0.5 : o->scan > 0.0 ? o->scan : 0.0;
 }
 
-/* Pots, what the scan keeps and half as much again that it tries, and what small numbers need. */
+/* Pots, the shots that the scan keeps, half as many again that it tries, and room for small
+ * numbers. */
 static int64_t most_candidates(int64_t shots, double scan) {
   return (int64_t)((1.0 - scan) * (double)shots / 4.0) + (int64_t)(1.5 * scan * (double)shots) +
          SPARE;

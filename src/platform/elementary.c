@@ -164,7 +164,7 @@ double carom_atan(double x) {
                                       0x1.921fb54442d18p-1};
   if (isnan(x))
     return x;
-  /* |x| as z in 0 to 1, by eighths and what is left */
+  /* |x| as z in 0 to 1, by eighths and a remainder */
   const double z = fabs(x) > 1.0 ? 1.0 / fabs(x) : fabs(x);
   const int k = (int)(8.0 * z + 0.5);
   const double eighths = 0.125 * k, t = (z - eighths) / (1.0 + z * eighths), t2 = t * t;

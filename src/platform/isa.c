@@ -23,9 +23,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* clang has no macro for some flags by which it changes results. They show in what it takes for
- * constant whatever x is; the call that this leads to is then an error of the compiler. Without
- * optimisation the flags have no effect, nor has this. */
+/* clang has no macro for some flags by which it changes results. They show in the expressions it
+ * takes for constant whatever x is; the call that this leads to is then an error of the compiler.
+ * Without optimisation the flags have no effect, nor has this. */
 #if defined(__has_attribute)
 #if __has_attribute(error)
 #define REFUSE(name, flag)        \

@@ -8,8 +8,8 @@
  *                 ROOT/CONTROLLERS/PATH/cpu.cfs_quota_us, -1 for none, and cpu.cfs_period_us
  *
  * A group's limit holds for all groups below it, so the smallest on the way up counts. Inside a
- * container the path may be that of the host, which is not mounted; what is mounted at ROOT then
- * is the container's own group, and the way up ends there. Source: the Linux kernel's
+ * container the path may be that of the host, which is not mounted; the directory mounted at ROOT
+ * then is the container's own group, and the way up ends there. Source: the Linux kernel's
  * documentation, admin-guide/cgroup-v2.rst and scheduler/sched-bwc.rst.
  */
 #if defined(__linux__)

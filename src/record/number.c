@@ -128,7 +128,7 @@ static const char *read_hexadecimal(const char *at, const char *end, double *x) 
   int e;
   if (at == end || *at++ != 'p' || (at = read_exponent(at, end, &e)) == NULL)
     return NULL;
-  /* only what is written: 1.5 of a normal number, 0.5 of one below these */
+  /* only the form that is written: 1.5 of a normal number, 0.5 of one below these */
   if (normal ? e < 1 - BIAS || e > BIAS : e != 1 - BIAS || fraction == 0)
     return NULL;
   const uint64_t bits =

@@ -184,7 +184,7 @@ static char *put(char *to, const char *limit, const char *text) {
   return to;
 }
 
-/* Says what is wrong with the value of a key, by its whole path; returns false. */
+/* Writes the fault of the value of a key, by its whole path; returns false. */
 static bool wrong(reader *in, const char *what) {
   carom_record *record = in->record;
   char *to = record->fault, *limit = to + sizeof record->fault - 1;
@@ -505,7 +505,7 @@ carom_status carom_record_read(carom_record *record, const char *line, size_t si
   if (in.at == in.end)
     return CAROM_OK;
   const bool good = read_line(&in, &kind);
-  record->kind = good ? kind : CAROM_RECORD_END; /* nothing is read behind what is wrong */
+  record->kind = good ? kind : CAROM_RECORD_END; /* nothing is read behind a fault */
   if (good && kind == CAROM_RECORD_HEAD && record->revision != carom_physics_revision()) {
     record->kind = CAROM_RECORD_END;
     return CAROM_ERROR_REVISION;
@@ -536,7 +536,7 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
   options.plain = 1;
   options.threads = 0;
 
-  /* where it begins, and what it leaves; the state of a stop costs as much as a short shot */
+  /* the end that the shot before left; a copy of the state costs as much as a short shot */
   const carom_ball_state first = record->final[0];
   if (!goes)
     carom_record_settle(record);

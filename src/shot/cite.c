@@ -172,7 +172,7 @@ size_t carom_cite(const carom_shot_options *options, char *text, size_t room) {
   const unsigned reasons = reasons_of(o);
   size_t length = 0;
   for (size_t k = 0; k < sizeof entries / sizeof entries[0]; k++) {
-    /* an empty line stands between entries; what does not fit is counted only */
+    /* an empty line stands between entries; text that does not fit is only counted */
     const char *parts[] = {length > 0 ? "\n" : "", entries[k].text};
     for (size_t p = 0; p < 2 && (entries[k].reasons & reasons) != 0; p++)
       for (const char *c = parts[p]; *c != '\0'; c++, length++)

@@ -161,7 +161,7 @@ static double press_parts(const press *p) {
   const double y = carom_greater(p->d - (1.0 - e2) * p->d_max, 0.0);
   const double energy = kinetic + k / (p->e * e2) * y * y * sqrt(y),
                work = k * p->d_max * p->d_max * sqrt(p->d_max);
-  /* loading again takes what is more than was given back so far */
+  /* loading again takes only the energy above that given back so far */
   const bool again = p->v > 0.0 && energy > e2 * work;
   return again ? p->e * sqrt(2.0 * (work + energy - e2 * work)) : sqrt(2.0 * energy);
 }

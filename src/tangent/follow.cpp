@@ -11,7 +11,7 @@
  *     dT = -(dg . d) / (dg . x'),      dx- = d + x' dT.
  *
  * The end of a phase is a number that knows its own derivatives. So contacts are resolved from
- * dx-, by the sources of the shot, and what they make of it is the state from which the next
+ * dx-, by the sources of the shot, and their result is the state from which the next
  * path begins, at T + dT.
  *
  * CLUSTERS. All balls of a cluster change at the time of the contact that starts it. Their

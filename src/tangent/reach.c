@@ -22,8 +22,8 @@
 #include <string.h>
 
 static const double NEAR = 0.2;      /* m: gaps beyond are not asked for; */
-static const double TOUCHING = 2e-4; /* nor those up to this, of what touched or nearly did as
-                                        the way began */
+static const double TOUCHING = 2e-4; /* nor those up to this, of bodies that touched or nearly did
+                                        as the way began */
 enum { PARTS_OF_WAY = 6, BISECTIONS = 30 };
 
 void carom_reach_go_on(carom_tangent_work *work, int i) {
@@ -288,9 +288,8 @@ void carom_reach_misses(carom_reach *reach, const carom_event *event) {
     misses_of(reach, event->b, event);
 }
 
-/* A hit on what is d away and comes nearer by v, with their tangents in one direction; r: the
- * sum of the radii, 0 for no hit.
- */
+/* A hit on a body that is d away and comes nearer by v, with their tangents in one direction; r:
+ * the sum of the radii, 0 for no hit. */
 typedef struct hit {
   double d[3], v[3], dd[3], dv[3], r;
 } hit;
@@ -352,7 +351,7 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tang
   }
   if (!at_nose)
     return h;
-  /* along what points from the nose to the ball, which takes the place of x */
+  /* along the vector from the nose to the ball, which takes the place of x */
   const double height =
       carom_nose_height(kind, is_jaw ? table->jaw[event->b].height : table->rail[event->b].height);
   const double q = sqrt(h.d[0] * h.d[0] + h.d[1] * h.d[1]);

@@ -15,7 +15,8 @@ typedef struct carom_reach {
 void carom_reach_begin(carom_reach *reach, carom_tangent_work *work);
 /* Ball i begins its path, on which it misses things. */
 void carom_reach_go_on(carom_tangent_work *work, int i);
-/* The next event, while the paths are still those before it: what its balls missed on them. */
+/* The next event, while the paths are still those before it: the bodies that its balls missed on
+ * them. */
 void carom_reach_misses(carom_reach *reach, const carom_event *event);
 /* Event k, with its tangents in `work`: whether it would be a miss, or come before the last one
  * of its balls. */

@@ -1,6 +1,5 @@
 /* Derivatives in several directions, a pass of at most CAROM_TANGENT_COLUMNS of them at a time:
- * what the C of this room and its C++, follow.cpp, have in common. README.md tells how they
- * work. */
+ * the common part of this room's C and its C++, follow.cpp. README.md tells how they work. */
 #ifndef CAROM_SRC_TANGENT_WORK_H
 #define CAROM_SRC_TANGENT_WORK_H
 
@@ -58,7 +57,7 @@ typedef struct carom_tangent_work {
   int64_t slow_instants; /* as in carom_sim */
   double slow_last;
   carom_tangent_ball ball[CAROM_BALLS_MOST];
-  /* of the last event: what is said of it, the tangent of its time, total tangents before it, of
+  /* of the last event: its flags, the tangent of its time, total tangents before it, of
    * both balls */
   carom_tangent_note note;
   carom_tangent_row time;
