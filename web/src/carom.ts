@@ -198,6 +198,7 @@ export class Carom {
       statusName: (code) => this.statusName(code),
       cue: (fields) => this.cue(fields),
       writeShotOptions: (options) => this.#writeShotOptions(options),
+      played: (...of) => this.#played(...of),
       refuse: (code, field) => this.#refuse(code, field),
     };
     const names = (name: (kind: number) => Pointer, found = new Map<string, number>()): Map<string, number> => {

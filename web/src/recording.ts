@@ -2,12 +2,15 @@
 import { CaromError } from "./error.js";
 import { layout, values } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
-import { readBalls, readState, readStruct, readTable, writeBalls, writeStruct, writeTable } from "./structs.js";
+import type { Shot } from "./shot.js";
+import { readBalls, readStruct, readTable, writeBalls, writeStruct, writeTable } from "./structs.js";
 import type { BallState, Cue, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
 
 const RECORD = layout.carom_record.offset;
 const END = layout.carom_record_end.offset;
 const OPTIONS = layout.carom_shot_options;
+const SHOT = layout.carom_shot;
+const EVENT_SIZE = layout.carom_event.size;
 
 /** How a shot ended. */
 export interface ShotEnd {
@@ -37,6 +40,8 @@ export interface Replayed {
   /** Whether every bit of its end agrees. */
   same: boolean;
   final: BallState[];
+  /** What was played, with its events and places at any time; of one that continues, from the start of the shot. */
+  film: Shot;
 }
 
 /** What the calls of this file need of the library. */
@@ -45,6 +50,7 @@ export interface Host {
   statusName(code: number): string;
   cue(fields: Partial<Cue>): Cue;
   writeShotOptions(options: ShotOptions): Pointer;
+  played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer): Shot;
   refuse(code: number, field?: string): void;
 }
 
@@ -74,10 +80,6 @@ class Game {
     };
   }
 
-  get final(): BallState[] {
-    return Array.from({ length: this.number(RECORD.count) }, (_, k) => readState(this.#host.memory, this.at + RECORD.final + k * layout.carom_ball_state.size));
-  }
-
   /** Throws what is wrong with a line. */
   refuse(code: number): void {
     const line = `line ${this.number(RECORD.line)}`;
@@ -90,9 +92,38 @@ class Game {
     }
   }
 
+  /** A carom_shot, and memory for its events. */
+  #shot: Pointer = 0;
+  #events: Pointer = 0;
+  #room = 0;
+
+  /** Plays a shot with all of its events. Where they need more memory, it is played again: it has the same bits. */
+  play(kind: number): number {
+    const { memory } = this.#host;
+    if (this.#shot === 0) this.#shot = memory.allocate(SHOT.size);
+    const before = memory.u8.slice(this.at, this.at + layout.carom_record.size);
+    for (;;) {
+      memory.u8.fill(0, this.#shot, this.#shot + SHOT.size);
+      memory.u32[(this.#shot + SHOT.offset.events) / 4] = this.#events;
+      memory.i64[(this.#shot + SHOT.offset.room) / 8] = BigInt(this.#room);
+      const code = memory.exports.carom_record_play(this.at, kind, this.#shot);
+      const count = Number(memory.i64[(this.#shot + SHOT.offset.count) / 8]);
+      if (count <= this.#room) return code;
+      // Those of a shot that goes on stay.
+      const events = memory.allocate(2 * count * EVENT_SIZE);
+      memory.u8.copyWithin(events, this.#events, this.#events + this.#room * EVENT_SIZE);
+      memory.free(this.#events);
+      [this.#events, this.#room] = [events, 2 * count];
+      memory.u8.set(before, this.at);
+    }
+  }
+
+  film(code: number, table: Table, balls: readonly ShotBall[]): Shot {
+    return this.#host.played(table, balls, code, this.#shot, this.at + RECORD.final, this.#events);
+  }
+
   free(): void {
-    this.#host.memory.free(this.at);
-    this.#host.memory.free(this.text);
+    for (const at of [this.at, this.text, this.#shot, this.#events]) this.#host.memory.free(at);
   }
 }
 
@@ -204,21 +235,25 @@ export function* replayed(host: Host, recording: string | Iterable<string>): Gen
       game.refuse(bytes.length === 0 ? 0 : memory.exports.carom_record_read(game.at, at, bytes.length));
       if (game.number(RECORD.pending) !== 1) continue;
       const kind = game.number(RECORD.kind);
-      const code = memory.exports.carom_record_play(game.at, kind, 0);
+      const code = game.play(kind);
       if (game.number(RECORD.pending) === 1) host.refuse(code, `line ${game.number(RECORD.line)}`);
       const recorded = game.end(RECORD.recorded);
       const played = game.end(RECORD.played);
+      const table = readTable(memory, game.at + RECORD.table);
+      const balls = readBalls(memory, game.at + RECORD.balls, game.number(RECORD.count));
+      const film = game.film(code, table, balls);
       yield {
         shot: game.number(RECORD.shots),
         line: game.number(RECORD.line),
         continues: kind === values.CAROM_RECORD_CONTINUE,
-        table: readTable(memory, game.at + RECORD.table),
-        balls: readBalls(memory, game.at + RECORD.balls, game.number(RECORD.count)),
+        table,
+        balls,
         cue: readStruct<Cue>(memory, game.at + RECORD.cue, "carom_cue"),
         recorded,
         played,
         same: (Object.keys(played) as (keyof ShotEnd)[]).every((key) => Object.is(played[key], recorded[key])),
-        final: game.final,
+        final: [...film.final],
+        film,
       };
     }
     if (game.number(RECORD.kind) !== values.CAROM_RECORD_END) {

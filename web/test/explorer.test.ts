@@ -6,7 +6,7 @@ import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { type Browser, chromium, type Page } from "playwright-core";
-import { root, run, thereIsACommand } from "./support.js";
+import { builds, root, run, thereIsACommand } from "./support.js";
 
 const browserPath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
 const page = `${root}web/explorer/dist/index.html`;
@@ -318,7 +318,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await drag(one, [-0.045, 0.12], [0.9, 0.5], touch);
     expect((await lies(one))["1"]!.map((x) => Math.round(100 * x) / 100)).toEqual([0, 0.9, 0.5].map((x, k) => (k ? expect.closeTo(x, 1) : x)));
     expect(await one.evaluate(() => scrollY)).toBe(0);
-    // turned in place by the wheel
+    // turned in place by the wheel, or by the handle of a ball that is picked
     if (!touch) {
       await one.mouse.move(...(await on(one, before["9"]![1]!, before["9"]![2]!)));
       for (let k = 0; k < 9; k++) await one.mouse.wheel(0, 100);
@@ -326,6 +326,62 @@ describe.runIf(browserPath !== undefined)("the page", () => {
       expect(await lies(one)).toMatchObject({ 9: before["9"]! });
       await one.waitForURL(/%2C90/);
     }
+    await click(one, 0.9, 0.5, touch);
+    const box = (await one.locator("#table-scene").boundingBox())!;
+    const reach = 36 / ((box.height > box.width ? box.width : box.height) / 1.47);
+    const [, px, py] = (await lies(one))["1"]! as [number, number, number];
+    await drag(one, [px + reach, py], [px, py + reach], touch);
+    await one.waitForURL(/%2C(89|90|91)(\+|&|$)/);
+    expect((await lies(one))["1"]!.slice(1)).toEqual([px, py]);
+    expect(await one.evaluate(() => scrollY)).toBe(0);
+    await one.close();
+  });
+
+  test.each(sizes)("a recording is opened or dropped, verified, and played shot by shot: %s", async (_, how) => {
+    const { carom } = builds[0]!;
+    const table = carom.table("9ft");
+    const game = carom.record(table, carom.rack("nineball", table), { cushionModel: "stronge" });
+    const ends = [game.shoot({ speed: 8, phi: 90.2 }, { timeMost: 0.5 }), game.continue()];
+    game.place(0, 0.6, 0.5);
+    ends.push(game.shoot({ speed: 2.5, phi: 70 }));
+    const whole = game.end();
+    const give = (name: string, of: string): Promise<void> => one.locator("#recording").setInputFiles({ name, mimeType: "application/jsonl", buffer: Buffer.from(of) });
+    const one = await open("", how);
+    await give("game.jsonl", whole);
+    await expect.poll(() => text(one, "reel-file")).toBe("game.jsonl: 3 shots, every bit agrees.");
+    expect(await text(one, "reel-shot")).toBe("Shot 1 of 3: as recorded.");
+    expect(await text(one, "s-time")).toBe(`${ends[0]!.time.toFixed(3)} s`);
+    expect(await text(one, "s-status")).toBe("stopped_at_time");
+    expect(await one.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0);
+    // The film goes on from shot to shot.
+    await one.locator("#rate").selectOption("1000");
+    await one.locator("#play").click();
+    await expect.poll(() => text(one, "reel-shot")).toBe("Shot 3 of 3: as recorded.");
+    await expect.poll(() => text(one, "play")).toBe("Play");
+    expect(await text(one, "s-count")).toBe(String(ends[2]!.events));
+    // Back to the one that continues: it begins where the other was stopped. What is changed is recorded no longer.
+    await one.locator("#reel-back").click();
+    expect(Number(await one.locator("#time").inputValue())).toBe(0.5);
+    expect(await text(one, "s-time")).toBe(`${ends[1]!.time.toFixed(3)} s`);
+    await one.locator("#speed").fill("3");
+    expect(await text(one, "reel-shot")).toBe("Shot 2 of 3 was changed.");
+    // A forged stroke, dropped: its shot is shown.
+    const dropped = await one.evaluateHandle((of) => {
+      const data = new DataTransfer();
+      data.items.add(new File([of], "forged.jsonl"));
+      return data;
+    }, whole.replace('"speed":2.5', '"speed":2.6'));
+    await one.dispatchEvent(".table-view", "drop", { dataTransfer: dropped });
+    await expect.poll(() => text(one, "reel-file")).toContain("forged.jsonl: 3 shots, 1 ends otherwise than recorded, first shot 3 (line 8).");
+    expect(await text(one, "reel-shot")).toContain(`Shot 3 of 3, line 8: recorded ok, ${ends[2]!.events} events, ${ends[2]!.time.toFixed(6)} s, hash ${ends[2]!.hash}; played ok, `);
+    // Damage is refused by its line; without a shot before it, nothing changes.
+    await give("damaged.jsonl", whole.replace('"place"', '"plaice"'));
+    await expect.poll(() => text(one, "reel-file")).toContain("damaged.jsonl: 2 shots, every bit agrees. The rest is refused: line 7: ");
+    await give("other.jsonl", whole.replace('"revision":', '"revision":9'));
+    await expect.poll(() => text(one, "message")).toContain("other.jsonl: line 1: the recording is of revision 9");
+    expect(await text(one, "reel-file")).toContain("damaged.jsonl");
+    await one.locator("#rack").click();
+    expect(await one.locator("#reel").isVisible()).toBe(false);
     await one.close();
   });
 

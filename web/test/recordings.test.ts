@@ -20,6 +20,12 @@ test.each(builds)("a game is replayed with the same bits, by $name", ({ carom })
   const shots = [...carom.replay(text)];
   expect(shots.map(({ shot, same, continues }) => [shot, same, continues])).toEqual([[1, true, false], [2, true, true], [3, true, false]]);
   expect(shots[2]!.final).toEqual(balls.map(({ state }) => state));
+  // The film of each shot; that of the one that continues has the whole shot.
+  const whole = carom.simulate(shots[0]!.table, shots[0]!.balls, shots[0]!.cue, { cushionModel: "stronge" });
+  expect(shots.map(({ film }) => film.time)).toEqual([0.5, whole.time, shots[2]!.played.time]);
+  expect(shots[1]!.film.events).toEqual(whole.events);
+  expect(shots[0]!.film.events).toEqual(whole.events.filter(({ time }) => time <= 0.5));
+  expect(shots[1]!.film.positions(0.7)).toEqual(whole.positions(0.7));
   // As simulate() plays them.
   const third = shots[2]!;
   const again = carom.simulate(third.table, third.balls, third.cue, { cushionModel: "stronge" });

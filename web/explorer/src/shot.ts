@@ -1,7 +1,8 @@
 // The view Table: shots are aimed on it and played while one aims; their film, their events, and a fan of shots with a player's error.
-import { type BallState, type Carom, CaromError, type Cue, fromLine, type Game, type RackName, type Shot, type ShotBall, type ShotOptions, type Table, type TableName, toLine } from "carom";
+import { type BallState, type Carom, CaromError, type Cue, fromLine, type Game, type Line, type RackName, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, type TableName, toLine } from "carom";
 import { colourOf, player, pocketName, wordsOf } from "../../../cli/player.js";
 import { gamePanel } from "./game.js";
+import { reel } from "./reel.js";
 import { button, check, choice, color, eachFrame, el, fit, pad, parameters, slider, type Slider } from "./ui.js";
 
 interface GameOf {
@@ -20,6 +21,7 @@ const GAMES: Record<string, GameOf> = {
   snooker: { text: "Snooker", table: "snooker", rack: "snooker", game: "snooker", names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : COLOURS[k - 16]!) },
   threecushion: { text: "Three-cushion", table: "threecushion", rack: "threecushion", game: "billiard", names: (k) => ["white", "yellow", "red"][k] ?? String(k) },
 };
+const TABLES: readonly TableName[] = ["9ft", "8ft", "7ft", "snooker", "threecushion", "pooltool"];
 const FAN = 500;
 const FAN_CHUNK = 20;
 const FAN_ROOM = 400;
@@ -39,6 +41,10 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   /** Whether balls lie elsewhere than in the rack; the cue of a line that was read; how each ball is turned, degrees. */
   let moved = false;
   let imported: Cue | undefined;
+  /** Whether the address can name the table. */
+  let builtIn = true;
+  /** The shot of a recording that is shown. */
+  let recorded: Replayed | undefined;
   let faces: number[];
   /** The object ball that was picked, for pockets. */
   let chosen = -1;
@@ -103,6 +109,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     },
     rackUp: () => rackUp(false),
   });
+  const recording = reel(carom, { show: showRecorded, start: film.start, tell: (text) => (message.textContent = text) });
   const undo = button("Undo", back, { id: "undo" });
   const next = button("Next shot", nextShot, { id: "next", title: "The next shot, from where the balls of this one end" });
 
@@ -117,7 +124,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
         sliders.speed!.root,
         spin.root,
       ),
-      el("section", { class: "bar", "aria-label": "Film" }, film.controls, el("div", { class: "row" }, undo, next, button("Copy link", () => void copyLink(), { id: "copy" }), button("New rack", newRack, { id: "rack" }), message)),
+      el("section", { class: "bar", "aria-label": "Film" }, film.controls, recording.bar, el("div", { class: "row" }, undo, next, button("Copy link", () => void copyLink(), { id: "copy" }), button("New rack", newRack, { id: "rack" }), message)),
       el(
         "section",
         { class: "panel aim", "aria-label": "The shot" },
@@ -125,7 +132,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
         el("div", { class: "row" }, games.root, cushion.root),
         fanned.root,
         sliders.error!.root,
-        el("details", {}, el("summary", {}, "Export and import"), el("label", { for: "line" }, "The shot as the line that carom shoot reads"), line, el("div", { class: "row" }, button("Export", exportLine, { id: "export" }), button("Import", importLine, { id: "import" }))),
+        el("details", {}, el("summary", {}, "Export and import"), el("label", { for: "line" }, "The shot as the line that carom shoot reads"), line, el("div", { class: "row" }, button("Export", exportLine, { id: "export" }), button("Import", importLine, { id: "import" }), recording.open)),
       ),
       el(
         "div",
@@ -136,6 +143,8 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       ),
     ),
   );
+
+  recording.accept(main.firstElementChild as HTMLElement);
 
   // ---- The shot ------------------------------------------------------------------------------------------------------------
 
@@ -166,11 +175,13 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     chosen = -1;
     moved = false;
     imported = undefined;
+    builtIn = true;
     ended = undefined;
   }
   /** The balls of the game as they begin. It ends a game that is played, unless that begins with it. */
   function rackUp(ends = true): void {
     lay();
+    recording.close();
     if (ends) match.begin();
     aimed();
   }
@@ -186,13 +197,15 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     match.aimed();
   }
 
-  function present(stroke: Cue): void {
+  function present(stroke: Cue, played?: Replayed): void {
+    recorded = played;
+    recording.shows(played);
     sliders.error!.input.disabled = !fanned.input.checked;
     spin.set(sliders.right!.value, sliders.up!.value);
     const begun = performance.now();
     message.textContent = "";
     try {
-      shot = carom.simulate(table, balls, stroke, options());
+      shot = played?.film ?? carom.simulate(table, balls, stroke, options());
     } catch (error) {
       shot = error instanceof CaromError ? error.shot : undefined;
       message.textContent = error instanceof Error ? error.message : String(error);
@@ -270,7 +283,8 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   function finished(): void {
     const then = ended;
     ended = undefined;
-    then?.();
+    if (then) then();
+    else if (recorded) recording.advance();
   }
 
   // ---- The state in the address, undo, the next shot -----------------------------------------------------------------------------
@@ -295,6 +309,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   /** Writes the address once nothing has changed for a moment, and remembers the one before. */
   function commit(): void {
     window.clearTimeout(writing);
+    if (!builtIn) return;
     const now = String(new URLSearchParams({ view: "shot", ...state() }));
     if (now !== committed) {
       if (committed !== "") past.push(committed);
@@ -369,6 +384,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   }
   async function copyLink(): Promise<void> {
     commit();
+    if (!builtIn) return void (message.textContent = "A link names a built-in table; the recording has another one.");
     try {
       await navigator.clipboard.writeText(location.href);
       message.textContent = "The link to this shot is copied.";
@@ -445,13 +461,21 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   /** Balls that are not on the table wait on the wood beside it, in this order from the head. */
   const waits = (): number[] => balls.flatMap(({ state }, k) => (onTable(state) ? [] : [k]));
   const waitsAt = (index: number): [number, number] => [-0.045, 0.12 + 0.075 * index + (0.12 + 0.075 * index > table.length / 2 - 0.1 ? 0.2 : 0)];
+  /** Whether a ball is picked that lies on the table; the handle that turns it, 36 pixels from its middle. */
+  const canTurn = (): boolean => chosen > 0 && onTable(balls[chosen]!.state);
+  function turner(): [number, number] {
+    const { r } = balls[chosen]!.state;
+    const [away, face] = [36 / film.scale, faces[chosen]! / DEGREES];
+    return [r[0] + away * Math.cos(face), r[1] + away * Math.sin(face)];
+  }
   const stickEnd = (speed: number): number => balls[0]!.kind.radius + PULL * speed;
 
   /** At the start of the film: the ball that is picked, the stick, the ghost ball and the tangent line. */
   function drawAim(g: CanvasRenderingContext2D): void {
     waits().forEach((k, index) => film.drawBall(g, k, { r: [...waitsAt(index), 0], q: [1, 0, 0, 0], seen: true }, 1));
     if (film.time > 0 || film.playing) return;
-    const { phi, theta, speed } = cue();
+    const { phi, theta, speed, ball: struck } = cue();
+    if (struck !== 0) return;
     const R = balls[0]!.kind.radius;
     const { r } = balls[0]!.state;
     const [dx, dy] = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)];
@@ -482,10 +506,13 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       ring(ghost, 0);
       g.setLineDash([]);
     }
-    if (chosen > 0 && onTable(balls[chosen]!.state)) {
-      g.strokeStyle = "#ffe28a";
+    if (canTurn()) {
+      g.strokeStyle = g.fillStyle = "#ffe28a";
       g.lineWidth = 2;
       ring(balls[chosen]!.state.r, 3);
+      g.beginPath();
+      g.arc(...film.place(...turner()), 6, 0, 7);
+      g.fill();
     }
     if (!onTable(balls[0]!.state)) return;
     const at = (s: number): [number, number] => [r[0] - dx * s, r[1] - dy * s];
@@ -545,15 +572,33 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   }
   function take(text: string): void {
     const read = fromLine(carom, text);
-    const known = Object.entries(GAMES).find(([key, one]) => one.table === read.tableName && (key === read.id || carom.rack(one.rack, read.table).length >= read.balls.length));
     if (read.cue.ball !== 0) throw new TypeError("cue.ball: this page strikes the first ball; put the cue ball first");
-    gameName = known?.[0] ?? "nineball";
+    use(read, nameOf(read) ?? "nineball");
+  }
+  /** The game whose table and rack a layout may be of. */
+  function nameOf(read: Pick<Line, "id" | "tableName" | "table" | "balls">): string | undefined {
+    const fits = ([key, one]: [string, GameOf]): boolean => one.table === read.tableName && (key === read.id || carom.rack(one.rack, read.table).length >= read.balls.length);
+    return Object.entries(GAMES).find(fits)?.[0];
+  }
+  function use(line: Pick<Line, "tableName" | "table" | "balls" | "names" | "cue">, name: string): void {
+    gameName = name;
     lay();
-    game = { ...GAMES[gameName]!, table: read.tableName };
-    ({ balls, names, table, cue: imported } = read);
+    game = { ...GAMES[gameName]!, table: line.tableName };
+    ({ balls, names, table, cue: imported } = line);
     faces = balls.map(() => 0);
     moved = true;
-    aim(read.cue);
+    aim(line.cue);
+  }
+  /** A shot of a recording, which has neither names of balls nor of the table: they are those of the game that it fits. */
+  function showRecorded(one: Replayed, from: number): void {
+    const same = JSON.stringify(one.table);
+    const tableName = TABLES.find((name) => JSON.stringify(carom.table(name)) === same);
+    const name = (tableName && nameOf({ ...one, id: "", tableName })) ?? "eightball";
+    use({ ...one, balls: [...one.balls], tableName: tableName ?? "9ft", names: one.balls.map((_, k) => GAMES[name]!.names(k)) }, name);
+    builtIn = tableName !== undefined;
+    match.begin();
+    present(cue(), one);
+    film.go(from);
   }
 
   // ---- Pockets ---------------------------------------------------------------------------------------------------------------
@@ -608,7 +653,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   // ---- Pointer and keys ----------------------------------------------------------------------------------------------------
 
   const soon = eachFrame(aimed);
-  type Grip = { is: "ball"; ball: number } | { is: "pocket"; pocket: number } | { is: "stick" | "line" | "cloth" };
+  type Grip = { is: "ball"; ball: number } | { is: "pocket"; pocket: number } | { is: "stick" | "line" | "cloth" | "turn" };
   let held: { grip: Grip; at: [number, number]; from: [number, number]; value: number; taps: boolean } | undefined;
   const position = (event: { clientX: number; clientY: number }): [number, number] => {
     const box = canvas.getBoundingClientRect();
@@ -621,6 +666,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     const places = balls.map(({ state }) => (onTable(state) ? state.r : undefined));
     waits().forEach((k, index) => (places[k] = [...waitsAt(index), 0]));
     const nearest = places.reduce((best, place, k) => (near(place!) < near(places[best]!) ? k : best), 0);
+    if (canTurn() && near(turner()) < Math.min(reach, near(places[nearest]!))) return { is: "turn" };
     if (near(places[nearest]!) < Math.max(1.2 * balls[nearest]!.kind.radius, reach)) return { is: "ball", ball: nearest };
     const pocket = table.pockets.findIndex(({ centre, radius }) => near(centre) < radius + 0.01);
     if (pocket >= 0) return { is: "pocket", pocket };
@@ -635,18 +681,17 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     }
     return { is: "cloth" };
   }
-  const angleOf = ([x, y]: [number, number]): number => Math.atan2(y - balls[0]!.state.r[1], x - balls[0]!.state.r[0]) * DEGREES;
+  const angleOf = ([x, y]: readonly [number, number], ball = 0): number => Math.atan2(y - balls[ball]!.state.r[1], x - balls[ball]!.state.r[0]) * DEGREES;
   function turnTo(phi: number): void {
     set("phi", Math.round((((phi % 360) + 360) % 360) * 100) / 100);
     soon();
   }
-  function drag(at: [number, number], event: { shiftKey: boolean }): void {
+  function drag(at: [number, number]): void {
     if (!held || match.busy()) return;
     const { grip, from, value } = held;
-    if (grip.is === "ball") {
-      if (event.shiftKey) turnBall(grip.ball, (at[0] - held.at[0] + at[1] - held.at[1]) * 500);
-      else moveBall(grip.ball, at);
-    } else if (grip.is === "stick") {
+    if (grip.is === "ball") moveBall(grip.ball, at);
+    else if (grip.is === "turn") turnBall(chosen, value + angleOf(at, chosen) - angleOf(from, chosen) - faces[chosen]!);
+    else if (grip.is === "stick") {
       const back = (x: [number, number]): number => Math.hypot(x[0] - balls[0]!.state.r[0], x[1] - balls[0]!.state.r[1]);
       set("speed", Math.round(Math.min(Math.max(value + (back(at) - back(from)) / PULL, 0.1), 10) * 100) / 100);
       soon();
@@ -655,7 +700,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     held.at = at;
   }
   function turnBall(ball: number, degrees: number): void {
-    faces[ball] = Math.round(faces[ball]! + degrees + 360) % 360;
+    faces[ball] = (Math.round(faces[ball]! + degrees) + 720) % 360;
     soon();
   }
   /** Puts a ball where there is room, beside another one if need be. Off the table it waits in a pocket; the cue ball does not. */
@@ -697,22 +742,22 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     if (film.time > 0 || film.playing) film.go(0);
     const at = position(event);
     const grip = under(at, event.pointerType === "touch");
-    held = { grip, at, from: at, value: grip.is === "stick" ? sliders.speed!.value : sliders.phi!.value, taps: true };
+    held = { grip, at, from: at, value: grip.is === "stick" ? sliders.speed!.value : grip.is === "turn" ? faces[chosen]! : sliders.phi!.value, taps: true };
     // A finger on the cloth may be about to scroll the page: what it does waits for its end.
     if (event.pointerType === "touch") return;
     canvas.setPointerCapture(event.pointerId);
-    if (grip.is === "cloth") drag(at, event);
+    if (grip.is === "cloth") drag(at);
   });
   canvas.addEventListener("pointermove", (event) => {
     if (!held) return;
     const at = position(event);
     if (Math.hypot(at[0] - held.from[0], at[1] - held.from[1]) * film.scale > 4) held.taps = false;
-    if (!held.taps && !(event.pointerType === "touch" && held.grip.is === "cloth")) drag(at, event);
+    if (!held.taps && !(event.pointerType === "touch" && held.grip.is === "cloth")) drag(at);
   });
   canvas.addEventListener("pointerup", (event) => {
     const was = held;
     if (was?.taps) {
-      if (was.grip.is === "cloth") drag(was.at, event);
+      if (was.grip.is === "cloth") drag(was.at);
       else clicked(was.grip);
     }
     held = undefined;
@@ -764,6 +809,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
 
 const HELP = [
   "Drag on the cloth to aim, a ball to move it, the stick to set the speed. A ball on the wood waits in a pocket: drag it back.",
-  "Click a ball, then a pocket: the page aims there. The wheel, or Shift and a drag, turns a ball in place.",
+  "Click a ball, then a pocket: the page aims there. The yellow handle of a ball that is picked, or the wheel, turns it in place.",
+  "Drop a recording of carom record on the page: it is played again and compared, shot by shot.",
   "Keys on the table: ← → turn the aim (with Shift 1°), ↑ ↓ change the speed, Alt and arrows move the picked ball by 1 mm (with Shift 10), , and . turn it, Ctrl Z undoes, space plays.",
 ];
