@@ -216,7 +216,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
  * options.plain or CAROM_ISA=plain they are the same on every machine, by every model and in
  * both worlds. Cost: about 0.4 us an event with Han's cushions, the default, so 3 us for a shot
  * with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs some 7 to
- * 10 us an impact besides. Stack: 50 KiB; a batch 53, with threads 60. Nothing is allocated, but
+ * 10 us an impact besides. Stack: 52 KiB; a batch 55, with threads 60. Nothing is allocated, but
  * for the threads of a batch. */
 
 /* ---- Balls ----------------------------------------------------------------------------------- */

@@ -38,6 +38,14 @@ typedef carom_cluster_contact_state contact;
 typedef carom_cluster_ball ball;
 
 enum { ITERATIONS = 2 };
+
+/* The contacts that are pressed in a step, those of them that act, and the balls of these. */
+typedef struct pushes {
+  int pressed, contacts, balls;
+  contact *press[CAROM_CLUSTER_CONTACTS], *push[CAROM_CLUSTER_CONTACTS];
+  ball *pushed[CAROM_CLUSTER_BALLS];
+} pushes;
+
 static const double open = 1e-12; /* m: overlaps below it are none; their forces could underflow */
 
 static inline double greater(double a, double b) {
@@ -54,28 +62,28 @@ static inline void move(bool flat, state *c, double time) {
     cluster_add(flat, c->ball[k].s, time, c->ball[k].v);
 }
 
-static inline double mobility(const state *c, const contact *x) { /* B */
-  return c->ball[x->i].inverse_mass + c->ball[x->j].inverse_mass;
+static inline double mobility(const contact *x) { /* B */
+  return x->p->inverse_mass + x->q->inverse_mass;
 }
 
-static inline double closing_of(bool flat, const state *c, const contact *x) {
+static inline double closing_of(bool flat, const contact *x) {
   double v[3];
-  cluster_minus(flat, c->ball[x->i].v, c->ball[x->j].v, v);
+  cluster_minus(flat, x->p->v, x->q->v, v);
   return cluster_dot(flat, v, x->n);
 }
 
-static inline double overlap_of(bool flat, const state *c, const contact *x) {
+static inline double overlap_of(bool flat, const contact *x) {
   double s[3];
-  cluster_minus(flat, c->ball[x->i].s, c->ball[x->j].s, s);
+  cluster_minus(flat, x->p->s, x->q->s, s);
   return x->offset + cluster_dot(flat, s, x->n);
 }
 
-static inline void slip_of(bool flat, const state *c, const contact *x, double u[2]) {
-  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+static inline void slip_of(bool flat, const contact *x, double u[2]) {
+  const ball *p = x->p, *q = x->q;
   double v[3], t[3], third[3];
   cluster_minus(flat, p->v, q->v, v);
   const double W[3] = {p->W[0] + q->W[0], p->W[1] + q->W[1], p->W[2] + q->W[2]};
-  cluster_across(flat, x->n, x->level, t, third);
+  cluster_across(flat, x->n, t, third);
   if (flat) {
     u[0] = v[0] * t[0] + v[1] * t[1] - W[2];
     u[1] = W[0] * t[0] + W[1] * t[1];
@@ -86,12 +94,12 @@ static inline void slip_of(bool flat, const state *c, const contact *x, double u
 }
 
 /* Friction's impulse f on i, and -f on j. */
-static inline void rub(bool flat, state *c, const contact *x, const double f[2]) {
-  ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+static inline void rub(bool flat, const contact *x, const double f[2]) {
+  ball *p = x->p, *q = x->q;
   const double p_0 = f[0] * p->inverse_mass, p_1 = f[1] * p->inverse_mass;
   const double q_0 = f[0] * q->inverse_mass, q_1 = f[1] * q->inverse_mass;
   double t[3], third[3];
-  cluster_across(flat, x->n, x->level, t, third);
+  cluster_across(flat, x->n, t, third);
   cluster_add(flat, p->v, p_0, t);
   cluster_add(flat, q->v, -q_0, t);
   cluster_add(flat, p->W, 2.5 * p_1, t);
@@ -111,8 +119,8 @@ static inline void rub(bool flat, state *c, const contact *x, const double f[2])
 
 /* Where two balls that were apart have come together within the last half step, all moved by s:
  * the normal of the contact from then on. */
-static void touch(bool flat, const state *c, contact *x, double half) {
-  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+static void touch(bool flat, contact *x, double half) {
+  const ball *p = x->p, *q = x->q;
   double d[3], v[3];
   for (int k = 0; k < 3; k++) {
     d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
@@ -130,38 +138,30 @@ static void touch(bool flat, const state *c, contact *x, double half) {
   const double size = sqrt(cluster_dot(flat, x->n, x->n));
   for (int k = 0; k < 3; k++)
     x->n[k] /= size;
-  x->level = cluster_level(flat, x->n);
   double s[3];
   cluster_minus(flat, p->s, q->s, s);
   x->offset = R - cluster_dot(flat, d, x->n) - cluster_dot(flat, s, x->n);
 }
 
-/* Whether two balls that have not touched overlap now, and whether they do at the end of the
- * step. */
-static inline bool meet(bool flat, const state *c, const contact *x) {
-  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
-  double d[3];
-  for (int k = 0; k < 3; k++)
-    d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
+/* Whether two balls that have not touched overlap, some time from now. */
+static inline bool meet(bool flat, const contact *x, double time) {
+  const ball *p = x->p, *q = x->q;
+  double square = 0.0;
+  for (int k = 0; k < (flat ? 2 : 3); k++) {
+    const double d = q->r[k] + q->s[k] + time * q->v[k] - (p->r[k] + p->s[k] + time * p->v[k]);
+    square += d * d;
+  }
   const double R = p->radius + q->radius;
-  return cluster_dot(flat, d, d) < R * R;
-}
-
-static inline bool meet_by_end(bool flat, const state *c, const contact *x) {
-  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
-  double d[3];
-  cluster_minus(flat, q->base, p->base, d);
-  const double R = p->radius + q->radius;
-  return cluster_dot(flat, d, d) < R * R;
+  return square < R * R;
 }
 
 /* When two balls overlap, moving on as they do; infinite if they do not. */
-static double time_to_touch(bool flat, const state *c, const contact *x) {
+static double time_to_touch(bool flat, const contact *x) {
   if (x->touched) {
-    const double v = closing_of(flat, c, x);
-    return v > 0.0 ? greater((2.0 * open - overlap_of(flat, c, x)) / v, 0.0) : (double)INFINITY;
+    const double v = closing_of(flat, x);
+    return v > 0.0 ? greater((2.0 * open - overlap_of(flat, x)) / v, 0.0) : (double)INFINITY;
   }
-  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+  const ball *p = x->p, *q = x->q;
   double d[3], v[3];
   for (int k = 0; k < 3; k++) {
     d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
@@ -176,64 +176,64 @@ static double time_to_touch(bool flat, const state *c, const contact *x) {
 
 /* ---- Forces */
 
-static double friction_at(const state *c, const contact *x, double slip) {
-  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
-  const double a = 0.5 * (p->law[0] + q->law[0]), b = 0.5 * (p->law[1] + q->law[1]),
-               rate = 0.5 * (p->law[2] + q->law[2]);
-  return b > 0.0 ? a + b * carom_exp(-rate * slip) : a;
+/* a, b or c of a contact's friction. */
+static inline double friction(const contact *x, int k) {
+  return 0.5 * (x->p->law[k] + x->q->law[k]);
 }
 
-/* The duration of a step for a contact of a given compression. */
-static inline double step_for(const state *c, const contact *x, double size, double stiff) {
-  return carom_cluster_duration(x->K, mobility(c, x), size) / (c->steps * stiff);
+static inline double friction_at(const contact *x, double slip) {
+  const double a = friction(x, 0), b = friction(x, 1);
+  return b > 0.0 ? a + b * carom_exp(-friction(x, 2) * slip) : a;
 }
 
-/* Open contacts that have an overlap at half a step touch within it; their sizes and normals.
- * Returns the longest step that suits them and those that touch in the other half, infinite where
- * there are none. */
-static inline double find_touches(bool flat, state *c, double h, double stiff) {
+/* The contacts that are pressed at half a step: those that were, and open ones that have an
+ * overlap, which touch within it and get their sizes and normals. Returns the longest step that
+ * suits these and those that touch in the other half, infinite where there are none. */
+static inline double find_pressed(bool flat, state *c, double h, double parts, pushes *now) {
   double longest = (double)INFINITY;
-  for (int k = 0; k < c->balls; k++) {
-    ball *p = &c->ball[k];
-    for (int axis = 0; axis < (flat ? 2 : 3); axis++)
-      p->base[axis] = p->r[axis] + p->s[axis] + 0.5 * h * p->v[axis];
-  }
+  now->pressed = 0;
   for (int k = 0; k < c->contacts; k++) {
     contact *x = &c->contact[k];
-    x->touches = false;
-    if (x->d_max > 0.0 || (!x->touched && !meet_by_end(flat, c, x)))
+    if (x->d_max > 0.0) {
+      now->press[now->pressed++] = x;
       continue;
-    const bool now = x->touched || meet(flat, c, x);
-    if (!x->touched && now)
-      touch(flat, c, x, 0.5 * h);
-    const double d = overlap_of(flat, c, x), v = closing_of(flat, c, x);
+    }
+    const bool first = !x->touched;
+    if (first && !meet(flat, x, 0.5 * h))
+      continue;
+    const bool meets = first && meet(flat, x, 0.0);
+    if (meets)
+      touch(flat, x, 0.5 * h);
+    /* one that has touched is open since it parted: it has no overlap before it closes again */
+    const double v = closing_of(flat, x);
+    if (!first && v <= 0.0)
+      continue;
+    const double d = overlap_of(flat, x);
     if (d + 0.5 * h * v <= open)
       continue;
-    x->touches = now && d > open;
-    x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(c, x), v) : 0.0;
+    if (d > open && (meets || !first))
+      now->press[now->pressed++] = x;
+    x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(x), v) : 0.0;
     if (v > 0.0)
-      longest = lesser(longest, step_for(c, x, x->size, stiff));
+      longest = lesser(longest, carom_cluster_duration(x->pace, x->size) / parts);
   }
   return longest;
 }
 
-/* The contacts that act at half a step, and their impulses. `lead` becomes the stiffest. Returns
- * how many act; *overlap tells whether any has an overlap. */
-static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t acting[],
-                              const contact **lead, bool *overlap) {
-  int count = 0;
+/* Those of the pressed contacts that act, and their impulses. `lead` becomes the stiffest of those
+ * that overlap. Returns whether any does. */
+static inline bool find_acting(bool flat, double h, double tau, pushes *now, const contact **lead) {
+  bool overlap = false;
   double stiffest = 0.0;
-  *overlap = false;
-  for (int k = 0; k < c->contacts; k++) {
-    contact *x = &c->contact[k];
-    if (x->d_max == 0.0 && !x->touches)
-      continue;
-    const double d = overlap_of(flat, c, x);
+  now->contacts = 0;
+  for (int k = 0; k < now->pressed; k++) {
+    contact *x = now->press[k];
+    const double d = overlap_of(flat, x);
     if (d <= open)
       continue;
-    x->touched = *overlap = true;
+    x->touched = overlap = true;
     if (x->d_max == 0.0) { /* it touches now */
-      const double v = closing_of(flat, c, x);
+      const double v = closing_of(flat, x);
       x->U = -1.0;
       x->f[0] = x->f[1] = 0.0;
       if (x->time < 0.0)
@@ -242,15 +242,15 @@ static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t
     x->d = d;
     x->size = d >= x->d_max ? greater(x->size, d) : x->size;
     x->J = h * carom_hertz_force(x->K, x->e, d, &x->d_max);
-    const double KB = x->K * mobility(c, x), stiff = KB * KB * x->size;
+    const double KB = x->K * mobility(x), stiff = KB * KB * x->size;
     if (stiff > stiffest) {
       stiffest = stiff;
       *lead = x;
     }
     if (x->J > 0.0)
-      acting[count++] = (uint8_t)k;
+      now->push[now->contacts++] = x;
   }
-  return count;
+  return overlap;
 }
 
 /* Flies to the next touch, be it slow, where nothing acts, if a contact that has touched closes
@@ -260,8 +260,8 @@ static double fly(bool flat, state *c) {
   bool goes_on = false;
   for (int k = 0; k < c->contacts; k++) {
     const contact *x = &c->contact[k];
-    next = lesser(next, time_to_touch(flat, c, x));
-    goes_on |= x->touched && closing_of(flat, c, x) >= c->slow;
+    next = lesser(next, time_to_touch(flat, x));
+    goes_on |= x->touched && closing_of(flat, x) >= c->slow;
   }
   if (!goes_on)
     return -1.0;
@@ -301,24 +301,21 @@ static inline void rub_on_cloth(ball *p) {
   p->g[1] = g[1];
 }
 
-/* The next iterate of a contact's friction; change[] becomes what it changes by. `share` of the
- * slip is taken where the contact may stick. */
-static inline void iterate(bool flat, const state *c, contact *x, const double *share,
-                           double change[2]) {
+/* The next iterate of a contact's friction; change[] becomes what it changes by. */
+static inline void iterate(bool flat, contact *x, double change[2]) {
   double u[2], f[2];
-  slip_of(flat, c, x, u);
+  slip_of(flat, x, u);
   const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean2 = m_x * m_x + m_y * m_y;
   /* mu falls as the slip grows within the step */
+  const double mean = sqrt(mean2), a = friction(x, 0);
   double most = x->mu * x->J;
-  if (mean2 > 4.0 * x->U * x->U) {
-    const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
-    const double a = 0.5 * (p->law[0] + q->law[0]), rate = 0.5 * (p->law[2] + q->law[2]);
-    const double grown = 0.5 * sqrt(mean2) - x->U;
-    most = (a + (x->mu - a) * (1.0 - lesser(1.0, rate * grown))) * x->J;
-  }
+  if (mean2 > 4.0 * x->U * x->U)
+    most = (a + (x->mu - a) * (1.0 - lesser(1.0, friction(x, 2) * (0.5 * mean - x->U)))) * x->J;
   if (x->may_stick) {
-    f[0] = x->f[0] - *share * u[0];
-    f[1] = x->f[1] - *share * u[1];
+    const ball *p = x->p, *q = x->q;
+    const double share = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
+    f[0] = x->f[0] - share * u[0];
+    f[1] = x->f[1] - share * u[1];
     const double size2 = f[0] * f[0] + f[1] * f[1];
     if (size2 > most * most) {
       const double down = most / sqrt(size2);
@@ -326,7 +323,7 @@ static inline void iterate(bool flat, const state *c, contact *x, const double *
       f[1] *= down;
     }
   } else {
-    const double k = mean2 > 0.0 ? -most / sqrt(mean2) : 0.0;
+    const double k = mean2 > 0.0 ? -most / mean : 0.0;
     f[0] = k * m_x;
     f[1] = k * m_y;
   }
@@ -339,81 +336,76 @@ static inline void iterate(bool flat, const state *c, contact *x, const double *
 /* ---- A step */
 
 /* Slips, limits and speeds as the step begins, and the normal impulses. */
-static inline void begin_step(bool flat, state *c, const uint8_t acting[], int count) {
-  for (int k = 0; k < c->balls; k++) {
-    ball *p = &c->ball[k];
-    p->acting = 0;
-    if (!flat)
-      continue;
-    p->base[0] = p->v[0] - p->W[1];
-    p->base[1] = p->v[1] + p->W[0];
-    p->load = p->g[0] = p->g[1] = 0.0;
-  }
-  for (int a = 0; a < count; a++) {
-    contact *x = &c->contact[acting[a]];
-    x->closing = closing_of(flat, c, x);
-    slip_of(flat, c, x, x->u);
+static inline void begin_step(bool flat, state *c, pushes *now) {
+  for (int k = 0; k < c->balls; k++)
+    c->ball[k].acting = 0;
+  now->balls = 0;
+  for (int a = 0; a < now->contacts; a++) {
+    contact *x = now->push[a];
+    x->closing = closing_of(flat, x);
+    slip_of(flat, x, x->u);
     const double u = sqrt(x->u[0] * x->u[0] + x->u[1] * x->u[1]);
     if (u > x->U) {
       x->U = u;
-      x->mu = friction_at(c, x, u);
+      x->mu = friction_at(x, u);
     }
-    x->may_stick = u <= 7.0 * mobility(c, x) * x->mu * x->J;
+    x->may_stick = u <= 7.0 * mobility(x) * x->mu * x->J;
     x->impulse += x->J;
     for (int side = 0; side < 2; side++) {
-      ball *p = &c->ball[side == 0 ? x->i : x->j];
+      ball *p = side == 0 ? x->p : x->q;
+      if (p->acting == 0) {
+        now->pushed[now->balls++] = p;
+        p->base[0] = p->v[0] - p->W[1];
+        p->base[1] = p->v[1] + p->W[0];
+        p->load = p->g[0] = p->g[1] = 0.0;
+      }
       p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
     }
   }
-  for (int a = 0; a < count; a++) {
-    const contact *x = &c->contact[acting[a]];
-    cluster_add(flat, c->ball[x->i].v, -x->J * c->ball[x->i].inverse_mass, x->n);
-    cluster_add(flat, c->ball[x->j].v, x->J * c->ball[x->j].inverse_mass, x->n);
+  for (int a = 0; a < now->contacts; a++) {
+    const contact *x = now->push[a];
+    cluster_add(flat, x->p->v, -x->J * x->p->inverse_mass, x->n);
+    cluster_add(flat, x->q->v, x->J * x->q->inverse_mass, x->n);
   }
 }
 
-static inline void rub_all(bool flat, state *c, const uint8_t acting[], int count) {
-  double change[CAROM_CLUSTER_CONTACTS][2], share[CAROM_CLUSTER_CONTACTS];
+static inline void rub_all(bool flat, const pushes *now) {
+  double change[CAROM_CLUSTER_CONTACTS][2];
   /* first that of the step before */
-  for (int a = 0; a < count; a++) {
-    contact *x = &c->contact[acting[a]];
-    const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
-    if (x->may_stick)
-      share[a] = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
+  for (int a = 0; a < now->contacts; a++) {
+    contact *x = now->push[a];
     x->f[0] *= x->J;
     x->f[1] *= x->J;
-    rub(flat, c, x, x->f);
+    rub(flat, x, x->f);
   }
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
-    for (int k = 0; flat && k < c->balls; k++)
-      rub_on_cloth(&c->ball[k]);
+    for (int k = 0; flat && k < now->balls; k++)
+      rub_on_cloth(now->pushed[k]);
     if (iteration == ITERATIONS)
       return;
-    for (int a = 0; a < count; a++)
-      iterate(flat, c, &c->contact[acting[a]], &share[a], change[a]);
-    for (int a = 0; a < count; a++)
-      rub(flat, c, &c->contact[acting[a]], change[a]);
+    for (int a = 0; a < now->contacts; a++)
+      iterate(flat, now->push[a], change[a]);
+    for (int a = 0; a < now->contacts; a++)
+      rub(flat, now->push[a], change[a]);
   }
 }
 
-static inline void end_step(bool flat, state *c, double h, const uint8_t acting[], int count) {
+static inline void end_step(bool flat, state *c, double h, const pushes *now) {
   move(flat, c, 0.5 * h);
-  for (int a = 0; a < count; a++) {
-    contact *x = &c->contact[acting[a]];
+  for (int a = 0; a < now->contacts; a++) {
+    contact *x = now->push[a];
     const double each = 1.0 / x->J;
     for (int k = 0; k < 2; k++) {
       x->rubbed[k] += x->f[k];
       x->f[k] *= each;
     }
-    x->d_max = carom_hertz_vertex(x->d, x->d_max, h, x->closing, closing_of(flat, c, x));
+    x->d_max = carom_hertz_vertex(x->d, x->d_max, h, x->closing, closing_of(flat, x));
   }
   /* where the force has reached 0 the rest of the overlap is forgotten */
-  for (int k = 0; k < c->contacts; k++) {
-    contact *x = &c->contact[k];
-    if (x->d_max == 0.0)
-      continue;
+  for (int k = 0; k < now->pressed; k++) {
+    contact *x = now->press[k];
     const double rest = (1.0 - x->e * x->e) * x->d_max;
-    if (overlap_of(flat, c, x) <= rest) {
+    if (overlap_of(flat, x) <= rest) {
       x->offset -= rest;
       x->d_max = 0.0;
     }
@@ -465,56 +457,53 @@ static void take_back(state *c, double before) {
       c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
 }
 
-/* The duration of a step before any contact has acted: by the fastest that touches. Also the
- * greatest 1/e. */
-static inline double first_step(bool flat, const state *c, double *stiff) {
-  double most = 0.0, T = 0.0;
-  *stiff = 1.0;
+/* The duration of a step before any contact has acted: by the fastest that touches. *parts of it
+ * are a contact's duration. */
+static inline double first_step(bool flat, const state *c, double *parts) {
+  double most = 0.0, T = 0.0, stiff = 1.0;
   for (int k = 0; k < c->contacts; k++) {
     const contact *x = &c->contact[k];
-    const double v = closing_of(flat, c, x);
-    *stiff = greater(*stiff, 1.0 / x->e);
+    const double v = closing_of(flat, x);
+    stiff = greater(stiff, 1.0 / x->e);
     if (!x->touched || v <= most)
       continue;
     most = v;
-    T = carom_cluster_duration(x->K, mobility(c, x),
-                               carom_cluster_compression(x->K, mobility(c, x), v));
+    T = carom_cluster_duration(x->pace, carom_cluster_compression(x->K, mobility(x), v));
   }
-  return T / (c->steps * *stiff);
+  *parts = c->steps * stiff;
+  return T / *parts;
 }
 
 static inline bool solve(bool flat, state *c) {
   const double before = energy_of(c);
   const contact *lead = c->contact;
-  double stiff, h = first_step(flat, c, &stiff), tau = 0.0;
+  double parts, h = first_step(flat, c, &parts), tau = 0.0;
   c->taken = 0;
   for (;; c->taken++) {
     if (c->taken == CAROM_CLUSTER_STEPS_MOST)
       return false;
-    uint8_t acting[CAROM_CLUSTER_CONTACTS];
-    bool overlap;
+    pushes now;
     move(flat, c, 0.5 * h);
     /* a touch that is faster than what acts asks for a shorter step */
-    const double longest = find_touches(flat, c, h, stiff);
+    const double longest = find_pressed(flat, c, h, parts, &now);
     if (longest < h) {
       move(flat, c, 0.5 * (longest - h));
       h = longest;
-      find_touches(flat, c, h, stiff);
+      find_pressed(flat, c, h, parts, &now);
     }
     tau += 0.5 * h;
-    const int count = find_acting(flat, c, h, tau, acting, &lead, &overlap);
-    if (!overlap) {
+    if (!find_acting(flat, h, tau, &now, &lead)) {
       const double flown = fly(flat, c);
       if (flown < 0.0)
         break;
       tau += flown;
       continue;
     }
-    begin_step(flat, c, acting, count);
-    rub_all(flat, c, acting, count);
-    end_step(flat, c, h, acting, count);
+    begin_step(flat, c, &now);
+    rub_all(flat, &now);
+    end_step(flat, c, h, &now);
     tau += 0.5 * h;
-    h = step_for(c, lead, lead->size, stiff);
+    h = carom_cluster_duration(lead->pace, lead->size) / parts;
   }
   c->duration = tau;
   take_back(c, before);

@@ -61,21 +61,20 @@ typedef struct carom_cluster_ball {
   int8_t acting;               /* its contacts that act in this step, at most 2 */
   /* of the integrator */
   double s[3];                /* int v dtau, m */
-  double base[3], g[2], load; /* where a step ends, and then the slip on the cloth as it begins;
-                                 impulses of the cloth's friction and of the load */
+  double base[2], g[2], load; /* slip on the cloth as a step begins; impulses of the cloth's
+                                 friction and of the load */
 } carom_cluster_ball;
 
 typedef struct carom_cluster_contact_state {
-  int8_t i, j;     /* in ball[] */
+  carom_cluster_ball *p, *q;
+  int8_t i, j;     /* of these in ball[] */
   bool touched;    /* now or before: n is known */
-  bool touches;    /* within this half step */
   bool may_stick;  /* within this step */
   double n[3];     /* unit vector from i to j */
-  double level;    /* 1 over the horizontal part of n; 0 where n is nearly upright */
   double offset;   /* d = offset + (s_i - s_j) . n */
   double d, d_max; /* d_max: 0 while open */
   double size;     /* the compression that it has, or will have */
-  double K, e;
+  double K, e, pace;
   double mu, U;
   double J, f[2];            /* impulses of a step along n, and of friction along t and the
                                 third; between steps f/J */
@@ -98,10 +97,9 @@ typedef struct carom_cluster_state {
 } carom_cluster_state;
 
 /* members.c: compression of a contact of stiffness K and 1/reduced mass B that closes at v, and
- * the duration of one of that compression. */
+ * the duration of one of that compression, by its pace. */
 double carom_cluster_compression(double K, double B, double v);
-double carom_cluster_duration(double K, double B, double size);
-double carom_cluster_stiffness(const carom_cluster_ball *a, const carom_cluster_ball *b);
+double carom_cluster_duration(double pace, double size);
 
 /* members.c: keeps of ball[] those that a contact which begins can reach, and lists their
  * contacts. The contact is that of two balls, indices in ball[]; or, where `first` is below 0,

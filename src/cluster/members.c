@@ -41,11 +41,15 @@ double carom_cluster_compression(double K, double B, double v) {
   return fifth_root(x * x);
 }
 
-double carom_cluster_duration(double K, double B, double size) {
-  return CAROM_HERTZ_DURATION * sqrt(1.25 / (K * B)) / sqrt(sqrt(size));
+static double pace_of(double K, double B) {
+  return CAROM_HERTZ_DURATION * sqrt(1.25 / (K * B));
 }
 
-double carom_cluster_stiffness(const carom_cluster_ball *a, const carom_cluster_ball *b) {
+double carom_cluster_duration(double pace, double size) {
+  return pace / sqrt(sqrt(size));
+}
+
+static double stiffness(const carom_cluster_ball *a, const carom_cluster_ball *b) {
   const double E = 1.0 / (1.0 / a->modulus + 1.0 / b->modulus);
   return 4.0 / 3.0 * E * sqrt(a->radius * b->radius / (a->radius + b->radius));
 }
@@ -87,9 +91,9 @@ static bool fastest_pair(const carom_cluster_state *c, int pair[2]) {
  * them. */
 static int follow(const carom_cluster_state *c, const int pair[2], bool in[CAROM_CLUSTER_BALLS]) {
   const carom_cluster_ball *a = &c->ball[pair[0]], *b = &c->ball[pair[1]];
-  const double K = carom_cluster_stiffness(a, b), B = a->inverse_mass + b->inverse_mass;
+  const double K = stiffness(a, b), B = a->inverse_mass + b->inverse_mass;
   const double delta = carom_cluster_compression(K, B, between(a, b).closing);
-  const double T = carom_cluster_duration(K, B, delta);
+  const double T = carom_cluster_duration(pace_of(K, B), delta);
   int queue[CAROM_CLUSTER_BALLS] = {pair[0], pair[1]}, found = 2;
   in[pair[0]] = in[pair[1]] = true;
   for (int k = 0; k < found; k++)
@@ -106,19 +110,21 @@ static int follow(const carom_cluster_state *c, const int pair[2], bool in[CAROM
   return found;
 }
 
-static void make_contact(const carom_cluster_state *c, int i, int j, const two_balls *two,
+static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *two,
                          carom_cluster_contact_state *x) {
-  const carom_cluster_ball *a = &c->ball[i], *b = &c->ball[j];
+  carom_cluster_ball *a = &c->ball[i], *b = &c->ball[j];
   const double e = 0.5 * (a->restitution + b->restitution);
   memset(x, 0, sizeof *x);
+  x->p = a;
+  x->q = b;
   x->i = (int8_t)i;
   x->j = (int8_t)j;
   x->touched = two->gap < touching;
   x->offset = x->touched ? 0.0 : -two->gap;
   memcpy(x->n, two->n, sizeof x->n);
-  x->level = cluster_level(!c->in_space, x->n);
-  x->K = carom_cluster_stiffness(a, b);
+  x->K = stiffness(a, b);
   x->e = e > least_restitution ? e : least_restitution;
+  x->pace = pace_of(x->K, a->inverse_mass + b->inverse_mass);
   x->time = -1.0;
 }
 

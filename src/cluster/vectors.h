@@ -28,19 +28,14 @@ static inline void cluster_add(bool flat, double a[3], double x, const double b[
     a[2] += x * b[2];
 }
 
-/* 1 over the horizontal part of a unit vector; 0 where that is small. */
-static inline double cluster_level(bool flat, const double n[3]) {
+/* Two unit vectors across n and each other: t, horizontal, or along n x e_x where n is nearly
+ * upright, and t x n, which is up on the cloth. */
+static inline void cluster_across(bool flat, const double n[3], double t[3], double third[3]) {
   const double level = flat ? 1.0 : sqrt(n[0] * n[0] + n[1] * n[1]);
-  return level < 0.1 ? 0.0 : 1.0 / level;
-}
-
-/* Two unit vectors across n and each other: t, horizontal or along n x e_x, and t x n, which is
- * up on the cloth. `level` is that of n. */
-static inline void cluster_across(bool flat, const double n[3], double level, double t[3],
-                                  double third[3]) {
-  if (flat || level > 0.0) {
-    t[0] = flat ? n[1] : n[1] * level;
-    t[1] = flat ? -n[0] : -n[0] * level;
+  if (level >= 0.1) {
+    const double size = flat ? 1.0 : 1.0 / level;
+    t[0] = flat ? n[1] : n[1] * size;
+    t[1] = flat ? -n[0] : -n[0] * size;
     t[2] = 0.0;
   } else {
     const double size = 1.0 / sqrt(n[1] * n[1] + n[2] * n[2]);

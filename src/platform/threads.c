@@ -26,6 +26,7 @@ size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, in
 #include "platform/processors.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #ifdef _WIN32
 #include <process.h>
 #include <windows.h>
@@ -50,10 +51,14 @@ typedef struct cut {
 
 /* Short, as all of them are on the stack of the caller. */
 typedef struct part {
-  const cut *of;
-  size_t number; /* becomes the first bad row of the part, or the row behind it */
+  size_t number; /* its index; becomes the first bad row of the part, or the row behind it */
   thread_handle thread;
 } part;
+
+typedef struct all_parts {
+  cut of;
+  part part[MOST_THREADS];
+} all_parts;
 
 /* Where a part begins; that of one beyond the last is n. */
 static size_t start_of(const cut *of, size_t number) {
@@ -63,7 +68,9 @@ static size_t start_of(const cut *of, size_t number) {
 }
 
 static void run_part(part *p) {
-  p->number = p->of->worker(p->of->job, start_of(p->of, p->number), start_of(p->of, p->number + 1));
+  const char *first = (const char *)(p - p->number);
+  const cut *of = &((const all_parts *)(first - offsetof(all_parts, part)))->of;
+  p->number = of->worker(of->job, start_of(of, p->number), start_of(of, p->number + 1));
 }
 
 #ifdef _WIN32
@@ -123,21 +130,20 @@ size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, in
   if (count <= 1)
     return worker(job, 0, n);
 
-  const cut of = {worker, job, n, count, least < UNIT ? least : UNIT};
-  part parts[MOST_THREADS];
+  all_parts all = {.of = {worker, job, n, count, least < UNIT ? least : UNIT}};
   bool started[MOST_THREADS] = {false};
   for (size_t t = 0; t < count; t++)
-    parts[t] = (part){.of = &of, .number = t};
-  start_threads(parts, count, started);
+    all.part[t].number = t;
+  start_threads(all.part, count, started);
   for (size_t t = 0; t < count; t++)
     if (!started[t])
-      run_part(&parts[t]);
+      run_part(&all.part[t]);
   size_t first_bad = n;
   for (size_t t = 0; t < count; t++) {
     if (started[t])
-      join(parts[t].thread);
-    if (first_bad == n && parts[t].number < start_of(&of, t + 1))
-      first_bad = parts[t].number;
+      join(all.part[t].thread);
+    if (first_bad == n && all.part[t].number < start_of(&all.of, t + 1))
+      first_bad = all.part[t].number;
   }
   return first_bad;
 }

@@ -135,7 +135,7 @@ static carom_cluster_contact contact_of(const carom_cluster_state *c,
   carom_cluster_contact out = {c->ball[x->i].which, c->ball[x->j].which,         x->time,
                                x->impulse,          {x->n[0], x->n[1], x->n[2]}, {0.0}};
   double t[3], third[3];
-  cluster_across(!c->in_space, x->n, x->level, t, third);
+  cluster_across(!c->in_space, x->n, t, third);
   for (int k = 0; k < 3; k++)
     out.friction[k] = x->rubbed[0] * t[k] + x->rubbed[1] * third[k];
   return out;
