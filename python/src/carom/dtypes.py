@@ -46,7 +46,7 @@ def _record(name: str) -> Record:
     return _dtype(ffi.typeof(name))
 
 
-# docs/using/python.md has the fields of each, with their units.
+# The headers in include/ have the fields of each, with their units.
 # Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_cloth), mu_ball, restitution. 26 doubles.
 impact: Record = _record("carom_impact")
 result: Record = _record("carom_result")  # Two balls after the collision: a, b (v, w). 12 doubles.
