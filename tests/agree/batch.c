@@ -189,25 +189,6 @@ TEST(rows_of_all_kinds_at_every_size) {
   table_free(&t);
 }
 
-/* Whoever its neighbours are, a row keeps its bits; some regimes are too slow for Euler's
- * method. */
-TEST(all_regimes_side_by_side) {
-  const table t = table_make((size_t)regimes_count() * 16);
-  FOR_EACH_ISA(isa)
-  FOR_EACH_WAY(solver, slip, precision) {
-    const carom_options options = options_for(solver, slip);
-    lab_random rng = {test_seed()};
-    for (size_t k = 0; k < t.n; k++) {
-      const carom_impact in =
-          regimes_draw((int)k % regimes_count(), slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0, &rng);
-      put_row(precision, t.in, k, &in);
-    }
-    alone(precision, t.in, t.n, &options, t.out, t.status);
-    expect_batch(precision, t.in, t.n, &options, t.out, t.status);
-  }
-  table_free(&t);
-}
-
 /* Moves row `from` of a table to place `to` of another. */
 static void copy_row(int precision, const table *source, size_t from, const table *target,
                      size_t to) {
@@ -217,19 +198,23 @@ static void copy_row(int precision, const table *source, size_t from, const tabl
   target->status[to] = source->status[from];
 }
 
-/* The rows in random order, cut at random places into batches, each with 1, 2, 3 or 7 threads.
- * Euler's method takes fewer rows to be worth a thread. */
+/* Rows of all kinds and regimes in random order, cut at random places into batches, each with 1, 2,
+ * 3 or 7 threads. Euler's method takes fewer rows to be worth a thread. */
 TEST(cut_anywhere_in_any_order) {
   static const int threads[] = {1, 2, 3, 7};
   const table t = table_make(MANY), mixed = table_make(MANY);
   size_t *order = malloc(MANY * sizeof *order);
   random_source source = {test_seed()};
+  lab_random rng = {test_seed()};
   FOR_EACH_ISA(isa)
   FOR_EACH_WAY(solver, slip, precision) {
     carom_options options = options_for(solver, slip);
     const size_t n = solver == CAROM_SOLVER_EXACT ? MANY : MANY / 15;
     for (size_t k = 0; k < n; k++) {
-      const carom_impact in = k % 8 == 7 ? mixed_row(&source, k) : good_row(&source, k);
+      const double s = slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0;
+      const carom_impact in = k % 8 == 7    ? mixed_row(&source, k)
+                              : k % 64 == 6 ? regimes_draw((int)(k / 64) % regimes_count(), s, &rng)
+                                            : good_row(&source, k);
       put_row(precision, t.in, k, &in);
       order[k] = k;
     }

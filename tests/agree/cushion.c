@@ -11,11 +11,6 @@
 
 enum { DRAWN = FEWER(250), MOST_ROWS = 600, NUMBERS = 21 };
 
-static int compare(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 TEST(exact_against_the_reference) {
   for (cushion_draw kind = CUSHION_PLAY; kind < CUSHION_DRAWS; kind++) {
     double error[DRAWN];
@@ -33,7 +28,7 @@ TEST(exact_against_the_reference) {
       count++;
     }
     ck_assert_int_ge(count, DRAWN * 95 / 100);
-    qsort(error, (size_t)count, sizeof error[0], compare);
+    qsort(error, (size_t)count, sizeof error[0], by_size);
     ck_assert_msg(error[count / 2] <= 3e-9, "median %.3g", error[count / 2]);
   }
 }

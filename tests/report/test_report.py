@@ -17,10 +17,14 @@ sys.path.insert(0, str(ROOT))
 from lab.report import __main__ as report
 
 
+def page_of(folder):
+    page = folder / "index.html"
+    return tree.fromstring(page.read_text(encoding="utf-8")) if page.is_file() else None
+
+
 def make(folder, *words):
     done = subprocess.run([sys.executable, "-m", "lab.report", *map(str, words), str(folder)], capture_output=True, text=True, cwd=ROOT)
-    page = folder / "index.html"
-    return done, tree.fromstring(page.read_text(encoding="utf-8")) if page.is_file() else None
+    return done, page_of(folder)
 
 
 def missing(page):
@@ -102,13 +106,16 @@ def test_figures_of_the_docs(tmp_path):
 AGAIN = "make the figures anew: cmake --build build --target figures"
 
 
-def test_measured(tmp_path):
-    """Nothing is missing but, without valgrind, the counts."""
-    done, page = make(tmp_path / "one", "--build", BUILD, "--budget", "1")
+def test_measured(tmp_path, monkeypatch, capsys):
+    """Nothing is missing but, without valgrind, the counts. Few numbers of steps are timed, and operations of one kernel counted."""
+    for name, (share, command) in report.DATA.items():
+        few = command.replace(report.STEPS, "100,1000").replace(",20000,50000", "")
+        monkeypatch.setitem(report.DATA, name, (share, few + " --kernel base" if name == "bounds" else few))
+    code = report.main([str(tmp_path / "one"), "--build", str(BUILD), "--budget", "1"])
     counted = shutil.which("valgrind") is not None
-    assert done.returncode == (0 if counted else 1), done.stderr
+    assert code == (0 if counted else 1)
     for name in report.DATA:
         assert counted or name != "bounds" or not report.Sheet(tmp_path / "one" / f"{name}.csv").rows
         assert name == "bounds" or report.Sheet(tmp_path / "one" / f"{name}.csv").rows, name
-    assert missing(page) == [] or not counted
-    assert "speedup over base" in done.stdout
+    assert missing(page_of(tmp_path / "one")) == [] or not counted
+    assert "speedup over base" in capsys.readouterr().out
