@@ -284,7 +284,7 @@ static bool read_value(reader *in, const field *f, unsigned char *to) {
   if (!(x >= -most && x <= most) || x != (double)(int64_t)x)
     return wrong(in, "must be a whole number");
   const int64_t whole = (int64_t)x;
-  const int32_t half = (int32_t)x;
+  const int32_t half = f->type == INT32 ? (int32_t)x : 0;
   memcpy(to, f->type == INT32 ? (const void *)&half : (const void *)&whole, size_of(f));
   return true;
 }

@@ -1,5 +1,5 @@
 /* The same game in each language: plays the recording that is named, and a break. Prints a hash of
- * the bits of each, which is the same in C, C#, Rust, Python and JavaScript. */
+ * the bits of each, which is the same in C, C++, C#, Rust, Python and JavaScript. */
 #include <carom_record.h>
 
 #include <inttypes.h>

@@ -1,0 +1,50 @@
+// As game.c, in C++ by carom.hpp.
+#include <carom.hpp>
+
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+static uint64_t add(uint64_t hash, std::span<const double> numbers) {
+  for (const double number : numbers) {
+    uint64_t bits;
+    std::memcpy(&bits, &number, sizeof bits);
+    for (int byte = 0; byte < 8; byte++)
+      hash = (hash ^ (bits >> 8 * byte & 255)) * 0x100000001b3u;
+  }
+  return hash;
+}
+
+int main(int, char **arguments) {
+  std::ifstream file(arguments[1]);
+  carom::recording recording;
+  const carom_record &record = recording.game();
+  for (std::string line; std::getline(file, line);) {
+    recording.read(line);
+    if (record.pending == 1)
+      recording.play(static_cast<carom_record_kind>(record.kind));
+    if (record.shots > 0 && !recording.same()) {
+      std::fprintf(stderr, "shot %" PRId64 " has other bits than were recorded\n", record.shots);
+      return 1;
+    }
+  }
+  std::printf("recording: %" PRId64 " shots, %016" PRIx64 "\n", record.shots, record.hash);
+
+  const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
+  const auto balls = carom::rack(CAROM_RACK_NINEBALL, table, 1e-4, 1);
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.speed = 8.0;
+  carom_shot_options options{};
+  options.plain = 1;
+  carom::shot shot;
+  shot.play(table, balls, cue, options);
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const carom_event &event : shot.events())
+    hash = add(hash, {&event.time, 1});
+  for (const carom_ball_state &state : shot.final_states())
+    hash = add(add(add(hash, state.r), state.v), state.w);
+  std::printf("break: %zu events, %016" PRIx64 "\n", shot.events().size(), hash);
+  return 0;
+}
