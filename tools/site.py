@@ -1,7 +1,8 @@
 """site.py SOURCE WORK: makes the static site of the pages in WORK/site, and fails where a link or an anchor leads nowhere.
 
 Pages keep their places in the tree, so their links lead where they lead in the repository. Files that they link to are copied. Each
-example becomes a page: its head comment, its picture, its text. The explorer is a part of the site where it has been built.
+example becomes a page: its head comment, its picture, its text. Those in JavaScript run in their pages, and the explorer is a part of the
+site, where `web/build` and `npm run page` have built them.
 """
 
 import ast
@@ -19,6 +20,8 @@ FOLDERS = {"Using": "docs/using", "Understanding": "docs/understanding", "Study"
 OTHERS = ["CHANGELOG.md", "CONTRIBUTING.md", *sorted(str(page.relative_to(SOURCE)) for room in ("cli", "data", "lab", "python", "src", "tests", "web")
                                                      for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md")))]  # fmt: skip
 EXPLORER = SOURCE / "web/explorer/dist/index.html"
+PACKAGE, ESBUILD = SOURCE / "web/dist/index.js", SOURCE / "web/node_modules/.bin/esbuild"
+LIVE = PACKAGE.is_file() and ESBUILD.is_file()
 
 
 def title(page):
@@ -66,16 +69,25 @@ def example(path):
     page = f"{path.relative_to(SOURCE)}.md"
     picture = SOURCE / "docs/figures" / f"example-{path.stem.replace('_', '-')}.svg"
     put(page, f"# {path.name}\n\n{head}\n\n")
+    up = "../" * (len(path.relative_to(SOURCE).parts) - 1)
     with (PAGES / page).open("a", encoding="utf-8") as out:
         if picture.is_file():
-            up = "../" * (len(path.relative_to(SOURCE).parts) - 1)
             out.write(f"![What {path.name} draws]({up}docs/figures/{picture.name})\n\n")
         out.write(f"```{kind}\n{rest.lstrip()}```\n")
+        if LIVE and kind == "js":
+            out.write('\n<button id="live-run">Run it here</button> You may change the text first.\n\n<pre id="live-output" aria-live="polite"></pre>\n\n')
+            out.write(f'<script src="{up}live/carom.js"></script><script src="{up}live/site_live.js"></script>\n')
     return page
 
 
 shutil.rmtree(PAGES, ignore_errors=True)
 shutil.copytree(SOURCE / "docs/figures", PAGES / "docs/figures", ignore=shutil.ignore_patterns("data"))
+(PAGES / "live").mkdir()
+shutil.copy(SOURCE / "tools/site.css", PAGES / "live")
+if LIVE:
+    shutil.copy(SOURCE / "tools/site_live.js", PAGES / "live")
+    subprocess.run([ESBUILD, PACKAGE, "--bundle", "--minify", "--format=iife", "--global-name=carom", "--log-level=warning",
+                    f"--outfile={PAGES / 'live/carom.js'}"], check=True)  # fmt: skip
 navigation = [{"carom": "README.md"}]
 add("README.md")
 for name, folder in FOLDERS.items():
@@ -103,4 +115,7 @@ if done.returncode:
     sys.exit("\n".join(line for line in done.stdout.splitlines() if not line.startswith("INFO")))
 built = sorted((WORK / "site").rglob("*.html"))
 assert len(made) >= 4 and len(built) >= 30 and (WORK / "site/search/search_index.json").is_file(), (len(made), len(built))
+without = [what for what, there in (("programs that run in their pages", LIVE), ("the explorer", EXPLORER.is_file())) if not there]
 print(f"{len(built)} pages, {len(made)} examples: {WORK / 'site/index.html'}")
+if without:
+    print(f"without {' and '.join(without)}: ./run --web builds them, then make the site again")

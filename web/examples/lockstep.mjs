@@ -6,8 +6,13 @@
  *
  *     node lockstep.mjs
  */
-import { createHash } from "node:crypto";
 import { load } from "carom";
+
+/** A digest of numbers, FNV-1a of their bytes: it tells that states differ, and is no seal against cheats. */
+function digest(numbers) {
+  const bytes = new Uint8Array(Float64Array.from(numbers).buffer);
+  return (bytes.reduce((hash, byte) => Math.imul(hash ^ byte, 0x01000193), 0x811c9dc5) >>> 0).toString(16).padStart(8, "0");
+}
 
 /** A client: its balls, and what it does with a stroke that arrives as text. */
 async function client(build) {
@@ -20,7 +25,7 @@ async function client(build) {
       const shot = carom.simulate(table, balls, JSON.parse(text));
       balls = balls.map(({ kind }, k) => ({ kind, state: shot.final[k] }));
       if (balls[0].state.label === "pocketed") balls = carom.placeBall(table, balls, 0, table.width / 2, table.length / 4);
-      return createHash("sha256").update(new Float64Array(balls.flatMap(({ state }) => [...state.r, ...state.w]))).digest("hex");
+      return digest(balls.flatMap(({ state }) => [...state.r, ...state.w]));
     },
   };
 }
@@ -31,7 +36,7 @@ const strokes = [{ speed: 8, phi: 90 }, { speed: 3, phi: 62.5, a: 0.2 }, { speed
 for (const stroke of strokes) {
   const text = JSON.stringify(stroke);
   const digests = [here.play(text), there.play(text)];
-  console.log(`${text}: ${digests[0].slice(0, 16)}`);
+  console.log(`${text}: ${digests[0]}`);
   if (digests[0] !== digests[1]) throw new Error(`${here.build} and ${there.build} differ after ${text}`);
 }
 console.log(`${strokes.length} strokes, ${here.build} and ${there.build} agree`);
