@@ -19,6 +19,7 @@ PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
 FOLDERS = {"Using": "docs/using", "Understanding": "docs/understanding", "Study": "docs/study"}
 OTHERS = ["CHANGELOG.md", "CONTRIBUTING.md", *sorted(str(page.relative_to(SOURCE)) for room in ("cli", "data", "lab", "python", "src", "tests", "web")
                                                      for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md")))]  # fmt: skip
+FIRST = ["command", "python", "web", "games", "examples", "shots", "physics", "accuracy"]  # what a newcomer asks for, before the other pages
 EXPLORER = SOURCE / "web/explorer/dist/index.html"
 PACKAGE, ESBUILD = SOURCE / "web/dist/index.js", SOURCE / "web/node_modules/.bin/esbuild"
 LIVE = PACKAGE.is_file() and ESBUILD.is_file()
@@ -50,7 +51,8 @@ def add(page):
             shutil.copy(to, PAGES / name)
         return match[0]
 
-    put(page, LINK.sub(target, text))
+    # Manuals come before what mentions them in passing.
+    put(page, ("---\nsearch: {boost: 2}\n---\n\n" if page.startswith("docs/using/") else "") + LINK.sub(target, text))
 
 
 def example(path):
@@ -91,7 +93,7 @@ if LIVE:
 navigation = [{"carom": "README.md"}]
 add("README.md")
 for name, folder in FOLDERS.items():
-    pages = sorted(str(page.relative_to(SOURCE)) for page in (SOURCE / folder).glob("*.md"))
+    pages = [str(page.relative_to(SOURCE)) for page in sorted((SOURCE / folder).glob("*.md"), key=lambda page: (FIRST.index(page.stem) if page.stem in FIRST else len(FIRST), page.stem))]  # fmt: skip
     for page in pages:
         add(page)
     navigation.append({name: [{title(page): page} for page in pages]})
