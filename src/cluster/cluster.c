@@ -18,9 +18,9 @@
  *
  * h = T/steps for the stiffest of the contacts that act, T the duration for its compression,
  * shorter by the least e. A step in which a stiffer contact touches is taken again, as short as
- * that one asks for. Where nothing acts all fly to the next touch. It ends where nothing acts and
- * no contact that has touched closes at `slow` or faster: those that never touched are met later,
- * as other events.
+ * that one asks for. Where nothing acts, contacts that have touched and close again at `slow` or
+ * faster touch at once, as positions stay. It ends where there are none: contacts that never
+ * touched are met later, as other events.
  *
  * Without friction the order is 2; contacts that stick make it 1 (docs/understanding/clusters.md
  * has the errors). The energy rises by 3e-4 at most where e = 1 and nothing rubs; what it has
@@ -155,25 +155,6 @@ static inline bool meet(bool flat, const contact *x, double time) {
   return square < R * R;
 }
 
-/* When two balls overlap, moving on as they do; infinite if they do not. */
-static double time_to_touch(bool flat, const contact *x) {
-  if (x->touched) {
-    const double v = closing_of(flat, x);
-    return v > 0.0 ? greater((2.0 * open - overlap_of(flat, x)) / v, 0.0) : (double)INFINITY;
-  }
-  const ball *p = x->p, *q = x->q;
-  double d[3], v[3];
-  for (int k = 0; k < 3; k++) {
-    d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
-    v[k] = q->v[k] - p->v[k];
-  }
-  const double R = p->radius + q->radius;
-  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v),
-               C = cluster_dot(flat, d, d) - R * R;
-  const double D = B * B - A * C;
-  return B < 0.0 && D > 0.0 ? greater(C / (sqrt(D) - B), 0.0) : (double)INFINITY;
-}
-
 /* ---- Forces */
 
 /* a, b or c of a contact's friction. */
@@ -253,20 +234,18 @@ static inline bool find_acting(bool flat, double h, double tau, pushes *now, con
   return overlap;
 }
 
-/* Flies to the next touch, be it slow, where nothing acts, if a contact that has touched closes
- * again at `slow` or faster. Returns how long, or -1. */
-static double fly(bool flat, state *c) {
-  double next = (double)INFINITY;
-  bool goes_on = false;
+/* Where nothing acts, the contacts that have touched and close again at `slow` or faster touch at
+ * once, as positions stay. Returns whether there are any. */
+static bool touch_again(bool flat, state *c) {
+  bool any = false;
   for (int k = 0; k < c->contacts; k++) {
-    const contact *x = &c->contact[k];
-    next = lesser(next, time_to_touch(flat, x));
-    goes_on |= x->touched && closing_of(flat, x) >= c->slow;
+    contact *x = &c->contact[k];
+    if (!x->touched || closing_of(flat, x) < c->slow)
+      continue;
+    x->offset += 2.0 * open - overlap_of(flat, x);
+    any = true;
   }
-  if (!goes_on)
-    return -1.0;
-  move(flat, c, next);
-  return next;
+  return any;
 }
 
 /* The friction of the cloth in a step, in closed form: it stops the slip on the cloth, or acts
@@ -493,10 +472,8 @@ static inline bool solve(bool flat, state *c) {
     }
     tau += 0.5 * h;
     if (!find_acting(flat, h, tau, &now, &lead)) {
-      const double flown = fly(flat, c);
-      if (flown < 0.0)
+      if (!touch_again(flat, c))
         break;
-      tau += flown;
       continue;
     }
     begin_step(flat, c, &now);

@@ -5,7 +5,9 @@
  * In truth a ball takes part that is touched while a contact acts, and for a full hit that
  * border lies at a gap of 1.42 delta (tests/physics/cluster.c, border). The integrator finds it
  * by itself, so the reach has only to be larger: 1.6 and 3 instead of 2 give the same results, 1
- * cuts a step of 2e-4 of the speed. */
+ * cuts a step of 2e-4 of the speed. Members touch within the cluster if their gap is below 5 delta
+ * + T max(0, closing speed). Positions stay, so a ball that came from farther would be seen where
+ * it is not. */
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
@@ -15,8 +17,8 @@
 
 static const double reach = 2.0;     /* of delta */
 static const double touching = 1e-9; /* m: a nearer ball touches */
-static const double far = 0.01;      /* m: balls that are farther apart do not come to touch
-                                        within a cluster */
+static const double far = 5.0;       /* of delta: the reach, and as far as a ball gets in T; those
+                                        that are farther apart meet later */
 static const double least_restitution = 0.2;
 
 /* x^(1/5) for x >= 0, by the same operations everywhere: a fifth of the exponent, then Newton's
@@ -87,13 +89,24 @@ static bool fastest_pair(const carom_cluster_state *c, int pair[2]) {
   return most > 0.0;
 }
 
-/* Follows the graph of near neighbours from a pair. Returns how many balls it reaches, and marks
- * them. */
-static int follow(const carom_cluster_state *c, const int pair[2], bool in[CAROM_CLUSTER_BALLS]) {
+/* delta and T of the contact that starts a cluster. */
+typedef struct first_contact {
+  double delta, T;
+} first_contact;
+
+/* Whether the gap of two balls is below so many delta, and what they close in T. */
+static bool reaches(const first_contact *first, double deltas, const two_balls *two) {
+  const double closing = two->closing > 0.0 ? two->closing : 0.0;
+  return two->gap < deltas * first->delta + first->T * closing;
+}
+
+/* Follows the graph of near neighbours from a pair, and marks those that it reaches. */
+static first_contact follow(const carom_cluster_state *c, const int pair[2],
+                            bool in[CAROM_CLUSTER_BALLS]) {
   const carom_cluster_ball *a = &c->ball[pair[0]], *b = &c->ball[pair[1]];
   const double K = stiffness(a, b), B = a->inverse_mass + b->inverse_mass;
   const double delta = carom_cluster_compression(K, B, between(a, b).closing);
-  const double T = carom_cluster_duration(pace_of(K, B), delta);
+  const first_contact first = {delta, carom_cluster_duration(pace_of(K, B), delta)};
   int queue[CAROM_CLUSTER_BALLS] = {pair[0], pair[1]}, found = 2;
   in[pair[0]] = in[pair[1]] = true;
   for (int k = 0; k < found; k++)
@@ -101,13 +114,12 @@ static int follow(const carom_cluster_state *c, const int pair[2], bool in[CAROM
       if (in[j])
         continue;
       const two_balls two = between(&c->ball[queue[k]], &c->ball[j]);
-      const double closing = two.closing > 0.0 ? two.closing : 0.0;
-      if (two.gap < reach * delta + T * closing) {
+      if (reaches(&first, reach, &two)) {
         in[j] = true;
         queue[found++] = j;
       }
     }
-  return found;
+  return first;
 }
 
 static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *two,
@@ -128,13 +140,14 @@ static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *
   x->time = -1.0;
 }
 
-/* The contacts of all balls that are nearer than `limit`; -1 where there is no room for them. */
-static int list_contacts(carom_cluster_state *c, double limit) {
+/* The contacts of all balls that are nearer than so many delta, and what they close; -1 where there
+ * is no room for them. */
+static int list_contacts(carom_cluster_state *c, const first_contact *first, double deltas) {
   int count = 0;
   for (int i = 0; i < c->balls; i++)
     for (int j = i + 1; j < c->balls; j++) {
       const two_balls two = between(&c->ball[i], &c->ball[j]);
-      if (two.gap >= limit)
+      if (two.gap >= touching && !reaches(first, deltas, &two))
         continue;
       if (count == CAROM_CLUSTER_CONTACTS)
         return -1;
@@ -151,7 +164,7 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
     return 0;
   if (between(&c->ball[pair[0]], &c->ball[pair[1]]).closing < c->slow)
     return 0;
-  follow(c, pair, in);
+  const first_contact starts = follow(c, pair, in);
   /* the members, in the caller's order */
   int kept = 0;
   for (int k = 0; k < c->balls; k++)
@@ -164,8 +177,8 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
   /* small balls around a large one may have more neighbours than there is room for: then only
    * the nearest */
   int count = -1;
-  for (double limit = far; count < 0 && limit > touching; limit *= 0.5)
-    count = list_contacts(c, limit);
+  for (double limit = far; count < 0 && limit > 1e-3; limit *= 0.5)
+    count = list_contacts(c, &starts, limit);
   c->contacts = count > 0 ? count : 0;
   return count;
 }
