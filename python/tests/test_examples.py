@@ -68,8 +68,8 @@ def test_refine_aim(tmp_path, monkeypatch):
     assert out.read_text(encoding="utf-8").startswith("<?xml") and out.stat().st_size > 10_000
 
 
-SHORT = ("all_cores", "ball_by_ball", "bot", "chaos", "custom_rule", "draw_distance", "drill", "frozen_kiss", "jump_over", "kick_by_diamonds",
-         "own_table", "thirty_degrees", "throw_by_speed")  # fmt: skip
+SHORT = ("aim_at_pocket", "all_cores", "ball_by_ball", "bot", "chaos", "custom_rule", "draw_distance", "drill", "frozen_kiss", "jump_over",
+         "kick_by_diamonds", "own_table", "thirty_degrees", "throw_by_speed")  # fmt: skip
 
 
 @pytest.mark.parametrize("name", SHORT)
