@@ -69,7 +69,7 @@ def test_refine_aim(tmp_path, monkeypatch):
 
 
 SHORT = ("aim_at_pocket", "all_cores", "ball_by_ball", "bot", "chaos", "custom_rule", "draw_distance", "drill", "frozen_kiss", "jump_over",
-         "kick_by_diamonds", "own_table", "thirty_degrees", "throw_by_speed")  # fmt: skip
+         "kick_by_diamonds", "masse", "own_table", "thirty_degrees", "throw_by_speed")  # fmt: skip
 
 
 @pytest.mark.parametrize("name", SHORT)
