@@ -7,6 +7,7 @@
 #include "picture.h"
 #include "shot_file.h"
 #include "shot_picture.h"
+#include "shot_story.h"
 #include "subcommands.h"
 
 #include "carom_plan.h"
@@ -100,8 +101,7 @@ static const char *const kinds[] = {"pot", "scan", "foul", "given", "push-out", 
 
 /* What a choice does, by the names of the file. */
 static void describe(const shot_line *line, const carom_choice *c, char text[200]) {
-  const char *pocket = c->pocket >= 0 ? line->table->pocket[c->pocket] : NULL;
-  const double *at = c->pocket >= 0 ? line->table->table.pocket[c->pocket].centre : NULL;
+  char pocket[WHERE_TEXT];
   if (c->kind == CAROM_PLAN_FOUL)
     snprintf(text, 200, "no shot without a foul was found");
   else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_PASS)
@@ -109,8 +109,8 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
   else if (c->ball < 0)
     snprintf(text, 200, "a safety: nothing is potted");
   else
-    snprintf(text, 200, "ball %s into pocket %s at %.3f, %.3f m%s", line->name[c->ball],
-             pocket != NULL ? pocket : "", at[0], at[1],
+    snprintf(text, 200, "ball %s into %s%s", line->name[c->ball],
+             pocket_words(line->table, c->pocket, pocket),
              c->kind == CAROM_PLAN_POT ? ""
              : c->cushions > 0         ? ", off a cushion"
                                        : ", by another way than directly");

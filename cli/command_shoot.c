@@ -404,15 +404,17 @@ static const command_form form = {
              "IN may be -. Or plays a shot that options describe, and tells it in words; several "
              "values with commas give several shots, drawn over each other.\n",
     .options =
-        (const option_row *const[]){
-            &option_table,         &option_cue,         &option_balls,        &option_aim,
-            &option_at_ball,       &option_pocket,      &option_shot_cut,     &option_shot_speed,
-            &option_ball_speed,    &option_tip,         &option_elevation,    &option_tip_time,
-            &option_json,          &option_story,       &option_models,       &option_ball_ball,
-            &option_cushion_model, &option_space,       &option_simultaneous, &option_events,
-            &option_steps,         &option_events_most, &option_time_most,    &option_threads,
-            &option_plot,          &option_spread,      &option_animate,      &option_shot_id,
-            &option_strict,        &option_cite,        &option_output,       NULL},
+        (const option_row *const[]){&option_table,      &option_cue,          &option_balls,
+                                    &option_aim,        &option_at_ball,      &option_pocket,
+                                    &option_via,        &option_shot_cut,     &option_shot_speed,
+                                    &option_ball_speed, &option_tip,          &option_elevation,
+                                    &option_tip_time,   &option_json,         &option_story,
+                                    &option_models,     &option_ball_ball,    &option_cushion_model,
+                                    &option_space,      &option_simultaneous, &option_events,
+                                    &option_steps,      &option_events_most,  &option_time_most,
+                                    &option_threads,    &option_plot,         &option_spread,
+                                    &option_animate,    &option_shot_id,      &option_strict,
+                                    &option_cite,       &option_output,       NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
         "the error; the others are played); 2 for bad usage or unreadable input\n",

@@ -28,11 +28,10 @@ export function colourOf(name, k) {
   return NAMED[name.split(" ")[0]] ?? (k === 0 ? IVORY : POOL[((Number(name) || k) - 1) % 8]);
 }
 
-/** Where a pocket is, for whoever stands at the head of the table. @param {Table} table @param {number} pocket */
+/** Where a pocket of a rectangle is for a player at the head, as carom_pocket_name() says: "foot-left pocket". @param {Table} table @param {number} pocket */
 export function pocketName({ width, length, pockets }, pocket) {
   const [x, y] = pockets[pocket].centre;
-  const across = x < width / 2 ? "left" : "right";
-  return Math.abs(y - length / 2) < 0.2 * length ? `${across} side pocket` : `${across} corner ${y < length / 2 ? "near the head" : "near the foot"}`;
+  return `${y < 0.3 * length ? "head" : y < 0.7 * length ? "side" : "foot"}-${x > width / 2 ? "right" : "left"} pocket`;
 }
 
 /** @type {Record<string, string>} */

@@ -3,12 +3,9 @@
  * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. */
 #include "shoot_flags.h"
 
-#include "aim.h"
 #include "doubts.h"
 #include "message.h"
 #include "number.h"
-#include "pot.h"
-#include "shot_story.h"
 #include "words.h"
 
 #include <ctype.h>
@@ -81,9 +78,12 @@ ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
     "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, "
     "swerve and hops do; an error where no direction does");
 ROW(option_pocket, "pocket", pocket, "BALL:POCKET", set_text, 0,
-    "aim so that this ball falls into this pocket, whatever squirt and throw do: 1:top-right, "
-    "1:bottom-side, or by its id, 1:lt. Tells the cut, how far the ball may leave to either jaw, "
-    "and with which speeds of the cue it falls; or why there is no such aim");
+    "aim so that this ball falls into this pocket, whatever squirt and throw do: 1:foot-left, "
+    "1:side-right, or by its id, 1:lt. Tells the cut, how far the ball's way may turn to either "
+    "jaw, and with which directions and speeds of the cue it falls; or why there is no such aim");
+ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
+    "with --pocket: the way of a combination or a bank, in its order: first balls that the cue "
+    "ball meets, then rails that the ball meets, head, foot, left or right; 2 or left or 2,left");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
     "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
@@ -105,20 +105,11 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
     "holds: a > 0 is left");
 
 bool has_flags(const shoot_flags *f) {
-  return f->table != NULL || f->at_ball != NULL || f->pocket != NULL || f->json ||
+  return f->table != NULL || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
          f->cue.count > 0 || f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 ||
          f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 ||
          f->elevation.count > 0 || f->tip_time != 0.0;
 }
-
-/* The balls on the table, the cue ball first. */
-typedef struct layout {
-  carom_game game;
-  carom_table table;
-  carom_shot_ball ball[CAROM_BALLS_MOST];
-  char name[CAROM_BALLS_MOST][PLACE_NAME];
-  int count;
-} layout;
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
 static void name_rack(layout *l, carom_rack_kind kind) {
@@ -145,6 +136,7 @@ static bool lay_out(const shoot_flags *f, layout *l) {
              name, did_you_mean(name, tables, hint));
     return false;
   }
+  l->table_name = name;
   carom_table_make((carom_table_kind)kind, &l->table);
   l->game = kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
             : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
@@ -176,123 +168,6 @@ static bool lay_out(const shoot_flags *f, layout *l) {
     l->ball[k].state.r[2] = ball.radius;
   }
   return true;
-}
-
-/* What stands in the way of the ball of the cue. */
-static const char *obstacle(const layout *l, const carom_event *met, char text[40]) {
-  if (met->type == CAROM_EVENT_BALL_BALL)
-    snprintf(text, 40, "ball %s", l->name[met->a == 0 ? met->b : met->a]);
-  return met->type == CAROM_EVENT_BALL_BALL    ? text
-         : met->type == CAROM_EVENT_POCKET     ? "a pocket"
-         : met->type == CAROM_EVENT_LEFT_TABLE ? "the end of the table"
-                                               : "a cushion";
-}
-
-/* Aims a cue at the ball, at a cut; false after a complaint. */
-static bool aim_at_ball(const shoot_flags *f, const layout *l, const carom_shot_options *options,
-                        double cut, carom_cue *cue) {
-  const char *name = f->at_ball != NULL ? f->at_ball : "1";
-  char text[40], names[CAROM_BALLS_MOST * (PLACE_NAME + 1)] = "", hint[HINT_TEXT];
-  carom_event met;
-  int at = 1;
-  for (; at < l->count && strcmp(l->name[at], name) != 0; at++)
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s|", l->name[at]);
-  if (at >= l->count)
-    complain("--at-ball '%s': there is no such ball; --balls says where balls are%s", name,
-             did_you_mean(name, names, hint));
-  else if (!(fabs(cut) < 90.0))
-    complain("--cut is between -90 and 90 degrees");
-  else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
-    return true; /* which is told when it is played */
-  else
-    switch (aim_at(&l->table, l->ball, l->count, options, at, cut, cue, &met)) {
-    case AIM_FOUND:
-      return true;
-    case AIM_BARRED:
-      complain("--at-ball %s: at a cut of %.4g degrees %s is in the way", name, cut,
-               obstacle(l, &met, text));
-      break;
-    case AIM_NOT_REACHED:
-      complain("--at-ball %s: at a cut of %.4g degrees the cue ball comes to rest before it; give "
-               "a higher --speed",
-               name, cut);
-      break;
-    default:
-      complain("--at-ball %s: no direction of this cue makes the cue ball meet it first at a cut "
-               "of %.4g degrees",
-               name, cut);
-    }
-  return false;
-}
-
-/* Aims a cue at a pocket, and tells of it; false after a complaint. */
-static bool aim_at_pocket(const shoot_flags *f, const layout *l, const carom_shot_options *options,
-                          carom_cue *cue, char told[AIMED_TEXT]) {
-  const char *colon = strchr(f->pocket, ':'), *name = colon != NULL ? colon + 1 : "";
-  char text[WHERE_TEXT], known[512] = "", where[40], hint[HINT_TEXT];
-  named_table *t = built_in_table(f->table != NULL ? f->table : "9ft");
-  int ball = 1, pocket = -1;
-  while (ball < l->count &&
-         (colon == NULL || strlen(l->name[ball]) != (size_t)(colon - f->pocket) ||
-          strncmp(l->name[ball], f->pocket, strlen(l->name[ball])) != 0))
-    ball++;
-  /* A pocket is "top-right" where its words are "the top right pocket". */
-  for (int p = 0; p < l->table.pockets; p++) {
-    char *words = (char *)pocket_words(t, p, text) + strlen("the ");
-    words[strlen(words) - strlen(" pocket")] = '\0';
-    *strchr(words, ' ') = '-';
-    snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", p > 0 ? "|" : "", words);
-    pocket = strcmp(words, name) == 0 || strcmp(t->pocket[p], name) == 0 ? p : pocket;
-  }
-  pot found;
-  bool good = false;
-  if (l->table.pockets == 0)
-    complain("--pocket: the table has none");
-  else if (ball >= l->count || pocket < 0)
-    complain("--pocket is BALL:POCKET, such as 1:top-right, with a ball of --balls and one of %s "
-             "or its id; not '%.60s'%s",
-             known, f->pocket, did_you_mean(name, known, hint));
-  else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
-    good = true; /* which is told when it is played */
-  else
-    switch (pot_aim(&l->table, l->ball, l->count, options, ball, pocket, cue, &found)) {
-    case POT_FOUND:
-      good = true;
-      snprintf(
-          told, AIMED_TEXT,
-          "aim    at %s for %s: cut %.1f degrees to the %s; the ball may leave %.2f degrees to "
-          "the right and %.2f to the left\n       falls with %.3g to %.3g m/s of the cue in "
-          "this direction\n",
-          l->name[ball], pocket_words(t, pocket, text), fabs(found.cut),
-          found.cut < 0.0 ? "right" : "left", found.right, found.left, found.least, found.most);
-      break;
-    case POT_NO_CUT:
-      complain("--pocket %s: no such aim: the ball cannot be cut there directly, by 80 degrees at "
-               "most and past the jaws",
-               f->pocket);
-      break;
-    case POT_BARRED:
-      if (found.obstacle.type == 0)
-        complain("--pocket %s: no such aim: the cue ball does not reach the ball; give a higher "
-                 "--speed",
-                 f->pocket);
-      else
-        complain("--pocket %s: no such aim: %s is in the way of the cue ball", f->pocket,
-                 obstacle(l, &found.obstacle, where));
-      break;
-    case POT_MET:
-      complain("--pocket %s: no such aim: the ball meets ball %s on its way", f->pocket,
-               l->name[found.obstacle.a == ball ? found.obstacle.b : found.obstacle.a]);
-      break;
-    case POT_SHORT:
-      complain("--pocket %s: no such aim: the ball comes to rest before it; give a higher --speed",
-               f->pocket);
-      break;
-    default:
-      complain("--pocket %s: no such aim: the jaws send the ball back at this speed", f->pocket);
-    }
-  free_table(t);
-  return good;
 }
 
 static double tip_of(const value *v, double radius) {
@@ -357,13 +232,13 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
     return false;
   char told[AIMED_TEXT] = "";
   if (f->pocket != NULL) {
-    if (!aim_at_pocket(f, l, options, &cue, told))
+    if (!aim_at_pocket(f->pocket, f->via, l, options, &cue, told))
       return false;
     if (index < MOST_SHOTS)
       memcpy(f->aimed[index], told, sizeof told);
   } else if (f->cut.count == 0)
     cue.phi = f->aim.at[way].x;
-  else if (!aim_at_ball(f, l, options, f->cut.at[way].x, &cue))
+  else if (!aim_at_ball(f->at_ball != NULL ? f->at_ball : "1", l, options, f->cut.at[way].x, &cue))
     return false;
   name_value(id, "aim", &f->aim, way);
   name_value(id, "cut", &f->cut, way);
@@ -373,8 +248,7 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
     snprintf(id + strlen(id), sizeof id - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "",
              f->tip.at[tip].x.name, f->tip.at[tip].y.name);
   fprintf(out, "{\"kind\": \"shot\", \"id\": \"%s\", \"table\": \"%s\", \"cue\": {\"V0\": %s",
-          id[0] != '\0' ? id : "shot", f->table != NULL ? f->table : "9ft",
-          number_text(cue.speed, number));
+          id[0] != '\0' ? id : "shot", l->table_name, number_text(cue.speed, number));
   fprintf(out, ", \"phi\": %s", number_text(cue.phi, number));
   fprintf(out, ", \"theta\": %s", number_text(cue.theta, number));
   fprintf(out, ", \"a\": %s", number_text(cue.a == 0.0 ? 0.0 : cue.a, number));
@@ -404,6 +278,10 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   }
   if (f->pocket != NULL && (f->aim.count > 0 || f->cut.count > 0 || f->at_ball != NULL)) {
     complain("--pocket says the direction, and so do --aim, --at-ball and --cut: give one of them");
+    return false;
+  }
+  if (f->via != NULL && f->pocket == NULL) {
+    complain("--via is the way of a ball to its pocket: give --pocket too");
     return false;
   }
   if (f->speed.count > 0 && f->ball_speed.count > 0) {

@@ -3,11 +3,12 @@
 #ifndef CAROM_CLI_SHOOT_FLAGS_H
 #define CAROM_CLI_SHOOT_FLAGS_H
 
+#include "shoot_aim.h"
 #include "values.h"
 
 #include <stdio.h>
 
-enum { MOST_PLACES = 32, PLACE_NAME = 16, MOST_SHOTS = 16, AIMED_TEXT = 240, MOST_ROWS = 1001 };
+enum { MOST_PLACES = 32, MOST_SHOTS = 16, MOST_ROWS = 1001 };
 
 /* Pairs of numbers, each with the name that stood before it. */
 typedef struct place_list {
@@ -22,7 +23,7 @@ typedef struct place_list {
 /* The job of a subcommand that has these options begins with it. */
 typedef struct shoot_flags {
   shared_options shared;
-  const char *table, *at_ball, *pocket;
+  const char *table, *at_ball, *pocket, *via;
   values speed, ball_speed, aim, cut, elevation;
   place_list cue, balls, tip;
   double tip_time; /* s */
@@ -31,7 +32,7 @@ typedef struct shoot_flags {
 } shoot_flags;
 
 extern const option_row option_table, option_cue, option_balls, option_aim, option_at_ball,
-    option_pocket, option_shot_cut, option_shot_speed, option_ball_speed, option_tip,
+    option_pocket, option_via, option_shot_cut, option_shot_speed, option_ball_speed, option_tip,
     option_elevation, option_tip_time, option_json;
 
 /* Whether one of them is given. */

@@ -55,49 +55,23 @@ bool ball_moved(const carom_shot *shot, int ball) {
 
 /* ---- Places in words */
 
-/* Along which side a rail lies, 0 to 3: top, bottom, left, right; -1 for none. */
-static int side_of_rail(const carom_table *t, int rail) {
-  const carom_rail *r = &t->rail[rail];
-  const double along = 1e-6 * (t->width + t->length);
-  if (fabs(r->p[0] - r->q[0]) < along)
-    return r->p[0] < 0.5 * t->width ? 0 : 1;
-  if (fabs(r->p[1] - r->q[1]) < along)
-    return r->p[1] < 0.5 * t->length ? 2 : 3;
-  return -1;
-}
-
-/* Whether all cushions lie along the sides of a rectangle. */
-static bool is_rectangle(const carom_table *t) {
-  for (int k = 0; k < t->rails; k++)
-    if (is_cushion(t, k) && side_of_rail(t, k) < 0)
-      return false;
-  return true;
-}
-
-static const char *const sides[] = {"the top rail", "the bottom rail", "the left rail",
-                                    "the right rail"};
-
 const char *rail_words(const named_table *t, int rail, char text[WHERE_TEXT]) {
-  const int side = is_rectangle(&t->table) ? side_of_rail(&t->table, rail) : -1;
-  snprintf(text, WHERE_TEXT, side < 0 ? "rail %.40s" : "%s",
-           side < 0 ? t->rail[rail] : sides[side]);
+  const char *name = carom_rail_name(&t->table, rail);
+  snprintf(text, WHERE_TEXT, name != NULL ? "the %.40s rail" : "rail %.40s",
+           name != NULL ? name : t->rail[rail]);
   return text;
 }
 
 const char *pocket_words(const named_table *t, int pocket, char text[WHERE_TEXT]) {
-  const double *centre = t->table.pocket[pocket].centre, y = centre[1] / t->table.length;
-  if (is_rectangle(&t->table))
-    snprintf(text, WHERE_TEXT, "the %s %s pocket",
-             centre[0] < 0.5 * t->table.width ? "top" : "bottom",
-             fabs(y - 0.5) < 0.2 ? "side"
-             : y < 0.5           ? "left"
-                                 : "right");
-  else
-    snprintf(text, WHERE_TEXT, "pocket %.40s", t->pocket[pocket]);
+  const char *name = carom_pocket_name(&t->table, pocket);
+  snprintf(text, WHERE_TEXT, name != NULL ? "the %.40s pocket" : "pocket %.40s",
+           name != NULL ? name : t->pocket[pocket]);
   return text;
 }
 
 const char *side_words(const named_table *t, double x, double y) {
+  static const char *const sides[] = {"the left rail", "the right rail", "the head rail",
+                                      "the foot rail"};
   const double beyond[4] = {-x, x - t->table.width, -y, y - t->table.length};
   int side = 0;
   for (int k = 1; k < 4; k++)
@@ -116,11 +90,12 @@ static int nearest_pocket(const carom_table *t, const double r[2]) {
   return nearest;
 }
 
-/* A place along a rail in diamonds: 8 on a long side, 4 on a short one, from the corner at the top
- * left. */
+/* A place along a rail in diamonds: 8 on a long side, 4 on a short one, from the head or left. */
 static double diamonds_at(const carom_table *t, int rail, const double r[2]) {
-  const int side = side_of_rail(t, rail);
-  return side < 0 ? (double)NAN : side < 2 ? 8.0 * r[1] / t->length : 4.0 * r[0] / t->width;
+  const char *name = carom_rail_name(t, rail);
+  return name == NULL                       ? (double)NAN
+         : name[0] == 'l' || name[0] == 'r' ? 8.0 * r[1] / t->length
+                                            : 4.0 * r[0] / t->width;
 }
 
 /* ---- Moments */

@@ -40,11 +40,10 @@ enum { MOST_MOMENTS = 512, WHERE_TEXT = 64 };
 /* The moments of a ball in their order, at most MOST_MOMENTS; how many. */
 int story_of(const shot_line *line, const carom_shot *shot, int ball, moment to[MOST_MOMENTS]);
 
-/* "the top rail", as the picture shows it: y to the right, x down. By its name where the rail
- * lies otherwise. */
+/* "the left rail", by carom_rail_name(); by its id where it has no name. */
 const char *rail_words(const named_table *t, int rail, char text[WHERE_TEXT]);
 
-/* "the top right pocket" */
+/* "the foot-left pocket" */
 const char *pocket_words(const named_table *t, int pocket, char text[WHERE_TEXT]);
 
 /* "the left rail": the rail beyond which a place lies. */

@@ -307,16 +307,49 @@ CAROM_API carom_status carom_plan_try(const carom_plan_job *job, const carom_cue
  * carom_plan(); memory is not needed. */
 CAROM_API carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *value);
 
-/* Aims a direct pot of ball `ball` into pocket `pocket`: cue->phi becomes the direction for the
- * cue's speed and tip, with squirt and throw solved by shots that stop at the contact. The other
- * balls are not looked at. window[0] and window[1], degrees, become the directions of the ball,
- * low and high, between which it passes the jaws. CAROM_OK; CAROM_SEPARATING where the ball
- * cannot be cut to the pocket from there, by more than 80 degrees; or an error of an argument.
- * window may be NULL. */
-CAROM_API carom_status carom_plan_aim(const carom_table *table, const carom_shot_ball *balls,
-                                      int count, int ball, int pocket,
-                                      const carom_shot_options *shot, carom_cue *cue,
-                                      double window[2]);
+/* ---- Aims ------------------------------------------------------------------------------------ */
+
+enum { CAROM_VIA_MOST = 4 };
+
+/* What comes of an aim: of the shot of the whole layout. */
+typedef enum carom_pot_is {
+  CAROM_POT_FALLS = 0,   /* the ball falls into the pocket */
+  CAROM_POT_NO_WAY = 1,  /* no direction of this cue sends the ball there by this way */
+  CAROM_POT_BARRED = 2,  /* a ball on the way meets something else first: `met` */
+  CAROM_POT_SHORT = 3,   /* a ball on the way comes to rest: met.a */
+  CAROM_POT_REJECTED = 4 /* the jaws send the ball back, at this speed */
+} carom_pot_is;
+
+/* A ball and the pocket that it shall fall into. The caller sets the first block, and
+ * carom_aim() the second one. */
+typedef struct carom_pot {
+  int32_t ball, pocket;
+  int32_t vias;                   /* elements of via[], 0 to CAROM_VIA_MOST. */
+  carom_part via[CAROM_VIA_MOST]; /* first balls, in the order in which they are met, the last of
+                                     which meets `ball`: a combination. Then the rails that `ball`
+                                     meets, in their order: a bank. A rail stands for all rails on
+                                     its line, such as both halves of a long one. */
+
+  int32_t is;            /* a carom_pot_is. */
+  double cut;            /* degrees, of the cue ball on the first ball, which goes to the left of
+                            its way where this is above 0. */
+  double margin;         /* degrees by which the way of the ball into the pocket may turn, to
+                            either jaw; 0 where a jaw is in the way of every direction. */
+  double phi[2];         /* directions of the cue, degrees, between which the ball falls; cue->phi
+                            is between them. */
+  double speed[2];       /* speeds of the cue, m/s, between which it falls in that direction; of
+                            0.05 to 15. */
+  carom_brief_event met; /* of BARRED and SHORT. */
+} carom_pot;
+
+/* Aims a pot: cue->phi becomes the direction in which the ball, by this way, goes to the middle
+ * of the pocket's mouth, for the cue's speed, tip and elevation. It is found by shots of the
+ * balls on the way, so squirt, swerve, throw and the model of the cushion count. pot->is tells
+ * what the other balls and the jaws make of it; where that is CAROM_POT_NO_WAY, cue->phi stays.
+ * CAROM_OK; CAROM_ERROR_BALLS for an index or an order of via[] that cannot be; or an error of
+ * an argument, with nothing written. One to ten ms. */
+CAROM_API carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,
+                                 const carom_shot_options *shot, carom_pot *pot, carom_cue *cue);
 
 #ifdef __cplusplus
 }

@@ -374,6 +374,13 @@ CAROM_API const char *carom_table_name(carom_table_kind kind);
 /* Fills *table. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE where there is no such kind. */
 CAROM_API carom_status carom_table_make(carom_table_kind kind, carom_table *table);
 
+/* Where a rail or a pocket of a rectangular table is, as players say who stand at the head, y = 0,
+ * and look along the table: "head", "foot", "left" or "right"; "head-left", "side-left",
+ * "foot-left", "head-right", "side-right" or "foot-right". NULL for a rail that is the cut of a
+ * pocket, for other tables, and for an index that cannot be. */
+CAROM_API const char *carom_rail_name(const carom_table *table, int rail);
+CAROM_API const char *carom_pocket_name(const carom_table *table, int pocket);
+
 /* A part of a table, or a ball. */
 typedef enum carom_part_kind {
   CAROM_PART_NONE = 0,

@@ -374,14 +374,26 @@ EVERY_PLAN(plan, carom_plan(&job, room->choice, EVERY_FEW, &found))
 EVERY_PLAN(plan_hand, carom_plan_hand(&job, NULL, NULL, room->choice, EVERY_FEW, &found))
 EVERY_PLAN(plan_try, carom_plan_try(&job, in->cue, 2, room->choice))
 EVERY_PLAN(plan_value, carom_plan_value(&job, 1, &room->choice[0].value))
-EVERY_BODY(plan_aim) {
+EVERY_BODY(aim) {
   for (int pocket = 0; pocket < 6; pocket++) {
     carom_cue cue = in->cue[0];
-    double window[2] = {0};
-    STATUS(carom_plan_aim(&in->table, in->balls, EVERY_BALLS, 1, pocket, NULL, &cue, window));
+    carom_pot pot = {.ball = 1, .pocket = pocket, .vias = pocket % 3};
+    pot.via[0] = pocket == 1 ? (carom_part){CAROM_PART_RAIL, 0} : (carom_part){CAROM_PART_BALL, 2};
+    pot.via[1] = (carom_part){CAROM_PART_RAIL, 2};
+    STATUS(carom_aim(&in->table, in->balls, EVERY_BALLS, NULL, &pot, &cue));
     HASH(cue);
-    HASH(window);
+    HASH(pot);
   }
+  return h;
+}
+EVERY_BODY(rail_name) {
+  for (int k = -1; k < 20; k++)
+    h = every_text(h, carom_rail_name(&in->table, k));
+  return h;
+}
+EVERY_BODY(pocket_name) {
+  for (int k = -1; k < 8; k++)
+    h = every_text(h, carom_pocket_name(&in->table, k));
   return h;
 }
 EVERY_VALUE(plan_memory, carom_plan_memory(NULL))
@@ -556,14 +568,14 @@ EVERY_BODY(record_settle) {
 
 /* clang-format off */
 #define EVERY_ONE(F) \
-  F(alciatore) F(ball_kind_of) F(check) F(cite) F(collide) F(cluster) F(collide_batch) \
+  F(aim) F(alciatore) F(ball_kind_of) F(check) F(cite) F(collide) F(cluster) F(collide_batch) \
   F(collide_batch_f32) F(collide_detail) F(collide_f32) F(collide_tangent) F(cue_of) F(cushion) \
   F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_tangent) \
   F(cushion_trace) F(event_name) F(field_name) F(foul_of) F(foul_string) F(impact3) \
   F(isa_available) F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) \
-  F(physics_revision) F(place_ball) F(plan) F(plan_aim) F(plan_hand) F(plan_memory) \
-  F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(rack) \
-  F(rack_name) F(rack_size) F(record_place) F(record_play) F(record_read) F(record_settle) \
+  F(physics_revision) F(place_ball) F(plan) F(plan_hand) F(plan_memory) \
+  F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(pocket_name) F(rack) \
+  F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) F(record_settle) \
   F(record_write) F(rolling_velocity) F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) \
   F(shot_at_times) F(shot_check) F(shot_continue) F(shot_orientation) F(shot_tangent) \
   F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(status_name) F(status_string) \

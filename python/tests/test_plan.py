@@ -27,17 +27,42 @@ def test_plan():
 def test_aim():
     layout = carom.balls([[0.6, 0.8], [0.4, 1.7]])
     for tip in ((0.0, 0.25), (0.4, 0.0), (-0.3, -0.2)):
-        cue, (low, high) = carom.aim(TABLE, layout, carom.cue(tip=tip), ball=1, pocket=2)
-        shot = carom.simulate(TABLE, layout, cue)
-        met = next(event for event in shot.events if event["type"] == carom.EventType.BALL_BALL)
-        vx, vy, _ = met["after"]["v"][1]
-        assert low < np.degrees(np.arctan2(vy, vx)) < high and high - low > 1.0
-        fallen = [(event["a"], event["b"]) for event in shot.events if event["type"] == carom.EventType.POCKET]
-        assert (1, 2) in fallen
-    with pytest.raises(ValueError, match="pocket: no such aim: ball 1 cannot be cut to pocket 3"):
-        carom.aim(TABLE, layout, carom.cue(), ball=1, pocket=3)
-    with pytest.raises(ValueError, match="ball: there are 2, not 3"):
-        carom.aim(TABLE, layout, carom.cue(), ball=2, pocket=3)
+        pot = carom.aim(TABLE, layout, carom.cue(tip=tip), ball=1, pocket="foot-left")
+        shot = carom.simulate(TABLE, layout, pot.cue)
+        assert (1, 2) in [(event["a"], event["b"]) for event in shot.events if event["type"] == carom.EventType.POCKET]
+        assert pot.phi[0] < pot.cue["phi"] < pot.phi[1] and pot.speed[0] < pot.cue["speed"] < pot.speed[1]
+        assert 5.0 < pot.cut < 20.0 and pot.margin > 1.0
+
+
+def test_aim_by_a_way():
+    bank, combination = [[0.9, 1.5]], [[0.55, 1.3], [0.4, 1.8]]
+    for places, ball, pocket, via in ((bank, 1, "foot-left", ["right"]), (combination, 2, 2, [1]), (combination, 2, "foot-right", [1, "left"])):
+        layout = carom.balls([[0.6, 0.8], *places])
+        pot = carom.aim(TABLE, layout, carom.cue(speed=3.0), ball=ball, pocket=pocket, via=via)
+        events = carom.simulate(TABLE, layout, pot.cue).events
+        fallen = next(k for k, event in enumerate(events) if event["type"] == carom.EventType.POCKET and event["a"] == ball)
+        of_ball = [event for event in events[:fallen] if event["type"] in (carom.EventType.BALL_BALL, carom.EventType.RAIL) and ball in (event["a"], event["b"])]
+        met = [event["a"] + event["b"] - ball if event["type"] == carom.EventType.BALL_BALL else TABLE.rail_names[event["b"]] for event in of_ball]
+        way = ([] if 1 in via else [0]) + via
+        assert met[: len(way)] == way, met  # then it may touch what is beside the pocket
+        assert TABLE.pocket_names[events[fallen]["b"]] == ("foot-left" if pocket == 2 else pocket)
+
+
+@pytest.mark.parametrize(
+    ("changes", "match"),
+    [
+        ({"pocket": "head-right"}, "pocket: no such aim at head-right: no direction of the cue sends ball 1 there"),
+        ({"ball": 2}, "ball: there are 2, not 3"),
+        ({"pocket": "foot"}, "pocket: it must be one of foot-left, foot-right, head-left, head-right, side-left, side-right, not 'foot'"),
+        ({"via": ["top"]}, "via: it must be one of foot, head, left, right, not 'top'"),
+        ({"via": ["left", 1]}, "via: it must be up to 4 indices of balls and then names of rails"),
+        ({"speed": 0.6}, "pocket: no such aim at foot-left: ball 1 comes to rest on its way"),
+    ],
+)
+def test_no_such_aim(changes, match):
+    given = {"ball": 1, "pocket": "foot-left", "speed": 2.0} | changes
+    with pytest.raises(ValueError, match=match):
+        carom.aim(TABLE, carom.balls([[0.6, 0.8], [0.4, 1.7]]), carom.cue(speed=given.pop("speed")), **given)
 
 
 def test_ball_in_hand():

@@ -44,6 +44,10 @@ extern const carom_facts carom_no_facts;
 /* value.c */
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options);
+carom_mouth carom_mouth_of(const carom_table *table, int pocket);
+/* The directions in which a ball of radius R at o gets between the jaws: the middle, and half the
+ * range, which is below 0 where it does not, rad. */
+void carom_window(const carom_mouth *mouth, const double o[2], double R, double *psi, double *half);
 /* The pot of ball k into a pocket by the player `who`, 0 or 1; in_hand: the cue ball may be put
  * anywhere. */
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,

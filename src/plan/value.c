@@ -39,7 +39,8 @@ uint32_t carom_in_play(const carom_ball_state *balls, int count) {
 /* ---- Once for a plan */
 
 /* The two jaws nearest to the centre of a pocket, where both are near. */
-static carom_mouth mouth_of(const carom_table *table, const carom_pocket *pocket) {
+carom_mouth carom_mouth_of(const carom_table *table, int index) {
+  const carom_pocket *pocket = &table->pocket[index];
   carom_mouth mouth = {.centre = {pocket->centre[0], pocket->centre[1]},
                        .jaw = {{0.0, 0.0, pocket->radius}}};
   double least[2] = {INFINITY, INFINITY};
@@ -111,7 +112,7 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
   view->width = job->table->width;
   view->length = job->table->length;
   for (int p = 0; p < view->pockets; p++)
-    view->mouth[p] = mouth_of(job->table, &job->table->pocket[p]);
+    view->mouth[p] = carom_mouth_of(job->table, p);
   for (int k = 0; k < view->count; k++)
     view->radius[k] = job->balls[k].kind.radius;
   view->sigma[0] = job->player->phi * (pi / 180.0);
@@ -146,10 +147,8 @@ static bool is_clear(const carom_view *view, const carom_ball_state *balls, uint
   return true;
 }
 
-/* The directions in which a ball of radius R at o gets between the jaws: the middle and half the
- * range. */
-static void window(const carom_mouth *mouth, const double o[2], double R, double *psi,
-                   double *half) {
+void carom_window(const carom_mouth *mouth, const double o[2], double R, double *psi,
+                  double *half) {
   const double x = mouth->centre[0] - o[0], y = mouth->centre[1] - o[1], mid = carom_angle_of(x, y);
   *psi = mid;
   if (!mouth->jaws) {
@@ -186,7 +185,7 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
   const double *o = balls[k].r, *c = balls[view->cue_ball].r;
   const double R = view->radius[view->cue_ball], both = R + view->radius[k];
   carom_way way = {0};
-  window(mouth, o, view->radius[k], &way.psi, &way.half);
+  carom_window(mouth, o, view->radius[k], &way.psi, &way.half);
   if (!(way.half > 0.0))
     return way;
 

@@ -69,28 +69,39 @@ print("passes by", round(float(past["gap_mm"]), 6), "mm at y =", round(float(pas
 [rail] = [row for row in rows("--cue", "0.6,0.8", "--aim", 180, "--speed", 1) if row["what"] == "rail"][:1]
 print(rail["with"], round(float(rail["diamonds"]), 6), round(8 * 0.8 / 2.54, 6), run("--cue", "0.3,0.3", "--aim", 225, "--speed", 2).splitlines()[-1].strip())
 
-# Aims at pockets: the ball falls there, through the middle of its window; within the speeds that are told, and not beyond them.
+# Aims at pockets, by banks and combinations too: the ball falls there by the way that was asked for, with the aims and speeds that are told, and not
+# beyond them.
 fell = 0
-for place, pocket, words in (("0.4,1.7", "top-right", "--tip 0.4,0"), ("0.7,1.9", "bottom-right", "--tip -0.3,0.2 --speed 3"), ("1.0,1.1", "bottom-side", "--speed 1.5"), ("0.3,0.5", "lb", "--tip 0,-0.3")):
-    there = ("--cue", "0.6,0.9", "--balls", place)
-    [(given, played)] = shots(*there, "--pocket", f"1:{pocket}", *words.split())
-    id = {"top-right": "lt", "bottom-right": "rt", "bottom-side": "rc"}.get(pocket, pocket)
-    assert played["final"]["pockets"][id] == ["1"], (pocket, played["final"])
-    said = run(*there, "--pocket", f"1:{pocket}", *words.split())
-    cut, side, right, left = re.search(r"cut ([\d.]+) degrees to the (\w+); the ball may leave ([\d.]+) degrees to the right and ([\d.]+)", said).groups()
-    assert 0.3 < float(right) and abs(float(right) - float(left)) < 0.02 and f"at a cut of {cut} degrees" in said
+rail_names = {"3": "left", "6": "left", "15": "right", "12": "right", "18": "foot", "9": "head"}
+for places, ball, pocket, words in (
+    ("0.4,1.7", "1", "foot-left", "--tip 0.4,0"), ("0.7,1.9", "1", "foot-right", "--tip -0.3,0.2 --speed 3"), ("1.0,1.1", "1", "side-right", "--speed 1.5"), ("0.3,0.5", "1", "lb", "--tip 0,-0.3"),
+    ("0.9,1.5", "1", "foot-left", "--via right --speed 3"), ("0.9,1.5", "1", "foot-left", "--via right --speed 3 --cushion mathavan"), ("0.9,1.5", "1", "foot-right", "--via right,left --speed 4"), ("0.55,1.3:8=0.4,1.8", "8", "foot-left", "--via 1"), ("0.55,1.3:8=0.4,1.8", "8", "foot-right", "--via 1,left --speed 3"),
+):
+    asked = ("--cue", "0.6,0.9" if "via" not in words else "0.6,0.8", "--balls", places, "--pocket", f"{ball}:{pocket}", *words.split())
+    models = [word for word in words.split() if word in ("--cushion", "mathavan")]
+    [given] = map(json.loads, run(*asked, "--json").splitlines())
+    play = lambda **cue: json.loads(run("-", *models, input=json.dumps(given | {"cue": given["cue"] | cue})))
+    played, id = play(), {"foot-left": "lt", "foot-right": "rt", "side-right": "rc"}.get(pocket, pocket)
+    assert ball in played["final"]["pockets"][id], (pocket, played["final"])
+    # The way: what the balls meet, in its order.
+    fall = next(k for k, event in enumerate(played["events"]) if event[1] == "ball_pocket" and event[2][0] == ball)
+    met = [event for event in played["events"][:fall] if ball in event[2] and (event[1] == "ball_ball" or event[1] == "ball_linear_cushion" and event[2][1] in rail_names)]
+    by = [rail_names[event[2][1]] if event[1] == "ball_linear_cushion" else next(name for name in event[2] if name != ball) for event in met]
+    via = words.split("--via ")[1].split()[0].split(",") if "via" in words else []
+    assert by == ([] if via[:1] == ["1"] else ["cue"]) + via, (by, via)
+    said = run(*asked)
+    cut, side, margin, low, high, least, most = re.search(r"cut ([\d.]+) degrees to the (\w+); the ball's way may turn by ([\d.]+) degrees.*?aims of ([\d.]+) to ([\d.]+) degrees.*?with ([\d.]+) to ([\d.]+) m/s", said, re.S).groups()
     a, b = next(event for event in played["events"] if event[1] == "ball_ball")[3]
     turn = a[4] * (b[2] - a[2]) - a[5] * (b[1] - a[1])
-    assert (turn > 0) == (side == "left"), (turn, side)
-    least, most = map(float, re.search(r"falls with ([\d.]+) to ([\d.]+) m/s", said).groups())
-    for speed, falls in ((least * 1.02, True), (least * 0.98, False), (most * 0.98, True)):
-        line = json.dumps(given | {"cue": given["cue"] | {"V0": speed}})
-        assert (json.loads(run("-", input=line))["final"]["pockets"][id] == ["1"]) == falls, (pocket, speed, falls)
+    assert 0.3 < float(margin) and f"at a cut of {cut} degrees" in said and (turn > 0) == (side == "left"), (said, turn)
+    assert float(low) - 0.005 <= given["cue"]["phi"] <= float(high) + 0.005
+    for cue, falls in (({"V0": float(least) * 1.02}, True), ({"V0": float(least) * 0.98}, False), ({"V0": float(most) * 0.98}, True), ({"phi": float(low) + 0.006}, True), ({"phi": float(high) - 0.006}, True), ({"phi": float(low) - 0.006}, False), ({"phi": float(high) + 0.006}, False)):
+        assert (ball in play(**cue)["final"]["pockets"][id]) == falls, (asked, cue, falls)
         fell += falls
 print("aimed at pockets:", fell)
 
 # Each option alone is a shot by options, though it may lack another one.
-alone = "--table snooker,--at-ball 1,--pocket 1:lt,--json,--cue 0.6_0.8,--balls 0.5_1.6,--balls nineball,--tip 0.1_0,--speed 1,--ball-speed 1,--aim 10,--cut 10,--elevation 5,--tip-time 0.001"
+alone = "--table snooker,--at-ball 1,--pocket 1:lt,--via left,--json,--cue 0.6_0.8,--balls 0.5_1.6,--balls nineball,--tip 0.1_0,--speed 1,--ball-speed 1,--aim 10,--cut 10,--elevation 5,--tip-time 0.001"
 told = lambda words: subprocess.run([carom, "shoot", *words.replace("_", ",").split()], capture_output=True, text=True).stderr
 print("by options:", [words for words in alone.split(",") if "needs the name of a file" in told(words)])
 
@@ -133,7 +144,7 @@ carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --events brief --plot lines.
 carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --plot words.svg > words
 cmp lines.svg words.svg && try carom shoot --cue 5,5 --events none
 echo "--- refused"
-for words in "--cue 0.6,0.8 --csv --events brief" "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--speed 1 --ball-speed 1" "--balls 0.4,1.7 --pocket 1:rb" "--balls 0.4,1.7:0.3,1.9 --pocket 1:lt" "--balls 0.4,1.7:0.503,1.25 --cue 0.6,0.8 --pocket 1:lt" "--balls 0.4,1.7 --pocket 1:lt --speed 0.6" "--balls 0.4,1.7 --pocket 1:tp-right" "--balls 0.4,1.7 --pocket 1:lt --aim 90" "--table threecushion --balls 0.4,1.7 --pocket 1:lt" "--ball-speed 1 --elevation 5" "--table attic" \
+for words in "--cue 0.6,0.8 --csv --events brief" "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--speed 1 --ball-speed 1" "--balls 0.4,1.7 --pocket 1:rb" "--balls 0.4,1.7:0.3,1.9 --pocket 1:lt" "--balls 0.4,1.7:0.503,1.25 --cue 0.6,0.8 --pocket 1:lt" "--balls 0.4,1.7 --pocket 1:lt --speed 0.6" "--balls 0.4,1.7 --pocket 1:fot-right" "--balls 0.4,1.7 --pocket 1:lt --via lft" "--balls 0.4,1.7:0.9,1.5 --pocket 1:lt --via left,2" "--balls 0.4,1.7 --pocket 1:lt --via 1" "--balls 0.4,1.7 --pocket 1:lt --via head" "--balls 0.4,1.7 --via left" "--balls 0.9,1.5:0.8,2.0 --cue 0.6,0.8 --speed 3 --pocket 1:lt --via right" "--balls 0.9,1.5 --cue 0.6,0.8 --tip 0.2,0.1 --speed 3 --cushion mathavan --pocket 1:lt --via right" "--balls 0.4,1.7 --pocket 1:lt --aim 90" "--table threecushion --balls 0.4,1.7 --pocket 1:lt" "--ball-speed 1 --elevation 5" "--table attic" \
   "--balls 0.5,1.6:8=0.55,1.2 --cue 0.6,0.8 --at-ball 1" "--balls 0.5,1.6 --cue 0.6,0.8 --at-ball 1 --speed 0.2" "--balls 0.6,1.1 --cue 0.6,0.8 --at-ball 1 --elevation 30 --speed 4 --tip-time 0.0006" \
   "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
   # shellcheck disable=SC2086

@@ -304,35 +304,170 @@ TEST(chances_are_kept) {
   }
 }
 
-/* A pot that is aimed falls, with squirt and throw; where the cut is too thin it says so. */
+/* ---- Aims */
+
+enum { WAYS = 4, TRIED = 3000, EVENTS = 200 };
+static const double per_degree = 3.14159265358979323846 / 180.0;
+
+/* The way by which ball 8 falls in the direction phi, read off the events: directly, by ball 2,
+ * or off rails, whose sides have names; false where it falls otherwise or not. */
+static bool way_of(double phi, carom_pot *pot) {
+  static carom_event events[EVENTS];
+  carom_cue c = cue;
+  carom_shot shot = {.events = events, .room = EVENTS};
+  c.phi = phi;
+  carom_shoot(&table, balls, BALLS, &c, &shot_options, &shot);
+  *pot = (carom_pot){.ball = 8};
+  int on = 0; /* the ball whose turn it is */
+  for (int64_t k = 0; k < shot.count && k < EVENTS; k++) {
+    const carom_event *e = &events[k];
+    const bool contact = e->type == CAROM_EVENT_BALL_BALL;
+    if (e->a != on && !(contact && e->b == on))
+      continue;
+    if (contact && on != 8) {
+      on = e->a == on ? e->b : e->a;
+      if (on == 0)
+        return false;
+      if (on == 2)
+        pot->via[pot->vias++] = (carom_part){CAROM_PART_BALL, 2};
+    } else if (e->type == CAROM_EVENT_RAIL && on == 8 && pot->vias < 2 &&
+               carom_rail_name(&table, e->b) != NULL) {
+      pot->via[pot->vias++] = (carom_part){CAROM_PART_RAIL, e->b};
+    } else if (e->type == CAROM_EVENT_POCKET && on == 8) {
+      pot->pocket = e->b;
+      return true;
+    } else if (contact || e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) {
+      return false;
+    }
+  }
+  return false;
+}
+
+static bool same_way(const carom_pot *a, const carom_pot *b) {
+  bool same = a->pocket == b->pocket && a->vias == b->vias;
+  for (int k = 0; k < a->vias && same; k++)
+    same =
+        a->via[k].kind == b->via[k].kind && (a->via[k].kind == CAROM_PART_BALL ||
+                                             strcmp(carom_rail_name(&table, a->via[k].index),
+                                                    carom_rail_name(&table, b->via[k].index)) == 0);
+  return same;
+}
+
+/* 0 direct, 1 a combination, 2 off one rail, 3 off two, -1 none of these. */
+static int kind_of(const carom_pot *pot) {
+  const bool ball = pot->vias > 0 && pot->via[0].kind == CAROM_PART_BALL;
+  return pot->vias == 0 ? 0 : !ball ? 1 + pot->vias : pot->vias == 1 ? 1 : -1;
+}
+
+static void make_stroke(random_source *r, uint64_t seed) {
+  make_layout(seed, 3);
+  cue.speed = random_between(r, 1.5, 5.0);
+  cue.a = random_between(r, -0.3, 0.3);
+  cue.b = random_between(r, -0.3, 0.3);
+  cue.theta = fmax(0.0, random_between(r, -20.0, 10.0));
+}
+
+/* Ways by which a random direction pots are found, but for a few whose middle of the mouth is out
+ * of reach; the ball falls in that direction and within the bounds that are told. */
 TEST(aims) {
   random_source r = {test_seed()};
-  int fell = 0, aimed = 0, thin = 0;
-  for (int k = 0; k < 200; k++) {
-    make_layout(test_seed() + 1000 + (uint64_t)k, 2);
+  int found[WAYS][CAROM_POT_REJECTED + 1] = {0};
+  const int most = FEWER(60);
+  for (uint64_t seed = 1; seed < 200000; seed++) {
+    carom_pot pot;
+    make_stroke(&r, test_seed() + seed);
+    const double phi = atan2(balls[seed % 2 ? 2 : 8].state.r[1] - balls[0].state.r[1],
+                             balls[seed % 2 ? 2 : 8].state.r[0] - balls[0].state.r[0]) /
+                           per_degree +
+                       random_between(&r, -4.0, 4.0);
+    const int kind = way_of(phi, &pot) ? kind_of(&pot) : -1;
+    int so_far = 0;
+    for (int k = 0; k <= CAROM_POT_REJECTED && kind >= 0; k++)
+      so_far += found[kind][k];
+    if (kind < 0 || so_far >= most)
+      continue;
     carom_cue one = cue;
-    double window[2];
-    one.speed = random_between(&r, 2.5, 4.0);
-    one.a = random_between(&r, -0.3, 0.3);
-    one.b = random_between(&r, -0.3, 0.3);
-    const int pocket = k % 6;
-    const carom_status status = carom_plan_aim(&table, balls, BALLS, 8, pocket, NULL, &one, window);
-    ck_assert(status == CAROM_OK || status == CAROM_SEPARATING);
-    thin += status == CAROM_SEPARATING;
-    if (status != CAROM_OK)
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+    found[kind][pot.is]++;
+    if (pot.is != CAROM_POT_FALLS)
       continue;
-    ck_assert(window[0] < window[1]);
-    if (window[1] - window[0] < 2.0)
-      continue;
-    carom_facts facts;
-    ck_assert_int_ge(carom_shoot(&table, balls, BALLS, &one, NULL, &(carom_shot){.facts = &facts}),
-                     0);
-    aimed++;
-    fell += facts.pocket[8] == pocket;
+
+    ck_assert(pot.margin >= 0.0 && fabs(pot.cut) < 90.0 && pot.phi[0] < pot.phi[1]);
+    for (int side = -1; side <= 1; side++)
+      for (int of = 0; of < 2; of++) {
+        carom_facts facts;
+        carom_shot shot = {.facts = &facts};
+        carom_cue c = one;
+        if (of == 0 && side != 0)
+          c.phi = side < 0 ? pot.phi[0] + 1e-6 : pot.phi[1] - 1e-6;
+        if (of == 1 && side != 0)
+          c.speed = side < 0 ? pot.speed[0] + 1e-6 : pot.speed[1] - 1e-6;
+        carom_shoot(&table, balls, BALLS, &c, &shot_options, &shot);
+        ck_assert_msg(facts.pocket[8] == pot.pocket, "layout %llu, side %d of %d",
+                      (unsigned long long)seed, side, of);
+      }
   }
-  printf("of %d pots that were aimed, %d fall; %d are too thin\n", aimed, fell, thin);
-  ck_assert_msg(aimed > 20 && thin > 20 && fell > 0.85 * aimed, "%d of %d, %d too thin", fell,
-                aimed, thin);
+  for (int kind = 0; kind < WAYS; kind++) {
+    const int *n = found[kind];
+    printf("way %d: %d fall, %d no way, %d barred, %d short, %d rejected\n", kind, n[0], n[1], n[2],
+           n[3], n[4]);
+    ck_assert_int_ge(10 * n[0], 9 * (n[0] + n[1] + n[2] + n[3] + n[4]));
+    ck_assert_int_gt(n[0], FEWER(30));
+  }
+}
+
+/* Where no aim is found, no direction around the first ball pots it by this way. */
+TEST(no_aims) {
+  random_source r = {test_seed()};
+  int refused = 0;
+  for (int k = 0; k < FEWER(120); k++) {
+    make_stroke(&r, test_seed() + 1000 + (uint64_t)k);
+    const int kind = k % WAYS, first = kind == 1 ? 2 : 8;
+    carom_pot pot = {.ball = 8, .pocket = (int)random_between(&r, 0.0, 6.0)}, met;
+    pot.vias = kind < 2 ? kind : kind - 1;
+    for (int via = 0; via < pot.vias; via++)
+      pot.via[via] = kind == 1 ? (carom_part){CAROM_PART_BALL, 2}
+                               : (carom_part){CAROM_PART_RAIL, (int)random_between(&r, 0.0, 6.0)};
+    const carom_pot asked = pot;
+    carom_cue one = cue;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+    if (pot.is != CAROM_POT_NO_WAY)
+      continue;
+    ck_assert(memcmp(&one, &cue, sizeof one) == 0);
+    refused++;
+    const double x = balls[first].state.r[0] - balls[0].state.r[0],
+                 y = balls[first].state.r[1] - balls[0].state.r[1],
+                 wide = 8.0 + asin(fmin(1.0, 0.06 / sqrt(x * x + y * y))) / per_degree;
+    for (int n = 0; n < TRIED; n++) {
+      const double phi = atan2(y, x) / per_degree + wide * (2.0 * n / TRIED - 1.0);
+      ck_assert_msg(!way_of(phi, &met) || !same_way(&met, &asked), "layout %d: aim %g", k, phi);
+    }
+  }
+  printf("%d ways are refused\n", refused);
+  ck_assert_int_gt(refused, FEWER(60));
+}
+
+/* Ways that cannot be are refused. */
+TEST(ways_that_cannot_be) {
+  make_layout(test_seed(), 4);
+  const carom_part ball = {CAROM_PART_BALL, 2}, rail = {CAROM_PART_RAIL, 0};
+  const carom_pot wrong[] = {{.ball = 0, .pocket = 1},
+                             {.ball = 8, .pocket = 6},
+                             {.ball = 8, .pocket = -1},
+                             {.ball = BALLS, .pocket = 1},
+                             {.ball = 5, .pocket = 1}, /* which is down */
+                             {.ball = 8, .pocket = 1, .vias = CAROM_VIA_MOST + 1},
+                             {.ball = 8, .pocket = 1, .vias = 1, .via = {{CAROM_PART_BALL, 8}}},
+                             {.ball = 8, .pocket = 1, .vias = 1, .via = {{CAROM_PART_RAIL, 18}}},
+                             {.ball = 8, .pocket = 1, .vias = 1, .via = {{CAROM_PART_JAW, 0}}},
+                             {.ball = 8, .pocket = 1, .vias = 2, .via = {ball, ball}},
+                             {.ball = 8, .pocket = 1, .vias = 2, .via = {rail, ball}}};
+  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+    carom_pot pot = wrong[k];
+    carom_cue one = cue;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, NULL, &pot, &one), CAROM_ERROR_BALLS);
+    ck_assert_mem_eq(&pot, &wrong[k], sizeof pot);
+  }
 }
 
 /* Values: the eight alone before a pocket, and the same with a ball in the way; ball in hand is

@@ -23,6 +23,8 @@ import {
   writeTable,
 } from "./structs.js";
 import type {
+  Aim,
+  AimOf,
   BallKind,
   BallState,
   Call,
@@ -190,6 +192,7 @@ export class Carom {
       writeLayout: (table, balls) => this.#writeLayout(table, balls),
       writeShotOptions: (options) => this.#writeShotOptions(options),
       writeShot: () => this.#writeShot(0),
+      eventName: (type) => this.#eventNames[type]!,
       placeBall: (table, balls, ball, x, y) => this.placeBall(table, balls, ball, x, y),
       refuse: (code, field) => this.#refuse(code, field),
     });
@@ -778,6 +781,31 @@ export class Carom {
   withErrors(cue: Partial<Cue>, player: Player, seed: number, number = 0): Cue {
     this.#resident = undefined;
     return this.#plans.withErrors(cue, player, seed, number);
+  }
+
+  /**
+   * Aims a pot: the direction of the cue in which a ball goes to the middle of a pocket's mouth, by a bank or a combination where `via` says so, with
+   * squirt, swerve, throw and the model of the cushion. Where `is` is "no_way", the direction of the cue stays.
+   */
+  aim(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, of: AimOf, options: ShotOptions = {}): Aim {
+    refuseUnknown(of, KEYS.aim, "aim");
+    return this.#plans.aim(table, balls, cue, of, options);
+  }
+
+  /** Where pockets are for a player at the head, y = 0: "head-left", "side-left", "foot-left" and so on; undefined on tables that are no rectangles. */
+  pocketNames(table: Table): (string | undefined)[] {
+    return this.#names(table, "pocket");
+  }
+
+  /** The same of rails, "head", "foot", "left" or "right"; undefined for the cut of a pocket. */
+  railNames(table: Table): (string | undefined)[] {
+    return this.#names(table, "rail");
+  }
+
+  #names(table: Table, of: "rail" | "pocket"): (string | undefined)[] {
+    this.#resident = undefined;
+    writeTable(this.#memory, this.#at.table, table);
+    return this.#plans.names(of, table[`${of}s`].length);
   }
 
   /**

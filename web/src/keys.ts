@@ -1,6 +1,6 @@
 // The keys of objects that users hand in: an unknown one is refused, by its name, with the one that was probably meant.
 import type { Line } from "./lines.js";
-import type { CollideOptions, CushionOptions, GameState, Impact, Motion, PlanOptions, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
+import type { AimOf, CollideOptions, CushionOptions, GameState, Impact, Motion, PlanOptions, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
 
 /** The keys of an interface; the compiler refuses a list that lacks one or has another. */
 const all = <T>(keys: Record<keyof T, 1>): readonly string[] => Object.keys(keys);
@@ -20,6 +20,7 @@ export const KEYS = {
   shot: all<ShotOptions>({ world: 1, ballModel: 1, cushionModel: 1, space: 1, simultaneous: 1, clusterSteps: 1, friction: 1, steps: 1, ...STOP }),
   line: all<Line>({ id: 1, tableName: 1, table: 1, names: 1, balls: 1, cue: 1 }),
   game: all<GameState>(GAME),
+  aim: all<AimOf>({ ball: 1, pocket: 1, via: 1 }),
   plan: all<PlanOptions>({ player: 1, opponent: 1, shots: 1, seed: 1, inHand: 1, best: 1, cue: 1, shot: 1, ...GAME }),
   player: ["errors", "fargo"],
   rack: ["gap", "seed"],

@@ -2,8 +2,8 @@
 import { layout, values } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { Memory, Pointer } from "./memory.js";
-import { readState, readStruct, value, writeStruct } from "./structs.js";
-import type { Call, Choice, Cue, GameState, PlanOptions, Player, Ruling, ShotBall, ShotOptions, Table } from "./types.js";
+import { readState, readStruct, refuseName, value, writeStruct } from "./structs.js";
+import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Ruling, ShotBall, ShotOptions, Table } from "./types.js";
 
 const PLAYER = layout.carom_player;
 const RULES = layout.carom_plan_rules;
@@ -13,7 +13,11 @@ const CHOICE = layout.carom_choice;
 const FACTS = layout.carom_facts;
 const TURN = layout.carom_turn;
 const SHOT = layout.carom_shot.offset;
+const POT = layout.carom_pot;
+const PART = layout.carom_part;
+const MET = layout.carom_brief_event.offset;
 
+const AIMS = ["falls", "no_way", "barred", "short", "rejected"] as const;
 const KINDS = ["pot", "scan", "foul", "given"] as const;
 const GROUPS = ["open", "solids", "stripes"] as const;
 const TURNS = ["keep", "pass", "win", "lose"] as const;
@@ -28,6 +32,7 @@ export interface Host {
   writeLayout(table: Table, balls: readonly ShotBall[]): void;
   writeShotOptions(options: ShotOptions): Pointer;
   writeShot(): void;
+  eventName(type: number): EventType;
   placeBall(table: Table, balls: readonly ShotBall[], ball: number, x: number, y: number): ShotBall[];
   refuse(code: number, field?: string): void;
 }
@@ -36,14 +41,14 @@ type Method = (...numbers: Pointer[]) => number;
 
 export class Plans {
   readonly #host: Host;
-  readonly #at: Record<"player" | "opponent" | "rules" | "options" | "job" | "facts" | "turn" | "call" | "corners" | "found", Pointer>;
+  readonly #at: Record<"player" | "opponent" | "rules" | "options" | "job" | "facts" | "turn" | "call" | "corners" | "found" | "pot", Pointer>;
 
   constructor(host: Host) {
     this.#host = host;
     const room = (bytes: number): Pointer => host.memory.allocate(bytes);
     this.#at = {
       ...{ player: room(PLAYER.size), opponent: room(PLAYER.size), rules: room(RULES.size), options: room(OPTIONS.size), job: room(JOB.size) },
-      ...{ facts: room(FACTS.size), turn: room(TURN.size), call: room(8), corners: room(32), found: room(8) },
+      ...{ facts: room(FACTS.size), turn: room(TURN.size), call: room(8), corners: room(32), found: room(8), pot: room(POT.size) },
     };
   }
 
@@ -101,6 +106,53 @@ export class Plans {
     } finally {
       for (const at of [room, choices, strokes]) memory.free(at);
     }
+  }
+
+  /** The names of the rails or pockets of the table in the module's memory. */
+  names(of: "rail" | "pocket", count: number): (string | undefined)[] {
+    const { exports } = this.#memory;
+    const { table } = this.#host.at;
+    return Array.from({ length: count }, (_, k) => this.#memory.text(of === "rail" ? exports.carom_rail_name(table, k) : exports.carom_pocket_name(table, k)));
+  }
+
+  aim(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, { ball, pocket, via = [] }: AimOf, options: ShotOptions): Aim {
+    const { at } = this.#host;
+    const memory = this.#memory;
+    const { pot } = this.#at;
+    this.#host.writeLayout(table, balls);
+    writeStruct(memory, at.cue, "carom_cue", this.#host.cue(cue), "cue");
+    const shot = this.#host.writeShotOptions(options);
+
+    // The ball, the pocket and the way, by their names or indices.
+    const rails = this.names("rail", table.rails.length);
+    const pockets = this.names("pocket", table.pockets.length);
+    const index = (name: string, of: string, names: readonly (string | undefined)[]): number => {
+      const found = names.indexOf(name);
+      return found >= 0 ? found : refuseName(of, name, [...new Set(names)].filter((one) => one !== undefined));
+    };
+    if (via.length > values.CAROM_VIA_MOST) throw new RangeError(`via: at most ${values.CAROM_VIA_MOST}, not ${via.length}`);
+    memory.u8.fill(0, pot, pot + POT.size);
+    const write = (offset: number, number: number): void => void (memory.i32[(pot + offset) / 4] = number);
+    write(POT.offset.ball, ball);
+    write(POT.offset.pocket, typeof pocket === "string" ? index(pocket, "pocket", pockets) : pocket);
+    write(POT.offset.vias, via.length);
+    for (const [k, one] of via.entries()) {
+      const part = POT.offset.via + k * PART.size;
+      write(part + PART.offset.kind, typeof one === "string" ? values.CAROM_PART_RAIL : values.CAROM_PART_BALL);
+      write(part + PART.offset.index, typeof one === "string" ? index(one, "via", rails) : one);
+    }
+    this.#host.refuse(memory.exports.carom_aim(at.table, at.balls, balls.length, shot, pot, at.cue), "aim");
+
+    const number = (offset: number): number => memory.f64[(pot + offset) / 8]!;
+    const { cut, margin, phi, speed, met } = POT.offset;
+    const is = AIMS[memory.i32[(pot + POT.offset.is) / 4]!]!;
+    const event = (offset: number): number => memory.i32[(pot + met + offset) / 4]!;
+    return {
+      is,
+      cue: readStruct<Cue>(memory, at.cue, "carom_cue"),
+      ...{ cut: number(cut), margin: number(margin), phi: [number(phi), number(phi + 8)], speed: [number(speed), number(speed + 8)] },
+      ...(is === "barred" || is === "short" ? { met: { type: this.#host.eventName(event(MET.type)), a: event(MET.a), b: event(MET.b) } } : {}),
+    };
   }
 
   on(game: GameState, balls: readonly ShotBall[]): number[] {

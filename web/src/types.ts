@@ -244,6 +244,30 @@ export interface GameState {
   opening: boolean;
 }
 
+/** What an aim is asked for: a ball, and its pocket by index or name, such as "foot-left". */
+export interface AimOf {
+  ball: number;
+  pocket: number | string;
+  /** The way there, up to four contacts: first balls, the last of which meets `ball`, then rails that `ball` meets: "head", "foot", "left", "right". */
+  via?: readonly (number | string)[];
+}
+
+/** A stroke that pots a ball, or why there is none. */
+export interface Aim {
+  /** "no_way": no direction sends the ball there; "barred": something is met first; "short": a ball comes to rest; "rejected": by the jaws. */
+  is: "falls" | "no_way" | "barred" | "short" | "rejected";
+  cue: Cue;
+  /** Degrees, of the cue ball on the first ball, which goes to the left of its way where this is above 0. */
+  cut: number;
+  /** Degrees by which the way of the ball into the pocket may turn, to either jaw. */
+  margin: number;
+  /** Directions of the cue, degrees, and speeds, m/s, between which the ball falls. */
+  phi: Vec2;
+  speed: Vec2;
+  /** Of "barred" and "short": what ends the way of ball a. */
+  met?: { type: EventType; a: number; b: number };
+}
+
 /** Options of plans. */
 export interface PlanOptions extends Partial<GameState> {
   /** Default: `player()`. */

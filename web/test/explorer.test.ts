@@ -402,7 +402,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     // every corner at the foot takes the ball, with squirt and throw
     for (const [x, y, name] of [[1.27, 2.54, "right"], [0, 2.54, "left"]] as const) {
       await click(one, x, y, touch);
-      expect(await text(one, "message")).toContain(`Aimed: ball 1 into the ${name} corner near the foot`);
+      expect(await text(one, "message")).toContain(`Aimed: ball 1 into the foot-${name} pocket`);
       expect(await text(one, "s-pocketed")).toBe("1");
       expect(await text(one, "s-status")).toBe("ok");
     }
@@ -411,7 +411,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     // one that is picked, and hidden behind the other
     await click(one, 1, 2, touch);
     await click(one, 0, 0, touch);
-    expect(await text(one, "message")).toContain("No such aim: ball 9 into the left corner near the head would be a cut of");
+    expect(await text(one, "message")).toContain("No such aim: no direction sends ball 9 into the head-left pocket.");
     await one.waitForTimeout(400); // the address follows
     const aimed = one.url();
     const shot = await text(one, "s-time");

@@ -1,6 +1,7 @@
 // Plans, players and rules beside the command, between both builds, and by shots whose ruling is known.
 import { expect, test } from "vitest";
 import type { Carom, GameState, ShotBall, Vec2 } from "../dist/index.js";
+import { pocketName } from "../../cli/player.js";
 import { toLine } from "../dist/index.js";
 import { builds, run, thereIsACommand } from "./support.js";
 
@@ -30,6 +31,41 @@ test.runIf(thereIsACommand)("both builds choose the shots that the command choos
     expect(row[head!.indexOf("kind")]).toBe(one.kind);
     expect(Number(row[head!.indexOf("value")])).toBeCloseTo(one.value, 5);
   });
+});
+
+test.runIf(thereIsACommand)("aims are those of the command, by a bank and a combination too", () => {
+  for (const { carom } of builds) {
+    const table = carom.table("9ft");
+    const one: Vec2[] = [[0.9, 1.5]];
+    const two: Vec2[] = [[0.55, 1.3], [0.4, 1.8]];
+    const asked = [[one, 1, "foot-right", []], [one, 1, "foot-left", ["right"]], [two, 2, "foot-left", [1]], [two, 2, "foot-right", [1, "left"]]] as const;
+    const balls = [[0.6, 0.8], ...one].map(([x, y]) => carom.ball(x!, y!));
+    for (const [places, ball, pocket, via] of asked) {
+      const balls = [[0.6, 0.8], ...places].map(([x, y]) => carom.ball(x!, y!));
+      const aimed = carom.aim(table, balls, { speed: 3 }, { ball, pocket, via });
+      expect(aimed.is).toBe("falls");
+      const words = ["shoot", "--cue", "0.6,0.8", "--balls", places.map((place) => place.join(",")).join(":"), "--speed", "3", "--pocket", `${ball}:${pocket}`, ...(via.length > 0 ? ["--via", via.join(",")] : [])];
+      expect(aimed.cue.phi).toBeCloseTo(JSON.parse(run([...words, "--json"], "")).cue.phi, 9);
+      const fall = carom.simulate(table, balls, aimed.cue).events.find(({ type, a }) => type === "ball_pocket" && a === ball);
+      expect(carom.pocketNames(table)[fall!.b]).toBe(pocket);
+      const told = run(words, "");
+      expect(told).toContain(`turn by ${aimed.margin.toFixed(2)} degrees to either jaw`);
+      expect(told).toContain(`aims of ${aimed.phi[0].toFixed(2)} to ${aimed.phi[1].toFixed(2)} degrees`);
+    }
+    const none = carom.aim(table, balls, { speed: 0.5 }, { ball: 1, pocket: "foot-right" });
+    expect([none.is, none.met]).toEqual(["short", { type: "rolling_stationary", a: 1, b: -1 }]);
+    expect(() => carom.aim(table, balls, {}, { ball: 1, pocket: "top-right" })).toThrow(/pocket: it must be one of head-left/);
+    expect(() => carom.aim(table, balls, {}, { ball: 1, pocket: 2, via: ["lft"] })).toThrow(/via: .*did you mean "left"/);
+  }
+});
+
+test("one set of names for pockets", () => {
+  const { carom } = builds[0]!;
+  for (const name of ["7ft", "8ft", "9ft", "snooker"] as const) {
+    const table = carom.table(name);
+    expect(carom.pocketNames(table).map((pocket) => `${pocket} pocket`)).toEqual(table.pockets.map((_, k) => pocketName(table, k)));
+    expect(new Set(carom.railNames(table))).toEqual(new Set(["left", "right", "head", "foot", undefined]));
+  }
 });
 
 test("ball in hand, chances and errors", () => {

@@ -91,6 +91,20 @@ class Table:
         """The pockets, a view."""
         return self._parts("pocket", "pockets")
 
+    @property
+    def rail_names(self) -> list[str | None]:
+        """Where each rail is for a player at the head, y = 0: "head", "foot", "left", "right"; None for a pocket's cut, and off rectangles."""
+        return self._names(lib.carom_rail_name, "rails")
+
+    @property
+    def pocket_names(self) -> list[str | None]:
+        """The same of each pocket, such as "foot-left" or "side-right"; None on tables that are no rectangles."""
+        return self._names(lib.carom_pocket_name, "pockets")
+
+    def _names(self, name: Any, count: str) -> list[str | None]:
+        texts = (name(pointer("carom_table[]", self.record), k) for k in range(int(self.record[count])))
+        return [ffi.string(text).decode() if text != ffi.NULL else None for text in texts]
+
     def _parts(self, part: str, count: str) -> dtypes.Records:
         parts: dtypes.Records = self.record[part]
         return parts[: int(self.record[count])]

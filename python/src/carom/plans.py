@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -55,30 +56,51 @@ def with_errors(cue: dtypes.Records, player: dtypes.Records, seed: int, number: 
     return made
 
 
-def aim(
-    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, ball: int, pocket: int, options: Options = _USUAL, **changes: Unpack[Changes]
-) -> tuple[dtypes.Records, tuple[float, float]]:
-    """Aim a direct pot: the cue with the direction in which `ball` leaves for the middle of `pocket`, with squirt and throw.
+class Pot(NamedTuple):
+    """A stroke that pots a ball, and what it may err."""
 
-    The other balls are not looked at: `simulate` tells what comes of it.
+    cue: dtypes.Records
+    """An array of `carom.dtypes.cue`, shape ()."""
+    cut: float
+    """Degrees, of the cue ball on the first ball, which goes to the left of its way where this is above 0."""
+    margin: float
+    """Degrees by which the way of the ball into the pocket may turn, to either jaw."""
+    phi: tuple[float, float]
+    """Directions of the cue, degrees, between which the ball falls."""
+    speed: tuple[float, float]
+    """Speeds of the cue, m/s, between which it falls in the cue's direction."""
+
+
+_WHY_NOT = {
+    lib.CAROM_POT_NO_WAY: "no direction of the cue sends ball {ball} there by this way",
+    lib.CAROM_POT_BARRED: "something is in the way: {met}",
+    lib.CAROM_POT_SHORT: "ball {at_rest} comes to rest on its way",
+    lib.CAROM_POT_REJECTED: "the jaws send ball {ball} back at this speed",
+}
+
+
+def aim(
+    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, ball: int, pocket: int | str, via: Sequence[int | str] = (),
+    options: Options = _USUAL, **changes: Unpack[Changes],
+) -> Pot:  # fmt: skip
+    """Aim a pot: the direction in which `ball` goes to the middle of a pocket's mouth, with squirt, swerve, throw and the cushion's model.
 
     Parameters
     ----------
     table, balls, cue, options, **changes
-        As for `simulate`. The speed and the tip of the cue count.
-    ball, pocket : int
-        Indices of the ball and of the table's pocket.
-
-    Returns
-    -------
-    cue : ndarray of `carom.dtypes.cue`, shape ()
-    window : (float, float)
-        Directions of the ball, degrees, between which it passes the jaws.
+        As for `simulate`. The speed, the tip and the elevation of the cue count.
+    ball : int
+        Index of the ball.
+    pocket : int or str
+        Index of the table's pocket, or its name: "foot-left"; `table.pocket_names` has all.
+    via : sequence of int or str
+        The way there, up to four contacts: first indices of balls, of which the last one meets `ball`, a combination; then names of rails
+        that `ball` meets, "head", "foot", "left" or "right", a bank.
 
     Raises
     ------
     ValueError
-        There is no such aim: the ball cannot be cut to the pocket from there, by more than 80 degrees.
+        There is no such aim, and why; or an argument is in error.
     CaromError
         The layout, the cue or an option is in error.
     """
@@ -87,20 +109,35 @@ def aim(
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
     made = copied(one_cue(cue))
-    for name, index, most in (("ball", ball, len(layout)), ("pocket", pocket, int(table.record["pockets"]))):
-        if whole(index, name, least=0) >= most:
-            raise ValueError(f"{name}: there are {most}, not {index + 1}")
+
+    # The ball, the pocket and the way as C knows them.
+    def index(one: int | str, name: str, names: list[str | None], most: int) -> int:
+        if isinstance(one, str):
+            if one not in names:
+                raise ValueError(f"{name}: it must be one of {', '.join(sorted({known for known in names if known}))}, not {one!r}")
+            return names.index(one)
+        if whole(one, name, least=0) >= most:
+            raise ValueError(f"{name}: there are {most}, not {one + 1}")
+        return one
+
+    rails, pockets = table.rail_names, table.pocket_names
+    way = [(lib.CAROM_PART_RAIL if isinstance(one, str) else lib.CAROM_PART_BALL, index(one, "via", rails, len(layout))) for one in via]
+    if len(way) > lib.CAROM_VIA_MOST or way != sorted(way, key=lambda part: part[0] == lib.CAROM_PART_RAIL):
+        raise ValueError(f"via: it must be up to {lib.CAROM_VIA_MOST} indices of balls and then names of rails, not {list(via)}")
+    pot = ffi.new("carom_pot *", {
+        "ball": index(ball, "ball", [], len(layout)), "pocket": index(pocket, "pocket", pockets, len(pockets)), "vias": len(way), "via": way,
+    })  # fmt: skip
     shot = shot_options(options.changed(changes))
-    window: Array = np.zeros(2)
-    code = lib.carom_plan_aim(
-        pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), ball, pocket, shot,
-        pointer("carom_cue[]", made), pointer("double[]", window),
-    )  # fmt: skip
-    if code == lib.CAROM_SEPARATING:
-        raise ValueError(f"pocket: no such aim: ball {ball} cannot be cut to pocket {pocket} from there")
+    code = lib.carom_aim(
+        pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), shot, pot, pointer("carom_cue[]", made)
+    )
     if code < 0:
         raise argument_error(shot_arguments(table, layout, made, shot), layout, made) or CaromError(code, "balls")
-    return made, (float(window[0]), float(window[1]))
+    if reason := getattr(pot, "is"):
+        part = f"ball {pot.met.b}" if pot.met.type == lib.CAROM_EVENT_BALL_BALL else "a part of the table"
+        why = _WHY_NOT[reason].format(ball=ball, at_rest=pot.met.a, met=f"ball {pot.met.a} meets {part}")
+        raise ValueError(f"pocket: no such aim at {pocket}: {why}")
+    return Pot(made, pot.cut, pot.margin, (pot.phi[0], pot.phi[1]), (pot.speed[0], pot.speed[1]))
 
 
 _usual_player = player

@@ -608,47 +608,19 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     const ball = chosen > 0 ? chosen : (shot?.firstContact?.ball ?? -1);
     const name = `ball ${names[ball]} into the ${pocketName(table, pocket)}`;
     if (ball < 0) return void (message.textContent = "Which ball? Click it first, then the pocket.");
-    const [from, object, to] = [balls[0]!.state.r, balls[ball]!.state.r, table.pockets[pocket]!.centre];
-    const R = balls[0]!.kind.radius;
-    const want = Math.atan2(to[1] - object[1], to[0] - object[0]);
-    const straight = Math.atan2(object[1] - 2 * R * Math.sin(want) - from[1], object[0] - 2 * R * Math.cos(want) - from[0]) * DEGREES;
-    const cut = Math.abs(wrap(want * DEGREES - straight));
-    if (cut > 89) return void (message.textContent = `No such aim: ${name} would be a cut of ${cut.toFixed(0)}°.`);
-    /** By how many degrees the ball leaves its way, or what is hit instead. */
-    const off = (phi: number): number | string => {
-      const contact = carom.firstContact(table, balls, { ...cue(), phi }, options());
-      if (contact?.ball !== ball) return contact ? `ball ${names[contact.ball]} is hit first` : `ball ${names[ball]} is missed`;
-      const { v } = contact.event.after[contact.event.a === ball ? 0 : 1]!;
-      return wrap((Math.atan2(v[1], v[0]) - want) * DEGREES);
-    };
-    // Squirt may take the ghost ball's direction past the ball: the nearest one that hits it begins the search.
-    let phi = straight;
-    let error = off(phi);
-    for (let k = 1; typeof error === "string" && k <= 40; k++) {
-      phi = straight + (k % 2 ? 0.25 : -0.25) * Math.ceil(k / 2);
-      error = off(phi);
+    const pot = carom.aim(table, balls, cue(), { ball, pocket }, options());
+    const { is, met } = pot;
+    if (is !== "no_way") {
+      set("phi", Math.round(pot.cue.phi * 1e4) / 1e4);
+      aimed();
     }
-    // Secants; a step that loses the ball is halved.
-    let step = 0.02;
-    let slope = NaN;
-    for (let k = 0; k < 40 && typeof error === "number" && Math.abs(error) > 1e-4; k++) {
-      if (Number.isFinite(slope)) step = Math.max(-2, Math.min(2, -error / slope));
-      let tried = off(phi + step);
-      for (; typeof tried === "string" && Math.abs(step) > 1e-6; tried = off(phi + step)) step /= 2;
-      if (typeof tried === "string") error = tried;
-      else {
-        slope = (tried - error) / step;
-        phi += step;
-        error = tried;
-      }
-    }
-    if (typeof error === "string" || Math.abs(error) > 0.01) return void (message.textContent = `No such aim: ${name}${typeof error === "string" ? `: ${error}` : ""}.`);
-    set("phi", Math.round(((phi + 360) % 360) * 1e4) / 1e4);
-    aimed();
-    const falls = shot?.events.some((event) => event.type === "ball_pocket" && event.a === ball && event.b === pocket);
-    message.textContent = falls ? `Aimed: ${name}, a cut of ${cut.toFixed(1)}°.` : `Aimed, but ${name} does not fall at this speed, or on its way.`;
+    const [of, other] = [names[met?.a ?? 0], met?.type === "ball_ball" ? names[met.b] : "a cushion"];
+    const why = { falls: "", no_way: "", rejected: "the jaws send it back", short: `ball ${of} comes to rest on its way`, barred: `ball ${of} meets ${other}` }[is];
+    const [low, high] = pot.speed.map((speed) => speed.toFixed(1));
+    if (is === "no_way") message.textContent = `No such aim: no direction sends ${name}.`;
+    else if (is !== "falls") message.textContent = `Aimed, but ${name} does not fall: ${why}.`;
+    else message.textContent = `Aimed: ${name}, a cut of ${Math.abs(pot.cut).toFixed(1)}°, ${pot.margin.toFixed(2)}° to either jaw, falls at ${low} to ${high} m/s.`;
   }
-  const wrap = (degrees: number): number => ((((degrees + 180) % 360) + 360) % 360) - 180;
 
   // ---- Pointer and keys ----------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,188 @@
+/* Aims of shots from words: the library's at pockets, aim.h's at balls; why there is none. */
+#include "shoot_aim.h"
+
+#include "aim.h"
+#include "carom_plan.h"
+#include "message.h"
+#include "shot_story.h"
+#include "words.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { NAMES_TEXT = CAROM_BALLS_MOST * (PLACE_NAME + 1) + 128 };
+
+/* The ball other than that of the cue with this name, or -1; their names, with bars between. */
+static int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]) {
+  int found = -1;
+  names[0] = '\0';
+  for (int k = 1; k < l->count; k++) {
+    snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s|", l->name[k]);
+    if (strlen(l->name[k]) == size && strncmp(l->name[k], name, size) == 0)
+      found = k;
+  }
+  return found;
+}
+
+enum { BALL_TEXT = PLACE_NAME + 8 };
+
+/* "the cue ball" or "ball 1" */
+static const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]) {
+  snprintf(text, BALL_TEXT, ball == 0 ? "the cue ball" : "ball %s", l->name[ball]);
+  return text;
+}
+
+/* What stands in the way of a ball that met `other` or a part of the table. */
+static const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT]) {
+  return type == CAROM_EVENT_BALL_BALL    ? ball_words(l, other, text)
+         : type == CAROM_EVENT_POCKET     ? "a pocket"
+         : type == CAROM_EVENT_LEFT_TABLE ? "the end of the table"
+         : type == CAROM_EVENT_JAW        ? "the jaw of a pocket"
+                                          : "a cushion";
+}
+
+bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
+                 carom_cue *cue) {
+  char text[BALL_TEXT], names[NAMES_TEXT], hint[HINT_TEXT];
+  carom_event met;
+  const int at = ball_named(l, name, strlen(name), names);
+  if (at < 0)
+    complain("--at-ball '%s': there is no such ball; --balls says where balls are%s", name,
+             did_you_mean(name, names, hint));
+  else if (!(fabs(cut) < 90.0))
+    complain("--cut is between -90 and 90 degrees");
+  else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
+    return true; /* which is told when it is played */
+  else
+    switch (aim_at(&l->table, l->ball, l->count, options, at, cut, cue, &met)) {
+    case AIM_FOUND:
+      return true;
+    case AIM_BARRED:
+      complain("--at-ball %s: at a cut of %.4g degrees %s is in the way", name, cut,
+               obstacle(l, met.type, met.a == 0 ? met.b : met.a, text));
+      break;
+    case AIM_NOT_REACHED:
+      complain("--at-ball %s: at a cut of %.4g degrees the cue ball comes to rest before it; give "
+               "a higher --speed",
+               name, cut);
+      break;
+    default:
+      complain("--at-ball %s: no direction of this cue makes the cue ball meet it first at a cut "
+               "of %.4g degrees",
+               name, cut);
+    }
+  return false;
+}
+
+/* ---- Pockets */
+
+/* The pocket of a name or an id, or -1; their names, with bars between. */
+static int pocket_named(const layout *l, const named_table *t, const char *name,
+                        char names[NAMES_TEXT]) {
+  int found = -1;
+  names[0] = '\0';
+  for (int p = 0; p < l->table.pockets; p++) {
+    const char *own = carom_pocket_name(&l->table, p);
+    snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", p > 0 ? "|" : "", own);
+    found = strcmp(own, name) == 0 || strcmp(t->pocket[p], name) == 0 ? p : found;
+  }
+  return found;
+}
+
+/* The way of --via, in words too; false after a complaint. */
+static bool read_via(const layout *l, const char *via, carom_pot *pot, char words[AIMED_TEXT]) {
+  char names[NAMES_TEXT], one[PLACE_NAME] = "", hint[HINT_TEXT];
+  bool rails = false, good = true;
+  words[0] = '\0';
+  for (size_t size; via != NULL && good; via = via[size] != '\0' ? via + size + 1 : NULL) {
+    size = strcspn(via, ",");
+    carom_part part = {.index = ball_named(l, via, size, names)};
+    part.kind = part.index >= 0 ? CAROM_PART_BALL : CAROM_PART_NONE;
+    for (int rail = 0; rail < l->table.rails; rail++) {
+      const char *name = carom_rail_name(&l->table, rail);
+      if (part.kind == CAROM_PART_NONE && name != NULL && strlen(name) == size &&
+          strncmp(name, via, size) == 0)
+        part = (carom_part){CAROM_PART_RAIL, rail};
+    }
+    snprintf(one, sizeof one, "%.*s", (int)(size < sizeof one ? size : sizeof one - 1), via);
+    good = part.kind != CAROM_PART_NONE && pot->vias < CAROM_VIA_MOST &&
+           !(rails && part.kind == CAROM_PART_BALL) && part.index != pot->ball;
+    if (!good)
+      break;
+    snprintf(words + strlen(words), AIMED_TEXT - strlen(words),
+             part.kind == CAROM_PART_BALL ? " by ball %s"
+             : rails                      ? ", the %s rail"
+                                          : " off the %s rail",
+             one);
+    rails |= part.kind == CAROM_PART_RAIL;
+    pot->via[pot->vias++] = part;
+  }
+  snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "head|foot|left|right");
+  if (!good)
+    complain("--via is up to %d of other balls and then rails (head, foot, left, right), such as "
+             "2,left; '%s' is none that can be there%s",
+             CAROM_VIA_MOST, one, did_you_mean(one, names, hint));
+  return good;
+}
+
+/* Says why there is no aim. */
+static void complain_of(const char *pocket, const char *via, const layout *l,
+                        const carom_pot *pot) {
+  const carom_brief_event *met = &pot->met;
+  char text[BALL_TEXT], more[BALL_TEXT], why[160] = "the jaws send the ball back at this speed";
+  const char *what = pot->vias > 0 ? "by this way" : "there directly";
+  /* of two balls that meet the one on its way comes first, unless both are */
+  const bool first = met->a == 0 || met->a == pot->ball;
+  const int own = first ? met->a : met->b, other = first ? met->b : met->a;
+  bool twice = other == 0 || other == pot->ball;
+  for (int k = 0; k < pot->vias; k++)
+    twice |= pot->via[k].kind == CAROM_PART_BALL && pot->via[k].index == other;
+  if (pot->is == CAROM_POT_NO_WAY)
+    snprintf(why, sizeof why, "no direction of the cue sends the ball %s", what);
+  else if (pot->is == CAROM_POT_SHORT)
+    snprintf(why, sizeof why, "%s comes to rest on its way; give a higher --speed",
+             ball_words(l, met->a, text));
+  else if (pot->is == CAROM_POT_BARRED && met->type == CAROM_EVENT_BALL_BALL && twice)
+    snprintf(why, sizeof why, "%s and %s meet twice", ball_words(l, own, text),
+             ball_words(l, other, more));
+  else if (pot->is == CAROM_POT_BARRED)
+    snprintf(why, sizeof why, "%s is in the way of %s", obstacle(l, met->type, other, text),
+             ball_words(l, own, more));
+  complain("--pocket %s%s%s: no such aim: %s", pocket, via != NULL ? " --via " : "",
+           via != NULL ? via : "", why);
+}
+
+bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
+                   const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]) {
+  const char *colon = strchr(pocket, ':'), *name = colon != NULL ? colon + 1 : "";
+  char known[NAMES_TEXT], unused[NAMES_TEXT], by[AIMED_TEXT], hint[HINT_TEXT];
+  named_table *t = built_in_table(l->table_name);
+  carom_pot pot = {.pocket = pocket_named(l, t, name, known),
+                   .ball =
+                       ball_named(l, pocket, colon != NULL ? (size_t)(colon - pocket) : 0, unused)};
+  bool good = false;
+  free_table(t);
+  if (l->table.pockets == 0)
+    complain("--pocket: the table has none");
+  else if (pot.ball < 0 || pot.pocket < 0)
+    complain("--pocket is BALL:POCKET, such as 1:foot-left, with a ball of --balls and one of %s "
+             "or its id; not '%.60s'%s",
+             known, pocket, did_you_mean(name, known, hint));
+  else if (!read_via(l, via, &pot, by))
+    return false;
+  else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK)
+    good = true; /* which is told when it is played */
+  else if (pot.is != CAROM_POT_FALLS)
+    complain_of(pocket, via, l, &pot);
+  else {
+    good = true;
+    snprintf(told, AIMED_TEXT,
+             "aim    %s to the %s pocket%s: cut %.1f degrees to the %s; the ball's way may turn by "
+             "%.2f degrees to either jaw\n       falls with aims of %.2f to %.2f degrees at this "
+             "speed, and with %.3g to %.3g m/s of the cue at this aim\n",
+             l->name[pot.ball], carom_pocket_name(&l->table, pot.pocket), by, fabs(pot.cut),
+             pot.cut < 0.0 ? "right" : "left", pot.margin, pot.phi[0], pot.phi[1], pot.speed[0],
+             pot.speed[1]);
+  }
+  return good;
+}

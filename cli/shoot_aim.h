@@ -1,0 +1,30 @@
+/* The direction of a shot from words that aims at a ball or at a pocket, and what is told of it. */
+#ifndef CAROM_CLI_SHOOT_AIM_H
+#define CAROM_CLI_SHOOT_AIM_H
+
+#include "carom_shot.h"
+
+#include <stdbool.h>
+
+enum { PLACE_NAME = 16, AIMED_TEXT = 400 };
+
+/* The balls on the table, the cue ball first. */
+typedef struct layout {
+  carom_game game;
+  const char *table_name;
+  carom_table table;
+  carom_shot_ball ball[CAROM_BALLS_MOST];
+  char name[CAROM_BALLS_MOST][PLACE_NAME];
+  int count;
+} layout;
+
+/* Aims a cue at a ball, that of --at-ball, at a cut; false after a complaint. */
+bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
+                 carom_cue *cue);
+
+/* Aims a cue at a pocket, as --pocket and --via say, and tells of it; via may be NULL. False after
+ * a complaint. */
+bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
+                   const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]);
+
+#endif

@@ -1,0 +1,393 @@
+/* Aims at a pocket, by shots of the balls on the way alone.
+ *
+ * The way is a row of links: the cue ball meets ball 1, which meets ball 2, up to the ball that
+ * is wanted, which meets rails. A direction phi of the cue does the first few of them. Where it
+ * does all, the ball goes on to the pocket, and
+ *
+ *   e(phi) = psi(o) - the direction of v,
+ *
+ * v being its velocity just before anything ends this last piece: a jaw, a cushion, the pocket,
+ * or rest. o is the place on the line of v that is as far from the pocket as the place of the
+ * last link. psi, of value.c, is the middle of the directions from there that pass the jaws. So
+ * a path may curve on its way.
+ *
+ * Directions that do most links are few: the range of phi is sampled, and shrinks to those, as
+ * long as links are gained. Then e is continuous but for jumps; its roots are bracketed by
+ * neighbours and halved. The samples are those of a sine, under which the cut at the first ball
+ * changes in equal steps. */
+#include "plan/plan.h"
+#include "platform/elementary.h"
+
+#include <math.h>
+
+enum { LINKS = CAROM_VIA_MOST + 1, EVENTS = 128, SAMPLES = 180, HALVINGS = 48 };
+static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
+static const carom_shot_options no_options;
+/* a part of the time since the start: a velocity before an event is taken so much earlier */
+static const double just_before = 1e-6;
+/* rad: a root with more is a jump; neighbours that differ by more are none */
+static const double root_most = 1e-4, step_most = 1.0;
+static const double least_time = 1e-9; /* s */
+/* s: a further contact with the same rail is a hop */
+static const double same_contact = 0.1;
+/* cushions that end so near to a pocket are beside it: in its radii */
+static const double beside_most = 3.0;
+static const double speed_most = 15.0, speed_least = 0.05; /* m/s, of the cue */
+
+/* The balls of a way, the cue ball first, and then rails. */
+typedef struct way {
+  const carom_table *table;
+  carom_shot_options options;
+  const carom_pocket *pocket;
+  carom_mouth mouth;
+  int balls, rails, links;
+  int ball[LINKS + 1], rail[LINKS]; /* indices in the layout and in the table */
+  carom_shot_ball alone[LINKS + 1]; /* the balls as a layout of their own */
+} way;
+
+/* How far a shot came on its way. */
+typedef struct progress {
+  int links;
+  double first, since, until; /* s: of the first link, of the last one, of what ended the rest */
+  carom_brief_event end;      /* that; of type 0: nothing did */
+} progress;
+
+/* An angle of less than three half turns, as one of at most half a turn. */
+static double wrapped(double angle) {
+  return angle > pi ? angle - 2.0 * pi : angle < -pi ? angle + 2.0 * pi : angle;
+}
+
+/* Whether two rails are on one line. */
+static bool in_line(const carom_rail *r, const carom_rail *s) {
+  const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1], length = x * x + y * y;
+  const double from = x * (s->p[1] - r->p[1]) - y * (s->p[0] - r->p[0]);
+  const double to = x * (s->q[1] - r->p[1]) - y * (s->q[0] - r->p[0]);
+  return fmax(fabs(from), fabs(to)) < 1e-6 * length;
+}
+
+/* ---- A shot and its way */
+
+/* Follows the events of a shot along the way; `ball` are the indices of its balls there. */
+static progress follow(const way *w, const int *ball, const carom_brief_event *events,
+                       int64_t count) {
+  progress p = {0};
+  int at = 0, rails = 0;
+  for (int64_t k = 0; k < count && p.end.type == 0; k++) {
+    const carom_brief_event *e = &events[k];
+    const bool meets = e->type == CAROM_EVENT_BALL_BALL;
+    if ((e->a != ball[at] && !(meets && e->b == ball[at])) || e->type == CAROM_EVENT_STRIKE ||
+        e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_SLIDING_ROLLING)
+      continue;
+    const int other = e->a == ball[at] ? e->b : e->a;
+    const bool rail = e->type == CAROM_EVENT_RAIL && at == w->balls - 1;
+
+    if (meets && at + 1 < w->balls && other == ball[at + 1]) {
+      p.first = at++ == 0 ? e->time : p.first;
+      p.since = e->time;
+      p.links++;
+      /* the contacts of one instant are in any order */
+      while (k > 0 && events[k - 1].time == e->time)
+        k--;
+      k--;
+    } else if (meets && at > 0 && other == ball[at - 1] && e->time == p.since) {
+      continue;
+    } else if (rail && rails < w->rails &&
+               in_line(&w->table->rail[w->rail[rails]], &w->table->rail[e->b])) {
+      rails++;
+      p.since = e->time;
+      p.links++;
+    } else if (!(rail && rails > 0 && e->time - p.since < same_contact &&
+                 in_line(&w->table->rail[w->rail[rails - 1]], &w->table->rail[e->b]))) {
+      p.end = *e;
+    }
+  }
+  p.until = p.end.time;
+  return p;
+}
+
+/* The states of the balls of the way at a time of their shot. */
+static void states_at(const way *w, const carom_cue *cue, double time,
+                      carom_ball_state states[LINKS + 1]) {
+  carom_shot_options options = w->options;
+  carom_shot shot = {.final = states};
+  options.time_most = fmax(time, least_time); /* 0 would be no bound */
+  carom_shoot(w->table, w->alone, w->balls, cue, &options, &shot);
+}
+
+/* e, and half the range of directions that pass the jaws; both NaN where the way is not done or
+ * the ball goes nowhere, or away from the pocket. */
+static progress attempt(const way *w, double phi, carom_cue cue, double *e, double *half) {
+  static const int own[LINKS + 1] = {0, 1, 2, 3, 4, 5};
+  carom_brief_event events[EVENTS];
+  carom_ball_state states[LINKS + 1];
+  carom_shot_options options = w->options;
+  carom_shot shot = {.brief = events, .room = EVENTS};
+  cue.ball = 0;
+  cue.phi = phi;
+  options.stop_at = CAROM_STOP_AT(CAROM_EVENT_POCKET);
+  carom_shoot(w->table, w->alone, w->balls, &cue, &options, &shot);
+  progress p = follow(w, own, events, shot.count < EVENTS ? shot.count : EVENTS);
+  *e = *half = (double)NAN;
+  if (p.links < w->links)
+    return p;
+
+  /* Where the last link left the ball, and where it went just before the end. */
+  const double *c = w->mouth.centre;
+  const carom_ball_state *s = &states[w->balls - 1];
+  states_at(w, &cue, p.since, states);
+  const double x = c[0] - s->r[0], y = c[1] - s->r[1], far = sqrt(x * x + y * y);
+  const double until = p.end.type != 0 ? p.until : shot.time;
+  states_at(w, &cue, fmax(p.since, until * (1.0 - just_before)), states);
+  const double speed = sqrt(s->v[0] * s->v[0] + s->v[1] * s->v[1]);
+  if (!(speed > 0.0))
+    return p;
+
+  /* The line of v, from as far away. */
+  const double u[2] = {s->v[0] / speed, s->v[1] / speed};
+  if (u[0] * x + u[1] * y < 0.0)
+    return p;
+  const double back = u[0] * (c[0] - s->r[0]) + u[1] * (c[1] - s->r[1]) - far;
+  const double o[2] = {s->r[0] + back * u[0], s->r[1] + back * u[1]};
+  double psi;
+  carom_window(&w->mouth, o, w->alone[w->balls - 1].kind.radius, &psi, half);
+  *e = wrapped(psi - carom_angle_of(u[0], u[1]));
+  return p;
+}
+
+/* Whether a cushion that the ball met is beside the pocket. */
+static bool is_beside(const way *w, const carom_brief_event *e) {
+  const carom_rail *r = &w->table->rail[e->b];
+  const double *jaw = w->table->jaw[e->b].centre, *c = w->pocket->centre;
+  const double *ends[2] = {e->type == CAROM_EVENT_JAW ? jaw : r->p,
+                           e->type == CAROM_EVENT_JAW ? jaw : r->q};
+  bool beside = false;
+  for (int k = 0; k < 2; k++) {
+    const double x = ends[k][0] - c[0], y = ends[k][1] - c[1];
+    beside |= x * x + y * y < beside_most * beside_most * w->pocket->radius * w->pocket->radius;
+  }
+  return beside;
+}
+
+/* What comes of a cue, of the whole layout. */
+static carom_pot_is fate(const way *w, const carom_shot_ball *balls, int count,
+                         const carom_cue *cue, carom_brief_event *met) {
+  carom_brief_event events[EVENTS];
+  carom_facts facts;
+  carom_shot shot = {.brief = events, .room = EVENTS, .facts = &facts};
+  carom_shoot(w->table, balls, count, cue, &w->options, &shot);
+  const progress p = follow(w, w->ball, events, shot.count < EVENTS ? shot.count : EVENTS);
+  const int last = w->ball[w->balls - 1];
+  const bool falls = facts.pocket[last] >= 0 && &w->table->pocket[facts.pocket[last]] == w->pocket;
+  *met = p.end;
+
+  /* After the last link it may touch what is beside the pocket, and nothing else. */
+  const int type = p.end.type;
+  const bool done = p.links == w->links;
+  if (done && (type == 0 || type == CAROM_EVENT_POCKET))
+    return falls ? CAROM_POT_FALLS : CAROM_POT_REJECTED;
+  if (done && (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW))
+    return falls && is_beside(w, &p.end) ? CAROM_POT_FALLS : CAROM_POT_REJECTED;
+  return type == CAROM_EVENT_ROLLING_SPINNING || type == CAROM_EVENT_ROLLING_STATIONARY || type == 0
+             ? CAROM_POT_SHORT
+             : CAROM_POT_BARRED;
+}
+
+/* The last value of *field, of the cue, from its own on and up to `end`, with which the ball falls:
+ * by steps that grow, until one misses, then by halvings. */
+static double last_good(const way *w, const carom_shot_ball *balls, int count, const carom_cue *cue,
+                        double *field, double step, double growth, double end) {
+  const double own = *field;
+  double good, bad = own;
+  carom_brief_event unused;
+  do {
+    good = bad;
+    bad = (good + step < end) == (step > 0.0) ? good + step : end;
+    step *= growth;
+    *field = bad;
+  } while (bad != good && fate(w, balls, count, cue, &unused) == CAROM_POT_FALLS);
+  for (int k = 0; k < HALVINGS / 2 && bad != good; k++) {
+    *field = 0.5 * (good + bad);
+    *(fate(w, balls, count, cue, &unused) == CAROM_POT_FALLS ? &good : &bad) = *field;
+  }
+  *field = own;
+  return good;
+}
+
+/* ---- The search */
+
+/* The direction and half width of a root of e between two directions, where it has the values e0
+ * and e1; false for a jump. */
+static bool root_of(const way *w, const carom_cue *cue, double low, double high, double e0,
+                    double *phi, double *half) {
+  double e = e0;
+  for (int k = 0; k < HALVINGS && !isnan(e); k++) {
+    *phi = 0.5 * (low + high);
+    attempt(w, *phi, *cue, &e, half);
+    *((e > 0.0) == (e0 > 0.0) ? &low : &high) = *phi;
+  }
+  return fabs(e) < root_most;
+}
+
+/* The angle from the way of the cue ball, just before its first contact, to the line of centres,
+ * degrees. */
+static double cut_of(const way *w, carom_cue cue) {
+  carom_ball_state s[LINKS + 1];
+  carom_motion struck = {0};
+  double unused[2];
+  const progress p = attempt(w, cue.phi, cue, &unused[0], &unused[1]);
+  cue.ball = 0;
+  states_at(w, &cue, p.first * (1.0 - just_before), s);
+  carom_strike(&cue, &w->alone[0].kind, &struck);
+  const double *v = p.first > 0.0 ? s[0].v : struck.v;
+  return wrapped(carom_angle_of(s[1].r[0] - s[0].r[0], s[1].r[1] - s[0].r[1]) -
+                 carom_angle_of(v[0], v[1])) /
+         degree;
+}
+
+/* What comes of a root; where the ball falls, with how much may be erred. */
+static void judge(const way *w, const carom_shot_ball *balls, int count, double phi, double half,
+                  carom_pot *pot, carom_cue *cue) {
+  cue->phi = phi < 0.0 ? phi + 360.0 : phi >= 360.0 ? phi - 360.0 : phi;
+  pot->is = (int32_t)fate(w, balls, count, cue, &pot->met);
+  pot->cut = cut_of(w, *cue);
+  pot->margin = fmax(half, 0.0) / degree;
+  if (pot->is != CAROM_POT_FALLS)
+    return;
+  pot->met = (carom_brief_event){0};
+  carom_cue c = *cue;
+  for (int side = 0; side < 2; side++) {
+    const double sign = side == 0 ? -1.0 : 1.0, growth = side == 0 ? 1.0 / 1.1 : 1.1;
+    pot->phi[side] = last_good(w, balls, count, &c, &c.phi, 1e-3 * sign, 1.5, c.phi + 10.0 * sign);
+    pot->speed[side] = last_good(w, balls, count, &c, &c.speed, c.speed * (growth - 1.0), growth,
+                                 side == 0 ? speed_least : speed_most);
+  }
+}
+
+/* Searches mid - wide to mid + wide, degrees, for directions with which the ball falls. */
+static void search(const way *w, const carom_shot_ball *balls, int count, double mid, double wide,
+                   carom_pot *pot, carom_cue *cue) {
+  const carom_cue given = *cue;
+  int best = -1;
+  pot->is = CAROM_POT_NO_WAY;
+  for (bool gains = true; gains;) {
+    const bool roots = best == w->links;
+    double low = 0.0, high = 0.0, last = 0.0, before = (double)NAN;
+    int most = -1;
+    bool short_of = true; /* whether all that do most come to rest */
+    progress at_rest = {0};
+    for (int k = 0; k <= SAMPLES; k++) {
+      double sine, cosine, e, half, phi;
+      carom_sincos(pi * k / SAMPLES - 0.5 * pi, &sine, &cosine);
+      phi = mid + wide * sine;
+      const progress p = attempt(w, phi, given, &e, &half);
+      const bool rests = p.end.type == CAROM_EVENT_ROLLING_STATIONARY ||
+                         p.end.type == CAROM_EVENT_ROLLING_SPINNING;
+
+      /* The range of those that do most, with a neighbour on either side. */
+      if (p.links > most) {
+        most = p.links;
+        low = k > 0 ? last : phi;
+        short_of = true;
+      }
+      if (p.links == most) {
+        at_rest = p;
+        short_of = short_of && rests;
+        carom_sincos(pi * (k + 1 > SAMPLES ? SAMPLES : k + 1) / SAMPLES - 0.5 * pi, &sine, &cosine);
+        high = mid + wide * sine;
+      }
+
+      double root = 0.0, width = 0.0;
+      if (roots && (e > 0.0) != (before > 0.0) && fabs(e - before) < step_most &&
+          root_of(w, &given, last, phi, before, &root, &width)) {
+        judge(w, balls, count, root, width, pot, cue);
+        if (pot->is == CAROM_POT_FALLS)
+          return;
+      }
+      before = e;
+      last = phi;
+    }
+
+    /* once more where links were gained, and then for the roots */
+    gains = most > best;
+    best = most;
+    mid = 0.5 * (low + high);
+    wide = 0.5 * (high - low);
+    if (!gains && best < w->links && short_of) {
+      pot->is = CAROM_POT_SHORT;
+      pot->met = at_rest.end;
+      pot->met.a = w->ball[pot->met.a];
+    }
+  }
+}
+
+/* ---- The call */
+
+/* The way as the caller asks for it; false where that cannot be. */
+static bool way_of(const carom_table *table, const carom_shot_ball *balls, int count,
+                   const carom_shot_options *options, const carom_pot *pot, int cue_ball, way *w) {
+  if (pot->pocket < 0 || pot->pocket >= table->pockets || pot->vias < 0 ||
+      pot->vias > CAROM_VIA_MOST)
+    return false;
+  *w = (way){.table = table,
+             .options = *options,
+             .pocket = &table->pocket[pot->pocket],
+             .mouth = carom_mouth_of(table, pot->pocket),
+             .balls = 1,
+             .ball = {cue_ball}};
+  w->options.stop_at = w->options.first_of = 0;
+  w->options.time_most = 0.0;
+  /* Balls, the one that falls as the last, and then rails. */
+  int k = 0;
+  for (; k < pot->vias && pot->via[k].kind == CAROM_PART_BALL; k++)
+    w->ball[w->balls++] = pot->via[k].index;
+  w->ball[w->balls++] = pot->ball;
+  for (; k < pot->vias; k++) {
+    if (pot->via[k].kind != CAROM_PART_RAIL || pot->via[k].index < 0 ||
+        pot->via[k].index >= table->rails)
+      return false;
+    w->rail[w->rails++] = pot->via[k].index;
+  }
+  w->links = w->balls - 1 + w->rails;
+  /* All are there, once. */
+  for (k = 0; k < w->balls; k++) {
+    const int ball = w->ball[k];
+    if (ball < 0 || ball >= count || balls[ball].state.label == CAROM_BALL_POCKETED ||
+        balls[ball].state.label == CAROM_BALL_OFF)
+      return false;
+    for (int other = 0; other < k; other++)
+      if (w->ball[other] == ball)
+        return false;
+    w->alone[k] = balls[ball];
+  }
+  return true;
+}
+
+carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,
+                       const carom_shot_options *shot, carom_pot *pot, carom_cue *cue) {
+  if (table == NULL || balls == NULL || pot == NULL || cue == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_shot_options *options = shot != NULL ? shot : &no_options;
+  int where;
+  const carom_status bad = carom_shot_check(table, balls, count, cue, options, &where);
+  if (bad != CAROM_OK)
+    return bad;
+  way w;
+  if (!way_of(table, balls, count, options, pot, (int)cue->ball, &w))
+    return CAROM_ERROR_BALLS;
+
+  /* The directions in which a straight path meets the first ball; a raised cue's path curves. */
+  const carom_shot_ball *own = &w.alone[0], *first = &w.alone[1];
+  const double x = first->state.r[0] - own->state.r[0], y = first->state.r[1] - own->state.r[1];
+  const double sine = (own->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
+  carom_cue along = *cue;
+  carom_motion struck = {.v = {1.0}};
+  along.phi = 0.0;
+  carom_strike(&along, &own->kind, &struck);
+  const double mid = (carom_angle_of(x, y) - carom_angle_of(struck.v[0], struck.v[1])) / degree;
+  const double wide = (sine < 1.0 ? carom_asin(sine) : 0.5 * pi) / degree +
+                      (cue->theta > 0.0 ? 2.0 + cue->theta : 0.0);
+  pot->cut = pot->margin = pot->phi[0] = pot->phi[1] = pot->speed[0] = pot->speed[1] = 0.0;
+  pot->met = (carom_brief_event){0};
+  search(&w, balls, count, mid, wide, pot, cue);
+  return CAROM_OK;
+}

@@ -1,0 +1,54 @@
+/* Where rails and pockets are, in the words of a player at the head of the table. */
+#include "carom_shot.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Rails shorter than this part of the longest one are cuts of pockets. */
+static const double cut_most = 0.2;
+
+static double square_of_length(const carom_rail *r) {
+  const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1];
+  return x * x + y * y;
+}
+
+static bool is_cut(const carom_table *t, int rail) {
+  double longest = 0.0;
+  for (int k = 0; k < t->rails; k++)
+    longest = fmax(longest, square_of_length(&t->rail[k]));
+  return square_of_length(&t->rail[rail]) <= cut_most * cut_most * longest;
+}
+
+/* The name of the side of a rectangle along which a rail lies, or NULL. */
+static const char *side_of(const carom_table *t, int rail) {
+  const carom_rail *r = &t->rail[rail];
+  const double same = 1e-6 * (t->width + t->length);
+  if (fabs(r->p[0] - r->q[0]) < same)
+    return r->p[0] < 0.5 * t->width ? "left" : "right";
+  if (fabs(r->p[1] - r->q[1]) < same)
+    return r->p[1] < 0.5 * t->length ? "head" : "foot";
+  return NULL;
+}
+
+static bool is_rectangle(const carom_table *t) {
+  for (int k = 0; k < t->rails; k++)
+    if (!is_cut(t, k) && side_of(t, k) == NULL)
+      return false;
+  return true;
+}
+
+const char *carom_rail_name(const carom_table *t, int rail) {
+  return t != NULL && rail >= 0 && rail < t->rails && is_rectangle(t) && !is_cut(t, rail)
+             ? side_of(t, rail)
+             : NULL;
+}
+
+const char *carom_pocket_name(const carom_table *t, int pocket) {
+  static const char *const names[2][3] = {{"head-left", "side-left", "foot-left"},
+                                          {"head-right", "side-right", "foot-right"}};
+  if (t == NULL || pocket < 0 || pocket >= t->pockets || !is_rectangle(t))
+    return NULL;
+  const double *centre = t->pocket[pocket].centre, along = centre[1] / t->length;
+  return names[centre[0] > 0.5 * t->width][along < 0.3 ? 0 : along < 0.7 ? 1 : 2];
+}
