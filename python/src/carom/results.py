@@ -225,17 +225,23 @@ _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
 class Features(Arrays):
     """What planners want of shots, besides `Shots.final`: arrays of the shape of the batch.
 
-    Indices are -1 and times (s) inf where there is none. The cue ball is the ball struck, or ball 0 without a cue. A cushion is a rail
-    or its rounded end. docs/using/python.md explains each.
+    contact, contact_time: (..., 2), the first and the second of the different balls that the cue ball met; when, s
+    cushions_before: (..., 2), impacts of the cue ball on cushions before each of them; 0 without a contact
+    cushions_after: (...), impacts on cushions, of all balls, after the first contact
+    pocket, pocket_time: (..., balls), the pocket that took each ball, by its index in `table.pockets`; when, s
+    cushions: (..., balls), impacts of each ball on cushions
+
+    Indices are -1 and times inf where there is none. The cue ball is the ball struck, or ball 0 without a cue. A cushion is a rail
+    or its rounded end.
     """
 
-    contact: npt.NDArray[np.int32]  # (..., 2): the first and the second of the different balls that the cue ball met
-    contact_time: dtypes.Doubles  # (..., 2)
-    cushions_before: npt.NDArray[np.int32]  # (..., 2): impacts of the cue ball on cushions before each; 0 without a contact
-    cushions_after: npt.NDArray[np.int32]  # (...): impacts on cushions, of all balls, after the first contact
-    pocket: npt.NDArray[np.int32]  # (..., balls): the pocket that took each ball, by its index in `table.pockets`
-    pocket_time: dtypes.Doubles  # (..., balls)
-    cushions: npt.NDArray[np.int32]  # (..., balls): impacts of each ball on cushions
+    contact: npt.NDArray[np.int32]
+    contact_time: dtypes.Doubles
+    cushions_before: npt.NDArray[np.int32]
+    cushions_after: npt.NDArray[np.int32]
+    pocket: npt.NDArray[np.int32]
+    pocket_time: dtypes.Doubles
+    cushions: npt.NDArray[np.int32]
 
     def __getitem__(self, index: Any) -> Features:
         """Those of some shots."""
