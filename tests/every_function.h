@@ -573,14 +573,14 @@ EVERY_BODY(record_settle) {
   F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_tangent) \
   F(cushion_trace) F(event_name) F(field_name) F(foul_of) F(foul_string) F(impact3) \
   F(isa_available) F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) \
-  F(physics_revision) F(place_ball) F(plan) F(plan_hand) F(plan_memory) \
-  F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(pocket_name) F(rack) \
-  F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) F(record_settle) \
-  F(record_write) F(rolling_velocity) F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) \
-  F(shot_at_times) F(shot_check) F(shot_continue) F(shot_orientation) F(shot_tangent) \
-  F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(status_name) F(status_string) \
-  F(strike) F(table_check) F(table_make) F(table_name) F(table_polygon) F(trace) F(version) \
-  F(version_number)
+  F(physics_revision) F(place_ball) F(plan) F(plan_hand) F(plan_memory) F(plan_rules_of) \
+  F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(pocket_name) F(rack) \
+  F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) \
+  F(record_settle) F(record_write) F(rolling_velocity) F(rules_name) F(serves) F(shoot) \
+  F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) F(shot_continue) F(shot_orientation) \
+  F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(status_name) \
+  F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(table_polygon) F(trace) \
+  F(version) F(version_number)
 /* clang-format on */
 #define EVERY_ROW(name) {"carom_" #name, every_##name},
 static const struct every_function {
