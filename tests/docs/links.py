@@ -1,7 +1,7 @@
 """links.py SOURCE: every link in a page of the tree leads to a file of the tree, and to a heading if it names one.
 
 Checked are the Markdown files, links and pictures alike, and the paths of pages (docs/.../page.md) that sources and tests name. Links
-to other sites are not followed. A page of docs/ says at its top for whom it is, and at its end where to go next.
+to other sites are not followed. A page of docs/ says at its top for whom it is, and at its end where to go next. README has 120 lines at most.
 """
 
 import re
@@ -47,6 +47,9 @@ for file in files:
         for page in PAGE.findall(file.read_text(encoding="utf-8", errors="replace")):
             if not (SOURCE / page).exists():
                 wrong.append(f"{name}: no page {page}")
+lines = (SOURCE / "README.md").read_text(encoding="utf-8").count("\n")
+if lines > 120:
+    wrong.append(f"README.md: {lines} lines; a newcomer reads 120 at most")
 if wrong:
     sys.exit("\n".join(wrong))
 assert links >= 50, links
