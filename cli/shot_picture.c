@@ -127,13 +127,34 @@ static void draw_diamonds(const view *v, const carom_table *t) {
       }
 }
 
-/* Axes on the wood beside the corner of the origin, from which aims are counted. */
-static void draw_axes(const view *v) {
+/* The names of the pockets, on the wood beside them. */
+static void name_pockets(const view *v, const carom_table *t, double width, double height) {
+  static const char *const anchors[] = {"start", "middle", "end"};
+  const double band = 0.5 * v->scale * v->margin, size = v->labels->size;
+  for (int k = 0; k < t->pockets && v->turned; k++) {
+    const char *name = carom_pocket_name(t, k);
+    const double x = across(v, t->pocket[k].centre), y = down(v, t->pocket[k].centre);
+    const int place = x < 0.25 * width ? 0 : x < 0.75 * width ? 1 : 2;
+    if (name != NULL)
+      svg_text(v->out,
+               place == 0   ? 0.8 * band
+               : place == 1 ? x
+                            : width - 0.8 * band,
+               (y < 0.5 * height ? 0.0 : height - band) + 0.8 * band, name, 20,
+               "class=\"pocket\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\"", size,
+               anchors[place]);
+  }
+}
+
+/* Axes on the wood beside the corner of the origin, from which aims are counted; that along the
+ * table behind the first diamond, if the name of a pocket is before it. */
+static void draw_axes(const view *v, const carom_table *t) {
   static const char *const names[] = {"x, aim 0\u00b0", "y, aim 90\u00b0"};
   const double far = 0.25, out = 0.55 * v->margin;
   for (int axis = 0; axis < 2; axis++) {
     double from[2] = {v->low[0], v->low[1]}, to[2];
     from[1 - axis] -= out;
+    from[axis] += axis == 1 && t->pockets > 0 && v->turned ? 1.2 / 8.0 * t->length : 0.0;
     memcpy(to, from, sizeof to);
     to[axis] += far;
     const double left = across(v, from), top = down(v, from), x = across(v, to) - left,
@@ -203,7 +224,8 @@ static void draw_table(const view *v, const carom_table *t, double below) {
             across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q),
             down(v, t->rail[k].q));
   draw_diamonds(v, t);
-  draw_axes(v);
+  draw_axes(v, t);
+  name_pockets(v, t, width, height);
   keep_rails(v, t, width, height);
 }
 
@@ -242,7 +264,7 @@ static void draw_arrow(const view *v, FILE *out, const char *colour, const carom
 
 /* The path of one ball, from event to event that it is in; thin, without arrows. */
 static void draw_path(const view *v, const shot_line *line, const carom_shot *shot, int ball,
-                      bool thin) {
+                      const char *colour, const char *dashes, bool thin) {
   char *heads;
   size_t heads_size;
   FILE *head = open_text(&heads, &heads_size);
@@ -268,9 +290,9 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
       if (!moved) {
         carom_shot_at(line->ball, line->count, shot, last, states);
         fprintf(v->out,
-                "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" "
+                "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\"%s "
                 "d=\"M%.1f %.1f",
-                colour_of(line->name[ball], ball), thin ? "0.8" : "2.2", across(v, states[ball].r),
+                colour, thin ? "0.8" : "2.2", dashes, across(v, states[ball].r),
                 down(v, states[ball].r));
         moved = true;
       }
@@ -278,7 +300,7 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
       carom_shot_at(line->ball, line->count, shot, last, states);
       draw_piece(v, line, shot, ball, last, time, states[ball].r, to, label == CAROM_BALL_SLIDING);
       if (!thin)
-        draw_arrow(v, head, colour_of(line->name[ball], ball), &states[ball], to, &middle);
+        draw_arrow(v, head, colour, &states[ball], to, &middle);
     }
     last = time;
   }
@@ -457,6 +479,46 @@ static void draw_rails(const view *v, labels *l, const shot_line *line, const ca
     }
 }
 
+/* ---- Several shots over each other: one colour for each, dashes for all but the cue ball */
+
+#define DASHES " stroke-dasharray=\"7 4\""
+
+static const char *shot_colour(int shot) {
+  return colours[shot % 8];
+}
+
+/* Which colour is which shot, in lines from y on; returns their height. Without `draws` it only
+ * tells that. */
+static double draw_legend(FILE *out, double left, double y, double letters, int columns,
+                          const played *shots, int count, bool draws) {
+  const double line = 1.25 * letters;
+  double x = 0.0, height = 0.0;
+  for (int shot = 0; shot < count && count > 1; shot++) {
+    const json_t *id = json_object_get(shots[shot].line->json, "id");
+    char text[80];
+    snprintf(text, sizeof text, "%d: %s", shot + 1,
+             json_is_string(id) ? json_string_value(id) : "shot");
+    const double wide = (letter_width * (double)strlen(text) + 4.0) * letters;
+    if (height == 0.0 || x + wide > letter_width * letters * columns) {
+      height += line;
+      x = 0.0;
+    }
+    if (draws) {
+      const double base = y + height - line;
+      fprintf(out,
+              "<path class=\"legend\" d=\"M%.1f %.1fh%.1f\" stroke=\"%s\" stroke-width=\"4\"/>\n",
+              left + x, base - 0.35 * letters, 2.0 * letters, shot_colour(shot));
+      svg_text(out, left + x + 2.5 * letters, base, text, 80, "font-size=\"%.1f\" fill=\"#fff\"",
+               letters);
+    }
+    x += wide;
+  }
+  if (draws && height > 0.0)
+    svg_text(out, left, y + height, "Solid: the cue ball. Dashed: the other balls.", 80,
+             "font-size=\"%.1f\" fill=\"#fff\"", letters);
+  return height > 0.0 ? height + line : 0.0;
+}
+
 void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   const carom_table *t = &shots[0].line->table->table;
   view v = view_of(out, t);
@@ -475,10 +537,11 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
       rise > 1e-3 ? v.scale * (rise + 2.0 * shots[0].line->ball[0].kind.radius) + side_margin : 0.0;
   const double below = side > 0.0 ? side + side_margin : 0.0,
                said = svg_lines(NULL, left, 0.0, letters, columns, "", footer);
-  draw_table(&v, t, below + said + (said > 0.0 ? letters : 0.0));
+  const double legend = draw_legend(out, left, 0.0, letters, columns, shots, count, false);
+  draw_table(&v, t, below + legend + said + (legend + said > 0.0 ? 1.5 * letters : 0.0));
   if (side > 0.0)
     fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", high,
-            below + (said > 0.0 ? 0.0 : 20.0));
+            below + (legend + said > 0.0 ? 0.0 : 20.0));
   for (int shot = 0; shot < count && side > 0.0; shot++)
     draw_side(&v, shots[shot].line, shots[shot].shot, high + side, wide);
   for (int k = 0; k < shots[0].line->count; k++)
@@ -493,12 +556,15 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
     fputs(shots[shot].others_count > 0 ? "<g class=\"others\" opacity=\"0.4\">\n" : "", out);
     for (int n = 0; n < shots[shot].others_count; n++)
       for (int k = shots[shot].line->count - 1; k >= 0; k--)
-        draw_path(&thin, shots[shot].line, &shots[shot].others[n], k, true);
+        draw_path(&thin, shots[shot].line, &shots[shot].others[n], k,
+                  colour_of(shots[shot].line->name[k], k), "", true);
     fputs(shots[shot].others_count > 0 ? "</g>\n" : "", out);
   }
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0; k--)
-      draw_path(&v, shots[shot].line, shots[shot].shot, k, false);
+      draw_path(&v, shots[shot].line, shots[shot].shot, k,
+                count > 1 ? shot_colour(shot) : colour_of(shots[shot].line->name[k], k),
+                count > 1 && k != shots[shot].line->cue.ball ? DASHES : "", false);
   /* Where they end, kept free of labels and then drawn; what does not move, once. */
   for (int drawn = 0; drawn < 2; drawn++)
     for (int shot = 0; shot < count; shot++) {
@@ -525,9 +591,10 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
           draw_ellipse(&v, shots[shot].spread, &final[k], k);
       }
     }
-  for (int shot = 0; shot < count; shot++)
-    draw_rails(&v, &l, shots[shot].line, shots[shot].shot);
-  svg_lines(out, left, high + below + (below > 0.0 ? 1.25 : 0.75) * letters, letters, columns,
-            "fill=\"#fff\"", footer);
+  if (count == 1)
+    draw_rails(&v, &l, shots[0].line, shots[0].shot);
+  const double under = high + below + 1.25 * letters;
+  draw_legend(out, left, under, letters, columns, shots, count, true);
+  svg_lines(out, left, under + legend, letters, columns, "fill=\"#fff\"", footer);
   fputs("</svg>\n", out);
 }

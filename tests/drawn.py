@@ -133,7 +133,7 @@ def check_shot(picture, shot, table):
 
     report.near("size", map(float, page.get("viewBox").split()), [0, 0, *size], 0.5)
     report.near("cloth", numbers(elements(page, "rect")[1], "x", "y", "width", "height"), [200 * margin, 200 * margin, size[0] - 400 * margin, size[1] - 400 * margin])
-    circles, paths, texts = ([one for one in elements(page, name) if one.get("class") != "axis"] for name in ("circle", "path", "text"))
+    circles, paths, texts = ([one for one in elements(page, name) if one.get("class") not in ("axis", "pocket", "legend")] for name in ("circle", "path", "text"))
     marks, texts = [text.text for text in texts if text.get("stroke")], [text for text in texts if not text.get("stroke")]
     # Holes, jaws, balls at first; paths between; balls at the end, striped ones with a ring.
     expected = [(f"{kind} {part['id']}", part["center"], part["radius"], None) for kind in ("pockets", "circular") for part in table[kind]]

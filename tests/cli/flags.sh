@@ -116,6 +116,10 @@ ways = [path for path in page.iter(SVG + "path") if path.get("stroke-width") == 
 print(len(ways) == sum(map(len, moving)), len(groups) == 3 + sum(map(len, moving[1:])))
 numbers = [text.text for g in groups for text in g.iter(SVG + "text")]
 print([name for name in numbers if name not in ("1", "8")])
+legend = [path.get("stroke") for path in page.iter(SVG + "path") if path.get("class") == "legend"]
+dashed = [path.get("stroke") for path in ways if path.get("stroke-dasharray")]
+print("legend:", len(set(legend)) == 3, {path.get("stroke") for path in ways} == set(legend), len(dashed) == len(ways) - 3)
+print([text.text for text in page.iter(SVG + "text") if text.get("class") == "pocket"])
 html = open("all.html", encoding="utf-8").read()
 print("needs nothing else:", set(re.findall(r"https?://[^\"' ]*", html)), "src=" in html, "href" in html)
 film = json.loads(re.search(r"const film=recorded\((.*?)\);\n", html, re.S)[1])
