@@ -203,7 +203,8 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
   function drawBall(g, k, { r, q }, alpha) {
     const { name, radius: R } = /** @type {Film} */ (film).balls[k];
     const at = place(r[0], r[1]);
-    const radius = Math.max(R * scale * (1 + Math.max(0, r[2] - R)), 3);
+    // One that flies looks larger, one that falls in a pocket smaller.
+    const radius = Math.max(R * scale * (1 + (r[2] > R ? 1 : 3) * (r[2] - R)), 3);
     const [colour, number] = [colourOf(name, k), Number(name)];
     const [w, i, j, n] = [q[0], q[1], q[2], q[3]];
     /** Where a direction on the ball, an axis of it, points now. @param {0 | 1 | 2} axis @param {number} sign */
@@ -269,7 +270,7 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
         g.beginPath();
         for (let k = 0; k < xyz.length; k += 3) {
           g[k === 0 ? "moveTo" : "lineTo"](...place(xyz[k], xyz[k + 1]));
-          if (xyz[k + 2] < 0) break;
+          if (xyz[k + 2] < 0) break; // where a ball that falls is seen no longer
         }
         g.stroke();
       }

@@ -791,6 +791,14 @@ CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int cou
                                            const carom_shot *shot, const double *times, size_t n,
                                            carom_ball_state *states);
 
+/* The same for drawing: a pocketed ball falls freely from the edge, along the wall of its pocket,
+ * until it lies at the pocket's depth, also after the end of the shot. Its label is
+ * CAROM_BALL_POCKETED. Brief events have no states to fall from. CAROM_ERROR_NULL without a
+ * table. */
+CAROM_API carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls,
+                                        int count, const carom_shot *shot, const double *times,
+                                        size_t n, carom_ball_state *states);
+
 /* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of
  * cues[k * cue_stride].
  * With table, balls and cue of the sample above:

@@ -344,6 +344,13 @@ EVERY_BODY(shot_at_times) {
   STATUS(carom_shot_at_times(in->balls, EVERY_BALLS, &room->shot[0], times, 3, room->later));
   return HASH(room->later);
 }
+EVERY_BODY(shot_drawn) {
+  static const double times[] = {0.4, 0.1, 3.0};
+  every_break(in, room, 0, 0.0);
+  STATUS(
+      carom_shot_drawn(&in->table, in->balls, EVERY_BALLS, &room->shot[0], times, 3, room->later));
+  return HASH(room->later);
+}
 /* A plan for the rack, with few shots. */
 static inline carom_plan_job plan_of(const every_input *in, every_room *room,
                                      const carom_player *player, const carom_plan_rules *rules,
@@ -577,7 +584,8 @@ EVERY_BODY(record_settle) {
   F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(pocket_name) F(rack) \
   F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) \
   F(record_settle) F(record_write) F(rolling_velocity) F(rules_name) F(serves) F(shoot) \
-  F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) F(shot_continue) F(shot_orientation) \
+  F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) F(shot_continue) F(shot_drawn) \
+  F(shot_orientation) \
   F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(status_name) \
   F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(table_polygon) F(trace) \
   F(version) F(version_number)

@@ -471,3 +471,14 @@ def test_tables_of_any_shape():
         carom.tables.polygon([(0, 0), (2, 0), (2, 0.5), (0.5, 0.5), (0.5, 2), (0, 2)])
     with pytest.raises(ValueError, match=r"corners\[1\]: x, y and perhaps the mouth are needed, not 4"):
         carom.tables.polygon([(0, 0), (1, 0, 0.1, 2), (0, 1)])
+
+
+def test_pocketed_balls_fall():
+    shot = next(shot for shot in (carom.simulate(TABLE, carom.racks.nineball(TABLE, seed=k), carom.cue(speed=9.0)) for k in range(30)) if (shot.events["type"] == 5).any())
+    fall = shot.events[shot.events["type"] == 5][0]
+    times = fall["time"] + np.linspace(0, 0.05, 6)
+    drawn, told = shot.states(times, drawn=True), shot.states(times)
+    ball, others = fall["a"], np.flatnonzero(shot.final["label"] != carom.Label.POCKETED)
+    assert (np.diff(drawn["r"][:, ball, 2]) < 0).all() and drawn["r"][0, ball, 2] == fall["before"]["r"][0, 2]
+    assert (told["r"][:, ball, 2] < drawn["r"][:, ball, 2]).all() and (drawn[:, others] == told[:, others]).all()
+    assert shot.states(fall["time"] + 1.0, drawn=True)[ball] == shot.final[ball]

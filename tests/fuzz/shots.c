@@ -297,6 +297,15 @@ static void check_play(const carom_cue *cue, const carom_shot *shot) {
   if (carom_shot_at(balls, count, shot, times[look], one) != CAROM_OK ||
       memcmp(one, &states[look * count], (size_t)count * sizeof *one) != 0)
     fail("carom_shot_at_times differs from carom_shot_at");
+
+  /* Drawn, pocketed balls are in their pockets, and the others where they are. */
+  static carom_ball_state drawn[MOST];
+  if (carom_shot_drawn(&table, balls, count, shot, &times[look], 1, drawn) != CAROM_OK)
+    fail("carom_shot_drawn does not know a shot all of whose events were kept");
+  for (int k = 0; k < count; k++)
+    if (one[k].label != CAROM_BALL_POCKETED ? memcmp(&drawn[k], &one[k], sizeof one[k]) != 0
+                                            : !(drawn[k].r[2] >= one[k].r[2] - 1e-9))
+      fail("a ball is drawn where it is not");
 }
 
 /* ---- Derivatives */

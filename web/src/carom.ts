@@ -148,8 +148,8 @@ export class Carom {
         const name = (type: number): EventType => this.#eventNames[type]!;
         return Array.from({ length: shot.count }, (_, k) => readEvent(this.#memory, this.#events + k * EVENT.size, name));
       },
-      states: (shot, time) => {
-        this.#look(shot, time);
+      states: (shot, time, drawn) => {
+        this.#look(shot, time, drawn);
         return shot.balls.map((_, k) => readState(this.#memory, this.#at.final + k * layout.carom_ball_state.size));
       },
       positions: (shot, time, into) => {
@@ -160,7 +160,7 @@ export class Carom {
           for (let c = 0; c < 3; c++) into[3 * k + c] = f64[at + c]!;
         }
       },
-      positionsAt: (shot, times) => {
+      positionsAt: (shot, times, drawn) => {
         this.#reside(shot);
         const n = times.length;
         const count = shot.balls.length;
@@ -169,7 +169,7 @@ export class Carom {
         try {
           this.#memory.f64.set(times, at / 8);
           const states = at + 8 * n;
-          this.#refuse(this.#call.carom_shot_at_times(this.#at.balls, count, this.#at.shot, at, n, states), "times");
+          this.#statesAt(shot, at, n, states, drawn, "times");
           const f64 = this.#memory.f64;
           const into = new Float64Array(3 * n * count);
           for (let k = 0; k < n * count; k++) into.set(f64.subarray((states + k * size) / 8, (states + k * size) / 8 + 3), 3 * k);
@@ -685,9 +685,16 @@ export class Carom {
     this.#resident = shot;
   }
 
-  #look(shot: Shot, time: number): void {
+  #look(shot: Shot, time: number, drawn = false): void {
     this.#reside(shot);
-    this.#refuse(this.#call.carom_shot_at(this.#at.balls, shot.balls.length, this.#at.shot, time, this.#at.final), `time ${time}`);
+    this.#memory.f64[this.#at.number / 8] = time;
+    this.#statesAt(shot, this.#at.number, 1, this.#at.final, drawn, `time ${time}`);
+  }
+  #statesAt(shot: Shot, times: Pointer, n: number, states: Pointer, drawn: boolean, field: string): void {
+    const { balls, shot: at, table } = this.#at;
+    if (drawn) writeTable(this.#memory, table, shot.table);
+    const rest = [balls, shot.balls.length, at, times, n, states];
+    this.#refuse(drawn ? this.#call.carom_shot_drawn(table, ...rest) : this.#call.carom_shot_at_times(...rest), field);
   }
 
   /** Begins a recording, of a game on this table with these models, that verifies itself. */

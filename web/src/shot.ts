@@ -4,9 +4,9 @@ import type { BallState, Contact, ShotBall, ShotEvent, Table } from "./types.js"
 /** What a shot needs of the library. */
 export interface Reader {
   events(shot: Shot): ShotEvent[];
-  states(shot: Shot, time: number): BallState[];
+  states(shot: Shot, time: number, drawn: boolean): BallState[];
   positions(shot: Shot, time: number, into: Float64Array): void;
-  positionsAt(shot: Shot, times: ArrayLike<number>): Float64Array;
+  positionsAt(shot: Shot, times: ArrayLike<number>, drawn: boolean): Float64Array;
   orientations(shot: Shot, time: number, into: Float64Array): void;
 }
 
@@ -75,14 +75,14 @@ export class Shot {
     return into;
   }
 
-  /** x, y, z of every ball at many times (s), m: 3 numbers for each ball, time after time. Ascending times cost least. */
-  positionsAt(times: ArrayLike<number>): Float64Array {
-    return this.#reader.positionsAt(this, times);
+  /** x, y, z of every ball at many times (s), m: 3 numbers for each ball, time after time. Ascending times cost least. `drawn` as of `states`. */
+  positionsAt(times: ArrayLike<number>, drawn = false): Float64Array {
+    return this.#reader.positionsAt(this, times, drawn);
   }
 
-  /** The states of all balls at a time, s. */
-  states(time: number): BallState[] {
-    return this.#reader.states(this, time);
+  /** The states of all balls at a time, s. With `drawn` a pocketed ball falls in its pocket until it lies at the depth: it is lower than there. */
+  states(time: number, drawn = false): BallState[] {
+    return this.#reader.states(this, time, drawn);
   }
 
   /** How each ball has turned since the start, as unit quaternions w, x, y, z: 4 numbers for each ball. */

@@ -337,3 +337,15 @@ test("memory stays flat over a million calls", () => {
   cycle(1_000_000);
   expect(carom.memoryBytes).toBe(bytes);
 });
+
+test.each(builds)("pocketed balls fall where they are drawn, by $name", ({ carom }) => {
+  const table = carom.table("7ft");
+  const shots = Array.from({ length: 20 }, (_, seed) => carom.simulate(table, carom.rack("nineball", table, { seed }), { speed: 9 }));
+  const shot = shots.find(({ events }) => events.some(({ type }) => type === "ball_pocket"))!;
+  const { time, a, before, after } = shot.events.find(({ type }) => type === "ball_pocket")!;
+  const heights = [0, 0.02, 0.04, 0.06].map((later) => shot.states(time + later, true)[a]!.r[2]);
+  heights.forEach((height, k) => expect(height).toBeCloseTo(before[0]!.r[2] - 0.5 * 9.81 * (0.02 * k) ** 2, 3));
+  expect(shot.states(time + 1, true)[a]).toEqual(after[0]);
+  expect(shot.positionsAt([time + 0.04], true)[3 * a + 2]).toBe(heights[2]);
+  expect(shot.states(time + 0.04)[a]).toEqual(after[0]);
+});

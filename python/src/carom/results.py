@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from typing import Any, overload
@@ -92,17 +93,19 @@ class Shot:
     options: Options
     state: Array | None = None
 
-    def states(self, times: npt.ArrayLike) -> dtypes.Records:
+    def states(self, times: npt.ArrayLike, *, drawn: bool = False) -> dtypes.Records:
         """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape (shape of the times..., balls).
 
-        Before 0 they are as at 0; after the end as at the end, where nothing moves any more.
+        Before 0 they are as at 0; after the end as at the end, where nothing moves any more. With `drawn` a pocketed ball falls in its
+        pocket until it lies at the depth.
 
         Raises CaromError: A time is after the end of a shot that was stopped, or that ended in an error, while balls moved.
         Raises ValueError: A time is not finite.
         """
         at = _moments(times)
         states: Array = np.zeros((*at.shape, len(self.balls)), dtypes.ball_state)
-        self._at(at, states, 1, "carom_ball_state[]", lib.carom_shot_at_times)
+        look = functools.partial(lib.carom_shot_drawn, pointer("carom_table[]", self.table.record)) if drawn else lib.carom_shot_at_times
+        self._at(at, states, 1, "carom_ball_state[]", look)
         return states
 
     def _at(self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]) -> None:

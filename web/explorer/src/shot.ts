@@ -29,6 +29,10 @@ const DEFAULTS: Record<string, number> = { speed: 8, phi: 90, right: 0, up: 0.25
 const DEGREES = 180 / Math.PI;
 /** How far the stick is drawn back for each m/s, m. */
 const PULL = 0.04;
+/** How long a ball falls in a pocket, about, s. */
+const FALL = 0.16;
+/** How long the film of a shot is: a ball that was pocketed at the end falls after it. */
+const lasts = ({ time, status, events }: Shot): number => (status === "ok" && events.at(-1)?.type === "ball_pocket" ? time + FALL : time);
 const onTable = ({ label }: BallState): boolean => label !== "pocketed" && label !== "off";
 
 export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HTMLElement): { update(): void; theme(): void } {
@@ -230,14 +234,14 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     // How balls are turned at the start: about the vertical.
     const turned = faces.map((face) => [Math.cos(face / DEGREES / 2), Math.sin(face / DEGREES / 2)] as const);
     return {
-      time: played?.time ?? 0,
+      time: played ? lasts(played) : 0,
       at(time) {
         const q = played?.orientations(time);
-        const states = played ? played.states(time) : balls.map((ball) => ball.state);
+        const states = played ? played.states(time, true) : balls.map((ball) => ball.state);
         return states.map((state, k) => {
           const [c, s] = turned[k]!;
           const [w, i, j, n] = q ? q.subarray(4 * k, 4 * k + 4) : [1, 0, 0, 0];
-          return { r: state.r, q: [w! * c - n! * s, i! * c + j! * s, j! * c - i! * s, n! * c + w! * s], seen: onTable(state) };
+          return { r: state.r, q: [w! * c - n! * s, i! * c + j! * s, j! * c - i! * s, n! * c + w! * s], seen: onTable(state) || (played !== undefined && state.r[2] > played.final[k]!.r[2] && state.label === "pocketed") };
         });
       },
       paths,
@@ -251,10 +255,11 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     const times = shot.events.map((event) => event.time);
     const count = Math.min(Math.ceil(shot.time * often), most);
     for (let k = 0; k <= count; k++) times.push((shot.time * k) / Math.max(count, 1));
+    for (const event of shot.events) if (event.type === "ball_pocket") for (let k = 1; k <= 8; k++) times.push(event.time + (FALL * k) / 8);
     times.sort((a, b) => a - b);
     const moving = new Set(shot.events.flatMap((event) => (event.type === "ball_ball" ? [event.a, event.b] : [event.a])));
     const found = [...moving].map((ball) => ({ ball, xyz: new Float64Array(3 * times.length) }));
-    const all = shot.positionsAt(times.map((t) => Math.min(t, shot.time)));
+    const all = shot.positionsAt(times.map((t) => Math.min(t, lasts(shot))), true);
     times.forEach((_, k) => {
       for (const path of found) for (let c = 0; c < 3; c++) path.xyz[3 * k + c] = all[3 * (k * shot.balls.length + path.ball) + c]!;
     });
