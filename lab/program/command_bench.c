@@ -291,6 +291,8 @@ OPTION(bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODE
        set_cushion_model, 0,
        "impacts on cushions in the shots: han, mathavan, stronge, mirror or euler (default:\nhan; "
        "by pooltool's models stronge)");
+OPTION(bench_job, option_simultaneous, "simultaneous", simultaneous, 0, "cluster|pairs", set_choice,
+       0, "contacts of several balls at one instant in the shots (default: cluster)");
 
 static const char about[] =
     "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each "
@@ -311,11 +313,11 @@ static const command_form form = {
     .usage = "[OPTIONS]",
     .about = about,
     .options =
-        (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch,
-                                    &option_isa, &option_one_precision, &option_thread_counts,
-                                    &option_pairs, &option_budget, &option_csv, &option_spread,
-                                    &option_errors, &option_shots, &option_models,
-                                    &option_cushion_model, &option_data, &option_output, NULL},
+        (const option_row *const[]){
+            &option_kernel, &option_config, &option_counts, &option_batch, &option_isa,
+            &option_one_precision, &option_thread_counts, &option_pairs, &option_budget,
+            &option_csv, &option_spread, &option_errors, &option_shots, &option_models,
+            &option_cushion_model, &option_simultaneous, &option_data, &option_output, NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
