@@ -192,7 +192,7 @@ static bool passes(const shot_line *line, const carom_shot *shot, int ball, int 
     least = gap[k] < gap[least] ? k : least;
   }
   /* at the ends they only begin or rest side by side */
-  if (least == 0 || gap[least] >= gap[SAMPLES] || gap[least] > line->ball[ball].kind.radius)
+  if (least == 0 || gap[least] >= gap[SAMPLES])
     return false;
   double early = shot->time * (least - 1) / SAMPLES, late = shot->time * (least + 1) / SAMPLES;
   for (int k = 0; k < REFINEMENTS; k++) {
@@ -208,6 +208,8 @@ static bool passes(const shot_line *line, const carom_shot *shot, int ball, int 
   *m = moment_at(MOMENT_PASSES, time, &s[ball]);
   m->with = other;
   m->value = gap_at(line, shot, ball, other, time);
+  if (m->value > line->ball[ball].kind.radius)
+    return false;
   /* of two that move the faster one passes */
   const double own = hypot(s[ball].v[0], s[ball].v[1]), its = hypot(s[other].v[0], s[other].v[1]);
   return own > its || (own == its && ball < other);

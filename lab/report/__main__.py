@@ -58,7 +58,6 @@ DRAWN = {
     "throw": "carom hit --cut 0:80 --speed 1,3,7mph --plot {}",
     "rebound": "carom rail --model mathavan --angle 0:75 --side -50,0,50% --friction 0.3 --plot {}",
     "cuts": "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 10,25,40 --tip 0.2,-0.3 --plot {} -o /dev/null",
-    "three-rails": "carom shoot --table threecushion --cue 0.3,0.3 --aim 50 --ball-speed 3 --tip 0.4,0.2 --plot {} -o /dev/null",
 }
 # What the docs show, in docs/figures, with the CSV files beside them in docs/figures/data.
 OF_DOCS = ("accuracy", "runtime", "isas", "batch", "cushion")
