@@ -270,7 +270,7 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
         g.beginPath();
         for (let k = 0; k < xyz.length; k += 3) {
           g[k === 0 ? "moveTo" : "lineTo"](...place(xyz[k], xyz[k + 1]));
-          if (xyz[k + 2] < 0) break; // where a ball that falls is seen no longer
+          if (xyz[k + 2] < 0 && xyz[k + 2] === xyz[xyz.length - 1]) break; // where it lies
         }
         g.stroke();
       }

@@ -2,6 +2,7 @@
 import { Collisions, type Library, Shots } from "./batches.js";
 import { CaromError } from "./error.js";
 import { layout, values } from "./generated/layout.js";
+import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { Build, Memory, Pointer } from "./memory.js";
 import { Plans } from "./plans.js";
@@ -51,12 +52,10 @@ import type {
   Table,
   TableName,
   TracePoint,
-  Vec2,
 } from "./types.js";
 
 const IMPACT = layout.carom_impact;
 const RESULT = layout.carom_result;
-const DETAIL = layout.carom_detail.offset;
 const POINT = layout.carom_trace_point;
 const OPTIONS = layout.carom_options;
 const CUSHION = layout.carom_cushion_impact;
@@ -310,21 +309,8 @@ export class Carom {
     const opt = this.#writeOptions(options);
     const code = this.#call.carom_collide_detail(at, opt, result, detail);
     if (code < 0) throw this.#impactError(code, opt);
-    const f64 = this.#memory.f64;
-    const number = (offset: number): number => f64[(detail + offset) / 8]!;
-    return {
-      ...this.#collided(code),
-      detail: {
-        normal: number(DETAIL.normal),
-        friction: vec3(f64, detail + DETAIL.friction),
-        clothA: vec3(f64, detail + DETAIL.clothA),
-        clothB: vec3(f64, detail + DETAIL.clothB),
-        workCompression: number(DETAIL.workCompression),
-        work: number(DETAIL.work),
-        stick: STICK[this.#memory.i32[(detail + DETAIL.stick) / 4]!]!,
-        stickNormal: number(DETAIL.stickNormal),
-      },
-    };
+    const told = readStruct<Omit<C.Detail, "stick"> & { stick: number }>(this.#memory, detail, "carom_detail");
+    return { ...this.#collided(code), detail: { ...told, stick: STICK[told.stick]! } };
   }
 
   /** Follows one collision through n >= 2 points at equal steps of normal impulse. It takes about a millisecond. */
@@ -340,24 +326,9 @@ export class Carom {
     }
     const code = this.#call.carom_trace(at, opt, n, this.#points);
     if (code < 0) throw this.#impactError(code, opt);
-    const f64 = this.#memory.f64;
-    const i32 = this.#memory.i32;
-    const o = POINT.offset;
     return Array.from({ length: n }, (_, k) => {
-      const point = this.#points + k * POINT.size;
-      const number = (offset: number): number => f64[(point + offset) / 8]!;
-      return {
-        normal: number(o.normal),
-        work: number(o.work),
-        phase: i32[(point + o.phase) / 4]!,
-        sticks: i32[(point + o.sticks) / 4] === 1,
-        vN: number(o.vN),
-        uX: number(o.uX),
-        uZ: number(o.uZ),
-        d: [number(o.dX), number(o.dY)] as Vec2,
-        b: [number(o.bX), number(o.bY)] as Vec2,
-        state: { a: readMotion(f64, point + o.state + RESULT.offset.a), b: readMotion(f64, point + o.state + RESULT.offset.b) },
-      };
+      const { dX, dY, bX, bY, sticks, ...point } = readStruct<Omit<C.TracePoint, "phase"> & { phase: number }>(this.#memory, this.#points + k * POINT.size, "carom_trace_point");
+      return { ...point, sticks: sticks === 1, d: [dX, dY], b: [bX, bY] };
     });
   }
 

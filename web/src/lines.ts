@@ -1,6 +1,6 @@
 // Shots as the JSON lines that `carom shoot` reads and writes (docs/using/shots.md has the format).
 import type { Carom } from "./carom.js";
-import { labels as LABELS } from "./generated/layout.js";
+import { names as NAMES } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { BallKind, Cue, Game, ShotBall, Table, TableName } from "./types.js";
 
@@ -66,7 +66,7 @@ export function toLine(shot: Pick<Line, "tableName" | "balls" | "cue"> & { id?: 
   cue.ball = names[shot.cue.ball]!;
   const balls = shot.balls.map(({ kind, state }, k) => ({
     id: names[k],
-    state: [LABELS.indexOf(state.label), ...state.r, ...state.v, ...state.w],
+    state: [NAMES.carom_label.indexOf(state.label), ...state.r, ...state.v, ...state.w],
     params: { game: "pool", ...Object.fromEntries(PARAMS.map(([key, field]) => [key, kind[field]])) },
   }));
   return JSON.stringify({ kind: "shot", id: shot.id ?? "shot", table: shot.tableName, cue, balls });
@@ -116,7 +116,7 @@ export function fromLine(carom: Carom, text: string): Line {
     return {
       kind,
       state: {
-        label: LABELS[label] ?? refuse(`balls[${k}].state`, "the label, its first number, must be 0 to 6"),
+        label: NAMES.carom_label[label] ?? refuse(`balls[${k}].state`, "the label, its first number, must be 0 to 6"),
         r: [x, y, z],
         v: [motion[0]!, motion[1]!, motion[2]!],
         w: [motion[3]!, motion[4]!, motion[5]!],

@@ -1,5 +1,6 @@
 // Which shot to play, players who err, and the rules of games: the calls of carom_plan.h.
-import { layout, values } from "./generated/layout.js";
+import { layout, names, values } from "./generated/layout.js";
+import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { Memory, Pointer } from "./memory.js";
 import { readState, readStruct, refuseName, value, writeStruct } from "./structs.js";
@@ -15,12 +16,8 @@ const TURN = layout.carom_turn;
 const SHOT = layout.carom_shot.offset;
 const POT = layout.carom_pot;
 const PART = layout.carom_part;
-const MET = layout.carom_brief_event.offset;
 
-const AIMS = ["falls", "no_way", "barred", "short", "rejected"] as const;
-const KINDS = ["pot", "scan", "foul", "given"] as const;
 const GROUPS = ["open", "solids", "stripes"] as const;
-const TURNS = ["keep", "pass", "win", "lose"] as const;
 const HANDS = ["no", "no", "anywhere", "kitchen"] as const;
 const BOUNDS = { speedShare: 0, speedLeast: 0, speedMost: 0, tipMost: 0, reserved: [0, 0, 0] };
 
@@ -143,15 +140,12 @@ export class Plans {
     }
     this.#host.refuse(memory.exports.carom_aim(at.table, at.balls, balls.length, shot, pot, at.cue), "aim");
 
-    const number = (offset: number): number => memory.f64[(pot + offset) / 8]!;
-    const { cut, margin, phi, speed, met } = POT.offset;
-    const is = AIMS[memory.i32[(pot + POT.offset.is) / 4]!]!;
-    const event = (offset: number): number => memory.i32[(pot + met + offset) / 4]!;
+    const { is: outcome, cut, margin, phi, speed, met } = readStruct<C.Pot>(memory, pot, "carom_pot");
+    const is = names.carom_pot_is[outcome]!;
+    const { type, a, b } = met;
     return {
-      is,
-      cue: readStruct<Cue>(memory, at.cue, "carom_cue"),
-      ...{ cut: number(cut), margin: number(margin), phi: [number(phi), number(phi + 8)], speed: [number(speed), number(speed + 8)] },
-      ...(is === "barred" || is === "short" ? { met: { type: this.#host.eventName(event(MET.type)), a: event(MET.a), b: event(MET.b) } } : {}),
+      ...{ is, cue: readStruct<Cue>(memory, at.cue, "carom_cue"), cut, margin, phi, speed },
+      ...(is === "barred" || is === "short" ? { met: { type: this.#host.eventName(type), a, b } } : {}),
     };
   }
 
@@ -185,7 +179,7 @@ export class Plans {
     memory.i32[callAt / 4 + 1] = call?.pocket ?? -1;
     this.#method("judge")(turnAt, rules, inPlay(balls), struck.ball, facts, callAt);
     const i32 = memory.i32;
-    const turn = TURNS[i32[(turnAt + TURN.offset.is) / 4]!]!;
+    const turn = names.carom_turn_is[i32[(turnAt + TURN.offset.is) / 4]!]!;
     const leave = i32[(turnAt + TURN.offset.leave) / 4]!;
     const foul = i32[(turnAt + TURN.offset.foul) / 4] !== 0;
     const spot = memory.u32[(turnAt + TURN.offset.spot) / 4]!;
@@ -258,17 +252,8 @@ export class Plans {
   }
 
   #readChoice(at: Pointer): Choice {
-    const { f64, i32, i64 } = this.#memory;
-    const o = CHOICE.offset;
-    const [number, index] = [(offset: number): number => f64[(at + offset) / 8]!, (offset: number): number => i32[(at + offset) / 4]!];
-    return {
-      cue: readStruct<Cue>(this.#memory, at + o.cue, "carom_cue"),
-      place: [number(o.place), number(o.place + 8)],
-      kind: KINDS[index(o.kind)]!,
-      ...{ ball: index(o.ball), pocket: index(o.pocket), cushions: index(o.cushions) },
-      ...{ value: number(o.value), error: number(o.error), keep: number(o.keep), foul: number(o.foul), lose: number(o.lose) },
-      seen: Number(i64[(at + o.seen) / 8]),
-    };
+    const { kind, ...choice } = readStruct<C.Choice>(this.#memory, at, "carom_choice");
+    return { ...choice, kind: names.carom_plan_kind[kind]! };
   }
 }
 

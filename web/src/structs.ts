@@ -1,5 +1,5 @@
 // Objects to structs in the module's memory, and back.
-import { labels as LABELS, layout, values } from "./generated/layout.js";
+import { layout, names as NAMES, values } from "./generated/layout.js";
 import { KEYS, meant, refuseUnknown } from "./keys.js";
 import type { Memory, Pointer } from "./memory.js";
 import type { BallState, EventType, Motion, ShotBall, ShotEvent, Table, Vec3 } from "./types.js";
@@ -22,22 +22,22 @@ export function refuseName(option: string, name: string, names: readonly string[
   throw new TypeError(`${option}: it must be one of ${names.join(", ")}, not ${JSON.stringify(name)}${meant(String(name), names)}`);
 }
 
-/** Where the numbers of a field of a struct are, and how many. */
+type Type = "f64" | "i64" | "i32" | StructName | "";
+/** Where a field is, of what, and how many of them. */
 interface Field {
   key: string;
   begin: number;
+  type: Type;
   size: number;
-  whole: boolean;
 }
+const bytesOf = (type: Type): number => (type === "i32" ? 4 : type === "f64" || type === "i64" || type === "" ? 8 : layout[type].size);
 const FIELDS = Object.fromEntries(
-  Object.entries(layout).map(([struct, { offset, bytes, whole }]) => [
+  Object.entries(layout).map(([struct, { offset, bytes, type }]) => [
     struct,
-    Object.entries(offset).map(([key, begin]) => ({
-      key,
-      begin,
-      size: (bytes as Record<string, number>)[key]! / 8,
-      whole: (whole as readonly string[]).includes(key),
-    })),
+    Object.entries(offset).map(([key, begin]): Field => {
+      const of = (type as Record<string, Type>)[key]!;
+      return { key, begin, type: of, size: (bytes as Record<string, number>)[key]! / bytesOf(of) };
+    }),
   ]),
 ) as Record<StructName, Field[]>;
 const KEYS_OF = Object.fromEntries(Object.entries(FIELDS).map(([struct, fields]) => [struct, fields.map(({ key }) => key)])) as Record<StructName, string[]>;
@@ -51,9 +51,10 @@ export function refuseUnknownOf(struct: StructName, from: object, name: string):
 export function writeStruct(memory: Memory, at: Pointer, struct: StructName, from: object, name: string, defaults?: object): void {
   refuseUnknownOf(struct, from, name);
   const f64 = memory.f64;
-  for (const { key, begin, size, whole } of FIELDS[struct]) {
+  for (const { key, begin, size, type } of FIELDS[struct]) {
     const given = (from as Record<string, unknown>)[key] ?? (defaults as Record<string, unknown> | undefined)?.[key];
     const index = (at + begin) / 8;
+    const whole = type === "i64";
     if (whole && Number.isSafeInteger(given)) memory.i64[index] = BigInt(given as number);
     else if (!whole && typeof given === "number" && size === 1) f64[index] = given;
     else if (typeof given === "object" && (given as number[] | null)?.length === size)
@@ -62,14 +63,13 @@ export function writeStruct(memory: Memory, at: Pointer, struct: StructName, fro
   }
 }
 
-/** The same, back. */
+/** The same, back: numbers, lists of numbers, and structs in it. */
 export function readStruct<T>(memory: Memory, at: Pointer, struct: StructName): T {
-  const { f64, i64 } = memory;
-  const read = ({ key, begin, size, whole }: Field): [string, unknown] => {
-    const index = (at + begin) / 8;
-    return [key, whole ? Number(i64[index]) : size === 1 ? f64[index] : Array.from(f64.subarray(index, index + size))];
-  };
-  return Object.fromEntries(FIELDS[struct].map(read)) as T;
+  const { f64, i64, i32 } = memory;
+  const one = (type: Type, at: Pointer): unknown =>
+    type === "f64" ? f64[at / 8] : type === "i64" ? Number(i64[at / 8]) : type === "i32" ? i32[at / 4] : readStruct(memory, at, type as StructName);
+  const read = ({ key, begin, type, size }: Field): [string, unknown] => [key, size === 1 ? one(type, at + begin) : Array.from({ length: size }, (_, k) => one(type, at + begin + k * bytesOf(type)))];
+  return Object.fromEntries(FIELDS[struct].filter(({ type }) => type !== "").map(read)) as T;
 }
 
 export function vec3(f64: Float64Array, at: Pointer): Vec3 {
@@ -85,7 +85,7 @@ const STATE = layout.carom_ball_state.offset;
 
 export function readState(memory: Memory, at: Pointer): BallState {
   const f64 = memory.f64;
-  const label = LABELS[memory.i32[(at + STATE.label) / 4]!]!;
+  const label = NAMES.carom_label[memory.i32[(at + STATE.label) / 4]!]!;
   return { r: vec3(f64, at + STATE.r), v: vec3(f64, at + STATE.v), w: vec3(f64, at + STATE.w), label };
 }
 
@@ -96,8 +96,8 @@ export function writeBalls(memory: Memory, at: Pointer, balls: readonly ShotBall
     const name = `balls[${k}]`;
     refuseUnknown(ball, KEYS.ball, name);
     writeStruct(memory, ballAt + kind, "carom_ball_kind", ball.kind, `${name}.kind`);
-    const label = (LABELS as readonly string[]).indexOf(ball.state.label ?? "stationary");
-    if (label < 0) refuseName(`${name}.state.label`, ball.state.label, LABELS);
+    const label = (NAMES.carom_label as readonly string[]).indexOf(ball.state.label ?? "stationary");
+    if (label < 0) refuseName(`${name}.state.label`, ball.state.label, NAMES.carom_label);
     writeStruct(memory, ballAt + state, "carom_ball_state", { ...ball.state, label }, `${name}.state`);
   }
 }

@@ -49,47 +49,21 @@ export interface Collided {
 }
 
 /** More about a collision. Impulses in N s, vectors along the axes of the table. */
-export interface Detail {
-  /** Impulse along the line of centres. */
-  normal: number;
-  /** Impulse of the second ball's friction on the first. */
-  friction: Vec3;
-  /** Impulse of the cloth's friction on the first ball. */
-  clothA: Vec3;
-  /** Impulse of the cloth's friction on the second ball. */
-  clothB: Vec3;
-  /** Work of the normal force until the balls no longer approach, J. */
-  workCompression: number;
-  /** Work of the normal force over the whole collision, J. */
-  work: number;
+export interface Detail extends Omit<C.Detail, "stick"> {
   /** When the balls stopped slipping on each other. */
   stick: "never" | "in compression" | "in restitution";
-  /** The normal impulse at which they stuck, N s; NaN if never. */
-  stickNormal: number;
 }
 
 /** One point of a collision. Frame: y from the first ball's centre to the second's, z up, x = y cross z. */
-export interface TracePoint {
-  /** Normal impulse so far, N s. */
-  normal: number;
-  /** Work of the normal force so far, J. */
-  work: number;
+export interface TracePoint extends Omit<C.TracePoint, "phase" | "sticks" | "dX" | "dY" | "bX" | "bY"> {
   /** 0 compression, 1 restitution. */
   phase: number;
   /** Whether the balls no longer slip on each other. */
   sticks: boolean;
-  /** Speed at which the balls part, m/s; negative while they approach. */
-  vN: number;
-  /** Slip of the first ball on the second, m/s, along x. */
-  uX: number;
-  /** Slip of the first ball on the second, m/s, along z. */
-  uZ: number;
-  /** Slip of the first ball over the cloth, m/s. */
+  /** Slip of the first ball over the cloth, m/s, along x and y. */
   d: Vec2;
-  /** Slip of the second ball over the cloth, m/s. */
+  /** Slip of the second ball over the cloth. */
   b: Vec2;
-  /** Both balls, along the axes of the table. */
-  state: { a: Motion; b: Motion };
 }
 
 /** A ball that touches a cushion. What is missing: no spin, the ball of a collision, height 0.0365, muCushion 0.2, restitution 0.85, jawRadius 0. */
@@ -289,27 +263,9 @@ export interface PlanOptions extends Partial<GameState> {
 }
 
 /** A stroke, and what is known of it. */
-export interface Choice {
-  cue: Cue;
-  /** Where the cue ball lies or is put, m. */
-  place: Vec2;
+export interface Choice extends Omit<C.Choice, "kind"> {
   /** "pot" is a direct pot; "scan" was found by shots in all directions; "foul": nothing better was found; "given" was asked for. */
   kind: C.PlanKind;
-  /** The ball that falls without errors and keeps the turn, and its pocket; -1: none. */
-  ball: number;
-  pocket: number;
-  /** Its impacts on cushions. */
-  cushions: number;
-  /** Chance to win; of potting the share of the balls that are potted. */
-  value: number;
-  /** Its standard error. */
-  error: number;
-  /** Chance that the player plays on, or wins. */
-  keep: number;
-  foul: number;
-  lose: number;
-  /** How often it was played with errors. */
-  seen: number;
 }
 
 export type Call = C.Call;

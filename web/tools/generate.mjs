@@ -12,14 +12,29 @@ const note = "// Written by tools/generate.mjs from the headers of the C library
 // The package gets the layouts and values that its sources name, and enumerations that it looks names up in.
 const sources = readdirSync("src").filter((name) => name.endsWith(".ts")).map((name) => readFileSync(`src/${name}`, "utf8")).join("");
 const isNamed = (name) => new RegExp(`\\b${name}\\b`).test(sources);
+const byName = new Map(api.structs.map((one) => [one.name, one]));
 const prefixes = [...sources.matchAll(/"(CAROM_\w+_)"/g)].map(([, prefix]) => prefix);
 
+/** What a field is made of: numbers of 64 or 32 bits, another struct, or nothing that is converted. */
+function kindOf({ name, type, pointer }) {
+  if (pointer || /^(reserved|unused|opaque)$/.test(name)) return "";
+  if (byName.has(type)) return type;
+  if (api.enums.some((one) => one.name === type)) return "i32";
+  return { double: "f64", int64_t: "i64", int32_t: "i32", int: "i32" }[type] ?? "";
+}
+/** The structs that the sources name, and those in them. */
+const wanted = new Set();
+function want(name) {
+  if (wanted.has(name)) return;
+  wanted.add(name);
+  for (const { type, pointer } of byName.get(name).fields) if (byName.has(type) && !pointer) want(type);
+}
+api.structs.filter(({ name }) => isNamed(name)).forEach(({ name }) => want(name));
 const structs = {};
-for (const { name, fields, wasm32 } of api.structs.filter(({ name }) => isNamed(name))) {
+for (const { name, fields, wasm32 } of api.structs.filter(({ name }) => wanted.has(name))) {
   const keys = fields.map((field) => camel(field.name));
   const numbers = (list) => Object.fromEntries(keys.map((key, k) => [key, list[k]]));
-  const whole = keys.filter((_, k) => fields[k].type === "int64_t" && !fields[k].pointer);
-  structs[name] = { size: wasm32.size, offset: numbers(wasm32.offsets), bytes: numbers(wasm32.sizes), whole };
+  structs[name] = { size: wasm32.size, offset: numbers(wasm32.offsets), bytes: numbers(wasm32.sizes), type: numbers(fields.map(kindOf)) };
 }
 const enumerators = [...api.enums.flatMap((one) => one.values), ...api.constants].filter(
   ({ name, value }) => Number.isInteger(value) && (isNamed(name) || prefixes.some((prefix) => name.startsWith(prefix))),
@@ -33,6 +48,15 @@ function names({ values }) {
   common = common.slice(0, common.lastIndexOf("_") + 1);
   return values.map(({ name }) => name.slice(common.length).toLowerCase());
 }
+/** The enumerations whose names the package's sources look up. */
+const named = Object.fromEntries(
+  api.enums
+    .filter(({ name }) => new RegExp(`names\\.${name}\\b`, "i").test(sources))
+    .map((one) => {
+      if (one.values.some(({ value }, k) => value !== k)) throw new Error(`${one.name}: its values are not 0, 1, 2, ...`);
+      return [one.name, names(one)];
+    }),
+);
 const enums = Object.fromEntries(api.enums.map((one) => [one.name, names(one)]));
 
 // Comments speak of fields; these have their names in TypeScript.
@@ -59,10 +83,10 @@ for (const one of api.structs) {
 writeFileSync(`${out}/structs.ts`, types);
 writeFileSync(
   `${out}/layout.ts`,
-  `${note}/** Sizes of the structs in bytes; offsets and sizes of their fields; those that are whole numbers of 64 bits. */\n` +
+  `${note}/** Sizes of the structs in bytes; offsets, sizes and types of their fields. */\n` +
     `export const layout = ${JSON.stringify(structs, null, 1)} as const;\n` +
     `/** Values of the enumerators. */\nexport const values = ${JSON.stringify(values, null, 1)} as const;\n` +
-    `/** Names of the labels of balls, by their values. */\nexport const labels = ${JSON.stringify(enums.carom_label)} as const;\n`,
+    `/** Names of enumerators, by their values. */\nexport const names = ${JSON.stringify(named, null, 1)} as const;\n`,
 );
 for (const name of ["plain", "simd"])
   writeFileSync(`${out}/${name}.ts`, `${note}export default ${JSON.stringify(gzipSync(readFileSync(`${made}/${name}.wasm`), { level: 9 }).toString("base64"))};\n`);
