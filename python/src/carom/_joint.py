@@ -46,12 +46,12 @@ _SHAPE = {
 }  # fmt: skip
 _STEP = 1e-3  # of the differences, in deviations
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
-_ELSEWHERE = 5  # the stage before which a search may begin again
+_ELSEWHERE = 4  # the stage before which a search may begin again
 _AT_NOISE = 4.0  # variances of a coordinate: twice the cost a sample that noise alone gives
 _STEPS = 12  # at most, of each
 # On matches that are synthetic, as python/tests/test_fit.py makes them: how much the common size of the errors of halves counts, beside
 # each one's own; and what the search leaves, over _SHAPE and the misfit over that of the noise.
-_COMMON, _LEFT = 0.3, 0.2
+_COMMON, _LEFT = 0.8, 0.1
 _SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
 
@@ -176,7 +176,7 @@ class Search:
         self.middle, self.prior_cost = found[2:]
 
 
-STAGES = 7  # the last horizon is searched again and again
+STAGES = 5  # the last horizon is searched again and again
 
 
 def spread(search: Search, seed: int) -> dict[str, float]:
@@ -198,7 +198,7 @@ def spread(search: Search, seed: int) -> dict[str, float]:
     error = _events.halves(len(search.rows), _SPLITS, np.random.default_rng(seed), find)
     # few halves tell each error roughly, and all of them together the size of all errors
     shape = np.array([_SHAPE[name] for name in search.names])
-    common = 1.5 * float(np.median(error / shape)) * shape
+    common = float(np.median(error / shape)) * shape
     found = np.sqrt((1.0 - _COMMON) * error**2 + _COMMON * common**2 + left(search) ** 2)
     return dict(zip(search.names, found.tolist()))
 
