@@ -482,3 +482,5 @@ def test_pocketed_balls_fall():
     assert (np.diff(drawn["r"][:, ball, 2]) < 0).all() and drawn["r"][0, ball, 2] == fall["before"]["r"][0, 2]
     assert (told["r"][:, ball, 2] < drawn["r"][:, ball, 2]).all() and (drawn[:, others] == told[:, others]).all()
     assert shot.states(fall["time"] + 1.0, drawn=True)[ball] == shot.final[ball]
+    of_batch = carom.simulate_batch(TABLE, shot.balls, shot.cue[None], room=500)[0]
+    assert (of_batch.states(times, drawn=True) == drawn).all()

@@ -97,7 +97,7 @@ class Shot:
         """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape (shape of the times..., balls).
 
         Before 0 they are as at 0; after the end as at the end, where nothing moves any more. With `drawn` a pocketed ball falls in its
-        pocket until it lies at the depth.
+        pocket until it lies at the depth; a shot of a batch then needs all its events: `simulate_batch(room=...)`.
 
         Raises CaromError: A time is after the end of a shot that was stopped, or that ended in an error, while balls moved.
         Raises ValueError: A time is not finite.
@@ -183,8 +183,8 @@ class _OfBatch(Shot):
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *_ATTRIBUTES})
 
-    def states(self, times: npt.ArrayLike) -> dtypes.Records:
-        return self._seen(times, dtypes.ball_state, ())
+    def states(self, times: npt.ArrayLike, *, drawn: bool = False) -> dtypes.Records:
+        return super().states(times, drawn=True) if drawn else self._seen(times, dtypes.ball_state, ())
 
     def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
         return self._seen(times, np.dtype(np.float64), (3,))
