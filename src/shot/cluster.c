@@ -67,7 +67,7 @@ static int in_order(const carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CO
 /* ---- In a shot */
 
 bool carom_third_is_near(const carom_sim *sim, int i, int j) {
-  static const double near = 0.01; /* m, as in members.c: farther neighbours are in no cluster */
+  static const double near = 0.01; /* m; members.c looks closer */
   const double reach = 2.0 * sim->features->radius + near, most = reach * reach;
   const double ti = sim->now - sim->start[i], tj = sim->now - sim->start[j];
   const double xi = sim->x[i] + ti * (sim->v_x[i] + ti * sim->a_x[i]),
