@@ -108,6 +108,8 @@ for places, ball, pocket, words in (
         fell += falls
 print("aimed at pockets:", fell)
 
+print([line.split("; ")[1] for line in run("--table", "snooker", "--cue", "0.5,0.8", "--balls", "0.3,2", "--pocket", "1:foot-left", "--speed", 1).splitlines() if line.startswith("aim")])
+
 # Each option alone is a shot by options, though it may lack another one.
 alone = "--table snooker,--at-ball 1,--pocket 1:lt,--via left,--json,--cue 0.6_0.8,--balls 0.5_1.6,--balls nineball,--tip 0.1_0,--speed 1,--ball-speed 1,--aim 10,--cut 10,--elevation 5,--tip-time 0.001"
 told = lambda words: subprocess.run([carom, "shoot", *words.replace("_", ",").split()], capture_output=True, text=True).stderr
