@@ -314,7 +314,8 @@ enum { CAROM_VIA_MOST = 4 };
 /* What comes of an aim: of the shot of the whole layout. */
 typedef enum carom_pot_is {
   CAROM_POT_FALLS = 0,   /* the ball falls into the pocket */
-  CAROM_POT_NO_WAY = 1,  /* no direction of this cue sends the ball there by this way */
+  CAROM_POT_NO_WAY = 1,  /* no direction of this cue sends the ball to the middle of the mouth by
+                            this way; a few may yet make it fall off its middle */
   CAROM_POT_BARRED = 2,  /* a ball on the way meets something else first: `met` */
   CAROM_POT_SHORT = 3,   /* a ball on the way comes to rest: met.a */
   CAROM_POT_REJECTED = 4 /* the jaws send the ball back, at this speed */
