@@ -1,27 +1,11 @@
 // The view Table: shots are aimed on it and played while one aims; their film, their events, and a fan of shots with a player's error.
-import { type BallState, type Carom, CaromError, type Cue, fromLine, type Game, type Line, type RackName, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, type TableName, toLine } from "carom";
+import { type BallState, type Carom, CaromError, type Cue, fromLine, type Line, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, toLine } from "carom";
 import { colourOf, player, pocketName, wordsOf } from "../../../cli/player.js";
 import { gamePanel } from "./game.js";
+import { GAMES, gameOf, type GameOf, TABLES } from "./games.js";
 import { reel } from "./reel.js";
 import { button, check, choice, color, eachFrame, el, fit, pad, parameters, slider, type Slider } from "./ui.js";
 
-interface GameOf {
-  text: string;
-  table: TableName;
-  rack: RackName;
-  game: Game;
-  names: (k: number) => string;
-}
-
-const COLOURS = ["yellow", "green", "brown", "blue", "pink", "black"];
-const pool = (k: number): string => (k === 0 ? "cue" : String(k));
-const GAMES: Record<string, GameOf> = {
-  nineball: { text: "Nine-ball", table: "9ft", rack: "nineball", game: "pool", names: pool },
-  eightball: { text: "Eight-ball", table: "9ft", rack: "eightball", game: "pool", names: pool },
-  snooker: { text: "Snooker", table: "snooker", rack: "snooker", game: "snooker", names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : COLOURS[k - 16]!) },
-  threecushion: { text: "Three-cushion", table: "threecushion", rack: "threecushion", game: "billiard", names: (k) => ["white", "yellow", "red"][k] ?? String(k) },
-};
-const TABLES: readonly TableName[] = ["9ft", "8ft", "7ft", "snooker", "threecushion", "pooltool"];
 const FAN = 500;
 const FAN_CHUNK = 20;
 const FAN_ROOM = 400;
@@ -578,12 +562,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   function take(text: string): void {
     const read = fromLine(carom, text);
     if (read.cue.ball !== 0) throw new TypeError("cue.ball: this page strikes the first ball; put the cue ball first");
-    use(read, nameOf(read) ?? "nineball");
-  }
-  /** The game whose table and rack a layout may be of. */
-  function nameOf(read: Pick<Line, "id" | "tableName" | "table" | "balls">): string | undefined {
-    const fits = ([key, one]: [string, GameOf]): boolean => one.table === read.tableName && (key === read.id || carom.rack(one.rack, read.table).length >= read.balls.length);
-    return Object.entries(GAMES).find(fits)?.[0];
+    use(read, gameOf(carom, read) ?? "nineball");
   }
   function use(line: Pick<Line, "tableName" | "table" | "balls" | "names" | "cue">, name: string): void {
     gameName = name;
@@ -598,7 +577,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   function showRecorded(one: Replayed, from: number): void {
     const same = JSON.stringify(one.table);
     const tableName = TABLES.find((name) => JSON.stringify(carom.table(name)) === same);
-    const name = (tableName && nameOf({ ...one, id: "", tableName })) ?? "eightball";
+    const name = (tableName && gameOf(carom, { ...one, id: "", tableName })) ?? "eightball";
     use({ ...one, balls: [...one.balls], tableName: tableName ?? "9ft", names: one.balls.map((_, k) => GAMES[name]!.names(k)) }, name);
     builtIn = tableName !== undefined;
     match.begin();
