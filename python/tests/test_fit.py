@@ -15,6 +15,7 @@ import pytest
 from spoil import spoiled
 from test_tracks import RADIUS, TABLE, csv_of
 
+import carom
 from carom import _constants, _covariance, _from_events, _joint, _strikes, _summary, fit, tracks
 
 HAN = {"mu_slide": 0.21, "mu_roll": 0.005, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "law_a": 0.05}
@@ -180,6 +181,40 @@ def test_a_crooked_or_scaled_table_is_told_and_calibrated(angle, scale):
     assert mended.warnings[0].endswith("put right") and mended.median_rmse < 2 * np.sqrt(2) * tracks.NOISE
     straight = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=True)
     assert list(straight.warnings) == [] and straight.median_rmse < 1.3 * np.sqrt(2) * tracks.NOISE
+
+
+def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
+    """Frames as a camera has them, of shots on the built-in table: constants are found, with no word on them or on the strikes."""
+    other = {"mu_slide": 0.2, "mu_roll": 0.0046, "mu_spin": 0.005, "law_a": 0.06, "mu_cushion": 0.21, "restitution_cushion": 0.89}
+    random, lead_in, noise = np.random.default_rng(1), 1.5, 5e-4
+    table, lines, shots = carom.tables.threecushion(), ["shot,ball,t,x,y"], []
+    for k in range(24):
+        places = [[random.uniform(0.2, 1.2), y + random.uniform(-0.2, 0.2)] for y in (0.7, 1.6, 2.3)]
+        strike = {"speed": random.uniform(2, 4), "phi": random.uniform(40, 140), "tip": random.uniform((-0.3, -0.2), (0.3, 0.3))}
+        shots.append(carom.simulate(table, carom.balls(places, game="billiard", **other), carom.cue(**strike)))
+        times = np.arange(0.0, lead_in + shots[-1].time, 0.02)
+        frames = shots[-1].positions(np.maximum(times - lead_in, 0.0))[..., :2]
+        seen = frames + random.normal(0.0, noise, frames.shape)
+        lines += [f"{k},{ball},{t:.3f},{x:.5f},{y:.5f}" for t, frame in zip(times, seen) for ball, (x, y) in enumerate(frame)]
+    (tmp_path / "frames.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    given = [str(tmp_path / "frames.csv"), "--table", "1.42,2.84", "--radius", "0.03075", "--cushion-model", "han"]
+    assert fit.main([*given, "-o", str(tmp_path / "fit.json")]) == 0
+    found = json.loads((tmp_path / "fit.json").read_text(encoding="utf-8"))
+    assert "warning" not in capsys.readouterr().err and found["noise"] == pytest.approx(noise, rel=0.1)
+    assert [shot["status"] for shot in found["shots"]] == ["ok"] * 24 and found["median_rmse"] < 1.3 * np.sqrt(2) * noise
+    # the strike: when, and how fast the ball left the tip, of which the time of a first hit leaves a part open
+    cues = [shot["cue"] for shot in found["shots"]]
+    assert [cue["start"] for cue in cues] == pytest.approx([lead_in] * 24, abs=2e-3)
+    left = np.array([played.states([0.0])[0, 0]["v"][:2] for played in shots])
+    assert np.median(np.abs([[cue["v_x"], cue["v_y"]] for cue in cues] - left), axis=0).max() < 0.02
+    # the constants of the balls: within 3 %, and nine of eleven within two spreads
+    kind = carom.balls([[0.0, 0.0]], game="billiard", **other)["kind"][0]
+    truth = {name: float(kind[name]) for name in found["spread"]}
+    assert {name: found["constants"][name] for name in truth if name != "law_b"} == pytest.approx(
+        {name: value for name, value in truth.items() if name != "law_b"}, rel=0.03
+    )
+    off = [abs(found["constants"][name] - value) / found["spread"][name] for name, value in truth.items()]
+    assert len(off) == 11 and np.mean(np.array(off) < 2) > 0.8, off
 
 
 def test_what_no_play_explains_is_doubtful_and_counts(made):
