@@ -5,7 +5,7 @@ import type { AimOf, CollideOptions, CushionOptions, GameState, Impact, Motion, 
 /** The keys of an interface; the compiler refuses a list that lacks one or has another. */
 const all = <T>(keys: Record<keyof T, 1>): readonly string[] => Object.keys(keys);
 
-const GAME: Record<keyof GameState, 1> = { rules: 1, group: 1, opening: 1 };
+const GAME: Record<keyof GameState, 1> = { rules: 1, group: 1, opening: 1, fouls: 1, may: 1 };
 const STOP: Record<keyof StopOptions, 1> = { timeMost: 1, stopAt: 1, eventsMost: 1 };
 
 /** The keys of the objects that are no struct of C. */

@@ -18,6 +18,7 @@ const POT = layout.carom_pot;
 const PART = layout.carom_part;
 
 const GROUPS = ["open", "solids", "stripes"] as const;
+const MAY = ["nothing", "push", "pass"] as const;
 const HANDS = ["no", "no", "anywhere", "kitchen"] as const;
 const BOUNDS = { speedShare: 0, speedLeast: 0, speedMost: 0, tipMost: 0, reserved: [0, 0, 0] };
 
@@ -167,7 +168,7 @@ export class Plans {
     const optionsAt = this.#host.writeShotOptions(options);
     this.#host.writeShot();
     memory.u32[(at.shot + SHOT.facts) / 4] = facts;
-    const code = memory.exports.carom_shoot(at.table, at.balls, balls.length, at.cue, optionsAt, at.shot);
+    const code = call === "pass" ? -1 : memory.exports.carom_shoot(at.table, at.balls, balls.length, at.cue, optionsAt, at.shot);
     if (code < 0) {
       memory.u8.fill(0, facts, facts + FACTS.size); // no ball was met
       memory.i32.fill(-1, (facts + FACTS.offset.first) / 4, (facts + FACTS.offset.first) / 4 + 2);
@@ -175,16 +176,17 @@ export class Plans {
 
     // The rules.
     this.#writeRules(game);
-    memory.i32[callAt / 4] = call?.ball ?? -1;
-    memory.i32[callAt / 4 + 1] = call?.pocket ?? -1;
+    const called = call === "push" ? values.CAROM_CALL_PUSH : call === "pass" ? values.CAROM_CALL_PASS : (call?.ball ?? -1);
+    memory.i32[callAt / 4] = called;
+    memory.i32[callAt / 4 + 1] = typeof call === "object" ? call.pocket : -1;
     this.#method("judge")(turnAt, rules, inPlay(balls), struck.ball, facts, callAt);
     const i32 = memory.i32;
     const turn = names.carom_turn_is[i32[(turnAt + TURN.offset.is) / 4]!]!;
     const leave = i32[(turnAt + TURN.offset.leave) / 4]!;
-    const foul = i32[(turnAt + TURN.offset.foul) / 4] !== 0;
+    const reason = names.carom_foul[i32[(turnAt + TURN.offset.foul) / 4]!]!;
     const spot = memory.u32[(turnAt + TURN.offset.spot) / 4]!;
     const word = (k: number): number => Number(memory.i64[rules / 8 + k]);
-    const after: GameState = { rules: game.rules, group: GROUPS[word(0)]!, opening: word(1) !== 0 };
+    const after: GameState = { rules: game.rules, group: GROUPS[word(0)]!, opening: word(1) !== 0, fouls: [word(2), word(3)], may: MAY[word(4)]! };
 
     // The layout of the next stroke.
     let lie = balls.map((ball, k): ShotBall => {
@@ -192,7 +194,7 @@ export class Plans {
       return taken ? ball : { kind: ball.kind, state: readState(memory, at.final + k * layout.carom_ball_state.size) };
     });
     for (let k = 0; k < balls.length; k++) if ((spot >>> k) & 1) lie = this.#spotted(table, lie, k);
-    return { turn, foul, hand: HANDS[leave]!, balls: lie, game: after };
+    return { turn, foul: reason !== "none", reason, hand: HANDS[leave]!, balls: lie, game: after };
   }
 
   /** A ball on the foot spot, or behind it on the long string as near as there is room. */
@@ -221,13 +223,16 @@ export class Plans {
     return at;
   }
 
-  #writeRules({ rules = "eightball", group = "open", opening = false }: Partial<GameState>): void {
+  #writeRules({ rules = "eightball", group = "open", opening = false, fouls = [0, 0], may = "nothing" }: Partial<GameState>): void {
     const { rules: at } = this.#at;
     this.#memory.exports.carom_plan_rules_of(at, value("CAROM_RULES_", rules, "rules"));
-    const has = GROUPS.indexOf(group);
-    if (has < 0) throw new TypeError(`group: it must be one of ${GROUPS.join(", ")}, not ${JSON.stringify(group)}`);
-    this.#memory.i64[at / 8] = BigInt(has);
-    this.#memory.i64[at / 8 + 1] = BigInt(opening);
+    const index = (name: string, of: string, list: readonly string[]): number => {
+      const found = list.indexOf(name);
+      if (found < 0) throw new TypeError(`${of}: it must be one of ${list.join(", ")}, not ${JSON.stringify(name)}`);
+      return found;
+    };
+    const words = [index(group, "group", GROUPS), Number(opening), ...fouls.map((count) => Number(whole(count, "fouls"))), index(may, "may", MAY)];
+    for (const [k, word] of words.entries()) this.#memory.i64[at / 8 + k] = BigInt(word);
   }
 
   #writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {

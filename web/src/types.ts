@@ -216,6 +216,10 @@ export interface GameState {
   group: "open" | "solids" | "stripes";
   /** Whether the next stroke is the break. Default false. */
   opening: boolean;
+  /** Of nine-ball: fouls of the player and of the other in their last successive strokes; three lose. Default [0, 0]. */
+  fouls?: readonly [number, number];
+  /** Of nine-ball: whether the player may push out, just after the break, or pass, after a push-out. Default "nothing". */
+  may?: "nothing" | "push" | "pass";
 }
 
 /** What an aim is asked for: a ball, and its pocket by index or name, such as "foot-left". */
@@ -268,13 +272,16 @@ export interface Choice extends Omit<C.Choice, "kind"> {
   kind: C.PlanKind;
 }
 
-export type Call = C.Call;
+/** The ball and the pocket that are called; or a push-out; or that the player does not play, so that the stroke is not read. */
+export type Call = C.Call | "push" | "pass";
 
 /** What a shot amounts to. */
 export interface Ruling {
   /** Whether the player plays on, the other one plays, or the player has won or lost. */
   turn: C.TurnIs;
   foul: boolean;
+  /** By which rule it is a foul: "none" of a legal shot. */
+  reason: C.Foul;
   /** Where whoever plays next may put the cue ball. */
   hand: "no" | "anywhere" | "kitchen";
   /** The layout of the next stroke. */

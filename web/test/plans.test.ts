@@ -108,6 +108,16 @@ test("rulings of shots", () => {
     const back = carom.referee(nine.table, nine.balls, { speed: 1.2, phi: 225, b: -0.3 }, { ...game, rules: "nineball" });
     expect([back.turn, back.foul]).toEqual(["pass", true]);
     expect(back.balls[9]!.state.r.slice(0, 2)).toEqual([0.5 * nine.table.width, 0.75 * nine.table.length]);
+    expect([foul.reason, back.reason, pot.reason]).toEqual(["cue_ball", "first", "none"]);
+    // after the break a push-out, which is no foul; then the other passes
+    const pushed = carom.referee(nine.table, nine.balls, { speed: 0.1, phi: 0 }, { ...game, rules: "nineball", may: "push", fouls: [1, 2] }, "push");
+    expect([pushed.turn, pushed.foul, pushed.game.may, pushed.game.fouls]).toEqual(["pass", false, "pass", [2, 1]]);
+    const passed = carom.referee(nine.table, pushed.balls, { speed: 5 }, pushed.game, "pass");
+    expect([passed.turn, passed.foul, passed.game.may, passed.balls]).toEqual(["pass", false, "nothing", pushed.balls]);
+    // the third foul in succession loses
+    const third = carom.referee(nine.table, nine.balls, { speed: 0.1, phi: 0 }, { ...game, rules: "nineball", fouls: [2, 0] });
+    expect([third.turn, third.reason]).toEqual(["lose", "no_ball"]);
+    expect(carom.plan(nine.table, nine.balls, { rules: "nineball", may: "pass", best: 50 }).some(({ kind }) => kind === "pass")).toBe(true);
   }
 });
 
