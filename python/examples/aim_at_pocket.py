@@ -19,7 +19,7 @@ balls = carom.balls([[0.6, 0.8], [0.75, 1.6]])
 pocket, quarter = table.pockets["centre"][5], np.array([[0.0, 1.0], [-1.0, 0.0]])  # a quarter turn
 
 
-def miss(phi):
+def miss(phi: float) -> tuple[carom.Shot, float, float]:
     """The shot; by how much ball 1 misses the pocket, m; and the derivative, m per degree."""
     shot = carom.simulate(table, balls, carom.cue(speed=1.5, phi=phi, b=0.0))
     at = shot.events["time"][shot.events["type"] == carom.EventType.BALL_BALL][0] + 0.4  # ball 1 rolls by then

@@ -16,7 +16,8 @@ import numpy as np
 import carom
 
 matplotlib.use("Agg")
-table, random, found = carom.tables.pool_9ft(), np.random.default_rng(7), []
+table, random = carom.tables.pool_9ft(), np.random.default_rng(7)
+found: list[tuple[np.ndarray, np.ndarray]] = []
 while len(found) < 1000:
     r = random.uniform([0.1, 0.1], [1.17, 2.44], (random.integers(2, 10), 2))
     if np.hypot(*(r[:, None] - r)[np.triu_indices(len(r), 1)].T).min() < 0.06:

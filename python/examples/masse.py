@@ -21,7 +21,9 @@ cues = carom.cue(speed=speeds[:, None], phi=aims, theta=60.0, tip=(-0.45, -0.2))
 shots = carom.simulate_batch(table, balls, cues, features=True, threads=carom.ALL_THREADS)
 
 # Ball 2 is met first, without a cushion.
-good = (shots.status == 0) & (shots.features.contact[..., 0] == 2) & (shots.features.cushions_before[..., 0] == 0)
+seen = shots.features
+assert seen is not None  # they were asked for
+good = (shots.status == 0) & (seen.contact[..., 0] == 2) & (seen.cushions_before[..., 0] == 0)
 runs = np.zeros(good.shape, int)  # neighbouring directions that succeed, counted from the left
 for k in range(len(aims)):
     runs[:, k] = np.where(good[:, k], (runs[:, k - 1] if k else 0) + 1, 0)
