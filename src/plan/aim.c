@@ -19,8 +19,9 @@
 #include "platform/elementary.h"
 
 #include <math.h>
+#include <string.h>
 
-enum { LINKS = CAROM_VIA_MOST + 1, EVENTS = 128, SAMPLES = 180, HALVINGS = 48 };
+enum { LINKS = CAROM_VIA_MOST + 1, EVENTS = 96, SAMPLES = 180, HALVINGS = 48 };
 static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
 static const carom_shot_options no_options;
 /* a part of the time since the start: a velocity before an event is taken so much earlier */
@@ -114,19 +115,26 @@ static void states_at(const way *w, const carom_cue *cue, double time,
   carom_shoot(w->table, w->alone, w->balls, cue, &options, &shot);
 }
 
+/* How far the balls of the way come alone, and the time of their shot. */
+static progress alone(const way *w, const carom_cue *cue, double *time) {
+  static const int own[LINKS + 1] = {0, 1, 2, 3, 4, 5};
+  carom_brief_event events[EVENTS];
+  carom_shot_options options = w->options;
+  carom_shot shot = {.brief = events, .room = EVENTS};
+  options.stop_at = CAROM_STOP_AT(CAROM_EVENT_POCKET);
+  carom_shoot(w->table, w->alone, w->balls, cue, &options, &shot);
+  *time = shot.time;
+  return follow(w, own, events, shot.count < EVENTS ? shot.count : EVENTS);
+}
+
 /* e, and half the range of directions that pass the jaws; both NaN where the way is not done or
  * the ball goes nowhere, or away from the pocket. */
 static progress attempt(const way *w, double phi, carom_cue cue, double *e, double *half) {
-  static const int own[LINKS + 1] = {0, 1, 2, 3, 4, 5};
-  carom_brief_event events[EVENTS];
   carom_ball_state states[LINKS + 1];
-  carom_shot_options options = w->options;
-  carom_shot shot = {.brief = events, .room = EVENTS};
+  double time;
   cue.ball = 0;
   cue.phi = phi;
-  options.stop_at = CAROM_STOP_AT(CAROM_EVENT_POCKET);
-  carom_shoot(w->table, w->alone, w->balls, &cue, &options, &shot);
-  progress p = follow(w, own, events, shot.count < EVENTS ? shot.count : EVENTS);
+  const progress p = alone(w, &cue, &time);
   *e = *half = (double)NAN;
   if (p.links < w->links)
     return p;
@@ -136,7 +144,7 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   const carom_ball_state *s = &states[w->balls - 1];
   states_at(w, &cue, p.since, states);
   const double x = c[0] - s->r[0], y = c[1] - s->r[1], far = sqrt(x * x + y * y);
-  const double until = p.end.type != 0 ? p.until : shot.time;
+  const double until = p.end.type != 0 ? p.until : time;
   states_at(w, &cue, fmax(p.since, until * (1.0 - just_before)), states);
   const double speed = sqrt(s->v[0] * s->v[0] + s->v[1] * s->v[1]);
   if (!(speed > 0.0))
@@ -328,12 +336,13 @@ static bool way_of(const carom_table *table, const carom_shot_ball *balls, int c
   if (pot->pocket < 0 || pot->pocket >= table->pockets || pot->vias < 0 ||
       pot->vias > CAROM_VIA_MOST)
     return false;
-  *w = (way){.table = table,
-             .options = *options,
-             .pocket = &table->pocket[pot->pocket],
-             .mouth = carom_mouth_of(table, pot->pocket),
-             .balls = 1,
-             .ball = {cue_ball}};
+  memset(w, 0, sizeof *w); /* a literal would take its room on the stack a second time */
+  w->table = table;
+  w->options = *options;
+  w->pocket = &table->pocket[pot->pocket];
+  w->mouth = carom_mouth_of(table, pot->pocket);
+  w->balls = 1;
+  w->ball[0] = cue_ball;
   w->options.stop_at = w->options.first_of = 0;
   w->options.time_most = 0.0;
   /* Balls, the one that falls as the last, and then rails. */
