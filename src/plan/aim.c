@@ -44,6 +44,7 @@ typedef struct way {
   int balls, rails, links;
   int ball[LINKS + 1], rail[LINKS]; /* indices in the layout and in the table */
   carom_shot_ball alone[LINKS + 1]; /* the balls as a layout of their own */
+  carom_brief_event *events;        /* room for those of one shot */
 } way;
 
 /* How far a shot came on its way. */
@@ -118,13 +119,12 @@ static void states_at(const way *w, const carom_cue *cue, double time,
 /* How far the balls of the way come alone, and the time of their shot. */
 static progress alone(const way *w, const carom_cue *cue, double *time) {
   static const int own[LINKS + 1] = {0, 1, 2, 3, 4, 5};
-  carom_brief_event events[EVENTS];
   carom_shot_options options = w->options;
-  carom_shot shot = {.brief = events, .room = EVENTS};
+  carom_shot shot = {.brief = w->events, .room = EVENTS};
   options.stop_at = CAROM_STOP_AT(CAROM_EVENT_POCKET);
   carom_shoot(w->table, w->alone, w->balls, cue, &options, &shot);
   *time = shot.time;
-  return follow(w, own, events, shot.count < EVENTS ? shot.count : EVENTS);
+  return follow(w, own, w->events, shot.count < EVENTS ? shot.count : EVENTS);
 }
 
 /* e, and half the range of directions that pass the jaws; both NaN where the way is not done or
@@ -179,11 +179,10 @@ static bool is_beside(const way *w, const carom_brief_event *e) {
 /* What comes of a cue, of the whole layout. */
 static carom_pot_is fate(const way *w, const carom_shot_ball *balls, int count,
                          const carom_cue *cue, carom_brief_event *met) {
-  carom_brief_event events[EVENTS];
   carom_facts facts;
-  carom_shot shot = {.brief = events, .room = EVENTS, .facts = &facts};
+  carom_shot shot = {.brief = w->events, .room = EVENTS, .facts = &facts};
   carom_shoot(w->table, balls, count, cue, &w->options, &shot);
-  const progress p = follow(w, w->ball, events, shot.count < EVENTS ? shot.count : EVENTS);
+  const progress p = follow(w, w->ball, w->events, shot.count < EVENTS ? shot.count : EVENTS);
   const int last = w->ball[w->balls - 1];
   const bool falls = facts.pocket[last] >= 0 && &w->table->pocket[facts.pocket[last]] == w->pocket;
   *met = p.end;
@@ -383,6 +382,8 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
   way w;
   if (!way_of(table, balls, count, options, pot, (int)cue->ball, &w))
     return CAROM_ERROR_BALLS;
+  carom_brief_event events[EVENTS];
+  w.events = events;
 
   /* The directions in which a straight path meets the first ball; a raised cue's path curves. */
   const carom_shot_ball *own = &w.alone[0], *first = &w.alone[1];
