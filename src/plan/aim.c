@@ -156,9 +156,9 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
     return p;
   const double back = u[0] * (c[0] - s->r[0]) + u[1] * (c[1] - s->r[1]) - far;
   const double o[2] = {s->r[0] + back * u[0], s->r[1] + back * u[1]};
-  double psi;
-  carom_window(&w->mouth, o, w->alone[w->balls - 1].kind.radius, &psi, half);
-  *e = wrapped(psi - carom_angle_of(u[0], u[1]));
+  const carom_window window = carom_window_of(&w->mouth, o, w->alone[w->balls - 1].kind.radius);
+  *half = window.half;
+  *e = wrapped(window.psi - carom_angle_of(u[0], u[1]));
   return p;
 }
 

@@ -16,6 +16,7 @@
 #include "plan/plan.h"
 #include "platform/elementary.h"
 #include "platform/threads.h"
+#include "shot/sim.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -61,10 +62,10 @@ typedef struct outcome {
 } outcome;
 
 /* What a part of the rows needs while it is played. */
-enum { FEW = 4, UNIT = 64 }; /* rows at a time; rows worth a thread, which begin a part */
+enum { UNIT = 64 }; /* rows worth a thread, which begin a part */
 typedef struct scratch {
-  carom_facts facts[FEW];
-  carom_ball_state final[FEW][CAROM_BALLS_MOST];
+  carom_facts facts;
+  carom_ball_state final[CAROM_BALLS_MOST];
 } scratch;
 
 /* A direct pot that is a candidate. */
@@ -78,6 +79,7 @@ typedef struct plan {
   carom_plan_job job; /* with shot and options of its own */
   carom_shot_options shot;
   carom_plan_options options;
+  carom_features features; /* of the table, prepared for the balls */
   carom_view view;
   carom_player player;
   uint32_t in_play, on, may, pockets;
@@ -191,38 +193,19 @@ static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state 
   return o;
 }
 
-/* Rows of a stage, a few at a time, so that the table is prepared once for them. */
 static size_t play_rows(const void *context, size_t first, size_t end) {
   const stage *s = context;
   const plan *of = s->of;
   scratch *with = &of->scratch[first / UNIT];
-  carom_cue cue[FEW];
-  int8_t status[FEW];
-  for (size_t k = first; k < end; k += FEW) {
-    const size_t many = end - k < FEW ? end - k : FEW;
-    carom_shot shot[FEW];
-    memset(shot, 0, sizeof shot);
-    for (size_t i = 0; i < many; i++) {
-      const int64_t row = (int64_t)(k + i);
-      cue[i] = stroke(of, &of->found[s->first + row / s->each], s->draws, row % s->each);
-      shot[i].final = with->final[i];
-      shot[i].facts = &with->facts[i];
-    }
-    const carom_shot_job job = {.table = of->job.table,
-                                .balls = of->job.balls,
-                                .cues = cue,
-                                .count = of->job.count,
-                                .cue_stride = 1,
-                                .n = many,
-                                .options = &of->shot,
-                                .shots = shot,
-                                .status = status};
-    carom_shoot_batch(&job); /* a shot in error is a foul */
-    for (size_t i = 0; i < many; i++) {
-      const int64_t row = (int64_t)(k + i);
-      of->outcome[row] = judge(of, &with->facts[i], with->final[i], (carom_status)status[i],
-                               &of->found[s->first + row / s->each], s->draws != 0);
-    }
+  carom_shot shot = {.final = with->final, .facts = &with->facts};
+  for (size_t k = first; k < end; k++) {
+    const int64_t row = (int64_t)k;
+    const candidate *c = &of->found[s->first + row / s->each];
+    const carom_cue cue = stroke(of, c, s->draws, row % s->each);
+    const carom_status status =
+        carom_shoot_prepared(of->job.table, &of->features, of->job.balls, of->view.count, &cue,
+                             &of->shot, &shot); /* in error it is a foul */
+    of->outcome[k] = judge(of, shot.facts, shot.final, status, c, s->draws != 0);
   }
   return end;
 }
@@ -302,8 +285,8 @@ static void add_pots(plan *of, int64_t most) {
     for (int p = 0; p < of->view.pockets && (of->on >> k & 1); p++) {
       if (!(of->pockets >> p & 1))
         continue;
-      const carom_way w = carom_way_of(&of->view, of->state, of->in_play, k, p, 0, false);
-      if (!(w.chance > 0.03))
+      const carom_way w = carom_way_of(&of->view, of->state, of->in_play, k, p, 0, false, 0.03);
+      if (w.chance == 0.0)
         continue;
       int at = ways++; /* sorted in */
       for (; at > 0 && way[at - 1].way.chance < w.chance; at--)
@@ -578,6 +561,15 @@ static plan *place(const carom_plan_job *job) {
   return room ? job->memory : NULL;
 }
 
+/* Once for all shots of a plan; NULL: without the stroke. */
+static carom_status check_layout(plan *of, const carom_shot_ball *balls, const carom_cue *cue) {
+  int where;
+  const int count = (int)of->job.count;
+  const carom_status bad =
+      carom_check_layout(of->job.table, &of->features, balls, count, &of->shot, &where);
+  return bad != CAROM_OK ? bad : carom_check_strike(balls, count, cue);
+}
+
 /* Checks the arguments, and makes all of a plan but its candidates. */
 static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   if (job == NULL || job->table == NULL || job->balls == NULL || job->cue == NULL ||
@@ -607,8 +599,10 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   of->shot.time_most = 0.0;
   int where;
   const carom_cue *cue = in_hand ? NULL : job->cue; /* its ball may be down */
-  const carom_status bad =
-      carom_shot_check(job->table, job->balls, (int)job->count, cue, &of->shot, &where);
+  carom_status bad = carom_check_common(job->table, job->count, &of->shot, &where);
+  of->features.radius = 0.0;
+  if (bad == CAROM_OK)
+    bad = check_layout(of, job->balls, cue);
   if (bad != CAROM_OK || job->cue->ball < 0 || job->cue->ball >= job->count)
     return bad != CAROM_OK ? bad : CAROM_ERROR_CUE_BALL;
   of->count = 0;
@@ -751,10 +745,8 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   if (kept == 0)
     return CAROM_ERROR_OFF_TABLE;
 
-  int where;
   carom_place_ball(job->table, balls, (int)job->count, cue_ball, best[0].r[0], best[0].r[1], NULL);
-  const carom_status refused =
-      carom_shot_check(job->table, balls, (int)job->count, job->cue, &of->shot, &where);
+  const carom_status refused = check_layout(of, balls, job->cue);
   if (refused != CAROM_OK)
     return refused;
 

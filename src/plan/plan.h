@@ -17,6 +17,12 @@ typedef struct carom_mouth {
                                   radius */
 } carom_mouth;
 
+/* The directions in which a ball gets into a pocket: their middle psi, with its sine and cosine,
+ * and half their range, rad, which is below 0 where there is none. */
+typedef struct carom_window {
+  double psi, half, sine, cosine;
+} carom_window;
+
 /* A layout's surroundings, made once for a plan. */
 typedef struct carom_view {
   const carom_plan_rules *rules;
@@ -29,6 +35,9 @@ typedef struct carom_view {
    * of his opponent */
   double win[2][MOST_LEFT + 1][MOST_LEFT + 1];
   double more[CAROM_BALLS_MOST]; /* balls that he pots yet in this visit, of so many, after a pot */
+  /* of the balls where they are before the shot; most of them stay there */
+  double at[CAROM_BALLS_MOST][2];
+  carom_window window[CAROM_BALLS_MOST][CAROM_POCKETS_MOST];
 } carom_view;
 
 /* A direct pot. */
@@ -45,13 +54,12 @@ extern const carom_facts carom_no_facts;
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options);
 carom_mouth carom_mouth_of(const carom_table *table, int pocket);
-/* The directions in which a ball of radius R at o gets between the jaws: the middle, and half the
- * range, which is below 0 where it does not, rad. */
-void carom_window(const carom_mouth *mouth, const double o[2], double R, double *psi, double *half);
+/* Of a ball of radius R at o. */
+carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double R);
 /* The pot of ball k into a pocket by the player `who`, 0 or 1; in_hand: the cue ball may be put
- * anywhere. */
+ * anywhere. A chance of at most `least` is told as 0. */
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
-                       int k, int pocket, int who, bool in_hand);
+                       int k, int pocket, int who, bool in_hand, double least);
 /* The chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
 double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
                       int who, bool in_hand);

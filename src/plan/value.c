@@ -113,8 +113,12 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
   view->length = job->table->length;
   for (int p = 0; p < view->pockets; p++)
     view->mouth[p] = carom_mouth_of(job->table, p);
-  for (int k = 0; k < view->count; k++)
+  for (int k = 0; k < view->count; k++) {
     view->radius[k] = job->balls[k].kind.radius;
+    for (int p = 0; p < view->pockets; p++)
+      view->window[k][p] = carom_window_of(&view->mouth[p], job->balls[k].state.r, view->radius[k]);
+    memcpy(view->at[k], job->balls[k].state.r, sizeof view->at[k]);
+  }
   view->sigma[0] = job->player->phi * (pi / 180.0);
   view->sigma[1] = other->phi * (pi / 180.0);
   chain(view, chance_of(job->player, options->chance_me),
@@ -147,51 +151,52 @@ static bool is_clear(const carom_view *view, const carom_ball_state *balls, uint
   return true;
 }
 
-void carom_window(const carom_mouth *mouth, const double o[2], double R, double *psi,
-                  double *half) {
+carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double R) {
   const double x = mouth->centre[0] - o[0], y = mouth->centre[1] - o[1], mid = carom_angle_of(x, y);
-  *psi = mid;
+  carom_window window = {.psi = mid, .half = 0.5}; /* of a ball between the jaws */
   if (!mouth->jaws) {
     const double sine = mouth->jaw[0][2] / sqrt(x * x + y * y);
-    *half = sine < 1.0 ? carom_asin(sine) : 0.5;
-    return;
-  }
-
-  /* Where the jaws are from the middle, and how far their tangents are turned. */
-  double turn[2], tangent[2];
-  for (int side = 0; side < 2; side++) {
-    const double jx = mouth->jaw[side][0] - o[0], jy = mouth->jaw[side][1] - o[1];
-    const double sine = (mouth->jaw[side][2] + 0.93 * R) / sqrt(jx * jx + jy * jy);
-    if (sine >= 1.0) { /* it is between them */
-      *half = 0.5;
-      return;
+    window.half = sine < 1.0 ? carom_asin(sine) : 0.5;
+  } else {
+    /* Where the jaws are from the middle, and how far their tangents are turned. */
+    double turn[2], tangent[2];
+    bool between = false;
+    for (int side = 0; side < 2 && !between; side++) {
+      const double jx = mouth->jaw[side][0] - o[0], jy = mouth->jaw[side][1] - o[1];
+      const double sine = (mouth->jaw[side][2] + 0.93 * R) / sqrt(jx * jx + jy * jy);
+      between = sine >= 1.0;
+      turn[side] = carom_angle_of(jx, jy) - mid;
+      turn[side] += turn[side] > pi ? -2.0 * pi : turn[side] < -pi ? 2.0 * pi : 0.0;
+      tangent[side] = between ? 0.0 : carom_asin(sine);
     }
-    turn[side] = carom_angle_of(jx, jy) - mid;
-    turn[side] += turn[side] > pi ? -2.0 * pi : turn[side] < -pi ? 2.0 * pi : 0.0;
-    tangent[side] = carom_asin(sine);
-  }
 
-  /* Between the left one and the right one; from the side both may be on one side of the
-   * pocket's centre. */
-  const int left = turn[1] > turn[0];
-  const double high = turn[left] - tangent[left], low = turn[1 - left] + tangent[1 - left];
-  *psi = mid + 0.5 * (low + high);
-  *half = 0.5 * (high - low);
+    /* Between the left one and the right one; from the side both may be on one side of the
+     * pocket's centre. */
+    if (!between) {
+      const int left = turn[1] > turn[0];
+      const double high = turn[left] - tangent[left], low = turn[1 - left] + tangent[1 - left];
+      window.psi = mid + 0.5 * (low + high);
+      window.half = 0.5 * (high - low);
+    }
+  }
+  carom_sincos(window.psi, &window.sine, &window.cosine);
+  return window;
 }
 
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
-                       int k, int pocket, int who, bool in_hand) {
+                       int k, int pocket, int who, bool in_hand, double least) {
   const carom_mouth *mouth = &view->mouth[pocket];
   const double *o = balls[k].r, *c = balls[view->cue_ball].r;
   const double R = view->radius[view->cue_ball], both = R + view->radius[k];
-  carom_way way = {0};
-  carom_window(mouth, o, view->radius[k], &way.psi, &way.half);
+  const bool there = o[0] == view->at[k][0] && o[1] == view->at[k][1];
+  const carom_window window =
+      there ? view->window[k][pocket] : carom_window_of(mouth, o, view->radius[k]);
+  carom_way way = {.psi = window.psi, .half = window.half};
   if (!(way.half > 0.0))
     return way;
 
   /* The ghost has to be on the table. */
-  double sine, cosine;
-  carom_sincos(way.psi, &sine, &cosine);
+  const double sine = window.sine, cosine = window.cosine;
   const double g[2] = {o[0] - both * cosine, o[1] - both * sine}, edge = 0.9 * R;
   if (g[0] < edge || g[1] < edge || g[0] > view->width - edge || g[1] > view->length - edge)
     return way;
@@ -204,14 +209,17 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
     cut = 0.97;
   }
   const double cosine_most = 0.17; /* of 80 degrees */
-  if (cut < cosine_most ||
-      !is_clear(view, balls, in_play, o, mouth->centre, view->cue_ball, k, view->radius[k]) ||
-      (!in_hand && !is_clear(view, balls, in_play, c, g, view->cue_ball, k, R)))
+  if (cut < cosine_most)
     return way;
 
+  /* Whether something is in the way takes longest, and is asked last. */
   const double aim = view->sigma[who] * d / (both * cut), throw = 1.5 * pi / 180.0;
   const double error = sqrt(aim * aim + throw *throw *(1.2 - cut));
-  way.chance = carom_erf(way.half / (error * 1.4142135623730951));
+  const double chance = carom_erf(way.half / (error * 1.4142135623730951));
+  if (chance > least &&
+      is_clear(view, balls, in_play, o, mouth->centre, view->cue_ball, k, view->radius[k]) &&
+      (in_hand || is_clear(view, balls, in_play, c, g, view->cue_ball, k, R)))
+    way.chance = chance;
   return way;
 }
 
@@ -234,7 +242,8 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
     for (int p = 0; p < view->pockets && (targets >> k & 1); p++) {
       if (!(pockets >> p & 1))
         continue;
-      const carom_way way = carom_way_of(view, balls, in_play, k, p, who, in_hand);
+      const carom_way way =
+          carom_way_of(view, balls, in_play, k, p, who, in_hand, of > second ? of : second);
       of = way.chance > of ? way.chance : of;
     }
     if (of > best) {

@@ -400,6 +400,14 @@ typedef struct checked {
   carom_features features; /* prepared for its radii */
 } checked;
 
+carom_status carom_shoot_prepared(const carom_table *table, const carom_features *features,
+                                  const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                  const carom_shot_options *opt, carom_shot *shot) {
+  clear(shot);
+  const carom_status bad = carom_check_strike(balls, count, cue);
+  return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot, true);
+}
+
 /* A layout that is the last one is not checked again. */
 static carom_status shoot_checked(const carom_table *table, checked *last,
                                   const carom_shot_ball *balls, int count, const carom_cue *cue,
@@ -408,10 +416,10 @@ static carom_status shoot_checked(const carom_table *table, checked *last,
   if (last->balls != balls)
     last->status = carom_check_layout(table, &last->features, balls, count, opt, &where);
   last->balls = balls;
-  carom_status bad = last->status;
-  if (bad == CAROM_OK)
-    bad = carom_check_strike(balls, count, cue);
-  return bad != CAROM_OK ? bad : shoot(table, &last->features, balls, count, cue, opt, shot, true);
+  if (last->status == CAROM_OK)
+    return carom_shoot_prepared(table, &last->features, balls, count, cue, opt, shot);
+  clear(shot);
+  return last->status;
 }
 
 static carom_status check_room(const carom_shot *shot) {
@@ -468,7 +476,6 @@ static carom_status shoot_row(const carom_shot_job *job, size_t k, checked *last
   const carom_status bad = check_room(&job->shots[k]);
   if (bad != CAROM_OK)
     return bad;
-  clear(&job->shots[k]);
   return shoot_checked(job->table, last, balls, (int)job->count, cue, opt, &job->shots[k]);
 }
 

@@ -145,4 +145,8 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
                                 const carom_shot_options *opt, int *where);
 /* The cue of a good layout; NULL: none. */
 carom_status carom_check_strike(const carom_shot_ball *balls, int count, const carom_cue *cue);
+/* shoot.c: carom_shoot() with a layout and options that these have found good. */
+carom_status carom_shoot_prepared(const carom_table *table, const carom_features *features,
+                                  const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                  const carom_shot_options *opt, carom_shot *shot);
 #endif
