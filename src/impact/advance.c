@@ -25,7 +25,7 @@
 #include <float.h>
 
 /* Found by trial with `carom-lab stress --cushion 20000`, whose largest error is 1.1e-7 in play
- * and 1.5e-6 anywhere, and the times of docs/understanding/cushion.md; see docs/study/tried.md.
+ * and 1.5e-6 anywhere, and the times of docs/understanding/cushion.md.
  * Times vary by about 3 %. At twice and at half:
  *
  *     MOST_TURN                twice: nothing changes; half: play takes 4 % longer

@@ -39,7 +39,7 @@
 #include "impact/variation.h"
 
 /* Found by trial with `carom-lab stress --cushion 20000` and the times of
- * docs/understanding/cushion.md; see docs/study/tried.md. Angles are in radians, lengths in units
+ * docs/understanding/cushion.md. Angles are in radians, lengths in units
  * of p. With half of CONVERGED play takes 5 % longer, and twice changes nothing. With half of
  * TOLERANCE_EXACT the largest error falls from 1.5e-6 to 8.2e-7. TOLERANCE and NEARLY_CONVERGED
  * matter little. */
