@@ -16,7 +16,7 @@ MARK = re.compile(r"(<!-- output of: (?P<command>.*) -->\n\n?)(?:(?: {4}.*)?\n)+
 def made(match: re.Match[str]) -> str:
     command = match["command"]
     print(command, flush=True)
-    run = subprocess.run(command.split(), cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    run = subprocess.run(["sh", "-c", command], cwd=ROOT, stdout=subprocess.PIPE, text=True)
     if run.returncode != 0:
         sys.exit(f"{command}: exit code {run.returncode}")
     shown = run.stdout.split("\nlargest errors:")[0].rstrip("\n")  # those are rows for `carom resolve`
