@@ -201,11 +201,11 @@ int64_t carom_label_of_layout(carom_ball_state *s, double radius) {
                                           : carom_label_of(s, radius);
 }
 
-void carom_path_land(const carom_path *path, const carom_ball_rates *rates,
+void carom_path_land(const carom_path *path, const carom_ball_rates *rates, double time,
                      carom_ball_state *state) {
   const carom_ball_state *from = &path->from;
   const double height = carom_greater(from->r[2] - rates->radius, 0.0);
-  carom_path_at(path, rates, path->end, state);
+  carom_path_at(path, rates, time, state);
   state->r[2] = rates->radius;
   state->v[2] = -sqrt(from->v[2] * from->v[2] + 2.0 * rates->gravity * height);
 }

@@ -110,8 +110,9 @@ static inline bool carom_flies_in_layout(const carom_ball_state *s, double radiu
 /* The phase of a ball of a layout. One that is out of play stays so. */
 int64_t carom_label_of_layout(carom_ball_state *state, double radius);
 
-/* The state of an airborne ball as it reaches the cloth. */
-void carom_path_land(const carom_path *path, const carom_ball_rates *rates,
+/* The state of an airborne ball as it reaches the cloth, at a time that is that of the path's end,
+ * or a trace later, where another event was the first of several at one instant. */
+void carom_path_land(const carom_path *path, const carom_ball_rates *rates, double time,
                      carom_ball_state *state);
 
 /* The phase that follows the path's own at its end, and the state there; a velocity that has

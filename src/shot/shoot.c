@@ -195,7 +195,7 @@ static carom_status step(carom_sim *sim, carom_due *due) {
   const int i = due->a, j = due->type == CAROM_EVENT_BALL_BALL ? due->b : -1;
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
   if (due->type == CAROM_EVENT_SLATE)
-    carom_path_land(&sim->path[i], &sim->rates[i], &event->before[0]);
+    carom_path_land(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
   else if (due->type == CAROM_EVENT_RAIL_TOP) /* exactly on it */
     event->before[0].r[2] = carom_height_on_top(sim, i, due->b);
   if (j >= 0)

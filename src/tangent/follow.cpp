@@ -788,7 +788,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
     store_state(&s.ball[i].state, w->before[i]);
   }
   if (e->type == CAROM_EVENT_SLATE) {
-    text::carom_path_land(&s.sim.path[0], &s.sim.rates[0], &s.ball[0].state);
+    text::carom_path_land(&s.sim.path[0], &s.sim.rates[0], s.sim.path[0].end, &s.ball[0].state);
     set(e->before[0], &s.ball[0].state);
     note_grazing(&s, 0);
     note_order(&s, 0.0);
