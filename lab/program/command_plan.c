@@ -6,16 +6,14 @@
 #include "message.h"
 #include "monotonic.h"
 #include "options.h"
-#include "random.h"
+#include "racks.h"
 #include "subcommands.h"
-
-#include "carom_plan.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { BALLS = 16, BINS = 10 };
+enum { BINS = 10 };
 
 typedef struct strength_job {
   shared_options shared;
@@ -44,70 +42,19 @@ typedef struct tally {
   bin bins[BINS];
 } tally;
 
-/* above 0 and below 1 */
-static double uniform(lab_random *state) {
-  return ((double)(lab_bits(state) >> 11) + 0.5) * 0x1p-53;
-}
-
-/* The first break of a rack's seed that pots nothing. */
-static void make_rack(const carom_table *table, const carom_cue *cue,
-                      const carom_shot_options *shot, lab_random *state, carom_shot_ball *balls) {
-  for (;;) {
-    carom_facts facts;
-    carom_ball_state final[BALLS];
-    carom_cue opening = *cue;
-    opening.speed = 7.0 + uniform(state);
-    opening.phi = 89.0 + 2.0 * uniform(state);
-    carom_rack(CAROM_RACK_EIGHTBALL, table, 1e-4, (uint64_t)(1e9 * uniform(state)), balls, BALLS);
-    carom_shot played = {.final = final, .facts = &facts};
-    if (carom_shoot(table, balls, BALLS, &opening, shot, &played) != CAROM_OK || facts.down != 0 ||
-        facts.off != 0)
-      continue;
-    for (int k = 0; k < BALLS; k++)
-      balls[k].state = final[k];
-    return;
-  }
-}
-
 /* One rack: strokes until the turn is not kept. */
-static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan,
-                    carom_plan_options *options, tally *to) {
-  carom_shot_ball balls[BALLS];
-  lab_random state = {((uint64_t)job->seed << 32) + 7919 * (rack + 1)};
-  carom_plan_rules rules = *plan->rules;
-  make_rack(plan->table, plan->cue, plan->shot, &state, balls);
-  carom_plan_job of = *plan;
-  of.balls = balls;
-  of.rules = &rules;
-  for (bool hand = true;; hand = false) {
-    /* the plan */
+static void run_out(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
+  lab_rack_make(rack, ((uint64_t)job->seed << 32) + 7919 * (number + 1));
+  carom_turn turn = {.is = CAROM_TURN_KEEP};
+  for (bool hand = true; turn.is == CAROM_TURN_KEEP; hand = false) {
     carom_choice best;
-    int found;
-    options->seed = state.state;
     const double begin = processor_ns();
-    const carom_status status = hand ? carom_plan_hand(&of, NULL, NULL, &best, 1, &found)
-                                     : carom_plan(&of, &best, 1, &found);
+    if (!lab_rack_stroke(rack, hand, &best, &turn))
+      return;
     to->seconds += 1e-9 * (processor_ns() - begin);
     to->plans++;
-    if (status < 0) {
-      complain("rack %d: %s", (int)rack, carom_status_string(status));
-      return;
-    }
-    if (hand)
-      carom_place_ball(of.table, balls, BALLS, 0, best.place[0], best.place[1], NULL);
 
-    /* the stroke */
-    carom_facts facts;
-    carom_ball_state final[BALLS];
-    carom_shot played = {.final = final, .facts = &facts};
-    uint32_t in_play = 0;
-    for (int k = 0; k < BALLS; k++)
-      in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED) << k;
-    carom_player_strike(of.player, state.state, 0, &best.cue);
-    lab_bits(&state); /* the next stroke has other errors */
-    carom_shoot(of.table, balls, BALLS, &best.cue, of.shot, &played);
-    const carom_turn turn =
-        rules.judge(rules.user, in_play, 0, &facts, (carom_call){best.ball, best.pocket});
+    /* what was predicted beside what came */
     const bool kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
     bin *b = &to->bins[best.keep < 1.0 ? (int)(BINS * best.keep) : BINS - 1];
     b->predicted += best.keep;
@@ -118,10 +65,6 @@ static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan
     to->strokes++;
     to->pots += kept;
     to->wins += turn.is == CAROM_TURN_WIN;
-    if (turn.is != CAROM_TURN_KEEP)
-      return;
-    for (int k = 0; k < BALLS; k++)
-      balls[k].state = final[k];
   }
 }
 
@@ -170,29 +113,26 @@ int command_plan(int argc, char **argv) {
   carom_table_make(CAROM_TABLE_POOLTOOL, &table);
   const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
   const carom_player player = carom_player_of(job.errors);
-  const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
   const carom_shot_options shot = {.space = CAROM_SPACE_FLAT};
-  carom_plan_options options = {.shots = job.shots, .threads = job.shared.options.threads};
-  carom_plan_job plan = {.table = &table,
-                         .count = BALLS,
-                         .cue = &cue,
-                         .player = &player,
-                         .rules = &rules,
-                         .shot = &shot,
-                         .options = &options,
-                         .memory_size = carom_plan_memory(&options)};
-  if (plan.memory_size == 0) {
+  static lab_rack rack;
+  rack.options = (carom_plan_options){.shots = job.shots, .threads = job.shared.options.threads};
+  rack.plan = (carom_plan_job){.table = &table,
+                               .cue = &cue,
+                               .player = &player,
+                               .shot = &shot,
+                               .memory_size = carom_plan_memory(&rack.options)};
+  if (rack.plan.memory_size == 0) {
     complain("--shots: it must be 100 to 1000000");
     return EXIT_USAGE;
   }
-  plan.memory = allocate(1, plan.memory_size);
+  rack.plan.memory = allocate(1, rack.plan.memory_size);
   static tally t;
   for (; t.racks < job.racks; t.racks++) {
-    run_out(&job, (uint64_t)t.racks, &plan, &options, &t);
+    run_out(&job, (uint64_t)t.racks, &rack, &t);
     progress_show("racks", (double)t.racks, job.racks);
   }
   progress_clear();
-  free(plan.memory);
+  free(rack.plan.memory);
   report(&t, &job);
   return EXIT_GOOD;
 }

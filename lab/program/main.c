@@ -13,6 +13,7 @@ int main(int argc, char **argv) {
       {"stress", "test the exact solver on random collisions", command_stress},
       {"parity", "compare whole shots with those that pooltool recorded", command_parity},
       {"plan", "play racks of eight-ball by plans", command_plan},
+      {"learn", "fit the planner's values of layouts to racks that are played", command_learn},
       {"experiments", "compare with the 2014 paper's measured shots", command_experiments},
   };
   static const program lab = {

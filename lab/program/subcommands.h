@@ -7,6 +7,7 @@ int command_resolve(int argc, char **argv);
 int command_verify(int argc, char **argv);
 int command_bench(int argc, char **argv);
 int command_experiments(int argc, char **argv);
+int command_learn(int argc, char **argv);
 int command_parity(int argc, char **argv);
 int command_plan(int argc, char **argv);
 int command_stress(int argc, char **argv);

@@ -30,11 +30,12 @@ typedef struct carom_view {
   int pockets, count, cue_ball;
   double width, length;
   double radius[CAROM_BALLS_MOST];
-  double sigma[2]; /* error of the direction, rad: of the player, of his opponent */
+  /* of the player and of his opponent: error of the direction, rad; the logarithm of that in 0.1
+   * degrees, at least 0.01 degrees; the caller's chance of a pot, or 0 */
+  double sigma[2], log_error[2], given[2];
   /* chance to win at one's turn, by the balls left to oneself and to the other: of the player,
    * of his opponent */
   double win[2][MOST_LEFT + 1][MOST_LEFT + 1];
-  double more[CAROM_BALLS_MOST]; /* balls that he pots yet in this visit, of so many, after a pot */
   /* of the balls where they are before the shot; most of them stay there */
   double at[CAROM_BALLS_MOST][2];
   carom_window window[CAROM_BALLS_MOST][CAROM_POCKETS_MOST];
@@ -60,6 +61,13 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
  * anywhere. A chance of at most `least` is told as 0. */
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                        int k, int pocket, int who, bool in_hand, double least);
+/* What a chance to pot is made of, the numbers of learned.h: 1; view->log_error; the mean of the
+ * best pots of the balls of `targets`; the best pot; that of the next best ball; whether one ball
+ * is left; whether the cue ball is in hand. The first few count for later pots of a visit. */
+enum { NEXT_NUMBERS = 7, LATER_NUMBERS = 3 };
+void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                         uint32_t targets, uint32_t pockets, int who, bool in_hand,
+                         double x[NEXT_NUMBERS]);
 /* The chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
 double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
                       int who, bool in_hand);

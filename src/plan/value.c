@@ -8,17 +8,24 @@
  * chance is erf(h / (e sqrt 2)). It is 0 where a ball is in either way, where the ghost is in a
  * cushion, or the cut is above 80 degrees.
  *
- * With p of the best ball and q of the second best one, the player pots with the chance p (0.92
- * + 0.06 q). What follows is a chain over the balls left, n to the player and m to the other
- * one: he pots the next with a chance a, the other with b, and who misses gives the turn away:
+ * From these chances the numbers of learned.h, which were fitted to racks that were played, make
+ * two more: p that the player keeps his turn, by a pot of any kind, and a that he pots each later
+ * ball of this visit. Both are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it.
  *
- *     W(n, m) = a W(n - 1, m) + (1 - a) (1 - V(m, n)),
- *     V(m, n) = b V(m - 1, n) + (1 - b) (1 - W(n, m)),
+ * What follows a miss is a chain over the balls left, n to the one who plays and m to the other:
+ * he pots the next with a chance c, the other with d, and who misses gives the turn away:
+ *
+ *     W(n, m) = c W(n - 1, m) + (1 - c) (1 - V(m, n)),
+ *     V(m, n) = d V(m - 1, n) + (1 - d) (1 - W(n, m)),
  *     W(0, m) = 1.
  *
- * 0.93, 1.5 degrees, 1.2, 0.92, 0.06 are the prototype's, chosen by hand; they order layouts,
- * and nothing else depends on them.
+ * c and d are a of a layout of the usual kind. The visit is worth, V being the other one's,
+ *
+ *     (1 - p) (1 - V(m, n)) + p (sum over j of a^j (1 - a) (1 - V(m, n - 1 - j)) + a^(n - 1)),
+ *
+ * j = 0 to n - 2.
  */
+#include "plan/learned.h"
 #include "plan/plan.h"
 #include "platform/elementary.h"
 
@@ -89,17 +96,19 @@ static void chain(carom_view *view, double a, double b) {
       view->win[0][n][m] = (f - (1.0 - a) * g) / det;
       view->win[1][m][n] = (g - (1.0 - b) * f) / det;
     }
-
-  /* alone: the expected number of pots */
-  view->more[0] = 0.0;
-  for (int n = 1; n < CAROM_BALLS_MOST; n++)
-    view->more[n] = a * (1.0 + view->more[n - 1]);
 }
 
-/* The chance of a pot from a layout that was chosen, by the error of the direction. */
-static double chance_of(const carom_player *player, double given) {
-  const double usual = 0.9 - 0.5 * player->phi;
-  return given > 0.0 ? given : usual > 0.3 ? usual : 0.3;
+static double chance(const double *w, const double *x, int n) {
+  double sum = 0.0;
+  for (int k = 0; k < n; k++)
+    sum += w[k] * x[k];
+  return 1.0 / (1.0 + carom_exp(-sum));
+}
+
+/* What the layout does not tell of a: the player, and the mean over the balls. */
+static double later(const carom_view *view, int who, double mean) {
+  const double x[LATER_NUMBERS] = {1.0, view->log_error[who], mean};
+  return view->given[who] > 0.0 ? view->given[who] : chance(later_numbers, x, LATER_NUMBERS);
 }
 
 void carom_view_make(carom_view *view, const carom_plan_job *job,
@@ -119,10 +128,13 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
       view->window[k][p] = carom_window_of(&view->mouth[p], job->balls[k].state.r, view->radius[k]);
     memcpy(view->at[k], job->balls[k].state.r, sizeof view->at[k]);
   }
-  view->sigma[0] = job->player->phi * (pi / 180.0);
-  view->sigma[1] = other->phi * (pi / 180.0);
-  chain(view, chance_of(job->player, options->chance_me),
-        chance_of(other, options->chance_opponent));
+  const carom_player *players[2] = {job->player, other};
+  for (int who = 0; who < 2; who++) {
+    view->sigma[who] = players[who]->phi * (pi / 180.0);
+    view->log_error[who] = carom_log(players[who]->phi > 0.01 ? players[who]->phi / 0.1 : 0.1);
+    view->given[who] = who == 0 ? options->chance_me : options->chance_opponent;
+  }
+  chain(view, later(view, 0, usual_mean), later(view, 1, usual_mean));
 }
 
 /* ---- A pot */
@@ -225,27 +237,25 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
 
 /* ---- A layout */
 
-static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
-                           uint32_t targets, uint32_t pockets, const int32_t given[2], int who,
-                           bool in_hand) {
-  const bool alone = view->rules->race == CAROM_RACE_ALONE;
-  const int32_t most = alone ? CAROM_BALLS_MOST : MOST_LEFT;
-  int32_t left[2];
-  for (int k = 0; k < 2; k++)
-    left[k] = given[k] < 1 ? 1 : given[k] > most ? most : given[k];
-
-  /* the best pot of the best ball and of the second best one */
-  double best = 0.0, second = 0.0;
+void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                         uint32_t targets, uint32_t pockets, int who, bool in_hand,
+                         double x[NEXT_NUMBERS]) {
+  /* the best pot of each ball */
+  double best = 0.0, second = 0.0, sum = 0.0;
+  int count = 0;
   targets &= in_play;
   for (int k = 0; targets >> k != 0; k++) {
+    if (!(targets >> k & 1))
+      continue;
     double of = 0.0;
-    for (int p = 0; p < view->pockets && (targets >> k & 1); p++) {
+    for (int p = 0; p < view->pockets; p++) {
       if (!(pockets >> p & 1))
         continue;
-      const carom_way way =
-          carom_way_of(view, balls, in_play, k, p, who, in_hand, of > second ? of : second);
+      const carom_way way = carom_way_of(view, balls, in_play, k, p, who, in_hand, of);
       of = way.chance > of ? way.chance : of;
     }
+    count++;
+    sum += of;
     if (of > best) {
       second = best;
       best = of;
@@ -253,15 +263,40 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
       second = of;
     }
   }
-  const double p = best * (0.92 + 0.06 * second);
+  const double is[NEXT_NUMBERS] = {1.0,
+                                   view->log_error[who],
+                                   count > 0 ? sum / count : 0.0,
+                                   best,
+                                   second,
+                                   count == 1 ? 1.0 : 0.0,
+                                   in_hand ? 1.0 : 0.0};
+  memcpy(x, is, sizeof is);
+}
 
-  /* the chain after it */
-  if (alone)
-    return p * (1.0 + view->more[left[0] - 1]);
+static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                           uint32_t targets, uint32_t pockets, const int32_t given[2], int who,
+                           bool in_hand) {
+  const bool alone = view->rules->race == CAROM_RACE_ALONE;
   const bool shared = view->rules->race == CAROM_RACE_SHARED;
-  const double after =
-      left[0] == 1 ? 1.0 : view->win[who][left[0] - 1][shared ? left[0] - 1 : left[1]];
-  return p * after + (1.0 - p) * (1.0 - view->win[1 - who][left[1]][left[0]]);
+  const int32_t most = alone ? CAROM_BALLS_MOST : MOST_LEFT;
+  int32_t left[2];
+  for (int k = 0; k < 2; k++)
+    left[k] = given[k] < 1 ? 1 : given[k] > most ? most : given[k];
+  double x[NEXT_NUMBERS];
+  carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, x);
+  const double p = chance(next_numbers, x, NEXT_NUMBERS), a = later(view, who, x[2]);
+
+  /* the visit, ball by ball: how likely it is to come so far, and what a miss there is worth */
+  double worth = 0.0, so_far = 1.0, next = p;
+  for (int n = left[0]; n > 0; n--) {
+    if (alone)
+      worth += so_far * next;
+    else
+      worth += so_far * (1.0 - next) * (1.0 - view->win[1 - who][shared ? n : left[1]][n]);
+    so_far *= next;
+    next = a;
+  }
+  return alone ? worth : worth + so_far;
 }
 
 /* The value to one who plays. */

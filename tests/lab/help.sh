@@ -1,7 +1,7 @@
 # Help, version and the lists of the study's program, as its user sees them.
 try lab --help
 lab --version | sed 's/[0-9][0-9]*/N/g'
-for command in kernels resolve verify bench stress parity experiments; do
+for command in kernels resolve verify bench stress parity plan learn experiments; do
   echo "--- $command"
   try lab "$command" --help
 done

@@ -1,0 +1,18 @@
+# Racks that are played by plans, and the numbers of value.c that are fitted to them.
+numbers() { sed 's/-\{0,1\}[0-9][0-9.]*/N/g; s/  */ /g' | tr '\n' ' ' | sed 's/ \*//g; s/  */ /g'; echo; }
+echo "--- what was counted does not depend on threads"
+lab plan --racks 2 --shots 100 | sed 's/, [0-9.]* ms a plan//' > one.txt
+lab plan --racks 2 --shots 100 --threads 2 | sed 's/, [0-9.]* ms a plan//' > two.txt
+cmp one.txt two.txt && numbers < one.txt | cut -d' ' -f1-20
+echo "--- nor the file that is fitted, whose form is that of the library's"
+lab learn --racks 40 --shots 100 > one.h
+lab learn --racks 40 --shots 100 --threads 3 > two.h
+cmp one.h two.h
+lab learn --racks 40 --shots 100 --seed 1 | cmp -s - one.h || echo "another seed gives other numbers"
+numbers < "$DATA/../src/plan/learned.h" > is.txt
+numbers < one.h | diff - is.txt && echo same
+grep -o "racks [0-9]*" "$DATA/../src/plan/learned.h"
+echo "--- usage"
+try lab learn --racks 3
+try lab learn --shots 99
+try lab plan --shots 99
