@@ -89,11 +89,33 @@ static int pocket_named(const layout *l, const named_table *t, const char *name,
   return found;
 }
 
-/* The way of --via, in words too; false after a complaint. */
-static bool read_via(const layout *l, const char *via, carom_pot *pot, char words[AIMED_TEXT]) {
-  char names[NAMES_TEXT], one[PLACE_NAME] = "", hint[HINT_TEXT];
-  bool rails = false, good = true;
+/* A way in words: " by a kick off the head rail" for rails before the first ball, " by ball 2", "
+ * off the left rail". */
+static void say_way(const layout *l, const carom_pot *pot, char words[AIMED_TEXT]) {
+  int first = 0;
+  while (first < pot->vias && pot->via[first].kind == CAROM_PART_RAIL)
+    first++;
   words[0] = '\0';
+  for (int k = 0; k < pot->vias; k++) {
+    const carom_part *part = &pot->via[k];
+    const bool again = k > 0 && part[-1].kind == CAROM_PART_RAIL;
+    char *end = words + strlen(words);
+    const size_t room = (size_t)(words + AIMED_TEXT - end);
+    if (part->kind == CAROM_PART_RAIL)
+      snprintf(end, room, "%s the %s rail",
+               again                            ? ","
+               : k < first && first < pot->vias ? " by a kick off"
+                                                : " off",
+               carom_rail_name(&l->table, part->index));
+    else if (part->index != pot->ball)
+      snprintf(end, room, " by ball %s", l->name[part->index]);
+  }
+}
+
+/* The way of --via; false after a complaint. */
+static bool read_via(const layout *l, const char *via, carom_pot *pot) {
+  char names[NAMES_TEXT], one[PLACE_NAME] = "", hint[HINT_TEXT];
+  bool named = false, good = true;
   for (size_t size; via != NULL && good; via = via[size] != '\0' ? via + size + 1 : NULL) {
     size = strcspn(via, ",");
     carom_part part = {.index = ball_named(l, via, size, names)};
@@ -106,22 +128,20 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot, char word
     }
     snprintf(one, sizeof one, "%.*s", (int)(size < sizeof one ? size : sizeof one - 1), via);
     good = part.kind != CAROM_PART_NONE && pot->vias < CAROM_VIA_MOST &&
-           !(rails && part.kind == CAROM_PART_BALL) && part.index != pot->ball;
+           !(named && part.kind == CAROM_PART_BALL);
+    for (int k = 0; k < pot->vias; k++) /* a ball is met once */
+      good &= part.kind != CAROM_PART_BALL || pot->via[k].kind != part.kind ||
+              pot->via[k].index != part.index;
     if (!good)
       break;
-    snprintf(words + strlen(words), AIMED_TEXT - strlen(words),
-             part.kind == CAROM_PART_BALL ? " by ball %s"
-             : rails                      ? ", the %s rail"
-                                          : " off the %s rail",
-             one);
-    rails |= part.kind == CAROM_PART_RAIL;
+    named |= part.kind == CAROM_PART_BALL && part.index == pot->ball;
     pot->via[pot->vias++] = part;
   }
   snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "head|foot|left|right");
   if (!good)
-    complain("--via is up to %d of other balls and then rails (head, foot, left, right), such as "
-             "2,left; '%s' is none that can be there%s",
-             CAROM_VIA_MOST, one, did_you_mean(one, names, hint));
+    complain("--via is up to %d of balls, the one of --pocket last, and rails (head, foot, left, "
+             "right), such as 2,left, or head,%s for a kick; '%s' is none that can be there%s",
+             CAROM_VIA_MOST, l->name[pot->ball], one, did_you_mean(one, names, hint));
   return good;
 }
 
@@ -168,7 +188,7 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
     complain("--pocket is BALL:POCKET, such as 1:foot-left, with a ball of --balls and one of %s "
              "or its id; not '%.60s'%s",
              known, pocket, did_you_mean(name, known, hint));
-  else if (!read_via(l, via, &pot, by))
+  else if (!read_via(l, via, &pot))
     return false;
   else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK)
     good = true; /* which is told when it is played */
@@ -177,6 +197,7 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
   else {
     good = true;
     char margin[80] = "the ball touches a jaw";
+    say_way(l, &pot, by);
     if (pot.margin > 0.0)
       snprintf(margin, sizeof margin, "the ball's way may turn by %.2f degrees to either jaw",
                pot.margin);

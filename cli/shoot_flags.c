@@ -82,8 +82,9 @@ ROW(option_pocket, "pocket", pocket, "BALL:POCKET", set_text, 0,
     "1:side-right, or by its id, 1:lt. Tells the cut, how far the ball's way may turn to either "
     "jaw, and with which directions and speeds of the cue it falls; or why there is no such aim");
 ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
-    "with --pocket: the way of a combination or a bank, in its order: first balls that the cue "
-    "ball meets, then rails that the ball meets, head, foot, left or right; 2 or left or 2,left");
+    "with --pocket: the way, in its order. left: a bank of the ball; 2: a combination by ball 2; "
+    "2,left: both; head,1: a kick of the cue ball at ball 1, the one of --pocket. Rails are head, "
+    "foot, left and right");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
     "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,

@@ -218,9 +218,9 @@ typedef struct carom_plan_options {
                                    depends on it. */
   int32_t unused;               /* must be 0. */
   const carom_player *opponent; /* NULL: he errs as the player does. */
-  double chance_me;             /* of a pot from a layout that was chosen, 0 to 1, of the player; 0:
-                             0.9 less half of his error phi in degrees, at least 0.3. Values of
-                             layouts depend on it. */
+  double chance_me;             /* of each later pot of a visit, 0 to 1, of the player; 0: by the
+                                   layout and his error phi, as racks that were played told it.
+                                   Values of layouts depend on it. */
   double chance_opponent;       /* and of his opponent, likewise. */
   const volatile int32_t *stop; /* not NULL: another thread may set it to end the plan early; it
                                    then gives the best so far. */
@@ -326,10 +326,12 @@ typedef enum carom_pot_is {
 typedef struct carom_pot {
   int32_t ball, pocket;
   int32_t vias;                   /* elements of via[], 0 to CAROM_VIA_MOST. */
-  carom_part via[CAROM_VIA_MOST]; /* first balls, in the order in which they are met, the last of
-                                     which meets `ball`: a combination. Then the rails that `ball`
-                                     meets, in their order: a bank. A rail stands for all rails on
-                                     its line, such as both halves of a long one. */
+  carom_part via[CAROM_VIA_MOST]; /* balls and rails in the order in which they are met, rails by
+                                     the ball before them: those before the first ball by the cue
+                                     ball, a kick; those after `ball` by it, a bank. A ball before
+                                     `ball` meets it: a combination. Where via[] does not name
+                                     `ball`, it comes after the last other ball. A rail stands for
+                                     all rails on its line, such as both halves of a long one. */
 
   int32_t is;            /* a carom_pot_is. */
   double cut;            /* degrees, of the cue ball on the first ball, which goes to the left of

@@ -36,14 +36,17 @@ def test_aim():
 
 def test_aim_by_a_way():
     bank, combination = [[0.9, 1.5]], [[0.55, 1.3], [0.4, 1.8]]
-    for places, ball, pocket, via in ((bank, 1, "foot-left", ["right"]), (combination, 2, 2, [1]), (combination, 2, "foot-right", [1, "left"])):
+    ways = ((bank, 1, "foot-left", ["right"]), (combination, 2, 2, [1]), (combination, 2, "foot-right", [1, "left"]), (bank, 1, "foot-right", ["left", 1]))
+    for places, ball, pocket, via in ways:
         layout = carom.balls([[0.6, 0.8], *places])
         pot = carom.aim(TABLE, layout, carom.cue(speed=3.0), ball=ball, pocket=pocket, via=via)
         events = carom.simulate(TABLE, layout, pot.cue).events
         fallen = next(k for k, event in enumerate(events) if event["type"] == carom.EventType.POCKET and event["a"] == ball)
         of_ball = [event for event in events[:fallen] if event["type"] in (carom.EventType.BALL_BALL, carom.EventType.RAIL) and ball in (event["a"], event["b"])]
         met = [event["a"] + event["b"] - ball if event["type"] == carom.EventType.BALL_BALL else TABLE.rail_names[event["b"]] for event in of_ball]
-        way = ([] if 1 in via else [0]) + via
+        way = [0] if ball in via else ([] if 1 in via else [0]) + via
+        if ball in via:  # a kick: the cue ball meets the rail first
+            assert [TABLE.rail_names[event["b"]] for event in events[:fallen] if event["type"] == carom.EventType.RAIL][0] == via[0]
         assert met[: len(way)] == way, met  # then it may touch what is beside the pocket
         assert TABLE.pocket_names[events[fallen]["b"]] == ("foot-left" if pocket == 2 else pocket)
 
@@ -55,7 +58,7 @@ def test_aim_by_a_way():
         ({"ball": 2}, "ball: there are 2, not 3"),
         ({"pocket": "foot"}, "pocket: it must be one of foot-left, foot-right, head-left, head-right, side-left, side-right, not 'foot'"),
         ({"via": ["top"]}, "via: it must be one of foot, head, left, right, not 'top'"),
-        ({"via": ["left", 1]}, "via: it must be up to 4 indices of balls and then names of rails"),
+        ({"via": [1, "left", 1]}, "via: it must be up to 4 names of rails and indices of balls, each once, not the cue ball, and 1 last"),
         ({"speed": 0.6}, "pocket: no such aim at foot-left: ball 1 comes to rest on its way"),
     ],
 )

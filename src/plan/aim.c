@@ -1,8 +1,8 @@
 /* Aims at a pocket, by shots of the balls on the way alone.
  *
- * The way is a row of links: the cue ball meets ball 1, which meets ball 2, up to the ball that
- * is wanted, which meets rails. A direction phi of the cue does the first few of them. Where it
- * does all, the ball goes on to the pocket, and
+ * The way is a row of links: the cue ball meets rails or ball 1, which meets rails or ball 2, up to
+ * the ball that is wanted, which meets rails. A direction phi of the cue does the first few of
+ * them. Where it does all, the ball goes on to the pocket, and
  *
  *   e(phi) = psi(o) - the direction of v,
  *
@@ -17,6 +17,7 @@
  * changes in equal steps. */
 #include "plan/plan.h"
 #include "platform/elementary.h"
+#include "table/table.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,16 +34,19 @@ static const double least_time = 1e-9; /* s */
 static const double same_contact = 0.1;
 /* cushions that end so near to a pocket are beside it: in its radii */
 static const double beside_most = 3.0;
+/* degrees on either side, for each rail before the first ball */
+static const double kick_wide = 20.0;
 static const double speed_most = 15.0, speed_least = 0.05; /* m/s, of the cue */
 
-/* The balls of a way, the cue ball first, and then rails. */
+/* A way: its links, and its balls, the cue ball first. */
 typedef struct way {
   const carom_table *table;
   carom_shot_options options;
   const carom_pocket *pocket;
   carom_mouth mouth;
-  int balls, rails, links;
-  int ball[LINKS + 1], rail[LINKS]; /* indices in the layout and in the table */
+  int balls, links;
+  carom_part link[LINKS];           /* balls and rails, as they are met */
+  int ball[LINKS + 1];              /* indices in the layout */
   carom_shot_ball alone[LINKS + 1]; /* the balls as a layout of their own */
   carom_brief_event *events;        /* room for those of one shot */
 } way;
@@ -69,21 +73,28 @@ static bool in_line(const carom_rail *r, const carom_rail *s) {
 
 /* ---- A shot and its way */
 
+/* Whether a link, if there is one, is the line of this rail. */
+static bool is_on(const way *w, const carom_part *link, int rail) {
+  return link != NULL && link->kind == CAROM_PART_RAIL &&
+         in_line(&w->table->rail[link->index], &w->table->rail[rail]);
+}
+
 /* Follows the events of a shot along the way; `ball` are the indices of its balls there. */
 static progress follow(const way *w, const int *ball, const carom_brief_event *events,
                        int64_t count) {
   progress p = {0};
-  int at = 0, rails = 0;
+  int at = 0;
   for (int64_t k = 0; k < count && p.end.type == 0; k++) {
     const carom_brief_event *e = &events[k];
-    const bool meets = e->type == CAROM_EVENT_BALL_BALL;
+    const bool meets = e->type == CAROM_EVENT_BALL_BALL, rail = e->type == CAROM_EVENT_RAIL;
     if ((e->a != ball[at] && !(meets && e->b == ball[at])) || e->type == CAROM_EVENT_STRIKE ||
         e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_SLIDING_ROLLING)
       continue;
     const int other = e->a == ball[at] ? e->b : e->a;
-    const bool rail = e->type == CAROM_EVENT_RAIL && at == w->balls - 1;
+    const carom_part *next = p.links < w->links ? &w->link[p.links] : NULL,
+                     *last = p.links > 0 ? &w->link[p.links - 1] : NULL;
 
-    if (meets && at + 1 < w->balls && other == ball[at + 1]) {
+    if (meets && next != NULL && next->kind == CAROM_PART_BALL && other == ball[at + 1]) {
       p.first = at++ == 0 ? e->time : p.first;
       p.since = e->time;
       p.links++;
@@ -93,13 +104,10 @@ static progress follow(const way *w, const int *ball, const carom_brief_event *e
       k--;
     } else if (meets && at > 0 && other == ball[at - 1] && e->time == p.since) {
       continue;
-    } else if (rail && rails < w->rails &&
-               in_line(&w->table->rail[w->rail[rails]], &w->table->rail[e->b])) {
-      rails++;
+    } else if (rail && is_on(w, next, e->b)) {
       p.since = e->time;
       p.links++;
-    } else if (!(rail && rails > 0 && e->time - p.since < same_contact &&
-                 in_line(&w->table->rail[w->rail[rails - 1]], &w->table->rail[e->b]))) {
+    } else if (!(rail && is_on(w, last, e->b) && e->time - p.since < same_contact)) {
       p.end = *e;
     }
   }
@@ -344,20 +352,29 @@ static bool way_of(const carom_table *table, const carom_shot_ball *balls, int c
   w->ball[0] = cue_ball;
   w->options.stop_at = w->options.first_of = 0;
   w->options.time_most = 0.0;
-  /* Balls, the one that falls as the last, and then rails. */
-  int k = 0;
-  for (; k < pot->vias && pot->via[k].kind == CAROM_PART_BALL; k++)
-    w->ball[w->balls++] = pot->via[k].index;
-  w->ball[w->balls++] = pot->ball;
-  for (; k < pot->vias; k++) {
-    if (pot->via[k].kind != CAROM_PART_RAIL || pot->via[k].index < 0 ||
-        pot->via[k].index >= table->rails)
-      return false;
-    w->rail[w->rails++] = pot->via[k].index;
+  /* The ball that falls comes after the last other ball, where via[] does not name it. */
+  int last = -1;
+  bool named = false;
+  for (int k = 0; k < pot->vias; k++)
+    if (pot->via[k].kind == CAROM_PART_BALL) {
+      last = k;
+      named = pot->via[k].index == pot->ball;
+    }
+  for (int k = -1; k < pot->vias; k++) {
+    if (k >= 0)
+      w->link[w->links++] = pot->via[k];
+    if (k == last && !named)
+      w->link[w->links++] = (carom_part){CAROM_PART_BALL, pot->ball};
   }
-  w->links = w->balls - 1 + w->rails;
+  for (int k = 0; k < w->links; k++) {
+    const carom_part *link = &w->link[k];
+    if (link->kind == CAROM_PART_BALL)
+      w->ball[w->balls++] = link->index;
+    else if (link->kind != CAROM_PART_RAIL || link->index < 0 || link->index >= table->rails)
+      return false;
+  }
   /* All are there, once. */
-  for (k = 0; k < w->balls; k++) {
+  for (int k = 0; k < w->balls; k++) {
     const int ball = w->ball[k];
     if (ball < 0 || ball >= count || balls[ball].state.label == CAROM_BALL_POCKETED ||
         balls[ball].state.label == CAROM_BALL_OFF)
@@ -385,9 +402,21 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
   carom_brief_event events[EVENTS];
   w.events = events;
 
-  /* The directions in which a straight path meets the first ball; a raised cue's path curves. */
+  /* The directions in which a straight path meets the first ball, or its image in the rails before
+   * it. No rail reflects as a mirror does, and a raised cue's path curves. */
   const carom_shot_ball *own = &w.alone[0], *first = &w.alone[1];
-  const double x = first->state.r[0] - own->state.r[0], y = first->state.r[1] - own->state.r[1];
+  double to[2] = {first->state.r[0], first->state.r[1]};
+  int rails = 0;
+  while (w.link[rails].kind == CAROM_PART_RAIL)
+    rails++;
+  for (int k = rails - 1; k >= 0; k--) {
+    double l[3];
+    carom_rail_line(&table->rail[w.link[k].index], l);
+    const double off = l[0] * to[0] + l[1] * to[1] + l[2] - own->kind.radius;
+    to[0] -= 2.0 * off * l[0];
+    to[1] -= 2.0 * off * l[1];
+  }
+  const double x = to[0] - own->state.r[0], y = to[1] - own->state.r[1];
   const double sine = (own->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
   carom_cue along = *cue;
   carom_motion struck = {.v = {1.0}};
@@ -395,7 +424,7 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
   carom_strike(&along, &own->kind, &struck);
   const double mid = (carom_angle_of(x, y) - carom_angle_of(struck.v[0], struck.v[1])) / degree;
   const double wide = (sine < 1.0 ? carom_asin(sine) : 0.5 * pi) / degree +
-                      (cue->theta > 0.0 ? 2.0 + cue->theta : 0.0);
+                      (cue->theta > 0.0 ? 2.0 + cue->theta : 0.0) + kick_wide * rails;
   pot->cut = pot->margin = pot->phi[0] = pot->phi[1] = pot->speed[0] = pot->speed[1] = 0.0;
   pot->met = (carom_brief_event){0};
   search(&w, balls, count, mid, wide, pot, cue);

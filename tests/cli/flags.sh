@@ -84,6 +84,7 @@ rail_names = {"3": "left", "6": "left", "15": "right", "12": "right", "18": "foo
 for places, ball, pocket, words in (
     ("0.4,1.7", "1", "foot-left", "--tip 0.4,0"), ("0.7,1.9", "1", "foot-right", "--tip -0.3,0.2 --speed 3"), ("1.0,1.1", "1", "side-right", "--speed 1.5"), ("0.3,0.5", "1", "lb", "--tip 0,-0.3"),
     ("0.9,1.5", "1", "foot-left", "--via right --speed 3"), ("0.9,1.5", "1", "foot-left", "--via right --speed 3 --cushion mathavan"), ("0.9,1.5", "1", "foot-right", "--via right,left --speed 4"), ("0.55,1.3:8=0.4,1.8", "8", "foot-left", "--via 1"), ("0.55,1.3:8=0.4,1.8", "8", "foot-right", "--via 1,left --speed 3"),
+    ("1.0,2.2", "1", "foot-left", "--via right,1 --speed 3"),
 ):
     asked = ("--cue", "0.6,0.9" if "via" not in words else "0.6,0.8", "--balls", places, "--pocket", f"{ball}:{pocket}", *words.split())
     models = [word for word in words.split() if word in ("--cushion", "mathavan")]
@@ -96,7 +97,9 @@ for places, ball, pocket, words in (
     met = [event for event in played["events"][:fall] if ball in event[2] and (event[1] == "ball_ball" or event[1] == "ball_linear_cushion" and event[2][1] in rail_names)]
     by = [rail_names[event[2][1]] if event[1] == "ball_linear_cushion" else next(name for name in event[2] if name != ball) for event in met]
     via = words.split("--via ")[1].split()[0].split(",") if "via" in words else []
-    assert by == ([] if via[:1] == ["1"] else ["cue"]) + via, (by, via)
+    kick = ball in via
+    assert by == (["cue"] if kick else ([] if via[:1] == ["1"] else ["cue"]) + via), (by, via)
+    assert not kick or next(rail_names[event[2][1]] for event in played["events"] if event[1] == "ball_linear_cushion") == via[0]
     said = run(*asked)
     cut, side, margin, low, high, least, most = re.search(r"cut ([\d.]+) degrees to the (\w+); the ball's way may turn by ([\d.]+) degrees.*?aims of ([\d.]+) to ([\d.]+) degrees.*?with ([\d.]+) to ([\d.]+) m/s", said, re.S).groups()
     a, b = next(event for event in played["events"] if event[1] == "ball_ball")[3]
@@ -158,7 +161,7 @@ carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --events brief --plot lines.
 carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --plot words.svg > words
 cmp lines.svg words.svg && try carom shoot --cue 5,5 --events none
 echo "--- refused"
-for words in "--cue 0.6,0.8 --csv --events brief" "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--speed 1 --ball-speed 1" "--balls 0.4,1.7 --pocket 1:rb" "--balls 0.4,1.7:0.3,1.9 --pocket 1:lt" "--balls 0.4,1.7:0.503,1.25 --cue 0.6,0.8 --pocket 1:lt" "--balls 0.4,1.7 --pocket 1:lt --speed 0.6" "--balls 0.4,1.7 --pocket 1:fot-right" "--balls 0.4,1.7 --pocket 1:lt --via lft" "--balls 0.4,1.7:0.9,1.5 --pocket 1:lt --via left,2" "--balls 0.4,1.7 --pocket 1:lt --via 1" "--balls 0.4,1.7 --pocket 1:lt --via head" "--balls 0.4,1.7 --via left" "--balls 0.9,1.5:0.8,2.0 --cue 0.6,0.8 --speed 3 --pocket 1:lt --via right" "--balls 0.9,1.5 --cue 0.6,0.8 --tip 0.2,0.1 --speed 3 --cushion mathavan --pocket 1:lt --via right" "--balls 0.4,1.7 --pocket 1:lt --aim 90" "--table threecushion --balls 0.4,1.7 --pocket 1:lt" "--ball-speed 1 --elevation 5" "--table attic" \
+for words in "--cue 0.6,0.8 --csv --events brief" "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--speed 1 --ball-speed 1" "--balls 0.4,1.7 --pocket 1:rb" "--balls 0.4,1.7:0.3,1.9 --pocket 1:lt" "--balls 0.4,1.7:0.503,1.25 --cue 0.6,0.8 --pocket 1:lt" "--balls 0.4,1.7 --pocket 1:lt --speed 0.6" "--balls 0.4,1.7 --pocket 1:fot-right" "--balls 0.4,1.7 --pocket 1:lt --via lft" "--balls 0.4,1.7:0.9,1.5 --pocket 1:lt --via left,2" "--balls 0.4,1.7 --pocket 1:lt --via 1,1" "--balls 0.4,1.7 --pocket 1:lt --via head" "--balls 0.4,1.7 --via left" "--balls 0.9,1.5:0.8,2.0 --cue 0.6,0.8 --speed 3 --pocket 1:lt --via right" "--balls 0.9,1.5 --cue 0.6,0.8 --tip 0.2,0.1 --speed 3 --cushion mathavan --pocket 1:lt --via right" "--balls 0.4,1.7 --pocket 1:lt --aim 90" "--table threecushion --balls 0.4,1.7 --pocket 1:lt" "--ball-speed 1 --elevation 5" "--table attic" \
   "--balls 0.5,1.6:8=0.55,1.2 --cue 0.6,0.8 --at-ball 1" "--balls 0.5,1.6 --cue 0.6,0.8 --at-ball 1 --speed 0.2" "--balls 0.6,1.1 --cue 0.6,0.8 --at-ball 1 --elevation 30 --speed 4 --tip-time 0.0006" \
   "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
   # shellcheck disable=SC2086

@@ -762,7 +762,7 @@ export class Carom {
   }
 
   /**
-   * Aims a pot: the direction of the cue in which a ball goes to the middle of a pocket's mouth, by a bank or a combination where `via` says so, with
+   * Aims a pot: the direction of the cue in which a ball goes to the middle of a pocket's mouth, by a bank, a kick or a combination where `via` says so, with
    * squirt, swerve, throw and the model of the cushion. Where `is` is "no_way", the direction of the cue stays.
    */
   aim(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, of: AimOf, options: ShotOptions = {}): Aim {

@@ -226,7 +226,10 @@ export interface GameState {
 export interface AimOf {
   ball: number;
   pocket: number | string;
-  /** The way there, up to four contacts: first balls, the last of which meets `ball`, then rails that `ball` meets: "head", "foot", "left", "right". */
+  /**
+   * The way there, up to four contacts: indices of balls and names of rails, "head", "foot", "left", "right", that the ball before them meets. ["left"] is a
+   * bank, [2] a combination, ["head", ball] a kick: where `ball` is not named, it comes after the last other ball.
+   */
   via?: readonly (number | string)[];
 }
 

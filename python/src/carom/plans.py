@@ -94,8 +94,9 @@ def aim(
     pocket : int or str
         Index of the table's pocket, or its name: "foot-left"; `table.pocket_names` has all.
     via : sequence of int or str
-        The way there, up to four contacts: first indices of balls, of which the last one meets `ball`, a combination; then names of rails
-        that `ball` meets, "head", "foot", "left" or "right", a bank.
+        The way there, up to four contacts: indices of balls and names of rails, "head", "foot", "left" or "right", that the ball before
+        them meets. `["left"]` is a bank of `ball`, `[2]` a combination by ball 2, `["head", ball]` a kick: where `ball` is not named, it
+        comes after the last other ball.
 
     Raises
     ------
@@ -122,8 +123,11 @@ def aim(
 
     rails, pockets = table.rail_names, table.pocket_names
     way = [(lib.CAROM_PART_RAIL if isinstance(one, str) else lib.CAROM_PART_BALL, index(one, "via", rails, len(layout))) for one in via]
-    if len(way) > lib.CAROM_VIA_MOST or way != sorted(way, key=lambda part: part[0] == lib.CAROM_PART_RAIL):
-        raise ValueError(f"via: it must be up to {lib.CAROM_VIA_MOST} indices of balls and then names of rails, not {list(via)}")
+    met = [one for one in via if not isinstance(one, str)]
+    if len(way) > lib.CAROM_VIA_MOST or len({0, *met}) <= len(met) or ball in met[:-1]:
+        raise ValueError(
+            f"via: it must be up to {lib.CAROM_VIA_MOST} names of rails and indices of balls, each once, not the cue ball, and {ball} last, not {list(via)}"
+        )
     pot = ffi.new("carom_pot *", {
         "ball": index(ball, "ball", [], len(layout)), "pocket": index(pocket, "pocket", pockets, len(pockets)), "vias": len(way), "via": way,
     })  # fmt: skip
