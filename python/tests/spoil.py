@@ -7,10 +7,10 @@ import numpy as np
 
 def spoiled(
     recordings, seed=0, *, lead_in=0.0, rate=50.0, noise=0.35e-3, clock=0.0, lost=0.0, false=0.0, swaps=0, angle=0.0, scale=1.0,
-    table=(2.84, 1.42),
+    bend=(0.0, 0.0, 0.0), table=(2.84, 1.42),
 ):  # fmt: skip
     """Recordings with `lead_in` s of rows at rest in front, their clock later by `clock` s, a share of rows `lost`, a share `false`,
-    that is anywhere on the table, names of two balls exchanged `swaps` times, and turned by `angle` (degrees) and scaled."""
+    that is anywhere on the table, names of two balls exchanged `swaps` times, and turned by `angle` (degrees), scaled and bent, by k |q|^2 q (1/m^2) and (g q) q (1/m), q from the middle."""
     random = np.random.default_rng(seed)
     made = []
     for shot in recordings:
@@ -32,5 +32,7 @@ def spoiled(
             tracks[a] = np.vstack([one[one[:, 0] < time], other[other[:, 0] >= time]])
             tracks[b] = np.vstack([other[other[:, 0] < time], one[one[:, 0] >= time]])
         turn = scale * np.array([[np.cos(np.radians(angle)), -np.sin(np.radians(angle))], [np.sin(np.radians(angle)), np.cos(np.radians(angle))]])
-        made.append(replace(shot, tracks=tuple(np.column_stack([t[:, 0] + clock, t[:, 1:] @ turn.T]) for t in tracks)))
+        places = [t[:, 1:] - np.array(table) / 2 for t in tracks]
+        places = [q * (1.0 + bend[0] * (q * q).sum(axis=1) + q @ bend[1:])[:, None] + np.array(table) / 2 for q in places]
+        made.append(replace(shot, tracks=tuple(np.column_stack([t[:, 0] + clock, r @ turn.T]) for t, r in zip(tracks, places))))
     return made

@@ -23,6 +23,9 @@ NOISE = 0.35e-3
 MOVED = 3e-3
 """m: a ball that is farther than this from its place of rest has moved; more where the noise is large."""
 
+_BENT = 40.0  # the least square, in errors, of three numbers of a bent picture; of straight ones it is 3 in the mean
+_NOISY = 7e-4  # m: noise above which places are averaged over bins of time before turns are looked for,
+_BIN = 0.016  # s
 _NOISES = 5.5  # standard deviations from its place of rest where a ball has moved: noise goes so far in 3 of ten million rows
 _FASTER = 1.5  # a ball goes so many times as fast as it was seen to, at most
 _THINNED = 0.03  # m: a ball goes so far without a row, at most
@@ -233,7 +236,7 @@ def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording
 
 @dataclass(frozen=True)
 class Lie:
-    """How tracks lie on the table: places are turned about (0, 0), scaled and moved."""
+    """How tracks lie on the table: places are turned about (0, 0), scaled and moved, and bent by a lens or by a camera that looks askew."""
 
     angle: float = 0.0  # degrees, from x to y
     scale: float = 1.0
@@ -241,28 +244,46 @@ class Lie:
     far: float = 0.0  # m: how far a place is off by it, at most
     error: float = math.inf  # m: of that
     impacts: int = 0  # which tell it
+    bend: tuple[float, ...] = (0.0, 0.0, 0.0)  # k, 1/m^2, and g, 1/m: a place is off by q (k |q|^2 + g q), q being r - middle
+    middle: tuple[float, float] = (0.0, 0.0)  # m, of the table
+    bent: float = 0.0  # m: how far a corner is off by that, at most
 
     def places(self, r: Doubles) -> Doubles:
         """Places put right."""
         turn = math.radians(self.angle)
         back = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]]) / self.scale
-        return np.asarray((r - self.shift) @ back)
+        return np.asarray((r - self.shift) @ back - self.field(r))
+
+    def field(self, r: Doubles) -> Doubles:
+        """How far places are off by the lens and the slant of the camera."""
+        q = r - self.middle
+        return np.asarray(q * (self.bend[0] * (q * q).sum(axis=-1) + q @ self.bend[1:])[..., None])
 
     def __str__(self) -> str:
+        bent = f", bent by up to {1e3 * self.bent:.1f} mm," if self.bent else ""
         return (
-            f"turned by {self.angle:.2f} degrees, {self.scale:.4f} times as large as the table and moved by "
+            f"turned by {self.angle:.2f} degrees, {self.scale:.4f} times as large as the table{bent} and moved by "
             f"{1e3 * self.shift[0]:.1f}, {1e3 * self.shift[1]:.1f} mm"
         )
 
 
-def _turns(track: Doubles, axis: int) -> Doubles:
+def _averaged(track: Doubles) -> Doubles:
+    """Rows of one bin of time each, in which noise turns nothing round."""
+    _, first = np.unique(np.floor(track[:, 0] / _BIN), return_index=True)
+    return np.asarray(np.add.reduceat(track, first, axis=0) / np.diff(np.append(first, len(track)))[:, None])
+
+
+def _turns(track: Doubles, axis: int, noise: float) -> Doubles:
     """Where the coordinate of an axis turns round, at cushions among others: rows of its value, the other one, and its speed before."""
+    gap = 1e-4
+    if noise > _NOISY:
+        track, gap = _averaged(track), 1.1 * _BIN  # a bin beside that of the turn may have a part of it
     x = track[:, 1 + axis]
     found = []
     for k in (np.flatnonzero(np.diff(x[:-1]) * np.diff(x[1:]) < 0.0) + 1).tolist():
         # lines through the rows before and after, fewer after, where the ball slides; without the row of the turn itself
         t = track[:, 0] - track[k, 0]
-        before, after = np.flatnonzero((t < -1e-4) & (t > -0.1))[-4:], np.flatnonzero((t > 1e-4) & (t < 0.1))[:4]
+        before, after = np.flatnonzero((t < -gap) & (t > -0.1))[-4:], np.flatnonzero((t > gap) & (t < 0.1))[:4]
         after = after[: max(int((t[after] < 0.045).sum()), 2)]
         if len(before) < 2 or len(after) < 2:
             continue
@@ -275,44 +296,58 @@ def _turns(track: Doubles, axis: int) -> Doubles:
     return np.array(found).reshape(-1, 3)
 
 
-def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Lie:
-    """How the tracks lie on the table, by the places of impacts on cushions: the linear least squares of five numbers.
-
-    A turn at the cushion x = c lies at c = (1 - s) x + turn y + a + depth v: s of the scale, a of the shift, and the nose gives way by
-    `depth` times the speed v. Places far from what the others tell count less.
-    """
-    rows: list[Doubles] = []
-    for shot in recordings:
-        for track, still in zip(shot.tracks, shot.still):
-            for axis in (0, 1):
-                found = _turns(track[max(still - 1, 0) :], axis)
-                places = np.where(found[:, 2] > 0.0, table[axis] - radius, radius)
-                near = np.abs(found[:, 0] - places) < 0.07
-                x, along, v, c = found[near, 0], found[near, 1], found[near, 2], places[near]
-                one, none = np.ones_like(x), np.zeros_like(x)
-                turn = along if axis == 0 else -along
-                rows.append(np.column_stack([x - c, x, -turn, *((one, none) if axis == 0 else (none, one)), v]))
-    A = np.concatenate([np.empty((0, 6)), *rows])
-    if len(A) < 30:
-        return Lie()
-    off, A = A[:, 0], A[:, 1:]
+def _least(off: Doubles, A: Doubles) -> tuple[Doubles, Doubles, float]:
+    """The numbers for which A @ numbers is next to `off`, with less weight where it is far; their covariance; the usual distance, m."""
     weight: Doubles = np.ones(len(A))
-    numbers: Doubles = np.zeros(5)
+    numbers: Doubles = np.zeros(A.shape[1])
     spread = 0.0
     for _ in range(30):
         numbers = np.asarray(np.linalg.lstsq(A * weight[:, None], off * weight, rcond=None)[0], np.float64)
         left = off - A @ numbers
         spread = max(1.4826 * float(np.median(np.abs(left))), 1e-4)
         weight = np.asarray(1.0 / np.sqrt(1.0 + (left / (2.0 * spread)) ** 2))
+    weighted = A * weight[:, None]
+    return numbers, np.asarray(spread**2 * np.linalg.pinv(weighted.T @ weighted)), spread
+
+
+def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Lie:
+    """How the tracks lie on the table, by the places of impacts on cushions: the linear least squares of eight numbers.
+
+    A turn at the cushion x = c lies at c = (1 - s) x + turn y + a + depth v - q_x (k |q|^2 + g q): s of the scale, a of the shift, q from
+    the middle of the table, and the nose gives way by `depth` times the speed v. Places far from what the others tell count less. k and g
+    count where the impacts tell them from 0 by more than their errors can.
+    """
+    middle = (0.5 * table[0], 0.5 * table[1])
+    rows: list[Doubles] = []
+    for shot in recordings:
+        for track, still in zip(shot.tracks, shot.still):
+            for axis in (0, 1):
+                found = _turns(track[max(still - 1, 0) :], axis, shot.noise)
+                places = np.where(found[:, 2] > 0.0, table[axis] - radius, radius)
+                near = np.abs(found[:, 0] - places) < 0.07
+                x, along, v, c = found[near, 0], found[near, 1], found[near, 2], places[near]
+                one, none = np.ones_like(x), np.zeros_like(x)
+                turn = along if axis == 0 else -along
+                q = np.stack([x, along] if axis == 0 else [along, x], axis=-1) - middle
+                bent = q[:, axis, None] * np.column_stack([(q * q).sum(axis=1), q])
+                rows.append(np.column_stack([x - c, x, -turn, *((one, none) if axis == 0 else (none, one)), v, bent]))
+    A = np.concatenate([np.empty((0, 9)), *rows])
+    if len(A) < 30:
+        return Lie()
+    numbers, covariance, spread = _least(A[:, 0], A[:, 1:])
+    bend = numbers[5:]
+    if bend @ np.linalg.pinv(covariance[5:, 5:]) @ bend < _BENT:
+        numbers, covariance, spread = _least(A[:, 0], A[:, 1:6])
+        bend = np.zeros(3)
     # turned and scaled places p of places r are (1 + s) T r + shift; the rows tell r = p - (s p + turn + shift)
-    s, turn, a, b, _ = numbers.tolist()
+    s, turn, a, b = numbers[:4].tolist()
     scale = 1.0 / math.hypot(1.0 - s, turn)
     angle = math.atan2(turn, 1.0 - s)
     back = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]]) / scale
     shift = np.linalg.solve(back.T, np.array([a, b]))
-    lie = Lie(math.degrees(angle), scale, (float(shift[0]), float(shift[1])))
+    lie = Lie(math.degrees(angle), scale, (float(shift[0]), float(shift[1])), bend=tuple(bend.tolist()), middle=middle)
     corners = np.array([[0.0, 0.0], [table[0], 0.0], [table[0], table[1]], [0.0, table[1]]])
     far = float(np.hypot(*(lie.places(corners) - corners).T).max())
-    covariance = spread**2 * np.linalg.pinv((A * weight[:, None]).T @ (A * weight[:, None]))
     error = math.sqrt(float(covariance[0, 0] + covariance[1, 1])) * math.hypot(*table)
-    return replace(lie, far=far, error=error, impacts=len(A))
+    bent = float(np.hypot(*lie.field(corners).T).max())
+    return replace(lie, far=far, error=error, impacts=len(A), bent=bent)

@@ -135,7 +135,7 @@ def fit(
         A file that keeps what is done so far. A fit that was interrupted goes on from there when it is called again with the same
         arguments, and has the same bits; the file is removed at the end.
     calibrate : bool
-        Whether places are put right first where the table lies crooked in the tracks or is too large or small: by impacts on cushions.
+        Whether places are put right first where the table lies crooked in the tracks, is too large or small, or bent: by impacts on cushions.
 
     Raises ValueError: An argument is wrong: which, and what would be right.
     """
@@ -262,7 +262,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                         help="constants that are fitted besides the strikes")  # fmt: skip
     parser.add_argument("--priors", type=Path, metavar="PRIORS.json", help='{"mu_spin": [mean, deviation], ...}')
     parser.add_argument("--split", action="store_true", help="fit constants to every second shot, and tell how they predict the others")
-    parser.add_argument("--calibrate", action="store_true", help="put right tracks on which the table lies crooked or has another size")
+    parser.add_argument("--calibrate", action="store_true", help="put right tracks on which the table lies crooked, has another size or is bent")
     parser.add_argument("--summary", type=Path, metavar="OUT.html", help="write a page with pictures")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--threads", type=int, default=0, help="0: one; -1: all processors")
