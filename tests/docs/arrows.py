@@ -21,7 +21,7 @@ ALLOWED = {
     "src/table": ("include", "src/platform"),
     "src/shot": ("include", "src/platform", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/table"),
     "src/tangent": ("include", "src/platform", "src/impact", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/shot", "src/table"),
-    "src/plan": ("include", "src/platform"),
+    "src/plan": ("include", "src/platform", "src/shot", "src/table"),
     "src/record": ("include", "src/platform"),
     "src": ("include", "src/platform"),
     "cli": ("include",),
