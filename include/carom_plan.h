@@ -32,22 +32,24 @@ extern "C" {
 /* ---- Players --------------------------------------------------------------------------------- */
 
 /* How the stroke of a player differs from the one that was meant: standard deviations of
- * independent normal errors, each >= 0. What the errors make of a stroke is kept within the
- * bounds. */
+ * independent normal errors. What the errors make of a stroke is kept within the bounds. Each
+ * number is 0 to 1000. */
 typedef struct carom_player {
   double speed;       /* m/s, */
   double speed_share; /* and as a share of the speed; both are added in squares. */
   double phi, theta;  /* degrees. */
   double a, b;        /* radii of the ball. */
-  double speed_least; /* bounds of the speed of the cue, m/s, of all strokes. 0: 0.5, */
-  double speed_most;  /* and 0: 8. */
+  double speed_least; /* bounds of the speed of the cue, m/s, of all strokes. 0: 0.5, or
+                         speed_most if that is lower; */
+  double speed_most;  /* and 0: 8, or speed_least if that is higher. */
   double tip_most;    /* bound of |a| and |b|, radii, 0 to 1. 0: 0.5. */
   double reserved[3]; /* must be 0. */
 } carom_player;
 
 /* A player with all errors proportional to `scale` >= 0: 0.1 m/s, 0.1 degrees of direction and
  * of elevation, and 0.003 radii each way, times scale. These are the errors of a public
- * benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. */
+ * benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. The scale
+ * is not checked here: carom_plan() refuses a player with an error that is not 0 to 1000. */
 CAROM_API carom_player carom_player_of(double scale);
 
 /* A player by a Fargo rating, 300 to 850; others count as the nearest of these. With plans of 300
@@ -220,7 +222,8 @@ typedef struct carom_plan_options {
   const carom_player *opponent; /* NULL: he errs as the player does. */
   double chance_me;             /* of each later pot of a visit, 0 to 1, of the player; 0: by the
                                    layout and his error phi, as racks that were played told it.
-                                   Values of layouts depend on it. */
+                                   One below 0.001 counts as 0.001. Values of layouts depend on
+                                   it. */
   double chance_opponent;       /* and of his opponent, likewise. */
   const volatile int32_t *stop; /* not NULL: another thread may set it to end the plan early; it
                                    then gives the best so far. */
@@ -289,8 +292,8 @@ CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choic
                                   int *found);
 
 /* The same with ball in hand: the cue ball goes to the best place found, which all choices have.
- * The place is within low[0] <= x <= high[0] and low[1] <= y <= high[1], m; NULL: anywhere on
- * the table. The cue ball of job->balls may be down. Also: CAROM_ERROR_OFF_TABLE where no free
+ * The place is within low[0] <= x <= high[0] and low[1] <= y <= high[1], m; NULL: no bound on
+ * that side. The cue ball of job->balls may be down. Also: CAROM_ERROR_OFF_TABLE where no free
  * place was found. */
 CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double low[2],
                                        const double high[2], carom_choice *choices, int room,
@@ -298,7 +301,9 @@ CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double l
 
 /* The chances of `n` strokes of the caller's, each of which is played options->shots / n times
  * with errors, at least 10 times. choices[k] becomes the estimate of cues[k], in their order. n
- * at most 1000. Statuses as of carom_plan(). */
+ * is 0 to 1000, else CAROM_ERROR_OPTIONS. Of a cue, speed, phi, theta, a and b are read, and the
+ * rest is that of job->cue. Statuses as of carom_plan(), and an error of the first bad stroke, with
+ * nothing written. */
 CAROM_API carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n,
                                       carom_choice *choices);
 

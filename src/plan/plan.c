@@ -501,6 +501,7 @@ static carom_choice choice_of(const plan *of, const candidate *c) {
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
 enum { SHOTS_USUAL = 2000, SHOTS_LEAST = 100, SHOTS_MOST = 1000000, SPARE = 160 };
+enum { PLAYER_MOST = 1000 }; /* of each number of a player */
 
 static bool good_options(const carom_plan_options *o) {
   bool reserved = o->unused != 0;
@@ -517,7 +518,7 @@ static bool good_player(const carom_player *p) {
                             p->b,     p->speed_least, p->speed_most, p->tip_most};
   bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    good &= numbers[k] >= 0.0 && numbers[k] < INFINITY;
+    good &= numbers[k] >= 0.0 && numbers[k] <= PLAYER_MOST;
   for (size_t k = 0; k < sizeof p->reserved / sizeof p->reserved[0]; k++)
     good &= p->reserved[k] == 0.0;
   return good;
@@ -561,13 +562,28 @@ static plan *place(const carom_plan_job *job) {
   return room ? job->memory : NULL;
 }
 
-/* Once for all shots of a plan; NULL: without the stroke. */
-static carom_status check_layout(plan *of, const carom_shot_ball *balls, const carom_cue *cue) {
+/* Checks the cue of a job with the stroke of another one. A speed of 0 is raised later by the
+ * bounds of the player, so the rest of the cue counts. */
+static carom_status check_stroke(const carom_plan_job *job, const carom_cue *stroke) {
+  carom_cue cue = *job->cue;
+  cue.speed = stroke->speed == 0.0 ? 1.0 : stroke->speed;
+  cue.phi = stroke->phi;
+  cue.theta = stroke->theta;
+  cue.a = stroke->a;
+  cue.b = stroke->b;
+  return carom_check_strike(job->balls, (int)job->count, &cue);
+}
+
+/* Once for all shots of a plan; with_cue: and its cue, whose stroke is not looked at. */
+static carom_status check_layout(plan *of, const carom_shot_ball *balls, bool with_cue) {
   int where;
   const int count = (int)of->job.count;
   const carom_status bad =
       carom_check_layout(of->job.table, &of->features, balls, count, &of->shot, &where);
-  return bad != CAROM_OK ? bad : carom_check_strike(balls, count, cue);
+  if (bad != CAROM_OK || !with_cue)
+    return bad;
+  const carom_plan_job job = {.balls = balls, .count = count, .cue = of->job.cue};
+  return check_stroke(&job, &(carom_cue){0});
 }
 
 /* Checks the arguments, and makes all of a plan but its candidates. */
@@ -598,11 +614,10 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   of->shot.first_of = 0;
   of->shot.time_most = 0.0;
   int where;
-  const carom_cue *cue = in_hand ? NULL : job->cue; /* its ball may be down */
   carom_status bad = carom_check_common(job->table, job->count, &of->shot, &where);
   of->features.radius = 0.0;
   if (bad == CAROM_OK)
-    bad = check_layout(of, job->balls, cue);
+    bad = check_layout(of, job->balls, !in_hand); /* in hand its ball may be down */
   if (bad != CAROM_OK || job->cue->ball < 0 || job->cue->ball >= job->count)
     return bad != CAROM_OK ? bad : CAROM_ERROR_CUE_BALL;
   of->count = 0;
@@ -725,8 +740,11 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   for (uint64_t k = 0; k < 50 * PLACES && places < PLACES; k++) {
     double r[2];
     for (int x = 0; x < 2; x++) {
-      const double least = low != NULL && low[x] > R ? low[x] : R;
-      const double most = high != NULL && high[x] < size[x] - R ? high[x] : size[x] - R;
+      /* an empty range, and one with NaN, has no place */
+      const double least = low == NULL || low[x] <= R ? R : low[x];
+      const double most = high == NULL || high[x] >= size[x] - R ? size[x] - R : high[x];
+      if (!(least <= most))
+        return CAROM_ERROR_OFF_TABLE;
       r[x] = least + (most - least) * carom_uniform(of->options.seed, DRAW_PLACES, k, (uint32_t)x);
     }
     if (carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) !=
@@ -746,7 +764,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     return CAROM_ERROR_OFF_TABLE;
 
   carom_place_ball(job->table, balls, (int)job->count, cue_ball, best[0].r[0], best[0].r[1], NULL);
-  const carom_status refused = check_layout(of, balls, job->cue);
+  const carom_status refused = check_layout(of, balls, true);
   if (refused != CAROM_OK)
     return refused;
 
@@ -782,6 +800,11 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
                                                : begin(of, job, false);
   if (bad != CAROM_OK)
     return bad;
+  for (int k = 0; k < n; k++) {
+    const carom_status wrong = check_stroke(&of->job, &cues[k]);
+    if (wrong != CAROM_OK)
+      return wrong;
+  }
   const int64_t each = shots_of(&of->options) / (n > 0 ? n : 1);
   for (int k = 0; k < n; k++) {
     of->count = 0;

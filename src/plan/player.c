@@ -29,8 +29,9 @@ carom_player carom_player_fargo(double rating) {
 
 carom_player carom_player_bounded(const carom_player *player) {
   carom_player bounded = *player;
-  bounded.speed_least = player->speed_least > 0.0 ? player->speed_least : 0.5;
-  bounded.speed_most = player->speed_most > 0.0 ? player->speed_most : 8.0;
+  const double least = player->speed_least, most = player->speed_most;
+  bounded.speed_least = least > 0.0 ? least : most > 0.0 && most < 0.5 ? most : 0.5;
+  bounded.speed_most = most > 0.0 ? most : least > 8.0 ? least : 8.0;
   bounded.tip_most = player->tip_most > 0.0 ? player->tip_most : 0.5;
   return bounded;
 }

@@ -247,7 +247,8 @@ carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, i
                              int ball) {
   if (table == NULL)
     return CAROM_ERROR_NULL;
-  const double step = 1e-3, x = 0.5 * table->width, foot = 0.75 * table->length;
+  const double x = 0.5 * table->width, foot = 0.75 * table->length;
+  const double step = table->length > 10.0 ? 1e-4 * table->length : 1e-3;
   carom_status status = CAROM_ERROR_OFF_TABLE;
   for (int side = 1; side >= -1; side -= 2)
     for (double y = foot; y > 0.0 && y < table->length; y += side * step) {

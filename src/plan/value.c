@@ -108,7 +108,10 @@ static double chance(const double *w, const double *x, int n) {
 /* What the layout does not tell of a: the player, and the mean over the balls. */
 static double later(const carom_view *view, int who, double mean) {
   const double x[LATER_NUMBERS] = {1.0, view->log_error[who], mean};
-  return view->given[who] > 0.0 ? view->given[who] : chance(later_numbers, x, LATER_NUMBERS);
+  const double least = 1e-3; /* between two who never pot the chain has no end */
+  const double a =
+      view->given[who] > 0.0 ? view->given[who] : chance(later_numbers, x, LATER_NUMBERS);
+  return a > least ? a : least;
 }
 
 void carom_view_make(carom_view *view, const carom_plan_job *job,

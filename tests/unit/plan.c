@@ -279,6 +279,13 @@ TEST(strokes_err) {
   /* 0.3 and 0.2 of 2 m/s make 0.5; five standard errors */
   ck_assert(fabs(sum / STROKES) < 5.0 * 2.0 / sqrt(STROKES));
   ck_assert(fabs(sqrt(squares / STROKES) - 0.5) < 5.0 * 0.5 / sqrt(2.0 * STROKES));
+
+  /* a bound that is beyond the other one's default */
+  const carom_player slow = {.speed_most = 0.3}, fast = {.speed_least = 9.0};
+  carom_cue made[2] = {{.speed = 0.1}, {.speed = 10.0}};
+  carom_player_strike(&slow, 1, 1, &made[0]);
+  carom_player_strike(&fast, 1, 1, &made[1]);
+  ck_assert(made[0].speed == 0.3 && made[1].speed == 9.0);
 }
 
 /* The chance to play on is that of shots which are played with errors of other seeds, within
@@ -498,6 +505,11 @@ TEST(values) {
   ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
   ck_assert_int_eq(carom_plan_value(&job, 1, &hand), CAROM_OK);
   ck_assert(easy > 0.85 && easy <= 1.0 && blocked < easy - 0.1 && hand > blocked);
+
+  /* players who pot next to nothing */
+  options.chance_me = options.chance_opponent = 1e-17;
+  ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
+  ck_assert(blocked >= 0.0 && blocked <= 1.0);
 }
 
 /* Where six balls are around the one, the player pushes out if he may; if he may pass, he does.
@@ -606,6 +618,7 @@ TEST(arguments_of_plans) {
   REFUSED(options.reserved[0], 1, CAROM_ERROR_OPTIONS);
   REFUSED(player.phi, -0.1, CAROM_ERROR_OPTIONS);
   REFUSED(player.speed, NAN, CAROM_ERROR_OPTIONS);
+  REFUSED(player.speed, 1001.0, CAROM_ERROR_OPTIONS);
   REFUSED(player.tip_most, 1.5, CAROM_ERROR_OPTIONS);
   REFUSED(rules.judge, NULL, CAROM_ERROR_OPTIONS);
   REFUSED(rules.race, 3, CAROM_ERROR_OPTIONS);
@@ -613,7 +626,20 @@ TEST(arguments_of_plans) {
   REFUSED(balls[1].state, balls[0].state, CAROM_ERROR_OVERLAP);
   REFUSED(cue.ball, BALLS, CAROM_ERROR_CUE_BALL);
   REFUSED(cue.mass, NAN, CAROM_ERROR_CUE_MASS);
+  REFUSED(cue.speed = 0.0; cue.mass, NAN, CAROM_ERROR_CUE_MASS);
+  REFUSED(balls[0].state.label, CAROM_BALL_POCKETED, CAROM_ERROR_CUE_BALL_OUT);
   make_layout(5, 6);
+  make_memory();
+
+  /* the stroke of the job's cue is not read, and those to be tried are */
+  cue.phi = NAN;
+  cue.speed = 0.0;
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  ck_assert_int_eq(carom_plan_try(&job, &cue, 1, &best), CAROM_ERROR_CUE_PHI);
+  const double low[2] = {0.9, 0.9}, high[2] = {0.5, 2.0}, no[2] = {NAN, 0.0};
+  ck_assert_int_eq(carom_plan_hand(&job, low, high, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
+  ck_assert_int_eq(carom_plan_hand(&job, no, NULL, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
+  edge_free(&memory);
   ck_assert_int_eq(carom_plan(&job, NULL, 1, &found), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_plan(NULL, &best, 1, &found), CAROM_ERROR_NULL);
   ck_assert_uint_eq(carom_plan_memory(&(carom_plan_options){.shots = 1}), 0);

@@ -1,0 +1,152 @@
+/* Plans, aims, players and rules with inputs made of the bytes of a fuzzer (draws.h). Aborts where
+ * the contract of carom_plan.h is broken: a choice that is not finite, or a chance that is none;
+ * choices that depend on threads or on what was in the memory before; bytes written with an error
+ * or beside the results. Crashes, hangs and undefined behaviour are for the fuzzer and the
+ * sanitizers to see. */
+#include "carom_plan.h"
+#include "draws.h"
+
+enum { ROOM = 4 };
+
+static carom_table table;
+static carom_shot_ball balls[CAROM_BALLS_MOST];
+static carom_player player, opponent;
+static carom_cue cue;
+static carom_plan_rules rules;
+static carom_shot_options shot;
+static carom_plan_options options;
+static carom_plan_job job;
+
+static carom_player make_player(void) {
+  carom_player p = choice(2) ? carom_player_of(number(0, 3)) : carom_player_fargo(number(300, 850));
+  if (choice(4) == 0)
+    (&p.speed)[choice(9)] = number(0, 1);
+  return p;
+}
+
+static void make_balls(void) {
+  const int count = 2 + choice(5);
+  job.count = choice(40) == 0 ? choice(256) - 128 : count;
+  memset(balls, 0, sizeof balls);
+  for (int k = 0; k < CAROM_BALLS_MOST; k++) {
+    balls[k].kind = carom_ball_kind_of(CAROM_GAME_POOL);
+    if (choice(64) == 0)
+      balls[k].kind.radius *= number(0.8, 1.2);
+    balls[k].state = (carom_ball_state){.r = {0, 0, -0.1}, .label = CAROM_BALL_POCKETED};
+    if (k < count && (k == 0 || choice(4) != 0))
+      carom_place_ball(&table, balls, CAROM_BALLS_MOST, k, number(0.05, table.width - 0.05),
+                       number(0.05, table.length - 0.05), NULL);
+  }
+  if (choice(16) == 0)
+    balls[choice(count)].state.r[choice(3)] = number(0, 1);
+}
+
+static void make_inputs(void) {
+  job = (carom_plan_job){.table = &table,
+                         .balls = balls,
+                         .cue = &cue,
+                         .player = &player,
+                         .rules = &rules,
+                         .shot = choice(4) ? &shot : NULL,
+                         .options = &options};
+  carom_table_make((carom_table_kind)choice(6), &table);
+  table.pockets = choice(32) == 0 ? choice(9) : table.pockets;
+  table.length = choice(32) == 0 ? number(0.5, 10) : table.length;
+  make_balls();
+  player = make_player();
+  opponent = make_player();
+  cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.ball = choice(16) == 0 ? choice(40) - 4 : 0;
+  rules = carom_plan_rules_of((carom_rules_kind)choice(4));
+  rules.user[choice(5)] = (uint64_t)choice(4);
+  rules.race = choice(32) == 0 ? choice(5) - 1 : rules.race;
+  shot = (carom_shot_options){.plain = choice(2), .space = choice(3)};
+
+  /* budgets of one stage, so that an input takes milliseconds */
+  options = (carom_plan_options){.shots = 100 + choice(8),
+                                 .seed = byte(),
+                                 .threads = choice(16) == 0 ? choice(5) - 2 : choice(3),
+                                 .opponent = choice(2) ? &opponent : NULL};
+  options.scan = choice(3) == 0 ? number(-0.5, 0.9) : 0;
+  options.chance_me = choice(4) == 0 ? number(0, 1) : 0;
+  options.chance_opponent = choice(4) == 0 ? number(0, 1) : 0;
+  static const volatile int32_t at_once = 1;
+  options.stop = choice(8) == 0 ? &at_once : NULL;
+  reserve(&options.reserved[choice(4)]);
+}
+
+static void check_choices(const carom_choice *c, int n) {
+  for (int k = 0; k < n; k++) {
+    const double chances[] = {c[k].value, c[k].keep, c[k].foul, c[k].lose};
+    const double finite[] = {c[k].cue.speed, c[k].cue.phi,  c[k].cue.theta, c[k].cue.a,
+                             c[k].cue.b,     c[k].place[0], c[k].place[1],  c[k].error};
+    expect(finite, sizeof finite / sizeof finite[0], true, "a choice");
+    for (int m = 0; m < 4; m++)
+      if (!(chances[m] >= -1e-9 && chances[m] <= 1 + 1e-9))
+        fail("a chance is none");
+  }
+}
+
+/* One of the three plans, in memory of its own that was filled with a byte. */
+static carom_status plan(int which, int fill, const carom_cue *cues, const double *low,
+                         const double *high, carom_choice *choices, int *found) {
+  carom_plan_job own = job;
+  own.memory_size = carom_plan_memory(job.options);
+  own.memory = malloc(own.memory_size + 1);
+  memset(own.memory, fill, own.memory_size);
+  memset(choices, GUARD, (ROOM + 1) * sizeof *choices);
+  *found = which == 2 ? ROOM : 0;
+  const carom_status status = which == 0   ? carom_plan(&own, choices, ROOM, found)
+                              : which == 1 ? carom_plan_hand(&own, low, high, choices, ROOM, found)
+                                           : carom_plan_try(&own, cues, ROOM, choices);
+  free(own.memory);
+  return status;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  begin(data, size);
+  make_inputs();
+  carom_cue cues[ROOM], aimed = cue;
+  for (int k = 0; k < ROOM; k++) {
+    cues[k] = cue;
+    cues[k].speed = number(0.5, 8);
+    cues[k].phi = number(0, 360);
+    cues[k].b = number(-0.5, 0.5);
+  }
+  const double low[2] = {number(0, 1), number(0, 1)}, high[2] = {number(0, 1), number(0, 2)};
+  const int which = choice(3);
+  carom_choice choices[ROOM + 1], again[ROOM + 1];
+  int found, found_again;
+  const carom_status status = plan(which, 0, cues, low, high, choices, &found);
+  if (status > 0 || carom_status_string(status)[0] == '\0')
+    fail("the status of a plan");
+  if (status != CAROM_OK)
+    found = 0;
+  else if (found < 1 || found > ROOM)
+    fail("the number of choices");
+  check_choices(choices, found);
+  unwritten(&choices[found], (size_t)(ROOM + 1 - found) * sizeof *choices, "a plan writes beside");
+
+  /* Neither threads nor what was in the memory count. */
+  if (status == CAROM_OK)
+    options.threads = 1 + choice(5);
+  if (plan(which, 0xff, cues, low, high, again, &found_again) != status ||
+      memcmp(choices, again, sizeof again) != 0)
+    fail("a plan depends on threads or memory");
+
+  double value = 0;
+  const int in_hand = choice(2);
+  if (carom_plan_value(&job, in_hand, &value) == CAROM_OK && !(value >= -1e-9 && value <= 1 + 1e-9))
+    fail("carom_plan_value is no chance");
+
+  carom_pot pot = {.ball = choice(6), .pocket = choice(8) - 1, .vias = choice(12) == 0};
+  aimed.speed = number(0.5, 8);
+  pot.via[0] = (carom_part){choice(4), choice(20) - 1};
+  if (carom_aim(&table, balls, (int)job.count, &shot, &pot, &aimed) == CAROM_OK) {
+    const double seen[] = {pot.cut,      pot.margin,   pot.phi[0], pot.phi[1],
+                           pot.speed[0], pot.speed[1], aimed.phi};
+    expect(seen, sizeof seen / sizeof seen[0], true, "carom_aim");
+  }
+  carom_spot_ball(&table, balls, CAROM_BALLS_MOST, choice(CAROM_BALLS_MOST));
+  return 0;
+}
