@@ -34,8 +34,8 @@ static void make_balls(void) {
       balls[k].kind.radius *= number(0.8, 1.2);
     balls[k].state = (carom_ball_state){.r = {0, 0, -0.1}, .label = CAROM_BALL_POCKETED};
     if (k < count && (k == 0 || choice(4) != 0))
-      carom_place_ball(&table, balls, CAROM_BALLS_MOST, k, number(0.05, table.width - 0.05),
-                       number(0.05, table.length - 0.05), NULL);
+      carom_place_ball(&table, balls, CAROM_BALLS_MOST, k, table.width * byte() / 255.0,
+                       table.length * byte() / 255.0, NULL);
   }
   if (choice(16) == 0)
     balls[choice(count)].state.r[choice(3)] = number(0, 1);
@@ -49,7 +49,7 @@ static void make_inputs(void) {
                          .rules = &rules,
                          .shot = choice(4) ? &shot : NULL,
                          .options = &options};
-  carom_table_make((carom_table_kind)choice(6), &table);
+  carom_table_make((carom_table_kind)choice(choice(8) == 0 ? 6 : 3), &table);
   table.pockets = choice(32) == 0 ? choice(9) : table.pockets;
   table.length = choice(32) == 0 ? number(0.5, 10) : table.length;
   make_balls();
@@ -60,7 +60,7 @@ static void make_inputs(void) {
   rules = carom_plan_rules_of((carom_rules_kind)choice(4));
   rules.user[choice(5)] = (uint64_t)choice(4);
   rules.race = choice(32) == 0 ? choice(5) - 1 : rules.race;
-  shot = (carom_shot_options){.plain = choice(2), .space = choice(3)};
+  shot = (carom_shot_options){.plain = choice(2), .space = choice(16) == 0 ? 2 : choice(2)};
 
   /* budgets of one stage, so that an input takes milliseconds */
   options = (carom_plan_options){.shots = 100 + choice(8),
@@ -105,6 +105,7 @@ static carom_status plan(int which, int fill, const carom_cue *cues, const doubl
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   begin(data, size);
+  tame = choice(4) != 0; /* else almost all is refused */
   make_inputs();
   carom_cue cues[ROOM], aimed = cue;
   for (int k = 0; k < ROOM; k++) {
