@@ -1,6 +1,6 @@
 """A bot for a game of your own: one pocket. Each player has one of the pockets at the foot of the table, and wins with eight balls in it.
 
-The rules are four methods; the library plans by them and judges by them. A foul costs a ball; balls in other pockets come back.
+The rules are four methods; the library plans by them and judges by them. A foul costs a ball, which comes back; so do balls in other pockets.
 
     python one_pocket.py
 """
@@ -30,7 +30,9 @@ class OnePocket(carom.Rules):
         foul = facts.foul(self.on(state, in_play))
         balls = {side: [k for k, pocket in facts.potted.items() if k and pocket == POCKETS[side]] for side in (0, 1)}
         own, other = balls[state[0]], balls[1 - state[0]]
-        spot = [k for k in facts.potted if k and k not in own + other] + ([] if not foul else own)
+        spot = {k for k in (*facts.potted, *facts.off) if k and k not in other and (foul or k not in own)}
+        if foul and state[1]:
+            spot.add(min(set(range(1, 16)) - in_play))  # one of those that were down
         scores = [max(state[1] - 1, 0) if foul else state[1] + len(own), state[2] + len(other)]
         if max(scores) >= 8:
             return carom.Turn("win" if scores[0] >= 8 else "lose", foul=foul)
@@ -44,12 +46,11 @@ class OnePocket(carom.Rules):
 table = carom.tables.pool_9ft()
 layout, state, hand = carom.racks.eightball(table, seed=3), np.zeros(8, np.uint64), "no"
 players = carom.player(fargo=750), carom.player(fargo=450)
-head = [[0.0, 0.0], [table.width, table.length / 4.0]]
 for stroke in range(300):
     player = int(state[0])
     best = carom.plan(
         table, layout, rules=OnePocket(), state=state, player=players[player], opponent=players[1 - player], shots=300, seed=stroke, plain=True,
-        in_hand=head if hand == "kitchen" else False,
+        in_hand=hand,
     )[0]  # fmt: skip
     if hand == "kitchen":
         layout = carom.place_ball(table, layout, 0, *best["place"])

@@ -188,6 +188,30 @@ def test_rules_of_ones_own():
     assert there.turn == "pass" and there.balls["state"]["r"][1, :2].tolist() == [TABLE.width / 2, 0.75 * TABLE.length]
 
 
+@pytest.mark.parametrize(
+    ("method", "gives", "match"),
+    [
+        ("judge", None, "judge: it must return a carom.Turn, not None"),
+        ("judge", carom.Turn("passes"), "Turn.turn: must be one of 'keep', 'pass', 'win', 'lose', not 'passes'"),
+        ("judge", carom.Turn("pass", spot=[99]), "Turn.spot: it must be a whole number from 0 to 31, not 99"),
+        ("judge", carom.Turn("pass", spot=[30]), "Turn.spot: there are 16 balls, none is 30"),
+        ("judge", carom.Turn("pass", spot=[0, 1]), r"Turn.spot: balls come back that are down or off the table, not the cue ball, and not \[0, 1\]"),
+        ("left", (-1, 8), "left: it must be a whole number from 0"),
+        ("pockets", {9}, "pockets: it must be a whole number from 0 to 7, not 9"),
+        ("pockets", {"foot-left"}, "pockets: it must be a whole number from 0 to 7, not 'foot-left'"),
+        ("on", {-1}, "on: it must be a whole number from 0 to 31, not -1"),
+    ],
+)
+def test_what_rules_cannot_say(method, gives, match):
+    layout = carom.racks.eightball(TABLE, seed=1)
+    wrong = type("Wrong", (Corner,), {method: lambda *_: gives})()
+    with pytest.raises((ValueError, TypeError), match=match):
+        if method == "judge":
+            carom.referee(TABLE, layout, carom.cue(speed=0.6, phi=90.0), rules=wrong)
+        else:
+            carom.plan(TABLE, layout, rules=wrong, shots=100)
+
+
 def test_the_bot_for_one_pocket(capsys):
     runpy.run_path(str(Path(__file__).parents[1] / "examples" / "one_pocket.py"))
     told = capsys.readouterr().out.splitlines()
@@ -203,8 +227,14 @@ def test_errors_of_rules():
         carom.plan(TABLE, LAYOUT, rules=Wrong(), shots=100)
     with pytest.raises(KeyError, match="a mistake of the caller"):
         carom.referee(TABLE, LAYOUT, carom.cue(speed=1.0), rules=Wrong())
-    with pytest.raises(NotImplementedError):
+    with pytest.raises(NotImplementedError, match="Rules needs the method on"):
         carom.plan(TABLE, LAYOUT, rules=carom.Rules(), shots=100)
+    with pytest.raises(ValueError, match=r"rules: give a game, Corner\(\), not the class Corner"):
+        carom.plan(TABLE, LAYOUT, rules=Corner, shots=100)
+    with pytest.raises(ValueError, match="a plan needs the cue ball and one more"):
+        carom.plan(TABLE, LAYOUT[:1], shots=100)
+    with pytest.raises(ValueError, match="in_hand: must be one of 'no', 'anywhere', 'kitchen'"):
+        carom.plan(TABLE, LAYOUT, in_hand="head", shots=100)
     with pytest.raises(ValueError, match="state: 8 whole numbers"):
         carom.plan(TABLE, LAYOUT, state=[1, 2])
     with pytest.raises(carom.CaromError):

@@ -11,11 +11,11 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import Array, copied, pointer, whole
+from carom._rows import Array, choice, copied, pointer, whole
 from carom._shot_options import Options, shot_options
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
-from carom.rules import Game, Group, Made, Rules
+from carom.rules import Game, Group, Hand, Made, Rules
 from carom.status import CaromError
 
 if TYPE_CHECKING:
@@ -155,13 +155,16 @@ def _one_player(given: dtypes.Records, name: str = "player") -> Any:
     return pointer("carom_player[]", record)
 
 
-def _corners(in_hand: bool | npt.ArrayLike) -> dtypes.Doubles | None:
+def _corners(in_hand: bool | Hand | npt.ArrayLike, table: Table) -> dtypes.Doubles | None:
     """The corners between which the cue ball is put; None: anywhere."""
+    if isinstance(in_hand, str):
+        choice({"no": 0, "anywhere": 1, "kitchen": 2}, in_hand, "in_hand")
+        in_hand = [[0.0, 0.0], [table.width, table.length / 4.0]] if in_hand == "kitchen" else True
     if in_hand is True:
         return None
     corners: dtypes.Doubles = np.ascontiguousarray(in_hand, dtype=np.float64)
     if corners.shape != (2, 2) or not (corners[0] <= corners[1]).all():
-        raise ValueError(f"in_hand: True, False or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}")
+        raise ValueError(f"in_hand: True, False, the hand of a ruling or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}")
     return corners
 
 
@@ -177,7 +180,7 @@ def plan(
     player: dtypes.Records | None = None,
     opponent: dtypes.Records | None = None,
     shots: int = 2000,
-    in_hand: bool | npt.ArrayLike = False,
+    in_hand: bool | Hand | npt.ArrayLike = False,
     best: int = 5,
     seed: int = 0,
     threads: int = 0,
@@ -208,8 +211,9 @@ def plan(
         Default: he errs as the player does.
     shots : int
         That the plan plays, about: 100 to 1,000,000.
-    in_hand : bool or array_like, shape (2, 2)
-        Whether the cue ball is in hand: `place` of the choices then says where to put it. Two corners (m) of a rectangle: there alone.
+    in_hand : bool, {"no", "anywhere", "kitchen"} or array_like, shape (2, 2)
+        Whether the cue ball is in hand, as `hand` of a ruling: `place` of the choices then says where to put it. Two corners (m) of a
+        rectangle: there alone.
     best : int
         How many choices at most.
     seed : int
@@ -233,7 +237,10 @@ def plan(
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
-    corners = None if in_hand is False else _corners(in_hand)
+    if len(layout) < 2:
+        raise ValueError("balls: a plan needs the cue ball and one more")
+    in_hand = False if isinstance(in_hand, str) and in_hand == "no" else in_hand
+    corners = None if in_hand is False else _corners(in_hand, table)
     strike = copied(one_cue(usual_cue() if cue is None else cue))
     shot = shot_options(options.changed(changes))
     wanted = ffi.new("carom_plan_options *", {"shots": whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})

@@ -30,7 +30,7 @@ State = npt.NDArray[np.uint64]
 Hand = Literal["no", "anywhere", "kitchen"]
 _GAMES = {"eightball": 0, "nineball": 1, "potting": 2}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
-_TURNS = ("keep", "pass", "win", "lose")
+_TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
 _LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3}
 _RACES = {"own": 0, "shared": 1, "alone": 2}
 _WORDS = 8
@@ -56,8 +56,8 @@ class Foul(enum.IntEnum):
         return str(ffi.string(lib.carom_foul_string(self)).decode())
 
 
-def _set_of(balls: Collection[int]) -> int:
-    return sum(1 << int(ball) for ball in set(balls))
+def _set_of(balls: Collection[int], name: str = "on", most: int = 31) -> int:
+    return sum(1 << whole(ball, name, most=most) for ball in set(balls))
 
 
 def _of_set(bits: int) -> frozenset[int]:
@@ -88,13 +88,18 @@ def _facts(record: Any) -> Facts:
 
 @dataclass(frozen=True)
 class Turn:
-    """What a shot amounts to, from `Rules.judge`."""
+    """What a shot amounts to, from `Rules.judge`: the fields are its arguments.
 
-    turn: Literal["keep", "pass", "win", "lose"]  # "pass": the other plays
-    leave: Literal["after", "before", "anywhere", "kitchen"] = "after"  # The next layout: as it is, taken back, or with ball in hand
-    foul: int = 0  # As `Foul`
-    spot: Collection[int] = ()  # Balls that come back to the foot spot
-    points: float = 0.0  # Of the shot; they count without an opponent only
+    `turn`: who plays, or how the game ends; "pass": the other plays. `leave`: his layout: as it is "after" the shot, as "before" it, or with
+    the cue ball in hand, "anywhere" or in the "kitchen" behind the head string. `foul`: a `Foul`. `spot`: balls that come back to the foot
+    spot: any that are down or off the table, but the cue ball. `points`: of the shot; they count without an opponent only.
+    """
+
+    turn: Literal["keep", "pass", "win", "lose"]
+    leave: Literal["after", "before", "anywhere", "kitchen"] = "after"
+    foul: int = 0
+    spot: Collection[int] = ()
+    points: float = 0.0
 
 
 class Rules:
@@ -113,18 +118,18 @@ class Rules:
 
     def on(self, state: list[int], in_play: frozenset[int]) -> Collection[int]:
         """The balls that may be met first, and potted."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{type(self).__name__} needs the method on(state, in_play)")
 
     def judge(self, state: list[int], in_play: frozenset[int], facts: Facts, call: tuple[int, int]) -> Turn:
         """What a shot amounts to; `in_play` were the balls before it, `call` is a ball and its pocket, or (-1, -1)."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{type(self).__name__} needs the method judge(state, in_play, facts, call)")
 
     def left(self, state: list[int], in_play: frozenset[int]) -> tuple[int, int]:
         """How many balls the player at the table, and the other, have to pot to win."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{type(self).__name__} needs the method left(state, in_play)")
 
     def pockets(self, state: list[int]) -> Collection[int]:
-        """The pockets in which balls count, by their indices. Default: all."""
+        """The pockets in which balls count, by their indices in `table.pocket_names`. Default: all."""
         return range(8)
 
 
@@ -133,6 +138,8 @@ class Made:
 
     def __init__(self, rules: Game | Rules, state: npt.ArrayLike | None, group: Group = "open", opening: bool = False) -> None:
         self.raised: BaseException | None = None
+        if isinstance(rules, type) and issubclass(rules, Rules):
+            raise ValueError(f"rules: give a game, {rules.__name__}(), not the class {rules.__name__}")
         if isinstance(rules, Rules):
             self.c = ffi.new("carom_plan_rules *")
             self._functions(rules)
@@ -161,19 +168,25 @@ class Made:
         def judge(user: Any, in_play: int, cue_ball: int, facts: Any, call: Any) -> Any:
             state = list(user[0:_WORDS])
             turn = rules.judge(state, _of_set(in_play), _facts(facts), (call.ball, call.pocket))
-            user[0:_WORDS] = state
-            made = ffi.new("carom_turn *", {"is": _TURNS.index(turn.turn), "leave": choice(_LEAVES, turn.leave, "leave")})
-            made.foul, made.spot, made.points = int(turn.foul), _set_of(turn.spot), turn.points
+            if not isinstance(turn, Turn):
+                raise TypeError(f"judge: it must return a carom.Turn, not {turn!r}")
+            user[0:_WORDS] = [whole(word, f"judge: state[{k}]", most=2**64 - 1) for k, word in enumerate(state)]
+            made = ffi.new("carom_turn *", {"is": choice(_TURNS, turn.turn, "Turn.turn"), "leave": choice(_LEAVES, turn.leave, "Turn.leave")})
+            made.foul, made.spot, made.points = int(turn.foul), _set_of(turn.spot, "Turn.spot"), turn.points
+            there = _of_set(made.spot & (in_play & ~(facts.down | facts.off) | 1))
+            if there:
+                raise ValueError(f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(there)}")
             return made[0]
 
         def left(user: Any, in_play: int, out: Any) -> None:
-            out[0:2] = rules.left(list(user[0:_WORDS]), _of_set(in_play))
+            own, other = rules.left(list(user[0:_WORDS]), _of_set(in_play))
+            out[0:2] = whole(own, "left"), whole(other, "left")
 
         def on(user: Any, in_play: int) -> int:
             return _set_of(rules.on(list(user[0:_WORDS]), _of_set(in_play)))
 
         def pockets(user: Any) -> int:
-            return _set_of(rules.pockets(list(user[0:_WORDS])))
+            return _set_of(rules.pockets(list(user[0:_WORDS])), "pockets", lib.CAROM_POCKETS_MOST - 1)
 
         lost = ffi.new("carom_turn *", {"is": lib.CAROM_TURN_LOSE})[0]
         self.kept = (
@@ -267,12 +280,14 @@ def referee(
     if not failed and turn["leave"] != lib.CAROM_LEAVE_BEFORE:
         after["state"] = shots.final[0]
     for ball in _of_set(int(turn["spot"])):
+        if ball >= len(after):
+            raise ValueError(f"Turn.spot: there are {len(after)} balls, none is {ball}")
         code = lib.carom_spot_ball(pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", after), len(after), ball)
         if code < 0:
             raise CaromError(code, f"balls[{ball}]", text="there is no room for it on the long string")
     hands: dict[int, Hand] = {lib.CAROM_LEAVE_HAND: "anywhere", lib.CAROM_LEAVE_KITCHEN: "kitchen"}
     down = sorted(_of_set(int(facts["down"])), key=lambda ball: facts["pocket_time"][ball])
     return Ruling(
-        _TURNS[turn["is"]], Foul(int(turn["foul"])), hands.get(int(turn["leave"]), "no"), tuple(down), -1 if failed else int(facts["first"][0]),
+        tuple(_TURNS)[turn["is"]], Foul(int(turn["foul"])), hands.get(int(turn["leave"]), "no"), tuple(down), -1 if failed else int(facts["first"][0]),
         float(turn["points"]), after, states[0], shots[0],
     )  # fmt: skip
