@@ -62,7 +62,7 @@ typedef struct outcome {
 } outcome;
 
 /* What a part of the rows needs while it is played. */
-enum { UNIT = 64 }; /* rows worth a thread, which begin a part */
+enum { UNIT = 16 }; /* rows worth a thread, which begin a part */
 typedef struct scratch {
   carom_facts facts;
   carom_ball_state final[CAROM_BALLS_MOST];
