@@ -262,7 +262,7 @@ typedef struct carom_choice {
 /* The position for which a plan is made. */
 typedef struct carom_plan_job {
   const carom_table *table;
-  const carom_shot_ball *balls; /* the layout, at rest. */
+  const carom_shot_ball *balls; /* the layout, at rest; else every shot is a foul. */
   int64_t count;                /* 2 to CAROM_BALLS_MOST. */
   const carom_cue *cue;         /* its ball, masses, tip and miscue; the stroke itself is not
                                    read. */

@@ -136,6 +136,12 @@ static carom_call call_of(const plan *of, const carom_facts *facts) {
   return call;
 }
 
+/* Of the balls left before the shot; rules that then have more left, or more points than balls,
+ * give at most all. */
+static double share(const plan *of, double points) {
+  return within(points / of->left, 0.0, 1.0);
+}
+
 /* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
  * `final` is changed. */
 static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state *final,
@@ -168,7 +174,7 @@ static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state 
     return o;
   }
   if (alone && turn.is == CAROM_TURN_PASS) {
-    o.worth = turn.points / of->left;
+    o.worth = share(of, turn.points);
     return o;
   }
 
@@ -189,7 +195,7 @@ static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state 
   const bool in_hand = turn.leave == CAROM_LEAVE_HAND || turn.leave == CAROM_LEAVE_KITCHEN;
   const bool passes = turn.is == CAROM_TURN_PASS;
   const double value = carom_value_of(&of->view, user, final, passes, in_hand);
-  o.worth = passes ? 1.0 - value : alone ? (turn.points + value) / of->left : value;
+  o.worth = passes ? 1.0 - value : alone ? share(of, turn.points + value) : value;
   return o;
 }
 
@@ -831,6 +837,6 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
     return bad;
   const double found = carom_value_of(&of.view, job->rules->user, of.state, 0, in_hand != 0);
   *value =
-      job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL ? found / of.left : found;
+      job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL ? share(&of, found) : found;
   return CAROM_OK;
 }

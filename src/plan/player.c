@@ -18,7 +18,8 @@ carom_player carom_player_of(double scale) {
  * docs/understanding/plan.md has the run-outs from which they follow; build/carom-lab plan --racks
  * 1000 --shots 300 --errors E makes one of them again. */
 carom_player carom_player_fargo(double rating) {
-  static const double errors[] = {12.4, 8.5, 5.8, 4.1, 3.06, 2.48, 1.99, 1.51, 1.15, 0.81, 0.52, 0.33};
+  static const double errors[] = {12.4, 8.5,  5.8,  4.1,  3.06, 2.48,
+                                  1.99, 1.51, 1.15, 0.81, 0.52, 0.33};
   enum { LAST = sizeof errors / sizeof errors[0] - 1 };
   double at = (rating - 300.0) / 50.0;
   at = at > 0.0 ? at : 0.0;

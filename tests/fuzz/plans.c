@@ -33,6 +33,8 @@ static void make_balls(void) {
     if (choice(64) == 0)
       balls[k].kind.radius *= number(0.8, 1.2);
     balls[k].state = (carom_ball_state){.r = {0, 0, -0.1}, .label = CAROM_BALL_POCKETED};
+  }
+  for (int k = 0; k < CAROM_BALLS_MOST; k++) {
     if (k < count && (k == 0 || choice(4) != 0))
       carom_place_ball(&table, balls, CAROM_BALLS_MOST, k, table.width * byte() / 255.0,
                        table.length * byte() / 255.0, NULL);
@@ -140,9 +142,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (carom_plan_value(&job, in_hand, &value) == CAROM_OK && !(value >= -1e-9 && value <= 1 + 1e-9))
     fail("carom_plan_value is no chance");
 
-  carom_pot pot = {.ball = choice(6), .pocket = choice(8) - 1, .vias = choice(12) == 0};
+  carom_pot pot = {.ball = choice(6), .pocket = choice(8) - 1, .vias = choice(4) ? 0 : choice(6)};
   aimed.speed = number(0.5, 8);
-  pot.via[0] = (carom_part){choice(4), choice(20) - 1};
+  for (int k = 0; k < CAROM_VIA_MOST; k++)
+    pot.via[k] = (carom_part){choice(4), choice(20) - 1};
   if (carom_aim(&table, balls, (int)job.count, &shot, &pot, &aimed) == CAROM_OK) {
     const double seen[] = {pot.cut,      pot.margin,   pot.phi[0], pot.phi[1],
                            pot.speed[0], pot.speed[1], aimed.phi};
