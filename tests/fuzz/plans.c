@@ -62,7 +62,8 @@ static void make_inputs(void) {
   rules = carom_plan_rules_of((carom_rules_kind)choice(4));
   rules.user[choice(5)] = (uint64_t)choice(4);
   rules.race = choice(32) == 0 ? choice(5) - 1 : rules.race;
-  shot = (carom_shot_options){.plain = choice(2), .space = choice(16) == 0 ? 2 : choice(2)};
+  shot = (carom_shot_options){.plain = choice(2),
+                              .space = (carom_space)(choice(16) == 0 ? 2 : choice(2))};
 
   /* budgets of one stage, so that an input takes milliseconds */
   options = (carom_plan_options){.shots = 100 + choice(8),
@@ -145,7 +146,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   carom_pot pot = {.ball = choice(6), .pocket = choice(8) - 1, .vias = choice(4) ? 0 : choice(6)};
   aimed.speed = number(0.5, 8);
   for (int k = 0; k < CAROM_VIA_MOST; k++)
-    pot.via[k] = (carom_part){choice(4), choice(20) - 1};
+    pot.via[k] = (carom_part){(carom_part_kind)choice(4), choice(20) - 1};
   if (carom_aim(&table, balls, (int)job.count, &shot, &pot, &aimed) == CAROM_OK) {
     const double seen[] = {pot.cut,      pot.margin,   pot.phi[0], pot.phi[1],
                            pot.speed[0], pot.speed[1], aimed.phi};
