@@ -3,8 +3,14 @@
  * A ball's horizon is the earlier of the end of its phase and its meeting with the table: it has
  * another path after that at the latest, and is looked at again. So pairs are searched up to the
  * nearer of two horizons only. Most things are rejected without solving: features of the table
- * by boxes; pairs along the line of centres, where n . d(t) > R_i + R_j on the whole way, n =
- * d(0)/|d(0)|. */
+ * by boxes, then all by their chords.
+ *
+ * CHORD. On [0, T] the separation d = p + e t + a t^2 has the chord T c, c = e + T a, and differs
+ * from it by -a t (T - t), which is a T^2/4 at most. So it stays farther from the origin than
+ *
+ *   (|p x c| - |a x e| T^2/4) / |c|               across the chord, and along it
+ *   (p . c - |a . c| T^2/4) / |c|                 where it leads away, or
+ *   (-(p + T c) . c - |a . c| T^2/4) / |c|        where it ends before it comes near. */
 #include "motion/gap.h"
 #include "shot/rules.h"
 
@@ -62,30 +68,33 @@ static carom_separation from_point(const double centre[2], const motion *m) {
                             {m->a[0], m->a[1], 0.0}};
 }
 
-/* Whether n . d(t) > reach on [0, T]: see above. */
-static bool stays_away(const carom_separation *d, double reach, double T) {
-  const double c0 = d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1], l = sqrt(c0);
-  const double h0 = c0 - reach * l, h1 = d->d0[0] * d->d1[0] + d->d0[1] * d->d1[1],
-               h2 = d->d0[0] * d->d2[0] + d->d0[1] * d->d2[1];
-  const double turn = h2 > 0.0 ? carom_lesser(carom_greater(-h1 / (2.0 * h2), 0.0), T) : T;
-  return h0 > 1e-12 * reach * reach && h0 + T * (h1 + T * h2) > 0.0 &&
-         h0 + turn * (h1 + turn * h2) > 0.0;
+/* Positive where a path p + e t + a t^2 surely stays farther from the origin than `reach` on [0,
+ * T]: see CHORD. In squares, times |c|^2; a part in 1e9 of reach^2 is for rounding. */
+static inline double clearance(const double p[2], const double e[2], const double a[2],
+                               double reach, double T) {
+  const double c_x = e[0] + T * a[0], c_y = e[1] + T * a[1], square = c_x * c_x + c_y * c_y;
+  const double quarter = 0.25 * T * T, along = p[0] * c_x + p[1] * c_y;
+  const double bulge = quarter * fabs(a[0] * c_x + a[1] * c_y);
+  const double before = -along - T * square;
+  const double off = fabs(p[0] * c_y - p[1] * c_x) - quarter * fabs(a[0] * e[1] - a[1] * e[0]);
+  const double gap = (along > before ? along : before) - bulge, most = off > gap ? off : gap;
+  return most * fabs(most) - (1.0 + 1e-9) * reach * reach * square;
 }
 
 static double meet_jaw(const carom_sim *sim, int k, double radius, const motion *m, double T) {
   const carom_jaw *jaw = &sim->table->jaw[k];
   const carom_separation d = from_point(jaw->centre, m);
   const double reach = jaw->radius + radius;
-  if (stays_away(&d, reach, T))
-    return INFINITY;
-  return sim->rules->touch_jaw(&d, reach, T);
+  return clearance(d.d0, d.d1, d.d2, reach, T) > 0.0 ? INFINITY
+                                                     : sim->rules->touch_jaw(&d, reach, T);
 }
 
 static double meet_pocket(const carom_sim *sim, int k, const motion *m, double T) {
   const carom_pocket *pocket = &sim->table->pocket[k];
   const carom_separation d = from_point(pocket->centre, m);
-  return stays_away(&d, pocket->radius, T) ? INFINITY
-                                           : sim->rules->enter_pocket(&d, pocket->radius, T);
+  return clearance(d.d0, d.d1, d.d2, pocket->radius, T) > 0.0
+             ? INFINITY
+             : sim->rules->enter_pocket(&d, pocket->radius, T);
 }
 
 /* When the centre leaves the hull, up to T; or infinity. */
@@ -116,16 +125,20 @@ meet_table_as(const carom_sim *sim, int i, const motion *m, double T, const bool
     range_of(m->r[1], m->v[1], m->a[1], T, &low_y, &high_y);
   }
   const float lx = (float)low_x, hx = (float)high_x, ly = (float)low_y, hy = (float)high_y;
-  uint8_t near[MOST_FEATURES];
+  uint8_t is_near[MOST_FEATURES], near[MOST_FEATURES];
   for (int k = 0; k < f->count; k++)
-    near[k] =
+    is_near[k] =
         (f->low_x[k] <= hx) & (f->high_x[k] >= lx) & (f->low_y[k] <= hy) & (f->high_y[k] >= ly);
+  int count = 0; /* listed without branches */
+  for (int k = 0; k < f->count; k++) {
+    near[count] = (uint8_t)k;
+    count += is_near[k];
+  }
   const double radius = sim->rates[i].radius;
   /* each narrows the horizon of those behind it; a pocket goes first where it comes at the same
    * time */
-  for (int k = 0; k < f->count; k++) {
-    if (!near[k])
-      continue;
+  for (int at = 0; at < count; at++) {
+    const int k = near[at];
     const int jaw = k - f->rails, pocket = jaw - f->jaws;
     const int type = jaw < 0 ? CAROM_EVENT_RAIL : pocket < 0 ? CAROM_EVENT_JAW : CAROM_EVENT_POCKET;
     /* how far from the line of a rail, or beyond the circle of a jaw, the ball touches it */
@@ -154,82 +167,52 @@ static carom_meeting meet_table(const carom_sim *sim, int i, const motion *m, do
   return sim->unlike ? meet_table_unlike(sim, i, m, T) : meet_table_as(sim, i, m, T, false);
 }
 
-/* When balls i and j meet; their separation is d from now on. */
-static inline double meet_ball(const carom_sim *sim, const carom_separation *d, double reach,
-                               double T, bool space) {
-  return space ? carom_first_contact_in_space(d, reach, T) : sim->rules->touch_ball(d, reach, T);
+/* When balls i and j meet, up to T from now on. */
+static double meet_ball(const carom_sim *sim, int i, const motion *a, int j, double T) {
+  const motion b = motion_now(sim, j);
+  carom_separation d = {{b.r[0] - a->r[0], b.r[1] - a->r[1], 0.0},
+                        {b.v[0] - a->v[0], b.v[1] - a->v[1], 0.0},
+                        {b.a[0] - a->a[0], b.a[1] - a->a[1], 0.0}};
+  const double reach = sim->rates[i].radius + sim->rates[j].radius;
+  if (!carom_in_space(sim))
+    return sim->rules->touch_ball(&d, reach, T);
+  const double t = sim->now - sim->start[j], own = sim->now - sim->start[i];
+  d.d0[2] = sim->z[j] + t * (sim->v_z[j] + t * sim->a_z[j]) -
+            (sim->z[i] + own * (sim->v_z[i] + own * sim->a_z[i]));
+  d.d1[2] = sim->v_z[j] + 2.0 * t * sim->a_z[j] - (sim->v_z[i] + 2.0 * own * sim->a_z[i]);
+  d.d2[2] = sim->a_z[j] - sim->a_z[i];
+  return carom_first_contact_in_space(&d, reach, T);
 }
 
-/* Pairs of ball i with all others: rejected in one loop that compilers turn into vectors, then
- * solved. `space`, a constant: with the third coordinate and each ball's own radius. Two balls
- * on the cloth have the same result with it as without. */
-static inline __attribute__((always_inline)) void meet_balls_as(carom_sim *sim, int i,
-                                                                const bool space) {
+/* Pairs of ball i with all others but `done`: rejected in one loop that compilers turn into
+ * vectors, then solved. */
+static void meet_balls(carom_sim *sim, int i, int done) {
   const motion m = motion_now(sim, i);
   const int n = sim->count;
-  const double now = sim->now, radius = sim->rates[i].radius, twice = 2.0 * radius,
-               horizon = sim->horizon[i] - now;
-  const double own = now - sim->start[i],
-               own_z = space ? sim->z[i] + own * (sim->v_z[i] + own * sim->a_z[i]) : 0.0,
-               own_v = space ? sim->v_z[i] + 2.0 * own * sim->a_z[i] : 0.0;
-  double d_x[CAROM_BALLS_MOST], d_y[CAROM_BALLS_MOST], e_x[CAROM_BALLS_MOST], e_y[CAROM_BALLS_MOST];
-  double d_z[CAROM_BALLS_MOST], e_z[CAROM_BALLS_MOST], reach[CAROM_BALLS_MOST];
-  double least[CAROM_BALLS_MOST], until[CAROM_BALLS_MOST];
+  const double now = sim->now, horizon = sim->horizon[i] - now,
+               reach = sim->rates[i].radius + sim->widest;
+  double clear[CAROM_BALLS_MOST], until[CAROM_BALLS_MOST];
   for (int j = 0; j < n; j++) {
     const double t = now - sim->start[j];
-    d_x[j] = sim->x[j] + t * (sim->v_x[j] + t * sim->a_x[j]) - m.r[0];
-    d_y[j] = sim->y[j] + t * (sim->v_y[j] + t * sim->a_y[j]) - m.r[1];
-    e_x[j] = sim->v_x[j] + 2.0 * t * sim->a_x[j] - m.v[0];
-    e_y[j] = sim->v_y[j] + 2.0 * t * sim->a_y[j] - m.v[1];
-    const double a_x = sim->a_x[j] - m.a[0], a_y = sim->a_y[j] - m.a[1];
+    const double p[2] = {sim->x[j] + t * (sim->v_x[j] + t * sim->a_x[j]) - m.r[0],
+                         sim->y[j] + t * (sim->v_y[j] + t * sim->a_y[j]) - m.r[1]};
+    const double e[2] = {sim->v_x[j] + 2.0 * t * sim->a_x[j] - m.v[0],
+                         sim->v_y[j] + 2.0 * t * sim->a_y[j] - m.v[1]};
+    const double a[2] = {sim->a_x[j] - m.a[0], sim->a_y[j] - m.a[1]};
     const double T0 = sim->horizon[j] - now, T = T0 < horizon ? T0 : horizon;
-    double c0 = d_x[j] * d_x[j] + d_y[j] * d_y[j];
-    double h1 = d_x[j] * e_x[j] + d_y[j] * e_y[j], h2 = d_x[j] * a_x + d_y[j] * a_y;
-    if (space) {
-      reach[j] = radius + sim->rates[j].radius;
-      d_z[j] = sim->z[j] + t * (sim->v_z[j] + t * sim->a_z[j]) - own_z;
-      e_z[j] = sim->v_z[j] + 2.0 * t * sim->a_z[j] - own_v;
-      c0 += d_z[j] * d_z[j];
-      h1 += d_z[j] * e_z[j];
-      h2 += d_z[j] * (sim->a_z[j] - sim->a_z[i]);
-    }
-    const double h0 = c0 - (space ? reach[j] : twice) * sqrt(c0);
-    /* the least of h0 + h1 t + h2 t^2 on [0, T]; where the turning point is a maximum, its value
-     * does no harm */
-    double turn = -h1 / (2.0 * h2);
-    turn = turn > 0.0 ? turn : 0.0;
-    turn = turn < T ? turn : T;
-    const double end = h0 + T * (h1 + T * h2), middle = h0 + turn * (h1 + turn * h2);
-    const double low = end < middle ? end : middle;
-    least[j] = low < h0 ? low : h0;
+    clear[j] = clearance(p, e, a, reach, T);
     until[j] = T;
   }
   for (int j = 0; j < n; j++) {
-    if (j == i)
+    if (j == i || j == done)
       continue;
     double t = INFINITY;
-    const double both = space ? reach[j] : twice, touching = 1e-11 * both * both;
-    if (until[j] >= 0.0 && until[j] < INFINITY && !(least[j] > touching)) {
-      const carom_separation d = {
-          {d_x[j], d_y[j], space ? d_z[j] : 0.0},
-          {e_x[j], e_y[j], space ? e_z[j] : 0.0},
-          {sim->a_x[j] - m.a[0], sim->a_y[j] - m.a[1], space ? sim->a_z[j] - sim->a_z[i] : 0.0}};
-      t = now + meet_ball(sim, &d, both, until[j], space);
-    }
+    if (until[j] >= 0.0 && until[j] < INFINITY && !(clear[j] > 0.0))
+      t = now + meet_ball(sim, i, &m, j, until[j]);
     const int low = i < j ? i : j, high = i < j ? j : i;
     sim->pair[low][high] = t;
     sim->pair_round[low][high] = (int32_t)sim->round;
   }
-}
-
-static __attribute__((noinline)) void meet_balls_in_space(carom_sim *sim, int i) {
-  meet_balls_as(sim, i, true);
-}
-static void meet_balls(carom_sim *sim, int i) {
-  if (carom_in_space(sim))
-    meet_balls_in_space(sim, i);
-  else
-    meet_balls_as(sim, i, false);
 }
 
 /* The first of row i again. */
@@ -309,9 +292,9 @@ void carom_detect(carom_sim *sim, int i, int j) {
   take_path(sim, i);
   if (j >= 0)
     take_path(sim, j);
-  meet_balls(sim, i);
+  meet_balls(sim, i, -1);
   if (j >= 0)
-    meet_balls(sim, j);
+    meet_balls(sim, j, i);
   scan_row(sim, i);
   update_rows(sim, i);
   if (j >= 0) {
@@ -336,7 +319,7 @@ void carom_detect_all(carom_sim *sim) {
   }
   for (int i = 0; i < n; i++)
     if (carom_translates(sim->path[i].from.label))
-      meet_balls(sim, i);
+      meet_balls(sim, i, -1);
   for (int i = 0; i < n; i++)
     scan_row(sim, i);
 }

@@ -36,9 +36,11 @@ static carom_due pair_of(const carom_sim *sim, int i, int j) {
 static int list_due(const carom_sim *sim, double limit, carom_due due[MOST_DUE]) {
   int count = 0;
   for (int i = 0; i < sim->count && count < MOST_DUE - CAROM_BALLS_MOST - 2; i++) {
-    if (sim->own[i] <= limit && sim->path[i].end <= limit)
+    if (sim->own[i] > limit && sim->first[i] > limit)
+      continue;
+    if (sim->path[i].end <= limit)
       due[count++] = end_of(sim, i);
-    if (sim->own[i] <= limit && sim->meeting[i].time <= limit)
+    if (sim->meeting[i].time <= limit)
       due[count++] = meeting_of(sim, i);
     for (int j = i + 1; sim->first[i] <= limit && j < sim->count; j++)
       if (sim->pair[i][j] <= limit)

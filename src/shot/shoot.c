@@ -262,11 +262,13 @@ static carom_status strike(carom_sim *sim) {
 
 static void begin(carom_sim *sim) {
   sim->unlike = false;
+  sim->widest = 0.0;
   for (int i = 0; i < sim->count; i++) {
     sim->rates[i] = carom_rates_of(&sim->ball[i].kind);
     carom_ball_state *from = &sim->path[i].from;
     *from = sim->ball[i].state;
     carom_label_of_layout(from, sim->rates[i].radius);
+    sim->widest = carom_greater(sim->widest, sim->rates[i].radius);
     sim->unlike |= sim->ball[i].kind.radius != sim->features->reference;
     carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   }

@@ -28,10 +28,11 @@ typedef struct carom_sim {
   carom_shot *shot;
   int count, struck; /* struck: the cue ball */
   carom_world world;
-  bool met;    /* the cue ball has met another */
-  bool unlike; /* radii differ from each other or from the table's reference: contacts are those
+  bool met;      /* the cue ball has met another */
+  bool unlike;   /* radii differ from each other or from the table's reference: contacts are those
                   of spheres in space */
-  int flying;  /* airborne balls */
+  int flying;    /* airborne balls */
+  double widest; /* m: the greatest radius of the balls */
   double now;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
   double slow_last;      /* s: the last of them */

@@ -200,8 +200,10 @@ static bool is_sound(const carom_sim *sim) {
     return false;
   int flying = 0;
   bool unlike = false;
+  double widest = 0.0;
   for (int i = 0; i < sim->count; i++) {
     const carom_ball_rates rates = carom_rates_of(&sim->ball[i].kind);
+    widest = carom_greater(widest, rates.radius);
     unlike |= rates.radius != sim->features->reference;
     if (memcmp(&rates, &sim->rates[i], sizeof rates) != 0 || !good_path(sim, i) ||
         !good_meeting(sim, i) || !good_columns(sim, i))
@@ -211,7 +213,7 @@ static bool is_sound(const carom_sim *sim) {
   for (int i = 0; i < sim->count; i++)
     if (!good_pairs(sim, i))
       return false;
-  return sim->flying == flying && sim->unlike == unlike;
+  return sim->flying == flying && sim->unlike == unlike && same_bits(&sim->widest, &widest, 1);
 }
 
 carom_status carom_state_check(const carom_sim *sim, const carom_shot_state *state, int count) {
