@@ -61,12 +61,13 @@ typedef struct outcome {
   int8_t first, unused;
 } outcome;
 
-/* What a part of the rows needs while it is played. */
-enum { UNIT = 16 }; /* rows worth a thread, which begin a part */
-typedef struct scratch {
+enum { UNIT = 4 }; /* rows worth a thread */
+
+/* What a shot tells. */
+typedef struct told {
   carom_facts facts;
   carom_ball_state final[CAROM_BALLS_MOST];
-} scratch;
+} told;
 
 /* A direct pot that is a candidate. */
 typedef struct pot {
@@ -74,8 +75,14 @@ typedef struct pot {
   int ball, pocket;
 } pot;
 
+/* A place of a cue ball in hand, and the value of the layout with it. */
+typedef struct place_in_hand {
+  double r[2], value;
+} place_in_hand;
+
 /* All of a plan. It is in the caller's memory, since shots need most of a small stack. */
 typedef struct plan {
+  carom_crew *crew;   /* the threads that play its shots */
   carom_plan_job job; /* with shot and options of its own */
   carom_shot_options shot;
   carom_plan_options options;
@@ -83,16 +90,24 @@ typedef struct plan {
   carom_view view;
   carom_player player;
   uint32_t in_play, on, may, pockets;
+  bool first_decides;                       /* a shot ends at a wrong first ball */
   double foul_value;                        /* of a foul at the first contact */
   int32_t left;                             /* balls before the shot */
   candidate *found;                         /* all candidates, the best first after a round */
   outcome *outcome;                         /* of the rows of a stage */
   int64_t count, most;                      /* of candidates */
   int64_t room;                             /* of outcomes */
-  scratch *scratch;                         /* one for each UNIT of rows */
   carom_ball_state state[CAROM_BALLS_MOST]; /* of the layout */
   carom_shot_ball hand[CAROM_BALLS_MOST];   /* the layout with the cue ball in hand */
+  /* the balls in play, which alone take part in shots: which they are, and their set in shots
+   * of the balls that are on, where the first contact decides */
+  carom_shot_ball played[CAROM_BALLS_MOST];
+  int32_t plays, which[CAROM_BALLS_MOST], cue_ball;
   pot pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
+  place_in_hand place[PLACES_PLANNED + 1]; /* the best first */
+  const carom_cue *cues;                   /* that the caller gave, `tries` of them, */
+  carom_choice *choices;                   /* and where he wants what they are worth */
+  int places, tries;
 } plan;
 
 /* A stage: rows k of candidates first + k / each, with the errors of k % each; or without
@@ -199,26 +214,75 @@ static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state 
   return o;
 }
 
+/* Whether a stroke of the scan met a ball first that is on. */
+static bool begins_well(const plan *of, int first) {
+  return first >= 0 && (of->on >> first & 1);
+}
+
+/* The balls in play of a layout become those of shots. */
+static void lay_out(plan *of, const carom_shot_ball *balls) {
+  of->plays = 0;
+  of->shot.first_of = 0;
+  for (int k = 0; k < of->view.count; k++)
+    if (of->in_play >> k & 1) {
+      if (of->first_decides && (of->on >> k & 1))
+        of->shot.first_of |= UINT32_C(1) << of->plays;
+      if (k == of->view.cue_ball)
+        of->cue_ball = of->plays;
+      of->played[of->plays] = balls[k];
+      of->which[of->plays++] = k;
+    }
+}
+
+/* From the balls of a shot to those of the layout. */
+static void spread(const plan *of, told *with) {
+  carom_facts *f = &with->facts;
+  const carom_facts of_shot = *f;
+  f->down = f->off = f->moved = 0;
+  for (int n = 0; n < 2; n++)
+    f->first[n] = f->first[n] < 0 ? f->first[n] : of->which[f->first[n]];
+  int n = of->plays - 1;
+  for (int k = of->view.count - 1; k >= 0; k--) {
+    const bool plays = n >= 0 && of->which[n] == k;
+    with->final[k] = plays ? with->final[n] : of->job.balls[k].state;
+    f->pocket[k] = plays ? of_shot.pocket[n] : -1;
+    f->pocket_time[k] = plays ? of_shot.pocket_time[n] : INFINITY;
+    f->cushions[k] = plays ? of_shot.cushions[n] : 0;
+    if (!plays)
+      continue;
+    f->down |= (of_shot.down >> n & 1) << k;
+    f->off |= (of_shot.off >> n & 1) << k;
+    f->moved |= (of_shot.moved >> n & 1) << k;
+    n--;
+  }
+}
+
 static size_t play_rows(const void *context, size_t first, size_t end) {
   const stage *s = context;
   const plan *of = s->of;
-  scratch *with = &of->scratch[first / UNIT];
-  carom_shot shot = {.final = with->final, .facts = &with->facts};
+  told what;
+  carom_shot shot = {.final = what.final, .facts = &what.facts};
   for (size_t k = first; k < end; k++) {
     const int64_t row = (int64_t)k;
     const candidate *c = &of->found[s->first + row / s->each];
-    const carom_cue cue = stroke(of, c, s->draws, row % s->each);
+    carom_cue cue = stroke(of, c, s->draws, row % s->each);
+    cue.ball = of->cue_ball;
     const carom_status status =
-        carom_shoot_prepared(of->job.table, &of->features, of->job.balls, of->view.count, &cue,
-                             &of->shot, &shot); /* in error it is a foul */
-    of->outcome[k] = judge(of, shot.facts, shot.final, status, c, s->draws != 0);
+        carom_shoot_prepared(of->job.table, &of->features, of->played, of->plays, &cue, &of->shot,
+                             &shot); /* in error it is a foul */
+    if (of->plays < of->view.count)
+      spread(of, &what);
+    const int met = status < 0 ? -1 : what.facts.first[0];
+    const bool dropped = s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !begins_well(of, met);
+    of->outcome[k] = dropped ? (outcome){.first = (int8_t)met}
+                             : judge(of, shot.facts, shot.final, status, c, s->draws != 0);
   }
   return end;
 }
 
 static void play(plan *of, int64_t first, int64_t candidates, int64_t each, uint32_t draws) {
   const stage s = {of, first, each, draws};
-  carom_in_threads(play_rows, &s, (size_t)(candidates * each), of->options.threads, UNIT);
+  carom_crew_work(of->crew, play_rows, &s, (size_t)(candidates * each), UNIT);
 }
 
 static bool is_stopped(const plan *of) {
@@ -281,6 +345,24 @@ static bool aim(const carom_table *table, const carom_shot_ball *balls, int k, d
   return true;
 }
 
+/* Aims the candidates: from the direction of the ball that falls to that of the stroke; whether
+ * that can be done is their outcome. */
+static size_t aim_rows(const void *context, size_t first, size_t end) {
+  const plan *of = context;
+  for (size_t k = first; k < end; k++) {
+    candidate *c = &of->found[k];
+    carom_cue cue = *of->job.cue;
+    cue.theta = 0.0;
+    cue.speed = c->speed;
+    cue.a = c->a;
+    cue.b = c->b;
+    of->outcome[k] =
+        (outcome){.is = aim(of->job.table, of->job.balls, c->ball, c->phi, &of->shot, &cue)};
+    c->phi = cue.phi;
+  }
+  return end;
+}
+
 /* Direct pots, the likeliest first, each with all strokes, or as many as there is room for. */
 static void add_pots(plan *of, int64_t most) {
   pot *way = of->pot;
@@ -318,18 +400,22 @@ static void add_pots(plan *of, int64_t most) {
   for (int w = 0; w < ways; w++)
     for (int n = 0; n < strokes; n++) {
       const double *tip = pot_tip[order[n] % TIPS];
-      carom_cue cue = *of->job.cue;
-      cue.theta = 0.0;
-      cue.speed = within(pot_speed[order[n] / TIPS], of->player.speed_least, of->player.speed_most);
-      cue.a = within(tip[0], -of->player.tip_most, of->player.tip_most);
-      cue.b = within(tip[1], -of->player.tip_most, of->player.tip_most);
-      if (aim(of->job.table, of->job.balls, way[w].ball, way[w].way.psi, &of->shot, &cue))
-        add(of, (candidate){.speed = cue.speed,
-                            .phi = cue.phi,
-                            .a = cue.a,
-                            .b = cue.b,
-                            .kind = CAROM_PLAN_POT});
+      const double speed = pot_speed[order[n] / TIPS];
+      add(of, (candidate){.speed = within(speed, of->player.speed_least, of->player.speed_most),
+                          .phi = way[w].way.psi,
+                          .a = within(tip[0], -of->player.tip_most, of->player.tip_most),
+                          .b = within(tip[1], -of->player.tip_most, of->player.tip_most),
+                          .kind = CAROM_PLAN_POT,
+                          .ball = way[w].ball});
     }
+
+  /* those that cannot be aimed are dropped */
+  carom_crew_work(of->crew, aim_rows, of, (size_t)of->count, UNIT);
+  const int64_t added = of->count;
+  of->count = 0;
+  for (int64_t k = 0; k < added; k++)
+    if (of->outcome[k].is)
+      add(of, of->found[k]);
 }
 
 /* What a shot without errors says of a candidate. */
@@ -372,8 +458,7 @@ static void add_scan(plan *of, int64_t most) {
     /* those that begin with a foul are dropped, and those beyond `most` */
     of->count = first;
     for (int64_t k = 0; k < added && of->count < end; k++)
-      if (of->found[first + k].kind == CAROM_PLAN_PUSH ||
-          (of->outcome[k].first >= 0 && (of->on >> of->outcome[k].first & 1))) {
+      if (of->found[first + k].kind == CAROM_PLAN_PUSH || begins_well(of, of->outcome[k].first)) {
         candidate c = of->found[first + k];
         take(&c, &of->outcome[k]);
         add(of, c);
@@ -552,7 +637,7 @@ static int64_t most_rows(int64_t shots, double scan) {
 static size_t bytes_of(int64_t shots, double scan) {
   const size_t rows = (size_t)most_rows(shots, scan);
   return sizeof(plan) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
-         rows * sizeof(outcome) + (rows / UNIT + 1) * sizeof(scratch);
+         rows * sizeof(outcome);
 }
 
 size_t carom_plan_memory(const carom_plan_options *options) {
@@ -631,7 +716,6 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   of->room = most_rows(shots_of(options), scan_of(options));
   of->found = (candidate *)(of + 1);
   of->outcome = (outcome *)(of->found + of->most);
-  of->scratch = (scratch *)(of->outcome + of->room);
 
   /* The layout by the rules. */
   carom_view_make(&of->view, &of->job, options);
@@ -642,7 +726,8 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   of->on = rules->on(rules->user, of->in_play) & of->in_play & ~(UINT32_C(1) << cue_ball);
   of->may = rules->may != NULL ? rules->may(rules->user) : 0;
   of->pockets = rules->pockets != NULL ? rules->pockets(rules->user) : ~UINT32_C(0);
-  of->shot.first_of = rules->first_decides && !(of->may & CAROM_MAY_PUSH) ? of->on : 0;
+  of->first_decides = rules->first_decides && !(of->may & CAROM_MAY_PUSH);
+  lay_out(of, job->balls);
   int32_t left[2];
   rules->left(rules->user, of->in_play, left);
   of->left = left[0] > 1 ? left[0] : 1;
@@ -701,6 +786,75 @@ static void add_pass(plan *of) {
 
 /* ---- What callers have */
 
+/* Does a part of a plan with the threads that the options ask for. */
+typedef void plan_part(plan *of);
+typedef struct part_of_plan {
+  plan_part *part;
+  plan *of;
+} part_of_plan;
+
+static void do_part(void *context, carom_crew *crew) {
+  const part_of_plan *part = context;
+  part->of->crew = crew;
+  part->part(part->of);
+}
+
+static void with_crew(plan *of, plan_part *part) {
+  part_of_plan context = {part, of};
+  carom_with_crew(do_part, &context, of->options.threads, (size_t)of->room / UNIT);
+}
+
+static void plan_here(plan *of) {
+  search(of, shots_of(&of->options));
+  if (of->may & CAROM_MAY_PASS)
+    add_pass(of);
+}
+
+/* Puts the cue ball in hand on the place k of those that are planned from. */
+static void put(plan *of, int k) {
+  const double *r = of->place[k].r;
+  carom_place_ball(of->job.table, of->hand, (int)of->job.count, of->view.cue_ball, r[0], r[1],
+                   NULL);
+  lay_out(of, of->hand);
+}
+
+/* A small plan from each place, then one with half of the shots from the best. */
+static void plan_places(plan *of) {
+  const int64_t shots = shots_of(&of->options),
+                small = shots / (2 * PLACES_PLANNED) > 100 ? shots / (2 * PLACES_PLANNED) : 100;
+  const int64_t rest = shots - of->places * small;
+  int chosen = 0;
+  double most = -1.0;
+  for (int k = 0; k <= of->places && !(k > 0 && is_stopped(of)); k++) {
+    put(of, k < of->places ? k : chosen);
+    search(of, k < of->places || rest < small ? small : rest);
+    const candidate *c = &of->found[0];
+    if (k < of->places && c->sum / (double)c->seen > most) {
+      most = c->sum / (double)c->seen;
+      chosen = k;
+    }
+  }
+}
+
+/* Strokes that the caller gave, each with its share of the shots. */
+static void try_all(plan *of) {
+  const int64_t each = shots_of(&of->options) / (of->tries > 0 ? of->tries : 1);
+  for (int k = 0; k < of->tries; k++) {
+    const carom_cue *cue = &of->cues[k];
+    of->count = 0;
+    add(of, (candidate){.speed = cue->speed,
+                        .phi = cue->phi,
+                        .theta = cue->theta,
+                        .a = cue->a,
+                        .b = cue->b,
+                        .kind = CAROM_PLAN_GIVEN});
+    play(of, 0, 1, 1, 0);
+    take(&of->found[0], &of->outcome[0]);
+    add_up(of, 1, each > 10 ? each : 10, DRAW_ROUND);
+    of->choices[k] = choice_of(of, &of->found[0]);
+  }
+}
+
 static int give(const plan *of, carom_choice *choices, int room) {
   int n = 0;
   for (; n < room && n < of->count; n++)
@@ -715,9 +869,7 @@ carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int ro
   const carom_status bad = of == NULL ? CAROM_ERROR_NULL : begin(of, job, false);
   if (bad != CAROM_OK)
     return bad;
-  search(of, shots_of(&of->options));
-  if (of->may & CAROM_MAY_PASS)
-    add_pass(of);
+  with_crew(of, plan_here);
   *found = give(of, choices, room);
   return CAROM_OK;
 }
@@ -739,11 +891,9 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     state[k] = balls[k].state;
   const int cue_ball = of->view.cue_ball;
   const double R = of->view.radius[cue_ball], size[2] = {of->view.width, of->view.length};
-  struct {
-    double r[2], value;
-  } best[PLACES_PLANNED + 1];
-  int places = 0, kept = 0;
-  for (uint64_t k = 0; k < 50 * PLACES && places < PLACES; k++) {
+  int tried = 0;
+  of->places = 0;
+  for (uint64_t k = 0; k < 50 * PLACES && tried < PLACES; k++) {
     double r[2];
     for (int x = 0; x < 2; x++) {
       /* an empty range, and one with NaN, has no place */
@@ -756,41 +906,23 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     if (carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) !=
         CAROM_OK)
       continue;
-    places++;
+    tried++;
     state[cue_ball] = balls[cue_ball].state;
     const double value = carom_value_of(&of->view, job->rules->user, state, 0, false);
-    int at = kept < PLACES_PLANNED ? kept++ : PLACES_PLANNED;
-    for (; at > 0 && best[at - 1].value < value; at--)
-      best[at] = best[at - 1];
-    best[at].r[0] = r[0];
-    best[at].r[1] = r[1];
-    best[at].value = value;
+    int at = of->places < PLACES_PLANNED ? of->places++ : PLACES_PLANNED;
+    for (; at > 0 && of->place[at - 1].value < value; at--)
+      of->place[at] = of->place[at - 1];
+    of->place[at] = (place_in_hand){{r[0], r[1]}, value};
   }
-  if (kept == 0)
+  if (of->places == 0)
     return CAROM_ERROR_OFF_TABLE;
 
-  carom_place_ball(job->table, balls, (int)job->count, cue_ball, best[0].r[0], best[0].r[1], NULL);
+  of->job.balls = balls;
+  put(of, 0);
   const carom_status refused = check_layout(of, balls, true);
   if (refused != CAROM_OK)
     return refused;
-
-  /* A small plan from each of them, then one with half of the shots from the best. */
-  const int64_t shots = shots_of(&of->options),
-                small = shots / (2 * PLACES_PLANNED) > 100 ? shots / (2 * PLACES_PLANNED) : 100;
-  int chosen = 0;
-  double most = -1.0;
-  of->job.balls = balls;
-  for (int k = 0; k <= kept && !(k > 0 && is_stopped(of)); k++) {
-    const int at = k < kept ? k : chosen;
-    carom_place_ball(job->table, balls, (int)job->count, cue_ball, best[at].r[0], best[at].r[1],
-                     NULL);
-    search(of, k < kept ? small : shots - kept * small > small ? shots - kept * small : small);
-    const candidate *c = &of->found[0];
-    if (k < kept && c->sum / (double)c->seen > most) {
-      most = c->sum / (double)c->seen;
-      chosen = k;
-    }
-  }
+  with_crew(of, plan_places);
   *found = give(of, choices, room);
   return CAROM_OK;
 }
@@ -811,20 +943,10 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
     if (wrong != CAROM_OK)
       return wrong;
   }
-  const int64_t each = shots_of(&of->options) / (n > 0 ? n : 1);
-  for (int k = 0; k < n; k++) {
-    of->count = 0;
-    add(of, (candidate){.speed = cues[k].speed,
-                        .phi = cues[k].phi,
-                        .theta = cues[k].theta,
-                        .a = cues[k].a,
-                        .b = cues[k].b,
-                        .kind = CAROM_PLAN_GIVEN});
-    play(of, 0, 1, 1, 0);
-    take(&of->found[0], &of->outcome[0]);
-    add_up(of, 1, each > 10 ? each : 10, DRAW_ROUND);
-    choices[k] = choice_of(of, &of->found[0]);
-  }
+  of->cues = cues;
+  of->choices = choices;
+  of->tries = n;
+  with_crew(of, try_all);
   return CAROM_OK;
 }
 

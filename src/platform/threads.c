@@ -3,12 +3,12 @@
  * keep no thread waiting for long.
  *
  * Which thread works on a row makes no difference to it, so results are the same for any number
- * of threads. Threads are started for the call and joined before it returns; the calling thread
- * works, too, and does everything if none can be started, which is so where the system has none.
- * They block every signal, so that no handler of the process runs on them. A job too small to be
- * worth a thread is not cut. With CAROM_WITHOUT_THREADS nothing is cut, and no library of
- * threads is needed.
- */
+ * of threads. The threads of a crew are started for a call of the library and joined before it
+ * returns; between two jobs they wait without sleep, for a while, since to wake one takes as long
+ * as ten shots. The calling thread works, too, and does everything if none can be started, which
+ * is so where the system has none. They block every signal, so that no handler of the process runs
+ * on them. A job too small to be worth a thread is not cut. With CAROM_WITHOUT_THREADS nothing is
+ * cut, and no library of threads is needed. */
 #if !defined(_WIN32) && !defined(_POSIX_C_SOURCE)
 #define _POSIX_C_SOURCE 200809L /* pthread_sigmask */
 #endif
@@ -16,9 +16,14 @@
 
 #ifdef CAROM_WITHOUT_THREADS
 
-size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads,
-                        size_t least) {
-  (void)threads, (void)least;
+void carom_with_crew(carom_crew_caller *call, void *context, int threads, size_t parts) {
+  (void)threads, (void)parts;
+  call(context, NULL);
+}
+
+size_t carom_crew_work(carom_crew *crew, carom_part_worker *worker, const void *job, size_t n,
+                       size_t least) {
+  (void)crew, (void)least;
   return worker(job, 0, n);
 }
 
@@ -33,37 +38,44 @@ size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, in
 #ifdef _WIN32
 #include <process.h>
 #include <windows.h>
+#define yield SwitchToThread
 typedef HANDLE thread_handle;
 #else
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
+#define yield sched_yield
 typedef pthread_t thread_handle;
 #endif
 
 enum {
   MOST_THREADS = 256,
-  PARTS_EACH = 8, /* for a thread, where there are rows enough */
+  PARTS_EACH = 32, /* for a thread, where there are rows enough */
   UNIT = 64,      /* parts are multiples of this, so that only the last has lanes to spare; or of
                      the least worth a thread */
 };
 
-typedef struct cut {
+struct carom_crew {
+  size_t threads;               /* beside the calling one */
+  atomic_size_t begun, working; /* jobs so far; threads that are not done with the last one */
+  atomic_bool over;             /* there are no more */
+  /* the last one */
   carom_part_worker *worker;
   const void *job;
   size_t n, count, unit; /* rows; parts; rows of which a part is a multiple */
   atomic_size_t next;    /* the first part that nobody took */
   atomic_size_t bad;     /* the first row in error so far, or n */
-} cut;
+};
 
 /* Where a part begins; that of one beyond the last is n. */
-static size_t start_of(const cut *of, size_t number) {
+static size_t start_of(const carom_crew *of, size_t number) {
   const size_t units = (of->n + of->unit - 1) / of->unit,
                start = units * number / of->count * of->unit;
   return start < of->n ? start : of->n;
 }
 
 /* Takes parts until none is left. */
-static void work(cut *of) {
+static void work(carom_crew *of) {
   size_t number;
   while ((number = atomic_fetch_add(&of->next, 1)) < of->count) {
     const size_t end = start_of(of, number + 1),
@@ -74,15 +86,34 @@ static void work(cut *of) {
   }
 }
 
+/* One more look at what another thread is to change: at first at once, then after others had the
+ * processor. */
+static void wait_a_little(int *looks) {
+  enum { AT_ONCE = 2000 };
+  if (++*looks > AT_ONCE)
+    yield();
+}
+
+/* A thread of the crew: job after job. */
+static void serve(carom_crew *of) {
+  for (size_t seen = 0;; seen++) {
+    for (int looks = 0; atomic_load(&of->begun) == seen; wait_a_little(&looks))
+      if (atomic_load(&of->over))
+        return;
+    work(of);
+    atomic_fetch_sub(&of->working, 1);
+  }
+}
+
 #ifdef _WIN32
 
 static unsigned __stdcall work_on_thread(void *argument) {
-  work(argument);
+  serve(argument);
   return 0;
 }
 
 /* Starts threads; returns how many there are. */
-static size_t start_threads(cut *of, thread_handle *thread, size_t most) {
+static size_t start_threads(carom_crew *of, thread_handle *thread, size_t most) {
   size_t count = 0;
   while (count < most &&
          (thread[count] = (HANDLE)_beginthreadex(NULL, 0, work_on_thread, of, 0, NULL)) != NULL)
@@ -98,13 +129,13 @@ static void join(thread_handle thread) {
 #else
 
 static void *work_on_thread(void *argument) {
-  work(argument);
+  serve(argument);
   return NULL;
 }
 
 /* Starts threads; returns how many there are. A thread inherits the signals that are blocked
  * where it is made. */
-static size_t start_threads(cut *of, thread_handle *thread, size_t most) {
+static size_t start_threads(carom_crew *of, thread_handle *thread, size_t most) {
   sigset_t all, before;
   sigfillset(&all);
   const bool blocked = pthread_sigmask(SIG_SETMASK, &all, &before) == 0;
@@ -122,30 +153,61 @@ static void join(thread_handle thread) {
 
 #endif
 
-size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads,
-                        size_t least) {
+void carom_with_crew(carom_crew_caller *call, void *context, int threads, size_t parts) {
   /* How many are useful is asked first: counting the processors takes some system calls. */
-  const size_t parts = n / least;
   if (parts > 1 && threads == CAROM_ALL_THREADS)
     threads = carom_processors();
   size_t most = threads < 1 ? 1 : threads < MOST_THREADS ? (size_t)threads : MOST_THREADS;
   most = most < parts ? most : parts;
-  if (most <= 1)
-    return worker(job, 0, n);
-
-  cut of = {.worker = worker,
-            .job = job,
-            .n = n,
-            .count = parts < PARTS_EACH * most ? parts : PARTS_EACH * most,
-            .unit = least < UNIT ? least : UNIT};
-  atomic_init(&of.next, 0);
-  atomic_init(&of.bad, n);
+  carom_crew crew = {.threads = 0};
+  atomic_init(&crew.begun, 0);
+  atomic_init(&crew.over, false);
   thread_handle thread[MOST_THREADS];
-  const size_t started = start_threads(&of, thread, most - 1);
-  work(&of);
+  const size_t started = most > 1 ? start_threads(&crew, thread, most - 1) : 0;
+  crew.threads = started;
+  call(context, &crew);
+  atomic_store(&crew.over, true);
   for (size_t t = 0; t < started; t++)
     join(thread[t]);
-  return atomic_load(&of.bad);
+}
+
+size_t carom_crew_work(carom_crew *crew, carom_part_worker *worker, const void *job, size_t n,
+                       size_t least) {
+  const size_t parts = n / least, most = PARTS_EACH * (crew->threads + 1);
+  if (crew->threads == 0 || parts <= 1)
+    return worker(job, 0, n);
+  crew->worker = worker;
+  crew->job = job;
+  crew->n = n;
+  crew->count = parts < most ? parts : most;
+  crew->unit = least < UNIT ? least : UNIT;
+  atomic_store(&crew->next, 0);
+  atomic_store(&crew->bad, n);
+  atomic_store(&crew->working, crew->threads);
+  atomic_fetch_add(&crew->begun, 1);
+  work(crew);
+  for (int looks = 0; atomic_load(&crew->working) > 0; wait_a_little(&looks))
+    continue;
+  return atomic_load(&crew->bad);
 }
 
 #endif
+
+/* A crew for one job. */
+typedef struct only_job {
+  carom_part_worker *worker;
+  const void *job;
+  size_t n, least, bad;
+} only_job;
+
+static void do_only_job(void *context, carom_crew *crew) {
+  only_job *of = context;
+  of->bad = carom_crew_work(crew, of->worker, of->job, of->n, of->least);
+}
+
+size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads,
+                        size_t least) {
+  only_job of = {worker, job, n, least, n};
+  carom_with_crew(do_only_job, &of, threads, n / least);
+  return of.bad;
+}

@@ -15,4 +15,13 @@ typedef size_t carom_part_worker(const void *job, size_t from, size_t end);
 size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads,
                         size_t least);
 
+/* The same for several jobs, one after the other, by threads that are started once: `call` gets
+ * the context and the crew, with which it calls carom_crew_work(). At most `threads` threads, no
+ * more than there are parts of the largest job. */
+typedef struct carom_crew carom_crew;
+typedef void carom_crew_caller(void *context, carom_crew *crew);
+void carom_with_crew(carom_crew_caller *call, void *context, int threads, size_t parts);
+size_t carom_crew_work(carom_crew *crew, carom_part_worker *worker, const void *job, size_t n,
+                       size_t least);
+
 #endif
