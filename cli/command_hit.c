@@ -137,9 +137,10 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   char text[64];
   (void)s;
   fprintf(out,
-          "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), "
+          "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s%s (%.4g rad/s), "
           "side spin %.4g rad/s.\n",
-          scale, c->given[CUT]->x, c->given[SPIN]->name, in->a.w[1], in->a.w[2]);
+          scale, c->given[CUT]->x, c->given[SPIN]->name, share_of_rolling(c->given[SPIN]),
+          in->a.w[1], in->a.w[2]);
   fprintf(out, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.\n",
           in->mu_ball, in->a.mu_cloth, in->restitution);
   /* The object ball, the cue ball, both together. */

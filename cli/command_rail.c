@@ -153,11 +153,12 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   double d[MOST_DERIVED];
   char text[64];
   derive_case(c, d);
-  fprintf(out,
-          "A ball at %.4g m/s meets a cushion: %.4g degrees from its normal, spin %s (%.4g rad/s), "
-          "side spin %.4g rad/s.\n",
-          hypot(in->v[0], in->v[1]), c->given[ANGLE]->x, c->given[SPIN]->name,
-          hypot(in->w[0], in->w[1]), in->w[2]);
+  fprintf(
+      out,
+      "A ball at %.4g m/s meets a cushion: %.4g degrees from its normal, spin %s%s (%.4g rad/s), "
+      "side spin %.4g rad/s.\n",
+      hypot(in->v[0], in->v[1]), c->given[ANGLE]->x, c->given[SPIN]->name,
+      share_of_rolling(c->given[SPIN]), hypot(in->w[0], in->w[1]), in->w[2]);
   fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
           in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&s->asked, 0));
   fprintf(out, "rebound       at once:     %s\n", rebound_text(d[1], v, text));

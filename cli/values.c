@@ -266,6 +266,10 @@ double tip_offset(const value *const *given, int count, double radius) {
   return sqrt(square) / (strike * radius);
 }
 
+const char *share_of_rolling(const value *v) {
+  return v->times == ROLLING && !isnan(v->given) ? " of rolling" : "";
+}
+
 double spin_of(const value *v, double speed, double radius, double gearing) {
   switch (v->times) {
   case ROLLING:

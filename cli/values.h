@@ -56,6 +56,9 @@ bool value_of(int measure, const char *text, value *v);
 /* How far from the centre, in R, a tip is that gives all spins that are given in tips. */
 double tip_offset(const value *const *given, int count, double radius);
 
+/* What a sentence says after the name of a spin: of what its percents are, "-71% of rolling". */
+const char *share_of_rolling(const value *v);
+
 /* A spin, rad/s, of a ball of that speed and radius. `gearing` is what GEARING stands for. */
 double spin_of(const value *v, double speed, double radius, double gearing);
 

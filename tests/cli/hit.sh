@@ -82,7 +82,7 @@ def said(row, after, spin, cut):
     spins = lambda ball: f"{b[f'w{ball}z'] if abs(b[f'w{ball}z']) >= 0.005 else 0:.2f} rad/s about the vertical, {math.hypot(b[f'w{ball}x'], b[f'w{ball}y']):.2f} rad/s about a horizontal axis"
     side = "left" if throw > 0 else "right"
     return [
-        f"A cue ball at {v:.4g} m/s meets a ball at rest: cut {cut:.4g} degrees, spin {spin} ({f['w1y']:.4g} rad/s), side spin {f['w1z']:.4g} rad/s.",
+        f"A cue ball at {v:.4g} m/s meets a ball at rest: cut {cut:.4g} degrees, spin {spin + ' of rolling' * ('%' in spin)} ({f['w1y']:.4g} rad/s), side spin {f['w1z']:.4g} rad/s.",
         f"Friction between the balls {f['u_b']:.4f}, with the cloth {f['u_s1']:.4g}, restitution {f['e_b']:.4g}.",
         "object ball   at once:     " + velocity(b["v2x"], b["v2y"], v),
         "              rolling:     " + velocity(b["roll2x"], b["roll2y"], v),
@@ -97,7 +97,7 @@ def said(row, after, spin, cut):
 # Both sides, every spin, a ball that stops, one that comes straight back, a smooth cloth, other balls.
 for cut, spin, more in (
     (30, "stun", ""), (-40, "draw", "--side gearing --speed 3 --friction 0.05"), (0, "draw", "--speed 4"), (0, "stun", "--restitution 1 --friction 0"),
-    (75, "follow", "--side -40rad/s --speed 6"), (-15, "-80 rad/s", "--side 25rad/s --cloth 0"), (50, "roll", "--radius 0.0307 --mass 0.2107 --restitution 0.8"), (10, "20 rad/s", "--speed 0.3"), (75, "stun", ""), (0, "follow", ""), (-30, "draw", "--speed 7mph"),
+    (75, "follow", "--side -40rad/s --speed 6"), (-15, "-80 rad/s", "--side 25rad/s --cloth 0"), (50, "roll", "--radius 0.0307 --mass 0.2107 --restitution 0.8"), (10, "20 rad/s", "--speed 0.3"), (75, "stun", ""), (0, "follow", ""), (-30, "draw", "--speed 7mph"), (20, "-71%", ""),
 ):
     asked = ["hit", "--cut", str(cut), "--spin", spin, *more.split()]
     words, rows = run(*asked, "--plot", "hit.svg").splitlines(), run(*asked, "--csv")
