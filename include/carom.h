@@ -50,7 +50,7 @@
  * Euler's method takes about 20 ns a step.
  *
  * Stack. In an optimised build every call fits a thread with 64 KiB of stack, part of which the
- * C library uses. On x86-64 a single call takes at most 7 KiB, a trace 10, a batch 46, and a
+ * C library uses. On x86-64 a single call takes at most 7 KiB, a trace 10, a batch 47, and a
  * batch with threads 55 in the calling thread (tests/unit/stack.c measures them).
  *
  * Determinism. Equal bits have:
@@ -207,7 +207,8 @@ typedef enum carom_status {
                                         0. */
   CAROM_ERROR_LEFT_TABLE = -42,      /* a ball on the cloth left the table. */
   CAROM_ERROR_SHOT_OPTIONS = -43,    /* a reserved or unused field of a shot's options, a job or
-                                        seeds is not 0. */
+                                        seeds is not 0, or a job has both balls and
+                                        kinds. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
   CAROM_ERROR_LABEL = -45,           /* the label of a ball is not one that a layout may have. */
   CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 1e-6 m. */

@@ -216,7 +216,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
  * options.plain or CAROM_ISA=plain they are the same on every machine, by every model and in
  * both worlds. Cost: about 0.4 us an event with Han's cushions, the default, so 3 us for a shot
  * with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs some 7 to
- * 10 us an impact besides. Stack: 52 KiB; a batch 55, with threads 60. Nothing is allocated, but
+ * 10 us an impact besides. Stack: 52 KiB; a batch 58, with threads 60. Nothing is allocated, but
  * for the threads of a batch. */
 
 /* ---- Balls ----------------------------------------------------------------------------------- */
@@ -800,7 +800,9 @@ CAROM_API carom_status carom_shot_drawn(const carom_table *table, const carom_sh
                                         size_t n, carom_ball_state *states);
 
 /* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of
- * cues[k * cue_stride].
+ * cues[k * cue_stride]. In place of `balls`, 288 bytes a ball, a job may have `kinds` for all shots
+ * and `states`, 80 bytes a ball: shot k is of the kinds[0 ... count - 1] with the states from
+ * states[k * ball_stride] on. Its bits are the same.
  * With table, balls and cue of the sample above:
  *
  *     static carom_cue cues[100];
@@ -823,8 +825,8 @@ typedef struct carom_shot_job {
   const carom_shot_ball *balls;
   const carom_cue *cues;             /* NULL: no strikes. */
   int64_t count;                     /* balls of a shot. */
-  uint64_t ball_stride;              /* from the layout of a shot to that of the next, in balls,
-                                        as a rule `count`; */
+  uint64_t ball_stride;              /* from the layout of a shot to that of the next, in balls
+                                        or states, as a rule `count`; */
   uint64_t cue_stride;               /* and from cue to cue, as a rule 1. 0: all shots have the
                                         first. */
   uint64_t n;                        /* shots. */
@@ -832,7 +834,10 @@ typedef struct carom_shot_job {
   carom_shot *shots;                 /* n results, in which the caller has set the wanted members,
                                         as for carom_shoot(). */
   int8_t *status;                    /* n statuses; may be NULL. */
-  uint64_t reserved[4];              /* must be 0. */
+  const carom_ball_kind *kinds;      /* in place of `balls`, then NULL: `count` kinds, those of all
+                                        shots; */
+  const carom_ball_state *states;    /* and the layouts. */
+  uint64_t reserved[2];              /* must be 0. */
 } carom_shot_job;
 
 /* Plays all shots of a job. Each has the bits and the status of carom_shoot(), and a bad one costs
@@ -840,7 +845,9 @@ typedef struct carom_shot_job {
  * successive shots share, once), and balls too small or too large for the noses of the table cost
  * their own shot only. Returns CAROM_OK or the status of the first shot in error; if the call
  * itself cannot be served (NULL, a bad option, a bad count, a part of the table that is bad for
- * every radius), that error, with nothing written. With n = 0 nothing else is read. */
+ * every radius), that error, with nothing written. CAROM_ERROR_NULL: neither balls nor both of
+ * kinds and states; CAROM_ERROR_SHOT_OPTIONS: balls and one of these. With n = 0 nothing else is
+ * read. */
 CAROM_API carom_status carom_shoot_batch(const carom_shot_job *job);
 
 /* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball,

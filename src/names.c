@@ -74,7 +74,8 @@
   X(ERROR_LEFT_TABLE, -42, "left_table",                                                           \
     "a ball on the cloth left the table, through a gap between its cushions")                      \
   X(ERROR_SHOT_OPTIONS, -43, "bad_shot_options",                                                   \
-    "a reserved or unused field of the options, the job or the seeds is not 0")                    \
+    "a reserved or unused field of the options, the job or the seeds is not 0, or a job has "      \
+    "both balls and kinds")                                                                        \
   X(ERROR_BALLS, -44, "bad_balls",                                                                 \
     "the count of balls must be 1 to 32, and the index of a ball below it")                        \
   X(ERROR_LABEL, -45, "bad_label",                                                                 \

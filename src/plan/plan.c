@@ -268,8 +268,8 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     carom_cue cue = stroke(of, c, s->draws, row % s->each);
     cue.ball = of->cue_ball;
     const carom_status status =
-        carom_shoot_prepared(of->job.table, &of->features, of->played, of->plays, &cue, &of->shot,
-                             &shot); /* in error it is a foul */
+        carom_shoot_prepared(of->job.table, &of->features, carom_layout_of(of->played), of->plays,
+                             &cue, &of->shot, &shot); /* in error it is a foul */
     if (of->plays < of->view.count)
       spread(of, &what);
     const int met = status < 0 ? -1 : what.facts.first[0];
@@ -662,15 +662,15 @@ static carom_status check_stroke(const carom_plan_job *job, const carom_cue *str
   cue.theta = stroke->theta;
   cue.a = stroke->a;
   cue.b = stroke->b;
-  return carom_check_strike(job->balls, (int)job->count, &cue);
+  return carom_check_strike(carom_layout_of(job->balls), (int)job->count, &cue);
 }
 
 /* Once for all shots of a plan; with_cue: and its cue, whose stroke is not looked at. */
 static carom_status check_layout(plan *of, const carom_shot_ball *balls, bool with_cue) {
   int where;
   const int count = (int)of->job.count;
-  const carom_status bad =
-      carom_check_layout(of->job.table, &of->features, balls, count, &of->shot, &where);
+  const carom_status bad = carom_check_layout(of->job.table, &of->features, carom_layout_of(balls),
+                                              count, &of->shot, &where);
   if (bad != CAROM_OK || !with_cue)
     return bad;
   const carom_plan_job job = {.balls = balls, .count = count, .cue = of->job.cue};

@@ -54,17 +54,18 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
 
 /* Prepares the table for the balls of a layout. In flat play all radii are to be that of the
  * first. */
-static carom_status prepare_for(const carom_table *t, const carom_shot_ball *balls, int count,
-                                bool flat, carom_features *features, int *where) {
-  double least = balls[0].kind.radius, greatest = least;
+static carom_status prepare_for(const carom_table *t, carom_layout layout, int count, bool flat,
+                                carom_features *features, int *where) {
+  double least = layout.kind->radius, greatest = least;
   for (*where = 0; *where < (flat ? 1 : count); ++*where) {
-    const double R = balls[*where].kind.radius;
+    const double R = carom_kind_in(layout, *where)->radius;
     if (!carom_is_positive(R))
       return CAROM_ERROR_RADIUS;
     least = carom_lesser(least, R);
     greatest = carom_greater(greatest, R);
   }
-  const double reference = flat ? least : carom_reference_of(t, balls[count - 1].kind.radius);
+  const double last = carom_kind_in(layout, count - 1)->radius;
+  const double reference = flat ? least : carom_reference_of(t, last);
   return carom_prepare_table(t, least, greatest, reference, features, where);
 }
 
@@ -129,26 +130,26 @@ carom_status carom_check_ball(const carom_shot_ball *ball, bool flat) {
 
 /* The height of a ball's centre above the cloth as the shot takes it: a ball on the cloth is at
  * z = R. */
-static inline double height_of(const carom_shot_ball *ball) {
-  return carom_flies_in_layout(&ball->state, ball->kind.radius) ? ball->state.r[2]
-                                                                : ball->kind.radius;
+static inline double height_of(const carom_ball_state *state, double R) {
+  return carom_flies_in_layout(state, R) ? state->r[2] : R;
 }
 
-/* Whether two balls overlap that are at these heights. */
-static inline bool overlap(const carom_shot_ball *a, double z_a, const carom_shot_ball *b,
-                           double z_b) {
-  const double x = a->state.r[0] - b->state.r[0], y = a->state.r[1] - b->state.r[1], z = z_a - z_b;
-  const double reach = a->kind.radius + b->kind.radius - CAROM_MOST_OVERLAP;
-  return x * x + y * y + z * z < reach * reach;
+/* Whether a ball at r, of radius R, overlaps ball k in play, which is at height z. */
+static inline bool overlaps(const double r[3], double R, carom_layout layout, int k, double z) {
+  const carom_ball_state *other = carom_state_in(layout, k);
+  const double along[3] = {r[0] - other->r[0], r[1] - other->r[1], r[2] - z};
+  const double reach = R + carom_kind_in(layout, k)->radius - CAROM_MOST_OVERLAP;
+  return !carom_is_out(other->label) &&
+         along[0] * along[0] + along[1] * along[1] + along[2] * along[2] < reach * reach;
 }
 
-carom_status carom_check_strike(const carom_shot_ball *balls, int count, const carom_cue *cue) {
+carom_status carom_check_strike(carom_layout layout, int count, const carom_cue *cue) {
   if (cue == NULL || cue->speed == 0.0)
     return CAROM_OK;
   if (cue->ball < 0 || cue->ball >= count)
     return CAROM_ERROR_CUE_BALL;
-  return carom_is_out(balls[cue->ball].state.label) ? CAROM_ERROR_CUE_BALL_OUT
-                                                    : carom_check_cue(cue);
+  const bool out = carom_is_out(carom_state_in(layout, (int)cue->ball)->label);
+  return out ? CAROM_ERROR_CUE_BALL_OUT : carom_check_cue(cue);
 }
 
 carom_status carom_check_common(const carom_table *table, int64_t count,
@@ -161,42 +162,63 @@ carom_status carom_check_common(const carom_table *table, int64_t count,
                                                : carom_check_table(table, where);
 }
 
+carom_status carom_check_job(const carom_shot_job *job) {
+  const bool by_reference = job->kinds != NULL && job->states != NULL;
+  if (job->table == NULL || job->shots == NULL || (job->balls == NULL && !by_reference))
+    return CAROM_ERROR_NULL;
+  bool unused = job->balls != NULL && (job->kinds != NULL || job->states != NULL);
+  for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
+    unused |= job->reserved[k] != 0;
+  return unused ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
+}
+
+carom_layout carom_layout_of_row(const carom_shot_job *job, size_t k) {
+  const size_t first = k * job->ball_stride;
+  if (job->balls != NULL)
+    return carom_layout_of(job->balls + first);
+  const carom_layout layout = {job->kinds, job->states + first, sizeof *job->kinds,
+                               sizeof *job->states};
+  return layout;
+}
+
 carom_status carom_check_layout(const carom_table *table, carom_features *features,
-                                const carom_shot_ball *balls, int count,
-                                const carom_shot_options *opt, int *where) {
+                                carom_layout layout, int count, const carom_shot_options *opt,
+                                int *where) {
   const bool one_mass =
       carom_rules_of(opt->world)->one_mass || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
   const bool flat = is_flat(opt);
-  carom_status bad = prepare_for(table, balls, count, flat, features, where);
+  carom_status bad = prepare_for(table, layout, count, flat, features, where);
   if (bad != CAROM_OK)
     return bad;
   double height[CAROM_BALLS_MOST];
   for (*where = 0; *where < count; ++*where) {
-    const carom_shot_ball *ball = &balls[*where];
+    const carom_ball_kind *kind = carom_kind_in(layout, *where);
+    const carom_ball_state *state = carom_state_in(layout, *where);
     /* most balls are of the kind of the one before, which is good */
     const bool known =
-        *where > 0 && memcmp(&ball->kind, &balls[*where - 1].kind, sizeof ball->kind) == 0;
+        *where > 0 && memcmp(kind, carom_kind_in(layout, *where - 1), sizeof *kind) == 0;
     if (!known)
-      bad = check_kind(&ball->kind);
-    if (bad == CAROM_OK && flat && ball->kind.radius != balls[0].kind.radius)
+      bad = check_kind(kind);
+    if (bad == CAROM_OK && flat && kind->radius != layout.kind->radius)
       bad = CAROM_ERROR_RADII_DIFFER;
-    if (bad == CAROM_OK && ball->kind.nose_height >= 2.0 * features->reference)
+    if (bad == CAROM_OK && kind->nose_height >= 2.0 * features->reference)
       bad = CAROM_ERROR_BALL_CUSHION;
-    if (bad == CAROM_OK && one_mass && ball->kind.mass != balls[0].kind.mass)
+    if (bad == CAROM_OK && one_mass && kind->mass != layout.kind->mass)
       bad = CAROM_ERROR_MASSES_DIFFER;
     if (bad == CAROM_OK)
-      bad = check_state(&ball->state, ball->kind.radius, flat);
+      bad = check_state(state, kind->radius, flat);
     if (bad != CAROM_OK)
       return bad;
-    if (carom_is_out(ball->state.label))
+    const double r[3] = {state->r[0], state->r[1], height_of(state, kind->radius)};
+    height[*where] = r[2];
+    if (carom_is_out(state->label))
       continue;
-    const bool flies = carom_flies_in_layout(&ball->state, ball->kind.radius);
-    if (flies ? !carom_is_above_table(table, features, &ball->kind, ball->state.r)
-              : !carom_stands_on_table(table, features, &ball->kind, ball->state.r))
+    const bool flies = carom_flies_in_layout(state, kind->radius);
+    if (flies ? !carom_is_above_table(table, features, kind, state->r)
+              : !carom_stands_on_table(table, features, kind, state->r))
       return CAROM_ERROR_OFF_TABLE;
-    const double z = height[*where] = height_of(ball);
     for (int k = 0; k < *where; k++)
-      if (!carom_is_out(balls[k].state.label) && overlap(ball, z, &balls[k], height[k]))
+      if (overlaps(r, kind->radius, layout, k, height[k]))
         return CAROM_ERROR_OVERLAP;
   }
   *where = -1;
@@ -216,8 +238,8 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   carom_features features;
   features.radius = 0.0;
   if (bad == CAROM_OK)
-    bad = carom_check_layout(table, &features, balls, count, opt, where);
-  return bad != CAROM_OK ? bad : carom_check_strike(balls, count, cue);
+    bad = carom_check_layout(table, &features, carom_layout_of(balls), count, opt, where);
+  return bad != CAROM_OK ? bad : carom_check_strike(carom_layout_of(balls), count, cue);
 }
 
 carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball,
@@ -243,9 +265,10 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
     return CAROM_ERROR_OFF_TABLE;
   }
   placed.state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
+  const carom_layout layout = carom_layout_of(balls);
   for (int k = 0; k < count; k++) {
-    if (k != ball && !carom_is_out(balls[k].state.label) &&
-        overlap(&placed, R, &balls[k], height_of(&balls[k]))) {
+    const double z = height_of(&balls[k].state, balls[k].kind.radius);
+    if (k != ball && overlaps(r, R, layout, k, z)) {
       *in_the_way = (carom_part){CAROM_PART_BALL, k};
       return CAROM_ERROR_OVERLAP;
     }

@@ -102,7 +102,8 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
       first = c->balls;
     if (k == j)
       second = c->balls;
-    c->ball[c->balls++] = member_of(&sim->ball[k].kind, &now, sim->opt, carom_flies(&now), k);
+    c->ball[c->balls++] =
+        member_of(carom_kind_in(sim->ball, k), &now, sim->opt, carom_flies(&now), k);
   }
   const int size = carom_cluster_members(c, first, second);
   if (size == 0 || size == 1)

@@ -145,8 +145,8 @@ meet_table_as(const carom_sim *sim, int i, const motion *m, double T, const bool
     double reach = radius;
     if (unlike && pocket < 0)
       reach = carom_reach_on_cloth(
-          &sim->ball[i].kind, jaw < 0 ? sim->table->rail[k].height : sim->table->jaw[jaw].height,
-          f->reference);
+          carom_kind_in(sim->ball, i),
+          jaw < 0 ? sim->table->rail[k].height : sim->table->jaw[jaw].height, f->reference);
     const double t = jaw < 0      ? meet_rail(sim, k, reach, m, T)
                      : pocket < 0 ? meet_jaw(sim, jaw, reach, m, T)
                                   : meet_pocket(sim, pocket, m, T);

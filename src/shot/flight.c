@@ -293,7 +293,7 @@ static void meet_pockets(const carom_sim *sim, const flight *f, double landing,
 
 carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3],
                                    const double v[3], double landing) {
-  const carom_ball_kind *kind = &sim->ball[i].kind;
+  const carom_ball_kind *kind = carom_kind_in(sim->ball, i);
   const flight f = {{r[0], r[1], r[2]}, {v[0], v[1], v[2]}, kind->gravity, kind->radius};
   carom_meeting first = {INFINITY, 0, 0};
   double T = landing;

@@ -35,8 +35,8 @@ static inline carom_speed_law law_of(const carom_ball_kind *a, const carom_ball_
 /* At a slip, m/s. */
 static double friction_of(const carom_sim *sim, int i, int j, double slip) {
   if (sim->opt->friction == CAROM_FRICTION_CONSTANT)
-    return 0.5 * (sim->ball[i].kind.mu_ball + sim->ball[j].kind.mu_ball);
-  const carom_speed_law law = law_of(&sim->ball[i].kind, &sim->ball[j].kind);
+    return 0.5 * (carom_kind_in(sim->ball, i)->mu_ball + carom_kind_in(sim->ball, j)->mu_ball);
+  const carom_speed_law law = law_of(carom_kind_in(sim->ball, i), carom_kind_in(sim->ball, j));
   return carom_friction_at(&law, slip);
 }
 
@@ -117,7 +117,8 @@ void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state
 carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3],
                                bool in_space, carom_ball_state *a, carom_ball_state *b) {
   const int i = due->a, j = due->b;
-  const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
+  const carom_ball_kind *kind_a = carom_kind_in(sim->ball, i),
+                        *kind_b = carom_kind_in(sim->ball, j);
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
   const carom_ball_model model = ball_model(sim);
   carom_result out;
@@ -267,7 +268,7 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
 carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3],
                                  carom_ball_state *s) {
   static const double near = 1e-3; /* m */
-  const carom_ball_kind *kind = &sim->ball[due->a].kind;
+  const carom_ball_kind *kind = carom_kind_in(sim->ball, due->a);
   const carom_nose nose = carom_nose_of(sim->table, due);
   if (!carom_flies(s))
     return impact_on_cloth(sim, kind, n, &nose, s);

@@ -188,7 +188,7 @@ static bool is_finite(const carom_ball_state *s) {
  * cloth. */
 static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ball_state *s,
                       double N[3]) {
-  const carom_ball_kind *kind = &sim->ball[due->a].kind;
+  const carom_ball_kind *kind = carom_kind_in(sim->ball, due->a);
   const double *r = s->r;
   double out[2], across, height; /* the horizontal direction from the nose to the centre; the
                                     distance from the wall */
@@ -222,7 +222,7 @@ static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ba
 }
 
 double carom_height_on_top(const carom_sim *sim, int i, int part) {
-  const carom_ball_kind *kind = &sim->ball[i].kind;
+  const carom_ball_kind *kind = carom_kind_in(sim->ball, i);
   const int jaw = part - sim->features->rails;
   return carom_nose_height(kind,
                            jaw < 0 ? sim->table->rail[part].height : sim->table->jaw[jaw].height) +
@@ -232,7 +232,8 @@ double carom_height_on_top(const carom_sim *sim, int i, int part) {
 void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a,
                           const carom_ball_state *b, double n[3]) {
   if (b != NULL)
-    carom_line_of_centres(&sim->ball[due->a].kind, a, &sim->ball[due->b].kind, b, n);
+    carom_line_of_centres(carom_kind_in(sim->ball, due->a), a, carom_kind_in(sim->ball, due->b), b,
+                          n);
   else
     into_nose(sim, due, a, n);
 }
@@ -246,11 +247,11 @@ double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const
 
 carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
                            carom_ball_state *b) {
-  contact c = {.kind_a = &sim->ball[due->a].kind, .a = a, .b = b};
+  contact c = {.kind_a = carom_kind_in(sim->ball, due->a), .a = a, .b = b};
   c.in_space = carom_flies(a);
   carom_contact_normal(sim, due, a, b, c.n);
   if (b != NULL) {
-    c.kind_b = &sim->ball[due->b].kind;
+    c.kind_b = carom_kind_in(sim->ball, due->b);
     c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;
     c.held_a = c.in_space && !carom_flies(a) && c.n[2] > 0.0;
     c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;

@@ -109,7 +109,7 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
   case CAROM_EVENT_SLATE:
   case CAROM_EVENT_RAIL_TOP:
     *state = event->before[0];
-    carom_hit_slate(&sim->ball[i].kind, state);
+    carom_hit_slate(carom_kind_in(sim->ball, i), state);
     carom_label_in_space(state, sim->rates[i].radius);
     return CAROM_OK;
   case CAROM_EVENT_LEFT_TABLE:
@@ -161,7 +161,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
         carom_path_at(path, &sim->rates[i], sim->now, &event->before[side]);
         path->from = event->before[side];
         carom_cluster_take(two[side], &path->from);
-        carom_label_after(c.in_space, &sim->ball[i].kind, &path->from);
+        carom_label_after(c.in_space, carom_kind_in(sim->ball, i), &path->from);
         if (!is_finite(&path->from)) {
           *status = CAROM_ERROR_OVERFLOW;
           path->from = event->before[side];
@@ -235,7 +235,7 @@ static carom_status strike(carom_sim *sim) {
   carom_motion motion;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
   const carom_status status =
-      (flat ? carom_strike : carom_strike_in_space)(cue, &sim->ball[i].kind, &motion);
+      (flat ? carom_strike : carom_strike_in_space)(cue, carom_kind_in(sim->ball, i), &motion);
   if (status < 0)
     return status;
   const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
@@ -247,7 +247,7 @@ static carom_status strike(carom_sim *sim) {
   if (state->v[2] != 0.0) { /* pressed on the slate, or landing at once from the cloth exactly */
     state->r[2] = sim->rates[i].radius;
     if (cue->tip_time >= 0.0)
-      carom_press_on_slate(&sim->ball[i].kind, cue->tip_time, state);
+      carom_press_on_slate(carom_kind_in(sim->ball, i), cue->tip_time, state);
     carom_label_in_space(state, sim->rates[i].radius);
   } else {
     carom_label_of(state, sim->rates[i].radius);
@@ -264,12 +264,12 @@ static void begin(carom_sim *sim) {
   sim->unlike = false;
   sim->widest = 0.0;
   for (int i = 0; i < sim->count; i++) {
-    sim->rates[i] = carom_rates_of(&sim->ball[i].kind);
+    sim->rates[i] = carom_rates_of(carom_kind_in(sim->ball, i));
     carom_ball_state *from = &sim->path[i].from;
-    *from = sim->ball[i].state;
+    *from = *carom_state_in(sim->ball, i);
     carom_label_of_layout(from, sim->rates[i].radius);
     sim->widest = carom_greater(sim->widest, sim->rates[i].radius);
-    sim->unlike |= sim->ball[i].kind.radius != sim->features->reference;
+    sim->unlike |= carom_kind_in(sim->ball, i)->radius != sim->features->reference;
     carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   }
 }
@@ -348,7 +348,7 @@ static carom_status start(carom_sim *sim) {
 
 /* With arguments that have been checked: a shot from its strike, or on from shot->state. */
 static carom_status shoot(const carom_table *table, const carom_features *features,
-                          const carom_shot_ball *balls, int count, const carom_cue *cue,
+                          carom_layout layout, int count, const carom_cue *cue,
                           const carom_shot_options *opt, carom_shot *shot, bool anew) {
   carom_sim sim;
   if (!anew)
@@ -358,7 +358,7 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   sim.rules = carom_rules_of(opt->world);
   sim.table = table;
   sim.features = features;
-  sim.ball = balls;
+  sim.ball = layout;
   sim.opt = opt;
   sim.cue = cue;
   sim.shot = shot;
@@ -397,29 +397,29 @@ static void clear(carom_shot *shot) {
 
 /* The layout that was checked last, and with which status. */
 typedef struct checked {
-  const carom_shot_ball *balls; /* NULL: none */
+  const carom_ball_state *states; /* NULL: none */
   carom_status status;
   carom_features features; /* prepared for its radii */
 } checked;
 
 carom_status carom_shoot_prepared(const carom_table *table, const carom_features *features,
-                                  const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                  carom_layout layout, int count, const carom_cue *cue,
                                   const carom_shot_options *opt, carom_shot *shot) {
   clear(shot);
-  const carom_status bad = carom_check_strike(balls, count, cue);
-  return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot, true);
+  const carom_status bad = carom_check_strike(layout, count, cue);
+  return bad != CAROM_OK ? bad : shoot(table, features, layout, count, cue, opt, shot, true);
 }
 
 /* A layout that is the last one is not checked again. */
-static carom_status shoot_checked(const carom_table *table, checked *last,
-                                  const carom_shot_ball *balls, int count, const carom_cue *cue,
-                                  const carom_shot_options *opt, carom_shot *shot) {
+static carom_status shoot_checked(const carom_table *table, checked *last, carom_layout layout,
+                                  int count, const carom_cue *cue, const carom_shot_options *opt,
+                                  carom_shot *shot) {
   int where;
-  if (last->balls != balls)
-    last->status = carom_check_layout(table, &last->features, balls, count, opt, &where);
-  last->balls = balls;
+  if (last->states != layout.state)
+    last->status = carom_check_layout(table, &last->features, layout, count, opt, &where);
+  last->states = layout.state;
   if (last->status == CAROM_OK)
-    return carom_shoot_prepared(table, &last->features, balls, count, cue, opt, shot);
+    return carom_shoot_prepared(table, &last->features, layout, count, cue, opt, shot);
   clear(shot);
   return last->status;
 }
@@ -442,9 +442,10 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   int where;
   bad = carom_check_common(table, count, opt, &where);
   checked last;
-  last.balls = NULL;
+  last.states = NULL;
   last.features.radius = 0.0;
-  return bad != CAROM_OK ? bad : shoot_checked(table, &last, balls, count, cue, opt, shot);
+  const carom_layout layout = carom_layout_of(balls);
+  return bad != CAROM_OK ? bad : shoot_checked(table, &last, layout, count, cue, opt, shot);
 }
 
 carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
@@ -453,39 +454,40 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
   int where;
+  const carom_layout layout = carom_layout_of(balls);
   carom_features features;
   features.radius = 0.0;
   carom_status bad = check_room(shot);
   if (bad == CAROM_OK)
     bad = carom_check_common(table, count, opt, &where);
   if (bad == CAROM_OK)
-    bad = carom_check_layout(table, &features, balls, count, opt, &where);
+    bad = carom_check_layout(table, &features, layout, count, opt, &where);
   if (bad != CAROM_OK)
     return bad;
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
     return CAROM_ERROR_STATE;
   if (opt->time_most > 0.0 && opt->time_most < shot->time)
     return CAROM_ERROR_TIME_MOST;
-  return shoot(table, &features, balls, count, NULL, opt, shot, false);
+  return shoot(table, &features, layout, count, NULL, opt, shot, false);
 }
 
 /* ---- Many */
 
 static carom_status shoot_row(const carom_shot_job *job, size_t k, checked *last) {
-  const carom_shot_ball *balls = job->balls + k * job->ball_stride;
+  const carom_layout layout = carom_layout_of_row(job, k);
   const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
   const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
   const carom_status bad = check_room(&job->shots[k]);
   if (bad != CAROM_OK)
     return bad;
-  return shoot_checked(job->table, last, balls, (int)job->count, cue, opt, &job->shots[k]);
+  return shoot_checked(job->table, last, layout, (int)job->count, cue, opt, &job->shots[k]);
 }
 
 static size_t shoot_rows(const void *context, size_t first, size_t end) {
   const carom_shot_job *job = context;
   size_t first_bad = end;
   checked last; /* shared by rows with one layout; its features by those with one radius */
-  last.balls = NULL;
+  last.states = NULL;
   last.features.radius = 0.0;
   for (size_t k = first; k < end; k++) {
     const carom_status status = shoot_row(job, k, &last);
@@ -502,14 +504,11 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
     return CAROM_ERROR_NULL;
   if (job->n == 0)
     return CAROM_OK;
-  if (job->table == NULL || job->balls == NULL || job->shots == NULL)
-    return CAROM_ERROR_NULL;
-  for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
-    if (job->reserved[k] != 0)
-      return CAROM_ERROR_SHOT_OPTIONS;
   const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
   int where;
-  const carom_status bad = carom_check_common(job->table, job->count, opt, &where);
+  carom_status bad = carom_check_job(job);
+  if (bad == CAROM_OK)
+    bad = carom_check_common(job->table, job->count, opt, &where);
   if (bad != CAROM_OK)
     return bad;
   enum { LEAST = 4 }; /* shots worth a thread */
@@ -518,7 +517,7 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
     return CAROM_OK;
   /* Only its index came back through the threads; playing the shot again tells its status. */
   checked last;
-  last.balls = NULL;
+  last.states = NULL;
   last.features.radius = 0.0;
   return shoot_row(job, first_bad, &last);
 }

@@ -15,6 +15,26 @@ typedef struct carom_meeting {
 
 struct carom_rules;
 
+/* The balls of a layout, wherever their kinds and states are. */
+typedef struct carom_layout {
+  const carom_ball_kind *kind;
+  const carom_ball_state *state;
+  size_t kind_step, state_step; /* bytes from ball to ball; 0: all balls have the first */
+} carom_layout;
+
+static inline const carom_ball_kind *carom_kind_in(carom_layout layout, int i) {
+  const char *at = (const char *)layout.kind + (size_t)i * layout.kind_step;
+  return (const carom_ball_kind *)(const void *)at;
+}
+static inline const carom_ball_state *carom_state_in(carom_layout layout, int i) {
+  const char *at = (const char *)layout.state + (size_t)i * layout.state_step;
+  return (const carom_ball_state *)(const void *)at;
+}
+static inline carom_layout carom_layout_of(const carom_shot_ball *balls) {
+  const carom_layout layout = {&balls->kind, &balls->state, sizeof *balls, sizeof *balls};
+  return layout;
+}
+
 typedef struct carom_sim {
   /* of a state that is kept, state.c */
   uint64_t can_go_on, seal;
@@ -22,7 +42,7 @@ typedef struct carom_sim {
   const struct carom_rules *rules; /* of the world, rules.h */
   const carom_table *table;
   const carom_features *features;
-  const carom_shot_ball *ball;
+  carom_layout ball;
   const carom_shot_options *opt;
   const carom_cue *cue;
   carom_shot *shot;
@@ -140,14 +160,17 @@ carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
 /* The arguments that the shots of a batch share. */
 carom_status carom_check_common(const carom_table *table, int64_t count,
                                 const carom_shot_options *opt, int *where);
+/* What a job needs beside them, and the layout of its shot k. */
+carom_status carom_check_job(const carom_shot_job *job);
+carom_layout carom_layout_of_row(const carom_shot_job *job, size_t k);
 /* One layout. Prepares the table for the radii of the balls, where *features are for others. */
 carom_status carom_check_layout(const carom_table *table, carom_features *features,
-                                const carom_shot_ball *balls, int count,
-                                const carom_shot_options *opt, int *where);
+                                carom_layout layout, int count, const carom_shot_options *opt,
+                                int *where);
 /* The cue of a good layout; NULL: none. */
-carom_status carom_check_strike(const carom_shot_ball *balls, int count, const carom_cue *cue);
+carom_status carom_check_strike(carom_layout layout, int count, const carom_cue *cue);
 /* shoot.c: carom_shoot() with a layout and options that these have found good. */
 carom_status carom_shoot_prepared(const carom_table *table, const carom_features *features,
-                                  const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                  carom_layout layout, int count, const carom_cue *cue,
                                   const carom_shot_options *opt, carom_shot *shot);
 #endif

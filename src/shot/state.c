@@ -41,9 +41,19 @@ static uint64_t of_options(const carom_shot_options *o) {
   return carom_fingerprint(0, words, sizeof words);
 }
 
+/* Of the kinds and states of the balls, wherever they are. */
+static uint64_t of_balls(const carom_sim *sim) {
+  uint64_t h = 0;
+  for (int i = 0; i < sim->count; i++) {
+    h = carom_fingerprint(h, carom_kind_in(sim->ball, i), sizeof(carom_ball_kind));
+    h = carom_fingerprint(h, carom_state_in(sim->ball, i), sizeof(carom_ball_state));
+  }
+  return h;
+}
+
 void carom_state_begin(carom_sim *sim) {
   sim->of_table = of_table(sim->table);
-  sim->of_balls = carom_fingerprint(0, sim->ball, (size_t)sim->count * sizeof *sim->ball);
+  sim->of_balls = of_balls(sim);
   sim->of_options = of_options(sim->opt);
 }
 
@@ -66,7 +76,7 @@ void carom_state_save(carom_sim *sim, carom_shot_state *state) {
   sim->rules = NULL; /* these come with the next call */
   sim->table = NULL;
   sim->features = NULL;
-  sim->ball = NULL;
+  memset(&sim->ball, 0, sizeof sim->ball);
   sim->opt = NULL;
   sim->cue = NULL;
   sim->shot = NULL;
@@ -202,7 +212,7 @@ static bool is_sound(const carom_sim *sim) {
   bool unlike = false;
   double widest = 0.0;
   for (int i = 0; i < sim->count; i++) {
-    const carom_ball_rates rates = carom_rates_of(&sim->ball[i].kind);
+    const carom_ball_rates rates = carom_rates_of(carom_kind_in(sim->ball, i));
     widest = carom_greater(widest, rates.radius);
     unlike |= rates.radius != sim->features->reference;
     if (memcmp(&rates, &sim->rates[i], sizeof rates) != 0 || !good_path(sim, i) ||
@@ -224,8 +234,7 @@ carom_status carom_state_check(const carom_sim *sim, const carom_shot_state *sta
     return CAROM_ERROR_STATE_OPTIONS;
   if (sim->of_table != of_table(sim->table))
     return CAROM_ERROR_STATE_TABLE;
-  if (sim->count != count ||
-      sim->of_balls != carom_fingerprint(0, sim->ball, (size_t)count * sizeof *sim->ball))
+  if (sim->count != count || sim->of_balls != of_balls(sim))
     return CAROM_ERROR_STATE_BALLS;
   return is_sound(sim) ? CAROM_OK : CAROM_ERROR_STATE;
 }

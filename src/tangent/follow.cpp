@@ -519,7 +519,7 @@ void begin_scene(carom_tangent_work *w, scene *s) {
   s->sim.rules = &s->rules;
   s->sim.table = &s->table;
   s->sim.features = &s->features;
-  s->sim.ball = s->ball;
+  s->sim.ball = text::carom_layout_of(s->ball);
   s->sim.opt = &s->opt;
   s->sim.count = 2;
 }

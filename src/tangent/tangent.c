@@ -117,17 +117,17 @@ static void put(const work *w, carom_tangent_row *d, double *rows, int64_t at) {
 }
 
 /* Where all balls begin. */
-static void begin(work *w, const carom_shot_ball *balls) {
+static void begin(work *w, carom_layout layout) {
   const bool own = w->table->ball_radius > 0.0 && w->opt->space != CAROM_SPACE_FLAT;
-  w->reference = own ? w->table->ball_radius : balls[w->count - 1].kind.radius;
+  w->reference = own ? w->table->ball_radius : carom_kind_in(layout, w->count - 1)->radius;
   w->slow_instants = 0;
   w->slow_last = -1.0;
   for (int i = 0; i < w->count; i++) {
     carom_tangent_ball *ball = &w->ball[i];
-    ball->kind = &balls[i].kind;
+    ball->kind = carom_kind_in(layout, i);
     ball->last_contact = -INFINITY;
-    ball->from = balls[i].state;
-    carom_label_of_layout(&ball->from, balls[i].kind.radius);
+    ball->from = *carom_state_in(layout, i);
+    carom_label_of_layout(&ball->from, ball->kind->radius);
     carom_tangent_begin(w, i);
   }
 }
@@ -157,12 +157,12 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
 }
 
 /* The directions of one pass. */
-static carom_status differentiate(work *w, const carom_shot_ball *balls, const carom_shot *shot) {
+static carom_status differentiate(work *w, carom_layout layout, const carom_shot *shot) {
   carom_tangent *tangent = w->tangent;
   carom_tangent_row *d = w->before[0]; /* free before and behind an event */
   carom_reach reach;
   int64_t next = 0, end_of_cluster = 0;
-  begin(w, balls);
+  begin(w, layout);
   if (tangent->reach != NULL)
     carom_reach_begin(&reach, w);
   for (int64_t k = 0; k <= shot->count; k++) {
@@ -211,12 +211,11 @@ static carom_status differentiate(work *w, const carom_shot_ball *balls, const c
 
 static const carom_shot_options no_options = {0};
 
-carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count,
-                                const carom_cue *cue, const carom_shot_options *opt,
-                                const carom_shot *shot, const carom_tangent_seeds *seeds,
-                                carom_tangent *tangent) {
-  if (table == NULL || balls == NULL || shot == NULL || seeds == NULL || tangent == NULL ||
-      tangent->final == NULL)
+static carom_status shot_tangent(const carom_table *table, carom_layout layout, int count,
+                                 const carom_cue *cue, const carom_shot_options *opt,
+                                 const carom_shot *shot, const carom_tangent_seeds *seeds,
+                                 carom_tangent *tangent) {
+  if (tangent->final == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
   carom_status status = check(table, count, cue, opt, shot, seeds, tangent);
@@ -239,7 +238,7 @@ carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball 
   const int m = (int)seeds->directions;
   for (int first = 0; first < m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
     w.pass = pass_of(m, first);
-    status = differentiate(&w, balls, shot);
+    status = differentiate(&w, layout, shot);
   }
   const int64_t finals = (int64_t)count * CAROM_STATE_NUMBERS * seeds->directions;
   for (int64_t k = 0; status == CAROM_OK && k < finals; k++)
@@ -249,6 +248,15 @@ carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball 
   return status;
 }
 
+carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count,
+                                const carom_cue *cue, const carom_shot_options *opt,
+                                const carom_shot *shot, const carom_tangent_seeds *seeds,
+                                carom_tangent *tangent) {
+  if (table == NULL || balls == NULL || shot == NULL || seeds == NULL || tangent == NULL)
+    return CAROM_ERROR_NULL;
+  return shot_tangent(table, carom_layout_of(balls), count, cue, opt, shot, seeds, tangent);
+}
+
 /* ---- Many ---- */
 
 static carom_status row(const carom_tangent_job *job, size_t k) {
@@ -256,10 +264,10 @@ static carom_status row(const carom_tangent_job *job, size_t k) {
   const carom_status status = played->status != NULL ? (carom_status)played->status[k] : CAROM_OK;
   if (status < 0)
     return status;
-  return carom_shot_tangent(
-      played->table, played->balls + k * played->ball_stride, (int)played->count,
-      played->cues != NULL ? played->cues + k * played->cue_stride : NULL, played->options,
-      &played->shots[k], job->seeds + k * job->seeds_stride, &job->tangents[k]);
+  return shot_tangent(played->table, carom_layout_of_row(played, k), (int)played->count,
+                      played->cues != NULL ? played->cues + k * played->cue_stride : NULL,
+                      played->options, &played->shots[k], job->seeds + k * job->seeds_stride,
+                      &job->tangents[k]);
 }
 
 static size_t rows(const void *context, size_t first, size_t end) {
@@ -281,15 +289,16 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
   const carom_shot_job *played = job->played;
   if (played->n == 0)
     return CAROM_OK;
-  if (played->table == NULL || played->balls == NULL || played->shots == NULL ||
-      job->seeds == NULL || job->tangents == NULL)
+  if (job->seeds == NULL || job->tangents == NULL)
     return CAROM_ERROR_NULL;
   for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
     if (job->reserved[k] != 0)
       return CAROM_ERROR_SHOT_OPTIONS;
   int where;
   const carom_shot_options *opt = played->options != NULL ? played->options : &no_options;
-  const carom_status bad = carom_check_common(played->table, played->count, opt, &where);
+  carom_status bad = carom_check_job(played);
+  if (bad == CAROM_OK)
+    bad = carom_check_common(played->table, played->count, opt, &where);
   if (bad != CAROM_OK)
     return bad;
   const size_t first_bad = carom_in_threads(rows, job, (size_t)played->n, opt->threads, 4);

@@ -342,7 +342,7 @@ TEST(options_and_calls) {
   JOB_REFUSED(count, 0, CAROM_ERROR_BALLS);
   JOB_REFUSED(count, INT64_C(1) << 32 | 10, CAROM_ERROR_BALLS);
   ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_BALLS), "count"));
-  JOB_REFUSED(reserved[3], 1, CAROM_ERROR_SHOT_OPTIONS);
+  JOB_REFUSED(reserved[1], 1, CAROM_ERROR_SHOT_OPTIONS);
   ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_SHOT_OPTIONS), "reserved"));
   ck_assert_int_eq(carom_shoot_batch(&good), CAROM_OK);
   ck_assert(told == CAROM_OK && shot.count != 77);
