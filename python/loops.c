@@ -28,7 +28,19 @@ typedef struct looking {
   int64_t room;
   carom_event *events;
   carom_ball_state *final, *states; /* at the end of a shot played again, and at all times */
+  carom_shot_ball balls[CAROM_BALLS_MOST];
 } looking;
+
+/* The balls of shot k, whose kinds and states the job may have apart. */
+static const carom_shot_ball *balls_of(looking *with, size_t k) {
+  const carom_shot_job *job = with->job;
+  const size_t first = k * job->ball_stride;
+  if (job->balls != NULL)
+    return job->balls + first;
+  for (size_t i = 0; i < (size_t)job->count; i++)
+    with->balls[i] = (carom_shot_ball){job->kinds[i], job->states[first + i]};
+  return with->balls;
+}
 
 /* Room for so many events. */
 static bool make_room(looking *with, int64_t room) {
@@ -49,23 +61,21 @@ static bool play_whole(looking *with, size_t k, carom_shot *shot, carom_status *
     shot->events = with->events;
     shot->brief = NULL;
     shot->room = with->room;
-    *status = carom_shoot(job->table, job->balls + k * job->ball_stride, (int)job->count, cue,
-                          job->options, shot);
+    *status = carom_shoot(job->table, balls_of(with, k), (int)job->count, cue, job->options, shot);
   } while (shot->count > with->room);
   return true;
 }
 
 /* The states at the times, and what of them is unknown. */
-static carom_status look_at_times(const looking *with, size_t k, const carom_shot *shot,
+static carom_status look_at_times(looking *with, size_t k, const carom_shot *shot,
                                   const double *times, size_t m, carom_ball_state *states) {
   const size_t count = (size_t)with->job->count;
-  const carom_shot_ball *balls = with->job->balls + k * with->job->ball_stride;
   const carom_ball_state unknown = {
       .r = {NAN, NAN, NAN}, .v = {NAN, NAN, NAN}, .w = {NAN, NAN, NAN}, .label = -1};
   for (size_t i = 0; i < m * count; i++)
     states[i] = unknown;
   return shot == NULL ? CAROM_ERROR_TIME
-                      : carom_shot_at_times(balls, (int)count, shot, times, m, states);
+                      : carom_shot_at_times(balls_of(with, k), (int)count, shot, times, m, states);
 }
 
 /* One shot. False: there is no memory. */

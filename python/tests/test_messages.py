@@ -92,6 +92,7 @@ VALUES = [
     # shots
     (r"balls: the shape must be \(balls,\)", lambda: carom.simulate(TABLE, np.stack([RACK] * 2))),
     (r"layouts: the shape", lambda: carom.simulate_batch(TABLE, RACK[0])),
+    (r"kinds: the shape must be \(\) or \(10,\)", lambda: carom.simulate_batch(TABLE, RACK["state"], kinds=RACK["kind"][:3])),
     (r"cue: one is needed, not 2", lambda: carom.simulate(TABLE, RACK, carom.cue(speed=[1, 2]))),
     (r"steps: it must be a whole number", lambda: carom.simulate(TABLE, RACK, CUE, steps=1.5)),
     (r"steps: it must be a whole number", lambda: carom.simulate_batch(TABLE, RACK, CUE, steps=-3)),

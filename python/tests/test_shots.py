@@ -261,6 +261,27 @@ def test_orientations():
     np.testing.assert_allclose(turned[..., 0, :2], np.stack([np.cos(half), -np.sin(half)], axis=-1), atol=1e-12)
 
 
+def test_kinds_apart_are_the_same_balls():
+    breaks = carom.cue(speed=8.0, phi=np.linspace(85.0, 95.0, 12), b=0.1)
+    racks = np.stack([carom.racks.nineball(TABLE, seed=seed) for seed in range(len(breaks))])
+    racks["kind"]["mu_slide"] = 0.15 + 0.01 * np.arange(10)
+    kinds, states = racks["kind"][0].copy(), racks["state"].copy()
+    for room in 0, 200:
+        whole = carom.simulate_batch(TABLE, racks, breaks, room=room)
+        apart = carom.simulate_batch(TABLE, states, breaks, kinds=kinds, room=room, threads=2)
+        assert apart.layouts.nbytes * 3 < whole.layouts.nbytes
+        assert apart.final.tobytes() == whole.final.tobytes() and apart[1].balls.tobytes() == whole[1].balls.tobytes()
+        assert apart[:2].states([0.1, 0.5]).tobytes() == whole[:2].states([0.1, 0.5]).tobytes()
+    there, here = (carom.tangents(shots, ["cue.phi"]).final["r"] for shots in (apart, whole))
+    assert there.tobytes() == here.tobytes()
+    # One layout, one kind for all; and one that is bad.
+    one = carom.simulate_batch(TABLE, RACK["state"], breaks, kinds=RACK["kind"][0])
+    assert one.final.tobytes() == carom.simulate_batch(TABLE, RACK, breaks).final.tobytes()
+    states["r"][1, 2, 0] = -1.0
+    again = carom.simulate_batch(TABLE, states, breaks, kinds=kinds, room=200, out=apart)
+    assert [index for index, _ in again.failures()] == [(1,)] and again.error(1).field == "balls[2].state.r"
+
+
 def test_broadcasting_and_out():
     table = carom.tables.threecushion()
     layouts = np.stack([carom.racks.threecushion(table, seed=k) for k in range(1, 4)])

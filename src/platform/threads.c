@@ -51,7 +51,7 @@ typedef pthread_t thread_handle;
 enum {
   MOST_THREADS = 256,
   PARTS_EACH = 32, /* for a thread, where there are rows enough */
-  UNIT = 64,      /* parts are multiples of this, so that only the last has lanes to spare; or of
+  UNIT = 64,       /* parts are multiples of this, so that only the last has lanes to spare; or of
                      the least worth a thread */
 };
 

@@ -37,6 +37,8 @@ FIGURES = [
     ("docs/using/games.md", r"bytes instead of (\d+)\. A", 1, "carom_shot_ball", EXACT),
     ("docs/using/games.md", r"(\d+) KiB: all that the shot needs", KIB, "carom_shot_state", EXACT),
     ("docs/using/python.md", r"an event is (\d+) bytes", 1, "carom_brief_event", EXACT),
+    ("docs/using/python.md", r"states alone: (\d+) bytes a ball", 1, "carom_ball_state", EXACT),
+    ("docs/using/python.md", r"bytes a ball\s+instead of (\d+)\.", 1, "carom_shot_ball", EXACT),
     ("docs/using/scale.md", r"layout of 10 balls\s+has ([\d.]+) kB", KB / 10, "carom_shot_ball", 0.02),
     ("docs/using/scale.md", r"its final states ([\d.]+) kB", KB / 10, "carom_ball_state", 0.02),
     ("docs/using/building.md", r"library takes ([\d.]+) MB with all", MB, "library", 0.15),

@@ -208,7 +208,12 @@ def _kept(batch: Shots, index: Any) -> dtypes.Records:
 
 
 def _layout(batch: Shots, index: Any) -> dtypes.Records:
-    return np.array(np.broadcast_to(batch.layouts, batch.final.shape)[index], dtypes.shot_ball)
+    given = np.broadcast_to(batch.layouts, batch.final.shape)[index]
+    if batch.kinds is None:
+        return np.array(given, dtypes.shot_ball)
+    balls = np.empty(given.shape, dtypes.shot_ball)
+    balls["kind"], balls["state"] = batch.kinds, given
+    return balls
 
 
 _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
@@ -264,7 +269,8 @@ class Shots:
     ----------
     table, options
         As of a `Shot`.
-    layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls) or (1, balls)
+    layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls) or (1, balls); or of `carom.dtypes.ball_state`, beside
+    kinds : ndarray of `carom.dtypes.ball_kind`, shape (balls,), or None
     cues : ndarray of `carom.dtypes.cue`, shape (...) or one, or None
     status : ndarray of int8, shape (...)
         As `Status`; a shot in error costs itself alone.
@@ -289,6 +295,7 @@ class Shots:
         balls = layouts.shape[-1]
         self.table = table
         self.layouts = layouts
+        self.kinds: dtypes.Records | None = None
         self.cues: dtypes.Records | None = None
         self.status: npt.NDArray[np.int8] = np.zeros(shape, INT8)
         self.final: dtypes.Records = np.zeros((*shape, balls), dtypes.ball_state)
@@ -342,7 +349,7 @@ class Shots:
         if isinstance(index, (int, np.integer)):
             raise IndexError(f"a shot of a batch of shape {self.shape} has {len(self.shape)} indices; [{index}, ...] are some")
         part = Shots.__new__(Shots)
-        part.table, part.options, part.status = self.table, self.options, chosen
+        part.table, part.options, part.status, part.kinds = self.table, self.options, chosen, self.kinds
         part.layouts = np.broadcast_to(self.layouts, self.final.shape)[index]
         part.cues = None if self.cues is None else np.broadcast_to(self.cues, self.shape)[index]
         part.final, part.events, part.record = self.final[index], self.events[index], self.record[index]
@@ -419,13 +426,16 @@ class Shots:
             record["events" if self.events.dtype == dtypes.event else "brief"] = addresses(self.events, lead)
         record["final"] = addresses(self.final, lead)
         record["facts"] = 0 if self.facts is None else addresses(self.facts, lead)
-        table, balls = pointer("carom_table[]", self.table.record), pointer("carom_shot_ball[]", layouts)
+        table = pointer("carom_table[]", self.table.record)
+        balls = pointer("carom_shot_ball[]" if self.kinds is None else "carom_ball_state[]", layouts)
+        kinds = ffi.NULL if self.kinds is None else pointer("carom_ball_kind[]", self.kinds)
         strikes = ffi.NULL if cues is None else pointer("carom_cue[]", cues)
         results, flags = pointer("carom_shot[]", record), pointer("int8_t[]", status)
 
         def job(begin: int, many: int) -> Any:
             given = {
-                "table": table, "balls": balls if one_layout else balls + begin * count, "cues": strikes if one_cue else strikes + begin,
+                "table": table, "balls" if self.kinds is None else "states": balls if one_layout else balls + begin * count,
+                "kinds": kinds, "cues": strikes if one_cue else strikes + begin,
                 "count": count, "ball_stride": 0 if one_layout else count, "cue_stride": 0 if one_cue else 1, "n": many,
                 "options": options, "shots": results + begin, "status": flags + begin,
             }  # fmt: skip

@@ -130,8 +130,8 @@ def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterab
 
 def simulate_batch(
     table: Table, layouts: dtypes.Records, cues: dtypes.Records | None = None, *, room: int = 0,
-    records: Literal["full", "brief"] = "full", features: bool = False, threads: int = 0, out: Shots | None = None,
-    options: Options = _USUAL, **changes: Unpack[Changes]
+    kinds: dtypes.Records | None = None, records: Literal["full", "brief"] = "full", features: bool = False, threads: int = 0,
+    out: Shots | None = None, options: Options = _USUAL, **changes: Unpack[Changes]
 ) -> Shots:  # fmt: skip
     """Play many shots.
 
@@ -140,6 +140,8 @@ def simulate_batch(
     table : Table
         Of all shots.
     layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls)
+    kinds : ndarray of `carom.dtypes.ball_kind`, shape (balls,) or (), optional
+        What all layouts have in common: then `layouts` is of `carom.dtypes.ball_state`, 80 bytes a ball instead of 288.
     cues : ndarray of `carom.dtypes.cue`, shape (...), optional
         None: no strikes. Broadcast against the leading dimensions of the layouts: one layout and many cues, or the reverse.
     room : int
@@ -158,13 +160,19 @@ def simulate_batch(
     Returns Shots: Each with the bits of `simulate`. One in error costs itself: see `status` and `failures()`.
     Raises CaromError: The table or an option is in error.
     """
-    all_balls = of_record(layouts, dtypes.shot_ball, "layouts", "balls()")
+    record, builder = (dtypes.shot_ball, "balls()") if kinds is None else (dtypes.ball_state, 'balls()["state"], beside kinds')
+    all_balls = of_record(layouts, record, "layouts", builder)
     all_cues = np.zeros((), dtypes.cue) if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
     if all_balls.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
     check_table(table)
     whole(room, "room")
     count = all_balls.shape[-1]
+    if kinds is not None:
+        kinds = of_record(kinds, dtypes.ball_kind, "kinds", 'balls()["kind"]')
+        if kinds.shape not in ((), (1,), (count,)):
+            raise ValueError(f"kinds: the shape must be () or ({count},), a kind for each ball of the layouts, not {kinds.shape}")
+        kinds = np.ascontiguousarray(np.broadcast_to(kinds, (count,)))
     shape = broadcast({"layouts": all_balls.shape[:-1], "cues": all_cues.shape})
     # One layout or one cue for all is not copied; what else is broadcast is.
     if all_balls.size != count:
@@ -173,18 +181,20 @@ def simulate_batch(
         all_cues = np.ascontiguousarray(np.broadcast_to(all_cues, shape))
     if records not in ("full", "brief"):
         raise ValueError(f"records: must be 'full' or 'brief', not {records!r}")
-    record = dtypes.event if records == "full" else dtypes.brief_event
+    event = dtypes.event if records == "full" else dtypes.brief_event
     chosen = options.changed(changes)
     of_c = shot_options(chosen, threads)
-    shots = Shots(table, all_balls, shape, room, record) if out is None else out
+    shots = Shots(table, all_balls, shape, room, event) if out is None else out
     if out is not None:
         wanted = {"status": (shape, INT8), "final": ((*shape, count), dtypes.ball_state)}
-        wanted |= {"events": ((*shape, room), record), "record": (shape, dtypes.shot)}
+        wanted |= {"events": ((*shape, room), event), "record": (shape, dtypes.shot)}
         written = tuple((f"out.{name}", output(getattr(out, name), *form, f"out.{name}")) for name, form in wanted.items())
-        apart((("layouts", all_balls), ("cues", all_cues), ("table", table.record)), written)
+        given = (("layouts", all_balls), ("cues", all_cues), ("table", table.record))
+        apart(given if kinds is None else (*given, ("kinds", kinds)), written)
         out.table, out.layouts = table, all_balls
         out.record["time"], out.record["count"] = 0.0, 0
         out.status[...] = Status.OK
+    shots.kinds = kinds
     shots.cues, shots.options = None if cues is None else all_cues, chosen
     shots.facts = np.zeros(shape, dtypes.facts) if features else None
     job = shots.jobs(of_c)
