@@ -83,7 +83,8 @@ def described(dtype: np.dtype[Any]) -> str:
     if dtype.names is None:
         return str(dtype)
     fields = ", ".join(dtype.names[:3]) + (", ..." if len(dtype.names) > 3 else "")
-    return next((f"carom.dtypes.{name}" for name, value in globals().items() if value is dtype), f"a structured dtype of {fields}")
+    known = {name: value for name, value in globals().items() if isinstance(value, np.dtype)}
+    return next((f"carom.dtypes.{name}" for name, value in known.items() if value == dtype), f"a structured dtype of {fields}")
 
 
 @functools.lru_cache(maxsize=64)

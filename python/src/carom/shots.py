@@ -160,7 +160,7 @@ def simulate_batch(
     Returns Shots: Each with the bits of `simulate`. One in error costs itself: see `status` and `failures()`.
     Raises CaromError: The table or an option is in error.
     """
-    record, builder = (dtypes.shot_ball, "balls()") if kinds is None else (dtypes.ball_state, 'balls()["state"], beside kinds')
+    record, builder = (dtypes.shot_ball, "balls(), or kinds= beside states,") if kinds is None else (dtypes.ball_state, 'balls()["state"], beside kinds,')
     all_balls = of_record(layouts, record, "layouts", builder)
     all_cues = np.zeros((), dtypes.cue) if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
     if all_balls.ndim == 0:
