@@ -279,6 +279,7 @@ typedef enum carom_status {
                                            where and why. */
   CAROM_ERROR_REVISION = -102,          /* carom_record.h: it is of another revision of the
                                            physics. */
+  CAROM_ERROR_IN_MOTION = -103,         /* carom_plan.h: a ball of the layout moves. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value

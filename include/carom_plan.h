@@ -262,7 +262,7 @@ typedef struct carom_choice {
 /* The position for which a plan is made. */
 typedef struct carom_plan_job {
   const carom_table *table;
-  const carom_shot_ball *balls; /* the layout, at rest; else every shot is a foul. */
+  const carom_shot_ball *balls; /* the layout, at rest. */
   int64_t count;                /* 2 to CAROM_BALLS_MOST. */
   const carom_cue *cue;         /* its ball, masses, tip and miscue; the stroke itself is not
                                    read. */
@@ -276,7 +276,7 @@ typedef struct carom_plan_job {
   uint64_t reserved[4];              /* must be 0. */
 } carom_plan_job;
 
-/* The bytes that a plan with these options needs; about a million for the defaults. NULL: the
+/* The bytes that a plan with these options needs; some 320,000 for the defaults. NULL: the
  * defaults. 0 for bad options. */
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
@@ -284,8 +284,9 @@ CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
  * their number, at least 1.
  *
  * CAROM_OK; CAROM_ERROR_NULL for a pointer that is NULL or too little memory;
- * CAROM_ERROR_OPTIONS for bad options, a bad player or rules without on(), judge() or left(); or
- * an error of the layout, as carom_shot_check() has it. With an error nothing is written. The
+ * CAROM_ERROR_OPTIONS for bad options, a bad player or rules without on(), judge() or left();
+ * CAROM_ERROR_IN_MOTION for a ball that is not at rest; or an error of the layout, as
+ * carom_shot_check() has it. With an error nothing is written. The
  * choice depends on the arguments alone, also for any number of threads; with shot->plain it is
  * the same on all machines. */
 CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room,

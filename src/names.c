@@ -155,7 +155,9 @@
     "options.cluster_steps must be 0 to 10000 (0 is the default)")                                 \
   X(ERROR_RECORD, -101, "bad_record", "the recording is wrong; record.fault says where and why")   \
   X(ERROR_REVISION, -102, "other_revision",                                                        \
-    "the recording is of another revision of the physics, with which its shots have other bits")
+    "the recording is of another revision of the physics, with which its shots have other bits")   \
+  X(ERROR_IN_MOTION, -103, "in_motion",                                                            \
+    "plans are made of layouts at rest, and a ball moves, turns or flies")
 
 #define AGREES(NAME, value, name, text) \
   _Static_assert(CAROM_##NAME == (value), "values are never renumbered");

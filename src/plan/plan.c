@@ -104,9 +104,9 @@ typedef struct plan {
   carom_shot_ball played[CAROM_BALLS_MOST];
   int32_t plays, which[CAROM_BALLS_MOST], cue_ball;
   pot pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
-  place_in_hand place[PLACES_PLANNED + 1]; /* the best first */
-  const carom_cue *cues;                   /* that the caller gave, `tries` of them, */
-  carom_choice *choices;                   /* and where he wants what they are worth */
+  place_in_hand best_place[PLACES_PLANNED + 1]; /* the best first */
+  const carom_cue *cues;                        /* that the caller gave, `tries` of them, */
+  carom_choice *choices;                        /* and where he wants what they are worth */
   int places, tries;
 } plan;
 
@@ -665,6 +665,17 @@ static carom_status check_stroke(const carom_plan_job *job, const carom_cue *str
   return carom_check_strike(carom_layout_of(job->balls), (int)job->count, &cue);
 }
 
+/* Whether all balls are at rest or out of play, but the one in hand (-1: none). */
+static bool is_at_rest(const plan *of, const carom_shot_ball *balls, int in_hand) {
+  bool rests = true;
+  for (int k = 0; k < (int)of->job.count; k++) {
+    carom_ball_state s = balls[k].state;
+    const int64_t label = carom_label_of_layout(&s, balls[k].kind.radius);
+    rests &= k == in_hand || label == CAROM_BALL_STATIONARY || carom_is_out(label);
+  }
+  return rests;
+}
+
 /* Once for all shots of a plan; with_cue: and its cue, whose stroke is not looked at. */
 static carom_status check_layout(plan *of, const carom_shot_ball *balls, bool with_cue) {
   int where;
@@ -711,6 +722,8 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
     bad = check_layout(of, job->balls, !in_hand); /* in hand its ball may be down */
   if (bad != CAROM_OK || job->cue->ball < 0 || job->cue->ball >= job->count)
     return bad != CAROM_OK ? bad : CAROM_ERROR_CUE_BALL;
+  if (!is_at_rest(of, job->balls, in_hand ? (int)job->cue->ball : -1))
+    return CAROM_ERROR_IN_MOTION;
   of->count = 0;
   of->most = most_candidates(shots_of(options), scan_of(options));
   of->room = most_rows(shots_of(options), scan_of(options));
@@ -812,7 +825,7 @@ static void plan_here(plan *of) {
 
 /* Puts the cue ball in hand on the place k of those that are planned from. */
 static void put(plan *of, int k) {
-  const double *r = of->place[k].r;
+  const double *r = of->best_place[k].r;
   carom_place_ball(of->job.table, of->hand, (int)of->job.count, of->view.cue_ball, r[0], r[1],
                    NULL);
   lay_out(of, of->hand);
@@ -910,9 +923,9 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     state[cue_ball] = balls[cue_ball].state;
     const double value = carom_value_of(&of->view, job->rules->user, state, 0, false);
     int at = of->places < PLACES_PLANNED ? of->places++ : PLACES_PLANNED;
-    for (; at > 0 && of->place[at - 1].value < value; at--)
-      of->place[at] = of->place[at - 1];
-    of->place[at] = (place_in_hand){{r[0], r[1]}, value};
+    for (; at > 0 && of->best_place[at - 1].value < value; at--)
+      of->best_place[at] = of->best_place[at - 1];
+    of->best_place[at] = (place_in_hand){{r[0], r[1]}, value};
   }
   if (of->places == 0)
     return CAROM_ERROR_OFF_TABLE;

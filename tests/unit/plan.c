@@ -197,6 +197,16 @@ TEST(spots) {
   ck_assert(balls[1].state.r[1] == 0.75 * table.length &&
             balls[2].state.r[1] > 0.75 * table.length);
   ck_assert(least < 0.75 * table.length - 0.1 && most < table.length - 0.028);
+
+  /* on a long table the search has longer steps, a ten-thousandth of it */
+  const carom_corner corner[] = {
+      {0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {2.0, 40.0, 0.0}, {0.0, 40.0, 0.0}};
+  carom_table alley;
+  ck_assert_int_eq(carom_table_polygon(corner, 4, 0.0365, 0.0, 0.028575, &alley, NULL), CAROM_OK);
+  for (int k = 0; k < BALLS; k++)
+    ck_assert_int_eq(carom_spot_ball(&alley, balls, BALLS, k), CAROM_OK);
+  const double second = balls[1].state.r[1] - (30.0 + 2.0 * 0.028575);
+  ck_assert(balls[0].state.r[1] == 30.0 && second > -1e-6 && second < 4e-3);
   ck_assert_int_eq(carom_spot_ball(NULL, balls, BALLS, 1), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
 }
@@ -627,6 +637,9 @@ TEST(arguments_of_plans) {
   REFUSED(cue.mass, NAN, CAROM_ERROR_CUE_MASS);
   REFUSED(cue.speed = 0.0; cue.mass, NAN, CAROM_ERROR_CUE_MASS);
   REFUSED(balls[0].state.label, CAROM_BALL_POCKETED, CAROM_ERROR_CUE_BALL_OUT);
+  REFUSED(balls[3].state.v[0], 0.1, CAROM_ERROR_IN_MOTION);
+  REFUSED(balls[0].state.w[2], -1.0, CAROM_ERROR_IN_MOTION);
+  REFUSED(balls[3].state.r[2], 0.2, CAROM_ERROR_IN_MOTION);
   make_layout(5, 6);
   make_memory();
 
@@ -638,6 +651,8 @@ TEST(arguments_of_plans) {
   const double low[2] = {0.9, 0.9}, high[2] = {0.5, 2.0}, no[2] = {NAN, 0.0};
   ck_assert_int_eq(carom_plan_hand(&job, low, high, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
   ck_assert_int_eq(carom_plan_hand(&job, no, NULL, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
+  balls[0].state.v[0] = 1.0; /* in hand, it may move */
+  ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
   edge_free(&memory);
   ck_assert_int_eq(carom_plan(&job, NULL, 1, &found), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_plan(NULL, &best, 1, &found), CAROM_ERROR_NULL);
