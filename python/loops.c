@@ -34,7 +34,7 @@ typedef struct looking {
 /* The balls of shot k, whose kinds and states the job may have apart. */
 static const carom_shot_ball *balls_of(looking *with, size_t k) {
   const carom_shot_job *job = with->job;
-  const size_t first = k * job->ball_stride;
+  const size_t first = k * (size_t)job->ball_stride;
   if (job->balls != NULL)
     return job->balls + first;
   for (size_t i = 0; i < (size_t)job->count; i++)

@@ -82,7 +82,7 @@ def declared(item):
     # enumerators, and tags
     for k, token in enumerate(tokens):
         if token in ("struct", "enum", "union") and depths[k] == 0 and k + 1 < len(tokens) and re.match(r"\w", tokens[k + 1]):
-            if k + 2 < len(tokens) and tokens[k + 2] == "{":
+            if k + 2 < len(tokens) and tokens[k + 2] == "{" and not tokens[k + 1].startswith("carom_"):
                 names.add(tokens[k + 1])
         if token == "enum" and depths[k] == 0 and "{" in tokens[k : k + 3]:
             at = tokens.index("{", k)

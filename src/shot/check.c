@@ -173,7 +173,7 @@ carom_status carom_check_job(const carom_shot_job *job) {
 }
 
 carom_layout carom_layout_of_row(const carom_shot_job *job, size_t k) {
-  const size_t first = k * job->ball_stride;
+  const size_t first = k * (size_t)job->ball_stride;
   if (job->balls != NULL)
     return carom_layout_of(job->balls + first);
   const carom_layout layout = {job->kinds, job->states + first, sizeof *job->kinds,
