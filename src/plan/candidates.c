@@ -1,0 +1,201 @@
+/* Candidates: direct pots, with six speeds and five places of the tip, aimed by shots of two balls
+ * that stop at the contact; and strokes in all directions, of which those stay that meet a ball
+ * first that is on. */
+#include "plan/search.h"
+#include "platform/elementary.h"
+
+#include <math.h>
+
+typedef carom_candidate candidate;
+typedef carom_outcome outcome;
+typedef carom_search search;
+
+static const double degree = 3.14159265358979323846 / 180.0;
+
+enum { TIPS = 5, POT_SPEEDS = 6, SCAN_SPEEDS = 5, STROKES = TIPS * POT_SPEEDS };
+/* m/s and radii, from the prototype */
+static const double pot_speed[POT_SPEEDS] = {0.8, 1.2, 1.7, 2.4, 3.4, 4.8};
+static const double pot_tip[TIPS][2] = {
+    {0.0, 0.0}, {0.0, 0.35}, {0.0, -0.35}, {0.3, 0.0}, {-0.3, 0.0}};
+static const double scan_speed[SCAN_SPEEDS] = {1.0, 1.8, 3.0, 5.0, 7.5};
+static const double scan_tip[TIPS][2] = {
+    {0.0, 0.0}, {0.0, 0.3}, {0.0, -0.3}, {0.25, 0.0}, {-0.25, 0.0}};
+
+void carom_search_add(search *of, candidate c) {
+  if (of->count < of->most) {
+    c.order = (int32_t)of->count;
+    of->found[of->count++] = c;
+  }
+}
+
+/* The direction, degrees, in which a ball leaves that is struck in the direction 0. */
+static double squirt_of(const carom_cue *cue, const carom_ball_kind *kind) {
+  carom_cue along = *cue;
+  carom_motion motion;
+  along.phi = 0.0;
+  return carom_strike(&along, kind, &motion) < 0
+             ? 0.0
+             : carom_angle_of(motion.v[0], motion.v[1]) / degree;
+}
+
+/* Turns cue->phi until ball k, hit by the cue ball, goes in the direction psi, rad. False where
+ * it cannot be hit. */
+static bool aim(const carom_table *table, const carom_shot_ball *balls, int k, double psi,
+                const carom_shot_options *shot, carom_cue *cue) {
+  enum { STEPS = 3 };
+  carom_shot_ball pair[2] = {balls[cue->ball], balls[k]};
+  carom_ball_state final[2];
+  carom_shot_options options = *shot;
+  options.stop_at = CAROM_STOP_AT_CONTACT;
+  options.first_of = 0;
+  carom_cue alone = *cue;
+  alone.ball = 0;
+  const double both = pair[0].kind.radius + pair[1].kind.radius, *c = pair[0].state.r,
+               *o = pair[1].state.r;
+  const double squirt = squirt_of(&alone, &pair[0].kind);
+  double to = psi;
+  for (int step = 0; step < STEPS; step++) {
+    double sine, cosine;
+    carom_sincos(to, &sine, &cosine);
+    alone.phi =
+        carom_angle_of(o[0] - both * cosine - c[0], o[1] - both * sine - c[1]) / degree - squirt;
+
+    /* throw turns the ball away from the line of centres */
+    carom_shot played = {.final = final};
+    if (carom_shoot(table, pair, 2, &alone, &options, &played) != CAROM_STOPPED_AT_EVENT)
+      return false;
+    const double *v = final[1].v;
+    if (!(v[0] * v[0] + v[1] * v[1] > 4e-4))
+      return false;
+    double off = psi - carom_angle_of(v[0], v[1]);
+    off += off > 180.0 * degree ? -360.0 * degree : off < -180.0 * degree ? 360.0 * degree : 0.0;
+    to += off;
+  }
+  cue->phi = alone.phi < 0.0 ? alone.phi + 360.0 : alone.phi;
+  return true;
+}
+
+/* Aims the candidates: from the direction of the ball that falls to that of the stroke; whether
+ * that can be done is their outcome. */
+static size_t aim_rows(const void *context, size_t first, size_t end) {
+  const search *of = context;
+  for (size_t k = first; k < end; k++) {
+    candidate *c = &of->found[k];
+    carom_cue cue = *of->job.cue;
+    cue.theta = 0.0;
+    cue.speed = c->speed;
+    cue.a = c->a;
+    cue.b = c->b;
+    of->outcome[k] =
+        (outcome){.is = aim(of->job.table, of->job.balls, c->ball, c->phi, &of->shot, &cue)};
+    c->phi = cue.phi;
+  }
+  return end;
+}
+
+/* Direct pots, the likeliest first, each with all strokes, or as many as there is room for. */
+void carom_search_pots(search *of, int64_t most) {
+  carom_pot_found *way = of->pot;
+  int ways = 0;
+  for (int k = 0; k < of->view.count; k++)
+    of->state[k] = of->job.balls[k].state;
+  for (int k = 0; k < of->view.count; k++)
+    for (int p = 0; p < of->view.pockets && (of->on >> k & 1); p++) {
+      if (!(of->pockets >> p & 1))
+        continue;
+      const carom_way w = carom_way_of(&of->view, of->state, of->in_play, k, p, 0, false, 0.03);
+      if (w.chance == 0.0)
+        continue;
+      int at = ways++; /* sorted in */
+      for (; at > 0 && way[at - 1].way.chance < w.chance; at--)
+        way[at] = way[at - 1];
+      way[at].way = w;
+      way[at].ball = k;
+      way[at].pocket = p;
+    }
+
+  /* The strokes in an order that is drawn, so that few of them are of all kinds. */
+  int order[STROKES];
+  for (int n = 0; n < STROKES; n++) {
+    const int other =
+        (int)(carom_uniform(of->options.seed, DRAW_STROKES, (uint64_t)n, 0) * (n + 1));
+    order[n] = order[other];
+    order[other] = n;
+  }
+  const int64_t fit = most / STROKES > 4 ? most / STROKES : 4;
+  ways = ways > fit ? (int)fit : ways;
+  const int64_t share = ways > 0 ? most / ways : 0, strokes = share > STROKES ? STROKES
+                                                              : share < 3     ? 3
+                                                                              : share;
+  for (int w = 0; w < ways; w++)
+    for (int n = 0; n < strokes; n++) {
+      const double *tip = pot_tip[order[n] % TIPS];
+      const double speed = pot_speed[order[n] / TIPS];
+      carom_search_add(
+          of,
+          (candidate){.speed = carom_within(speed, of->player.speed_least, of->player.speed_most),
+                      .phi = way[w].way.psi,
+                      .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
+                      .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
+                      .kind = CAROM_PLAN_POT,
+                      .ball = way[w].ball});
+    }
+
+  /* those that cannot be aimed are dropped */
+  carom_crew_work(of->crew, aim_rows, of, (size_t)of->count, ROWS_LEAST);
+  const int64_t added = of->count;
+  of->count = 0;
+  for (int64_t k = 0; k < added; k++)
+    if (of->outcome[k].is)
+      carom_search_add(of, of->found[k]);
+}
+
+/* What a shot without errors says of a candidate. */
+void carom_search_take(candidate *c, const outcome *o) {
+  c->sum = o->worth;
+  c->seen = 1;
+  c->ball = o->ball;
+  c->pocket = o->pocket;
+  c->cushions = o->cushions;
+  c->foul = o->foul;
+}
+
+/* Strokes in all directions, of which those stay that meet a ball first that is on; up to
+ * `most`. The directions follow the golden ratio, so that however many are tried, they are
+ * spread evenly. */
+void carom_search_scan(search *of, int64_t most) {
+  const int64_t block = most / 2 > 16 ? most / 2 : 16, end = of->count + most;
+  const int64_t tries = 4 * most;
+  const double begin = carom_uniform(of->options.seed, DRAW_SCAN, 0, 0);
+  for (int64_t from = 0; from < tries && of->count < end && !carom_is_stopped(of); from += block) {
+    const int64_t first = of->count;
+    for (int64_t k = from; k < from + block && of->count < of->most; k++) {
+      double turn = begin + 0.61803398874989485 * (double)k;
+      turn -= floor(turn);
+      const int speed =
+          (int)(SCAN_SPEEDS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 0));
+      const double *tip =
+          scan_tip[(int)(TIPS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1))];
+      carom_search_add(
+          of, (candidate){.speed = carom_within(scan_speed[speed], of->player.speed_least,
+                                                of->player.speed_most),
+                          .phi = 360.0 * turn,
+                          .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
+                          .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
+                          .kind = (of->may & CAROM_MAY_PUSH) && k % 2 == 1 ? CAROM_PLAN_PUSH
+                                                                           : CAROM_PLAN_SCAN});
+    }
+    const int64_t added = of->count - first;
+    carom_search_play(of, first, added, 1, 0);
+
+    /* those that begin with a foul are dropped, and those beyond `most` */
+    of->count = first;
+    for (int64_t k = 0; k < added && of->count < end; k++)
+      if (of->found[first + k].kind == CAROM_PLAN_PUSH ||
+          carom_search_begins_well(of, of->outcome[k].first)) {
+        candidate c = of->found[first + k];
+        carom_search_take(&c, &of->outcome[k]);
+        carom_search_add(of, c);
+      }
+  }
+}

@@ -1,0 +1,188 @@
+/* The rows of a search: a candidate that is played once, with or without errors, and what that is
+ * worth to the player. A row's errors are a function of seed, round and number. Rows are computed
+ * by threads and added up in their order, so no bit of a sum depends on threads. */
+#include "plan/search.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef carom_candidate candidate;
+typedef carom_outcome outcome;
+typedef carom_search search;
+
+/* What a shot tells. */
+typedef struct told {
+  carom_facts facts;
+  carom_ball_state final[CAROM_BALLS_MOST];
+} told;
+
+/* A stage: rows k of candidates first + k / each, with the errors of k % each; or without
+ * errors. */
+typedef struct stage {
+  const search *of;
+  int64_t first, each;
+  uint32_t draws; /* 0: without errors */
+} stage;
+
+/* The stroke of a candidate, with the errors of a row. */
+static carom_cue stroke(const search *of, const candidate *c, uint32_t draws, int64_t row) {
+  carom_cue cue = *of->job.cue;
+  double z[6] = {0};
+  if (draws != 0)
+    carom_normals(of->options.seed, draws, (uint64_t)row, z);
+  cue.speed = c->speed;
+  cue.phi = c->phi;
+  cue.theta = c->theta;
+  cue.a = c->a;
+  cue.b = c->b;
+  carom_player_errs(&of->player, z, &cue);
+  return cue;
+}
+
+/* The pot that a shot made, which a candidate calls: of the balls that were on, the first that
+ * fell. */
+static carom_call call_of(const search *of, const carom_facts *facts) {
+  carom_call call = {-1, -1};
+  const uint32_t down = facts->down & of->on;
+  for (int k = 0; down >> k != 0; k++)
+    if ((down >> k & 1) && (of->pockets >> facts->pocket[k] & 1) &&
+        (call.ball < 0 || facts->pocket_time[k] < facts->pocket_time[call.ball]))
+      call = (carom_call){k, facts->pocket[k]};
+  return call;
+}
+
+/* Of the balls left before the shot; rules that then have more left, or more points than balls,
+ * give at most all. */
+double carom_search_share(const search *of, double points) {
+  return carom_within(points / of->left, 0.0, 1.0);
+}
+
+/* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
+ * `final` is changed. */
+static outcome judge(const search *of, const carom_facts *facts, carom_ball_state *final,
+                     carom_status status, const candidate *c, bool errors) {
+  const carom_plan_rules *rules = of->job.rules;
+  facts = status < 0 ? &carom_no_facts : facts; /* an error tells nothing: a foul */
+  const carom_call call = c->kind == CAROM_PLAN_PUSH ? (carom_call){CAROM_CALL_PUSH, -1}
+                          : errors                   ? (carom_call){c->ball, c->pocket}
+                                                     : call_of(of, facts);
+  uint64_t user[8];
+  memcpy(user, rules->user, sizeof user);
+  const carom_turn turn = rules->judge(user, of->in_play, of->view.cue_ball, facts, call);
+  outcome o = {.is = (int8_t)turn.is,
+               .foul = turn.foul != 0,
+               .ball = -1,
+               .pocket = -1,
+               .first = (int8_t)facts->first[0]};
+
+  /* its call */
+  if (call.ball == CAROM_CALL_PUSH)
+    o.ball = CAROM_CALL_PUSH;
+  if (call.ball >= 0 && (turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN)) {
+    o.ball = (int8_t)call.ball;
+    o.pocket = (int8_t)call.pocket;
+    o.cushions = (int16_t)facts->cushions[call.ball];
+  }
+  const bool alone = rules->race == CAROM_RACE_ALONE;
+  if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE) {
+    o.worth = turn.is == CAROM_TURN_WIN;
+    return o;
+  }
+  if (alone && turn.is == CAROM_TURN_PASS) {
+    o.worth = carom_search_share(of, turn.points);
+    return o;
+  }
+
+  /* A shot that was stopped at a wrong ball, and one in error, have left no layout. */
+  if (status != CAROM_OK && turn.is == CAROM_TURN_PASS) {
+    o.worth = of->foul_value;
+    return o;
+  }
+  const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
+  for (int k = 0; k < of->view.count; k++) {
+    if (taken_back)
+      final[k] = of->job.balls[k].state;
+    if (turn.spot >> k & 1)
+      final[k] = (carom_ball_state){
+          .r = {0.5 * of->view.width, 0.75 * of->view.length, of->view.radius[k]},
+          .label = CAROM_BALL_STATIONARY};
+  }
+  const bool in_hand = turn.leave == CAROM_LEAVE_HAND || turn.leave == CAROM_LEAVE_KITCHEN;
+  const bool passes = turn.is == CAROM_TURN_PASS;
+  const double value = carom_value_of(&of->view, user, final, passes, in_hand);
+  o.worth = passes ? 1.0 - value : alone ? carom_search_share(of, turn.points + value) : value;
+  return o;
+}
+
+/* Whether a stroke of the scan met a ball first that is on. */
+bool carom_search_begins_well(const search *of, int first) {
+  return first >= 0 && (of->on >> first & 1);
+}
+
+/* The balls in play of a layout become those of shots. */
+void carom_search_lay_out(search *of, const carom_shot_ball *balls) {
+  of->plays = 0;
+  of->shot.first_of = 0;
+  for (int k = 0; k < of->view.count; k++)
+    if (of->in_play >> k & 1) {
+      if (of->first_decides && (of->on >> k & 1))
+        of->shot.first_of |= UINT32_C(1) << of->plays;
+      if (k == of->view.cue_ball)
+        of->cue_ball = of->plays;
+      of->played[of->plays] = balls[k];
+      of->which[of->plays++] = k;
+    }
+}
+
+/* From the balls of a shot to those of the layout. */
+static void spread(const search *of, told *with) {
+  carom_facts *f = &with->facts;
+  const carom_facts of_shot = *f;
+  f->down = f->off = f->moved = 0;
+  for (int n = 0; n < 2; n++)
+    f->first[n] = f->first[n] < 0 ? f->first[n] : of->which[f->first[n]];
+  int n = of->plays - 1;
+  for (int k = of->view.count - 1; k >= 0; k--) {
+    const bool plays = n >= 0 && of->which[n] == k;
+    with->final[k] = plays ? with->final[n] : of->job.balls[k].state;
+    f->pocket[k] = plays ? of_shot.pocket[n] : -1;
+    f->pocket_time[k] = plays ? of_shot.pocket_time[n] : INFINITY;
+    f->cushions[k] = plays ? of_shot.cushions[n] : 0;
+    if (!plays)
+      continue;
+    f->down |= (of_shot.down >> n & 1) << k;
+    f->off |= (of_shot.off >> n & 1) << k;
+    f->moved |= (of_shot.moved >> n & 1) << k;
+    n--;
+  }
+}
+
+static size_t play_rows(const void *context, size_t first, size_t end) {
+  const stage *s = context;
+  const search *of = s->of;
+  told what;
+  carom_shot shot = {.final = what.final, .facts = &what.facts};
+  for (size_t k = first; k < end; k++) {
+    const int64_t row = (int64_t)k;
+    const candidate *c = &of->found[s->first + row / s->each];
+    carom_cue cue = stroke(of, c, s->draws, row % s->each);
+    cue.ball = of->cue_ball;
+    const carom_status status =
+        carom_shoot_prepared(of->job.table, &of->features, carom_layout_of(of->played), of->plays,
+                             &cue, &of->shot, &shot); /* in error it is a foul */
+    if (of->plays < of->view.count)
+      spread(of, &what);
+    const int met = status < 0 ? -1 : what.facts.first[0];
+    const bool dropped =
+        s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(of, met);
+    of->outcome[k] = dropped ? (outcome){.first = (int8_t)met}
+                             : judge(of, shot.facts, shot.final, status, c, s->draws != 0);
+  }
+  return end;
+}
+
+void carom_search_play(search *of, int64_t first, int64_t candidates, int64_t each,
+                       uint32_t draws) {
+  const stage s = {of, first, each, draws};
+  carom_crew_work(of->crew, play_rows, &s, (size_t)(candidates * each), ROWS_LEAST);
+}

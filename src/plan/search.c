@@ -1,0 +1,175 @@
+/* The choice: sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013) of the candidates. All
+ * of a round have the same errors, so that luck counts less than what they are worth. */
+#include "plan/search.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef carom_candidate candidate;
+typedef carom_outcome outcome;
+typedef carom_search search;
+
+static const double degree = 3.14159265358979323846 / 180.0;
+
+enum { ROUNDS = 4 };
+
+static bool is_better(const candidate *a, const candidate *b) {
+  if (a->round != b->round)
+    return a->round > b->round;
+  const double of_a = a->sum / (double)a->seen, of_b = b->sum / (double)b->seen;
+  return of_a > of_b || (of_a == of_b && a->order < b->order);
+}
+
+/* Shell's method, without memory. The order is total, so that it does not matter how it is
+ * found. */
+static void sort(candidate *c, int64_t n) {
+  for (int64_t gap = n / 2; gap > 0; gap = gap == 2 ? 1 : (gap * 5) / 11)
+    for (int64_t k = gap; k < n; k++) {
+      const candidate moved = c[k];
+      int64_t at = k;
+      for (; at >= gap && is_better(&moved, &c[at - gap]); at -= gap)
+        c[at] = c[at - gap];
+      c[at] = moved;
+    }
+}
+
+/* Plays the first n candidates `each` times with the errors of a round, and adds up what they
+ * are worth. */
+void carom_search_add_up(search *of, int64_t n, int64_t each, uint32_t draws) {
+  carom_search_play(of, 0, n, each, draws);
+  for (int64_t k = 0; k < n; k++) {
+    candidate *c = &of->found[k];
+    if (c->round == 0) { /* the shot without errors is forgotten */
+      c->sum = c->squares = 0.0;
+      c->seen = c->foul = 0;
+    }
+    for (int64_t j = 0; j < each; j++) {
+      const outcome *o = &of->outcome[k * each + j];
+      c->sum += o->worth;
+      c->squares += o->worth * o->worth;
+      c->keep += o->is == CAROM_TURN_KEEP || o->is == CAROM_TURN_WIN;
+      c->lose += o->is == CAROM_TURN_LOSE;
+      c->foul += o->foul;
+    }
+    c->seen += each;
+    c->round++;
+  }
+}
+
+/* The candidates of the first round: the best `keep`, of which pots come first, and a third of
+ * `keep` of the scan. */
+static int64_t first_round(search *of, int64_t keep) {
+  const int64_t n = of->count < keep ? of->count : keep;
+  int64_t scanned = 0, good = 0;
+  for (int64_t k = 0; k < n; k++) {
+    candidate *c = &of->found[k];
+    const bool stays = c->kind == CAROM_PLAN_POT || scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
+    if (stays) {
+      const candidate kept = *c;
+      for (int64_t at = k; at > good; at--)
+        of->found[at] = of->found[at - 1];
+      of->found[good++] = kept;
+    }
+  }
+  return good;
+}
+
+static void halve(search *of, int64_t shots) {
+  sort(of->found, of->count);
+  const int64_t keep = shots / 25 > 6 ? shots / 25 : 6,
+                left = shots - of->count > 0 ? shots - of->count : 0;
+  for (int round = 0; round < ROUNDS && !carom_is_stopped(of); round++) {
+    int64_t n = keep >> (2 * round);
+    n = n < 2 ? 2 : n;
+    n = round == 0 ? first_round(of, n) : n < of->count ? n : of->count;
+    int64_t each = left / ROUNDS / n;
+    each = each < 2 ? 2 : each;
+    if (each * n > of->room)
+      each = of->room / n;
+    carom_search_add_up(of, n, each, DRAW_ROUND + (uint32_t)round);
+    sort(of->found, of->count);
+  }
+}
+
+/* A gentle stroke towards the nearest ball that is on: nothing better is known. */
+static candidate gentle(const search *of) {
+  const double *c = of->job.balls[of->view.cue_ball].state.r;
+  double least = INFINITY, phi = 0.0;
+  for (int k = 0; k < of->view.count; k++) {
+    const double x = of->job.balls[k].state.r[0] - c[0], y = of->job.balls[k].state.r[1] - c[1];
+    if ((of->on >> k & 1) && x * x + y * y < least) {
+      least = x * x + y * y;
+      phi = carom_angle_of(x, y) / degree;
+    }
+  }
+  return (candidate){.speed = of->player.speed_least,
+                     .phi = phi < 0.0 ? phi + 360.0 : phi,
+                     .kind = CAROM_PLAN_FOUL,
+                     .ball = -1,
+                     .pocket = -1};
+}
+
+carom_choice carom_search_choice(const search *of, const candidate *c) {
+  const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
+  const double *place = of->job.balls[of->view.cue_ball].state.r;
+  carom_choice made = {.cue = *of->job.cue,
+                       .place = {place[0], place[1]},
+                       .kind = c->kind,
+                       .ball = c->ball,
+                       .pocket = c->pocket,
+                       .cushions = c->cushions,
+                       .value = mean,
+                       .error = c->seen > 1 && variance > 0.0 ? sqrt(variance / (n - 1.0)) : 0.0,
+                       .keep = (double)c->keep / n,
+                       .foul = (double)c->foul / n,
+                       .lose = (double)c->lose / n,
+                       .seen = c->round > 0 && c->kind != CAROM_PLAN_PASS ? c->seen : 0};
+  made.cue.speed = c->speed;
+  made.cue.phi = c->phi;
+  made.cue.theta = c->theta;
+  made.cue.a = c->a;
+  made.cue.b = c->b;
+  return made;
+}
+
+double carom_scan_of(const carom_plan_options *o) {
+  return o->scan == 0.0 ? 0.5 : o->scan > 0.0 ? o->scan : 0.0;
+}
+
+/* All stages with so many shots; the best candidate is the first. */
+void carom_search_run(search *of, int64_t shots) {
+  of->count = 0;
+  const double scan = carom_scan_of(&of->options);
+  carom_search_pots(of, (int64_t)((1.0 - scan) * (double)shots / 4.0));
+  carom_search_play(of, 0, of->count, 1, 0);
+  for (int64_t k = 0; k < of->count; k++)
+    carom_search_take(&of->found[k], &of->outcome[k]);
+  if (scan > 0.0)
+    carom_search_scan(of, (int64_t)(scan * (double)shots));
+  if (of->count == 0) {
+    carom_search_add(of, gentle(of));
+    carom_search_add_up(of, 1, shots / 10, DRAW_ROUND);
+    return;
+  }
+  halve(of, shots);
+}
+
+/* Not to play, as one more candidate: its worth is that of the layout to the other. */
+void carom_search_pass(search *of) {
+  uint64_t user[8];
+  memcpy(user, of->job.rules->user, sizeof user);
+  for (int k = 0; k < of->view.count; k++)
+    of->state[k] = of->job.balls[k].state;
+  const carom_call call = {CAROM_CALL_PASS, -1};
+  of->job.rules->judge(user, of->in_play, of->view.cue_ball, &carom_no_facts, call);
+  const double value = 1.0 - carom_value_of(&of->view, user, of->state, 1, false);
+  carom_search_add(of, (candidate){.sum = value,
+                                   .squares = value * value,
+                                   .seen = 1,
+                                   .kind = CAROM_PLAN_PASS,
+                                   .ball = CAROM_CALL_PASS,
+                                   .pocket = -1,
+                                   .round = of->found[0].round});
+  of->found[of->count - 1].order = -1; /* of shots that are worth as much, none is played */
+  sort(of->found, of->count);
+}

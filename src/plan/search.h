@@ -1,0 +1,109 @@
+/* A search for the best shot on its way, which the parts of a plan share: rows.c plays shots,
+ * candidates.c makes strokes, search.c chooses. */
+#ifndef CAROM_SRC_PLAN_SEARCH_H
+#define CAROM_SRC_PLAN_SEARCH_H
+
+#include "plan/plan.h"
+#include "platform/threads.h"
+#include "shot/sim.h"
+
+/* Stages of draws. */
+enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_ROUND = 16 };
+enum { PLACES_PLANNED = 6 }; /* of a cue ball in hand */
+enum { ROWS_LEAST = 4 };     /* rows worth a thread */
+
+typedef struct carom_candidate {
+  double speed, phi, theta, a, b;
+  double sum, squares; /* of its worth, over `seen` shots with errors; at first of the one
+                          without */
+  int64_t seen;
+  int64_t keep, foul, lose; /* how often */
+  int32_t kind, ball, pocket, cushions, order, round;
+} carom_candidate;
+
+/* Of a row. */
+typedef struct carom_outcome {
+  double worth;
+  int8_t is, foul, ball, pocket;
+  int16_t cushions;
+  int8_t first, unused;
+} carom_outcome;
+
+/* A direct pot that is a candidate. */
+typedef struct carom_pot_found {
+  carom_way way;
+  int ball, pocket;
+} carom_pot_found;
+
+/* A place of a cue ball in hand, and the value of the layout with it. */
+typedef struct carom_place_in_hand {
+  double r[2], value;
+} carom_place_in_hand;
+
+/* All of a plan. It is in the caller's memory, since shots need most of a small stack. */
+typedef struct carom_search {
+  carom_crew *crew;   /* the threads that play its shots */
+  carom_plan_job job; /* with shot and options of its own */
+  carom_shot_options shot;
+  carom_plan_options options;
+  carom_features features; /* of the table, prepared for the balls */
+  carom_view view;
+  carom_player player;
+  uint32_t in_play, on, may, pockets;
+  bool first_decides;                       /* a shot ends at a wrong first ball */
+  double foul_value;                        /* of a foul at the first contact */
+  int32_t left;                             /* balls before the shot */
+  carom_candidate *found;                   /* all candidates, the best first after a round */
+  carom_outcome *outcome;                   /* of the rows of a stage */
+  int64_t count, most;                      /* of candidates */
+  int64_t room;                             /* of outcomes */
+  carom_ball_state state[CAROM_BALLS_MOST]; /* of the layout */
+  carom_shot_ball hand[CAROM_BALLS_MOST];   /* the layout with the cue ball in hand */
+  /* the balls in play, which alone take part in shots: which they are, and their set in shots
+   * of the balls that are on, where the first contact decides */
+  carom_shot_ball played[CAROM_BALLS_MOST];
+  int32_t plays, which[CAROM_BALLS_MOST], cue_ball;
+  carom_pot_found pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
+  carom_place_in_hand best_place[PLACES_PLANNED + 1]; /* the best first */
+  const carom_cue *cues;                              /* that the caller gave, `tries` of them, */
+  carom_choice *choices;                              /* and where he wants what they are worth */
+  int places, tries;
+} carom_search;
+
+static inline double carom_within(double x, double least, double most) {
+  return x < least ? least : x > most ? most : x;
+}
+static inline bool carom_is_stopped(const carom_search *of) {
+  return of->options.stop != NULL && *of->options.stop != 0;
+}
+
+/* rows.c: the balls in play of a layout become those of shots. */
+void carom_search_lay_out(carom_search *of, const carom_shot_ball *balls);
+/* Plays candidates from the one of index `first` on, `each` times with the errors of these draws;
+ * 0: without errors. The outcomes come in their order. */
+void carom_search_play(carom_search *of, int64_t first, int64_t candidates, int64_t each,
+                       uint32_t draws);
+/* Whether a stroke of the scan met a ball first that is on. */
+bool carom_search_begins_well(const carom_search *of, int first);
+/* Points as a share of the balls left before the shot. */
+double carom_search_share(const carom_search *of, double points);
+
+/* candidates.c: direct pots, and strokes in all directions, up to `most` of them; one more; and
+ * what the shot without errors says of one. */
+void carom_search_pots(carom_search *of, int64_t most);
+void carom_search_scan(carom_search *of, int64_t most);
+void carom_search_add(carom_search *of, carom_candidate c);
+void carom_search_take(carom_candidate *c, const carom_outcome *o);
+
+/* search.c: all stages with so many shots; the best candidate is the first. */
+void carom_search_run(carom_search *of, int64_t shots);
+/* Not to play, as one more candidate. */
+void carom_search_pass(carom_search *of);
+/* Plays the first n candidates `each` times with the errors of a round, and adds up what they
+ * are worth. */
+void carom_search_add_up(carom_search *of, int64_t n, int64_t each, uint32_t draws);
+carom_choice carom_search_choice(const carom_search *of, const carom_candidate *c);
+/* The share of the shots that the scan has. */
+double carom_scan_of(const carom_plan_options *o);
+
+#endif
