@@ -162,6 +162,12 @@ carom_status carom_check_common(const carom_table *table, int64_t count,
                                                : carom_check_table(table, where);
 }
 
+carom_status carom_check_room(const carom_shot *shot) {
+  const bool good =
+      shot->room == 0 || (shot->room > 0 && (shot->events != NULL || shot->brief != NULL));
+  return good ? CAROM_OK : CAROM_ERROR_ROOM;
+}
+
 carom_status carom_check_job(const carom_shot_job *job) {
   const bool by_reference = job->kinds != NULL && job->states != NULL;
   if (job->table == NULL || job->shots == NULL || (job->balls == NULL && !by_reference))

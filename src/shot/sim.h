@@ -154,7 +154,8 @@ void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_st
  * has the mean. */
 carom_speed_law carom_law_of_ball(const carom_ball_kind *kind);
 
-/* check.c: the options of a shot; and a ball by itself. */
+/* check.c: the place for events, the options of a shot, and a ball by itself. */
+carom_status carom_check_room(const carom_shot *shot);
 carom_status carom_check_shot_options(const carom_shot_options *opt);
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
 /* The arguments that the shots of a batch share. */
