@@ -4,7 +4,7 @@
  *
  * Which thread works on a row makes no difference to it, so results are the same for any number
  * of threads. The threads of a crew are started for a call of the library and joined before it
- * returns; between two jobs they wait without sleep, for a while, since to wake one takes as long
+ * returns; between two jobs they wait without sleep for some ms, since to wake one takes as long
  * as ten shots. The calling thread works, too, and does everything if none can be started, which
  * is so where the system has none. They block every signal, so that no handler of the process runs
  * on them. A job too small to be worth a thread is not cut. With CAROM_WITHOUT_THREADS nothing is
@@ -39,12 +39,15 @@ size_t carom_crew_work(carom_crew *crew, carom_part_worker *worker, const void *
 #include <process.h>
 #include <windows.h>
 #define yield SwitchToThread
+#define doze() Sleep(1)
 typedef HANDLE thread_handle;
 #else
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
+#include <time.h>
 #define yield sched_yield
+#define doze() nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL)
 typedef pthread_t thread_handle;
 #endif
 
@@ -87,10 +90,12 @@ static void work(carom_crew *of) {
 }
 
 /* One more look at what another thread is to change: at first at once, then after others had the
- * processor. */
+ * processor, and in the end a thousand times a second, so that long waits cost little. */
 static void wait_a_little(int *looks) {
-  enum { AT_ONCE = 2000 };
-  if (++*looks > AT_ONCE)
+  enum { AT_ONCE = 2000, BY_TURNS = 20000 };
+  if (*looks >= BY_TURNS)
+    doze();
+  else if (++*looks > AT_ONCE)
     yield();
 }
 
