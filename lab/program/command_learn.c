@@ -13,7 +13,7 @@
 #include "racks.h"
 #include "subcommands.h"
 
-#include "plan/plan.h"
+#include "plan/view.h"
 #include "platform/threads.h"
 
 #include <math.h>
@@ -217,7 +217,7 @@ static void print_file(const learn_job *job, const sample *s, size_t count) {
   printf("/* Numbers of value.c, fitted to %zu strokes: `carom-lab learn --racks %d --shots %d "
          "--seed\n * %d` made this file. */\n"
          "#ifndef CAROM_SRC_PLAN_LEARNED_H\n#define CAROM_SRC_PLAN_LEARNED_H\n\n"
-         "#include \"plan/plan.h\"\n\n",
+         "#include \"plan/view.h\"\n\n",
          count, job->racks, job->shots, job->seed);
   print_numbers(s, count, true, NEXT_NUMBERS, "next_numbers");
   putchar('\n');

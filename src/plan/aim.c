@@ -15,7 +15,7 @@
  * long as links are gained. Then e is continuous but for jumps; its roots are bracketed by
  * neighbours and halved. The samples are those of a sine, under which the cut at the first ball
  * changes in equal steps. */
-#include "plan/plan.h"
+#include "plan/view.h"
 #include "platform/elementary.h"
 #include "table/table.h"
 

@@ -3,7 +3,7 @@
 #ifndef CAROM_SRC_PLAN_LEARNED_H
 #define CAROM_SRC_PLAN_LEARNED_H
 
-#include "plan/plan.h"
+#include "plan/view.h"
 
 /* log-likelihood of a stroke -0.2843; of one number for all, -0.4119 */
 static const double next_numbers[] = {-0.140, -0.789, 1.937, 1.886, -0.086, -0.232, 0.634};

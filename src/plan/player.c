@@ -1,5 +1,5 @@
 /* Players: how their strokes differ from those that they mean. */
-#include "plan/plan.h"
+#include "plan/view.h"
 
 #include <math.h>
 

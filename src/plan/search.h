@@ -3,7 +3,7 @@
 #ifndef CAROM_SRC_PLAN_SEARCH_H
 #define CAROM_SRC_PLAN_SEARCH_H
 
-#include "plan/plan.h"
+#include "plan/view.h"
 #include "platform/threads.h"
 #include "shot/sim.h"
 

@@ -26,7 +26,7 @@
  * j = 0 to n - 2.
  */
 #include "plan/learned.h"
-#include "plan/plan.h"
+#include "plan/view.h"
 #include "platform/elementary.h"
 
 #include <math.h>
