@@ -111,7 +111,6 @@ void carom_search_pots(search *of, int64_t most) {
         way[at] = way[at - 1];
       way[at].way = w;
       way[at].ball = k;
-      way[at].pocket = p;
     }
 
   /* The strokes in an order that is drawn, so that few of them are of all kinds. */

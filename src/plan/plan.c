@@ -196,25 +196,14 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
 
 /* ---- What callers have */
 
-/* Does a part of a plan with the threads that the options ask for. */
-typedef void plan_part(plan *of);
-typedef struct part_of_plan {
-  plan_part *part;
-  plan *of;
-} part_of_plan;
-
-static void do_part(void *context, carom_crew *crew) {
-  const part_of_plan *part = context;
-  part->of->crew = crew;
-  part->part(part->of);
+/* Does a part of a plan, `work`, with the threads that the options ask for. */
+static void with_crew(plan *of, carom_crew_caller *work) {
+  carom_with_crew(work, of, of->options.threads, (size_t)of->room / ROWS_LEAST);
 }
 
-static void with_crew(plan *of, plan_part *part) {
-  part_of_plan context = {part, of};
-  carom_with_crew(do_part, &context, of->options.threads, (size_t)of->room / ROWS_LEAST);
-}
-
-static void plan_here(plan *of) {
+static void plan_here(void *context, carom_crew *crew) {
+  plan *of = context;
+  of->crew = crew;
   carom_search_run(of, shots_of(&of->options));
   if (of->may & CAROM_MAY_PASS)
     carom_search_pass(of);
@@ -229,7 +218,9 @@ static void put(plan *of, int k) {
 }
 
 /* A small plan from each place, then one with half of the shots from the best. */
-static void plan_places(plan *of) {
+static void plan_places(void *context, carom_crew *crew) {
+  plan *of = context;
+  of->crew = crew;
   const int64_t shots = shots_of(&of->options),
                 small = shots / (2 * PLACES_PLANNED) > 100 ? shots / (2 * PLACES_PLANNED) : 100;
   const int64_t rest = shots - of->places * small;
@@ -247,7 +238,9 @@ static void plan_places(plan *of) {
 }
 
 /* Strokes that the caller gave, each with its share of the shots. */
-static void try_all(plan *of) {
+static void try_all(void *context, carom_crew *crew) {
+  plan *of = context;
+  of->crew = crew;
   const int64_t each = shots_of(&of->options) / (of->tries > 0 ? of->tries : 1);
   for (int k = 0; k < of->tries; k++) {
     const carom_cue *cue = &of->cues[k];

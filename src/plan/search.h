@@ -32,7 +32,7 @@ typedef struct carom_outcome {
 /* A direct pot that is a candidate. */
 typedef struct carom_pot_found {
   carom_way way;
-  int ball, pocket;
+  int ball;
 } carom_pot_found;
 
 /* A place of a cue ball in hand, and the value of the layout with it. */

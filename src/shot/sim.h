@@ -19,7 +19,7 @@ struct carom_rules;
 typedef struct carom_layout {
   const carom_ball_kind *kind;
   const carom_ball_state *state;
-  size_t kind_step, state_step; /* bytes from ball to ball; 0: all balls have the first */
+  size_t kind_step, state_step; /* bytes from ball to ball */
 } carom_layout;
 
 static inline const carom_ball_kind *carom_kind_in(carom_layout layout, int i) {
