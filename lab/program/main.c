@@ -15,6 +15,7 @@ int main(int argc, char **argv) {
       {"plan", "play racks of eight-ball by plans", command_plan},
       {"learn", "fit the planner's values of layouts to racks that are played", command_learn},
       {"experiments", "compare with the 2014 paper's measured shots", command_experiments},
+      {"published", "compare with values that others published", command_published},
   };
   static const program lab = {
       .name = "carom-lab",

@@ -10,6 +10,7 @@ int command_experiments(int argc, char **argv);
 int command_learn(int argc, char **argv);
 int command_parity(int argc, char **argv);
 int command_plan(int argc, char **argv);
+int command_published(int argc, char **argv);
 int command_stress(int argc, char **argv);
 
 #endif

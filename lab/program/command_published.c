@@ -1,0 +1,427 @@
+/* `carom-lab published`: values that others measured or stated, beside those that carom computes.
+ *
+ * data/measured.csv has a value a row, with its bounds and its source. The last column, `computed`,
+ * names a function of the table below and up to three numbers for it: `rebound:1:1.5`. A row
+ * without bounds is printed and not judged. */
+#include "command.h"
+#include "kernel.h"
+#include "message.h"
+#include "output.h"
+#include "place.h"
+#include "random.h"
+#include "records.h"
+#include "subcommands.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double degree = 3.14159265358979323846 / 180.0;
+
+/* ---- Balls, cloth and equipment: x[0] is a carom_game or a carom_table_kind */
+
+static double ball_restitution(const double *x) {
+  return carom_ball_kind_of((carom_game)x[0]).restitution;
+}
+
+static double ball_friction(const double *x) {
+  return carom_ball_kind_of((carom_game)x[0]).mu_ball;
+}
+
+static double ball_mass(const double *x) {
+  return carom_ball_kind_of((carom_game)x[0]).mass;
+}
+
+static double ball_diameter(const double *x) {
+  return 2000.0 * carom_ball_kind_of((carom_game)x[0]).radius;
+}
+
+static double rolling_friction(const double *x) {
+  return carom_ball_kind_of((carom_game)x[0]).mu_roll;
+}
+
+static double sliding_friction(const double *x) {
+  return carom_ball_kind_of((carom_game)x[0]).mu_slide;
+}
+
+/* m/s^2 at x[1] m/s */
+static double rolling_deceleration(const double *x) {
+  const carom_ball_kind kind = carom_ball_kind_of((carom_game)x[0]);
+  return kind.mu_roll * kind.gravity + kind.drag * x[1] * x[1];
+}
+
+static double sliding_deceleration(const double *x) {
+  const carom_ball_kind kind = carom_ball_kind_of((carom_game)x[0]);
+  return kind.mu_slide * kind.gravity;
+}
+
+/* rad/s^2, of a ball that turns on the spot */
+static double spin_deceleration(const double *x) {
+  const carom_ball_kind kind = carom_ball_kind_of((carom_game)x[0]);
+  return 5.0 * kind.mu_spin * kind.gravity / (2.0 * kind.radius);
+}
+
+static double nose_height(const double *x) {
+  carom_table table;
+  carom_table_make((carom_table_kind)x[0], &table);
+  return 1000.0 * table.rail[0].height;
+}
+
+static double table_length(const double *x) {
+  carom_table table;
+  carom_table_make((carom_table_kind)x[0], &table);
+  return table.length;
+}
+
+/* ---- The tip: x[0] is where it touches, in R; the cue is level */
+
+static carom_motion struck(double a, double b) {
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  carom_motion out = {{0}, {0}};
+  cue.a = a;
+  cue.b = b;
+  carom_strike(&cue, &kind, &out);
+  return out;
+}
+
+/* of the ball over that of the cue */
+static double tip_speed(const double *x) {
+  return struck(0.0, x[0]).v[1] / carom_cue_of(CAROM_GAME_POOL).speed;
+}
+
+static double squirt(const double *x) {
+  const carom_motion out = struck(x[0], 0.0);
+  return fabs(atan2(out.v[0], out.v[1])) / degree;
+}
+
+/* R w_z / v */
+static double english(const double *x) {
+  const carom_motion out = struck(x[0], 0.0);
+  return carom_ball_kind_of(CAROM_GAME_POOL).radius * fabs(out.w[2]) / hypot(out.v[0], out.v[1]);
+}
+
+/* R w / v of a ball that is hit above its centre: it rolls at 1 */
+static double follow(const double *x) {
+  const carom_motion out = struck(0.0, x[0]);
+  return -carom_ball_kind_of(CAROM_GAME_POOL).radius * out.w[0] / out.v[1];
+}
+
+/* ---- Two balls of pool: cut x[0] degrees, speed x[1] m/s, roll x[2] of 1, friction x[3];
+ * 0: Alciatore's */
+
+static carom_result hit(const double *x) {
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  carom_impact in = {.restitution = kind.restitution, .mu_ball = x[3]};
+  carom_result out;
+  in.a = (carom_ball){.v = {x[1] * sin(x[0] * degree), x[1] * cos(x[0] * degree), 0.0},
+                      .radius = kind.radius,
+                      .mass = kind.mass,
+                      .mu_cloth = kind.mu_slide};
+  in.b = in.a;
+  in.b.v[0] = in.b.v[1] = 0.0;
+  in.b.r[1] = 2.0 * kind.radius;
+  in.a.w[0] = -x[2] * in.a.v[1] / kind.radius;
+  in.a.w[1] = x[2] * in.a.v[0] / kind.radius;
+  if (x[3] == 0.0)
+    in.mu_ball = carom_mu_ball(&in, carom_alciatore());
+  carom_collide(&in, NULL, &out);
+  return out;
+}
+
+/* degrees from the line of centres, along which the ball would go without friction */
+static double throw_angle(const double *x) {
+  const carom_result out = hit(x);
+  return fabs(atan2(out.b.v[0], out.b.v[1])) / degree;
+}
+
+/* degrees from the path before to the path once the ball rolls */
+static double deflection(const double *x) {
+  const carom_result out = hit(x);
+  double v[3];
+  carom_rolling_velocity(out.a.v, out.a.w, carom_ball_kind_of(CAROM_GAME_POOL).radius, v);
+  return atan2(v[0], v[1]) / degree - x[0];
+}
+
+static double speed_rolling(const carom_motion *m) {
+  double v[3];
+  carom_rolling_velocity(m->v, m->w, carom_ball_kind_of(CAROM_GAME_POOL).radius, v);
+  return hypot(v[0], v[1]);
+}
+
+/* of the object ball over the cue ball, at once after the impact */
+static double speed_ratio(const double *x) {
+  const carom_result out = hit(x);
+  return hypot(out.b.v[0], out.b.v[1]) / hypot(out.a.v[0], out.a.v[1]);
+}
+
+/* of the object ball over the speed before */
+static double speed_share(const double *x) {
+  const carom_result out = hit(x);
+  return hypot(out.b.v[0], out.b.v[1]) / x[1];
+}
+
+/* the same ratio of the distances that both balls roll, which grow with the square of the speed */
+static double distance_ratio(const double *x) {
+  const carom_result out = hit(x);
+  const double ratio = speed_rolling(&out.b) / speed_rolling(&out.a);
+  return ratio * ratio;
+}
+
+/* of Marlow's law at a slip of x[0] sin(45 degrees) */
+static double friction_at(const double *x) {
+  const carom_speed_law law = carom_alciatore();
+  return law.a + law.b * exp(-law.c * x[0] * sin(45.0 * degree));
+}
+
+/* of the first of two frozen balls: how far from the kiss line to the line of centres its path
+ * lies, by tangents; a third ball drives it at x[0] degrees from the kiss line, at x[1] m/s */
+static double kiss_share(const double *x) {
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  const double R = kind.radius, along = sin(x[0] * degree), across = cos(x[0] * degree);
+  const carom_shot_ball balls[3] = {
+      {kind, {.r = {0.0, 0.0, R}}},
+      {kind, {.r = {2.0 * R, 0.0, R}}},
+      {kind,
+       {.r = {-2.0 * R * along, -2.0 * R * across, R}, .v = {x[1] * along, x[1] * across, 0.0}}}};
+  carom_motion out[3];
+  carom_cluster(balls, 3, NULL, out, NULL, 0, NULL);
+  return out[0].v[0] / out[0].v[1] / tan(x[0] * degree);
+}
+
+/* ---- Cushions: the ball of the game x[0] rolls into a rail at x[1] m/s across, full on */
+
+static double rebound(const double *x) {
+  static const carom_table_kind table_of[] = {CAROM_TABLE_POOL_9FT, CAROM_TABLE_SNOOKER,
+                                              CAROM_TABLE_THREECUSHION};
+  const carom_ball_kind kind = carom_ball_kind_of((carom_game)x[0]);
+  carom_table table;
+  carom_motion out;
+  carom_table_make(table_of[(int)x[0]], &table);
+  const carom_cushion_impact in = {.v = {0.0, x[1], 0.0},
+                                   .w = {-x[1] / kind.radius, 0.0, 0.0},
+                                   .normal = {0.0, 1.0},
+                                   .height = kind.nose_height > 0.0 ? kind.nose_height
+                                                                    : table.rail[0].height,
+                                   .radius = kind.radius,
+                                   .mass = kind.mass,
+                                   .mu_cloth = kind.mu_slide,
+                                   .mu_cushion = kind.mu_cushion,
+                                   .restitution = kind.restitution_cushion};
+  const carom_cushion_options han = {
+      .model = CAROM_CUSHION_HAN, .restitution_log = kind.restitution_log, .mu_log = kind.mu_log};
+  carom_cushion(&in, &han, &out);
+  return -out.v[1] / x[1];
+}
+
+/* ---- Breaks: the rack x[0] on the table x[1] with a gap of x[2] mm, 400 times.
+ * The cue ball is x[3] m beside the long string, on the head string; the ball's speed is x[4]. */
+
+enum { BREAKS = 400, BALLS_OF_A_RACK = 16 };
+
+/* What was counted in 400 breaks. */
+typedef struct break_counts {
+  int success, scratch, eight, made;
+} break_counts;
+
+static double normal_draw(lab_random *draw) {
+  double sum = -6.0;
+  for (int k = 0; k < 12; k++)
+    sum += lab_uniform(draw, 0.0, 1.0);
+  return sum;
+}
+
+static break_counts breaks(const double *x) {
+  const carom_rack_kind rack = (carom_rack_kind)x[0];
+  const int count = carom_rack_size(rack);
+  carom_table table;
+  carom_table_make((carom_table_kind)x[1], &table);
+  lab_random draw = {1};
+  break_counts counts = {0};
+  for (int k = 0; k < BREAKS; k++) {
+    carom_shot_ball balls[BALLS_OF_A_RACK];
+    carom_rack(rack, &table, 1e-3 * x[2], (uint64_t)k, balls, BALLS_OF_A_RACK);
+    balls[0].state.r[0] = 0.5 * table.width + x[3];
+    balls[0].state.r[1] = 0.25 * table.length;
+
+    /* at the ball in front; errors of a good player: 0.2 degrees, 3 % of the speed, 0.03 R */
+    int front = 1;
+    for (int b = 2; b < count; b++)
+      if (balls[b].state.r[1] < balls[front].state.r[1])
+        front = b;
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    cue.b = 0.03 * normal_draw(&draw);
+    cue.a = 0.03 * normal_draw(&draw);
+    cue.phi = atan2(balls[front].state.r[1] - balls[0].state.r[1],
+                    balls[front].state.r[0] - balls[0].state.r[0]) /
+                  degree +
+              0.2 * normal_draw(&draw);
+    cue.speed = x[4] / tip_speed((const double[]){0.0}) * (1.0 + 0.03 * normal_draw(&draw));
+
+    carom_facts facts;
+    carom_shot shot = {.facts = &facts};
+    carom_shoot(&table, balls, count, &cue, &(carom_shot_options){.plain = 1}, &shot);
+    int made = 0;
+    for (int b = 1; b < count; b++)
+      made += (facts.down >> b & 1) != 0;
+    const bool scratch = (facts.down | facts.off) & 1;
+    counts.success += made > 0 && !scratch;
+    counts.scratch += scratch;
+    counts.eight += (facts.down >> 8 & 1) != 0;
+    counts.made += made;
+  }
+  return counts;
+}
+
+static double break_success(const double *x) {
+  return 100.0 * breaks(x).success / BREAKS;
+}
+
+static double break_scratch(const double *x) {
+  return 100.0 * breaks(x).scratch / BREAKS;
+}
+
+static double break_eight(const double *x) {
+  return 100.0 * breaks(x).eight / BREAKS;
+}
+
+static double break_made(const double *x) {
+  return (double)breaks(x).made / BREAKS;
+}
+
+/* ---- The table of rows */
+
+enum { NUMBERS_MOST = 5 };
+
+static const struct {
+  const char *name;
+  double (*value)(const double *x);
+} functions[] = {
+    {"ball_restitution", ball_restitution},
+    {"ball_friction", ball_friction},
+    {"ball_mass", ball_mass},
+    {"ball_diameter", ball_diameter},
+    {"rolling_friction", rolling_friction},
+    {"sliding_friction", sliding_friction},
+    {"rolling_deceleration", rolling_deceleration},
+    {"sliding_deceleration", sliding_deceleration},
+    {"spin_deceleration", spin_deceleration},
+    {"nose_height", nose_height},
+    {"table_length", table_length},
+    {"tip_speed", tip_speed},
+    {"squirt", squirt},
+    {"english", english},
+    {"follow", follow},
+    {"throw", throw_angle},
+    {"deflection", deflection},
+    {"speed_ratio", speed_ratio},
+    {"speed_share", speed_share},
+    {"distance_ratio", distance_ratio},
+    {"friction_at", friction_at},
+    {"kiss_share", kiss_share},
+    {"rebound", rebound},
+    {"break_success", break_success},
+    {"break_scratch", break_scratch},
+    {"break_eight", break_eight},
+    {"break_made", break_made},
+};
+
+/* "rebound:1:1.5": the function and its numbers. False where there is no such function. */
+static bool compute(const char *computed, double *value) {
+  const size_t length = strcspn(computed, ":");
+  double x[NUMBERS_MOST] = {0};
+  const char *rest = computed + length;
+  for (int k = 0; *rest == ':' && k < NUMBERS_MOST; k++) {
+    char *end;
+    x[k] = strtod(rest + 1, &end);
+    rest = end;
+  }
+  for (size_t k = 0; k < sizeof functions / sizeof functions[0]; k++)
+    if (*rest == '\0' && strlen(functions[k].name) == length &&
+        strncmp(functions[k].name, computed, length) == 0) {
+      *value = functions[k].value(x);
+      return true;
+    }
+  return false;
+}
+
+/* ---- The command */
+
+enum { QUANTITY, VALUE, LOW, HIGH, UNIT, CONDITIONS, SOURCE, HOW, COMPUTED, COLUMNS };
+
+/* A bound that is not given is infinite. */
+static bool bound(const record *row, int column, double without, double *number) {
+  *number = without;
+  return row->field[column][0] == '\0' || record_number(row, row->field[column], number);
+}
+
+static bool print_row(FILE *out, bool csv, const record *row) {
+  double value, low, high;
+  if (row->count != COLUMNS || !bound(row, LOW, -INFINITY, &low) ||
+      !bound(row, HIGH, INFINITY, &high))
+    return false;
+  if (row->field[COMPUTED][0] == '\0')
+    return true;
+  if (!compute(row->field[COMPUTED], &value))
+    return false;
+  const char *verdict = value < low                 ? "low"
+                        : value > high              ? "high"
+                        : isinf(low) && isinf(high) ? "-"
+                                                    : "ok";
+  if (csv)
+    fprintf(out, "%s,%s,%s,%s,%s,%.4g,%s,%s,%s\n", row->field[QUANTITY], row->field[VALUE],
+            row->field[LOW], row->field[HIGH], row->field[UNIT], value, verdict,
+            row->field[CONDITIONS], row->field[SOURCE]);
+  else
+    fprintf(out, "%-42.42s %9s %7s %7s %9.4g %-6s %-4s  %s\n", row->field[QUANTITY],
+            row->field[VALUE], row->field[LOW], row->field[HIGH], value, row->field[UNIT], verdict,
+            row->field[CONDITIONS]);
+  return true;
+}
+
+typedef struct published_job {
+  shared_options shared;
+  bool csv;
+} published_job;
+
+OPTION(published_job, published_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "as CSV: quantity,published,low,high,unit,carom,verdict,conditions,source");
+
+static const command_form form = {
+    .name = "published",
+    .usage = "[OPTIONS]",
+    .about = "Values that others measured or stated (data/measured.csv) beside those that carom "
+             "computes. The verdict is low or high where carom's value lies outside the bounds of "
+             "the source. Breaks are 400 each, so a share has a standard error of at most 2.5 %. "
+             "docs/understanding/published.md reads the table.\n",
+    .options = (const option_row *const[]){&option_data, &published_csv, &option_output, NULL},
+    .details = "exit code: 0, or 2 for bad usage or unreadable data\n",
+    .example = "carom-lab published --csv -o published.csv",
+};
+
+int command_published(int argc, char **argv) {
+  published_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}};
+  const int code = parse_arguments(&form, argc, argv, &job, NULL);
+  if (code >= 0)
+    return code;
+  char path[PATH_MAX];
+  snprintf(path, sizeof path, "%s/measured.csv", data_folder(job.shared.folder));
+  record_reader *reader = record_open(path);
+  FILE *out = reader != NULL ? output_open(job.shared.output) : NULL;
+  if (out == NULL)
+    return EXIT_USAGE;
+  fputs(job.csv ? "quantity,published,low,high,unit,carom,verdict,conditions,source\n"
+                : "quantity                                   published     low    high     carom "
+                  "unit   verdict\n",
+        out);
+  record row;
+  bool good = record_next(reader, &row) == READ_ONE; /* the header */
+  while (good && record_next(reader, &row) == READ_ONE)
+    if (!(good = print_row(out, job.csv, &row)))
+      complain("%s:%lld: not a row of %d columns with bounds and a function", path, row.line,
+               COLUMNS);
+  record_close(reader);
+  return good && output_commit() ? EXIT_GOOD : EXIT_USAGE;
+}
