@@ -6,9 +6,9 @@
 #include "ball_ball/arguments.h"
 #include "ball_ball/euler.h"
 #include "ball_ball/frame.h"
-#include "ball_ball/friction.h"
 #include "ball_ball/kernels.h"
 #include "ball_ball/reduced.h"
+#include "friction/laws.h"
 #include "platform/threads.h"
 
 #include <math.h>
@@ -312,7 +312,8 @@ double carom_mu_ball(const carom_impact *in, carom_speed_law law) {
   const carom_local c = carom_to_frame(&frame, in, CAROM_SLIP_PAPER);
   const double u_x = c.v_ix - c.v_jx - c.R * (c.w_iz + c.w_jz);
   const double u_z = c.R * (c.w_ix + c.w_jx);
-  return carom_friction_at(&law, sqrt(u_x * u_x + u_z * u_z));
+  const double k[3] = {law.a, law.b, law.c};
+  return carom_friction_at(CAROM_LAW_ALCIATORE, k, sqrt(u_x * u_x + u_z * u_z));
 }
 
 void carom_rolling_velocity(const double v[3], const double w[3], double radius,

@@ -29,7 +29,7 @@
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
-#include "platform/elementary.h"
+#include "friction/laws.h"
 
 #include <math.h>
 
@@ -157,14 +157,10 @@ static inline bool meet(bool flat, const contact *x, double time) {
 
 /* ---- Forces */
 
-/* a, b or c of a contact's friction. */
-static inline double friction(const contact *x, int k) {
-  return 0.5 * (x->p->law[k] + x->q->law[k]);
-}
-
-static inline double friction_at(const contact *x, double slip) {
-  const double a = friction(x, 0), b = friction(x, 1);
-  return b > 0.0 ? a + b * carom_exp(-friction(x, 2) * slip) : a;
+/* The numbers of a contact's friction. */
+static inline void law_of(const contact *x, double k[3]) {
+  for (int n = 0; n < 3; n++)
+    k[n] = 0.5 * (x->p->law[n] + x->q->law[n]);
 }
 
 /* The contacts that are pressed at half a step: those that were, and open ones that have an
@@ -286,10 +282,13 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
   slip_of(flat, x, u);
   const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean2 = m_x * m_x + m_y * m_y;
   /* mu falls as the slip grows within the step */
-  const double mean = sqrt(mean2), a = friction(x, 0);
+  const double mean = sqrt(mean2);
   double most = x->mu * x->J;
-  if (mean2 > 4.0 * x->U * x->U)
-    most = (a + (x->mu - a) * (1.0 - lesser(1.0, friction(x, 2) * (0.5 * mean - x->U)))) * x->J;
+  if (mean2 > 4.0 * x->U * x->U) {
+    double law[3];
+    law_of(x, law);
+    most = carom_friction_ahead(x->p->friction, law, x->mu, 0.5 * mean - x->U) * x->J;
+  }
   if (x->may_stick) {
     const ball *p = x->p, *q = x->q;
     const double share = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
@@ -326,7 +325,9 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
     const double u = sqrt(x->u[0] * x->u[0] + x->u[1] * x->u[1]);
     if (u > x->U) {
       x->U = u;
-      x->mu = friction_at(x, u);
+      double law[3];
+      law_of(x, law);
+      x->mu = carom_friction_at(x->p->friction, law, u);
     }
     x->may_stick = u <= 7.0 * mobility(x) * x->mu * x->J;
     x->impulse += x->J;

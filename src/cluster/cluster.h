@@ -54,9 +54,10 @@ typedef struct carom_cluster_ball {
   double radius, inverse_mass; /* m, 1/kg */
   double mu_cloth;
   double restitution, modulus; /* e; E, N/m^2 */
-  double law[3];               /* a, b, c of its friction with other balls; a pair has the mean
-                                  of each */
+  double law[3];               /* numbers of its friction with other balls, friction/laws.h; a
+                                  pair has the mean of each */
   bool flies;                  /* above the cloth: its contacts are in space */
+  int8_t friction;             /* the law, one for all balls */
   int8_t which;                /* the caller's index */
   int8_t acting;               /* its contacts that act in this step, at most 2 */
   /* of the integrator */

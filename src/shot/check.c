@@ -2,6 +2,7 @@
  * carom_shot.h: the table and the options once for a batch; a layout, its cue, and whether the
  * table suits the radius of its balls, for each. */
 #include "cushion/models.h"
+#include "friction/laws.h"
 #include "motion/strike.h"
 #include "shot/rules.h"
 
@@ -27,7 +28,7 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
     return CAROM_ERROR_BALL_MODEL;
   if ((uint32_t)o->cushion_model > CAROM_CUSHION_MODEL_COUNT)
     return CAROM_ERROR_SHOT_CUSHION_MODEL;
-  if ((uint32_t)o->friction > CAROM_FRICTION_CONSTANT)
+  if ((uint32_t)o->friction >= CAROM_LAW_COUNT)
     return CAROM_ERROR_FRICTION;
   if ((uint32_t)o->space > CAROM_SPACE_FLAT)
     return CAROM_ERROR_SPACE;

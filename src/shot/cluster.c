@@ -32,12 +32,9 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
   b.mu_cloth = kind->mu_slide;
   b.restitution = kind->restitution;
   b.modulus = kind->modulus > 0.0 ? kind->modulus : usual_modulus;
-  const carom_speed_law law = carom_law_of_ball(kind);
-  const bool rubs = opt->ball_model != CAROM_BALL_MODEL_MIRROR,
-             constant = opt->friction == CAROM_FRICTION_CONSTANT;
-  b.law[0] = !rubs ? 0.0 : constant ? kind->mu_ball : law.a;
-  b.law[1] = !rubs || constant ? 0.0 : law.b;
-  b.law[2] = !rubs || constant ? 0.0 : law.c;
+  b.friction = (int8_t)opt->friction;
+  if (opt->ball_model != CAROM_BALL_MODEL_MIRROR)
+    carom_law_of_ball(opt->friction, kind, b.law);
   return b;
 }
 

@@ -1,6 +1,6 @@
 /* Collisions of balls with each other and with cushions, by the model that the options ask for. */
 #include "cushion/models.h"
-#include "ball_ball/friction.h"
+#include "friction/laws.h"
 #include "shot/fixed.h"
 #include "shot/rules.h"
 #include "shot/spheres.h"
@@ -22,22 +22,41 @@ static contact_slip slip_of(const double n[2], double R, const carom_ball_state 
   return s;
 }
 
-carom_speed_law carom_law_of_ball(const carom_ball_kind *kind) {
+#define IN_ORDER(NAME, ...) \
+  _Static_assert(CAROM_FRICTION_##NAME == (int)CAROM_LAW_##NAME, "rows stand by their values");
+CAROM_FRICTION_LAWS(IN_ORDER)
+#undef IN_ORDER
+
+/* law_a, law_b and law_c, or Alciatore's where all are 0. */
+static inline void carom_own_law(const carom_ball_kind *kind, double k[3]) {
   const bool own = kind->law_a + kind->law_b + kind->law_c > 0.0;
-  return own ? (carom_speed_law){kind->law_a, kind->law_b, kind->law_c} : carom_alciatore();
+  const carom_speed_law law =
+      own ? (carom_speed_law){kind->law_a, kind->law_b, kind->law_c} : carom_alciatore();
+  k[0] = law.a;
+  k[1] = law.b;
+  k[2] = law.c;
 }
 
-static inline carom_speed_law law_of(const carom_ball_kind *a, const carom_ball_kind *b) {
-  const carom_speed_law p = carom_law_of_ball(a), q = carom_law_of_ball(b);
-  return (carom_speed_law){0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};
+void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, double k[3]) {
+  k[0] = k[1] = k[2] = 0.0;
+  switch (law) {
+#define CASE(NAME, name, numbers, ...) \
+  case CAROM_FRICTION_##NAME:          \
+    numbers;                           \
+    break;
+    CAROM_FRICTION_LAWS(CASE)
+#undef CASE
+  }
 }
 
 /* At a slip, m/s. */
 static double friction_of(const carom_sim *sim, int i, int j, double slip) {
-  if (sim->opt->friction == CAROM_FRICTION_CONSTANT)
-    return 0.5 * (carom_kind_in(sim->ball, i)->mu_ball + carom_kind_in(sim->ball, j)->mu_ball);
-  const carom_speed_law law = law_of(carom_kind_in(sim->ball, i), carom_kind_in(sim->ball, j));
-  return carom_friction_at(&law, slip);
+  const carom_ball_friction law = sim->opt->friction;
+  double p[3], q[3];
+  carom_law_of_ball(law, carom_kind_in(sim->ball, i), p);
+  carom_law_of_ball(law, carom_kind_in(sim->ball, j), q);
+  const double pair[3] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2])};
+  return carom_friction_at((int)law, pair, slip);
 }
 
 /* Normal velocities by the restitution: w, the same for each unit of mass. */

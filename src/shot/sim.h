@@ -150,9 +150,9 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
 /* resolve.c: the phase of a ball after a contact, which may have lifted it or pushed it down if
  * it was in space. */
 void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s);
-/* models.c: friction of a ball with others, over the slip: its own law, or Alciatore's. A pair
- * has the mean. */
-carom_speed_law carom_law_of_ball(const carom_ball_kind *kind);
+/* models.c: the numbers of a ball's friction with others by a law, friction/laws.h. A pair has the
+ * mean of each. */
+void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, double k[3]);
 
 /* check.c: the place for events, the options of a shot, and a ball by itself. */
 carom_status carom_check_room(const carom_shot *shot);

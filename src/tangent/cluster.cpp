@@ -19,6 +19,7 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c) {
     real x[CAROM_MEMBER_NUMBERS], d[CAROM_MEMBER_NUMBERS];
     ball->flies = c->give(c->context, k, x, d);
     ball->which = (int8_t)k;
+    ball->friction = (int8_t)c->friction;
     for (int n = 0; n < CAROM_MEMBER_NUMBERS; n++) {
       to[n].x = x[n];
       to[n].d[0] = d[n];

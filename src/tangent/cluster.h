@@ -11,6 +11,7 @@ enum { CAROM_MEMBER_NUMBERS = 17, CAROM_MEMBER_MOTION = 3, CAROM_MOTION_NUMBERS 
 typedef struct carom_tangent_cluster {
   int balls, first, second; /* members; the places of the two of the contact that starts it */
   double steps, slow;       /* as in carom_cluster_state */
+  int friction;             /* the law of its balls, friction/laws.h */
   /* gives numbers and tangents of member k, and whether it flies; */
   bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS],
                double d[CAROM_MEMBER_NUMBERS]);

@@ -675,6 +675,7 @@ CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
                                       .steps =
                                           steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
                                       .slow = text::carom_slow_speed(w->slow_instants).x,
+                                      .friction = (int)w->opt->friction,
                                       .give = give,
                                       .take = take,
                                       .context = c};

@@ -1,4 +1,5 @@
-/* The speed law of the friction between the balls. */
+/* The laws of the friction between balls. */
+#include "friction/laws.h"
 #include "support.h"
 
 #include <math.h>
@@ -33,4 +34,39 @@ TEST(rolling) {
   double in_place[3] = {rolls[0], rolls[1], rolls[2]};
   carom_rolling_velocity(v, in_place, 0.03, in_place);
   ck_assert_mem_eq(in_place, end, sizeof end);
+}
+
+/* A contact that lasts has the friction of two balls, by every law: where it slips to the end,
+ * friction's impulse is mu, at the greatest slip, times that of the contact. */
+TEST(laws_act_in_contacts_that_last) {
+  for (int law = 0; law < CAROM_LAW_COUNT; law++) {
+    carom_shot_ball ball[2];
+    for (int i = 0; i < 2; i++) {
+      ball[i] = (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+      carom_ball_kind *kind = &ball[i].kind;
+      kind->mu_ball = 0.03;
+      kind->law_a = 0.02;
+      kind->law_b = 0.1;
+      kind->law_c = 0.3;
+      kind->restitution = 1.0;
+      ball[i].state.r[1] = 2.0 * i * kind->radius;
+      ball[i].state.r[2] = kind->radius;
+    }
+    ball[0].state.v[1] = 1.0;
+    ball[0].state.w[2] = 200.0;
+    const carom_shot_options options = {.friction = (carom_ball_friction)law};
+    carom_motion after[2];
+    ck_assert_int_eq(carom_cluster(ball, 2, &options, after, NULL, 0, NULL), CAROM_OK);
+    const double numbers[3] = {law == CAROM_LAW_CONSTANT ? 0.03 : 0.02, 0.1, 0.3},
+                 R = ball[0].kind.radius, lost = 0.4 * R * (200.0 - after[0].w[2]); /* m/s */
+    ck_assert_double_eq_tol(lost / after[1].v[1], carom_friction_at(law, numbers, 200.0 * R), 1e-5);
+  }
+}
+
+/* The model MIRROR has numbers of 0. */
+TEST(no_number_is_no_friction) {
+  static const double none[3] = {0.0, 0.0, 0.0};
+  for (int law = 0; law < CAROM_LAW_COUNT; law++)
+    ck_assert(carom_friction_at(law, none, 0.7) == 0.0 &&
+              carom_friction_ahead(law, none, 0.0, 0.3) == 0.0);
 }
