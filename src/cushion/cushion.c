@@ -9,8 +9,8 @@ static const carom_cushion_options defaults = {.steps = 0};
 
 static carom_status by_model(carom_contact *c, const carom_cushion_options *opt, double mass) {
   switch (opt->model) {
-#define CASE(NAME, name, impact, flight, rows) \
-  case CAROM_CUSHION_##NAME:                   \
+#define CASE(NAME, name, impact, flight, rows, ...) \
+  case CAROM_CUSHION_##NAME:                        \
     return impact;
     CAROM_CUSHION_MODELS(CASE)
 #undef CASE
@@ -92,8 +92,8 @@ static size_t solve_rows(const void *context, size_t first, size_t end) {
 /* Fewer rows than this are not worth a thread. */
 static size_t least_part(const carom_cushion_options *opt) {
   switch (opt->model) {
-#define CASE(NAME, name, impact, flight, rows) \
-  case CAROM_CUSHION_##NAME:                   \
+#define CASE(NAME, name, impact, flight, rows, ...) \
+  case CAROM_CUSHION_##NAME:                        \
     return (size_t)(rows);
     CAROM_CUSHION_MODELS(CASE)
 #undef CASE

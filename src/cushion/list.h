@@ -1,30 +1,40 @@
-/* The models of an impact on a cushion, and their numbers: each stands here once. README.md in
- * this folder says how to add one. */
+/* The models of an impact on a cushion, and their numbers: each stands here once. README.md in this
+ * folder says how to add one. */
 #ifndef CAROM_SRC_CUSHION_LIST_H
 #define CAROM_SRC_CUSHION_LIST_H
 
+#include "about/sources.h"
+
 #include <float.h>
 
-/* X(NAME, name, impact, flight, rows). In `impact` and `flight`, `c` is the contact and `opt` are
- * the options.
+/* X(NAME, name, impact, flight, rows, sources, text). In `impact` and `flight`, `c` is the contact
+ * and `opt` are the options.
  *
  * impact: a call that takes the contact through the impact, with `mass` in kg; a carom_status.
  * flight: friction's impulse over the mass on a ball in flight, m/s. `v_n` is the closing speed
  *         along the line to the nose, `slip` the speed of the ball's surface there, both in m/s.
  *         It is called before c->e is read, and may change it.
  * rows:   fewer rows of a batch than this, about 50 us of work, are not worth a thread.
+ * sources: the entries of shot/cite.c that it stands on, about/sources.h.
+ * text:   what help and pages say of it.
  *
  * In flight there is no cloth. Then Mathavan's equations have a constant direction of slip, as
  * Han's do, so carom_han_friction() is their exact limit. It stands for the smooth law too, which
  * was not measured in flight. */
 #define CAROM_CUSHION_MODELS(X)                                                                \
-  X(MATHAVAN, "mathavan", carom_mathavan(c, opt->plain), carom_han_friction(c, v_n, slip), 16) \
-  X(STRONGE, "stronge", carom_stronge(c, opt), carom_stronge_friction(c, v_n, slip, opt), 512) \
-  X(HAN, "han", carom_han(c), carom_han_friction(c, v_n, slip), 512)                           \
-  X(MIRROR, "mirror", carom_mirror(c), 0.0, 512)                                               \
+  X(MATHAVAN, "mathavan", carom_mathavan(c, opt->plain), carom_han_friction(c, v_n, slip), 16, \
+    CAROM_BY_MATHAVAN2010 | CAROM_BY_STRONGE2000, "the exact limit of Mathavan's model")       \
+  X(STRONGE, "stronge", carom_stronge(c, opt), carom_stronge_friction(c, v_n, slip, opt), 512, \
+    CAROM_BY_STRONGE2000, "a closed form, compliant nose")                                     \
+  X(HAN, "han", carom_han(c), carom_han_friction(c, v_n, slip), 512, CAROM_BY_HAN2005,         \
+    "a closed form, rigid nose")                                                               \
+  X(MIRROR, "mirror", carom_mirror(c), 0.0, 512, 0,                                            \
+    "the velocity into the cushion is reversed and multiplied by e")                           \
   X(EULER, "euler", carom_cushion_by_steps(c, opt, mass), carom_han_friction(c, v_n, slip),    \
-    1 + 2000 / carom_cushion_steps(opt))                                                       \
-  X(SMOOTH, "smooth", carom_smooth(c, opt), carom_han_friction(c, v_n, slip), 512)
+    1 + 2000 / carom_cushion_steps(opt), CAROM_BY_MATHAVAN2010 | CAROM_BY_STRONGE2000,         \
+    "Mathavan's model in N steps")                                                             \
+  X(SMOOTH, "smooth", carom_smooth(c, opt), carom_han_friction(c, v_n, slip), 512,             \
+    CAROM_BY_HAN2005 | CAROM_BY_THREECUSHIONTOOL, "a closed form read off recorded impacts")
 
 /* X(of, member, low, high, ERROR): the numbers that carom_cushion_options and carom_ball_kind
  * have both. Each is 0 or within the range, to which both ends belong. They stand in the order of

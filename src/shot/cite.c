@@ -3,6 +3,8 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
+#include "cushion/list.h"
+#include "friction/laws.h"
 #include "shot/rules.h"
 #include "shot/sim.h"
 
@@ -11,113 +13,104 @@
 #define VERSION \
   TEXT(CAROM_VERSION_MAJOR) "." TEXT(CAROM_VERSION_MINOR) "." TEXT(CAROM_VERSION_PATCH)
 
-/* Reasons for which an entry is cited; a shot has a set of them. */
-enum {
-  EVERY_SHOT = 1 << 0,
-  WORLD_CAROM = 1 << 1,
-  WORLD_POOLTOOL = 1 << 2,
-  BALLS_2014 = 1 << 3,      /* two balls by the 2014 model, exact or in steps */
-  BALLS_INELASTIC = 1 << 4, /* pooltool's impulse */
-  SLIP_LAW = 1 << 5,        /* friction between balls by the speed of slip */
-  CUSHION_2010 = 1 << 6,    /* Mathavan's cushion, exact or in steps */
-  CUSHION_HAN = 1 << 7,
-  CUSHION_SMOOTH = 1 << 8,
-  STRONGE = 1 << 9, /* energetic restitution, or his cushion */
-  CLUSTERS = 1 << 10
-};
-
 static const struct {
-  unsigned reasons;
+  unsigned source; /* about/sources.h */
   const char *text;
 } entries[] = {
-    {EVERY_SHOT, "@software{carom,\n"
-                 "  title = {carom: billiards, computed},\n"
-                 "  author = {{The developers of carom}},\n"
-                 "  version = {" VERSION "}\n"
-                 "}\n"},
-    {EVERY_SHOT, "@book{marlow1995,\n"
-                 "  author = {Marlow, Wayland C.},\n"
-                 "  title = {The Physics of Pocket Billiards},\n"
-                 "  publisher = {MAST},\n"
-                 "  year = {1995},\n"
-                 "  isbn = {0-9645370-0-1}\n"
-                 "}\n"},
-    {EVERY_SHOT,
+    {CAROM_BY_CAROM, "@software{carom,\n"
+                     "  title = {carom: billiards, computed},\n"
+                     "  author = {{The developers of carom}},\n"
+                     "  version = {" VERSION "}\n"
+                     "}\n"},
+    {CAROM_BY_MARLOW1995, "@book{marlow1995,\n"
+                          "  author = {Marlow, Wayland C.},\n"
+                          "  title = {The Physics of Pocket Billiards},\n"
+                          "  publisher = {MAST},\n"
+                          "  year = {1995},\n"
+                          "  isbn = {0-9645370-0-1}\n"
+                          "}\n"},
+    {CAROM_BY_ALCIATORE_SQUIRT,
      "@misc{alciatore-squirt,\n"
      "  author = {Alciatore, David G.},\n"
      "  title = {{TP} {A.30}: The effect of cue tip offset, cue weight, and cue speed on "
      "cue ball speed and spin; {TP} {A.31}: The physics of squirt},\n"
      "  url = {https://billiards.colostate.edu/technical-proofs/}\n"
      "}\n"},
-    {SLIP_LAW, "@misc{alciatore-throw,\n"
-               "  author = {Alciatore, David G.},\n"
-               "  title = {{TP} {A.14}: The effects of cut angle, speed, and spin on object ball "
-               "throw},\n"
-               "  url = {https://billiards.colostate.edu/technical-proofs/}\n"
-               "}\n"},
-    {WORLD_CAROM, "@article{bannerman2014,\n"
-                  "  author = {Bannerman, M. N. and Strobl, S. and Formella, A. and P{\\\"o}schel, "
-                  "T.},\n"
-                  "  title = {Stable algorithm for event detection in event-driven particle "
-                  "dynamics},\n"
-                  "  journal = {Computational Particle Mechanics},\n"
-                  "  volume = {1},\n"
-                  "  number = {2},\n"
-                  "  pages = {191--198},\n"
-                  "  year = {2014},\n"
-                  "  doi = {10.1007/s40571-014-0021-8}\n"
-                  "}\n"},
-    {BALLS_2014, "@article{mathavan2014,\n"
-                 "  author = {Mathavan, S. and Jackson, M. R. and Parkin, R. M.},\n"
-                 "  title = {Numerical simulations of the frictional collisions of solid balls on "
-                 "a rough surface},\n"
-                 "  journal = {Sports Engineering},\n"
-                 "  volume = {17},\n"
-                 "  pages = {227--237},\n"
-                 "  year = {2014},\n"
-                 "  doi = {10.1007/s12283-014-0158-y}\n"
-                 "}\n"},
-    {CUSHION_2010, "@article{mathavan2010,\n"
-                   "  author = {Mathavan, S. and Jackson, M. R. and Parkin, R. M.},\n"
-                   "  title = {A theoretical analysis of billiard ball dynamics under cushion "
-                   "impacts},\n"
-                   "  journal = {Proceedings of the Institution of Mechanical Engineers, Part C},\n"
-                   "  volume = {224},\n"
-                   "  pages = {1863--1873},\n"
-                   "  year = {2010},\n"
-                   "  doi = {10.1243/09544062JMES1964}\n"
-                   "}\n"},
-    {CUSHION_HAN | CUSHION_SMOOTH, "@article{han2005,\n"
-                                   "  author = {Han, Inhwan},\n"
-                                   "  title = {Dynamics in carom and three cushion billiards},\n"
-                                   "  journal = {Journal of Mechanical Science and Technology},\n"
-                                   "  volume = {19},\n"
-                                   "  number = {4},\n"
-                                   "  pages = {976--984},\n"
-                                   "  year = {2005},\n"
-                                   "  doi = {10.1007/BF02919180}\n"
-                                   "}\n"},
-    {CUSHION_SMOOTH, "@misc{threecushiontool,\n"
-                     "  author = {erdo100},\n"
-                     "  title = {3cushiontool: recorded shots of three-cushion billiards},\n"
-                     "  url = {https://github.com/erdo100/3cushiontool},\n"
-                     "  note = {commit 76b202bf}\n"
-                     "}\n"},
-    {STRONGE, "@book{stronge2000,\n"
-              "  author = {Stronge, W. J.},\n"
-              "  title = {Impact Mechanics},\n"
-              "  publisher = {Cambridge University Press},\n"
-              "  year = {2000}\n"
-              "}\n"},
-    {CLUSTERS, "@article{hertz1882,\n"
-               "  author = {Hertz, Heinrich},\n"
-               "  title = {{\\\"U}ber die Ber{\\\"u}hrung fester elastischer K{\\\"o}rper},\n"
-               "  journal = {Journal f{\\\"u}r die reine und angewandte Mathematik},\n"
-               "  volume = {92},\n"
-               "  pages = {156--171},\n"
-               "  year = {1882}\n"
-               "}\n"},
-    {WORLD_POOLTOOL | BALLS_INELASTIC,
+    {CAROM_BY_ALCIATORE_THROW,
+     "@misc{alciatore-throw,\n"
+     "  author = {Alciatore, David G.},\n"
+     "  title = {{TP} {A.14}: The effects of cut angle, speed, and spin on object ball "
+     "throw},\n"
+     "  url = {https://billiards.colostate.edu/technical-proofs/}\n"
+     "}\n"},
+    {CAROM_BY_BANNERMAN2014,
+     "@article{bannerman2014,\n"
+     "  author = {Bannerman, M. N. and Strobl, S. and Formella, A. and P{\\\"o}schel, "
+     "T.},\n"
+     "  title = {Stable algorithm for event detection in event-driven particle "
+     "dynamics},\n"
+     "  journal = {Computational Particle Mechanics},\n"
+     "  volume = {1},\n"
+     "  number = {2},\n"
+     "  pages = {191--198},\n"
+     "  year = {2014},\n"
+     "  doi = {10.1007/s40571-014-0021-8}\n"
+     "}\n"},
+    {CAROM_BY_MATHAVAN2014,
+     "@article{mathavan2014,\n"
+     "  author = {Mathavan, S. and Jackson, M. R. and Parkin, R. M.},\n"
+     "  title = {Numerical simulations of the frictional collisions of solid balls on "
+     "a rough surface},\n"
+     "  journal = {Sports Engineering},\n"
+     "  volume = {17},\n"
+     "  pages = {227--237},\n"
+     "  year = {2014},\n"
+     "  doi = {10.1007/s12283-014-0158-y}\n"
+     "}\n"},
+    {CAROM_BY_MATHAVAN2010,
+     "@article{mathavan2010,\n"
+     "  author = {Mathavan, S. and Jackson, M. R. and Parkin, R. M.},\n"
+     "  title = {A theoretical analysis of billiard ball dynamics under cushion "
+     "impacts},\n"
+     "  journal = {Proceedings of the Institution of Mechanical Engineers, Part C},\n"
+     "  volume = {224},\n"
+     "  pages = {1863--1873},\n"
+     "  year = {2010},\n"
+     "  doi = {10.1243/09544062JMES1964}\n"
+     "}\n"},
+    {CAROM_BY_HAN2005, "@article{han2005,\n"
+                       "  author = {Han, Inhwan},\n"
+                       "  title = {Dynamics in carom and three cushion billiards},\n"
+                       "  journal = {Journal of Mechanical Science and Technology},\n"
+                       "  volume = {19},\n"
+                       "  number = {4},\n"
+                       "  pages = {976--984},\n"
+                       "  year = {2005},\n"
+                       "  doi = {10.1007/BF02919180}\n"
+                       "}\n"},
+    {CAROM_BY_THREECUSHIONTOOL,
+     "@misc{threecushiontool,\n"
+     "  author = {erdo100},\n"
+     "  title = {3cushiontool: recorded shots of three-cushion billiards},\n"
+     "  url = {https://github.com/erdo100/3cushiontool},\n"
+     "  note = {commit 76b202bf}\n"
+     "}\n"},
+    {CAROM_BY_STRONGE2000, "@book{stronge2000,\n"
+                           "  author = {Stronge, W. J.},\n"
+                           "  title = {Impact Mechanics},\n"
+                           "  publisher = {Cambridge University Press},\n"
+                           "  year = {2000}\n"
+                           "}\n"},
+    {CAROM_BY_HERTZ1882,
+     "@article{hertz1882,\n"
+     "  author = {Hertz, Heinrich},\n"
+     "  title = {{\\\"U}ber die Ber{\\\"u}hrung fester elastischer K{\\\"o}rper},\n"
+     "  journal = {Journal f{\\\"u}r die reine und angewandte Mathematik},\n"
+     "  volume = {92},\n"
+     "  pages = {156--171},\n"
+     "  year = {1882}\n"
+     "}\n"},
+    {CAROM_BY_KIEFL2024,
      "@article{kiefl2024,\n"
      "  author = {Kiefl, Evan},\n"
      "  title = {Pooltool: A Python package for realistic billiards simulation},\n"
@@ -130,36 +123,35 @@ static const struct {
      "}\n"},
 };
 
-static unsigned reasons_of(const carom_shot_options *o) {
+#define OF_CUSHION(NAME, name, impact, flight, rows, sources, ...) \
+  [CAROM_CUSHION_##NAME] = (sources),
+#define OF_LAW(NAME, name, numbers, at, ahead, sources, ...) [CAROM_LAW_##NAME] = (sources),
+static const unsigned of_cushion[] = {CAROM_CUSHION_MODELS(OF_CUSHION)};
+static const unsigned of_law[] = {CAROM_FRICTION_LAWS(OF_LAW)};
+
+static unsigned sources_of(const carom_shot_options *o) {
   const carom_rules *rules = carom_rules_of(o->world);
   const carom_ball_model balls =
       o->ball_model != CAROM_BALL_MODEL_DEFAULT ? o->ball_model : rules->ball_model;
-  const carom_shot_cushion cushion = o->cushion_model != CAROM_SHOT_CUSHION_DEFAULT
-                                         ? o->cushion_model
-                                         : (carom_shot_cushion)(1 + (int)rules->cushion_model);
-  unsigned reasons = EVERY_SHOT | (o->world == CAROM_WORLD_POOLTOOL ? WORLD_POOLTOOL : WORLD_CAROM);
+  const int cushion = o->cushion_model != CAROM_SHOT_CUSHION_DEFAULT ? (int)o->cushion_model - 1
+                                                                     : (int)rules->cushion_model;
+  unsigned sources = CAROM_BY_CAROM | CAROM_BY_MARLOW1995 | CAROM_BY_ALCIATORE_SQUIRT;
+  sources |= o->world == CAROM_WORLD_POOLTOOL ? CAROM_BY_KIEFL2024 : CAROM_BY_BANNERMAN2014;
+  sources |= of_cushion[cushion];
 
   /* two balls: the restitution of the 2014 model is energetic, as Stronge's */
   if (balls == CAROM_BALL_MODEL_EXACT || balls == CAROM_BALL_MODEL_EULER)
-    reasons |= BALLS_2014 | STRONGE;
+    sources |= CAROM_BY_MATHAVAN2014 | CAROM_BY_STRONGE2000;
   if (balls == CAROM_BALL_MODEL_INELASTIC)
-    reasons |= BALLS_INELASTIC;
-  if (balls != CAROM_BALL_MODEL_MIRROR && o->friction == CAROM_FRICTION_ALCIATORE)
-    reasons |= SLIP_LAW;
-
-  /* cushions */
-  if (cushion == CAROM_SHOT_CUSHION_MATHAVAN || cushion == CAROM_SHOT_CUSHION_EULER)
-    reasons |= CUSHION_2010 | STRONGE;
-  reasons |= cushion == CAROM_SHOT_CUSHION_HAN       ? CUSHION_HAN
-             : cushion == CAROM_SHOT_CUSHION_SMOOTH  ? CUSHION_SMOOTH
-             : cushion == CAROM_SHOT_CUSHION_STRONGE ? STRONGE
-                                                     : 0;
+    sources |= CAROM_BY_KIEFL2024;
+  if (balls != CAROM_BALL_MODEL_MIRROR)
+    sources |= of_law[o->friction];
 
   /* contacts that overlap in time */
   if (rules->clusters && o->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
       (balls == CAROM_BALL_MODEL_EXACT || balls == CAROM_BALL_MODEL_MIRROR))
-    reasons |= CLUSTERS | STRONGE;
-  return reasons;
+    sources |= CAROM_BY_HERTZ1882 | CAROM_BY_STRONGE2000;
+  return sources;
 }
 
 size_t carom_cite(const carom_shot_options *options, char *text, size_t room) {
@@ -169,12 +161,12 @@ size_t carom_cite(const carom_shot_options *options, char *text, size_t room) {
     text[0] = '\0';
   if (carom_check_shot_options(o) != CAROM_OK)
     return 0;
-  const unsigned reasons = reasons_of(o);
+  const unsigned sources = sources_of(o);
   size_t length = 0;
   for (size_t k = 0; k < sizeof entries / sizeof entries[0]; k++) {
     /* an empty line stands between entries; text that does not fit is only counted */
     const char *parts[] = {length > 0 ? "\n" : "", entries[k].text};
-    for (size_t p = 0; p < 2 && (entries[k].reasons & reasons) != 0; p++)
+    for (size_t p = 0; p < 2 && (entries[k].source & sources) != 0; p++)
       for (const char *c = parts[p]; *c != '\0'; c++, length++)
         if (length + 1 < room)
           text[length] = *c;

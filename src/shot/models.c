@@ -222,8 +222,8 @@ static carom_cushion_options cushion_options(const carom_sim *sim, const carom_b
 static double friction_in_flight(carom_contact *c, double v_n, double slip,
                                  const carom_cushion_options *opt) {
   switch (opt->model) {
-#define CASE(NAME, name, impact, flight, rows) \
-  case CAROM_CUSHION_##NAME:                   \
+#define CASE(NAME, name, impact, flight, rows, ...) \
+  case CAROM_CUSHION_##NAME:                        \
     return flight;
     CAROM_CUSHION_MODELS(CASE)
 #undef CASE

@@ -17,7 +17,7 @@ ALLOWED = {
     "src/friction": ("include", "src/platform", "src/about"),
     "src/impact": ("include", "src/platform"),
     "src/ball_ball": ("include", "src/platform", "src/about", "src/friction", "src/impact"),
-    "src/cushion": ("include", "src/platform", "src/impact"),
+    "src/cushion": ("include", "src/platform", "src/about", "src/impact"),
     "src/cluster": ("include", "src/platform", "src/about", "src/friction"),
     "src/motion": ("include", "src/platform"),
     "src/table": ("include", "src/platform"),

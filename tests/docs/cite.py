@@ -8,7 +8,9 @@ import unicodedata
 from pathlib import Path
 
 SOURCE, CAROM = Path(sys.argv[1]), Path(sys.argv[2], "carom")
-MODELS = [[], *(["--cushion", model] for model in ("mathavan", "stronge", "han", "mirror", "euler", "smooth")), ["--models", "pooltool"]]
+CUSHIONS = re.findall(r'^  X\(\w+, "(\w+)"', (SOURCE / "src/cushion/list.h").read_text(encoding="utf-8"), flags=re.M)
+assert len(CUSHIONS) >= 6, CUSHIONS
+MODELS = [[], *(["--cushion", model] for model in CUSHIONS), ["--models", "pooltool"]]
 KINDS = {"article": "article", "book": "book", "misc": "generic", "software": "software"}
 ACCENT = re.compile(r'\{?\\"([A-Za-z])\}?')
 
