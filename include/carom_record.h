@@ -107,7 +107,7 @@ CAROM_API carom_status carom_record_place(carom_record *record, int ball, double
                                           carom_part *in_the_way);
 
 /* Puts the states at the end of the last shot into record->balls. A caller does so who changes
- * them and writes CAROM_RECORD_BALLS. */
+ * them and writes CAROM_RECORD_BALLS. CAROM_ERROR_BALLS for a record->count that cannot be. */
 CAROM_API carom_status carom_record_settle(carom_record *record);
 
 /* Writes the next line of the record, with its end of line and a closing 0, to text[room]:

@@ -408,6 +408,8 @@ static void count_shot(carom_record *record, uint64_t hash) {
 carom_status carom_record_settle(carom_record *record) {
   if (record == NULL)
     return CAROM_ERROR_NULL;
+  if (record->count < 0 || record->count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
   for (int k = 0; record->moved != 0 && k < record->count; k++)
     record->balls[k].state = record->final[k];
   record->moved = 0;
@@ -416,9 +418,9 @@ carom_status carom_record_settle(carom_record *record) {
 
 carom_status carom_record_place(carom_record *record, int ball, double x, double y,
                                 carom_part *in_the_way) {
-  if (record == NULL)
-    return CAROM_ERROR_NULL;
-  carom_record_settle(record);
+  const carom_status bad = carom_record_settle(record);
+  if (bad < 0)
+    return bad;
   record->placed = ball;
   record->place[0] = x;
   record->place[1] = y;
@@ -662,8 +664,8 @@ static void write_object(writer *out, const field *fields, const unsigned char *
 }
 
 size_t carom_record_write(carom_record *record, carom_record_kind kind, char *text, size_t room) {
-  if (record == NULL || text == NULL || room == 0 || kind <= CAROM_RECORD_BLANK ||
-      (int)kind >= KINDS)
+  if (record == NULL || text == NULL || room == 0 || kind == CAROM_RECORD_BLANK ||
+      (uint32_t)kind >= KINDS) /* enumerations may be signed or not */
     return 0;
   const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
   if (out_of_place(record, (int)kind) != NULL ||

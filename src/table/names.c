@@ -20,18 +20,23 @@ static bool is_cut(const carom_table *t, int rail) {
   return square_of_length(&t->rail[rail]) <= cut_most * cut_most * longest;
 }
 
-/* The name of the side of a rectangle along which a rail lies, or NULL. */
+/* The name of the side of the rectangle, from 0 to width and length, on which a rail lies, or
+ * NULL. */
 static const char *side_of(const carom_table *t, int rail) {
+  static const char *const names[2][2] = {{"left", "right"}, {"head", "foot"}};
   const carom_rail *r = &t->rail[rail];
-  const double same = 1e-6 * (t->width + t->length);
-  if (fabs(r->p[0] - r->q[0]) < same)
-    return r->p[0] < 0.5 * t->width ? "left" : "right";
-  if (fabs(r->p[1] - r->q[1]) < same)
-    return r->p[1] < 0.5 * t->length ? "head" : "foot";
+  const double same = 1e-6 * (t->width + t->length), far[2] = {t->width, t->length};
+  for (int c = 0; c < 2; c++)
+    for (int side = 0; side < 2; side++)
+      if (fabs(r->p[c] - side * far[c]) < same && fabs(r->q[c] - side * far[c]) < same)
+        return names[c][side];
   return NULL;
 }
 
+/* A table of too many parts, which every call refuses, is none. */
 static bool is_rectangle(const carom_table *t) {
+  if (t->rails > CAROM_RAILS_MOST || t->pockets > CAROM_POCKETS_MOST)
+    return false;
   for (int k = 0; k < t->rails; k++)
     if (!is_cut(t, k) && side_of(t, k) == NULL)
       return false;

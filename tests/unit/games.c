@@ -735,5 +735,30 @@ TEST(names) {
     ck_assert(carom_rack_name((carom_rack_kind)k) != NULL &&
               carom_rack_size((carom_rack_kind)k) > 0);
   ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
+
+  /* rails and pockets of rectangles only, whatever the numbers of parts */
+  static const carom_corner bent[6] = {{0, 0, 0.13},  {2.4, 0, 0.13},   {2.4, 1.3, 0.13},
+                                       {1.3, 1.3, 0}, {1.3, 2.4, 0.13}, {0, 2.4, 0.13}};
+  static const int64_t numbers[] = {-1,      INT64_MIN, CAROM_RAILS_MOST + 1,
+                                    1000000, INT64_MAX, 4562254508917369340};
+  carom_table t;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  ck_assert_str_eq(carom_rail_name(&t, 0), "left");
+  ck_assert_str_eq(carom_rail_name(&t, 5), "foot");
+  ck_assert_str_eq(carom_pocket_name(&t, 0), "head-left");
+  ck_assert_int_eq(carom_table_polygon(bent, 6, 0.0365, 0.02, 0.028575, &t, NULL), CAROM_OK);
+  for (int k = 0; k < 6; k++) {
+    ck_assert_ptr_null(carom_rail_name(&t, k));
+    ck_assert_ptr_null(carom_pocket_name(&t, k));
+  }
+  for (int which = 0; which < 2; which++)
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+      carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+      *(which == 0 ? &t.rails : &t.pockets) = numbers[k];
+      for (int part = 0; part < 2000000; part += 99999) {
+        ck_assert_ptr_null(carom_rail_name(&t, part + 40));
+        ck_assert_ptr_null(carom_pocket_name(&t, part + 40));
+      }
+    }
   ck_assert_int_ge(carom_physics_revision(), 1);
 }

@@ -5,6 +5,7 @@
 #include "support.h"
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -258,6 +259,27 @@ TEST(lines_that_are_refused) {
   ck_assert_uint_gt(carom_record_write(&game, CAROM_RECORD_HEAD, text, ROOM), 10);
   game.table.width = NAN;
   ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_TABLE, text, ROOM), 0);
+}
+
+/* A kind of line that is none, and a number of balls that cannot be, are refused wherever they come
+ * from. */
+TEST(records_that_cannot_be) {
+  static const int64_t counts[] = {-1, INT64_MIN, CAROM_BALLS_MOST + 1, 100000, INT64_MAX};
+  static const int kinds[] = {-1, -100, INT_MIN, 10, 64, INT_MAX};
+  for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+    write_game();
+    for (size_t j = 0; j < sizeof kinds / sizeof *kinds; j++) {
+      again = game;
+      ck_assert_uint_eq(carom_record_write(&again, (carom_record_kind)kinds[j], text, ROOM), 0);
+      ck_assert_int_lt(carom_record_play(&again, (carom_record_kind)kinds[j], NULL), 0);
+    }
+    again.count = counts[k];
+    again.moved = 1;
+    ck_assert_int_eq(carom_record_settle(&again), CAROM_ERROR_BALLS);
+    ck_assert_int_eq(carom_record_place(&again, 0, 0.5, 0.5, NULL), CAROM_ERROR_BALLS);
+  }
+  ck_assert_int_eq(carom_record_settle(NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_record_place(NULL, 0, 0.5, 0.5, NULL), CAROM_ERROR_NULL);
 }
 
 /* A stroke that was changed is another shot, and so are a table and a constant. */
