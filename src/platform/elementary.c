@@ -178,3 +178,9 @@ double carom_atan(double x) {
 double carom_acos(double x) {
   return 2.0 * carom_atan(sqrt((1.0 - x) / (1.0 + x)));
 }
+
+double carom_minmod(double a, double b) {
+  if (!(a * b > 0.0))
+    return 0.0;
+  return fabs(a) < fabs(b) ? a : b;
+}

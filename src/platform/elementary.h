@@ -28,4 +28,7 @@ double carom_atan(double x);
 /* The angle whose cosine is x, from 0 to pi, to 4 ulp; NaN where |x| > 1. */
 double carom_acos(double x);
 
+/* The one nearer to 0 of two numbers of one sign; 0 where their signs differ. Exact. */
+double carom_minmod(double a, double b);
+
 #endif

@@ -112,10 +112,9 @@ __attribute__((noinline, cold)) static void
 lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3], carom_ball_state *s) {
   const double v_t = v[0] * n[1] - v[1] * n[0],
                roll = kind->radius * (s->w[0] * n[0] + s->w[1] * n[1]);
-  const double loss = copysign(carom_lesser(kind->roll_loss * fabs(v_t), fabs(roll)), roll);
-  if (v_t * roll > 0.0)
-    for (int k = 0; k < 2; k++)
-      s->w[k] -= loss / kind->radius * n[k];
+  const double loss = carom_minmod(kind->roll_loss * v_t, roll);
+  for (int k = 0; k < 2; k++)
+    s->w[k] -= loss / kind->radius * n[k] + 0.0; /* without a loss w keeps its bits */
 }
 
 static carom_ball_model ball_model(const carom_sim *sim) {

@@ -110,6 +110,21 @@ double carom_acos(double x) {
   return square > 0 ? number(::carom_acos(x.x), x.d * (-1 / __builtin_sqrt(square)))
                     : number(::carom_acos(x.x));
 }
+/* Where both are 0, but for rounding, each direction takes the one of its own derivatives: minmod
+ * of a change is the change of minmod, to either side. */
+double carom_minmod(double a, double b) {
+  const bool by_a = __builtin_fabs(a.x) < __builtin_fabs(b.x);
+  number c = ::carom_minmod(a.x, b.x);
+  if (c.x != 0) {
+    look(a, b);
+    c.d = by_a ? a.d : b.d;
+  }
+  for (int k = 0; k < CLOCK; k++)
+    if (__builtin_fmax(__builtin_fabs(a.x), __builtin_fabs(b.x)) <=
+        1e-12 * (__builtin_fabs(a.d[k]) + __builtin_fabs(b.d[k])))
+      c.d[k] = ::carom_minmod(a.d[k], b.d[k]);
+  return c;
+}
 carom_speed_law carom_alciatore(void) {
   const ::carom_speed_law law = ::carom_alciatore();
   return {law.a, law.b, law.c};

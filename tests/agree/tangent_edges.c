@@ -378,6 +378,61 @@ TEST(kink) {
   }
 }
 
+/* Shots square at a cushion, by draw, stun and follow: a ball has neither speed nor roll along it,
+ * and a change brings about both. The derivatives are those of both sides, for every table, kind
+ * of ball and model but Euler's steps, which have none. */
+static void shoot_squarely(const carom_table *table, carom_game game, const carom_shot_options *o) {
+  static const direction by[3] = {{OF_CUE, 0, 1, 57}, {OF_STATE, 0, 0, 1}, {OF_STATE, 0, 1, 1}};
+  static const double tips[3] = {-0.3, 0.0, 0.3};
+  for (int k = 0; k < 4 * 3; k++) {
+    layout l = {.count = 1, .ball = {{.kind = carom_ball_kind_of(game)}}};
+    l.cue = carom_cue_of(game);
+    l.cue.phi = 90.0 * (k % 4);
+    l.cue.b = tips[k / 4];
+    l.cue.speed = 1.5;
+    l.ball[0].state.r[0] = 0.31 * table->width;
+    l.ball[0].state.r[1] = 0.43 * table->length;
+    l.ball[0].state.r[2] = l.ball[0].kind.radius;
+    carom_shot shot =
+        play(table, l.ball, 1, &l.cue, o, o->time_most > 0.0 ? CAROM_STOPPED_AT_TIME : CAROM_OK);
+    const carom_tangent_seeds seeds = seeds_of(by, 3);
+    carom_tangent t = {.final = ends};
+    ck_assert_int_eq(carom_shot_tangent(table, l.ball, 1, &l.cue, o, &shot, &seeds, &t), CAROM_OK);
+    for (int j = 0; j < 3; j++) {
+      double f[3][NUMBERS];
+      const double h = 1e-6 * by[j].unit, most = largest(ends, NUMBERS, j, 3);
+      for (int s = 0; s < 3; s++) {
+        layout changed = l;
+        change(&changed, &by[j], (s - 1) * h);
+        ck_assert(plays_alike(table, &changed, o, &shot, f[s]));
+      }
+      for (int x = 0; x < NUMBERS; x++)
+        for (int s = 0; s < 2; s++) {
+          const double found = (f[s + 1][x] - f[s][x]) / h;
+          if (!(fabs(found - ends[x * 3 + j]) <= 5e-3 * most))
+            ck_abort_msg("game %d, cushion %d, phi %g, b %g, number %d by direction %d: %.8g, not "
+                         "%.8g (side %d)",
+                         game, (int)o->cushion_model, l.cue.phi, l.cue.b, x, j, ends[x * 3 + j],
+                         found, s);
+        }
+    }
+  }
+}
+
+TEST(square_at_a_cushion) {
+  for (int k = CAROM_TABLE_POOL_7FT; k <= CAROM_TABLE_POOLTOOL; k++) {
+    carom_table table;
+    carom_table_make((carom_table_kind)k, &table);
+    for (int game = CAROM_GAME_POOL; game <= CAROM_GAME_POOLTOOL_BILLIARD; game++)
+      for (int model = 0; model <= CAROM_SHOT_CUSHION_SMOOTH; model++)
+        for (int stops = 0; stops < 2 && model != CAROM_SHOT_CUSHION_EULER; stops++) {
+          const carom_shot_options o = {.cushion_model = (carom_shot_cushion)model,
+                                        .time_most = stops ? 2.0 : 0.0};
+          shoot_squarely(&table, (carom_game)game, &o);
+        }
+  }
+}
+
 /* By theta, at no elevation: the derivative upward, which the cloth takes a part of at once. In
  * flat play there is no kink. */
 TEST(level_cue) {

@@ -118,3 +118,10 @@ TEST(inverse_tangent_and_cosine) {
   ck_assert_double_nan(carom_acos(1.0000001));
   ck_assert_double_nan(carom_acos(NAN));
 }
+
+TEST(minmod) {
+  ck_assert_double_eq(carom_minmod(2.0, 3.0), 2.0);
+  ck_assert_double_eq(carom_minmod(-2.0, -1.0), -1.0);
+  ck_assert_double_eq(carom_minmod(2.0, -1.0), 0.0);
+  ck_assert_double_eq(carom_minmod(0.0, 1.0), 0.0);
+}
