@@ -151,14 +151,15 @@ def main():
 
     system = sorted({line.strip() for text in texts.values() for line in SYSTEM.findall(COMMENT.sub("", text))})
     everywhere = [line for line in system if re.search(r"<(math|stdbool|stddef|stdint|string|float|limits|stdlib|stdio|stdatomic)\.h>", line)]
-    posix = [line for line in system if re.search(r"<(pthread|sched|signal|unistd|fcntl)\.h>", line)]
-    windows = [line for line in system if re.search(r"<(windows|process)\.h>", line)]
+    posix = [line for line in system if re.search(r"<(pthread|sched|signal|unistd|fcntl|time)\.h>", line)]
     x86 = [line for line in system if re.search(r"<(cpuid|immintrin|emmintrin)\.h>", line)]
 
     out = [f'/* carom {version()} in one file, written by tools/one_file.py. It includes itself; its name must stay. */\n']
     out.append("#ifndef CAROM_PASS\n#if defined(__linux__) && !defined(_GNU_SOURCE)\n#define _GNU_SOURCE\n#endif\n#define CAROM_BUILD\n")
-    out.append(bare(texts["platform/arithmetic.h"]) + "\n")
-    out.append("\n".join(everywhere) + "\n#ifdef _WIN32\n" + "\n".join(windows) + "\n#else\n" + "\n".join(posix) + "\n#endif\n")
+    out.append("#if defined(__MINGW32__) && !defined(__clang__) /* gcc for Windows cannot align the stack for their vectors */\n")
+    out.append("#undef CAROM_WITHOUT_AVX2\n#define CAROM_WITHOUT_AVX2\n#undef CAROM_WITHOUT_AVX512\n#define CAROM_WITHOUT_AVX512\n#endif\n")
+    out.append("#include <float.h>\n" + bare(texts["platform/arithmetic.h"]) + "\n")
+    out.append("\n".join(everywhere) + "\n#ifndef _WIN32\n" + "\n".join(posix) + "\n#endif\n")
     out.append("#if defined(__x86_64__) || defined(__i386__)\n" + "\n".join(x86) + "\n#elif defined(__aarch64__)\n#include <arm_neon.h>\n#endif\n")
     out.append("#ifdef __wasm_simd128__\n#include <wasm_simd128.h>\n#endif\n")
     out.append("".join(f'#include "{name}"\n' for name in PUBLIC))

@@ -292,7 +292,7 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
     progress at_rest = {0};
     for (int k = 0; k <= SAMPLES; k++) {
       double sine, cosine, e, half, phi;
-      carom_sincos(pi * k / SAMPLES - 0.5 * pi, &sine, &cosine);
+      carom_sincos(pi * k / (double)SAMPLES - 0.5 * pi, &sine, &cosine);
       phi = mid + wide * sine;
       const progress p = attempt(w, phi, given, &e, &half);
       const bool rests = p.end.type == CAROM_EVENT_ROLLING_STATIONARY ||
@@ -307,7 +307,8 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
       if (p.links == most) {
         at_rest = p;
         short_of = short_of && rests;
-        carom_sincos(pi * (k + 1 > SAMPLES ? SAMPLES : k + 1) / SAMPLES - 0.5 * pi, &sine, &cosine);
+        carom_sincos(pi * (k + 1 > SAMPLES ? SAMPLES : k + 1) / (double)SAMPLES - 0.5 * pi, &sine,
+                     &cosine);
         high = mid + wide * sine;
       }
 

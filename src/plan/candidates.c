@@ -171,10 +171,10 @@ void carom_search_scan(search *of, int64_t most) {
     for (int64_t k = from; k < from + block && of->count < of->most; k++) {
       double turn = begin + 0.61803398874989485 * (double)k;
       turn -= floor(turn);
-      const int speed =
-          (int)(SCAN_SPEEDS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 0));
-      const double *tip =
-          scan_tip[(int)(TIPS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1))];
+      const int speed = (int)((double)SCAN_SPEEDS *
+                              carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 0));
+      const double *tip = scan_tip[(
+          int)((double)TIPS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1))];
       carom_search_add(
           of, (candidate){.speed = carom_within(scan_speed[speed], of->player.speed_least,
                                                 of->player.speed_most),

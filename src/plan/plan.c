@@ -30,7 +30,7 @@ enum { PLACES = 60 }; /* of a cue ball in hand, of which PLACES_PLANNED are plan
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
 enum { SHOTS_USUAL = 2000, SHOTS_LEAST = 100, SHOTS_MOST = 1000000, SPARE = 160 };
-enum { PLAYER_MOST = 1000 }; /* of each number of a player */
+static const double player_most = 1000.0; /* of each number of a player */
 
 static bool good_options(const carom_plan_options *o) {
   bool reserved = o->unused != 0;
@@ -47,7 +47,7 @@ static bool good_player(const carom_player *p) {
                             p->b,     p->speed_least, p->speed_most, p->tip_most};
   bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    good &= numbers[k] >= 0.0 && numbers[k] <= PLAYER_MOST;
+    good &= numbers[k] >= 0.0 && numbers[k] <= player_most;
   for (size_t k = 0; k < sizeof p->reserved / sizeof p->reserved[0]; k++)
     good &= p->reserved[k] == 0.0;
   return good;

@@ -23,8 +23,8 @@ carom_player carom_player_fargo(double rating) {
   enum { LAST = sizeof errors / sizeof errors[0] - 1 };
   double at = (rating - 300.0) / 50.0;
   at = at > 0.0 ? at : 0.0;
-  const int k = at < LAST ? (int)at : LAST - 1;
-  const double part = at < LAST ? at - k : 1.0;
+  const int k = at < (double)LAST ? (int)at : LAST - 1;
+  const double part = at < (double)LAST ? at - k : 1.0;
   return carom_player_of(errors[k] + part * (errors[k + 1] - errors[k]));
 }
 

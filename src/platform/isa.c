@@ -5,7 +5,7 @@
  * first use fills. Asking for a lower set is for tests, comparisons and bug reports; the results
  * of the exact solver agree within its contract on all of them.
  */
-#if defined(__linux__)
+#if defined(__linux__) && !defined(_GNU_SOURCE)
 #define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights
                        than their user */
 #endif

@@ -13,7 +13,9 @@
  * documentation, admin-guide/cgroup-v2.rst and scheduler/sched-bwc.rst.
  */
 #if defined(__linux__)
+#ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* sched_getaffinity */
+#endif
 #include <sched.h>
 #endif
 #include "platform/processors.h"

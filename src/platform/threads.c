@@ -36,11 +36,10 @@ size_t carom_crew_work(carom_crew *crew, carom_part_worker *worker, const void *
 #include <stdbool.h>
 #include <stddef.h>
 #ifdef _WIN32
-#include <process.h>
-#include <windows.h>
+#include "platform/win32.h"
 #define yield SwitchToThread
 #define doze() Sleep(1)
-typedef HANDLE thread_handle;
+typedef void *thread_handle;
 #else
 #include <pthread.h>
 #include <sched.h>
@@ -121,13 +120,13 @@ static unsigned __stdcall work_on_thread(void *argument) {
 static size_t start_threads(carom_crew *of, thread_handle *thread, size_t most) {
   size_t count = 0;
   while (count < most &&
-         (thread[count] = (HANDLE)_beginthreadex(NULL, 0, work_on_thread, of, 0, NULL)) != NULL)
+         (thread[count] = (void *)_beginthreadex(NULL, 0, work_on_thread, of, 0, NULL)) != NULL)
     count++;
   return count;
 }
 
 static void join(thread_handle thread) {
-  WaitForSingleObject(thread, INFINITE);
+  WaitForSingleObject(thread, 0xffffffff); /* however long it takes */
   CloseHandle(thread);
 }
 

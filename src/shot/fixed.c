@@ -178,12 +178,12 @@ double carom_press_on_slate(const carom_ball_kind *kind, double tip_time, carom_
   /* Phi grows by sin(pi/(2 STEPS)) sin(pi (n + 1/2)/STEPS) in step n; the sine is turned from
    * step to step */
   double sine, cosine, turn_s, turn_c;
-  carom_sincos(0.5 * pi / STEPS, &sine, &cosine);
-  carom_sincos(pi / STEPS, &turn_s, &turn_c);
+  carom_sincos(0.5 * pi / (double)STEPS, &sine, &cosine);
+  carom_sincos(pi / (double)STEPS, &turn_s, &turn_c);
   const double first = sine;
   for (int n = 0; n < STEPS; n++) {
     const double part = first * sine;
-    press_step(&p, T / STEPS, touch.closing * part, touch.slip * part);
+    press_step(&p, T / (double)STEPS, touch.closing * part, touch.slip * part);
     const double next = sine * turn_c + cosine * turn_s;
     cosine = cosine * turn_c - sine * turn_s;
     sine = next;

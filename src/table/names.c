@@ -1,4 +1,6 @@
 /* Where rails and pockets are, in the words of a player at the head of the table. */
+#include "platform/arithmetic.h"
+
 #include "carom_shot.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-"""No circle of includes or imports, and no arrow against the direction of CONTRIBUTING.md: python3 arrows.py SOURCE"""
+"""No circle of includes or imports, no arrow against the direction of CONTRIBUTING.md, and no source of the library without
+platform/arithmetic.h, which its bits need: python3 arrows.py SOURCE"""
 
 import ast
 import re
@@ -46,13 +47,14 @@ def room_of(file):
 # C: a source and its header are one unit.
 files = [file for room in ROOMS for kind in ("h", "c", "cpp", "def") for file in (ROOT / room).rglob(f"*.{kind}")]
 named = {file.name: file for file in reversed(files)}  # of two with one name that of the earlier room
-units, rooms = defaultdict(set), defaultdict(set)
+includes, units, rooms = defaultdict(set), defaultdict(set), defaultdict(set)
 for file in files:
     for name in re.findall(r'^\s*#\s*include\s+"([^"]+)"', file.read_text(encoding="utf-8"), re.M):
         beside = [folder / name for folder in (file.parent, ROOT / "src", ROOT / "include")]
         found = next((path for path in beside if path.is_file()), named.get(Path(name).name))
         if found is None:
             continue  # of another package, or made by the build
+        includes[file].add(found)
         if found.with_suffix("") != file.with_suffix(""):
             units[str(file.with_suffix("").relative_to(ROOT))].add(str(found.with_suffix("").relative_to(ROOT)))
         here, there = room_of(file), room_of(found)
@@ -60,6 +62,13 @@ for file in files:
             rooms[here].add(there)
             if there not in ALLOWED.get(here, (there,)):
                 faults.append(f"{file.relative_to(ROOT)} includes {found.relative_to(ROOT)}: '{here}' must not know '{there}'")
+for file in files:
+    reached, found = set(), {file}
+    while found:
+        reached |= found
+        found = set().union(*(includes[path] for path in found)) - reached
+    if file.suffix in (".c", ".cpp") and file.is_relative_to(ROOT / "src") and ROOT / "src/platform/arithmetic.h" not in reached:
+        faults.append(f"{file.relative_to(ROOT)} does not include platform/arithmetic.h, which its bits need")
 no_circle("units", units)
 no_circle("rooms", rooms)
 

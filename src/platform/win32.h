@@ -1,0 +1,22 @@
+/* What the library calls of Windows. <windows.h> is not included: it makes macros of words such as
+ * near, far, TEXT and DOUBLE, which would reach every source behind it in the build of one file. */
+#ifndef CAROM_SRC_PLATFORM_WIN32_H
+#define CAROM_SRC_PLATFORM_WIN32_H
+#ifdef _WIN32
+
+#include <stdint.h>
+
+#define KERNEL32(type) __declspec(dllimport) type __stdcall
+KERNEL32(int) CloseHandle(void *handle);
+KERNEL32(unsigned long) GetActiveProcessorCount(unsigned short group);
+KERNEL32(void) Sleep(unsigned long milliseconds);
+KERNEL32(int) SwitchToThread(void);
+KERNEL32(unsigned long) WaitForSingleObject(void *handle, unsigned long milliseconds);
+#undef KERNEL32
+
+/* of the C library */
+uintptr_t __cdecl _beginthreadex(void *security, unsigned stack, unsigned(__stdcall *start)(void *),
+                                 void *argument, unsigned flags, unsigned *id);
+
+#endif
+#endif
