@@ -479,7 +479,7 @@ export class Carom {
     }
     this.#refuse(code, `ball ${ball} at ${x}, ${y}`);
     const placed = readBalls(this.#memory, at, balls.length)[ball]!;
-    return balls.map((one, k) => (k === ball ? { kind: one.kind, state: placed.state } : one));
+    return balls.map((one, k) => (k === ball ? { ...one, state: placed.state } : one));
   }
 
   /**
@@ -587,7 +587,7 @@ export class Carom {
       this.#call.carom_shot_check(at.table, at.balls, balls.length, cueAt, opt, at.number);
       throw this.#error(code, this.#where(code, this.#memory.i32[at.number / 4]!));
     }
-    return this.#ended(table, balls.map(({ kind, state }) => ({ kind: { ...kind }, state: { ...state } })), code);
+    return this.#ended(table, balls.map((ball) => ({ ...ball, kind: { ...ball.kind }, state: { ...ball.state } })), code);
   }
 
   /**

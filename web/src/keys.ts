@@ -14,7 +14,7 @@ export const KEYS = {
   collide: all<CollideOptions>({ solver: 1, slip: 1, steps: 1 }),
   cushion: all<CushionOptions>({ model: 1, convention: 1, law: 1, steps: 1 }),
   motion: all<Motion & { status: string }>({ v: 1, w: 1, status: 1 }),
-  ball: all<ShotBall>({ kind: 1, state: 1 }),
+  ball: all<ShotBall>({ kind: 1, state: 1, id: 1 }),
   table: all<Table>({ width: 1, length: 1, ballRadius: 1, railWidth: 1, pocketBack: 1, rails: 1, jaws: 1, pockets: 1 }),
   stop: all<StopOptions>(STOP),
   shot: all<ShotOptions>({ world: 1, ballModel: 1, cushionModel: 1, space: 1, simultaneous: 1, clusterSteps: 1, friction: 1, steps: 1, ...STOP }),

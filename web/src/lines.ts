@@ -2,6 +2,7 @@
 import type { Carom } from "./carom.js";
 import { names as NAMES } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
+import type { RulesKind } from "./generated/structs.js";
 import type { BallKind, Cue, Game, ShotBall, Table, TableName } from "./types.js";
 
 /** A shot as a line has it. */
@@ -60,7 +61,7 @@ const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
 /** The line of a shot, without a line break. `carom shoot` plays it with the same bits under CAROM_ISA=plain. */
 export function toLine(shot: Pick<Line, "tableName" | "balls" | "cue"> & { id?: string; names?: string[] }): string {
   refuseUnknown(shot, KEYS.line, "shot");
-  const names = shot.names ?? shot.balls.map((_, k) => (k === 0 ? "cue" : String(k)));
+  const names = shot.names ?? shot.balls.map(({ id }, k) => id ?? (k === 0 ? "cue" : String(k)));
   const cue: Record<string, number | string> = {};
   for (const [key, field] of CUE) cue[key] = shot.cue[field];
   cue.ball = names[shot.cue.ball]!;
@@ -114,6 +115,7 @@ export function fromLine(carom: Carom, text: string): Line {
     if (params.game === undefined && params.u_sp === undefined) kind.muSpin = ((10.0 * 2.0) / 5.0 / 9.0) * kind.radius;
     const [label, x, y, z, ...motion] = numbers(ball.state, `balls[${k}].state`, 10) as [number, number, number, number, ...number[]];
     return {
+      id: names[k]!,
       kind,
       state: {
         label: NAMES.carom_label[label] ?? refuse(`balls[${k}].state`, "the label, its first number, must be 0 to 6"),
@@ -132,4 +134,35 @@ export function fromLine(carom: Carom, text: string): Line {
   if (given.b === undefined && Object.keys(given).some((key) => key !== "ball"))
     return refuse("cue.b", "how far above the centre the tip touches, in radii, is missing; 0 is the centre");
   return { id: typeof line.id === "string" ? line.id : "shot", tableName, table, names, balls, cue };
+}
+
+/** The highest number of a ball of the games whose rules know balls by their numbers. */
+const LAST: Partial<Record<RulesKind, number>> = { eightball: 15, nineball: 9 };
+
+/**
+ * The layout of a line as plans and rulings want it: ball k of the list is ball k of the game, and balls that are missing are down. Throws a
+ * TypeError where the names are not the cue ball and numbers of the game, each once.
+ */
+export function byNumber(line: Line, rules: RulesKind): Line {
+  const last = LAST[rules];
+  if (last === undefined) return line;
+  const at = Array<number | undefined>(last + 1);
+  for (const [k, name] of line.names.entries()) {
+    const number = k === line.cue.ball ? 0 : /^\d+$/.test(name) ? Number(name) : 0;
+    if ((number === 0 && k !== line.cue.ball) || number > last || at[number] !== undefined)
+      return refuse(`balls[${k}].id`, `the balls of ${rules} are the cue ball and 1 to ${last}, each once, not ${JSON.stringify(name)}`);
+    at[number] = k;
+  }
+  const balls = Array.from(at, (k, number): ShotBall => {
+    if (k !== undefined) return { ...line.balls[k]!, id: number === 0 ? line.names[k]! : String(number) };
+    return { id: String(number), kind: line.balls[line.cue.ball]!.kind, state: { r: [0, 0, -0.1], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" } };
+  });
+  return { ...line, balls, names: balls.map(({ id }) => id!), cue: { ...line.cue, ball: 0 } };
+}
+
+/** Refuses a layout of named balls that do not lie in the list as a game numbers them. */
+export function refuseOrder(balls: readonly ShotBall[], rules: RulesKind): void {
+  if (LAST[rules] === undefined) return;
+  for (const [k, { id }] of balls.entries())
+    if (k > 0 && id !== undefined && id !== String(k)) refuse(`balls[${k}].id`, `ball ${k} of ${rules} belongs here, not ${JSON.stringify(id)}; byNumber(line, "${rules}") puts the balls in order`);
 }

@@ -2,6 +2,7 @@
 import { layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
+import { refuseOrder } from "./lines.js";
 import type { Memory, Pointer } from "./memory.js";
 import { readState, readStruct, refuseName, value, writeStruct } from "./structs.js";
 import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Ruling, ShotBall, ShotOptions, Table } from "./types.js";
@@ -151,7 +152,7 @@ export class Plans {
   }
 
   on(game: GameState, balls: readonly ShotBall[]): number[] {
-    this.#writeRules(game);
+    this.#writeRules(game, balls);
     const set = this.#method("on")(this.#at.rules, inPlay(balls));
     return balls.flatMap((_, k) => ((set >>> k) & 1 ? [k] : []));
   }
@@ -175,7 +176,7 @@ export class Plans {
     }
 
     // The rules.
-    this.#writeRules(game);
+    this.#writeRules(game, balls);
     const called = call === "push" ? values.CAROM_CALL_PUSH : call === "pass" ? values.CAROM_CALL_PASS : (call?.ball ?? -1);
     memory.i32[callAt / 4] = called;
     memory.i32[callAt / 4 + 1] = typeof call === "object" ? call.pocket : -1;
@@ -191,7 +192,7 @@ export class Plans {
     // The layout of the next stroke.
     let lie = balls.map((ball, k): ShotBall => {
       const taken = code < 0 || leave === values.CAROM_LEAVE_BEFORE;
-      return taken ? ball : { kind: ball.kind, state: readState(memory, at.final + k * layout.carom_ball_state.size) };
+      return taken ? ball : { ...ball, state: readState(memory, at.final + k * layout.carom_ball_state.size) };
     });
     for (let k = 0; k < balls.length; k++) if ((spot >>> k) & 1) lie = this.#spotted(table, lie, k);
     return { turn, foul: reason !== "none", reason, hand: HANDS[leave]!, balls: lie, game: after };
@@ -223,7 +224,8 @@ export class Plans {
     return at;
   }
 
-  #writeRules({ rules = "eightball", group = "open", opening = false, fouls = [0, 0], may = "nothing" }: Partial<GameState>): void {
+  #writeRules({ rules = "eightball", group = "open", opening = false, fouls = [0, 0], may = "nothing" }: Partial<GameState>, balls: readonly ShotBall[]): void {
+    refuseOrder(balls, rules);
     const { rules: at } = this.#at;
     this.#memory.exports.carom_plan_rules_of(at, value("CAROM_RULES_", rules, "rules"));
     const index = (name: string, of: string, list: readonly string[]): number => {
@@ -243,7 +245,7 @@ export class Plans {
     writeStruct(memory, at.cue, "carom_cue", this.#host.cue(options.cue ?? {}), "cue");
     this.#writePlayer(player, options.player ?? this.player({}), "player");
     const shot = this.#host.writeShotOptions(options.shot ?? {});
-    this.#writeRules(options);
+    this.#writeRules(options, balls);
     memory.u8.fill(0, optionsAt, optionsAt + OPTIONS.size);
     memory.i64[(optionsAt + OPTIONS.offset.shots) / 8] = whole(options.shots ?? 0, "shots");
     memory.i64[(optionsAt + OPTIONS.offset.seed) / 8] = whole(options.seed ?? 0, "seed");

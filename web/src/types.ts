@@ -100,6 +100,8 @@ export interface BallState extends Omit<C.BallState, "label"> {
 export interface ShotBall {
   kind: BallKind;
   state: BallState;
+  /** Its name in a line: the number of a ball of eight-ball or nine-ball, which plans and rulings compare with its place in the list. */
+  id?: string;
 }
 
 /** A straight piece of cushion. Without a line it is derived; without muCushion or restitution it has those of the ball. */

@@ -6,6 +6,7 @@ import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { type Browser, chromium, type Page } from "playwright-core";
+import { toLine } from "../dist/index.js";
 import { builds, root, run, thereIsACommand } from "./support.js";
 
 const browserPath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
@@ -197,6 +198,48 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await one.locator("#line").fill('{"kind": "shot", "table": "9ft", "balls": []}');
     await one.locator("#import").click();
     expect(await text(one, "message")).toContain("balls: ");
+    await one.close();
+  });
+
+  test.runIf(thereIsACommand)("an imported layout has its balls by their numbers, in the game that its file or the page names", async () => {
+    const { carom } = builds[0]!;
+    const places: Record<string, [number, number]> = { cue: [0.4, 0.9], 5: [0.3, 1.9], 2: [0.9, 1.7], 9: [0.7, 0.5], 8: [1.0, 1.1], 12: [0.2, 0.4] };
+    const of = (...names: string[]): string => toLine({ id: "a layout", tableName: "9ft", names, balls: names.map((name) => carom.ball(...places[name]!)), cue: carom.cue({ speed: 2 }) });
+    const one = await open("");
+    await one.locator("summary").click();
+    const take = async (game: string, line: string): Promise<void> => {
+      await one.locator("#game").selectOption(game);
+      await one.locator("#line").fill(line);
+      await one.locator("#import").click();
+    };
+    const nine = of("cue", "5", "2", "9");
+    await take("nineball", nine);
+    expect(await text(one, "message")).toBe("");
+    const rows = (rules: string, line: string): string[] => run(["plan", "--rules", rules, "--shots", "1000", "--player", "600", "--csv", "-"], line).trim().split("\n").slice(1).map((row) => row.split(",")[2]!);
+    expect(rows("nineball", nine)).toContain("2");
+    await one.locator("#best").click();
+    await expect.poll(() => text(one, "game-state"), { timeout: 20_000 }).toContain("Best of 1000 shots: ball 2 into");
+    await expect.poll(() => text(one, "chance")).toMatch(/^This shot pots ball 2, plays on/);
+    // Ball 12 is of eight-ball alone, and without ball 9 there is no nine-ball.
+    for (const line of [of("cue", "5", "12", "8", "9"), of("cue", "8", "2")]) {
+      await take("nineball", line);
+      expect(await one.locator("#game").inputValue()).toBe("eightball");
+      expect(await text(one, "message")).toBe("");
+    }
+    // Two games fit: the one that was chosen, which the page says, or none.
+    const both = of("cue", "8", "9", "2");
+    await take("eightball", both);
+    expect(await text(one, "message")).toBe("The balls are read as those of Eight-ball. If they are of Nine-ball, choose this game and import again.");
+    await take("nineball", both);
+    expect(await text(one, "message")).toContain("read as those of Nine-ball");
+    await take("eightball", both.replace("a layout", "nineball"));
+    expect(await one.locator("#game").inputValue()).toBe("nineball");
+    await take("snooker", both);
+    expect(await text(one, "message")).toBe("balls: they fit Nine-ball and Eight-ball; choose one of these games, then import again");
+    // Neither: it can be played, and is not planned.
+    await take("nineball", of("cue", "5", "2"));
+    expect(await text(one, "message")).toContain("Best shot needs the balls of a game by their numbers");
+    expect(await one.locator("#best").isVisible()).toBe(false);
     await one.close();
   });
 

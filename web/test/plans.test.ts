@@ -2,7 +2,7 @@
 import { expect, test } from "vitest";
 import type { Carom, GameState, ShotBall, Vec2 } from "../dist/index.js";
 import { pocketName } from "../../cli/player.js";
-import { toLine } from "../dist/index.js";
+import { byNumber, fromLine, toLine } from "../dist/index.js";
 import { builds, run, thereIsACommand } from "./support.js";
 
 /** Some balls of a game where they are put; the others are down. */
@@ -31,6 +31,34 @@ test.runIf(thereIsACommand)("both builds choose the shots that the command choos
     expect(row[head!.indexOf("kind")]).toBe(one.kind);
     expect(Number(row[head!.indexOf("value")])).toBeCloseTo(one.value, 5);
   });
+});
+
+test.runIf(thereIsACommand)("a layout is planned by the numbers of its balls, in whatever order a line has them", () => {
+  const { carom } = builds[0]!;
+  const { balls } = lay(carom, "nineball", { 0: [0.4, 0.9], 2: [0.9, 1.7], 5: [0.3, 1.9], 9: [0.7, 0.5] });
+  const order = [0, 5, 2, 9];
+  const line = toLine({ tableName: "9ft", balls: order.map((k) => balls[k]!), names: order.map((k) => (k === 0 ? "cue" : String(k))), cue: carom.cue() });
+  const options = { rules: "nineball", shots: 400, best: 1 } as const;
+  const [head, best] = run(["plan", "--rules", "nineball", "--shots", "400", "--csv", "-"], line).trim().split("\n").map((row) => row.split(","));
+  const read = fromLine(carom, line);
+  const game: GameState = { rules: "nineball", group: "open", opening: false };
+  const ordered = byNumber(read, "nineball");
+  expect(ordered.balls.map(({ state }) => state.label === "pocketed")).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map((k) => !order.includes(k)));
+  expect(carom.ballsOn(game, ordered.balls)).toEqual([2]);
+  const [one] = carom.plan(read.table, ordered.balls, options);
+  expect(String(one!.ball)).toBe(best![head!.indexOf("ball")]);
+  expect(one!.value).toBeCloseTo(Number(best![head!.indexOf("value")]), 5);
+  // Its balls keep their numbers, and a list in another order is refused.
+  expect(carom.referee(read.table, ordered.balls, one!.cue, game).balls.map(({ id }) => id)).toEqual(ordered.names);
+  expect(toLine({ ...read, names: undefined })).toBe(toLine(read));
+  const wrong = /^balls\[1\].id: ball 1 of nineball belongs here, not "5"; byNumber\(line, "nineball"\) puts the balls in order$/;
+  expect(() => carom.plan(read.table, read.balls, options)).toThrow(wrong);
+  expect(() => carom.chances(read.table, read.balls, [{}], options)).toThrow(wrong);
+  expect(() => carom.ballsOn(game, read.balls)).toThrow(wrong);
+  expect(() => carom.referee(read.table, read.balls, {}, game)).toThrow(wrong);
+  expect(carom.plan(read.table, read.balls, { ...options, rules: "potting" }).length).toBe(1);
+  for (const [of, name] of [["5", "10"], ["5", "2"], ["9", "red 1"]] as const)
+    expect(() => byNumber(fromLine(carom, line.replace(`"id":"${of}"`, `"id":"${name}"`)), "nineball")).toThrow(`.id: the balls of nineball are the cue ball and 1 to 9, each once, not "${name}"`);
 });
 
 test.runIf(thereIsACommand)("aims are those of the command, by a bank and a combination too", () => {

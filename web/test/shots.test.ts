@@ -71,7 +71,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect(recorded.status).toBe("ok");
     const read = fromLine(carom, line);
     expectFinal(shot, read.names, recorded);
-    expect(read.balls).toEqual(balls);
+    expect(read.balls).toEqual(balls.map((ball, k) => ({ ...ball, id: k === 0 ? "cue" : String(k) })));
     expect(read.cue).toEqual(cue);
     expect(read.table).toEqual(table);
     expect(toLine(read)).toBe(line);

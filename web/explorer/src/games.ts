@@ -1,5 +1,5 @@
 // The games of the page: their tables, racks and names of balls.
-import type { Carom, Game, Line, RackName, TableName } from "carom";
+import { byNumber, type Game, type Line, type RackName, type TableName } from "carom";
 
 export interface GameOf {
   text: string;
@@ -19,8 +19,34 @@ export const GAMES: Record<string, GameOf> = {
 };
 export const TABLES: readonly TableName[] = ["9ft", "8ft", "7ft", "snooker", "threecushion", "pooltool"];
 
-/** The key of the game whose table and rack a layout may be of. */
-export function gameOf(carom: Carom, read: Pick<Line, "id" | "tableName" | "table" | "balls">): string | undefined {
-  const fits = ([key, one]: [string, GameOf]): boolean => one.table === read.tableName && (key === read.id || carom.rack(one.rack, read.table).length >= read.balls.length);
-  return Object.entries(GAMES).find(fits)?.[0];
+/** A line that was read, and its game, in which ball k of the list is ball k. */
+export interface Read<L> {
+  name: string;
+  line: L;
+  /** Whether the rules of the game hold for the balls, and which other game they fit. */
+  known: boolean;
+  also: string | undefined;
+}
+
+/**
+ * The game of a line: the one that its id names; else one that its balls fit by their numbers, with the ball that decides it on the table. Of two
+ * such games it is the one that is asked for, or the one all of whose balls are there; where it is neither, the line is refused.
+ */
+export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
+  if (line.tableName in GAMES) return { name: line.tableName, line, known: true, also: undefined }; // snooker, threecushion
+  const fitting: Record<string, L> = {};
+  for (const [name, last] of [["nineball", "9"], ["eightball", "8"]] as const)
+    try {
+      const ordered = { ...line, ...byNumber(line, name) };
+      if (line.id === name) return { name, line: ordered, known: true, also: undefined };
+      if (line.balls.some(({ state }, k) => line.names[k] === last && state.label !== "pocketed")) fitting[name] = ordered;
+    } catch (error) {
+      if (line.id === name) throw error;
+    }
+  const names = Object.keys(fitting);
+  const whole = names.find((one) => fitting[one]!.balls.length === line.balls.length);
+  const name = names.includes(asked) ? asked : (whole ?? names[0]);
+  if (name === undefined) return { name: "nineball", line, known: false, also: undefined };
+  if (names.length > 1 && name !== asked && name !== whole) throw new TypeError(`balls: they fit ${names.map((one) => GAMES[one]!.text).join(" and ")}; choose one of these games, then import again`);
+  return { name, line: fitting[name]!, known: true, also: name === whole ? undefined : names.find((one) => one !== name) };
 }

@@ -2,7 +2,7 @@
 import { type BallState, type Carom, CaromError, type Cue, fromLine, type Line, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, toLine } from "carom";
 import { colourOf, player, pocketName, wordsOf } from "../../../cli/player.js";
 import { gamePanel } from "./game.js";
-import { GAMES, gameOf, type GameOf, TABLES } from "./games.js";
+import { GAMES, gameOf, type GameOf, type Read, TABLES } from "./games.js";
 import { reel } from "./reel.js";
 import { button, check, choice, color, eachFrame, el, fit, pad, parameters, slider, type Slider } from "./ui.js";
 
@@ -29,6 +29,8 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   /** Whether balls lie elsewhere than in the rack; the cue of a line that was read; how each ball is turned, degrees. */
   let moved = false;
   let imported: Cue | undefined;
+  /** Whether the balls are those of the game by their numbers, so that its rules hold. */
+  let known = true;
   /** Whether the address can name the table. */
   let builtIn = true;
   /** The shot of a recording that is shown. */
@@ -73,7 +75,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   const film = player({ under: drawFan, over: drawAim, moved: () => !sidePanel.hidden && drawSide(), ended: () => finished(), still: () => match.busy() });
   const { canvas } = film;
   const match = gamePanel(carom, {
-    name: () => gameName,
+    name: () => (known ? gameName : ""),
     table: () => table,
     balls: () => balls,
     names: () => names,
@@ -163,7 +165,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     chosen = -1;
     moved = false;
     imported = undefined;
-    builtIn = true;
+    known = builtIn = true;
     ended = undefined;
   }
   /** The balls of the game as they begin. It ends a game that is played, unless that begins with it. */
@@ -552,33 +554,37 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   }
   function importLine(): void {
     try {
-      take(line.value);
+      const { name, also, known } = take(line.value);
       match.begin();
       aimed();
+      if (also) message.textContent = `The balls are read as those of ${GAMES[name]!.text}. If they are of ${GAMES[also]!.text}, choose this game and import again.`;
+      else if (!known) message.textContent = "Best shot needs the balls of a game by their numbers, in nine-ball with ball 9, in eight-ball with ball 8.";
     } catch (error) {
       message.textContent = error instanceof Error ? error.message : String(error);
     }
   }
-  function take(text: string): void {
+  function take(text: string): Read<Line> {
     const read = fromLine(carom, text);
     if (read.cue.ball !== 0) throw new TypeError("cue.ball: this page strikes the first ball; put the cue ball first");
-    use(read, gameOf(carom, read) ?? "nineball");
+    return use(gameOf(read, gameName));
   }
-  function use(line: Pick<Line, "tableName" | "table" | "balls" | "names" | "cue">, name: string): void {
-    gameName = name;
+  function use<L extends Line>(read: Read<L>): Read<L> {
+    gameName = read.name;
     lay();
-    game = { ...GAMES[gameName]!, table: line.tableName };
-    ({ balls, names, table, cue: imported } = line);
+    game = { ...GAMES[gameName]!, table: read.line.tableName };
+    ({ balls, names, table, cue: imported } = read.line);
+    known = read.known;
     faces = balls.map(() => 0);
     moved = true;
-    aim(line.cue);
+    aim(read.line.cue);
+    return read;
   }
   /** A shot of a recording, which has neither names of balls nor of the table: they are those of the game that it fits. */
   function showRecorded(one: Replayed, from: number): void {
     const same = JSON.stringify(one.table);
     const tableName = TABLES.find((name) => JSON.stringify(carom.table(name)) === same);
-    const name = (tableName && gameOf(carom, { ...one, id: "", tableName })) ?? "eightball";
-    use({ ...one, balls: [...one.balls], tableName: tableName ?? "9ft", names: one.balls.map((_, k) => GAMES[name]!.names(k)) }, name);
+    const name = tableName && tableName in GAMES ? tableName : one.balls.length > 10 ? "eightball" : "nineball";
+    use(gameOf({ ...one, id: "", balls: [...one.balls], tableName: tableName ?? "9ft", names: one.balls.map((_, k) => GAMES[name]!.names(k)) }, name));
     builtIn = tableName !== undefined;
     match.begin();
     present(cue(), one);
