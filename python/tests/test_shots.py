@@ -306,6 +306,22 @@ def test_a_bad_shot_costs_itself():
     assert shots.final[2].tobytes() == carom.simulate(TABLE, RACK, cues[2], cushion_model="han").final.tobytes()
 
 
+def test_a_refused_shot_has_no_numbers():
+    """Neither zeros nor those of an earlier batch whose memory is used again; one that ended in an error later keeps its own."""
+    before = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[8.0, 7.0, 6.0, 5.0], phi=90.3), cushion_model="han", features=True)
+    other = before.final["r"].copy()
+    for out in (None, before):
+        shots = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[8.0, -1.0, np.nan, 5.0], phi=90.3), cushion_model="han", features=True, out=out)
+        assert shots.refused.tolist() == [False, True, True, False] and np.array_equal(shots.final["r"][::3], other[::3])
+        assert all(np.isnan(shots.final[name][1:3]).all() for name in "rvw") and (shots.final["label"][1:3] == -1).all()
+        assert np.isnan(shots[1].final["r"]).all() and (shots.features.pocket[1:3] == -1).all()
+    ended = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[8.0]), cushion_model="han", events_most=40)
+    assert ended.status.tolist() == [carom.Status.ERROR_TOO_MANY_EVENTS] and not ended.refused.any() and np.isfinite(ended.final["r"]).all()
+    pytest.importorskip("pandas")
+    frame = before.to_dataframe()
+    assert frame["ball_3_r_x"].isna().tolist() == [False, True, True, False] and frame["ball_0_label"][1] == -1
+
+
 def test_games_and_terms():
     """The measured balls of billiard, the terms by themselves, each shot of a batch with its own; rails of their own."""
     table = carom.tables.threecushion()

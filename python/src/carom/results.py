@@ -277,7 +277,7 @@ class Shots:
     time, count : ndarrays of float64 and int64, shape (...)
         Time of the last event, or when the shot was stopped, s; events that happened, also beyond the room.
     final : ndarray of `carom.dtypes.ball_state`, shape (..., balls)
-        Undefined where an argument was in error.
+        Where an argument was in error, all numbers are nan and labels -1, as in `states`.
     events : ndarray of `carom.dtypes.event` or `carom.dtypes.brief_event`, shape (..., room)
         The first count of each row are valid.
     features : Features or None
@@ -313,6 +313,11 @@ class Shots:
     def count(self) -> npt.NDArray[np.int64]:
         """Events that happened."""
         return np.asarray(self.record["count"])
+
+    @property
+    def refused(self) -> npt.NDArray[np.bool_]:
+        """Which shots were not played, as an argument was in error."""
+        return np.asarray((self.status < 0) & (self.count == 0) & (self.time == 0.0))
 
     @property
     def features(self) -> Features | None:

@@ -267,7 +267,7 @@ def referee(
         strike["speed"] = 0.0
     shots = simulate_batch(table, layout[np.newaxis], strike[np.newaxis], room=512, features=True, options=options, **changes)
     failed = shots.status[0] < 0
-    if failed and shots.record["count"][0] == 0 and shots.time[0] == 0.0:
+    if shots.refused[0]:
         raise CaromError(int(shots.status[0]), "balls, cue")
     states: Any = np.array([list(made.c.user)], np.uint64)
     called: Array = np.array([[whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]], np.int32)

@@ -11,7 +11,7 @@ import numpy as np
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import INT8, Array, apart, broadcast, copied, in_chunks, output, pointer, whole
+from carom._rows import INT8, Array, apart, broadcast, copied, fill, in_chunks, output, pointer, whole
 from carom._shot_options import Options, StopAt, shot_options
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.results import Shot, Shots
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 _USUAL = Options()
 _FIRST_ROOM = 512
 _NO_EVENTS: Array = np.zeros(0, dtypes.event)
+_UNKNOWN = fill(dtypes.ball_state, {}, {**dict.fromkeys("rvw", np.nan), "label": -1})
 
 
 def cite(*, options: Options = _USUAL, **changes: Unpack[Changes]) -> str:
@@ -201,4 +202,6 @@ def simulate_batch(
     code = in_chunks(shots.status.size, 5e-5, threads, lambda begin, many: int(lib.carom_shoot_batch(job(begin, many))))
     if code < 0 and not (shots.status < 0).any():
         raise CaromError(code, "layouts", count) if code == Status.ERROR_BALLS else CaromError(code, "table")
+    if code < 0:
+        shots.final[shots.refused] = _UNKNOWN
     return shots
