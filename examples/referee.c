@@ -1,9 +1,9 @@
 /* A referee: plays every shot of a recording again, and rejects the one that ended otherwise.
  *
- * A player sends the lines of a recording (carom_record.h): each stroke of the cue, and the hash
- * of the bits in which its shot ended. The referee computes the shot from the stroke. Where the
- * hashes differ, the player's program is damaged, of another build, or forged, and the game is
- * stopped at that shot. The referee's own state after it, game.final and game.facts, is the truth
+ * A player sends the lines of a recording (carom_record.h): each stroke of the cue, how its shot
+ * ended, and a hash of all of that. The referee computes the shot from the stroke. Where the ends
+ * differ, the player's program is damaged, of another build, or forged, and the game is stopped at
+ * that shot. The referee's own state after it, game.final and game.facts, is the truth
  * by which rules are applied.
  *
  *     referee FILE     judges a recording; - is standard input: a server gives it a connection
@@ -41,7 +41,7 @@ static verdict judge(carom_record *game, const char *line, size_t size) {
       printf("rejected: shot %" PRId64 ": %s\n", game->shots, carom_status_string(played));
       return REJECTED;
     }
-    if (game->played.hash != game->recorded.hash) {
+    if (memcmp(&game->played, &game->recorded, sizeof game->played) != 0) {
       printf("rejected: shot %" PRId64 " ends otherwise, after %.6f s with %" PRId64 " events\n",
              game->shots, game->played.time, game->played.events);
       return REJECTED;

@@ -22,6 +22,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -242,7 +243,8 @@ public:
 
   /* Whether the shot of the last line was played, with the bits that were recorded. */
   bool same() const {
-    return game_->pending == 2 && game_->played.hash == game_->recorded.hash;
+    const carom_record_end &is = game_->played, &was = game_->recorded;
+    return game_->pending == 2 && std::memcmp(&is, &was, sizeof is) == 0;
   }
 
 private:

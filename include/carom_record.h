@@ -1,7 +1,7 @@
 /* carom_record.h: recordings of games that verify themselves.
  *
  * A recording is text, a line of JSON after the other: the table, the balls, the options, each
- * stroke of the cue with a hash of the bits in which its shot ended. docs/using/games.md has the
+ * stroke of the cue with a hash of all lines up to it and of the bits in which its shot ended. docs/using/games.md has the
  * format. Whoever plays it again with this library has the same bits, or is told where not.
  *
  *     static carom_record game;                                         // all zero
@@ -39,7 +39,8 @@ typedef enum carom_record_kind {
   CAROM_RECORD_SHOT = 6,     /* "shot": a stroke, when to stop its shot, and how that ended */
   CAROM_RECORD_CONTINUE = 7, /* "continue": a stopped shot goes on */
   CAROM_RECORD_EVENT = 8,    /* "event": of the shot before it; may be left out */
-  CAROM_RECORD_END = 9       /* "end": the last line, without which a recording was cut off */
+  CAROM_RECORD_END = 9,      /* "end": the last line, without which a recording was cut off */
+  CAROM_RECORD_WRONG = 10    /* a line that was refused; nothing is read behind it */
 } carom_record_kind;
 
 /* Bytes with room for any line: of 32 balls that have nothing in common. */
@@ -50,8 +51,9 @@ typedef struct carom_record_end {
   int64_t status; /* a carom_status. */
   int64_t events; /* their number, */
   double time;    /* s: and carom_shot.time. */
-  uint64_t hash;  /* of these three and of all final states: equal where every bit is equal, and
-                     but for 1 chance in 2^64 not elsewhere. It is no signature. */
+  uint64_t hash;  /* of the lines so far, the stroke, these three and all final states: equal
+                     where every bit is equal, and but for 1 chance in 2^64 not elsewhere. It is
+                     no signature. */
 } carom_record_end;
 
 /* A game on its way: its state after the lines so far. All zero before the first line. */
@@ -59,9 +61,9 @@ typedef struct carom_record {
   int64_t kind;     /* of the last line: a carom_record_kind. */
   int64_t line;     /* lines so far. */
   int64_t revision; /* carom_physics_revision() of the library that recorded it. */
-  int64_t format;   /* of the text: 1. */
+  int64_t format;   /* of the text: 2. */
   int64_t shots;    /* strokes and continuations so far. */
-  uint64_t hash;    /* of all their hashes, in order. */
+  uint64_t hash;    /* of all lines so far but the end. */
   int64_t count;    /* of balls. */
   carom_shot_ball balls[CAROM_BALLS_MOST];  /* at the start of the last shot, for
                                               carom_shot_at(); */

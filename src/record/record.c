@@ -168,6 +168,47 @@ static size_t size_of(const field *f) {
   return f->type == LIST ? f->size : f->type == INT32 ? sizeof(int32_t) : sizeof(int64_t);
 }
 
+/* ---- The hash of the lines ------------------------------------------------------------------- */
+
+enum { FORMAT = 2 };
+
+/* Adds an object to a hash: each of its numbers that is not 0, behind its place among them, counted
+ * from 1; of a list the number of its objects and these; and 0 as its end. So a key that a later
+ * version adds behind the others changes no hash where it is missing. */
+static uint64_t stir_object(uint64_t hash, const field *fields, const unsigned char *object) {
+  uint64_t place = 0;
+  for (const field *f = fields; f->key != NULL; f++) {
+    const unsigned char *at = object + f->at;
+    int64_t n = f->count;
+    if (f->type == LIST) {
+      memcpy(&n, object + f->counted, sizeof n);
+      place++;
+      if (n != 0)
+        hash = carom_stir(carom_stir(hash, place), (uint64_t)n);
+    }
+    for (int64_t k = 0; k < n; k++, at += size_of(f)) {
+      int64_t word = 0;
+      int32_t half = 0;
+      if (f->type == LIST) {
+        hash = stir_object(hash, f->of, at);
+        continue;
+      }
+      memcpy(f->type == INT32 ? (void *)&half : (void *)&word, at, size_of(f));
+      word += half;
+      place++;
+      if (word != 0)
+        hash = carom_stir(carom_stir(hash, place), (uint64_t)word);
+    }
+  }
+  return carom_stir(hash, 0);
+}
+
+/* The hash of the lines up to one of a kind whose values the record has. */
+static uint64_t stir_line(uint64_t hash, int kind, const carom_record *record) {
+  return stir_object(carom_stir(hash, (uint64_t)kind), lines[kind].fields,
+                     (const unsigned char *)record);
+}
+
 /* ---- Faults ---------------------------------------------------------------------------------- */
 
 /* A line on its way in, with the keys that led to the value that is read. */
@@ -387,7 +428,9 @@ static const char *out_of_place(const carom_record *record, int kind) {
                            record->kind == CAROM_RECORD_CONTINUE ||
                            record->kind == CAROM_RECORD_EVENT;
   if (record->kind == CAROM_RECORD_END)
-    return "stands behind the end of the recording, or behind a line that is wrong";
+    return "stands behind the end of the recording";
+  if (record->kind == CAROM_RECORD_WRONG)
+    return "stands behind a line that is wrong";
   if ((record->format == 0) != (kind == CAROM_RECORD_HEAD))
     return record->format == 0 ? "stands where {\"recording\": ...} must: in the first line"
                                : "comes twice";
@@ -398,11 +441,6 @@ static const char *out_of_place(const carom_record *record, int kind) {
   if ((kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE) && record->table.rails == 0)
     return "has no table: a line {\"table\": ...} must come before";
   return NULL;
-}
-
-static void count_shot(carom_record *record, uint64_t hash) {
-  record->shots++;
-  record->hash = carom_stir(record->hash, hash);
 }
 
 carom_status carom_record_settle(carom_record *record) {
@@ -435,7 +473,11 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   switch (kind) {
   case CAROM_RECORD_HEAD:
     in->key = "format";
-    return record->format == 1 || wrong(in, "must be 1: a newer carom wrote this");
+    return record->format == FORMAT ||
+           wrong(in, record->format == 1
+                         ? "is 1, whose hashes do not cover tables and strokes; this "
+                           "carom reads 2. Record the shots again"
+                         : "must be 2: a newer carom wrote this");
   case CAROM_RECORD_BALLS:
     record->moved = 0;
     in->key = "list";
@@ -450,7 +492,8 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   case CAROM_RECORD_SHOT:
   case CAROM_RECORD_CONTINUE:
     record->pending = 1;
-    count_shot(record, record->recorded.hash);
+    record->played.hash = hash; /* for carom_record_play() */
+    record->shots++;
     return true;
   case CAROM_RECORD_EVENT:
     return record->before == record->after ||
@@ -494,22 +537,26 @@ static bool read_line(reader *in, int *kind) {
   skip_blanks(in);
   if (in->at != in->end)
     return wrong(in, "has more text behind its object");
-  return apply(in, *kind, shots, hash);
+  if (!apply(in, *kind, shots, hash))
+    return false;
+  if (*kind != CAROM_RECORD_END)
+    record->hash = stir_line(hash, *kind, record);
+  return true;
 }
 
 carom_status carom_record_read(carom_record *record, const char *line, size_t size) {
   if (record == NULL || line == NULL)
     return CAROM_ERROR_NULL;
   reader in = {.record = record, .at = line, .end = line + size};
-  int kind = CAROM_RECORD_END;
+  int kind = CAROM_RECORD_BLANK;
   record->line++;
   skip_blanks(&in);
   if (in.at == in.end)
     return CAROM_OK;
   const bool good = read_line(&in, &kind);
-  record->kind = good ? kind : CAROM_RECORD_END; /* nothing is read behind a fault */
+  record->kind = good ? kind : CAROM_RECORD_WRONG; /* nothing is read behind a fault */
   if (good && kind == CAROM_RECORD_HEAD && record->revision != carom_physics_revision()) {
-    record->kind = CAROM_RECORD_END;
+    record->kind = CAROM_RECORD_WRONG;
     return CAROM_ERROR_REVISION;
   }
   return good ? CAROM_OK : CAROM_ERROR_RECORD;
@@ -561,9 +608,14 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
     return status;
   }
 
-  /* how it ended, as 3 words and 10 of each ball */
+  /* the lines before, the stroke, and how it ended, as 3 words and 10 of each ball */
+  const carom_record_end recorded = record->recorded;
+  uint64_t hash = record->pending == 1 ? record->played.hash : record->hash;
+  memset(&record->recorded, 0, sizeof recorded);
+  hash = stir_line(hash, (int)kind, record);
+  record->recorded = recorded;
   record->played = (carom_record_end){status, played->count, played->time, 0};
-  uint64_t hash = carom_fingerprint(0, &record->played, 3 * sizeof(uint64_t));
+  hash = carom_fingerprint(hash, &record->played, 3 * sizeof(uint64_t));
   hash = carom_fingerprint(hash, record->final, (size_t)count * sizeof *record->final);
   record->played.hash = hash;
   record->moved = 1;
@@ -672,7 +724,7 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
       (is_shot && (record->pending != 2 || record->kind != kind)))
     return 0;
   if (kind == CAROM_RECORD_HEAD) {
-    record->format = 1;
+    record->format = FORMAT;
     record->revision = carom_physics_revision();
   }
   if (is_shot)
@@ -690,8 +742,10 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
   *out.at = '\0';
   if (is_shot) {
     record->pending = 0;
-    count_shot(record, record->played.hash);
+    record->shots++;
   }
+  if (kind != CAROM_RECORD_END)
+    record->hash = stir_line(record->hash, (int)kind, record);
   record->kind = kind;
   record->line++;
   return (size_t)(out.at - text);

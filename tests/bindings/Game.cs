@@ -25,7 +25,7 @@ static class Program {
         recording.Read("{}");
         return 1;
       } catch (CaromException wrong) {
-        if (wrong.Status != Status.ErrorRecord) throw;
+        if (wrong.Status != Status.ErrorRecord || recording.Ended) throw;
       }
     }
 

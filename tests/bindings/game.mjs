@@ -19,6 +19,43 @@ function bitsOf(number) {
   return bytes.getBigUint64(0);
 }
 
+/** The numbers of each kind of line in order, and those of the objects in its lists. Whole numbers end with "#", lists of n numbers with n. */
+const keys = (text) => text.split(" ");
+const NUMBERS = {
+  recording: keys("format# revision#"),
+  table: keys("width length ball_radius rail_width pocket_back rails jaws pockets"),
+  rails: keys("p2 q2 height line3 side# mu_cushion restitution"),
+  jaws: keys("centre2 radius height mu_cushion restitution"),
+  pockets: keys("centre2 radius depth"),
+  options: keys("world# ball_model# cushion_model# friction# steps# space# simultaneous# cluster_steps#"),
+  balls: ["list"],
+  list: keys("mass radius mu_slide mu_roll mu_spin mu_ball restitution mu_cushion restitution_cushion gravity drag roll_loss law_a law_b law_c nose_height omega_ratio restitution_table modulus restitution_log mu_log smooth_q smooth_x smooth_t smooth_a smooth_k r3 v3 w3 label#"),
+  shot: keys("speed phi theta a b mass end_mass tip_radius ball# miscue tip_time time_most stop_at# first_of# events_most# status# events# time hash"),
+};
+const LINES = { recording: 1n, table: 2n, options: 3n, balls: 4n, shot: 6n };
+
+/** The hash with the numbers of an object of a line. */
+function stirObject(hash, kind, object) {
+  let place = 0n;
+  for (const name of NUMBERS[kind]) {
+    const [, key, many] = /^(\D+?)(\d?)#?$/.exec(name);
+    if (NUMBERS[key] !== undefined) {
+      place++;
+      const list = object[key] ?? [];
+      if (list.length > 0) hash = stir(stir(hash, place), BigInt(list.length));
+      list.forEach((_, k) => (hash = stirObject(hash, key, Object.assign({}, ...list.slice(0, k + 1)))));
+      continue;
+    }
+    for (let k = 0; k < (Number(many) || 1); k++) {
+      const value = many ? object[key]?.[k] : object[key];
+      const bits = value === undefined ? 0n : key === "hash" ? BigInt(`0x${value}`) : name.endsWith("#") ? word(BigInt(value)) : bitsOf(number(value));
+      place++;
+      if (bits !== 0n) hash = stir(stir(hash, place), bits);
+    }
+  }
+  return stir(hash, 0n);
+}
+
 /** The fingerprint of words, and of those before: four chains, which are joined at the end. */
 function fingerprint(before, words) {
   const chains = [before, 1n, 2n, 3n];
@@ -33,6 +70,14 @@ function add(hash, numbers) {
   return hash;
 }
 
+/** A number of a recording, which may be hexadecimal text. */
+function number(value) {
+  const hexadecimal = /^(-?)0x([0-9a-f])\.?([0-9a-f]*)p([+-]?\d+)$/.exec(value);
+  if (!hexadecimal) return value;
+  const [, sign, first, more, power] = hexadecimal;
+  return (sign ? -1 : 1) * (parseInt(first + more, 16) / 16 ** more.length) * 2 ** Number(power);
+}
+
 /** A value of a recording as the package has it: keys in camel case, hexadecimal numbers as numbers. */
 function read(value) {
   if (Array.isArray(value)) {
@@ -41,10 +86,7 @@ function read(value) {
     return typeof list[0] === "object" ? list.map((_, k) => Object.assign({}, ...list.slice(0, k + 1))) : list;
   }
   if (typeof value === "object") return Object.fromEntries(Object.entries(value).map(([key, one]) => [key.replace(/_(.)/g, (_, c) => c.toUpperCase()), read(one)]));
-  const hexadecimal = /^(-?)0x([0-9a-f])\.?([0-9a-f]*)p([+-]?\d+)$/.exec(value);
-  if (!hexadecimal) return value;
-  const [, sign, first, more, power] = hexadecimal;
-  return (sign ? -1 : 1) * (parseInt(first + more, 16) / 16 ** more.length) * 2 ** Number(power);
+  return number(value);
 }
 const hex = (hash) => hash.toString(16).padStart(16, "0");
 
@@ -53,7 +95,10 @@ let shots = 0;
 let game = 0n;
 let table, balls;
 for (const line of readFileSync(process.argv[2], "utf8").trim().split("\n")) {
+  // A negative zero is -0 for JSON.parse() too.
   const [[kind, value]] = Object.entries(JSON.parse(line));
+  const before = game;
+  if (kind !== "end") game = stirObject(stir(game, LINES[kind]), kind, value);
   const given = read(value);
   if (kind === "recording" && given.revision !== carom.physicsRevision) throw new Error(`the recording is of revision ${given.revision}`);
   else if (kind === "options" && Object.keys(given).length > 0) throw new Error("only the usual models are known here");
@@ -70,10 +115,11 @@ for (const line of readFileSync(process.argv[2], "utf8").trim().split("\n")) {
     const { status, events, time, hash, ...cue } = given;
     const shot = carom.simulate(table, balls, { miscue: 0, tipTime: 0, ball: 0, phi: 0, theta: 0, a: 0, b: 0, ...cue });
     const words = shot.final.flatMap(({ r, v, w, label }) => [...[...r, ...v, ...w].map(bitsOf), BigInt(LABELS.indexOf(label))]);
-    const played = fingerprint(fingerprint(0n, [BigInt(status), BigInt(shot.events.length), bitsOf(shot.time)]), words);
+    const { status: _s, events: _e, time: _t, hash: _h, ...stroke } = value;
+    const begun = stirObject(stir(before, LINES.shot), "shot", stroke);
+    const played = fingerprint(fingerprint(begun, [BigInt(status), BigInt(shot.events.length), bitsOf(shot.time)]), words);
     if (shot.status !== "ok" || status !== 0 || hex(played) !== hash) throw new Error(`shot ${shots + 1} has other bits than were recorded`);
     shots++;
-    game = stir(game, played);
     balls = balls.map(({ kind: of }, k) => ({ kind: of, state: shot.final[k] }));
   } else if (kind === "end" && (given.shots !== shots || given.hash !== hex(game))) throw new Error("the hash of the game is another one");
 }

@@ -15,6 +15,9 @@ carom verify pooltool.jsonl | sed 's/(.*//'
 echo "--- forged"
 forged() { sed "$1" game.jsonl > forged.jsonl; cmp -s game.jsonl forged.jsonl && echo "nothing was changed"; try carom verify forged.jsonl; }
 forged '0,/"speed":9/ s//"speed":9.000001/'
+forged '3 s/"length":2.54/"length":0.54/'
+forged '3 s/"radius":0.00795/"radius":0.0795/'
+forged '2 s/{}}/{"steps":1}}/'
 forged '7 s/"time":"0x1\.77c/"time":"0x1.77d/'
 forged '8 s/"a":[0-9]*/"a":31/'
 forged '/"shot"/ s/"events":[0-9]*/"events":2/'
@@ -22,6 +25,7 @@ forged '$ s/"hash":"./"hash":"x/'
 forged '/"shot"/ s/"hash":"\(.\)\(.\)/"hash":"\2\1/'
 echo "--- another revision, damaged, cut off"
 forged 's/"revision":[0-9]*/"revision":1/' 2>&1 | sed 's/has revision [0-9]*/has revision N/'
+forged '1 s/"format":2/"format":1/'
 forged 's/"phi"/"phy"/'
 forged '$ d'
 try carom replay -o rows.csv forged.jsonl

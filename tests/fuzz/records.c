@@ -189,7 +189,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const char *last = memchr(record.fault, '\0', sizeof record.fault);
     if (status == CAROM_ERROR_RECORD && (last == NULL || last == record.fault))
       fail("a line is refused without a reason");
-    if (wrong && status == CAROM_OK && record.kind != CAROM_RECORD_END)
+    if (wrong && status == CAROM_OK && record.kind != CAROM_RECORD_WRONG)
       fail("something is read behind a line that is wrong");
     wrong |= status != CAROM_OK;
     if (status != CAROM_OK || record.kind == before.kind)

@@ -1,12 +1,14 @@
 /* Recordings: numbers as text, a game written and played again, and every way in which a
  * recording is refused. */
 #include "carom_record.h"
+#include "platform/fingerprint.h"
 #include "record/number.h"
 #include "support.h"
 
 #include <float.h>
 #include <limits.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -139,14 +141,36 @@ static void write_game(void) {
   put(CAROM_RECORD_END);
 }
 
+/* All that a reader can see of the lines so far, and how many shots ended otherwise. */
+static uint64_t told;
+static int differing;
+
+static uint64_t tell(uint64_t h) {
+  const struct {
+    const void *at;
+    size_t size;
+  } seen[] = {{&again.kind, sizeof again.kind},         {&again.table, sizeof again.table},
+              {again.balls, sizeof again.balls},        {&again.options, sizeof again.options},
+              {&again.cue, sizeof again.cue},           {&again.placed, sizeof again.placed},
+              {again.place, sizeof again.place},        {&again.recorded, sizeof again.recorded},
+              {&again.event, sizeof again.event},       {&again.before, sizeof again.before},
+              {&again.revision, sizeof again.revision}, {&again.format, sizeof again.format}};
+  for (size_t k = 0; k < sizeof seen / sizeof *seen; k++)
+    h = carom_fingerprint(h, seen[k].at, seen[k].size);
+  return h;
+}
+
 /* Reads and plays it; returns how many shots have the hash that was recorded, or a status. */
 static int replay(const char *from, size_t length) {
   int same = 0;
   memset(&again, 0, sizeof again);
+  told = 0;
+  differing = 0;
   for (const char *line = from; line < from + length;) {
     const char *next = (const char *)memchr(line, '\n', (size_t)(from + length - line));
     next = next == NULL ? from + length : next + 1;
     const carom_status status = carom_record_read(&again, line, (size_t)(next - line));
+    told = status < 0 ? told : tell(told);
     if (status < 0)
       return status;
     line = next;
@@ -154,7 +178,10 @@ static int replay(const char *from, size_t length) {
       continue;
     carom_shot shot = {.events = events, .room = EVENTS};
     carom_record_play(&again, (carom_record_kind)again.kind, &shot);
-    same += again.pending == 2 && again.played.hash == again.recorded.hash;
+    const bool agrees =
+        again.pending == 2 && memcmp(&again.played, &again.recorded, sizeof again.played) == 0;
+    same += agrees;
+    differing += !agrees;
   }
   return same;
 }
@@ -208,11 +235,13 @@ static void refused(const char *what, const char *with, const char *said) {
   const int status = replay(changed, (size_t)n);
   ck_assert_msg(status == CAROM_ERROR_RECORD, "%s for %s: %d", with, what, status);
   ck_assert_msg(strstr(again.fault, said) != NULL, "%s: '%s', not '%s'", with, again.fault, said);
+  ck_assert_int_eq(again.kind, CAROM_RECORD_WRONG);
 }
 
 TEST(lines_that_are_refused) {
   write_game();
-  refused("\"format\":1", "\"format\":2", "recording.format must be 1");
+  refused("\"format\":2", "\"format\":3", "recording.format must be 2");
+  refused("\"format\":2", "\"format\":1", "recording.format is 1, whose hashes do not cover");
   refused("\"width\":", "\"widht\":", "table.widht is no key of the format");
   refused("\"width\":1.27,", "", "table.width is missing");
   refused("\"width\":1.27", "\"width\":1.27,\"width\":1.27", "table.width comes twice");
@@ -225,8 +254,9 @@ TEST(lines_that_are_refused) {
   refused("{\"balls\"", "{\"bals\"", "bals is no line of a recording");
   refused("{\"recording\"", "[\"recording\"", "must be an object");
   refused("{\"place\":{\"ball\":0", "{\"place\":{\"ball\":10", "place ");
-  refused("{\"balls\":", "{\"end\":{\"shots\":0,\"hash\":\"0000000000000000\"}}\n{\"balls\":",
-          "behind the end");
+  ck_assert_int_eq(replay(text, size), 5);
+  ck_assert_int_eq(carom_record_read(&again, "{\"end\":{}}", 10), CAROM_ERROR_RECORD);
+  ck_assert_str_eq(again.fault, "end stands behind the end of the recording");
   refused("{\"table\":", "{\"event\":{\"time\":0,\"type\":1,\"a\":0}}\n{\"table\":",
           "must follow a shot");
   refused("\"shots\":5", "\"shots\":4", "end.shots is not that of the lines above");
@@ -243,7 +273,7 @@ TEST(lines_that_are_refused) {
 
   /* another revision; NULL; a shot that was not played, or cannot be */
   char head[100];
-  n = snprintf(head, sizeof head, "{\"recording\":{\"format\":1,\"revision\":%d}}",
+  n = snprintf(head, sizeof head, "{\"recording\":{\"format\":2,\"revision\":%d}}",
                carom_physics_revision() + 1);
   ck_assert_int_eq(replay(head, (size_t)n), CAROM_ERROR_REVISION);
   ck_assert_int_eq(again.revision, carom_physics_revision() + 1);
@@ -300,6 +330,62 @@ TEST(forged_lines_have_other_bits) {
     const int same = replay(changed, (size_t)n);
     ck_assert_msg(same < 5, "%s: %d", changes[k][1], same);
   }
+}
+
+/* A small game with every kind of line, also such as no shot follows. */
+static void write_small_game(void) {
+  memset(&game, 0, sizeof game);
+  size = 0;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &game.table);
+  game.table.rail[3].restitution = 0.8;
+  game.count = 2;
+  carom_rack(CAROM_RACK_THREECUSHION, &game.table, 1e-4, 5, game.balls, CAROM_BALLS_MOST);
+  game.cue = carom_cue_of(CAROM_GAME_POOL);
+  game.cue.speed = 1.5;
+  game.cue.phi = 17.3;
+  for (int kind = CAROM_RECORD_HEAD; kind <= CAROM_RECORD_BALLS; kind++)
+    put((carom_record_kind)kind);
+  game.options.time_most = 0.5;
+  carom_shot played = {.events = events, .room = EVENTS};
+  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, &played), CAROM_STOPPED_AT_TIME);
+  put(CAROM_RECORD_SHOT);
+  game.event = events[1];
+  game.before = game.after = 1;
+  put(CAROM_RECORD_EVENT);
+  game.options.time_most = 0.0;
+  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL), CAROM_OK);
+  put(CAROM_RECORD_CONTINUE);
+  ck_assert_int_eq(carom_record_place(&game, 0, 0.6, 0.5, NULL), CAROM_OK);
+  put(CAROM_RECORD_PLACE);
+  put(CAROM_RECORD_OPTIONS);
+  put(CAROM_RECORD_END);
+}
+
+/* Every byte of a recording with one bit of three changed: a shot ends otherwise, or a line is
+ * refused, or a reader sees what he saw. */
+TEST(every_changed_bit) {
+  static char changed[ROOM];
+  write_small_game();
+  ck_assert_int_eq(replay(text, size), 2);
+  const uint64_t was = told;
+  int differences = 0, refusals = 0, equal = 0;
+  for (size_t at = 0; at < size; at++)
+    for (int bit = 0; bit < 3; bit++) {
+      memcpy(changed, text, size);
+      changed[at] = (char)(changed[at] ^ 1 << bit);
+      const int same = replay(changed, size);
+      const bool verifies = same == 2 && again.kind == CAROM_RECORD_END;
+      differences += differing > 0;
+      refusals += differing == 0 && !verifies;
+      equal += verifies;
+      const size_t from = at < 20 ? 0 : at - 20;
+      ck_assert_msg(!verifies || told == was, "%.40s for %.40s verifies", changed + from,
+                    text + from);
+    }
+  printf("of %d changes a shot ends otherwise after %d, a line is refused after %d, and %d change "
+         "no value\n",
+         3 * (int)size, differences, refusals, equal);
+  ck_assert_int_gt(differences, (int)size / 2);
 }
 
 /* Random bytes in a good recording: no crash, and no other game with the same end. */

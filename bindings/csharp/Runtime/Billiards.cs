@@ -116,10 +116,12 @@ namespace Carom {
       if (record->pending != 1) return true;
       status = Native.carom_record_play(record, (RecordKind)record->kind, null);
       // A shot in error is recorded with its status, so its bits count as well.
-      return (long)status == record->played.status && record->played.hash == record->recorded.hash;
+      RecordEnd played = record->played, recorded = record->recorded;
+      return (long)status == played.status && played.status == recorded.status && played.events == recorded.events &&
+             BitConverter.DoubleToInt64Bits(played.time) == BitConverter.DoubleToInt64Bits(recorded.time) && played.hash == recorded.hash;
     }
 
-    /// <summary>Shots so far, and the hash of all their hashes.</summary>
+    /// <summary>Shots so far, and the hash of all lines so far.</summary>
     public long Shots { get { return record->shots; } }
     public ulong Hash { get { return record->hash; } }
 

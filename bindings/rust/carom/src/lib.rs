@@ -208,7 +208,10 @@ impl Recording {
             )
         };
         // A shot in error is recorded with its status, so its bits count as well.
-        Ok(i64::from(status) == record.played.status && record.played.hash == record.recorded.hash)
+        let (is, was) = (&record.played, &record.recorded);
+        Ok(i64::from(status) == is.status
+            && (is.status, is.events, is.time.to_bits(), is.hash)
+                == (was.status, was.events, was.time.to_bits(), was.hash))
     }
 
     /// Shots so far.
@@ -221,7 +224,7 @@ impl Recording {
         self.record.kind == i64::from(sys::CAROM_RECORD_END)
     }
 
-    /// The hash of all their hashes.
+    /// The hash of all lines so far.
     pub fn hash(&self) -> u64 {
         self.record.hash
     }
@@ -246,7 +249,9 @@ mod tests {
             rack(99, &table, 1e-4, 1).unwrap_err().status,
             sys::CAROM_ERROR_RACK
         );
-        let error = Recording::default().read("{\"game\":1}").unwrap_err();
+        let mut damaged = Recording::default();
+        let error = damaged.read("{\"game\":1}").unwrap_err();
+        assert!(!damaged.ended());
         assert_eq!(error.status, sys::CAROM_ERROR_RECORD);
         assert!(error.fault.contains("game"), "{}", error.fault);
     }
