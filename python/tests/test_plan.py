@@ -24,6 +24,27 @@ def test_plan():
     assert len(weak) == 1 and weak["value"][0] < best["value"][0] - 0.1
 
 
+def test_a_layout_is_planned_by_the_numbers_of_its_balls():
+    """Not by their order, as the command does: the lowest ball is on, wherever it stands in the list."""
+    places = {"5": [0.3, 1.9], "cue": [0.4, 0.9], "2": [0.9, 1.7], "9": [0.7, 0.5]}
+    layout = carom.by_number(carom.balls(list(places.values())), list(places), "nineball")
+    assert layout.shape == (10,) and all(layout["state"]["r"][int(name.replace("cue", "0")), :2].tolist() == at for name, at in places.items())
+    assert np.flatnonzero(layout["state"]["label"] == carom.Label.POCKETED).tolist() == [1, 3, 4, 6, 7, 8]
+    best = carom.plan(TABLE, layout, rules="nineball", shots=300, best=1)[0]
+    shot = carom.simulate_batch(TABLE, layout, best["cue"][np.newaxis], features=True)
+    assert shot.features.contact[0, 0] == 2
+    assert carom.by_number(layout[[0, 9, 5, 2]], [0, 9, 5, 2], "nineball", cue=0).tobytes() == layout.tobytes()
+    assert carom.by_number(layout, range(10), "eightball", cue=0).shape == (16,)
+    for ids, rules, told in (
+        (["cue", "5", "5", "9"], "nineball", "ball '5': the balls of nineball are the cue ball and 1 to 9, each once"),
+        (["cue", "5", "10", "9"], "nineball", "ball '10'"), (["cue", "5", "red", "9"], "eightball", "'red': .* 1 to 15"),
+        (["cue", "0", "1", "9"], "nineball", "ball '0'"), (["1", "2", "3", "9"], "nineball", "cue: it must be one of the ids"),
+        (["cue", "5"], "nineball", "ids: one for each ball"), (["cue", "5", "2", "9"], "snooker", "rules: must be one of"),
+    ):  # fmt: skip
+        with pytest.raises(ValueError, match=told):
+            carom.by_number(LAYOUT, ids, rules)
+
+
 def test_aim():
     layout = carom.balls([[0.6, 0.8], [0.4, 1.7]])
     for tip in ((0.0, 0.25), (0.4, 0.0), (-0.3, -0.2)):

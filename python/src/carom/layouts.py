@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -193,6 +194,44 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     if code < 0:
         raise CaromError(code, "balls" if code == lib.CAROM_ERROR_BALLS else _part(way))
     return placed
+
+
+_LAST = {"eightball": 15, "nineball": 9}
+
+
+def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["eightball", "nineball"], *, cue: int | str = "cue") -> dtypes.Records:
+    """A layout as `plan` and `referee` want it, in which ball k is number k, from balls in any order; those that are missing are down.
+
+    Parameters
+    ----------
+    balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
+    ids : sequence of int or str
+        The number of each, as a line of `carom shoot` names its balls.
+    rules : {"eightball", "nineball"}
+        The game: numbers are 1 to 15, or 1 to 9.
+    cue : int or str
+        Which of the ids is the cue ball's.
+
+    Returns an ndarray of `carom.dtypes.shot_ball`, shape (16,) or (10,).
+    Raises ValueError: A ball is none of the game, or there twice, or there is no cue ball.
+    """
+    given = of_record(balls, dtypes.shot_ball, "balls", "balls()")
+    names, last = list(map(str, ids)), choice(_LAST, rules, "rules")
+    if given.shape != (len(names),):
+        raise ValueError(f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {given.shape}")
+    if names.count(str(cue)) != 1:
+        raise ValueError(f"cue: it must be one of the ids, once, not {cue!r}")
+    at: dict[int, int] = {}
+    for k, name in enumerate(names):
+        number = 0 if name == str(cue) else int(name) if name.isdecimal() else -1
+        if not 0 <= number <= last or number in at or (number == 0 and name != str(cue)):
+            raise ValueError(f"ids: ball {name!r}: the balls of {rules} are the cue ball and 1 to {last}, each once")
+        at[number] = k
+    made = given[[at.get(number, at[0]) for number in range(last + 1)]]
+    down = [number for number in range(last + 1) if number not in at]
+    made["state"][down] = np.zeros((), dtypes.ball_state)
+    made["state"]["r"][down, 2], made["state"]["label"][down] = -0.1, lib.CAROM_BALL_POCKETED
+    return made
 
 
 def balls(
