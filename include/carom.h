@@ -401,12 +401,8 @@ typedef struct carom_result_f32 {
   carom_motion_f32 a, b;
 } carom_result_f32;
 
-/* carom_collide() in single precision. Euler's method is computed in double precision and
- * rounded. */
-CAROM_API carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt,
-                                         carom_result_f32 *out);
-
-/* carom_collide_batch() in single precision. Each row is bit-identical to carom_collide_f32(). */
+/* carom_collide_batch() in single precision. Each row is bit-identical to the same row alone.
+ * Euler's method is computed in double precision and rounded. */
 CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n,
                                                const carom_options *opt, carom_result_f32 *out,
                                                int8_t *status);

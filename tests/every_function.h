@@ -188,11 +188,6 @@ EVERY_BODY(collide) {
     STATUS(carom_collide(&in->impact[k], NULL, &room->result[k]));
   return every_hash(h, room->result, EVERY_FEW * sizeof room->result[0]);
 }
-EVERY_BODY(collide_f32) {
-  for (int k = 0; k < EVERY_FEW; k++)
-    STATUS(carom_collide_f32(&in->impact_f32[k], NULL, &room->result_f32[k]));
-  return every_hash(h, room->result_f32, EVERY_FEW * sizeof room->result_f32[0]);
-}
 EVERY_BODY(collide_detail) {
   for (int k = 0; k < EVERY_FEW; k++) {
     STATUS(carom_collide_detail(&in->impact[k], NULL, &room->result[k], &room->detail));
@@ -576,7 +571,7 @@ EVERY_BODY(record_settle) {
 /* clang-format off */
 #define EVERY_ONE(F) \
   F(aim) F(alciatore) F(ball_kind_of) F(check) F(cite) F(collide) F(cluster) F(collide_batch) \
-  F(collide_batch_f32) F(collide_detail) F(collide_f32) F(collide_tangent) F(cue_of) F(cushion) \
+  F(collide_batch_f32) F(collide_detail) F(collide_tangent) F(cue_of) F(cushion) \
   F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_tangent) \
   F(cushion_trace) F(event_name) F(field_name) F(foul_of) F(foul_string) F(impact3) \
   F(isa_available) F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) \

@@ -220,14 +220,9 @@ static carom_status to_single(carom_status status, const carom_result *in, carom
   return CAROM_ERROR_OVERFLOW;
 }
 
-carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt,
-                               carom_result_f32 *out) {
-  if (in == NULL || out == NULL)
-    return CAROM_ERROR_NULL;
-  const carom_options defaults = {0};
-  if (opt == NULL)
-    opt = &defaults;
-  if (opt->solver == CAROM_SOLVER_EXACT && carom_check_options(opt) == CAROM_OK &&
+static carom_status collide_single(const carom_impact_f32 *in, const carom_options *opt,
+                                   carom_result_f32 *out) {
+  if (opt->solver == CAROM_SOLVER_EXACT &&
       carom_kernels_of_call(opt->plain)
               ->call[CAROM_F32](in, carom_spin_sign(opt->slip), out, NULL) > 0)
     return CAROM_OK;
@@ -239,7 +234,7 @@ carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *
 
 carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt,
                                void *out) {
-  return precision == CAROM_F64 ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
+  return precision == CAROM_F64 ? carom_collide(in, opt, out) : collide_single(in, opt, out);
 }
 
 /* A batch as threads see it. */

@@ -9,6 +9,8 @@
 #include "regimes.h"
 #include "support.h"
 
+#include "ball_ball/kernels.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -21,24 +23,17 @@ enum { WIDEST = 16, FEWEST = 80, MOST = FEWEST + WIDEST + 1, MANY = 29000 };
 
 /* ---- Both precisions by the same calls */
 
-enum { IN_DOUBLE, IN_SINGLE, PRECISIONS };
 static const size_t in_size[] = {sizeof(carom_impact), sizeof(carom_impact_f32)};
 static const size_t out_size[] = {sizeof(carom_result), sizeof(carom_result_f32)};
 
-static carom_status collide(int precision, const void *in, const carom_options *options,
-                            void *out) {
-  return precision == IN_DOUBLE ? carom_collide(in, options, out)
-                                : carom_collide_f32(in, options, out);
-}
-
 static carom_status collide_batch(int precision, const void *in, size_t n,
                                   const carom_options *options, void *out, int8_t *status) {
-  return precision == IN_DOUBLE ? carom_collide_batch(in, n, options, out, status)
+  return precision == CAROM_F64 ? carom_collide_batch(in, n, options, out, status)
                                 : carom_collide_batch_f32(in, n, options, out, status);
 }
 
 static void put_row(int precision, void *rows, size_t k, const carom_impact *in) {
-  if (precision == IN_DOUBLE)
+  if (precision == CAROM_F64)
     ((carom_impact *)rows)[k] = *in;
   else
     ((carom_impact_f32 *)rows)[k] = narrowed(in);
@@ -115,7 +110,7 @@ static void alone(int precision, const void *in, size_t n, const carom_options *
   for (size_t k = 0; k < n; k++) {
     const void *from = (const char *)in + k * in_size[precision];
     void *to = (char *)out + k * out_size[precision];
-    status[k] = (int8_t)collide(precision, from, options, to);
+    status[k] = (int8_t)carom_collide_one((carom_precision)precision, from, options, to);
   }
 }
 
@@ -140,7 +135,7 @@ static void expect_batch(int precision, const void *in, size_t n, const carom_op
                            (const char *)out + k * out_size[precision], out_size[precision]) == 0,
                     "%s, %s, slip %s, %s, %d threads: row %zu of %zu has other bits than alone",
                     carom_isa_name(carom_isa_in_force()), carom_solver_name(options->solver),
-                    carom_slip_name(options->slip), precision == IN_DOUBLE ? "double" : "single",
+                    carom_slip_name(options->slip), precision == CAROM_F64 ? "double" : "single",
                     options->threads, k, n);
   }
   ck_assert(n == 0 || memcmp(said.memory, status, n) == 0);
@@ -167,7 +162,7 @@ static void table_free(const table *t) {
 #define FOR_EACH_WAY(solver, slip, precision)                 \
   for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++) \
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)       \
-      for (int precision = 0; precision < PRECISIONS; precision++)
+      for (int precision = 0; precision < CAROM_PRECISIONS; precision++)
 
 TEST(rows_of_all_kinds_at_every_size) {
   static make_row *const kinds[] = {good_row, mixed_row, zero_row};
@@ -303,7 +298,7 @@ TEST(plain_for_one_call) {
     everything *e = &seen[way];
     for (int k = 0; k < MOST; k++) {
       carom_collide_detail(&in[k], &options, &e->one[k], &e->detail[k]);
-      carom_collide_f32(&in_f32[k], &options, &e->one_f32[k]);
+      carom_collide_one(CAROM_F32, &in_f32[k], &options, &e->one_f32[k]);
       carom_trace(&in[k], &options, 4, e->trace[k]);
       carom_cushion(&on[k], &cushion_options, &e->cushion[k]);
       carom_cushion_trace(&on[k], &cushion_options, 4, e->followed[k]);

@@ -9,6 +9,7 @@
 #include "support.h"
 
 #include "ball_ball/frame.h"
+#include "ball_ball/kernels.h"
 #include "impact/impact.h"
 
 #include <float.h>
@@ -84,7 +85,7 @@ static void expect_in_single(const carom_impact *in, carom_slip slip, bool beyon
   const bool known =
       (beyond_play || of_play(&wide)) && kept_collide(&wide, slip, &exact, NULL) == REFERENCE_OK;
   FOR_EACH_ISA(isa) {
-    const carom_status status = carom_collide_f32(&rows[0], &options, &out);
+    const carom_status status = carom_collide_one(CAROM_F32, &rows[0], &options, &out);
     ck_assert_int_eq(carom_collide_batch_f32(rows, FILL, &options, many, NULL), status);
     for (int row = 0; row < FILL; row++)
       ck_assert_mem_eq(&many[row], &out, sizeof out);
@@ -292,7 +293,8 @@ static int expect_planar(random_source *source, carom_slip slip, bool play, bool
     carom_collide_batch_f32(narrow, FILL, &options, many_f32, status_f32);
     for (int k = 0; k < FILL; k++) {
       ck_assert_int_eq(carom_collide(&rows[k], &options, &alone), status[k]);
-      ck_assert_int_eq(carom_collide_f32(&narrow[k], &options, &alone_f32), status_f32[k]);
+      ck_assert_int_eq(carom_collide_one(CAROM_F32, &narrow[k], &options, &alone_f32),
+                       status_f32[k]);
       ck_assert_mem_eq(&alone, &many[k], sizeof alone);
       ck_assert_mem_eq(&alone_f32, &many_f32[k], sizeof alone_f32);
       solved += isa == CAROM_ISA_PLAIN && status[k] == CAROM_OK;

@@ -59,7 +59,7 @@ def native(source, build):
     found = {name: int(size) for name, size in re.findall(r"^(\w+): (\d+) bytes", expected, flags=re.M)}
     said = subprocess.run([Path(build, "tests/test_stack")], stdout=subprocess.PIPE, text=True, check=True).stdout
     for name, threads, used in re.findall(r"^  (carom_\w+) with (\d) threads: (\d+)$", said, flags=re.M):
-        name = ("threads " if threads != "0" else "stack ") + name.replace("collide_f32", "collide").replace("batch_f32", "batch")
+        name = ("threads " if threads != "0" else "stack ") + name.replace("batch_f32", "batch")
         found[name] = max(found.get(name, 0), int(used))
     return {**found, "library": Path(build, "libcarom.so").stat().st_size}
 

@@ -134,10 +134,12 @@ static void two_balls(void) {
     const double x = ((double *)&in)[k];
     ((float *)&narrow)[k] = fabs(x) <= (double)FLT_MAX || !isfinite(x) ? (float)x : FLT_MAX;
   }
-  const carom_status narrowly = carom_collide_f32(&narrow, &o, &out32);
+  memset(&out32, 0xFF, sizeof out32); /* NaN, as in rows in error */
+  int8_t narrowly = CAROM_ERROR_NULL;
+  carom_collide_batch_f32(&narrow, 1, &o, &out32, &narrowly);
   for (int k = 0; k < 12; k++)
     if (isfinite(((float *)&out32)[k]) != (narrowly >= 0))
-      fail("carom_collide_f32");
+      fail("carom_collide_batch_f32 of one");
   carom_impact_f32 narrow_rows[ROWS];
   carom_result_f32 many32[ROWS + 1];
   for (int k = 0; k < n; k++) {
