@@ -96,4 +96,18 @@ carom_status carom_tangent_of_cushion(const carom_cushion_impact *in,
                                       const carom_tangent_pass *pass, const double *seeds,
                                       double *tangent, carom_tangent_note *note);
 
+/* A build without C++ has no derivatives: tangent.c refuses before it would call these. */
+#if !defined(CAROM_WITH_TANGENTS) && !defined(__cplusplus)
+static inline carom_status carom_no_tangents(const void *first, ...) {
+  (void)first;
+  return CAROM_ERROR_NO_TANGENTS;
+}
+#define carom_tangent_begin carom_no_tangents
+#define carom_tangent_follow carom_no_tangents
+#define carom_tangent_follow_cluster carom_no_tangents
+#define carom_tangent_at carom_no_tangents
+#define carom_tangent_of_balls carom_no_tangents
+#define carom_tangent_of_cushion carom_no_tangents
+#endif
+
 #endif
