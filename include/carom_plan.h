@@ -225,8 +225,10 @@ typedef struct carom_plan_options {
                                    One below 0.001 counts as 0.001. Values of layouts depend on
                                    it. */
   double chance_opponent;       /* and of his opponent, likewise. */
-  const volatile int32_t *stop; /* not NULL: another thread may set it to end the plan early; it
-                                   then gives the best so far. */
+  const volatile int32_t *stop; /* not NULL: another thread may set it to end the plan early,
+                                   within some ms. It then gives one choice, the best so far; of
+                                   carom_plan_try() those that were not played have `seen` 0 and
+                                   the value NaN. */
   uint64_t reserved[4];         /* must be 0. */
 } carom_plan_options;
 
@@ -255,7 +257,8 @@ typedef struct carom_choice {
   double error;         /* its standard error. */
   double keep;          /* chance that the player plays on, or wins, */
   double foul, lose;    /* that the shot is a foul, that it loses. */
-  int64_t seen;         /* how often the shot was played with errors. */
+  int64_t seen;         /* how often the shot was played with errors. 0 of a plan that was stopped
+                           before: the value is that of the shot without errors. */
   uint64_t reserved[4]; /* 0. */
 } carom_choice;
 

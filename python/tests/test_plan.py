@@ -1,6 +1,9 @@
 """Plans: the choices are those of C whatever the threads, win more with smaller errors, and arguments in error are named."""
 
+import os
 import runpy
+import signal
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -209,6 +212,26 @@ def test_rules_of_ones_own():
     assert there.turn == "pass" and there.balls["state"]["r"][1, :2].tolist() == [TABLE.width / 2, 0.75 * TABLE.length]
 
 
+def test_a_plan_is_stopped():
+    class Long(Corner):
+        calls = 0
+
+        def judge(self, state, in_play, facts, call):
+            Long.calls += 1
+            if Long.calls == 300:
+                self.ends()
+            return super().judge(state, in_play, facts, call)
+
+    rules, stop, state = Long(), threading.Event(), [0] * 8
+    rules.ends = stop.set
+    best = carom.plan(TABLE, LAYOUT, rules=rules, state=state, shots=1_000_000, stop=stop)
+    assert len(best) == 1 and best["value"][0] > 0.0 and Long.calls < 100_000
+    Long.calls, rules.ends = 0, lambda: os.kill(os.getpid(), signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        carom.plan(TABLE, LAYOUT, rules=rules, state=state, shots=1_000_000)
+    assert Long.calls < 100_000
+
+
 @pytest.mark.parametrize(
     ("method", "gives", "match"),
     [
@@ -241,11 +264,15 @@ def test_the_bot_for_one_pocket(capsys):
 
 def test_errors_of_rules():
     class Wrong(Corner):
+        calls = 0
+
         def judge(self, state, in_play, facts, call):
+            Wrong.calls += 1
             raise KeyError("a mistake of the caller")
 
     with pytest.raises(KeyError, match="a mistake of the caller"):
         carom.plan(TABLE, LAYOUT, rules=Wrong(), shots=100)
+    assert Wrong.calls < 3  # it ends the plan
     with pytest.raises(KeyError, match="a mistake of the caller"):
         carom.referee(TABLE, LAYOUT, carom.cue(speed=1.0), rules=Wrong())
     with pytest.raises(NotImplementedError, match="Rules needs the method on"):

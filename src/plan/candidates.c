@@ -80,6 +80,8 @@ static bool aim(const carom_table *table, const carom_shot_ball *balls, int k, d
 static size_t aim_rows(const void *context, size_t first, size_t end) {
   const search *of = context;
   for (size_t k = first; k < end; k++) {
+    if (k > 0 && carom_is_stopped(of))
+      return k;
     candidate *c = &of->found[k];
     carom_cue cue = *of->job.cue;
     cue.theta = 0.0;
@@ -141,30 +143,22 @@ void carom_search_pots(search *of, int64_t most) {
     }
 
   /* those that cannot be aimed are dropped */
-  carom_crew_work(of->crew, aim_rows, of, (size_t)of->count, ROWS_LEAST);
-  const int64_t added = of->count;
+  const int64_t added =
+      (int64_t)carom_crew_work(of->crew, aim_rows, of, (size_t)of->count, ROWS_LEAST);
   of->count = 0;
   for (int64_t k = 0; k < added; k++)
     if (of->outcome[k].is)
       carom_search_add(of, of->found[k]);
 }
 
-/* What a shot without errors says of a candidate. */
-void carom_search_take(candidate *c, const outcome *o) {
-  c->sum = o->worth;
-  c->seen = 1;
-  c->ball = o->ball;
-  c->pocket = o->pocket;
-  c->cushions = o->cushions;
-  c->foul = o->foul;
-}
-
 /* Strokes in all directions, of which those stay that meet a ball first that is on; up to
  * `most`. The directions follow the golden ratio, so that however many are tried, they are
  * spread evenly. */
 void carom_search_scan(search *of, int64_t most) {
-  const int64_t block = most / 2 > 16 ? most / 2 : 16, end = of->count + most;
-  const int64_t tries = 4 * most;
+  /* in blocks that are sooner made than a plan has to stop */
+  enum { LEAST = 16, MOST = 4096 };
+  const int64_t block = (int64_t)carom_within((double)most / 2.0, LEAST, MOST);
+  const int64_t tries = 4 * most, end = of->count + most;
   const double begin = carom_uniform(of->options.seed, DRAW_SCAN, 0, 0);
   for (int64_t from = 0; from < tries && of->count < end && !carom_is_stopped(of); from += block) {
     const int64_t first = of->count;
@@ -184,17 +178,15 @@ void carom_search_scan(search *of, int64_t most) {
                           .kind = (of->may & CAROM_MAY_PUSH) && k % 2 == 1 ? CAROM_PLAN_PUSH
                                                                            : CAROM_PLAN_SCAN});
     }
-    const int64_t added = of->count - first;
-    carom_search_play(of, first, added, 1, 0);
+    const int64_t added = carom_search_play(of, first, of->count - first, 1, 0);
 
     /* those that begin with a foul are dropped, and those beyond `most` */
     of->count = first;
     for (int64_t k = 0; k < added && of->count < end; k++)
       if (of->found[first + k].kind == CAROM_PLAN_PUSH ||
           carom_search_begins_well(of, of->outcome[k].first)) {
-        candidate c = of->found[first + k];
-        carom_search_take(&c, &of->outcome[k]);
-        carom_search_add(of, c);
+        carom_search_add(of, of->found[first + k]);
+        carom_search_take(of, of->count - 1, &of->outcome[k]);
       }
   }
 }

@@ -217,7 +217,8 @@ static void put(plan *of, int k) {
   carom_search_lay_out(of, of->hand);
 }
 
-/* A small plan from each place, then one with half of the shots from the best. */
+/* A small plan from each place, then one with half of the shots from the best. Where that is
+ * stopped before it has told more, the best so far is that of the small plans. */
 static void plan_places(void *context, carom_crew *crew) {
   plan *of = context;
   of->crew = crew;
@@ -225,15 +226,24 @@ static void plan_places(void *context, carom_crew *crew) {
                 small = shots / (2 * PLACES_PLANNED) > 100 ? shots / (2 * PLACES_PLANNED) : 100;
   const int64_t rest = shots - of->places * small;
   int chosen = 0;
-  double most = -1.0;
-  for (int k = 0; k <= of->places && !(k > 0 && carom_is_stopped(of)); k++) {
-    put(of, k < of->places ? k : chosen);
-    carom_search_run(of, k < of->places || rest < small ? small : rest);
+  candidate best = {0};
+  for (int k = 0; k < of->places && !(k > 0 && carom_is_stopped(of)); k++) {
+    put(of, k);
+    carom_search_run(of, small);
     const candidate *c = &of->found[0];
-    if (k < of->places && c->sum / (double)c->seen > most) {
-      most = c->sum / (double)c->seen;
+    const bool stopped = c->round < best.round && carom_is_stopped(of);
+    if (k == 0 || (!stopped && c->sum / (double)c->seen > best.sum / (double)best.seen)) {
+      best = *c;
       chosen = k;
     }
+  }
+  put(of, chosen);
+  of->count = 0;
+  if (!carom_is_stopped(of))
+    carom_search_run(of, rest < small ? small : rest);
+  if (carom_is_stopped(of) && (of->count == 0 || of->found[0].seen < best.seen)) {
+    of->found[0] = best;
+    of->count = 1;
   }
 }
 
@@ -250,17 +260,22 @@ static void try_all(void *context, carom_crew *crew) {
                                      .theta = cue->theta,
                                      .a = cue->a,
                                      .b = cue->b,
-                                     .kind = CAROM_PLAN_GIVEN});
-    carom_search_play(of, 0, 1, 1, 0);
-    carom_search_take(&of->found[0], &of->outcome[0]);
-    carom_search_add_up(of, 1, each > 10 ? each : 10, DRAW_ROUND);
+                                     .kind = CAROM_PLAN_GIVEN,
+                                     .ball = -1,
+                                     .pocket = -1});
+    if (!carom_is_stopped(of)) {
+      carom_search_play(of, 0, 1, 1, 0);
+      carom_search_take(of, 0, &of->outcome[0]);
+      carom_search_add_up(of, 1, each > 10 ? each : 10, DRAW_ROUND);
+    }
     of->choices[k] = carom_search_choice(of, &of->found[0]);
   }
 }
 
+/* A plan that was stopped has not sorted what it found: the first is the best. */
 static int give(const plan *of, carom_choice *choices, int room) {
   int n = 0;
-  for (; n < room && n < of->count; n++)
+  for (; n < (carom_is_stopped(of) ? 1 : room) && n < of->count; n++)
     choices[n] = carom_search_choice(of, &of->found[n]);
   return n;
 }

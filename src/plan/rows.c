@@ -163,6 +163,8 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
   told what;
   carom_shot shot = {.final = what.final, .facts = &what.facts};
   for (size_t k = first; k < end; k++) {
+    if (k > 0 && carom_is_stopped(of))
+      return k;
     const int64_t row = (int64_t)k;
     const candidate *c = &of->found[s->first + row / s->each];
     carom_cue cue = stroke(of, c, s->draws, row % s->each);
@@ -181,8 +183,8 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
   return end;
 }
 
-void carom_search_play(search *of, int64_t first, int64_t candidates, int64_t each,
-                       uint32_t draws) {
+int64_t carom_search_play(search *of, int64_t first, int64_t candidates, int64_t each,
+                          uint32_t draws) {
   const stage s = {of, first, each, draws};
-  carom_crew_work(of->crew, play_rows, &s, (size_t)(candidates * each), ROWS_LEAST);
+  return (int64_t)carom_crew_work(of->crew, play_rows, &s, (size_t)(candidates * each), ROWS_LEAST);
 }

@@ -20,11 +20,33 @@ static bool is_better(const candidate *a, const candidate *b) {
   return of_a > of_b || (of_a == of_b && a->order < b->order);
 }
 
-/* Shell's method, without memory. The order is total, so that it does not matter how it is
- * found. */
-static void sort(candidate *c, int64_t n) {
+/* Puts candidate k first if it is better than the first. */
+static void lead(search *of, int64_t k) {
+  if (is_better(&of->found[k], &of->found[0])) {
+    const candidate first = of->found[0];
+    of->found[0] = of->found[k];
+    of->found[k] = first;
+  }
+}
+
+void carom_search_take(search *of, int64_t k, const outcome *o) {
+  candidate *c = &of->found[k];
+  c->sum = o->worth;
+  c->seen = 1;
+  c->ball = o->ball;
+  c->pocket = o->pocket;
+  c->cushions = o->cushions;
+  c->foul = o->foul;
+  lead(of, k);
+}
+
+/* Sorts the first n candidates, by Shell's method, without memory. The order is total, so that it
+ * does not matter how it is found. To sort half a million takes longer than a plan has to stop; a
+ * sort that is stopped leaves the first in its place if that is the best. */
+static void sort(const search *of, int64_t n) {
+  candidate *c = of->found;
   for (int64_t gap = n / 2; gap > 0; gap = gap == 2 ? 1 : (gap * 5) / 11)
-    for (int64_t k = gap; k < n; k++) {
+    for (int64_t k = gap; k < n && !carom_is_stopped(of); k++) {
       const candidate moved = c[k];
       int64_t at = k;
       for (; at >= gap && is_better(&moved, &c[at - gap]); at -= gap)
@@ -33,11 +55,11 @@ static void sort(candidate *c, int64_t n) {
     }
 }
 
-/* Plays the first n candidates `each` times with the errors of a round, and adds up what they
- * are worth. */
 void carom_search_add_up(search *of, int64_t n, int64_t each, uint32_t draws) {
-  carom_search_play(of, 0, n, each, draws);
-  for (int64_t k = 0; k < n; k++) {
+  const int64_t played = carom_search_play(of, 0, n, each, draws);
+  if (n == 1)
+    each = played;
+  for (int64_t k = 0; k < played / each; k++) {
     candidate *c = &of->found[k];
     if (c->round == 0) { /* the shot without errors is forgotten */
       c->sum = c->squares = 0.0;
@@ -54,6 +76,8 @@ void carom_search_add_up(search *of, int64_t n, int64_t each, uint32_t draws) {
     c->seen += each;
     c->round++;
   }
+  for (int64_t k = 1; k < n; k++)
+    lead(of, k);
 }
 
 /* The candidates of the first round: the best `keep`, of which pots come first, and a third of
@@ -66,8 +90,7 @@ static int64_t first_round(search *of, int64_t keep) {
     const bool stays = c->kind == CAROM_PLAN_POT || scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
     if (stays) {
       const candidate kept = *c;
-      for (int64_t at = k; at > good; at--)
-        of->found[at] = of->found[at - 1];
+      *c = of->found[good];
       of->found[good++] = kept;
     }
   }
@@ -75,7 +98,7 @@ static int64_t first_round(search *of, int64_t keep) {
 }
 
 static void halve(search *of, int64_t shots) {
-  sort(of->found, of->count);
+  sort(of, of->count);
   const int64_t keep = shots / 25 > 6 ? shots / 25 : 6,
                 left = shots - of->count > 0 ? shots - of->count : 0;
   for (int round = 0; round < ROUNDS && !carom_is_stopped(of); round++) {
@@ -87,7 +110,7 @@ static void halve(search *of, int64_t shots) {
     if (each * n > of->room)
       each = of->room / n;
     carom_search_add_up(of, n, each, DRAW_ROUND + (uint32_t)round);
-    sort(of->found, of->count);
+    sort(of, of->count);
   }
 }
 
@@ -141,9 +164,9 @@ void carom_search_run(search *of, int64_t shots) {
   of->count = 0;
   const double scan = carom_scan_of(&of->options);
   carom_search_pots(of, (int64_t)((1.0 - scan) * (double)shots / 4.0));
-  carom_search_play(of, 0, of->count, 1, 0);
+  of->count = carom_search_play(of, 0, of->count, 1, 0);
   for (int64_t k = 0; k < of->count; k++)
-    carom_search_take(&of->found[k], &of->outcome[k]);
+    carom_search_take(of, k, &of->outcome[k]);
   if (scan > 0.0)
     carom_search_scan(of, (int64_t)(scan * (double)shots));
   if (of->count == 0) {
@@ -171,5 +194,6 @@ void carom_search_pass(search *of) {
                                    .pocket = -1,
                                    .round = of->found[0].round});
   of->found[of->count - 1].order = -1; /* of shots that are worth as much, none is played */
-  sort(of->found, of->count);
+  lead(of, of->count - 1);
+  sort(of, of->count);
 }

@@ -80,27 +80,30 @@ static inline bool carom_is_stopped(const carom_search *of) {
 /* rows.c: the balls in play of a layout become those of shots. */
 void carom_search_lay_out(carom_search *of, const carom_shot_ball *balls);
 /* Plays candidates from the one of index `first` on, `each` times with the errors of these draws;
- * 0: without errors. The outcomes come in their order. */
-void carom_search_play(carom_search *of, int64_t first, int64_t candidates, int64_t each,
-                       uint32_t draws);
+ * 0: without errors. The outcomes come in their order. Returns how many rows were played: all, or
+ * those before the plan was stopped, at least one. */
+int64_t carom_search_play(carom_search *of, int64_t first, int64_t candidates, int64_t each,
+                          uint32_t draws);
 /* Whether a stroke of the scan met a ball first that is on. */
 bool carom_search_begins_well(const carom_search *of, int first);
 /* Points as a share of the balls left before the shot. */
 double carom_search_share(const carom_search *of, double points);
 
-/* candidates.c: direct pots, and strokes in all directions, up to `most` of them; one more; and
- * what the shot without errors says of one. */
+/* candidates.c: direct pots, and strokes in all directions, up to `most` of them; and one more. */
 void carom_search_pots(carom_search *of, int64_t most);
 void carom_search_scan(carom_search *of, int64_t most);
 void carom_search_add(carom_search *of, carom_candidate c);
-void carom_search_take(carom_candidate *c, const carom_outcome *o);
 
-/* search.c: all stages with so many shots; the best candidate is the first. */
+/* search.c: what the shot without errors says of candidate k. The best of those that were taken is
+ * the first, whenever a plan is stopped. */
+void carom_search_take(carom_search *of, int64_t k, const carom_outcome *o);
+/* All stages with so many shots; the best candidate is the first. */
 void carom_search_run(carom_search *of, int64_t shots);
 /* Not to play, as one more candidate. */
 void carom_search_pass(carom_search *of);
-/* Plays the first n candidates `each` times with the errors of a round, and adds up what they
- * are worth. */
+/* Plays the first n candidates `each` times with the errors of a round, and adds up what they are
+ * worth. Of a round that is stopped, those count that were played so often; or any rows of the
+ * only one. */
 void carom_search_add_up(carom_search *of, int64_t n, int64_t each, uint32_t draws);
 carom_choice carom_search_choice(const carom_search *of, const carom_candidate *c);
 /* The share of the shots that the scan has. */

@@ -572,16 +572,83 @@ TEST(pockets_that_count) {
   }
 }
 
+/* Rules that stop the plan when they have judged so many shots. */
+static carom_plan_rules stopped_rules;
+static volatile int32_t stop;
+static int64_t judged, judged_most;
+static carom_turn judge_and_stop(uint64_t *user, uint32_t in_play, int cue_ball,
+                                 const carom_facts *facts, carom_call call) {
+  stop |= ++judged == judged_most;
+  return stopped_rules.judge(user, in_play, cue_ball, facts, call);
+}
+
+/* A plan that is stopped judges no other shot, but for one of a stage that has not begun. It gives
+ * the best so far: of ball in hand no worse a place than it had before. */
+TEST(stopped_plans) {
+  enum { PLAN, HAND, TRY };
+  for (int which = PLAN; which <= TRY; which++) {
+    carom_choice best[2];
+    int found = 1;
+    double value = 0.0;
+    make_layout(3, 6);
+    stopped_rules = rules;
+    rules.judge = judge_and_stop;
+    options.shots = 3000;
+    options.stop = &stop;
+    make_memory();
+    const carom_cue cues[2] = {{.speed = 2.0, .phi = 80.0}, {.speed = 3.0, .phi = 100.0}};
+    for (judged_most = 1; judged_most <= 2900; judged_most += judged_most < 3 ? 1 : 97) {
+      judged = stop = 0;
+      ck_assert_int_eq(which == PLAN   ? carom_plan(&job, best, 2, &found)
+                       : which == HAND ? carom_plan_hand(&job, NULL, NULL, best, 2, &found)
+                                       : carom_plan_try(&job, cues, 2, best),
+                       CAROM_OK);
+      if (stop == 0)
+        break;
+      ck_assert_int_le(judged, judged_most + 2);
+      ck_assert(found == 1 && best[0].seen <= judged);
+      ck_assert((best[0].value >= 0.0 && best[0].value <= 1.0) || (which == TRY && judged == 1));
+      if (which == HAND && best[0].seen > 0) {
+        ck_assert(best[0].value > value - 0.05);
+        value = best[0].value;
+      }
+    }
+    if (which == TRY)
+      ck_assert(best[0].seen == 1500 && best[1].seen > 0 && best[1].seen < 1500);
+    printf("plan %d: stopped until %lld, %lld seen\n", which, (long long)judged_most,
+           (long long)best[0].seen);
+    edge_free(&memory);
+  }
+
+  /* long before its end */
+  make_layout(3, 6);
+  stopped_rules = rules;
+  rules.judge = judge_and_stop;
+  options.shots = 1000000;
+  options.stop = &stop;
+  make_memory();
+  carom_choice best;
+  int found;
+  for (judged_most = 10; judged_most < 10000; judged_most *= 10) {
+    judged = stop = 0;
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    ck_assert(judged <= judged_most + 2 && found == 1);
+  }
+  edge_free(&memory);
+}
+
 /* A plan that is stopped at once has a choice still; one without a legal shot says so. */
 TEST(little_to_choose) {
-  const volatile int32_t stop = 1;
+  const volatile int32_t at_once = 1;
   carom_choice best;
   int found;
   make_layout(3, 6);
-  options.stop = &stop;
+  options.stop = &at_once;
   make_memory();
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
   ck_assert(found == 1 && best.seen == 0);
+  ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &best), CAROM_OK);
+  ck_assert(best.seen == 0 && isnan(best.value));
   edge_free(&memory);
 
   /* the only ball that is on is down already */

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -168,6 +170,21 @@ def _corners(in_hand: bool | Hand | npt.ArrayLike, table: Table) -> dtypes.Doubl
     return corners
 
 
+def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None) -> int:
+    """What C gives, which a thread of its own calls, so that Python handles signals meanwhile and looks at `stop`."""
+    if stop is None and threading.current_thread() is not threading.main_thread():
+        return call()
+    with ThreadPoolExecutor(1) as pool:
+        called = pool.submit(call)
+        try:
+            while not wait([called], 0.02).done:
+                flag[0] |= stop is not None and stop.is_set()
+        except BaseException:  # of Ctrl-C
+            flag[0] = 1
+            raise
+    return called.result()
+
+
 def plan(
     table: Table,
     balls: dtypes.Records,
@@ -184,6 +201,7 @@ def plan(
     best: int = 5,
     seed: int = 0,
     threads: int = 0,
+    stop: threading.Event | None = None,
     options: Options = _USUAL,
     **changes: Unpack[Changes],
 ) -> dtypes.Records:
@@ -219,7 +237,10 @@ def plan(
     seed : int
         Of the errors of strokes.
     threads : int
-        Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
+        Most threads to use; 0 is one alone, -1 all processors. No bit depends on it.
+    stop : threading.Event, optional
+        Ends the plan early when another thread, or a handler of a signal, sets it: the plan then has one choice, the best so far. Without a
+        handler of yours Ctrl-C ends the plan, too, and raises KeyboardInterrupt.
     options, **changes
         As for `simulate`; t_final, stop_at and first_of are not read.
 
@@ -250,6 +271,7 @@ def plan(
 
     # The game, the player, and room for the plan.
     game = Made(rules, state, group, opening)
+    wanted.stop = game.stop
     own = _one_player(_usual_player() if player is None else player)
     memory: Array = np.empty(lib.carom_plan_memory(wanted) // 8 + 1, np.float64)
     record = table.record
@@ -264,9 +286,9 @@ def plan(
     rows = pointer("carom_choice[]", choices)
     if in_hand is not False:
         low, high = (ffi.NULL, ffi.NULL) if corners is None else (pointer("double[]", corners[0]), pointer("double[]", corners[1]))
-        code = lib.carom_plan_hand(job, low, high, rows, len(choices), found)
+        code = _stoppable(lambda: lib.carom_plan_hand(job, low, high, rows, len(choices), found), game.stop, stop)
     else:
-        code = lib.carom_plan(job, rows, len(choices), found)
+        code = _stoppable(lambda: lib.carom_plan(job, rows, len(choices), found), game.stop, stop)
     game.check()
     if code < 0:
         raise argument_error(shot_arguments(table, layout, strike, shot), layout, strike) or CaromError(code, "balls")

@@ -138,6 +138,8 @@ class Made:
 
     def __init__(self, rules: Game | Rules, state: npt.ArrayLike | None, group: Group = "open", opening: bool = False) -> None:
         self.raised: BaseException | None = None
+        self.stop = ffi.new("int32_t *")
+        """Of plans; set by an exception."""
         if isinstance(rules, type) and issubclass(rules, Rules):
             raise ValueError(f"rules: give a game, {rules.__name__}(), not the class {rules.__name__}")
         if isinstance(rules, Rules):
@@ -162,6 +164,7 @@ class Made:
         def guarded(kind: str, call: Callable[..., Any], otherwise: Any) -> Any:
             def failed(kind: Any, value: BaseException, trace: Any) -> None:
                 self.raised = self.raised or value
+                self.stop[0] = 1
 
             return ffi.callback(kind, call, error=otherwise, onerror=failed)
 
