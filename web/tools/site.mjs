@@ -21,8 +21,14 @@ const programs = readdirSync(`${site}/web/examples`).filter((name) => name.endsW
 check(programs.length >= 6, `${programs.length} programs`);
 
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
-for (const width of [1300, 390]) {
+const elsewhere = [];
+const open = async (width) => {
   const page = await browser.newPage({ viewport: { width, height: 850 } });
+  page.on("request", (request) => /^https?:\/\/(?!127\.0\.0\.1[:/])/.test(request.url()) && elsewhere.push(request.url()));
+  return page;
+};
+for (const width of [1300, 390]) {
+  const page = await open(width);
   const errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
   for (const name of PAGES) {
@@ -35,7 +41,7 @@ for (const width of [1300, 390]) {
   await page.close();
 }
 
-const page = await browser.newPage({ viewport: { width: 1300, height: 850 } });
+const page = await open(1300);
 for (const name of programs) {
   await page.goto(`file://${site}/web/examples/${name}`);
   await page.click("#live-run");
@@ -54,7 +60,7 @@ await page.click("#live-run");
 await page.waitForSelector("#live-output[data-state=failed]");
 check((await page.textContent("#live-output")) === "1.27\nError: as asked\n", await page.textContent("#live-output"));
 
-// The search wants a server: from a folder of files it gets a part of itself from the network.
+// The search wants a server.
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json" };
 const server = createServer((request, answer) => {
   const path = `${site}${new URL(request.url, "http://site").pathname}`;
@@ -74,6 +80,7 @@ for (const part of [".md-header", ".md-sidebar--primary", ".md-footer"]) check(!
 const cut = await page.evaluate(() => [...document.querySelectorAll("pre code")].filter((block) => block.scrollWidth > block.clientWidth + 1).length);
 check(cut === 0, `${cut} blocks of code are cut off on paper`);
 if (pictures) await page.pdf({ path: `${pictures}/python.pdf`, format: "A4" });
+check(elsewhere.length === 0, `asked from other servers: ${elsewhere.join(" ")}`);
 await browser.close();
 server.close();
 console.log(`${PAGES.length} pages at two widths, ${programs.length} programs in their pages, search and paper`);
