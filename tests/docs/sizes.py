@@ -5,6 +5,7 @@ web: the package and the page. A figure in bytes that stands in no row below fai
 """
 
 import gzip
+import json
 import math
 import os
 import re
@@ -45,6 +46,7 @@ FIGURES = [
     ("docs/using/building.md", r"([\d.]+) MB with `none`", MB, "library with none", 0.15),
     ("docs/using/web.md", r"loads one of them: (\d+) kB", KB, "package simd", 0.05),
     ("docs/using/web.md", r"with vectors, (\d+) kB", KB, "package plain", 0.05),
+    ("docs/using/web.md", r"tarball with both has (\d+) kB", KB, "tarball", 0.05),
     ("docs/using/web.md", r"The explorer is ([\d.]+) MB", MB, "page", 0.05),
     ("docs/using/web.md", r"explorer is [\d.]+ MB, (\d+) kB", KB, "page compressed", 0.05),
 ]
@@ -75,6 +77,8 @@ def web(source):
     dist, page = Path(source, "web/dist"), Path(source, "web/explorer/dist/index.html")
     common = [*sorted(dist.glob("*.js")), dist / "generated/layout.js"]
     packages = {f"package {build}": compressed(*common, dist / f"generated/{build}.js") for build in ("simd", "plain")}
+    packed = subprocess.run(["npm", "pack", "--dry-run", "--json"], cwd=Path(source, "web"), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True).stdout
+    packages["tarball"] = json.loads(packed)[0]["size"]
     return {**packages, "page": page.stat().st_size, "page compressed": compressed(page)}
 
 
@@ -100,7 +104,7 @@ def check(source, mode, *where):
         for size in [] if wrong or name.startswith("docs/study/") else A_SIZE.finditer(text):
             if size.start() not in covered and not any(text.startswith(other, size.start()) for other in OTHERS):
                 wrong.append(f"{name}: '{size[0]}' stands in no row of tests/docs/sizes.py")
-    assert count >= {"native": 21, "installed": 1, "web": 4}[mode], count
+    assert count >= {"native": 21, "installed": 1, "web": 5}[mode], count
     if wrong and os.environ.get("UPDATE") != "1":
         sys.exit("\n".join(wrong) + "\nUPDATE=1 writes the measured figures")
     print(f"{count} sizes")

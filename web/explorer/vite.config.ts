@@ -4,6 +4,14 @@ import { defineConfig, type Plugin } from "vite";
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
+/** The page's licences: that of carom, of the libraries in its WebAssembly, and of every package that was bundled. */
+function licences(modules: string[]): string {
+  const packages = new Set(modules.flatMap((name) => name.match(/^.*\/node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []));
+  const texts = [here("../../LICENSE"), here("../NOTICES"), ...[...packages].map((folder) => `${folder}/LICENSE`)].map((file) => readFileSync(file, "utf8").trim());
+  const named = ["carom", "In its WebAssembly", ...[...packages].map((folder) => folder.replace(/^.*\/node_modules\//, ""))];
+  return texts.map((text, k) => `${named[k]}\n\n${text}`).join("\n\n\n").replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+}
+
 // The page is one file, so that it works from a folder: browsers load neither modules nor WebAssembly from file: addresses.
 function oneFile(): Plugin {
   return {
@@ -26,7 +34,8 @@ function oneFile(): Plugin {
           text = text.replace(link, () => tag);
           delete bundle[name];
         }
-        html.source = text;
+        if (!text.includes("<!-- licences -->")) throw new Error("one-file: index.html has no place for the licences");
+        html.source = text.replace("<!-- licences -->", () => licences([...this.getModuleIds()]));
       },
     },
   };

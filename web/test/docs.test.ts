@@ -1,5 +1,5 @@
 // The blocks of the kind `js` in README and docs: each page is a session that is run; what a line prints is in the comment behind it.
-import { spawnSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { expect, test, vi } from "vitest";
@@ -17,6 +17,16 @@ test.each(["README.md", "docs/using/web.md", "web/README.md"])("JavaScript of %s
   await import(/* @vite-ignore */ `data:text/javascript,${encodeURIComponent(`${session}// ${page}`)}`);
   spy.mockRestore();
   expect(printed).toEqual(expected);
+});
+
+test("the tarball has its licences, and the WebAssembly once", () => {
+  const [packed] = JSON.parse(execFileSync("npm", ["pack", "--dry-run", "--json"], { cwd: `${root}web`, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] })) as [{ size: number; files: { path: string; size: number }[] }];
+  expect(packed.files.map(({ path }) => path)).toEqual(expect.arrayContaining(["LICENSE", "NOTICES", "README.md", "dist/index.js"]));
+  expect(packed.files.filter(({ path, size }) => path.endsWith(".d.ts") && size > 50_000)).toEqual([]);
+  // Its two modules are most of it, compressed, as text.
+  const modules = packed.files.filter(({ path }) => /generated\/(plain|simd)\.js$/.test(path));
+  expect(modules.length).toBe(2);
+  expect(packed.size).toBeLessThan(0.9 * modules.reduce((sum, { size }) => sum + size, 0));
 });
 
 // web/examples/: each program checks its own answer. The picture of a break is that of the

@@ -72,8 +72,8 @@ describe.runIf(browserPath !== undefined)("the page", () => {
   }
   /** Where the balls of the page lie, by the line that it exports: label, x, y. */
   async function lies(one: Page): Promise<Record<string, number[]>> {
-    const details = one.locator("details");
-    if ((await details.getAttribute("open")) === null) await one.locator("summary").click();
+    const details = one.locator("main details");
+    if ((await details.getAttribute("open")) === null) await one.locator("main summary").click();
     await one.locator("#export").click();
     const line = JSON.parse(await one.locator("#line").inputValue()) as { balls: { id: string; state: number[] }[] };
     await one.evaluate(() => scrollTo(0, 0));
@@ -150,7 +150,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
 
   test.runIf(thereIsACommand)("a break plays to its end, with the command's final state", async () => {
     const one = await open("#view=shot&phi=89.3&right=-0.1");
-    await one.locator("summary").click();
+    await one.locator("main summary").click();
     await one.locator("#export").click();
     const line = await one.locator("#line").inputValue();
     const played = JSON.parse(run(["shoot", "-"], line)) as { status: string; events: unknown[][]; final: { t: number; balls: Record<string, number[]> } };
@@ -179,7 +179,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
 
   test("a line is read back, and a bad one is refused with its key", async () => {
     const one = await open("#view=shot");
-    await one.locator("summary").click();
+    await one.locator("main summary").click();
     await one.locator("#line").fill(readFileSync(`${root}data/break-nineball.jsonl`, "utf8"));
     await one.locator("#import").click();
     expect(await text(one, "message")).toBe("");
@@ -206,7 +206,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     const places: Record<string, [number, number]> = { cue: [0.4, 0.9], 5: [0.3, 1.9], 2: [0.9, 1.7], 9: [0.7, 0.5], 8: [1.0, 1.1], 12: [0.2, 0.4] };
     const of = (...names: string[]): string => toLine({ id: "a layout", tableName: "9ft", names, balls: names.map((name) => carom.ball(...places[name]!)), cue: carom.cue({ speed: 2 }) });
     const one = await open("");
-    await one.locator("summary").click();
+    await one.locator("main summary").click();
     const take = async (game: string, line: string): Promise<void> => {
       await one.locator("#game").selectOption(game);
       await one.locator("#line").fill(line);
@@ -293,7 +293,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     ["shot, phone on its side", "#view=shot", { width: 844, height: 390, touch: true }],
   ] as const)("axe finds nothing: %s", async (_, hash, how) => {
     const one = await open(hash, how);
-    if (hash.includes("shot")) await one.locator("summary").click();
+    if (hash.includes("shot")) await one.locator("main summary").click();
     await one.evaluate(axe);
     const found = await one.evaluate(async () => {
       const { violations } = await (window as unknown as { axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> } }).axe.run();
@@ -551,7 +551,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     const folder = mkdtempSync(`${tmpdir()}/carom-`);
     const told = JSON.parse(run(["shoot", "--animate", `${folder}/break.html`, `${root}data/break-nineball.jsonl`])) as { final: { t: number; balls: Record<string, number[]> }; events: unknown[][] };
     const one = await open("#view=shot");
-    await one.locator("summary").click();
+    await one.locator("main summary").click();
     await one.locator("#line").fill(readFileSync(`${root}data/break-nineball.jsonl`, "utf8"));
     await one.locator("#import").click();
     const other = await browser.newPage({ viewport: { width: 1300, height: 800 } });
@@ -577,6 +577,14 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await one.close();
     await other.close();
     rmSync(folder, { recursive: true });
+  });
+
+  test("the page has the licence of all that is in it", async () => {
+    const one = await open("");
+    await one.locator("#licences summary").click();
+    const words = await text(one, "licences");
+    for (const name of ["Apache License\n", "Copyright (c) 2005-2020 Rich Felker, et al.", "The Emscripten Authors", "uplot\n\nThe MIT License (MIT)\n\nCopyright (c) 2022 Leon Sorokin"]) expect(words).toContain(name);
+    await one.close();
   });
 
   test("keys on the table aim, move and turn balls, undo, and play", async () => {
