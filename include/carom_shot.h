@@ -779,7 +779,8 @@ CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom
  * error with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_ROOM; CAROM_ERROR_BALLS;
  * CAROM_ERROR_EVENTS_LOST where shot->room was too small to know; CAROM_ERROR_TIME for a time
  * that is not a number, and for one after shot->time where balls still move then, since a bound
- * or an error ended the shot. */
+ * or an error ended the shot. CAROM_ERROR_UNRESOLVED, with some states written: an event or a ball
+ * was damaged, and its motion is not finite or takes more steps than that of any shot. */
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count,
                                      const carom_shot *shot, double time, carom_ball_state *states);
 
@@ -877,7 +878,8 @@ CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_bal
  * follow from the events alone, whatever was asked before. Exact but for rounding while the axis
  * of the spin keeps its direction (in flight, on the spot, rolling without side spin, in
  * straight slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of
- * them. Returns the status of carom_shot_at(). A call costs some 0.1 us for each radian that balls
+ * them. Returns the status of carom_shot_at(), and CAROM_ERROR_UNRESOLVED where balls turn by more
+ * than 5,000,000 rad, with some of them written. A call costs some 0.1 us for each radian that balls
  * with side spin have turned. */
 CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count,
                                               const carom_shot *shot, double time,

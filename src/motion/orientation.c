@@ -23,6 +23,9 @@
  * error. */
 static const double most_turn = 0.5, most_bend = 0.02;
 
+/* Of a call: about a second. All balls of a break turn by some 1,000 parts. */
+static const double most_parts = 1e7;
+
 static void cross(const double a[3], const double b[3], double out[3]) {
   out[0] = a[1] * b[2] - a[2] * b[1];
   out[1] = a[2] * b[0] - a[0] * b[2];
@@ -69,8 +72,10 @@ static void turn_part(double q[4], const double a[3], const double b[3], double 
   turn(q, omega);
 }
 
-/* The turn of an interval in which w goes linearly from w0 to w1. */
-static void turn_interval(double q[4], const double w0[3], const double w1[3], double T) {
+/* The turn of an interval in which w goes linearly from w0 to w1, in at most *left parts, which the
+ * caller has fewer of then; else false. */
+static bool turn_interval(double q[4], const double w0[3], const double w1[3], double T,
+                          double *left) {
   double b[3], bent[3];
   for (int k = 0; k < 3; k++)
     b[k] = (w1[k] - w0[k]) / T;
@@ -79,7 +84,10 @@ static void turn_interval(double q[4], const double w0[3], const double w1[3], d
   /* one turn about one axis, or parts */
   const bool one_axis = size_of(bent) <= 1e-12 * fastest * fastest;
   const double wanted = carom_greater(fastest * T / most_turn, T * sqrt(size_of(b) / most_bend));
-  const double parts = one_axis ? 1.0 : carom_lesser(ceil(wanted), 1e7);
+  const double parts = one_axis ? 1.0 : ceil(wanted);
+  if (!(parts <= *left))
+    return false;
+  *left -= parts;
   const double h = T / parts;
   for (double k = 0.0; k < parts; k += 1.0) {
     double a[3];
@@ -87,11 +95,16 @@ static void turn_interval(double q[4], const double w0[3], const double w1[3], d
       a[c] = w0[c] + (k + 0.5) * h * b[c];
     turn_part(q, a, b, h);
   }
+  return true;
 }
 
-/* The turn along a path, of one phase or several pieces of one, until a time. */
-static void turn_until(double q[4], carom_path *path, const carom_ball_rates *rates, double until) {
+/* The turn along a path, of one phase or several pieces of one, until a time; false where it takes
+ * more than *left parts. */
+static bool turn_until(double q[4], carom_path *path, const carom_ball_rates *rates, double until,
+                       double *left) {
   for (bool more = true; more;) {
+    if (!((*left -= 1.0) > 0.0))
+      return false;
     more = path->goes_on && path->end < until;
     const double end = more ? path->end : until;
     /* the side spin ends at the kink; in flight it is constant, as all spin is */
@@ -100,18 +113,21 @@ static void turn_until(double q[4], carom_path *path, const carom_ball_rates *ra
     carom_ball_state a = path->from, b;
     if (kink > from && kink < end && !carom_flies(&path->from)) {
       carom_path_at(path, rates, kink, &b);
-      turn_interval(q, a.w, b.w, kink - from);
+      if (!turn_interval(q, a.w, b.w, kink - from, left))
+        return false;
       a = b;
       a.w[2] = 0.0;
       from = kink;
     }
     if (end > from) {
       carom_path_at(path, rates, end, &b);
-      turn_interval(q, a.w, b.w, end - from);
+      if (!turn_interval(q, a.w, b.w, end - from, left))
+        return false;
     }
     if (more)
       carom_path_go_on(path, rates);
   }
+  return true;
 }
 
 carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot,
@@ -123,6 +139,7 @@ carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, con
   if (status < 0)
     return status;
   const double at = carom_greater(carom_lesser(time, shot->time), 0.0);
+  double left = most_parts;
   for (int i = 0; i < count; i++) {
     const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
     double *q = turned[i];
@@ -140,11 +157,13 @@ carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, con
                                                                                : -1;
       if (side < 0)
         continue;
-      turn_until(q, &path, &rates, event->time);
+      if (!turn_until(q, &path, &rates, event->time, &left))
+        return CAROM_ERROR_UNRESOLVED;
       path.from = event->after[side];
       carom_path_begin(&path, &rates, event->time);
     }
-    turn_until(q, &path, &rates, at);
+    if (!turn_until(q, &path, &rates, at, &left))
+      return CAROM_ERROR_UNRESOLVED;
   }
   return CAROM_OK;
 }

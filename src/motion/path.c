@@ -77,6 +77,14 @@ void carom_path_go_on(carom_path *path, const carom_ball_rates *rates) {
     path->a[k] = -0.5 * path->second[0] * path->e[k];
 }
 
+bool carom_path_go_to(carom_path *path, const carom_ball_rates *rates, double time) {
+  enum { MOST_PIECES = 100000 };
+  int pieces = 0;
+  for (; path->goes_on && path->end < time && pieces < MOST_PIECES; pieces++)
+    carom_path_go_on(path, rates);
+  return pieces < MOST_PIECES;
+}
+
 void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double now) {
   const carom_ball_state *s = &path->from;
   path->start = now;

@@ -84,6 +84,11 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
 /* At the end of a path that goes on: the next piece. */
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates);
 
+/* Goes on to the piece that has a time. False where that takes more pieces than any shot: 1000 s of
+ * a ball at 10,000 m/s take 16,000, but a state that was damaged may have a speed at which pieces
+ * have no length. */
+bool carom_path_go_to(carom_path *path, const carom_ball_rates *rates, double time);
+
 /* The state at a time within the path. */
 void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time,
                    carom_ball_state *state);

@@ -39,18 +39,24 @@ static void replay_go(replay *at, double time) {
   }
 }
 
-/* The states at a time to which the replay has gone. */
-static void replay_states(replay *at, double time, carom_ball_state *states) {
+/* The states at a time to which the replay has gone; false where they are not to be found. */
+static bool replay_states(replay *at, double time, carom_ball_state *states) {
   for (int i = 0; i < at->count; i++) {
     carom_path *path = &at->path[i];
     const carom_ball_rates rates = carom_rates_of(&at->balls[i].kind);
     if (!at->begun[i])
       carom_path_begin(path, &rates, path->start);
     at->begun[i] = true;
-    while (path->goes_on && path->end < time)
-      carom_path_go_on(path, &rates);
+    if (!carom_path_go_to(path, &rates, time))
+      return false;
     carom_path_at(path, &rates, time, &states[i]);
+    double size = 0.0;
+    for (int k = 0; k < 3; k++)
+      size += fabs(states[i].r[k]) + fabs(states[i].v[k]) + fabs(states[i].w[k]);
+    if (!(size < INFINITY))
+      return false;
   }
+  return true;
 }
 
 carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot,
@@ -84,7 +90,8 @@ carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const 
     for (int i = 0; i < count && times[k] > shot->time; i++)
       if (at.path[i].from.label != CAROM_BALL_STATIONARY && !carom_is_out(at.path[i].from.label))
         return CAROM_ERROR_TIME;
-    replay_states(&at, time, &states[k * (size_t)count]);
+    if (!replay_states(&at, time, &states[k * (size_t)count]))
+      return CAROM_ERROR_UNRESOLVED;
   }
   return CAROM_OK;
 }

@@ -33,7 +33,7 @@ static carom_status check_event(const carom_table *table, int count, const carom
                                 const carom_event *event, double since) {
   const int type = event->type;
   if (type < CAROM_EVENT_STRIKE || type > CAROM_EVENT_LEFT_TABLE || event->a < 0 ||
-      event->a >= count || !(event->time >= since && event->time < INFINITY))
+      event->a >= count || event->cluster < 0 || !(event->time >= since && event->time < INFINITY))
     return CAROM_ERROR_STATE;
   const bool two = type == CAROM_EVENT_BALL_BALL;
   const int64_t parts = two                            ? count

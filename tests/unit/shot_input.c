@@ -1,6 +1,7 @@
 /* Bad input of every field of a shot: each its own status and place, and nothing else written.
  * Bounds and the built-in tables, too. */
 #include "carom_shot.h"
+#include "carom_tangent.h"
 #include "support.h"
 
 #include <math.h>
@@ -463,6 +464,57 @@ TEST(many_times) {
 }
 
 /* A cue of speed 0 is not read, so it may name any ball; a stopped shot goes on. */
+/* Events and balls that were damaged end in an error, or in some state, after bounded work. */
+TEST(damaged_events) {
+  static const double bad[] = {-1.0,  1e3, 1e9,    1e12, 1e15, 1e18,     1e45,     1e100,
+                               1e300, NAN, -1e300, 1e-8, 0.0,  INFINITY, -INFINITY};
+  static carom_event good[64], events[64];
+  carom_table t;
+  carom_table_make(CAROM_TABLE_THREECUSHION, &t);
+  carom_shot_ball two[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD)}};
+  two[1].kind = two[0].kind;
+  ck_assert_int_eq(carom_place_ball(&t, two, 2, 0, 0.7, 0.5, NULL), CAROM_OK);
+  ck_assert_int_eq(carom_place_ball(&t, two, 2, 1, 0.72, 1.5, NULL), CAROM_OK);
+  carom_cue stroke = carom_cue_of(CAROM_GAME_BILLIARD);
+  stroke.a = 0.2;
+  carom_shot shot = {.events = good, .room = 64};
+  ck_assert_int_eq(carom_shoot(&t, two, 2, &stroke, NULL, &shot), CAROM_OK);
+  ck_assert_int_gt(shot.count, 6);
+  carom_ball_state then[2];
+  double turned[2][4], end[2 * CAROM_STATE_NUMBERS], seeds[7] = {1.0};
+  const carom_tangent_seeds by_speed = {.directions = 1, .cue = seeds};
+  shot.events = events;
+  const double time = 0.5 * (good[3].time + good[4].time);
+  int refused = 0, unresolved = 0;
+  for (size_t word = 0; word < 4 * sizeof *good / sizeof(double); word++)
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+      memcpy(events, good, sizeof good);
+      memcpy((char *)events + word * sizeof(double), &bad[k], sizeof(double));
+      unresolved += carom_shot_at(two, 2, &shot, time, then) == CAROM_ERROR_UNRESOLVED;
+      refused += carom_shot_orientation(two, 2, &shot, time, turned) < 0;
+      carom_shot_drawn(&t, two, 2, &shot, &time, 1, then);
+      carom_tangent tangent = {.final = end};
+      carom_shot_tangent(&t, two, 2, &stroke, NULL, &shot, &by_speed, &tangent);
+    }
+  printf("%d states and %d turns are refused\n", unresolved, refused);
+  ck_assert(unresolved > 50 && refused > unresolved);
+  /* a number of contacts that cannot be */
+  memcpy(events, good, sizeof good);
+  carom_tangent tangent = {.final = end};
+  events[0].cluster = -1;
+  ck_assert_int_eq(carom_shot_tangent(&t, two, 2, &stroke, NULL, &shot, &by_speed, &tangent),
+                   CAROM_ERROR_STATE);
+  /* constants of a ball */
+  memcpy(events, good, sizeof good);
+  for (size_t word = 0; word < sizeof(carom_ball_kind) / sizeof(double); word++)
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+      carom_shot_ball other[2] = {two[0], two[1]};
+      memcpy((char *)&other[0].kind + word * sizeof(double), &bad[k], sizeof(double));
+      carom_shot_at(other, 2, &shot, 2.0, then);
+      carom_shot_orientation(other, 2, &shot, 2.0, turned);
+    }
+}
+
 TEST(cue_that_is_not_read) {
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
   carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL),
