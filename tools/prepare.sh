@@ -22,8 +22,9 @@ need() {
 }
 
 # want PROGRAM-OR-FILE PACKAGE WHY: notes a package that is installed where that can be done, and that carom does without.
-# What could not be had is asked for once, not at every run.
+# What could not be had is asked for once a day, not at every run.
 wanted='' wanted_reasons='' asked=build/not-installed
+[ -z "$(find "$asked" -mmin +1440 2> /dev/null)" ] || rm -f "$asked"
 want() {
   there "$1" && return 0
   grep -qsx "$2" "$asked" && return 0

@@ -84,7 +84,7 @@ typedef struct chain {
 
 int main(void) {
   if (!__builtin_cpu_supports("fma") || !__builtin_cpu_supports("avx2")) {
-    fprintf(stderr, "latency: this processor has no AVX2 and FMA, whose latencies are measured\n");
+    fprintf(stderr, "skipped: this processor has no AVX2 and FMA, whose latencies are measured\n");
     return 77;
   }
   static const chain chains[] = {
@@ -111,7 +111,7 @@ int main(void) {
 #else
 
 int main(void) {
-  fprintf(stderr, "latency: measures x86-64 processors only\n");
+  fprintf(stderr, "skipped: measures x86-64 processors only\n");
   return 77;
 }
 
