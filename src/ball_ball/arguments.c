@@ -31,9 +31,6 @@ static int field_at(size_t offset) {
 #define FIELD(member) field_at(offsetof(carom_impact, member))
 
 carom_status carom_check_options(const carom_options *opt) {
-  uint64_t reserved = (uint64_t)opt->unused;
-  for (size_t k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++)
-    reserved |= opt->reserved[k];
   if ((int)opt->solver < 0 || opt->solver >= CAROM_SOLVER_COUNT)
     return CAROM_ERROR_SOLVER;
   if ((int)opt->slip < 0 || opt->slip >= CAROM_SLIP_COUNT)
@@ -44,9 +41,7 @@ carom_status carom_check_options(const carom_options *opt) {
     return CAROM_ERROR_THREADS;
   if ((opt->plain & ~1) != 0)
     return CAROM_ERROR_PLAIN;
-  if (reserved != 0)
-    return CAROM_ERROR_OPTIONS;
-  return CAROM_OK;
+  return opt->unused != 0 || !CAROM_RESERVED_IS_ZERO(opt) ? CAROM_ERROR_OPTIONS : CAROM_OK;
 }
 
 static bool vertical(const carom_ball *ball) {

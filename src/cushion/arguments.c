@@ -19,9 +19,6 @@ _Static_assert(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 double
 #define FIELD(member) ((int)(offsetof(carom_cushion_impact, member) / sizeof(double)))
 
 carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
-  bool reserved = false;
-  for (size_t k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++)
-    reserved |= opt->reserved[k] != 0;
   if (carom_cushion_model_name(opt->model) == NULL)
     return CAROM_ERROR_CUSHION_MODEL;
   if (opt->steps < 0)
@@ -30,7 +27,7 @@ carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
     return CAROM_ERROR_THREADS;
   if ((opt->plain & ~1) != 0)
     return CAROM_ERROR_PLAIN;
-  if (reserved)
+  if (!CAROM_RESERVED_IS_ZERO(opt))
     return CAROM_ERROR_OPTIONS;
   if ((int)opt->convention < 0 || opt->convention > CAROM_CONVENTION_POOLTOOL)
     return CAROM_ERROR_CONVENTION;

@@ -69,6 +69,10 @@ void carom_path_go_on(carom_path *path, const carom_ball_rates *rates) {
     carom_path_begin(path, rates, now);
     return;
   }
+  carom_path_second(path, now);
+}
+
+void carom_path_second(carom_path *path, double now) {
   path->ends_pair = true;
   path->goes_on = !path->last_pair;
   path->start = now;

@@ -26,6 +26,16 @@ static inline bool carom_is_not_negative(double x) {
   return x >= 0.0 && x < INFINITY;
 }
 
+/* Whether the reserved fields of a struct of the caller's are zero. */
+#define CAROM_RESERVED_IS_ZERO(s) \
+  carom_is_zero((s)->reserved, sizeof((s)->reserved) / sizeof((s)->reserved[0]))
+static inline bool carom_is_zero(const uint64_t *field, size_t n) {
+  uint64_t any = 0;
+  for (size_t k = 0; k < n; k++)
+    any |= field[k];
+  return any == 0;
+}
+
 /* The range of a number, both ends of which belong to it, and the error of a number outside. */
 typedef struct carom_range {
   double low, high;

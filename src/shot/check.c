@@ -18,9 +18,6 @@ static bool is_flat(const carom_shot_options *o) {
 }
 
 carom_status carom_check_shot_options(const carom_shot_options *o) {
-  bool reserved = false;
-  for (size_t k = 0; k < sizeof o->reserved / sizeof o->reserved[0]; k++)
-    reserved |= o->reserved[k] != 0;
   /* enumerations may be signed or not; a number below 0 is a large one here */
   if ((uint32_t)o->world > CAROM_WORLD_POOLTOOL)
     return CAROM_ERROR_WORLD;
@@ -50,7 +47,7 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
     return CAROM_ERROR_PLAIN;
   if (o->threads < CAROM_ALL_THREADS)
     return CAROM_ERROR_THREADS;
-  return o->unused != 0 || reserved ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
+  return o->unused != 0 || !CAROM_RESERVED_IS_ZERO(o) ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
 }
 
 /* Prepares the table for the balls of a layout. In flat play all radii are to be that of the
@@ -173,10 +170,8 @@ carom_status carom_check_job(const carom_shot_job *job) {
   const bool by_reference = job->kinds != NULL && job->states != NULL;
   if (job->table == NULL || job->shots == NULL || (job->balls == NULL && !by_reference))
     return CAROM_ERROR_NULL;
-  bool unused = job->balls != NULL && (job->kinds != NULL || job->states != NULL);
-  for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
-    unused |= job->reserved[k] != 0;
-  return unused ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
+  const bool unused = job->balls != NULL && (job->kinds != NULL || job->states != NULL);
+  return unused || !CAROM_RESERVED_IS_ZERO(job) ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
 }
 
 carom_layout carom_layout_of_row(const carom_shot_job *job, size_t k) {

@@ -131,13 +131,10 @@ static const unsigned of_law[] = {CAROM_FRICTION_LAWS(OF_LAW)};
 
 static unsigned sources_of(const carom_shot_options *o) {
   const carom_rules *rules = carom_rules_of(o->world);
-  const carom_ball_model balls =
-      o->ball_model != CAROM_BALL_MODEL_DEFAULT ? o->ball_model : rules->ball_model;
-  const int cushion = o->cushion_model != CAROM_SHOT_CUSHION_DEFAULT ? (int)o->cushion_model - 1
-                                                                     : (int)rules->cushion_model;
+  const carom_ball_model balls = carom_ball_model_of(rules, o);
   unsigned sources = CAROM_BY_CAROM | CAROM_BY_MARLOW1995 | CAROM_BY_ALCIATORE_SQUIRT;
   sources |= o->world == CAROM_WORLD_POOLTOOL ? CAROM_BY_KIEFL2024 : CAROM_BY_BANNERMAN2014;
-  sources |= of_cushion[cushion];
+  sources |= of_cushion[carom_cushion_model_of(rules, o)];
 
   /* two balls: the restitution of the 2014 model is energetic, as Stronge's */
   if (balls == CAROM_BALL_MODEL_EXACT || balls == CAROM_BALL_MODEL_EULER)

@@ -257,8 +257,8 @@ __attribute__((noinline, cold)) static carom_meeting meet_in_flight(carom_sim *s
   return carom_meet_in_flight(sim, i, s.r, s.v, sim->path[i].end - sim->now);
 }
 
-/* Puts the path of ball i into the columns, and looks for its next meeting with the table. */
-static void take_path(carom_sim *sim, int i) {
+/* Puts the path of ball i into the columns. */
+static inline void take_columns(carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
   const bool translates = carom_translates(path->from.label);
   sim->start[i] = path->start;
@@ -270,22 +270,32 @@ static void take_path(carom_sim *sim, int i) {
   sim->a_y[i] = path->a[1];
   if (path->a[2] != 0.0 || sim->a_z[i] != 0.0)
     take_height(sim, i);
+}
+
+/* Until when the path and the meeting of ball i hold. A ball that stays where it is does so for
+ * any time, and one that is out of play meets nothing. */
+static inline void take_horizon(carom_sim *sim, int i) {
+  const carom_path *path = &sim->path[i];
+  sim->own[i] = carom_lesser(path->end, sim->meeting[i].time);
+  sim->horizon[i] = carom_is_out(path->from.label)       ? -INFINITY
+                    : carom_translates(path->from.label) ? sim->own[i]
+                                                         : INFINITY;
+}
+
+/* The path of ball i, and its next meeting with the table. */
+static void take_path(carom_sim *sim, int i) {
+  const carom_path *path = &sim->path[i];
+  take_columns(sim, i);
   sim->meeting[i] = (carom_meeting){INFINITY, 0, 0};
   sim->meeting_round[i] = (int32_t)sim->round;
-  sim->own[i] = path->end;
-  /* a ball that stays where it is does so for any time, and one that is out of play meets
-   * nothing */
-  sim->horizon[i] = carom_is_out(path->from.label) ? -INFINITY : INFINITY;
-  if (!translates)
-    return;
   if (carom_flies(&path->from)) {
     sim->meeting[i] = meet_in_flight(sim, i);
-  } else {
+  } else if (carom_translates(path->from.label)) {
     const motion m = motion_now(sim, i);
     sim->meeting[i] = meet_table(sim, i, &m, path->end - sim->now);
   }
   sim->meeting[i].time += sim->now;
-  sim->own[i] = sim->horizon[i] = carom_lesser(path->end, sim->meeting[i].time);
+  take_horizon(sim, i);
 }
 
 void carom_detect(carom_sim *sim, int i, int j) {
@@ -303,13 +313,27 @@ void carom_detect(carom_sim *sim, int i, int j) {
   }
 }
 
-void carom_detect_all(carom_sim *sim) {
-  const int n = sim->count;
+/* The third column, as of balls on the cloth. */
+static void no_heights(carom_sim *sim) {
   sim->flying = 0;
-  for (int i = 0; i < n; i++) { /* as of balls on the cloth */
+  for (int i = 0; i < sim->count; i++) {
     sim->z[i] = sim->rates[i].radius;
     sim->v_z[i] = sim->a_z[i] = 0.0;
   }
+}
+
+void carom_detect_columns(carom_sim *sim) {
+  no_heights(sim);
+  for (int i = 0; i < sim->count; i++) {
+    take_columns(sim, i);
+    take_horizon(sim, i);
+    scan_row(sim, i);
+  }
+}
+
+void carom_detect_all(carom_sim *sim) {
+  const int n = sim->count;
+  no_heights(sim);
   for (int i = 0; i < n; i++) {
     take_path(sim, i);
     for (int j = i + 1; j < n; j++) {

@@ -117,11 +117,6 @@ lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3], car
     s->w[k] -= loss / kind->radius * n[k] + 0.0; /* without a loss w keeps its bits */
 }
 
-static carom_ball_model ball_model(const carom_sim *sim) {
-  return sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? sim->opt->ball_model
-                                                          : sim->rules->ball_model;
-}
-
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a,
                            const carom_ball_kind *kind_b, const carom_ball_state *b, double n[3]) {
   n[0] = b->r[0] - a->r[0];
@@ -138,7 +133,7 @@ carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const
   const carom_ball_kind *kind_a = carom_kind_in(sim->ball, i),
                         *kind_b = carom_kind_in(sim->ball, j);
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
-  const carom_ball_model model = ball_model(sim);
+  const carom_ball_model model = carom_ball_model_of(sim->rules, sim->opt);
   carom_result out;
 
   /* spheres in space; without friction where the model has none */
@@ -206,10 +201,7 @@ static double own_or(double own, double of_ball) {
 }
 
 static carom_cushion_options cushion_options(const carom_sim *sim, const carom_ball_kind *kind) {
-  const carom_shot_cushion asked = sim->opt->cushion_model;
-  return (carom_cushion_options){.model = asked != CAROM_SHOT_CUSHION_DEFAULT
-                                              ? (carom_cushion_model)((int)asked - 1)
-                                              : sim->rules->cushion_model,
+  return (carom_cushion_options){.model = carom_cushion_model_of(sim->rules, sim->opt),
                                  .convention = sim->rules->convention,
                                  .steps = sim->opt->steps,
                                  .plain = sim->opt->plain,

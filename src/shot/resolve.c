@@ -180,10 +180,6 @@ void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_st
   carom_label_in_space(s, kind->radius);
 }
 
-static bool is_finite(const carom_ball_state *s) {
-  return isfinite(s->v[0] + s->v[1] + s->v[2] + s->w[0] + s->w[1] + s->w[2]);
-}
-
 /* The unit vector from the centre of a ball into a rail or a jaw; horizontal for a ball on the
  * cloth. */
 static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ball_state *s,
@@ -275,7 +271,8 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
   carom_label_after(c.in_space, c.kind_a, a);
   if (b != NULL)
     carom_label_after(c.in_space, c.kind_b, b);
-  return status < 0                                    ? status
-         : is_finite(a) && (b == NULL || is_finite(b)) ? CAROM_OK
-                                                       : CAROM_ERROR_OVERFLOW;
+  return status < 0 ? status
+         : carom_motion_is_finite(a->v, a->w) && (b == NULL || carom_motion_is_finite(b->v, b->w))
+             ? CAROM_OK
+             : CAROM_ERROR_OVERFLOW;
 }

@@ -44,4 +44,16 @@ static inline const carom_rules *carom_rules_of(carom_world world) {
   return world == CAROM_WORLD_POOLTOOL ? carom_rules_pooltool() : carom_rules_carom();
 }
 
+/* The models of a shot, where 0 is that of its world. */
+static inline carom_ball_model carom_ball_model_of(const carom_rules *rules,
+                                                   const carom_shot_options *o) {
+  return o->ball_model != CAROM_BALL_MODEL_DEFAULT ? o->ball_model : rules->ball_model;
+}
+static inline carom_cushion_model carom_cushion_model_of(const carom_rules *rules,
+                                                         const carom_shot_options *o) {
+  return o->cushion_model != CAROM_SHOT_CUSHION_DEFAULT
+             ? (carom_cushion_model)((int)o->cushion_model - 1)
+             : rules->cushion_model;
+}
+
 #endif

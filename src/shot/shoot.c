@@ -125,10 +125,6 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
   }
 }
 
-static bool is_finite(const carom_ball_state *s) {
-  return isfinite(s->v[0] + s->v[1] + s->v[2] + s->w[0] + s->w[1] + s->w[2]);
-}
-
 /* The contact that is due with all that lasts at the same time. Returns false where there is
  * nothing else. Each contact is an event. A ball changes at its first one, and has the same
  * state before and after the others. *due becomes the first contact of the struck ball, where it
@@ -162,7 +158,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
         path->from = event->before[side];
         carom_cluster_take(two[side], &path->from);
         carom_label_after(c.in_space, carom_kind_in(sim->ball, i), &path->from);
-        if (!is_finite(&path->from)) {
+        if (!carom_motion_is_finite(path->from.v, path->from.w)) {
           *status = CAROM_ERROR_OVERFLOW;
           path->from = event->before[side];
         }
@@ -178,8 +174,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
 /* Whether a contact may be one of several that last. */
 static inline bool may_last(const carom_sim *sim, const carom_due *due) {
   const carom_shot_options *opt = sim->opt;
-  const carom_ball_model model =
-      opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? opt->ball_model : sim->rules->ball_model;
+  const carom_ball_model model = carom_ball_model_of(sim->rules, opt);
   return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters &&
          opt->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
          (model == CAROM_BALL_MODEL_EXACT || model == CAROM_BALL_MODEL_MIRROR) &&
@@ -260,16 +255,22 @@ static carom_status strike(carom_sim *sim) {
   return CAROM_OK;
 }
 
-static void begin(carom_sim *sim) {
+void carom_take_rates(carom_sim *sim) {
   sim->unlike = false;
   sim->widest = 0.0;
   for (int i = 0; i < sim->count; i++) {
     sim->rates[i] = carom_rates_of(carom_kind_in(sim->ball, i));
+    sim->widest = carom_greater(sim->widest, sim->rates[i].radius);
+    sim->unlike |= sim->rates[i].radius != sim->features->reference;
+  }
+}
+
+static void begin(carom_sim *sim) {
+  carom_take_rates(sim);
+  for (int i = 0; i < sim->count; i++) {
     carom_ball_state *from = &sim->path[i].from;
     *from = *carom_state_in(sim->ball, i);
     carom_label_of_layout(from, sim->rates[i].radius);
-    sim->widest = carom_greater(sim->widest, sim->rates[i].radius);
-    sim->unlike |= carom_kind_in(sim->ball, i)->radius != sim->features->reference;
     carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   }
 }

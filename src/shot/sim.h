@@ -88,6 +88,10 @@ typedef struct carom_due {
  * order of simultaneous events it counts as an end of a phase. */
 enum { CAROM_DUE_PIECE = CAROM_EVENT_LEFT_TABLE + 1 };
 
+static inline bool carom_motion_is_finite(const double v[3], const double w[3]) {
+  return isfinite(v[0] + v[1] + v[2] + w[0] + w[1] + w[2]);
+}
+
 /* Whether contacts are looked for in space, and not on the cloth alone. */
 static inline bool carom_in_space(const carom_sim *sim) {
   return sim->flying > 0 || sim->unlike;
@@ -105,13 +109,19 @@ carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3
 void carom_detect(carom_sim *sim, int i, int j);
 /* The same for all balls, at the start. */
 void carom_detect_all(carom_sim *sim);
+/* Computes again all that follows from the paths, meetings and pairs: columns and firsts. */
+void carom_detect_columns(carom_sim *sim);
+
+/* shoot.c: what follows from the kinds of the balls. */
+void carom_take_rates(carom_sim *sim);
 
 /* state.c: takes fingerprints of table, balls and options, where a state will be kept. */
 void carom_state_begin(carom_sim *sim);
 /* Leaves the shot, of which the state is the copy, without the caller's pointers. */
 void carom_state_save(carom_sim *sim, carom_shot_state *state);
-/* Whether sim, the copy of a state with the caller's pointers, can go on: CAROM_OK or why not. */
-carom_status carom_state_check(const carom_sim *sim, const carom_shot_state *state, int count);
+/* Whether sim, the copy of a state with the caller's pointers, can go on: CAROM_OK or why not.
+ * Numbers that follow from others are computed again. */
+carom_status carom_state_check(carom_sim *sim, const carom_shot_state *state, int count);
 /* Gives a state the seal that its bits must have. */
 void carom_state_seal(carom_shot_state *state);
 

@@ -3,7 +3,7 @@
 #include "tangent/work.h"
 
 #include "platform/threads.h"
-#include "shot/sim.h"
+#include "shot/rules.h"
 #include "tangent/reach.h"
 
 #include <math.h>
@@ -71,9 +71,8 @@ static carom_status check(const carom_table *table, int count, const carom_cue *
     return CAROM_ERROR_BALLS;
   if (seeds->directions < 1 || seeds->directions > CAROM_DIRECTIONS_MOST)
     return CAROM_ERROR_DIRECTIONS;
-  for (size_t k = 0; k < sizeof seeds->reserved / sizeof seeds->reserved[0]; k++)
-    if (seeds->reserved[k] != 0)
-      return CAROM_ERROR_SHOT_OPTIONS;
+  if (!CAROM_RESERVED_IS_ZERO(seeds))
+    return CAROM_ERROR_SHOT_OPTIONS;
   int where;
   const carom_status bad = carom_check_common(table, count, opt, &where);
   if (bad != CAROM_OK)
@@ -231,10 +230,8 @@ static carom_status shot_tangent(const carom_table *table, carom_layout layout, 
   w.seeds = seeds;
   w.tangent = tangent;
   w.count = count;
-  w.ball_model =
-      opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? opt->ball_model : CAROM_BALL_MODEL_EXACT;
-  w.cushion_model = opt->cushion_model != CAROM_SHOT_CUSHION_DEFAULT ? opt->cushion_model
-                                                                     : CAROM_SHOT_CUSHION_HAN;
+  w.ball_model = carom_ball_model_of(carom_rules_carom(), opt);
+  w.cushion_model = (carom_shot_cushion)(1 + (int)carom_cushion_model_of(carom_rules_carom(), opt));
   const int m = (int)seeds->directions;
   for (int first = 0; first < m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
     w.pass = pass_of(m, first);
@@ -291,9 +288,8 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
     return CAROM_OK;
   if (job->seeds == NULL || job->tangents == NULL)
     return CAROM_ERROR_NULL;
-  for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
-    if (job->reserved[k] != 0)
-      return CAROM_ERROR_SHOT_OPTIONS;
+  if (!CAROM_RESERVED_IS_ZERO(job))
+    return CAROM_ERROR_SHOT_OPTIONS;
   int where;
   const carom_shot_options *opt = played->options != NULL ? played->options : &no_options;
   carom_status bad = carom_check_job(played);

@@ -164,9 +164,7 @@ bool carom_cluster_solve(carom_cluster_state *) {
 
 #include "cushion/closed.c"
 #define defaults cushion_defaults
-#define is_finite motion_is_finite
 #include "cushion/cushion.c"
-#undef is_finite
 #undef defaults
 #include "cushion/stronge.c"
 #include "motion/path.c"
