@@ -1,8 +1,9 @@
 /* carom_record.h: recordings of games that verify themselves.
  *
  * A recording is text, a line of JSON after the other: the table, the balls, the options, each
- * stroke of the cue with a hash of all lines up to it and of the bits in which its shot ended. docs/using/games.md has the
- * format. Whoever plays it again with this library has the same bits, or is told where not.
+ * stroke of the cue with a hash of all lines up to it and of the bits in which its shot ended.
+ * docs/using/games.md has the format. Whoever plays it again with this library has the same bits,
+ * or is told where not.
  *
  *     static carom_record game;                                         // all zero
  *     static char text[CAROM_RECORD_TEXT];

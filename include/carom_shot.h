@@ -874,13 +874,13 @@ CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_bal
                                         int ball, double x, double y, carom_part *in_the_way);
 
 /* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x,
- * y, z), which turn the marks on a ball from the start to the time. They
- * follow from the events alone, whatever was asked before. Exact but for rounding while the axis
- * of the spin keeps its direction (in flight, on the spot, rolling without side spin, in
- * straight slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of
- * them. Returns the status of carom_shot_at(), and CAROM_ERROR_UNRESOLVED where balls turn by more
- * than 5,000,000 rad, with some of them written. A call costs some 0.1 us for each radian that balls
- * with side spin have turned. */
+ * y, z), which turn the marks on a ball from the start to the time. They follow from the events
+ * alone, whatever was asked before. Exact but for rounding while the axis of the spin keeps its
+ * direction (in flight, on the spot, rolling without side spin, in straight slides), else within
+ * 1e-7 rad for each phase of the ball. `turned` takes `count` of them. Returns the status of
+ * carom_shot_at(), and CAROM_ERROR_UNRESOLVED where balls turn by more than 5,000,000 rad, with
+ * some of them written. A call costs some 0.1 us for each radian that balls with side spin have
+ * turned. */
 CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count,
                                               const carom_shot *shot, double time,
                                               double (*turned)[4]);
