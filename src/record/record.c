@@ -209,6 +209,13 @@ static uint64_t stir_line(uint64_t hash, int kind, const carom_record *record) {
                      (const unsigned char *)record);
 }
 
+/* The hash behind a line: that of a shot covers the lines before it, so that a forged stroke is
+ * told once and not by every line that follows. */
+static uint64_t hash_behind(uint64_t hash, int kind, const carom_record *record) {
+  const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
+  return is_shot ? record->recorded.hash : stir_line(hash, kind, record);
+}
+
 /* ---- Faults ---------------------------------------------------------------------------------- */
 
 /* A line on its way in, with the keys that led to the value that is read. */
@@ -540,7 +547,7 @@ static bool read_line(reader *in, int *kind) {
   if (!apply(in, *kind, shots, hash))
     return false;
   if (*kind != CAROM_RECORD_END)
-    record->hash = stir_line(hash, *kind, record);
+    record->hash = hash_behind(hash, *kind, record);
   return true;
 }
 
@@ -745,7 +752,7 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
     record->shots++;
   }
   if (kind != CAROM_RECORD_END)
-    record->hash = stir_line(record->hash, (int)kind, record);
+    record->hash = hash_behind(record->hash, (int)kind, record);
   record->kind = kind;
   record->line++;
   return (size_t)(out.at - text);
