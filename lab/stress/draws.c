@@ -5,6 +5,8 @@
 
 #include "regimes.h"
 
+#include "platform/enumerations.h"
+
 #define U(low, high) lab_uniform(r, low, high)
 
 static bool chance(lab_random *r, double p) {
@@ -123,6 +125,40 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) 
   } else if (what < 0.5) /* a ball that slides without spin */
     in.w[0] = in.w[1] = in.w[2] = 0;
   return in;
+}
+
+int draw_groups(draw_kind kind) {
+  return kind == DRAW_COINCIDENCES ? coincidence_kinds()
+         : kind == DRAW_CUSHION    ? CUSHION_DRAWS
+                                   : CAROM_SLIP_COUNT;
+}
+
+const char *draw_name(draw_kind kind, int group) {
+  return kind == DRAW_COINCIDENCES ? coincidence_name(group)
+         : kind != DRAW_CUSHION    ? carom_slip_name((carom_slip)group)
+         : group == CUSHION_PLAY   ? "play"
+                                   : "any";
+}
+
+bool is_of_play(const carom_impact *in) {
+  const double ratio = in->a.mass / in->b.mass;
+  return in->mu_ball <= 0.2 && fmax(in->a.mu_cloth, in->b.mu_cloth) <= 0.5 &&
+         in->restitution >= 0.5 && ratio >= 0.5 && ratio <= 2;
+}
+
+drawn draw(draw_kind kind, int group, uint64_t seed, uint64_t k) {
+  drawn one = {.cushion = kind == DRAW_CUSHION, .slip = (carom_slip)group};
+  if (kind == DRAW_COINCIDENCES)
+    return coincidence_draw(group, seed, k);
+  if (one.cushion) {
+    one.rail = draw_cushion((cushion_draw)group, seed, k);
+    one.of_play = group == CUSHION_PLAY;
+    one.slip = CAROM_SLIP_PAPER;
+  } else {
+    one.balls = draw_collision(kind, one.slip, seed, k);
+    one.of_play = is_of_play(&one.balls);
+  }
+  return one;
 }
 
 double cushion_distance(const carom_cushion_impact *in, const carom_motion *a,

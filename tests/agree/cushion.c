@@ -9,29 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { DRAWN = FEWER(250), MOST_ROWS = 600, NUMBERS = 21 };
-
-TEST(exact_against_the_reference) {
-  for (cushion_draw kind = CUSHION_PLAY; kind < CUSHION_DRAWS; kind++) {
-    double error[DRAWN];
-    int count = 0;
-    for (uint64_t k = 0; k < DRAWN; k++) {
-      const carom_cushion_impact in = draw_cushion(kind, test_seed(), k);
-      carom_motion out, exact;
-      ck_assert_msg(carom_cushion(&in, NULL, &out) == CAROM_OK, "kind %d, impact %d", (int)kind,
-                    (int)k);
-      if (kept_cushion(&in, &exact) != REFERENCE_OK)
-        continue;
-      error[count] = cushion_distance(&in, &out, &exact);
-      ck_assert_msg(error[count] <= (kind == CUSHION_PLAY ? 1e-6 : 1e-5),
-                    "kind %d, impact %d: %.3g", (int)kind, (int)k, error[count]);
-      count++;
-    }
-    ck_assert_int_ge(count, DRAWN * 95 / 100);
-    qsort(error, (size_t)count, sizeof error[0], by_size);
-    ck_assert_msg(error[count / 2] <= 3e-9, "median %.3g", error[count / 2]);
-  }
-}
+enum { MOST_ROWS = 600, NUMBERS = 21 };
 
 /* Straight at a cushion with top or back spin both contacts may come to hold, and then the
  * cloth's slip begins again while the nose holds. Whether it does depends on the frictions: all

@@ -68,17 +68,6 @@ TEST(reference_agrees_with_the_data) {
 
 enum { FILL = 96 }; /* rows of a batch that every instruction set solves in lanes */
 
-typedef struct tally {
-  int count, above_1e6;
-  double worst;
-} tally;
-
-static void count(tally *t, double error) {
-  t->count++;
-  t->above_1e6 += error > 1e-6;
-  t->worst = fmax(t->worst, error);
-}
-
 /* What the solver tells of a collision: the impulses balance, the works are in the ratio of
  * restitution, stick is seen. `normal`: the impulse and the work of the reference. */
 static void expect_details(const carom_impact *in, const carom_result *out, const carom_detail *d,
@@ -104,93 +93,40 @@ static void expect_details(const carom_impact *in, const carom_result *out, cons
   ck_assert((d->stick == CAROM_STICK_NEVER) == (isnan(d->stick_normal) != 0));
 }
 
-/* Nearly all collisions are within 1e-6. At the corners single ones are not, and none is farther
- * off than 1e-5; a few say that they are unresolved. */
-TEST(reference_in_every_regime) {
-  tally alone = {0}, batch = {0};
-  int unresolved = 0, stuck[3] = {0};
+/* A few say that they are unresolved. `carom-lab stress` has the same regimes in batches, in single
+ * precision and in far greater numbers (agree/stress). */
+TEST(details_in_every_regime) {
+  int count = 0, unresolved = 0, stuck[3] = {0};
   const int draws = draws_of_each(FEWER(8));
-  for (int regime = 0; regime < regimes_count(); regime++) {
+  for (int regime = 0; regime < regimes_count(); regime++)
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
       lab_random rng = {test_seed() + 1000003u * (uint64_t)(2 * regime + slip)};
-      carom_options options = {0};
-      options.slip = (carom_slip)slip;
+      const carom_options options = {.slip = (carom_slip)slip};
       for (int k = 0; k < draws; k++) {
-        const double s = slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0;
-        const carom_impact in = regimes_draw(regime, s, &rng);
+        const carom_impact in = regimes_draw(regime, carom_spin_sign(options.slip), &rng);
         carom_result out, exact;
         carom_detail detail;
-        double error = 0.0 /* that of the best set counts */, normal[2];
+        double normal[2];
         const carom_status status = carom_collide_detail(&in, &options, &out, &detail);
         if (status == CAROM_SEPARATING ||
             kept_collide(&in, options.slip, &exact, normal) != REFERENCE_OK)
           continue;
-        if (status == CAROM_ERROR_UNRESOLVED) {
-          unresolved++;
+        unresolved += status == CAROM_ERROR_UNRESOLVED;
+        if (status == CAROM_ERROR_UNRESOLVED)
           continue;
-        }
+        const double error = result_distance(&out, &exact, in.a.radius);
+        ck_assert_msg(error <= 1e-5, "%s, slip %d, draw %d is %g off", regimes_name(regime), slip,
+                      k, error);
         expect_details(&in, &out, &detail, normal);
         stuck[detail.stick]++;
-        FOR_EACH_ISA(isa) {
-          ck_assert_int_eq(carom_collide(&in, &options, &out), CAROM_OK);
-          error = result_distance(&out, &exact, in.a.radius);
-          ck_assert_msg(error <= 1e-5, "%s, slip %d, draw %d is %g off with %s",
-                        regimes_name(regime), slip, k, error, carom_isa_name((carom_isa)isa));
-        }
-        count(&alone, error);
-        carom_impact many[FILL];
-        carom_result outs[FILL];
-        for (int lane = 0; lane < FILL; lane++)
-          many[lane] = in;
-        ck_assert_int_eq(carom_collide_batch(many, FILL, &options, outs, NULL), CAROM_OK);
-        const double batch_error = result_distance(&outs[FILL - 1], &exact, in.a.radius);
-        ck_assert_msg(batch_error <= 1e-5, "%s, slip %d, draw %d is %g off in a batch",
-                      regimes_name(regime), slip, k, batch_error);
-        count(&batch, batch_error);
+        count++;
       }
     }
-  }
-  printf("%d collisions: single calls: worst %.1e, %d above 1e-6; in lanes: worst %.1e, %d above "
-         "1e-6\n",
-         alone.count, alone.worst, alone.above_1e6, batch.worst, batch.above_1e6);
   /* of 400 seeds 389 of 211,200 draws are unresolved; eight standard deviations more may be */
-  const double expected = alone.count / 543.0;
+  const double expected = count / 543.0;
   ck_assert_double_le(unresolved, expected + 8.0 * sqrt(expected));
-  ck_assert_int_le(alone.above_1e6, 2 + alone.count / 1000);
-  ck_assert_int_le(batch.above_1e6, 2 + batch.count / 1000);
   for (int k = 0; k < 3; k++)
     ck_assert_int_gt(stuck[k], 10);
-}
-
-/* Collocation and the fallback share no arithmetic, and together are what carom_collide() does.
- * Here each is asked by itself: they agree, and collocation takes what it is made for. */
-TEST(collocation_and_fallback_agree) {
-  int drawn = 0, taken = 0, apart = 0, sets = 0;
-  FOR_EACH_ISA(isa) sets++;
-  for (int regime = 0; regime < regimes_count(); regime++) {
-    lab_random rng = {test_seed() + 7000u + (uint64_t)regime};
-    for (int k = 0; k < 400; k++) {
-      const carom_slip slip = k % 2 ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER;
-      const carom_impact in = regimes_draw(regime, carom_spin_sign(slip), &rng);
-      carom_result exact, out;
-      if (carom_check(&in, NULL, NULL) != CAROM_OK ||
-          collide_precisely(&in, slip, PRECISELY, &exact) != CAROM_OK)
-        continue;
-      drawn++;
-      FOR_EACH_ISA(isa) {
-        if (carom_kernels_of_call(0)->call[CAROM_F64](&in, carom_spin_sign(slip), &out, NULL) == 0)
-          continue;
-        const double distance = result_distance(&out, &exact, in.a.radius);
-        ck_assert_msg(distance <= 1e-5, "%s, draw %d: %g apart with %s", regimes_name(regime), k,
-                      distance, carom_isa_name((carom_isa)isa));
-        taken++;
-        apart += distance > 1e-6;
-      }
-    }
-  }
-  ck_assert_int_ge(taken, drawn * sets / 2); /* the rest is strong friction, or hardly any
-                                                restitution */
-  ck_assert_int_le(apart, taken / 1000);
 }
 
 /* Real shots are not left to the fallback. */
