@@ -234,9 +234,8 @@ typedef struct carom_plan_options {
 
 /* What a candidate is. */
 typedef enum carom_plan_kind {
-  CAROM_PLAN_POT = 0,   /* a direct pot */
-  CAROM_PLAN_SCAN = 1,  /* found by the scan: a bank, a kick, a combination, a carom, a safety, a
-                          break */
+  CAROM_PLAN_POT = 0,   /* a direct pot of `ball` into `pocket` */
+  CAROM_PLAN_SCAN = 1,  /* all else: a bank, a kick, a combination, a carom, a safety, a break */
   CAROM_PLAN_FOUL = 2,  /* no shot without a foul was found; this one is gentle */
   CAROM_PLAN_GIVEN = 3, /* the caller's, of carom_plan_try() */
   CAROM_PLAN_PUSH = 4,  /* a push-out, where the rules allow one */
@@ -247,11 +246,13 @@ typedef struct carom_choice {
   carom_cue cue;
   double place[2];      /* where the cue ball lies or is put, m. */
   int32_t kind;         /* a carom_plan_kind. */
-  int32_t ball;         /* the ball that falls without errors and keeps the turn, -1 if none
-                           does; of a foul -1; CAROM_CALL_PUSH and _PASS of those kinds. So ball
-                           and pocket are the call. */
+  int32_t ball;         /* the ball that falls and keeps the turn: by rules with calls the one that
+                           falls first without errors, by others the one that does so most often
+                           with errors. -1 if none falls without errors, nor in half of the
+                           strokes with them; of a foul -1; CAROM_CALL_PUSH and _PASS of those
+                           kinds. So ball and pocket are the call. */
   int32_t pocket;       /* and its pocket, or -1. */
-  int32_t cushions;     /* impacts of that ball on cushions, without errors. */
+  int32_t cushions;     /* impacts of that ball on cushions, of one such stroke. */
   double value;         /* chance to win; without an opponent, the share of the balls that are
                            potted; 0 to 1. */
   double error;         /* its standard error. */

@@ -89,7 +89,7 @@ static size_t aim_rows(const void *context, size_t first, size_t end) {
     cue.a = c->a;
     cue.b = c->b;
     of->outcome[k] =
-        (outcome){.is = aim(of->job.table, of->job.balls, c->ball, c->phi, &of->shot, &cue)};
+        (outcome){.is = aim(of->job.table, of->job.balls, c->aimed_ball, c->phi, &of->shot, &cue)};
     c->phi = cue.phi;
   }
   return end;
@@ -111,8 +111,7 @@ void carom_search_pots(search *of, int64_t most) {
       int at = ways++; /* sorted in */
       for (; at > 0 && way[at - 1].way.chance < w.chance; at--)
         way[at] = way[at - 1];
-      way[at].way = w;
-      way[at].ball = k;
+      way[at] = (carom_pot_found){w, k, p};
     }
 
   /* The strokes in an order that is drawn, so that few of them are of all kinds. */
@@ -139,7 +138,8 @@ void carom_search_pots(search *of, int64_t most) {
                       .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
                       .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
                       .kind = CAROM_PLAN_POT,
-                      .ball = way[w].ball});
+                      .aimed_ball = (int16_t)way[w].ball,
+                      .aimed_pocket = (int16_t)way[w].pocket});
     }
 
   /* those that cannot be aimed are dropped */

@@ -39,11 +39,12 @@ static carom_cue stroke(const search *of, const candidate *c, uint32_t draws, in
   return cue;
 }
 
-/* The pot that a shot made, which a candidate calls: of the balls that were on, the first that
- * fell. */
+/* The pot that a shot made: the first ball that fell into a pocket that counts. Where shots are
+ * called it is one of the balls that were on, and the candidate calls it. */
 static carom_call call_of(const search *of, const carom_facts *facts) {
   carom_call call = {-1, -1};
-  const uint32_t down = facts->down & of->on;
+  const uint32_t all = ~(UINT32_C(1) << of->view.cue_ball);
+  const uint32_t down = facts->down & (of->job.rules->calls ? of->on : all);
   for (int k = 0; down >> k != 0; k++)
     if ((down >> k & 1) && (of->pockets >> facts->pocket[k] & 1) &&
         (call.ball < 0 || facts->pocket_time[k] < facts->pocket_time[call.ball]))
@@ -64,7 +65,7 @@ static outcome judge(const search *of, const carom_facts *facts, carom_ball_stat
   const carom_plan_rules *rules = of->job.rules;
   facts = status < 0 ? &carom_no_facts : facts; /* an error tells nothing: a foul */
   const carom_call call = c->kind == CAROM_PLAN_PUSH ? (carom_call){CAROM_CALL_PUSH, -1}
-                          : errors                   ? (carom_call){c->ball, c->pocket}
+                          : errors && rules->calls   ? (carom_call){c->ball, c->pocket}
                                                      : call_of(of, facts);
   uint64_t user[8];
   memcpy(user, rules->user, sizeof user);

@@ -29,13 +29,28 @@ static void lead(search *of, int64_t k) {
   }
 }
 
+static void name(candidate *c, const outcome *o) {
+  c->ball = o->ball;
+  c->pocket = o->pocket;
+  c->cushions = o->cushions;
+}
+
+/* Where nothing is called, the pot that is named is the one that comes most often, by the vote of
+ * R. S. Boyer and J S. Moore: with more than half of the pots, it is sure to be named. */
+static void vote(candidate *c, const outcome *o) {
+  if (o->ball < 0)
+    return;
+  if (c->votes == 0)
+    name(c, o);
+  c->votes += o->ball == c->ball && o->pocket == c->pocket ? 1 : -1;
+}
+
 void carom_search_take(search *of, int64_t k, const outcome *o) {
   candidate *c = &of->found[k];
   c->sum = o->worth;
   c->seen = 1;
-  c->ball = o->ball;
-  c->pocket = o->pocket;
-  c->cushions = o->cushions;
+  name(c, o);
+  c->votes = c->pots = o->ball >= 0;
   c->foul = o->foul;
   lead(of, k);
 }
@@ -67,6 +82,8 @@ void carom_search_add_up(search *of, int64_t n, int64_t each, uint32_t draws) {
     }
     for (int64_t j = 0; j < each; j++) {
       const outcome *o = &of->outcome[k * each + j];
+      if (!of->job.rules->calls && c->kind != CAROM_PLAN_PUSH)
+        vote(c, o);
       c->sum += o->worth;
       c->squares += o->worth * o->worth;
       c->keep += o->is == CAROM_TURN_KEEP || o->is == CAROM_TURN_WIN;
@@ -135,12 +152,15 @@ static candidate gentle(const search *of) {
 carom_choice carom_search_choice(const search *of, const candidate *c) {
   const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
   const double *place = of->job.balls[of->view.cue_ball].state.r;
+  /* luck alone names no pot, and a direct pot is that of the ball that was aimed at */
+  const bool named = c->ball < 0 || c->pots || 2 * c->keep >= c->seen;
+  const bool aimed = named && c->ball == c->aimed_ball && c->pocket == c->aimed_pocket;
   carom_choice made = {.cue = *of->job.cue,
                        .place = {place[0], place[1]},
-                       .kind = c->kind,
-                       .ball = c->ball,
-                       .pocket = c->pocket,
-                       .cushions = c->cushions,
+                       .kind = c->kind == CAROM_PLAN_POT && !aimed ? CAROM_PLAN_SCAN : c->kind,
+                       .ball = named ? c->ball : -1,
+                       .pocket = named ? c->pocket : -1,
+                       .cushions = named ? c->cushions : 0,
                        .value = mean,
                        .error = c->seen > 1 && variance > 0.0 ? sqrt(variance / (n - 1.0)) : 0.0,
                        .keep = (double)c->keep / n,

@@ -18,7 +18,12 @@ typedef struct carom_candidate {
                           without */
   int64_t seen;
   int64_t keep, foul, lose; /* how often */
-  int32_t kind, ball, pocket, cushions, order, round;
+  int32_t order;
+  int32_t votes; /* for the pot that is named, of rules without calls */
+  int16_t kind, round;
+  int16_t aimed_ball, aimed_pocket; /* of a direct pot */
+  int16_t ball, pocket, cushions;   /* of the pot that is named, */
+  int16_t pots;                     /* and whether there is one without errors */
 } carom_candidate;
 
 /* Of a row. */
@@ -32,7 +37,7 @@ typedef struct carom_outcome {
 /* A direct pot that is a candidate. */
 typedef struct carom_pot_found {
   carom_way way;
-  int ball;
+  int ball, pocket;
 } carom_pot_found;
 
 /* A place of a cue ball in hand, and the value of the layout with it. */
