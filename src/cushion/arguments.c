@@ -1,6 +1,7 @@
 /* The one place where the arguments of an impact on a cushion are checked, by the conditions of
  * the comments in carom_shot.h.
  */
+#include "about/numbers.h"
 #include "cushion/models.h"
 #include "platform/ranges.h"
 
@@ -19,7 +20,7 @@ _Static_assert(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 double
 #define FIELD(member) ((int)(offsetof(carom_cushion_impact, member) / sizeof(double)))
 
 carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
-  if (carom_cushion_model_name(opt->model) == NULL)
+  if ((uint32_t)opt->model >= CAROM_CUSHION_MODEL_COUNT)
     return CAROM_ERROR_CUSHION_MODEL;
   if (opt->steps < 0)
     return CAROM_ERROR_STEPS;
@@ -35,23 +36,10 @@ carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
     return CAROM_ERROR_CUSHION_LAW;
   if (!carom_is_not_negative(opt->least_step))
     return CAROM_ERROR_LEAST_STEP;
-  const carom_cushion_numbers numbers = {CAROM_CUSHION_NUMBERS_OF(opt)};
-  return carom_cushion_check_numbers(&numbers);
-}
-
-carom_status carom_cushion_check_numbers(const carom_cushion_numbers *n) {
-#define RANGE(of, member, low, high, error) {low, high, CAROM_ERROR_##error},
-  static const carom_range range[] = {CAROM_CUSHION_NUMBERS(RANGE, )};
-#undef RANGE
-  const double *x = (const double *)n;
-  for (size_t k = 0; k < sizeof range / sizeof range[0]; k++)
-    if (!(x[k] == 0 || (x[k] >= range[k].low && x[k] <= range[k].high)))
-      return range[k].error;
-
-  /* the numbers of the smooth law are given together, or none of them */
-  const bool given = n->smooth_x > 0 && n->smooth_t > 0;
-  const bool none = n->smooth_x == 0 && n->smooth_t == 0 && n->smooth_a == 0 && n->smooth_k == 0;
-  return (n->smooth_q > 0 ? given : none) ? CAROM_OK : CAROM_ERROR_SMOOTH;
+  const carom_cushion_options *k = opt;
+  CAROM_NUMBERS(CAROM_NO_ROW, CAROM_CHECK_NUMBER)
+  CAROM_CONDITIONS(CAROM_NO_ROW, CAROM_CHECK_CONDITION)
+  return CAROM_OK;
 }
 
 static const carom_range of_field[FIELDS] = {

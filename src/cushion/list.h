@@ -1,11 +1,9 @@
-/* The models of an impact on a cushion, and their numbers: each stands here once. README.md in this
- * folder says how to add one. */
+/* The models of an impact on a cushion: each stands here once. README.md in this folder says how to
+ * add one; about/numbers.h has their numbers. */
 #ifndef CAROM_SRC_CUSHION_LIST_H
 #define CAROM_SRC_CUSHION_LIST_H
 
 #include "about/sources.h"
-
-#include <float.h>
 
 /* X(NAME, name, impact, flight, rows, sources, text). In `impact` and `flight`, `c` is the contact
  * and `opt` are the options.
@@ -35,23 +33,6 @@
     "Mathavan's model in N steps")                                                             \
   X(SMOOTH, "smooth", carom_smooth(c, opt), carom_han_friction(c, v_n, slip), 512,             \
     CAROM_BY_HAN2005 | CAROM_BY_THREECUSHIONTOOL, "a closed form read off recorded impacts")
-
-/* X(of, member, low, high, ERROR): the numbers that carom_cushion_options and carom_ball_kind
- * have both. Each is 0 or within the range, to which both ends belong. They stand in the order of
- * carom_cushion_options, as C++ asks of designators. `of` is passed on. */
-#define CAROM_CUSHION_NUMBERS(X, of)                                \
-  X(of, omega_ratio, 1 + DBL_EPSILON, 2 - DBL_EPSILON, OMEGA_RATIO) \
-  X(of, smooth_q, 1e-12, 0.5, SMOOTH)                               \
-  X(of, smooth_x, 0, 2, SMOOTH)                                     \
-  X(of, smooth_t, 0, 2, SMOOTH)                                     \
-  X(of, smooth_a, 0, 1, SMOOTH)                                     \
-  X(of, smooth_k, 0, 1, SMOOTH)                                     \
-  X(of, restitution_log, -1, 1, SPEED_LOG)                          \
-  X(of, mu_log, -1, 1, SPEED_LOG)
-
-/* The initialisers of all numbers from those of another struct. */
-#define CAROM_CUSHION_NUMBER(of, member, low, high, error) .member = (of)->member,
-#define CAROM_CUSHION_NUMBERS_OF(of) CAROM_CUSHION_NUMBERS(CAROM_CUSHION_NUMBER, of)
 
 #define CAROM_CUSHION_ONE(...) +1
 enum { CAROM_CUSHION_MODEL_COUNT = 0 CAROM_CUSHION_MODELS(CAROM_CUSHION_ONE) };

@@ -105,16 +105,6 @@ carom_impulse carom_mathavan_impulse(const carom_contact *contact, const carom_t
 /* CAROM_OK, or the error of the first option at fault. */
 carom_status carom_cushion_check_options(const carom_cushion_options *opt);
 
-/* The numbers of the models, those of options and those of a kind of ball. */
-#define MEMBER(of, member, ...) double member;
-typedef struct carom_cushion_numbers {
-  CAROM_CUSHION_NUMBERS(MEMBER, )
-} carom_cushion_numbers;
-#undef MEMBER
-
-/* CAROM_OK, or the error of the first number at fault. */
-carom_status carom_cushion_check_numbers(const carom_cushion_numbers *numbers);
-
 /* CAROM_OK, or the error of the first field at fault; `*field` is its index. */
 carom_status carom_cushion_check_impact(const carom_cushion_impact *in, int *field);
 

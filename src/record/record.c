@@ -5,6 +5,7 @@
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
  * that default, and a reader begins with it. Every other key is refused, and every one that comes
  * twice. */
+#include "about/numbers.h"
 #include "carom_record.h"
 #include "platform/arithmetic.h"
 #include "platform/fingerprint.h"
@@ -49,42 +50,12 @@ static const field pocket_fields[] = {DS(carom_pocket, centre, 2), D(carom_pocke
 static const field state_fields[] = {DS(carom_ball_state, r, 3), DS(carom_ball_state, v, 3),
                                      DS(carom_ball_state, w, 3), L(carom_ball_state, label), END};
 
-#define K(name) \
-  { #name, DOUBLE, false, 1, offsetof(carom_shot_ball, kind.name), 0, 0, NULL }
 #define S(name, n, type) \
   { #name, type, false, n, offsetof(carom_shot_ball, state.name), 0, 0, NULL }
-static const field ball_fields[] = {K(mass),
-                                    K(radius),
-                                    K(mu_slide),
-                                    K(mu_roll),
-                                    K(mu_spin),
-                                    K(mu_ball),
-                                    K(restitution),
-                                    K(mu_cushion),
-                                    K(restitution_cushion),
-                                    K(gravity),
-                                    K(drag),
-                                    K(roll_loss),
-                                    K(law_a),
-                                    K(law_b),
-                                    K(law_c),
-                                    K(nose_height),
-                                    K(omega_ratio),
-                                    K(restitution_table),
-                                    K(modulus),
-                                    K(restitution_log),
-                                    K(mu_log),
-                                    K(smooth_q),
-                                    K(smooth_x),
-                                    K(smooth_t),
-                                    K(smooth_a),
-                                    K(smooth_k),
-                                    S(r, 3, DOUBLE),
-                                    S(v, 3, DOUBLE),
-                                    S(w, 3, DOUBLE),
-                                    S(label, 1, INT64),
-                                    END};
-_Static_assert(sizeof(carom_ball_kind) == 26 * sizeof(double), "a key for each constant of a ball");
+#define KIND(member, ...) \
+  {#member, DOUBLE, false, 1, offsetof(carom_shot_ball, kind.member), 0, 0, NULL},
+static const field ball_fields[] = {CAROM_NUMBERS(KIND, KIND) S(r, 3, DOUBLE), S(v, 3, DOUBLE),
+                                    S(w, 3, DOUBLE), S(label, 1, INT64), END};
 
 /* Of the record itself: a key and the member of carom_record that it is. */
 #define R(key, type, always, n, member) \

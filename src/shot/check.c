@@ -1,6 +1,7 @@
 /* The one place where the arguments of a shot are checked, by the conditions of the comments in
  * carom_shot.h: the table and the options once for a batch; a layout, its cue, and whether the
  * table suits the radius of its balls, for each. */
+#include "about/numbers.h"
 #include "cushion/models.h"
 #include "friction/laws.h"
 #include "motion/strike.h"
@@ -10,9 +11,6 @@
 #include <stddef.h>
 #include <string.h>
 
-static bool friction(double x) {
-  return x > 0.0 && x <= 1.0;
-}
 static bool is_flat(const carom_shot_options *o) {
   return carom_rules_of(o->world)->flat || o->space == CAROM_SPACE_FLAT;
 }
@@ -68,35 +66,9 @@ static carom_status prepare_for(const carom_table *t, carom_layout layout, int c
 }
 
 static carom_status check_kind(const carom_ball_kind *k) {
-  if (!carom_is_positive(k->mass))
-    return CAROM_ERROR_MASS;
-  if (!carom_is_positive(k->radius))
-    return CAROM_ERROR_RADIUS;
-  if (!friction(k->mu_slide) || !friction(k->mu_roll) || !friction(k->mu_spin))
-    return CAROM_ERROR_MU_MOTION;
-  if (!carom_in_unit_interval(k->drag))
-    return CAROM_ERROR_DRAG;
-  if (!carom_in_unit_interval(k->mu_ball) ||
-      !(k->law_a >= 0.0 && k->law_b >= 0.0 && k->law_a + k->law_b <= 1.0) ||
-      !(k->law_c >= 0.0 && k->law_c < INFINITY))
-    return CAROM_ERROR_MU_BALL;
-  const bool slate =
-      k->restitution_table == -1.0 || (k->restitution_table >= 0.0 && k->restitution_table <= 0.98);
-  if (!carom_in_unit_interval(k->restitution) || !carom_in_unit_interval(k->restitution_cushion) ||
-      !slate)
-    return CAROM_ERROR_RESTITUTION;
-  if (!carom_in_unit_interval(k->mu_cushion))
-    return CAROM_ERROR_MU_CUSHION;
-  if (!carom_in_unit_interval(k->roll_loss) ||
-      !(k->nose_height >= 0.0 && k->nose_height < 2.0 * k->radius))
-    return CAROM_ERROR_BALL_CUSHION;
-  const carom_cushion_numbers numbers = {CAROM_CUSHION_NUMBERS_OF(k)};
-  const carom_status bad = carom_cushion_check_numbers(&numbers);
-  if (bad != CAROM_OK)
-    return bad;
-  if (!(k->modulus == 0.0 || (k->modulus >= 1e6 && k->modulus <= 1e15)))
-    return CAROM_ERROR_MODULUS;
-  return k->gravity > 0.0 && k->gravity <= 1e6 ? CAROM_OK : CAROM_ERROR_GRAVITY;
+  CAROM_NUMBERS(CAROM_CHECK_NUMBER, CAROM_CHECK_NUMBER)
+  CAROM_CONDITIONS(CAROM_CHECK_CONDITION, CAROM_CHECK_CONDITION)
+  return CAROM_OK;
 }
 
 static bool bounded(const double x[3], double most) {

@@ -1,5 +1,6 @@
 /* Collisions of balls with each other and with cushions, by the model that the options ask for. */
 #include "cushion/models.h"
+#include "about/numbers.h"
 #include "friction/laws.h"
 #include "shot/fixed.h"
 #include "shot/rules.h"
@@ -201,12 +202,15 @@ static double own_or(double own, double of_ball) {
 }
 
 static carom_cushion_options cushion_options(const carom_sim *sim, const carom_ball_kind *kind) {
-  return (carom_cushion_options){.model = carom_cushion_model_of(sim->rules, sim->opt),
-                                 .convention = sim->rules->convention,
-                                 .steps = sim->opt->steps,
-                                 .plain = sim->opt->plain,
-                                 .least_step = sim->rules->least_step,
-                                 CAROM_CUSHION_NUMBERS_OF(kind)};
+  carom_cushion_options options = {.model = carom_cushion_model_of(sim->rules, sim->opt),
+                                   .convention = sim->rules->convention,
+                                   .steps = sim->opt->steps,
+                                   .plain = sim->opt->plain,
+                                   .least_step = sim->rules->least_step};
+#define COPY(member, ...) options.member = kind->member;
+  CAROM_NUMBERS(CAROM_NO_ROW, COPY)
+#undef COPY
+  return options;
 }
 
 /* Friction's impulse over the mass on a ball in flight. */

@@ -862,8 +862,8 @@ carom_status carom_tangent_of_cushion(const carom_cushion_impact *in,
   options.steps = opt->steps;
   options.plain = opt->plain;
   options.least_step = opt->least_step;
-#define COPY(of, member, ...) options.member = of->member;
-  CAROM_CUSHION_NUMBERS(COPY, opt)
+#define COPY(member, ...) options.member = opt->member;
+  CAROM_NUMBERS(CAROM_NO_ROW, COPY)
 #undef COPY
   watched = {true, *note};
   const text::carom_status status = text::carom_cushion(&impact, &options, &out);

@@ -5,6 +5,7 @@
  * of the exact model call the precise solver here, by carom_trace() (the linker wraps
  * carom_collide()). */
 #define _POSIX_C_SOURCE 200809L
+#include "about/numbers.h"
 #include "cushion/list.h"
 #include "tangent_support.h"
 
@@ -486,10 +487,10 @@ END_TEST
 /* Numbers of the models within their ranges, and near 0 where 0 is inside, so that restitution
  * seldom reaches 1. */
 static void draw_numbers(random_source *random, carom_cushion_options *options) {
-#define DRAW(of, member, low, high, error)                       \
-  (of)->member = (low) < 0 ? random_between(random, -0.03, 0.03) \
-                           : (low) + random_between(random, 0.1, 0.9) * ((high) - (low));
-  CAROM_CUSHION_NUMBERS(DRAW, options)
+#define DRAW(member, key, unit, low, high, ...)                     \
+  options->member = (low) < 0 ? random_between(random, -0.03, 0.03) \
+                              : (low) + random_between(random, 0.1, 0.9) * ((high) - (low));
+  CAROM_NUMBERS(CAROM_NO_ROW, DRAW)
 #undef DRAW
 }
 

@@ -25,7 +25,7 @@ ALLOWED = {
     "src/shot": ("include", "src/platform", "src/about", "src/friction", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/table"),
     "src/tangent": ("include", "src/platform", "src/about", "src/friction", "src/impact", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/shot", "src/table"),
     "src/plan": ("include", "src/platform", "src/shot", "src/table"),
-    "src/record": ("include", "src/platform"),
+    "src/record": ("include", "src/platform", "src/about"),
     "src": ("include", "src/platform"),
     "cli": ("include",),
     "examples": ("include",),

@@ -3,6 +3,7 @@
  * finite with a status that is no error, or is with one that is; a batch with other bits than
  * calls; bytes written beside the results; a trace or a derivative that does not fit. Crashes,
  * hangs and undefined behaviour are for the fuzzer and the sanitizers to see. */
+#include "about/numbers.h"
 #include "carom_tangent.h"
 #include "cushion/list.h"
 #include "draws.h"
@@ -205,9 +206,9 @@ static void cushion(void) {
                              .steps = choice(16) == 0 ? -choice(3) : 1 + choice(200),
                              .least_step = choice(8) == 0 ? number(0, 0.001) : 0,
                              .plain = choice(2)};
-#define DRAW(of, member, low, high, error) of.member = number(low, high);
+#define DRAW(member, key, unit, low, high, ...) o.member = number(low, high);
   if (choice(8) == 0) {
-    CAROM_CUSHION_NUMBERS(DRAW, o)
+    CAROM_NUMBERS(CAROM_NO_ROW, DRAW)
   }
 #undef DRAW
   reserve(&o.reserved[choice(4)]);

@@ -1,5 +1,6 @@
 /* Bad input of the cushion: each number and each option at fault gets its own status, and hangs
  * nothing. */
+#include "about/numbers.h"
 #include "cushion/models.h"
 #include "support.h"
 
@@ -105,7 +106,7 @@ TEST(each_number_is_checked) {
   const carom_shot_ball fit = {.kind = carom_ball_kind_of(CAROM_GAME_POOL),
                                .state = {.r = {0.5, 1, 0.028575}}};
   ck_assert_int_eq(carom_shot_check(&table, &fit, 1, NULL, NULL, NULL), CAROM_OK);
-#define CHECK(of, member, low, high, error)                                                      \
+#define CHECK(member, key, unit, low, high, other, error, ...)                                   \
   for (int k = 0; k < 3; k++) {                                                                  \
     const double value = k == 0   ? NAN                                                          \
                          : k == 1 ? nextafter(high, INFINITY)                                    \
@@ -117,7 +118,7 @@ TEST(each_number_is_checked) {
     expect(&in, &options, CAROM_ERROR_##error, -1);                                              \
     ck_assert_int_eq(carom_shot_check(&table, &ball, 1, NULL, NULL, NULL), CAROM_ERROR_##error); \
   }
-  CAROM_CUSHION_NUMBERS(CHECK, )
+  CAROM_NUMBERS(CAROM_NO_ROW, CHECK)
 #undef CHECK
   const carom_cushion_options thin = {.smooth_q = 1e-13, .smooth_x = 1, .smooth_t = 1};
   expect(&in, &thin, CAROM_ERROR_SMOOTH, -1);

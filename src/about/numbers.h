@@ -1,0 +1,102 @@
+/* The numbers of a ball and of its cushions, in the order of carom_ball_kind: one row each. Checks,
+ * faults, keys of files and recordings, and copies between structs are made of these rows.
+ *
+ * BALL(member, key, unit, low, high, other, ERROR, READER, text), or CUSHION(...) where
+ * carom_cushion_options has the member too.
+ *
+ * key:    in files of `carom shoot`.
+ * low, high: both ends belong to the range.
+ * other:  a value beside the range; NAN: there is none. Where it is 0, that is a default.
+ * ERROR:  the status of a number that is neither.
+ * READER: ALWAYS, BY_CUSHION(MODEL) or BY_FRICTION(LAW): what reads it. WITH(MODEL, number): a
+ *         cushion too, and where that other number is 0, this one must be 0.
+ *
+ * Every argument is a name, a number or a text, or CAROM_ABOVE() or CAROM_BELOW() of one, which are
+ * the next doubles: scripts read it. */
+#ifndef CAROM_SRC_ABOUT_NUMBERS_H
+#define CAROM_SRC_ABOUT_NUMBERS_H
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+
+#define CAROM_ABOVE(x) ((x) == 0 ? DBL_TRUE_MIN : (x) * (1 + DBL_EPSILON))
+#define CAROM_BELOW(x) ((x) * (1 - DBL_EPSILON / 2))
+
+#define CAROM_NUMBERS(BALL, CUSHION)                                                            \
+  BALL(mass, "m", "kg", CAROM_ABOVE(0), DBL_MAX, NAN, MASS, ALWAYS, "mass")                     \
+  BALL(radius, "R", "m", CAROM_ABOVE(0), DBL_MAX, NAN, RADIUS, ALWAYS, "radius")                \
+  BALL(mu_slide, "u_s", "", CAROM_ABOVE(0), 1, NAN, MU_MOTION, ALWAYS,                          \
+       "sliding friction of ball and cloth")                                                    \
+  BALL(mu_roll, "u_r", "", CAROM_ABOVE(0), 1, NAN, MU_MOTION, ALWAYS, "rolling resistance")     \
+  BALL(mu_spin, "u_sp", "", CAROM_ABOVE(0), 1, NAN, MU_MOTION, ALWAYS,                          \
+       "friction of the ball turning on the spot")                                              \
+  BALL(mu_ball, "u_b", "", 0, 1, NAN, MU_BALL, BY_FRICTION(CONSTANT), "friction between balls") \
+  BALL(restitution, "e_b", "", 0, 1, NAN, RESTITUTION, ALWAYS, "restitution of two balls")      \
+  BALL(mu_cushion, "f_c", "", 0, 1, NAN, MU_CUSHION, ALWAYS, "friction of ball and cushion")    \
+  BALL(restitution_cushion, "e_c", "", 0, 1, NAN, RESTITUTION, ALWAYS,                          \
+       "restitution of ball and cushion")                                                       \
+  BALL(gravity, "g", "m/s^2", CAROM_ABOVE(0), 1e6, NAN, GRAVITY, ALWAYS, "gravity")             \
+  BALL(drag, "drag", "1/m", 0, 1, NAN, DRAG, ALWAYS,                                            \
+       "deceleration of a rolling ball over the square of its speed")                           \
+  BALL(roll_loss, "roll_loss", "", 0, 1, NAN, BALL_CUSHION, ALWAYS,                             \
+       "part of the speed along a cushion that an impact takes from the roll along it")         \
+  BALL(law_a, "law_a", "", 0, 1, NAN, MU_BALL, BY_FRICTION(ALCIATORE),                          \
+       "friction between balls at great slips; law_a, law_b and law_c 0: carom_alciatore()")    \
+  BALL(law_b, "law_b", "", 0, 1, NAN, MU_BALL, BY_FRICTION(ALCIATORE),                          \
+       "by how much friction between balls is greater at small slips")                          \
+  BALL(law_c, "law_c", "s/m", 0, DBL_MAX, NAN, MU_BALL, BY_FRICTION(ALCIATORE),                 \
+       "how fast friction between balls falls with the slip")                                   \
+  BALL(nose_height, "nose_height", "m", 0, DBL_MAX, NAN, BALL_CUSHION, ALWAYS,                  \
+       "height of the noses of all cushions above the cloth; 0: those of the table")            \
+  CUSHION(omega_ratio, "omega_ratio", "", CAROM_ABOVE(1), CAROM_BELOW(2), 0, OMEGA_RATIO,       \
+          BY_CUSHION(STRONGE),                                                                  \
+          "frequency of the nose along its surface over that across it; 0: 1.8")                \
+  BALL(restitution_table, "e_t", "", 0, 0.98, -1, RESTITUTION, ALWAYS,                          \
+       "restitution of ball and slate; 0: 0.5; -1: none")                                       \
+  BALL(modulus, "modulus", "Pa", 1e6, 1e15, 0, MODULUS, ALWAYS,                                 \
+       "E/(1 - nu^2) of the ball, for contacts that last; 0: 6.6e9")                            \
+  CUSHION(restitution_log, "e_c_log", "", -1, 1, NAN, SPEED_LOG, ALWAYS,                        \
+          "change of the cushion's restitution for each unit of ln(speed)")                     \
+  CUSHION(mu_log, "f_c_log", "", -1, 1, NAN, SPEED_LOG, ALWAYS,                                 \
+          "change of the cushion's friction for each unit of ln(speed)")                        \
+  CUSHION(smooth_q, "smooth_q", "", 1e-12, 0.5, 0, SMOOTH, BY_CUSHION(SMOOTH),                  \
+          "width of the passage from sticking to sliding; 0: all numbers as on one table")      \
+  CUSHION(smooth_x, "smooth_x", "", 0, 2, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
+          "part of the slip along the cushion that friction takes")                             \
+  CUSHION(smooth_t, "smooth_t", "", 0, 2, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
+          "part of the slip across the cushion that friction takes")                            \
+  CUSHION(smooth_a, "smooth_a", "", 0, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
+          "how much farther friction across the cushion reaches")                               \
+  CUSHION(smooth_k, "smooth_k", "", 0, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
+          "part of the impulse that the rebound gains where friction is used up")
+
+/* Conditions on several numbers of `k`, each of which is within its range: BALL(member to blame,
+ * condition, ERROR, text) or CUSHION(...), as above. The text says what the member must be. */
+#define CAROM_CONDITIONS(BALL, CUSHION)                                                          \
+  BALL(law_b, k->law_a + k->law_b <= 1.0, MU_BALL, "at most 1 - law_a")                          \
+  BALL(nose_height, k->nose_height < 2.0 * k->radius, BALL_CUSHION, "below 2 R")                 \
+  CUSHION(smooth_x, (k->smooth_q > 0) <= (k->smooth_x > 0), SMOOTH, "above 0 where smooth_q is") \
+  CUSHION(smooth_t, (k->smooth_q > 0) <= (k->smooth_t > 0), SMOOTH, "above 0 where smooth_q is")
+
+/* For the rows that are not wanted. */
+#define CAROM_NO_ROW(...)
+
+/* Whether a member of `k` is right by its row, without the conditions. */
+#define CAROM_IS_RIGHT(member, low, high, other, reader)                    \
+  (((k->member >= (low) && k->member <= (high)) || k->member == (other)) && \
+   (CAROM_GIVEN_##reader || k->member == 0))
+#define CAROM_GIVEN_ALWAYS true
+#define CAROM_GIVEN_BY_CUSHION(model) true
+#define CAROM_GIVEN_BY_FRICTION(law) true
+#define CAROM_GIVEN_WITH(model, number) k->number > 0
+
+/* Returns the error of the first number of `k` at fault. */
+#define CAROM_CHECK_NUMBER(member, key, unit, low, high, other, error, reader, text) \
+  if (!CAROM_IS_RIGHT(member, low, high, other, reader))                             \
+    return CAROM_ERROR_##error;
+#define CAROM_CHECK_CONDITION(member, holds, error, text) \
+  if (!(holds))                                           \
+    return CAROM_ERROR_##error;
+
+#endif
