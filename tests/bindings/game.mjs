@@ -92,7 +92,7 @@ const hex = (hash) => hash.toString(16).padStart(16, "0");
 
 const kindKeys = Object.keys(carom.kind("pool"));
 let shots = 0;
-let game = 0n;
+let game = 0n; // the hash of the lines so far
 let table, balls;
 for (const line of readFileSync(process.argv[2], "utf8").trim().split("\n")) {
   // A negative zero is -0 for JSON.parse() too.
@@ -120,6 +120,7 @@ for (const line of readFileSync(process.argv[2], "utf8").trim().split("\n")) {
     const played = fingerprint(fingerprint(begun, [BigInt(status), BigInt(shot.events.length), bitsOf(shot.time)]), words);
     if (shot.status !== "ok" || status !== 0 || hex(played) !== hash) throw new Error(`shot ${shots + 1} has other bits than were recorded`);
     shots++;
+    game = played;
     balls = balls.map(({ kind: of }, k) => ({ kind: of, state: shot.final[k] }));
   } else if (kind === "end" && (given.shots !== shots || given.hash !== hex(game))) throw new Error("the hash of the game is another one");
 }

@@ -36,7 +36,7 @@ class End:
     status: Status
     events: int  # their number
     time: float  # s
-    hash: int  # of these and of all final states
+    hash: int  # of the lines so far, the stroke, these and all final states
 
 
 @dataclass(frozen=True)
