@@ -23,7 +23,6 @@
 #include <string.h>
 
 enum { LINKS = CAROM_VIA_MOST + 1, EVENTS = 96, SAMPLES = 180, HALVINGS = 48 };
-static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
 static const carom_shot_options no_options;
 /* a part of the time since the start: a velocity before an event is taken so much earlier */
 static const double just_before = 1e-6;

@@ -10,8 +10,6 @@ typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;
 
-static const double degree = 3.14159265358979323846 / 180.0;
-
 enum { TIPS = 5, POT_SPEEDS = 6, SCAN_SPEEDS = 5, STROKES = TIPS * POT_SPEEDS };
 /* m/s and radii, from the prototype */
 static const double pot_speed[POT_SPEEDS] = {0.8, 1.2, 1.7, 2.4, 3.4, 4.8};

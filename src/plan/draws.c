@@ -6,8 +6,6 @@
 
 #include <math.h>
 
-static const double pi = 3.14159265358979323846;
-
 double carom_angle_of(double x, double y) {
   if (x == 0.0 && y == 0.0)
     return 0.0;

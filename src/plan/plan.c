@@ -14,6 +14,7 @@
  * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
  * threads and added up in their order, so no bit of a sum depends on threads. */
 #include "plan/search.h"
+#include "platform/ranges.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -33,13 +34,10 @@ enum { SHOTS_USUAL = 2000, SHOTS_LEAST = 100, SHOTS_MOST = 1000000, SPARE = 160 
 static const double player_most = 1000.0; /* of each number of a player */
 
 static bool good_options(const carom_plan_options *o) {
-  bool reserved = o->unused != 0;
-  for (size_t k = 0; k < sizeof o->reserved / sizeof o->reserved[0]; k++)
-    reserved |= o->reserved[k] != 0;
-  return !reserved && (o->shots == 0 || (o->shots >= SHOTS_LEAST && o->shots <= SHOTS_MOST)) &&
-         o->scan <= 0.9 && (o->threads >= 0 || o->threads == CAROM_ALL_THREADS) &&
-         o->chance_me >= 0.0 && o->chance_me <= 1.0 && o->chance_opponent >= 0.0 &&
-         o->chance_opponent <= 1.0;
+  return o->unused == 0 && CAROM_RESERVED_IS_ZERO(o) &&
+         (o->shots == 0 || (o->shots >= SHOTS_LEAST && o->shots <= SHOTS_MOST)) && o->scan <= 0.9 &&
+         (o->threads >= 0 || o->threads == CAROM_ALL_THREADS) && o->chance_me >= 0.0 &&
+         o->chance_me <= 1.0 && o->chance_opponent >= 0.0 && o->chance_opponent <= 1.0;
 }
 
 static bool good_player(const carom_player *p) {
@@ -130,12 +128,11 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
     return CAROM_ERROR_NULL;
   const carom_plan_options *options = job->options != NULL ? job->options : &no_options;
   const carom_plan_rules *rules = job->rules;
-  bool good = good_options(options) && good_player(job->player) &&
-              (options->opponent == NULL || good_player(options->opponent)) && rules->on != NULL &&
-              rules->judge != NULL && rules->left != NULL && rules->unused == 0 &&
-              (uint32_t)rules->race <= CAROM_RACE_ALONE;
-  for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
-    good &= job->reserved[k] == 0;
+  const bool good = good_options(options) && good_player(job->player) &&
+                    (options->opponent == NULL || good_player(options->opponent)) &&
+                    rules->on != NULL && rules->judge != NULL && rules->left != NULL &&
+                    rules->unused == 0 && (uint32_t)rules->race <= CAROM_RACE_ALONE &&
+                    CAROM_RESERVED_IS_ZERO(job);
   if (!good)
     return CAROM_ERROR_OPTIONS;
   if (job->count < 2 || job->count > CAROM_BALLS_MOST)

@@ -9,8 +9,6 @@ typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;
 
-static const double degree = 3.14159265358979323846 / 180.0;
-
 enum { ROUNDS = 4 };
 
 static bool is_better(const candidate *a, const candidate *b) {

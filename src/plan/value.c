@@ -32,7 +32,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
 const carom_facts carom_no_facts = {.first = {-1, -1}};
 
 uint32_t carom_in_play(const carom_ball_state *balls, int count) {
@@ -228,8 +227,8 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
     return way;
 
   /* Whether something is in the way takes longest, and is asked last. */
-  const double aim = view->sigma[who] * d / (both * cut), throw = 1.5 * pi / 180.0;
-  const double error = sqrt(aim * aim + throw *throw *(1.2 - cut));
+  const double aim = view->sigma[who] * d / (both * cut), by_throw = 1.5 * pi / 180.0;
+  const double error = sqrt(aim * aim + by_throw * by_throw * (1.2 - cut));
   const double chance = carom_erf(way.half / (error * 1.4142135623730951));
   if (chance > least &&
       is_clear(view, balls, in_play, o, mouth->centre, view->cue_ball, k, view->radius[k]) &&

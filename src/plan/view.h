@@ -8,6 +8,8 @@
 
 #include <stdbool.h>
 
+static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
+
 enum { MOST_LEFT = 15 }; /* balls of a player that a chain counts */
 
 /* Two jaws, between which the way into a pocket is. */

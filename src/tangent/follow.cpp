@@ -319,7 +319,7 @@ CAROM_APART void note_grazing(scene *s, real rate) {
     const real rebound = ::carom_slate_restitution(s->ball[0].kind.restitution_table.x),
                v_n = -a->v[2];
     const real up = ::carom_rebound(v_n > 0 ? v_n : 0, rebound);
-    grazes = up<GRAZING * rebound * v_n && ::carom_rebound((1 + GRAZING) * v_n, rebound)> 0;
+    grazes = GRAZING * rebound * v_n > up && ::carom_rebound((1 + GRAZING) * v_n, rebound) > 0;
   }
   s->w->note.flags |= grazes ? CAROM_TANGENT_GRAZING : 0;
 }
