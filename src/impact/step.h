@@ -458,15 +458,17 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     to.v = 0;
   else if (s->goal != AT_WORK && (s->restitution ? to.W < s->least_work : to.v < 0))
     return BEYOND_PHASE;
+  /* a slip that takes no part has no direction: the plan did not set one */
   if (s->kept != NULL)
     EACH {
       const int n = NODES / PARTS * i;
+      const part none = splat(0);
       *(part_of_row *)&s->kept->z[n] = (part_of_row)(scale * s->z[i]);
       *(part_of_row *)&s->kept->p[n] = (part_of_row)(scale * s->p[i]);
-      *(part_of_row *)&s->kept->u_x[n] = (part_of_row)c.u_x[i];
-      *(part_of_row *)&s->kept->u_y[n] = (part_of_row)c.u_y[i];
-      *(part_of_row *)&s->kept->t_x[n] = (part_of_row)c.t_x[i];
-      *(part_of_row *)&s->kept->t_y[n] = (part_of_row)c.t_y[i];
+      *(part_of_row *)&s->kept->u_x[n] = (part_of_row)(driving_slips ? c.u_x[i] : none);
+      *(part_of_row *)&s->kept->u_y[n] = (part_of_row)(driving_slips ? c.u_y[i] : none);
+      *(part_of_row *)&s->kept->t_x[n] = (part_of_row)(loaded ? c.t_x[i] : none);
+      *(part_of_row *)&s->kept->t_y[n] = (part_of_row)(loaded ? c.t_y[i] : none);
     }
   *at = to;
   return TAKEN;

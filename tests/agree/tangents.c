@@ -7,6 +7,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "about/numbers.h"
 #include "cushion/list.h"
+#include "impact/variation.h"
 #include "tangent_support.h"
 
 /* in which impacts on cushions are drawn */
@@ -720,6 +721,38 @@ START_TEST(states_at_times) {
 }
 END_TEST
 
+static void fill_stack(int byte) {
+  volatile unsigned char pages[60000];
+  for (size_t k = 0; k < sizeof pages; k++)
+    pages[k] = (unsigned char)byte;
+}
+
+/* Derivatives of an impact whose driving contact holds from the start, after the stack had zeros
+ * and after it had NaN: directions of a slip that takes no part are not read. */
+START_TEST(nothing_is_read_before_it_is_set) {
+  random_source random = {5};
+  const double s = 0.28, c = sqrt(1.0 - s * s);
+  const carom_law
+      law = {s * c, 3.5, 2.5 + s * s, 1.0 - 2.5 * s, 2.5 - s, -c,  1.0 - 2.5 * s, 2.5 - s, 3.5, s,
+             -c,    -c,  -s,          1.0,           0.2,     0.2, 0.85},
+      none = {.A_0 = 0.0};
+  for (int k = 0; k < 100; k++) {
+    const double slips[4] = {0.0, 0.0, random_between(&random, -3.0, 3.0),
+                             random_between(&random, -3.0, 3.0)};
+    carom_impact_tangent found[2];
+    for (int n = 0; n < 2; n++) {
+      void (*volatile fill)(int) = fill_stack;
+      fill(n == 0 ? 0 : 0xFF);
+      ck_assert_int_eq(
+          carom_impact_differentiate(&law, &none, slips, 0, 1u << BY_B_X | 1u << BY_E, &found[n]),
+          CAROM_OK);
+    }
+    ck_assert(!found[0].differences);
+    ck_assert_mem_eq(found[0].d, found[1].d, sizeof found[0].d);
+  }
+}
+END_TEST
+
 START_TEST(what_is_not_known_is_refused) {
   carom_shot_ball two[2] = {ball_at(0.4, 0.6), ball_at(0.55, 1.4)};
   const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
@@ -776,6 +809,7 @@ int main(void) {
       {cushions_without_slip_at_the_nose, 1},
       {pocketed_balls_do_not_change, 1},
       {states_at_times, 1},
+      {nothing_is_read_before_it_is_set, 1},
       {what_is_not_known_is_refused, 1},
       {costs, 1},
   };
