@@ -102,8 +102,10 @@ typedef struct carom_tangent {
   int32_t *flags;       /* [events]: sums of carom_tangent_flag. */
   double *reach;        /* [m], in the unit of the direction: the least change at which, to first
                            order, a ball meets something else or in another order: a hit becomes
-                           a miss, a miss a hit, two events of a ball swap. Infinite where
-                           nothing does. A tangent holds for changes well below it. Needs `time`. */
+                           a miss, a miss a hit, two events of a ball swap; or a spin about the
+                           vertical ends before a contact instead of after it, or an exact
+                           contact presses the other ball on the cloth. Infinite where nothing
+                           does. A tangent holds for changes well below it. Needs `time`. */
   double error;         /* written: the largest relative error of the derivatives that were found
                            by differences. */
   int64_t all_flags;    /* written: the flags of all events together. */
@@ -120,7 +122,8 @@ typedef struct carom_tangent {
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;
  * CAROM_ERROR_DIRECTIONS for other than 1 to 64; CAROM_ERROR_EVENTS_LOST where shot->room was
- * too small or events is NULL; CAROM_ERROR_STATE where an event cannot be one of this shot;
+ * too small or events is NULL; CAROM_ERROR_STATE where an event cannot be one of this shot, and
+ * for a shot that was refused or never played;
  * CAROM_ERROR_TIME for times that are not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for
  * a reserved field; or an error of the table or of an option. CAROM_ERROR_NO_TANGENTS from a
  * library that was built without derivatives. CAROM_ERROR_TANGENT where derivatives are not

@@ -64,9 +64,22 @@ static carom_status check_clusters(const carom_shot *shot) {
   return CAROM_OK;
 }
 
-static carom_status check(const carom_table *table, int count, const carom_cue *cue,
-                          const carom_shot_options *opt, const carom_shot *shot,
-                          const carom_tangent_seeds *seeds, const carom_tangent *tangent) {
+/* Whether a shot has been played: nothing happens only where nothing moves. */
+static bool is_played(carom_layout layout, int count, const carom_cue *cue,
+                      const carom_shot *shot) {
+  bool rests = cue == NULL;
+  for (int i = 0; i < count; i++) {
+    carom_ball_state s = *carom_state_in(layout, i);
+    const int64_t label = carom_label_of_layout(&s, carom_kind_in(layout, i)->radius);
+    rests &= label == CAROM_BALL_STATIONARY || carom_is_out(label);
+  }
+  return rests || shot->count > 0 || shot->time > 0.0;
+}
+
+static carom_status check(const carom_table *table, carom_layout layout, int count,
+                          const carom_cue *cue, const carom_shot_options *opt,
+                          const carom_shot *shot, const carom_tangent_seeds *seeds,
+                          const carom_tangent *tangent) {
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
   if (seeds->directions < 1 || seeds->directions > CAROM_DIRECTIONS_MOST)
@@ -96,7 +109,7 @@ static carom_status check(const carom_table *table, int count, const carom_cue *
     if (status != CAROM_OK)
       return status;
   }
-  return check_clusters(shot);
+  return is_played(layout, count, cue, shot) ? check_clusters(shot) : CAROM_ERROR_STATE;
 }
 
 /* ---- A pass ---- */
@@ -217,7 +230,7 @@ static carom_status shot_tangent(const carom_table *table, carom_layout layout, 
   if (tangent->final == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
-  carom_status status = check(table, count, cue, opt, shot, seeds, tangent);
+  carom_status status = check(table, layout, count, cue, opt, shot, seeds, tangent);
   if (status != CAROM_OK && status != CAROM_ERROR_TANGENT)
     return status;
   status = status == CAROM_OK ? BUILT : status;

@@ -780,6 +780,24 @@ START_TEST(what_is_not_known_is_refused) {
                    CAROM_ERROR_EVENTS_LOST);
   ck_assert_int_eq(carom_shot_tangent(table, two, 1, NULL, NULL, &shot, &seeds, &tangent),
                    CAROM_ERROR_STATE);
+  /* a shot that was refused, and one that was never played */
+  two[1].state.r[0] = two[0].state.r[0] + 0.01;
+  two[1].state.r[1] = two[0].state.r[1];
+  carom_shot refused = {.events = events, .room = ROOM};
+  ck_assert_int_eq(carom_shoot(table, two, 2, &cue, NULL, &refused), CAROM_ERROR_OVERLAP);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &refused, &seeds, &tangent),
+                   CAROM_ERROR_STATE);
+  two[1] = ball_at(0.55, 1.4);
+  two[1].state.v[0] = 0.5;
+  const carom_shot none = {.events = events, .room = ROOM};
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &none, &seeds, &tangent),
+                   CAROM_ERROR_STATE);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, NULL, NULL, &none, &seeds, &tangent),
+                   CAROM_ERROR_STATE);
+  two[1].state.v[0] = 0.0; /* nothing happens where nothing moves */
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, NULL, NULL, &none, &seeds, &tangent),
+                   CAROM_OK);
+  shot = play(table, two, 2, &cue, NULL, CAROM_OK);
   /* a kind of event that there is not */
   events[1].type = CAROM_EVENT_LEFT_TABLE + 1;
   ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, &tangent),
