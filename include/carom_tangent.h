@@ -102,10 +102,10 @@ typedef struct carom_tangent {
   int32_t *flags;       /* [events]: sums of carom_tangent_flag. */
   double *reach;        /* [m], in the unit of the direction: the least change at which, to first
                            order, a ball meets something else or in another order: a hit becomes
-                           a miss, a miss a hit, two events of a ball swap; or a spin about the
-                           vertical ends before a contact instead of after it, or an exact
-                           contact presses the other ball on the cloth. Infinite where nothing
-                           does. A tangent holds for changes well below it. Needs `time`. */
+                           a miss, a miss a hit, two events of a ball swap, or a spin about the
+                           vertical ends before a contact instead of after it. Infinite where
+                           nothing does. A tangent holds for changes well below it. Needs
+                           `time`. */
   double error;         /* written: the largest relative error of the derivatives that were found
                            by differences. */
   int64_t all_flags;    /* written: the flags of all events together. */

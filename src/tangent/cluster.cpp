@@ -5,7 +5,20 @@ extern "C" {
 }
 #include "tangent/cluster_text.h"
 
-bool carom_tangent_solve_cluster(const carom_tangent_cluster *c) {
+namespace {
+
+/* Whether a contact has no vertical friction, at most so much of its impulse, and a change brings
+ * some about: upwards it presses one of the two balls on the cloth, downwards the other. */
+bool is_level(const text::carom_cluster_contact_state &x, real most) {
+  const number &level = x.rubbed[0], &up = x.rubbed[1];
+  return __builtin_fabs(up.x) <= most * x.impulse.x &&
+         __builtin_fabs(up.d[0]) >
+             1e-9 * (__builtin_fabs(x.impulse.d[0]) + __builtin_fabs(level.d[0]));
+}
+
+} // namespace
+
+bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
   text::carom_cluster_state state;
   state.balls = c->balls;
   state.steps = c->steps;
@@ -28,6 +41,13 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c) {
   if (text::carom_cluster_members(&state, c->first, c->second) <= 0 || state.balls != c->balls ||
       !text::carom_cluster_solve(&state))
     return false;
+  /* of the contact that starts it also where its spin is that of a slide of a millimetre */
+  for (int k = 0; k < state.contacts && !state.in_space; k++) {
+    const text::carom_cluster_contact_state &x = state.contact[k];
+    const bool starts =
+        (x.i == c->first && x.j == c->second) || (x.i == c->second && x.j == c->first);
+    *kink |= is_level(x, starts ? 1e-4 : 1e-9);
+  }
   for (int k = 0; k < c->balls; k++) {
     const number *from = state.ball[k].v;
     real x[CAROM_MOTION_NUMBERS], d[CAROM_MOTION_NUMBERS];

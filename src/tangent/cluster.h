@@ -21,7 +21,8 @@ typedef struct carom_tangent_cluster {
   void *context;
 } carom_tangent_cluster;
 
-/* False where it is not the cluster of all these balls, or takes too many steps. */
-bool carom_tangent_solve_cluster(const carom_tangent_cluster *c);
+/* False where it is not the cluster of all these balls, or takes too many steps. *kink becomes
+ * true where a change to one side presses another ball on the cloth than a change to the other. */
+bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink);
 
 #endif

@@ -679,10 +679,11 @@ CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
                                       .give = give,
                                       .take = take,
                                       .context = c};
+  bool kink = false;
   for (c->direction = 0; c->direction < w->pass.columns; c->direction++)
-    if (!carom_tangent_solve_cluster(&task))
+    if (!carom_tangent_solve_cluster(&task, &kink))
       return false;
-  if (!(c->apart <= 1e-6 * c->most))
+  if (kink || !(c->apart <= 1e-6 * c->most))
     w->note.flags |= CAROM_TANGENT_KINK;
   return true;
 }

@@ -9,6 +9,8 @@
  *               derivative n . (d_b - d_a), also where a ball comes to rest short of something,
  *               or lands beside a pocket
  *     end       a ball on a rail comes to its end, where a jaw stands, or the other way round
+ *     spin      a spin about the vertical ends before a contact, or lasts until it: the spin
+ *               there over its derivative, at a fixed time of the contact
  *     hop       the last hop of a ball on the slate: its fall less the least one after which
  *               there is a hop
  *
@@ -258,6 +260,20 @@ static void cushions_missed(carom_reach *reach, const carom_tangent_ball *ball,
   }
 }
 
+/* Whether the spin of a ball on the cloth lasts until a contact. Of one that spins not, a change
+ * of either sign makes one. */
+static void spin_of(carom_reach *reach, int i, const carom_event *event) {
+  const carom_tangent_work *w = reach->work;
+  const carom_tangent_ball *ball = &w->ball[i];
+  if (!carom_translates(ball->from.label) || carom_flies(&ball->from))
+    return;
+  const double lost = carom_rates_of(ball->kind).spin * (event->time - ball->since);
+  const double *d =
+      carom_tangent_columns(&w->pass, w->tangent->final, i * CAROM_STATE_NUMBERS + S_W_Z);
+  for (int j = 0; j < w->pass.columns && lost > 0.0; j++)
+    take(reach, j, fabs(fabs(ball->from.w[2]) - lost), d[j]);
+}
+
 /* The misses of ball i on its path, up to the event; `with` is the part or ball that it met. */
 static void misses_of(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_work *w = reach->work;
@@ -283,9 +299,12 @@ static void misses_of(carom_reach *reach, int i, const carom_event *event) {
 }
 
 void carom_reach_misses(carom_reach *reach, const carom_event *event) {
-  misses_of(reach, event->a, event);
-  if (event->type == CAROM_EVENT_BALL_BALL)
-    misses_of(reach, event->b, event);
+  const bool two = event->type == CAROM_EVENT_BALL_BALL;
+  for (int side = 0; side <= two; side++) {
+    misses_of(reach, side == 0 ? event->a : event->b, event);
+    if (two || event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW)
+      spin_of(reach, side == 0 ? event->a : event->b, event);
+  }
 }
 
 /* A hit on a body that is d away and comes nearer by v, with their tangents in one direction; r:

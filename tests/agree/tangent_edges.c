@@ -616,6 +616,35 @@ TEST(frozen_and_straight) {
   }
 }
 
+/* A level centre hit on two balls that touch the cue ball or nearly do, and on a row: by b, to one
+ * side, the contacts press other balls on the cloth than to the other side. By a there is no kink
+ * where they touch. */
+TEST(centre_hit_of_a_cluster) {
+  static const double along[3][2] = {{60.0, 120.0}, {80.0, 150.0}, {90.0, 90.0}};
+  static const direction by[2] = {{OF_CUE, 0, 3, 1}, {OF_CUE, 0, 4, 1}};
+  const carom_shot_options options = {.time_most = 0.02};
+  for (int k = 0; k < 12; k++) {
+    layout l = of_two(0.4, 0.6);
+    l.count = 3;
+    for (int i = 1; i < 3; i++) {
+      const double q = 0.017453292519943295 * along[k / 2 % 3][i - 1],
+                   far = (k / 2 % 3 < 2 ? 1.0 : i) * (k < 6 ? 0.05715 : 0.05715 + 1e-6);
+      l.ball[i] = ball_at(0.4 + far * cos(q), 0.6 + far * sin(q));
+    }
+    l.cue.speed = 2.0;
+    l.cue.phi = k / 2 % 3 == 1 ? 95.0 : 90.0;
+    carom_shot shot = play(table_of_pool(), l.ball, 3, &l.cue, &options, CAROM_STOPPED_AT_TIME);
+    ck_assert_int_eq(shot.events[1].cluster, 2);
+    const carom_tangent_seeds seeds = seeds_of(&by[k % 2], 1);
+    carom_tangent t = {.final = ends};
+    ck_assert_int_eq(
+        carom_shot_tangent(table_of_pool(), l.ball, 3, &l.cue, &options, &shot, &seeds, &t),
+        CAROM_OK);
+    if (k < 6 || k % 2 == 1)
+      ck_assert_int_eq(t.all_flags & CAROM_TANGENT_KINK, k % 2 == 0 ? 0 : CAROM_TANGENT_KINK);
+  }
+}
+
 /* ---- Reach ---- */
 
 /* The least change at which a ball's events are others, in steps of 10 % from 1e-9 on. */
@@ -693,6 +722,64 @@ TEST(reach_of_near_misses) {
       ck_abort_msg("gap %g m, speed %g m/s, side %g: found %g of the reach %g", gap, l.cue.speed,
                    side, found, predicted);
   }
+}
+
+/* The numbers of the end, over a change of one number, between two changes of it. */
+static void slopes(const layout *l, const carom_shot_options *options, const direction *by,
+                   double from, double to, double *slope) {
+  double f[2][LAYOUT_BALLS * NUMBERS];
+  for (int s = 0; s < 2; s++) {
+    layout changed = *l;
+    carom_ball_state end[LAYOUT_BALLS];
+    change(&changed, by, s == 0 ? from : to);
+    carom_shot shot = {.final = end};
+    ck_assert_int_ge(carom_shoot(table_of_pool(), changed.ball, l->count,
+                                 changed.cue.speed > 0.0 ? &changed.cue : NULL, options, &shot),
+                     CAROM_OK);
+    for (int i = 0; i < l->count; i++)
+      numbers_of(&end[i], f[s] + NUMBERS * i);
+  }
+  for (int x = 0; x < NUMBERS * l->count; x++)
+    slope[x] = (f[1][x] - f[0][x]) / (to - from);
+}
+
+/* The largest difference of the derivatives in ends[] from a slope, over the largest of them. */
+static double off_slope(const layout *l, const carom_shot_options *options, const direction *by,
+                        double from, double to) {
+  double slope[LAYOUT_BALLS * NUMBERS], off = 0.0;
+  slopes(l, options, by, from, to, slope);
+  for (int x = 0; x < NUMBERS * l->count; x++)
+    off = fmax(off, fabs(slope[x] - ends[x]));
+  return off / largest(ends, NUMBERS * l->count, 0, 1);
+}
+
+/* English that a change brings about ends before the contact, unless the change is above the
+ * reach. */
+TEST(reach_of_english) {
+  static const double gaps[] = {1e-7, 1e-6, 1e-5, 1e-4};
+  const direction by = {OF_CUE, 0, 3, 1};
+  for (int k = 0; k < 4; k++) {
+    layout l = of_two(0.4, 0.6 + 0.05715 + gaps[k]);
+    l.cue.speed = 1.5;
+    l.cue.phi = 90.0;
+    carom_shot shot;
+    differentiate(&l, &closed, &by, 1, &shot);
+    const double d = 0.5 * reach[0], far = 2.0 * reach[0];
+    ck_assert_double_lt(reach[0], 0.1 * gaps[k]);
+    ck_assert_double_lt(off_slope(&l, &closed, &by, -d, d), 1e-2);
+    ck_assert_double_gt(off_slope(&l, &closed, &by, far, 2.0 * far), 1.0);
+  }
+  /* and of a ball that spins a little */
+  layout l = of_two(0.4, 0.6 + 0.05715 + 1e-5);
+  const direction by_w = {OF_STATE, 0, 6, 1};
+  l.cue.speed = 0.0;
+  l.ball[0].state.v[1] = 1.5;
+  l.ball[0].state.w[2] = 2e-4;
+  carom_shot shot;
+  differentiate(&l, &closed, &by_w, 1, &shot);
+  ck_assert_double_lt(reach[0], 2e-4);
+  ck_assert_double_lt(off_slope(&l, &closed, &by_w, -0.5 * reach[0], 0.5 * reach[0]), 1e-2);
+  ck_assert_double_gt(off_slope(&l, &closed, &by_w, -1.4 * reach[0], -1.1 * reach[0]), 0.9);
 }
 
 /* ---- The cloth ---- */
