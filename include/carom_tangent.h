@@ -70,8 +70,10 @@ typedef enum carom_tangent_flag {
   CAROM_TANGENT_DIFFERENCES = 32, /* the derivative of this contact is by central differences of
                                      the one contact: of exact models where the motion is planar
                                      or a ball jams, and of Euler's steps. */
-  CAROM_TANGENT_DRAG = 64 /* not set any more: derivatives of a roll with drag are those of the
-                             pieces that shots follow. */
+  CAROM_TANGENT_DRAG = 64,    /* not set any more: derivatives of a roll with drag are those of the
+                              pieces that shots follow. */
+  CAROM_TANGENT_CLUSTER = 128 /* it is a contact of a cluster: the reach counts no touch that comes
+                                 or goes inside it, and not their order. */
 } carom_tangent_flag;
 
 /* The changes in each of `directions` m, 1 to 64. NULL stands for zeros. Numbers that a
@@ -116,8 +118,7 @@ typedef struct carom_tangent {
  * of that call, and shot->events holds all of its events. Tangents follow each ball from event
  * to event, on the cloth and in flight; nothing is played again but clusters, once for each
  * direction. All events of a cluster have the flags and the tangent of the time of its first
- * one. A touch that comes or goes inside a cluster with a small change has no flag, nor has one
- * that begins to stick.
+ * one, and CAROM_TANGENT_CLUSTER. A touch inside it that begins to stick has no flag.
  * Nothing is allocated; stack: 55 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;

@@ -711,7 +711,7 @@ CAROM_APART void leave(const cluster *c, const member *of, const row &dT) {
 carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events,
                                           int count, int64_t at) {
   cluster c;
-  w->note = {0, 0};
+  w->note = {CAROM_TANGENT_CLUSTER, 0};
   watched = {false, {0, 0}};
   find_members(w, events, count, &c);
   const row dT = begin_cluster(w, &events[0]);

@@ -913,7 +913,7 @@ static void follow_clusters(random_source *random, int kind) {
         carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &options, &shot, &seeds, &t),
         CAROM_OK);
     check_rows(&shot, k, m, before, after);
-    ck_assert_int_eq(t.all_flags & ~CAROM_TANGENT_GRAZING, 0);
+    ck_assert_int_eq(t.all_flags & ~CAROM_TANGENT_GRAZING, CAROM_TANGENT_CLUSTER);
     for (int j = 0; j < m; j++) {
       double error, plateau;
       const double most = largest(columns, NUMBERS * l.count, j, m);

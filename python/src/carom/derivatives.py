@@ -52,6 +52,7 @@ class Flag(enum.IntFlag):
     EULER = 16
     DIFFERENCES = 32
     DRAG = 64
+    CLUSTER = 128
 
 
 @dataclass(eq=False, repr=False)
