@@ -153,6 +153,8 @@ static double tip_of(const carom_cue *cue) {
 /* What is wrong with the arguments of a shot, with the key. False if nothing is. */
 static bool argument_error(const shot_line *line, const carom_shot_options *options,
                            char text[300]) {
+  const carom_number *n;
+  char must[100];
   int where;
   const carom_status bad =
       carom_shot_check(&line->table->table, line->ball, line->count, &line->cue, options, &where);
@@ -168,12 +170,13 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
   else if (bad == CAROM_ERROR_CUE_SPEED || bad == CAROM_ERROR_CUE_MASS)
     snprintf(text, 300, "cue.%s%s", bad == CAROM_ERROR_CUE_SPEED ? "V0" : "M",
              strchr(carom_status_string(bad), ' '));
-  else if (bad == CAROM_ERROR_RESTITUTION)
-    snprintf(text, 300,
-             "balls[%d] ('%s'): e_b and e_c must be in [0, 1], and e_t at most 0.98 and not below "
-             "0, or -1 for none",
-             where, line->name[where]);
-  else if (bad == CAROM_ERROR_OFF_TABLE && where >= 0) {
+  else if (where >= 0 &&
+           (n = carom_ball_fault(&line->ball[where].kind, must, sizeof must)) != NULL) {
+    double x;
+    memcpy(&x, (const char *)&line->ball[where].kind + n->offset, sizeof x);
+    snprintf(text, 300, "balls[%d] ('%s'): params.%s must be %s, not %.6g", where,
+             line->name[where], n->key, must, x);
+  } else if (bad == CAROM_ERROR_OFF_TABLE && where >= 0) {
     const carom_shot_ball *ball = &line->ball[where];
     const double *r = ball->state.r, R = ball->kind.radius;
     const int size = snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where],

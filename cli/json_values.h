@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 typedef struct json_fault {
-  char text[256];
+  char text[512];
 } json_fault;
 
 /* Says what is wrong; returns false. */

@@ -40,15 +40,38 @@ static void keep_table(shot_file *file, named_table *t) {
 
 /* ---- Shots */
 
-/* The keys of the doubles of carom_ball_kind and of carom_cue, in their order there. */
-#define KIND_KEYS                                                                                \
-  "m R u_s u_r u_sp u_b e_b f_c e_c g drag roll_loss law_a law_b law_c nose_height omega_ratio " \
-  "e_t modulus e_c_log f_c_log smooth_q smooth_x smooth_t smooth_a smooth_k"
+/* The keys of the doubles of carom_cue, in their order there. */
 #define CUE_KEYS "V0 phi theta a b M end_mass tip_radius"
-_Static_assert(sizeof(carom_ball_kind) == 26 * sizeof(double) &&
-                   offsetof(carom_cue, ball) == 8 * sizeof(double) &&
+_Static_assert(offsetof(carom_cue, ball) == 8 * sizeof(double) &&
                    offsetof(carom_cue, tip_time) - offsetof(carom_cue, miscue) == sizeof(double),
                "a key for each double");
+
+/* The keys of the numbers of a ball, in their order. */
+static const char *kind_keys(void) {
+  static char keys[600];
+  const carom_number *n;
+  for (int k = 0, size = 0; (n = carom_ball_number(k)) != NULL; k++)
+    size += snprintf(keys + size, sizeof keys - (size_t)size, "%s%s", k > 0 ? " " : "", n->key);
+  return keys;
+}
+
+/* The numbers of a ball by their keys; the bits of `given` become those that differ from the
+ * game's. */
+static bool read_kind(const json_t *params, const char *where, carom_ball_kind *kind,
+                      uint64_t *given, json_fault *f) {
+  const carom_ball_kind of_game = *kind;
+  char known[620];
+  const carom_number *n;
+  snprintf(known, sizeof known, "game %s", kind_keys());
+  if (!json_get_doubles(params, where, kind_keys(), &kind->mass, f) ||
+      !json_only(params, where, known, f))
+    return false;
+  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+    if (memcmp((const char *)kind + n->offset, (const char *)&of_game + n->offset,
+               sizeof(double)) != 0)
+      *given |= (uint64_t)1 << k;
+  return true;
+}
 
 /* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */
 static bool read_game(const json_t *params, const char *where, carom_ball_kind *kind,
@@ -83,7 +106,7 @@ static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
   if (params != NULL && !json_is_object(params))
     return json_wrong(f, "%sparams must be an object", where);
   snprintf(key, sizeof key, "%sparams.", where);
-  if (!read_game(params, key, kind, f) || !json_get_doubles(params, key, KIND_KEYS, &kind->mass, f))
+  if (!read_game(params, key, kind, f) || !read_kind(params, key, kind, &line->given, f))
     return false;
   if (json_object_get(params, "u_sp") == NULL && json_object_get(params, "game") == NULL)
     kind->mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind->radius;

@@ -257,8 +257,8 @@ typedef struct carom_ball_kind {
                        the cushion from its roll along it: from R w_n, w_n the spin about the
                        normal, which does not fall below 0 by it. */
   double law_a, law_b, law_c; /* friction with another ball at a slip of u, m/s: law_a + law_b
-                                 exp(-law_c u). Each >= 0, law_a + law_b <= 1; a pair has the
-                                 mean of each. All 0: carom_alciatore(). Not read with
+                                 exp(-law_c u), law_c in s/m. Each >= 0, law_a + law_b <= 1; a
+                                 pair has the mean of each. All 0: carom_alciatore(). Not read with
                                  CAROM_FRICTION_CONSTANT. */
   double nose_height; /* of every cushion that the ball meets, above the cloth, m, below 2 R; 0:
                          that of the rail or jaw. */
@@ -884,6 +884,51 @@ CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_bal
 CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count,
                                               const carom_shot *shot, double time,
                                               double (*turned)[4]);
+
+/* ==== What there is ============================================================================
+ *
+ * Names, ranges and texts of numbers, for programs that ask users for them: the command and the
+ * packages of other languages have theirs from here. */
+
+/* What reads a number. */
+typedef enum carom_reader {
+  CAROM_READ_ALWAYS = 0,
+  CAROM_READ_BY_CUSHION = 1, /* a carom_cushion_model, */
+  CAROM_READ_BY_FRICTION = 2 /* or a carom_ball_friction */
+} carom_reader;
+
+/* A number of a ball, a double: low to high, to which both ends belong, or `other`. Later versions
+ * add members at the end. */
+typedef struct carom_number {
+  const char *name;       /* of the member of carom_ball_kind. */
+  const char *key;        /* in files of `carom shoot`. */
+  const char *unit;       /* "" without one. */
+  const char *text;       /* what it is, in a few words. */
+  double low, high;       /* the range. */
+  double other;           /* a value beside the range: 0, which is a default, or -1; NaN: none. */
+  int32_t offset;         /* bytes in carom_ball_kind, */
+  int32_t cushion_offset; /* and in carom_cushion_options; -1: it is no number of that. */
+  carom_status error;     /* of a number that it may not be. */
+  carom_reader reader;    /* what reads it, */
+  int32_t model;          /* of these the one that does. */
+  int32_t unused;         /* 0. */
+} carom_number;
+
+/* Number k of a ball, in the order of carom_ball_kind; NULL beyond the last. */
+CAROM_API const carom_number *carom_ball_number(int k);
+
+/* Writes what it may be, such as "0, or 1e6 to 1e15, in Pa", into text[room], cut there, with a
+ * closing 0. Returns the length of the whole without the 0. */
+CAROM_API size_t carom_number_range(const carom_number *number, char *text, size_t room);
+
+/* Returns the number of a ball that is at fault, and writes what it must be into text[room], as
+ * above; NULL where all are right. */
+CAROM_API const carom_number *carom_ball_fault(const carom_ball_kind *kind, char *text,
+                                               size_t room);
+
+/* Whether a shot with these options, NULL for the defaults, reads the number of this ball. */
+CAROM_API int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
+                                   const carom_shot_options *options);
 
 #ifdef __cplusplus
 }

@@ -250,3 +250,16 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
   balls[ball].state = placed.state;
   return CAROM_OK;
 }
+
+int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
+                         const carom_shot_options *opt) {
+  static const carom_shot_options no_options = {0};
+  opt = opt != NULL ? opt : &no_options;
+  if (number == NULL || kind == NULL)
+    return 0;
+  if (number->reader == CAROM_READ_BY_CUSHION)
+    return number->model == (int)carom_cushion_model_of(carom_rules_of(opt->world), opt);
+  if (number->reader == CAROM_READ_BY_FRICTION)
+    return number->model == (int)opt->friction && opt->ball_model != CAROM_BALL_MODEL_MIRROR;
+  return 1;
+}

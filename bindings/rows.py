@@ -1,0 +1,90 @@
+"""The rows of src/about as data: what the library says of itself at run time, for what is needed before it runs.
+
+rows.py json    the numbers of a ball, as carom_ball_number() tells them
+"""
+
+import json
+import re
+import sys
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parent.parent / "src"
+
+
+def arguments(text):
+    """The arguments of a call of a macro, of which `text` begins behind the bracket; and where it ends."""
+    found, begin, depth, at = [], 0, 0, 0
+    for match in re.finditer(r'"(?:[^"\\]|\\.)*"|[(),]', text):
+        at, sign = match.start(), match[0]
+        if sign == "(":
+            depth += 1
+        elif depth == 0 and sign in ",)":
+            found.append(" ".join(text[begin:at].split()))
+            begin = at + 1
+        if sign == ")":
+            if depth == 0:
+                break
+            depth -= 1
+    return found, at + 1
+
+
+def rows(file, macro):
+    """The rows of a macro of rows: the name of each call, and its arguments."""
+    text = (SOURCE / file).read_text(encoding="utf-8")
+    head = re.search(rf"#define {macro}\(([^)]*)\)((?:.*\\\n)*.*)\n", text)
+    body, calls = head[2].replace("\\\n", "\n"), head[1].replace(" ", "").split(",")
+    call_of, found, at = re.compile(rf"\b({'|'.join(calls)})\("), [], 0
+    while call := call_of.search(body, at):
+        values, size = arguments(body[call.end() :])
+        found.append((call[1], values))
+        at = call.end() + size
+    return found
+
+
+def text_of(value):
+    return "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', value))
+
+
+def end_of(value):
+    """A number of a row, None for one that is not there; and whether it belongs to the range."""
+    inner = re.fullmatch(r"CAROM_(?:ABOVE|BELOW)\((.*)\)", value)
+    number = {"DBL_MAX": None, "NAN": None}.get(value, inner[1] if inner else value)
+    return (None if number is None else float(number)), inner is None
+
+
+def digits(x):
+    """A number as 0, 0.5, 1e6 or 1e-12."""
+    return re.sub(r"e\+?(-?)0*", r"e\1", f"{x:.0e}" if abs(x) >= 1e5 else f"{x:g}")
+
+
+def range_of(unit, low, high, other):
+    """A range in the words of carom_number_range()."""
+    (low, from_), (high, to), (other, _) = end_of(low), end_of(high), end_of(other)
+    begin = "" if other is None else f"{digits(other)}, or "
+    if high is None:
+        words = f"{digits(low)} or more and finite" if from_ else f"above {digits(low)} and finite"
+    elif from_ and to:
+        words = f"{digits(low)} to {digits(high)}"
+    elif not from_ and not to:
+        words = f"between {digits(low)} and {digits(high)}"
+    else:
+        words = f"above {digits(low)} and at most {digits(high)}" if to else f"{digits(low)} or more and below {digits(high)}"
+    return begin + words + (f", in {unit}" if unit else "")
+
+
+def numbers():
+    """The numbers of a ball, in the order of carom_ball_kind."""
+    found = []
+    for kind, (name, key, unit, low, high, other, error, reader, text) in rows("about/numbers.h", "CAROM_NUMBERS"):
+        ends = [end_of(value)[0] for value in (low, high, other)]
+        found.append({
+            "name": name, "key": text_of(key), "unit": text_of(unit), "range": range_of(text_of(unit), low, high, other),
+            "ends": [x for x in ends if x is not None], "error": f"CAROM_ERROR_{error}", "reader": reader, "of_cushion": kind == "CUSHION",
+            "text": text_of(text),
+        })  # fmt: skip
+    return found
+
+
+if __name__ == "__main__":
+    made = {"json": lambda: json.dumps({"numbers": numbers()}, indent=1)}
+    print(made[sys.argv[1]]())

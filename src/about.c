@@ -1,0 +1,182 @@
+/* What there is, for programs that ask: the rows of about/ at run time. Nothing here is on the path
+ * of an impact. */
+#include "carom_shot.h"
+#include "platform/arithmetic.h"
+
+#include "about/numbers.h"
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#define READ_ALWAYS CAROM_READ_ALWAYS, 0
+#define READ_BY_CUSHION(MODEL) CAROM_READ_BY_CUSHION, CAROM_CUSHION_##MODEL
+#define READ_BY_FRICTION(LAW) CAROM_READ_BY_FRICTION, CAROM_FRICTION_##LAW
+#define READ_WITH(MODEL, number) READ_BY_CUSHION(MODEL)
+
+#define IN_CUSHION(member) (int32_t) offsetof(carom_cushion_options, member)
+#define NUMBER(member, key, unit, low, high, other, ERROR, reader, text, in_cushion) \
+  {#member,       key,                                                               \
+   unit,          text,                                                              \
+   low,           high,                                                              \
+   other,         offsetof(carom_ball_kind, member),                                 \
+   in_cushion,    CAROM_ERROR_##ERROR,                                               \
+   READ_##reader, 0},
+#define BALL(...) NUMBER(__VA_ARGS__, -1)
+#define CUSHION(member, ...) NUMBER(member, __VA_ARGS__, IN_CUSHION(member))
+static const carom_number numbers[] = {CAROM_NUMBERS(BALL, CUSHION)};
+#undef BALL
+#undef CUSHION
+enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
+_Static_assert(sizeof(carom_ball_kind) == NUMBERS * sizeof(double), "a row for each number");
+
+const carom_number *carom_ball_number(int k) {
+  return k >= 0 && k < NUMBERS ? &numbers[k] : NULL;
+}
+
+/* ---- Ranges in words */
+
+/* Text that is cut at the end of its room; `length` goes on. */
+typedef struct words {
+  char *text;
+  size_t room, length;
+} words;
+
+static void add(words *w, const char *text) {
+  for (; *text != '\0'; text++, w->length++)
+    if (w->length + 1 < w->room)
+      w->text[w->length] = *text;
+}
+
+static size_t end_of(words *w) {
+  if (w->room > 0)
+    w->text[w->length < w->room ? w->length : w->room - 1] = '\0';
+  return w->length;
+}
+
+static void add_whole(words *w, int64_t x) {
+  char digits[24];
+  int k = sizeof digits;
+  digits[--k] = '\0';
+  do
+    digits[--k] = (char)('0' + x % 10);
+  while ((x /= 10) > 0);
+  add(w, digits + k);
+}
+
+/* Writes m 10^e, m > 0, as 12, 0.5, 1e6 or 1e-12. */
+static void add_decimal(words *w, int64_t m, int e) {
+  int64_t unit = 1;
+  for (int k = 0; k < -e && e >= -4; k++)
+    unit *= 10;
+  for (; e > 0 && e < 5; e--)
+    m *= 10;
+  add_whole(w, m / unit);
+  if (unit > 1)
+    add(w, ".");
+  for (int64_t part = unit / 10, rest = m % unit; rest > 0; rest %= part, part /= 10)
+    add_whole(w, rest / part);
+  if (e != 0 && unit == 1) {
+    add(w, e > 0 ? "e" : "e-");
+    add_whole(w, e > 0 ? e : -e);
+  }
+}
+
+/* Writes a number of at most four digits; writes nothing and returns false where it has more. */
+static bool add_short(words *w, double x) {
+  const double size = x < 0 ? -x : x;
+  double ten = 1e22;
+  for (int e = 22; e >= -22 && x != 0; e--) {
+    const double m = e > 0 ? size / ten : size * ten;
+    if (m < 1e4 && m >= 1 && m == (double)(int)m && (e > 0 ? m * ten : m / ten) == size) {
+      add(w, x < 0 ? "-" : "");
+      add_decimal(w, (int64_t)m, e);
+      return true;
+    }
+    ten = e > 0 ? ten / 10 : ten * 10;
+  }
+  if (x == 0)
+    add(w, "0");
+  return x == 0;
+}
+
+/* Writes an end of a range; returns whether it belongs to it. The next double to a short number
+ * stands for an end that does not. */
+static bool add_end(words *w, double x, double outwards) {
+  if (add_short(w, x))
+    return true;
+  add_short(w, nextafter(x, outwards));
+  return false;
+}
+
+size_t carom_number_range(const carom_number *n, char *text, size_t room) {
+  words w = {text, room, 0};
+  if (n == NULL)
+    return end_of(&w);
+  if (add_short(&w, n->other)) /* not NAN */
+    add(&w, ", or ");
+  char low_text[32], high_text[32];
+  words low = {low_text, sizeof low_text, 0}, high = {high_text, sizeof high_text, 0};
+  const bool from = add_end(&low, n->low, -INFINITY),
+             to = n->high == DBL_MAX || add_end(&high, n->high, INFINITY);
+  end_of(&low);
+  end_of(&high);
+
+  /* "0 to 1", "0 or more and finite", "above 0 and at most 1", "between 1 and 2" */
+  const bool finite = n->high == DBL_MAX;
+  add(&w, from ? "" : to ? "above " : "between ");
+  add(&w, low_text);
+  add(&w, finite         ? from ? " or more and finite" : " and finite"
+          : from && to   ? " to "
+          : !from && !to ? " and "
+          : to           ? " and at most "
+                         : " or more and below ");
+  add(&w, finite ? "" : high_text);
+  if (n->unit[0] != '\0') {
+    add(&w, ", in ");
+    add(&w, n->unit);
+  }
+  return end_of(&w);
+}
+
+/* ---- Faults */
+
+static const carom_number *number_at(size_t offset) {
+  return &numbers[offset / sizeof(double)];
+}
+
+#define WITHOUT_ALWAYS ""
+#define WITHOUT_BY_CUSHION(model) ""
+#define WITHOUT_BY_FRICTION(law) ""
+#define WITHOUT_WITH(model, number) "0 where " #number " is 0"
+
+const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_t room) {
+  words w = {text, room, 0};
+  if (k == NULL)
+    return NULL;
+#define RANGE(member, key, unit, low, high, other, error, reader, about)  \
+  if (!CAROM_IS_RIGHT(member, low, high, other, ALWAYS)) {                \
+    const carom_number *n = number_at(offsetof(carom_ball_kind, member)); \
+    carom_number_range(n, text, room);                                    \
+    return n;                                                             \
+  }
+#define ALONE(member, key, unit, low, high, other, error, reader, about) \
+  if (!(CAROM_GIVEN_##reader || k->member == 0)) {                       \
+    add(&w, WITHOUT_##reader);                                           \
+    end_of(&w);                                                          \
+    return number_at(offsetof(carom_ball_kind, member));                 \
+  }
+#define CONDITION(member, holds, error, about)           \
+  if (!(holds)) {                                        \
+    add(&w, about);                                      \
+    end_of(&w);                                          \
+    return number_at(offsetof(carom_ball_kind, member)); \
+  }
+  CAROM_NUMBERS(RANGE, RANGE)
+  CAROM_NUMBERS(ALONE, ALONE)
+  CAROM_CONDITIONS(CONDITION, CONDITION)
+#undef RANGE
+#undef ALONE
+#undef CONDITION
+  return NULL;
+}

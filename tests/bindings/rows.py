@@ -1,0 +1,73 @@
+"""rows.py SOURCE SHARED: the rows of numbers say what the headers and the library say.
+
+The comment of each member names the unit of its row, every number of its range, and its default. bindings/rows.py has the texts and the
+ranges that the library tells.
+"""
+
+import ctypes
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(sys.argv[1])
+sys.path.insert(0, str(ROOT / "bindings"))
+from api import describe  # noqa: E402
+from rows import digits, numbers  # noqa: E402
+
+structs = {one["name"]: one["fields"] for one in describe(ROOT / "include")["structs"]}
+OPTIONS = "carom_cushion_options"
+faults = []
+
+
+def comment(struct, name):
+    """The comment of a member, with those of its neighbours where a sentence goes over several of them."""
+    sentence, found = [], False
+    for field in structs[struct]:
+        sentence.append(field["comment"])
+        found |= field["name"] == name
+        if field["comment"].endswith("."):
+            if found:
+                break
+            sentence = []
+    return " ".join(dict.fromkeys(sentence))
+
+
+def said_of(number):
+    text = comment("carom_ball_kind", number["name"])
+    return f"{text} {comment(OPTIONS, number['name'])}" if OPTIONS in text else text
+
+
+described = numbers()
+if [one["name"] for one in described] != [field["name"] for field in structs["carom_ball_kind"]]:
+    faults.append("the rows are not in the order of carom_ball_kind")
+own = [field["name"] for field in structs[OPTIONS] if field["type"] == "double" and field["name"] != "least_step"]
+if sorted(own) != sorted(one["name"] for one in described if one["of_cushion"]):
+    faults.append("the rows of cushions are not the numbers of carom_cushion_options")
+for one in described:
+    text = said_of(one)
+    wanted = [digits(x) for x in one["ends"]] + re.findall(r"\b0: (-?[\d.]+(?:e\d+)?)", one["text"])
+    said = re.findall(r"-?\d+(?:\.\d+)?(?:e-?\d+)?", text)
+    faults += [f"{one['name']}: its row has {value}, which its comment does not name: {text}" for value in wanted if value not in said]
+    unit = next(field.get("unit", "") for field in structs["carom_ball_kind"] if field["name"] == one["name"])
+    if unit and unit != one["unit"]:
+        faults.append(f"{one['name']}: the unit is '{one['unit']}' in its row, '{unit}' in its comment")
+    if one["unit"] and not re.search(rf"\b{re.escape(one['unit'])}(?!\w)", text):
+        faults.append(f"{one['name']}: its comment does not name the unit {one['unit']}: {text}")
+
+
+class Number(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_char_p) for name in ("name", "key", "unit", "text")]
+
+
+library = ctypes.CDLL(sys.argv[2])
+library.carom_ball_number.restype = ctypes.POINTER(Number)
+for k, one in enumerate(described):
+    told, room = library.carom_ball_number(k), ctypes.create_string_buffer(100)
+    library.carom_number_range(told, room, ctypes.c_size_t(100))
+    seen = [value.decode() for value in (told[0].name, told[0].key, told[0].unit, told[0].text, room.value)]
+    expected = [one[key] for key in ("name", "key", "unit", "text", "range")]
+    if seen != expected:
+        faults.append(f"the library tells {seen}, bindings/rows.py {expected}")
+
+print("\n".join(faults) or f"{len(described)} numbers have the unit, range and default of their comments")
+sys.exit(bool(faults))

@@ -1,0 +1,145 @@
+/* What there is, by its rows: each number is refused outside its range and told by name. */
+#include "about/numbers.h"
+#include "support.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+static carom_shot_ball fit(void) {
+  return (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_POOL),
+                           .state = {.r = {0.5, 1, 0.028575}}};
+}
+
+static void set(carom_ball_kind *kind, const carom_number *n, double x) {
+  memcpy((char *)kind + n->offset, &x, sizeof x);
+}
+
+static const carom_number *number_of(const char *name) {
+  int k = 0;
+  while (carom_ball_number(k) != NULL && strcmp(carom_ball_number(k)->name, name) != 0)
+    k++;
+  ck_assert_ptr_nonnull(carom_ball_number(k));
+  return carom_ball_number(k);
+}
+
+TEST(each_number_is_refused_by_name) {
+  carom_table table;
+  ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_9FT, &table), CAROM_OK);
+  const carom_number *n;
+  char text[80];
+  int k = 0;
+  for (; (n = carom_ball_number(k)) != NULL; k++) {
+    const double outside[] = {NAN, nextafter(n->low, -INFINITY), nextafter(n->high, INFINITY)};
+    for (int j = 0; j < 3; j++) {
+      if (outside[j] == n->other)
+        continue;
+      carom_shot_ball ball = fit();
+      set(&ball.kind, n, outside[j]);
+      ck_assert_ptr_eq(carom_ball_fault(&ball.kind, text, sizeof text), n);
+      ck_assert_int_eq(carom_shot_check(&table, &ball, 1, NULL, NULL, NULL), n->error);
+    }
+    ck_assert_int_eq(n->offset, 8 * k);
+    ck_assert(n->text[0] != '\0' && n->key[0] != '\0');
+  }
+  ck_assert_int_eq(k, sizeof(carom_ball_kind) / sizeof(double));
+  ck_assert_ptr_null(carom_ball_number(-1));
+  for (int game = 0; game <= CAROM_GAME_POOLTOOL_BILLIARD; game++) {
+    const carom_ball_kind kind = carom_ball_kind_of((carom_game)game);
+    ck_assert_ptr_null(carom_ball_fault(&kind, text, sizeof text));
+  }
+  ck_assert_ptr_null(carom_ball_fault(NULL, text, sizeof text));
+}
+
+/* What refuses a kind tells which number it is. */
+TEST(every_refusal_names_a_number) {
+  carom_table table;
+  ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_9FT, &table), CAROM_OK);
+  static const double values[] = {-2, -1, 0, 1e-13, 0.05, 0.3, 0.99, 1.5, 3, 1e7};
+  int refused = 0;
+  for (int j = 0; carom_ball_number(j) != NULL; j++)
+    for (int k = 0; carom_ball_number(k) != NULL; k++)
+      for (int x = 0; x < 100; x++) {
+        carom_shot_ball ball = fit();
+        char text[80];
+        set(&ball.kind, carom_ball_number(j), values[x % 10]);
+        set(&ball.kind, carom_ball_number(k), values[x / 10]);
+        const carom_number *n = carom_ball_fault(&ball.kind, text, sizeof text);
+        const carom_status status = carom_shot_check(&table, &ball, 1, NULL, NULL, NULL);
+        if (n == NULL) /* a radius beside its state or table */
+          ck_assert(status == CAROM_OK || ball.kind.radius != fit().kind.radius);
+        else
+          ck_assert(status < 0 && text[0] != '\0');
+        refused += n != NULL;
+      }
+  ck_assert_int_gt(refused, 1000);
+}
+
+TEST(conditions_blame_a_number) {
+  static const struct {
+    const char *given;
+    double x;
+    const char *name, *text;
+  } bad[] = {{"nose_height", 0.06, "nose_height", "below 2 R"},
+             {"law_b", 0.995, "law_b", "at most 1 - law_a"},
+             {"smooth_q", 0.3, "smooth_x", "above 0 where smooth_q is"},
+             {"smooth_t", 0.3, "smooth_t", "0 where smooth_q is 0"},
+             {"smooth_k", 0.3, "smooth_k", "0 where smooth_q is 0"}};
+  for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+    carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+    char text[80], cut[6];
+    kind.law_a = 0.01;
+    set(&kind, number_of(bad[k].given), bad[k].x);
+    const carom_number *n = carom_ball_fault(&kind, text, sizeof text);
+    ck_assert_ptr_eq(n, number_of(bad[k].name));
+    ck_assert_str_eq(text, bad[k].text);
+    ck_assert_ptr_eq(carom_ball_fault(&kind, cut, sizeof cut), n);
+    ck_assert_uint_eq(strlen(cut), 5);
+    ck_assert_ptr_eq(carom_ball_fault(&kind, NULL, 0), n);
+  }
+}
+
+TEST(ranges_in_words) {
+  static const struct {
+    double low, high, other;
+    const char *unit, *range;
+  } some[] = {{CAROM_ABOVE(0), DBL_MAX, NAN, "kg", "above 0 and finite, in kg"},
+              {CAROM_ABOVE(0), 1, NAN, "", "above 0 and at most 1"},
+              {0, CAROM_BELOW(1), NAN, "", "0 or more and below 1"},
+              {0, DBL_MAX, NAN, "s/m", "0 or more and finite, in s/m"},
+              {CAROM_ABOVE(1), CAROM_BELOW(2), 0, "", "0, or between 1 and 2"},
+              {1e-12, 0.5, 0, "", "0, or 1e-12 to 0.5"},
+              {0, 0.98, -1, "", "-1, or 0 to 0.98"},
+              {1e6, 1e15, 0, "Pa", "0, or 1e6 to 1e15, in Pa"},
+              {-1.05, 1000, NAN, "", "-1.05 to 1000"},
+              {0.001, 12000, NAN, "", "0.001 to 12000"}};
+  for (size_t k = 0; k < sizeof some / sizeof some[0]; k++) {
+    char text[64], cut[8];
+    carom_number n = *carom_ball_number(0);
+    n.low = some[k].low;
+    n.high = some[k].high;
+    n.other = some[k].other;
+    n.unit = some[k].unit;
+    ck_assert_uint_eq(carom_number_range(&n, text, sizeof text), strlen(some[k].range));
+    ck_assert_str_eq(text, some[k].range);
+    ck_assert_uint_eq(carom_number_range(&n, cut, sizeof cut), strlen(text));
+    ck_assert_int_eq(strncmp(cut, text, 7), 0);
+  }
+}
+
+TEST(what_is_read) {
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  const carom_shot_options constant = {.friction = CAROM_FRICTION_CONSTANT},
+                           smooth = {.cushion_model = CAROM_SHOT_CUSHION_SMOOTH},
+                           mirror = {.ball_model = CAROM_BALL_MODEL_MIRROR},
+                           pooltool = {.world = CAROM_WORLD_POOLTOOL};
+  const carom_number *mu = number_of("mu_ball"), *b = number_of("law_b"),
+                     *k = number_of("smooth_k"), *omega = number_of("omega_ratio");
+  ck_assert(!carom_number_is_read(mu, &kind, NULL) && carom_number_is_read(mu, &kind, &constant));
+  ck_assert(carom_number_is_read(b, &kind, NULL) && !carom_number_is_read(b, &kind, &constant));
+  ck_assert(!carom_number_is_read(b, &kind, &mirror));
+  ck_assert(!carom_number_is_read(k, &kind, NULL) && carom_number_is_read(k, &kind, &smooth));
+  ck_assert(!carom_number_is_read(omega, &kind, NULL) &&
+            carom_number_is_read(omega, &kind, &pooltool));
+  ck_assert(carom_number_is_read(number_of("mass"), &kind, NULL));
+}
