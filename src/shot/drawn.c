@@ -1,64 +1,215 @@
 /* States for drawing: pocketed balls that fall.
  *
  * For the shot a ball that reaches a pocket's circle is down. For drawing it falls freely from
- * there, until it lies at the pocket's depth. Let p be its place from the pocket's middle, and v
- * its horizontal velocity, where it reaches the circle. It goes straight,
+ * there, until it lies at the pocket's depth, where it stays. Let p be its place from the pocket's
+ * middle, and v its horizontal velocity, where it reaches the circle. It goes straight,
  *     p(t) = p + v t,
  * to the wall, which is the circle of radius W on which its centre can be; then with the part of
  * v along the wall, u, around on it by the angle u t / W. W is the pocket's radius less the ball's;
  * where its way passes the middle farther off than that, W is that distance, and where it flies
- * across the circle and is on its way out, W is where it is. So nothing jumps but the end: the
- * ball is seen no longer. */
+ * across the circle and is on its way out, W is where it is.
+ *
+ * A ball that comes down on one that lies, at q, goes on around it in the direction in which it
+ * touched it, at the level distance
+ *     D = sqrt((R + R_q)^2 - (z - z_q)^2),
+ * or in the nearest direction in which that is within the wall. Where there is none, or it touches
+ * a third one, it lies there. */
 #include "carom_shot.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <string.h>
 
-/* A ball that came to a pocket in the state `from`, after the time t. */
-static void fall(const carom_pocket *pocket, const carom_ball_kind *kind,
-                 const carom_ball_state *from, double t, carom_ball_state *state) {
-  /* down to the depth */
-  const double top = from->r[2], rise = from->v[2], g = kind->gravity;
-  const double height = top + t * (rise - 0.5 * g * t);
-  if (!(g > 0.0) || (height <= -pocket->depth && rise - g * t <= 0.0))
-    return;
+/* Where a ball lies. */
+typedef struct lying {
+  int64_t pocket;
+  double r[3], radius;
+} lying;
 
+/* A fall: its ball, and those that lie in its pocket. */
+typedef struct fall {
+  const carom_pocket *pocket;
+  const carom_ball_kind *kind;
+  const carom_ball_state *from;
+  double wall, hit; /* W, and when the ball is there, s */
+  double end;       /* when it lies, s */
+  const lying *others[CAROM_BALLS_MOST];
+  int count;
+  /* that which it touches, when, s, and how far from the pocket's middle at most; in the frame of
+   * the one that lies, whose x points to the middle, the direction of the touch */
+  const lying *touched;
+  double touch, most, inward, aside;
+} fall;
+
+static double height_of(const fall *f, double t) {
+  return f->from->r[2] + t * (f->from->v[2] - 0.5 * f->kind->gravity * t);
+}
+
+/* The wall, and when the ball comes to it. */
+static void find_wall(fall *f) {
   /* the middle of the way is nearest to the pocket's; W */
-  const double x = from->r[0] - pocket->centre[0], y = from->r[1] - pocket->centre[1],
-               vx = from->v[0], vy = from->v[1];
+  const double x = f->from->r[0] - f->pocket->centre[0], y = f->from->r[1] - f->pocket->centre[1],
+               vx = f->from->v[0], vy = f->from->v[1];
   const double speed2 = vx * vx + vy * vy, inward = -(x * vx + y * vy);
   const double middle = speed2 > 0.0 ? inward / speed2 : 0.0;
   const double nearest2 = carom_greater(x * x + y * y - middle * inward, 0.0);
-  double wall = carom_greater(pocket->radius - kind->radius, sqrt(nearest2));
-  double hit = INFINITY;
+  f->wall = carom_greater(f->pocket->radius - f->kind->radius, sqrt(nearest2));
+  f->hit = INFINITY;
   if (speed2 > 0.0)
-    hit = middle + sqrt(carom_greater(wall * wall - nearest2, 0.0) / speed2);
-  if (hit < 0.0) {
-    hit = 0.0;
-    wall = sqrt(x * x + y * y);
+    f->hit = middle + sqrt(carom_greater(f->wall * f->wall - nearest2, 0.0) / speed2);
+  if (f->hit < 0.0) {
+    f->hit = 0.0;
+    f->wall = sqrt(x * x + y * y);
   }
+}
 
+/* The way of a ball in an empty pocket: place from the pocket's middle, and velocity. */
+static void alone(const fall *f, double t, double p[2], double v[2]) {
   /* straight to the wall */
-  const double straight = carom_lesser(t, hit);
-  double px = x + straight * vx, py = y + straight * vy, wx = vx, wy = vy;
-  if (t > hit && wall > 0.0) {
-    /* and around on it */
-    const double along = (px * vy - py * vx) / wall;
-    double s, c;
-    carom_sincos(along * (t - hit) / wall, &s, &c);
-    const double qx = px * c - py * s, qy = px * s + py * c;
-    px = qx;
-    py = qy;
-    wx = -along * py / wall;
-    wy = along * px / wall;
+  const double straight = carom_lesser(t, f->hit);
+  for (int k = 0; k < 2; k++) {
+    v[k] = f->from->v[k];
+    p[k] = f->from->r[k] - f->pocket->centre[k] + straight * v[k];
   }
-  state->r[0] = pocket->centre[0] + px;
-  state->r[1] = pocket->centre[1] + py;
-  state->r[2] = height;
-  state->v[0] = wx;
-  state->v[1] = wy;
-  state->v[2] = rise - g * t;
+  if (!(t > f->hit && f->wall > 0.0))
+    return;
+
+  /* and around on it */
+  const double along = (p[0] * v[1] - p[1] * v[0]) / f->wall;
+  double s, c;
+  carom_sincos(along * (t - f->hit) / f->wall, &s, &c);
+  const double x = p[0] * c - p[1] * s, y = p[0] * s + p[1] * c;
+  p[0] = x;
+  p[1] = y;
+  v[0] = -along * y / f->wall;
+  v[1] = along * x / f->wall;
+}
+
+/* Level distance that a ball at height z has to keep from one that lies. */
+static double distance_from(const fall *f, const lying *other, double z) {
+  const double sum = f->kind->radius + other->radius, up = z - other->r[2];
+  return sqrt(carom_greater(sum * sum - up * up, 0.0));
+}
+
+/* That one of those that lie, other than the touched one, in which a ball would be at a place. */
+static const lying *in_its_way(const fall *f, double t, const double p[2]) {
+  const double z = height_of(f, t);
+  for (int k = 0; k < f->count; k++) {
+    const lying *other = f->others[k];
+    const double x = f->pocket->centre[0] + p[0] - other->r[0],
+                 y = f->pocket->centre[1] + p[1] - other->r[1];
+    if (other != f->touched &&
+        x * x + y * y < distance_from(f, other, z) * distance_from(f, other, z))
+      return other;
+  }
+  return NULL;
+}
+
+/* From one that lies, the direction of the pocket's middle, and its distance. */
+static double to_middle(const fall *f, const lying *other, double e[2]) {
+  const double x = f->pocket->centre[0] - other->r[0], y = f->pocket->centre[1] - other->r[1],
+               far = sqrt(x * x + y * y);
+  e[0] = far > 0.0 ? x / far : 1.0;
+  e[1] = far > 0.0 ? y / far : 0.0;
+  return far;
+}
+
+/* The place from the pocket's middle around the one that was touched. Returns whether there is
+ * one within the wall. */
+static bool around(const fall *f, double t, double p[2]) {
+  double e[2];
+  const double far = to_middle(f, f->touched, e), D = distance_from(f, f->touched, height_of(f, t));
+  /* |q + D way| <= most */
+  const double least = far * D > 0.0 ? (far * far + D * D - f->most * f->most) / (2.0 * far * D)
+                       : far + D <= f->most ? -1.0
+                                            : 2.0;
+  const double inward = carom_greater(f->inward, least),
+               across = copysign(sqrt(carom_greater(1.0 - inward * inward, 0.0)), f->aside);
+  p[0] = -far * e[0] + D * (inward * e[0] - across * e[1]);
+  p[1] = -far * e[1] + D * (inward * e[1] + across * e[0]);
+  return least <= 1.0;
+}
+
+/* The place from the pocket's middle, and the velocity of a ball that touches none. Returns whether
+ * it is free. */
+static bool place_at(const fall *f, double t, double p[2], double v[2]) {
+  alone(f, t, p, v);
+  const bool within = f->touched == NULL || t < f->touch || around(f, t, p);
+  return within && in_its_way(f, t, p) == NULL;
+}
+
+/* The last time up to the end at which the place is still free, from a time on. */
+static double last_free(const fall *f, double from) {
+  enum { PARTS = 200, BISECTIONS = 40 };
+  double p[2], v[2];
+  for (int k = 0; k <= PARTS && f->count > 0; k++) {
+    double low = from + (f->end - from) * (k - 1) / PARTS,
+           high = from + (f->end - from) * k / PARTS;
+    if (place_at(f, high, p, v))
+      continue;
+    for (int n = 0; n < BISECTIONS && k > 0; n++) {
+      const double middle = 0.5 * (low + high);
+      *(place_at(f, middle, p, v) ? &low : &high) = middle;
+    }
+    return k > 0 ? high : from;
+  }
+  return f->end;
+}
+
+/* The first touch, and when the ball lies: at the depth, or on others. */
+static void find_end(fall *f) {
+  const double g = f->kind->gravity, rise = f->from->v[2],
+               down = carom_greater(f->from->r[2] + f->pocket->depth, 0.0);
+  double p[2], v[2], e[2];
+  f->end = (rise + sqrt(rise * rise + 2.0 * g * down)) / g;
+  f->touched = NULL;
+  f->touch = last_free(f, 0.0);
+  alone(f, f->touch, p, v);
+  const lying *other = in_its_way(f, f->touch, p);
+  if (other == NULL)
+    return;
+
+  /* the direction, inward where the ball is right above the other one */
+  const double far = to_middle(f, other, e), x = p[0] + far * e[0], y = p[1] + far * e[1],
+               apart = sqrt(x * x + y * y);
+  f->inward = apart > 0.0 ? (x * e[0] + y * e[1]) / apart : 1.0;
+  f->aside = y * e[0] - x * e[1];
+  f->most = carom_greater(f->wall, sqrt(p[0] * p[0] + p[1] * p[1]));
+  f->touched = other;
+  f->end = last_free(f, f->touch);
+}
+
+/* A fall among those that lie already, all pockets' `known`. */
+static void begin(fall *f, const lying *others, int known, int64_t pocket) {
+  f->count = 0;
+  for (int k = 0; k < known; k++)
+    if (others[k].pocket == pocket)
+      f->others[f->count++] = &others[k];
+  find_wall(f);
+  find_end(f);
+}
+
+/* The state at a time since its begin. */
+static void state_at(const fall *f, double t, carom_ball_state *state) {
+  static const double soon = 1e-7; /* s */
+  double p[2], v[2], before[2], none[2];
+  const bool lies = t >= f->end;
+  t = carom_lesser(t, f->end);
+  place_at(f, t, p, v);
+  /* around another one the velocity is that of the way */
+  if (!lies && f->touched != NULL && t > f->touch) {
+    place_at(f, carom_greater(t - soon, 0.0), before, none);
+    for (int k = 0; k < 2; k++)
+      v[k] = (p[k] - before[k]) / soon;
+  }
+  for (int k = 0; k < 2; k++) {
+    state->r[k] = f->pocket->centre[k] + p[k];
+    state->v[k] = lies ? 0.0 : v[k];
+  }
+  state->r[2] = height_of(f, t);
+  state->v[2] = lies ? 0.0 : f->from->v[2] - f->kind->gravity * t;
 }
 
 carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls, int count,
@@ -70,15 +221,27 @@ carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *b
   if (status < 0)
     return status;
   const int64_t known = shot->count < shot->room ? shot->count : shot->room;
+  lying others[CAROM_BALLS_MOST];
+  int down = 0;
   for (int64_t e = 0; shot->events != NULL && e < known; e++) {
     const carom_event *event = &shot->events[e];
     if (event->type != CAROM_EVENT_POCKET || event->a < 0 || event->a >= count || event->b < 0 ||
-        event->b >= table->pockets)
+        event->b >= table->pockets || !(balls[event->a].kind.gravity > 0.0))
       continue;
+    fall f = {.pocket = &table->pocket[event->b],
+              .kind = &balls[event->a].kind,
+              .from = &event->before[0]};
+    begin(&f, others, down, event->b);
     for (size_t k = 0; k < n; k++)
       if (times[k] >= event->time)
-        fall(&table->pocket[event->b], &balls[event->a].kind, &event->before[0],
-             times[k] - event->time, &states[k * (size_t)count + (size_t)event->a]);
+        state_at(&f, times[k] - event->time, &states[k * (size_t)count + (size_t)event->a]);
+    if (down == CAROM_BALLS_MOST) /* events that no shot has */
+      continue;
+    carom_ball_state last = event->before[0];
+    state_at(&f, f.end, &last);
+    others[down].pocket = event->b;
+    others[down].radius = f.kind->radius;
+    memcpy(others[down++].r, last.r, sizeof last.r);
   }
   return status;
 }

@@ -1,5 +1,5 @@
-/* Pocketed balls, drawn: they fall without a jump, inside their pocket, and the others are where
- * they are. */
+/* Pocketed balls, drawn: they fall without a jump, inside their pocket, and lie there beside each
+ * other; the others are where they are. */
 #include "carom_shot.h"
 #include "support.h"
 
@@ -22,6 +22,40 @@ static double between(const double *a, const double *b, int numbers) {
   return sqrt(square);
 }
 
+/* A state a little before or after a time; no jump of its ball between both. */
+static void check_no_jump(int ball, double time, carom_ball_state after[COUNT]) {
+  const double times[2] = {time - 1e-9, time + 1e-9};
+  carom_ball_state states[2 * COUNT];
+  ck_assert_int_eq(carom_shot_drawn(&table, balls, COUNT, &shot, times, 2, states), CAROM_OK);
+  ck_assert_double_lt(between(states[ball].r, states[COUNT + ball].r, 3), 1e-4);
+  memcpy(after, &states[COUNT], sizeof states[0] * COUNT);
+}
+
+/* The end of a fall into a pocket in which others lie: when it is still for the first time. */
+static double end_of_fall(const carom_event *event, double latest) {
+  carom_ball_state drawn[COUNT];
+  double low = 0.0, high = latest;
+  for (int k = 0; k < 60; k++) {
+    const double middle = 0.5 * (low + high), time = event->time + middle;
+    carom_shot_drawn(&table, balls, COUNT, &shot, &time, 1, drawn);
+    *(drawn[event->a].v[2] == 0.0 ? &high : &low) = middle;
+  }
+  return high;
+}
+
+/* Those that lie in the pocket of an event after it are beside or on each other. Returns how many
+ * lay there before. */
+static int check_pile(const carom_event *event, const carom_ball_state *drawn) {
+  int lay = 0;
+  for (const carom_event *e = events; e < event; e++)
+    if (e->type == CAROM_EVENT_POCKET && e->b == event->b) {
+      ck_assert_double_ge(between(drawn[e->a].r, drawn[event->a].r, 3),
+                          2.0 * balls[0].kind.radius - 1e-6);
+      lay++;
+    }
+  return lay;
+}
+
 /* One ball from the edge down to the depth. */
 static void check_fall(const carom_event *event) {
   const carom_pocket *pocket = &table.pocket[event->b];
@@ -31,6 +65,16 @@ static void check_fall(const carom_event *event) {
       (from->v[2] + sqrt(from->v[2] * from->v[2] + 2.0 * g * (from->r[2] + pocket->depth))) / g;
   const double step = end / SAMPLES;
   carom_ball_state drawn[COUNT], before[COUNT], there[COUNT];
+
+  /* it ends where it falls */
+  const double lies = end_of_fall(event, 1.01 * end);
+  check_no_jump(event->a, event->time + lies, drawn);
+  ck_assert_double_eq(hypot(drawn[event->a].v[0], drawn[event->a].v[1]), 0.0);
+  ck_assert_double_le(between(drawn[event->a].r, pocket->centre, 2), pocket->radius + 1e-9);
+  if (check_pile(event, drawn) > 0)
+    return;
+  ck_assert_double_eq_tol(drawn[event->a].r[2], -pocket->depth, 1e-9);
+  ck_assert_double_eq_tol(lies, end, 1e-9);
 
   for (int k = 0; k < SAMPLES; k++) {
     const double t = k * step, time = event->time + t;
@@ -53,11 +97,47 @@ static void check_fall(const carom_event *event) {
         ck_assert_mem_eq(&drawn[i], &there[i], sizeof there[i]);
     memcpy(before, drawn, sizeof before);
   }
+}
 
-  /* where it lies it is as the shot says */
-  const double after = event->time + 1.01 * end;
-  ck_assert_int_eq(carom_shot_drawn(&table, balls, COUNT, &shot, &after, 1, drawn), CAROM_OK);
-  ck_assert_mem_eq(&drawn[event->a], &event->after[0], sizeof drawn[0]);
+/* Four balls that roll into one corner pocket behind each other, straight or a little aside: the
+ * second goes around the first, to the bottom too, and the fourth lies on others. */
+TEST(beside_each_other) {
+  carom_table_make(CAROM_TABLE_POOL_7FT, &table);
+  for (int n = 0; n < 25; n++) {
+    carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, COUNT);
+    const carom_pocket *pocket = &table.pocket[0];
+    const double middle[2] = {0.5 * table.width, 0.5 * table.length},
+                 towards[2] = {pocket->centre[0] - middle[0], pocket->centre[1] - middle[1]};
+    const double x = copysign(sqrt(0.5), towards[0]), y = copysign(sqrt(0.5), towards[1]);
+    for (int i = 0; i < 4; i++) {
+      const double far = 0.15 + (0.12 + 0.01 * (n % 5)) * i,
+                   aside = n == 0 ? 0.0 : 0.004 * ((n * (i + 2)) % 5 - 2), speed = 0.6 + 0.02 * n;
+      balls[i].state.r[0] = pocket->centre[0] - far * x - aside * y;
+      balls[i].state.r[1] = pocket->centre[1] - far * y + aside * x;
+      balls[i].state.v[0] = speed * x;
+      balls[i].state.v[1] = speed * y;
+      balls[i].state.w[0] = -speed * y / balls[i].kind.radius;
+      balls[i].state.w[1] = speed * x / balls[i].kind.radius;
+    }
+    for (int i = 4; i < COUNT; i++)
+      balls[i].state.label = CAROM_BALL_POCKETED;
+    shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+    ck_assert_int_eq(carom_shoot(&table, balls, COUNT, NULL, NULL, &shot), CAROM_OK);
+    int fell = 0;
+    carom_ball_state drawn[COUNT];
+    const double last = shot.time + 1.0;
+    ck_assert_int_eq(carom_shot_drawn(&table, balls, COUNT, &shot, &last, 1, drawn), CAROM_OK);
+    for (int k = 0; k < shot.count; k++)
+      if (events[k].type == CAROM_EVENT_POCKET) {
+        check_fall(&events[k]);
+        const double up = drawn[events[k].a].r[2] + pocket->depth;
+        ck_assert_double_ge(up, fell == 3 ? 0.02 : -1e-9);
+        ck_assert_double_le(up, fell < 2 ? 1e-9 : (fell - 1) * 2.0 * balls[0].kind.radius);
+        ck_assert_int_eq(check_pile(&events[k], drawn), fell);
+        fell++;
+      }
+    ck_assert_int_eq(fell, 4);
+  }
 }
 
 TEST(balls_fall) {
