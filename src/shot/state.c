@@ -67,6 +67,15 @@ static uint64_t seal_of(const carom_shot_state *state) {
                            sizeof(carom_sim) - SEALED * sizeof(uint64_t));
 }
 
+/* Whether nothing stands in the bytes behind the shot. */
+static bool ends_empty(const carom_shot_state *state) {
+  uint64_t any = 0;
+  for (size_t k = sizeof(carom_sim) / sizeof any; k < sizeof *state / sizeof any; k++)
+    any |= state->opaque[k];
+  return any == 0;
+}
+_Static_assert(sizeof(carom_sim) % sizeof(uint64_t) == 0, "the shot ends with a word");
+
 void carom_state_seal(carom_shot_state *state) {
   state->opaque[SEAL] = seal_of(state);
 }
@@ -177,7 +186,7 @@ static bool restore(carom_sim *sim) {
 }
 
 carom_status carom_state_check(carom_sim *sim, const carom_shot_state *state, int count) {
-  if (sim->can_go_on != resumable || state->opaque[SEAL] != seal_of(state))
+  if (sim->can_go_on != resumable || state->opaque[SEAL] != seal_of(state) || !ends_empty(state))
     return CAROM_ERROR_STATE;
   /* the table, the balls and the options */
   if (sim->world != sim->opt->world || sim->of_options != of_options(sim->opt))

@@ -508,7 +508,7 @@ TEST(bad_states) {
   REFUSED_WITH(b->shot.time, -1.0, CAROM_ERROR_STATE);
   REFUSED_WITH(b->shot.state, NULL, CAROM_ERROR_NULL);
   /* any single bit */
-  for (size_t bit = 0; bit < 8 * sizeof(carom_sim); bit += bit < 4096 ? 1 : 61) {
+  for (size_t bit = 0; bit < 8 * sizeof b->state; bit += bit < 4096 ? 1 : 61) {
     b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
     REFUSED(CAROM_ERROR_STATE);
     b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
