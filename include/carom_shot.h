@@ -406,8 +406,9 @@ typedef struct carom_table_fault {
 /* Checks a table of one's own for balls of a radius; it is made for the workshop, not for each
  * shot (some milliseconds). In this order: each part by itself, as carom_shoot() does; that
  * lines of rails pass through their ends, within 1e-6 m; that the ring of rails, jaws and
- * pockets around the middle (width/2, length/2) is closed, so that no ball can leave the table
- * but into a pocket; that the played side of each rail is the one where balls are, where a ball
+ * pockets around the middle (width/2, length/2) is closed, or that around a place beside the
+ * longest rail, where the middle is outside, so that no ball can leave the table but into a
+ * pocket; that the played side of each rail is the one where balls are, where a ball
  * has a place beside it; and that a jaw, of radius 0 if need be, stands where a ball could come
  * in between the ends of two rails, at which there is nothing to be hit (gap then is how far
  * apart the centres of balls that touch the two rails are). The first fault is told in *fault,

@@ -1,5 +1,5 @@
 /* Checks of a table of one's own: no way out but the pockets, and rails that are played from the
- * right side. And whether a place can be reached from the middle of a table.
+ * right side. And whether a place can be reached from a table's middle.
  *
  * To the centre of a ball of radius R, jaws are discs grown by R, pockets discs, and rails
  * segments grown by R; but detection knows of a rail only the segment at the distance R on its
@@ -188,9 +188,8 @@ static bool is_free(const ring *g, const double r[2]) {
   return true;
 }
 
-/* A place for a ball near the middle of the table: in rings of places around it. False if there
- * is none. */
-static bool find_place(const ring *g, const carom_table *t, double P[2]) {
+/* A free place near the middle of the box around a table: in rings of places around it. */
+static bool find_middle(const ring *g, const carom_table *t, double P[2]) {
   enum { HALF = 4 };
   for (int far = 0; far <= HALF; far++)
     for (int k = -far; k <= far; k++)
@@ -203,6 +202,35 @@ static bool find_place(const ring *g, const carom_table *t, double P[2]) {
           return true;
       }
   return false;
+}
+
+/* A place for a ball on the table: near its middle; or beside the longest rail, where a ring of
+ * parts that are at most `grown` apart is closed around that and not around the middle, as in the
+ * shape of a U. False if there is none. */
+static bool find_place(ring *g, const carom_table *t, const carom_features *f, double R,
+                       double grown, double P[2]) {
+  hole unused;
+  const bool found = find_middle(g, t, P);
+  if (found && encloses(g, grown, grown, P, NULL, &unused))
+    return true;
+  int longest = 0;
+  double most = 0.0;
+  for (int k = 0; k < t->rails; k++) {
+    const double *p = t->rail[k].p, *q = t->rail[k].q;
+    const double size2 = (q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]);
+    if (size2 > most)
+      longest = k;
+    most = carom_greater(most, size2);
+  }
+  const carom_rail *rail = &t->rail[longest];
+  const double *n = f->line[longest];
+  const double Q[2] = {0.5 * (rail->p[0] + rail->q[0]) + 2.0 * R * n[0],
+                       0.5 * (rail->p[1] + rail->q[1]) + 2.0 * R * n[1]};
+  if (!(most > 0.0) || !is_free(g, Q) || !encloses(g, grown, grown, Q, NULL, &unused))
+    return found;
+  P[0] = Q[0];
+  P[1] = Q[1];
+  return true;
 }
 
 /* Finds the hole in a ring that is not closed, by bisection over how far the parts are grown.
@@ -292,7 +320,7 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
   ring g;
   double P[2];
   shapes_of(table, &features, &ball, 0.0, true, &g);
-  if (!find_place(&g, table, P) || !is_closed(&g, P, fault))
+  if (!find_place(&g, table, &features, radius, touching, P) || !is_closed(&g, P, fault))
     return CAROM_ERROR_TABLE_OPEN;
   for (int k = 0; k < table->rails; k++)
     if (wrong_side(&g, &table->rail[k], features.line[k],
@@ -312,17 +340,16 @@ __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_table *table,
                                                       const carom_ball_kind *kind,
                                                       const double r[2]) {
   static const double overlap = 2e-6; /* m: a ball that touches a cushion may be 1e-6 m in it */
-  /* the middle of the table */
+  const double closed = touching + 2.0 * overlap;
   ring g;
   hole unused;
   double P[2];
   shapes_of(table, features, kind, overlap, true, &g);
-  if (!find_place(&g, table, P))
+  if (!find_place(&g, table, features, kind->radius, closed, P))
     return false;
   /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken
    * to be closed */
   shapes_of(table, features, kind, overlap, false, &g);
-  const double closed = touching + 2.0 * overlap;
   const double grown = encloses(&g, closed, closed, P, NULL, &unused) ? closed : 2.0 * kind->radius;
   return encloses(&g, grown, grown, P, r, &unused);
 }

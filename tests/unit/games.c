@@ -435,10 +435,28 @@ TEST(polygon_tables) {
                      t.pocket[k].centre[1] - turned.pocket[i].centre[1]) < 1e-12;
     ck_assert(found);
   }
-  /* where the middle is outside of the table, it is told so */
+  /* the middle may be outside of the table: an L, and a U, in both arms of which balls can lie */
   static const carom_corner bent[6] = {{0, 0, 0},     {2, 0, 0},   {2, 0.5, 0},
                                        {0.5, 0.5, 0}, {0.5, 2, 0}, {0, 2, 0}};
-  ck_assert_int_eq(carom_table_polygon(bent, 6, 0.0366, r, R, &t, &fault), CAROM_ERROR_TABLE_OPEN);
+  static const carom_corner u[8] = {{0, 0, 0}, {3, 0, 0}, {3, 2.4, 0}, {2, 2.4, 0},
+                                    {2, 1, 0}, {1, 1, 0}, {1, 2.4, 0}, {0, 2.4, 0}};
+  ck_assert_int_eq(carom_table_polygon(bent, 6, 0.0366, r, R, &t, &fault), CAROM_OK);
+  for (int open = 0; open < 2; open++) {
+    ck_assert_int_eq(carom_table_polygon(u, 8, 0.0366, r, R, &t, &fault), CAROM_OK);
+    if (open) { /* a hole in the bottom of the U */
+      t.rail[0].q[0] = 1.5;
+      ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
+      break;
+    }
+    carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+    static const double at[4][2] = {{0.5, 2.0}, {2.5, 2.0}, {1.5, 0.5}, {1.5, 1.8}};
+    carom_part part;
+    for (int k = 0; k < 4; k++)
+      ck_assert_int_eq(carom_place_ball(&t, &ball, 1, 0, at[k][0], at[k][1], &part) == CAROM_OK,
+                       k < 3);
+    for (int k = 0; k < t.rails; k++)
+      ck_assert_ptr_null(carom_rail_name(&t, k));
+  }
   ck_assert_int_eq(carom_table_polygon(pool, 2, 0.0366, r, R, &t, &fault), CAROM_ERROR_TABLE);
   ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, -r, R, &t, NULL), CAROM_ERROR_JAW_RADIUS);
   ck_assert_int_eq(carom_table_polygon(pool, 6, 0.2, r, R, &t, NULL), CAROM_ERROR_NOSE_HEIGHT);
