@@ -40,6 +40,8 @@
 #error "carom promises bits: compile its sources without -fno-signed-zeros"
 #elif FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16 /* 16: half precision too in its own */
 #error "carom promises bits: compile its sources with -msse2 -mfpmath=sse, not -mfpmath=387"
+#elif defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
+#error "carom hashes and seals bytes: compile its sources with a compiler for little endian"
 #endif
 _Static_assert(sizeof 0.1 == sizeof(double),
                "carom promises bits: compile its sources without -fsingle-precision-constant");
