@@ -19,7 +19,6 @@ cues = carom.cue(speed=np.array([1.5, 2.5, 3.5])[:, None], phi=np.arange(0.0, 36
 shots = carom.simulate_batch(table, layout, cues, features=True, threads=carom.ALL_THREADS)
 
 facts = shots.features
-assert facts is not None  # as it was asked for
 potted, scratch = facts.pocket[..., 1] >= 0, facts.pocket[..., 0] >= 0
 kick = (facts.contact[..., 0] == 1) & (facts.cushions_before[..., 0] >= 1) & potted & ~scratch
 print(f"{kick.sum()} of {kick.size} strokes are good kicks; {np.sum(potted & ~kick)} pot the ball otherwise")

@@ -30,7 +30,6 @@ for speed in (1.5, 3.0):
         tip = random.normal(0.0, 0.02, (2, STROKES))
         cues = carom.cue(speed=speed * random.normal(1.0, 0.03, STROKES), phi=phi, a=tip[0], b=tip[1])
         shots = carom.simulate_batch(table, layout, cues, features=True, threads=carom.ALL_THREADS)
-        assert shots.features is not None  # as it was asked for
         potted.append(float(np.mean(shots.features.pocket[:, 1] >= 0)))
     print(f"{speed:g} m/s:", ", ".join(f"{length:.1f} m {share:.0%}" for length, share in zip(lengths, potted)))
     assert potted[0] > potted[-1]

@@ -1,14 +1,16 @@
 """Each bad argument has its error: of the right kind, beginning with the argument's name, and saying what would be right."""
 
+import re
 import warnings
 
 import numpy as np
 import pytest
 
 import carom
-from carom import _shot_options, collisions, cushions
+from carom import _shot_options, collisions, cushions, tracks
 from carom._rows import numbered
 from carom.potting import Potting
+from carom.record import Recorder
 
 TABLE = carom.tables.pool_9ft()
 RACK, CUE, RULES = carom.racks.nineball(TABLE), carom.cue(), Potting()
@@ -71,11 +73,10 @@ VALUES = [
     (r"seed: it must be a whole number", lambda: carom.racks.nineball(TABLE, seed=-1)),
     (r"seed: it must be a whole number from 0", lambda: carom.racks.nineball(TABLE, seed=2**64)),
     (r"seed: it must be a whole number", lambda: carom.racks.nineball(TABLE, seed=1.5)),
-    (r"gap = -1: it must be 0 m to the radius", lambda: carom.racks.nineball(TABLE, gap=-1)),
+    (r"gap = -1\.0: it must be 0 m to the radius", lambda: carom.racks.nineball(TABLE, gap=-1)),
     (r"width: it must be positive", lambda: carom.Table(0.0, 1.0, rails=TABLE.rails)),
     (r"rails: ", lambda: carom.Table(1.0, 2.0, rails=[[0.0, 1.0]])),
     (r"rails: .* \(up to 32,\)", lambda: carom.Table(1.0, 2.0, rails=np.zeros(33, carom.dtypes.rail))),
-    (r"speed: could not convert", lambda: carom.cue(speed="fast")),
     (r"cue: speed is that of the cue, ball_speed", lambda: carom.cue(speed=1.0, ball_speed=1.0)),
     (r"cue: tip says what a and b say", lambda: carom.cue(tip=(0.1, 0.1), b=0.1)),
     (r"tip: the shape must be", lambda: carom.cue(tip=0.1)),
@@ -87,7 +88,7 @@ VALUES = [
     (r"r: setting an array element", lambda: carom.balls([[1.0, 2.0], [3.0]])),
     (r"r: the shape must be", lambda: carom.balls([1.0, 2.0])),
     (r"leading dimensions .* but are speed \(2,\), phi \(3,\)", lambda: carom.cue(speed=[1, 2], phi=[1, 2, 3])),
-    (r"leading dimensions .* but are kind\.radius \(3,\), state\.r \(2,\)", lambda: carom.balls([[0.5, 0.5]] * 2, radius=[0.03] * 3)),
+    (r"leading dimensions .* but are radius \(3,\), r \(2,\)", lambda: carom.balls([[0.5, 0.5]] * 2, radius=[0.03] * 3)),
     (r"phi, speed, a, b: finite numbers", lambda: RULES.actions(np.inf, 1.0)),
     # shots
     (r"balls: the shape must be \(balls,\)", lambda: carom.simulate(TABLE, np.stack([RACK] * 2))),
@@ -102,7 +103,7 @@ VALUES = [
     (r"stop_at: must be one of 'contact', 'strike'", lambda: carom.simulate(TABLE, RACK, CUE, stop_at="goal")),
     (r"cushion_model: must be one of", lambda: carom.simulate(TABLE, RACK, CUE, cushion_model="rubber")),
     (r"space: must be one of", lambda: carom.simulate(TABLE, RACK, CUE, options=carom.Options(space="2d"))),
-    (r"records: must be 'full' or 'brief'", lambda: carom.simulate_batch(TABLE, RACK, CUE, records="some")),
+    (r"records: must be one of 'full', 'brief', not 'some'", lambda: carom.simulate_batch(TABLE, RACK, CUE, records="some")),
     (r"threads: it must be a whole number from -1", lambda: carom.simulate_batch(TABLE, RACK, CUE, threads=-7)),
     (r"room: it must be a whole number", lambda: carom.simulate_batch(TABLE, RACK, CUE, room=-1)),
     (r"shot: only what simulate", lambda: carom.resume(carom.simulate(TABLE, RACK, CUE))),
@@ -115,6 +116,7 @@ VALUES = [
 ]  # fmt: skip
 
 TYPES = [
+    (r"speed: real numbers are needed, not 'fast'", lambda: carom.cue(speed="fast")),
     (r"balls: .* carom\.balls\(\)", lambda: carom.place_ball(TABLE, [1.0, 2.0], 0, 0.5, 0.5)),
     (r"balls: .* carom\.balls\(\)", lambda: carom.simulate(TABLE, np.zeros((2, 20)))),
     (r"balls: .* not of carom\.dtypes\.cue$", lambda: carom.simulate(TABLE, CUE)),
@@ -197,6 +199,92 @@ def test_message(kind, message, call):
     assert len(str(caught.value)) < 400 and "offsets" not in str(caught.value) and "options." not in str(caught.value)
     if kind is carom.CaromError:
         assert caught.value.field == str(caught.value).partition(" = ")[0] and caught.value.status < 0
+
+
+SHOT, BATCH = carom.simulate(TABLE, RACK, CUE), carom.simulate_batch(TABLE, RACK, carom.cue(speed=[1.0, 2.0]))
+STOPPED, PAIR = carom.simulate(TABLE, RACK, CUE, t_final=0.1), carom.balls([[0.6, 0.8], [0.75, 1.6]])
+CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+# Each function with arguments that are right, and those that each wrong value takes the place of in turn.
+CALLS = [
+    (carom.cue, {}, "speed phi theta a b ball game mass end_mass tip_radius miscue tip_time ball_speed tip"),
+    (carom.balls, {"r": [[0.6, 0.8]]}, "r v w game mass mu_slide nose_height"),
+    (carom.simulate, {"table": TABLE, "balls": PAIR},
+     "table balls options world ball_model cushion_model friction space simultaneous cluster_steps steps events_most plain t_final stop_at first_of"),
+    (carom.simulate_batch, {"table": TABLE, "layouts": PAIR}, "table layouts room kinds records threads out options t_final stop_at"),
+    (carom.resume, {"shot": STOPPED}, "shot t_final stop_at"),
+    (carom.cite, {}, "options world"),
+    (carom.tangents, {"shot": SHOT, "wrt": ["cue.phi"]}, "shot wrt times threads"),
+    (carom.jacobian, {"table": TABLE, "layouts": PAIR, "cues": CUE, "wrt": ["cue.phi"]}, "table layouts wrt of times room threads options"),
+    (carom.plan, {"table": TABLE, "balls": PAIR, "rules": "potting", "shots": 100},
+     "table balls rules group state player opponent shots in_hand best seed threads stop options"),
+    (carom.aim, {"table": TABLE, "balls": PAIR, "cue": CUE, "ball": 1, "pocket": 0}, "table balls cue ball pocket options"),
+    (carom.player, {}, "errors fargo"),
+    (carom.with_errors, {"cue": CUE, "player": carom.player(), "seed": 1}, "cue player seed number"),
+    (carom.place_ball, {"table": TABLE, "balls": PAIR, "ball": 0, "x": 0.5, "y": 0.5}, "table balls ball x y"),
+    (carom.by_number, {"balls": PAIR, "ids": ["cue", 1], "rules": "nineball"}, "balls ids rules cue"),
+    (carom.struck, {"cue": CUE, "kind": PAIR[0]["kind"]}, "cue kind"),
+    (carom.impacts, {"v_a": (1.0, 0.0, 0.0), "r_b": (0.05715, 0.0, 0.0)}, "v_a r_b w_a radius mass mass_b mu_ball"),
+    (carom.collide, {"impacts": GOOD}, "impacts solver slip steps threads plain out"),
+    (carom.mu_ball, {"impacts": GOOD}, "impacts law"),
+    (carom.trace, {"impact": GOOD}, "impact points solver"),
+    (carom.cushion_impacts, {"v": (0.0, 1.0, 0.0)}, "v w normal height radius jaw_radius"),
+    (carom.cushion, {"impacts": WALL}, "impacts model convention law steps least_step omega_ratio plain threads out"),
+    (carom.cushion_trace, {"impact": WALL}, "impact points model least_step"),
+    (carom.racks.nineball, {"table": TABLE}, "table gap seed"),
+    (carom.tables.polygon, {"corners": CORNERS}, "corners nose_height jaw_radius ball_radius"),
+    (carom.Table, {"width": 1.0, "length": 2.0, "rails": TABLE.rails}, "width length rails jaws pockets ball_radius rail_width pocket_back"),
+    (SHOT.positions, {"times": 0.1}, "times"),
+    (SHOT.animate, {}, "speed"),
+    (BATCH.positions, {"times": 0.1}, "times threads"),
+    (BATCH.to_dataframe, {}, "dims"),
+    (Potting, {}, "balls strokes table ball_set noise parameters reward speeds cushion_model threads"),
+    (Recorder, {"table": TABLE, "balls": PAIR}, "table balls options world"),
+    (tracks.synthetic, {"shots": 1}, "shots table radius cushion_model constants speeds noise rate thin seed"),
+]  # fmt: skip
+WRONG = [
+    "1", "x", b"1", {}, {"world": "pooltool"}, [], [None, 1.0], [[1, 2], [3]], (1, 2, 3), np.array(["a"]), np.zeros((0, 3)), object(), 1j,
+    np.nan, np.inf, -1, None, True, np.datetime64(0, "s"), len,
+]  # fmt: skip
+TEXT = "game world ball_model cushion_model friction space simultaneous stop_at records rules group ball_set solver slip model convention law"
+
+
+@pytest.mark.parametrize(("call", "good", "names"), CALLS, ids=[case[0].__qualname__ for case in CALLS])
+def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(call, good, names):
+    for name in names.split():
+        for wrong in WRONG:
+            try:
+                call(**{**good, name: wrong})
+            except carom.CaromError as error:
+                assert error.field, (name, wrong)  # whose numbers C refused
+            except (TypeError, ValueError) as error:
+                assert re.search(rf"\b{name}\b", str(error)), (name, wrong, error)
+            else:
+                # of text and bytes none is read as a number
+                assert not isinstance(wrong, (str, bytes)) or (name in TEXT.split() and wrong == "x"), (name, wrong)
+
+
+def test_what_looks_like_a_number_and_is_none():
+    for call, said in (
+        (lambda: carom.cue(phi="90"), "phi: real numbers are needed, not '90'"),
+        (lambda: carom.cue(speed=[None, 1.0]), "speed: real numbers are needed, not [None, 1.0]"),
+        (lambda: carom.simulate(TABLE, PAIR, CUE, t_final="1"), "t_final: a time in s is needed, or None, not '1'"),
+        (lambda: Potting(noise=True), "noise: three standard deviations are needed, of degrees, m/s and radii, not True"),
+        (lambda: carom.simulate(TABLE, PAIR, CUE, options={}), "options: a carom.Options is needed, such as"),
+    ):
+        with pytest.raises(TypeError, match="^" + re.escape(said)):
+            call()
+
+
+def test_features_that_were_not_asked_for_are_told():
+    with pytest.raises(AttributeError, match=r"^features: simulate_batch\(features=True\) tells them"):
+        BATCH.features  # noqa: B018
+
+
+def test_completion_has_no_internals():
+    """What dir() lists, which completion shows, is told in the docs or in the text of its class."""
+    private = {"look_at", "jobs", "facts", "batch", "index", "directions", "seeds_of", "play", "check_table", "of_record", "Made", "judge", "colour"}
+    for shown in (BATCH, BATCH[0], carom.derivatives, carom.layouts, carom.rules, carom.pictures, carom.shots):
+        assert not private & set(dir(shown)), shown
 
 
 def test_failures_of_a_batch():

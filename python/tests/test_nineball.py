@@ -80,7 +80,7 @@ def test_a_ball_that_leaves_the_table_is_a_foul_and_stays_down(monkeypatch):
 
     def off(*arguments, **options):
         shots = carom.simulate_batch(*arguments, **options)
-        shots.final["label"][0, 3], shots.facts["off"][0] = carom.Label.OFF, 1 << 3
+        shots.final["label"][0, 3], shots._facts["off"][0] = carom.Label.OFF, 1 << 3
         return shots
 
     monkeypatch.setattr("carom.rules.simulate_batch", off)

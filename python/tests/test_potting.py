@@ -71,7 +71,7 @@ def test_a_ball_that_leaves_the_table_is_a_foul_and_taken_back(monkeypatch):
 
     def off(*arguments, **options):
         shots = carom.simulate_batch(*arguments, **options)
-        shots.final["label"][1, 2], shots.facts["off"][1] = carom.Label.OFF, 1 << 2
+        shots.final["label"][1, 2], shots._facts["off"][1] = carom.Label.OFF, 1 << 2
         return shots
 
     monkeypatch.setattr(carom.potting, "simulate_batch", off)
@@ -145,7 +145,7 @@ def test_what_the_rules_refuse():
     pool = carom.tables.pool_9ft()
     wider = carom.Table(pool.width + 0.1, pool.length, rails=pool.rails, jaws=pool.jaws, pockets=pool.pockets)
     for arguments, words in (
-        ({"balls": 0}, "balls: must be 1 to 15"), ({"strokes": 0}, "strokes: must be at least 1"),
+        ({"balls": 0}, "balls: it must be a whole number from 1 to 15"), ({"strokes": 0}, "strokes: it must be a whole number from 1"),
         ({"speeds": (2.0, 1.0)}, "speeds: must be the least and the most"), ({"noise": (1.0, -1.0, 0.0)}, "noise: must be three standard deviations"),
         ({"table": carom.tables.threecushion()}, "table: must have pockets"),
         ({"table": wider}, r"table: its rails must lie around 0 <= x <= width = 1\.37 m, .* there is one at x = 1\.27 m"),

@@ -185,7 +185,7 @@ def test_features(breaks, options):
     shots = play(features=True, **options)
     plain = play(**{**options, "features": False})
     assert shots.final.tobytes() == plain.final.tobytes() and shots.status.tobytes() == plain.status.tobytes()
-    assert shots.record[["time", "count"]].tolist() == plain.record[["time", "count"]].tolist() and plain.features is None
+    assert shots.record[["time", "count"]].tolist() == plain.record[["time", "count"]].tolist() and not hasattr(plain, "features")
     seen = []
     for k, one in enumerate(alone):
         if one is None:
@@ -480,6 +480,30 @@ def test_a_batch_as_a_frame(breaks):
     grid = carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6]], v=[0.0, 0.5, 0.0]), carom.cue(speed=[[0.0], [0.0]], phi=[0.0, 1.0, 2.0]))
     assert grid.to_dataframe().loc[(1, 2), "cue_phi"] == 2.0 and isinstance(grid.to_dataframe().index, pandas.MultiIndex)
     assert "cue_phi" not in carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6]])).to_dataframe()
+    # each level has a name
+    assert (shots[0].to_dataframe().index.name, frame.index.name) == ("event", "shot")
+    assert list(grid.to_dataframe().index.names) == ["shot_0", "shot_1"]
+    assert list(grid.to_dataframe(["speed", "phi"]).index.names) == ["speed", "phi"]
+    with pytest.raises(ValueError, match="^dims: 2 different names are needed"):
+        grid.to_dataframe(["speed"])
+
+
+def test_a_batch_as_a_dataset(breaks):
+    pytest.importorskip("xarray")
+    shots = breaks[0](features=True)
+    data = shots.to_xarray()
+    assert dict(data.sizes) == {"shot": 12, "ball": 10, "axis": 3, "met": 2}
+    for name, values in (
+        ("time", shots.time), ("cue_phi", shots.cues["phi"]), ("r", shots.final["r"]), ("label", shots.final["label"]),
+        ("contact", shots.features.contact), ("pocket", shots.features.pocket), ("cushions_after", shots.features.cushions_after),
+    ):  # fmt: skip
+        np.testing.assert_array_equal(data[name], values, err_msg=name)
+    assert data.sel(axis="y", ball=3)["r"].dims == ("shot",) and data["v"].attrs == {"units": "m/s"}
+    assert dict(zip(data["label"].attrs["flag_meanings"].split(), data["label"].attrs["flag_values"])) == {
+        label.name.lower(): label.value for label in carom.Label
+    }
+    grid = carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6]]), carom.cue(speed=[[1.0], [2.0]], phi=[0.0, 1.0, 2.0]))
+    assert grid.to_xarray(("speed", "phi"))["time"].dims == ("speed", "phi") and "contact" not in grid.to_xarray()
 
 
 def test_what_is_shown_is_short(breaks):

@@ -37,7 +37,7 @@ KINDS = tuple(name for name in dtypes.ball_kind.names or () if name != "radius")
 
 def usual(cushion_model: ShotCushion) -> Constants:
     """The constants to begin with, for a model of the cushion."""
-    if cushion_model not in _CUSHION:
+    if not isinstance(cushion_model, str) or cushion_model not in _CUSHION:
         raise ValueError(f"cushion_model: must be one of {', '.join(map(repr, _CUSHION))}, not {cushion_model!r}")
     kind = balls(np.zeros((1, 2)), game="billiard")["kind"][0]
     e, mu, height = _CUSHION[cushion_model]
@@ -51,6 +51,8 @@ def usual(cushion_model: ShotCushion) -> Constants:
 
 def complete(given: Mapping[str, float], cushion_model: ShotCushion, where: str = "constants") -> Constants:
     """The given constants, and the usual ones for those that are not given."""
+    if not isinstance(given, Mapping):
+        raise TypeError(f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {given!r}")
     for name, value in given.items():
         if name not in KINDS:
             raise ValueError(f"{where}: there is no constant {name!r}; known are {', '.join(KINDS)}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -53,6 +54,8 @@ def resolve(
     array = rows(impacts, kind.given, "impacts", single=kind.batch_f32 is not None)
     record = array.dtype.names is not None
     shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
+    if out is not None and not (isinstance(out, tuple) and len(out) == 2):
+        raise TypeError(f"out: a tuple of two arrays is needed, those of an earlier result, not {reprlib.repr(out)}")
     motion, status = (None, None) if out is None else out
     if record:
         motion = output(motion, shape, kind.gives, "out[0]")

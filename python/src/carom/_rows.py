@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import functools
 import math
+import numbers
 import operator
 import os
+import reprlib
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -32,20 +35,46 @@ class Arrays:
 
 
 def as_array(values: npt.ArrayLike, name: str, dtype: npt.DTypeLike | None = None) -> Array:
-    """np.asarray(), but that what cannot be read is refused by its name, and so are masks and imaginary parts, which would be lost."""
+    """np.asarray(), but that what cannot be read is refused by its name, and so are masks and imaginary parts, which would be lost.
+
+    Of a dtype that numbers have, text and None are refused too, which NumPy would read as numbers and nan.
+    """
     if isinstance(values, np.ma.MaskedArray):
         raise TypeError(f"{name}: masks are not read; give the rows that count alone (compressed), or the array's filled() values")
     try:
         array = np.asarray(values)
         if dtype is None or array.dtype == dtype:
             return array
-        if array.dtype.kind == "c":
-            raise TypeError("real numbers are needed, not complex ones")
-        with np.errstate(all="ignore"):
-            return array.astype(dtype)
+        if array.dtype.kind in "biuf" or (array.dtype.kind == "O" and not any(_is_text(one) for one in array.flat)):
+            with np.errstate(all="ignore"):
+                return array.astype(dtype)
     except (TypeError, ValueError, OverflowError) as wrong:
-        kind = TypeError if isinstance(wrong, TypeError) else ValueError
-        raise kind(f"{name}: {wrong}") from None
+        if dtype is None or isinstance(values, np.ndarray) or "shape" in str(wrong):
+            raise (TypeError if isinstance(wrong, TypeError) else ValueError)(f"{name}: {wrong}") from None
+    raise TypeError(f"{name}: real numbers are needed, not {reprlib.repr(values)}")
+
+
+def _is_text(value: object) -> bool:
+    return value is None or isinstance(value, (str, bytes))
+
+
+def number(value: object, name: str, needed: str = "a real number is needed") -> float:
+    """A number; anything else is refused by its name."""
+    if isinstance(value, (float, int, np.ndarray, numbers.Real)) or hasattr(value, "__float__"):
+        array = as_array(value, name, np.float64)  # type: ignore[arg-type]
+        if array.size == 1:
+            return float(array.reshape(()))
+    raise TypeError(f"{name}: {needed}, not {reprlib.repr(value)}")
+
+
+def several(values: object, name: str, needed: str) -> list[Any]:
+    """What an argument lists; a text, or what cannot be listed, is refused by its name."""
+    if not isinstance(values, (str, bytes)):
+        try:
+            return [*values]  # type: ignore[misc]
+        except TypeError:
+            pass
+    raise TypeError(f"{name}: {needed}, not {reprlib.repr(values)}")
 
 
 def rows(values: npt.ArrayLike, record: np.dtype[Any], name: str, single: bool = False) -> Array:
@@ -181,15 +210,34 @@ pointer: Any = ffi.from_buffer
 def whole(value: object, name: str, least: int = 0, most: int = 2**31 - 1) -> int:
     """A whole number between bounds; anything else is refused by its name."""
     try:
-        number = operator.index(value)  # type: ignore[arg-type]
+        given = operator.index(value)  # type: ignore[arg-type]
     except TypeError:
-        number = least - 1
-    if least <= number <= most:
-        return number
-    raise ValueError(f"{name}: it must be a whole number from {least} to {most}, not {value!r}")
+        given = least - 1
+    if least <= given <= most:
+        return int(given)
+    raise ValueError(f"{name}: it must be a whole number from {least} to {most}, not {reprlib.repr(value)}")
 
 
 _Made = TypeVar("_Made", bound=Callable[..., Any])
+
+
+def cached(function: _Made) -> _Made:
+    """functools.lru_cache of a function, which names an argument that has no hash."""
+    kept = functools.lru_cache(maxsize=256)(function)
+
+    @functools.wraps(function)
+    def call(*arguments: Any) -> Any:
+        try:
+            return kept(*arguments)
+        except TypeError:
+            for name, value in zip(function.__code__.co_varnames, arguments):
+                given = zip(value._fields, value) if hasattr(value, "_fields") else [(name, value)]
+                for field, part in given:
+                    if not all(isinstance(one, Hashable) for one in (part if isinstance(part, tuple) else [part])):
+                        raise TypeError(f"{field}: {reprlib.repr(part)} is none of its values") from None
+            raise
+
+    return cast(_Made, call)
 
 
 def called(function: _Made, name: str, text: str) -> _Made:
@@ -221,7 +269,7 @@ def choice(names: dict[str, int], value: str, option: str) -> int:
     """The number of a named option."""
     try:
         return names[value]
-    except KeyError:
+    except (KeyError, TypeError):  # the second of what has no hash
         raise ValueError(f"{option}: must be one of {', '.join(map(repr, names))}, not {value!r}") from None
 
 
@@ -250,21 +298,24 @@ def fill(record: np.dtype[Any], vectors: dict[str, int], fields: Mapping[str, np
         if isinstance(value, float):
             arrays[name] = value
             continue
-        array = as_array(value, name, np.float64)
-        length = vectors.get(name.rpartition(".")[2])
+        part, _, last = name.rpartition(".")
+        length = vectors.get(last)
+        # as the caller calls it
+        shown = f"{last}_{part}" if part in ("a", "b") and (length is not None or (part == "b" and last != "radius")) else last
+        array = as_array(value, shown, np.float64)
         if length is not None and array.ndim > 0:
             if array.shape[-1] != length:
-                raise ValueError(f"{name}: the shape must be (..., {length}), not {array.shape}")
-            shapes[name] = array.shape[:-1]
+                raise ValueError(f"{shown}: the shape must be (..., {length}), not {array.shape}")
+            shapes[shown] = array.shape[:-1]
         else:
-            shapes[name] = array.shape
+            shapes[shown] = array.shape
         arrays[name] = array
     shape = broadcast(shapes)
     filled = repeated(usual or bytes(record.itemsize), record, shape)
     for name, array in arrays.items():
-        part: Any = filled
+        within: Any = filled
         *parts, last = name.split(".")
         for inner in parts:
-            part = part[inner]
-        part[last] = array
+            within = within[inner]
+        within[last] = array
     return filled

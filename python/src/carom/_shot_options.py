@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import functools
+import reprlib
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 
 import numpy as np
 
 from carom._carom import ffi
-from carom._rows import choice, numbered, whole
+from carom._rows import cached, choice, number, numbered, several, whole
 
 World = Literal["carom", "pooltool"]
 BallModel = Literal["default", "exact", "euler", "inelastic", "mirror"]
@@ -86,8 +86,11 @@ class Options(NamedTuple):
             raise TypeError(f"options: there is no {min(unknown)!r}; known are {', '.join(self._fields)}")
         made = self._replace(**changes)
         if not isinstance(made.first_of, (int, tuple)):
-            made = made._replace(first_of=tuple(int(ball) for ball in made.first_of))
-        return made if isinstance(made.stop_at, (str, tuple)) else made._replace(stop_at=tuple(made.stop_at))
+            balls = several(made.first_of, "first_of", "the index of a ball is needed, or several")
+            made = made._replace(first_of=tuple(whole(ball, "first_of", most=31) for ball in balls))
+        if not isinstance(made.stop_at, (str, tuple)):
+            made = made._replace(stop_at=tuple(several(made.stop_at, "stop_at", "the name of an event is needed, or several")))
+        return made
 
 
 if TYPE_CHECKING:
@@ -110,13 +113,23 @@ if TYPE_CHECKING:
         first_of: int | Iterable[int]
 
 
-@functools.lru_cache(maxsize=256)
+def chosen(options: object, changes: Any) -> Options:
+    """The argument `options` with single options; what is no Options is refused."""
+    if not isinstance(options, Options):
+        raise TypeError(
+            f"options: a carom.Options is needed, such as carom.Options(world='pooltool'), not {reprlib.repr(options)}; "
+            "single options are keywords of their own: world='pooltool'"
+        )
+    return options.changed(changes)
+
+
+@cached
 def shot_options(given: Options, threads: int = 0) -> Any:
     """The options of C; they are never written to."""
     (world, ball_model, cushion_model, friction, space, simultaneous, cluster_steps, steps, events_most, plain, t_final, stop_at,
      first_of) = given  # fmt: skip
-    if t_final is not None and not 0.0 < t_final < np.inf:
-        raise ValueError(f"t_final: it must be positive and finite, in s, or None, not {t_final}")
+    if t_final is not None and not 0.0 < (t_final := number(t_final, "t_final", "a time in s is needed, or None")) < np.inf:
+        raise ValueError(f"t_final: it must be positive and finite, in s, or None, not {t_final:g}")
     stops = (stop_at,) if isinstance(stop_at, str) else tuple(stop_at)
     balls = (first_of,) if isinstance(first_of, int) else tuple(first_of)
     named = {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from typing import Any, Literal
 
 import numpy as np
@@ -12,7 +11,7 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._impacts import BALLS, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, choice, fill, in_chunks, numbered, pointer, rows, whole
+from carom._rows import Array, as_array, cached, choice, fill, in_chunks, numbered, pointer, rows, whole
 
 Solver = Literal["exact", "euler"]
 Slip = Literal["paper", "pooltool"]
@@ -22,7 +21,7 @@ ALL_THREADS = -1
 """For `threads`: one thread for each processor that the process may use."""
 
 
-@functools.lru_cache(maxsize=256)
+@cached
 def _options(solver: str, slip: str, steps: int, threads: int, plain: bool) -> Any:
     """The options of C; they are never written to."""
     numbers = {"solver": choice(_SOLVERS, solver, "solver"), "slip": choice(_SLIPS, slip, "slip"), "steps": whole(steps, "steps")}
@@ -120,7 +119,10 @@ def mu_ball(impacts: npt.ArrayLike, law: tuple[float, float, float] | None = Non
     """
     array = rows(impacts, dtypes.impact, "impacts")
     mu = np.empty(array.shape if array.dtype.names is not None else array.shape[:-1])
-    source, target, a_b_c = pointer("carom_impact[]", array), pointer("double[]", mu), law or alciatore()
+    a_b_c = alciatore() if law is None else as_array(law, "law", np.float64).tolist()
+    if not isinstance(a_b_c, (tuple, list)) or len(a_b_c) != 3 or not all(isinstance(one, float) for one in a_b_c):
+        raise ValueError(f"law: three numbers a, b and c are needed, not {law!r}")
+    source, target = pointer("carom_impact[]", array), pointer("double[]", mu)
 
     def fill_in(begin: int, count: int) -> int:
         lib.carom_python_mu_ball(source + begin, count, a_b_c, target + begin)

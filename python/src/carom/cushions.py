@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from typing import Any, Literal
 
 import numpy as np
@@ -12,7 +11,7 @@ from carom import dtypes
 from carom._carom import ffi
 from carom._impacts import CUSHION, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, choice, fill, numbered, whole
+from carom._rows import Array, cached, choice, fill, number, numbered, whole
 
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler", "smooth"]
 CushionConvention = Literal["paper", "pooltool"]
@@ -20,14 +19,14 @@ CushionLaw = Literal["constant", "han"]
 _MODELS, _CONVENTIONS, _LAWS = numbered("carom_cushion_model"), numbered("carom_cushion_convention"), numbered("carom_cushion_law")
 
 
-@functools.lru_cache(maxsize=256)
+@cached
 def _options(
     model: str, convention: str, law: str, steps: int, threads: int, least_step: float, omega_ratio: float, plain: bool
 ) -> Any:
     """The options of C; they are never written to."""
-    if not 0.0 <= least_step < np.inf:
+    if not 0.0 <= (least_step := number(least_step, "least_step", "a step in N s is needed")) < np.inf:
         raise ValueError(f"least_step: it must be 0 or more and finite, in N s, not {least_step!r}")
-    if omega_ratio != 0.0 and not 1.0 < omega_ratio < 2.0:
+    if (omega_ratio := number(omega_ratio, "omega_ratio")) != 0.0 and not 1.0 < omega_ratio < 2.0:
         raise ValueError(f"omega_ratio: it must be 0, or between 1 and 2, not {omega_ratio!r}")
     named = {"model": choice(_MODELS, model, "model"), "convention": choice(_CONVENTIONS, convention, "convention"), "law": choice(_LAWS, law, "law")}
     numbers = {"steps": whole(steps, "steps"), "threads": whole(threads, "threads", least=-1), "plain": whole(plain, "plain", most=1)}
@@ -114,6 +113,6 @@ def cushion_trace(
 
     Raises CaromError: The impact is in error.
     """
-    if model not in ("mathavan", "euler"):
+    if not isinstance(model, str) or model not in ("mathavan", "euler"):
         raise ValueError(f"model: must be 'mathavan' or 'euler', which can be followed, not {model!r}")
     return follow(CUSHION, impact, points, _options(model, convention, law, steps, 0, least_step, 0.0, plain))

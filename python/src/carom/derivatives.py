@@ -16,8 +16,8 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, addresses, as_array, in_chunks, pointer, whole, workers
-from carom._shot_options import Options, shot_options
+from carom._rows import Array, addresses, as_array, in_chunks, pointer, several, whole, workers
+from carom._shot_options import Options, chosen, shot_options
 from carom.layouts import Table, of_record
 from carom.results import Shot, Shots
 from carom.shots import simulate_batch
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from carom._shot_options import Changes
+
+__all__ = ["Flag", "Tangents", "jacobian", "tangents"]
 
 MOST: int = lib.CAROM_DIRECTIONS_MOST
 """Directions of one call of C; more are given in parts."""
@@ -115,7 +117,7 @@ class Direction(NamedTuple):
 def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[list[Direction]]:
     """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both places, or balls[0].r[1]."""
     found: list[list[Direction]] = []
-    for name in [wrt] if isinstance(wrt, str) else wrt:
+    for name in [wrt] if isinstance(wrt, str) else several(wrt, argument, "names of numbers are needed, such as 'cue.phi'"):
         match = re.fullmatch(r"(cue|table|kind|balls\[(\d+)\])\.(?:(kind)\.)?(\w+)(?:\[(\d)\])?", str(name))
         group, ball, inner, field, index = match.groups() if match else ("", None, None, "", None)
         unit = _UNITS.get(field, "1")
@@ -254,6 +256,7 @@ def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | N
     balls = shot.final.shape[-1]
     names, units, seeds = _seeds(wrt, balls)
     at = _sorted_times(times)
+    whole(threads, "threads", least=-1)
     wanted = ("final", "at", "time", "flags", "reach")
     if shot.events.dtype != dtypes.event:
         raise ValueError('shot: its events were kept in brief; play it with records="full"')
@@ -263,7 +266,7 @@ def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | N
         raise ValueError(f"shot: room={room} does not keep all events of {lost.size} of {count.size} shots; room={lost.max()} does")
     events = int(np.minimum(count, room).max(initial=0))
     if isinstance(shot, Shots):
-        job = shot.jobs(_options(shot.options, threads))
+        job = shot._jobs(_options(shot.options, threads))
         found, codes = _differentiate(job, count.size, balls, events, seeds, at, wanted, threads)
         return _tangents(names, units, shot.shape, found, codes)
     job = _job_of_one(shot, _options(shot.options, 0))
@@ -279,6 +282,7 @@ def play(
 ) -> tuple[dict[str, Array], Array, dtypes.Records]:  # fmt: skip
     """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final states, of the shape of the batch."""
     whole(threads, "threads", least=-1)
+    room = whole(room, "room")
     balls, shape = layouts.shape[-1], np.broadcast_shapes(layouts.shape[:-1], () if cues is None else cues.shape)
     n = int(np.prod(shape))
     one_layout, one_cue = layouts.size == balls, cues is None or cues.size == 1
@@ -294,7 +298,7 @@ def play(
         again = shots if shots is not None and shots.shape == (many,) else None
         shots = simulate_batch(table, rows if one_layout else rows[part], struck, room=room, threads=threads, out=again, options=options)
         events = int(np.minimum(shots.count, room).max(initial=0))
-        job = shots.jobs(_options(shots.options, threads))
+        job = shots._jobs(_options(shots.options, threads))
         found, codes = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
         parts.append((found, codes, shots.final.copy()))
     gathered: dict[str, Array] = {}
@@ -341,5 +345,5 @@ def jacobian(
     if layouts.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
     seeds = _seeds(wrt, layouts.shape[-1])[2]
-    found = play(table, layouts, cues, seeds, _sorted_times(times), (group,), room, threads, options.changed(changes))[0][group]
+    found = play(table, layouts, cues, seeds, _sorted_times(times), (group,), room, threads, chosen(options, changes))[0][group]
     return _by_name(found)[field] if field else found

@@ -30,7 +30,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._rows import Array, broadcast, listing
-from carom._shot_options import Options
+from carom._shot_options import Options, chosen
 from carom.derivatives import CUE, ELEMENTS, KIND, PARTS, STATE, Direction, directions, play, seeds_of
 from carom.layouts import Table, of_record
 from carom.shots import simulate, simulate_batch
@@ -231,7 +231,7 @@ def final(
     batch = broadcast({**leading, **{name: part.shape[:-1] for name, part in zip(numbers, parts)}})
     shots = _shots(
         table.record.tobytes(), layouts.tobytes(), layouts.shape, None if cues is None else cues.tobytes(), () if cues is None else cues.shape,
-        tuple(numbers), options.changed(changes), threads, room, errors == "nan",
+        tuple(numbers), chosen(options, changes), threads, room, errors == "nan",
     )  # fmt: skip
     states = _states(shots, _jnp.concatenate([_jnp.broadcast_to(part, (*batch, part.shape[-1])) for part in parts], axis=-1))
     return Final(**{name: states[..., part] for name, part in PARTS.items()})

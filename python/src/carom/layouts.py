@@ -12,11 +12,13 @@ import numpy.typing as npt
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
 from carom._faults import fault, is_of_cue
-from carom._rows import Array, as_array, choice, copied, fill, pointer, whole
+from carom._rows import Array, as_array, choice, copied, fill, number, pointer, several, whole
 from carom.status import CaromError, Status
 
+__all__ = ["Table", "balls", "by_number", "cue", "place_ball", "struck"]
+
 Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
-_GAMES = {"pool": 0, "snooker": 1, "billiard": 2, "pooltool_pool": 3, "pooltool_snooker": 4, "pooltool_billiard": 5}
+GAMES = {"pool": 0, "snooker": 1, "billiard": 2, "pooltool_pool": 3, "pooltool_snooker": 4, "pooltool_billiard": 5}
 
 
 class Table:
@@ -43,12 +45,12 @@ class Table:
         pockets: dtypes.Records | None = None, ball_radius: float = 0.0, rail_width: float = 0.0,
         pocket_back: float = 0.0
     ) -> None:  # fmt: skip
-        for name, size in (("width", width), ("length", length)):
-            if not 0.0 < size < np.inf:
-                raise ValueError(f"{name}: it must be positive and finite, in m, not {size}")
         record: Array = np.zeros((), dtypes.table)
-        record["width"], record["length"] = width, length
-        record["ball_radius"], record["rail_width"], record["pocket_back"] = ball_radius, rail_width, pocket_back
+        sizes = {"width": width, "length": length, "ball_radius": ball_radius, "rail_width": rail_width, "pocket_back": pocket_back}
+        for name, size in sizes.items():
+            record[name] = number(size, name, "a length in m is needed")
+            if name in ("width", "length") and not 0.0 < record[name] < np.inf:
+                raise ValueError(f"{name}: it must be positive and finite, in m, not {record[name]:g}")
         for name, part, values in (("rails", "rail", rails), ("jaws", "jaw", jaws), ("pockets", "pocket", pockets)):
             if values is None:
                 continue
@@ -183,14 +185,15 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     check_table(table)
     way = ffi.new("carom_part *")
     of_table, layout = pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", placed)
-    number = whole(ball, "ball", most=len(placed) - 1)
-    code = lib.carom_place_ball(of_table, layout, len(placed), number, x, y, way)
+    index = whole(ball, "ball", most=len(placed) - 1)
+    x, y = number(x, "x", "a place in m is needed"), number(y, "y", "a place in m is needed")
+    code = lib.carom_place_ball(of_table, layout, len(placed), index, x, y, way)
     if code in (lib.CAROM_ERROR_OVERLAP, lib.CAROM_ERROR_OFF_TABLE):
-        raise CaromError(code, _part(way), text=f"is in the way of ball {number} at x = {x} m, y = {y} m; a free place on the table is needed")
+        raise CaromError(code, _part(way), text=f"is in the way of ball {index} at x = {x} m, y = {y} m; a free place on the table is needed")
     if code == lib.CAROM_ERROR_POSITION:
         raise CaromError(code, "x, y", f"{x}, {y}")
     if code == lib.CAROM_ERROR_RADIUS:
-        raise fault(code, f"balls[{number}].kind", placed[number]["kind"])
+        raise fault(code, f"balls[{index}].kind", placed[index]["kind"])
     if code < 0:
         raise CaromError(code, "balls" if code == lib.CAROM_ERROR_BALLS else _part(way))
     return placed
@@ -216,19 +219,20 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["e
     Raises ValueError: A ball is none of the game, or there twice, or there is no cue ball.
     """
     given = of_record(balls, dtypes.shot_ball, "balls", "balls()")
-    names, last = list(map(str, ids)), choice(_LAST, rules, "rules")
+    names = list(map(str, several(ids, "ids", "the number of each ball is needed, and the cue ball's name")))
+    last = choice(_LAST, rules, "rules")
     if given.shape != (len(names),):
         raise ValueError(f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {given.shape}")
     if names.count(str(cue)) != 1:
         raise ValueError(f"cue: it must be one of the ids, once, not {cue!r}")
     at: dict[int, int] = {}
     for k, name in enumerate(names):
-        number = 0 if name == str(cue) else int(name) if name.isdecimal() else -1
-        if not 0 <= number <= last or number in at or (number == 0 and name != str(cue)):
+        of_ball = 0 if name == str(cue) else int(name) if name.isdecimal() else -1
+        if not 0 <= of_ball <= last or of_ball in at or (of_ball == 0 and name != str(cue)):
             raise ValueError(f"ids: ball {name!r}: the balls of {rules} are the cue ball and 1 to {last}, each once")
-        at[number] = k
-    made = given[[at.get(number, at[0]) for number in range(last + 1)]]
-    down = [number for number in range(last + 1) if number not in at]
+        at[of_ball] = k
+    made = given[[at.get(ball, at[0]) for ball in range(last + 1)]]
+    down = [ball for ball in range(last + 1) if ball not in at]
     made["state"][down] = np.zeros((), dtypes.ball_state)
     made["state"]["r"][down, 2], made["state"]["label"][down] = -0.1, lib.CAROM_BALL_POCKETED
     return made
@@ -288,7 +292,7 @@ def balls(
         raise ValueError(f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}")
     places = np.zeros((*centres.shape[:-1], 3))
     places[..., : centres.shape[-1]] = centres
-    usual = bytes(ffi.buffer(ffi.new("carom_shot_ball *", {"kind": lib.carom_ball_kind_of(choice(_GAMES, game, "game"))})))
+    usual = bytes(ffi.buffer(ffi.new("carom_shot_ball *", {"kind": lib.carom_ball_kind_of(choice(GAMES, game, "game"))})))
     made = fill(dtypes.shot_ball, {"r": 3, "v": 3, "w": 3}, {**fields, "state.r": places, "state.v": v, "state.w": w}, usual)
     if centres.shape[-1] == 2:
         made["state"]["r"][..., 2] = made["kind"]["radius"]
@@ -346,8 +350,10 @@ def cue(
         whole_ones = (np.abs(numbers) < 2**31) & (np.trunc(numbers) == numbers)
         if not whole_ones.all():
             raise ValueError(f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}")
-    usual = bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(_GAMES, game, "game")))))
-    given = {"speed": speed if ball_speed is None else ball_speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
+    usual = bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(GAMES, game, "game")))))
+    if ball_speed is not None:
+        speed = as_array(ball_speed, "ball_speed", np.float64)
+    given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
     more = {"miscue": miscue, "tip_time": tip_time, "mass": mass, "end_mass": end_mass, "tip_radius": tip_radius}
     made = fill(dtypes.cue, {}, {**given, **more}, usual)
     if ball_speed is not None:

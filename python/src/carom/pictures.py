@@ -11,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
-from carom._rows import listing
+from carom._rows import listing, number
 
+__all__ = ["Animation", "Picture"]
 __dir__ = listing(__name__)
 
 _SCALE = 300.0  # pixels a metre
@@ -139,7 +140,7 @@ def picture(table: Any, shot: Any = None, seen: Sequence[dtypes.Doubles] = ()) -
 
 def animation(shot: Any, speed: float) -> Animation:
     """The shot as an SVG that moves and repeats, `speed` times as fast as the balls."""
-    if not speed > 0.0:
+    if not (speed := number(speed, "speed")) > 0.0:
         raise ValueError(f"speed: must be positive, not {speed}")
     frames = int(min(max(shot.time / speed * _FRAMES_A_SECOND, 2.0), _FRAMES_MOST))
     paths = shot.positions(np.linspace(0.0, shot.time, frames))

@@ -13,8 +13,8 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import Array, choice, copied, pointer, whole
-from carom._shot_options import Options, shot_options
+from carom._rows import Array, as_array, choice, copied, number, pointer, several, whole
+from carom._shot_options import Options, chosen, shot_options
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
 from carom.rules import Game, Group, Hand, Made, Rules
@@ -39,9 +39,9 @@ def player(errors: float = 1.0, *, fargo: float | None = None) -> dtypes.Records
         A Fargo rating, 300 to 850, instead: the errors with which plans of 300 shots run out eight-ball as often as players of this rating
         are said to (docs/understanding/plan.md). More shots make him stronger.
     """
-    if not 0.0 <= errors < np.inf:
+    if not 0.0 <= (errors := number(errors, "errors")) < np.inf:
         raise ValueError(f"errors: it must be finite and at least 0, not {errors}")
-    if fargo is not None and not 300.0 <= fargo <= 850.0:
+    if fargo is not None and not 300.0 <= (fargo := number(fargo, "fargo", "a rating of 300 to 850 is needed")) <= 850.0:
         raise ValueError(f"fargo: it must be 300 to 850, not {fargo}")
     made: Array = np.zeros((), dtypes.player)
     pointer("carom_player[]", made)[0] = lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
@@ -124,6 +124,7 @@ def aim(
         return one
 
     rails, pockets = table.rail_names, table.pocket_names
+    via = several(via, "via", "names of rails and indices of balls are needed")
     way = [(lib.CAROM_PART_RAIL if isinstance(one, str) else lib.CAROM_PART_BALL, index(one, "via", rails, len(layout))) for one in via]
     met = [one for one in via if not isinstance(one, str)]
     if len(way) > lib.CAROM_VIA_MOST or len({0, *met}) <= len(met) or ball in met[:-1]:
@@ -133,7 +134,7 @@ def aim(
     pot = ffi.new("carom_pot *", {
         "ball": index(ball, "ball", [], len(layout)), "pocket": index(pocket, "pocket", pockets, len(pockets)), "vias": len(way), "via": way,
     })  # fmt: skip
-    shot = shot_options(options.changed(changes))
+    shot = shot_options(chosen(options, changes))
     code = lib.carom_aim(
         pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), shot, pot, pointer("carom_cue[]", made)
     )
@@ -164,7 +165,7 @@ def _corners(in_hand: bool | Hand | npt.ArrayLike, table: Table) -> dtypes.Doubl
         in_hand = [[0.0, 0.0], [table.width, table.length / 4.0]] if in_hand == "kitchen" else True
     if in_hand is True:
         return None
-    corners: dtypes.Doubles = np.ascontiguousarray(in_hand, dtype=np.float64)
+    corners: dtypes.Doubles = np.ascontiguousarray(as_array(in_hand, "in_hand", np.float64))
     if corners.shape != (2, 2) or not (corners[0] <= corners[1]).all():
         raise ValueError(f"in_hand: True, False, the hand of a ruling or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}")
     return corners
@@ -263,7 +264,9 @@ def plan(
     in_hand = False if isinstance(in_hand, str) and in_hand == "no" else in_hand
     corners = None if in_hand is False else _corners(in_hand, table)
     strike = copied(one_cue(usual_cue() if cue is None else cue))
-    shot = shot_options(options.changed(changes))
+    shot = shot_options(chosen(options, changes))
+    if stop is not None and not hasattr(stop, "is_set"):
+        raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
     wanted = ffi.new("carom_plan_options *", {"shots": whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
     wanted.threads = whole(threads, "threads", least=-1)
     other = None if opponent is None else _one_player(opponent, "opponent")

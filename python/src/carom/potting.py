@@ -15,8 +15,8 @@ import numpy.typing as npt
 from carom import dtypes, layouts, plans, tables
 from carom._draws import Draws as Draws
 from carom._draws import Games
-from carom._rows import Arrays, copied, listing, repeated
-from carom._shot_options import ShotCushion
+from carom._rows import Arrays, choice, copied, listing, number, repeated, several, whole
+from carom._shot_options import Options, ShotCushion, shot_options
 from carom.layouts import Game, Table
 from carom.results import Label, Shot
 from carom.rules import Made, judge
@@ -91,16 +91,23 @@ class Potting:
         reward: Callable[[dtypes.Records, Strokes], npt.ArrayLike] | None = None,
         speeds: tuple[float, float] = (0.5, 6.0), cushion_model: ShotCushion = "default", threads: int = 0
     ) -> None:  # fmt: skip
-        if not 1 <= balls <= 15:
-            raise ValueError(f"balls: must be 1 to 15, not {balls}")
-        if strokes < 1:
-            raise ValueError(f"strokes: must be at least 1, not {strokes}")
-        if not 0.0 < speeds[0] <= speeds[1] < np.inf:
+        whole(balls, "balls", least=1, most=15)
+        whole(strokes, "strokes", least=1)
+        wanted = "two speeds are needed, the least and the most, m/s"
+        speeds_given = [number(speed, "speeds", wanted) for speed in several(speeds, "speeds", wanted)]
+        if len(speeds_given) != 2 or not 0.0 < speeds_given[0] <= speeds_given[1] < np.inf:
             raise ValueError(f"speeds: must be the least and the most, positive and finite, not {speeds}")
-        if len(noise) != 3 or not all(0.0 <= deviation < np.inf for deviation in noise):
+        wanted = "three standard deviations are needed, of degrees, m/s and radii"
+        deviations = [number(deviation, "noise", wanted) for deviation in several(noise, "noise", wanted)]
+        if len(deviations) != 3 or not all(0.0 <= deviation < np.inf for deviation in deviations):
             raise ValueError(f"noise: must be three standard deviations, of degrees, m/s and radii, not {noise}")
+        if reward is not None and not callable(reward):
+            raise TypeError(f"reward: a function of the layouts and what the strokes gave is needed, not {reward!r}")
+        choice(layouts.GAMES, ball_set, "ball_set")
+        shot_options(Options(cushion_model=cushion_model), threads)  # raises where one of them is wrong
         usual = tables.snooker if "snooker" in ball_set else tables.pool_9ft
         self.table = usual() if table is None else table
+        layouts.check_table(self.table)
         if len(self.table.pockets) == 0:
             raise ValueError("table: must have pockets")
         size, p, q = np.array([self.table.width, self.table.length]), self.table.rails["p"], self.table.rails["q"]
@@ -130,7 +137,9 @@ class Potting:
         self._clear = (np.concatenate([self.table.pockets["radius"], self.table.jaws["radius"]]) + self.radius + _GAP) ** 2
         self._low = np.full(2, self.radius + _GAP)
         self._wide = (size - self._low) - self._low
-        self.parameters = dict(parameters or {})
+        if not isinstance({} if parameters is None else parameters, Mapping):
+            raise TypeError(f"parameters: bounds by the names of fields are needed, such as {{'mu_slide': (0.15, 0.25)}}, not {parameters!r}")
+        self.parameters = dict({} if parameters is None else parameters)
         self._check_parameters()
 
     def _check_parameters(self) -> None:

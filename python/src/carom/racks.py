@@ -12,7 +12,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import lib
-from carom._rows import Array, called, pointer, whole
+from carom._rows import Array, called, number, pointer, whole
 from carom.layouts import Table, check_table
 from carom.status import CaromError
 
@@ -27,6 +27,7 @@ def _maker(name: str, kind: int, text: str) -> _Rack:
         balls: Array = np.zeros(size, dtypes.shot_ball)
         check_table(table)
         of_table, drawn = pointer("carom_table[]", table.record), whole(seed, "seed", most=2**64 - 1)
+        gap = number(gap, "gap", "a distance in m is needed")
         code = lib.carom_rack(kind, of_table, gap, drawn, pointer("carom_shot_ball[]", balls), size)
         if code < 0:
             raise CaromError(code, "gap", gap, text="it must be 0 m to the radius of a ball")

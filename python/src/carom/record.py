@@ -17,7 +17,7 @@ import numpy as np
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import listing
-from carom._shot_options import Options, StopAt, shot_options
+from carom._shot_options import Options, StopAt, chosen, shot_options
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.status import CaromError, Status
 
@@ -83,7 +83,7 @@ class Recorder:
         self._game: Any = ffi.new("carom_record *")
         self._text = ffi.new("char[]", lib.CAROM_RECORD_TEXT)
         ffi.buffer(ffi.addressof(self._game, "table"))[:] = table.record.tobytes()
-        self._game.options = shot_options(options.changed(changes))[0]
+        self._game.options = shot_options(chosen(options, changes))[0]
         self._until(None, ())
         self._write(lib.CAROM_RECORD_HEAD)
         self._write(lib.CAROM_RECORD_TABLE)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 import functools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, overload
 
@@ -14,7 +14,7 @@ import numpy.typing as npt
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import INT8, Array, Arrays, addresses, as_array, in_chunks, one_or_all, pointer, spread
+from carom._rows import INT8, Array, Arrays, addresses, as_array, in_chunks, one_or_all, pointer, several, spread, whole
 from carom._shot_options import Options, shot_options
 from carom.layouts import Table
 from carom.pictures import Animation
@@ -149,6 +149,7 @@ class Shot:
 
         names = {kind.value: kind.name.lower() for kind in EventType}
         frame = pandas.DataFrame(dtypes.columns(self.events))
+        frame.index.name = "event"
         frame["type"] = pandas.Categorical([names[kind] for kind in self.events["type"].tolist()], list(names.values()))
         return frame
 
@@ -167,14 +168,14 @@ class _OfBatch(Shot):
     """A shot of a batch: its attributes are made when they are first used."""
 
     def __init__(self, batch: Shots, index: Any) -> None:
-        self.batch = batch
-        self.index: Any = index
+        self._batch = batch
+        self._index: Any = index
 
     def __getattr__(self, name: str) -> Any:
         make = _ATTRIBUTES.get(name)
         if make is None:
             raise AttributeError(f"a carom.Shot has no attribute {name!r}")
-        value = self.__dict__[name] = make(self.batch, self.index)
+        value = self.__dict__[name] = make(self._batch, self._index)
         return value
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -190,10 +191,10 @@ class _OfBatch(Shot):
         return self._seen(times, np.dtype(np.float64), (3,))
 
     def _seen(self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...]) -> Array:
-        index: tuple[Any, ...] = self.index if isinstance(self.index, tuple) else (self.index,)
-        seen, codes = self.batch[(*index, ...)].look_at(times, dtype, numbers, 0)
+        index: tuple[Any, ...] = self._index if isinstance(self._index, tuple) else (self._index,)
+        seen, codes = self._batch[(*index, ...)]._look_at(times, dtype, numbers, 0)
         if codes[0] < 0:
-            raise self.batch.error(self.index) if self.status < 0 and self.time == 0.0 else CaromError(int(codes[0]))
+            raise self._batch.error(self._index) if self.status < 0 and self.time == 0.0 else CaromError(int(codes[0]))
         return seen
 
     def _at(self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]) -> None:
@@ -280,8 +281,8 @@ class Shots:
         Where an argument was in error, all numbers are nan and labels -1, as in `states`.
     events : ndarray of `carom.dtypes.event` or `carom.dtypes.brief_event`, shape (..., room)
         The first count of each row are valid.
-    features : Features or None
-        With `simulate_batch(features=True)`.
+    features : Features
+        With `simulate_batch(features=True)`; without there is no such attribute.
     record : ndarray of `carom.dtypes.shot`, shape (...)
         The structs of C, with the addresses of final and events.
     """
@@ -301,7 +302,7 @@ class Shots:
         self.final: dtypes.Records = np.zeros((*shape, balls), dtypes.ball_state)
         self.events: dtypes.Records = np.zeros((*shape, room), event)
         self.record: dtypes.Records = np.zeros(shape, dtypes.shot)
-        self.facts: dtypes.Records | None = None  # dtypes.facts, with features
+        self._facts: dtypes.Records | None = None  # dtypes.facts, with features
         self.options = Options()
 
     @property
@@ -320,12 +321,12 @@ class Shots:
         return np.asarray((self.status < 0) & (self.count == 0) & (self.time == 0.0))
 
     @property
-    def features(self) -> Features | None:
-        """What planners want of the shots; None where they were not asked for."""
-        if self.facts is None:
-            return None
+    def features(self) -> Features:
+        """What planners want of the shots, where `simulate_batch(features=True)` was asked for it."""
+        if self._facts is None:
+            raise AttributeError("features: simulate_batch(features=True) tells them; these shots were played without")
         names = {"contact": "first", "contact_time": "first_time"}
-        found = {each.name: self.facts[names.get(each.name, each.name)] for each in fields(Features)}
+        found = {each.name: self._facts[names.get(each.name, each.name)] for each in fields(Features)}
         count = self.final.shape[-1]
         return Features(**{name: array[..., :count] if name in _OF_BALLS else array for name, array in found.items()})
 
@@ -358,7 +359,7 @@ class Shots:
         part.layouts = np.broadcast_to(self.layouts, self.final.shape)[index]
         part.cues = None if self.cues is None else np.broadcast_to(self.cues, self.shape)[index]
         part.final, part.events, part.record = self.final[index], self.events[index], self.record[index]
-        part.facts = None if self.facts is None else self.facts[index]
+        part._facts = None if self._facts is None else self._facts[index]
         return part
 
     # ---- Trajectories ---------------------------------------------------------------------------------------------------
@@ -372,16 +373,16 @@ class Shots:
 
         Raises ValueError: A time is not finite; or a shot has to be played again, and its layout or cue has been changed since.
         """
-        return self.look_at(times, dtypes.ball_state, (), threads)[0]
+        return self._look_at(times, dtypes.ball_state, (), threads)[0]
 
     def positions(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Doubles:
         """The centres of all balls of all shots at any times: float64 of shape (batch..., times..., balls, 3), m.
 
         Parameters and errors are those of `states`.
         """
-        return self.look_at(times, np.dtype(np.float64), (3,), threads)[0]
+        return self._look_at(times, np.dtype(np.float64), (3,), threads)[0]
 
-    def look_at(
+    def _look_at(
         self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...], threads: int
     ) -> tuple[Array, npt.NDArray[np.int8]]:
         """For `states` and `positions`: the array, and of each shot, in C order, whether some of it is unknown."""
@@ -406,9 +407,10 @@ class Shots:
 
     def _look(self, look: Callable[[Any, Any, int], int], seconds: float, threads: int) -> npt.NDArray[np.int8]:
         """Calls look(job, codes, first row) for all rows, which take so many seconds each; the codes."""
+        whole(threads, "threads", least=-1)
         codes: npt.NDArray[np.int8] = np.zeros(self.status.size, INT8)
         flags = pointer("int8_t[]", codes)
-        job = self.jobs(shot_options(self.options))
+        job = self._jobs(shot_options(self.options))
         code = in_chunks(codes.size, seconds, threads, spread(threads, lambda begin, many: look(job(begin, many), flags + begin, begin)))
         if code < 0:
             raise MemoryError("no memory for the events of a shot")
@@ -419,7 +421,7 @@ class Shots:
             )
         return codes
 
-    def jobs(self, options: Any) -> Callable[[int, int], Any]:
+    def _jobs(self, options: Any) -> Callable[[int, int], Any]:
         """A function that gives the carom_shot_job of `many` rows from `begin` on."""
         lead, count = len(self.shape), self.final.shape[-1]
         layouts, one_layout = one_or_all(self.layouts, self.final.shape, lead)
@@ -430,7 +432,7 @@ class Shots:
         if room > 0:
             record["events" if self.events.dtype == dtypes.event else "brief"] = addresses(self.events, lead)
         record["final"] = addresses(self.final, lead)
-        record["facts"] = 0 if self.facts is None else addresses(self.facts, lead)
+        record["facts"] = 0 if self._facts is None else addresses(self._facts, lead)
         table = pointer("carom_table[]", self.table.record)
         balls = pointer("carom_shot_ball[]" if self.kinds is None else "carom_ball_state[]", layouts)
         kinds = ffi.NULL if self.kinds is None else pointer("carom_ball_kind[]", self.kinds)
@@ -448,15 +450,15 @@ class Shots:
 
         return job
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self, dims: Sequence[str] | None = None) -> Any:
         """The shots as a pandas DataFrame, a row a shot: status (by name), time, count, cue_speed and what else the cue has,
         ball_0_r_x and what else is known of each ball at the end, and the features where they were asked for, such as pocket_3.
 
-        Needs pandas. The index is that of the batch.
+        Needs pandas. The index is that of the batch; `dims` names its levels, which are else "shot", or "shot_0", "shot_1" and so on.
         """
         import pandas
 
-        n, count = self.status.size, self.final.shape[-1]
+        n, count, dims = self.status.size, self.final.shape[-1], self._dims(dims)
         names = {status.value: status.name.lower() for status in Status}
         found: dict[str, Any] = {"status": pandas.Categorical([names[code] for code in self.status.reshape(-1).tolist()], list(names.values()))}
         found |= {"time": self.time.reshape(-1), "count": self.count.reshape(-1)}
@@ -466,11 +468,53 @@ class Shots:
         final = self.final.reshape(n, count)
         for k in range(count):
             found |= {f"ball_{k}_{name}": column for name, column in dtypes.columns(final[:, k]).items()}
-        for name, values in vars(features).items() if (features := self.features) is not None else ():
-            several = [("", ())] if values.shape == self.shape else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
-            found |= {f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in several}
-        index = pandas.MultiIndex.from_tuples(list(np.ndindex(self.shape))) if len(self.shape) > 1 else None
+        for name, values in vars(self.features).items() if self._facts is not None else ():
+            parts = [("", ())] if values.shape == self.shape else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
+            found |= {f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in parts}
+        if len(self.shape) == 1:
+            return pandas.DataFrame(found, index=pandas.RangeIndex(n, name=dims[0]))
+        index = pandas.MultiIndex.from_tuples(list(np.ndindex(self.shape)), names=dims) if self.shape else None
         return pandas.DataFrame(found, index=index)
+
+    def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
+        """The shots as an xarray Dataset: status, time, count, cue_speed and what else the cue has; r, v, w and label of each ball at
+        the end; and the features where they were asked for. Numbers that have a unit tell it by the attribute "units".
+
+        Needs xarray. The dimensions are those of the batch, named as in `to_dataframe`, "ball", "axis" (x, y, z) and, of first contacts,
+        "met".
+        """
+        import xarray
+
+        count, dims = self.final.shape[-1], self._dims(dims)
+        units = {"time": "s", "contact_time": "s", "pocket_time": "s", "cue_speed": "m/s", "cue_phi": "degree", "cue_theta": "degree"}
+        units |= {"cue_mass": "kg", "cue_end_mass": "kg", "cue_tip_radius": "m", "cue_tip_time": "s", "r": "m", "v": "m/s", "w": "rad/s"}
+        found: dict[str, tuple[tuple[str, ...], Array]] = {"status": (dims, self.status), "time": (dims, self.time), "count": (dims, self.count)}
+        if self.cues is not None:
+            cues = np.broadcast_to(self.cues, self.shape)
+            found |= {f"cue_{name}": (dims, cues[name]) for name in cues.dtype.names or ()}
+        found |= {name: ((*dims, "ball", "axis"), self.final[name]) for name in "rvw"}
+        found["label"] = (*dims, "ball"), self.final["label"]
+        for name, values in vars(self.features).items() if self._facts is not None else ():
+            last = () if values.shape == self.shape else ("ball",) if name in _OF_BALLS else ("met",)
+            found[name] = (*dims, *last), values
+        # what codes mean, as the conventions of climate and forecast say it
+        codes: dict[str, type[enum.IntEnum]] = {"status": Status, "label": Label}
+        of = {name: {"flag_values": [code.value for code in kind], "flag_meanings": " ".join(code.name.lower() for code in kind)}
+              for name, kind in codes.items()}  # fmt: skip
+        variables = {
+            name: (names, np.array(values), {**of.get(name, {}), **({"units": units[name]} if name in units else {})})
+            for name, (names, values) in found.items()
+        }
+        return xarray.Dataset(variables, {"ball": np.arange(count), "axis": list("xyz")})
+
+    def _dims(self, dims: Sequence[str] | None) -> tuple[str, ...]:
+        """The names of the dimensions of the batch."""
+        if dims is None:
+            return ("shot",) if len(self.shape) == 1 else tuple(f"shot_{k}" for k in range(len(self.shape)))
+        names = tuple(map(str, several(dims, "dims", "a name for each dimension of the batch is needed")))
+        if len(names) != len(self.shape) or len({*names, "ball", "axis", "met"}) != len(names) + 3:
+            raise ValueError(f"dims: {len(self.shape)} different names are needed, other than ball, axis and met, not {names}")
+        return names
 
     def failures(self) -> list[tuple[tuple[int, ...], str]]:
         """The index of each shot that ended in an error, and the error."""

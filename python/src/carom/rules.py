@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, Arrays, choice, copied, pointer, whole
+from carom._rows import Array, Arrays, as_array, choice, copied, pointer, whole
 from carom._shot_options import Options
 from carom.layouts import Table, of_record, one_cue
 from carom.results import Label, Shot, Shots
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from carom._shot_options import Changes
+
+__all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "referee"]
 
 Game = Literal["eightball", "nineball", "potting"]
 Group = Literal["open", "solids", "stripes"]
@@ -150,7 +152,7 @@ class Made:
             self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules")))
         words = np.zeros(_WORDS, np.uint64)
         if state is not None:
-            given = np.asarray(state)
+            given = as_array(state, "state")
             if given.shape != (_WORDS,) or given.dtype.kind not in "iu" or (given < 0).any():
                 raise ValueError(f"state: {_WORDS} whole numbers, at least 0, are needed, not {state!r}")
             words[:] = given
@@ -216,7 +218,7 @@ def judge(made: Made, before: dtypes.Records, shots: Shots, states: State | None
     in_play = ((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]
     turns: Array = np.zeros(shots.shape, dtypes.turn)
     lib.carom_python_judge(
-        made.c, turns.size, pointer("int8_t[]", shots.status), pointer("carom_facts[]", shots.facts), pointer("uint32_t[]", in_play),
+        made.c, turns.size, pointer("int8_t[]", shots.status), pointer("carom_facts[]", shots._facts), pointer("uint32_t[]", in_play),
         ffi.NULL if calls is None else pointer("carom_call[]", calls), ffi.NULL if states is None else pointer("uint64_t[]", states),
         pointer("carom_turn[]", turns),
     )  # fmt: skip
@@ -275,8 +277,7 @@ def referee(
     states: Any = np.array([list(made.c.user)], np.uint64)
     called: Array = np.array([[whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]], np.int32)
     turn = judge(made, layout[np.newaxis], shots, states, called)[0]
-    assert shots.facts is not None  # as it was asked for
-    facts = shots.facts[0]
+    facts = shots._facts[0]  # type: ignore[index]
 
     # The next layout.
     after = layout.copy()

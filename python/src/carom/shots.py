@@ -11,8 +11,8 @@ import numpy as np
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import INT8, Array, apart, broadcast, copied, fill, in_chunks, output, pointer, whole
-from carom._shot_options import Options, StopAt, shot_options
+from carom._rows import INT8, Array, apart, broadcast, choice, copied, fill, in_chunks, number, output, pointer, whole
+from carom._shot_options import Options, StopAt, chosen, shot_options
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.results import Shot, Shots
 from carom.status import CaromError, Status
@@ -36,7 +36,7 @@ def cite(*, options: Options = _USUAL, **changes: Unpack[Changes]) -> str:
     options, **changes
         As for `simulate`: `carom.cite(cushion_model="mathavan")`.
     """
-    given = shot_options(options.changed(changes))
+    given = shot_options(chosen(options, changes))
     room = lib.carom_cite(given, ffi.NULL, 0) + 1
     text = ffi.new("char[]", room)
     lib.carom_cite(given, text, room)
@@ -71,12 +71,12 @@ def simulate(
     check_table(table)
     table, layout = Table.from_record(table.record), copied(layout)
     cue = None if cue is None else copied(one_cue(cue))
-    chosen = options.changed(changes)
-    state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if chosen.t_final is not None or chosen.stop_at else None
-    arguments = shot_arguments(table, layout, cue, shot_options(chosen))
+    models = chosen(options, changes)
+    state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if models.t_final is not None or models.stop_at else None
+    arguments = shot_arguments(table, layout, cue, shot_options(models))
     if (error := argument_error(arguments, layout, cue)) is not None:
         raise error
-    begun = Shot(table, layout, Status.OK, 0.0, 0, _NO_EVENTS, layout["state"], cue, chosen, state)
+    begun = Shot(table, layout, Status.OK, 0.0, 0, _NO_EVENTS, layout["state"], cue, models, state)
     return _run(begun, lambda shot: lib.carom_shoot(*arguments, shot))
 
 
@@ -121,7 +121,7 @@ def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterab
     """
     if not isinstance(shot, Shot) or shot.state is None:
         raise ValueError("shot: only what simulate() or resume() stopped, with t_final= or stop_at=, can be gone on with")
-    if t_final is not None and t_final < shot.time:
+    if t_final is not None and number(t_final, "t_final", "a time in s is needed, or None") < shot.time:
         raise ValueError(f"t_final: it must not be before {shot.time} s, when the shot stopped, but is {t_final}")
     begun = copy.copy(shot)
     begun.options = shot.options.changed({"t_final": t_final, "stop_at": stop_at})
@@ -167,7 +167,7 @@ def simulate_batch(
     if all_balls.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
     check_table(table)
-    whole(room, "room")
+    room = whole(room, "room")
     count = all_balls.shape[-1]
     if kinds is not None:
         kinds = of_record(kinds, dtypes.ball_kind, "kinds", 'balls()["kind"]')
@@ -180,11 +180,11 @@ def simulate_batch(
         all_balls = np.ascontiguousarray(np.broadcast_to(all_balls, (*shape, count)))
     if all_cues.size != 1:
         all_cues = np.ascontiguousarray(np.broadcast_to(all_cues, shape))
-    if records not in ("full", "brief"):
-        raise ValueError(f"records: must be 'full' or 'brief', not {records!r}")
-    event = dtypes.event if records == "full" else dtypes.brief_event
-    chosen = options.changed(changes)
-    of_c = shot_options(chosen, threads)
+    event = (dtypes.event, dtypes.brief_event)[choice({"full": 0, "brief": 1}, records, "records")]
+    models = chosen(options, changes)
+    of_c = shot_options(models, threads)
+    if out is not None and not isinstance(out, Shots):
+        raise TypeError(f"out: an earlier result of simulate_batch is needed, not {type(out).__name__}")
     shots = Shots(table, all_balls, shape, room, event) if out is None else out
     if out is not None:
         wanted = {"status": (shape, INT8), "final": ((*shape, count), dtypes.ball_state)}
@@ -196,9 +196,9 @@ def simulate_batch(
         out.record["time"], out.record["count"] = 0.0, 0
         out.status[...] = Status.OK
     shots.kinds = kinds
-    shots.cues, shots.options = None if cues is None else all_cues, chosen
-    shots.facts = np.zeros(shape, dtypes.facts) if features else None
-    job = shots.jobs(of_c)
+    shots.cues, shots.options = None if cues is None else all_cues, models
+    shots._facts = np.zeros(shape, dtypes.facts) if features else None
+    job = shots._jobs(of_c)
     code = in_chunks(shots.status.size, 5e-5, threads, lambda begin, many: int(lib.carom_shoot_batch(job(begin, many))))
     if code < 0 and not (shots.status < 0).any():
         raise CaromError(code, "layouts", count) if code == Status.ERROR_BALLS else CaromError(code, "table")

@@ -8,7 +8,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, called, pointer
+from carom._rows import Array, as_array, called, number, pointer, several
 from carom.layouts import Table, refuse_table
 from carom.status import CaromError
 
@@ -47,10 +47,17 @@ def polygon(
 
     Raises CaromError: The table is not closed, its middle has no room for a ball, or a number is out of range; the sentence says where.
     """
-    rows = [tuple(float(number) for number in corner) for corner in corners]
-    for k, row in enumerate(rows):
-        if len(row) not in (2, 3):
-            raise ValueError(f"corners[{k}]: x, y and perhaps the mouth are needed, not {len(row)} numbers")
+    rows = []
+    for k, corner in enumerate(several(corners, "corners", "a list of (x, y) or (x, y, mouth) is needed")):
+        rows.append(tuple(as_array(corner, f"corners[{k}]", np.float64).ravel().tolist()))
+        if len(rows[k]) not in (2, 3):
+            raise ValueError(f"corners[{k}]: x, y and perhaps the mouth are needed, not {len(rows[k])} numbers")
+    if len(rows) < 3:
+        raise ValueError(f"corners: at least 3 are needed, not {len(rows)}")
+    nose_height, jaw_radius, ball_radius = (
+        number(size, name, "a length in m is needed")
+        for name, size in (("nose_height", nose_height), ("jaw_radius", jaw_radius), ("ball_radius", ball_radius))
+    )
     array = ffi.new("carom_corner[]", [row + (0.0,) * (3 - len(row)) for row in rows])
     record: Array = np.zeros((), dtypes.table)
     fault = ffi.new("carom_table_fault *")

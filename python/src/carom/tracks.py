@@ -31,7 +31,7 @@ import numpy as np
 from carom import _constants
 from carom._events import Events, events, hit, impact, piece
 from carom._recordings import MOVED, NOISE, Recording, TrackError
-from carom._rows import listing
+from carom._rows import as_array, listing, number, whole
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
 from carom.results import Shot
@@ -209,14 +209,26 @@ def synthetic(
     the standard deviation `noise`, m, and a row of a ball is kept once the ball is `thin` m from the last row kept. The same seed gives
     the same recordings.
     """
-    random = np.random.default_rng(seed)
-    values = _constants.complete(constants or {}, cushion_model)
+    whole(shots, "shots")
+    random = np.random.default_rng(whole(seed, "seed", most=2**64 - 1))
+    values = _constants.complete({} if constants is None else constants, cushion_model)
+    radius, noise, rate, thin = number(radius, "radius"), number(noise, "noise"), number(rate, "rate"), number(thin, "thin")
+    for name, value, unit in (("radius", radius, "m"), ("rate", rate, "pictures a second")):
+        if not 0.0 < value < np.inf:
+            raise ValueError(f"{name}: it must be positive and finite, in {unit}, not {value:g}")
+    for name, pair, least, what in (("table", table, 6.0 * radius, "six times the radius, "), ("speeds", speeds, 0.0, "")):
+        given = as_array(pair, name, np.float64)
+        if given.shape != (2,) or not (np.isfinite(given) & (given > least)).all() or (name == "speeds" and given[0] > given[1]):
+            raise ValueError(f"{name}: two finite numbers above {what}{least:g} are needed, not {pair!r}")
+    for name, value in (("noise", noise), ("thin", thin)):
+        if not 0.0 <= value < np.inf:
+            raise ValueError(f"{name}: it must be finite and at least 0, in m, not {value:g}")
     world = _constants.rectangle(table, values["nose_height"])
     low, high = radius, np.array(table) - radius
     recordings: list[Recording] = []
     shots_played: list[Shot] = []
     strikes: list[Doubles] = []
-    for number in range(shots):
+    for index in range(shots):
         # places that are apart from each other and from the cushions
         while True:
             centres = random.uniform(2.0 * low, high - radius, (3, 2))
@@ -239,7 +251,7 @@ def synthetic(
             lambda times, shot=shot, start=start: shot.positions(times - start)[..., :2],  # type: ignore[misc]
             start + shot.time + 0.5, rate, thin, low, high, noise, random,
         )  # fmt: skip
-        recordings.append(Recording(number + 1, (1, 2, 3), tracks))
+        recordings.append(Recording(index + 1, (1, 2, 3), tracks))
         shots_played.append(shot)
         strikes.append(strike)
     return Synthetic(recordings, shots_played, np.array(strikes).reshape(-1, 6), values)
