@@ -645,6 +645,21 @@ TEST(centre_hit_of_a_cluster) {
   }
 }
 
+/* Where a contact of two balls has no vertical slip, a change presses one or the other ball on the
+ * cloth: by b there is a kink, by a and phi there is none. */
+TEST(contact_that_presses_neither) {
+  static const direction by[3] = {{OF_CUE, 0, 4, 1}, {OF_CUE, 0, 3, 1}, {OF_CUE, 0, 1, 57}};
+  for (int k = 0; k < 3; k++) {
+    layout l = of_two(0.4, 0.6 + 2.0 * 0.028575);
+    l.cue.phi = 70.0;
+    l.cue.a = 0.2;
+    carom_shot shot;
+    differentiate(&l, NULL, &by[k], 1, &shot);
+    ck_assert_int_eq(shot.events[1].type, CAROM_EVENT_BALL_BALL);
+    ck_assert_int_eq(flags[1], k == 0 ? CAROM_TANGENT_KINK : 0);
+  }
+}
+
 /* ---- Reach ---- */
 
 /* The least change at which a ball's events are others, in steps of 10 % from 1e-9 on. */
@@ -992,4 +1007,22 @@ TEST(law_that_begins_at_zero) {
   for (int n = 0; n < NUMBERS * l.count; n++)
     ck_assert_double_eq_tol(ends[n], (4.0 * f[1][n] - 3.0 * f[0][n] - f[2][n]) / (2.0 * h), 1e-4);
   ck_assert_double_gt(fabs(ends[0]), 0.01);
+}
+
+/* By the radius of all balls, through a cluster of three that spin, beside differences. */
+TEST(radius_through_a_cluster) {
+  const carom_shot_options options = {.time_most = 0.1, .space = CAROM_SPACE_FLAT};
+  const direction by = {OF_KIND, -1, 1, 0.03};
+  const double v[2] = {4.0, 0.0}, w[3] = {0.0, 40.0, 30.0};
+  layout l = of_one(0.4, 1.51, v, w);
+  l.count = 3;
+  l.ball[1] = ball_at(0.6, 1.5);
+  l.ball[2] = ball_at(0.6 + 0.05715 + 1e-4, 1.5);
+  carom_shot shot = play(table_of_pool(), l.ball, 3, NULL, &options, CAROM_STOPPED_AT_TIME);
+  ck_assert_int_eq(shot.events[0].cluster, 2);
+  const carom_tangent_seeds seeds = seeds_of(&by, 1);
+  carom_tangent t = {.final = ends};
+  ck_assert_int_eq(
+      carom_shot_tangent(table_of_pool(), l.ball, 3, NULL, &options, &shot, &seeds, &t), CAROM_OK);
+  ck_assert_double_lt(off_slope(&l, &options, &by, -1e-8, 1e-8), 1e-4);
 }
