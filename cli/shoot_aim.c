@@ -195,19 +195,20 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
   else if (pot.is != CAROM_POT_FALLS)
     complain_of(pocket, via, l, &pot);
   else {
-    good = true;
     char margin[80] = "the ball touches a jaw";
     say_way(l, &pot, by);
     if (pot.margin > 0.0)
       snprintf(margin, sizeof margin, "the ball's way may turn by %.2f degrees to either jaw",
                pot.margin);
-    snprintf(told, AIMED_TEXT,
-             "aim    %s to the %s pocket%s: cut %.1f degrees to the %s; %s\n       falls with aims "
-             "of %.2f to %.2f degrees at this speed, and with %.3g to %.3g m/s of the cue at this "
-             "aim\n",
-             l->name[pot.ball], carom_pocket_name(&l->table, pot.pocket), by, fabs(pot.cut),
-             pot.cut < 0.0 ? "right" : "left", margin, pot.phi[0], pot.phi[1], pot.speed[0],
-             pot.speed[1]);
+    good =
+        snprintf(
+            told, AIMED_TEXT,
+            "aim    %s to the %s pocket%s: cut %.1f degrees to the %s; %s\n       falls with aims "
+            "of %.2f to %.2f degrees at this speed, and with %.3g to %.3g m/s of the cue at this "
+            "aim\n",
+            l->name[pot.ball], carom_pocket_name(&l->table, pot.pocket), by, fabs(pot.cut),
+            pot.cut < 0.0 ? "right" : "left", margin, pot.phi[0], pot.phi[1], pot.speed[0],
+            pot.speed[1]) > 0;
   }
   return good;
 }

@@ -18,6 +18,9 @@ target_compile_options(
             $<$<BOOL:${CAROM_WERROR}>:-Werror>
             # Parity with pooltool to the last bit: a*b + c stays two roundings unless a source asks for fma().
             -ffp-contract=off)
+# Where src/platform/promise.h asks what comments promise.
+set(checked $<$<OR:$<CONFIG:Debug>,$<BOOL:${CAROM_SANITIZE}>>:CAROM_CHECKED>)
+target_compile_definitions(carom_options INTERFACE ${checked})
 # -g1: lines for the reports; more would double the time that gcc takes.
 if(CAROM_SANITIZE)
   target_compile_options(carom_options INTERFACE -fsanitize=${CAROM_SANITIZE} -fno-omit-frame-pointer

@@ -16,6 +16,7 @@
 #include "ball_ball/kernels.h"
 
 #include "ball_ball/frame.h"
+#include "platform/promise.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -135,6 +136,7 @@ static void work_off(work *w, enum step_kind kind, int place) {
   const int lanes = w->with->lanes;
   lane_state at;
   lane_group t = {.count = list->count < lanes ? list->count : lanes};
+  CAROM_PROMISE(t.count >= 1 && t.count <= lanes);
   list->count -= t.count;
   for (int lane = 0; lane < lanes; lane++)
     t.row[lane] = list->row[list->count + (lane < t.count ? lane : t.count - 1)];

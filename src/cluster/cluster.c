@@ -30,6 +30,7 @@
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "friction/laws.h"
+#include "platform/promise.h"
 
 #include <math.h>
 
@@ -169,6 +170,7 @@ static inline void law_of(const contact *x, double k[3]) {
 static inline double find_pressed(bool flat, state *c, double h, double parts, pushes *now) {
   double longest = (double)INFINITY;
   now->pressed = 0;
+  CAROM_PROMISE(h > 0.0);
   for (int k = 0; k < c->contacts; k++) {
     contact *x = &c->contact[k];
     if (x->d_max > 0.0) {
@@ -279,6 +281,7 @@ static inline void rub_on_cloth(ball *p) {
 /* The next iterate of a contact's friction; change[] becomes what it changes by. */
 static inline void iterate(bool flat, contact *x, double change[2]) {
   double u[2], f[2];
+  CAROM_PROMISE(x->J > 0.0 && x->mu >= 0.0);
   slip_of(flat, x, u);
   const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean2 = m_x * m_x + m_y * m_y;
   /* mu falls as the slip grows within the step */
@@ -342,6 +345,7 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
       p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
     }
   }
+  CAROM_PROMISE(now->contacts <= now->pressed && now->balls <= c->balls);
   for (int a = 0; a < now->contacts; a++) {
     const contact *x = now->push[a];
     cluster_add(flat, x->p->v, -x->J * x->p->inverse_mass, x->n);
@@ -410,6 +414,7 @@ static void take_back(state *c, double before) {
   const double after = energy_of(c);
   if (!(after > before))
     return;
+  CAROM_PROMISE(after <= before * 1.001);
   /* of the balls that were touched; a bystander keeps its motion */
   bool touched[CAROM_CLUSTER_BALLS] = {false};
   for (int k = 0; k < c->contacts; k++)
@@ -489,6 +494,7 @@ static inline bool solve(bool flat, state *c) {
 }
 
 bool carom_cluster_solve(carom_cluster_state *c) {
+  CAROM_PROMISE(c->balls >= 2 && c->contacts >= 1 && c->slow > 0.0);
   for (int k = 0; k < c->balls; k++)
     c->ball[k].s[0] = c->ball[k].s[1] = c->ball[k].s[2] = 0.0;
   return c->in_space ? solve(false, c) : solve(true, c);

@@ -11,6 +11,7 @@
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
+#include "platform/promise.h"
 
 #include <math.h>
 #include <string.h>
@@ -119,6 +120,7 @@ static first_contact follow(const carom_cluster_state *c, const int pair[2],
         queue[found++] = j;
       }
     }
+  CAROM_PROMISE(found <= c->balls);
   return first;
 }
 
@@ -126,6 +128,7 @@ static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *
                          carom_cluster_contact_state *x) {
   carom_cluster_ball *a = &c->ball[i], *b = &c->ball[j];
   const double e = 0.5 * (a->restitution + b->restitution);
+  CAROM_PROMISE(i < j && j < c->balls);
   memset(x, 0, sizeof *x);
   x->p = a;
   x->q = b;
@@ -170,6 +173,7 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
   for (int k = 0; k < c->balls; k++)
     if (in[k])
       c->ball[kept++] = c->ball[k];
+  CAROM_PROMISE(kept >= 2);
   c->balls = kept;
   c->in_space = false;
   for (int k = 0; k < kept; k++)

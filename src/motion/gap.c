@@ -17,6 +17,7 @@
  * their paths end before the gap has fallen by so much, and there is no contact. */
 #include "motion/gap.h"
 #include "motion/first_zero.h"
+#include "platform/promise.h"
 
 #include <math.h>
 
@@ -110,6 +111,7 @@ static inline double first_contact(quartic f, double reach, double horizon) {
   /* touching and not closing: the next contact is behind the turn, where it closes again; see
    * PRESSED */
   const double turn = end_of_rise(&f, horizon);
+  CAROM_PROMISE(!(turn < 0.0));
   if (!(turn <= horizon))
     return INFINITY;
   f.c[0] += carom_greater(2.0 * reach * CAROM_SLACK - value(&f, turn), 0.0);
@@ -150,5 +152,6 @@ int carom_quadratic_zeros(double a, double b, double c, double zero[2]) {
   const double x = q / (2.0 * a), y = q != 0.0 ? 2.0 * c / q : x;
   zero[0] = carom_lesser(x, y);
   zero[1] = carom_greater(x, y);
+  CAROM_PROMISE(!(zero[0] > zero[1]));
   return 2;
 }

@@ -3,6 +3,7 @@
  * first that is on. */
 #include "plan/search.h"
 #include "platform/elementary.h"
+#include "platform/promise.h"
 
 #include <math.h>
 
@@ -120,6 +121,7 @@ void carom_search_pots(search *of, int64_t most) {
     order[n] = order[other];
     order[other] = n;
   }
+  CAROM_PROMISE(ways <= CAROM_BALLS_MOST * CAROM_POCKETS_MOST);
   const int64_t fit = most / STROKES > 4 ? most / STROKES : 4;
   ways = ways > fit ? (int)fit : ways;
   const int64_t share = ways > 0 ? most / ways : 0, strokes = share > STROKES ? STROKES
@@ -177,6 +179,7 @@ void carom_search_scan(search *of, int64_t most) {
                                                                            : CAROM_PLAN_SCAN});
     }
     const int64_t added = carom_search_play(of, first, of->count - first, 1, 0);
+    CAROM_PROMISE(added <= of->count - first);
 
     /* those that begin with a foul are dropped, and those beyond `most` */
     of->count = first;

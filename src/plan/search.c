@@ -1,6 +1,7 @@
 /* The choice: sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013) of the candidates. All
  * of a round have the same errors, so that luck counts less than what they are worth. */
 #include "plan/search.h"
+#include "platform/promise.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,6 +45,7 @@ static void vote(candidate *c, const outcome *o) {
 }
 
 void carom_search_take(search *of, int64_t k, const outcome *o) {
+  CAROM_PROMISE(k >= 0 && k < of->count);
   candidate *c = &of->found[k];
   c->sum = o->worth;
   c->seen = 1;
@@ -69,7 +71,9 @@ static void sort(const search *of, int64_t n) {
 }
 
 void carom_search_add_up(search *of, int64_t n, int64_t each, uint32_t draws) {
+  CAROM_PROMISE(n >= 1 && n <= of->count && each >= 1 && n * each <= of->room);
   const int64_t played = carom_search_play(of, 0, n, each, draws);
+  CAROM_PROMISE(played >= 0 && played <= n * each);
   if (n == 1)
     each = played;
   for (int64_t k = 0; k < played / each; k++) {
@@ -109,6 +113,7 @@ static int64_t first_round(search *of, int64_t keep) {
       of->found[good++] = kept;
     }
   }
+  CAROM_PROMISE(good >= 1 && good <= n);
   return good;
 }
 
@@ -148,6 +153,7 @@ static candidate gentle(const search *of) {
 }
 
 carom_choice carom_search_choice(const search *of, const candidate *c) {
+  CAROM_PROMISE(c->seen > 0 || carom_is_stopped(of));
   const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
   const double *place = of->job.balls[of->view.cue_ball].state.r;
   /* luck alone names no pot, and a direct pot is that of the ball that was aimed at */

@@ -28,6 +28,7 @@
 #include "plan/learned.h"
 #include "plan/view.h"
 #include "platform/elementary.h"
+#include "platform/promise.h"
 
 #include <math.h>
 #include <string.h>
@@ -284,6 +285,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   int32_t left[2];
   for (int k = 0; k < 2; k++)
     left[k] = given[k] < 1 ? 1 : given[k] > most ? most : given[k];
+  CAROM_PROMISE(who == 0 || who == 1);
   double x[NEXT_NUMBERS];
   carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, x);
   const double p = chance(next_numbers, x, NEXT_NUMBERS), a = later(view, who, x[2]);
@@ -298,6 +300,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
     so_far *= next;
     next = a;
   }
+  CAROM_PROMISE(worth >= 0.0 && so_far >= 0.0 && so_far <= 1.0 && (alone || worth <= 1.0));
   return alone ? worth : worth + so_far;
 }
 

@@ -31,6 +31,7 @@ size_t carom_crew_work(carom_crew *crew, carom_part_worker *worker, const void *
 
 #include "carom.h"
 #include "platform/processors.h"
+#include "platform/promise.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -73,6 +74,7 @@ struct carom_crew {
 static size_t start_of(const carom_crew *of, size_t number) {
   const size_t units = (of->n + of->unit - 1) / of->unit,
                start = units * number / of->count * of->unit;
+  CAROM_PROMISE(of->count > 0 && of->unit > 0 && (number < of->count || start >= of->n));
   return start < of->n ? start : of->n;
 }
 
@@ -82,6 +84,7 @@ static void work(carom_crew *of) {
   while ((number = atomic_fetch_add(&of->next, 1)) < of->count) {
     const size_t end = start_of(of, number + 1),
                  first = of->worker(of->job, start_of(of, number), end);
+    CAROM_PROMISE(first <= end);
     size_t least = atomic_load(&of->bad);
     while (first < end && first < least && !atomic_compare_exchange_weak(&of->bad, &least, first))
       continue;

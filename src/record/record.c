@@ -9,6 +9,7 @@
 #include "carom_record.h"
 #include "platform/arithmetic.h"
 #include "platform/fingerprint.h"
+#include "platform/promise.h"
 #include "record/number.h"
 
 #include <stdbool.h>
@@ -369,6 +370,7 @@ static bool read_object(reader *in, const field *fields, unsigned char *object) 
       in->key = key;
       if (fields[k].key == NULL)
         return wrong(in, "is no key of the format");
+      CAROM_PROMISE(k < 64);
       if (seen >> k & 1)
         return wrong(in, "comes twice");
       seen |= UINT64_C(1) << k;
@@ -611,6 +613,7 @@ typedef struct writer {
 static void write_text(writer *out, const char *text) {
   const size_t size = strlen(text), room = (size_t)(out->end - out->at),
                n = size < room ? size : room;
+  CAROM_PROMISE(out->at <= out->end);
   memcpy(out->at, text, n);
   out->at += n;
 }
@@ -638,7 +641,9 @@ static void write_value(writer *out, const field *f, const unsigned char *from) 
       x = (double)(whole + half);
     if (!(x - x == 0.0)) /* JSON has no such number */
       out->at = out->end;
-    text[carom_number_write(x, text)] = '\0';
+    const int size = carom_number_write(x, text);
+    CAROM_PROMISE(size > 0 && size < CAROM_NUMBER_TEXT);
+    text[size] = '\0';
   }
   write_text(out, text);
 }

@@ -1,6 +1,7 @@
 /* Contacts that last, src/cluster/, for the balls of a shot, and carom_cluster(). */
 #include "shot/cluster.h"
 #include "cluster/vectors.h"
+#include "platform/promise.h"
 #include "shot/rules.h"
 
 #include <math.h>
@@ -50,6 +51,7 @@ static void motion_of(const carom_cluster_ball *b, double v[3], double w[3]) {
 static int in_order(const carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   int count = 0;
   const double tie = simultaneous * c->duration;
+  CAROM_PROMISE(c->contacts <= CAROM_CLUSTER_CONTACTS);
   for (int k = 0; k < c->contacts; k++) {
     if (!(c->contact[k].impulse > 0.0))
       continue;
@@ -85,6 +87,7 @@ bool carom_third_is_near(const carom_sim *sim, int i, int j) {
 
 int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
                       uint8_t order[CAROM_CLUSTER_CONTACTS]) {
+  CAROM_PROMISE(i < j);
   c->balls = 0;
   c->steps = sim->opt->cluster_steps > 0 ? sim->opt->cluster_steps : CAROM_CLUSTER_STEPS;
   c->slow = carom_slow_speed(sim->slow_instants);
@@ -119,6 +122,9 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
     memmove(&order[1], &order[0], (size_t)k);
     order[0] = due;
   }
+  for (int k = 1; k < count; k++)
+    CAROM_PROMISE(c->ball[c->contact[order[k]].i].which != i ||
+                  c->ball[c->contact[order[k]].j].which != j);
   return count > 1 ? count : 0;
 }
 

@@ -12,6 +12,7 @@
  *   (p . c - |a . c| T^2/4) / |c|                 where it leads away, or
  *   (-(p + T c) . c - |a . c| T^2/4) / |c|        where it ends before it comes near. */
 #include "motion/gap.h"
+#include "platform/promise.h"
 #include "shot/rules.h"
 
 #include <math.h>
@@ -54,6 +55,7 @@ static double meet_rail(const carom_sim *sim, int k, double reach, const motion 
                        n[0] * m->v[0] + n[1] * m->v[1], n[0] * m->a[0] + n[1] * m->a[1]};
   double times[2];
   const int count = sim->rules->touch_rail(g, T, times);
+  CAROM_PROMISE(count >= 0 && count <= 2);
   for (int z = 0; z < count; z++) {
     const double s = place(along, m, times[z]);
     if (s >= 0.0 && s <= 1.0)
@@ -129,6 +131,7 @@ meet_table_as(const carom_sim *sim, int i, const motion *m, double T, const bool
   for (int k = 0; k < f->count; k++)
     is_near[k] =
         (f->low_x[k] <= hx) & (f->high_x[k] >= lx) & (f->low_y[k] <= hy) & (f->high_y[k] >= ly);
+  CAROM_PROMISE(f->count == f->rails + f->jaws + f->pockets && f->count <= MOST_FEATURES);
   int count = 0; /* listed without branches */
   for (int k = 0; k < f->count; k++) {
     near[count] = (uint8_t)k;
@@ -210,6 +213,7 @@ static void meet_balls(carom_sim *sim, int i, int done) {
     if (until[j] >= 0.0 && until[j] < INFINITY && !(clear[j] > 0.0))
       t = now + meet_ball(sim, i, &m, j, until[j]);
     const int low = i < j ? i : j, high = i < j ? j : i;
+    CAROM_PROMISE(low < high && !(t < now));
     sim->pair[low][high] = t;
     sim->pair_round[low][high] = (int32_t)sim->round;
   }
@@ -226,6 +230,7 @@ static void scan_row(carom_sim *sim, int i) {
     }
   sim->first[i] = first;
   sim->first_with[i] = (int8_t)with;
+  CAROM_PROMISE(with > i || first == INFINITY);
 }
 
 /* Column i of the pairs has changed: the firsts of the rows above. */
@@ -249,6 +254,7 @@ __attribute__((noinline, cold)) static void take_height(carom_sim *sim, int i) {
   sim->z[i] = flies ? path->from.r[2] : sim->rates[i].radius;
   sim->v_z[i] = flies ? path->from.v[2] : 0.0;
   sim->a_z[i] = path->a[2];
+  CAROM_PROMISE(sim->flying >= 0 && sim->flying <= sim->count);
 }
 
 __attribute__((noinline, cold)) static carom_meeting meet_in_flight(carom_sim *sim, int i) {
@@ -285,6 +291,7 @@ static inline void take_horizon(carom_sim *sim, int i) {
 /* The path of ball i, and its next meeting with the table. */
 static void take_path(carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
+  CAROM_PROMISE(path->end >= sim->now);
   take_columns(sim, i);
   sim->meeting[i] = (carom_meeting){INFINITY, 0, 0};
   sim->meeting_round[i] = (int32_t)sim->round;
@@ -294,11 +301,13 @@ static void take_path(carom_sim *sim, int i) {
     const motion m = motion_now(sim, i);
     sim->meeting[i] = meet_table(sim, i, &m, path->end - sim->now);
   }
+  CAROM_PROMISE(sim->meeting[i].time >= 0.0);
   sim->meeting[i].time += sim->now;
   take_horizon(sim, i);
 }
 
 void carom_detect(carom_sim *sim, int i, int j) {
+  CAROM_PROMISE(i >= 0 && i < sim->count && j >= -1 && j < sim->count && i != j);
   take_path(sim, i);
   if (j >= 0)
     take_path(sim, j);

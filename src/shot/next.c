@@ -1,5 +1,6 @@
 /* The next event: the earliest of the times that detect.c keeps, by a plain scan. Of events that
  * the rules of the world count as simultaneous, those rules choose the one that goes first. */
+#include "platform/promise.h"
 #include "shot/rules.h"
 
 #include <math.h>
@@ -46,6 +47,7 @@ static int list_due(const carom_sim *sim, double limit, carom_due due[MOST_DUE])
       if (sim->pair[i][j] <= limit)
         due[count++] = pair_of(sim, i, j);
   }
+  CAROM_PROMISE(count >= 1 && count <= MOST_DUE);
   return count;
 }
 

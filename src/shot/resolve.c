@@ -56,6 +56,7 @@
  * pushes a ball down at once, without a landing. The upper ball hops as it rolls off. Where
  * nothing moves, no energy is there: a ball that is balanced on another ends the shot as
  * too_many_events. */
+#include "platform/promise.h"
 #include "shot/sim.h"
 
 #include <math.h>
@@ -66,6 +67,7 @@ static const double slow_instants = 1500.0;
 /* s, above. */
 double carom_slow_speed(int64_t instants) {
   const double left = 1.0 - (double)instants / slow_instants;
+  CAROM_PROMISE(instants >= 0);
   return left * left * slow_most > slow_first && left > 0.0 ? slow_first / (left * left)
                                                             : slow_most;
 }
@@ -147,6 +149,7 @@ static double part_slowly(const contact *c, double s, double m, double closing) 
 
   /* the same share of all spins and of the motion past each other */
   const double share = sqrt(1.0 - taken / there) * (1.0 - 1e-15);
+  CAROM_PROMISE(share > 0.7 && share < 1.0); /* half of the energy at most */
   slow_spin(c->a, share);
   if (c->b != NULL)
     slow_spin(c->b, share);
@@ -246,6 +249,7 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
   contact c = {.kind_a = carom_kind_in(sim->ball, due->a), .a = a, .b = b};
   c.in_space = carom_flies(a);
   carom_contact_normal(sim, due, a, b, c.n);
+  CAROM_PROMISE(fabs(c.n[0] * c.n[0] + c.n[1] * c.n[1] + c.n[2] * c.n[2] - 1.0) < 1e-9);
   if (b != NULL) {
     c.kind_b = carom_kind_in(sim->ball, due->b);
     c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;

@@ -1,6 +1,7 @@
 /* The loop of a shot: find the next event, bring the balls in it there, resolve it, and look for
  * their next meetings. */
 #include "motion/strike.h"
+#include "platform/promise.h"
 #include "platform/threads.h"
 #include "shot/cluster.h"
 #include "shot/fixed.h"
@@ -68,6 +69,7 @@ static void add_fact(carom_facts *facts, const carom_due *due, int cue, double n
 /* The next place for an event, or a spare one where there is no room for it. */
 static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
   carom_shot *shot = sim->shot;
+  CAROM_PROMISE(shot->count >= 0 && sim->now >= shot->time); /* time never goes back */
   const bool room = shot->count < shot->room;
   if (room && shot->brief != NULL)
     shot->brief[shot->count] = (carom_brief_event){sim->now, due->type, due->a, due->b, 0};
@@ -143,6 +145,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
     const carom_cluster_contact_state *x = &c.contact[order[k]];
     const carom_cluster_ball *two[2] = {&c.ball[x->i], &c.ball[x->j]};
     const carom_due contact = {sim->now, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
+    CAROM_PROMISE(contact.a < contact.b);
     if ((contact.a == struck || contact.b == struck) && due->a != struck && due->b != struck)
       *due = contact;
     carom_event spare, *event = note(sim, &spare, &contact);
@@ -188,6 +191,7 @@ static carom_status step(carom_sim *sim, carom_due *due) {
     return together;
   carom_event spare, *event = note(sim, &spare, due);
   const int i = due->a, j = due->type == CAROM_EVENT_BALL_BALL ? due->b : -1;
+  CAROM_PROMISE(i >= 0 && i < sim->count && (j < 0 || (i < j && j < sim->count)));
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
   if (due->type == CAROM_EVENT_SLATE)
     carom_path_land(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
@@ -313,6 +317,7 @@ static carom_status go_on(carom_sim *sim) {
       return CAROM_ERROR_LEFT_TABLE;
     }
     /* of simultaneous events one may have been found a trace earlier */
+    CAROM_PROMISE(due.time >= sim->now - 1e-9);
     sim->now = carom_greater(sim->now, due.time);
     sim->round++;
     status = step(sim, &due);
@@ -383,6 +388,7 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
     if (status != CAROM_OK)
       return status;
   }
+  CAROM_PROMISE(sim.count > 0 && sim.count <= CAROM_BALLS_MOST && sim.struck < sim.count);
   return finish(&sim, status == CAROM_OK ? go_on(&sim) : status);
 }
 

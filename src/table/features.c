@@ -1,6 +1,7 @@
 /* The parts of a table that balls up to a radius can meet, prepared once for all shots that
  * share both: lines with unit normals, boxes for rejection, and the hull outside of which no
  * centre has a place. */
+#include "platform/promise.h"
 #include "table/table.h"
 
 #include <math.h>
@@ -78,6 +79,7 @@ void carom_features_of(const carom_table *table, double radius, double reference
   }
   for (int k = 0; k < f->pockets; k++, at++)
     enclose(f, at, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius, 0.0);
+  CAROM_PROMISE(at == f->count && at <= MOST_FEATURES);
   /* defaults of the table */
   f->nose_low = low;
   f->width = table->rail_width > 0.0 ? table->rail_width : 0.12;

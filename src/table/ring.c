@@ -16,6 +16,7 @@
  * holes as wide as a ball; then, when the sides are known to be right, with rails as detection
  * knows them it tells ends of rails without a jaw. Where no chain is closed, the parts are grown
  * further until one is. The edge that closed it is the hole. */
+#include "platform/promise.h"
 #include "table/table.h"
 
 #include <math.h>
@@ -38,6 +39,7 @@ typedef struct ring {
 
 static void add_shape(ring *g, const double p[2], const double q[2], double radius, double grown,
                       carom_part part) {
+  CAROM_PROMISE(g->count < MOST_FEATURES);
   g->shape[g->count++] = (shape){{p[0], p[1]}, {q[0], q[1]}, radius + grown, radius, part};
 }
 
