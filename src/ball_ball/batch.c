@@ -178,6 +178,8 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n,
       one_by_one(&w, row);
     return w.first_bad;
   }
+
+  /* empty lists; then a register of rows after the other, whose steps fill them */
   for (int kind = 0; kind < STEP_KINDS; kind++)
     w.list[kind][AT_START].count = w.list[kind][ON_THEIR_WAY].count = 0;
   if (status != NULL)
@@ -190,6 +192,8 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n,
                  end = ahead + register_size < size ? ahead + register_size : size;
     for (size_t at = ahead; at < end; at += CACHE_LINE)
       __builtin_prefetch(w.in + at);
+
+    /* lanes beyond the last row repeat it */
     lane_group t;
     t.count = n - first < lanes ? (int)(n - first) : (int)lanes;
     for (uint32_t lane = 0; lane < MOST_LANES; lane++)
@@ -197,6 +201,8 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n,
     first_steps(&w, &t);
     work_off_lists(&w, (int)lanes);
   }
+
+  /* what is left on the lists, fewer than a register each */
   while (work_off_lists(&w, 1)) {
   }
   return w.first_bad;

@@ -353,6 +353,8 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
   state behind;
   vreal error;
   vmask last = v_all(), impossible = v_not(v_all());
+
+  /* the step of that kind */
   if (kind == EASY)
     error = take_easy_step(a, &c->g, to_end, s, out);
   else if (kind == FULL)
@@ -370,6 +372,7 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
     const turn_step p = select_turn_step(a, c, ahead, &last, &impossible);
     error = take_turn_step(a, &p, last, s, &behind, out);
   }
+
   const vmask accepted = v_less(error, a->tolerance) & v_not(impossible), solved = accepted & last;
   if (!v_any(v_not(solved)))
     return solved;
@@ -384,6 +387,8 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
     c->careful = v_not(moved_on);
   } else
     c->careful = v_all();
+
+  /* those that have tried too often go to the fallback */
   const vmask spent = v_less_equal(v_splat(MOST_ATTEMPTS), c->attempts) | impossible;
   const vreal then = next_kind(a, c, inverse_rho_ahead(a, &c->s, &c->g, c->to_end), false, ahead);
   *next = choose_kind(spent, REFUSED, then);

@@ -63,12 +63,14 @@ carom_status carom_euler(carom_local *state, int N, int64_t most, carom_euler_ru
   const double C_i = 5.0 / (2.0 * c.M_i * R);
   const double C_j = 5.0 / (2.0 * c.M_j * R);
 
+  /* slips of the balls on each other, and of each on the cloth */
   double u_x = c.v_ix - c.v_jx - R * (c.w_iz + c.w_jz);
   double u_z = R * (c.w_ix + c.w_jx);
   double d_x = c.v_ix + sR * c.w_iy, d_y = c.v_iy - sR * c.w_ix;
   double b_x = c.v_jx + sR * c.w_jy, b_y = c.v_jy - sR * c.w_jx;
   double v_n = c.v_jy - c.v_iy;
 
+  /* the impulse of a step, and how many steps there may be */
   const double DP = 0.5 * (1.0 + c.e) * M * fabs(v_n) / N;
   const int64_t bound = step_bound(&c, M, N);
   double W = 0.0, W_c = NAN, W_f = INFINITY;
@@ -79,6 +81,7 @@ carom_status carom_euler(carom_local *state, int N, int64_t most, carom_euler_ru
     if (n >= bound)
       return CAROM_ERROR_TOO_SLOW;
     n++;
+    /* friction between the balls; its vertical part presses one of them on the cloth */
     double DP1 = 0.0, DP2 = 0.0, DP_ix = 0.0, DP_iy = 0.0, DP_jx = 0.0, DP_jy = 0.0;
     const double u = sqrt(u_x * u_x + u_z * u_z);
     if (u >= 1e-16) {
@@ -101,6 +104,7 @@ carom_status carom_euler(carom_local *state, int N, int64_t most, carom_euler_ru
       }
     }
 
+    /* velocities and spins, and the slips that they make */
     c.v_ix += (DP1 + DP_ix) / c.M_i;
     c.v_iy += (-DP + DP_iy) / c.M_i;
     c.v_jx += (-DP1 + DP_jx) / c.M_j;
@@ -119,6 +123,7 @@ carom_status carom_euler(carom_local *state, int N, int64_t most, carom_euler_ru
     b_x = c.v_jx + sR * c.w_jy;
     b_y = c.v_jy - sR * c.w_jx;
 
+    /* the work of the step; at the end of compression it tells the work in all */
     const double v_n_old = v_n;
     v_n = c.v_jy - c.v_iy;
     W += 0.5 * DP * fabs(v_n_old + v_n);

@@ -141,6 +141,8 @@ static inline vmask restore_rows(const row_lanes *r, const row_impulses *q,
   const vmask b_pressed = r->b_pressed;
   const vreal g = r->approach * r->per_total, on_a = g * r->M_b, on_b = g * r->M_a,
               C = (real)2.5 * v_reciprocal(r->R);
+
+  /* impulses with the signs of the two cases, and what they change */
   const vreal Q_2 = v_select(b_pressed, -q->Q_2, q->Q_2);
   const vreal F_ax = v_select(b_pressed, zero, q->F_x), F_ay = v_select(b_pressed, zero, q->F_y);
   const vreal F_bx = v_select(b_pressed, q->F_x, zero), F_by = v_select(b_pressed, q->F_y, zero);
@@ -149,6 +151,8 @@ static inline vmask restore_rows(const row_lanes *r, const row_impulses *q,
   const vreal C_a = C * on_a, C_b = C * on_b;
   const vreal aw_x = C_a * (F_ay - Q_2), aw_y = -(C_a * F_ax), bw_x = -(C_b * (F_by + Q_2)),
               bw_y = C_b * F_bx;
+
+  /* back in the axes of the table */
   const vreal *a_v = r->a_v, *a_w = r->a_w, *b_v = r->b_v, *b_w = r->b_w;
   const vreal x[OUT_NUMBERS] = {a_v[0] + (a_x * y_y + a_y * y_x),
                                 a_v[1] + (a_y * y_y - a_x * y_x),

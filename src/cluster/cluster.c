@@ -283,6 +283,8 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
   double u[2], f[2];
   CAROM_PROMISE(x->J > 0.0 && x->mu >= 0.0);
   slip_of(flat, x, u);
+
+  /* the mean slip of the step, twice */
   const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean2 = m_x * m_x + m_y * m_y;
   /* mu falls as the slip grows within the step */
   const double mean = sqrt(mean2);
@@ -292,6 +294,8 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
     law_of(x, law);
     most = carom_friction_ahead(x->p->friction, law, x->mu, 0.5 * mean - x->U) * x->J;
   }
+
+  /* it holds where friction can stop the slip, and else acts against the mean */
   if (x->may_stick) {
     const ball *p = x->p, *q = x->q;
     const double share = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
@@ -308,6 +312,7 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
     f[0] = k * m_x;
     f[1] = k * m_y;
   }
+
   for (int k = 0; k < 2; k++) {
     change[k] = f[k] - x->f[k];
     x->f[k] = f[k];
@@ -323,6 +328,7 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
   now->balls = 0;
   for (int a = 0; a < now->contacts; a++) {
     contact *x = now->push[a];
+    /* speeds, and mu, which falls only where the slip is the greatest so far */
     x->closing = closing_of(flat, x);
     slip_of(flat, x, x->u);
     const double u = sqrt(x->u[0] * x->u[0] + x->u[1] * x->u[1]);
@@ -332,8 +338,11 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
       law_of(x, law);
       x->mu = carom_friction_at(x->p->friction, law, u);
     }
+
     x->may_stick = u <= 7.0 * mobility(x) * x->mu * x->J;
     x->impulse += x->J;
+
+    /* its two balls, each listed once, as the step begins */
     for (int side = 0; side < 2; side++) {
       ball *p = side == 0 ? x->p : x->q;
       if (p->acting == 0) {
@@ -346,6 +355,8 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
     }
   }
   CAROM_PROMISE(now->contacts <= now->pressed && now->balls <= c->balls);
+
+  /* all normal impulses, when all of that is known */
   for (int a = 0; a < now->contacts; a++) {
     const contact *x = now->push[a];
     cluster_add(flat, x->p->v, -x->J * x->p->inverse_mass, x->n);
@@ -467,6 +478,7 @@ static inline bool solve(bool flat, state *c) {
   for (;; c->taken++) {
     if (c->taken == CAROM_CLUSTER_STEPS_MOST)
       return false;
+    /* half a step of the positions */
     pushes now;
     move(flat, c, 0.5 * h);
     /* a touch that is faster than what acts asks for a shorter step */
@@ -476,12 +488,16 @@ static inline bool solve(bool flat, state *c) {
       h = longest;
       find_pressed(flat, c, h, parts, &now);
     }
+
+    /* where no contact acts, one may touch again; else all is over */
     tau += 0.5 * h;
     if (!find_acting(flat, h, tau, &now, &lead)) {
       if (!touch_again(flat, c))
         break;
       continue;
     }
+
+    /* impulses, friction and the other half */
     begin_step(flat, c, &now);
     rub_all(flat, &now);
     end_step(flat, c, h, &now);

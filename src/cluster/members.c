@@ -106,8 +106,11 @@ static first_contact follow(const carom_cluster_state *c, const int pair[2],
                             bool in[CAROM_CLUSTER_BALLS]) {
   const carom_cluster_ball *a = &c->ball[pair[0]], *b = &c->ball[pair[1]];
   const double K = stiffness(a, b), B = a->inverse_mass + b->inverse_mass;
+  /* delta and T of the pair */
   const double delta = carom_cluster_compression(K, B, between(a, b).closing);
   const first_contact first = {delta, carom_cluster_duration(pace_of(K, B), delta)};
+
+  /* breadth first: each ball that is found is asked for its own neighbours */
   int queue[CAROM_CLUSTER_BALLS] = {pair[0], pair[1]}, found = 2;
   in[pair[0]] = in[pair[1]] = true;
   for (int k = 0; k < found; k++)
@@ -167,6 +170,7 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
     return 0;
   if (between(&c->ball[pair[0]], &c->ball[pair[1]]).closing < c->slow)
     return 0;
+
   const first_contact starts = follow(c, pair, in);
   /* the members, in the caller's order */
   int kept = 0;

@@ -59,6 +59,7 @@ carom_status carom_cushion_euler(carom_contact *c, int N, double least, int pool
       return CAROM_OK;
     if (k > (int64_t)MOST_TURNS * N)
       return CAROM_ERROR_TOO_SLOW;
+    /* a step that stays within compression is taken; the one that would end it is halved */
     carom_contact next = *c;
     euler_step(&next, P, pooltool);
     if (next.v_y > 0) {
@@ -80,6 +81,7 @@ carom_status carom_cushion_euler(carom_contact *c, int N, double least, int pool
   for (int64_t k = 0; run->work - work_c < target && run->steps < most; k++) {
     if (k > (int64_t)MOST_TURNS * N)
       return CAROM_ERROR_TOO_SLOW;
+    /* the last step does what is left of the work */
     const double left = target - (run->work - work_c), speed = fabs(c->v_y) * c->cosine;
     if (speed * P > left) {
       take_euler_step(c, left / speed, pooltool, run);

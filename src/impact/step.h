@@ -128,6 +128,7 @@ always void rates(const carom_terms *k, const part *z, double scale, const bool 
       b_y = madd(y, splat(-k->H_y), b_y);
       v = madd(y, splat(-k->V_w), v);
     }
+    /* over the length of the step */
     c->za_x[i] = zs * a_x;
     c->za_y[i] = zs * a_y;
     c->zb_x[i] = zs * b_x;

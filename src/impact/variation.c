@@ -86,6 +86,8 @@ static double changed_terms(const carom_trajectory *path, enum carom_variable by
                             carom_terms *less) {
   const carom_law *law = &path->law, *d = path->variation->d_law;
   carom_law l[2] = {*law, *law};
+
+  /* a friction by a share of itself; else all coefficients along their derivatives */
   double step = COEFFICIENT;
   for (int k = 0; k < 2; k++) {
     const double s = k == 0 ? COEFFICIENT : -COEFFICIENT;
@@ -112,6 +114,7 @@ static double changed_terms(const carom_trajectory *path, enum carom_variable by
       l[k].V_F += s * d->V_F;
     }
   }
+
   *more = carom_impact_terms(&l[0], &path->regime);
   *less = carom_impact_terms(&l[1], &path->regime);
   return 2 * step;
@@ -195,6 +198,8 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
     g->lost = true;
     return;
   }
+
+  /* along which it ends, and how fast; the rates behind its end */
   const int first = a_ends ? OF_A_X : OF_B_X;
   const double u_x = g->lead[a_ends ? 0 : 2], u_y = g->lead[a_ends ? 1 : 3];
   const double falls = u_x * g->rate[first] + u_y * g->rate[first + 1];
@@ -408,12 +413,15 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   begin(law, slips, TOLERANCE, plain, &path);
   memset(&g, 0, sizeof g);
   memset(out, 0, sizeof *out);
+  /* each variable asked for begins as its own derivative */
   g.d_law = d_law;
   g.asked = asked;
   for (int c = BY_A_X; c <= BY_B_Y; c++)
     g.d[c][c] = asked >> c & 1;
   if (path.status == CAROM_OK)
     end_held_slips(&path, &g);
+
+  /* the impact with its derivatives */
   double tolerance = TOLERANCE;
   path.variation = &g;
   carom_status status = carom_impact_advance(&path, INFINITY, 10 * CAROM_IMPACT_ITERATIONS);
@@ -425,12 +433,15 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
     begin(law, slips, tolerance, plain, &path);
     status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   }
+
   path.variation = NULL;
   out->q = carom_impact_impulses(&path);
   if (status != CAROM_OK)
     return status;
   out->kink =
       g.kink || (law->mu == 0 && (asked >> BY_MU & 1)) || (law->e == 0 && (asked >> BY_E & 1));
+
+  /* where they were lost on the way, differences of impacts take their place */
   g.lost |= !path.ended || g.rate[OF_V] == 0 || (path.regime.held && path.regime.cloth_held);
   for (int c = 0; c < CAROM_VARIABLES; c++) {
     if (!(asked >> c & 1))

@@ -188,8 +188,11 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     per[i] = 1 / (1 - k->w_t * t_y[i]);
     w[i] = (k->w_0 + k->w_u * u_y[i]) * per[i];
   }
+
+  /* weights of the integral of an integral */
   for (int j = 0; j < NODES; j++)
     to_end[j] = WEIGHT[j] * (length - s->p[j]);
+
   node_rates by_u, by_t;
   table by[5];
   const bool parameters = (g->asked & CAROM_PARAMETERS) != 0;
@@ -209,6 +212,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     lengths(before->a_x, before->a_y, rate_x, rate_y, u_x, u_y, along);
     block(u_x, u_y, by_u[OF_A_X], by_u[OF_A_Y], along, of_u);
     invert(of_u);
+    /* phi, as far as it does not depend on psi */
     right_sides(d, by, OF_A_X, parameters, u_x, u_y, right);
     multiply(of_u, right, phi);
   }
@@ -219,6 +223,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     }
     lengths(before->b_x, before->b_y, rate_x, rate_y, t_x, t_y, along);
     block(t_x, t_y, by_t[OF_B_X], by_t[OF_B_Y], along, of_t);
+    /* its own block and right sides; then what phi takes from them */
     right_sides(d, by, OF_B_X, parameters, t_x, t_y, right);
     matrix of_ut;
     if (driving_slips) {
@@ -239,6 +244,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     }
     invert(of_t);
     multiply(of_t, right, psi);
+    /* what psi takes from phi */
     if (driving_slips) {
       multiply(of_ut, psi, right);
       for (int j = 0; j < NODES; j++)
@@ -253,6 +259,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     error[i] = splat(0);
     end[OF_W][i] = length * d[OF_V][i];
   }
+  /* each rate at the nodes, by all that it depends on: its sum, and its highest coefficient */
   for (int r = 0; r < 5; r++) {
     nodes highest;
     EACH end[r][i] = highest[i] = splat(0);
@@ -278,6 +285,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     }
   }
   EACH error[i] /= size[i];
+
+  /* refused where the estimate is too large, and the step can be shorter */
   const double worst = largest(error) * largest(error) /
                        (vanishes >= 0 ? ESTIMATE_AT_STICK
                         : stiff       ? ESTIMATE_STIFF
@@ -289,6 +298,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   const double last[4] = {dot(AT_END, u_x), dot(AT_END, u_y), dot(AT_END, t_x), dot(AT_END, t_y)};
   carom_variation_leads(&path->at, last, g->lead);
   carom_variation_rates(k, g->lead, path->at.v, g->rate);
+
+  /* the derivatives at the end, with the shift along the motion there */
   double all = 0;
   for (int r = 0; r < CAROM_VARIED; r++) {
     EACH {

@@ -138,6 +138,7 @@ carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, con
   const carom_status status = carom_shot_at(balls, count, shot, time, then);
   if (status < 0)
     return status;
+
   const double at = carom_greater(carom_lesser(time, shot->time), 0.0);
   double left = most_parts;
   for (int i = 0; i < count; i++) {
@@ -145,6 +146,8 @@ carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, con
     double *q = turned[i];
     q[0] = 1.0;
     q[1] = q[2] = q[3] = 0.0;
+
+    /* as it begins: not turned, on the first path */
     carom_path path;
     path.from = balls[i].state;
     carom_label_of_layout(&path.from, rates.radius);

@@ -95,6 +95,8 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
   path->end = INFINITY;
   path->goes_on = path->ends_pair = false;
   path->a[0] = path->a[1] = path->a[2] = path->e[0] = path->e[1] = 0.0;
+
+  /* each phase has its acceleration and its end; a ball at rest has neither */
   switch (s->label) {
   case CAROM_BALL_SPINNING:
     path->end = now + fabs(s->w[2]) / rates->spin;
@@ -103,6 +105,7 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
   case CAROM_BALL_SLIDING: {
     const bool slides = s->label == CAROM_BALL_SLIDING;
     double friction = slides ? rates->slide : rates->roll;
+    /* friction acts against the slip, or against the velocity */
     double x = s->v[0], y = s->v[1];
     if (slides) {
       x -= rates->radius * s->w[1];
@@ -113,6 +116,7 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
       path->e[0] = x / size;
       path->e[1] = y / size;
     }
+    /* with drag the path begins with the first piece of a pair */
     if (!slides && rates->drag * size * size > 1e-16 * rates->roll)
       friction = begin_pair(path, rates, size);
     path->a[0] = -0.5 * friction * path->e[0];

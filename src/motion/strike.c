@@ -53,6 +53,8 @@ static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bo
     return CAROM_ERROR_MASS;
   if (!carom_is_positive(kind->radius))
     return CAROM_ERROR_RADIUS;
+
+  /* the directions of the cue, and the speed of the ball along it */
   const double a = cue->a, b = cue->b, inside = 1.0 - a * a;
   double sin_phi, cos_phi, sin_theta, cos_theta;
   carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
@@ -62,9 +64,12 @@ static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bo
   const double aside = -2.5 * a * sqrt(inside),
                ahead = 1.0 + kind->mass / cue->end_mass + 2.5 * inside;
   const double size = sqrt(aside * aside + ahead * ahead), s = aside / size, c = ahead / size;
+
   const double turn = 2.5 * V / kind->radius;
   if (!(size < INFINITY && fabs(turn) < INFINITY))
     return CAROM_ERROR_OVERFLOW;
+
+  /* flat: the vertical part of the blow is lost; in space the slate takes it */
   const double x = turn * b, y = turn * a * sin_theta;
   *out = (carom_motion){
       .v = {V * cos_theta * (cos_phi * c - sin_phi * s),

@@ -84,12 +84,14 @@ static progress follow(const way *w, const int *ball, const carom_brief_event *e
   progress p = {0};
   int at = 0;
   for (int64_t k = 0; k < count && p.end.type == 0; k++) {
+    /* events of the ball that is on its way, but those that are no contact */
     const carom_brief_event *e = &events[k];
     const bool meets = e->type == CAROM_EVENT_BALL_BALL, rail = e->type == CAROM_EVENT_RAIL;
     if ((e->a != ball[at] && !(meets && e->b == ball[at])) || e->type == CAROM_EVENT_STRIKE ||
         e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_SLIDING_ROLLING)
       continue;
     const int other = e->a == ball[at] ? e->b : e->a;
+    /* the link that is to come, and the one that was done */
     const carom_part *next = p.links < w->links ? &w->link[p.links] : NULL,
                      *last = p.links > 0 ? &w->link[p.links - 1] : NULL;
 
@@ -280,6 +282,7 @@ static void judge(const way *w, const carom_shot_ball *balls, int count, double 
 /* Searches mid - wide to mid + wide, degrees, for directions with which the ball falls. */
 static void search(const way *w, const carom_shot_ball *balls, int count, double mid, double wide,
                    carom_pot *pot, carom_cue *cue) {
+  /* as long as links are gained, and once more for the roots */
   const carom_cue given = *cue;
   int best = -1;
   pot->is = CAROM_POT_NO_WAY;
@@ -366,6 +369,8 @@ static bool way_of(const carom_table *table, const carom_shot_ball *balls, int c
     if (k == last && !named)
       w->link[w->links++] = (carom_part){CAROM_PART_BALL, pot->ball};
   }
+
+  /* the balls of the links, after one another; a rail is one of the table's */
   for (int k = 0; k < w->links; k++) {
     const carom_part *link = &w->link[k];
     if (link->kind == CAROM_PART_BALL)
@@ -416,6 +421,8 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
     to[0] -= 2.0 * off * l[0];
     to[1] -= 2.0 * off * l[1];
   }
+
+  /* a direction to either side of the middle, by the size of the balls and the curve */
   const double x = to[0] - own->state.r[0], y = to[1] - own->state.r[1];
   const double sine = (own->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
   carom_cue along = *cue;
@@ -425,6 +432,7 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
   const double mid = (carom_angle_of(x, y) - carom_angle_of(struck.v[0], struck.v[1])) / degree;
   const double wide = (sine < 1.0 ? carom_asin(sine) : 0.5 * pi) / degree +
                       (cue->theta > 0.0 ? 2.0 + cue->theta : 0.0) + kick_wide * rails;
+
   pot->cut = pot->margin = pot->phi[0] = pot->phi[1] = pot->speed[0] = pot->speed[1] = 0.0;
   pot->met = (carom_brief_event){0};
   search(&w, balls, count, mid, wide, pot, cue);

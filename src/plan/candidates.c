@@ -102,6 +102,7 @@ void carom_search_pots(search *of, int64_t most) {
     of->state[k] = of->job.balls[k].state;
   for (int k = 0; k < of->view.count; k++)
     for (int p = 0; p < of->view.pockets && (of->on >> k & 1); p++) {
+      /* ball k into pocket p, if that is likely at all */
       if (!(of->pockets >> p & 1))
         continue;
       const carom_way w = carom_way_of(&of->view, of->state, of->in_play, k, p, 0, false, 0.03);
@@ -127,6 +128,8 @@ void carom_search_pots(search *of, int64_t most) {
   const int64_t share = ways > 0 ? most / ways : 0, strokes = share > STROKES ? STROKES
                                                               : share < 3     ? 3
                                                                               : share;
+
+  /* each stroke within what the player can do */
   for (int w = 0; w < ways; w++)
     for (int n = 0; n < strokes; n++) {
       const double *tip = pot_tip[order[n] % TIPS];
@@ -163,6 +166,7 @@ void carom_search_scan(search *of, int64_t most) {
   for (int64_t from = 0; from < tries && of->count < end && !carom_is_stopped(of); from += block) {
     const int64_t first = of->count;
     for (int64_t k = from; k < from + block && of->count < of->most; k++) {
+      /* a direction, and a speed and a tip that are drawn */
       double turn = begin + 0.61803398874989485 * (double)k;
       turn -= floor(turn);
       const int speed = (int)((double)SCAN_SPEEDS *

@@ -309,6 +309,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   int tried = 0;
   of->places = 0;
   for (uint64_t k = 0; k < 50 * PLACES && tried < PLACES; k++) {
+    /* drawn within what the caller allows, and inside the cushions */
     double r[2];
     for (int x = 0; x < 2; x++) {
       /* an empty range, and one with NaN, has no place */
@@ -321,6 +322,8 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     if (carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) !=
         CAROM_OK)
       continue;
+
+    /* the best are sorted in by value */
     tried++;
     state[cue_ball] = balls[cue_ball].state;
     const double value = carom_value_of(&of->view, job->rules->user, state, 0, false);

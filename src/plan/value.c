@@ -250,6 +250,7 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
   for (int k = 0; targets >> k != 0; k++) {
     if (!(targets >> k & 1))
       continue;
+    /* the likeliest pocket of ball k; others are asked only whether they are likelier */
     double of = 0.0;
     for (int p = 0; p < view->pockets; p++) {
       if (!(pockets >> p & 1))
@@ -257,6 +258,8 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
       const carom_way way = carom_way_of(view, balls, in_play, k, p, who, in_hand, of);
       of = way.chance > of ? way.chance : of;
     }
+
+    /* the two best of all balls */
     count++;
     sum += of;
     if (of > best) {
@@ -266,6 +269,7 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
       second = of;
     }
   }
+
   const double is[NEXT_NUMBERS] = {1.0,
                                    view->log_error[who],
                                    count > 0 ? sum / count : 0.0,

@@ -143,6 +143,8 @@ const char *carom_number_read(const char *at, const char *end, double *x, const 
     return read_hexadecimal(at + 1, end, x);
   }
   *why = "must be a number";
+
+  /* a sign, and a digit that no other follows a zero */
   const bool negative = at < end && *at == '-';
   at += negative;
   if (at == end || *at < '0' || *at > '9' ||
@@ -164,6 +166,8 @@ const char *carom_number_read(const char *at, const char *end, double *x, const 
     m = exact ? 10 * m + (uint64_t)(*at - '0') : m;
     e -= behind;
   }
+
+  /* the power of ten; both parts exact, so that one division or product rounds once */
   if (at < end && (*at == 'e' || *at == 'E') && (at = read_exponent(at + 1, end, &tens)) == NULL)
     return NULL;
   e += tens;
@@ -173,6 +177,7 @@ const char *carom_number_read(const char *at, const char *end, double *x, const 
     *why = "has more digits than can be read exactly: 15, and 22 places; write it as \"0x1.8p+1\"";
     return NULL;
   }
+
   const double size = e < 0 ? (double)m / ten[-e] : (double)m * ten[e];
   *x = negative ? -size : size;
   return at;

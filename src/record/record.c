@@ -361,12 +361,15 @@ static bool read_object(reader *in, const field *fields, unsigned char *object) 
     return false;
   if (!next_is(in, '}')) {
     do {
+      /* the field of that key */
       char key[KEY_TEXT];
       int k = 0;
       if (!read_key(in, key))
         return false;
       while (fields[k].key != NULL && strcmp(fields[k].key, key) != 0)
         k++;
+
+      /* keys are known, and come once */
       in->key = key;
       if (fields[k].key == NULL)
         return wrong(in, "is no key of the format");
@@ -374,6 +377,7 @@ static bool read_object(reader *in, const field *fields, unsigned char *object) 
       if (seen >> k & 1)
         return wrong(in, "comes twice");
       seen |= UINT64_C(1) << k;
+      /* its value */
       in->key = fields[k].key;
       if (!read_field(in, &fields[k], object))
         return false;
@@ -382,6 +386,8 @@ static bool read_object(reader *in, const field *fields, unsigned char *object) 
     if (!expect(in, '}', "must be followed by ',' or '}'"))
       return false;
   }
+
+  /* those that must be there */
   for (int k = 0; fields[k].key != NULL; k++)
     if (fields[k].always && !(seen >> k & 1)) {
       in->key = fields[k].key;
@@ -469,6 +475,7 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
         carom_record_place(record, ball, record->place[0], record->place[1], NULL);
     return status == CAROM_OK || wrong(in, carom_status_string(status));
   }
+  /* the caller is to play it before the next line */
   case CAROM_RECORD_SHOT:
   case CAROM_RECORD_CONTINUE:
     record->pending = 1;
@@ -478,6 +485,7 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   case CAROM_RECORD_EVENT:
     return record->before == record->after ||
            wrong(in, "has states of other balls before and after");
+  /* of what was read up to here */
   case CAROM_RECORD_END: {
     const bool same_shots = record->shots == shots, same_hash = record->hash == hash;
     record->shots = shots;
@@ -669,6 +677,7 @@ static void write_object(writer *out, const field *fields, const unsigned char *
   bool first = true;
   write_text(out, "{");
   for (const field *f = fields; f->key != NULL; f++) {
+    /* how many numbers or elements; a count that was damaged writes nothing */
     int64_t n = f->count;
     if (f->type == LIST)
       memcpy(&n, object + f->counted, sizeof n);
@@ -676,11 +685,14 @@ static void write_object(writer *out, const field *fields, const unsigned char *
       out->at = out->end;
       return;
     }
+    /* an empty list, and a number as before, are left out */
     if (f->type == LIST
             ? n == 0
             : !f->always && memcmp(object + f->at, before != NULL ? before + f->at : zeros,
                                    (size_t)n * size_of(f)) == 0)
       continue;
+
+    /* the key, then a list, a number, or numbers in brackets */
     write_text(out, first ? "\"" : ",\"");
     write_text(out, f->key);
     write_text(out, "\":");
@@ -706,12 +718,16 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
   if (out_of_place(record, (int)kind) != NULL ||
       (is_shot && (record->pending != 2 || record->kind != kind)))
     return 0;
+
+  /* what the line says beside what is there */
   if (kind == CAROM_RECORD_HEAD) {
     record->format = FORMAT;
     record->revision = carom_physics_revision();
   }
   if (is_shot)
     record->recorded = record->played;
+
+  /* the text; where there is no room for it nothing has happened */
   writer out = {text, text + room};
   write_text(&out, "{\"");
   write_text(&out, lines[kind].key);
@@ -722,6 +738,8 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
     record->format = kind == CAROM_RECORD_HEAD ? 0 : record->format;
     return 0;
   }
+
+  /* what the line means for those behind it */
   *out.at = '\0';
   if (is_shot) {
     record->pending = 0;

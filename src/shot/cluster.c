@@ -55,6 +55,7 @@ static int in_order(const carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CO
   for (int k = 0; k < c->contacts; k++) {
     if (!(c->contact[k].impulse > 0.0))
       continue;
+    /* put in its place from behind: before all that touch later by more than a tie */
     int place = count++;
     for (; place > 0 && c->contact[k].time < c->contact[order[place - 1]].time - tie; place--)
       order[place] = order[place - 1];
@@ -88,6 +89,8 @@ bool carom_third_is_near(const carom_sim *sim, int i, int j) {
 int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
                       uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   CAROM_PROMISE(i < j);
+
+  /* all balls in play, as they are now; the two that meet, by their places in the list */
   c->balls = 0;
   c->steps = sim->opt->cluster_steps > 0 ? sim->opt->cluster_steps : CAROM_CLUSTER_STEPS;
   c->slow = carom_slow_speed(sim->slow_instants);
@@ -105,13 +108,17 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
     c->ball[c->balls++] =
         member_of(carom_kind_in(sim->ball, k), &now, sim->opt, carom_flies(&now), k);
   }
+
+  /* those that the contact can reach; with none of them it is a contact like any other */
   const int size = carom_cluster_members(c, first, second);
   if (size == 0 || size == 1)
     return 0;
+  /* too many contacts, or too many steps: one by one, at this instant */
   if (size < 0 || !carom_cluster_solve(c)) {
     sim->one_by_one = sim->now;
     return 0;
   }
+
   /* the contact that is due goes first */
   const int count = in_order(c, order);
   for (int k = 1; k < count; k++) {

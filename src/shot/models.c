@@ -153,6 +153,7 @@ carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const
     exchange(e, kind_a->mass, kind_b->mass, n, a, b);
     return CAROM_OK;
   }
+
   const contact_slip s = slip_of(n, R, a, b);
   const double mu = friction_of(sim, i, j, sqrt(s.along * s.along + s.up * s.up));
   if (model == CAROM_BALL_MODEL_INELASTIC) {

@@ -37,8 +37,10 @@ static carom_due pair_of(const carom_sim *sim, int i, int j) {
 static int list_due(const carom_sim *sim, double limit, carom_due due[MOST_DUE]) {
   int count = 0;
   for (int i = 0; i < sim->count && count < MOST_DUE - CAROM_BALLS_MOST - 2; i++) {
+    /* neither the ball itself nor a pair with one behind it is due */
     if (sim->own[i] > limit && sim->first[i] > limit)
       continue;
+    /* the end of its phase, its meeting with the table, its pairs with balls j > i */
     if (sim->path[i].end <= limit)
       due[count++] = end_of(sim, i);
     if (sim->meeting[i].time <= limit)
@@ -52,13 +54,17 @@ static int list_due(const carom_sim *sim, double limit, carom_due due[MOST_DUE])
 }
 
 carom_due carom_next(const carom_sim *sim) {
+  /* the earliest time that anything is due */
   double first = INFINITY;
   for (int i = 0; i < sim->count; i++) {
     const double soonest = carom_lesser(sim->own[i], sim->first[i]);
     first = carom_lesser(soonest, first);
   }
+
   if (!(first < INFINITY))
     return (carom_due){INFINITY, -1, -1, -1};
+
+  /* all that the world takes for simultaneous with it; its rules choose */
   carom_due due[MOST_DUE];
   const int count = list_due(sim, first + sim->rules->simultaneous, due);
   return count == 1 ? due[0] : sim->rules->choose(sim, due, count);

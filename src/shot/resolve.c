@@ -246,10 +246,12 @@ double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const
 
 carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
                            carom_ball_state *b) {
+  /* which things touch, along which line, and what the cloth holds */
   contact c = {.kind_a = carom_kind_in(sim->ball, due->a), .a = a, .b = b};
   c.in_space = carom_flies(a);
   carom_contact_normal(sim, due, a, b, c.n);
   CAROM_PROMISE(fabs(c.n[0] * c.n[0] + c.n[1] * c.n[1] + c.n[2] * c.n[2] - 1.0) < 1e-9);
+
   if (b != NULL) {
     c.kind_b = carom_kind_in(sim->ball, due->b);
     c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;

@@ -139,20 +139,26 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
   if (count == 0)
     return false;
   *status = CAROM_OK;
+
+  /* balls that have had their first contact here */
   bool changed[CAROM_BALLS_MOST] = {false};
   const int struck = sim->struck;
   for (int k = 0; k < count; k++) {
+    /* one contact as an event of its own; balls stand in the caller's order */
     const carom_cluster_contact_state *x = &c.contact[order[k]];
     const carom_cluster_ball *two[2] = {&c.ball[x->i], &c.ball[x->j]};
     const carom_due contact = {sim->now, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
     CAROM_PROMISE(contact.a < contact.b);
+    /* the loop stops by the contact of the struck ball, wherever it stands */
     if ((contact.a == struck || contact.b == struck) && due->a != struck && due->b != struck)
       *due = contact;
+
     carom_event spare, *event = note(sim, &spare, &contact);
     event->cluster = count;
     for (int side = 0; side < 2; side++) {
       const int i = two[side]->which;
       carom_path *path = &sim->path[i];
+      /* a ball changes once: before a further contact it is as after its first */
       if (changed[i]) {
         event->before[side] = path->from;
       } else {
@@ -161,6 +167,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
         path->from = event->before[side];
         carom_cluster_take(two[side], &path->from);
         carom_label_after(c.in_space, carom_kind_in(sim->ball, i), &path->from);
+        /* a motion that overflows is not taken: the shot ends there */
         if (!carom_motion_is_finite(path->from.v, path->from.w)) {
           *status = CAROM_ERROR_OVERFLOW;
           path->from = event->before[side];
@@ -170,6 +177,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
       event->after[side] = path->from;
     }
   }
+
   carom_detect_all(sim);
   return true;
 }
@@ -192,6 +200,8 @@ static carom_status step(carom_sim *sim, carom_due *due) {
   carom_event spare, *event = note(sim, &spare, due);
   const int i = due->a, j = due->type == CAROM_EVENT_BALL_BALL ? due->b : -1;
   CAROM_PROMISE(i >= 0 && i < sim->count && (j < 0 || (i < j && j < sim->count)));
+
+  /* the states of its balls where it happens */
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
   if (due->type == CAROM_EVENT_SLATE)
     carom_path_land(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
@@ -199,12 +209,16 @@ static carom_status step(carom_sim *sim, carom_due *due) {
     event->before[0].r[2] = carom_height_on_top(sim, i, due->b);
   if (j >= 0)
     carom_path_at(&sim->path[j], &sim->rates[j], sim->now, &event->before[1]);
+
+  /* the states after it, on their paths; of an error nothing counts */
   const carom_status status = resolve(sim, due, event);
   if (status < 0) { /* nothing of it counts */
     sim->path[i].from = event->before[0];
     if (j >= 0)
       sim->path[j].from = event->before[1];
   }
+
+  /* what the caller keeps of it */
   if (event != &spare) {
     event->after[0] = sim->path[i].from;
     if (j >= 0)
@@ -212,6 +226,8 @@ static carom_status step(carom_sim *sim, carom_due *due) {
     else
       memset(&event->after[1], 0, sizeof event->after[1]);
   }
+
+  /* the paths from here on, and what is met on them */
   carom_path_begin(&sim->path[i], &sim->rates[i], sim->now);
   if (j >= 0)
     carom_path_begin(&sim->path[j], &sim->rates[j], sim->now);
@@ -225,11 +241,13 @@ static carom_status strike(carom_sim *sim) {
   const carom_cue *cue = sim->cue;
   if (cue == NULL || !(cue->speed > 0.0))
     return CAROM_OK;
+  /* no ball is struck while one moves */
   for (int i = 0; i < sim->count; i++) {
     const int64_t label = sim->path[i].from.label;
     if (label != CAROM_BALL_STATIONARY && !carom_is_out(label))
       return CAROM_OK;
   }
+
   const int i = (int)cue->ball;
   carom_motion motion;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
@@ -237,6 +255,8 @@ static carom_status strike(carom_sim *sim) {
       (flat ? carom_strike : carom_strike_in_space)(cue, carom_kind_in(sim->ball, i), &motion);
   if (status < 0)
     return status;
+
+  /* the event, and the motion that the cue gives */
   const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
   carom_event spare, *event = note(sim, &spare, &due);
   carom_ball_state *state = &sim->path[i].from;
@@ -251,6 +271,7 @@ static carom_status strike(carom_sim *sim) {
   } else {
     carom_label_of(state, sim->rates[i].radius);
   }
+
   if (sim->rules->contacts_slide)
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;
@@ -296,6 +317,7 @@ static carom_status go_on(carom_sim *sim) {
   const double time_most = sim->opt->time_most > 0.0 ? sim->opt->time_most : 1000.0;
   carom_status status = CAROM_OK;
   while (status == CAROM_OK) {
+    /* what ends the shot: rest, or the time that the caller allows */
     carom_due due = carom_next(sim);
     if (due.type < 0)
       break;
@@ -303,6 +325,8 @@ static carom_status go_on(carom_sim *sim) {
       sim->shot->time = time_most;
       return sim->opt->time_most > 0.0 ? CAROM_STOPPED_AT_TIME : CAROM_ERROR_TOO_LONG;
     }
+
+    /* another piece of a path is no event: only what it meets is looked for */
     if (due.type == CAROM_DUE_PIECE) {
       sim->shot->time = sim->now = carom_greater(sim->now, due.time);
       sim->round++;
@@ -310,8 +334,10 @@ static carom_status go_on(carom_sim *sim) {
       carom_detect(sim, due.a, -1);
       continue;
     }
+
     if (sim->shot->count >= events_most)
       return CAROM_ERROR_TOO_MANY_EVENTS;
+    /* a ball on the cloth that finds no part of the table has left it */
     if (due.type == 0) {
       sim->shot->time = sim->now = carom_greater(sim->now, due.time);
       return CAROM_ERROR_LEFT_TABLE;
@@ -361,6 +387,8 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
     memcpy(&sim, shot->state, sizeof sim);
   else if (shot->state != NULL) /* the bytes that are not written below are kept too */
     memset(&sim, 0, sizeof sim);
+
+  /* what belongs to this call */
   sim.rules = carom_rules_of(opt->world);
   sim.table = table;
   sim.features = features;
@@ -368,6 +396,8 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   sim.opt = opt;
   sim.cue = cue;
   sim.shot = shot;
+
+  /* what belongs to the shot: as it begins, or as it was kept */
   carom_status status = CAROM_OK;
   if (anew) {
     sim.count = count;

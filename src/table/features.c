@@ -51,6 +51,7 @@ static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
 
 void carom_features_of(const carom_table *table, double radius, double reference,
                        carom_features *f) {
+  /* how many parts of each kind, and an empty hull */
   f->radius = radius;
   f->reference = reference;
   f->rails = (int)table->rails;
@@ -64,6 +65,8 @@ void carom_features_of(const carom_table *table, double radius, double reference
    * those of the table farther (nose.c) */
   if (radius != reference)
     radius += reference;
+
+  /* rails, then jaws, then pockets */
   int at = 0;
   for (int k = 0; k < f->rails; k++, at++) {
     prepare_rail(&table->rail[k], k, f);

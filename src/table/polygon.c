@@ -112,6 +112,7 @@ carom_status carom_table_polygon(const carom_corner *corner, int count, double n
   if (fault != NULL)
     memset(fault, 0, sizeof *fault);
   memset(table, 0, sizeof *table);
+
   joint j[CAROM_RAILS_MOST];
   if (!carom_is_positive(ball_radius))
     return CAROM_ERROR_RADIUS;
@@ -120,12 +121,14 @@ carom_status carom_table_polygon(const carom_corner *corner, int count, double n
   if (count < 3 || count > CAROM_RAILS_MOST || !joints_of(corner, count, jaw_radius, j))
     return CAROM_ERROR_TABLE;
 
+  /* the playing area reaches as far as the corners */
   table->ball_radius = ball_radius;
   for (int k = 0; k < count; k++) {
     table->width = carom_greater(table->width, corner[k].x);
     table->length = carom_greater(table->length, corner[k].y);
   }
   for (int k = 0; k < count; k++) {
+    /* a rail from corner to corner, cut short by their mouths and jaws */
     const joint *a = &j[k], *b = &j[(k + 1) % count];
     double u[2], p[2], q[2];
     if (direction(a->at, b->at, u) <= a->cut + b->cut)
@@ -134,6 +137,8 @@ carom_status carom_table_polygon(const carom_corner *corner, int count, double n
       p[i] = a->at[i] + a->cut * u[i];
       q[i] = b->at[i] - b->cut * u[i];
     }
+
+    /* and the corner where it begins: a pocket, or a jaw where the corner juts into the table */
     add_rail(table, nose_height, p, q);
     if (a->mouth > 0.0)
       add_pocket(table, a, nose_height, jaw_radius, ball_radius);

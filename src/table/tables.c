@@ -150,6 +150,8 @@ static measures snooker(void) {
 carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
   if (table == NULL)
     return CAROM_ERROR_NULL;
+
+  /* what the builders of each kind say */
   measures m;
   switch (kind) {
   case CAROM_TABLE_POOL_7FT:
@@ -171,6 +173,8 @@ carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
   default:
     return CAROM_ERROR_TABLE;
   }
+
+  /* rails, and with pockets the jaws of their mouths */
   memset(table, 0, sizeof *table);
   table->width = m.width;
   table->length = m.length;

@@ -23,6 +23,8 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
   state.balls = c->balls;
   state.steps = c->steps;
   state.slow = c->slow;
+
+  /* the balls, their numbers with one derivative each */
   for (int k = 0; k < c->balls; k++) {
     text::carom_cluster_ball *ball = &state.ball[k];
     number *to = ball->r;
@@ -38,9 +40,12 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
       to[n].d[0] = d[n];
     }
   }
+
+  /* all of them must be members, as when the shot was played */
   if (text::carom_cluster_members(&state, c->first, c->second) <= 0 || state.balls != c->balls ||
       !text::carom_cluster_solve(&state))
     return false;
+
   /* of the contact that starts it also where its spin is that of a slide of a millimetre */
   for (int k = 0; k < state.contacts && !state.in_space; k++) {
     const text::carom_cluster_contact_state &x = state.contact[k];
@@ -48,6 +53,8 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
         (x.i == c->first && x.j == c->second) || (x.i == c->second && x.j == c->first);
     *kink |= is_level(x, starts ? 1e-4 : 1e-9);
   }
+
+  /* their motion behind it */
   for (int k = 0; k < c->balls; k++) {
     const number *from = state.ball[k].v;
     real x[CAROM_MOTION_NUMBERS], d[CAROM_MOTION_NUMBERS];

@@ -28,7 +28,6 @@ extern "C" {
 #include <stdlib.h>
 
 namespace {
-
 using text::carom_ball_state;
 using text::carom_sim;
 
@@ -173,6 +172,7 @@ CAROM_APART void take_part(scene *s) {
   const carom_event *e = s->event;
   s->table.rails = s->features.rails = 1;
   s->table.jaws = s->features.jaws = 1;
+  /* noses are placed by the radius of the table's balls */
   s->features.reference = w->reference;
   /* the radius of the last ball places the nose, unless the table names one */
   if (!(w->table->ball_radius > 0) && w->seeds->kind != nullptr)
@@ -185,6 +185,8 @@ CAROM_APART void take_part(scene *s) {
                     : e->b;
   const bool rail =
       e->type == CAROM_EVENT_RAIL || (e->type == CAROM_EVENT_RAIL_TOP && e->b < w->table->rails);
+
+  /* its place has no seeds; height, friction and restitution have */
   number *nose[3];
   real value[3];
   if (rail) {
@@ -252,6 +254,7 @@ CAROM_APART number gap(scene *s) {
   const text::carom_ball_kind *kind = &s->ball[0].kind;
   switch (e->type) {
   case CAROM_EVENT_BALL_BALL: {
+    /* the distance of the centres; a ball on the cloth is at the height of its radius */
     number square = 0.0;
     for (int k = 0; k < 2; k++)
       square += (b->r[k] - a->r[k]) * (b->r[k] - a->r[k]);
@@ -262,12 +265,15 @@ CAROM_APART number gap(scene *s) {
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW: {
     const bool rail = e->type == CAROM_EVENT_RAIL;
+    /* the horizontal distance from the line of a rail or the circle of a jaw */
     const number *line = s->features.line[0],
                  height = rail ? s->table.rail[0].height : s->table.jaw[0].height;
     const number x = a->r[0] - (rail ? number(0) : s->table.jaw[0].centre[0]),
                  y = a->r[1] - (rail ? number(0) : s->table.jaw[0].centre[1]);
     const number across =
         rail ? line[0] * x + line[1] * y + line[2] : sqrt(x * x + y * y) - s->table.jaw[0].radius;
+
+    /* a ball on the cloth meets the wall, one that flies the nose itself */
     if (!text::carom_flies(a))
       return across - (w->opt->space == CAROM_SPACE_FLAT
                            ? kind->radius
@@ -376,6 +382,7 @@ CAROM_APART text::carom_status strike(scene *s) {
       (flat ? text::carom_strike : text::carom_strike_in_space)(&cue, &s->ball[0].kind, &motion);
   if (status < 0)
     return status;
+
   carom_ball_state *state = &s->ball[0].state;
   memcpy(state->v, motion.v, sizeof motion.v);
   memcpy(state->w, motion.w, sizeof motion.w);
@@ -766,6 +773,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   s.side[1] = e->b;
   if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW || e->type == CAROM_EVENT_RAIL_TOP)
     take_part(&s);
+
   w->note = {0, 0};
   watched = {false, {0, 0}};
   /* the states at the fixed time of the event, and the derivatives of that time */
@@ -773,6 +781,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
     begin_ball(w, s.side[i], i, &s);
     state_at(w, s.side[i], i, e->time, &s, &s.ball[i].state);
   }
+
   row dT = {};
   if (ends_phase(e) || lands(&s)) {
     dT = s.sim.path[0].end.d;
@@ -783,12 +792,16 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
     note_grazing(&s, g.d[CLOCK]);
     note_order(&s, g);
   }
+
+  /* the states just before the event, with the values that were played */
   dT[CLOCK] = 0;
   for (int i = 0; i <= s.two; i++) {
     add_time(dT, &s.ball[i].state);
     set(e->before[i], &s.ball[i].state);
     store_state(&s.ball[i].state, w->before[i]);
   }
+
+  /* a landing is on the slate exactly, at the speed of its fall */
   if (e->type == CAROM_EVENT_SLATE) {
     text::carom_path_land(&s.sim.path[0], &s.sim.rates[0], s.sim.path[0].end, &s.ball[0].state);
     set(e->before[0], &s.ball[0].state);
@@ -802,14 +815,18 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   s.sim.now.d[CLOCK] = 1;
   s.sim.slow_instants = w->slow_instants;
   s.sim.slow_last = w->slow_last;
+
   const bool raised =
       s.two && (text::changes(s.ball[0].state.v[2]) || text::changes(s.ball[1].state.v[2]) ||
                 text::changes(s.ball[1].state.r[2] - s.ball[0].state.r[2]));
+
+  /* the sources of the shot tell of kinks while they are watched */
   watched.on = is_contact(e) || e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP;
   const text::carom_status status = resolve(&s);
   watched.on = false;
   if (status < 0)
     return (carom_status)status;
+
   const bool slow = s.sim.slow_last.d[CLOCK] == 1;
   w->slow_instants = s.sim.slow_instants;
   w->slow_last = s.sim.slow_last.x;
@@ -823,6 +840,8 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   if (in_space && !slow && raised &&
       (e->after[0].label != CAROM_BALL_AIRBORNE || e->after[1].label != CAROM_BALL_AIRBORNE))
     w->note.flags |= CAROM_TANGENT_KINK;
+
+  /* the paths from here on */
   for (int i = 0; i <= s.two; i++) {
     set(e->after[i], &s.ball[i].state);
     settle(&s.ball[i].kind, &s.ball[i].state);

@@ -345,6 +345,8 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tang
              at_nose = in_flight && (is_jaw || event->type == CAROM_EVENT_RAIL);
   hit h = {.r = 0.0};
   double to[2];
+
+  /* where the other body's centre is, and the sum of the radii */
   if (two) {
     memcpy(to, b->r, sizeof to);
     h.r = kind->radius + w->ball[event->b].kind->radius;
@@ -362,6 +364,8 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tang
   } else {
     return h;
   }
+
+  /* from the ball to the body, and how it comes nearer, with their tangents */
   for (int k = 0; k < (two || at_nose ? 3 : 2); k++) {
     h.d[k] = k < 2 ? to[k] - a->r[k] : h.d[k];
     h.v[k] = a->v[k] - (two ? b->v[k] : 0.0);
@@ -377,6 +381,7 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tang
   double out[3] = {-h.d[0] / q, -h.d[1] / q, 0.0};
   if (!is_jaw)
     carom_rail_line(&table->rail[event->b], out);
+  /* the nose is inside the wall; level parts are along that vector from here on */
   const double beyond =
       (is_jaw ? table->jaw[event->b].radius : 0.0) + carom_nose_shift(height, w->reference);
   double *const level[4] = {h.d, h.v, h.dd, h.dv};
