@@ -198,10 +198,10 @@ typedef enum carom_status {
   CAROM_ERROR_LEAST_STEP = -38,      /* options.least_step is negative or not finite. */
   CAROM_ERROR_OMEGA_RATIO = -39,     /* omega_ratio of options or of a ball is neither 0 nor
                                         between 1 and 2. */
-  CAROM_ERROR_SPEED_LOG = -24,       /* restitution_log or mu_log of options or of a ball is not
-                                        -1 to 1. */
-  CAROM_ERROR_SMOOTH = -25,          /* smooth_q, smooth_x, smooth_t, smooth_a or smooth_k of
-                                        options or of a ball is out of its range. */
+  CAROM_ERROR_SPEED_LOG = -24,       /* restitution_log, restitution_log2 or mu_log of options or
+                                        of a ball, or its roll_loss_log, is not -1 to 1. */
+  CAROM_ERROR_SMOOTH = -25,          /* a number of options or of a ball whose name begins with
+                                        smooth_ is out of its range. */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
   CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is
                                         0. */

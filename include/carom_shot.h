@@ -100,22 +100,29 @@ typedef struct carom_cushion_options {
   double omega_ratio; /* STRONGE: frequency of the nose along its surface over that across it, 1
                          to 2 without the ends. 0: 1.8, which is that of pooltool. */
   double smooth_q;    /* SMOOTH: width of the passage from sticking to sliding, 1e-12 to 0.5. 0:
-                         this and the next four are those measured on one table: 0.35, 1.3, 1.2,
-                         0.13 and 0.047; then all five must be 0. */
+                         this and all of SMOOTH below are those measured on one table: 0.35,
+                         1.3, 1.18, 0.25, 0, 0.067, -0.059 and 0.06; then all must be 0. */
   double smooth_x;    /* SMOOTH: part of the slip along the cushion that friction takes if it
                          can, above 0, at most 2: 1 */
   double smooth_t;    /* stops it, more turns a part of it round. And of the slip across the
                          cushion. */
   double smooth_a;    /* SMOOTH: friction across the cushion reaches 1 + a times as far, 0 to 1. */
   double smooth_k;    /* SMOOTH: rebound gains this part of the impulse where friction is used
-                         up, 0 to 1. The ball never leaves the nose faster than it came. */
+                         up, 0 to 1, up to an impulse that reverses the closing speed. */
   double restitution_log; /* any model: restitution and friction at v m/s are those of the
                              impact, which hold at 1 m/s, */
   double mu_log;          /* plus this times ln(v), limited to 0 to 1; below 0.1 m/s as at 0.1.
                              v is the speed across the cushion: the closing speed at the nose
                              over cos(theta). In flight, too, theta is that of a ball on the
                              cloth. -1 to 1; default 0. Not read with CAROM_CUSHION_LAW_HAN. */
-  uint64_t reserved[4];   /* must be 0. */
+  double smooth_g;        /* SMOOTH: rebound gains up to this part of the impulse the more friction
+                          slides, at 1 m/s across the cushion, -1 to 1; */
+  double smooth_g_log;    /* and its change for each unit of ln(v), -1 to 1. Energy bounds both. */
+  double smooth_e; /* SMOOTH: restitution gains up to this where the ball's surface moves down
+                          the nose, as that of a ball that rolls into it, -1 to 1. */
+  double restitution_log2; /* any model: as restitution_log, times ln(v)^2, which counts up to 1,
+                              as at 0.37 and 2.7 m/s. -1 to 1. */
+  uint64_t reserved[4];    /* must be 0. */
 } carom_cushion_options;
 
 /* The name of a model ("mathavan", "stronge", "han", "mirror", "euler", "smooth"), or NULL for a
@@ -273,7 +280,10 @@ typedef struct carom_ball_kind {
                                      each unit of ln(v), v in m/s the speed across the cushion,
                                      as in carom_cushion_options. */
   /* of smooth cushions, as in carom_cushion_options. All 0: those measured on one table. */
-  double smooth_q, smooth_x, smooth_t, smooth_a, smooth_k;
+  double smooth_q, smooth_x, smooth_t, smooth_a, smooth_k, smooth_g, smooth_g_log, smooth_e;
+  double restitution_log2; /* of cushions, as in carom_cushion_options. */
+  double roll_loss_log;    /* roll_loss changes by this for each unit of ln(v), v as above, limited
+                              to 0 to 1; -1 to 1. */
 } carom_ball_kind;
 
 /* Where a ball is and how it moves. */
@@ -537,8 +547,9 @@ typedef enum carom_space {
   CAROM_SPACE_FLAT = 1 /* balls stay on the cloth, whatever pushes them up or down */
 } carom_space;
 
-/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is HAN in the
- * world carom, STRONGE in pooltool. HAN predicts recorded shots as well as MATHAVAN, the exact
+/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is
+ * STRONGE in the world pooltool; in carom SMOOTH for a ball whose smooth_q is above 0, as that of
+ * CAROM_GAME_BILLIARD, and else HAN. HAN predicts recorded shots as well as MATHAVAN, the exact
  * limit, for a tenth of the cost or less (docs/understanding/reality.md). These values are not
  * those of carom_cushion_model, in which 0 is a model: compilers warn where the two are mixed
  * (-Wenum-conversion, which -Wextra of gcc turns on). */
@@ -802,7 +813,7 @@ CAROM_API carom_status carom_shot_drawn(const carom_table *table, const carom_sh
                                         size_t n, carom_ball_state *states);
 
 /* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of
- * cues[k * cue_stride]. In place of `balls`, 288 bytes a ball, a job may have `kinds` for all shots
+ * cues[k * cue_stride]. In place of `balls`, 328 bytes a ball, a job may have `kinds` for all shots
  * and `states`, 80 bytes a ball: shot k is of the kinds[0 ... count - 1] with the states from
  * states[k * ball_stride] on. Its bits are the same.
  * With table, balls and cue of the sample above:

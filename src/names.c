@@ -60,10 +60,11 @@
   X(ERROR_LEAST_STEP, -38, "bad_least_step",                                                       \
     "options.least_step must be 0 N s or more, and finite")                                        \
   X(ERROR_OMEGA_RATIO, -39, "bad_omega_ratio", "omega_ratio must be 0, or between 1 and 2")        \
-  X(ERROR_SPEED_LOG, -24, "bad_speed_log", "restitution_log and mu_log must be -1 to 1")           \
+  X(ERROR_SPEED_LOG, -24, "bad_speed_log",                                                         \
+    "restitution_log, restitution_log2, mu_log and roll_loss_log must be -1 to 1")                 \
   X(ERROR_SMOOTH, -25, "bad_smooth",                                                               \
     "smooth_q must be 1e-12 to 0.5, smooth_x and smooth_t above 0 and at most 2, smooth_a and "    \
-    "smooth_k 0 to 1; or all five 0")
+    "smooth_k 0 to 1, smooth_g, smooth_g_log and smooth_e -1 to 1; or all eight 0")
 
 /* Those of whole shots. */
 #define SHOT_STATUS_LIST(X)                                                                        \
@@ -176,7 +177,7 @@ int carom_version_number(void) {
 /* Raised by the commit that changes the bits of any result; tests/platforms/revision says when
  * that is. */
 int carom_physics_revision(void) {
-  return 8;
+  return 9;
 }
 
 int carom_serves(int header) {

@@ -196,24 +196,28 @@ static double kiss_share(const double *x) {
 static double rebound(const double *x) {
   static const carom_table_kind table_of[] = {CAROM_TABLE_POOL_9FT, CAROM_TABLE_SNOOKER,
                                               CAROM_TABLE_THREECUSHION};
-  const carom_ball_kind kind = carom_ball_kind_of((carom_game)x[0]);
+  enum { EVENTS = 100 };
+  carom_event events[EVENTS];
+  carom_shot_ball ball = {.kind = carom_ball_kind_of((carom_game)x[0])};
   carom_table table;
-  carom_motion out;
   carom_table_make(table_of[(int)x[0]], &table);
-  const carom_cushion_impact in = {.v = {0.0, x[1], 0.0},
-                                   .w = {-x[1] / kind.radius, 0.0, 0.0},
-                                   .normal = {0.0, 1.0},
-                                   .height = kind.nose_height > 0.0 ? kind.nose_height
-                                                                    : table.rail[0].height,
-                                   .radius = kind.radius,
-                                   .mass = kind.mass,
-                                   .mu_cloth = kind.mu_slide,
-                                   .mu_cushion = kind.mu_cushion,
-                                   .restitution = kind.restitution_cushion};
-  const carom_cushion_options han = {
-      .model = CAROM_CUSHION_HAN, .restitution_log = kind.restitution_log, .mu_log = kind.mu_log};
-  carom_cushion(&in, &han, &out);
-  return -out.v[1] / x[1];
+  ball.state = (carom_ball_state){.r = {0.5, 0.7, ball.kind.radius},
+                                  .v = {-x[1], 0.0, 0.0},
+                                  .w = {0.0, -x[1] / ball.kind.radius, 0.0}};
+  /* once to find where it meets the rail, and once from just before it */
+  for (int run = 0; run < 2; run++) {
+    carom_shot shot = {.events = events, .room = EVENTS};
+    carom_shoot(&table, &ball, 1, NULL, NULL, &shot);
+    int64_t k = 0;
+    while (k < shot.count && k < EVENTS && events[k].type != CAROM_EVENT_RAIL)
+      k++;
+    if (k == shot.count || k == EVENTS)
+      return NAN;
+    if (run == 1)
+      return -events[k].after[0].v[0] / events[k].before[0].v[0];
+    ball.state.r[0] = events[k].before[0].r[0] + 1e-6;
+  }
+  return NAN;
 }
 
 /* ---- Breaks: the rack x[0] on the table x[1] with a gap of x[2] mm, 400 times.

@@ -69,7 +69,17 @@
   CUSHION(smooth_a, "smooth_a", "", 0, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
           "how much farther friction across the cushion reaches")                               \
   CUSHION(smooth_k, "smooth_k", "", 0, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                  \
-          "part of the impulse that the rebound gains where friction is used up")
+          "part of the impulse that the rebound gains where friction is used up")               \
+  CUSHION(smooth_g, "smooth_g", "", -1, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                 \
+          "part of the impulse that the rebound gains, at most, where friction slides")         \
+  CUSHION(smooth_g_log, "smooth_g_log", "", -1, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),         \
+          "change of smooth_g for each unit of ln(speed)")                                      \
+  CUSHION(smooth_e, "smooth_e", "", -1, 1, NAN, SMOOTH, WITH(SMOOTH, smooth_q),                 \
+          "restitution that a ball which rolls into the cushion gains, at most")                \
+  CUSHION(restitution_log2, "e_c_log2", "", -1, 1, NAN, SPEED_LOG, ALWAYS,                      \
+          "change of the cushion's restitution with ln(speed)^2, which counts up to 1")         \
+  BALL(roll_loss_log, "roll_loss_log", "", -1, 1, NAN, SPEED_LOG, ALWAYS,                       \
+       "change of roll_loss for each unit of ln(speed)")
 
 /* Conditions on several numbers of `k`, each of which is within its range: BALL(member to blame,
  * condition, ERROR, text) or CUSHION(...), as above. The text says what the member must be. */

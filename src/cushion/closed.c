@@ -7,19 +7,23 @@
  * equations 14 to 23; his x, y are y, -x here.
  *
  * SMOOTH. Recorded balls pass from sticking to sliding gradually, and the nose gives back a part
- * of the slip (C > 1):
+ * of the slip (C > 1). With c = v_y cos(theta) and L = ln(v_y):
  *
+ *     e      += e_d d,  d = -s_t / sqrt(s_t^2 + v_y^2)       a ball that rolls rebounds more
  *     F      = 2/7 (C_x s_x, C_t s_t)                        impulse of friction without a limit
  *     rho    = |(F_x, F_t/(1 + a))| / (mu_w P)               the part of friction that this needs
  *     sigma  = (1 + rho^(1/q))^-q                            the part that is done: 1 for small
  *                                                            rho, 1/rho for large
  *     f      = -sigma F
- *     P'     = min(P (1 + k rho sigma), 2 v_y cos(theta))    more rebound where friction is used up
+ *     P'     = min(P (1 + k rho sigma), 2 c)                 more rebound where friction ends,
+ *              + P (g + g_log L) rho^2/(4 + rho^2)           the slower the more for g_log < 0,
+ *              within 0 and c + sqrt(c^2 + 2 D)              and no more than energy allows
+ *     D      = sum of s^2/7 sigma C (2 - sigma C)            what friction takes, over the mass
  *
- * q -> 0, C = 1, a = k = 0 is Han's. Energy never rises. Before the vertical velocity is
- * dropped, which takes energy, it changes by P' (P'/2 - v_y cos(theta)) <= 0 through P', and
- * through each part of f by s^2/7 ((sigma C)^2 - 2 sigma C), which is not above 0 for 0 < sigma
- * C <= 2; sigma is at most 1. The constants were read off one table:
+ * q -> 0, C = 1, the others 0 is Han's. Energy never rises: P' and f act at one point where
+ * the inverse masses are 1, 7/2 and 7/2, so the energy changes by P'^2/2 - c P' - D, which is
+ * not above 0 for 0 <= P' <= c + sqrt(c^2 + 2 D), and D >= 0 for 0 < sigma C <= 2; sigma is at
+ * most 1. Dropping the vertical velocity takes energy. The constants were read off one table:
  * docs/understanding/constants.md.
  *
  * MIRROR. v_y becomes -e v_y. */
@@ -29,14 +33,10 @@
 
 #include <stdbool.h>
 
-static double limited(double x) {
-  return fmin(fmax(x, 0), 1);
-}
-
 void carom_apply_han(carom_contact *c) {
   const double v = c->v_y;
-  c->e = limited(0.39 + 0.257 * v - 0.044 * v * v);
-  c->mu_w = limited(0.471 - 0.241 * carom_atan(fabs(c->v_x) / v));
+  c->e = carom_limited(0.39 + 0.257 * v - 0.044 * v * v);
+  c->mu_w = carom_limited(0.471 - 0.241 * carom_atan(fabs(c->v_x) / v));
 }
 
 carom_status carom_han(carom_contact *c) {
@@ -48,33 +48,50 @@ carom_status carom_han(carom_contact *c) {
   return CAROM_OK;
 }
 
-void carom_apply_speed(carom_contact *c, double restitution_log, double mu_log) {
-  if (restitution_log == 0 && mu_log == 0)
-    return;
-  const double logarithm = carom_log(carom_greater(c->v_y, 0.1));
-  c->e = limited(c->e + restitution_log * logarithm);
-  c->mu_w = limited(c->mu_w + mu_log * logarithm);
+void carom_apply_speed(carom_contact *c, const carom_cushion_options *opt) {
+  const double L = c->log_v;
+  if (!carom_absent(opt->restitution_log) || !carom_absent(opt->restitution_log2))
+    c->e = carom_limited(c->e + opt->restitution_log * L +
+                         opt->restitution_log2 * carom_lesser(L * L, 1));
+  if (!carom_absent(opt->mu_log))
+    c->mu_w = carom_limited(c->mu_w + opt->mu_log * L);
 }
 
 carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   /* the constants of the caller, or those that were measured */
   const bool own = opt->smooth_q > 0;
   const double q = own ? opt->smooth_q : 0.35, C_x = own ? opt->smooth_x : 1.3,
-               C_t = own ? opt->smooth_t : 1.2;
-  const double a = own ? opt->smooth_a : 0.13, k = own ? opt->smooth_k : 0.047;
+               C_t = own ? opt->smooth_t : 1.18, a = own ? opt->smooth_a : 0.25;
+  const double k = own ? opt->smooth_k : 0, g = own ? opt->smooth_g : 0.067,
+               g_log = own ? opt->smooth_g_log : -0.059, e_d = own ? opt->smooth_e : 0.06;
+
+  /* the slips, and restitution by how far the surface moves down the nose, -1 to 1 */
+  const double s_x = carom_slip_x(c), s_t = carom_slip_t(c);
+  double e = c->e;
+  if (!carom_absent(e_d))
+    e = carom_limited(e - e_d * s_t / sqrt(s_t * s_t + c->v_y * c->v_y));
 
   /* friction without a limit, and the limit */
-  const double once = c->v_y * c->cosine, P = (1 + c->e) * once, most = c->mu_w * P;
-  const double F_x = 2.0 / 7.0 * C_x * carom_slip_x(c), F_t = 2.0 / 7.0 * C_t * carom_slip_t(c);
-  const double across = F_t / (1 + a), wanted = sqrt(F_x * F_x + across * across);
+  const double once = c->v_y * c->cosine, P = (1 + e) * once, most = c->mu_w * P;
+  const double F_x = 2.0 / 7.0 * C_x * s_x, F_t = 2.0 / 7.0 * C_t * s_t;
+  const double across = F_t / (1 + a), square = F_x * F_x + across * across, wanted = sqrt(square);
 
   /* sigma and rho sigma, by rho or 1/rho, whichever is below 1 */
   const bool sticks = wanted < most;
   const double ratio = sticks ? wanted / most : wanted > 0 ? most / wanted : 0;
   const double corner = carom_power(1 + carom_power(ratio, 1 / q), -q);
   const double sigma = sticks ? corner : ratio * corner, used = sticks ? ratio * corner : corner;
-  const carom_impulse all = {
-      .P = carom_lesser(P * (1 + k * used), 2 * once), .f_x = -sigma * F_x, .f_t = -sigma * F_t};
+
+  /* the rebound, the larger the further friction is from sticking; no more than energy allows */
+  double more = carom_lesser(P * (1 + k * used), 2 * once);
+  if (!carom_absent(g) || !carom_absent(g_log)) {
+    const double least = 4 * most * most, D_x = sigma * C_x, D_t = sigma * C_t;
+    const double lost = (s_x * s_x * D_x * (2 - D_x) + s_t * s_t * D_t * (2 - D_t)) / 7;
+    const double slides = square + least > 0 ? square / (square + least) : 0;
+    more += P * (g + g_log * c->log_v) * slides;
+    more = carom_greater(carom_lesser(more, once + sqrt(once * once + 2 * lost)), 0);
+  }
+  const carom_impulse all = {.P = more, .f_x = -sigma * F_x, .f_t = -sigma * F_t};
   carom_push(c, &all);
   return CAROM_OK;
 }

@@ -27,6 +27,7 @@ typedef struct carom_contact {
   double W_x, W_y, W_z; /* R times the angular velocity, m/s */
   double sine, cosine;  /* of theta */
   double mu_s, mu_w, e; /* friction of the cloth and of the cushion, restitution */
+  double log_v;         /* ln v_y, where carom_apply_law() found a number that it changes */
 } carom_contact;
 
 typedef struct carom_impulse {

@@ -1,5 +1,6 @@
 /* The public entry points: check, go to the frame of the cushion, solve, come back. */
 #include "cushion/models.h"
+#include "platform/ranges.h"
 #include "platform/threads.h"
 
 #include <stdbool.h>
@@ -24,10 +25,13 @@ static bool is_finite(const carom_motion *m) {
 }
 
 void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
+  if (!carom_absent(opt->restitution_log) || !carom_absent(opt->restitution_log2) ||
+      !carom_absent(opt->mu_log) || opt->model == CAROM_CUSHION_SMOOTH)
+    contact->log_v = carom_log_of_speed(contact->v_y);
   if (opt->law == CAROM_CUSHION_LAW_HAN)
     carom_apply_han(contact);
   else
-    carom_apply_speed(contact, opt->restitution_log, opt->mu_log);
+    carom_apply_speed(contact, opt);
 }
 
 /* One impact, with options that have been checked. */

@@ -7,6 +7,7 @@
 #include "cushion/contact.h"
 #include "cushion/list.h"
 #include "impact/impact.h"
+#include "platform/elementary.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -36,9 +37,14 @@ static inline double carom_han_friction(const carom_contact *contact, double v_n
 /* Han's impact without its corner. See closed.c. */
 carom_status carom_smooth(carom_contact *contact, const carom_cushion_options *opt);
 
-/* Restitution and friction of a contact at its speed v_y, by the changes for each unit of
- * ln(v_y). See closed.c. */
-void carom_apply_speed(carom_contact *contact, double restitution_log, double mu_log);
+/* Restitution and friction of a contact at its speed v_y, by the changes with ln(v_y). See
+ * closed.c. */
+void carom_apply_speed(carom_contact *contact, const carom_cushion_options *opt);
+
+/* ln v_y, m/s; below 0.1 m/s as at 0.1. */
+static inline double carom_log_of_speed(double v_y) {
+  return carom_log(v_y > 0.1 ? v_y : (double)0.1);
+}
 
 /* Restitution and friction of a contact by the law of the options: Han's fits, or the changes by
  * speed. See cushion.c. */

@@ -16,6 +16,19 @@ static inline double carom_greater(double a, double b) {
   return a > b ? a : b;
 }
 
+/* Whether a number is 0, so that what it changes may be left out. A number with derivatives is
+ * absent only where nothing depends on it: tangent/number.h has its own. */
+#ifndef CAROM_SRC_TANGENT_NUMBER_H
+static inline bool carom_absent(double x) {
+  return x == 0;
+}
+#endif
+
+/* x within 0 and 1. At either end it has the derivatives of x. */
+static inline double carom_limited(double x) {
+  return x < 0 ? (double)0 : x > 1 ? (double)1 : x;
+}
+
 static inline bool carom_is_positive(double x) {
   return x > 0.0 && x < INFINITY;
 }

@@ -258,7 +258,7 @@ int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind
   if (number == NULL || kind == NULL)
     return 0;
   if (number->reader == CAROM_READ_BY_CUSHION)
-    return number->model == (int)carom_cushion_model_of(carom_rules_of(opt->world), opt);
+    return number->model == (int)carom_cushion_model_of(carom_rules_of(opt->world), opt, kind);
   if (number->reader == CAROM_READ_BY_FRICTION)
     return number->model == (int)opt->friction && opt->ball_model != CAROM_BALL_MODEL_MIRROR;
   return 1;

@@ -134,7 +134,9 @@ static unsigned sources_of(const carom_shot_options *o) {
   const carom_ball_model balls = carom_ball_model_of(rules, o);
   unsigned sources = CAROM_BY_CAROM | CAROM_BY_MARLOW1995 | CAROM_BY_ALCIATORE_SQUIRT;
   sources |= o->world == CAROM_WORLD_POOLTOOL ? CAROM_BY_KIEFL2024 : CAROM_BY_BANNERMAN2014;
-  sources |= of_cushion[carom_cushion_model_of(rules, o)];
+  const carom_ball_kind plain = {0}, measured = {.smooth_q = 1};
+  sources |= of_cushion[carom_cushion_model_of(rules, o, &plain)] |
+             of_cushion[carom_cushion_model_of(rules, o, &measured)];
 
   /* two balls: the restitution of the 2014 model is energetic, as Stronge's */
   if (balls == CAROM_BALL_MODEL_EXACT || balls == CAROM_BALL_MODEL_EULER)

@@ -2,6 +2,7 @@
 #include "cushion/models.h"
 #include "about/numbers.h"
 #include "friction/laws.h"
+#include "platform/ranges.h"
 #include "shot/fixed.h"
 #include "shot/rules.h"
 #include "shot/spheres.h"
@@ -106,14 +107,20 @@ static void take_motion(const carom_motion *motion, carom_ball_state *s) {
   }
 }
 
-/* Takes kind->roll_loss of the speed v_t along a cushion, before the impact, from the roll along
- * it. Along t = (n_y, -n_x) a ball rolls at R w . n. The roll does not change sign, so the
- * energy falls. */
+/* Takes roll_loss, at 1 m/s across a cushion, of the speed v_t along it, before the impact, from
+ * the roll along it. Along t = (n_y, -n_x) a ball rolls at R w . n. The roll does not change sign,
+ * so the energy falls. */
 __attribute__((noinline, cold)) static void
 lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3], carom_ball_state *s) {
   const double v_t = v[0] * n[1] - v[1] * n[0],
                roll = kind->radius * (s->w[0] * n[0] + s->w[1] * n[1]);
-  const double loss = carom_minmod(kind->roll_loss * v_t, roll);
+  const double v_y = v[0] * n[0] + v[1] * n[1];
+  const double share = carom_absent(kind->roll_loss_log)
+                           ? kind->roll_loss
+                           : kind->roll_loss + kind->roll_loss_log * carom_log_of_speed(v_y);
+  /* a share of 0 has derivatives by the numbers that make it */
+  const double pull = carom_limited(share) * v_t;
+  const double loss = share == 0.0 && v_t * roll > 0.0 ? pull : carom_minmod(pull, roll);
   for (int k = 0; k < 2; k++)
     s->w[k] -= loss / kind->radius * n[k] + 0.0; /* without a loss w keeps its bits */
 }
@@ -203,7 +210,7 @@ static double own_or(double own, double of_ball) {
 }
 
 static carom_cushion_options cushion_options(const carom_sim *sim, const carom_ball_kind *kind) {
-  carom_cushion_options options = {.model = carom_cushion_model_of(sim->rules, sim->opt),
+  carom_cushion_options options = {.model = carom_cushion_model_of(sim->rules, sim->opt, kind),
                                    .convention = sim->rules->convention,
                                    .steps = sim->opt->steps,
                                    .plain = sim->opt->plain,
@@ -274,7 +281,7 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
     return status;
   take_motion(&out, s);
   s->v[2] = 0.0;
-  if (kind->roll_loss > 0.0)
+  if (!carom_absent(kind->roll_loss) || !carom_absent(kind->roll_loss_log))
     lose_roll(kind, n, in.v, s);
   return status;
 }

@@ -44,16 +44,19 @@ static inline const carom_rules *carom_rules_of(carom_world world) {
   return world == CAROM_WORLD_POOLTOOL ? carom_rules_pooltool() : carom_rules_carom();
 }
 
-/* The models of a shot, where 0 is that of its world. */
+/* The models of a shot, where 0 is that of its world. A cushion that was measured goes with the
+ * balls that have its numbers. */
 static inline carom_ball_model carom_ball_model_of(const carom_rules *rules,
                                                    const carom_shot_options *o) {
   return o->ball_model != CAROM_BALL_MODEL_DEFAULT ? o->ball_model : rules->ball_model;
 }
 static inline carom_cushion_model carom_cushion_model_of(const carom_rules *rules,
-                                                         const carom_shot_options *o) {
+                                                         const carom_shot_options *o,
+                                                         const carom_ball_kind *kind) {
   return o->cushion_model != CAROM_SHOT_CUSHION_DEFAULT
              ? (carom_cushion_model)((int)o->cushion_model - 1)
-             : rules->cushion_model;
+         : rules->cushion_model == CAROM_CUSHION_HAN && kind->smooth_q > 0 ? CAROM_CUSHION_SMOOTH
+                                                                           : rules->cushion_model;
 }
 
 #endif

@@ -523,6 +523,7 @@ void begin_scene(carom_tangent_work *w, scene *s) {
   s->opt.steps = w->opt->steps;
   s->opt.plain = w->opt->plain;
   memset(&s->rules, 0, sizeof s->rules);
+  s->rules.cushion_model = text::CAROM_CUSHION_HAN;
   s->sim.rules = &s->rules;
   s->sim.table = &s->table;
   s->sim.features = &s->features;

@@ -229,6 +229,13 @@ CAROM_RULE number copysign(const number &a, const number &b) {
 CAROM_RULE number ldexp(const number &a, int n) {
   return {__builtin_ldexp(a.x, n), a.d * __builtin_ldexp(1.0, n)};
 }
+/* See platform/ranges.h. */
+CAROM_RULE bool carom_absent(const number &a) {
+  bool none = a.x == 0;
+  for (int k = 0; k < WIDTH; k++)
+    none &= a.d[k] == 0;
+  return none;
+}
 CAROM_RULE bool isfinite(const number &a) {
   return __builtin_isfinite(a.x);
 }

@@ -1026,3 +1026,48 @@ TEST(radius_through_a_cluster) {
       carom_shot_tangent(table_of_pool(), l.ball, 3, NULL, &options, &shot, &seeds, &t), CAROM_OK);
   ck_assert_double_lt(off_slope(&l, &options, &by, -1e-8, 1e-8), 1e-4);
 }
+
+/* By each number of a smooth cushion and of the roll that it takes, where it is 0. */
+TEST(cushions_that_begin_at_zero) {
+#define NUMBER(member) (int)(offsetof(carom_ball_kind, member) / sizeof(double))
+  static const int numbers[] = {
+      NUMBER(roll_loss), NUMBER(roll_loss_log), NUMBER(restitution_log), NUMBER(restitution_log2),
+      NUMBER(mu_log),    NUMBER(smooth_k),      NUMBER(smooth_g),        NUMBER(smooth_g_log),
+      NUMBER(smooth_e),  NUMBER(smooth_a)};
+#undef NUMBER
+  for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
+    const carom_shot_options options = {.time_most = 1.0};
+    const direction by = {OF_KIND, -1, numbers[n], 1};
+    layout l = {.count = 1, .ball = {ball_at(0.6, 0.6)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
+    const double h = 1e-5;
+    l.cue.speed = 2.0;
+    l.cue.phi = 25.0;
+    l.cue.a = 0.1;
+    l.ball[0].kind.roll_loss = n == 0 ? 0.0 : 0.09;
+    l.ball[0].kind.smooth_q = 0.35;
+    l.ball[0].kind.smooth_x = l.ball[0].kind.smooth_t = 1.2;
+    double f[3][NUMBERS];
+    for (int step = 2; step >= 0; step--) {
+      layout changed = l;
+      change(&changed, &by, step * h);
+      const carom_shot shot =
+          play(table_of_pool(), changed.ball, l.count, &l.cue, &options, CAROM_STOPPED_AT_TIME);
+      numbers_of(&final[0], f[step]);
+      if (step > 0)
+        continue;
+      const carom_tangent_seeds seeds = seeds_of(&by, 1);
+      carom_tangent t = {.final = ends};
+      ck_assert_int_eq(
+          carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &options, &shot, &seeds, &t),
+          CAROM_OK);
+    }
+    double most = 0.0;
+    for (int k = 0; k < NUMBERS; k++) {
+      const double difference = (4.0 * f[1][k] - 3.0 * f[0][k] - f[2][k]) / (2.0 * h);
+      ck_assert_msg(fabs(ends[k] - difference) < 1e-4 * (1.0 + fabs(difference)),
+                    "number %d, %d: %g, not %g", numbers[n], k, ends[k], difference);
+      most = fmax(most, fabs(difference));
+    }
+    ck_assert_msg(most > 1e-3, "number %d: %g", numbers[n], most);
+  }
+}

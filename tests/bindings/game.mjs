@@ -29,7 +29,7 @@ const NUMBERS = {
   pockets: keys("centre2 radius depth"),
   options: keys("world# ball_model# cushion_model# friction# steps# space# simultaneous# cluster_steps#"),
   balls: ["list"],
-  list: keys("mass radius mu_slide mu_roll mu_spin mu_ball restitution mu_cushion restitution_cushion gravity drag roll_loss law_a law_b law_c nose_height omega_ratio restitution_table modulus restitution_log mu_log smooth_q smooth_x smooth_t smooth_a smooth_k r3 v3 w3 label#"),
+  list: keys("mass radius mu_slide mu_roll mu_spin mu_ball restitution mu_cushion restitution_cushion gravity drag roll_loss law_a law_b law_c nose_height omega_ratio restitution_table modulus restitution_log mu_log smooth_q smooth_x smooth_t smooth_a smooth_k smooth_g smooth_g_log smooth_e restitution_log2 roll_loss_log r3 v3 w3 label#"),
   shot: keys("speed phi theta a b mass end_mass tip_radius ball# miscue tip_time time_most stop_at# first_of# events_most# status# events# time hash"),
 };
 const LINES = { recording: 1n, table: 2n, options: 3n, balls: 4n, shot: 6n };

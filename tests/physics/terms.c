@@ -303,7 +303,8 @@ static double *field_of(carom_ball_kind *kind, const char *name) {
   static const char names[] =
       "mass radius mu_slide mu_roll mu_spin mu_ball restitution mu_cushion restitution_cushion "
       "gravity drag roll_loss law_a law_b law_c nose_height omega_ratio restitution_table modulus "
-      "restitution_log mu_log smooth_q smooth_x smooth_t smooth_a smooth_k ";
+      "restitution_log mu_log smooth_q smooth_x smooth_t smooth_a smooth_k "
+      "smooth_g smooth_g_log smooth_e restitution_log2 roll_loss_log ";
   size_t k = 0;
   for (const char *at = names; *at != '\0'; at = strchr(at, ' ') + 1, k++)
     if (strncmp(at, name, strlen(name)) == 0 && at[strlen(name)] == ' ')
@@ -326,9 +327,9 @@ TEST(constants) {
     /* one number of a game, or a field of the three games of pooltool */
     double numbers[3], over = 1.0;
     int first = 0, count = 1;
-    if (sscanf(line, "| %39[a-z_] | %39[a-z_] | %lf / %lf | %39[a-z] |", game, field, numbers,
+    if (sscanf(line, "| %39[a-z_] | %39[a-z_0-9] | %lf / %lf | %39[a-z] |", game, field, numbers,
                &over, kind) == 5 ||
-        (over = 1.0, sscanf(line, "| %39[a-z_] | %39[a-z_] | %lf | %39[a-z] |", game, field,
+        (over = 1.0, sscanf(line, "| %39[a-z_] | %39[a-z_0-9] | %lf | %39[a-z] |", game, field,
                             numbers, kind) == 4)) {
       while (first < 6 && strcmp(games[first], game) != 0)
         first++;
@@ -350,7 +351,7 @@ TEST(constants) {
     }
   }
   fclose(file);
-  ck_assert_int_eq(lines, 5 * 10 + 15);
+  ck_assert_int_eq(lines, 6 * 10 + 18);
   for (int g = 0; g < 6; g++) {
     const carom_ball_kind there = carom_ball_kind_of((carom_game)g);
     for (size_t k = 0; k < sizeof there / sizeof(double); k++) {
@@ -361,9 +362,38 @@ TEST(constants) {
   }
 }
 
-/* The cushion of the kind of snooker, for Han's model, does to rolling balls what the exact
- * model does with the numbers that were measured: within 3 % of the speed in the median and 4 %
- * in 9 of 10, up to 70 degrees from the normal, side spin up to half of v. */
+/* The cushion of the kind of snooker, for Han's model, does to rolling balls what was measured:
+ * Mathavan 2010, figure 7, the fitted line. */
+TEST(snooker_cushion_by_speed) {
+  static const double v[5] = {0.5, 1.0, 1.5, 2.0, 2.5},
+                      share[5] = {0.897, 0.948, 0.936, 0.908, 0.874};
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_SNOOKER);
+  for (int k = 0; k < 5; k++) {
+    const carom_cushion_impact in = {.v = {0.0, v[k]},
+                                     .w = {-v[k] / kind.radius, 0.0, 0.0},
+                                     .normal = {0.0, 1.0},
+                                     .height = kind.nose_height,
+                                     .radius = kind.radius,
+                                     .mass = kind.mass,
+                                     .mu_cloth = kind.mu_slide,
+                                     .mu_cushion = kind.mu_cushion,
+                                     .restitution = kind.restitution_cushion};
+    carom_motion out;
+    ck_assert_int_eq(
+        carom_cushion(&in,
+                      &(carom_cushion_options){.model = CAROM_CUSHION_HAN,
+                                               .restitution_log = kind.restitution_log,
+                                               .restitution_log2 = kind.restitution_log2},
+                      &out),
+        CAROM_OK);
+    ck_assert_msg(fabs(-out.v[1] / v[k] / share[k] - 1.0) < 0.01, "%g m/s: %g", v[k],
+                  -out.v[1] / v[k]);
+  }
+}
+
+/* At 1 m/s it does what the exact model does with the numbers that were measured: within 3 % of
+ * the speed in the median and 5 % in 9 of 10, up to 70 degrees from the normal, side spin up to
+ * half of v. */
 TEST(snooker_cushion_of_both_models) {
   enum { COUNT = 2000 };
   const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_SNOOKER);
@@ -388,22 +418,25 @@ TEST(snooker_cushion_of_both_models) {
     off[n] = hypot(out[0].v[0] - out[1].v[0], out[0].v[1] - out[1].v[1]);
   }
   qsort(off, COUNT, sizeof *off, by_size);
-  ck_assert_msg(off[COUNT / 2] < 0.03 && off[COUNT * 9 / 10] < 0.04,
+  ck_assert_msg(off[COUNT / 2] < 0.03 && off[COUNT * 9 / 10] < 0.05,
                 "%.4f in the median, %.4f in 9 of 10", off[COUNT / 2], off[COUNT * 9 / 10]);
 }
 
-/* A shot by default has Han's cushions in the world carom, and Stronge's in pooltool. */
+/* A shot by default has Han's cushions in the world carom, the smooth one for balls with its
+ * numbers, and Stronge's in pooltool. */
 TEST(default_cushions) {
   carom_table table;
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
-  const carom_shot_ball ball = rolling(0.6, 1.0, 3.0, 0.3);
-  for (int world = CAROM_WORLD_CAROM; world <= CAROM_WORLD_POOLTOOL; world++) {
+  carom_shot_ball ball = rolling(0.6, 0.7, 3.0, 0.3);
+  for (int k = 0; k < 3; k++) {
+    const carom_world world = k == 2 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM;
+    static const carom_shot_cushion models[3] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_SMOOTH,
+                                                 CAROM_SHOT_CUSHION_STRONGE};
+    ball.kind.smooth_q = ball.kind.smooth_x = ball.kind.smooth_t = k == 1 ? 0.5 : 0.0;
     carom_ball_state rest[2];
     for (int named = 0; named < 2; named++) {
-      const carom_shot_cushion model =
-          world == CAROM_WORLD_CAROM ? CAROM_SHOT_CUSHION_HAN : CAROM_SHOT_CUSHION_STRONGE;
       const carom_shot_options options = {
-          .world = (carom_world)world, .cushion_model = named ? model : CAROM_SHOT_CUSHION_DEFAULT};
+          .world = world, .cushion_model = named ? models[k] : CAROM_SHOT_CUSHION_DEFAULT};
       carom_shot shot = {.events = events, .room = ROOM, .final = &rest[named]};
       ck_assert_int_eq(carom_shoot(&table, &ball, 1, NULL, &options, &shot), CAROM_OK);
       ck_assert_ptr_nonnull(event_of(&shot, CAROM_EVENT_RAIL, 0));

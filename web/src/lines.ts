@@ -44,6 +44,11 @@ const PARAMS: readonly (readonly [string, keyof BallKind])[] = [
   ["smooth_t", "smoothT"],
   ["smooth_a", "smoothA"],
   ["smooth_k", "smoothK"],
+  ["smooth_g", "smoothG"],
+  ["smooth_g_log", "smoothGLog"],
+  ["smooth_e", "smoothE"],
+  ["e_c_log2", "restitutionLog2"],
+  ["roll_loss_log", "rollLossLog"],
 ];
 const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
   ["V0", "speed"],

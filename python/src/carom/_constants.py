@@ -23,13 +23,12 @@ _CUSHION = {
     "stronge": (0.874, 0.22, 0.0365),
     "han": (0.874, 0.231, 0.03545),
     "mirror": (0.875, 0.0, 0.037),
-    "smooth": (0.795, 0.27, 0.0366),
+    "smooth": (0.798, 0.255, 0.0365),
 }
-# What else belongs to the smooth law, whose five other numbers are held at their defaults: friction between balls was fitted together with it.
-_SMOOTH = {
-    "restitution_log": -0.025, "mu_log": -0.02, "roll_loss": 0.055, "mu_spin": 0.005,
-    "law_a": 0.041, "law_b": 0.214, "law_c": 0.560, "restitution": 0.9515,
-}  # fmt: skip
+# The constants of the game were fitted to whole shots with the smooth law. For the others these are what single events say,
+_SINGLE = {"mu_slide": 2.02 / 9.81, "mu_roll": 0.0418 / 9.81, "drag": 0.0129, "mu_spin": 0.004, "restitution": 0.951, "roll_loss": 0.087}
+# and these are 0.
+_OF_SMOOTH = ("mu_log", "roll_loss_log", "smooth_q", "smooth_x", "smooth_t", "smooth_a", "smooth_g", "smooth_g_log", "smooth_e")
 # Friction between balls over their slip: Alciatore's law, 4.5 times.
 _LAW = {"law_a": 0.0448, "law_b": 0.486, "law_c": 1.088}
 KINDS = tuple(name for name in dtypes.ball_kind.names or () if name != "radius")
@@ -42,11 +41,12 @@ def usual(cushion_model: ShotCushion) -> Constants:
     kind = balls(np.zeros((1, 2)), game="billiard")["kind"][0]
     e, mu, height = _CUSHION[cushion_model]
     cushion = {"restitution_cushion": e, "mu_cushion": mu, "nose_height": height}
+    own = {name: float(kind[name]) for name in KINDS if name != "mu_ball"}
+    if cushion_model == "smooth":
+        return {**own, **cushion}
     if cushion_model == "mirror":
         cushion["roll_loss"] = 0.0
-    elif cushion_model == "smooth":
-        cushion.update(_SMOOTH)
-    return {**{name: float(kind[name]) for name in KINDS if name != "mu_ball"}, **_LAW, **cushion}
+    return {**own, **_SINGLE, **_LAW, **dict.fromkeys(_OF_SMOOTH, 0.0), **cushion}
 
 
 def complete(given: Mapping[str, float], cushion_model: ShotCushion, where: str = "constants") -> Constants:

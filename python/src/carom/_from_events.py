@@ -91,7 +91,8 @@ def predicted(
     w_x, w_y = motion["v"][..., 0], motion["v"][..., 1]
     # the loss of roll along the cushion, as carom_shoot() takes it
     v_t, roll = impacts["v_t"][:, None], radius * motion["w"][..., 1]
-    roll = np.where(v_t * roll > 0.0, np.sign(roll) * np.maximum(np.abs(roll) - roll_loss * np.abs(v_t), 0.0), roll)
+    share = np.clip(roll_loss + given["roll_loss_log"] * logarithm, 0.0, 1.0)
+    roll = np.where(v_t * roll > 0.0, np.sign(roll) * np.maximum(np.abs(roll) - share * np.abs(v_t), 0.0), roll)
     after = np.stack([w_x, w_y, w_x - roll, w_y + radius * motion["w"][..., 0]], axis=-1)
     seen = np.stack([impacts["w_t"], impacts["w_n"], impacts["u_t"], impacts["u_n"]], axis=-1)
     # the best spin of each

@@ -60,7 +60,7 @@ def _priors(
 ) -> dict[str, tuple[float, float]]:
     """Mean and deviation of each constant that whole shots are to tell."""
     left_out: tuple[str, ...] = ("mu_cushion", "roll_loss", "nose_height") if cushion_model == "mirror" else ()
-    left_out += () if cushion_model == "smooth" else ("restitution_log", "mu_log")
+    left_out += ("restitution_log",) if cushion_model == "smooth" else ("restitution_log", "mu_log")
     names = [name for name in _joint.PRIORS if name not in left_out]
     if list(free) != ["default"]:
         names = list(free)

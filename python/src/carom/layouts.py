@@ -277,9 +277,12 @@ def balls(
         Stiffness of the material, E/(1 - nu^2), 1e6 to 1e15 Pa; 0: 6.6e9. It counts where several balls touch at one instant.
     restitution_log, mu_log : array_like, shape (...)
         Of cushions: restitution and friction change by these for each unit of ln(v), v in m/s the speed across the cushion. -1 to 1.
-    smooth_q, smooth_x, smooth_t, smooth_a, smooth_k : array_like, shape (...)
+    smooth_q, smooth_x, smooth_t, smooth_a, smooth_k, smooth_g, smooth_g_log, smooth_e : array_like, shape (...)
         Of smooth cushions: width of the passage from sticking to sliding (up to 0.5), the parts of the slip along and across the cushion that
-        friction takes if it can (up to 2), reach and rebound (0 to 1). All 0: those measured on one table.
+        friction takes if it can (up to 2), reach and rebound (0 to 1), rebound by slip, by slip and ln(v), by roll (-1 to 1). All 0: those measured
+        on one table. Above 0, smooth_q makes the smooth cushion the default of the ball.
+    restitution_log2, roll_loss_log : array_like, shape (...)
+        restitution changes by the first times ln(v)^2, which counts up to 1; roll_loss by the second times ln(v). -1 to 1.
 
     Returns an ndarray of `carom.dtypes.shot_ball`, shape (..., balls).
     """
