@@ -211,12 +211,13 @@ static const command_form form = {
         "just after and once the ball rolls, speeds, spin, and which contacts stuck or slipped. "
         "The ball moves to the right along the cushion, so right english is running english.\n",
     .options =
-        (const option_row *const[]){
-            &option_speed,  &option_angle,       &option_spin,          &option_side,
-            &option_height, &option_restitution, &option_friction_rail, &option_cloth,
-            &option_radius, &option_mass,        &option_model,         &option_convention,
-            &option_law,    &option_steps,       &option_quantity,      &option_csv,
-            &option_plot,   &option_strict,      &option_output,        NULL},
+        (const option_row *const[]){&option_speed,         &option_angle,  &option_spin,
+                                    &option_side,          &option_height, &option_restitution,
+                                    &option_friction_rail, &option_cloth,  &option_radius,
+                                    &option_mass,          &option_model,  &option_with,
+                                    &option_convention,    &option_law,    &option_steps,
+                                    &option_quantity,      &option_csv,    &option_plot,
+                                    &option_strict,        &option_output, NULL},
     .details =
         "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A "
         "unit after the last number holds for all: --speed 1,3,7mph, --side -100:100%. Each value "

@@ -19,20 +19,10 @@
 enum { FIRST_ROOM = 512 }; /* for events */
 
 typedef struct record_job {
-  shared_options shared; /* --output */
-  int world, ball_model, cushion, space, simultaneous, events;
+  shared_options shared; /* --output, and models of shots */
+  int events;
 } record_job;
 
-OPTION(record_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
-       "the rules of contact and the default models (default carom)");
-OPTION(record_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror",
-       set_ball_model, 0, "model of the collision of two balls, as in `carom shoot`");
-OPTION(record_job, option_cushion_of_shots, "cushion", cushion, 0, CUSHION_WORDS, set_cushion_model,
-       0, "model of the impact on a cushion, as in `carom shoot`");
-OPTION(record_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
-       "whether balls can leave the cloth (default: 3d)");
-OPTION(record_job, option_simultaneous, "simultaneous", simultaneous, 0, "cluster|pairs",
-       set_choice, 0, "contacts of several balls at one instant (default: cluster)");
 OPTION(record_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what to record of events: nothing; time, type and balls (the default is none); or the "
        "states too. `carom verify` then tells the first event with other bits");
@@ -129,8 +119,8 @@ static const command_form record_form = {
              "those of plain C, which all machines share. IN may be -.\n",
     .options =
         (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion_of_shots,
-                                    &option_space, &option_simultaneous, &option_events,
-                                    &option_output, NULL},
+                                    &option_friction_of_shots, &option_space, &option_simultaneous,
+                                    &option_events, &option_output, NULL},
     .details = "exit code: 0 if all shots were recorded and came to rest; 1 if some have errors, "
                "which are told; 2 for bad usage or unreadable input\n",
     .example = "carom record -o game.jsonl shots.jsonl",
@@ -150,12 +140,8 @@ int command_record(int argc, char **argv) {
   shot_read what = SHOT_FAILED;
   if (out != NULL) {
     player *p = allocate(1, sizeof *p);
-    p->game.options = (carom_shot_options){.world = (carom_world)job.world,
-                                           .ball_model = (carom_ball_model)job.ball_model,
-                                           .cushion_model = (carom_shot_cushion)job.cushion,
-                                           .space = (carom_space)job.space,
-                                           .simultaneous = (carom_simultaneous)job.simultaneous,
-                                           .plain = 1};
+    p->game.options = job.shared.shot;
+    p->game.options.plain = 1;
     put(out, &p->game, CAROM_RECORD_HEAD);
     put(out, &p->game, CAROM_RECORD_OPTIONS);
     shot_line line;

@@ -11,7 +11,7 @@ static const command_form form = {
         (const option_row *const[]){&option_cushion, &option_precision, &option_threads,
                                     &option_steps, &option_derived, &option_strict, &option_summary,
                                     &option_output, &option_solver, &option_slip, &option_friction,
-                                    &option_model, &option_convention, &option_law,
+                                    &option_model, &option_with, &option_convention, &option_law,
                                     &option_least_step, NULL},
     .details = COLLISION_COLUMNS_HELP
     "\n" RESULTS_HELP "\n"

@@ -22,9 +22,7 @@ enum { EVENTS_USUAL = -1, BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 };
 
 typedef struct shoot_job {
   shoot_flags from; /* --threads, --steps, --output; and a shot from words */
-  int world, ball_model, cushion, space, simultaneous, events;
-  int events_most;
-  double time_most;
+  int events;
   const char *plot, *animation, *id;
   player_error error;
   bool together; /* the shots came from options: they are drawn over each other, */
@@ -42,6 +40,7 @@ typedef struct block {
   const char *file;  /* its name, for messages */
   long long unnamed; /* lines in error beyond those that are named, -MOST_NAMED at first */
   doubts tips;
+  uint64_t unread; /* numbers of balls that have no effect, and are told */
   /* the shots without error, as batches take them */
   carom_shot_ball ball[BLOCK * CAROM_BALLS_MOST];
   carom_cue cue[BLOCK];
@@ -49,21 +48,6 @@ typedef struct block {
   int8_t batch_status[BLOCK];
 } block;
 
-OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
-       "the rules of contact and the default models (default carom)");
-OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror",
-       set_ball_model, 0,
-       "model of the collision of two balls (default: exact; with --models pooltool inelastic)");
-OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, CUSHION_WORDS, set_cushion_model, 0,
-       "model of the impact on a cushion; mathavan is the exact limit (default: han; with --models "
-       "pooltool stronge)");
-OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
-       "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
-OPTION(shoot_job, option_simultaneous, "simultaneous", simultaneous, 0, "cluster|pairs", set_choice,
-       0,
-       "contacts of several balls at one instant, as in a rack: they last and overlap in time, or "
-       "they are resolved one after the other (default: cluster; by pooltool's rules and with "
-       "--ball-ball euler or inelastic always pairs)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what to write of events: nothing; time, type and ids; or the states before and after too "
        "(default full). With a shot by options: write it as a line like those of a file, instead "
@@ -71,10 +55,10 @@ OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_cho
 OPTION(shoot_job, option_story, "csv", csv, 0, NULL, set_flag, 0,
        "with a shot by options: write what the balls do as rows, instead of words: where each "
        "leaves, rolls from, meets a rail, passes another ball and rests");
-OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
-       "largest number of events of a shot (default 10000)");
-OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
-       "largest time of a shot, on its own clock (default 1000)");
+OPTION(shoot_job, option_events_most, "events-most", from.shared.shot.events_most, 0, "N",
+       set_count, 1, "largest number of events of a shot (default 10000)");
+OPTION(shoot_job, option_time_most, "time-most", from.shared.shot.time_most, 0, "SECONDS",
+       set_number, 0, "largest time of a shot, on its own clock (default 1000)");
 OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the table and the paths of the balls in the first shot without an error, or in all "
        "that options describe; from the side too where a ball flies");
@@ -91,15 +75,10 @@ OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0,
        "draw the shot of this id instead");
 
 static carom_shot_options options_of(const shoot_job *job) {
-  return (carom_shot_options){.world = (carom_world)job->world,
-                              .ball_model = (carom_ball_model)job->ball_model,
-                              .cushion_model = (carom_shot_cushion)job->cushion,
-                              .space = (carom_space)job->space,
-                              .simultaneous = (carom_simultaneous)job->simultaneous,
-                              .steps = job->from.shared.options.steps,
-                              .events_most = job->events_most,
-                              .threads = job->from.shared.options.threads,
-                              .time_most = job->time_most};
+  carom_shot_options options = job->from.shared.shot;
+  options.steps = job->from.shared.options.steps;
+  options.threads = job->from.shared.options.threads;
+  return options;
 }
 
 /* Shots `from` to before `end` of a block: good lines of one table with one number of balls. */
@@ -354,6 +333,36 @@ static void clear_block(block *b) {
   b->count = 0;
 }
 
+/* Gives the balls the numbers of --with, and says once for each which numbers of a file these
+ * models do not read. --strict makes it an error. */
+static void report_unread(block *b, shot_line *line, const shoot_job *job) {
+  const carom_shot_options options = options_of(job);
+  const carom_number *n;
+  if (line->error != NULL)
+    return;
+  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++) {
+    int i = 0;
+    while (i < line->count && !carom_number_is_read(n, &line->ball[i].kind, &options))
+      i++;
+    const uint64_t bit = (uint64_t)1 << k;
+    if ((line->given & bit) == 0 || i < line->count || (job->from.shared.with.which & bit) != 0)
+      continue;
+    char reader[160], text[300];
+    snprintf(text, sizeof text, "params.%s has no effect; %s reads it", n->key,
+             reader_of(n, "cushion", reader));
+    if (job->from.shared.strict) {
+      line->error = copy_text(text);
+      line->table = NULL;
+      return;
+    }
+    if ((b->unread & bit) == 0)
+      complain("%s:%zu: %s", b->file, line->number, text);
+    b->unread |= bit;
+  }
+  for (int i = 0; i < line->count; i++)
+    give_ball(&job->from.shared.with, &line->ball[i].kind);
+}
+
 /* All shots of a file; an exit code. */
 static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *picture) {
   block *b = allocate(1, sizeof *b);
@@ -376,6 +385,7 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
                        tip_of(cue) < 1.0;
     if (plays && doubts_about_tip(&b->tips, tip_of(cue)) != NULL && job->from.shared.strict)
       cue->miscue = TIP_LIMIT;
+    report_unread(b, &b->line[b->count], job);
     begin_shot(b, job->events != EVENTS_NONE || job->together || draws(job) || job->error.given);
     if (++b->count == BLOCK) {
       good &= finish_block(b, job, out, picture);
@@ -406,18 +416,41 @@ static const command_form form = {
              "are ignored) and writes each table and each shot with its events and final states. "
              "IN may be -. Or plays a shot that options describe, and tells it in words; several "
              "values with commas give several shots, drawn over each other.\n",
-    .options =
-        (const option_row *const[]){&option_table,      &option_cue,          &option_balls,
-                                    &option_aim,        &option_at_ball,      &option_pocket,
-                                    &option_via,        &option_shot_cut,     &option_shot_speed,
-                                    &option_ball_speed, &option_tip,          &option_elevation,
-                                    &option_tip_time,   &option_json,         &option_story,
-                                    &option_models,     &option_ball_ball,    &option_cushion_model,
-                                    &option_space,      &option_simultaneous, &option_events,
-                                    &option_steps,      &option_events_most,  &option_time_most,
-                                    &option_threads,    &option_plot,         &option_spread,
-                                    &option_animate,    &option_shot_id,      &option_strict,
-                                    &option_cite,       &option_output,       NULL},
+    .options = (const option_row *const[]){&option_table,
+                                           &option_cue,
+                                           &option_balls,
+                                           &option_aim,
+                                           &option_at_ball,
+                                           &option_pocket,
+                                           &option_via,
+                                           &option_shot_cut,
+                                           &option_shot_speed,
+                                           &option_ball_speed,
+                                           &option_tip,
+                                           &option_elevation,
+                                           &option_tip_time,
+                                           &option_json,
+                                           &option_story,
+                                           &option_models,
+                                           &option_ball_ball,
+                                           &option_cushion_of_shots,
+                                           &option_friction_of_shots,
+                                           &option_with_of_shots,
+                                           &option_space,
+                                           &option_simultaneous,
+                                           &option_events,
+                                           &option_steps,
+                                           &option_events_most,
+                                           &option_time_most,
+                                           &option_threads,
+                                           &option_plot,
+                                           &option_spread,
+                                           &option_animate,
+                                           &option_shot_id,
+                                           &option_strict,
+                                           &option_cite,
+                                           &option_output,
+                                           NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
         "the error; the others are played); 2 for bad usage or unreadable input\n",
@@ -477,16 +510,16 @@ int command_shoot(int argc, char **argv) {
              "lines of JSON");
     return EXIT_USAGE;
   }
-  if (job.time_most < 0.0) {
+  if (job.from.shared.shot.time_most < 0.0) {
     complain("--time-most is a number of seconds above 0");
     return EXIT_USAGE;
   }
-  if (job.error.given && job.world == CAROM_WORLD_POOLTOOL) {
+  if (job.error.given && job.from.shared.shot.world == CAROM_WORLD_POOLTOOL) {
     complain("--spread needs derivatives, which shots by --models pooltool do not have; --models "
              "carom has them");
     return EXIT_USAGE;
   }
-  if (job.error.given && job.ball_model == CAROM_BALL_MODEL_EULER) {
+  if (job.error.given && job.from.shared.shot.ball_model == CAROM_BALL_MODEL_EULER) {
     complain("--spread needs derivatives, which --ball-ball euler does not have; exact, its limit, "
              "has them");
     return EXIT_USAGE;

@@ -272,17 +272,14 @@ static const command_form form = {
     .about = "Resolves one collision, with --cushion one impact on a cushion, for equally spaced "
              "values of INPUT from A to B. FILE has the format that `carom resolve` reads; - is "
              "CSV on standard input; without FILE, the 204 reference collisions.\n",
-    .options = (const option_row *const[]){&option_ids,        &option_over,
-                                           &option_from,       &option_to,
-                                           &option_cushion,    &option_points,
-                                           &option_steps,      &option_brief,
-                                           &option_rows,       &option_bare,
-                                           &option_plot,       &option_strict,
-                                           &option_output,     &option_solvers,
-                                           &option_slip,       &option_friction,
-                                           &option_data,       &option_model,
-                                           &option_convention, &option_law,
-                                           &option_least_step, NULL},
+    .options =
+        (const option_row *const[]){
+            &option_ids,     &option_over,       &option_from,  &option_to,
+            &option_cushion, &option_points,     &option_steps, &option_brief,
+            &option_rows,    &option_bare,       &option_plot,  &option_strict,
+            &option_output,  &option_solvers,    &option_slip,  &option_friction,
+            &option_data,    &option_model,      &option_with,  &option_convention,
+            &option_law,     &option_least_step, NULL},
     .details =
         "columns written:\n"
         "  solver, value        the solver, with --cushion the model; the value of INPUT\n"

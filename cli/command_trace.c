@@ -121,10 +121,11 @@ static const command_form form = {
              "mathavan or euler. FILE has the format that `carom resolve` reads; - is CSV on "
              "standard input; without FILE, the 204 reference collisions.\n",
     .options =
-        (const option_row *const[]){
-            &option_id, &option_cushion, &option_points, &option_steps, &option_plot, &option_bare,
-            &option_strict, &option_output, &option_solvers, &option_slip, &option_friction,
-            &option_data, &option_model, &option_convention, &option_law, &option_least_step, NULL},
+        (const option_row *const[]){&option_id, &option_cushion, &option_points, &option_steps,
+                                    &option_plot, &option_bare, &option_strict, &option_output,
+                                    &option_solvers, &option_slip, &option_friction, &option_data,
+                                    &option_model, &option_with, &option_convention, &option_law,
+                                    &option_least_step, NULL},
     .details =
         "columns written:\n"
         "  solver, impulse_N_s  the solver; the normal impulse so far\n"

@@ -87,12 +87,118 @@ OPTION_SET(set_choice) {
   return set_place(row, text, row->argument, field);
 }
 
-OPTION_SET(set_ball_model) {
-  return set_place(row, text, "default|exact|euler|inelastic|mirror", field);
+/* The words of an enumeration with bars between them. */
+enum { MOST_WORDS = 200 };
+static const char *words_of(int of, bool with_default, char text[MOST_WORDS]) {
+  int size = 0;
+  const char *word;
+  text[0] = '\0';
+  for (int value = 0; (word = carom_word((carom_words)of, value)) != NULL; value++)
+    if (with_default || strcmp(word, "default") != 0)
+      size += snprintf(text + size, MOST_WORDS - (size_t)size, "%s%s", size > 0 ? "|" : "", word);
+  return text;
 }
 
-OPTION_SET(set_cushion_model) {
-  return set_place(row, text, "default|" CUSHION_WORDS, field);
+OPTION_SET(set_named) {
+  char all[MOST_WORDS];
+  return set_place(row, text, words_of(row->least, true, all), field);
+}
+
+const char *argument_of(const option_row *row) {
+  static char text[MOST_WORDS];
+  return row->set == set_named ? words_of(row->least, false, text) : row->argument;
+}
+
+/* ---- Numbers of balls */
+
+/* The numbers that an option takes: all, or those of one impact on a cushion. */
+static bool takes(const option_row *row, const carom_number *n) {
+  return row->only != CUSHION_ONLY || n->cushion_offset >= 0;
+}
+
+/* The place of a number by its name or its key of files; complains where there is none. */
+static int number_named(const option_row *row, const char *name) {
+  char known[800] = "", hint[HINT_TEXT];
+  const carom_number *n;
+  for (int k = 0, size = 0; (n = carom_ball_number(k)) != NULL; k++) {
+    if (!takes(row, n))
+      continue;
+    if (strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0)
+      return k;
+    size +=
+        snprintf(known + size, sizeof known - (size_t)size, "%s%s", size > 0 ? "|" : "", n->name);
+  }
+  complain("--%s is NAME=X,...; there is no number '%.40s'%s; `carom models` lists them", row->name,
+           name, did_you_mean(name, known, hint));
+  return -1;
+}
+
+OPTION_SET(set_numbers) {
+  given_numbers *given = field;
+  char *rest = NULL;
+  for (char *one = strtok_r(text, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
+    char *value = strchr(one, '='), must[100];
+    if (value != NULL)
+      *value++ = '\0';
+    const int k = number_named(row, one);
+    if (k < 0)
+      return false;
+    const carom_number *n = carom_ball_number(k);
+    double x;
+    if (value == NULL || !parse_number(value, &x) ||
+        !((x >= n->low && x <= n->high) || x == n->other)) {
+      carom_number_range(n, must, sizeof must);
+      complain("--%s: %s must be %s, not '%.40s'", row->name, n->name, must,
+               value != NULL ? value : "");
+      return false;
+    }
+    memcpy((char *)&given->kind + n->offset, &x, sizeof x);
+    given->which |= (uint64_t)1 << k;
+  }
+  return true;
+}
+
+static void give(const given_numbers *given, void *to, bool to_cushion) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+    if ((given->which >> k & 1) != 0)
+      memcpy((char *)to + (to_cushion ? n->cushion_offset : n->offset),
+             (const char *)&given->kind + n->offset, sizeof(double));
+}
+
+void give_ball(const given_numbers *given, carom_ball_kind *kind) {
+  give(given, kind, false);
+}
+
+const char *reader_of(const carom_number *n, const char *of_cushion, char text[160]) {
+  const bool cushion = n->reader == CAROM_READ_BY_CUSHION;
+  snprintf(text, 160, "--%s %s", cushion ? of_cushion : "friction",
+           carom_word(cushion ? CAROM_WORDS_CUSHION_MODEL : CAROM_WORDS_BALL_FRICTION, n->model));
+  return text;
+}
+
+bool numbers_are_read(shared_options *shared) {
+  const given_numbers *with = &shared->with;
+  carom_shot_options options = shared->shot;
+  if (shared->cushion)
+    options.cushion_model = (carom_shot_cushion)((int)shared->rail.model + 1);
+  const carom_number *n;
+  char reader[160];
+  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+    if ((with->which >> k & 1) != 0 && !carom_number_is_read(n, &with->kind, &options)) {
+      complain("--with: %s has no effect; %s reads it", n->name,
+               reader_of(n, shared->cushion ? "model" : "cushion", reader));
+      return false;
+    }
+  if (!shared->cushion)
+    return true;
+  give(with, &shared->rail, true);
+  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  char must[100];
+  give_ball(with, &kind);
+  if ((n = carom_ball_fault(&kind, must, sizeof must)) != NULL)
+    complain("--with: %s must be %s", n->name, must);
+  return n == NULL;
 }
 
 static OPTION_SET(set_solvers) {
@@ -134,20 +240,16 @@ static OPTION_SET(set_law) {
 
 /* ---- The rows */
 
-_Static_assert(CAROM_SOLVER_EULER == 1 && CAROM_SLIP_POOLTOOL == 1 && CAROM_CUSHION_EULER == 4 &&
-                   CAROM_CONVENTION_POOLTOOL == 1 && CAROM_CUSHION_LAW_HAN == 1,
-               "the places of the choices are the values");
-
 #define ROW(row, name, member, letter, argument, set, least, only, help)                        \
   const option_row row = {name,  letter, argument, help, set, offsetof(shared_options, member), \
                           least, only}
 
-ROW(option_solver, "solver", options.solver, 0, "exact|euler", set_choice, 0, BALLS_ONLY,
+ROW(option_solver, "solver", options.solver, 0, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
     "exact: the limit of infinitely many steps (default); euler: N steps of equal impulse, as in "
     "the 2014 paper");
 ROW(option_solvers, "solver", solvers, 0, "exact|euler|exact,euler", set_solvers, 0, BALLS_ONLY,
     "exact (default), euler, or exact,euler");
-ROW(option_slip, "slip", options.slip, 0, "paper|pooltool", set_choice, 0, BALLS_ONLY,
+ROW(option_slip, "slip", options.slip, 0, NULL, set_named, CAROM_WORDS_SLIP, BALLS_ONLY,
     "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
 ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,
     "friction between the balls, instead of the column u_b: a number; or alciatore, which falls "
@@ -180,17 +282,45 @@ ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
     "print counts and the time on standard error at the end");
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
-ROW(option_model, "model", rail.model, 0, CUSHION_WORDS, set_choice, 0, CUSHION_ONLY,
+ROW(option_model, "model", rail.model, 0, NULL, set_named, CAROM_WORDS_CUSHION_MODEL, CUSHION_ONLY,
     "mathavan: the exact limit of Mathavan's model (default, but of `carom rail` han, as in "
     "shots); "
     "stronge, han: closed forms; mirror: the velocity into the cushion is reversed and multiplied "
     "by e; euler: Mathavan's model in N "
     "steps; smooth: a closed form read off recorded impacts");
-ROW(option_convention, "convention", rail.convention, 0, "paper|pooltool", set_choice, 0,
-    CUSHION_ONLY,
+ROW(option_convention, "convention", rail.convention, 0, NULL, set_named,
+    CAROM_WORDS_CUSHION_CONVENTION, CUSHION_ONLY,
     "the conventions to follow where pooltool differs from the papers (default: paper)");
-ROW(option_law, "law", rail.law, 0, "constant|han", set_choice, 0, CUSHION_ONLY,
+ROW(option_law, "law", rail.law, 0, NULL, set_named, CAROM_WORDS_CUSHION_LAW, CUSHION_ONLY,
     "restitution and friction of the cushion: from the columns (default), or by Han's fits over "
     "speed and angle");
 ROW(option_least_step, "least-step", rail.least_step, 0, "P", set_amount, 0, CUSHION_ONLY,
     "smallest step of euler, N s (default 0; pooltool: 0.001)");
+ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
+    "numbers of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1: `carom models NAME` lists "
+    "them");
+
+/* Of whole shots. */
+ROW(option_models, "models", shot.world, 0, NULL, set_named, CAROM_WORDS_WORLD, ANY_KIND,
+    "the rules of contact and the default models (default carom)");
+ROW(option_ball_ball, "ball-ball", shot.ball_model, 0, NULL, set_named, CAROM_WORDS_BALL_MODEL,
+    ANY_KIND,
+    "model of the collision of two balls (default: exact; with --models pooltool inelastic)");
+ROW(option_cushion_of_shots, "cushion", shot.cushion_model, 0, NULL, set_named,
+    CAROM_WORDS_SHOT_CUSHION, ANY_KIND,
+    "model of the impact on a cushion; mathavan is the exact limit (default: han; with --models "
+    "pooltool stronge)");
+ROW(option_friction_of_shots, "friction", shot.friction, 0, NULL, set_named,
+    CAROM_WORDS_BALL_FRICTION, ANY_KIND,
+    "friction between balls: alciatore falls with the speed of slip (default); constant is u_b of "
+    "the balls");
+ROW(option_space, "space", shot.space, 0, NULL, set_named, CAROM_WORDS_SPACE, ANY_KIND,
+    "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
+ROW(option_simultaneous, "simultaneous", shot.simultaneous, 0, NULL, set_named,
+    CAROM_WORDS_SIMULTANEOUS, ANY_KIND,
+    "contacts of several balls at one instant, as in a rack: they last and overlap in time, or "
+    "they are resolved one after the other (default: cluster; by pooltool's rules and with "
+    "--ball-ball euler or inelastic always pairs)");
+ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIND,
+    "numbers of all balls and their cushions, instead of those of IN, such as "
+    "mu_slide=0.15,u_b=0.03: `carom models` lists them");

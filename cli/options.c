@@ -22,9 +22,9 @@ static const option_row help_row = {.name = "help", .letter = 'h', .help = "this
 /* "  -o, --output OUT"; choices that do not fit into a line are listed in the details. */
 static int write_head(const option_row *row, char text[80]) {
   const char letter[] = {'-', row->letter, ',', ' ', '\0'};
-  const char *argument = row->argument == NULL                               ? ""
-                         : strlen(row->argument) > HELP_WIDTH - OPTION_WIDTH ? "NAME"
-                                                                             : row->argument;
+  const char *argument = argument_of(row) != NULL ? argument_of(row) : "";
+  if (strlen(argument) > HELP_WIDTH - OPTION_WIDTH)
+    argument = "NAME";
   return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name,
                   argument[0] != '\0' ? " " : "", argument);
 }
@@ -43,7 +43,7 @@ static void print_row(FILE *out, const option_row *row) {
 static void print_item(FILE *out, const option_row *row) {
   char head[80];
   snprintf(head, sizeof head, "-%c, --%s", row->letter, row->name);
-  manual_item(out, row->letter != 0 ? head : head + 4, row->argument, row->help);
+  manual_item(out, row->letter != 0 ? head : head + 4, argument_of(row), row->help);
 }
 
 /* Prints the options that are for one kind of rows, or all, by one of these. */
@@ -118,10 +118,11 @@ static void list_options(const command_form *form, struct option longs[MOST_ROWS
   int k = 0;
   for (; form->options[k] != NULL && k < MOST_ROWS - 3; k++) {
     const option_row *row = form->options[k];
-    longs[k] = (struct option){row->name, row->argument != NULL ? required_argument : no_argument,
-                               NULL, FIRST_CODE + k};
+    longs[k] =
+        (struct option){row->name, argument_of(row) != NULL ? required_argument : no_argument, NULL,
+                        FIRST_CODE + k};
     if (row->letter != 0)
-      strcat(strncat(shorts, &row->letter, 1), row->argument != NULL ? ":" : "");
+      strcat(strncat(shorts, &row->letter, 1), argument_of(row) != NULL ? ":" : "");
   }
   longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
 }
@@ -159,7 +160,7 @@ static bool are_for_kind(const command_form *form, const bool given[MOST_ROWS], 
  * it, or options. Upper-case words of an argument, such as OUT, are no values. */
 static void complete(const command_form *form, const char *before, const char *word) {
   for (int k = 0; form->options[k] != NULL; k++) {
-    const char *value = form->options[k]->argument;
+    const char *value = argument_of(form->options[k]);
     if (value == NULL || strncmp(before, "--", 2) != 0 ||
         strcmp(before + 2, form->options[k]->name) != 0)
       continue;
@@ -207,7 +208,7 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
     for (int k = 0; k < MOST_ROWS && form->options[k] != NULL; k++)
       given[k] |= form->options[k] == row;
   }
-  return are_for_kind(form, given, job) ? -1 : usage_hint(form);
+  return are_for_kind(form, given, job) && numbers_are_read(job) ? -1 : usage_hint(form);
 }
 
 int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file) {

@@ -21,16 +21,13 @@ typedef struct option_row {
    * change the text. */
   bool (*set)(const struct option_row *row, char *text, void *field);
   size_t field; /* offsetof(the job, field) */
-  int least;    /* for set_count */
+  int least;    /* for set_count; of set_named the carom_words */
   int only;     /* ANY_KIND, or the kind of rows that the option is for */
 } option_row;
 
 /* Kinds of rows that an option is for: all, collisions of two balls, or impacts on a cushion,
  * which --cushion asks for. */
 enum { ANY_KIND, BALLS_ONLY, CUSHION_ONLY };
-
-/* The models of an impact on a cushion by their names, in the order of their values. */
-#define CUSHION_WORDS "mathavan|stronge|han|mirror|euler|smooth"
 
 enum { NO_FILES, FILE_OR_NONE, ONE_FILE };
 
@@ -61,8 +58,24 @@ OPTION_SET(set_amount); /* double, finite, 0 or more */
 OPTION_SET(set_choice); /* int, or an enumeration from 0: the place of the text in row->argument,
                            "this|that" */
 
-OPTION_SET(set_ball_model);    /* int: carom_shot_options.ball_model */
-OPTION_SET(set_cushion_model); /* int: carom_shot_options.cushion_model */
+OPTION_SET(
+    set_named); /* an enumeration by the words of the library; its default has none in help */
+OPTION_SET(set_numbers); /* given_numbers: NAME=X,... of the library's numbers of balls */
+
+/* What the help calls the argument of an option, "this|that"; NULL for a flag. */
+const char *argument_of(const option_row *row);
+
+/* Numbers of balls that --with gives: bit k of `which` is carom_ball_number(k). */
+typedef struct given_numbers {
+  uint64_t which;
+  carom_ball_kind kind;
+} given_numbers;
+
+/* Puts the numbers that are given into those of a ball. */
+void give_ball(const given_numbers *given, carom_ball_kind *kind);
+
+/* Says into text[160] what would read a number, such as "--friction constant". */
+const char *reader_of(const carom_number *number, const char *of_cushion, char text[160]);
 
 /* Friction between the balls by their slip speed, where it is `given`. */
 typedef struct friction_law {
@@ -82,6 +95,8 @@ typedef struct shared_options {
   bool cushion;               /* --cushion: impacts of a ball on a cushion, instead of collisions
                                  of two balls */
   carom_cushion_options rail; /* --model, --convention, --law, --least-step */
+  carom_shot_options shot;    /* of whole shots: --models, --ball-ball, ... */
+  given_numbers with;         /* --with */
   carom_options options;      /* --solver of one, --slip, --steps, --threads */
   solver_list solvers;        /* --solver of several */
   friction_law friction;
@@ -89,6 +104,10 @@ typedef struct shared_options {
   const char *id, *folder, *output;    /* --id, --data, --output */
   bool summary, strict, derived, bare; /* bare: --no-comments */
 } shared_options;
+
+/* Puts the numbers of --with into those of cushions, where the rows are impacts. Complains and
+ * returns false where one is not read by the model. */
+bool numbers_are_read(shared_options *shared);
 
 /* What the options are where none is given: as the library's, but on all processors, and with
  * the steps to be shown. */
@@ -98,7 +117,9 @@ typedef struct shared_options {
 extern const option_row option_solver, option_solvers, option_slip, option_steps, option_threads,
     option_friction, option_precision, option_id, option_data, option_output, option_summary,
     option_bare, option_strict, option_derived, option_cushion, option_model, option_convention,
-    option_law, option_least_step;
+    option_law, option_least_step, option_with, option_models, option_ball_ball,
+    option_cushion_of_shots, option_friction_of_shots, option_space, option_simultaneous,
+    option_with_of_shots;
 
 /* A row of one table alone: OPTION(job, option_NAME, name, field, letter, argument, set, least,
  * help). */

@@ -80,9 +80,14 @@ static bool check_all(const series *s, int count) {
                carom_status_string(status), carom_status_name(status));
       return false;
     }
+    const double tip = tip_offset(c.given, inputs_of(s), c.row[kind->radius]);
+    if (tip > 1.0) {
+      complain("no such %s (%s): the tip is %.4g R from the centre, beside the ball", kind->noun,
+               c.id, tip);
+      return false;
+    }
     strange |= doubts_about(&found, kind, c.row) != NULL;
-    strange |=
-        doubts_about_tip(&tips, tip_offset(c.given, inputs_of(s), c.row[kind->radius])) != NULL;
+    strange |= doubts_about_tip(&tips, tip) != NULL;
   }
   for (int k = 0; k < inputs_of(s); k++)
     strange |= s->in[k].comma;

@@ -76,21 +76,24 @@ static bool read_kind(const json_t *params, const char *where, carom_ball_kind *
 /* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */
 static bool read_game(const json_t *params, const char *where, carom_ball_kind *kind,
                       json_fault *f) {
-  static const char *const names[] = {"pool",          "snooker",          "billiard",
-                                      "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
   const json_t *game = json_object_get(params, "game");
   *kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
   if (game == NULL)
     return true;
-  for (int k = 0; k <= CAROM_GAME_POOLTOOL_BILLIARD; k++)
-    if (json_is_string(game) && strcmp(names[k], json_string_value(game)) == 0) {
+  const char *name;
+  for (int k = 0; (name = carom_word(CAROM_WORDS_GAME, k)) != NULL; k++)
+    if (json_is_string(game) && strcmp(name, json_string_value(game)) == 0) {
       *kind = carom_ball_kind_of((carom_game)k);
       return true;
     }
-  return json_wrong(f,
-                    "%sgame must be pool, snooker, billiard, pooltool_pool, pooltool_snooker or "
-                    "pooltool_billiard",
-                    where);
+  char all[200] = "";
+  for (int k = 0, size = 0; (name = carom_word(CAROM_WORDS_GAME, k)) != NULL; k++)
+    size += snprintf(all + size, sizeof all - (size_t)size, "%s%s",
+                     k == 0                                        ? ""
+                     : carom_word(CAROM_WORDS_GAME, k + 1) != NULL ? ", "
+                                                                   : " or ",
+                     name);
+  return json_wrong(f, "%sgame must be %s", where, all);
 }
 
 static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {

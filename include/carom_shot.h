@@ -899,8 +899,8 @@ CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int 
 
 /* ==== What there is ============================================================================
  *
- * Names, ranges and texts of numbers, for programs that ask users for them: the command and the
- * packages of other languages have theirs from here. */
+ * Names, ranges and texts of numbers and words, for programs that ask users for them: the command
+ * and the packages of other languages have theirs from here. */
 
 /* What reads a number. */
 typedef enum carom_reader {
@@ -941,6 +941,30 @@ CAROM_API const carom_number *carom_ball_fault(const carom_ball_kind *kind, char
 /* Whether a shot with these options, NULL for the defaults, reads the number of this ball. */
 CAROM_API int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
                                    const carom_shot_options *options);
+
+/* Enumerations whose values have words. */
+typedef enum carom_words {
+  CAROM_WORDS_WORLD = 0,              /* of carom_world, */
+  CAROM_WORDS_BALL_MODEL = 1,         /* carom_ball_model, */
+  CAROM_WORDS_SHOT_CUSHION = 2,       /* carom_shot_cushion, */
+  CAROM_WORDS_BALL_FRICTION = 3,      /* carom_ball_friction, */
+  CAROM_WORDS_SPACE = 4,              /* carom_space, */
+  CAROM_WORDS_SIMULTANEOUS = 5,       /* carom_simultaneous, */
+  CAROM_WORDS_CUSHION_MODEL = 6,      /* carom_cushion_model, */
+  CAROM_WORDS_CUSHION_CONVENTION = 7, /* carom_cushion_convention, */
+  CAROM_WORDS_CUSHION_LAW = 8,        /* carom_cushion_law, */
+  CAROM_WORDS_GAME = 9,               /* carom_game, */
+  CAROM_WORDS_EVENT = 10,             /* carom_event_type, */
+  CAROM_WORDS_LABEL = 11,             /* carom_label, */
+  CAROM_WORDS_TABLE = 12,             /* carom_table_kind, */
+  CAROM_WORDS_RACK = 13,              /* carom_rack_kind, */
+  CAROM_WORDS_SOLVER = 14,            /* carom_solver, */
+  CAROM_WORDS_SLIP = 15               /* carom_slip. */
+} carom_words;
+
+/* The word of a value ("han"), and what it is in a few words; NULL where there is none. */
+CAROM_API const char *carom_word(carom_words of, int value);
+CAROM_API const char *carom_word_text(carom_words of, int value);
 
 #ifdef __cplusplus
 }

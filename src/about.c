@@ -4,6 +4,9 @@
 #include "platform/arithmetic.h"
 
 #include "about/numbers.h"
+#include "about/words.h"
+#include "cushion/list.h"
+#include "friction/laws.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -179,4 +182,39 @@ const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_
 #undef ALONE
 #undef CONDITION
   return NULL;
+}
+
+/* ---- Words */
+
+static const struct word {
+  int of, value;
+  const char *word, *text;
+} words_of[] = {
+#define WORD(OF, VALUE, word, text) {CAROM_WORDS_##OF, CAROM_##VALUE, word, text},
+#define CUSHION(NAME, word, impact, flight, rows, sources, text) \
+  {CAROM_WORDS_CUSHION_MODEL, CAROM_CUSHION_##NAME, word, text}, \
+      {CAROM_WORDS_SHOT_CUSHION, CAROM_SHOT_CUSHION_##NAME, word, text},
+#define LAW(NAME, word, numbers, at, ahead, sources, text) \
+  {CAROM_WORDS_BALL_FRICTION, CAROM_FRICTION_##NAME, word, text},
+    CAROM_WORD_ROWS(WORD) CAROM_CUSHION_MODELS(CUSHION) CAROM_FRICTION_LAWS(LAW)
+#undef WORD
+#undef CUSHION
+#undef LAW
+};
+
+static const struct word *find(carom_words of, int value) {
+  for (size_t k = 0; k < sizeof words_of / sizeof words_of[0]; k++)
+    if (words_of[k].of == (int)of && words_of[k].value == value)
+      return &words_of[k];
+  return NULL;
+}
+
+const char *carom_word(carom_words of, int value) {
+  const struct word *found = find(of, value);
+  return found != NULL ? found->word : NULL;
+}
+
+const char *carom_word_text(carom_words of, int value) {
+  const struct word *found = find(of, value);
+  return found != NULL ? found->text : NULL;
 }

@@ -213,23 +213,11 @@ const char *carom_status_string(carom_status status) {
 }
 
 const char *carom_solver_name(carom_solver solver) {
-  switch (solver) {
-  case CAROM_SOLVER_EXACT:
-    return "exact";
-  case CAROM_SOLVER_EULER:
-    return "euler";
-  }
-  return NULL;
+  return carom_word(CAROM_WORDS_SOLVER, (int)solver);
 }
 
 const char *carom_slip_name(carom_slip slip) {
-  switch (slip) {
-  case CAROM_SLIP_PAPER:
-    return "paper";
-  case CAROM_SLIP_POOLTOOL:
-    return "pooltool";
-  }
-  return NULL;
+  return carom_word(CAROM_WORDS_SLIP, (int)slip);
 }
 
 const char *carom_isa_name(carom_isa isa) {
@@ -251,87 +239,19 @@ const char *carom_isa_name(carom_isa isa) {
 }
 
 const char *carom_event_name(carom_event_type type) {
-  switch (type) {
-  case CAROM_EVENT_STRIKE:
-    return "stick_ball";
-  case CAROM_EVENT_BALL_BALL:
-    return "ball_ball";
-  case CAROM_EVENT_RAIL:
-    return "ball_linear_cushion";
-  case CAROM_EVENT_JAW:
-    return "ball_circular_cushion";
-  case CAROM_EVENT_POCKET:
-    return "ball_pocket";
-  case CAROM_EVENT_SLIDING_ROLLING:
-    return "sliding_rolling";
-  case CAROM_EVENT_ROLLING_SPINNING:
-    return "rolling_spinning";
-  case CAROM_EVENT_ROLLING_STATIONARY:
-    return "rolling_stationary";
-  case CAROM_EVENT_SPINNING_STATIONARY:
-    return "spinning_stationary";
-  case CAROM_EVENT_SLATE:
-    return "slate";
-  case CAROM_EVENT_RAIL_TOP:
-    return "rail_top";
-  case CAROM_EVENT_LEFT_TABLE:
-    return "left_table";
-  }
-  return NULL;
+  return carom_word(CAROM_WORDS_EVENT, (int)type);
 }
 
 const char *carom_label_name(carom_label label) {
-  switch (label) {
-  case CAROM_BALL_STATIONARY:
-    return "stationary";
-  case CAROM_BALL_SPINNING:
-    return "spinning";
-  case CAROM_BALL_SLIDING:
-    return "sliding";
-  case CAROM_BALL_ROLLING:
-    return "rolling";
-  case CAROM_BALL_POCKETED:
-    return "pocketed";
-  case CAROM_BALL_AIRBORNE:
-    return "airborne";
-  case CAROM_BALL_OFF:
-    return "off";
-  }
-  return NULL;
+  return carom_word(CAROM_WORDS_LABEL, (int)label);
 }
 
 const char *carom_table_name(carom_table_kind kind) {
-  switch (kind) {
-  case CAROM_TABLE_POOL_7FT:
-    return "7ft";
-  case CAROM_TABLE_POOL_8FT:
-    return "8ft";
-  case CAROM_TABLE_POOL_9FT:
-    return "9ft";
-  case CAROM_TABLE_SNOOKER:
-    return "snooker";
-  case CAROM_TABLE_THREECUSHION:
-    return "threecushion";
-  case CAROM_TABLE_POOLTOOL:
-    return "pooltool";
-  }
-  return NULL;
+  return carom_word(CAROM_WORDS_TABLE, (int)kind);
 }
 
 const char *carom_rack_name(carom_rack_kind kind) {
-  switch (kind) {
-  case CAROM_RACK_NINEBALL:
-    return "nineball";
-  case CAROM_RACK_EIGHTBALL:
-    return "eightball";
-  case CAROM_RACK_TENBALL:
-    return "tenball";
-  case CAROM_RACK_SNOOKER:
-    return "snooker";
-  case CAROM_RACK_THREECUSHION:
-    return "threecushion";
-  }
-  return NULL;
+  return carom_word(CAROM_WORDS_RACK, (int)kind);
 }
 
 const char *carom_field_name(int field) {

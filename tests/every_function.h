@@ -174,6 +174,16 @@ EVERY_BODY(ball_fault) {
   const carom_ball_kind none = {.mass = 0};
   return every_text(h, carom_ball_fault(&none, text, sizeof text)->name);
 }
+EVERY_BODY(word) {
+  for (int of = 0; of <= CAROM_WORDS_SLIP; of++)
+    h = every_text(h, carom_word((carom_words)of, 1));
+  return h;
+}
+EVERY_BODY(word_text) {
+  for (int of = 0; of <= CAROM_WORDS_SLIP; of++)
+    h = every_text(h, carom_word_text((carom_words)of, 1));
+  return h;
+}
 EVERY_VALUE(number_is_read, carom_number_is_read(carom_ball_number(5), &in->balls[0].kind, NULL))
 EVERY_VALUE(version_number, carom_version_number())
 EVERY_VALUE(physics_revision, carom_physics_revision())
@@ -604,7 +614,7 @@ EVERY_BODY(record_settle) {
   F(shot_orientation) \
   F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(status_name) \
   F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(table_polygon) F(trace) \
-  F(version) F(version_number)
+  F(version) F(version_number) F(word) F(word_text)
 /* clang-format on */
 #define EVERY_ROW(name) {"carom_" #name, every_##name},
 static const struct every_function {

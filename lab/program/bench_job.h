@@ -44,9 +44,7 @@ struct bench_job {
   count_list threads; /* of a batch; none: the default */
   double budget;      /* 0: the table's own */
   bool csv, spread, errors, show_pairs;
-  const char *shots;               /* time a file of shots instead */
-  int models;                      /* carom_world of theirs */
-  int cushion_model, simultaneous; /* and other options of them, as in carom_shot_options */
+  const char *shots; /* time a file of shots instead */
   const bench_table *table;
   double (*now)(void); /* the clock; NULL: the engine's */
   const char *folder;

@@ -61,9 +61,7 @@ static bool read_shots(bench_job *job) {
   struct timed_shots *all = job->timed_shots = allocate(1, sizeof *all);
   if ((all->file = shot_file_open(job->shots)) == NULL)
     return false;
-  timed_shot t = {.options = {.world = (carom_world)job->models,
-                              .cushion_model = (carom_shot_cushion)job->cushion_model,
-                              .simultaneous = (carom_simultaneous)job->simultaneous}};
+  timed_shot t = {.options = job->shared.shot};
   t.options.threads = job->threads.count > 0 ? job->threads.value[0] : 1;
   shot_read what;
   while ((what = shot_file_next_shot(all->file, &t.line)) == SHOT_SHOT) {

@@ -285,14 +285,9 @@ OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
        "largest");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "time the whole shots of this file instead, beside pooltool's recorded times");
-OPTION(bench_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
-       "whose rules and models the shots are played by (default carom)");
-OPTION(bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODEL",
-       set_cushion_model, 0,
-       "impacts on cushions in the shots: han, mathavan, stronge, mirror or euler (default:\nhan; "
-       "by pooltool's models stronge)");
-OPTION(bench_job, option_simultaneous, "simultaneous", simultaneous, 0, "cluster|pairs", set_choice,
-       0, "contacts of several balls at one instant in the shots (default: cluster)");
+OPTION(bench_job, option_cushion_model, "cushion-model", shared.shot.cushion_model, 0, NULL,
+       set_named, CAROM_WORDS_SHOT_CUSHION,
+       "impacts on cushions in the shots (default: han; by pooltool's models stronge)");
 
 static const char about[] =
     "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each "

@@ -94,12 +94,5 @@ const char *carom_cushion_field_name(int field) {
 }
 
 const char *carom_cushion_model_name(carom_cushion_model model) {
-  switch (model) {
-#define CASE(NAME, name, ...) \
-  case CAROM_CUSHION_##NAME:  \
-    return name;
-    CAROM_CUSHION_MODELS(CASE)
-#undef CASE
-  }
-  return NULL;
+  return carom_word(CAROM_WORDS_CUSHION_MODEL, (int)model);
 }

@@ -1,7 +1,7 @@
-"""rows.py SOURCE SHARED: the rows of numbers say what the headers and the library say.
+"""rows.py SOURCE SHARED: the rows of numbers and words say what the headers and the library say.
 
 The comment of each member names the unit of its row, every number of its range, and its default. bindings/rows.py has the texts and the
-ranges that the library tells.
+ranges that the library tells. Each value of an enumeration with words has one.
 """
 
 import ctypes
@@ -14,7 +14,8 @@ sys.path.insert(0, str(ROOT / "bindings"))
 from api import describe  # noqa: E402
 from rows import digits, numbers  # noqa: E402
 
-structs = {one["name"]: one["fields"] for one in describe(ROOT / "include")["structs"]}
+api = describe(ROOT / "include")
+structs = {one["name"]: one["fields"] for one in api["structs"]}
 OPTIONS = "carom_cushion_options"
 faults = []
 
@@ -68,6 +69,13 @@ for k, one in enumerate(described):
     expected = [one[key] for key in ("name", "key", "unit", "text", "range")]
     if seen != expected:
         faults.append(f"the library tells {seen}, bindings/rows.py {expected}")
+
+# The comment of each carom_words names the enumeration whose values have words.
+enums = {one["name"]: one["values"] for one in api["enums"]}
+library.carom_word.restype = ctypes.c_char_p
+for of in enums["carom_words"]:
+    name = re.search(r"carom_\w+", of["comment"])[0]
+    faults += [f"{value['name']} has no word" for value in enums[name] if not library.carom_word(of["value"], value["value"])]
 
 print("\n".join(faults) or f"{len(described)} numbers have the unit, range and default of their comments")
 sys.exit(bool(faults))

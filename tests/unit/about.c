@@ -143,3 +143,17 @@ TEST(what_is_read) {
             carom_number_is_read(omega, &kind, &pooltool));
   ck_assert(carom_number_is_read(number_of("mass"), &kind, NULL));
 }
+
+TEST(words_are_without_gaps) {
+  for (int of = 0; of <= CAROM_WORDS_SLIP; of++) {
+    int value = of == CAROM_WORDS_EVENT ? CAROM_EVENT_STRIKE : 0;
+    for (; carom_word((carom_words)of, value) != NULL; value++) {
+      ck_assert_str_ne(carom_word((carom_words)of, value), "");
+      ck_assert_str_ne(carom_word_text((carom_words)of, value), "");
+    }
+    ck_assert_int_ge(value, 2);
+    ck_assert_ptr_null(carom_word((carom_words)of, -1));
+    for (int beyond = value; beyond < 40; beyond++)
+      ck_assert_ptr_null(carom_word_text((carom_words)of, beyond));
+  }
+}

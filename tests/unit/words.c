@@ -1,14 +1,31 @@
-/* Words that the command has of its own are those of the library. */
+/* Words that the command has are those of the library. */
 #include "options.h"
 #include "support.h"
 
-#include <string.h>
+TEST(words_of_an_option) {
+  carom_shot_cushion cushion = CAROM_SHOT_CUSHION_DEFAULT;
+  char smooth[] = "smooth", usual[] = "default", none[] = "smoth";
+  ck_assert_str_eq(argument_of(&option_cushion_of_shots),
+                   "mathavan|stronge|han|mirror|euler|smooth");
+  ck_assert(option_cushion_of_shots.set(&option_cushion_of_shots, smooth, &cushion));
+  ck_assert_int_eq(cushion, CAROM_SHOT_CUSHION_SMOOTH);
+  ck_assert(option_cushion_of_shots.set(&option_cushion_of_shots, usual, &cushion));
+  ck_assert_int_eq(cushion, CAROM_SHOT_CUSHION_DEFAULT);
+  ck_assert(!option_cushion_of_shots.set(&option_cushion_of_shots, none, &cushion));
+}
 
-TEST(models_of_cushions) {
-  char names[200] = "";
-  for (int k = 0; carom_cushion_model_name((carom_cushion_model)k) != NULL; k++) {
-    strcat(names, k > 0 ? "|" : "");
-    strcat(names, carom_cushion_model_name((carom_cushion_model)k));
-  }
-  ck_assert_str_eq(names, CUSHION_WORDS);
+TEST(numbers_by_name_and_key) {
+  static shared_options shared;
+  char good[] = "u_b=0.03,mu_slide=0.15", bad[] = "u_b=2", none[] = "u_q=1", bare[] = "mass";
+  const option_row *row = &option_with_of_shots;
+  ck_assert(row->set(row, good, &shared.with));
+  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  give_ball(&shared.with, &kind);
+  ck_assert(kind.mu_ball == 0.03 && kind.mu_slide == 0.15 && kind.mass > 0);
+  ck_assert(!row->set(row, bad, &shared.with));
+  ck_assert(!row->set(row, none, &shared.with));
+  ck_assert(!row->set(row, bare, &shared.with));
+  ck_assert(!numbers_are_read(&shared)); /* mu_ball */
+  shared.shot.friction = CAROM_FRICTION_CONSTANT;
+  ck_assert(numbers_are_read(&shared));
 }

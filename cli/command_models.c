@@ -1,0 +1,132 @@
+/* `carom models`: what there is, by the rows of the library: models, words and numbers. */
+#include "command.h"
+#include "message.h"
+#include "options.h"
+#include "output.h"
+#include "subcommands.h"
+#include "words.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Enumerations with models or ways to play, and the options that take their words. */
+static const struct kind {
+  carom_words of;
+  const char *what, *option;
+} kinds[] = {{CAROM_WORDS_SHOT_CUSHION, "impact on a cushion", "--cushion, --model"},
+             {CAROM_WORDS_BALL_FRICTION, "friction between balls", "--friction"},
+             {CAROM_WORDS_BALL_MODEL, "collision of two balls", "--ball-ball"},
+             {CAROM_WORDS_WORLD, "rules of contact", "--models"},
+             {CAROM_WORDS_SPACE, "space", "--space"},
+             {CAROM_WORDS_SIMULTANEOUS, "several contacts at one instant", "--simultaneous"},
+             {CAROM_WORDS_GAME, "game of a file", "params.game"}};
+enum { KINDS = sizeof kinds / sizeof kinds[0], NAME_WIDTH = 20 };
+
+static void print_number(FILE *out, const carom_number *n) {
+  char range[100], reader[160];
+  carom_number_range(n, range, sizeof range);
+  fprintf(out, "  %-*s %-12s %s; %s", NAME_WIDTH, n->name, n->key, n->text, range);
+  if (n->reader != CAROM_READ_ALWAYS)
+    fprintf(out, " (%s)", reader_of(n, "cushion", reader));
+  putc('\n', out);
+}
+
+/* The numbers that a model reads and others do not. */
+static void print_numbers_of(FILE *out, carom_reader reader, int model) {
+  const carom_number *n;
+  int count = 0;
+  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+    if (n->reader == reader && n->model == model) {
+      if (count++ == 0)
+        fputs("numbers of its own, by their names, for --with, and their keys in files:\n", out);
+      print_number(out, n);
+    }
+  if (count == 0)
+    fputs("it has no numbers of its own\n", out);
+}
+
+static void print_all(FILE *out) {
+  const carom_number *n;
+  const char *word;
+  for (int k = 0; k < KINDS; k++) {
+    fprintf(out, "%s (%s):\n", kinds[k].what, kinds[k].option);
+    for (int value = 0; (word = carom_word(kinds[k].of, value)) != NULL; value++)
+      fprintf(out, "  %-*s %s\n", NAME_WIDTH, word, carom_word_text(kinds[k].of, value));
+  }
+  fputs("numbers of a ball and its cushions, by their names, for --with, and their keys in "
+        "files:\n",
+        out);
+  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+    print_number(out, n);
+}
+
+/* Prints all that has this name; whether there is something. */
+static bool print_named(FILE *out, const char *name) {
+  const carom_number *n;
+  const char *word;
+  bool found = false;
+  for (int k = 0; k < KINDS; k++)
+    for (int value = 0; (word = carom_word(kinds[k].of, value)) != NULL; value++) {
+      if (strcmp(word, name) != 0)
+        continue;
+      found = true;
+      fprintf(out, "%s: %s (%s): %s\n", word, kinds[k].what, kinds[k].option,
+              carom_word_text(kinds[k].of, value));
+      if (kinds[k].of == CAROM_WORDS_SHOT_CUSHION && value > 0)
+        print_numbers_of(out, CAROM_READ_BY_CUSHION, value - 1);
+      if (kinds[k].of == CAROM_WORDS_BALL_FRICTION)
+        print_numbers_of(out, CAROM_READ_BY_FRICTION, value);
+    }
+  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+    if (strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0) {
+      found = true;
+      print_number(out, n);
+    }
+  return found;
+}
+
+/* What the name may have been. */
+static void hint_at_name(const char *name) {
+  char known[2000], hint[HINT_TEXT];
+  const carom_number *n;
+  const char *word;
+  int size = 0;
+  for (int k = 0; k < KINDS; k++)
+    for (int value = 0; (word = carom_word(kinds[k].of, value)) != NULL; value++)
+      size += snprintf(known + size, sizeof known - (size_t)size, "%s|", word);
+  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+    size += snprintf(known + size, sizeof known - (size_t)size, "%s|%s|", n->name, n->key);
+  known[size - 1] = '\0';
+  complain("there is no model or number '%.40s'%s", name, did_you_mean(name, known, hint));
+}
+
+static const command_form form = {
+    .name = "models",
+    .usage = "[OPTIONS] [NAME]",
+    .about = "Lists the models and their words, and the numbers of balls and cushions with ranges "
+             "and units. With NAME, tells what has that name: a model with its own numbers, or a "
+             "number with its range and the model that reads it.\n",
+    .options = (const option_row *const[]){&option_output, NULL},
+    .details = "exit code: 0; 2 for bad usage or a name that there is not\n",
+    .example = "carom models smooth",
+    .files = FILE_OR_NONE,
+};
+
+int command_models(int argc, char **argv) {
+  shared_options job = {.output = "-"};
+  const char *name;
+  const int code = parse_arguments(&form, argc, argv, &job, &name);
+  if (code >= 0)
+    return code;
+  FILE *out = output_open(job.output);
+  if (out == NULL)
+    return EXIT_USAGE;
+  if (name == NULL)
+    print_all(out);
+  else if (!print_named(out, name)) {
+    output_abandon();
+    hint_at_name(name);
+    return usage_hint(&form);
+  }
+  return output_commit() ? EXIT_GOOD : EXIT_USAGE;
+}
