@@ -170,7 +170,7 @@ static inline void law_of(const contact *x, double k[3]) {
 static inline double find_pressed(bool flat, state *c, double h, double parts, pushes *now) {
   double longest = (double)INFINITY;
   now->pressed = 0;
-  CAROM_PROMISE(h > 0.0);
+  CAROM_PROMISE(!(h < 0.0));
   for (int k = 0; k < c->contacts; k++) {
     contact *x = &c->contact[k];
     if (x->d_max > 0.0) {
@@ -281,7 +281,7 @@ static inline void rub_on_cloth(ball *p) {
 /* The next iterate of a contact's friction; change[] becomes what it changes by. */
 static inline void iterate(bool flat, contact *x, double change[2]) {
   double u[2], f[2];
-  CAROM_PROMISE(x->J > 0.0 && x->mu >= 0.0);
+  CAROM_PROMISE(!(x->J <= 0.0 || x->mu < 0.0));
   slip_of(flat, x, u);
 
   /* the mean slip of the step, twice */
@@ -425,7 +425,7 @@ static void take_back(state *c, double before) {
   const double after = energy_of(c);
   if (!(after > before))
     return;
-  CAROM_PROMISE(after <= before * 1.001);
+  CAROM_PROMISE(before < 1e-250 || !(after > 1.001 * before));
   /* of the balls that were touched; a bystander keeps its motion */
   bool touched[CAROM_CLUSTER_BALLS] = {false};
   for (int k = 0; k < c->contacts; k++)

@@ -19,7 +19,7 @@
 
 /* d_max grows with d. */
 static inline double carom_hertz_force(double K, double e, double d, double *d_max) {
-  CAROM_PROMISE(d > 0.0 && *d_max >= 0.0 && e > 0.0 && e <= 1.0);
+  CAROM_PROMISE(!(d <= 0.0 || *d_max < 0.0) && e > 0.0 && e <= 1.0);
   if (d >= *d_max) {
     *d_max = d;
     return K * d * sqrt(d);

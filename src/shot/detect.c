@@ -291,7 +291,7 @@ static inline void take_horizon(carom_sim *sim, int i) {
 /* The path of ball i, and its next meeting with the table. */
 static void take_path(carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
-  CAROM_PROMISE(path->end >= sim->now);
+  CAROM_PROMISE(!(path->end < sim->now));
   take_columns(sim, i);
   sim->meeting[i] = (carom_meeting){INFINITY, 0, 0};
   sim->meeting_round[i] = (int32_t)sim->round;
@@ -301,7 +301,7 @@ static void take_path(carom_sim *sim, int i) {
     const motion m = motion_now(sim, i);
     sim->meeting[i] = meet_table(sim, i, &m, path->end - sim->now);
   }
-  CAROM_PROMISE(sim->meeting[i].time >= 0.0);
+  CAROM_PROMISE(!(sim->meeting[i].time < 0.0));
   sim->meeting[i].time += sim->now;
   take_horizon(sim, i);
 }

