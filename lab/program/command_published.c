@@ -109,8 +109,8 @@ static double follow(const double *x) {
   return -carom_ball_kind_of(CAROM_GAME_POOL).radius * out.w[0] / out.v[1];
 }
 
-/* ---- Two balls of pool: cut x[0] degrees, speed x[1] m/s, roll x[2] of 1, friction x[3];
- * 0: Alciatore's */
+/* ---- Two balls of pool: cut x[0] degrees, speed x[1] m/s, roll x[2] of 1, friction x[3],
+ * 0: Alciatore's, side spin R w_z / v x[4] */
 
 static carom_result hit(const double *x) {
   const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
@@ -125,6 +125,7 @@ static carom_result hit(const double *x) {
   in.b.r[1] = 2.0 * kind.radius;
   in.a.w[0] = -x[2] * in.a.v[1] / kind.radius;
   in.a.w[1] = x[2] * in.a.v[0] / kind.radius;
+  in.a.w[2] = x[4] * x[1] / kind.radius;
   if (x[3] == 0.0)
     in.mu_ball = carom_mu_ball(&in, carom_alciatore());
   carom_collide(&in, NULL, &out);
@@ -145,6 +146,58 @@ static double deflection(const double *x) {
   return atan2(v[0], v[1]) / degree - x[0];
 }
 
+static double deflection_over_cut(const double *x) {
+  return deflection(x) / x[0];
+}
+
+/* of the way from the path before to the tangent line */
+static double deflection_share(const double *x) {
+  return deflection(x) / (90.0 - x[0]);
+}
+
+/* The middle of a number between `low` and `high` at which f(x, number) passes `wanted`. */
+static double found(double (*f)(const double *x, double number), const double *x, double low,
+                    double high, double wanted) {
+  const bool rises = f(x, high) > f(x, low);
+  for (int k = 0; k < 60; k++) {
+    const double middle = 0.5 * (low + high);
+    *((f(x, middle) > wanted) == rises ? &high : &low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+static double deflection_by_roll(const double *x, double roll) {
+  return deflection((const double[]){x[0], x[1], roll, x[3], x[4]});
+}
+
+/* between the path to the ball and the path back, with the draw that turns that of a half-ball hit
+ * by 90 degrees */
+static double draw_angle(const double *x) {
+  const double half_ball[] = {30.0, x[1], 0.0, x[3], x[4]};
+  return 180.0 - deflection_by_roll(x, found(deflection_by_roll, half_ball, -2.0, 0.0, 90.0));
+}
+
+static double thrown_by_side(const double *x, double side) {
+  const carom_result out = hit((const double[]){x[0], x[1], x[2], x[3], side});
+  return out.b.v[0] / out.b.v[1];
+}
+
+/* the offset of the tip at which nothing is thrown, over that of the point of contact */
+static double gearing(const double *x) {
+  return found(thrown_by_side, x, -1.25, 1.25, 0.0) / 2.5 / sin(x[0] * degree);
+}
+
+/* the cut, in degrees, at which the throw is greatest */
+static double throw_most(const double *x) {
+  double most = 0.0, at = 0.0;
+  for (double cut = 1.0; cut < 89.5; cut += 0.5) {
+    const double thrown = throw_angle((const double[]){cut, x[1], x[2], x[3], x[4]});
+    at = thrown > most ? cut : at;
+    most = thrown > most ? thrown : most;
+  }
+  return at;
+}
+
 static double speed_rolling(const carom_motion *m) {
   double v[3];
   carom_rolling_velocity(m->v, m->w, carom_ball_kind_of(CAROM_GAME_POOL).radius, v);
@@ -161,6 +214,12 @@ static double speed_ratio(const double *x) {
 static double speed_share(const double *x) {
   const carom_result out = hit(x);
   return hypot(out.b.v[0], out.b.v[1]) / x[1];
+}
+
+/* of the distance that the object ball goes over that which the cue ball would have gone: both
+ * slide at first, and grow with the square of the speed */
+static double distance_share(const double *x) {
+  return speed_share(x) * speed_share(x);
 }
 
 /* the same ratio of the distances that both balls roll, which grow with the square of the speed */
@@ -320,6 +379,12 @@ static const struct {
     {"follow", follow},
     {"throw", throw_angle},
     {"deflection", deflection},
+    {"deflection_over_cut", deflection_over_cut},
+    {"deflection_share", deflection_share},
+    {"draw_angle", draw_angle},
+    {"gearing", gearing},
+    {"throw_most", throw_most},
+    {"distance_share", distance_share},
     {"speed_ratio", speed_ratio},
     {"speed_share", speed_share},
     {"distance_ratio", distance_ratio},
