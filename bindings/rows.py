@@ -1,6 +1,7 @@
 """The rows of src/about as data: what the library says of itself at run time, for what is needed before it runs.
 
-rows.py json    the numbers of a ball, as carom_ball_number() tells them
+rows.py json      numbers of a ball and words, as carom_ball_number() and carom_word() tell them
+rows.py python    python/src/carom/_described.py
 """
 
 import json
@@ -85,6 +86,37 @@ def numbers():
     return found
 
 
+def words():
+    """The words of each enumeration, (word, text), by the names of carom_words."""
+    found = {}
+    for _, (of, _value, word, text) in rows("about/words.h", "CAROM_WORD_ROWS"):
+        found.setdefault(of, []).append((text_of(word), text_of(text)))
+    models = [(text_of(row[1]), text_of(row[-1])) for _, row in rows("cushion/list.h", "CAROM_CUSHION_MODELS")]
+    found["CUSHION_MODEL"] = models
+    found["SHOT_CUSHION"] += models
+    found["BALL_FRICTION"] = [(text_of(row[1]), text_of(row[-1])) for _, row in rows("friction/laws.h", "CAROM_FRICTION_LAWS")]
+    return found
+
+
+OF_PYTHON = "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSHION_MODEL CUSHION_CONVENTION CUSHION_LAW".split()
+
+
+def python():
+    """Types for checkers of types, which know nothing of the library: words, and the numbers of one impact on a cushion."""
+    lines = ['"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""', ""]
+    lines += ["from typing import Literal, TypedDict", ""]
+    for of in OF_PYTHON:
+        name = "".join(part.capitalize() for part in of.split("_"))
+        lines.append(f"{name} = Literal[{', '.join(json.dumps(word) for word, _ in words()[of])}]")
+    lines += ["", "", "class CushionNumbers(TypedDict, total=False):", '    """Numbers of an impact on a cushion, by the models that read them."""', ""]
+    for one in numbers():
+        if one["of_cushion"]:
+            reader = re.match(r"(?:BY_CUSHION|WITH)\((\w+)", one["reader"])
+            model = reader[1].lower() if reader else "any model"
+            lines += [f"    {one['name']}: float", f'    """{model}: {one["text"]}; {one["range"]}"""']
+    return "\n".join([*lines, ""])
+
+
 if __name__ == "__main__":
-    made = {"json": lambda: json.dumps({"numbers": numbers()}, indent=1)}
-    print(made[sys.argv[1]]())
+    made = {"json": lambda: json.dumps({"numbers": numbers(), "words": words()}, indent=1) + "\n", "python": python}
+    sys.stdout.write(made[sys.argv[1]]())

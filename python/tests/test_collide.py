@@ -10,6 +10,7 @@ import pytest
 from conftest import columns
 
 import carom
+from carom.cushions import _NUMBERS
 
 IMPACT = "vx vy vz wx wy wz nx ny h R M mu_s mu_w e rho"
 SCALE = np.repeat([1.0, 0.028575], 3)
@@ -46,6 +47,12 @@ def test_cushions():
     assert (np.abs((motion - expected) * SCALE) / fastest).max() < 1e-13
     other = carom.cushion(impacts, model="stronge", convention="pooltool", omega_ratio=1.7).motion
     assert (other != motion).any(axis=1).mean() > 0.1
+    # every number of a model reaches it
+    smooth = {"model": "smooth", "smooth_q": 0.35, "smooth_x": 1.3, "smooth_t": 1.2}
+    for name in _NUMBERS:
+        usual = smooth if name.startswith("smooth") else {"model": "stronge"}
+        near = {"smooth_q": 0.2, "smooth_x": 1.0, "smooth_t": 1.0, "omega_ratio": 1.2}.get(name, 0.1)
+        assert (carom.cushion(impacts, **usual).motion != carom.cushion(impacts, **(usual | {name: near})).motion).any(), name
     impact = carom.cushion_impacts(v=(0.4, 1.5, 0), w=(-20.0, 0, 30.0))
     exact = carom.cushion(impact).motion["v"]
     errors = [np.abs(carom.cushion(impact, model="euler", steps=n).motion["v"] - exact).max() for n in (1000, 100000)]

@@ -64,6 +64,7 @@ VALUES = [
     (r"least_step: it must be 0 or more .*, not -1.0", lambda: carom.cushion(WALL, least_step=-1.0)),
     (r"least_step: it must be 0 or more .*, not nan", lambda: carom.cushion_trace(WALL, least_step=np.nan)),
     (r"omega_ratio: it must be 0, or between 1 and 2, not 2.0", lambda: carom.cushion(WALL, model="stronge", omega_ratio=2.0)),
+    (r"smooth_x: it must be above 0 where smooth_q is, not 0.0", lambda: carom.cushion(WALL, model="smooth", smooth_q=0.2)),
     (r"model: must be one of", lambda: carom.cushion(WALL, model="mirrored")),
     (r"model: must be 'mathavan' or 'euler', .* not 'han'", lambda: carom.cushion_trace(WALL, model="han")),
     *((r"plain: it must be a whole number from 0 to 1", lambda plain=plain, call=call: call(plain=plain))
@@ -116,6 +117,7 @@ VALUES = [
 ]  # fmt: skip
 
 TYPES = [
+    (r"cushion\(\) has no argument 'smooth_z'; numbers .* smooth_q, smooth_x", lambda: carom.cushion(WALL, smooth_z=1.0)),
     (r"speed: real numbers are needed, not 'fast'", lambda: carom.cue(speed="fast")),
     (r"balls: .* carom\.balls\(\)", lambda: carom.place_ball(TABLE, [1.0, 2.0], 0, 0.5, 0.5)),
     (r"balls: .* carom\.balls\(\)", lambda: carom.simulate(TABLE, np.zeros((2, 20)))),
@@ -172,18 +174,19 @@ FIELDS = [
     (r"cue\.phi = 1e\+308: ", lambda: carom.struck(carom.cue(phi=1e308), RACK[0]["kind"])),
     (r"cue\.speed = nan: it must be 0", lambda: carom.struck(carom.cue(speed=np.nan), RACK[0]["kind"])),
     (r"cue\.a, cue\.b = 0\.8, 0\.8: ", lambda: carom.struck(carom.cue(a=0.8, b=0.8), RACK[0]["kind"])),
-    (r"kind\.mass = -1\.0: a mass must be positive", lambda: carom.struck(CUE, carom.balls([[0, 0]], mass=-1.0)["kind"][0])),
+    (r"kind\.mass = -1\.0: it must be above 0 and finite, in kg", lambda: carom.struck(CUE, carom.balls([[0, 0]], mass=-1.0)["kind"][0])),
     (r"balls = 40: the count of balls must be 1 to 32", lambda: carom.simulate(TABLE, np.repeat(RACK, 4))),
     (r"layouts = 40: the count of balls must be 1 to 32", lambda: carom.simulate_batch(TABLE, np.repeat(RACK, 4))),
     (r"x, y = nan, 0\.5: a position must be finite", lambda: carom.place_ball(TABLE, RACK, 0, np.nan, 0.5)),
     (r"balls\[1\]\.kind\.mass = -1\.0: ", lambda: balls(mass=[0.17, -1.0])),
     (r"balls\[0\]\.kind\.mu_roll = 0\.0: it must be above 0 and at most 1", lambda: balls(mu_roll=0.0)),
     (r"balls\[0\]\.kind\.restitution_cushion = 2\.0: ", lambda: balls(restitution_cushion=2.0)),
-    (r"balls\[0\]\.kind\.restitution_table = 0\.99: it must be 0 to 0\.98", lambda: balls(restitution_table=0.99)),
+    (r"balls\[0\]\.kind\.restitution_table = 0\.99: it must be -1, or 0 to 0\.98", lambda: balls(restitution_table=0.99)),
     (r"balls\[1\]\.state\.v = \[ ?0\. nan ", lambda: balls(v=[[0, 0, 0], [0, np.nan, 0]])),
     (r"balls\[1\]\.state\.r = \[-0\.5", lambda: balls(r=[[0.5, 0.5], [-0.5, 0.5]])),
     *((rf"balls\[0\]\.kind\.{name}", lambda name=name, value=value: billiard(**{name: value}))
-      for name, value in (("drag", 2.0), ("roll_loss", -0.1), ("law_b", 1.5), ("law_c", np.inf), ("nose_height", 0.07), ("omega_ratio", 2.0))),
+      for name, value in (("drag", 2.0), ("roll_loss", -0.1), ("law_b", 1.5), ("law_c", np.inf), ("nose_height", 0.07), ("omega_ratio", 2.0),
+                          ("modulus", 1e5), ("restitution_log", 2.0), ("mu_log", -2.0), ("gravity", 0.0), ("smooth_q", 1.0), ("smooth_k", 2.0))),
 ]  # fmt: skip
 
 CASES = [(kind, *case) for kind, cases in ((ValueError, VALUES), (TypeError, TYPES), (carom.CaromError, FIELDS)) for case in cases]

@@ -5,6 +5,7 @@ ranges that the library tells. Each value of an enumeration with words has one.
 """
 
 import ctypes
+import os
 import re
 import sys
 from pathlib import Path
@@ -12,7 +13,7 @@ from pathlib import Path
 ROOT = Path(sys.argv[1])
 sys.path.insert(0, str(ROOT / "bindings"))
 from api import describe  # noqa: E402
-from rows import digits, numbers  # noqa: E402
+from rows import digits, numbers, python, words  # noqa: E402
 
 api = describe(ROOT / "include")
 structs = {one["name"]: one["fields"] for one in api["structs"]}
@@ -76,6 +77,19 @@ library.carom_word.restype = ctypes.c_char_p
 for of in enums["carom_words"]:
     name = re.search(r"carom_\w+", of["comment"])[0]
     faults += [f"{value['name']} has no word" for value in enums[name] if not library.carom_word(of["value"], value["value"])]
+
+    told = iter(range(1 if of["name"] == "CAROM_WORDS_EVENT" else 0, 100))
+    expected = words()[of["name"].removeprefix("CAROM_WORDS_")]
+    seen = [library.carom_word(of["value"], next(told)).decode() for _ in expected]
+    if seen != [word for word, _ in expected]:
+        faults.append(f"{of['name']}: the library tells {seen}, bindings/rows.py {expected}")
+
+# What is made of the rows, and kept.
+kept = ROOT / "python/src/carom/_described.py"
+if os.environ.get("UPDATE"):
+    kept.write_text(python(), encoding="utf-8")
+if kept.read_text(encoding="utf-8") != python():
+    faults.append(f"{kept.relative_to(ROOT)} is not that of the rows; UPDATE=1 writes it")
 
 print("\n".join(faults) or f"{len(described)} numbers have the unit, range and default of their comments")
 sys.exit(bool(faults))

@@ -9,14 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 import numpy as np
 
 from carom._carom import ffi
+from carom._described import BallFriction as Friction
+from carom._described import BallModel, ShotCushion, Simultaneous, Space, World
 from carom._rows import cached, choice, number, numbered, several, whole
 
-World = Literal["carom", "pooltool"]
-BallModel = Literal["default", "exact", "euler", "inelastic", "mirror"]
-ShotCushion = Literal["default", "mathavan", "stronge", "han", "mirror", "euler", "smooth"]
-Friction = Literal["alciatore", "constant"]
-Space = Literal["3d", "flat"]
-Simultaneous = Literal["cluster", "pairs"]
 StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
     "spinning_stationary", "slate", "rail_top", "left_table",

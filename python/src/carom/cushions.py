@@ -2,35 +2,50 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
-from carom._carom import ffi
+from carom._carom import ffi, lib
+from carom._described import CushionConvention, CushionLaw, CushionModel, CushionNumbers
 from carom._impacts import CUSHION, Outcome, resolve
 from carom._impacts import trace as follow
 from carom._rows import Array, cached, choice, fill, number, numbered, whole
 
-CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler", "smooth"]
-CushionConvention = Literal["paper", "pooltool"]
-CushionLaw = Literal["constant", "han"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 _MODELS, _CONVENTIONS, _LAWS = numbered("carom_cushion_model"), numbered("carom_cushion_convention"), numbered("carom_cushion_law")
+_ROWS = iter(map(lib.carom_ball_number, range(1000)).__next__, ffi.NULL)
+_NUMBERS = [ffi.string(row.name).decode() for row in _ROWS if row.cushion_offset >= 0]
+
+
+def _own(numbers: Any) -> tuple[tuple[str, float], ...]:
+    """Numbers of the models by their names."""
+    for name in numbers:
+        if name not in _NUMBERS:
+            raise TypeError(f"cushion() has no argument {name!r}; numbers of its models are {', '.join(_NUMBERS)}")
+    return tuple((name, number(value, name)) for name, value in numbers.items())
 
 
 @cached
 def _options(
-    model: str, convention: str, law: str, steps: int, threads: int, least_step: float, omega_ratio: float, plain: bool
+    model: str, convention: str, law: str, steps: int, threads: int, least_step: float, plain: bool, own: tuple[tuple[str, float], ...]
 ) -> Any:
     """The options of C; they are never written to."""
     if not 0.0 <= (least_step := number(least_step, "least_step", "a step in N s is needed")) < np.inf:
         raise ValueError(f"least_step: it must be 0 or more and finite, in N s, not {least_step!r}")
-    if (omega_ratio := number(omega_ratio, "omega_ratio")) != 0.0 and not 1.0 < omega_ratio < 2.0:
-        raise ValueError(f"omega_ratio: it must be 0, or between 1 and 2, not {omega_ratio!r}")
+    kind, must = ffi.new("carom_ball_kind *", lib.carom_ball_kind_of(lib.CAROM_GAME_POOL)), ffi.new("char[]", 100)
+    for name, value in own:
+        setattr(kind, name, value)
+    if (wrong := lib.carom_ball_fault(kind, must, 100)) != ffi.NULL:
+        name = ffi.string(wrong.name).decode()
+        raise ValueError(f"{name}: it must be {ffi.string(must).decode()}, not {getattr(kind, name)!r}")
     named = {"model": choice(_MODELS, model, "model"), "convention": choice(_CONVENTIONS, convention, "convention"), "law": choice(_LAWS, law, "law")}
     numbers = {"steps": whole(steps, "steps"), "threads": whole(threads, "threads", least=-1), "plain": whole(plain, "plain", most=1)}
-    return ffi.new("carom_cushion_options *", {**named, **numbers, "least_step": least_step, "omega_ratio": omega_ratio})
+    return ffi.new("carom_cushion_options *", {**named, **numbers, "least_step": least_step, **dict(own)})
 
 
 def cushion_impacts(
@@ -64,8 +79,8 @@ def cushion_impacts(
 
 def cushion(
     impacts: npt.ArrayLike, *, model: CushionModel = "mathavan", convention: CushionConvention = "paper",
-    law: CushionLaw = "constant", steps: int = 0, least_step: float = 0.0, omega_ratio: float = 0.0,
-    plain: bool = False, threads: int = 0, out: tuple[Array, Array] | None = None
+    law: CushionLaw = "constant", steps: int = 0, least_step: float = 0.0,
+    plain: bool = False, threads: int = 0, out: tuple[Array, Array] | None = None, **numbers: Unpack[CushionNumbers]
 ) -> Outcome:  # fmt: skip
     """Resolve impacts of a ball on a cushion.
 
@@ -83,10 +98,10 @@ def cushion(
         Euler's N; 0 is 1000.
     least_step : float
         Least impulse of a step of Euler's, N s; pooltool has 0.001.
-    omega_ratio : float
-        Stronge's ratio of frequencies, between 1 and 2; 0 is 1.8.
     plain, threads, out
         As for `carom.collide`.
+    **numbers : float
+        Numbers of the models, such as omega_ratio of stronge; `carom models` of the command lists them.
 
     Returns
     -------
@@ -97,7 +112,7 @@ def cushion(
 
     Raises CaromError: One impact, of shape (15,) or (), that is in error.
     """
-    options = _options(model, convention, law, steps, threads, least_step, omega_ratio, plain)
+    options = _options(model, convention, law, steps, threads, least_step, plain, _own(numbers))
     seconds = 1e-5 if model == "mathavan" else 1e-7 * (steps or 1000) if model == "euler" else 1e-7
     return resolve(CUSHION, impacts, options, seconds, threads, out)
 
@@ -115,4 +130,4 @@ def cushion_trace(
     """
     if not isinstance(model, str) or model not in ("mathavan", "euler"):
         raise ValueError(f"model: must be 'mathavan' or 'euler', which can be followed, not {model!r}")
-    return follow(CUSHION, impact, points, _options(model, convention, law, steps, 0, least_step, 0.0, plain))
+    return follow(CUSHION, impact, points, _options(model, convention, law, steps, 0, least_step, plain, ()))
