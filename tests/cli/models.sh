@@ -1,6 +1,6 @@
 # What there is, and its numbers: models and numbers by name, in impacts and in shots.
-try carom models | sed 's/ *$//'
-try carom models smooth
+carom models | head -n 3; carom models | sed -n '/^numbers/,$p' | head -n 3
+try carom models stronge; carom models smooth | grep -c smooth_q
 try carom models constant
 try carom models u_b
 try carom models smoth
@@ -36,7 +36,7 @@ try carom shoot --events none --friction constant changed.jsonl | grep -o '"stat
 try carom shoot --with u_b=0.1 line.jsonl
 try carom shoot --with u_bb=0.1 line.jsonl
 try carom shoot --friction some line.jsonl
-try carom record --friction constant line.jsonl | head -n 2
+carom record --friction constant line.jsonl | sed -n 2p
 echo "--- a tip beside the ball"
 try carom hit --side 3tips
 try carom hit --side 1.5tips --spin 2tips
