@@ -16,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BEST = 5, SHOTS_LEAST = 100 };
-enum { OPEN, SOLIDS, STRIPES };
+enum { BEST = 5, SHOTS_LEAST = 100, SHOTS_OF_RATING = 300 };
+enum { NOT_GIVEN = -1 };
 
 typedef struct plan_job {
   shared_options shared; /* --threads, --output */
@@ -38,13 +38,14 @@ OPTION(
     "a push-out to pass (default shoot: nothing)");
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
        "the cue ball is in hand: where to put it, too");
-OPTION(plan_job, option_player, "player", rating, 0, "RATING", set_number, 0,
-       "a player by a Fargo rating, 300 to 850, such as 500. It holds for --shots 300; with more "
-       "shots he is stronger");
+OPTION(
+    plan_job, option_player, "player", rating, 0, "RATING", set_number, 0,
+    "a player by a Fargo rating, 300 to 850, such as 500. It holds for plans of 300 shots, which "
+    "is then the default of --shots; with more he is stronger");
 OPTION(plan_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
        "a player by his errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
 OPTION(plan_job, option_shots, "shots", shots, 0, "N", set_count, SHOTS_LEAST,
-       "shots to be played, about; at most 1000000 (default 2000)");
+       "shots to be played, about; at most 1000000 (default 2000, with --player 300)");
 OPTION(plan_job, option_seed, "seed", seed, 0, "N", set_count, 0, "seed of the errors (default 0)");
 OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write rows of CSV instead of words");
@@ -249,9 +250,32 @@ static bool plot(const plan_job *job, shot_line *line, const planned *p) {
   return good;
 }
 
+/* Whether the options go together; complains where they do not. */
+static bool are_together(const plan_job *job) {
+  if (job->rating < 300.0 || job->rating > 850.0)
+    complain("--player: it must be 300 to 850, not %g", job->rating);
+  else if (!isnan(job->rating) && !isnan(job->errors))
+    complain("--player is a rating, --errors are errors: give one of both");
+  else if (job->group != NOT_GIVEN && job->rules != CAROM_RULES_EIGHTBALL)
+    complain("--group: it is of eight-ball, so --rules eightball is needed");
+  else if (job->may != NOT_GIVEN && job->rules != CAROM_RULES_NINEBALL)
+    complain("--may: it is of nine-ball, so --rules nineball is needed");
+  else
+    return true;
+  return false;
+}
+
 /* Plans for a layout, writes the choices and keeps the best; an exit code. */
 static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out, planned *p) {
   static const int last[] = {15, 9};
+  if (line->table->table.pockets == 0) {
+    complain("%s:%zu: the table has no pockets, which these games need", file, line->number);
+    return EXIT_USAGE;
+  }
+  if (line->count < 2) {
+    complain("%s:%zu: a plan needs the cue ball and one more", file, line->number);
+    return EXIT_USAGE;
+  }
   if (job->rules != CAROM_RULES_POTTING && !order_balls(line, file, last[job->rules]))
     return EXIT_USAGE;
   if (line->cue.ball != 0) { /* potting: the cue ball is ball 0 */
@@ -263,20 +287,18 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     line->name[line->cue.ball] = name;
     line->cue.ball = 0;
   }
-  if (job->rating < 300.0 || job->rating > 850.0) {
-    complain("--player: it must be 300 to 850, not %g", job->rating);
-    return EXIT_USAGE;
-  }
-  if (job->may != 0 && job->rules != CAROM_RULES_NINEBALL) {
-    complain("--may: it is of nine-ball, so --rules nineball is needed");
-    return EXIT_USAGE;
-  }
-  p->player = isnan(job->rating) ? carom_player_of(job->errors) : carom_player_fargo(job->rating);
+  const bool rated = !isnan(job->rating);
+  p->player = rated                ? carom_player_fargo(job->rating)
+              : isnan(job->errors) ? carom_player_of(1.0)
+                                   : carom_player_of(job->errors);
   p->rules = carom_plan_rules_of((carom_rules_kind)job->rules);
-  p->rules.user[0] = (uint64_t)job->group;
-  p->rules.user[4] = (uint64_t)job->may; /* 1, 2: as the rules of nine-ball have it */
-  const carom_plan_options options = {
-      .shots = job->shots, .threads = job->shared.options.threads, .seed = (uint64_t)job->seed};
+  p->rules.user[0] = (uint64_t)(job->group > 0 ? job->group : 0);
+  p->rules.user[4] =
+      (uint64_t)(job->may > 0 ? job->may : 0); /* 1, 2: as the rules of nine-ball have it */
+  const carom_plan_options options = {.shots =
+                                          job->shots > 0 || !rated ? job->shots : SHOTS_OF_RATING,
+                                      .threads = job->shared.options.threads,
+                                      .seed = (uint64_t)job->seed};
   carom_plan_job asked = {.table = &line->table->table,
                           .balls = line->ball,
                           .count = line->count,
@@ -335,12 +357,15 @@ static const command_form form = {
 int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
-  job = (plan_job){
-      .shared = {.options = COMMAND_OPTIONS, .output = "-"}, .rating = NAN, .errors = 1.0};
+  job = (plan_job){.shared = {.options = COMMAND_OPTIONS, .output = "-"},
+                   .rating = NAN,
+                   .errors = NAN,
+                   .group = NOT_GIVEN,
+                   .may = NOT_GIVEN};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
-  if (!svg_possible(job.plot))
+  if (!are_together(&job) || !svg_possible(job.plot))
     return EXIT_USAGE;
   shot_file *file = shot_file_open(path);
   if (file == NULL)

@@ -280,6 +280,7 @@ typedef enum carom_status {
   CAROM_ERROR_REVISION = -102,          /* carom_record.h: it is of another revision of the
                                            physics. */
   CAROM_ERROR_IN_MOTION = -103,         /* carom_plan.h: a ball of the layout moves. */
+  CAROM_ERROR_GAME_OVER = -104,         /* carom_plan.h: the rules have no ball to be played. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value

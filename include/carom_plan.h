@@ -182,9 +182,10 @@ typedef struct carom_plan_rules {
  * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), but for a break of
  * eight-ball that is not legal: the opponent has ball in hand, and no choice of a new rack. */
 typedef enum carom_rules_kind {
-  CAROM_RULES_EIGHTBALL = 0, /* 15 balls. user[0]: 1 if the player at the table has the solids (1
-                                to 7), 2 the stripes (9 to 15), 0 while the table is open.
-                                user[1]: 1 before the break. Ball and pocket are called. */
+  CAROM_RULES_EIGHTBALL = 0, /* 15 balls; the game is over without the eight. user[0]: 1 if the
+                                player at the table has the solids (1 to 7), 2 the stripes (9 to
+                                15), 0 while the table is open. user[1]: 1 before the break. Ball
+                                and pocket are called. */
   CAROM_RULES_NINEBALL = 1,  /* 9 balls. user[1]: 1 before the break. user[2], user[3]: fouls of
                                 the player and of the other in their last successive strokes; three
                                 lose. user[4]: 1 just after a break without a foul, when the player
@@ -289,10 +290,10 @@ CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
  *
  * CAROM_OK; CAROM_ERROR_NULL for a pointer that is NULL or too little memory;
  * CAROM_ERROR_OPTIONS for bad options, a bad player or rules without on(), judge() or left();
- * CAROM_ERROR_IN_MOTION for a ball that is not at rest; or an error of the layout, as
- * carom_shot_check() has it. With an error nothing is written. The
- * choice depends on the arguments alone, also for any number of threads; with shot->plain it is
- * the same on all machines. */
+ * CAROM_ERROR_IN_MOTION for a ball that is not at rest; CAROM_ERROR_GAME_OVER where on() names
+ * no ball that is in play; or an error of the layout, as carom_shot_check() has it. With an
+ * error nothing is written. The choice depends on the arguments alone, also for any number of
+ * threads; with shot->plain it is the same on all machines. */
 CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room,
                                   int *found);
 

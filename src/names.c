@@ -158,7 +158,9 @@
   X(ERROR_REVISION, -102, "other_revision",                                                        \
     "the recording is of another revision of the physics, with which its shots have other bits")   \
   X(ERROR_IN_MOTION, -103, "in_motion",                                                            \
-    "plans are made of layouts at rest, and a ball moves, turns or flies")
+    "plans are made of layouts at rest, and a ball moves, turns or flies")                         \
+  X(ERROR_GAME_OVER, -104, "game_over",                                                            \
+    "no ball is left to be played: all that count are down, or the eight is")
 
 #define AGREES(NAME, value, name, text) \
   _Static_assert(CAROM_##NAME == (value), "values are never renumbered");

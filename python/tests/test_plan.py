@@ -146,6 +146,50 @@ def test_arguments_in_error():
         carom.plan(TABLE, layout)
 
 
+def _down(layout, balls):
+    made = layout.copy()
+    made["state"]["label"][balls] = carom.Label.POCKETED
+    return made
+
+
+def _player(**fields):
+    made = carom.player()
+    for name, value in fields.items():
+        made[name] = value
+    return made
+
+
+RACK = carom.racks.eightball(TABLE)
+
+
+@pytest.mark.parametrize(
+    ("given", "match"),
+    [
+        ({"state": [0] * 8, "group": "open"}, "state, group: the state says the group, too: give one of both"),
+        ({"state": [0] * 8, "opening": True}, "state, opening: the state says the opening, too"),
+        ({"state": [9] + [0] * 7}, r"state\[0\]: it must be 0 \(open\), 1 \(solids\) or 2 \(stripes\), not 9"),
+        ({"rules": "nineball", "group": "solids", "balls": RACK[:10]}, "group: it is of eight-ball"),
+        ({"rules": "potting", "opening": True}, "opening: it is of eight-ball and nine-ball"),
+        ({"rules": "nineball"}, "balls: the balls of nineball are the cue ball and 1 to 9, not 10"),
+        ({"balls": _down(RACK, slice(1, None))}, "balls: no ball is left to be played: all that count are down, or the eight is"),
+        ({"balls": _down(RACK, slice(1, None)), "rules": "potting"}, "no ball is left to be played"),
+        ({"balls": _down(RACK, 8)}, "no ball is left to be played"),
+        ({"player": _player(phi=-1.0)}, "player: phi: it must be 0 to 1000, not -1.0"),
+        ({"opponent": _player(tip_most=3.0)}, "opponent: tip_most: it must be 0 to 1, not 3.0"),
+        ({"table": carom.tables.threecushion(), "balls": carom.racks.threecushion(carom.tables.threecushion()), "rules": "potting"},
+         "table: it has no pockets, which potting needs"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_planned(given, match):
+    with pytest.raises(ValueError, match=match):
+        carom.plan(given.pop("table", TABLE), given.pop("balls", RACK), shots=100, **given)
+
+
+def test_a_player_has_one_strength():
+    with pytest.raises(ValueError, match="errors, fargo: a player has errors or a rating, not both"):
+        carom.player(1.0, fargo=500)
+
+
 # ---- Rules ----------------------------------------------------------------------------------------------------------------
 
 ORDER = carom.balls([[0.4, 0.4], [0.15, 0.15], [0.9, 1.7], [0.7, 2.2]])  # the one before the pocket at the origin

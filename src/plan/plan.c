@@ -169,6 +169,8 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   const int cue_ball = of->view.cue_ball;
   of->in_play = carom_in_play(of->state, of->view.count) | (in_hand ? UINT32_C(1) << cue_ball : 0);
   of->on = rules->on(rules->user, of->in_play) & of->in_play & ~(UINT32_C(1) << cue_ball);
+  if (of->on == 0)
+    return CAROM_ERROR_GAME_OVER;
   of->may = rules->may != NULL ? rules->may(rules->user) : 0;
   of->pockets = rules->pockets != NULL ? rules->pockets(rules->user) : ~UINT32_C(0);
   of->first_decides = rules->first_decides && !(of->may & CAROM_MAY_PUSH);

@@ -60,9 +60,14 @@ static carom_turn foul_for(int32_t why) {
 
 /* ---- Eight-ball */
 
-static uint32_t eightball_on(const uint64_t *user, uint32_t in_play) {
+/* Of a game that is not over. */
+static uint32_t eightball_targets(const uint64_t *user, uint32_t in_play) {
   const uint32_t own = in_play & balls_of[user[GROUP] <= STRIPES ? user[GROUP] : OPEN];
   return user[BREAK] != 0 ? in_play & 0xfffe : own != 0 ? own : in_play & eight;
+}
+
+static uint32_t eightball_on(const uint64_t *user, uint32_t in_play) {
+  return (in_play & eight) != 0 ? eightball_targets(user, in_play) : 0;
 }
 
 static void eightball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
@@ -86,7 +91,7 @@ static carom_turn give(uint64_t *user, carom_turn turn) {
 
 static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
                                   const carom_facts *facts, carom_call call) {
-  const uint32_t on = eightball_on(user, in_play);
+  const uint32_t on = eightball_targets(user, in_play);
   const int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
 
   /* The break: nothing is called, the eight comes back, and the table is open after it. */

@@ -1,17 +1,19 @@
 # plan: the best shots in words and as rows, the same for any number of threads; pictures, games, and what is refused.
 carom shoot --cue 0.4,0.9 --balls 0.3,1.9:0.9,1.7:0.7,0.5 --aim 90 --json > layout.jsonl
+carom shoot --cue 0.4,0.9 --balls 0.3,1.9:0.9,1.7:0.7,0.5 --aim 90 --json | sed 's/"id": "2"/"id": "8"/' > eight.jsonl
 echo "--- words"
 CAROM_ISA=plain
 export CAROM_ISA
 try carom plan --rules potting --shots 300 layout.jsonl | cut -c 1-60 | grep -v chances
 try carom plan --rules nineball --shots 300 --plot best.svg layout.jsonl | sed -n 1p
+try carom plan --rules nineball --shots 300 --plot best.png layout.jsonl | sed -n 1p
+dd if=best.png bs=1 skip=1 count=3 2> dd.log; echo
 grep -c "<svg" best.svg
 grep -c "M" best.svg | awk '{ print ($1 > 40) }'
 sed -n 's/.*\(Of 500 strokes with errors\) [0-9]* \(play on\).*/\1 \2/p' best.svg
 echo "--- push-outs and passes"
 carom shoot --cue 0.4,0.9 --balls 0.9,1.7:0.9574,1.7:0.9287,1.74971:0.8713,1.74971:0.8426,1.7:0.8713,1.65029:0.9287,1.65029 --aim 90 --json > hidden.jsonl
 for may in shoot push-out pass; do carom plan --rules nineball --shots 300 --may $may --csv hidden.jsonl | cut -d , -f 2 | sed -n 2p; done
-try carom plan --may pass layout.jsonl
 echo "--- rows, threads"
 for threads in 1 2; do carom plan --rules potting --shots 300 --threads $threads --csv -o rows$threads.csv layout.jsonl; done
 cmp rows1.csv rows2.csv && sed -n 1p rows1.csv && wc -l < rows1.csv | tr -d ' '
@@ -20,8 +22,16 @@ echo "--- a weaker player has less"
 chance() { carom plan --rules potting --shots 300 --csv "$@" layout.jsonl | sed -n 2p | cut -d , -f 12; }
 awk -v sure="$(chance --errors 0.2)" -v weak="$(chance --errors 6)" -v rated="$(chance --player 400)" 'BEGIN { print (sure > weak + 0.1), (sure > rated + 0.1) }'
 echo "--- eight-ball by groups"
-carom plan --group solids --shots 100 --csv layout.jsonl | cut -d , -f 2,3 | sed -n 2p
+carom plan --group solids --shots 100 --csv eight.jsonl | cut -d , -f 2,3 | sed -n 2p
+echo "--- as many shots as its rating has"
+for shots in "" "--shots 300"; do carom plan --rules potting --player 500 $shots --csv layout.jsonl | cksum; done | uniq | wc -l | tr -d ' '
 echo "--- refused"
+for options in "--player 500 --errors 2" "--rules nineball --group open" "--rules potting --group solids" "--may pass" "--player 200"; do try carom plan $options layout.jsonl; done
+try carom plan layout.jsonl
+carom shoot --cue 0.4,0.9 --aim 90 --json > alone.jsonl
+for game in eightball nineball potting; do try carom plan --rules $game alone.jsonl; done
+carom shoot --table threecushion --cue 0.4,0.9 --balls 0.3,1.9 --aim 90 --json > carom.jsonl
+try carom plan --rules nineball carom.jsonl
 try carom plan
 try carom plan --shots 99 layout.jsonl
 try carom plan --rules snooker layout.jsonl

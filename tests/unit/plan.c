@@ -619,9 +619,16 @@ TEST(values) {
 
 /* Where six balls are around the one, the player pushes out if he may; if he may pass, he does.
  * Where the one is before a pocket and another ball free, he plays. */
-TEST(what_one_may_do) {
+static void put_ring(int most) {
   static const double ring[6][2] = {{2, 0},  {1, 1.7320508},   {-1, 1.7320508},
                                     {-2, 0}, {-1, -1.7320508}, {1, -1.7320508}};
+  carom_place_ball(&table, balls, BALLS, 0, 0.3, 0.3, NULL);
+  carom_place_ball(&table, balls, BALLS, 1, 0.6, 1.0, NULL);
+  for (int k = 0; k < most; k++)
+    carom_place_ball(&table, balls, BALLS, k + 2, 0.6 + 0.0287 * ring[k][0],
+                     1.0 + 0.0287 * ring[k][1], NULL);
+}
+TEST(what_one_may_do) {
   carom_choice best;
   int found;
   for (int easy = 0; easy < 2; easy++)
@@ -629,11 +636,9 @@ TEST(what_one_may_do) {
       make_layout(1, 1);
       rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
       rules.user[4] = (uint64_t)may;
-      carom_place_ball(&table, balls, BALLS, 0, 0.3, 0.3, NULL);
-      carom_place_ball(&table, balls, BALLS, 1, easy ? 0.1 : 0.6, easy ? 0.1 : 1.0, NULL);
-      for (int k = 0; k < (easy ? 1 : 6); k++)
-        carom_place_ball(&table, balls, BALLS, k + 2, 0.6 + 0.0287 * ring[k][0],
-                         1.0 + 0.0287 * ring[k][1], NULL);
+      put_ring(easy ? 1 : 6);
+      if (easy)
+        carom_place_ball(&table, balls, BALLS, 1, 0.1, 0.1, NULL);
       options.shots = 1000;
       job.count = 10;
       make_memory();
@@ -747,15 +752,21 @@ TEST(little_to_choose) {
   ck_assert(best.seen == 0 && isnan(best.value));
   edge_free(&memory);
 
-  /* the only ball that is on is down already */
-  make_layout(3, 6);
+  /* six balls are around the only one that is on */
+  make_layout(1, 1);
   rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-  for (int k = 1; k < BALLS; k++)
-    balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+  put_ring(6);
+  job.count = 10;
   make_memory();
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
   ck_assert(found == 1 && best.kind == CAROM_PLAN_FOUL && best.foul == 1.0 && best.ball == -1);
   edge_free(&memory);
+}
+
+static uint32_t none_is_on(const uint64_t *user, uint32_t in_play) {
+  (void)user;
+  (void)in_play;
+  return 0;
 }
 
 #define REFUSED(field, wrong, expected)                             \
@@ -803,6 +814,8 @@ TEST(arguments_of_plans) {
   REFUSED(balls[3].state.v[0], 0.1, CAROM_ERROR_IN_MOTION);
   REFUSED(balls[0].state.w[2], -1.0, CAROM_ERROR_IN_MOTION);
   REFUSED(balls[3].state.r[2], 0.2, CAROM_ERROR_IN_MOTION);
+  REFUSED(balls[8].state.label, CAROM_BALL_POCKETED, CAROM_ERROR_GAME_OVER);
+  REFUSED(rules.on, none_is_on, CAROM_ERROR_GAME_OVER);
   make_layout(5, 6);
   make_memory();
 

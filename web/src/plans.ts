@@ -55,7 +55,9 @@ export class Plans {
     return this.#host.memory;
   }
 
-  player({ errors = 1, fargo }: { errors?: number; fargo?: number }): Player {
+  player({ errors: given, fargo }: { errors?: number; fargo?: number }): Player {
+    if (given !== undefined && fargo !== undefined) throw new TypeError("errors, fargo: a player has errors or a rating, not both");
+    const errors = given ?? 1;
     if (!(errors >= 0 && errors < Infinity)) throw new RangeError(`errors: it must be finite and at least 0, not ${errors}`);
     if (fargo !== undefined && !(fargo >= 300 && fargo <= 850)) throw new RangeError(`fargo: it must be 300 to 850, not ${fargo}`);
     if (fargo === undefined) this.#memory.exports.carom_player_of(this.#at.player, errors);
@@ -233,6 +235,8 @@ export class Plans {
       if (found < 0) throw new TypeError(`${of}: it must be one of ${list.join(", ")}, not ${JSON.stringify(name)}`);
       return found;
     };
+    if (group !== "open" && rules !== "eightball") throw new TypeError("group: it is of eight-ball");
+    if (may !== "nothing" && rules !== "nineball") throw new TypeError("may: it is of nine-ball");
     const words = [index(group, "group", GROUPS), Number(opening), ...fouls.map((count) => Number(whole(count, "fouls"))), index(may, "may", MAY)];
     for (const [k, word] of words.entries()) this.#memory.i64[at / 8 + k] = BigInt(word);
   }

@@ -158,5 +158,10 @@ test("arguments in error", () => {
   expect(() => carom.plan(table, balls, { oponent: carom.player() } as object)).toThrow(/did you mean "opponent"/);
   expect(() => carom.player({ fargo: 50 })).toThrow(/fargo/);
   expect(() => carom.player({ errors: -1 })).toThrow(/errors/);
+  expect(() => carom.player({ errors: 1, fargo: 500 })).toThrow("errors, fargo: a player has errors or a rating, not both");
+  expect(() => carom.plan(table, balls, { rules: "nineball", group: "solids" })).toThrow("group: it is of eight-ball");
+  expect(() => carom.plan(table, balls, { rules: "potting", may: "push" })).toThrow("may: it is of nine-ball");
+  const down = balls.map((ball, k) => (k === 0 ? ball : { ...ball, state: { ...ball.state, label: "pocketed" as const } }));
+  expect(() => carom.plan(table, down, { rules: "nineball" })).toThrow(/no ball is left to be played/);
   expect(() => carom.ballsOn({ rules: "nineball", group: "stripe" as "open", opening: false }, balls)).toThrow(/group/);
 });

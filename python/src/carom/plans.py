@@ -28,18 +28,20 @@ if TYPE_CHECKING:
 _USUAL = Options()
 
 
-def player(errors: float = 1.0, *, fargo: float | None = None) -> dtypes.Records:
+def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes.Records:
     """A player whose strokes err, as an array of `carom.dtypes.player`, shape (). Its fields may be changed.
 
     Parameters
     ----------
     errors : float
-        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each way, times errors.
+        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each way, times errors. Default: 1.
     fargo : float, optional
         A Fargo rating, 300 to 850, instead: the errors with which plans of 300 shots run out eight-ball as often as players of this rating
         are said to (docs/understanding/plan.md). More shots make him stronger.
     """
-    if not 0.0 <= (errors := number(errors, "errors")) < np.inf:
+    if errors is not None and fargo is not None:
+        raise ValueError("errors, fargo: a player has errors or a rating, not both")
+    if not 0.0 <= (errors := 1.0 if errors is None else number(errors, "errors")) < np.inf:
         raise ValueError(f"errors: it must be finite and at least 0, not {errors}")
     if fargo is not None and not 300.0 <= (fargo := number(fargo, "fargo", "a rating of 300 to 850 is needed")) <= 850.0:
         raise ValueError(f"fargo: it must be 300 to 850, not {fargo}")
@@ -155,6 +157,10 @@ def _one_player(given: dtypes.Records, name: str = "player") -> Any:
     record = copied(of_record(given, dtypes.player, name, "player()"))
     if record.ndim != 0:
         raise ValueError(f"{name}: one is needed, of shape (), not {record.shape}")
+    for field in dtypes.player.names or ():
+        most = {"tip_most": 1.0, "reserved": 0.0}.get(field, 1000.0)
+        if not ((record[field] >= 0.0) & (record[field] <= most)).all():
+            raise ValueError(f"{name}: {field}: it must be 0 to {most:g}, not {record[field]}")
     return pointer("carom_player[]", record)
 
 
@@ -192,7 +198,7 @@ def plan(
     cue: dtypes.Records | None = None,
     *,
     rules: Game | Rules = "eightball",
-    group: Group = "open",
+    group: Group | None = None,
     opening: bool = False,
     state: npt.ArrayLike | None = None,
     player: dtypes.Records | None = None,
@@ -219,11 +225,11 @@ def plan(
     rules : {"eightball", "nineball", "potting"} or Rules
         The game, by the rules of the WPA; or a drill, whose value is the share of the balls that one visit pots; or a game of your own.
     group : {"open", "solids", "stripes"}
-        Of eight-ball: the balls of the player.
+        Of eight-ball: the balls of the player. Default: "open".
     opening : bool
         Whether the stroke is the break of eight-ball or nine-ball.
     state : array_like of 8 whole numbers, optional
-        Of the rules, instead of `group` and `opening`: that of a ruling of `referee`. Default: 0.
+        Of the rules, instead of `group` and `opening`: that of a ruling of `referee`.
     player : ndarray of `carom.dtypes.player`, shape (), optional
         Default: `carom.player()`.
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
@@ -287,6 +293,7 @@ def plan(
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
     rows = pointer("carom_choice[]", choices)
+    game.check_layout(table, layout)
     if in_hand is not False:
         low, high = (ffi.NULL, ffi.NULL) if corners is None else (pointer("double[]", corners[0]), pointer("double[]", corners[1]))
         code = _stoppable(lambda: lib.carom_plan_hand(job, low, high, rows, len(choices), found), game.stop, stop)

@@ -331,8 +331,8 @@ class Agent:
         if hand == "behind_line":
             where = [[0.0, 0.0], [table.width, table.length / 4.0]]
         best = plan(
-            table, layout, cue, rules=rules, group=_group(constraints.hittable, given), opening=game.shot_number == 0, player=self.player,
-            opponent=self.opponent, shots=self.shots, in_hand=where, best=1, seed=self.seed + self.strokes, threads=self.threads,
+            table, layout, cue, rules=rules, group=_group(constraints.hittable, given) if rules == "eightball" else None,
+            opening=game.shot_number == 0, player=self.player, opponent=self.opponent, shots=self.shots, in_hand=where, best=1, seed=self.seed + self.strokes, threads=self.threads,
             options=options,
         )[0]  # fmt: skip
         if hand != "none":

@@ -138,8 +138,9 @@ class Rules:
 class Made:
     """The rules for C, with what has to live as long; and the first exception of a method of Rules."""
 
-    def __init__(self, rules: Game | Rules, state: npt.ArrayLike | None, group: Group = "open", opening: bool = False) -> None:
+    def __init__(self, rules: Game | Rules, state: npt.ArrayLike | None, group: Group | None = None, opening: bool = False) -> None:
         self.raised: BaseException | None = None
+        self.rules = rules
         self.stop = ffi.new("int32_t *")
         """Of plans; set by an exception."""
         if isinstance(rules, type) and issubclass(rules, Rules):
@@ -151,13 +152,24 @@ class Made:
         else:
             self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules")))
         words = np.zeros(_WORDS, np.uint64)
+        self.last = None if isinstance(rules, Rules) else {"eightball": 15, "nineball": 9}.get(rules)
+        """The highest number of a ball."""
+        if group is not None and rules != "eightball":
+            raise ValueError("group: it is of eight-ball")
+        if opening and self.last is None:
+            raise ValueError("opening: it is of eight-ball and nine-ball")
         if state is not None:
+            for is_given, name in ((group is not None, "group"), (opening, "opening")):
+                if is_given:
+                    raise ValueError(f"state, {name}: the state says the {name}, too: give one of both")
             given = as_array(state, "state")
             if given.shape != (_WORDS,) or given.dtype.kind not in "iu" or (given < 0).any():
                 raise ValueError(f"state: {_WORDS} whole numbers, at least 0, are needed, not {state!r}")
+            if rules == "eightball" and given[0] > 2:
+                raise ValueError(f"state[0]: it must be 0 (open), 1 (solids) or 2 (stripes), not {given[0]}")
             words[:] = given
         elif not isinstance(rules, Rules):
-            words[:2] = choice(_GROUPS, group, "group"), bool(opening)
+            words[:2] = choice(_GROUPS, group or "open", "group"), bool(opening)
         self.c.user = words.tolist()
 
     def _functions(self, rules: Rules) -> None:
@@ -199,6 +211,15 @@ class Made:
             guarded("carom_rules_on *", on, 0), guarded("carom_rules_pockets *", pockets, 0),
         )  # fmt: skip
         self.c.judge, self.c.left, self.c.on, self.c.pockets = self.kept
+
+    def check_layout(self, table: Table, layout: dtypes.Records) -> None:
+        """Refuses what is no layout of the game, for a plan."""
+        if not isinstance(self.rules, Rules) and not len(table.pocket_names):
+            raise ValueError(f"table: it has no pockets, which {self.rules} needs")
+        label = layout["state"]["label"]
+        for ball in range(len(layout) if self.last is None else self.last + 1, len(layout)):
+            if label[ball] not in (_POCKETED, _OFF):
+                raise ValueError(f"balls: the balls of {self.rules} are the cue ball and 1 to {self.last}, not {ball}")
 
     def check(self) -> None:
         """Raises what a method of the rules raised."""
@@ -242,7 +263,7 @@ class Ruling(Arrays):
 
 
 def referee(
-    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group = "open", opening: bool = False,
+    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
     state: npt.ArrayLike | None = None, call: tuple[int, int] = (-1, -1), options: Options = _USUAL, **changes: Unpack[Changes]
 ) -> Ruling:  # fmt: skip
     """Play a stroke and judge it by the rules of a game.
