@@ -23,7 +23,7 @@ typedef struct plan_job {
   shared_options shared; /* --threads, --output */
   int rules, group, may, shots, seed;
   double rating, errors;
-  bool hand, csv;
+  bool hand, opening, csv;
   const char *plot;
 } plan_job;
 
@@ -36,6 +36,10 @@ OPTION(
     plan_job, option_may, "may", may, 0, "shoot|push-out|pass", set_choice, 0,
     "of nine-ball: what the player may do besides a shot. After the break it is a push-out, after "
     "a push-out to pass (default shoot: nothing)");
+OPTION(
+    plan_job, option_opening, "opening", opening, 0, NULL, set_flag, 0,
+    "of eight-ball and nine-ball: the stroke is the break. With --in-hand the cue ball is put on "
+    "the head string");
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
        "the cue ball is in hand: where to put it, too");
 OPTION(
@@ -98,7 +102,7 @@ static bool order_balls(shot_line *line, const char *file, int last) {
   return true;
 }
 
-static const char *const kinds[] = {"pot", "scan", "foul", "given", "push-out", "pass"};
+static const char *const kinds[] = {"pot", "scan", "foul", "given", "push-out", "pass", "break"};
 
 /* What a choice does, by the names of the file. */
 static void describe(const shot_line *line, const carom_choice *c, char text[200]) {
@@ -107,6 +111,8 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
     snprintf(text, 200, "no shot without a foul was found");
   else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_PASS)
     snprintf(text, 200, c->kind == CAROM_PLAN_PUSH ? "a push-out" : "pass: the other plays");
+  else if (c->kind == CAROM_PLAN_BREAK)
+    snprintf(text, 200, "a break");
   else if (c->ball < 0)
     snprintf(text, 200, "a safety: nothing is potted");
   else
@@ -260,6 +266,8 @@ static bool are_together(const plan_job *job) {
     complain("--group: it is of eight-ball, so --rules eightball is needed");
   else if (job->may != NOT_GIVEN && job->rules != CAROM_RULES_NINEBALL)
     complain("--may: it is of nine-ball, so --rules nineball is needed");
+  else if (job->opening && job->rules == CAROM_RULES_POTTING)
+    complain("--opening: it is of eight-ball and nine-ball");
   else
     return true;
   return false;
@@ -293,6 +301,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
                                    : carom_player_of(job->errors);
   p->rules = carom_plan_rules_of((carom_rules_kind)job->rules);
   p->rules.user[0] = (uint64_t)(job->group > 0 ? job->group : 0);
+  p->rules.user[1] = job->opening; /* as the rules of both games have it */
   p->rules.user[4] =
       (uint64_t)(job->may > 0 ? job->may : 0); /* 1, 2: as the rules of nine-ball have it */
   const carom_plan_options options = {.shots =
@@ -336,10 +345,11 @@ static const command_form form = {
              "LAYOUT is a file as of carom shoot, of which the first shot counts: its table, balls "
              "and cue; the stroke itself is not read. Balls that are missing are down. The five "
              "best shots are told in words: what they do, how to strike, and their chances.\n",
-    .options = (const option_row *const[]){&option_rules, &option_group, &option_may, &option_hand,
-                                           &option_player, &option_errors, &option_shots,
-                                           &option_seed, &option_csv, &option_plan_plot,
-                                           &option_threads, &option_output, NULL},
+    .options =
+        (const option_row *const[]){&option_rules, &option_group, &option_may, &option_opening,
+                                    &option_hand, &option_player, &option_errors, &option_shots,
+                                    &option_seed, &option_csv, &option_plan_plot, &option_threads,
+                                    &option_output, NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"

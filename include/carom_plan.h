@@ -174,7 +174,10 @@ typedef struct carom_plan_rules {
   int32_t first_decides;        /* 1: a shot whose first contact is not with a ball of on() is a
                                foul, whatever else happens. Such shots are not played to their
                                end. */
-  int32_t unused;               /* must be 0. */
+  int32_t breaks;               /* 1: where user[1] is 1 the stroke is a break, and the plan tries
+                                   strokes as players break: the nearest balls about full, hard.
+                                   In hand the cue ball is on the upper edge of its bounds; NULL:
+                                   on the head string. */
 } carom_plan_rules;
 
 /* Rules that are built in. A ball's index is its number, and the cue ball is ball 0.
@@ -236,11 +239,12 @@ typedef struct carom_plan_options {
 /* What a candidate is. */
 typedef enum carom_plan_kind {
   CAROM_PLAN_POT = 0,   /* a direct pot of `ball` into `pocket` */
-  CAROM_PLAN_SCAN = 1,  /* all else: a bank, a kick, a combination, a carom, a safety, a break */
+  CAROM_PLAN_SCAN = 1,  /* all else: a bank, a kick, a combination, a carom, a safety */
   CAROM_PLAN_FOUL = 2,  /* no shot without a foul was found; this one is gentle */
   CAROM_PLAN_GIVEN = 3, /* the caller's, of carom_plan_try() */
   CAROM_PLAN_PUSH = 4,  /* a push-out, where the rules allow one */
-  CAROM_PLAN_PASS = 5   /* not to play, where the rules allow that; the stroke says nothing */
+  CAROM_PLAN_PASS = 5,  /* not to play, where the rules allow that; the stroke says nothing */
+  CAROM_PLAN_BREAK = 6  /* a break, of rules that have them; no ball is named */
 } carom_plan_kind;
 
 typedef struct carom_choice {

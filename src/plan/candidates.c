@@ -94,6 +94,15 @@ static size_t aim_rows(const void *context, size_t first, size_t end) {
   return end;
 }
 
+/* The numbers below `count` in an order that is drawn. */
+static void draw_order(const search *of, uint32_t stage, int *order, int count) {
+  for (int n = 0; n < count; n++) {
+    const int other = (int)(carom_uniform(of->options.seed, stage, (uint64_t)n, 0) * (n + 1));
+    order[n] = order[other];
+    order[other] = n;
+  }
+}
+
 /* Direct pots, the likeliest first, each with all strokes, or as many as there is room for. */
 void carom_search_pots(search *of, int64_t most) {
   carom_pot_found *way = of->pot;
@@ -116,12 +125,7 @@ void carom_search_pots(search *of, int64_t most) {
 
   /* The strokes in an order that is drawn, so that few of them are of all kinds. */
   int order[STROKES];
-  for (int n = 0; n < STROKES; n++) {
-    const int other =
-        (int)(carom_uniform(of->options.seed, DRAW_STROKES, (uint64_t)n, 0) * (n + 1));
-    order[n] = order[other];
-    order[other] = n;
-  }
+  draw_order(of, DRAW_STROKES, order, STROKES);
   CAROM_PROMISE(ways <= CAROM_BALLS_MOST * CAROM_POCKETS_MOST);
   const int64_t fit = most / STROKES > 4 ? most / STROKES : 4;
   ways = ways > fit ? (int)fit : ways;
@@ -152,6 +156,52 @@ void carom_search_pots(search *of, int64_t most) {
   for (int64_t k = 0; k < added; k++)
     if (of->outcome[k].is)
       carom_search_add(of, of->found[k]);
+}
+
+/* Breaks: the nearest balls that are on, full and a little beside their middle, at three speeds
+ * with three tips; up to `most` of these strokes, in an order that is drawn. */
+void carom_search_breaks(search *of, int64_t most) {
+  enum { TARGETS = 3, SIDES = 5, SPEEDS = 3, HEIGHTS = 3 };
+  static const double side[SIDES] = {0.0, 0.05, -0.05, 0.15, -0.15}; /* radii of both balls */
+  static const double share[SPEEDS] = {1.0, 0.85, 0.7}, above[HEIGHTS] = {0.0, 0.2, -0.2};
+  const double *c = of->job.balls[of->view.cue_ball].state.r;
+
+  /* the nearest balls, sorted in */
+  double distance[TARGETS + 1];
+  int ball[TARGETS + 1], balls = 0;
+  for (int k = 0; k < of->view.count; k++) {
+    const double *r = of->job.balls[k].state.r, x = r[0] - c[0], y = r[1] - c[1];
+    if (!(of->on >> k & 1))
+      continue;
+    const double d = sqrt(x * x + y * y);
+    int at = balls < TARGETS ? balls++ : TARGETS;
+    for (; at > 0 && distance[at - 1] > d; at--) {
+      distance[at] = distance[at - 1];
+      ball[at] = ball[at - 1];
+    }
+    distance[at] = d;
+    ball[at] = k;
+  }
+
+  int order[TARGETS * SIDES * SPEEDS * HEIGHTS];
+  const int strokes = balls * SIDES * SPEEDS * HEIGHTS;
+  draw_order(of, DRAW_BREAKS, order, strokes);
+  for (int n = 0; n < strokes && n < most; n++) {
+    const int target = order[n] % balls, stroke = order[n] / balls;
+    const double *r = of->job.balls[ball[target]].state.r;
+    const double both = of->view.radius[of->view.cue_ball] + of->view.radius[ball[target]];
+    const double beside = both * side[stroke % SIDES] / distance[target];
+    const double phi =
+        (carom_angle_of(r[0] - c[0], r[1] - c[1]) + carom_asin(carom_within(beside, -1.0, 1.0))) /
+        degree;
+    const double speed = share[stroke / SIDES % SPEEDS] * of->player.speed_most;
+    const double tip = above[stroke / SIDES / SPEEDS];
+    carom_search_add(
+        of, (candidate){.speed = carom_within(speed, of->player.speed_least, of->player.speed_most),
+                        .phi = phi < 0.0 ? phi + 360.0 : phi,
+                        .b = carom_within(tip, -of->player.tip_most, of->player.tip_most),
+                        .kind = CAROM_PLAN_BREAK});
+  }
 }
 
 /* Strokes in all directions, of which those stay that meet a ball first that is on; up to

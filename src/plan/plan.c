@@ -131,7 +131,7 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   const bool good = good_options(options) && good_player(job->player) &&
                     (options->opponent == NULL || good_player(options->opponent)) &&
                     rules->on != NULL && rules->judge != NULL && rules->left != NULL &&
-                    rules->unused == 0 && (uint32_t)rules->race <= CAROM_RACE_ALONE &&
+                    (uint32_t)rules->breaks <= 1 && (uint32_t)rules->race <= CAROM_RACE_ALONE &&
                     CAROM_RESERVED_IS_ZERO(job);
   if (!good)
     return CAROM_ERROR_OPTIONS;
@@ -171,6 +171,7 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   of->on = rules->on(rules->user, of->in_play) & of->in_play & ~(UINT32_C(1) << cue_ball);
   if (of->on == 0)
     return CAROM_ERROR_GAME_OVER;
+  of->breaks = rules->breaks && rules->user[1] == 1;
   of->may = rules->may != NULL ? rules->may(rules->user) : 0;
   of->pockets = rules->pockets != NULL ? rules->pockets(rules->user) : ~UINT32_C(0);
   of->first_decides = rules->first_decides && !(of->may & CAROM_MAY_PUSH);
@@ -300,7 +301,8 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   if (bad != CAROM_OK)
     return bad;
 
-  /* Places at random, of which the best by the value of the layout are kept. */
+  /* Places at random, of which the best by the value of the layout are kept; for a break on the
+   * upper edge, all of them. */
   carom_shot_ball *balls = of->hand;
   carom_ball_state *state = of->state;
   memcpy(balls, job->balls, (size_t)job->count * sizeof *balls);
@@ -308,9 +310,12 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     state[k] = balls[k].state;
   const int cue_ball = of->view.cue_ball;
   const double R = of->view.radius[cue_ball], size[2] = {of->view.width, of->view.length};
+  const double head = 0.25 * of->view.length;
+  static const double edge[PLACES_PLANNED] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
   int tried = 0;
   of->places = 0;
-  for (uint64_t k = 0; k < 50 * PLACES && tried < PLACES; k++) {
+  const uint64_t draws = of->breaks ? PLACES_PLANNED : 50 * PLACES;
+  for (uint64_t k = 0; k < draws && tried < PLACES; k++) {
     /* drawn within what the caller allows, and inside the cushions */
     double r[2];
     for (int x = 0; x < 2; x++) {
@@ -320,6 +325,9 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
       if (!(least <= most))
         return CAROM_ERROR_OFF_TABLE;
       r[x] = least + (most - least) * carom_uniform(of->options.seed, DRAW_PLACES, k, (uint32_t)x);
+      if (of->breaks)
+        r[x] = x == 1 ? (high == NULL && most > head ? head : most)
+                      : least + (most - least) * edge[k % PLACES_PLANNED];
     }
     if (carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) !=
         CAROM_OK)

@@ -106,7 +106,8 @@ static int64_t first_round(search *of, int64_t keep) {
   int64_t scanned = 0, good = 0;
   for (int64_t k = 0; k < n; k++) {
     candidate *c = &of->found[k];
-    const bool stays = c->kind == CAROM_PLAN_POT || scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
+    const bool stays =
+        c->kind == CAROM_PLAN_POT || of->breaks || scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
     if (stays) {
       const candidate kept = *c;
       *c = of->found[good];
@@ -157,7 +158,8 @@ carom_choice carom_search_choice(const search *of, const candidate *c) {
   const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
   const double *place = of->job.balls[of->view.cue_ball].state.r;
   /* luck alone names no pot, and a direct pot is that of the ball that was aimed at */
-  const bool named = c->ball < 0 || c->pots || 2 * c->keep >= c->seen;
+  const bool named =
+      c->kind != CAROM_PLAN_BREAK && (c->ball < 0 || c->pots || 2 * c->keep >= c->seen);
   const bool aimed = named && c->ball == c->aimed_ball && c->pocket == c->aimed_pocket;
   carom_choice made = {.cue = *of->job.cue,
                        .place = {place[0], place[1]},
@@ -186,8 +188,9 @@ double carom_scan_of(const carom_plan_options *o) {
 /* All stages with so many shots; the best candidate is the first. */
 void carom_search_run(search *of, int64_t shots) {
   of->count = 0;
-  const double scan = carom_scan_of(&of->options);
-  carom_search_pots(of, (int64_t)((1.0 - scan) * (double)shots / 4.0));
+  const double scan = of->breaks ? 0.0 : carom_scan_of(&of->options);
+  const int64_t most = (int64_t)((1.0 - scan) * (double)shots / 4.0);
+  of->breaks ? carom_search_breaks(of, most) : carom_search_pots(of, most);
   of->count = carom_search_play(of, 0, of->count, 1, 0);
   for (int64_t k = 0; k < of->count; k++)
     carom_search_take(of, k, &of->outcome[k]);

@@ -8,7 +8,7 @@
 #include "shot/sim.h"
 
 /* Stages of draws. */
-enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_ROUND = 16 };
+enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_ROUND = 16 };
 enum { PLACES_PLANNED = 6 }; /* of a cue ball in hand */
 enum { ROWS_LEAST = 4 };     /* rows worth a thread */
 
@@ -55,6 +55,7 @@ typedef struct carom_search {
   carom_view view;
   carom_player player;
   uint32_t in_play, on, may, pockets;
+  bool breaks;                              /* the stroke is a break */
   bool first_decides;                       /* a shot ends at a wrong first ball */
   double foul_value;                        /* of a foul at the first contact */
   int32_t left;                             /* balls before the shot */
@@ -97,6 +98,7 @@ double carom_search_share(const carom_search *of, double points);
 /* candidates.c: direct pots, and strokes in all directions, up to `most` of them; and one more. */
 void carom_search_pots(carom_search *of, int64_t most);
 void carom_search_scan(carom_search *of, int64_t most);
+void carom_search_breaks(carom_search *of, int64_t most); /* likewise, in place of both */
 void carom_search_add(carom_search *of, carom_candidate c);
 
 /* search.c: what the shot without errors says of candidate k. The best of those that were taken is

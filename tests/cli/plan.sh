@@ -14,6 +14,10 @@ sed -n 's/.*\(Of 500 strokes with errors\) [0-9]* \(play on\).*/\1 \2/p' best.sv
 echo "--- push-outs and passes"
 carom shoot --cue 0.4,0.9 --balls 0.9,1.7:0.9574,1.7:0.9287,1.74971:0.8713,1.74971:0.8426,1.7:0.8713,1.65029:0.9287,1.65029 --aim 90 --json > hidden.jsonl
 for may in shoot push-out pass; do carom plan --rules nineball --shots 300 --may $may --csv hidden.jsonl | cut -d , -f 2 | sed -n 2p; done
+echo "--- the break"
+for game in eightball nineball; do carom shoot --balls $game --aim 90 --json | carom plan --rules $game --opening --in-hand --shots 300 --csv - | cut -d , -f 2,3,6 | sed -n 2p; done
+try carom plan --rules potting --opening layout.jsonl
+carom shoot --balls nineball --aim 90 --json | carom plan --rules nineball --opening --shots 300 - | sed -n 1p
 echo "--- rows, threads"
 for threads in 1 2; do carom plan --rules potting --shots 300 --threads $threads --csv -o rows$threads.csv layout.jsonl; done
 cmp rows1.csv rows2.csv && sed -n 1p rows1.csv && wc -l < rows1.csv | tr -d ' '

@@ -377,7 +377,7 @@ TEST(the_first_ball_that_falls) {
 }
 
 /* Nine-ball, with the one in line with the nine before a pocket: the choice names the nine, and is
- * no direct pot. A choice that keeps the turn in most strokes names a ball, a break too. */
+ * no direct pot. A choice that keeps the turn in most strokes names a ball, but for a break. */
 TEST(what_is_named_falls) {
   carom_choice best[5];
   int found;
@@ -393,17 +393,10 @@ TEST(what_is_named_falls) {
                 "ball %d, kind %d, keep %g", best[0].ball, best[0].kind, best[0].keep);
   edge_free(&memory);
 
-  /* of whole racks, and of layouts */
   int without = 0, pots = 0;
   for (int k = 0; k < 12; k++) {
     make_layout((uint64_t)k + 1, 10);
     rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-    if (k % 3 == 0) {
-      carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, (uint64_t)k, balls, 10);
-      carom_place_ball(&table, balls, 10, 0, 0.6, 0.5, NULL);
-      rules.user[1] = 1;
-      job.count = 10;
-    }
     make_memory();
     ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
     for (int n = 0; n < found; n++) {
@@ -415,6 +408,35 @@ TEST(what_is_named_falls) {
   }
   ck_assert_msg(without == 0 && pots == 0, "%d keep the turn and name no ball, %d pots of none",
                 without, pots);
+}
+
+/* Breaks: the cue ball in hand is put on the head string, a ball that may be met is struck, hard
+ * and about full, and few are fouls, also of a weak player, who cannot want one. */
+TEST(breaks) {
+  for (int k = 0; k < 4; k++) {
+    carom_choice best[5];
+    int found;
+    make_layout(1, 1);
+    const bool nine_balls = k % 2 == 1;
+    rules = carom_plan_rules_of(nine_balls ? CAROM_RULES_NINEBALL : CAROM_RULES_EIGHTBALL);
+    rules.user[1] = 1;
+    job.count = nine_balls ? 10 : BALLS;
+    carom_rack(nine_balls ? CAROM_RACK_NINEBALL : CAROM_RACK_EIGHTBALL, &table, 1e-4, 1, balls,
+               BALLS);
+    player = carom_player_fargo(400.0);
+    options.shots = 1000;
+    make_memory();
+    ck_assert_int_eq(k < 2 ? carom_plan_hand(&job, NULL, NULL, best, 5, &found)
+                           : carom_plan(&job, best, 5, &found),
+                     CAROM_OK);
+    for (int n = 0; n < found; n++) {
+      ck_assert(best[n].kind == CAROM_PLAN_BREAK && best[n].ball == -1 && best[n].pocket == -1);
+      ck_assert(best[n].cue.speed > 5.0 && (k >= 2 || best[n].place[1] == 0.25 * table.length));
+      ck_assert(best[n].cue.phi > 45.0 && best[n].cue.phi < 135.0);
+    }
+    ck_assert_msg(best[0].foul < 0.5, "break %d: foul %g", k, best[0].foul);
+    edge_free(&memory);
+  }
 }
 
 /* ---- Aims */

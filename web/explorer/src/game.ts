@@ -105,7 +105,7 @@ export function gamePanel(carom: Carom, view: View): Panel {
     }
   }
   function words(one: Choice): string {
-    if (one.ball < 0) return one.kind === "foul" ? "no shot without a foul was found" : "a safety, or the break";
+    if (one.ball < 0) return one.kind === "foul" ? "no shot without a foul was found" : one.kind === "break" ? "a break" : "a safety";
     return `ball ${view.names()[one.ball]} into the ${pocketName(view.table(), one.pocket)}${one.cushions > 0 ? ", off a cushion" : ""}`;
   }
 
