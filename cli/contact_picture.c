@@ -2,7 +2,7 @@
  * cloth whose cushions are out of sight. */
 #include "contact_picture.h"
 
-#include "aim.h"
+#include "aim_at_ball.h"
 #include "derived.h"
 #include "labels.h"
 #include "picture.h"

@@ -1,7 +1,8 @@
-/* Aims of shots from words: the library's at pockets, aim.h's at balls; why there is none. */
+/* Aims of shots from words: the library's at pockets, aim_at_ball.h's at balls; why there is
+ * none. */
 #include "shoot_aim.h"
 
-#include "aim.h"
+#include "aim_at_ball.h"
 #include "carom_plan.h"
 #include "message.h"
 #include "shot_story.h"

@@ -1,7 +1,7 @@
 """Prints the quadrature rules of the collocation steps, computed with 50 digits. Needs mpmath; what it prints is kept in the tree:
 
-    python3 tools/collocation_rules.py ball_ball > src/ball_ball/rules.h
-    python3 tools/collocation_rules.py impact > src/impact/rules.h && cmake --build build --target format
+    python3 tools/collocation_rules.py ball_ball > src/ball_ball/quadrature.h
+    python3 tools/collocation_rules.py impact > src/impact/quadrature.h && cmake --build build --target format
 
 For impact: Gauss's rule of 8 nodes on [0, 1] in double precision, described in that file. For ball_ball, in single precision:
 

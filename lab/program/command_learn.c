@@ -10,7 +10,7 @@
 #include "memory.h"
 #include "message.h"
 #include "options.h"
-#include "racks.h"
+#include "rack_play.h"
 #include "subcommands.h"
 
 #include "plan/view.h"

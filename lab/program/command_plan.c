@@ -6,7 +6,7 @@
 #include "message.h"
 #include "monotonic.h"
 #include "options.h"
-#include "racks.h"
+#include "rack_play.h"
 #include "subcommands.h"
 
 #include <math.h>

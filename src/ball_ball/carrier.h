@@ -324,9 +324,8 @@ always vreal inverse_sinh(vreal x) {
   return v_select(v_less(x, v_splat(0)), -y, y);
 }
 
-/* ---- Quadrature rules on the nodes of a step (rules.h), and the polynomials through numbers at
- * the nodes
- */
+/* ---- Quadrature rules on the nodes of a step (quadrature.h), and the polynomials through numbers
+ * at the nodes */
 
 /* The fields are explained where they are computed, in tools/collocation_rules.py. */
 typedef struct gauss_rule {

@@ -27,7 +27,7 @@
 #define CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
 
 #include "ball_ball/problem.h"
-#include "ball_ball/rules.h"
+#include "ball_ball/quadrature.h"
 
 #include <stdbool.h>
 

@@ -27,7 +27,7 @@
 #define CAROM_SRC_BALL_BALL_STICK_STEP_H
 
 #include "ball_ball/problem.h"
-#include "ball_ball/rules.h"
+#include "ball_ball/quadrature.h"
 
 enum { STICK_NODES = 6 };
 enum { STICK_LEAST = 2, STICK_MOST = 5 }; /* iterations; the first does not change W */

@@ -10,7 +10,7 @@
 
 #include "platform/arithmetic.h"
 
-#include "impact/rules.h"
+#include "impact/quadrature.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -4,7 +4,7 @@
 #define CAROM_SRC_IMPACT_VARIATION_H
 
 #include "impact/impact.h"
-#include "impact/rules.h"
+#include "impact/quadrature.h"
 
 /* The variables of derivatives of an impact: the slips at its start, frictions, restitution, and
  * the parameter lambda of the geometry.

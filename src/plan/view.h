@@ -75,7 +75,7 @@ double carom_value_of(const carom_view *view, const uint64_t *user, const carom_
                       int who, bool in_hand);
 uint32_t carom_in_play(const carom_ball_state *balls, int count);
 
-/* draws.c: elementary functions beyond platform/elementary.h, and random numbers that are a
+/* uniform.c: elementary functions beyond platform/elementary.h, and random numbers that are a
  * function of where they stand. */
 /* of a vector, -pi to pi, rad */
 double carom_angle_of(double x, double y);

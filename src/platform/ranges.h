@@ -17,8 +17,8 @@ static inline double carom_greater(double a, double b) {
 }
 
 /* Whether a number is 0, so that what it changes may be left out. A number with derivatives is
- * absent only where nothing depends on it: tangent/number.h has its own. */
-#ifndef CAROM_SRC_TANGENT_NUMBER_H
+ * absent only where nothing depends on it: tangent/dual.h has its own. */
+#ifndef CAROM_SRC_TANGENT_DUAL_H
 static inline bool carom_absent(double x) {
   return x == 0;
 }

@@ -10,7 +10,7 @@
 #include "platform/arithmetic.h"
 #include "platform/fingerprint.h"
 #include "platform/promise.h"
-#include "record/number.h"
+#include "record/number_text.h"
 
 #include <stdbool.h>
 #include <stddef.h>

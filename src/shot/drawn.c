@@ -66,7 +66,7 @@ static void find_wall(fall *f) {
 }
 
 /* The way of a ball in an empty pocket: place from the pocket's middle, and velocity. */
-static void alone(const fall *f, double t, double p[2], double v[2]) {
+static void fall_alone(const fall *f, double t, double p[2], double v[2]) {
   /* straight to the wall */
   const double straight = carom_lesser(t, f->hit);
   for (int k = 0; k < 2; k++) {
@@ -135,7 +135,7 @@ static bool around(const fall *f, double t, double p[2]) {
 /* The place from the pocket's middle, and the velocity of a ball that touches none. Returns whether
  * it is free. */
 static bool place_at(const fall *f, double t, double p[2], double v[2]) {
-  alone(f, t, p, v);
+  fall_alone(f, t, p, v);
   const bool within = f->touched == NULL || t < f->touch || around(f, t, p);
   return within && in_its_way(f, t, p) == NULL;
 }
@@ -166,7 +166,7 @@ static void find_end(fall *f) {
   f->end = (rise + sqrt(rise * rise + 2.0 * g * down)) / g;
   f->touched = NULL;
   f->touch = last_free(f, 0.0);
-  alone(f, f->touch, p, v);
+  fall_alone(f, f->touch, p, v);
   const lying *other = in_its_way(f, f->touch, p);
   if (other == NULL)
     return;

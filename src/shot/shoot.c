@@ -3,9 +3,9 @@
 #include "motion/strike.h"
 #include "platform/promise.h"
 #include "platform/threads.h"
-#include "shot/cluster.h"
 #include "shot/fixed.h"
 #include "shot/rules.h"
+#include "shot/together.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -9,7 +9,7 @@
 #define CAROM_CLUSTER_CONTACTS \
   40 /* more would take too much of the stack; a triangle of 15
                                      balls has 30 */
-#include "tangent/number.h"
+#include "tangent/dual.h"
 
 namespace {
 namespace text {

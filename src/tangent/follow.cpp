@@ -22,7 +22,7 @@
  * order would have it slide for a time of the first order: a slip du becomes the speed -2/7 du. */
 #include "tangent/text.h"
 extern "C" {
-#include "tangent/cluster.h"
+#include "tangent/follow_cluster.h"
 }
 
 #include <stdlib.h>

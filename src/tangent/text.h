@@ -6,7 +6,7 @@
 #define CAROM_SRC_TANGENT_TEXT_H
 #pragma GCC system_header
 
-#include "tangent/number.h"
+#include "tangent/dual.h"
 extern "C" {
 #include "cushion/models.h"
 #include "impact/variation.h"
@@ -144,7 +144,7 @@ size_t carom_in_threads(carom_part_worker *, const void *, size_t, int, size_t) 
 }
 void carom_rail_line(const carom_rail *, double *) {
 }
-/* Clusters are followed by cluster.cpp. */
+/* Clusters are followed by follow_cluster.cpp. */
 carom_status carom_check_ball(const carom_shot_ball *, bool) {
   return CAROM_OK;
 }
@@ -180,7 +180,7 @@ bool carom_cluster_solve(carom_cluster_state *) {
 #undef positive
 #define check cluster_check
 #define contact_of cluster_contact_of
-#include "shot/cluster.c"
+#include "shot/together.c"
 #undef contact_of
 #undef check
 

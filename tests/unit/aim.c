@@ -1,7 +1,7 @@
 /* Aiming at a ball: what is found holds, and what is refused is not there. The judge plays
  * shots, and knows nothing of paths.
  */
-#include "aim.h"
+#include "aim_at_ball.h"
 #include "derived.h"
 #include "shot_support.h"
 

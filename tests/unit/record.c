@@ -2,7 +2,7 @@
  * recording is refused. */
 #include "carom_record.h"
 #include "platform/fingerprint.h"
-#include "record/number.h"
+#include "record/number_text.h"
 #include "support.h"
 
 #include <float.h>

@@ -1,5 +1,5 @@
 /* Racks of eight-ball after a break that pots nothing, and strokes by plans. */
-#include "racks.h"
+#include "rack_play.h"
 #include "message.h"
 
 void lab_rack_make(lab_rack *rack, uint64_t seed) {

@@ -1,6 +1,6 @@
-/* Contacts that last in a shot: see cluster.c. */
-#ifndef CAROM_SRC_SHOT_CLUSTER_H
-#define CAROM_SRC_SHOT_CLUSTER_H
+/* Contacts that last in a shot: see together.c. */
+#ifndef CAROM_SRC_SHOT_TOGETHER_H
+#define CAROM_SRC_SHOT_TOGETHER_H
 
 #include "cluster/cluster.h"
 #include "shot/sim.h"

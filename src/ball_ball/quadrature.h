@@ -1,7 +1,7 @@
 /* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed
  * them. */
-#ifndef CAROM_SRC_BALL_BALL_RULES_H
-#define CAROM_SRC_BALL_BALL_RULES_H
+#ifndef CAROM_SRC_BALL_BALL_QUADRATURE_H
+#define CAROM_SRC_BALL_BALL_QUADRATURE_H
 
 #include "ball_ball/carrier.h"
 

@@ -1,7 +1,7 @@
 /* A cluster with the derivatives of one direction, by its sources (cluster_text.h). follow.cpp
  * gives and takes them. */
 extern "C" {
-#include "tangent/cluster.h"
+#include "tangent/follow_cluster.h"
 }
 #include "tangent/cluster_text.h"
 

@@ -4,7 +4,7 @@
  * A decimal number m 10^e is read exactly where m <= 2^53 and |e| <= 22: then m and 10^|e| are
  * doubles, and one product or quotient rounds once (W. D. Clinger, "How to read floating point
  * numbers accurately", PLDI 1990). Others are refused, and written in hexadecimal. */
-#include "record/number.h"
+#include "record/number_text.h"
 
 #include "platform/arithmetic.h"
 

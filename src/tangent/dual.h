@@ -10,8 +10,8 @@
  * Constants are of type `real` and cost no work on derivatives. The decision of a comparison,
  * rounding and conversion to other types have no derivative. Where a comparison is watched and
  * its sides agree to 1e-9, the derivative changes there: a kink. */
-#ifndef CAROM_SRC_TANGENT_NUMBER_H
-#define CAROM_SRC_TANGENT_NUMBER_H
+#ifndef CAROM_SRC_TANGENT_DUAL_H
+#define CAROM_SRC_TANGENT_DUAL_H
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
-/* A cluster by numbers with one direction, cluster.cpp: more directions than one would take too
- * much of the stack. */
-#ifndef CAROM_SRC_TANGENT_CLUSTER_H
-#define CAROM_SRC_TANGENT_CLUSTER_H
+/* A cluster by numbers with one direction, follow_cluster.cpp: more directions than one would take
+ * too much of the stack. */
+#ifndef CAROM_SRC_TANGENT_FOLLOW_CLUSTER_H
+#define CAROM_SRC_TANGENT_FOLLOW_CLUSTER_H
 
 #include <stdbool.h>
 

@@ -13,7 +13,7 @@
  * of q(t). q is continuous between events, and its roots there are bracketed by samples and
  * halved. Something else may be met before, or the same ball at another cut: each root is played
  * up to the first contact, in their order, and the first that holds is taken. */
-#include "aim.h"
+#include "aim_at_ball.h"
 
 #include "derived.h"
 

@@ -1,6 +1,6 @@
 /* Racks of eight-ball, run out by a player who errs and plans. */
-#ifndef CAROM_LAB_RACKS_H
-#define CAROM_LAB_RACKS_H
+#ifndef CAROM_LAB_RACK_PLAY_H
+#define CAROM_LAB_RACK_PLAY_H
 
 #include "carom_plan.h"
 #include "random.h"

@@ -1,7 +1,7 @@
 /* Doubles as text, exactly, by operations that have the same bits everywhere: no function of a C
  * library, whose point may be a comma. */
-#ifndef CAROM_SRC_RECORD_NUMBER_H
-#define CAROM_SRC_RECORD_NUMBER_H
+#ifndef CAROM_SRC_RECORD_NUMBER_TEXT_H
+#define CAROM_SRC_RECORD_NUMBER_TEXT_H
 
 #include <stdbool.h>
 
