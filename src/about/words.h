@@ -12,7 +12,8 @@
   WORD(BALL_MODEL, BALL_MODEL_EULER, "euler", "the 2014 model in N steps")                       \
   WORD(BALL_MODEL, BALL_MODEL_INELASTIC, "inelastic", "one impulse in closed form, as pooltool") \
   WORD(BALL_MODEL, BALL_MODEL_MIRROR, "mirror", "no friction")                                   \
-  WORD(SHOT_CUSHION, SHOT_CUSHION_DEFAULT, "default", "han; in the world pooltool stronge")      \
+  WORD(SHOT_CUSHION, SHOT_CUSHION_DEFAULT, "default",                                            \
+       "smooth for balls with its numbers, else han; in the world pooltool stronge")             \
   WORD(SPACE, SPACE_3D, "3d", "balls can leave the cloth")                                       \
   WORD(SPACE, SPACE_FLAT, "flat", "balls stay on the cloth")                                     \
   WORD(SIMULTANEOUS, SIMULTANEOUS_CLUSTER, "cluster", "contacts last and overlap in time")       \

@@ -163,7 +163,7 @@ export interface ShotOptions extends StopOptions {
   world?: C.World;
   /** The collision of two balls; default exact in the world carom. */
   ballModel?: C.BallModel;
-  /** The impact on a cushion; default han in the world carom. "mathavan", the exact limit, takes more than ten times as long. */
+  /** The impact on a cushion; default smooth for balls with its numbers, else han. "mathavan", the exact limit, takes more than ten times as long. */
   cushionModel?: C.ShotCushion;
   /** "3d" (default): balls hop, jump and leave the table. "flat": they stay on the cloth. */
   space?: C.Space;
