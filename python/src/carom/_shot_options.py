@@ -33,8 +33,8 @@ class Options(NamedTuple):
     ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
         Model of the collision of two balls. Default: exact in the world carom, inelastic in pooltool.
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler", "smooth"}
-        Model of the impact on a cushion. Default: han in the world carom, stronge in pooltool. mathavan is the exact limit, and takes most of
-        the time.
+        Model of the impact on a cushion. Default: smooth for balls with its numbers, as those of billiard, else han; stronge in the
+        world pooltool. mathavan is the exact limit, and takes most of the time.
     friction : {"alciatore", "constant"}
         Between balls: by the speed of slip, or the balls' mu_ball.
     space : {"3d", "flat"}
