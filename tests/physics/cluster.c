@@ -837,7 +837,7 @@ TEST(no_room_for_all_contacts) {
   random_source random = {5};
   layout l = crowd(3, 0.0, &random);
   for (int i = 0; i < l.count; i++) {
-    l.ball[i].kind.modulus = 2e7;
+    l.ball[i].kind.modulus = 4e6;
     memset(l.ball[i].state.w, 0, sizeof l.ball[i].state.w);
   }
   l.ball[0].state.v[1] = 5.0;
