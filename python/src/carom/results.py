@@ -97,7 +97,7 @@ class Shot:
         """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape (shape of the times..., balls).
 
         Before 0 they are as at 0; after the end as at the end, where nothing moves any more. With `drawn` a pocketed ball falls in its
-        pocket until it lies at the depth; a shot of a batch then needs all its events: `simulate_batch(room=...)`.
+        pocket until it lies at the depth or on others, and stays there; a shot of a batch then needs all its events: `simulate_batch(room=...)`.
 
         Raises CaromError: A time is after the end of a shot that was stopped, or that ended in an error, while balls moved.
         Raises ValueError: A time is not finite.
