@@ -1,6 +1,7 @@
 """readme.py SOURCE BUILD CMAKE CC: runs the code blocks of README.md as a reader would who pastes them, in an empty folder.
 
-Blocks of sh run with `carom` on the path; the one that installs is built with one instruction set, to be quick. The C program is built
+Blocks of sh run with `carom` on the path; the one that installs is built with one instruction set, to be quick, and
+what CMake fetches without optimisation too. The C program is built
 by the CMake files of docs/using/building.md and by the blocks `sh program` of both pages, against what has been installed, with nothing in
 the environment that the pages do not put there. blocks.py says what runs the others.
 """
@@ -74,7 +75,7 @@ with tempfile.TemporaryDirectory() as work:
     # The links of installed pages are made right there, not behind a link in the source.
     assert all((SOURCE / name).read_bytes() == page for name, page in kept.items()), "installing changed the source"
     check(SOURCE, "installed", prefix)
-    for way, more in (("fetch", [QUICK]), ("package", [])):
+    for way, more in (("fetch", [QUICK, "-DCMAKE_BUILD_TYPE=None"]), ("package", [])):
         folder = work / way
         folder.mkdir()
         (folder / "carom").symlink_to(SOURCE)
