@@ -92,6 +92,39 @@ def test_no_such_aim(changes, match):
         carom.aim(TABLE, carom.balls([[0.6, 0.8], [0.4, 1.7]]), carom.cue(speed=given.pop("speed")), **given)
 
 
+def test_chances_of_strokes():
+    best = carom.plan(TABLE, LAYOUT, rules="potting", shots=1000, plain=True)
+    away = carom.cue(speed=1.0, phi=float(best["cue"]["phi"][0]) + 20.0)
+    cues = np.array([best["cue"][0], away])
+    told = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, plain=True)
+    again = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, plain=True, threads=2)
+    assert told.dtype == carom.dtypes.choice and told.shape == (2,) and told.tobytes() == again.tobytes() and told["seen"].tolist() == [1000, 1000]
+    assert abs(told["keep"][0] - best["keep"][0]) < 0.1 and told["keep"][1] < told["keep"][0] - 0.3
+    assert (told["ball"][0], told["pocket"][0]) == (best["ball"][0], best["pocket"][0])
+    one = carom.chances(TABLE, LAYOUT, best["cue"][0], rules="potting", shots=100, player=carom.player(0.0))
+    assert one.shape == () and one["keep"] in (0.0, 1.0) and one["error"] < 1e-6
+    with pytest.raises(ValueError, match="cues: 1 to 1000 are needed, not 0"):
+        carom.chances(TABLE, LAYOUT, cues[:0], rules="potting")
+    with pytest.raises(TypeError, match="cues: an array of the dtype of carom.cue"):
+        carom.chances(TABLE, LAYOUT, [1.0], rules="potting")
+    cues["speed"][1] = -1.0
+    with pytest.raises(carom.CaromError, match="cues"):
+        carom.chances(TABLE, LAYOUT, cues, rules="potting")
+
+
+def test_values_of_layouts():
+    before_a_pocket = carom.balls([[0.5, 0.5], [0.12, 0.12], [0.9, 1.7]])
+    easy = carom.value(TABLE, before_a_pocket, rules="nineball")
+    hard = carom.value(TABLE, carom.balls([[0.5, 0.5], [0.62, 2.5], [0.9, 1.7]]), rules="nineball")
+    assert 0.0 < hard < easy - 0.1 < 1.0
+    assert carom.value(TABLE, before_a_pocket, rules="nineball", player=carom.player(6.0)) < easy
+    away = before_a_pocket.copy()
+    away["state"]["label"][0] = carom.Label.POCKETED
+    assert 0.5 < carom.value(TABLE, away, rules="nineball", in_hand=True) <= 1.0
+    with pytest.raises(carom.CaromError, match="it must be in play"):
+        carom.value(TABLE, away, rules="nineball")
+
+
 def test_ball_in_hand():
     layout = LAYOUT.copy()
     layout["state"]["label"][0] = carom.Label.POCKETED

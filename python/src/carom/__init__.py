@@ -18,7 +18,7 @@ from carom.collisions import ALL_THREADS, alciatore, collide, impacts, mu_ball, 
 from carom.cushions import cushion, cushion_impacts, cushion_trace
 from carom.derivatives import Flag, Tangents, jacobian, tangents
 from carom.layouts import Table, balls, by_number, cue, place_ball, struck
-from carom.plans import Pot, aim, plan, player, with_errors
+from carom.plans import Pot, aim, chances, plan, player, value, with_errors
 from carom.rules import Facts, Foul, Rules, Ruling, Turn, referee
 from carom.results import EventType, Features, Label, Shot, Shots
 from carom.shots import cite, resume, simulate, simulate_batch
@@ -31,10 +31,10 @@ __version__: str = _ffi.string(_lib.carom_version()).decode()
 
 __all__ = [
     "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Label", "Options", "Outcome", "Pot", "Rules", "Ruling",
-    "Shot", "Shots", "Status", "Table", "Tangents", "Turn", "aim", "alciatore", "balls", "by_number", "cite", "collide", "cue", "cushion", "cushion_impacts",
+    "Shot", "Shots", "Status", "Table", "Tangents", "Turn", "aim", "alciatore", "balls", "by_number", "chances", "cite", "collide", "cue", "cushion", "cushion_impacts",
     "cushion_trace", "dtypes", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball",
     "plan", "player", "racks", "referee", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
-    "with_errors",
+    "value", "with_errors",
 ]  # fmt: skip
 
 

@@ -192,6 +192,48 @@ def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None)
     return called.result()
 
 
+class _Job:
+    """What a plan is made for, checked, as C has it; and what has to live as long."""
+
+    def __init__(
+        self, table: Table, balls: dtypes.Records, cue: dtypes.Records | None, game: Made, own: dtypes.Records | None, opponent: dtypes.Records | None,
+        shots: int, seed: int, threads: int, stop: threading.Event | None, options: Options,
+    ) -> None:  # fmt: skip
+        check_table(table)
+        self.layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+        if self.layout.ndim != 1:
+            raise ValueError(f"balls: the shape must be (balls,), not {self.layout.shape}")
+        if len(self.layout) < 2:
+            raise ValueError("balls: a plan needs the cue ball and one more")
+        self.strike = copied(one_cue(usual_cue() if cue is None else cue))
+        self.shot = shot_options(options)
+        if stop is not None and not hasattr(stop, "is_set"):
+            raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
+        wanted = ffi.new("carom_plan_options *", {"shots": whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
+        wanted.threads = whole(threads, "threads", least=-1)
+        other = None if opponent is None else _one_player(opponent, "opponent")
+        wanted.opponent = ffi.NULL if other is None else other
+        wanted.stop = game.stop
+        player = _one_player(_usual_player() if own is None else own)
+        game.check_layout(table, self.layout)
+        memory: Array = np.empty(lib.carom_plan_memory(wanted) // 8 + 1, np.float64)
+        record = table.record
+        self.c = ffi.new("carom_plan_job *", {
+            "table": pointer("carom_table[]", record), "balls": pointer("carom_shot_ball[]", self.layout), "count": len(self.layout),
+            "cue": pointer("carom_cue[]", self.strike), "player": player, "rules": game.c, "shot": self.shot, "options": wanted,
+            "memory": pointer("double[]", memory), "memory_size": memory.nbytes,
+        })  # fmt: skip
+        self.table, self.game, self.stop, self.kept = table, game, stop, (wanted, other, player, memory, record)
+
+    def call(self, function: Callable[..., int], *arguments: Any, field: str = "balls") -> None:
+        """Calls a function of C with the job; raises what it refuses, by its argument."""
+        code = _stoppable(lambda: function(self.c, *arguments), self.game.stop, self.stop)
+        self.game.check()
+        if code < 0:
+            wrong = argument_error(shot_arguments(self.table, self.layout, self.strike, self.shot), self.layout, self.strike)
+            raise wrong or CaromError(code, field)
+
+
 def plan(
     table: Table,
     balls: dtypes.Records,
@@ -262,44 +304,77 @@ def plan(
         The layout, the cue or an option is in error.
     """
     check_table(table)
-    layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
-    if layout.ndim != 1:
-        raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
-    if len(layout) < 2:
-        raise ValueError("balls: a plan needs the cue ball and one more")
     in_hand = False if isinstance(in_hand, str) and in_hand == "no" else in_hand
     corners = None if in_hand is False else _corners(in_hand, table)
-    strike = copied(one_cue(usual_cue() if cue is None else cue))
-    shot = shot_options(chosen(options, changes))
-    if stop is not None and not hasattr(stop, "is_set"):
-        raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
-    wanted = ffi.new("carom_plan_options *", {"shots": whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
-    wanted.threads = whole(threads, "threads", least=-1)
-    other = None if opponent is None else _one_player(opponent, "opponent")
-    wanted.opponent = ffi.NULL if other is None else other
-
-    # The game, the player, and room for the plan.
     game = Made(rules, state, group, opening)
-    wanted.stop = game.stop
-    own = _one_player(_usual_player() if player is None else player)
-    memory: Array = np.empty(lib.carom_plan_memory(wanted) // 8 + 1, np.float64)
-    record = table.record
-    job = ffi.new("carom_plan_job *", {
-        "table": pointer("carom_table[]", record), "balls": pointer("carom_shot_ball[]", layout), "count": len(layout),
-        "cue": pointer("carom_cue[]", strike), "player": own, "rules": game.c, "shot": shot, "options": wanted,
-        "memory": pointer("double[]", memory), "memory_size": memory.nbytes,
-    })  # fmt: skip
-
+    job = _Job(table, balls, cue, game, player, opponent, shots, seed, threads, stop, chosen(options, changes))
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
     rows = pointer("carom_choice[]", choices)
-    game.check_layout(table, layout)
     if in_hand is not False:
         low, high = (ffi.NULL, ffi.NULL) if corners is None else (pointer("double[]", corners[0]), pointer("double[]", corners[1]))
-        code = _stoppable(lambda: lib.carom_plan_hand(job, low, high, rows, len(choices), found), game.stop, stop)
+        job.call(lib.carom_plan_hand, low, high, rows, len(choices), found)
     else:
-        code = _stoppable(lambda: lib.carom_plan(job, rows, len(choices), found), game.stop, stop)
-    game.check()
-    if code < 0:
-        raise argument_error(shot_arguments(table, layout, strike, shot), layout, strike) or CaromError(code, "balls")
+        job.call(lib.carom_plan, rows, len(choices), found)
     return choices[: found[0]]
+
+
+def chances(
+    table: Table, balls: dtypes.Records, cues: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
+    state: npt.ArrayLike | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, shots: int = 2000, seed: int = 0,
+    threads: int = 0, stop: threading.Event | None = None, options: Options = _USUAL, **changes: Unpack[Changes],
+) -> dtypes.Records:  # fmt: skip
+    """How likely strokes of yours are to win: the chances of each, played with a player's errors.
+
+    Parameters
+    ----------
+    table, balls
+        As for `plan`.
+    cues : ndarray of `carom.dtypes.cue`, of any shape
+        Up to 1,000 strokes. Speed, direction, elevation and tip of each count; the rest is that of the first.
+    rules, group, opening, state, player, opponent, seed, threads, options, **changes
+        As for `plan`.
+    shots : int
+        100 to 1,000,000, of which each stroke has an equal share, at least 10.
+    stop : threading.Event, optional
+        As for `plan`: strokes that were not played before have `seen` 0 and the value NaN.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.choice`, of the shape of `cues`
+        In their order. `value` is the chance to win, `keep` that to play on; `ball` and `pocket` are what falls without errors.
+
+    Raises
+    ------
+    CaromError
+        The layout, a stroke or an option is in error.
+    """
+    strokes = copied(of_record(cues, dtypes.cue, "cues", "cue()"))
+    if not 1 <= strokes.size <= 1000:
+        raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
+    game = Made(rules, state, group, opening)
+    job = _Job(table, balls, strokes.reshape(-1)[0], game, player, opponent, shots, seed, threads, stop, chosen(options, changes))
+    choices: Array = np.zeros(strokes.shape, dtypes.choice)
+    job.call(lib.carom_plan_try, pointer("carom_cue[]", strokes), strokes.size, pointer("carom_choice[]", choices), field="cues")
+    return choices
+
+
+def value(
+    table: Table, balls: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
+    state: npt.ArrayLike | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, in_hand: bool = False,
+    options: Options = _USUAL, **changes: Unpack[Changes],
+) -> float:  # fmt: skip
+    """The chance that the player at the table wins from a layout, 0 to 1: an estimate that plays no shot, in some 20 us.
+
+    Without an opponent it is the share of the balls that one visit pots. The arguments are those of `plan`; `in_hand` says whether the cue
+    ball may be put anywhere.
+
+    Raises
+    ------
+    CaromError
+        The layout or an option is in error.
+    """
+    job = _Job(table, balls, None, Made(rules, state, group, opening), player, opponent, 100, 0, 0, None, chosen(options, changes))
+    found = ffi.new("double *")
+    job.call(lib.carom_plan_value, bool(in_hand), found)
+    return float(found[0])
