@@ -160,7 +160,7 @@ def test_false_rows_and_swapped_names_are_mended_and_told(spoil, status, thin):
         warnings.simplefilter("error")
         found = fit.fit(spoiled(made.recordings, 2, **spoil), TABLE, RADIUS, constants=made.constants, free="none")
     assert sum(re.fullmatch(status, text) is not None for text in found.status) >= (8 if thin == 0.0 else 4)
-    assert all(text == "ok" or text.startswith("mended") for text in found.status if not text.startswith("doubtful"))
+    assert all(text == "ok" or text.startswith("mended") for text in found.status if not text.startswith(("doubtful", "rough")))
     # of most shots nothing is left of it, and what is left is told
     limit = 2 * np.sqrt(2) * tracks.NOISE
     assert np.median(found.rmse) < 1.3 * np.sqrt(2) * tracks.NOISE and (found.rmse < limit).sum() >= 8
@@ -223,7 +223,7 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
     assert fit.main([*given, "-o", str(tmp_path / "fit.json")]) == 0
     found = json.loads((tmp_path / "fit.json").read_text(encoding="utf-8"))
     assert "warning" not in capsys.readouterr().err and found["noise"] == pytest.approx(noise, rel=0.1)
-    assert [shot["status"] for shot in found["shots"]] == ["ok"] * 24 and found["median_rmse"] < 1.3 * np.sqrt(2) * noise
+    assert sum(shot["status"] == "ok" for shot in found["shots"]) >= 20 and found["median_rmse"] < 1.3 * np.sqrt(2) * noise
     # the strike: when, and how fast the ball left the tip, of which the time of a first hit leaves a part open
     cues = [shot["cue"] for shot in found["shots"]]
     assert [cue["start"] for cue in cues] == pytest.approx([lead_in] * 24, abs=2e-3)
@@ -236,7 +236,21 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
         {name: value for name, value in truth.items() if name != "law_b"}, rel=0.03
     )
     off = [abs(found["constants"][name] - value) / found["spread"][name] for name, value in truth.items()]
-    assert len(off) == 11 and np.mean(np.array(off) < 2) > 0.8, off
+    assert len(off) >= 10 and np.mean(np.array(off) < 2) > 0.8, off
+
+
+def test_no_shot_is_ok_whose_rmse_is_three_times_the_noise():
+    made = tracks.synthetic(12, constants=HAN, noise=0.5e-3, seed=3)
+    off = {**made.constants, "restitution_cushion": made.constants["restitution_cushion"] - 0.01}
+    found = fit.fit(made.recordings, TABLE, RADIUS, constants=off, free="none")
+    above = found.rmse / (np.sqrt(2) * found.recordings[0].noise)
+    kinds = [text.partition(":")[0] for text in found.status]
+    assert "rough" in kinds and all(ratio < 2 for kind, ratio in zip(kinds, above) if kind == "ok")
+    assert all(2 < ratio and rmse < 2 * RADIUS for kind, ratio, rmse in zip(kinds, above, found.rmse) if kind == "rough")
+    assert len(found.counted()) == 12
+    # many are told in one line
+    found.status[:] = [f"rough: {k}" for k in range(12)]
+    assert [line for line in _summary.told(found) if "rough" in line][0].startswith("12 of 12 shots are rough: RMSE ")
 
 
 def test_what_no_play_explains_is_doubtful_and_counts(made):
@@ -333,6 +347,21 @@ def test_unknown_constants_are_found_within_their_spread():
     assert {what for what, _ in told} == {"events", "strikes", "constants", "spread"} and all(0 <= part <= 1 for _, part in told)
 
 
+def billiard(seed):
+    """A match of balls whose friction between each other does not change with the slip."""
+    return tracks.synthetic(24, constants={"mu_ball": 0.08}, noise=0.5e-3, seed=seed)
+
+
+@pytest.mark.parametrize("seed", [5, 7])
+def test_a_friction_without_slip_is_found(seed):
+    """From a law with slip these matches stopped at three times the noise."""
+    made = billiard(seed)
+    found = fit.fit(made.recordings, TABLE, RADIUS, seed=1)
+    assert found.median_rmse < 1.5 * np.sqrt(2) * 0.5e-3
+    assert "law_b" not in found.fitted and found.constants["law_b"] == found.constants["law_c"] == 0.0
+    assert found.constants["law_a"] == pytest.approx(0.08, abs=0.002)
+
+
 def test_matches_far_from_the_usual_are_fitted_within_their_spread():
     """Matches whose constants are up to 1.8 deviations from the usual, by cameras of all kinds."""
     matches, off, sound = int(os.environ.get("CAROM_MATCHES", "0")), [], 0
@@ -356,7 +385,7 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
             warnings.simplefilter("error")
             found = fit.fit(recordings, TABLE, RADIUS, seed=1, threads=-1, calibrate=bool(crooked))
         best = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
-        off += [abs(found.constants[name] - value) / found.spread[name] for name, value in truth.items()]
+        off += [abs(found.constants[name] - value) / found.spread[name] for name, value in truth.items() if name in found.spread]
         sound += found.median_rmse < 2 * np.sqrt(2) * noise
         print(f"match {seed}: noise {1e3 * noise:.2f} mm, rate {rate:g}, RMSE {1e3 * found.median_rmse:.2f} mm, with the true constants "
               f"{1e3 * best.median_rmse:.2f} mm, constants within one spread {np.mean(np.array(off[-11:]) < 1):.2f}")  # fmt: skip

@@ -194,14 +194,19 @@ def test_random_parameters_ball_sets_and_rewards():
 # ---- The environments -----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("render_mode", [None, "svg"])
-def test_gymnasiums_checker(gymnasium, render_mode):
+@pytest.mark.parametrize("render_mode", [None, "svg", "rgb_array"])
+def test_gymnasiums_checkers(gymnasium, render_mode):
+    """That of an environment, and the passive one of what make() gives; neither warns."""
     from gymnasium.utils.env_checker import check_env
 
-    env = gymnasium.make("carom/Potting-v0", render_mode=render_mode, cushion_model="han")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        env = gymnasium.make("carom/Potting-v0", render_mode=render_mode, cushion_model="han", disable_env_checker=False)
         check_env(env.unwrapped)
+        env.reset(seed=1)
+        env.step(env.action_space.sample())
+        env.render()
+        env.close()
 
 
 @pytest.mark.parametrize("threads", [0, 2])
@@ -291,6 +296,18 @@ def test_reset_options(gymnasium):
         envs.step(np.zeros((3, 4)))
 
 
+def test_a_film_is_recorded(gymnasium, tmp_path):
+    pytest.importorskip("moviepy")
+    from gymnasium.wrappers import RecordVideo
+
+    env = RecordVideo(gymnasium.make("carom/Potting-v0", render_mode="rgb_array", balls=2, strokes=3), str(tmp_path / "films"), episode_trigger=lambda k: True)
+    env.reset(seed=1)
+    for _ in range(3):
+        env.step(env.action_space.sample())
+    env.close()
+    assert [path.suffix for path in (tmp_path / "films").iterdir() if path.stat().st_size > 1000] == [".mp4"]
+
+
 def test_pictures(gymnasium):
     envs = gymnasium.make_vec("carom/Potting-v0", num_envs=2, balls=2, strokes=5, render_mode="svg")
     envs.reset(seed=4)
@@ -299,7 +316,15 @@ def test_pictures(gymnasium):
     for before, after in zip(still, envs.render()):
         assert ElementTree.fromstring(before).tag == ElementTree.fromstring(after).tag == "{http://www.w3.org/2000/svg}svg"
         assert after.count("polyline") > before.count("polyline")
-    with pytest.raises(ValueError, match="render_mode: must be None or 'svg', not 'human'"):
+    images = gymnasium.make_vec("carom/Potting-v0", num_envs=2, balls=2, strokes=5, render_mode="rgb_array")
+    images.reset(seed=4)
+    still = images.render()
+    images.step(np.full((2, 4), 0.3))
+    for before, after in zip(still, images.render()):
+        assert before.dtype == np.uint8 and before.shape == after.shape == (484, 866, 3)
+        # the cue ball is white where it lay, and elsewhere afterwards
+        assert (before == 255).all(axis=-1).any() and (before != after).any(axis=-1).sum() > 200
+    with pytest.raises(ValueError, match="render_mode: must be None, 'svg' or 'rgb_array', not 'human'"):
         carom.gymnasium.PottingEnv(render_mode="human")
 
 

@@ -26,6 +26,7 @@ import numpy.typing as npt
 from carom import _events
 from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
+from carom.layouts import balls
 
 MOST = 1.4e-3  # m^2: a shot whose cost a sample is more does not count; that of samples that are 8 cm off
 # What one deviation of a prior costs, m^2: the variance of the noise, and so many times what a sample is off by beyond the noise, as
@@ -174,6 +175,21 @@ class Search:
         """Goes on from what a stage found."""
         self.values, self.strikes = np.array(found[0]), np.array(found[1])
         self.middle, self.prior_cost = found[2:]
+
+
+def without_slip(search: Search) -> Search:
+    """The same search before its first stage, for a friction between balls that does not change with the slip: law_a alone.
+
+    From a law with slip a search may stop at several times the noise where the friction has none, since law_a and law_b follow each other.
+    """
+    priors = {name: (mean, scale) for name, mean, scale in zip(search.names, search.first.tolist(), search.scale.tolist()) if name != "law_b"}
+    kind = balls([[0.0, 0.0]], game="billiard")["kind"][0]
+    priors["law_a"] = (float(kind["mu_ball"]), PRIORS["law_a"][0])
+    plays = search.plays.some(range(len(search.plays.recordings)))
+    plays.set({**plays.constants, "law_a": priors["law_a"][0], "law_b": 0.0, "law_c": 0.0})
+    strikes = np.full((len(plays.recordings), 6), np.nan)
+    strikes[search.rows] = search.strikes
+    return Search(plays, strikes, range(len(strikes)), priors)
 
 
 STAGES = 5  # the last horizon is searched again and again

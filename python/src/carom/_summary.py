@@ -19,6 +19,7 @@ from carom.dtypes import Doubles
 from carom.results import Shot
 from carom.shots import simulate
 
+_ROUGH_MOST = 8  # so many are told one by one
 _WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels
 _INK, _MARK, _LINE = "#333333", "#1f5fae", "#c0392b"
 _STYLE = (
@@ -41,7 +42,8 @@ class Fit:
     # (shots, 6): v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and its time (s). NaN where
     # there is none.
     strikes: Doubles
-    # "ok"; "mended: ..." or "doubtful: ...", with what was mended or is in doubt; else why the shot does not count
+    # "ok"; "mended: ...", "rough: ..." or "doubtful: ...", with what was mended, is above the noise or is in doubt; else why the shot does
+    # not count
     status: list[str]
     # (shots,): Root of the mean squared distance between recorded and played places over all samples of all balls, m; NaN
     # without a play
@@ -55,7 +57,7 @@ class Fit:
     @property
     def counts(self) -> list[bool]:
         """Which shots count."""
-        return [status.partition(":")[0] in ("ok", "mended", "doubtful") for status in self.status]
+        return [status.partition(":")[0] in ("ok", "mended", "rough", "doubtful") for status in self.status]
 
     def counted(self, train: bool | None = None) -> Doubles:
         """The RMSE of the shots that count, m: of all, of those that constants were fitted to, or of the others."""
@@ -236,7 +238,12 @@ def laws(fit: Fit) -> list[tuple[str, str]]:
 def told(fit: Fit) -> list[str]:
     """What a reader of the result should know: the noise, what holds of all shots, and the shots that are not ok."""
     lines = [f"noise of a coordinate: {1e3 * fit.recordings[0].noise:.2f} mm", *(f"warning: {text}" for text in fit.warnings)]
-    return lines + [f"shot {shot.id}: {status}" for shot, status in zip(fit.recordings, fit.status) if status != "ok"]
+    rough = [float(rmse) for rmse, status in zip(fit.rmse, fit.status) if status.startswith("rough")]
+    if len(rough) > _ROUGH_MOST:
+        noise = math.sqrt(2.0) * fit.recordings[0].noise
+        lines.append(f"{len(rough)} of {len(fit.status)} shots are rough: RMSE {min(rough) / noise:.2g} to {max(rough) / noise:.2g} times that of the noise")
+    silent = ("ok", "rough") if len(rough) > _ROUGH_MOST else ("ok",)
+    return lines + [f"shot {shot.id}: {status}" for shot, status in zip(fit.recordings, fit.status) if not status.startswith(silent)]
 
 
 def page(fit: Fit, name: str) -> str:

@@ -36,6 +36,9 @@ Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
 _CROOKED = 8e-3  # m: tracks that are farther off are told
 _MANY = 5.0  # standard deviations of a coordinate: an RMSE above is not that of the noise
+_LAW = {"law_a", "law_b"}  # a friction between balls that changes with the slip: a search without the change begins beside it,
+_BOTH = 1  # and after this stage that one goes on whose misfit is the smaller
+_ROUGH = 2.0  # an RMSE so many times that of the noise is no longer ok: with the true constants nine in ten shots are below
 
 
 def _status(shot: Recording, radius: float) -> str:
@@ -78,7 +81,7 @@ class _Saved:
 
     def __init__(self, path: Path | None, arguments: Sequence[Any]) -> None:
         shots, *others = arguments
-        text = repr([(shot.id, shot.balls, [track.tolist() for track in shot.tracks]) for shot in shots]) + repr(others)
+        text = repr([(shot.id, shot.balls, [track.tolist() for track in shot.tracks]) for shot in shots]) + repr((others, "both laws"))
         self.path, self.parts, self.key = path, dict[str, Any](), hashlib.sha256(text.encode()).hexdigest()
         if path is not None and path.exists():
             with contextlib.suppress(ValueError, TypeError, KeyError):  # another file: begin anew
@@ -184,11 +187,18 @@ def fit(
         if free[0] not in ("none", "events") and fitted:
             plays = _strikes.Plays([recordings[k] for k in fitted], table, radius, values, cushion_model, threads)
             found = saved.get("strikes", lambda: _strikes.find(plays, seed, progress)[0].tolist())
-            search = _joint.Search(plays, np.array(found), range(len(fitted)), _priors(free, priors or {}, values, cushion_model))
+            wanted = _priors(free, priors or {}, values, cushion_model)
+            searches = {"": _joint.Search(plays, np.array(found), range(len(fitted)), wanted)}
+            if _LAW <= wanted.keys() and not _LAW & (priors or {}).keys():
+                searches["flat "] = _joint.without_slip(searches[""])
             for number in range(_joint.STAGES):
                 if progress:
                     progress("constants", number / (_joint.STAGES + 2))
-                search.resume(saved.get(f"constants {number}", functools.partial(search.stage, number, seed)))
+                for law, search in searches.items():
+                    search.resume(saved.get(f"{law}constants {number}", functools.partial(search.stage, number, seed)))
+                if number == _BOTH:
+                    searches = dict([min(searches.items(), key=lambda one: one[1].middle)])
+            (search,) = searches.values()
             values = search.constants(search.values)
             if progress:
                 progress("spread", _joint.STAGES / (_joint.STAGES + 2))
@@ -206,7 +216,8 @@ def fit(
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
             elif status[k] == "ok":
-                status[k] = _quality(strike, float(rmse[k]), noise, radius) or (f"mended: {'; '.join(notes[k])}" if notes[k] else "ok")
+                told_of = [_quality(strike, float(rmse[k]), noise, radius), f"mended: {'; '.join(notes[k])}" if notes[k] else ""]
+                status[k] = "; ".join(filter(None, told_of)) or "ok"
         strikes[played, 5] += plays.origins
         saved.done()
     part = None if train is None else [k in set(train) for k in range(len(recordings))]
@@ -218,11 +229,13 @@ def fit(
 
 
 def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
-    """Why the play of a shot is doubtful, or nothing."""
+    """Why the play of a shot is doubtful or rough, or nothing."""
+    above = rmse / noise / math.sqrt(2.0)
     if rmse > max(2.0 * radius, _MANY * noise):
-        return f"doubtful: RMSE {100.0 * rmse:.1f} cm, {rmse / noise / math.sqrt(2.0):.0f} times that of the noise"
-    at = _strikes.at_bound(strike)
-    return f"doubtful: {at} of the strike is at its bound" if at else ""
+        return f"doubtful: RMSE {100.0 * rmse:.1f} cm, {above:.0f} times that of the noise"
+    if at := _strikes.at_bound(strike):
+        return f"doubtful: {at} of the strike is at its bound"
+    return f"rough: RMSE {1e3 * rmse:.1f} mm, {above:.2g} times that of the noise" if above > _ROUGH else ""
 
 
 def _extents(text: str) -> tuple[float, float]:

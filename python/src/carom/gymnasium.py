@@ -18,7 +18,7 @@ from typing import Any, Literal, cast
 import numpy as np
 import numpy.typing as npt
 
-from carom import dtypes
+from carom import dtypes, pictures
 from carom._draws import Draws, Games
 from carom._rows import listing, raw
 from carom.potting import Potting, Strokes
@@ -36,7 +36,7 @@ except ImportError as missing:
 __all__ = ["PottingEnv", "PottingVectorEnv"]
 __dir__ = listing(__name__)
 
-RenderMode = Literal["svg"]
+RenderMode = Literal["svg", "rgb_array"]
 _OPTIONS = {"layout", "strokes"}
 _Bools = npt.NDArray[np.bool_]
 _ONE: Games = np.zeros(1, np.int64)
@@ -46,8 +46,7 @@ class _Games:
     """The state of games, and what both environments do with it. Each game has random numbers of its own."""
 
     def __init__(self, rules: Potting, games: int, render_mode: str | None) -> None:
-        if render_mode not in (None, "svg"):
-            raise ValueError(f"render_mode: must be None or 'svg', not {render_mode!r}")
+        pictures.check_render_mode(render_mode)
         self.rules = rules
         self.balls: dtypes.Records = np.zeros((games, rules.balls + 1), dtypes.shot_ball)
         self.left: npt.NDArray[np.int64] = np.zeros(games, np.int64)
@@ -55,6 +54,7 @@ class _Games:
         self.begun = False
         self.draws = Draws(np.random.SeedSequence().generate_state(games, np.uint64))
         # The last stroke, where it may be drawn.
+        self.render_mode = render_mode
         self.drawn = render_mode is not None
         self.before = self.balls.copy()
         self.actions: dtypes.Doubles = np.zeros((games, 4))
@@ -103,11 +103,11 @@ class _Games:
     def observe(self) -> dtypes.Doubles:
         return self.rules.observe(self.balls, self.left)
 
-    def render(self, game: int) -> str | None:
+    def render(self, game: int) -> Any:
         """The picture of one game: its balls and the paths of its last stroke."""
-        if not self.drawn:
+        if self.render_mode is None:
             return None
-        return self.rules.shot(self.before[game], self.actions[game] if self.struck[game] else None)._repr_svg_()
+        return pictures.rendered(self.rules.shot(self.before[game], self.actions[game] if self.struck[game] else None), self.render_mode)
 
 
 def _spaces(rules: Potting) -> tuple[Any, Any]:
@@ -127,13 +127,13 @@ def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
 class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
     """One game of `carom.potting.Potting`: `balls`, `strokes` and **rules are its arguments.
 
-    With `render_mode="svg"`, `render` gives the text of a picture of the last stroke, from where the balls lay (faint) to where they
-    came to rest. `info` after a stroke: potted (int), scratch (bool), foul (int, as `carom.Foul`), status (int, as `carom.Status`), time (s). Options of `reset`:
+    `render` gives a picture of the last stroke, from where the balls lay (faint) to where they came to rest: with `render_mode="svg"` its
+    text, with "rgb_array" an image of shape (height, width, 3), of which `gymnasium.wrappers.RecordVideo` makes a film. `info` after a stroke: potted (int), scratch (bool), foul (int, as `carom.Foul`), status (int, as `carom.Status`), time (s). Options of `reset`:
     layout, the centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no
     truncation: the observation contains the number of strokes left.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["svg"], "render_fps": 1}
+    metadata: dict[str, Any] = {"render_modes": list(pictures.RENDER_MODES), "render_fps": 1}
 
     def __init__(self, balls: int = 5, strokes: int = 5, *, render_mode: RenderMode | None = None, **rules: Any) -> None:
         self.rules = Potting(balls, strokes, **rules)
@@ -175,7 +175,7 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
     under "_" + name where they are set.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["svg"], "render_fps": 1, "autoreset_mode": AutoresetMode.NEXT_STEP}
+    metadata: dict[str, Any] = {"render_modes": list(pictures.RENDER_MODES), "render_fps": 1, "autoreset_mode": AutoresetMode.NEXT_STEP}
 
     def __init__(
         self, num_envs: int = 1, balls: int = 5, strokes: int = 5, *, render_mode: RenderMode | None = None, **rules: Any

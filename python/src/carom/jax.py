@@ -125,13 +125,16 @@ class _Shots:
 
     def numbers(self, x: dtypes.Doubles, final: dtypes.Records, status: Array) -> dtypes.Doubles:
         """Final states as numbers; shots in error are nan, or raise."""
-        bad = np.argwhere(status < 0)
-        if len(bad) and not self.nan:
-            self.refuse(x, tuple(int(k) for k in bad[0]), Status(int(status[tuple(bad[0])])))
+        bad = status < 0
+        failed = bool(bad.any())
+        if failed and not self.nan:
+            first = tuple(int(k) for k in np.argwhere(bad)[0])
+            self.refuse(x, first, Status(int(status[first])))
         states: dtypes.Doubles = np.empty((*final.shape, STATE))
         for name, elements in ELEMENTS.items():
             states[..., elements] = final[name]
-        states[status < 0] = np.nan
+        if failed:
+            states[bad] = np.nan
         return states
 
     def refuse(self, x: dtypes.Doubles, where: tuple[int, ...], status: Status) -> None:

@@ -18,7 +18,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from carom import dtypes
+from carom import dtypes, pictures
 from carom._rows import listing
 from carom.nineball import NineBall, Turn
 
@@ -43,12 +43,11 @@ class NineBallEnv(AECEnv):
     touched first, 0 for none), potted (a list), hand.
     """
 
-    metadata: dict[str, Any] = {"name": "carom_nineball_v0", "render_modes": ["svg"], "is_parallelizable": False}
+    metadata: dict[str, Any] = {"name": "carom_nineball_v0", "render_modes": list(pictures.RENDER_MODES), "render_fps": 1, "is_parallelizable": False}
 
-    def __init__(self, strokes: int = 200, *, render_mode: Literal["svg"] | None = None, **options: Any) -> None:
+    def __init__(self, strokes: int = 200, *, render_mode: Literal["svg", "rgb_array"] | None = None, **options: Any) -> None:
         super().__init__()
-        if render_mode not in (None, "svg"):
-            raise ValueError(f"render_mode: must be None or 'svg', not {render_mode!r}")
+        pictures.check_render_mode(render_mode)
         self.rules = NineBall(**options)
         self.strokes = strokes
         self.render_mode = render_mode
@@ -109,7 +108,7 @@ class NineBallEnv(AECEnv):
         """The text of a picture: the balls and the paths of the last stroke."""
         if self.render_mode is None:
             return None
-        return (self.rules.base.shot(self.position.balls, None) if self.turn is None else self.turn.shot)._repr_svg_()
+        return pictures.rendered(self.rules.base.shot(self.position.balls, None) if self.turn is None else self.turn.shot, self.render_mode)
 
     def close(self) -> None:
         """Nothing is held open."""

@@ -1,5 +1,5 @@
-"""Pictures of a table and a shot as SVG: still, with the balls' paths, and moving. They are drawn for `carom.Table` and `carom.Shot`,
-which import this module; so these have no types here."""
+"""Pictures of a table and a shot: as SVG, still, with the balls' paths, or moving; and as pixels. They are drawn for `carom.Table` and
+`carom.Shot`, which import this module; so these have no types here."""
 
 from __future__ import annotations
 
@@ -115,6 +115,13 @@ def colour(ball: int) -> str:
     return _COLOURS[ball] if ball < len(_COLOURS) else _COLOURS[1 + (ball - 1) % (len(_COLOURS) - 1)]
 
 
+def _paths(shot: Any) -> dtypes.Doubles:
+    """Places of the balls of a shot, (n, balls, 3). Paths are parabolas between events, so the events' times are among those looked at."""
+    times = np.union1d(np.linspace(0.0, shot.time, _PATH_POINTS), shot.events["time"])
+    paths: dtypes.Doubles = shot.positions(times) if shot.count <= len(shot.events) else np.zeros((0, len(shot.balls), 3))
+    return paths
+
+
 def picture(table: Any, shot: Any = None, seen: Sequence[dtypes.Doubles] = ()) -> str:
     """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of an SVG.
 
@@ -123,9 +130,7 @@ def picture(table: Any, shot: Any = None, seen: Sequence[dtypes.Doubles] = ()) -
     canvas = _Canvas(table)
     parts = _table(canvas, table)
     if shot is not None:
-        # Paths are parabolas between events, so the events' times are among those looked at.
-        times = np.union1d(np.linspace(0.0, shot.time, _PATH_POINTS), shot.events["time"])
-        paths = shot.positions(times) if shot.count <= len(shot.events) else np.zeros((0, len(shot.balls), 3))
+        paths = _paths(shot)
         for ball in range(len(shot.balls)):
             points = list(dict.fromkeys(canvas.point(r) for r in paths[:, ball]))
             if len(points) > 1:
@@ -149,3 +154,112 @@ def animation(shot: Any, speed: float) -> Animation:
     duration = f'dur="{max(shot.time / speed, 0.01):.4g}s" repeatCount="indefinite"'
     parts += [canvas.ball(shot, ball, paths[:, ball], duration=duration) for ball in range(len(shot.balls))]
     return Animation(canvas.document(parts))
+
+
+# ---- Pixels ---------------------------------------------------------------------------------------------------------------
+
+# The digits of the balls, 3 pixels wide and 5 high: a row of each is a number of three bits.
+_DIGITS = [[int(row) for row in digit] for digit in "75557 26227 71747 71717 55711 74717 74757 71111 75757 75717".split()]
+
+
+class _Pixels:
+    """An image of red, green and blue, to which shapes are added with smooth edges."""
+
+    def __init__(self, canvas: _Canvas) -> None:
+        self.canvas = canvas
+        # even numbers, as films have them
+        width, height = (2 * int(np.ceil(size / 2.0)) for size in canvas.size)
+        self.image: npt.NDArray[np.float64] = np.empty((height, width, 3))
+        self.image[:] = _colour(_WOOD)
+
+    def _cover(self, low: dtypes.Doubles, high: dtypes.Doubles, distance: Any, ink: str, opacity: float) -> None:
+        """Paints the pixels of a box, pixels, by how far they are outside a shape: distance(x, y)."""
+        height, width = self.image.shape[:2]
+        x_0, y_0 = (int(max(np.floor(value) - 1.0, 0.0)) for value in low)
+        x_1, y_1 = (int(min(np.ceil(value) + 2.0, size)) for value, size in zip(high, (width, height)))
+        if x_0 >= x_1 or y_0 >= y_1:
+            return
+        x, y = np.arange(x_0, x_1) + 0.5, (np.arange(y_0, y_1) + 0.5)[:, np.newaxis]
+        cover = opacity * np.clip(0.5 - distance(x, y), 0.0, 1.0)[..., np.newaxis]
+        part = self.image[y_0:y_1, x_0:x_1]
+        part += cover * (_colour(ink) - part)
+
+    def disc(self, centre: npt.ArrayLike, radius: float, ink: str, opacity: float = 1.0) -> None:
+        """A disc of a radius in pixels at a place of the table."""
+        at = np.array(self.canvas.at(centre))
+        self._cover(at - radius, at + radius, lambda x, y: np.hypot(x - at[0], y - at[1]) - radius, ink, opacity)
+
+    def line(self, p: npt.ArrayLike, q: npt.ArrayLike, width: float, ink: str, opacity: float = 1.0) -> None:
+        """A line of a width in pixels between two places of the table."""
+        a, b = np.array(self.canvas.at(p)), np.array(self.canvas.at(q))
+        along = b - a
+        square = max(float(along @ along), 1e-12)
+
+        def distance(x: Any, y: Any) -> Any:
+            share = np.clip(((x - a[0]) * along[0] + (y - a[1]) * along[1]) / square, 0.0, 1.0)
+            return np.hypot(x - a[0] - share * along[0], y - a[1] - share * along[1]) - 0.5 * width
+
+        self._cover(np.minimum(a, b) - width, np.maximum(a, b) + width, distance, ink, opacity)
+
+    def ball(self, shot: Any, number: int, centre: dtypes.Doubles, opacity: float) -> None:
+        """A ball, with its number unless it is the first."""
+        radius = float(shot.balls["kind"]["radius"][number]) * _SCALE
+        self.disc(centre, radius, "#000000", opacity)
+        self.disc(centre, radius - 0.7, colour(number), opacity)
+        if number == 0 or opacity < 1.0:
+            return
+        digits = [_DIGITS[int(digit)] for digit in str(number)]
+        x_0, y_0 = (int(round(value)) for value in np.array(self.canvas.at(centre)) - [2.0 * len(digits) - 0.5, 2.5])
+        for k, digit in enumerate(digits):
+            for row, bits in enumerate(digit):
+                for column in (column for column in range(3) if bits >> (2 - column) & 1):
+                    x, y = x_0 + 4 * k + column, y_0 + row
+                    if 0 <= y < self.image.shape[0] and 0 <= x < self.image.shape[1]:
+                        self.image[y, x] = _colour("#ffffff" if colour(number) in _DARK else "#111111")
+
+
+def _colour(ink: str) -> dtypes.Doubles:
+    return np.array([int(ink[k : k + 2], 16) for k in (1, 3, 5)], np.float64)
+
+
+RENDER_MODES = ("svg", "rgb_array")
+"""How environments are drawn: as the text of an SVG, or as an image."""
+
+
+def check_render_mode(mode: object) -> None:
+    """Refuses what is no way to draw an environment."""
+    if mode is not None and mode not in RENDER_MODES:
+        raise ValueError(f"render_mode: must be None, 'svg' or 'rgb_array', not {mode!r}")
+
+
+def rendered(shot: Any, mode: str) -> Any:
+    """A shot, as a render mode says."""
+    return picture(shot.table, shot) if mode == "svg" else pixels(shot.table, shot)
+
+
+def pixels(table: Any, shot: Any = None) -> npt.NDArray[np.uint8]:
+    """What `picture` draws as an image, of shape (height, width, 3): red, green and blue, both sizes even."""
+    canvas = _Canvas(table)
+    drawn = _Pixels(canvas)
+    corners = np.array([canvas.at((0.0, 0.0)), canvas.at((table.width, table.length))])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    drawn._cover(low, high, lambda x, y: np.maximum(np.maximum(low[0] - x, x - high[0]), np.maximum(low[1] - y, y - high[1])), _CLOTH, 1.0)
+    for pocket in table.pockets:
+        drawn.disc(pocket["centre"], float(pocket["radius"]) * _SCALE, _POCKET)
+    for rail in table.rails:
+        drawn.line(rail["p"], rail["q"], 4.0, _CUSHION)
+    for jaw in table.jaws:
+        drawn.disc(jaw["centre"], float(jaw["radius"]) * _SCALE, _CUSHION)
+    if shot is not None:
+        paths = _paths(shot)
+        for ball in range(len(shot.balls)):
+            last = paths[:1, ball].reshape(-1)
+            for k, place in enumerate(paths[:, ball]):
+                gap = np.abs(place[:2] - last[:2]).max() * _SCALE
+                if gap > 3.0 or (k == len(paths) - 1 and gap > 0.0):  # pixels
+                    drawn.line(last, place, 1.5, colour(ball), 0.8)
+                    last = place
+        for states, opacity in ((shot.balls["state"], 0.35), (shot.final, 1.0)):
+            for ball, state in enumerate(states):
+                drawn.ball(shot, ball, state["r"], opacity)
+    return np.rint(drawn.image).astype(np.uint8)
