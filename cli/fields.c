@@ -308,8 +308,8 @@ ROW(option_ball_ball, "ball-ball", shot.ball_model, 0, NULL, set_named, CAROM_WO
     "model of the collision of two balls (default: exact; with --models pooltool inelastic)");
 ROW(option_cushion_of_shots, "cushion", shot.cushion_model, 0, NULL, set_named,
     CAROM_WORDS_SHOT_CUSHION, ANY_KIND,
-    "model of the impact on a cushion; mathavan is the exact limit (default: han; with --models "
-    "pooltool stronge)");
+    "model of the impact on a cushion; mathavan is the exact limit (default: smooth for balls with "
+    "a smooth_q, as those of the game billiard, else han; with --models pooltool stronge)");
 ROW(option_friction_of_shots, "friction", shot.friction, 0, NULL, set_named,
     CAROM_WORDS_BALL_FRICTION, ANY_KIND,
     "friction between balls: alciatore falls with the speed of slip (default); constant is u_b of "

@@ -10,7 +10,7 @@ import pytest
 from conftest import columns
 
 import carom
-from carom.cushions import _NUMBERS
+from carom.cushions import NUMBERS
 
 IMPACT = "vx vy vz wx wy wz nx ny h R M mu_s mu_w e rho"
 SCALE = np.repeat([1.0, 0.028575], 3)
@@ -49,7 +49,7 @@ def test_cushions():
     assert (other != motion).any(axis=1).mean() > 0.1
     # every number of a model reaches it
     smooth = {"model": "smooth", "smooth_q": 0.35, "smooth_x": 1.3, "smooth_t": 1.2}
-    for name in _NUMBERS:
+    for name in NUMBERS:
         usual = smooth if name.startswith("smooth") else {"model": "stronge"}
         near = {"smooth_q": 0.2, "smooth_x": 1.0, "smooth_t": 1.0, "omega_ratio": 1.2}.get(name, 0.1)
         assert (carom.cushion(impacts, **usual).motion != carom.cushion(impacts, **(usual | {name: near})).motion).any(), name

@@ -437,6 +437,16 @@ def test_the_smooth_law_is_fitted_with_its_change_by_speed():
     assert -0.89 < slow < fast - 0.01 < -0.82
 
 
+def test_events_are_predicted_by_the_laws_of_the_library(monkeypatch):
+    impacts = np.zeros(1, [(name, float) for name in ("v_n", "v_t", "w_t", "w_n", "u_t", "u_n", "w_error", "u_error", "first")])
+    impacts["v_n"], impacts["v_t"], impacts["first"] = 2.5, 0.8, 1.0
+    usual = _constants.usual("smooth")
+    before = _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)
+    for name, value in (("restitution_log", -0.1), ("restitution_log2", -0.05), ("mu_log", 0.2), ("smooth_q", 0.1), ("smooth_g", 0.3)):
+        monkeypatch.setattr(_from_events, "usual", lambda model, name=name, value=value: usual | {name: value})
+        assert (_from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)[:, :4] != before[:, :4]).any(), name
+
+
 def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(made):
     few = fit.fit(made.recordings[:2], TABLE, RADIUS, cushion_model="mirror", constants={"mu_slide": 0.19, "mu_ball": 0.05}, free="events")
     assert "restitution" not in few.spread and few.constants["restitution"] == 0.951

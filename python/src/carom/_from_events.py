@@ -15,15 +15,17 @@ itself is off by, added in quadrature: see _METHOD.
 from __future__ import annotations
 
 import math
+from typing import cast
 
 import numpy as np
 
 from carom import _events, dtypes
 from carom._constants import usual
+from carom._described import CushionNumbers
 from carom._events import Events
 from carom._rows import Array
 from carom._shot_options import ShotCushion
-from carom.cushions import cushion
+from carom.cushions import NUMBERS, cushion
 from carom.dtypes import Doubles, Records
 
 _GRAVITY = 9.81
@@ -80,16 +82,16 @@ def predicted(
     balls["w"][..., 0], balls["w"][..., 1] = -impacts["v_n"][:, None] / radius, impacts["v_t"][:, None] / radius
     balls["w"][..., 2] = _SPINS * v[:, None] / radius
     balls["normal"] = (0.0, 1.0)
-    # the change with the speed is that of the usual constants
-    given, logarithm = usual(model), np.log(np.maximum(impacts["v_n"], 0.1))[:, None]
-    e = np.clip(e + given["restitution_log"] * logarithm, 0.0, 1.0)
-    mu = np.clip(mu + given["mu_log"] * logarithm, 0.0, 1.0)
     for name, value in (("height", height), ("radius", radius), ("mass", 0.21), ("mu_cloth", 0.2), ("mu_cushion", mu),
                         ("restitution", e)):  # fmt: skip
         balls[name] = value
-    motion = cushion(balls, model="mathavan" if model == "default" else model)[0]
+    # the numbers of the model, such as the change with the speed, are those of the usual constants
+    given = usual(model)
+    own = cast(CushionNumbers, {name: given[name] for name in NUMBERS})
+    motion = cushion(balls, model="mathavan" if model == "default" else model, **own)[0]
     w_x, w_y = motion["v"][..., 0], motion["v"][..., 1]
     # the loss of roll along the cushion, as carom_shoot() takes it
+    logarithm = np.log(np.maximum(impacts["v_n"], 0.1))[:, None]
     v_t, roll = impacts["v_t"][:, None], radius * motion["w"][..., 1]
     share = np.clip(roll_loss + given["roll_loss_log"] * logarithm, 0.0, 1.0)
     roll = np.where(v_t * roll > 0.0, np.sign(roll) * np.maximum(np.abs(roll) - share * np.abs(v_t), 0.0), roll)

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 _MODELS, _CONVENTIONS, _LAWS = numbered("carom_cushion_model"), numbered("carom_cushion_convention"), numbered("carom_cushion_law")
 _ROWS = iter(map(lib.carom_ball_number, range(1000)).__next__, ffi.NULL)
-_NUMBERS = [ffi.string(row.name).decode() for row in _ROWS if row.cushion_offset >= 0]
+NUMBERS = [ffi.string(row.name).decode() for row in _ROWS if row.cushion_offset >= 0]
 
 
 def _own(numbers: Any) -> tuple[tuple[str, float], ...]:
     """Numbers of the models by their names."""
     for name in numbers:
-        if name not in _NUMBERS:
-            raise TypeError(f"cushion() has no argument {name!r}; numbers of its models are {', '.join(_NUMBERS)}")
+        if name not in NUMBERS:
+            raise TypeError(f"cushion() has no argument {name!r}; numbers of its models are {', '.join(NUMBERS)}")
     return tuple((name, number(value, name)) for name, value in numbers.items())
 
 
