@@ -154,6 +154,7 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
               g_y = own * s->d_y + (a->spin * a->mu_b * g->z - 1);
   const vreal angular = -a->mu_b * g->inverse_u * g->z * g->c * a->kappa;
   const vreal c_x = -a->mu_b * g->z * angular, c_y = -a->spin * a->mu_b * g->c * angular;
+
   /* p at the point of the straight line that is nearest to zero; d and its rate v there, along
    * the curve */
   const vreal straight =
@@ -162,6 +163,7 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
               d_y = s->d_y + straight * (g_y + 0.5f * straight * c_y);
   const vreal v_x = g_x + straight * c_x, v_y = g_y + straight * c_y,
               per_v = inverse_length(v_x, v_y), per_v2 = per_v * per_v;
+
   /* p_t, and delta with the sign of the side on which zero is passed: of the straight line
    * through that point */
   const vreal side = (d_x * v_y - d_y * v_x) * per_v2,
@@ -170,6 +172,7 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
   /* the longest step by how much of |u| it may lose, and after refusals */
   const vreal one = v_splat(1), q = g->rate * c->to_end,
               reach = c->share * v_min(c->to_end, TURN_Q * v_reciprocal(g->rate));
+
   /* rho^16 that the tolerance needs; the singularities at +- i pi / 2 then allow a range of xi
    * of 2 pi / (rho - 1 / rho) */
   const vreal cloth = a->mu_mu_b * g->z,
@@ -185,6 +188,7 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
   p.p_t = v_select(rests, 2 * reach, v_min(v_max(at, -reach), 2 * reach));
   const vreal moved = v_select(rests, reach, v_abs(at - p.p_t));
   p.delta = v_min(v_max(v_max(width, v_splat(LEAST_DELTA)), moved), 2 * reach);
+
   /* sinh(xi) at the start and at `reach`, and how far that range leads: to `reach`, or to the
    * widest range allowed */
   const vreal per_delta = v_reciprocal(p.delta), sinh_0 = -p.p_t * per_delta,
@@ -376,6 +380,7 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
   const vmask accepted = v_less(error, a->tolerance) & v_not(impossible), solved = accepted & last;
   if (!v_any(v_not(solved)))
     return solved;
+
   /* on behind the step, or again with more care */
   c->attempts = c->attempts + 1;
   if (kind == PART || kind == TURN) {

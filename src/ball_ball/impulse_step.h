@@ -269,6 +269,7 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
   const vmask going = f->going;
   const vreal no_x = -l->mu_mu_b, no_b = -l->mu_b, mu_b_kappa = l->mu_b * a->kappa;
   reg w_c[MOST_REGS], w_z[MOST_REGS], C[MOST_REGS], Z[MOST_REGS], S_x[MOST_REGS], S_y[MOST_REGS];
+
   /* the integrals of the directions up to each node */
   EACH_REG(k, n) {
     w_c[k] = weighed(n, nodes, k, f->c[k]);
@@ -280,6 +281,7 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
   apply(r->sum, w_z, Z, n);
   apply(r->sum, f->w_x, S_x, n);
   apply(r->sum, f->w_y, S_y, n);
+
   /* the slips that they give, and the directions of these */
   reg u_c[MOST_REGS], u_z[MOST_REGS], t_x[MOST_REGS], t_y[MOST_REGS], rate[MOST_REGS],
       back[MOST_REGS], moved[MOST_REGS];
@@ -305,6 +307,7 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
     REG_MOVE(going, &f->dz[k], du_z);
     REG_MOVE(going, &f->per_u[k], i_u);
   }
+
   /* u moves by rho less the integral of D rho: it is turned back by that; s follows. How far all
    * has moved */
   apply(r->sum, rate, back, n);
@@ -319,6 +322,7 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
     REG_MOVE(going, &f->s_x[k], x);
     REG_MOVE(going, &f->s_y[k], y);
   }
+
   /* the error that is left, and the lanes where it is too large */
   const vreal per_moved = estimate_scale(n, turned) * l->mu_b *
                           v_fma(v_splat(CONTRACTION_CLOTH), a->mu_mu_b,
@@ -590,6 +594,7 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
     third_y = per_length * per_length * dot(r->third, f->s_y, n);
   }
   const vreal dp = v_abs(extrapolate_to_end(a, &end, &at_end, third_x, third_y, out));
+
   /* the truncation error of the series: after four nodes by how much their polynomials miss s,
    * else its next terms for u and s
    */
@@ -604,6 +609,7 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
   } else
     left_out = dp * (dp * dp) * v_fma(a->mu_b, at_end.bend_u, a->mu_mu_b * at_end.bend_d);
   error = error + v_select(last, left_out, v_splat(0));
+
   /* the series must not lead far, nor may |u| vanish on it, which the error estimates of a
    * planar motion do not see: there u does not turn, and bend_u is 0 */
   vmask in_reach = v_less(dp, (turned ? MOST_EXTRAPOLATION_TURN : MOST_EXTRAPOLATION) * l.length);

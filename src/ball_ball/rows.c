@@ -77,6 +77,7 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
   out[IN_D_X] = d_x * side;
   out[IN_D_Y] = d_y * side;
   out[IN_KAPPA] = kappa;
+
   /* no ball is pressed to speak of */
   out[IN_MU] = v_select(v_less_equal(r->u_z, v_splat((real)LEAST_PRESS)), zero, mu);
   out[IN_MU_B] = v_max(mu_b, v_splat((real)LEAST_MU_B));
@@ -84,6 +85,7 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
 
   const vreal fastest =
       v_max(v_max(v_abs(out[IN_U_X]), out[IN_U_Z]), v_max(v_abs(out[IN_D_X]), v_abs(out[IN_D_Y])));
+
   /* The rate at which the collision drives the slip on the cloth, less that at which its own
    * friction does. It must be well above 0, else friction would choose the direction of the
    * slip, and twice that friction: see is_sensitive(). */
@@ -166,6 +168,7 @@ static inline vmask restore_rows(const row_lanes *r, const row_impulses *q,
                                 b_w[0] + (bw_x * y_y + bw_y * y_x),
                                 b_w[1] + (bw_y * y_y - bw_x * y_x),
                                 b_w[2] + C_b * q->Q_1};
+
   /* not finite if a term is not, or if two are almost too large: then, too, the row is looked at
    * again */
   const vreal sum =

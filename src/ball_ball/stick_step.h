@@ -59,11 +59,13 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
   sum_polynomials(r->powers, n, slope, v_power);
   sum_polynomials(r->basis, n, tau_y, tau_power);
   sum_polynomials(r->basis, n, W, W_power);
+
   /* |u| falls as lambda^(5 + 2 c^2) at first and more slowly then, so Newton's method comes from
    * one side */
   const vreal left = v_max(v * v_reciprocal(v - s->v), v_splat(1e-10f)),
               power = v_reciprocal(v_fma(2 * c, c, v_splat(5)));
   vreal x_c = v_min(1 - ONE_OF(exponential(SPREAD(power) * logarithm(SPREAD(left)))), v_splat(1));
+
   /* two of its steps for x = 1 - lambda at v = 0 */
   for (int i = 0; i < 2; i++) {
     const vreal l = 1 - x_c, l4 = (l * l) * (l * l);
@@ -73,6 +75,7 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
     const vreal rise = v_max(l4 * v_fma(2 * l, sum_slope, 5 * sum), v_splat(TINY));
     x_c = v_min(v_max(x_c - v_c * v_reciprocal(rise), v_splat(0)), v_splat(1));
   }
+
   /* v' and tau at the nodes of Gauss's rule from the start to there */
   reg dv[MOST_REGS], tau[MOST_REGS], on_way[MOST_REGS], part[MOST_REGS];
   EACH_REG(k, n) {
@@ -83,6 +86,7 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
             MADD(per_p * reg_root(MADD(W_k, W_k, u_z2)), MADD(-a->mu, tau_k, 1.0f), -per_f * tau_k);
     tau[k] = (x_c * l4) * tau_k;
   }
+
   /* v at those nodes; K = int v f dp up to there, and the little that is left for a mean f */
   apply(gauss_6.sum, dv, on_way, n);
   EACH_REG(k, n) part[k] = tau[k] * (s->v + on_way[k]);
@@ -97,10 +101,12 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   const stick_rule *r = &jacobi_6;
   const vreal u_z = s->u_z, mu = a->mu, to_stick = v_reciprocal(g->rate), zero = v_splat(0),
               u_z2 = v_fma(u_z, u_z, v_splat(TINY));
+
   /* factors of the integrals in p, F, v and Q_1, Q_2 */
   const vreal per_mu_b = v_reciprocal(a->mu_b), per_p = 2 * a->per_kappa * per_mu_b;
   const vreal per_F = -2 * mu * u_z, per_f = per_F * a->per_kappa,
               per_x = a->per_kappa * (1 / 3.5f), per_z = a->per_kappa * 0.4f;
+
   /* by how much friction of the balls and p change d up to stick, at the present rates; and the
    * factor of F in d */
   const vreal d_change_x = to_stick * (a->mu_b * g->c),
@@ -193,9 +199,11 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   }
   const vreal X_sum = dot(r->all, tau_x, n), Y_sum = dot(r->all, tau_y, n),
               p = per_p * dot(r->all, slope, n);
+
   /* K by parts, since slope bends where W is about u_z, and tau does not */
   const vreal v = s->v + (p - per_f * Y_sum),
               K = v_fma(per_f, v_fma(v, Y_sum, -dot(r->all, work, n)), s->K);
+
   /* F = -mu mu_b I */
   const vreal weight = 2 * u_z * per_mu_b;
 
@@ -213,6 +221,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
               v_end = v_sqrt(v_max(v_fma(a->e, a->e, returned), zero)), share = p * g->rate;
   const vmask in_reach =
       v_less_equal(v, v_end) & v_less(v_splat(0.3f), share) & v_less(share, v_splat(3));
+
   /* the solution: v at the end by the balance of work, p beyond 1 + e by v_n = v_n0 + kappa p -
    * F_y */
   out->J_c = out->J_z = zero;

@@ -286,6 +286,7 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
 
   /* the mean slip of the step, twice */
   const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean2 = m_x * m_x + m_y * m_y;
+
   /* mu falls as the slip grows within the step */
   const double mean = sqrt(mean2);
   double most = x->mu * x->J;

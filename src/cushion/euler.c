@@ -75,6 +75,7 @@ carom_status carom_cushion_euler(carom_contact *c, int N, double least, int pool
     }
     break;
   }
+
   /* restitution */
   const double work_c = run->work_compression = run->work, target = c->e * c->e * work_c;
   P = fmax(pooltool ? target / N : c->e * approach / N, least);

@@ -110,6 +110,7 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
   s->u_y = s->r > 0 ? at->a_y * per_r : path->regime.u_y;
   s->t_x = s->q > 0 ? at->b_x * per_q : path->regime.t_x;
   s->t_y = s->q > 0 ? at->b_y * per_q : path->regime.t_y;
+
   /* the rates */
   s->w = (k->w_0 + k->w_u * s->u_y) / (1 - k->w_t * s->t_y);
   const double x = s->w * s->t_x, y = s->w * s->t_y;
@@ -118,9 +119,11 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
   s->db_x = k->R_x * s->u_x - k->H_x * x;
   s->db_y = k->B_0 + k->R_y * s->u_y - k->H_y * y;
   s->dv = k->V_0 + k->V_u * s->u_y - k->V_w * y;
+
   /* the mean of b' if b passes zero, where the cloth's own friction changes its sign */
   s->line_x = s->db_x + 0.5 * k->H_x * x;
   s->line_y = s->db_y + 0.5 * k->H_y * y;
+
   /* the end of the phase if v' were constant; or an earlier end. Friction of a steep nose
    * may push the ball on, v' > 0, until slip has changed: then no end is in sight, and a step
    * may go as far as slip lasts */
@@ -136,6 +139,7 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
     s->target = 0;
     s->to_goal = s->dv < 0 ? -at->v / s->dv : INFINITY;
   }
+
   /* no end in sight: as far as the larger of the slips lasts, but no more than 1 */
   if (s->to_goal == INFINITY) {
     s->goal = AT_LENGTH;
@@ -144,6 +148,7 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
     if (!(s->to_goal > 0 && s->to_goal < 1))
       s->to_goal = 1;
   }
+
   /* an earlier end: p asked for, the event of the regime, the length left by a refusal */
   if (to - at->p < s->to_goal) {
     s->goal = AT_P;
@@ -415,6 +420,7 @@ static bool next_step(carom_trajectory *path, double to) {
       carom_variation_follow(path, &before, there);
     return goes_on;
   }
+
   /* the plan: the first that applies */
   plan n;
   n.s.target = s.target;
@@ -430,6 +436,7 @@ static bool next_step(carom_trajectory *path, double to) {
     plan_sliding(path, &s, &n);
   else
     plan_held(path, &s, &n);
+
   /* the step. Behind it a regime may begin, a phase may end, or a slip may be negligible */
   double advice = 1;
   const enum outcome r = n.kind(&path->terms, &n.s, &path->at, &path->iterations, &advice);
@@ -466,6 +473,7 @@ static bool next_step(carom_trajectory *path, double to) {
       carom_variation_follow(path, &before, there);
     return goes_on;
   }
+
   /* refused: up to the event; or a shorter step, by the error estimate */
   if (r == EVENT_WITHIN) {
     path->event_at = path->at.p + advice;
@@ -475,6 +483,7 @@ static bool next_step(carom_trajectory *path, double to) {
     path->longest = n.s.length * (r == INACCURATE && advice < 1e12
                                       ? most_of(0.3, 0.9 / sqrt(sqrt(sqrt(sqrt(advice)))))
                                       : 0.5);
+
   /* after too many refusals, careful steps; after too many of those, no way on */
   path->refusals++;
   path->sticks_missed += r == DIVERGED && n.s.goal == AT_STICK;

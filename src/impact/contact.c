@@ -144,6 +144,7 @@ static bool choose(const carom_law *l, const carom_point *at, bool event, carom_
     return from_rest(l, r);
   const carom_regime last = *r;
   *r = (carom_regime){.held = false};
+
   /* the driving contact: friction f holds it, or its slip begins, or it slips */
   pair u, f;
   if (a_rests) {
@@ -160,10 +161,12 @@ static bool choose(const carom_law *l, const carom_point *at, bool event, carom_
     u = direction((pair){at->a_x, at->a_y}, (pair){0, 0});
     f = (pair){-l->mu * u.x, -l->mu * u.y};
   }
+
   /* the load of the cloth; an event of two slipping contacts was its beginning or end */
   r->loaded = l->mu_c > 0 && load(l, f.y) > 0;
   if (event && !last.held && !last.cloth_held)
     r->loaded = !last.loaded;
+
   /* the cloth: friction holds it, or its slip begins */
   if (b_rests && r->loaded) {
     r->cloth_held = cloth_holds(l, f) && !(event && last.cloth_held);

@@ -287,18 +287,21 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
     return v < 0 ? (s->target - from->W - work(from, length, scale, (const double *)to_end, c)) / v
                  : 0.3 * length;
   }
+
   /* the slip at the end, and its rate there */
   const bool driving = s->goal == AT_STICK || (s->goal == AT_EVENT && driving_slips);
   const part *zx = driving ? c->za_x : c->zb_x, *zy = driving ? c->za_y : c->zb_y;
   const double last = 1 / (scale * LAST(s->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
   double x = (driving ? from->a_x : from->b_x) + dot(WEIGHT, zx),
          y = (driving ? from->a_y : from->b_y) + dot(WEIGHT, zy);
+
   /* stick: the slip along its direction over its rate */
   if (s->goal != AT_EVENT) {
     const double u_x = driving ? LAST(c->u_x) : LAST(c->t_x),
                  u_y = driving ? LAST(c->u_y) : LAST(c->t_y);
     return -(x * u_x + y * u_y) / (dx * u_x + dy * u_y);
   }
+
   /* the direction at the end, how fast it turns, and its effect on w */
   const double inverse = 1 / sqrt(x * x + y * y), turning = (x * dy - y * dx) * inverse * inverse;
   double w = 1, growth = 0;
@@ -308,6 +311,7 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
     w = k->w_0 / (1 - k->w_t * y);
     growth = w * k->w_t * x * turning / (1 - k->w_t * y);
   }
+
   /* the rate of the event function */
   const double X = w * x, Y = w * y;
   const double rate = (k->event[1] + 2 * k->event[3] * Y) * (w * x * turning + growth * y) +
@@ -327,6 +331,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
       correction_t;
   double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))),
       for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
+
   /* the planned directions; 1/E; `ease`, which stands for E(X)/E(X') of t; the weights of the
    * work */
   EACH {
@@ -412,6 +417,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
   }
   if (!converged || !forward)
     return DIVERGED;
+
   /* the point at the end */
   rates(&k, s->z, scale, driving_slips, loaded, &c);
   const double length = scale * s->length;
@@ -424,6 +430,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
                     .W = at->W + work(at, length, scale, (const double *)to_end, &c),
                     .p = at->p + length,
                     .growth = at->growth};
+
   /* the estimate of its error */
   double error = 0;
   if (driving_slips)
@@ -433,6 +440,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
   *advice = error * error / ((exact ? TOLERANCE_EXACT : TOLERANCE) * s->tolerance * length);
   if (!(*advice < 1))
     return INACCURATE;
+
   /* whether the regime has lasted to the end */
   events(&k, &c, driving_slips, f);
   const double event = largest(f), end = event_gap(&k, &to, driving_slips);
@@ -442,6 +450,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     *advice = first_event(&k, at, s, scale, f, driving_slips);
     return EVENT_WITHIN;
   }
+
   /* where friction drives the slip on the cloth, an error of its direction grows by exp(int |H|
    * w / |b| dp) */
   if (loaded && k.H_x < 0) {
@@ -450,6 +459,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     EACH f[i] = s->z[i] * c.w[i] * inverse_b[i];
     to.growth -= scale * k.H_x * dot(WEIGHT, f);
   }
+
   /* the variables that are exactly zero at the goal */
   if (s->goal == AT_STICK)
     to.a_x = to.a_y = 0;
@@ -459,6 +469,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     to.v = 0;
   else if (s->goal != AT_WORK && (s->restitution ? to.W < s->least_work : to.v < 0))
     return BEYOND_PHASE;
+
   /* a slip that takes no part has no direction: the plan did not set one */
   if (s->kept != NULL)
     EACH {

@@ -186,6 +186,7 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
     end_phase(path);
   if (path->ended)
     return;
+
   /* a slip that has become zero */
   const bool a_ends =
       at->a_x == 0 && at->a_y == 0 && (before->a_x != 0 || before->a_y != 0) && path->law.mu > 0;
@@ -207,6 +208,7 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
   double lead[4], after[CAROM_VARIED];
   carom_variation_leads(at, begins, lead);
   carom_variation_rates(&path->terms, lead, at->v, after);
+
   /* it ends a little earlier or later; rates change there. By the rates at its end and not by
    * the direction of the slip alone: that of a slip which is negligible, but not zero, still
    * turns, and the part of da across the motion falls with |a| */
@@ -364,6 +366,7 @@ static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
   const double begins[4] = {r->u_x, r->u_y, r->t_x, r->t_y};
   carom_variation_leads(at, begins, g->lead);
   const double t_x = g->lead[2], t_y = g->lead[3], w = r->loaded ? l->mu_c * l->g_1 : 0;
+
   /* friction that nearly leaves its cone: the smallest change lasts, or is held, depending on
    * its sign */
   const carom_terms *k = &path->terms;
@@ -413,6 +416,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   begin(law, slips, TOLERANCE, plain, &path);
   memset(&g, 0, sizeof g);
   memset(out, 0, sizeof *out);
+
   /* each variable asked for begins as its own derivative */
   g.d_law = d_law;
   g.asked = asked;

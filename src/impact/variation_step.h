@@ -150,6 +150,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   const bool loaded = path->regime.loaded;
   const double length = path->at.p - before->p;
   carom_variation_begin_regime(path);
+
   /* a shift along the motion, by alpha in p, is a solution; its part of da is split off
    * where the slip is about to end or is so small that its direction may turn fast */
   nodes alpha, d[CAROM_VARIED];
@@ -176,6 +177,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
         EACH d[r][i] -= alpha[i] * rate[r];
     }
   }
+
   /* the step at the nodes, and the derivatives of the rates */
   nodes z, u_x, u_y, t_x, t_y, w, per;
   double to_end[NODES];
@@ -199,6 +201,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   node_derivatives(k, z, u_x, u_y, t_x, t_y, w, per, by_u, by_t);
   if (parameters)
     parameter_derivatives(k, g, z, u_x, u_y, t_x, t_y, w, per, by);
+
   /* the angles: of u as if t did not change, of t by the Schur complement, and the change of u
    * by t */
   matrix of_u, of_t, of_tu;
@@ -251,6 +254,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
         EACH phi[j][i] -= right[j][i];
     }
   }
+
   /* the end, by quadrature; W is the integral of an integral. The estimate of the error is that
    * of the solver: the coefficient of the highest Legendre polynomial of the rates */
   nodes end[CAROM_VARIED], size, error;
@@ -259,6 +263,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     error[i] = splat(0);
     end[OF_W][i] = length * d[OF_V][i];
   }
+
   /* each rate at the nodes, by all that it depends on: its sum, and its highest coefficient */
   for (int r = 0; r < 5; r++) {
     nodes highest;
@@ -293,6 +298,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
                                       : ESTIMATE);
   if (worst > 1 && length > SHORTEST)
     return worst;
+
   /* the next step needs the rates at the end; the direction of a slip that is zero there is that
    * of the polynomial */
   const double last[4] = {dot(AT_END, u_x), dot(AT_END, u_y), dot(AT_END, t_x), dot(AT_END, t_y)};

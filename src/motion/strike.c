@@ -60,6 +60,7 @@ static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bo
   carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
   carom_sincos_degrees(cue->theta, &sin_theta, &cos_theta);
   const double V = 2.0 * cue->speed / (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
+
   /* squirt as a turn of v, by its sine and cosine */
   const double aside = -2.5 * a * sqrt(inside),
                ahead = 1.0 + kind->mass / cue->end_mass + 2.5 * inside;

@@ -282,16 +282,19 @@ static void judge(const way *w, const carom_shot_ball *balls, int count, double 
 /* Searches mid - wide to mid + wide, degrees, for directions with which the ball falls. */
 static void search(const way *w, const carom_shot_ball *balls, int count, double mid, double wide,
                    carom_pot *pot, carom_cue *cue) {
-  /* as long as links are gained, and once more for the roots */
   const carom_cue given = *cue;
   int best = -1;
   pot->is = CAROM_POT_NO_WAY;
+
+  /* as long as links are gained, and once more for the roots */
   for (bool gains = true; gains;) {
     const bool roots = best == w->links;
     double low = 0.0, high = 0.0, last = 0.0, before = (double)NAN;
     int most = -1;
     bool short_of = true; /* whether all that do most come to rest */
     progress at_rest = {0};
+
+    /* directions at the places of a sine, from one end of the range to the other */
     for (int k = 0; k <= SAMPLES; k++) {
       double sine, cosine, e, half, phi;
       carom_sincos(pi * k / (double)SAMPLES - 0.5 * pi, &sine, &cosine);
@@ -314,6 +317,7 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
         high = mid + wide * sine;
       }
 
+      /* a root between this direction and the last one, where the ball may fall */
       double root = 0.0, width = 0.0;
       if (roots && (e > 0.0) != (before > 0.0) && fabs(e - before) < step_most &&
           root_of(w, &given, last, phi, before, &root, &width)) {
@@ -355,6 +359,7 @@ static bool way_of(const carom_table *table, const carom_shot_ball *balls, int c
   w->ball[0] = cue_ball;
   w->options.stop_at = w->options.first_of = 0;
   w->options.time_most = 0.0;
+
   /* The ball that falls comes after the last other ball, where via[] does not name it. */
   int last = -1;
   bool named = false;
@@ -378,6 +383,7 @@ static bool way_of(const carom_table *table, const carom_shot_ball *balls, int c
     else if (link->kind != CAROM_PART_RAIL || link->index < 0 || link->index >= table->rails)
       return false;
   }
+
   /* All are there, once. */
   for (int k = 0; k < w->balls; k++) {
     const int ball = w->ball[k];

@@ -150,6 +150,7 @@ const char *carom_number_read(const char *at, const char *end, double *x, const 
   if (at == end || *at < '0' || *at > '9' ||
       (end - at > 1 && *at == '0' && at[1] >= '0' && at[1] <= '9'))
     return NULL;
+
   /* m of all digits, e of those behind the point */
   const uint64_t most = UINT64_C(1) << (MANTISSA + 1);
   uint64_t m = 0;

@@ -475,6 +475,7 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
         carom_record_place(record, ball, record->place[0], record->place[1], NULL);
     return status == CAROM_OK || wrong(in, carom_status_string(status));
   }
+
   /* the caller is to play it before the next line */
   case CAROM_RECORD_SHOT:
   case CAROM_RECORD_CONTINUE:
@@ -485,6 +486,7 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   case CAROM_RECORD_EVENT:
     return record->before == record->after ||
            wrong(in, "has states of other balls before and after");
+
   /* of what was read up to here */
   case CAROM_RECORD_END: {
     const bool same_shots = record->shots == shots, same_hash = record->hash == hash;
@@ -568,6 +570,8 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
     wrong(&in, "there is no shot to be played");
     return CAROM_ERROR_RECORD;
   }
+
+  /* recordings promise bits, so shots are played plain */
   carom_shot local = none, *played = wanted != NULL ? wanted : &local;
   carom_shot_options options = record->options;
   options.plain = 1;
@@ -586,6 +590,8 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
   played->state = goes || stops(&options) ? &record->state : NULL;
   if (played->state == NULL)
     record->state.opaque[0] = 0;
+
+  /* whether anything is played shows in the states at the end */
   record->final[0].label = UNTOUCHED;
   const int count = (int)record->count;
   const carom_status status =

@@ -138,6 +138,7 @@ meet_table_as(const carom_sim *sim, int i, const motion *m, double T, const bool
     count += is_near[k];
   }
   const double radius = sim->rates[i].radius;
+
   /* each narrows the horizon of those behind it; a pocket goes first where it comes at the same
    * time */
   for (int at = 0; at < count; at++) {

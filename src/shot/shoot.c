@@ -241,6 +241,7 @@ static carom_status strike(carom_sim *sim) {
   const carom_cue *cue = sim->cue;
   if (cue == NULL || !(cue->speed > 0.0))
     return CAROM_OK;
+
   /* no ball is struck while one moves */
   for (int i = 0; i < sim->count; i++) {
     const int64_t label = sim->path[i].from.label;

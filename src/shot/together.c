@@ -113,6 +113,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
   const int size = carom_cluster_members(c, first, second);
   if (size == 0 || size == 1)
     return 0;
+
   /* too many contacts, or too many steps: one by one, at this instant */
   if (size < 0 || !carom_cluster_solve(c)) {
     sim->one_by_one = sim->now;

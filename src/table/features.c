@@ -61,6 +61,7 @@ void carom_features_of(const carom_table *table, double radius, double reference
   f->hull[0] = f->hull[2] = INFINITY;
   f->hull[1] = f->hull[3] = -INFINITY;
   double low = INFINITY, high = 0.0; /* of the noses */
+
   /* a part that the ball's surface meets reaches as far as its radius, for a ball larger than
    * those of the table farther (nose.c) */
   if (radius != reference)
@@ -83,6 +84,7 @@ void carom_features_of(const carom_table *table, double radius, double reference
   for (int k = 0; k < f->pockets; k++, at++)
     enclose(f, at, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius, 0.0);
   CAROM_PROMISE(at == f->count && at <= MOST_FEATURES);
+
   /* defaults of the table */
   f->nose_low = low;
   f->width = table->rail_width > 0.0 ? table->rail_width : 0.12;

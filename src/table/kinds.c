@@ -35,6 +35,7 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
     kind.mu_cushion = 0.15;
   }
   kind.mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind.radius;
+
   /* measured: m/s^2 over g, or the coefficient itself */
   if (game == CAROM_GAME_SNOOKER) {
     kind.mu_slide = 2.075 / 9.81;

@@ -71,6 +71,7 @@ static void add_pocket(carom_table *t, const joint *j, double nose, double r, do
 /* The corners in the order that has the table to the left; false for numbers that are not
  * finite, negative places, edges without length or parts that do not fit into the struct. */
 static bool joints_of(const carom_corner *corner, int count, double r, joint *j) {
+  /* twice the area, whose sign tells the order */
   double area = 0.0;
   int jaws = 0, pockets = 0;
   for (int k = 0; k < count; k++) {
@@ -82,6 +83,8 @@ static bool joints_of(const carom_corner *corner, int count, double r, joint *j)
     area += a->x * b->y - b->x * a->y;
     pockets += a->mouth > 0.0;
   }
+
+  /* each corner with the directions to its neighbours */
   for (int k = 0; k < count; k++) {
     const int step = area > 0.0 ? 1 : count - 1;
     const int here = area > 0.0 ? k : count - 1 - k;

@@ -305,6 +305,7 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
   const carom_status bad = carom_check_parts(table, radius, radius, &features, &fault->part);
   if (bad != CAROM_OK)
     return bad;
+
   /* lines of rails, as they were given */
   for (int k = 0; k < table->rails; k++) {
     const carom_rail *rail = &table->rail[k];
@@ -317,6 +318,7 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
       return CAROM_ERROR_RAIL_LINE;
     }
   }
+
   /* the ring, with rails rounded */
   const carom_ball_kind ball = {.radius = radius};
   ring g;
@@ -332,6 +334,7 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
         fault->place[c] = 0.5 * (table->rail[k].p[c] + table->rail[k].q[c]);
       return CAROM_ERROR_RAIL_SIDE;
     }
+
   /* and with rails as they are detected */
   shapes_of(table, &features, &ball, 0.0, false, &g);
   return is_closed(&g, P, fault) ? CAROM_OK : CAROM_ERROR_TABLE_OPEN;

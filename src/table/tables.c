@@ -65,6 +65,7 @@ static void add_pockets(carom_table *t, const measures *m) {
   const double dc = rc * c / s;
   carom_sincos_degrees(0.5 * (90.0 + m->side_angle), &s, &c);
   const double ds = rs * c / s;
+
   /* rails */
   const double low = q + dc, middle_low = (l - sw) / 2.0 - ds, middle_high = (l + sw) / 2.0 + ds,
                high = l - q - dc;
@@ -74,6 +75,7 @@ static void add_pockets(carom_table *t, const measures *m) {
   add_rail(t, h, 0, w, middle_high, w, high);
   add_rail(t, h, 1, low, 0.0, w - q - dc, 0.0);
   add_rail(t, h, 0, low, l, w - q - dc, l);
+
   /* facings of the side pockets */
   const double back_high = (l + sw) / 2.0 - cw * sin_s, back_low = (l - sw) / 2.0 + cw * sin_s;
   const double front_high = (l + sw) / 2.0 - ds * sin_s, front_low = (l - sw) / 2.0 + ds * sin_s;
@@ -81,6 +83,7 @@ static void add_pockets(carom_table *t, const measures *m) {
   add_rail(t, h, 1, -cw, back_low, -ds * cos_s, front_low);
   add_rail(t, h, 0, w + cw, back_high, w + ds * cos_s, front_high);
   add_rail(t, h, 1, w + cw, back_low, w + ds * cos_s, front_low);
+
   /* facings of the corner pockets */
   const double back = q - cw * tan_c, front = q - dc * sin_c, in = dc * cos_c;
   add_rail(t, h, 1, back, -cw, front, -in);
@@ -91,6 +94,7 @@ static void add_pockets(carom_table *t, const measures *m) {
   add_rail(t, h, 0, w - back, l + cw, w - front, l + in);
   add_rail(t, h, 0, w + cw, back, w + in, front);
   add_rail(t, h, 1, w - back, -cw, w - front, -in);
+
   /* jaws */
   add_jaw(t, h, rc, low, -rc);
   add_jaw(t, h, rc, -rc, low);
@@ -104,6 +108,7 @@ static void add_pockets(carom_table *t, const measures *m) {
   add_jaw(t, h, rs, w + rs, middle_low);
   add_jaw(t, h, rc, w + rc, low);
   add_jaw(t, h, rc, w - q - dc, -rc);
+
   /* pockets */
   add_pocket(t, m->corner_radius, -off, -off);
   add_pocket(t, m->side_radius, -m->side_depth, l / 2.0);

@@ -244,6 +244,7 @@ carom_status carom_cushion_euler(carom_contact *c, int steps, double least, int,
     for (int r = 0; r < EULER_OUTS; r++)
       to[r]->d += (more[r] - less[r]) / (forward ? h : 2 * h) * in[k].d;
   }
+
   /* steps are counted in whole numbers */
   watched.note.flags |= ::CAROM_TANGENT_EULER | ::CAROM_TANGENT_DIFFERENCES | ::CAROM_TANGENT_KINK;
   return (carom_status)status;

@@ -172,8 +172,10 @@ CAROM_APART void take_part(scene *s) {
   const carom_event *e = s->event;
   s->table.rails = s->features.rails = 1;
   s->table.jaws = s->features.jaws = 1;
+
   /* noses are placed by the radius of the table's balls */
   s->features.reference = w->reference;
+
   /* the radius of the last ball places the nose, unless the table names one */
   if (!(w->table->ball_radius > 0) && w->seeds->kind != nullptr)
     load(w->pass, w->seeds->kind,
@@ -395,6 +397,7 @@ CAROM_APART text::carom_status strike(scene *s) {
         (::carom_rebound(v, 1) < GRAZING * v && ::carom_rebound((1 + GRAZING) * v, 1) > 0))
       s->w->note.flags |= CAROM_TANGENT_GRAZING;
   }
+
   /* a change of the elevation raises a level cue: the ball falls onto the slate at a speed that
    * is 0 */
   if (level) {
@@ -777,6 +780,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
 
   w->note = {0, 0};
   watched = {false, {0, 0}};
+
   /* the states at the fixed time of the event, and the derivatives of that time */
   for (int i = 0; i <= s.two; i++) {
     begin_ball(w, s.side[i], i, &s);
@@ -811,6 +815,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   }
   if ((e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP) && !(e->before[0].v[2] < 0))
     w->note.flags |= CAROM_TANGENT_KINK;
+
   /* the contact, which marks the instant of a slow one by the time that it leaves */
   s.sim.now = e->time;
   s.sim.now.d[CLOCK] = 1;
@@ -833,6 +838,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   w->slow_last = s.sim.slow_last.x;
   w->note.flags |= watched.note.flags | (slow ? CAROM_TANGENT_SLOW : 0);
   w->note.error = watched.note.error;
+
   /* a ball without vertical speed but for rounding stays on the cloth, though a change would
    * lift it */
   const bool in_space = s.two && (e->before[0].label == CAROM_BALL_AIRBORNE ||

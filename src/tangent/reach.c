@@ -129,6 +129,7 @@ __attribute__((noinline)) static void take_gap(carom_reach *reach, const carom_t
 static void search(carom_reach *reach, const carom_tangent_ball *ball,
                    const carom_tangent_ball *other, const separation *s, double T, double reaches,
                    bool stops, const carom_rail *rail) {
+  /* nothing is missed that is too far for the whole way */
   double way = 0.0;
   for (int k = 0; k < 3; k++)
     way += T * (fabs(s->v[k]) + T * fabs(s->a[k]));
@@ -138,6 +139,7 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball,
   double before = first.opens;
   for (int k = 1; k <= PARTS_OF_WAY; k++) {
     double low = T * (k - 1) / (double)PARTS_OF_WAY, high = T * k / (double)PARTS_OF_WAY;
+    /* a part of the way at whose end the distance grows has a least one within */
     const double now = distance_at(s, high).opens;
     const bool least = before < 0.0 && now >= 0.0,
                end = stops && k == PARTS_OF_WAY && before < 0.0 && !least;
@@ -148,6 +150,8 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball,
       const double middle = 0.5 * (low + high);
       *(distance_at(s, middle).opens < 0.0 ? &low : &high) = middle;
     }
+
+    /* what the gap there is worth */
     const distance there = distance_at(s, high);
     const double gap = there.size - reaches;
     if (!is_missed(gap, first.size - reaches))
@@ -374,6 +378,7 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tang
   }
   if (!at_nose)
     return h;
+
   /* along the vector from the nose to the ball, which takes the place of x */
   const double height =
       carom_nose_height(kind, is_jaw ? table->jaw[event->b].height : table->rail[event->b].height);
@@ -381,6 +386,7 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tang
   double out[3] = {-h.d[0] / q, -h.d[1] / q, 0.0};
   if (!is_jaw)
     carom_rail_line(&table->rail[event->b], out);
+
   /* the nose is inside the wall; level parts are along that vector from here on */
   const double beyond =
       (is_jaw ? table->jaw[event->b].radius : 0.0) + carom_nose_shift(height, w->reference);
@@ -442,6 +448,8 @@ static void take_landing(carom_reach *reach, const carom_event *event, carom_tan
     const double middle = 0.5 * (low + high);
     *(carom_rebound(middle, e) > 0.0 ? &high : &low) = middle;
   }
+
+  /* the last hop more or less, and pockets that the ball would fall into */
   for (int j = 0; j < w->pass.columns; j++) {
     if (e > 0.0)
       take(reach, j, fabs(-s->v[2] - high), d[S_V_Z][j]);
@@ -460,6 +468,7 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
   carom_tangent_rows *d = w->before;
   const int m = w->pass.columns;
   const bool two = event->type == CAROM_EVENT_BALL_BALL;
+
   /* the order of the events of each ball */
   for (int side = 0; side <= two; side++) {
     const int i = side == 0 ? event->a : event->b;
@@ -482,6 +491,7 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
   if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW ||
       (event->type == CAROM_EVENT_POCKET && on_cloth))
     take_rails(reach, event, d[0]);
+
   /* of a cluster the contact that starts it */
   for (int j = 0; j < m && !w->inner; j++) {
     const hit h = hit_of(reach, event, d, j);

@@ -207,6 +207,7 @@ static carom_status differentiate(work *w, carom_layout layout, const carom_shot
     tangent->all_flags |= w->note.flags;
     tangent->error = fmax(tangent->error, w->note.error);
   }
+
   /* the end of the shot, where balls may still move; how they go on is not known */
   for (int i = 0; i < w->count && tangent->times_count > 0; i++) {
     const int64_t label = w->ball[i].from.label;
