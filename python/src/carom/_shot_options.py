@@ -9,10 +9,15 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 import numpy as np
 
 from carom._carom import ffi
-from carom._described import BallFriction as Friction
-from carom._described import BallModel, ShotCushion, Simultaneous, Space, World
+from carom._described import BallFriction
+from carom._described import BallModel as BallModel
+from carom._described import ShotCushion as ShotCushion
+from carom._described import Simultaneous as Simultaneous
+from carom._described import Space as Space
+from carom._described import World as World
 from carom._rows import cached, choice, number, numbered, several, whole
 
+Friction = BallFriction
 StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
     "spinning_stationary", "slate", "rail_top", "left_table",
