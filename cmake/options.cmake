@@ -19,7 +19,10 @@ target_compile_options(
             # Parity with pooltool to the last bit: a*b + c stays two roundings unless a source asks for fma().
             -ffp-contract=off)
 # Where src/platform/promise.h asks what comments promise.
-set(checked $<$<OR:$<CONFIG:Debug>,$<BOOL:${CAROM_SANITIZE}>>:CAROM_CHECKED>)
+set(checked $<$<CONFIG:Debug>:CAROM_CHECKED>)
+if(CAROM_SANITIZE) # its commas would part the expression
+  set(checked CAROM_CHECKED)
+endif()
 target_compile_definitions(carom_options INTERFACE ${checked})
 # -g1: lines for the reports; more would double the time that gcc takes.
 if(CAROM_SANITIZE)
