@@ -289,8 +289,8 @@ typedef struct carom_plan_job {
  * defaults. 0 for bad options. */
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
-/* The best shots of a layout, best first: up to `room` of them to choices[], and *found becomes
- * their number, at least 1.
+/* The best shots of a layout, best first: up to `room` of them to choices[], the best of each ball,
+ * pocket and kind, and *found becomes their number, at least 1.
  *
  * CAROM_OK; CAROM_ERROR_NULL for a pointer that is NULL or too little memory;
  * CAROM_ERROR_OPTIONS for bad options, a bad player or rules without on(), judge() or left();

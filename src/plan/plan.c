@@ -272,11 +272,29 @@ static void try_all(void *context, carom_crew *crew) {
   }
 }
 
-/* A plan that was stopped has not sorted what it found: the first is the best. */
+/* The best choice of each ball, pocket and kind, the best first. A plan that was stopped has not
+ * sorted what it found: the first is the best. */
 static int give(const plan *of, carom_choice *choices, int room) {
+  const int most = carom_is_stopped(of) ? 1 : room;
   int n = 0;
-  for (; n < (carom_is_stopped(of) ? 1 : room) && n < of->count; n++)
-    choices[n] = carom_search_choice(of, &of->found[n]);
+  for (int64_t k = 0; n < most && k < of->count; k++) {
+    const carom_choice c = carom_search_choice(of, &of->found[k]);
+    const bool played = c.seen > 0 || c.kind == CAROM_PLAN_PASS;
+    if (n > 0 && (!played || c.value > choices[0].value))
+      continue;
+
+    /* where it is not there yet, it is sorted in */
+    int same = 0;
+    while (same < n && (choices[same].ball != c.ball || choices[same].pocket != c.pocket ||
+                        choices[same].kind != c.kind))
+      same++;
+    if (same < n)
+      continue;
+    int at = n++;
+    for (; at > 0 && choices[at - 1].value < c.value; at--)
+      choices[at] = choices[at - 1];
+    choices[at] = c;
+  }
   return n;
 }
 

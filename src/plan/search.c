@@ -118,6 +118,35 @@ static int64_t first_round(search *of, int64_t keep) {
   return good;
 }
 
+/* Another pot that looks better than the best, after fewer strokes, is played as often as the best
+ * in the last round before it is told. */
+static void look_again(search *of, int64_t each) {
+  enum { LOOKS = 2 };
+  each = each < 2 ? 2 : each > of->room ? of->room : each;
+  for (int look = 0; look < LOOKS && !carom_is_stopped(of); look++) {
+    int64_t better = 0;
+    const candidate *best = &of->found[0];
+    double most = best->sum / (double)best->seen;
+    for (int64_t k = 1; k < of->count; k++) {
+      const candidate *c = &of->found[k];
+      const bool other = c->ball != best->ball || c->pocket != best->pocket;
+      if (other && c->round > 0 && c->round < ROUNDS && c->sum / (double)c->seen > most) {
+        better = k;
+        most = c->sum / (double)c->seen;
+      }
+    }
+    if (better == 0)
+      return;
+    const candidate first = of->found[0];
+    of->found[0] = of->found[better];
+    of->found[better] = first;
+    of->found[0].round = ROUNDS - 1;
+    carom_search_add_up(of, 1, each, DRAW_ROUND + ROUNDS - 1);
+    lead(of, better);
+    sort(of, of->count);
+  }
+}
+
 static void halve(search *of, int64_t shots) {
   sort(of, of->count);
   const int64_t keep = shots / 25 > 6 ? shots / 25 : 6,
@@ -133,6 +162,7 @@ static void halve(search *of, int64_t shots) {
     carom_search_add_up(of, n, each, DRAW_ROUND + (uint32_t)round);
     sort(of, of->count);
   }
+  look_again(of, left / ROUNDS / 2);
 }
 
 /* A gentle stroke towards the nearest ball that is on: nothing better is known. */
