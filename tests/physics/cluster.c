@@ -400,12 +400,17 @@ TEST(balances) {
         P[k] += l.ball[i].kind.mass * (out[i].v[k] - l.ball[i].state.v[k]);
         by_impulse[i][k] = l.ball[i].state.v[k];
       }
-    for (int q = 0; q < contacts_count; q++)
+    for (int q = 0; q < contacts_count; q++) {
+      double along = 0.0; /* friction is across the normal */
+      for (int k = 0; k < 3; k++)
+        along += contacts[q].friction[k] * contacts[q].normal[k];
+      ck_assert_double_le(fabs(along), 1e-12 * contacts[q].impulse);
       for (int k = 0; k < 2; k++) {
         const double on_b = contacts[q].impulse * contacts[q].normal[k] - contacts[q].friction[k];
         by_impulse[contacts[q].a][k] -= on_b / l.ball[contacts[q].a].kind.mass;
         by_impulse[contacts[q].b][k] += on_b / l.ball[contacts[q].b].kind.mass;
       }
+    }
     for (int i = 0; i < l.count && !rubs; i++)
       for (int k = 0; k < 2; k++) {
         momentum = fmax(momentum, fabs(P[k]) / l.ball[0].kind.mass);
