@@ -385,10 +385,12 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
             warnings.simplefilter("error")
             found = fit.fit(recordings, TABLE, RADIUS, seed=1, threads=-1, calibrate=bool(crooked))
         best = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
-        off += [abs(found.constants[name] - value) / found.spread[name] for name, value in truth.items() if name in found.spread]
+        # a friction that hardly changes with the slip may be found without the change, whose numbers then have no spread
+        told = [abs(found.constants[name] - value) / found.spread[name] for name, value in truth.items() if name in found.spread]
+        off += told
         sound += found.median_rmse < 2 * np.sqrt(2) * noise
         print(f"match {seed}: noise {1e3 * noise:.2f} mm, rate {rate:g}, RMSE {1e3 * found.median_rmse:.2f} mm, with the true constants "
-              f"{1e3 * best.median_rmse:.2f} mm, constants within one spread {np.mean(np.array(off[-11:]) < 1):.2f}")  # fmt: skip
+              f"{1e3 * best.median_rmse:.2f} mm, constants within one spread {np.mean(np.array(told) < 1):.2f}")  # fmt: skip
     off = np.array(off)
     print(f"{matches} matches: within one spread {(off < 1).mean():.2f}, within two {(off < 2).mean():.2f}, sound {sound}")
     if matches < 8:
