@@ -142,11 +142,12 @@ static bool place_at(const fall *f, double t, double p[2], double v[2]) {
 
 /* The last time up to the end at which the place is still free, from a time on. */
 static double last_free(const fall *f, double from) {
-  enum { PARTS = 200, BISECTIONS = 40 };
+  static const int parts = 200;
+  enum { BISECTIONS = 40 };
   double p[2], v[2];
-  for (int k = 0; k <= PARTS && f->count > 0; k++) {
-    double low = from + (f->end - from) * (k - 1) / PARTS,
-           high = from + (f->end - from) * k / PARTS;
+  for (int k = 0; k <= parts && f->count > 0; k++) {
+    double low = from + (f->end - from) * (k - 1) / parts,
+           high = from + (f->end - from) * k / parts;
     if (place_at(f, high, p, v))
       continue;
     for (int n = 0; n < BISECTIONS && k > 0; n++) {

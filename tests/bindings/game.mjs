@@ -19,17 +19,17 @@ function bitsOf(number) {
   return bytes.getBigUint64(0);
 }
 
-/** The numbers of each kind of line in order, and those of the objects in its lists. Whole numbers end with "#", lists of n numbers with n. */
+/** The numbers of each kind of line in order, and those of the objects in its lists. Whole numbers end with "#", lists of n numbers with "*n". */
 const keys = (text) => text.split(" ");
 const NUMBERS = {
   recording: keys("format# revision#"),
   table: keys("width length ball_radius rail_width pocket_back rails jaws pockets"),
-  rails: keys("p2 q2 height line3 side# mu_cushion restitution"),
-  jaws: keys("centre2 radius height mu_cushion restitution"),
-  pockets: keys("centre2 radius depth"),
+  rails: keys("p*2 q*2 height line*3 side# mu_cushion restitution"),
+  jaws: keys("centre*2 radius height mu_cushion restitution"),
+  pockets: keys("centre*2 radius depth"),
   options: keys("world# ball_model# cushion_model# friction# steps# space# simultaneous# cluster_steps#"),
   balls: ["list"],
-  list: keys("mass radius mu_slide mu_roll mu_spin mu_ball restitution mu_cushion restitution_cushion gravity drag roll_loss law_a law_b law_c nose_height omega_ratio restitution_table modulus restitution_log mu_log smooth_q smooth_x smooth_t smooth_a smooth_k smooth_g smooth_g_log smooth_e restitution_log2 roll_loss_log r3 v3 w3 label#"),
+  list: keys("mass radius mu_slide mu_roll mu_spin mu_ball restitution mu_cushion restitution_cushion gravity drag roll_loss law_a law_b law_c nose_height omega_ratio restitution_table modulus restitution_log mu_log smooth_q smooth_x smooth_t smooth_a smooth_k smooth_g smooth_g_log smooth_e restitution_log2 roll_loss_log r*3 v*3 w*3 label#"),
   shot: keys("speed phi theta a b mass end_mass tip_radius ball# miscue tip_time time_most stop_at# first_of# events_most# status# events# time hash"),
 };
 const LINES = { recording: 1n, table: 2n, options: 3n, balls: 4n, shot: 6n };
@@ -38,7 +38,7 @@ const LINES = { recording: 1n, table: 2n, options: 3n, balls: 4n, shot: 6n };
 function stirObject(hash, kind, object) {
   let place = 0n;
   for (const name of NUMBERS[kind]) {
-    const [, key, many] = /^(\D+?)(\d?)#?$/.exec(name);
+    const [, key, many] = /^(\w+)(?:\*(\d))?#?$/.exec(name);
     if (NUMBERS[key] !== undefined) {
       place++;
       const list = object[key] ?? [];

@@ -19,7 +19,7 @@ STATIC_ASSERT(CAROM_OK == 0 && CAROM_SEPARATING > 0 && CAROM_ERROR_NULL < 0,
 #ifdef CAROM_SHOT_H
 STATIC_ASSERT(sizeof(carom_cushion_impact) == 15 * sizeof(double), "an impact is 15 doubles");
 STATIC_ASSERT(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 doubles");
-STATIC_ASSERT(sizeof(carom_cushion_options) == 128,
+STATIC_ASSERT(sizeof(carom_cushion_options) == 160,
               "options have no gaps that a compiler may fill");
 STATIC_ASSERT(CAROM_CUSHION_MATHAVAN == 0 && CAROM_CUSHION_EULER == 4 && CAROM_CUSHION_SMOOTH == 5,
               "values are never changed");
