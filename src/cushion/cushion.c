@@ -34,8 +34,7 @@ void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
     carom_apply_speed(contact, opt);
 }
 
-/* One impact, with options that have been checked. */
-static carom_status solve_impact(const carom_cushion_impact *in, const carom_cushion_options *opt,
+carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cushion_options *opt,
                                  carom_motion *out) {
   int field;
   carom_status status = carom_cushion_check_impact(in, &field);
@@ -67,7 +66,7 @@ carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_o
     opt = &defaults;
   const carom_status status = carom_cushion_check_options(opt);
   if (status == CAROM_OK)
-    return solve_impact(in, opt, out);
+    return carom_cushion_solve(in, opt, out);
   *out = (carom_motion){{NAN, NAN, NAN}, {NAN, NAN, NAN}};
   return status;
 }
@@ -84,7 +83,7 @@ static size_t solve_rows(const void *context, size_t first, size_t end) {
   const batch *b = (const batch *)context;
   size_t first_bad = end;
   for (size_t k = first; k < end; k++) {
-    const carom_status status = solve_impact(&b->in[k], b->opt, &b->out[k]);
+    const carom_status status = carom_cushion_solve(&b->in[k], b->opt, &b->out[k]);
     if (b->status != NULL)
       b->status[k] = (int8_t)status;
     if (status < 0 && first_bad == end)
@@ -121,5 +120,5 @@ carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,
     return CAROM_OK;
   /* Only its index came back through the threads; doing the row again tells its status. */
   carom_motion unused;
-  return solve_impact(&in[first_bad], opt, &unused);
+  return carom_cushion_solve(&in[first_bad], opt, &unused);
 }

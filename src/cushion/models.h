@@ -52,6 +52,10 @@ void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt);
 
 carom_status carom_mirror(carom_contact *contact);
 
+/* carom_cushion() with options that have been checked. See cushion.c. */
+carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                 carom_motion *out);
+
 /* How a run of Euler's method ended. */
 typedef struct carom_cushion_run {
   int64_t steps;                          /* of both phases together */

@@ -268,14 +268,14 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
                                    .jaw_radius = nose->jaw_radius};
   carom_cushion_options options = cushion_options(sim, kind);
   carom_motion out;
-  carom_status status = carom_cushion(&in, &options, &out);
+  carom_status status = carom_cushion_solve(&in, &options, &out);
 
   /* a shot goes on by the same model's steps where its limit is refused, as for a ball whose
    * rolling is exact but for rounding
    */
   if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {
     options.model = CAROM_CUSHION_EULER;
-    status = carom_cushion(&in, &options, &out);
+    status = carom_cushion_solve(&in, &options, &out);
   }
   if (status < 0)
     return status;
