@@ -805,7 +805,7 @@ CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int cou
                                            carom_ball_state *states);
 
 /* The same for drawing: a pocketed ball falls freely from the edge, along the wall of its pocket
- * and around balls that lie there, until it lies at the pocket's depth or on them, and stays
+ * and around balls that lie there. It comes to lie at the pocket's depth or on them, and stays
  * there, also after the end of the shot. Its label is CAROM_BALL_POCKETED. Brief events have no
  * states to fall from. CAROM_ERROR_NULL without a table. */
 CAROM_API carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls,
