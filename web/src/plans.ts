@@ -38,6 +38,14 @@ export interface Host {
 
 type Method = (...numbers: Pointer[]) => number;
 
+/** Refuses what is no layout of a game, for a plan. */
+function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: string): void {
+  if (pockets.length === 0) throw new TypeError(`table: it has no pockets, which ${rules} needs`);
+  const last = { eightball: 15, nineball: 9 }[rules] ?? balls.length;
+  const beyond = balls.findIndex(({ state }, k) => k > last && state.label !== "pocketed" && state.label !== "off");
+  if (beyond >= 0) throw new TypeError(`balls: the balls of ${rules} are the cue ball and 1 to ${last}, not ${beyond}`);
+}
+
 export class Plans {
   readonly #host: Host;
   readonly #at: Record<"player" | "opponent" | "rules" | "options" | "job" | "facts" | "turn" | "call" | "corners" | "found" | "pot", Pointer>;
@@ -250,6 +258,7 @@ export class Plans {
     this.#writePlayer(player, options.player ?? this.player({}), "player");
     const shot = this.#host.writeShotOptions(options.shot ?? {});
     this.#writeRules(options, balls);
+    refuseLayout(table, balls, options.rules ?? "eightball");
     memory.u8.fill(0, optionsAt, optionsAt + OPTIONS.size);
     memory.i64[(optionsAt + OPTIONS.offset.shots) / 8] = whole(options.shots ?? 0, "shots");
     memory.i64[(optionsAt + OPTIONS.offset.seed) / 8] = whole(options.seed ?? 0, "seed");

@@ -161,6 +161,9 @@ test("arguments in error", () => {
   expect(() => carom.player({ errors: 1, fargo: 500 })).toThrow("errors, fargo: a player has errors or a rating, not both");
   expect(() => carom.plan(table, balls, { rules: "nineball", group: "solids" })).toThrow("group: it is of eight-ball");
   expect(() => carom.plan(table, balls, { rules: "potting", may: "push" })).toThrow("may: it is of nine-ball");
+  expect(() => carom.plan(carom.table("threecushion"), balls.slice(0, 3), {})).toThrow("table: it has no pockets, which eightball needs");
+  const more = carom.rack("eightball", table, { seed: 1 });
+  expect(() => carom.plan(table, more, { rules: "nineball" })).toThrow("balls: the balls of nineball are the cue ball and 1 to 9, not 10");
   const down = balls.map((ball, k) => (k === 0 ? ball : { ...ball, state: { ...ball.state, label: "pocketed" as const } }));
   expect(() => carom.plan(table, down, { rules: "nineball" })).toThrow(/no ball is left to be played/);
   expect(() => carom.ballsOn({ rules: "nineball", group: "stripe" as "open", opening: false }, balls)).toThrow(/group/);
