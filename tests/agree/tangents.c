@@ -34,17 +34,17 @@ carom_status __wrap_carom_collide(const carom_impact *in, const carom_options *o
   return status;
 }
 
-carom_status __real_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
-                                  carom_motion *out);
-carom_status __wrap_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
-                                  carom_motion *out);
+carom_status __real_carom_cushion_solve(const carom_cushion_impact *in,
+                                        const carom_cushion_options *opt, carom_motion *out);
+carom_status __wrap_carom_cushion_solve(const carom_cushion_impact *in,
+                                        const carom_cushion_options *opt, carom_motion *out);
 
-carom_status __wrap_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
-                                  carom_motion *out) {
+carom_status __wrap_carom_cushion_solve(const carom_cushion_impact *in,
+                                        const carom_cushion_options *opt, carom_motion *out) {
   if (!precisely || opt == NULL || opt->model != CAROM_CUSHION_MATHAVAN)
-    return __real_carom_cushion(in, opt, out);
+    return __real_carom_cushion_solve(in, opt, out);
   carom_cushion_point points[2];
-  precisely = false; /* carom_cushion_trace() calls carom_cushion() */
+  precisely = false; /* carom_cushion_trace() calls this, too */
   const carom_status status = carom_cushion_trace(in, opt, 2, points);
   precisely = true;
   *out = points[1].state;
