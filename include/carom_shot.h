@@ -303,16 +303,15 @@ typedef struct carom_shot_ball {
 } carom_shot_ball;
 
 /* Games, for their balls and cues. docs/understanding/constants.md has the source of each
- * number. The numbers of the cushion are those of Han's model, the default of the world carom;
- * that page has those of the exact model. */
+ * number. The numbers of the cushion are for the default of the world carom: the smooth model for
+ * BILLIARD, else Han's. That page has those for other models. */
 typedef enum carom_game {
   CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published;
                                       no table was measured */
   CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
   CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded
-                                      shots, with drag and loss of roll; mu_cushion,
-                                      restitution_cushion and nose_height are for
-                                      CAROM_CUSHION_HAN */
+                                      shots, with drag, loss of roll and the numbers of
+                                      CAROM_CUSHION_SMOOTH */
   CAROM_GAME_POOLTOOL_POOL = 3,    /* the figures of pooltool's balls, for parity with it: pool, */
   CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
   CAROM_GAME_POOLTOOL_BILLIARD = 5 /* and carom */
