@@ -638,6 +638,8 @@ typedef struct carom_event {
   int32_t type, a, b;
   int32_t cluster; /* of a CAROM_EVENT_BALL_BALL: contacts of its cluster; 0: a contact of two
                       balls alone. */
+  double impulse;  /* N s, for sounds: the size of what ball a got from cue, ball, cushion or
+                      slate; in a cluster from ball b alone. 0 of every other event. */
   carom_ball_state before[2], after[2];
 } carom_event;
 

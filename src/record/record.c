@@ -121,6 +121,7 @@ static const field event[] = {R("time", DOUBLE, true, 1, event.time),
                               R("a", INT32, true, 1, event.a),
                               R("b", INT32, false, 1, event.b),
                               R("cluster", INT32, false, 1, event.cluster),
+                              R("impulse", DOUBLE, false, 1, event.impulse),
                               LISTED("before", 2, event.before, before, state_fields),
                               LISTED("after", 2, event.after, after, state_fields),
                               END};

@@ -83,9 +83,22 @@ static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_
   event->a = due->a;
   event->b = due->b;
   event->cluster = 0;
+  event->impulse = 0.0;
   if (due->type != CAROM_EVENT_BALL_BALL)
     memset(&event->before[1], 0, sizeof event->before[1]);
   return event;
+}
+
+/* The size of the change of momentum of an event's first ball, N s, for types with a contact. */
+static double impulse_of(const carom_sim *sim, const carom_event *event) {
+  const unsigned with_contact = 1U << CAROM_EVENT_STRIKE | 1U << CAROM_EVENT_BALL_BALL |
+                                1U << CAROM_EVENT_RAIL | 1U << CAROM_EVENT_JAW |
+                                1U << CAROM_EVENT_SLATE | 1U << CAROM_EVENT_RAIL_TOP;
+  if (!(with_contact >> event->type & 1U))
+    return 0.0;
+  const double *v = event->before[0].v, *u = event->after[0].v;
+  const double x = u[0] - v[0], y = u[1] - v[1], z = u[2] - v[2];
+  return carom_kind_in(sim->ball, event->a)->mass * sqrt(x * x + y * y + z * z);
 }
 
 /* Resolves an event: event->before to the paths of its balls. The change itself is made in
@@ -155,6 +168,8 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
 
     carom_event spare, *event = note(sim, &spare, &contact);
     event->cluster = count;
+    event->impulse =
+        sqrt(x->impulse * x->impulse + x->rubbed[0] * x->rubbed[0] + x->rubbed[1] * x->rubbed[1]);
     for (int side = 0; side < 2; side++) {
       const int i = two[side]->which;
       carom_path *path = &sim->path[i];
@@ -225,6 +240,7 @@ static carom_status step(carom_sim *sim, carom_due *due) {
       event->after[1] = sim->path[j].from;
     else
       memset(&event->after[1], 0, sizeof event->after[1]);
+    event->impulse = impulse_of(sim, event);
   }
 
   /* the paths from here on, and what is met on them */
@@ -277,6 +293,7 @@ static carom_status strike(carom_sim *sim) {
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;
   memset(&event->after[1], 0, sizeof event->after[1]);
+  event->impulse = impulse_of(sim, event);
   carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   return CAROM_OK;
 }

@@ -254,6 +254,46 @@ static double momentum_change_of_cluster(const follower *f, const carom_event *e
   return size / (space ? 1e-13 + 1e-9 * mass : 1e-13 + mu * 0.12 * e->cluster * sum);
 }
 
+static double impulse_on(const follower *f, const carom_event *e, int side) {
+  const carom_ball_state *from = &e->before[side], *to = &e->after[side];
+  double change[3];
+  for (int axis = 0; axis < 3; axis++)
+    change[axis] = to->v[axis] - from->v[axis];
+  return f->balls[side == 0 ? e->a : e->b].kind.mass *
+         hypot(length2(change[0], change[1]), change[2]);
+}
+
+/* How far the impulses of an event, or of all `together` of a cluster, are from what its balls
+ * show, over what they show. In a cluster the cloth takes some of it. */
+static double impulse_error(const follower *f, const carom_event *e, int together) {
+  const bool touches = e->type == CAROM_EVENT_STRIKE || e->type == CAROM_EVENT_BALL_BALL ||
+                       e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW ||
+                       e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP;
+  if (!touches)
+    return e->impulse;
+  if (e->cluster == 0)
+    return fabs(e->impulse - impulse_on(f, e, 0)) / (1e-13 + 1e-12 * e->impulse);
+  double sum[CAROM_BALLS_MOST] = {0.0}, shown[CAROM_BALLS_MOST] = {0.0}, worst = 0.0;
+  int contacts[CAROM_BALLS_MOST] = {0};
+  for (int k = 0; k < together; k++) {
+    if (!(e[k].impulse > 0.0))
+      return INFINITY;
+    for (int side = 0; side < 2; side++) {
+      const int i = side == 0 ? e[k].a : e[k].b;
+      sum[i] += e[k].impulse;
+      contacts[i]++;
+      shown[i] = fmax(shown[i], impulse_on(f, &e[k], side));
+    }
+  }
+
+  /* several impulses on a ball can cancel, one cannot */
+  for (int i = 0; i < f->count; i++) {
+    const double off = contacts[i] == 1 ? fabs(shown[i] - sum[i]) : shown[i] - sum[i];
+    worst = fmax(worst, off / (1e-13 + 0.04 * sum[i]));
+  }
+  return worst;
+}
+
 shot_measures shot_measure(const carom_table *table, const carom_shot_ball *balls, int count,
                            const carom_shot *shot, carom_status status, int samples) {
   follower f = {.before = *shot,
@@ -297,6 +337,7 @@ shot_measures shot_measure(const carom_table *table, const carom_shot_ball *ball
       f.m.momentum = fmax(f.m.momentum, momentum_change_of_cluster(&f, e));
     else if (e->type == CAROM_EVENT_BALL_BALL)
       f.m.momentum = fmax(f.m.momentum, momentum_change(&f, e));
+    f.m.impulse = fmax(f.m.impulse, impulse_error(&f, e, together));
     k += together - 1;
     f.before.count = k + 1;
     f.last_type = e->type;

@@ -12,6 +12,8 @@ typedef struct shot_measures {
   double momentum;  /* greatest change of the momentum of two balls in their collision, over what
                        the cloth may take away, or, where  one flies or their radii differ, over
                        1e-13 N s + 1e-9 m/s of both masses; > 1 is wrong */
+  double impulse;   /* greatest difference of an event's impulse from the change of momentum of its
+                       balls, over 1e-12 of it, in a cluster over 0.04; > 1 is wrong */
   double jump;      /* greatest difference of a state before an event from that which motion since
                    the ball's last event gives: m, m/s, and R times rad/s */
   int restless;     /* balls that are neither at rest nor pocketed at the end of a shot with status
@@ -25,13 +27,14 @@ shot_measures shot_measure(const carom_table *table, const carom_shot_ball *ball
                            const carom_shot *shot, carom_status status, int samples);
 
 /* That a shot is sound, with places and states within so much. */
-#define EXPECT_SOUND(m, within, name, number)                                                     \
-  ck_assert_msg((m).overlap <= (within) && (m).intrusion <= (within) && (m).depth <= 1e-12 &&     \
-                    (m).gain <= 1e-12 && (m).momentum <= 1.0 && (m).jump <= (within) &&           \
-                    (m).restless == 0,                                                            \
-                "%s %d: overlap %g, intrusion %g after %s, depth %g, gain %g, momentum %g, jump " \
-                "%g, %d restless",                                                                \
-                name, (int)(number), (m).overlap, (m).intrusion, (m).worst_at, (m).depth,         \
-                (m).gain, (m).momentum, (m).jump, (m).restless)
+#define EXPECT_SOUND(m, within, name, number)                                              \
+  ck_assert_msg(                                                                           \
+      (m).overlap <= (within) && (m).intrusion <= (within) && (m).depth <= 1e-12 &&        \
+          (m).gain <= 1e-12 && (m).momentum <= 1.0 && (m).impulse <= 1.0 &&                \
+          (m).jump <= (within) && (m).restless == 0,                                       \
+      "%s %d: overlap %g, intrusion %g after %s, depth %g, gain %g, momentum %g, impulse " \
+      "%g, jump %g, %d restless",                                                          \
+      name, (int)(number), (m).overlap, (m).intrusion, (m).worst_at, (m).depth, (m).gain,  \
+      (m).momentum, (m).impulse, (m).jump, (m).restless)
 
 #endif

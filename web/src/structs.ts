@@ -159,5 +159,6 @@ export function readEvent(memory: Memory, at: Pointer, typeName: (type: number) 
     before: states(EVENT.before),
     after: states(EVENT.after),
     cluster: i32[(at + EVENT.cluster) / 4]!,
+    impulse: memory.f64[(at + EVENT.impulse) / 8]!,
   };
 }

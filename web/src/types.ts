@@ -192,6 +192,8 @@ export interface ShotEvent {
   after: BallState[];
   /** Of the contact of two balls: how many contacts its cluster has, whose events follow each other; 0: it is alone. */
   cluster: number;
+  /** N s, for sounds: the size of what ball a got from cue, ball, cushion or slate; in a cluster from ball b alone. 0 of every other event. */
+  impulse: number;
 }
 
 /** What the cue ball touches first. */

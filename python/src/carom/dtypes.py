@@ -64,7 +64,7 @@ rail: Record = _record("carom_rail")  # A straight piece of cushion.
 jaw: Record = _record("carom_jaw")  # A rounded end of a cushion.
 pocket: Record = _record("carom_pocket")  # A pocket.
 table: Record = _record("carom_table")  # A table: any geometry.
-# An event of a shot: time (s), type (`carom.EventType`), a, b, before and after (two ball states each).
+# An event of a shot: time (s), type (`carom.EventType`), a, b, impulse (N s), before and after (two ball states each).
 event: Record = _record("carom_event")
 # An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b.
 brief_event: Record = _record("carom_brief_event")

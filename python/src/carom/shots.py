@@ -148,7 +148,7 @@ def simulate_batch(
     room : int
         How many events of each shot are kept; 0: final states only.
     records : {"full", "brief"}
-        What is kept of an event: all (`carom.dtypes.event`, 344 bytes), or time, type and who (`carom.dtypes.brief_event`, 24 bytes).
+        What is kept of an event: all (`carom.dtypes.event`, 352 bytes), or time, type and who (`carom.dtypes.brief_event`, 24 bytes).
     features : bool
         Whether `shots.features` tells first contacts, cushions and pockets.
     threads : int
