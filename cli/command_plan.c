@@ -16,14 +16,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BEST = 5, SHOTS_LEAST = 100, SHOTS_OF_RATING = 300 };
+enum { BEST = 5, TRIED_MOST = 1000, SHOTS_LEAST = 100, SHOTS_OF_RATING = 300 };
 enum { NOT_GIVEN = -1 };
 
 typedef struct plan_job {
   shared_options shared; /* --threads, --output */
   int rules, group, may, shots, seed;
   double rating, errors;
-  bool hand, opening, csv;
+  bool hand, opening, csv, tries, value;
   const char *plot;
 } plan_job;
 
@@ -51,6 +51,11 @@ OPTION(plan_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
 OPTION(plan_job, option_shots, "shots", shots, 0, "N", set_count, SHOTS_LEAST,
        "shots to be played, about; at most 1000000 (default 2000, with --player 300)");
 OPTION(plan_job, option_seed, "seed", seed, 0, "N", set_count, 0, "seed of the errors (default 0)");
+OPTION(plan_job, option_try, "try", tries, 0, NULL, set_flag, 0,
+       "no plan: the chances of the strokes of the file, the first shot's and those of up to 999 "
+       "further ones from the same layout, in their order");
+OPTION(plan_job, option_value, "value", value, 0, NULL, set_flag, 0,
+       "no plan: the chance to win from the layout, an estimate that plays no shot");
 OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write rows of CSV instead of words");
 OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
@@ -64,6 +69,36 @@ static bool read_layout(shot_file *file, shot_line *line) {
   else if (what == SHOT_SHOT && line->error != NULL)
     complain("%s:%zu: %s", shot_file_name(file), line->number, line->error);
   return what == SHOT_SHOT && line->error == NULL;
+}
+
+/* The stroke of the first shot, and those of all that follow in the file; 0 where one is from
+ * another layout. */
+static int read_strokes(shot_file *file, const shot_line *line, carom_cue strokes[TRIED_MOST]) {
+  int n = 0;
+  strokes[n++] = line->cue;
+  static shot_line next;
+  for (shot_read what; (what = shot_file_next_shot(file, &next)) != SHOT_END;) {
+    bool good = what == SHOT_SHOT && next.error == NULL && n < TRIED_MOST;
+    if (what == SHOT_SHOT && next.error != NULL)
+      complain("%s:%zu: %s", shot_file_name(file), next.number, next.error);
+    else if (what == SHOT_SHOT && n == TRIED_MOST)
+      complain("%s:%zu: --try: it plays at most %d strokes", shot_file_name(file), next.number,
+               TRIED_MOST);
+    for (int k = 0; k < line->count && good; k++) {
+      good = next.count == line->count && next.cue.ball == line->cue.ball &&
+             memcmp(&next.ball[k], &line->ball[k], sizeof next.ball[k]) == 0;
+      if (!good)
+        complain("%s:%zu: --try: the balls must be those of the first shot", shot_file_name(file),
+                 next.number);
+    }
+    if (good)
+      strokes[n++] = next.cue;
+    if (what == SHOT_SHOT)
+      shot_line_free(&next);
+    if (!good)
+      return 0;
+  }
+  return n;
 }
 
 /* Puts the balls where their numbers are, with those that are missing in a pocket: the line's
@@ -118,9 +153,9 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
   else
     snprintf(text, 200, "ball %s into %s%s", line->name[c->ball],
              pocket_words(line->table, c->pocket, pocket),
-             c->kind == CAROM_PLAN_POT ? ""
-             : c->cushions > 0         ? ", off a cushion"
-                                       : ", by another way than directly");
+             c->kind != CAROM_PLAN_SCAN && c->cushions == 0 ? ""
+             : c->cushions > 0                              ? ", off a cushion"
+                                                            : ", by another way than directly");
 }
 
 static void tell(FILE *out, const plan_job *job, const shot_line *line, const carom_choice *choices,
@@ -268,13 +303,31 @@ static bool are_together(const plan_job *job) {
     complain("--may: it is of nine-ball, so --rules nineball is needed");
   else if (job->opening && job->rules == CAROM_RULES_POTTING)
     complain("--opening: it is of eight-ball and nine-ball");
+  else if (job->tries && (job->value || job->hand))
+    complain("--try is of strokes from where the cue ball lies: without --value and --in-hand");
+  else if (job->value && job->plot != NULL)
+    complain("--value finds no shot that --plot could draw");
   else
     return true;
   return false;
 }
 
-/* Plans for a layout, writes the choices and keeps the best; an exit code. */
-static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out, planned *p) {
+/* The chance of a layout, as words or a row. */
+static carom_status tell_value(const plan_job *job, const carom_plan_job *asked, FILE *out) {
+  double chance;
+  const carom_status status = carom_plan_value(asked, job->hand, &chance);
+  if (status == CAROM_OK && job->csv)
+    fprintf(out, "value\n%.6f\n", chance);
+  else if (status == CAROM_OK)
+    fprintf(out, "%s %.1f %%\n", job->rules == CAROM_RULES_POTTING ? "share potted" : "wins",
+            100.0 * chance);
+  return status;
+}
+
+/* Plans for a layout, or judges `tried` strokes, writes the choices and keeps the best; an exit
+ * code. */
+static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out,
+                const carom_cue *strokes, int tried, planned *p) {
   static const int last[] = {15, 9};
   if (line->table->table.pockets == 0) {
     complain("%s:%zu: the table has no pockets, which these games need", file, line->number);
@@ -321,35 +374,40 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     return EXIT_USAGE;
   }
   asked.memory = allocate(1, asked.memory_size);
-  carom_choice choices[BEST];
-  int n = 0;
-  const carom_status status = job->hand ? carom_plan_hand(&asked, NULL, NULL, choices, BEST, &n)
-                                        : carom_plan(&asked, choices, BEST, &n);
+  static carom_choice choices[TRIED_MOST];
+  int n = tried;
+  const carom_status status = job->value  ? tell_value(job, &asked, out)
+                              : tried > 0 ? carom_plan_try(&asked, strokes, tried, choices)
+                              : job->hand ? carom_plan_hand(&asked, NULL, NULL, choices, BEST, &n)
+                                          : carom_plan(&asked, choices, BEST, &n);
   free(asked.memory);
   if (status != CAROM_OK) {
     complain("%s:%zu: %s", file, line->number, carom_status_string(status));
     return EXIT_USAGE;
   }
-  if (job->csv)
+  if (job->csv && !job->value)
     write_rows(out, line, choices, n);
   else
     tell(out, job, line, choices, n);
   p->best = choices[0];
+  for (int k = 1; k < n; k++)
+    p->best = choices[k].value > p->best.value ? choices[k] : p->best;
   return EXIT_GOOD;
 }
 
 static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS] LAYOUT.jsonl",
-    .about = "Finds the shots that win most often from a layout, for a player whose strokes err. "
-             "LAYOUT is a file as of carom shoot, of which the first shot counts: its table, balls "
-             "and cue; the stroke itself is not read. Balls that are missing are down. The five "
-             "best shots are told in words: what they do, how to strike, and their chances.\n",
+    .about =
+        "Finds the shots that win most often from a layout, for a player whose strokes err. "
+        "LAYOUT is a file as of carom shoot, of which the first shot counts: its table, balls "
+        "and cue; its stroke is read by --try alone. Balls that are missing are down. The five "
+        "best shots are told in words: what they do, how to strike, and their chances.\n",
     .options =
         (const option_row *const[]){&option_rules, &option_group, &option_may, &option_opening,
-                                    &option_hand, &option_player, &option_errors, &option_shots,
-                                    &option_seed, &option_csv, &option_plan_plot, &option_threads,
-                                    &option_output, NULL},
+                                    &option_hand, &option_try, &option_value, &option_player,
+                                    &option_errors, &option_shots, &option_seed, &option_csv,
+                                    &option_plan_plot, &option_threads, &option_output, NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"
@@ -383,10 +441,12 @@ int command_plan(int argc, char **argv) {
   static shot_line line;
   static planned made;
   int code = EXIT_USAGE;
+  static carom_cue strokes[TRIED_MOST];
   if (read_layout(file, &line)) {
-    FILE *out = output_open(job.shared.output);
+    const int tried = job.tries ? read_strokes(file, &line, strokes) : 0;
+    FILE *out = job.tries && tried == 0 ? NULL : output_open(job.shared.output);
     if (out != NULL) {
-      code = plan(&job, &line, shot_file_name(file), out, &made);
+      code = plan(&job, &line, shot_file_name(file), out, strokes, tried, &made);
       if (code == EXIT_USAGE)
         output_abandon();
       else if (!output_commit())

@@ -18,6 +18,18 @@ echo "--- the break"
 for game in eightball nineball; do carom shoot --balls $game --aim 90 --json | carom plan --rules $game --opening --in-hand --shots 300 --csv - | cut -d , -f 2,3,6 | sed -n 2p; done
 try carom plan --rules potting --opening layout.jsonl
 carom shoot --balls nineball --aim 90 --json | carom plan --rules nineball --opening --shots 300 - | sed -n 1p
+echo "--- chances of strokes, and of a layout"
+for speed in 1 2 3; do carom shoot --cue 0.4,0.9 --balls 0.3,1.9:0.9,1.7:0.7,0.5 --aim 94.618 --speed $speed --json; done > strokes.jsonl
+carom plan --rules potting --try --shots 600 strokes.jsonl | sed -n 1,2p
+carom plan --rules potting --try --shots 600 --csv --plot tried.svg strokes.jsonl | cut -d , -f 1-4,7,8,17
+carom plan --rules potting --try --shots 600 --csv strokes.jsonl | awk -F , 'NR == 2 { slow = $12 } NR == 4 { print slow > $12 + 0.02 }'
+grep -c "The best: ball 1 into the foot-left pocket" tried.svg
+carom plan --rules potting --value layout.jsonl | sed 's/[0-9.]* %/P %/'
+for hand in "" --in-hand; do carom plan --rules nineball --value --csv $hand layout.jsonl | sed -n 2p; done | awk 'NR == 1 { lies = $1 } END { print 0 < lies, lies <= $1, $1 <= 1 }'
+carom shoot --cue 0.5,0.9 --balls 0.3,1.9:0.9,1.7:0.7,0.5 --aim 90 --json | cat strokes.jsonl - > other.jsonl
+try carom plan --rules potting --try other.jsonl
+try carom plan --rules potting --try --value layout.jsonl
+try carom plan --rules potting --value --plot value.svg layout.jsonl
 echo "--- rows, threads"
 for threads in 1 2; do carom plan --rules potting --shots 300 --threads $threads --csv -o rows$threads.csv layout.jsonl; done
 cmp rows1.csv rows2.csv && sed -n 1p rows1.csv && wc -l < rows1.csv | tr -d ' '
