@@ -2,6 +2,7 @@
 
 rows.py json      numbers of a ball and words, as carom_ball_number() and carom_word() tell them
 rows.py python    python/src/carom/_described.py
+rows.py markdown  the tables of pages between <!-- rows: NAME --> and <!-- rows: end -->
 """
 
 import json
@@ -104,7 +105,7 @@ OF_PYTHON = "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSH
 def python():
     """Types for checkers of types, which know nothing of the library: words, and the numbers of one impact on a cushion."""
     lines = ['"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""', ""]
-    lines += ["from typing import Literal, TypedDict", ""]
+    lines += ["from __future__ import annotations", "", "from typing import Literal, TypedDict", "", "import numpy.typing as npt", ""]
     for of in OF_PYTHON:
         name = "".join(part.capitalize() for part in of.split("_"))
         lines.append(f"{name} = Literal[{', '.join(json.dumps(word) for word, _ in words()[of])}]")
@@ -114,9 +115,36 @@ def python():
             reader = re.match(r"(?:BY_CUSHION|WITH)\((\w+)", one["reader"])
             model = reader[1].lower() if reader else "any model"
             lines += [f"    {one['name']}: float", f'    """{model}: {one["text"]}; {one["range"]}"""']
+    lines += ["", "", "class BallNumbers(TypedDict, total=False):", '    """Numbers of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""', ""]
+    for one in numbers():
+        lines += [f"    {one['name']}: npt.ArrayLike | None", f'    """{one["text"]}; {one["range"]}"""']
     return "\n".join([*lines, ""])
 
 
+def reader_of(number):
+    """What reads a number, where not every shot does: as it stands behind an option of `carom shoot`."""
+    reader = re.match(r"(BY_CUSHION|WITH|BY_FRICTION)\((\w+)", number["reader"])
+    return "" if reader is None else f"{'friction' if reader[1] == 'BY_FRICTION' else 'cushion'} `{reader[2].lower()}`"
+
+
+def tables():
+    """The tables of pages, by name."""
+    lines = ["| key | field of `carom_ball_kind` | range | read by | what it is |", "|---|---|---|---|---|"]
+    for one in numbers():
+        lines.append(f"| `{one['key']}` | `{one['name']}` | {one['range']} | {reader_of(one) or 'all'} | {one['text']} |")
+    return {"numbers": "\n".join(lines)}
+
+
+def with_tables(page):
+    """The text of a page with the tables that its marks name."""
+    made = tables()
+    return re.sub(r"(<!-- rows: (?!end)(\w+) -->\n).*?(?=<!-- rows: end -->)", lambda mark: f"{mark[1]}{made[mark[2]]}\n", page, flags=re.S)
+
+
 if __name__ == "__main__":
-    made = {"json": lambda: json.dumps({"numbers": numbers(), "words": words()}, indent=1) + "\n", "python": python}
+    made = {
+        "json": lambda: json.dumps({"numbers": numbers(), "words": words()}, indent=1) + "\n",
+        "python": python,
+        "markdown": lambda: "\n\n".join(tables().values()) + "\n",
+    }
     sys.stdout.write(made[sys.argv[1]]())

@@ -315,3 +315,9 @@ def test_degrees_are_not_doubted():
         warnings.simplefilter("error")
         for phi in (0.0, 90.0, 1.5, np.linspace(0.0, 360.0, 100), np.zeros(0), np.nan, np.inf, 360.0 * np.pi):
             carom.cue(phi=phi)
+
+
+def test_balls_documents_each_number():
+    """Editors and help() show what a ball may be given: all that the library knows."""
+    words = set(re.findall(r"\w+", carom.balls.__doc__))
+    assert [name for name in carom.dtypes.ball_kind.names if name not in words] == []

@@ -3,6 +3,7 @@ import { readFileSync } from "node:fs";
 import { load } from "../../web/dist/index.js";
 
 const carom = await load();
+const kindKeys = Object.keys(carom.kind("pool"));
 const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
 const word = (x) => BigInt.asUintN(64, x);
 
@@ -29,7 +30,7 @@ const NUMBERS = {
   pockets: keys("centre*2 radius depth"),
   options: keys("world# ball_model# cushion_model# friction# steps# space# simultaneous# cluster_steps#"),
   balls: ["list"],
-  list: keys("mass radius mu_slide mu_roll mu_spin mu_ball restitution mu_cushion restitution_cushion gravity drag roll_loss law_a law_b law_c nose_height omega_ratio restitution_table modulus restitution_log mu_log smooth_q smooth_x smooth_t smooth_a smooth_k smooth_g smooth_g_log smooth_e restitution_log2 roll_loss_log r*3 v*3 w*3 label#"),
+  list: [...kindKeys.map((key) => key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)), ...keys("r*3 v*3 w*3 label#")],
   shot: keys("speed phi theta a b mass end_mass tip_radius ball# miscue tip_time time_most stop_at# first_of# events_most# status# events# time hash"),
 };
 const LINES = { recording: 1n, table: 2n, options: 3n, balls: 4n, shot: 6n };
@@ -90,7 +91,6 @@ function read(value) {
 }
 const hex = (hash) => hash.toString(16).padStart(16, "0");
 
-const kindKeys = Object.keys(carom.kind("pool"));
 let shots = 0;
 let game = 0n; // the hash of the lines so far
 let table, balls;

@@ -1,6 +1,6 @@
 // Shots as the JSON lines that `carom shoot` reads and writes (docs/using/shots.md has the format).
 import type { Carom } from "./carom.js";
-import { names as NAMES } from "./generated/layout.js";
+import { names as NAMES, numbers as NUMBERS } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { RulesKind } from "./generated/structs.js";
 import type { BallKind, Cue, Game, ShotBall, Table, TableName } from "./types.js";
@@ -17,39 +17,8 @@ export interface Line {
   cue: Cue;
 }
 
-const PARAMS: readonly (readonly [string, keyof BallKind])[] = [
-  ["m", "mass"],
-  ["R", "radius"],
-  ["u_s", "muSlide"],
-  ["u_r", "muRoll"],
-  ["u_sp", "muSpin"],
-  ["u_b", "muBall"],
-  ["e_b", "restitution"],
-  ["e_c", "restitutionCushion"],
-  ["f_c", "muCushion"],
-  ["g", "gravity"],
-  ["drag", "drag"],
-  ["roll_loss", "rollLoss"],
-  ["law_a", "lawA"],
-  ["law_b", "lawB"],
-  ["law_c", "lawC"],
-  ["nose_height", "noseHeight"],
-  ["omega_ratio", "omegaRatio"],
-  ["e_t", "restitutionTable"],
-  ["modulus", "modulus"],
-  ["e_c_log", "restitutionLog"],
-  ["f_c_log", "muLog"],
-  ["smooth_q", "smoothQ"],
-  ["smooth_x", "smoothX"],
-  ["smooth_t", "smoothT"],
-  ["smooth_a", "smoothA"],
-  ["smooth_k", "smoothK"],
-  ["smooth_g", "smoothG"],
-  ["smooth_g_log", "smoothGLog"],
-  ["smooth_e", "smoothE"],
-  ["e_c_log2", "restitutionLog2"],
-  ["roll_loss_log", "rollLossLog"],
-];
+/** Keys of lines and fields of a kind, in the order of the fields. */
+const PARAMS: readonly (readonly [string, keyof BallKind])[] = NUMBERS;
 const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
   ["V0", "speed"],
   ["phi", "phi"],

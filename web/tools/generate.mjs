@@ -1,13 +1,14 @@
-// generate.mjs MADE OUT: what the build knows, as TypeScript: structs and enumerators of the headers, both modules. bindings/README.md says what
-// MADE/api.json has.
+// generate.mjs MADE OUT: what the build knows, as TypeScript: structs and enumerators of the headers, numbers of a ball, both modules.
+// bindings/README.md says what MADE/api.json and MADE/rows.json have.
 import { gzipSync } from "node:zlib";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 
 const [made, out] = process.argv.slice(2);
 const api = JSON.parse(readFileSync(`${made}/api.json`, "utf8"));
+const rows = JSON.parse(readFileSync(`${made}/rows.json`, "utf8"));
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
 const pascal = (name) => camel(name.replace(/^carom/, ""));
-const note = "// Written by tools/generate.mjs from the headers of the C library.\n";
+const note = "// Written by tools/generate.mjs from the headers and rows of the C library.\n";
 
 // The package gets the layouts and values that its sources name, and enumerations that it looks names up in.
 const sources = readdirSync("src").filter((name) => name.endsWith(".ts")).map((name) => readFileSync(`src/${name}`, "utf8")).join("");
@@ -86,6 +87,7 @@ writeFileSync(
   `${note}/** Sizes of the structs in bytes; offsets, sizes and types of their fields. */\n` +
     `export const layout = ${JSON.stringify(structs, null, 1)} as const;\n` +
     `/** Values of the enumerators. */\nexport const values = ${JSON.stringify(values, null, 1)} as const;\n` +
+    `/** Numbers of a ball: the key in lines, and the field. */\nexport const numbers = ${JSON.stringify(rows.numbers.map(({ key, name }) => [key, camel(name)]))} as const;\n` +
     `/** Names of enumerators, by their values. */\nexport const names = ${JSON.stringify(named, null, 1)} as const;\n`,
 );
 for (const name of ["plain", "simd"]) {

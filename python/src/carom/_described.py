@@ -1,6 +1,10 @@
 """Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""
 
+from __future__ import annotations
+
 from typing import Literal, TypedDict
+
+import numpy.typing as npt
 
 World = Literal["carom", "pooltool"]
 BallModel = Literal["default", "exact", "euler", "inelastic", "mirror"]
@@ -40,3 +44,70 @@ class CushionNumbers(TypedDict, total=False):
     """smooth: restitution that a ball which rolls into the cushion gains, at most; -1 to 1"""
     restitution_log2: float
     """any model: change of the cushion's restitution with ln(speed)^2, which counts up to 1; -1 to 1"""
+
+
+class BallNumbers(TypedDict, total=False):
+    """Numbers of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""
+
+    mass: npt.ArrayLike | None
+    """mass; above 0 and finite, in kg"""
+    radius: npt.ArrayLike | None
+    """radius; above 0 and finite, in m"""
+    mu_slide: npt.ArrayLike | None
+    """sliding friction of ball and cloth; above 0 and at most 1"""
+    mu_roll: npt.ArrayLike | None
+    """rolling resistance; above 0 and at most 1"""
+    mu_spin: npt.ArrayLike | None
+    """friction of the ball turning on the spot; above 0 and at most 1"""
+    mu_ball: npt.ArrayLike | None
+    """friction between balls; 0 to 1"""
+    restitution: npt.ArrayLike | None
+    """restitution of two balls; 0 to 1"""
+    mu_cushion: npt.ArrayLike | None
+    """friction of ball and cushion; 0 to 1"""
+    restitution_cushion: npt.ArrayLike | None
+    """restitution of ball and cushion; 0 to 1"""
+    gravity: npt.ArrayLike | None
+    """gravity; above 0 and at most 1e6, in m/s^2"""
+    drag: npt.ArrayLike | None
+    """deceleration of a rolling ball over the square of its speed; 0 to 1, in 1/m"""
+    roll_loss: npt.ArrayLike | None
+    """part of the speed along a cushion that an impact takes from the roll along it; 0 to 1"""
+    law_a: npt.ArrayLike | None
+    """friction between balls at great slips; law_a, law_b and law_c 0: carom_alciatore(); 0 to 1"""
+    law_b: npt.ArrayLike | None
+    """by how much friction between balls is greater at small slips; 0 to 1"""
+    law_c: npt.ArrayLike | None
+    """how fast friction between balls falls with the slip; 0 or more and finite, in s/m"""
+    nose_height: npt.ArrayLike | None
+    """height of the noses of all cushions above the cloth; 0: those of the table; 0 or more and finite, in m"""
+    omega_ratio: npt.ArrayLike | None
+    """frequency of the nose along its surface over that across it; 0: 1.8; 0, or between 1 and 2"""
+    restitution_table: npt.ArrayLike | None
+    """restitution of ball and slate; 0: 0.5; -1: none; -1, or 0 to 0.98"""
+    modulus: npt.ArrayLike | None
+    """E/(1 - nu^2) of the ball, for contacts that last; 0: 6.6e9; 0, or 1e6 to 1e15, in Pa"""
+    restitution_log: npt.ArrayLike | None
+    """change of the cushion's restitution for each unit of ln(speed); -1 to 1"""
+    mu_log: npt.ArrayLike | None
+    """change of the cushion's friction for each unit of ln(speed); -1 to 1"""
+    smooth_q: npt.ArrayLike | None
+    """width of the passage from sticking to sliding; 0: all numbers as on one table; 0, or 1e-12 to 0.5"""
+    smooth_x: npt.ArrayLike | None
+    """part of the slip along the cushion that friction takes; 0 to 2"""
+    smooth_t: npt.ArrayLike | None
+    """part of the slip across the cushion that friction takes; 0 to 2"""
+    smooth_a: npt.ArrayLike | None
+    """how much farther friction across the cushion reaches; 0 to 1"""
+    smooth_k: npt.ArrayLike | None
+    """part of the impulse that the rebound gains where friction is used up; 0 to 1"""
+    smooth_g: npt.ArrayLike | None
+    """part of the impulse that the rebound gains, at most, where friction slides; -1 to 1"""
+    smooth_g_log: npt.ArrayLike | None
+    """change of smooth_g for each unit of ln(speed); -1 to 1"""
+    smooth_e: npt.ArrayLike | None
+    """restitution that a ball which rolls into the cushion gains, at most; -1 to 1"""
+    restitution_log2: npt.ArrayLike | None
+    """change of the cushion's restitution with ln(speed)^2, which counts up to 1; -1 to 1"""
+    roll_loss_log: npt.ArrayLike | None
+    """change of roll_loss for each unit of ln(speed); -1 to 1"""

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
+from carom._described import BallNumbers
 from carom._faults import fault, is_of_cue
 from carom._rows import Array, as_array, choice, copied, fill, number, pointer, several, whole
 from carom.status import CaromError, Status
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 __all__ = ["Table", "balls", "by_number", "cue", "place_ball", "struck"]
 
@@ -240,7 +244,7 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["e
 
 def balls(
     r: npt.ArrayLike, *, v: npt.ArrayLike = 0.0, w: npt.ArrayLike = 0.0, game: Game = "pool",
-    **kind: npt.ArrayLike | None
+    **kind: Unpack[BallNumbers]
 ) -> dtypes.Records:  # fmt: skip
     """Balls on a table, from fields that are broadcast against each other.
 
