@@ -21,14 +21,13 @@ static inline uint64_t carom_fingerprint(uint64_t before, const void *bytes, siz
   enum { CHAINS = 4 };
   const unsigned char *at = (const unsigned char *)bytes;
   uint64_t h[CHAINS] = {before, 1, 2, 3}, word[CHAINS];
-  const size_t words = size / sizeof *word;
-  size_t k = 0;
-  for (; k + CHAINS <= words; k += CHAINS) {
+  const size_t words = size / sizeof *word, whole = words - words % CHAINS;
+  for (size_t k = 0; k < whole; k += CHAINS) {
     memcpy(word, at + k * sizeof *word, sizeof word);
     for (int c = 0; c < CHAINS; c++)
       h[c] = carom_stir(h[c], word[c]);
   }
-  for (; k < words; k++) {
+  for (size_t k = whole; k < words; k++) {
     memcpy(word, at + k * sizeof *word, sizeof *word);
     h[0] = carom_stir(h[0], word[0]);
   }

@@ -67,6 +67,8 @@ TEST(each_field_is_named) {
   expect(&in, NULL, CAROM_ERROR_NORMAL, 6);
 }
 
+enum { LAST_RESERVED = sizeof((carom_cushion_options *)NULL)->reserved / sizeof(uint64_t) - 1 };
+
 TEST(each_option_is_checked) {
   const carom_cushion_impact in = good();
   const struct {
@@ -80,7 +82,7 @@ TEST(each_option_is_checked) {
       {{.steps = -1}, CAROM_ERROR_STEPS},
       {{.threads = -2}, CAROM_ERROR_THREADS},
       {{.plain = 2}, CAROM_ERROR_PLAIN},
-      {{.reserved = {0, 0, 0, 1}}, CAROM_ERROR_OPTIONS},
+      {{.reserved[LAST_RESERVED] = 1}, CAROM_ERROR_OPTIONS},
       {{.least_step = -1}, CAROM_ERROR_LEAST_STEP},
       {{.least_step = NAN}, CAROM_ERROR_LEAST_STEP},
       {{.omega_ratio = 1}, CAROM_ERROR_OMEGA_RATIO},
