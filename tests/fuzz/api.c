@@ -72,7 +72,7 @@ static void two_balls(void) {
                      .steps = choice(16) == 0 ? -choice(3) : 1 + choice(200),
                      .threads = choice(32) == 0 ? choice(5) - 2 : 0,
                      .plain = choice(16) == 0 ? choice(5) - 2 : choice(2)};
-  reserve(&o.reserved[choice(5)]);
+  RESERVE(o);
   carom_isa_limit((carom_isa)choice(CAROM_ISA_AVX512 + 1));
   carom_result out, many[ROWS + 1];
   int8_t statuses[ROWS + 1];
@@ -211,7 +211,7 @@ static void cushion(void) {
     CAROM_NUMBERS(CAROM_NO_ROW, DRAW)
   }
 #undef DRAW
-  reserve(&o.reserved[choice(4)]);
+  RESERVE(o);
   carom_motion out, many[4];
   int8_t statuses[4] = {1, 1, 1, GUARD};
   const carom_status status = carom_cushion(&in, &o, &out);

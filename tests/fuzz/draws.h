@@ -78,11 +78,14 @@ static inline void vector(double v[3], double most, double z) {
   v[2] = z;
 }
 
-/* A reserved field of options, which must be 0. */
-static inline void reserve(uint64_t *reserved) {
+/* One of `n` reserved fields of options, which must be 0. */
+static inline void reserve(uint64_t *reserved, int n) {
+  const int one = choice(n);
   if (choice(50) == 49 && !tame)
-    *reserved = 1;
+    reserved[one] = 1;
 }
+#define RESERVE(options) \
+  reserve((options).reserved, (int)(sizeof(options).reserved / sizeof *(options).reserved))
 
 static inline void fail(const char *what) {
   fprintf(stderr, "fuzz: %s\n", what);

@@ -75,7 +75,7 @@ static void make_inputs(void) {
   options.chance_opponent = choice(4) == 0 ? number(0, 1) : 0;
   static const volatile int32_t at_once = 1;
   options.stop = choice(8) == 0 ? &at_once : NULL;
-  reserve(&options.reserved[choice(4)]);
+  RESERVE(options);
 }
 
 static void check_choices(const carom_choice *c, int n) {

@@ -129,7 +129,7 @@ static void make_options(void) {
   if (choice(3) == 0)
     options.stop_at = !tame && choice(4) == 0 ? (uint64_t)choice(256) << choice(64)
                                               : CAROM_STOP_AT(choice(CAROM_EVENT_LEFT_TABLE + 1));
-  reserve(&options.reserved[choice((int)(sizeof options.reserved / sizeof *options.reserved))]);
+  RESERVE(options);
 }
 
 static bool make_inputs(void) {
@@ -350,7 +350,7 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
   seeds.kind = without == 1 ? NULL : kind;
   seeds.state = without == 2 ? NULL : state;
   seeds.table = without == 3 ? NULL : nose;
-  reserve(&seeds.reserved[1]);
+  RESERVE(seeds);
 
   /* The first shot by itself. */
   memset(final_of, GUARD, sizeof final_of);
