@@ -31,12 +31,13 @@ static void print_number(FILE *out, const carom_number *n) {
   putc('\n', out);
 }
 
-/* The numbers that a model reads and others do not. */
-static void print_numbers_of(FILE *out, carom_reader reader, int model) {
+/* The numbers that the model of these options reads and others do not. */
+static void print_numbers_of(FILE *out, carom_reader reader, carom_shot_options options) {
+  static const carom_ball_kind any = {0};
   const carom_number *n;
   int count = 0;
   for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
-    if (n->reader == reader && n->model == model) {
+    if (n->reader == reader && carom_number_is_read(n, &any, &options)) {
       if (count++ == 0)
         fputs("numbers of its own, by their names, for --with, and their keys in files:\n", out);
       print_number(out, n);
@@ -73,9 +74,11 @@ static bool print_named(FILE *out, const char *name) {
       fprintf(out, "%s: %s (%s): %s\n", word, kinds[k].what, kinds[k].option,
               carom_word_text(kinds[k].of, value));
       if (kinds[k].of == CAROM_WORDS_SHOT_CUSHION && value > 0)
-        print_numbers_of(out, CAROM_READ_BY_CUSHION, value - 1);
+        print_numbers_of(out, CAROM_READ_BY_CUSHION,
+                         (carom_shot_options){.cushion_model = (carom_shot_cushion)value});
       if (kinds[k].of == CAROM_WORDS_BALL_FRICTION)
-        print_numbers_of(out, CAROM_READ_BY_FRICTION, value);
+        print_numbers_of(out, CAROM_READ_BY_FRICTION,
+                         (carom_shot_options){.friction = (carom_ball_friction)value});
     }
   for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
     if (strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0) {

@@ -194,7 +194,7 @@ static const struct word {
 #define CUSHION(NAME, word, impact, flight, rows, sources, text) \
   {CAROM_WORDS_CUSHION_MODEL, CAROM_CUSHION_##NAME, word, text}, \
       {CAROM_WORDS_SHOT_CUSHION, CAROM_SHOT_CUSHION_##NAME, word, text},
-#define LAW(NAME, word, numbers, at, ahead, sources, text) \
+#define LAW(NAME, word, of, numbers, at, ahead, sources, text) \
   {CAROM_WORDS_BALL_FRICTION, CAROM_FRICTION_##NAME, word, text},
     CAROM_WORD_ROWS(WORD) CAROM_CUSHION_MODELS(CUSHION) CAROM_FRICTION_LAWS(LAW)
 #undef WORD

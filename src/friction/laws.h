@@ -1,8 +1,9 @@
 /* Friction between two balls by a law of their slip: each law stands here once, in one row. It is
  * called for two balls, for spheres in space and for contacts that last.
  *
- * X(NAME, name, numbers, at, ahead, sources, text)
+ * X(NAME, name, of, numbers, at, ahead, sources, text)
  *
+ * of:      the law whose numbers in about/numbers.h it reads: itself, or another.
  * numbers: k[0], k[1], k[2] of a ball of `kind`; a pair has the mean of each. All 0 is no friction.
  * at:      the coefficient at a slip of u, m/s.
  * ahead:   in a contact that lasts: the coefficient once the slip has grown by x, m/s, within a
@@ -13,18 +14,19 @@
 #include "about/sources.h"
 #include "platform/elementary.h"
 
-#define CAROM_FRICTION_LAWS(X)                                                                \
-  X(ALCIATORE, "alciatore", carom_own_law(kind, k), k[0] + k[1] * carom_exp(-k[2] * u),       \
-    k[0] + (mu - k[0]) * (1.0 - (k[2] * x < 1.0 ? k[2] * x : 1.0)), CAROM_BY_ALCIATORE_THROW, \
-    "by the speed of slip: law_a + law_b exp(-law_c u)")                                      \
-  X(CONSTANT, "constant", (void)(k[0] = kind->mu_ball), k[0], k[0], 0, "mu_ball of the balls")
+#define CAROM_FRICTION_LAWS(X)                                                                     \
+  X(ALCIATORE, "alciatore", ALCIATORE, carom_own_law(kind, k), k[0] + k[1] * carom_exp(-k[2] * u), \
+    k[0] + (mu - k[0]) * (1.0 - (k[2] * x < 1.0 ? k[2] * x : 1.0)), CAROM_BY_ALCIATORE_THROW,      \
+    "by the speed of slip: law_a + law_b exp(-law_c u)")                                           \
+  X(CONSTANT, "constant", CONSTANT, (void)(k[0] = kind->mu_ball), k[0], k[0], 0,                   \
+    "mu_ball of the balls")
 
 #define CAROM_LAW_VALUE(NAME, ...) CAROM_LAW_##NAME,
 enum { CAROM_FRICTION_LAWS(CAROM_LAW_VALUE) CAROM_LAW_COUNT };
 #undef CAROM_LAW_VALUE
 
-#define CAROM_LAW_AT(NAME, name, numbers, at, ...) \
-  case CAROM_LAW_##NAME:                           \
+#define CAROM_LAW_AT(NAME, name, of, numbers, at, ...) \
+  case CAROM_LAW_##NAME:                               \
     return at;
 static inline double carom_friction_at(int law, const double k[3], double u) {
   (void)u;
@@ -36,8 +38,8 @@ static inline double carom_friction_at(int law, const double k[3], double u) {
 }
 #undef CAROM_LAW_AT
 
-#define CAROM_LAW_AHEAD(NAME, name, numbers, at, ahead, ...) \
-  case CAROM_LAW_##NAME:                                     \
+#define CAROM_LAW_AHEAD(NAME, name, of, numbers, at, ahead, ...) \
+  case CAROM_LAW_##NAME:                                         \
     return ahead;
 static inline double carom_friction_ahead(int law, const double k[3], double mu, double x) {
   (void)mu;

@@ -251,6 +251,13 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
   return CAROM_OK;
 }
 
+/* The law whose numbers a law reads. */
+static const int numbers_of_law[] = {
+#define OF(NAME, name, of, ...) [CAROM_LAW_##NAME] = CAROM_LAW_##of,
+    CAROM_FRICTION_LAWS(OF)
+#undef OF
+};
+
 int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
                          const carom_shot_options *opt) {
   static const carom_shot_options no_options = {0};
@@ -260,6 +267,8 @@ int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind
   if (number->reader == CAROM_READ_BY_CUSHION)
     return number->model == (int)carom_cushion_model_of(carom_rules_of(opt->world), opt, kind);
   if (number->reader == CAROM_READ_BY_FRICTION)
-    return number->model == (int)opt->friction && opt->ball_model != CAROM_BALL_MODEL_MIRROR;
+    return (unsigned)opt->friction < CAROM_LAW_COUNT &&
+           number->model == numbers_of_law[opt->friction] &&
+           opt->ball_model != CAROM_BALL_MODEL_MIRROR;
   return 1;
 }

@@ -42,9 +42,9 @@ static inline void carom_own_law(const carom_ball_kind *kind, double k[3]) {
 void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, double k[3]) {
   k[0] = k[1] = k[2] = 0.0;
   switch (law) {
-#define CASE(NAME, name, numbers, ...) \
-  case CAROM_FRICTION_##NAME:          \
-    numbers;                           \
+#define CASE(NAME, name, of, numbers, ...) \
+  case CAROM_FRICTION_##NAME:              \
+    numbers;                               \
     break;
     CAROM_FRICTION_LAWS(CASE)
 #undef CASE
