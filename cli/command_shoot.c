@@ -429,6 +429,7 @@ static const command_form form = {
                                            &option_tip,
                                            &option_elevation,
                                            &option_tip_time,
+                                           &option_tip_restitution,
                                            &option_json,
                                            &option_story,
                                            &option_models,

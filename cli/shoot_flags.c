@@ -101,6 +101,9 @@ ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ANG
 ROW(option_tip_time, "tip-time", tip_time, "SECONDS", set_number, 0,
     "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.002, of "
     "leather; of hard resin, which lets balls jump: 0.0006). -1: no time");
+ROW(option_tip_restitution, "tip-restitution", tip_restitution, "E", set_number, 0,
+    "restitution of the tip and the ball, above 0 to 1: the speed of the ball is in proportion to "
+    "1 + E (default 0.73, of leather; of phenolic resin 0.85; of pooltool 1)");
 ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign "
     "holds: a > 0 is left");
@@ -109,7 +112,7 @@ bool has_flags(const shoot_flags *f) {
   return f->table != NULL || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
          f->cue.count > 0 || f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 ||
          f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 ||
-         f->elevation.count > 0 || f->tip_time != 0.0;
+         f->elevation.count > 0 || f->tip_time != 0.0 || f->tip_restitution != 0.0;
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -215,6 +218,8 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
   cue.phi = 0.0;
   cue.theta = f->elevation.at[rise].x;
   cue.tip_time = f->tip_time;
+  if (f->tip_restitution != 0.0)
+    cue.tip_restitution = f->tip_restitution;
   cue.a = -tip_of(&f->tip.at[tip].x, R);
   cue.b = tip_of(&f->tip.at[tip].y, R);
   if (!(cue.speed > 0.0)) {
@@ -255,6 +260,7 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
   fprintf(out, ", \"a\": %s", number_text(cue.a == 0.0 ? 0.0 : cue.a, number));
   fprintf(out, ", \"M\": %s", number_text(cue.mass, number));
   fprintf(out, ", \"end_mass\": %s", number_text(cue.end_mass, number));
+  fprintf(out, ", \"tip_restitution\": %s", number_text(cue.tip_restitution, number));
   if (cue.tip_time != 0.0)
     fprintf(out, ", \"tip_time\": %s", number_text(cue.tip_time, number));
   fprintf(out, ", \"b\": %s, \"ball\": \"%s\"}, \"balls\": [", number_text(cue.b, number),

@@ -41,8 +41,8 @@ static void keep_table(shot_file *file, named_table *t) {
 /* ---- Shots */
 
 /* The keys of the doubles of carom_cue, in their order there. */
-#define CUE_KEYS "V0 phi theta a b M end_mass tip_radius"
-_Static_assert(offsetof(carom_cue, ball) == 8 * sizeof(double) &&
+#define CUE_KEYS "V0 phi theta a b M end_mass tip_restitution tip_radius"
+_Static_assert(offsetof(carom_cue, ball) == 9 * sizeof(double) &&
                    offsetof(carom_cue, tip_time) - offsetof(carom_cue, miscue) == sizeof(double),
                "a key for each double");
 

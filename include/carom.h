@@ -250,15 +250,16 @@ typedef enum carom_status {
   CAROM_ERROR_NO_TANGENTS = -72,   /* carom_tangent.h: this library was built without
                                       derivatives, as it was without C++. */
 
-  CAROM_ERROR_CUE_SPEED = -80,    /* cue.speed is not 0 to 1000 m/s. */
-  CAROM_ERROR_CUE_PHI = -81,      /* cue.phi is not -1e9 to 1e9 degrees. */
-  CAROM_ERROR_CUE_THETA = -82,    /* cue.theta is not 0 to 90 degrees. */
-  CAROM_ERROR_CUE_MASS = -83,     /* cue.mass is not positive and finite. */
-  CAROM_ERROR_CUE_END_MASS = -84, /* cue.end_mass is not positive and finite. */
-  CAROM_ERROR_CUE_BALL = -85,     /* cue.ball is not the index of a ball. */
-  CAROM_ERROR_CUE_BALL_OUT = -86, /* cue.ball is in a pocket or off the table. */
-  CAROM_ERROR_CUE_MISCUE = -87,   /* cue.miscue is not 0 to 1. */
-  CAROM_ERROR_CUE_TIP_TIME = -88, /* cue.tip_time is neither 0 to 0.01 s nor -1. */
+  CAROM_ERROR_CUE_SPEED = -80,           /* cue.speed is not 0 to 1000 m/s. */
+  CAROM_ERROR_CUE_PHI = -81,             /* cue.phi is not -1e9 to 1e9 degrees. */
+  CAROM_ERROR_CUE_THETA = -82,           /* cue.theta is not 0 to 90 degrees. */
+  CAROM_ERROR_CUE_MASS = -83,            /* cue.mass is not positive and finite. */
+  CAROM_ERROR_CUE_END_MASS = -84,        /* cue.end_mass is not positive and finite. */
+  CAROM_ERROR_CUE_BALL = -85,            /* cue.ball is not the index of a ball. */
+  CAROM_ERROR_CUE_BALL_OUT = -86,        /* cue.ball is in a pocket or off the table. */
+  CAROM_ERROR_CUE_MISCUE = -87,          /* cue.miscue is not 0 to 1. */
+  CAROM_ERROR_CUE_TIP_TIME = -88,        /* cue.tip_time is neither 0 to 0.01 s nor -1. */
+  CAROM_ERROR_CUE_TIP_RESTITUTION = -89, /* cue.tip_restitution is not 0 to 1. */
 
   CAROM_ERROR_WORLD = -90,              /* options.world is not one of carom_world, or not
                                            CAROM_WORLD_CAROM for a cluster. */

@@ -35,13 +35,15 @@ extern "C" {
  * independent normal errors. What the errors make of a stroke is kept within the bounds. Each
  * number is 0 to 1000. */
 typedef struct carom_player {
-  double speed;       /* m/s, */
+  double speed;       /* m/s, of a cue whose tip loses nothing; with a tip of restitution e
+                         2/(1 + e) times as much, so that the ball's is the same, */
   double speed_share; /* and as a share of the speed; both are added in squares. */
   double phi, theta;  /* degrees. */
   double a, b;        /* radii of the ball. */
-  double speed_least; /* bounds of the speed of the cue, m/s, of all strokes. 0: 0.5, or
-                         speed_most if that is lower; */
-  double speed_most;  /* and 0: 8, or speed_least if that is higher. */
+  double speed_least; /* bounds of the speed of the cue, m/s, of all strokes. 0: 0.5
+                         times 2/(1 + e), or speed_most if that is lower; */
+  double speed_most;  /* and 0: 8 times 2/(1 + e), or speed_least if that is higher: 9.2 with a
+                         tip of leather. */
   double tip_most;    /* bound of |a| and |b|, radii, 0 to 1. 0: 0.5. */
   double reserved[3]; /* must be 0. */
 } carom_player;

@@ -477,20 +477,24 @@ CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table
 /* ---- The cue --------------------------------------------------------------------------------- */
 
 typedef struct carom_cue {
-  double speed;      /* V0 of the cue before the strike, m/s, >= 0. 0: no strike. */
-  double phi;        /* direction in the plane, degrees from +x towards +y. */
-  double theta;      /* elevation of the butt, degrees, 0 to 90. The tip presses the ball on the
+  double speed;    /* V0 of the cue before the strike, m/s, >= 0. 0: no strike. */
+  double phi;      /* direction in the plane, degrees from +x towards +y. */
+  double theta;    /* elevation of the butt, degrees, 0 to 90. The tip presses the ball on the
                         slate, which throws it up after a short contact of the tip; with
                         CAROM_SPACE_FLAT the part of the blow that goes down is lost. */
-  double a, b;       /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre.
+  double a, b;     /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre.
                         a^2 + b^2 < miscue^2. */
-  double mass;       /* M, kg, > 0. */
-  double end_mass;   /* effective mass of the tip's end, which makes squirt, kg, > 0. */
-  double tip_radius; /* m; not used by the strike, kept with the cue. */
-  int64_t ball;      /* index of the ball that is struck. */
-  double miscue;     /* 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its
+  double mass;     /* M, kg, > 0. */
+  double end_mass; /* effective mass of the tip's end, which makes squirt, kg, > 0. */
+  double tip_restitution; /* e of the tip and the ball, 0 to 1; 0: 1, without loss. The speed of
+                             the ball is in proportion to 1 + e. Leather 0.73, phenolic 0.85,
+                             pooltool 1. carom_cue_of() gives the cues of carom's games that of
+                             leather; a cue of pooltool's has 1, and its old bits. */
+  double tip_radius;      /* m; not used by the strike, kept with the cue. */
+  int64_t ball;           /* index of the ball that is struck. */
+  double miscue;          /* 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its
                         edge. Chalked tips reach 0.5. */
-  double tip_time;   /* s, to 0.01: how long the tip of a raised cue touches the ball. 0:
+  double tip_time;        /* s, to 0.01: how long the tip of a raised cue touches the ball. 0:
                         CAROM_TIP_TIME; tips of hard resin, 0.0006. -1: no time; blow and landing
                         are two events, as before revision 8. */
 } carom_cue;
@@ -500,7 +504,12 @@ typedef struct carom_cue {
  * that range is a convention. Only its ratio to the contact of ball and slate counts. */
 #define CAROM_TIP_TIME 0.002
 
-/* The usual cue: speed 2, phi 90 (along the table), b = 0.25, ball 0. */
+/* The restitution of a leather tip: billiards.colostate.edu, "cue tip efficiency", 0.71 to 0.75.
+ * One of phenolic resin has 0.81 to 0.87 there. */
+#define CAROM_TIP_LEATHER 0.73
+
+/* The usual cue: speed 2, phi 90 (along the table), b = 0.25, ball 0, a tip of leather; for
+ * pooltool's games one without loss. */
 CAROM_API carom_cue carom_cue_of(carom_game game);
 
 /* The motion of a ball at rest after a strike, into out->v and out->w, as with CAROM_SPACE_FLAT:

@@ -38,14 +38,14 @@
 extern "C" {
 #endif
 
-/* Directions of a call; and how many numbers a cue (speed, phi, theta, a, b, mass, end_mass), a
- * state (x, y, v_x, v_y, w_x, w_y, w_z, z, v_z), the cushions of a table (height of the noses,
- * mu_cushion, restitution) and a carom_ball_kind (its fields) have. The last two numbers of a
- * state are those of flight: of a ball on the cloth z changes as its radius does, and v_z not at
- * all, whatever their seeds are. */
+/* Directions of a call; and how many numbers a cue (speed, phi, theta, a, b, mass, end_mass,
+ * tip_restitution), a state (x, y, v_x, v_y, w_x, w_y, w_z, z, v_z), the cushions of a table
+ * (height of the noses, mu_cushion, restitution) and a carom_ball_kind (its fields) have. The last
+ * two numbers of a state are those of flight: of a ball on the cloth z changes as its radius does,
+ * and v_z not at all, whatever their seeds are. */
 enum {
   CAROM_DIRECTIONS_MOST = 64,
-  CAROM_CUE_NUMBERS = 7,
+  CAROM_CUE_NUMBERS = 8,
   CAROM_STATE_NUMBERS = 9,
   CAROM_NOSE_NUMBERS = 3
 };
@@ -81,7 +81,7 @@ typedef enum carom_tangent_flag {
  * or the part, has none of its own. */
 typedef struct carom_tangent_seeds {
   int64_t directions;
-  const double *cue;    /* [7][m] */
+  const double *cue;    /* [8][m] */
   const double *kind;   /* [balls][CAROM_KIND_NUMBERS][m]; balls of one radius have to change it
                            together. */
   const double *state;  /* [balls][9][m]: at the start. Of the ball that the cue strikes, only x

@@ -134,6 +134,8 @@
     "cue.ball must be in play, neither in a pocket nor off the table")                             \
   X(ERROR_CUE_MISCUE, -87, "bad_cue_miscue", "cue.miscue must be 0 to 1")                          \
   X(ERROR_CUE_TIP_TIME, -88, "bad_cue_tip_time", "cue.tip_time must be 0 to 0.01 s, or -1")        \
+  X(ERROR_CUE_TIP_RESTITUTION, -89, "bad_cue_tip_restitution",                                     \
+    "cue.tip_restitution must be 0 to 1; 0 stands for 1")                                          \
   X(ERROR_WORLD, -90, "bad_world",                                                                 \
     "options.world must be one of carom_world; of a cluster, CAROM_WORLD_CAROM")                   \
   X(ERROR_BALL_MODEL, -91, "bad_ball_model",                                                       \
@@ -179,7 +181,7 @@ int carom_version_number(void) {
 /* Raised by the commit that changes the bits of any result; tests/platforms/revision says when
  * that is. */
 int carom_physics_revision(void) {
-  return 9;
+  return 10;
 }
 
 int carom_serves(int header) {

@@ -142,7 +142,7 @@ static inline const carom_table *table_of_pool(void) {
 /* Balls at random on the table, of which the first is shot at the second. */
 static inline layout draw(random_source *random, int most) {
   layout l = {.count = 2 + (int)random_between(random, 0.0, most - 1.001),
-              .cue = carom_cue_of(CAROM_GAME_POOL)};
+              .cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL)};
   for (int i = 0; i < l.count;) {
     const double y = random_between(random, 0.05, 2.49);
     l.ball[i] = ball_at(random_between(random, 0.05, 1.22), y);

@@ -87,6 +87,10 @@ static carom_motion struck(double a, double b) {
   return out;
 }
 
+static double tip_restitution(const double *x) {
+  return carom_cue_of((carom_game)x[0]).tip_restitution;
+}
+
 /* of the ball over that of the cue */
 static double tip_speed(const double *x) {
   return struck(0.0, x[0]).v[1] / carom_cue_of(CAROM_GAME_POOL).speed;
@@ -373,6 +377,7 @@ static const struct {
     {"spin_deceleration", spin_deceleration},
     {"nose_height", nose_height},
     {"table_length", table_length},
+    {"tip_restitution", tip_restitution},
     {"tip_speed", tip_speed},
     {"squirt", squirt},
     {"english", english},

@@ -168,6 +168,7 @@ FIELDS = [
     (r"cue\.ball = -1: .* counted from 0", lambda: shot(ball=-1)),
     (r"cue\.ball = 3: it must be in play", lambda: shot(ball=3)),
     (r"cue\.tip_time = 0\.02: it must be 0 to 0\.01 s, or -1", lambda: shot(tip_time=0.02)),
+    (r"cue\.tip_restitution = 1\.1: it must be 0 to 1", lambda: shot(tip_restitution=1.1)),
     (r"cue\.miscue = 1\.1: it must be 0 to 1", lambda: shot(miscue=1.1)),
     (r"cue\.a, cue\.b = 0\.8, 0\.8: the tip misses the ball: .* must be below", lambda: shot(a=0.8, b=0.8)),
     (r"cue\.a, cue\.b = 0\.3, 0\.4: .*miscue", lambda: shot(a=0.3, b=0.4, miscue=0.5)),
@@ -209,7 +210,7 @@ STOPPED, PAIR = carom.simulate(TABLE, RACK, CUE, t_final=0.1), carom.balls([[0.6
 CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 # Each function with arguments that are right, and those that each wrong value takes the place of in turn.
 CALLS = [
-    (carom.cue, {}, "speed phi theta a b ball game mass end_mass tip_radius miscue tip_time ball_speed tip"),
+    (carom.cue, {}, "speed phi theta a b ball game mass end_mass tip_radius miscue tip_time tip_restitution ball_speed tip"),
     (carom.balls, {"r": [[0.6, 0.8]]}, "r v w game mass mu_slide nose_height"),
     (carom.simulate, {"table": TABLE, "balls": PAIR},
      "table balls options world ball_model cushion_model friction space simultaneous cluster_steps steps events_most plain t_final stop_at first_of"),

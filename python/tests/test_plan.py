@@ -152,11 +152,16 @@ def test_ratings():
 
 
 def test_strokes_with_errors():
-    cue = carom.cue(speed=2.0, phi=40.0)
+    cue = carom.cue(speed=2.0, phi=40.0, tip_restitution=1.0)
     player = carom.player(2.0)
     made = np.array([carom.with_errors(cue, player, 5, k) for k in range(4000)])
     np.testing.assert_allclose([made["speed"].mean(), made["phi"].mean()], [2.0, 40.0], atol=0.02)
     np.testing.assert_allclose([made["speed"].std(), made["phi"].std(), made["a"].std()], [0.2, 0.2, 0.006], rtol=0.06)
+    # a leather tip takes a faster cue, and the same speeds of the ball
+    cue["speed"], cue["tip_restitution"] = 4.0 / 1.73, 0.73
+    leather = np.array([carom.with_errors(cue, player, 5, k) for k in range(100)])
+    np.testing.assert_allclose(leather["speed"] * 1.73 / 2.0, made["speed"][:100], rtol=1e-14)
+    cue["speed"], cue["tip_restitution"] = 2.0, 1.0
     assert made[7].tobytes() == carom.with_errors(cue, player, 5, 7).tobytes() and made["theta"].min() >= 0.0
     player["phi"] = 0.0
     assert carom.with_errors(cue, player, 5)["phi"] == 40.0

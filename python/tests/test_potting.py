@@ -90,7 +90,7 @@ def test_strokes_are_those_of_simulate():
         shot = rules.shot(layout, action)
         assert strokes.layouts["state"][k].tobytes() == shot.final.tobytes()
         alone = carom.simulate(
-            rules.table, layout, carom.cue(phi=180 * action[0], speed=3.25 + 2.75 * action[1], a=[0.3, 0, -0.1][k], b=0.2)
+            rules.table, layout, carom.cue(phi=180 * action[0], speed=3.75 + 3.25 * action[1], a=[0.3, 0, -0.1][k], b=0.2)
         )
         np.testing.assert_allclose(shot.final["r"], alone.final["r"], atol=1e-9)
 

@@ -28,7 +28,7 @@ def test_the_command_gives_the_same_bits():
     theirs = json.loads(out.stdout.splitlines()[-1])
     line = given[-1]
     balls = carom.balls([ball["state"][1:4] for ball in line["balls"]])
-    cue = carom.cue(speed=line["cue"]["V0"], phi=line["cue"]["phi"], b=line["cue"]["b"])
+    cue = carom.cue(speed=line["cue"]["V0"], phi=line["cue"]["phi"], b=line["cue"]["b"], tip_restitution=1.0)
     shot = carom.simulate(carom.tables.pool_9ft(), balls, cue)
     # The command begins and ends with an event of the type none, as pooltool does.
     assert [event[0] for event in theirs["events"] if event[1] != "none"] == shot.events["time"].tolist()
@@ -87,7 +87,7 @@ def test_a_batch_has_the_bits_of_single_shots():
 @pytest.fixture(scope="module")
 def breaks():
     """Breaks of which every 3rd is in error: the batch, and each shot alone, None in place of those."""
-    cues = carom.cue(speed=8.0, phi=np.linspace(85.0, 95.0, 12), a=np.where(np.arange(12) % 3 == 2, 1.0, 0.0), b=0.1)
+    cues = carom.cue(speed=9.0, phi=np.linspace(85.0, 95.0, 12), a=np.where(np.arange(12) % 3 == 2, 1.0, 0.0), b=0.1)
     alone = [carom.simulate(TABLE, RACK, cue, cushion_model="han") if k % 3 != 2 else None for k, cue in enumerate(cues)]
     return lambda **options: carom.simulate_batch(TABLE, RACK, cues, cushion_model="han", **options), alone
 
@@ -379,9 +379,11 @@ def test_tables_and_racks():
 
 
 def test_strike():
-    """A blow at the centre with no elevation: no spin, and the speed of an impact without loss and with squirt's end mass."""
+    """A blow at the centre with no elevation: no spin, and the speed of an impact with squirt's end mass, in proportion to 1 + e of the tip."""
     motion = carom.struck(carom.cue(speed=3.0, b=0.0, phi=0.0), carom.balls([[0.5, 0.5]])[0]["kind"])
     assert motion["v"][0] > 3.0 and abs(motion["v"][1]) < 1e-12 and not motion["w"].any()
+    resin = carom.struck(carom.cue(speed=3.0, b=0.0, phi=0.0, tip_restitution=0.85), carom.balls([[0.5, 0.5]])[0]["kind"])
+    assert abs(resin["v"][0] / motion["v"][0] - 1.85 / 1.73) < 1e-15 and carom.cue(game="pooltool_pool")["tip_restitution"] == 1.0
 
 
 def test_pictures():
@@ -407,7 +409,8 @@ def test_pictures():
 
 
 def test_balls_that_fly():
-    balls, cue = carom.balls([[0.5, 0.6], [0.5, 0.905]]), carom.cue(speed=3.0, theta=45.0, b=0.0, tip_time=-1.0)
+    balls, lossless = carom.balls([[0.5, 0.6], [0.5, 0.905]]), {"speed": 3.0, "theta": 45.0, "b": 0.0, "tip_restitution": 1.0}
+    cue = carom.cue(**lossless, tip_time=-1.0)
     over = carom.simulate(TABLE, balls, cue)
     assert over.events["type"][:2].tolist() == [carom.EventType.STRIKE, carom.EventType.SLATE]
     assert abs(over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max() - 0.028575 - 0.135695) < 1e-4
@@ -415,11 +418,11 @@ def test_balls_that_fly():
     assert flat.events["type"][1] == carom.EventType.BALL_BALL and (flat.events["after"]["v"][..., 2] == 0).all()
     # a tip that touches for a while presses the ball on the slate: hard resin lets it jump, leather does not
     for tip_time, height in ((0.0006, 0.1), (0.002, 0.0), (0.0, 0.0)):
-        pressed = carom.simulate(TABLE, balls, carom.cue(speed=3.0, theta=45.0, b=0.0, tip_time=tip_time))
+        pressed = carom.simulate(TABLE, balls, carom.cue(**lossless, tip_time=tip_time))
         top = pressed.positions(np.linspace(0.0, 0.3, 301))[:, 0, 2].max() - 0.028575
         assert height - 1e-3 < top < height + 6e-3 and (pressed.events["after"]["v"][0, 0, 2] > 0.0)
     # off the table, which is no error; the batch takes the same options, as keywords or as one object
-    balls, cue = carom.balls([[0.4, 2.14], [0.8, 1.8]]), carom.cue(speed=3.0, theta=45.0, b=0.0, miscue=0.5, tip_time=-1.0)
+    balls, cue = carom.balls([[0.4, 2.14], [0.8, 1.8]]), carom.cue(**lossless, miscue=0.5, tip_time=-1.0)
     gone = carom.simulate(TABLE, balls, cue)
     assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE and gone.final["label"].tolist() == [carom.Label.OFF, 0]
     for space, label in (("3d", carom.Label.OFF), ("flat", carom.Label.STATIONARY)):

@@ -1,9 +1,9 @@
-/* The strike of a cue: an instantaneous, lossless impact of the tip, with squirt.
+/* The strike of a cue: an instantaneous impact of the tip, with squirt.
  *
- * With m the ball's mass, M the cue's, m_e the mass of its end, (a, b) the offset in units of R
- * and I = 2/5 m R^2:
+ * With m the ball's mass, M the cue's, m_e the mass of its end, e the restitution of the tip,
+ * (a, b) the offset in units of R and I = 2/5 m R^2:
  *
- *   V = 2 V0 / (1 + m/M + 5/2 (a^2 + b^2))           speed along the cue
+ *   V = (1 + e) V0 / (1 + m/M + 5/2 (a^2 + b^2))     speed along the cue
  *   v = V cos(theta) in the direction phi + alpha
  *   tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
  *   w = 5 V/(2R) (b, a sin(theta), -a cos(theta))     turned about z by phi + 90 degrees
@@ -34,6 +34,8 @@ carom_status carom_check_cue(const carom_cue *cue) {
     return CAROM_ERROR_CUE_MASS;
   if (!carom_is_positive(cue->end_mass))
     return CAROM_ERROR_CUE_END_MASS;
+  if (!(cue->tip_restitution >= 0.0 && cue->tip_restitution <= 1.0))
+    return CAROM_ERROR_CUE_TIP_RESTITUTION;
   if (!(cue->miscue >= 0.0 && cue->miscue <= 1.0))
     return CAROM_ERROR_CUE_MISCUE;
   if (!(cue->tip_time == -1.0 || (cue->tip_time >= 0.0 && cue->tip_time <= 0.01)))
@@ -59,7 +61,8 @@ static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bo
   double sin_phi, cos_phi, sin_theta, cos_theta;
   carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
   carom_sincos_degrees(cue->theta, &sin_theta, &cos_theta);
-  const double V = 2.0 * cue->speed / (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
+  const double V = (1.0 + carom_tip_of(cue)) * cue->speed /
+                   (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
 
   /* squirt as a turn of v, by its sine and cosine */
   const double aside = -2.5 * a * sqrt(inside),

@@ -12,13 +12,19 @@ typedef carom_outcome outcome;
 typedef carom_search search;
 
 enum { TIPS = 5, POT_SPEEDS = 6, SCAN_SPEEDS = 5, STROKES = TIPS * POT_SPEEDS };
-/* m/s and radii, from the prototype */
+/* m/s of a cue whose tip loses nothing, and radii, from the prototype */
 static const double pot_speed[POT_SPEEDS] = {0.8, 1.2, 1.7, 2.4, 3.4, 4.8};
 static const double pot_tip[TIPS][2] = {
     {0.0, 0.0}, {0.0, 0.35}, {0.0, -0.35}, {0.3, 0.0}, {-0.3, 0.0}};
 static const double scan_speed[SCAN_SPEEDS] = {1.0, 1.8, 3.0, 5.0, 7.5};
 static const double scan_tip[TIPS][2] = {
     {0.0, 0.0}, {0.0, 0.3}, {0.0, -0.3}, {0.25, 0.0}, {-0.25, 0.0}};
+
+/* The speed of the cue that stands for `lossless`, within what the player can do. */
+static double speed_of(const search *of, double lossless) {
+  return carom_within(carom_tip_gain(of->job.cue) * lossless, of->player.speed_least,
+                      of->player.speed_most);
+}
 
 void carom_search_add(search *of, candidate c) {
   if (of->count < of->most) {
@@ -137,16 +143,14 @@ void carom_search_pots(search *of, int64_t most) {
   for (int w = 0; w < ways; w++)
     for (int n = 0; n < strokes; n++) {
       const double *tip = pot_tip[order[n] % TIPS];
-      const double speed = pot_speed[order[n] / TIPS];
       carom_search_add(
-          of,
-          (candidate){.speed = carom_within(speed, of->player.speed_least, of->player.speed_most),
-                      .phi = way[w].way.psi,
-                      .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
-                      .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
-                      .kind = CAROM_PLAN_POT,
-                      .aimed_ball = (int16_t)way[w].ball,
-                      .aimed_pocket = (int16_t)way[w].pocket});
+          of, (candidate){.speed = speed_of(of, pot_speed[order[n] / TIPS]),
+                          .phi = way[w].way.psi,
+                          .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
+                          .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
+                          .kind = CAROM_PLAN_POT,
+                          .aimed_ball = (int16_t)way[w].ball,
+                          .aimed_pocket = (int16_t)way[w].pocket});
     }
 
   /* those that cannot be aimed are dropped */
@@ -224,8 +228,7 @@ void carom_search_scan(search *of, int64_t most) {
       const double *tip = scan_tip[(
           int)((double)TIPS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1))];
       carom_search_add(
-          of, (candidate){.speed = carom_within(scan_speed[speed], of->player.speed_least,
-                                                of->player.speed_most),
+          of, (candidate){.speed = speed_of(of, scan_speed[speed]),
                           .phi = 360.0 * turn,
                           .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
                           .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),

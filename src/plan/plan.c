@@ -141,7 +141,7 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   /* The options of its shots are not those of when to stop. */
   of->job = *job;
   of->options = *options;
-  of->player = carom_player_bounded(job->player);
+  of->player = carom_player_bounded(job->player, job->cue);
   of->shot = job->shot != NULL ? *job->shot : no_shot;
   of->shot.threads = 0;
   of->shot.stop_at = 0;

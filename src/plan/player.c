@@ -1,5 +1,6 @@
 /* Players: how their strokes differ from those that they mean. */
 #include "plan/view.h"
+#include "shot/sim.h"
 
 #include <math.h>
 
@@ -28,11 +29,13 @@ carom_player carom_player_fargo(double rating) {
   return carom_player_of(errors[k] + part * (errors[k + 1] - errors[k]));
 }
 
-carom_player carom_player_bounded(const carom_player *player) {
+carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue) {
   carom_player bounded = *player;
+  const double gain = carom_tip_gain(cue), usual_least = 0.5 * gain, usual_most = 8.0 * gain;
+  bounded.speed = gain * player->speed;
   const double least = player->speed_least, most = player->speed_most;
-  bounded.speed_least = least > 0.0 ? least : most > 0.0 && most < 0.5 ? most : 0.5;
-  bounded.speed_most = most > 0.0 ? most : least > 8.0 ? least : 8.0;
+  bounded.speed_least = least > 0.0 ? least : most > 0.0 && most < usual_least ? most : usual_least;
+  bounded.speed_most = most > 0.0 ? most : least > usual_most ? least : usual_most;
   bounded.tip_most = player->tip_most > 0.0 ? player->tip_most : 0.5;
   return bounded;
 }
@@ -53,7 +56,7 @@ void carom_player_errs(const carom_player *player, const double z[6], carom_cue 
 
 void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t number,
                          carom_cue *cue) {
-  const carom_player bounded = carom_player_bounded(player);
+  const carom_player bounded = carom_player_bounded(player, cue);
   double z[6];
   carom_normals(seed, DRAW_PLAYED, number, z);
   carom_player_errs(&bounded, z, cue);

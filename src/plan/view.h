@@ -88,7 +88,7 @@ void carom_normals(uint64_t seed, uint32_t stage, uint64_t row, double z[6]);
 
 /* player.c */
 /* The player with his bounds: 0 becomes the value it stands for. */
-carom_player carom_player_bounded(const carom_player *player);
+carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);
 /* A stroke by a player with bounds; z are his errors in standard deviations. */
 void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue);
 

@@ -4,6 +4,7 @@
 #define CAROM_SRC_SHOT_SIM_H
 
 #include "motion/path.h"
+#include "motion/strike.h"
 #include "table/table.h"
 
 /* The next meeting of a ball with the table. */

@@ -6,11 +6,14 @@
 
 carom_cue carom_cue_of(carom_game game) {
   const bool snooker = game == CAROM_GAME_SNOOKER || game == CAROM_GAME_POOLTOOL_SNOOKER;
+  const bool pooltool = game == CAROM_GAME_POOLTOOL_POOL || game == CAROM_GAME_POOLTOOL_SNOOKER ||
+                        game == CAROM_GAME_POOLTOOL_BILLIARD;
   return (carom_cue){.speed = 2.0,
                      .phi = 90.0,
                      .b = 0.25,
                      .mass = snooker ? 0.478 : 0.567,
                      .end_mass = carom_ball_kind_of(game).mass / 30.0,
+                     .tip_restitution = pooltool ? 1.0 : CAROM_TIP_LEATHER,
                      .tip_radius = 0.0106045};
 }
 

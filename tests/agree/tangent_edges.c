@@ -53,8 +53,9 @@ static int64_t first_with(const carom_shot *shot, int32_t flag) {
 }
 
 static layout of_two(double x, double y) {
-  layout l = {
-      .count = 2, .ball = {ball_at(0.4, 0.6), ball_at(x, y)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
+  layout l = {.count = 2,
+              .ball = {ball_at(0.4, 0.6), ball_at(x, y)},
+              .cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL)};
   l.cue.b = 0.0;
   return l;
 }
@@ -128,7 +129,8 @@ TEST(simultaneous) {
   int apart = 0;
   for (int k = 0; k < 6; k++) {
     const bool frozen = k < 3;
-    layout l = {.count = carom_rack_size(racks[k % 3]), .cue = carom_cue_of(CAROM_GAME_POOL)};
+    layout l = {.count = carom_rack_size(racks[k % 3]),
+                .cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL)};
     carom_rack(racks[k % 3], table_of_pool(), frozen ? 0.0 : 1e-3, 1, l.ball, LAYOUT_BALLS);
     l.cue.speed = 8.0;
     carom_shot shot;
@@ -433,6 +435,38 @@ TEST(square_at_a_cushion) {
   }
 }
 
+/* By the restitution of the tip, with other numbers of the cue, of two balls; where it is 0, which
+ * stands for 1, the derivative is that of 1. */
+TEST(tip) {
+  static const direction by[3] = {{OF_CUE, 0, 7, 1}, {OF_CUE, 0, 0, 1}, {OF_CUE, 0, 3, 1}};
+  static const double restitution[3] = {0.4, CAROM_TIP_LEATHER, 0.85};
+  double of_one[NUMBERS * 2];
+  for (int k = 0; k < 3 * 4; k++) {
+    layout l = of_two(0.45, 1.1);
+    l.cue.speed = 1.0 + k / 3;
+    l.cue.phi = 87.0;
+    l.cue.a = 0.2;
+    l.cue.b = -0.1;
+    l.cue.tip_restitution = restitution[k % 3];
+    carom_shot shot;
+    const carom_tangent t = differentiate(&l, &closed, by, 3, &shot);
+    ck_assert_int_eq(t.all_flags, 0);
+    for (int j = 0; j < 3; j++)
+      ck_assert_double_lt(error_of(&l, &closed, &shot, &by[j], j, 3), 1e-6);
+  }
+  for (int k = 0; k < 2; k++) {
+    layout l = of_two(0.45, 1.1);
+    l.cue.phi = 87.0;
+    l.cue.tip_restitution = k == 0 ? 1.0 : 0.0;
+    carom_shot shot;
+    differentiate(&l, &closed, by, 1, &shot);
+    ck_assert_double_gt(largest(ends, NUMBERS * 2, 0, 1), 0.1);
+    if (k == 0)
+      memcpy(of_one, ends, sizeof of_one);
+    ck_assert_int_eq(memcmp(of_one, ends, sizeof of_one), 0);
+  }
+}
+
 /* By theta, at no elevation: the derivative upward, which the cloth takes a part of at once. In
  * flat play there is no kink. */
 TEST(level_cue) {
@@ -724,7 +758,7 @@ TEST(reach_of_near_misses) {
     const double gap = gaps[k % 9], side = k / 27 == 0 ? 1.0 : -1.0;
     layout l = {.count = 2,
                 .ball = {ball_at(0.635, 0.5), ball_at(0.635, 1.4)},
-                .cue = carom_cue_of(CAROM_GAME_POOL)};
+                .cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL)};
     l.cue.speed = speeds[k / 9 % 3];
     l.cue.phi = 90.0;
     l.ball[1].state.r[0] += side * (2.0 * l.ball[1].kind.radius + gap);
@@ -859,7 +893,8 @@ static const direction ways[WAYS] = {
 /* A cue ball and two others that it meets at once, or all but; or a rack of eight-ball. Odd
  * kinds have gaps. */
 static layout cluster_of(random_source *random, int kind) {
-  layout l = {.count = 3, .ball = {ball_at(0.4, 0.6)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
+  layout l = {
+      .count = 3, .ball = {ball_at(0.4, 0.6)}, .cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL)};
   const double gap = kind % 2 == 0 ? 0.0 : 3e-5, apart = 2.0 * l.ball[0].kind.radius + gap;
   if (kind < 2) {
     const double along = random_between(random, 0.3, 2.8);
@@ -988,7 +1023,8 @@ static carom_shot beside_one_side(const layout *l, const carom_shot_options *opt
 TEST(law_that_begins_at_zero) {
   const carom_shot_options options = {.time_most = 0.6};
   const direction by = {OF_KIND, -1, 13, 1};
-  layout l = {.count = 3, .ball = {ball_at(0.6, 0.6)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
+  layout l = {
+      .count = 3, .ball = {ball_at(0.6, 0.6)}, .cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL)};
   const double R = l.ball[0].kind.radius;
   l.ball[1] = ball_at(0.6 + 0.3 * R, 1.2);
   l.ball[2] = ball_at(0.6 + 1.9 * R, 1.2 + 1.2 * R);
@@ -1035,7 +1071,8 @@ TEST(cushions_that_begin_at_zero) {
   for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
     const carom_shot_options options = {.time_most = 1.0};
     const direction by = {OF_KIND, -1, numbers[n], 1};
-    layout l = {.count = 1, .ball = {ball_at(0.6, 0.6)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
+    layout l = {
+        .count = 1, .ball = {ball_at(0.6, 0.6)}, .cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL)};
     l.cue.speed = 2.0;
     l.cue.phi = 25.0;
     l.cue.a = 0.1;

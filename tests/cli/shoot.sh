@@ -121,7 +121,7 @@ ball='{"id": "cue", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}'
   echo '{"kind": "table", "id": "bad", "linear": [{"id": "1", "p1": [0, 0, 0.03]}]}'
   echo '{"kind": "other", "is": "ignored"}'
   echo "{\"kind\": \"shot\", \"id\": \"default cue\", \"unknown\": [], \"balls\": [$ball]}"
-  for wrong in '"V0": -1' '"V0": 1001' '"phi": 1e10' '"theta": 91' '"M": 0' '"end_mass": -1' '"miscue": 1.1' '"tip_time": 0.02'; do
+  for wrong in '"V0": -1' '"V0": 1001' '"phi": 1e10' '"theta": 91' '"M": 0' '"end_mass": -1' '"tip_restitution": 1.1' '"miscue": 1.1' '"tip_time": 0.02'; do
     echo "{\"kind\": \"shot\", \"id\": ${wrong%%:*}, \"cue\": {\"b\": 0, $wrong}, \"balls\": [$ball]}"
   done
   echo '{"kind": "shot", "id": "out of play", "cue": {"ball": "2"}, "balls": ['"$ball"', {"id": "2", "state": [4, 0, 0, -0.08, 0, 0, 0, 0, 0, 0]}]}'

@@ -45,7 +45,7 @@ for page in pages(SOURCE):
     programs += [(page, C, text, "ball 1 is hit after") for kind, text in found if kind == "c"]
     programs += [(page, C[2 if "carom.hpp" in text else 1 :], text, shown[1]) for kind, text in found if kind == "cpp"]
     if pieces:
-        programs.append((page, C, program(pieces), "balls 0 and 4 meet after 0.112 s"))
+        programs.append((page, C, program(pieces), "balls 0 and 4 meet after 0.129 s"))
 assert len(programs) >= 7, programs
 
 with tempfile.TemporaryDirectory() as work:

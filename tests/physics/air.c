@@ -38,7 +38,7 @@ static carom_shot let_go(carom_shot_ball ball) {
 static carom_shot strike(double speed, double theta, double b, carom_space space) {
   const carom_table table = empty_table(40.0);
   const carom_shot_ball ball = ball_at(20.0, 20.0);
-  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
   cue.speed = speed;
   cue.theta = theta;
   cue.b = b;
@@ -342,7 +342,7 @@ TEST(jump_over_a_ball) {
   const carom_table table = empty_table(40.0);
   const carom_shot_ball balls[2] = {ball_at(20.0, 20.0), ball_at(20.0, 20.305)};
   for (int k = 0; k < 8; k++) {
-    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
     cue.b = 0.0;
     cue.theta = least[k / 2].theta;
     cue.tip_time = -1.0;

@@ -259,7 +259,7 @@ TEST(grazed_posts) {
 TEST(over_the_rail) {
   carom_table table = empty_table(40.0);
   const carom_shot_ball ball = ball_at(20.0, 39.6);
-  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
   cue.speed = 3.0;
   cue.theta = 45.0;
   cue.b = 0.0;

@@ -565,7 +565,7 @@ TEST(breaks) {
       random_source random = {test_seed()};
       for (int n = 0; n < each; n++) {
         carom_shot_ball b[16];
-        carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+        carom_cue cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
         ck_assert_int_eq(
             carom_rack(kinds[kind].rack, &table, n / 2 % 3 * 5e-5, (uint64_t)n + 1, b, 16),
             CAROM_OK);

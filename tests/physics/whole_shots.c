@@ -389,6 +389,51 @@ TEST(left_moving_into_the_cushion) {
 /* ---- What players know */
 
 /* A ball alone: it slides to 5/7 v + 2/7 R w, then rolls v^2 / (2 mu g). */
+/* The strike of a tip of any restitution: momentum along the cue, the speed at which tip and ball
+ * part, and the energy that is lost. The restitution 1, for which 0 stands, loses nothing. */
+TEST(tips) {
+  static const double restitution[] = {0.0, 0.2, CAROM_TIP_LEATHER, 0.85, 1.0},
+                      mass[] = {0.1, 0.567, 0.9};
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  const double m = kind.mass, V0 = 3.0;
+  for (int n = 0; n < 5 * 3 * 81; n++) {
+    const double e = restitution[n % 5], M = mass[n / 5 % 3], part = e == 0.0 ? 1.0 : e;
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    ck_assert(cue.tip_restitution == CAROM_TIP_LEATHER);
+    cue.speed = V0;
+    cue.phi = 0.0;
+    cue.mass = M;
+    cue.tip_restitution = e;
+    cue.a = (n / 15 % 9 - 4) / 8.0;
+    cue.b = (n / 135 - 4) / 8.0;
+    carom_motion out;
+    ck_assert_int_eq(carom_strike(&cue, &kind, &out), CAROM_OK);
+
+    /* the point that is struck recedes at V (1 + 5/2 (a^2 + b^2)), the cue goes on at U */
+    const double arm = 2.5 * (cue.a * cue.a + cue.b * cue.b), V = hypot(out.v[0], out.v[1]),
+                 U = V0 - m / M * V;
+    ck_assert_double_eq_tol(V * (1.0 + arm) - U, part * V0, 1e-14);
+    const double w2 = out.w[0] * out.w[0] + out.w[1] * out.w[1] + out.w[2] * out.w[2],
+                 lost = 0.5 * (M * V0 * V0 - M * U * U - m * V * V -
+                               0.4 * m * kind.radius * kind.radius * w2),
+                 met = 1.0 / (1.0 / M + (1.0 + arm) / m);
+    ck_assert_double_eq_tol(lost, 0.5 * (1.0 - part * part) * met * V0 * V0, 1e-14);
+
+    /* without loss it has the bits of the formula without e; 0 is 1 */
+    if (part == 1.0 && cue.a == 0.0)
+      ck_assert(out.v[0] == 2.0 * V0 / (1.0 + m / M + 2.5 * (cue.b * cue.b)));
+    carom_motion same;
+    cue.tip_restitution = part;
+    ck_assert_int_eq(carom_strike(&cue, &kind, &same), CAROM_OK);
+    ck_assert_int_eq(memcmp(&same, &out, sizeof out), 0);
+  }
+
+  /* which tips the cues of games have */
+  for (int game = CAROM_GAME_POOL; game <= CAROM_GAME_POOLTOOL_BILLIARD; game++)
+    ck_assert(carom_cue_of((carom_game)game).tip_restitution ==
+              (game < CAROM_GAME_POOLTOOL_POOL ? CAROM_TIP_LEATHER : 1.0));
+}
+
 TEST(alone) {
   random_source r = {test_seed()};
   const carom_table t = empty_table(200.0);

@@ -218,6 +218,9 @@ TEST(cues) {
   }
   REFUSED(cue.a, 1.0, CAROM_ERROR_MISCUE, -1);
   REFUSED(cue.b, NAN, CAROM_ERROR_MISCUE, -1);
+  NAMED(cue.tip_restitution, -0.1, CAROM_ERROR_CUE_TIP_RESTITUTION);
+  NAMED(cue.tip_restitution, 1.1, CAROM_ERROR_CUE_TIP_RESTITUTION);
+  NAMED(cue.tip_restitution, NAN, CAROM_ERROR_CUE_TIP_RESTITUTION);
   NAMED(cue.miscue, -0.1, CAROM_ERROR_CUE_MISCUE);
   NAMED(cue.miscue, 1.1, CAROM_ERROR_CUE_MISCUE);
   NAMED(cue.miscue, NAN, CAROM_ERROR_CUE_MISCUE);

@@ -27,6 +27,7 @@ const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
   ["b", "b"],
   ["M", "mass"],
   ["end_mass", "endMass"],
+  ["tip_restitution", "tipRestitution"],
   ["tip_radius", "tipRadius"],
   ["miscue", "miscue"],
   ["tip_time", "tipTime"],

@@ -269,7 +269,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect(() => carom.simulate(table, balls, { a: 0.9, b: 0.9 })).toThrow(/^cue\.a, cue\.b: the tip misses the ball: /);
     const out = structuredClone(balls) as unknown as { state: { label: string } }[];
     out[3]!.state.label = "pocketed";
-    for (const [key, wrong] of [["speed", -1], ["phi", Infinity], ["theta", 91], ["mass", 0], ["endMass", NaN], ["miscue", 1.1], ["tipTime", 0.02], ["ball", 12], ["ball", 3]] as const) {
+    for (const [key, wrong] of [["speed", -1], ["phi", Infinity], ["theta", 91], ["mass", 0], ["endMass", NaN], ["miscue", 1.1], ["tipRestitution", 1.1], ["tipTime", 0.02], ["ball", 12], ["ball", 3]] as const) {
       const calls = [() => carom.simulate(table, out as never, { [key]: wrong })];
       // A strike alone has no layout.
       if (key !== "ball") calls.push(() => carom.strike({ [key]: wrong }, balls[0]!.kind) as never);

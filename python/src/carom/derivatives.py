@@ -34,7 +34,7 @@ MOST: int = lib.CAROM_DIRECTIONS_MOST
 """Directions of one call of C; more are given in parts."""
 STATE: int = lib.CAROM_STATE_NUMBERS
 _AT_ONCE = 128  # shots of a thread whose events are kept at a time: more take longer for the memory than for the shots
-CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass")
+CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass", "tip_restitution")
 KIND = tuple(dtypes.ball_kind.names or ())
 # A state is x, y, v_x, v_y, w_x, w_y, w_z, z, v_z: where its parts are, and the elements of r, v and w of a ball.
 PARTS: dict[str, slice | int] = {"r": slice(0, 2), "v": slice(2, 4), "w": slice(4, 7), "z": 7, "v_z": 8}

@@ -310,7 +310,8 @@ def cue(
     *, speed: npt.ArrayLike | None = None, phi: npt.ArrayLike = 90.0, theta: npt.ArrayLike = 0.0, a: npt.ArrayLike | None = None,
     b: npt.ArrayLike | None = None, ball: npt.ArrayLike = 0, game: Game = "pool", mass: npt.ArrayLike | None = None,
     end_mass: npt.ArrayLike | None = None, tip_radius: npt.ArrayLike | None = None, miscue: npt.ArrayLike = 0.0,
-    tip_time: npt.ArrayLike = 0.0, ball_speed: npt.ArrayLike | None = None, tip: npt.ArrayLike | None = None
+    tip_time: npt.ArrayLike = 0.0, tip_restitution: npt.ArrayLike | None = None, ball_speed: npt.ArrayLike | None = None,
+    tip: npt.ArrayLike | None = None
 ) -> dtypes.Records:  # fmt: skip
     """Build a cue with its strike, or many. The fields are broadcast against each other.
 
@@ -334,6 +335,9 @@ def cue(
     tip_time : array_like, shape (...)
         s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.002, a leather tip. Hard resin, with which balls
         jump, has 0.0006. -1: no time, so that the blow and the landing are two events, as before revision 8.
+    tip_restitution : array_like, shape (...)
+        Restitution of the tip and the ball, 0 to 1; 0: 1, without loss. The speed of the ball is in proportion to 1 + tip_restitution. Default
+        0.73, leather, and 1 for pooltool's games; phenolic resin has 0.85.
     ball_speed : array_like, shape (...)
         Instead of `speed`: that of a ball of `game` just after the strike of a level cue, m/s.
     tip : array_like, shape (..., 2)
@@ -361,7 +365,7 @@ def cue(
     if ball_speed is not None:
         speed = as_array(ball_speed, "ball_speed", np.float64)
     given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
-    more = {"miscue": miscue, "tip_time": tip_time, "mass": mass, "end_mass": end_mass, "tip_radius": tip_radius}
+    more = {"miscue": miscue, "tip_time": tip_time, "tip_restitution": tip_restitution, "mass": mass, "end_mass": end_mass, "tip_radius": tip_radius}
     made = fill(dtypes.cue, {}, {**given, **more}, usual)
     if ball_speed is not None:
         _strike_to(made, game)

@@ -80,7 +80,7 @@ class NineBall:
 
     def __init__(
         self, *, table: Table | None = None, noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        parameters: Mapping[str, tuple[float, float]] | None = None, speeds: tuple[float, float] = (0.5, 9.0),
+        parameters: Mapping[str, tuple[float, float]] | None = None, speeds: tuple[float, float] = (0.5, 10.5),
         cushion_model: ShotCushion = "default"
     ) -> None:  # fmt: skip
         self.base = Potting(9, 1, table=table, noise=noise, parameters=parameters, speeds=speeds, cushion_model=cushion_model)

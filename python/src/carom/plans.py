@@ -35,6 +35,7 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes
     ----------
     errors : float
         At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each way, times errors. Default: 1.
+        The speed is that of a cue whose tip loses nothing; others err by 2/(1 + tip_restitution) times as much.
     fargo : float, optional
         A Fargo rating, 300 to 850, instead: the errors with which plans of 300 shots run out eight-ball as often as players of this rating
         are said to (docs/understanding/plan.md). More shots make him stronger.
@@ -263,7 +264,7 @@ def plan(
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
         2 to 32 of them at rest, with the cue ball first. For eight-ball and nine-ball a ball's index is its number.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
-        Its masses and its miscue count; the stroke does not. Default: that of `carom.cue()`.
+        Its masses, its tip and its miscue count; the stroke does not. Default: that of `carom.cue()`.
     rules : {"eightball", "nineball", "potting"} or Rules
         The game, by the rules of the WPA; or a drill, whose value is the share of the balls that one visit pots; or a game of your own.
     group : {"open", "solids", "stripes"}

@@ -89,7 +89,7 @@ class Potting:
         noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
         parameters: Mapping[str, tuple[float, float]] | None = None,
         reward: Callable[[dtypes.Records, Strokes], npt.ArrayLike] | None = None,
-        speeds: tuple[float, float] = (0.5, 6.0), cushion_model: ShotCushion = "default", threads: int = 0
+        speeds: tuple[float, float] = (0.5, 7.0), cushion_model: ShotCushion = "default", threads: int = 0
     ) -> None:  # fmt: skip
         whole(balls, "balls", least=1, most=15)
         whole(strokes, "strokes", least=1)
@@ -212,7 +212,9 @@ class Potting:
     def player(self) -> dtypes.Records:
         """The player with the noise, the speeds and the tip of this game, for `carom.plan`."""
         made = plans.player(0.0)
-        made["phi"], made["speed"], made["a"], made["b"] = self.noise[0], self.noise[1], self.noise[2], self.noise[2]
+        made["phi"], made["a"], made["b"] = self.noise[0], self.noise[2], self.noise[2]
+        # of a cue whose tip loses nothing
+        made["speed"] = self.noise[1] * (1.0 + float(layouts.cue()["tip_restitution"])) / 2.0
         made["speed_least"], made["speed_most"], made["tip_most"] = *self.speeds, 0.35
         return made
 
