@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -293,7 +293,7 @@ def balls(
     unknown = [name for name in kind if name not in (dtypes.ball_kind.names or ())]
     if unknown:
         raise TypeError(f"balls: there is no field {unknown[0]!r}; known are {', '.join(dtypes.ball_kind.names or ())}")
-    fields = {f"kind.{name}": value for name, value in kind.items()}
+    fields = {f"kind.{name}": value for name, value in cast("dict[str, npt.ArrayLike | None]", kind).items()}
     centres = as_array(r, "r", np.float64)
     if centres.ndim < 2 or centres.shape[-1] not in (2, 3):
         raise ValueError(f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}")
