@@ -13,7 +13,7 @@ void lab_rack_make(lab_rack *rack, uint64_t seed) {
   carom_ball_state final[RACK_BALLS];
   while (facts.down != 0 || facts.off != 0) {
     carom_cue opening = *rack->plan.cue;
-    opening.speed = lab_uniform(&rack->state, 7.0, 8.0);
+    opening.speed = lab_uniform(&rack->state, 7.0, 8.0) * 2.0 / (1.0 + opening.tip_restitution);
     opening.phi = lab_uniform(&rack->state, 89.0, 91.0);
     carom_rack(CAROM_RACK_EIGHTBALL, rack->plan.table, 1e-4,
                (uint64_t)lab_uniform(&rack->state, 0.0, 1e9), rack->balls, RACK_BALLS);

@@ -18,7 +18,7 @@ import carom
 matplotlib.use("Agg")
 table = carom.tables.pool_9ft()
 tips = np.linspace(-0.5, 0.0, 26)
-cues = carom.cue(speed=2.5, phi=90.0, b=tips)
+cues = carom.cue(speed=2.9, phi=90.0, b=tips)
 
 for away in (0.3, 0.6, 0.9):
     layout = carom.balls([[0.635, 0.9], [0.635, 0.9 + away]])

@@ -36,7 +36,7 @@ class Easiest:
         phi = pt.aim.at_ball(cue, ball) if pocket is None else pt.pot.calc_potting_angle(cue, ball, table, pocket)
         if constraints.call_shot:
             constraints.ball_call, constraints.pocket_call = ball.id, pocket.id if pocket else next(iter(table.pockets))
-        stroke = carom.with_errors(carom.cue(speed=speed, phi=phi), self.player, self.seed, self.strokes)
+        stroke = carom.with_errors(carom.cue(speed=speed, phi=phi, game="pooltool_pool"), self.player, self.seed, self.strokes)
         self.strokes += 1
         return pt.ai.action.Action(*(float(stroke[name]) for name in ("speed", "phi", "theta", "a", "b")))
 

@@ -213,7 +213,7 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
         places = [[random.uniform(0.2, 1.2), y + random.uniform(-0.2, 0.2)] for y in (0.7, 1.6, 2.3)]
         strike = {"speed": random.uniform(2, 4), "phi": random.uniform(40, 140), "tip": random.uniform((-0.3, -0.2), (0.3, 0.3))}
         kind = {**_constants.usual("han"), **other}
-        shots.append(carom.simulate(table, carom.balls(places, radius=RADIUS, **kind), carom.cue(**strike), cushion_model="han"))
+        shots.append(carom.simulate(table, carom.balls(places, radius=RADIUS, **kind), carom.cue(**strike, tip_restitution=1.0), cushion_model="han"))
         times = np.arange(0.0, lead_in + shots[-1].time, 0.02)
         frames = shots[-1].positions(np.maximum(times - lead_in, 0.0))[..., :2]
         seen = frames + random.normal(0.0, noise, frames.shape)
