@@ -17,7 +17,7 @@ layout = carom.balls([[0.635, 0.6], [0.635, 0.6 + 0.305]])  # 12 inches, centre 
 
 def play(speed: float, elevation: float) -> carom.Shot:
     """The shot straight at the ball, without side or height of the tip."""
-    return carom.simulate(table, layout, carom.cue(speed=speed, phi=90.0, theta=elevation, b=0.0, tip_time=0.0006), t_final=1.0)
+    return carom.simulate(table, layout, carom.cue(speed=speed, phi=90.0, theta=elevation, b=0.0, tip_time=0.0006, tip_restitution=0.85), t_final=1.0)
 
 
 def clears(shot: carom.Shot) -> bool:

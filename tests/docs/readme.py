@@ -84,5 +84,5 @@ with tempfile.TemporaryDirectory() as work:
         run([CMAKE, "-B", "b", *more], folder, PATH=f"{prefix}/bin:{os.environ['PATH']}")
         run([CMAKE, "--build", "b"], folder)
         said.add(run([folder / "b/game"], folder).strip())
-    assert said == {"ok: ball 1 is hit after 0.111 s"}, said
+    assert said == {"ok: ball 1 is hit after 0.129 s"}, said
 print("README.md: pasted, installed and built in four ways")

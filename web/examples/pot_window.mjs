@@ -16,7 +16,7 @@ const [px, py] = table.pockets.map((pocket) => pocket.centre).reduce((far, at) =
 /** Does ball 1 fall, with the cue ball behind it for a cut of 30 degrees? */
 function pots(distance, phi) {
   const { balls } = layout(distance);
-  return carom.simulate(table, balls, { speed: 2.5, phi }).final[1].label === "pocketed";
+  return carom.simulate(table, balls, { speed: 2.9, phi }).final[1].label === "pocketed";
 }
 
 /** Both balls, and the direction by the ghost ball, degrees. Ball 1 lies on the diagonal of the pocket. */
