@@ -496,7 +496,7 @@ TEST(damaged_events) {
   ck_assert_int_eq(carom_shoot(&t, two, 2, &stroke, NULL, &shot), CAROM_OK);
   ck_assert_int_gt(shot.count, 6);
   carom_ball_state then[2];
-  double turned[2][4], end[2 * CAROM_STATE_NUMBERS], seeds[7] = {1.0};
+  double turned[2][4], end[2 * CAROM_STATE_NUMBERS], seeds[CAROM_CUE_NUMBERS] = {1.0};
   const carom_tangent_seeds by_speed = {.directions = 1, .cue = seeds};
   shot.events = events;
   const double time = 0.5 * (good[3].time + good[4].time);
