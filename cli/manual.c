@@ -5,15 +5,15 @@
 
 #include <string.h>
 
-/* What roff would take for requests and escapes is put right. A line may break behind a bar. */
+/* What roff would take for requests and escapes is put right. A line may break behind a bar or a comma. */
 static void write_roff(FILE *out, const char *text, size_t size) {
   if (size > 0 && (text[0] == '.' || text[0] == '\''))
     fputs("\\&", out);
   for (size_t k = 0; k < size; k++)
-    text[k] == '-'    ? fputs("\\-", out)
-    : text[k] == '\\' ? fputs("\\e", out)
-    : text[k] == '|'  ? fputs("|\\:", out)
-                      : putc(text[k], out);
+    text[k] == '-'                     ? fputs("\\-", out)
+    : text[k] == '\\'                  ? fputs("\\e", out)
+    : text[k] == '|' || text[k] == ',' ? fprintf(out, "%c\\:", text[k])
+                                       : putc(text[k], out);
 }
 
 static void write_text(FILE *out, const char *text) {

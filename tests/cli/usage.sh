@@ -1,6 +1,6 @@
 # Bad usage and unreadable input: exit 2, a message that says what would be right, and nothing written.
 header=id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R,M,u_s1,u_s2,u_b,e_b
-try carom
+try carom 2>&1 | head -n 1
 try carom frobnicate
 try carom resolve
 try carom resolve a b
@@ -40,13 +40,16 @@ ls out.csv* 2>/dev/null || echo "no output"
 try env CAROM_ISA=avx3 "$CAROM" resolve -o out.csv "$DATA/collisions-204.csv"
 try env CAROM_ISA= "$CAROM" resolve -o /dev/null "$DATA/collisions-204.csv"
 ls out.csv* 2>/dev/null || echo "no output"
-# Every option that does not take any text says what it takes.
+# Every option that does not take any text says what it takes, and options of the same name the same.
 for command in resolve hit rail shoot trace sweep; do
   for option in $(carom $command --help | sed -n 's/^  *\(-., \)\{0,1\}--\([a-z-]*\) [^ ].*/\2/p'); do
     case $option in output | id | data) continue ;; esac
-    try carom $command "--$option" "no such"
+    try carom $command "--$option" "no such" > said 2>&1
+    grep -qx "exit 2" said || echo "$command --$option takes any text"
+    grep -v "^exit 2" said
   done
-done
+done | awk '!seen[$0]++'
+rm said
 try carom resolve --sovler exact x.csv
 # What is nearly a word gets it as a suggestion; what is none, or the beginning of several, gets none.
 { head -n 1 "$DATA/collisions-204.csv"; sed -n 2p "$DATA/collisions-204.csv"; } > row.csv

@@ -1,10 +1,8 @@
 # Help, version and the lists of the study's program, as its user sees them.
 try lab --help
 lab --version | sed 's/[0-9][0-9]*/N/g'
-for command in kernels resolve verify bench stress parity plan learn experiments; do
-  echo "--- $command"
-  try lab "$command" --help
-done
+try lab kernels --help
+python -m wrapped "$LAB" kernels resolve verify bench stress parity plan learn experiments published
 echo "--- the table"
 try lab kernels | sed '/^configurations/s/:.*/:/; /rsqrt14/d' # what depends on the machine
 lab kernels --csv -o kernels.csv
