@@ -19,11 +19,6 @@ static carom_status by_model(carom_contact *c, const carom_cushion_options *opt,
   return CAROM_ERROR_CUSHION_MODEL;
 }
 
-static bool is_finite(const carom_motion *m) {
-  return isfinite(m->v[0]) && isfinite(m->v[1]) && isfinite(m->w[0]) && isfinite(m->w[1]) &&
-         isfinite(m->w[2]);
-}
-
 void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
   if (!carom_absent(opt->restitution_log) || !carom_absent(opt->restitution_log2) ||
       !carom_absent(opt->mu_log) || opt->model == CAROM_CUSHION_SMOOTH)
@@ -50,7 +45,7 @@ carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cus
     status = by_model(&contact, opt, in->mass);
     if (status == CAROM_OK) {
       carom_from_cushion(&frame, &contact, in->radius, out);
-      status = is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+      status = carom_is_finite(out->v) && carom_is_finite(out->w) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
     }
   }
   if (status != CAROM_OK)

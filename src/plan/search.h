@@ -5,7 +5,7 @@
 
 #include "plan/view.h"
 #include "platform/threads.h"
-#include "shot/sim.h"
+#include "shot/shot.h"
 
 /* Stages of draws. */
 enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_ROUND = 16 };

@@ -29,6 +29,9 @@ static inline double carom_limited(double x) {
   return x < 0 ? (double)0 : x > 1 ? (double)1 : x;
 }
 
+static inline bool carom_is_finite(const double x[3]) {
+  return isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
+}
 static inline bool carom_is_positive(double x) {
   return x > 0.0 && x < INFINITY;
 }

@@ -265,7 +265,7 @@ int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind
   if (number == NULL || kind == NULL)
     return 0;
   if (number->reader == CAROM_READ_BY_CUSHION)
-    return number->model == (int)carom_cushion_model_of(carom_rules_of(opt->world), opt, kind);
+    return number->model == (int)carom_cushion_model_of(opt, kind);
   if (number->reader == CAROM_READ_BY_FRICTION)
     return (unsigned)opt->friction < CAROM_LAW_COUNT &&
            number->model == numbers_of_law[opt->friction] &&

@@ -6,7 +6,6 @@
 #include "cushion/list.h"
 #include "friction/laws.h"
 #include "shot/rules.h"
-#include "shot/sim.h"
 
 #define TEXT_OF(x) #x
 #define TEXT(x) TEXT_OF(x)
@@ -131,12 +130,12 @@ static const unsigned of_law[] = {CAROM_FRICTION_LAWS(OF_LAW)};
 
 static unsigned sources_of(const carom_shot_options *o) {
   const carom_rules *rules = carom_rules_of(o->world);
-  const carom_ball_model balls = carom_ball_model_of(rules, o);
+  const carom_ball_model balls = carom_ball_model_of(o);
   unsigned sources = CAROM_BY_CAROM | CAROM_BY_MARLOW1995 | CAROM_BY_ALCIATORE_SQUIRT;
   sources |= o->world == CAROM_WORLD_POOLTOOL ? CAROM_BY_KIEFL2024 : CAROM_BY_BANNERMAN2014;
   const carom_ball_kind plain = {0}, measured = {.smooth_q = 1};
-  sources |= of_cushion[carom_cushion_model_of(rules, o, &plain)] |
-             of_cushion[carom_cushion_model_of(rules, o, &measured)];
+  sources |= of_cushion[carom_cushion_model_of(o, &plain)] |
+             of_cushion[carom_cushion_model_of(o, &measured)];
 
   /* two balls: the restitution of the 2014 model is energetic, as Stronge's */
   if (balls == CAROM_BALL_MODEL_EXACT || balls == CAROM_BALL_MODEL_EULER)

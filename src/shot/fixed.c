@@ -51,11 +51,11 @@
  * 256 steps leave v' within 2e-4 of v_n, 128 within 4e-4 but for one case in a thousand, which has
  * 4e-2; the order is 2. v' has jumps where a contact that has nearly ended is loaded again, since
  * one that has ended takes energy once more (physics/air looks for them). */
-#include "shot/fixed.h"
 #include "cluster/hertz.h"
 #include "cushion/contact.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "shot/sim.h"
 
 #include <math.h>
 #include <stdbool.h>

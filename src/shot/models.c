@@ -3,9 +3,7 @@
 #include "about/numbers.h"
 #include "friction/laws.h"
 #include "platform/ranges.h"
-#include "shot/fixed.h"
 #include "shot/rules.h"
-#include "shot/spheres.h"
 
 #include <math.h>
 #include <string.h>
@@ -141,7 +139,7 @@ carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const
   const carom_ball_kind *kind_a = carom_kind_in(sim->ball, i),
                         *kind_b = carom_kind_in(sim->ball, j);
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
-  const carom_ball_model model = carom_ball_model_of(sim->rules, sim->opt);
+  const carom_ball_model model = carom_ball_model_of(sim->opt);
   carom_result out;
 
   /* spheres in space; without friction where the model has none */
@@ -210,7 +208,7 @@ static double own_or(double own, double of_ball) {
 }
 
 static carom_cushion_options cushion_options(const carom_sim *sim, const carom_ball_kind *kind) {
-  carom_cushion_options options = {.model = carom_cushion_model_of(sim->rules, sim->opt, kind),
+  carom_cushion_options options = {.model = carom_cushion_model_of(sim->opt, kind),
                                    .convention = sim->rules->convention,
                                    .steps = sim->opt->steps,
                                    .plain = sim->opt->plain,

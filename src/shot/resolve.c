@@ -277,8 +277,9 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
   carom_label_after(c.in_space, c.kind_a, a);
   if (b != NULL)
     carom_label_after(c.in_space, c.kind_b, b);
-  return status < 0 ? status
-         : carom_motion_is_finite(a->v, a->w) && (b == NULL || carom_motion_is_finite(b->v, b->w))
-             ? CAROM_OK
-             : CAROM_ERROR_OVERFLOW;
+  if (status < 0)
+    return status;
+  const bool good = carom_is_finite(a->v) && carom_is_finite(a->w) &&
+                    (b == NULL || (carom_is_finite(b->v) && carom_is_finite(b->w)));
+  return good ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }

@@ -1,5 +1,6 @@
-/* The rules of a world: everything that shots do otherwise in one world than in another. The
- * loop, the detection and the models read them here, and do not ask which world it is. */
+/* The rules of a world: everything that shots do otherwise in one world than in another, but for
+ * its default models, shot.h. The loop, the detection and the models read them here, and do not
+ * ask which world it is. */
 #ifndef CAROM_SRC_SHOT_RULES_H
 #define CAROM_SRC_SHOT_RULES_H
 
@@ -12,9 +13,7 @@ typedef struct carom_rules {
   bool clusters;       /* contacts of several balls at one instant may last: options.simultaneous */
   bool contacts_slide; /* after a strike or a contact a ball slides, even where it would roll */
   double simultaneous; /* s: events this much later than the earliest are simultaneous with it */
-  /* the models by default, and numbers that they read besides the options */
-  carom_ball_model ball_model;
-  carom_cushion_model cushion_model;
+  /* numbers that models read besides the options */
   carom_slip euler_slip;               /* of Euler's model of two balls */
   carom_cushion_convention convention; /* of the models of cushions */
   double least_step;                   /* N s, of Euler's model of a cushion */
@@ -42,21 +41,6 @@ const carom_rules *carom_rules_pooltool(void);
 
 static inline const carom_rules *carom_rules_of(carom_world world) {
   return world == CAROM_WORLD_POOLTOOL ? carom_rules_pooltool() : carom_rules_carom();
-}
-
-/* The models of a shot, where 0 is that of its world. A cushion that was measured goes with the
- * balls that have its numbers. */
-static inline carom_ball_model carom_ball_model_of(const carom_rules *rules,
-                                                   const carom_shot_options *o) {
-  return o->ball_model != CAROM_BALL_MODEL_DEFAULT ? o->ball_model : rules->ball_model;
-}
-static inline carom_cushion_model carom_cushion_model_of(const carom_rules *rules,
-                                                         const carom_shot_options *o,
-                                                         const carom_ball_kind *kind) {
-  return o->cushion_model != CAROM_SHOT_CUSHION_DEFAULT
-             ? (carom_cushion_model)((int)o->cushion_model - 1)
-         : rules->cushion_model == CAROM_CUSHION_HAN && kind->smooth_q > 0 ? CAROM_CUSHION_SMOOTH
-                                                                           : rules->cushion_model;
 }
 
 #endif

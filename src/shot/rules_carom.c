@@ -93,8 +93,6 @@ static double enter_pocket(const carom_separation *d, double radius, double T) {
 static const carom_rules rules = {
     .clusters = true,
     .simultaneous = 1e-12,
-    .ball_model = CAROM_BALL_MODEL_EXACT,
-    .cushion_model = CAROM_CUSHION_HAN,
     .euler_slip = CAROM_SLIP_PAPER,
     .convention = CAROM_CONVENTION_PAPER,
     .choose = choose,

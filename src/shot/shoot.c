@@ -3,7 +3,6 @@
 #include "motion/strike.h"
 #include "platform/promise.h"
 #include "platform/threads.h"
-#include "shot/fixed.h"
 #include "shot/rules.h"
 #include "shot/together.h"
 
@@ -125,7 +124,7 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
   case CAROM_EVENT_RAIL_TOP:
     *state = event->before[0];
     carom_hit_slate(carom_kind_in(sim->ball, i), state);
-    carom_label_in_space(state, sim->rates[i].radius);
+    carom_label_after(true, carom_kind_in(sim->ball, i), state);
     return CAROM_OK;
   case CAROM_EVENT_LEFT_TABLE:
     *state = (carom_ball_state){.label = CAROM_BALL_OFF};
@@ -183,7 +182,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
         carom_cluster_take(two[side], &path->from);
         carom_label_after(c.in_space, carom_kind_in(sim->ball, i), &path->from);
         /* a motion that overflows is not taken: the shot ends there */
-        if (!carom_motion_is_finite(path->from.v, path->from.w)) {
+        if (!carom_is_finite(path->from.v) || !carom_is_finite(path->from.w)) {
           *status = CAROM_ERROR_OVERFLOW;
           path->from = event->before[side];
         }
@@ -200,7 +199,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
 /* Whether a contact may be one of several that last. */
 static inline bool may_last(const carom_sim *sim, const carom_due *due) {
   const carom_shot_options *opt = sim->opt;
-  const carom_ball_model model = carom_ball_model_of(sim->rules, opt);
+  const carom_ball_model model = carom_ball_model_of(opt);
   return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters &&
          opt->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
          (model == CAROM_BALL_MODEL_EXACT || model == CAROM_BALL_MODEL_MIRROR) &&
@@ -280,15 +279,12 @@ static carom_status strike(carom_sim *sim) {
   event->before[0] = *state;
   memcpy(state->v, motion.v, sizeof state->v);
   memcpy(state->w, motion.w, sizeof state->w);
-  if (state->v[2] != 0.0) { /* pressed on the slate, or landing at once from the cloth exactly */
-    state->r[2] = sim->rates[i].radius;
-    if (cue->tip_time >= 0.0)
-      carom_press_on_slate(carom_kind_in(sim->ball, i), cue->tip_time, state);
-    carom_label_in_space(state, sim->rates[i].radius);
-  } else {
-    carom_label_of(state, sim->rates[i].radius);
-  }
 
+  /* a blow that goes down presses the ball on the slate, or has it land at once */
+  const bool down = state->v[2] != 0.0;
+  if (down && cue->tip_time >= 0.0)
+    carom_press_on_slate(carom_kind_in(sim->ball, i), cue->tip_time, state);
+  carom_label_after(down, carom_kind_in(sim->ball, i), state);
   if (sim->rules->contacts_slide)
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;

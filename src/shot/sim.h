@@ -3,9 +3,7 @@
 #ifndef CAROM_SRC_SHOT_SIM_H
 #define CAROM_SRC_SHOT_SIM_H
 
-#include "motion/path.h"
-#include "motion/strike.h"
-#include "table/table.h"
+#include "shot/shot.h"
 
 /* The next meeting of a ball with the table. */
 typedef struct carom_meeting {
@@ -15,26 +13,6 @@ typedef struct carom_meeting {
 } carom_meeting;
 
 struct carom_rules;
-
-/* The balls of a layout, wherever their kinds and states are. */
-typedef struct carom_layout {
-  const carom_ball_kind *kind;
-  const carom_ball_state *state;
-  size_t kind_step, state_step; /* bytes from ball to ball */
-} carom_layout;
-
-static inline const carom_ball_kind *carom_kind_in(carom_layout layout, int i) {
-  const char *at = (const char *)layout.kind + (size_t)i * layout.kind_step;
-  return (const carom_ball_kind *)(const void *)at;
-}
-static inline const carom_ball_state *carom_state_in(carom_layout layout, int i) {
-  const char *at = (const char *)layout.state + (size_t)i * layout.state_step;
-  return (const carom_ball_state *)(const void *)at;
-}
-static inline carom_layout carom_layout_of(const carom_shot_ball *balls) {
-  const carom_layout layout = {&balls->kind, &balls->state, sizeof *balls, sizeof *balls};
-  return layout;
-}
 
 typedef struct carom_sim {
   /* of a state that is kept, state.c */
@@ -88,10 +66,6 @@ typedef struct carom_due {
 /* Beside the types of events: another piece of ball a's path begins, and nobody is told. In the
  * order of simultaneous events it counts as an end of a phase. */
 enum { CAROM_DUE_PIECE = CAROM_EVENT_LEFT_TABLE + 1 };
-
-static inline bool carom_motion_is_finite(const double v[3], const double w[3]) {
-  return isfinite(v[0] + v[1] + v[2] + w[0] + w[1] + w[2]);
-}
 
 /* Whether contacts are looked for in space, and not on the cloth alone. */
 static inline bool carom_in_space(const carom_sim *sim) {
@@ -169,20 +143,28 @@ void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, dou
 carom_status carom_check_room(const carom_shot *shot);
 carom_status carom_check_shot_options(const carom_shot_options *opt);
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
-/* The arguments that the shots of a batch share. */
-carom_status carom_check_common(const carom_table *table, int64_t count,
-                                const carom_shot_options *opt, int *where);
-/* What a job needs beside them, and the layout of its shot k. */
-carom_status carom_check_job(const carom_shot_job *job);
-carom_layout carom_layout_of_row(const carom_shot_job *job, size_t k);
-/* One layout. Prepares the table for the radii of the balls, where *features are for others. */
-carom_status carom_check_layout(const carom_table *table, carom_features *features,
-                                carom_layout layout, int count, const carom_shot_options *opt,
-                                int *where);
-/* The cue of a good layout; NULL: none. */
-carom_status carom_check_strike(carom_layout layout, int count, const carom_cue *cue);
-/* shoot.c: carom_shoot() with a layout and options that these have found good. */
-carom_status carom_shoot_prepared(const carom_table *table, const carom_features *features,
-                                  carom_layout layout, int count, const carom_cue *cue,
-                                  const carom_shot_options *opt, carom_shot *shot);
+
+/* ---- fixed.c: the impact of a ball with something that does not move */
+
+/* A ball that touches something fixed. N is the unit vector from its centre into that. */
+typedef struct carom_touch {
+  double N[3];
+  double closing; /* v . N, m/s */
+  double slip;    /* |u|, m/s, u = v - (v . N) N + R w x N the velocity of its surface there */
+  double t[3];    /* u/|u|, or 0 */
+} carom_touch;
+
+carom_touch carom_touch_of(const double N[3], double radius, const carom_ball_state *state);
+
+/* Takes the impulses J N and J_t t, over the mass, m/s, from the ball. */
+void carom_take_impulse(const carom_touch *touch, double radius, double J, double J_t,
+                        carom_ball_state *state);
+
+/* ---- spheres.c: two spheres that collide in space, n the unit vector from ball a to ball b */
+
+/* The speed at which the surface of a slips on that of b, m/s. Positions are not read. */
+double carom_spheres_slip(const carom_impact *in, const double n[3]);
+/* The motion after the impact of balls that close along n. */
+void carom_spheres_collide(const carom_impact *in, const double n[3], carom_result *out);
+
 #endif

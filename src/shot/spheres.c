@@ -20,7 +20,7 @@
  * The cloth takes no part: a ball on it that is pressed down lands on it afterwards (fixed.c),
  * as the balls part within 0.2 ms.
  */
-#include "shot/spheres.h"
+#include "shot/sim.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -93,16 +93,12 @@ void carom_spheres_collide(const carom_impact *in, const double n[3], carom_resu
 
 /* ---- The public entry */
 
-static bool all_finite(const double x[3]) {
-  return isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
-}
-
 static carom_status check_ball(const carom_ball *ball) {
-  if (!all_finite(ball->r))
+  if (!carom_is_finite(ball->r))
     return CAROM_ERROR_POSITION;
-  if (!all_finite(ball->v))
+  if (!carom_is_finite(ball->v))
     return CAROM_ERROR_VELOCITY;
-  if (!all_finite(ball->w))
+  if (!carom_is_finite(ball->w))
     return CAROM_ERROR_SPIN;
   if (!(ball->radius > 0.0 && ball->radius < INFINITY))
     return CAROM_ERROR_RADIUS;
@@ -159,8 +155,8 @@ static carom_status solve(const carom_impact *in, carom_result *out) {
   if (!in_range(in, v_n, size_of(u)))
     return CAROM_ERROR_OVERFLOW;
   carom_spheres_collide(in, n, out);
-  const bool good =
-      all_finite(out->a.v) && all_finite(out->a.w) && all_finite(out->b.v) && all_finite(out->b.w);
+  const bool good = carom_is_finite(out->a.v) && carom_is_finite(out->a.w) &&
+                    carom_is_finite(out->b.v) && carom_is_finite(out->b.w);
   return good ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
 

@@ -10,7 +10,6 @@
  * that it does not go on with others. */
 #include "platform/fingerprint.h"
 #include "shot/rules.h"
-#include "shot/sim.h"
 
 #include <math.h>
 #include <string.h>
@@ -95,13 +94,6 @@ void carom_state_save(carom_sim *sim, carom_shot_state *state) {
 
 /* ---- Checks */
 
-static bool all_finite(const double *x, int n) {
-  bool good = true;
-  for (int k = 0; k < n; k++)
-    good &= (bool)isfinite(x[k]);
-  return good;
-}
-
 /* Whether the byte is one that a bool may have. */
 static bool is_bool(const bool *x) {
   unsigned char byte;
@@ -111,13 +103,13 @@ static bool is_bool(const bool *x) {
 
 /* Whether ball i can be on its path, whose other numbers are computed again: from its state, or, of
  * the second piece of a pair, from what was known of it before. */
-static bool take_path(carom_sim *sim, int i) {
+static bool restore_path(carom_sim *sim, int i) {
   carom_path *path = &sim->path[i];
   const carom_ball_state *from = &path->from;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
   if (from->label < CAROM_BALL_STATIONARY ||
-      from->label > (flat ? CAROM_BALL_POCKETED : CAROM_BALL_OFF) || !all_finite(from->r, 3) ||
-      !all_finite(from->v, 3) || !all_finite(from->w, 3) ||
+      from->label > (flat ? CAROM_BALL_POCKETED : CAROM_BALL_OFF) || !carom_is_finite(from->r) ||
+      !carom_is_finite(from->v) || !carom_is_finite(from->w) ||
       !(path->start >= 0.0 && path->start <= sim->now) || !is_bool(&path->ends_pair) ||
       !is_bool(&path->last_pair))
     return false;
@@ -176,7 +168,7 @@ static bool restore(carom_sim *sim) {
     return false;
   carom_take_rates(sim);
   for (int i = 0; i < sim->count; i++)
-    if (!take_path(sim, i) || !good_meeting(sim, i))
+    if (!restore_path(sim, i) || !good_meeting(sim, i))
       return false;
   for (int i = 0; i < sim->count; i++)
     if (!good_pairs(sim, i))

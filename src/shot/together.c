@@ -216,9 +216,8 @@ static carom_status solve(const carom_shot_ball *balls, int count, const carom_s
       const int i = c.ball[k].which;
       done[i] = true;
       motion_of(&c.ball[k], out[i].v, out[i].w);
-      for (int axis = 0; axis < 3; axis++)
-        if (!isfinite(out[i].v[axis] + out[i].w[axis]))
-          return CAROM_ERROR_OVERFLOW;
+      if (!carom_is_finite(out[i].v) || !carom_is_finite(out[i].w))
+        return CAROM_ERROR_OVERFLOW;
     }
     uint8_t order[CAROM_CLUSTER_CONTACTS];
     const int touched = in_order(&c, order);

@@ -427,7 +427,7 @@ CAROM_APART text::carom_status meet_cushion(scene *s) {
   const text::carom_due due = {s->event->time, s->event->type, 0, 0};
   const carom_ball_state before = s->ball[0].state;
   text::carom_status status = text::carom_resolve(&s->sim, &due, &s->ball[0].state, nullptr);
-  if (s->w->cushion_model != CAROM_SHOT_CUSHION_MATHAVAN ||
+  if (s->w->opt->cushion_model != CAROM_SHOT_CUSHION_MATHAVAN ||
       !(status < 0 || apart(&s->event->after[0], &s->ball[0].state) > 1e-6))
     return status;
   const carom_ball_state exact = s->ball[0].state;
@@ -519,14 +519,13 @@ CAROM_APART void put(carom_tangent_work *w, int i, const ::carom_ball_state &pla
 void begin_scene(carom_tangent_work *w, scene *s) {
   s->w = w;
   s->opt = {};
-  s->opt.ball_model = (text::carom_ball_model)w->ball_model;
-  s->opt.cushion_model = (text::carom_shot_cushion)w->cushion_model;
+  s->opt.ball_model = (text::carom_ball_model)w->opt->ball_model;
+  s->opt.cushion_model = (text::carom_shot_cushion)w->opt->cushion_model;
   s->opt.friction = (text::carom_ball_friction)w->opt->friction;
   s->opt.space = (text::carom_space)w->opt->space;
   s->opt.steps = w->opt->steps;
   s->opt.plain = w->opt->plain;
   memset(&s->rules, 0, sizeof s->rules);
-  s->rules.cushion_model = text::CAROM_CUSHION_HAN;
   s->sim.rules = &s->rules;
   s->sim.table = &s->table;
   s->sim.features = &s->features;
@@ -641,7 +640,7 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS], real d[CAROM_MEMBE
   carom_ball_state s;
   load_member(c->w, of->ball, of->event->before[of->side], &kind, &s);
   text::carom_shot_options opt = {};
-  opt.ball_model = (text::carom_ball_model)c->w->ball_model;
+  opt.ball_model = (text::carom_ball_model)c->w->opt->ball_model;
   opt.friction = (text::carom_ball_friction)c->w->opt->friction;
   const text::carom_cluster_ball ball =
       text::member_of(&kind, &s, &opt, text::carom_flies(&s), of->ball);

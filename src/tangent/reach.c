@@ -16,8 +16,7 @@
  *
  * In flight the tops of rails, the backs of pockets and the edge of the table do not count. */
 #include "tangent/reach.h"
-#include "shot/fixed.h"
-#include "shot/sim.h"
+#include "shot/shot.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #include "tangent/work.h"
 
 #include "platform/threads.h"
-#include "shot/rules.h"
+#include "shot/shot.h"
 #include "tangent/reach.h"
 
 #include <math.h>
@@ -244,8 +244,6 @@ static carom_status shot_tangent(const carom_table *table, carom_layout layout, 
   w.seeds = seeds;
   w.tangent = tangent;
   w.count = count;
-  w.ball_model = carom_ball_model_of(carom_rules_carom(), opt);
-  w.cushion_model = opt->cushion_model;
   const int m = (int)seeds->directions;
   for (int first = 0; first < m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
     w.pass = pass_of(m, first);

@@ -10,8 +10,7 @@
 extern "C" {
 #include "cushion/models.h"
 #include "impact/variation.h"
-#include "shot/fixed.h"
-#include "table/table.h"
+#include "shot/shot.h"
 }
 
 /* Headers that plain doubles have had already. */
@@ -22,9 +21,10 @@ extern "C" {
 #undef CAROM_SRC_CUSHION_MODELS_H
 #undef CAROM_SRC_IMPACT_IMPACT_H
 #undef CAROM_SRC_IMPACT_LAW_H
-#undef CAROM_SRC_SHOT_FIXED_H
+#undef CAROM_SRC_SHOT_SHOT_H
 #undef CAROM_SRC_TABLE_TABLE_H
 #undef CAROM_SRC_MOTION_PATH_H
+#undef CAROM_SRC_MOTION_STRIKE_H
 #undef CAROM_SRC_PLATFORM_RANGES_H
 
 /* Declarations of C with another type in them would be other functions for the same symbols. */
@@ -73,8 +73,6 @@ typedef struct carom_table {
 #include "cushion/models.h"
 #include "platform/elementary.h"
 #include "platform/threads.h"
-#include "shot/fixed.h"
-#include "shot/spheres.h"
 
 /* ---- Functions with derivatives of their own ---- */
 

@@ -49,8 +49,6 @@ typedef struct carom_tangent_work {
   const carom_shot_options *opt;
   const carom_tangent_seeds *seeds;
   carom_tangent *tangent;
-  carom_ball_model ball_model; /* of opt, or the default */
-  carom_shot_cushion cushion_model;
   int count; /* balls */
   carom_tangent_pass pass;
   double reference;      /* radius of the balls that the table is meant for: nose.c */
