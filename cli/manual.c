@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-/* What roff would take for requests and escapes is put right. A line may break behind a bar or a comma. */
+/* What roff would take for requests and escapes is put right. A line may break behind a bar or a
+ * comma. */
 static void write_roff(FILE *out, const char *text, size_t size) {
   if (size > 0 && (text[0] == '.' || text[0] == '\''))
     fputs("\\&", out);

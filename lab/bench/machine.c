@@ -63,36 +63,6 @@ static const char *cpuinfo(const char *key, char *line, int size) {
   return found;
 }
 
-enum { MOST_CACHES = 8 };
-
-/* The first word of a file in the k-th cache's folder, or "". */
-static const char *word_of(int k, const char *name, char word[32]) {
-  char path[128];
-  snprintf(path, sizeof path, "/sys/devices/system/cpu/cpu0/cache/index%d/%s", k, name);
-  FILE *file = fopen(path, "r");
-  if (file == NULL || fscanf(file, "%31s", word) != 1)
-    word[0] = '\0';
-  if (file != NULL)
-    fclose(file);
-  return word;
-}
-
-/* Size in bytes of the data cache of level 1, 2, ...; 0 where there is none or it is not
- * visible. sysconf() would answer for the whole package, of which a core reaches a part only. */
-static size_t cache_size(int level) {
-  for (int k = 0; k < MOST_CACHES; k++) {
-    char word[32], unit = ' ';
-    int found;
-    size_t size;
-    if (sscanf(word_of(k, "level", word), "%d", &found) != 1 || found != level ||
-        strcmp(word_of(k, "type", word), "Instruction") == 0)
-      continue;
-    if (sscanf(word_of(k, "size", word), "%zu%c", &size, &unit) >= 1)
-      return unit == 'K' ? size << 10 : unit == 'M' ? size << 20 : size;
-  }
-  return 0;
-}
-
 static void describe_processor(FILE *to) {
   char name[256], other[256];
   const char *model = cpuinfo("model name", name, sizeof name);
@@ -106,13 +76,6 @@ static void describe_processor(FILE *to) {
                flags != NULL && strstr(flags, " hypervisor") != NULL
                    ? ", of a virtual machine: others may share them"
                    : "");
-  char caches[128] = "";
-  for (int level = 1; cache_size(level) > 0; level++) {
-    const size_t used = strlen(caches);
-    snprintf(caches + used, sizeof caches - used, "%sL%d %zu KiB", used > 0 ? ", " : "", level,
-             cache_size(level) / 1024);
-  }
-  machine_note(to, "caches", "%s", caches[0] != '\0' ? caches : "NA (not visible)");
   const double cycle = clock_core_cycle();
   if (cycle > 0)
     machine_note(to, "core cycle", "%.4f ns", cycle);

@@ -1,11 +1,14 @@
-/* The engine. How a budget becomes rounds and loops: a sample should last about 20 ms, so that
- * clocks and the change from one subject to the next cost nothing, and an interruption spoils
- * one sample of many; 101 rounds or more are wanted. Where the budget is short, samples shrink
- * first, down to a millisecond or one pass over the workload, then the rounds, down to 5. Less
- * than a millisecond would time caches and branch predictors that are still full of the subject
- * before. */
+/* The engine. A sample should last about 20 ms, so that clocks and the change from one subject to
+ * the next cost nothing, and an interruption spoils one sample of many; 101 rounds or more are
+ * wanted. Where the budget is short, samples shrink, down to a millisecond or one pass over the
+ * workload, and then the rounds, down to 5. Less than a millisecond would time caches and branch
+ * predictors that are still full of the subject before.
+ *
+ * Median and median absolute deviation, because a busy machine makes outliers on one side only: an
+ * interrupted sample is too long, none is ever too short. */
 #include "rounds.h"
 
+#include "memory.h"
 #include "monotonic.h"
 #include "pinning.h"
 
@@ -13,161 +16,40 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double fewest_rounds = 5.0, wanted_rounds = 101.0, most_rounds = 10001.0;
+enum { FEWEST_ROUNDS = 5, WANTED_ROUNDS = 101, MOST_ROUNDS = 10001 };
 static const double long_sample = 20e6, short_sample = 1e6; /* ns */
 
-typedef struct lane {
-  double pass; /* estimated ns for one pass over the workload */
-  size_t loops;
-  double *ns, *empty; /* by round, per pair */
-} lane;
+/* ---- Statistics */
 
-typedef struct engine {
-  const bench_subject *subject;
-  size_t n;
-  bench_settings settings;
-  lane *lane;
-  size_t rounds;
-  double start, *scratch;
-} engine;
-
-static double sample(const engine *e, void (*work)(void *), void *context, size_t loops) {
-  const double start = e->settings.now();
-  for (size_t k = 0; k < loops; k++)
-    work(context);
-  return e->settings.now() - start;
+static int ascending(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
 }
 
-/* Warm-up, and what one pass costs: the fastest of ever more loops until they take a
- * millisecond. */
-static double estimate(const engine *e, const bench_subject *s) {
-  double pass = INFINITY, elapsed = 0.0;
-  for (size_t loops = 1; elapsed < short_sample && loops < SIZE_MAX / 2; loops *= 2) {
-    elapsed = sample(e, s->resolve, s->context, loops);
-    pass = fmin(pass, elapsed / (double)loops);
-  }
-  return pass;
+void sort_samples(double *sample, size_t n) {
+  qsort(sample, n, sizeof *sample, ascending);
 }
 
-/* A sample of more than one loop begins with a pass that is not timed. */
-static double cost_of_sample(double pass, double length) {
-  return length < 2.0 * pass ? pass : length + pass;
+double median_of_sorted(const double *sample, size_t n) {
+  return n % 2 == 1 ? sample[n / 2] : 0.5 * (sample[n / 2 - 1] + sample[n / 2]);
 }
 
-static double cost_of_round(const engine *e, double length) {
-  double sum = 0.0;
-  for (size_t k = 0; k < e->n; k++)
-    sum += cost_of_sample(e->lane[k].pass, length);
-  return sum;
-}
-
-/* Chooses the number of rounds and the loops of each subject. */
-static void plan(engine *e) {
-  /* A tenth for what lies between samples. */
-  const double left = 0.9 * fmax(0.0, e->settings.budget * 1e9 - (e->settings.now() - e->start));
-  double length = long_sample;
-  double rounds = floor(left / cost_of_round(e, length));
-  if (rounds < wanted_rounds) {
-    rounds = fmin(wanted_rounds, floor(left / cost_of_round(e, short_sample)));
-    rounds = fmax(rounds, fewest_rounds);
-    double low = short_sample, high = long_sample;
-    for (int k = 0; k < 40; k++) {
-      length = 0.5 * (low + high);
-      *(cost_of_round(e, length) * rounds > left ? &high : &low) = length;
-    }
-    length = low;
-  }
-  e->rounds = (size_t)fmin(rounds, most_rounds);
-  e->rounds -= e->rounds % 2 == 0; /* an odd number has a sample in the middle */
-  for (size_t k = 0; k < e->n; k++)
-    e->lane[k].loops = (size_t)fmax(1.0, floor(length / e->lane[k].pass));
-}
-
-static void take_sample(engine *e, size_t k, size_t round) {
-  const bench_subject *s = &e->subject[k];
-  lane *l = &e->lane[k];
-  if (s->threads > 1)
-    pinning_suspend();
-  if (l->loops > 1)
-    s->resolve(s->context);
-  const double collisions = (double)l->loops * (double)s->pairs;
-  const double full = sample(e, s->resolve, s->context, l->loops);
-  l->ns[round] = full / collisions;
-  l->empty[round] =
-      s->empty != NULL ? sample(e, s->empty, s->context, 8) / (8.0 * (double)s->pairs) : 0.0;
-  if (s->threads > 1)
-    pinning_resume();
-  pinning_breathe(full);
-}
-
-static void take_rounds(engine *e) {
-  for (size_t round = 0; round < e->rounds; round++) {
-    for (size_t k = 0; k < e->n; k++) {
-      take_sample(e, k, round);
-      if (e->settings.progress != NULL)
-        e->settings.progress((double)(round * e->n + k + 1), (double)(e->rounds * e->n));
-    }
-    /* The machine may have become slower than it was when the rounds were planned. */
-    if (e->settings.now() - e->start > e->settings.budget * 1e9 &&
-        (double)(round + 1) >= fewest_rounds && round + 1 < e->rounds)
-      e->rounds = round + 1;
-  }
-}
-
-/* The empty call's cost is the median over the rounds: it is small, and single samples of it are
- * all noise. */
-static void subtract_empty(engine *e, bench_figure *figure) {
-  for (size_t k = 0; k < e->n; k++) {
-    lane *l = &e->lane[k];
-    memcpy(e->scratch, l->empty, e->rounds * sizeof(double));
-    figure[k].empty_ns = summarise(e->scratch, e->rounds).median;
-    for (size_t round = 0; round < e->rounds; round++)
-      l->ns[round] -= figure[k].empty_ns;
-  }
-}
-
-static void evaluate(engine *e, bench_figure *figure) {
-  subtract_empty(e, figure);
-  for (size_t k = 0; k < e->n; k++) {
-    const size_t reference = e->subject[k].reference;
-    figure[k].speedup = reference < e->n ? summarise_ratios(e->lane[reference].ns, e->lane[k].ns,
-                                                            e->rounds, e->scratch)
-                                         : summarise(e->scratch, 0);
-  }
-  for (size_t k = 0; k < e->n; k++) {
-    figure[k].ns = summarise(e->lane[k].ns, e->rounds);
-    figure[k].loops = e->lane[k].loops;
-    figure[k].unchanged =
-        e->subject[k].fingerprint(e->subject[k].context) == e->subject[k].verified;
-  }
-}
-
-bool bench_rounds(const bench_subject *subject, size_t n, const bench_settings *settings,
-                  bench_figure *figure) {
-  engine e = {.subject = subject, .n = n, .settings = *settings};
-  if (e.settings.now == NULL)
-    e.settings.now = clock_ns;
-  e.start = e.settings.now();
-  e.lane = calloc(n, sizeof *e.lane);
-  double *block = NULL;
-  if (e.lane != NULL) {
-    for (size_t k = 0; k < n; k++)
-      e.lane[k].pass = estimate(&e, &subject[k]);
-    plan(&e);
-    block = calloc((2 * n + 1) * e.rounds, sizeof *block);
-  }
-  if (block != NULL) {
-    e.scratch = block + 2 * n * e.rounds;
-    for (size_t k = 0; k < n; k++) {
-      e.lane[k].ns = block + 2 * k * e.rounds;
-      e.lane[k].empty = block + (2 * k + 1) * e.rounds;
-    }
-    take_rounds(&e);
-    evaluate(&e, figure);
-  }
-  free(block);
-  free(e.lane);
-  return block != NULL;
+sample_summary summarise(double *sample, size_t n) {
+  sample_summary s = {.count = n, .median = NAN, .min = NAN, .max = NAN, .spread = NAN};
+  bool known = n > 0;
+  for (size_t k = 0; k < n; k++)
+    known &= !isnan(sample[k]);
+  if (!known)
+    return s;
+  sort_samples(sample, n);
+  s.median = median_of_sorted(sample, n);
+  s.min = sample[0];
+  s.max = sample[n - 1];
+  for (size_t k = 0; k < n; k++)
+    sample[k] = fabs(sample[k] - s.median);
+  sort_samples(sample, n);
+  s.spread = median_of_sorted(sample, n);
+  return s;
 }
 
 uint64_t bench_fingerprint(const void *results, size_t bytes) {
@@ -178,4 +60,91 @@ uint64_t bench_fingerprint(const void *results, size_t bytes) {
     hash = (hash ^ word) * 0x100000001b3u;
   }
   return hash;
+}
+
+/* ---- Samples in turns */
+
+static double sample(const bench_subject *s, size_t loops, double (*now)(void)) {
+  if (s->prepare != NULL)
+    s->prepare(s->context);
+  const double start = now();
+  for (size_t k = 0; k < loops; k++)
+    s->resolve(s->context);
+  return now() - start;
+}
+
+/* Warm-up, and what one pass costs: the fastest of ever more loops until they take a
+ * millisecond. */
+static double estimate(const bench_subject *s, double (*now)(void)) {
+  double pass = INFINITY, elapsed = 0.0;
+  for (size_t loops = 1; elapsed < short_sample && loops < SIZE_MAX / 2; loops *= 2) {
+    elapsed = sample(s, loops, now);
+    pass = fmin(pass, elapsed / (double)loops);
+  }
+  return pass;
+}
+
+/* ns per pair. A sample of more than one loop begins with a pass that is not timed. */
+static double take_sample(const bench_subject *s, size_t loops, double (*now)(void)) {
+  if (s->threads > 1)
+    pinning_suspend();
+  if (loops > 1)
+    sample(s, 1, now);
+  const double full = sample(s, loops, now);
+  if (s->threads > 1)
+    pinning_resume();
+  pinning_breathe(full);
+  return full / (double)loops / (double)s->pairs;
+}
+
+void bench_rounds(const bench_subject *subject, size_t n, const bench_settings *settings,
+                  bench_figure *figure) {
+  double (*const now)(void) = settings->now != NULL ? settings->now : clock_ns;
+  const double start = now(), budget = 1e9 * settings->budget;
+  double *pass = allocate(n, sizeof *pass), *ns = NULL; /* round after round */
+  uint64_t *before = allocate(n, sizeof *before);
+  double passes = 0.0;
+  for (size_t k = 0; k < n; k++) {
+    before[k] = subject[k].fingerprint(subject[k].context);
+    passes += pass[k] = estimate(&subject[k], now);
+  }
+
+  /* samples of the length that gives the rounds that are wanted */
+  const double a_round = (budget - (now() - start)) / WANTED_ROUNDS;
+  const double length = fmin(fmax((a_round - passes) / (double)n, short_sample), long_sample);
+  for (size_t k = 0; k < n; k++)
+    figure[k].loops = (size_t)fmax(1.0, floor(length / pass[k]));
+
+  /* rounds until the time is over, an odd number of them: that has a sample in the middle */
+  size_t rounds = 0, room = 0;
+  double spent = 0.0, longest = 0.0;
+  while (rounds < FEWEST_ROUNDS || rounds % 2 == 0 ||
+         (rounds < MOST_ROUNDS && spent + 2.0 * longest < budget)) {
+    const double begin = now();
+    ns = grow(ns, &room, (rounds + 1) * n, sizeof *ns);
+    for (size_t k = 0; k < n; k++) {
+      ns[rounds * n + k] = take_sample(&subject[k], figure[k].loops, now);
+      if (settings->progress != NULL)
+        settings->progress(fmin(now() - start, budget) * 1e-9, settings->budget);
+    }
+    spent = now() - start;
+    longest = fmax(longest, now() - begin);
+    rounds++;
+  }
+
+  double *scratch = allocate(rounds, sizeof *scratch);
+  for (size_t k = 0; k < n; k++) {
+    const size_t reference = subject[k].reference;
+    for (size_t r = 0; r < rounds; r++)
+      scratch[r] = reference < n ? ns[r * n + reference] / ns[r * n + k] : NAN;
+    figure[k].speedup = summarise(scratch, rounds);
+    for (size_t r = 0; r < rounds; r++)
+      scratch[r] = ns[r * n + k];
+    figure[k].ns = summarise(scratch, rounds);
+    figure[k].unchanged = subject[k].fingerprint(subject[k].context) == before[k];
+  }
+  free(scratch);
+  free(before);
+  free(pass);
+  free(ns);
 }

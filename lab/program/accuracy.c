@@ -2,7 +2,7 @@
 #include "accuracy.h"
 
 #include "memory.h"
-#include "statistics.h"
+#include "rounds.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,16 @@
-/* `carom-lab bench`: times every kernel on the reference cases, once it is verified. */
+/* `carom-lab bench`: collisions by the paths that a user has, timed once they are verified:
+ *
+ *     calls   the cases, one call each                               any kernel       isa "scalar"
+ *     batch   the cases over and over, many in a call                solvers only
+ *     isa "avx512", ...
+ *
+ * Calls go through a pointer, as those of a program that chooses its kernel at run time would.
+ * Small batches move on: call j begins at case j * size, modulo the number of cases, until every
+ * case has been in as many batches as any other, so that what is timed does not depend on which
+ * cases a batch happens to hold. */
+#include "accuracy.h"
 #include "bench_job.h"
+#include "cases.h"
 #include "command.h"
 #include "kernel.h"
 #include "machine.h"
@@ -8,230 +19,646 @@
 #include "output.h"
 #include "pinning.h"
 #include "place.h"
+#include "precision.h"
+#include "sheet.h"
 #include "subcommands.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static void show_samples(double done, double total) {
-  progress_show("samples", done, total);
+enum {
+  LARGE = 4096, /* so many pairs hold all cases about equally often: one call is enough; fewer
+                   are not worth a thread */
+  DEFAULT_SIZE = 65536
+};
+
+typedef struct workload workload;
+typedef carom_status call(const workload *w, size_t first);
+
+struct workload {
+  const kernel *kernel;
+  const ladder_module *module; /* of a rung; NULL for a solver of the library */
+  const case_set *cases;
+  carom_options options;
+  carom_isa isa;
+  bool single;          /* precision */
+  size_t size;          /* pairs in a call of a batch; 0: single calls */
+  size_t calls, stride; /* calls in a pass, each so many rows after the one before */
+  call *one;
+  const void *in;  /* the rows, of doubles or floats */
+  size_t *case_of; /* their cases; NULL: row k is case k modulo their number */
+  size_t rows;
+  void *result;
+  accuracy_summary own, exact; /* against the kernel's own reference, and the exact limit */
+};
+
+static struct {
+  case_set cases;
+  const kernel *reference; /* what speedup is relative to */
+  const ladder_module *reference_module;
+  workload *work;
+  size_t count, room;
+  carom_impact *tiled; /* the cases over and over */
+  carom_impact_f32 *tiled_f32;
+} all;
+
+/* ---- What is called */
+
+static carom_status by_library(const workload *w, size_t first) {
+  return carom_collide((const carom_impact *)w->in + first, &w->options,
+                       (carom_result *)w->result + first);
 }
 
-static bool time_all(bench_job *job) {
-  job->figure = allocate(job->subject_count, sizeof *job->figure);
-  FILE *machine = open_memstream(&job->machine, &(size_t){0});
-  if (machine == NULL) {
-    complain("out of memory");
-    return false;
+static carom_status by_ladder(const workload *w, size_t first) {
+  return ladder_resolve(w->module, ladder_rung_find(w->kernel->name),
+                        (const carom_impact *)w->in + first, &w->options,
+                        (carom_result *)w->result + first);
+}
+
+static carom_status by_batch(const workload *w, size_t first) {
+  return w->single
+             ? carom_collide_batch_f32((const carom_impact_f32 *)w->in + first, w->size,
+                                       &w->options, (carom_result_f32 *)w->result + first, NULL)
+             : carom_collide_batch((const carom_impact *)w->in + first, w->size, &w->options,
+                                   (carom_result *)w->result + first, NULL);
+}
+
+/* Asking the processor what it can takes a virtual machine some 20 us, as long as 200 calls. */
+static void choose_isa(void *context) {
+  carom_isa_limit(((const workload *)context)->isa);
+}
+
+static void resolve(void *context) {
+  const workload *w = context;
+  for (size_t k = 0, first = 0; k < w->calls; k++) {
+    w->one(w, first);
+    BENCH_CONSUME(w->result);
+    first += w->stride;
+    first -= first >= w->cases->count ? w->cases->count : 0;
   }
-  machine_describe(machine);
-  fclose(machine);
-  job->pinning = pinning_begin();
-  const bench_settings settings = {
-      .budget = job->budget, .now = job->now, .progress = show_samples};
-  const bool good = bench_rounds(job->subject, job->subject_count, &settings, job->figure);
-  pinning_end();
-  progress_clear();
-  if (!good)
-    complain("out of memory");
-  return good;
 }
 
-static void check_unchanged(bench_job *job) {
-  for (size_t k = 0; k < job->subject_count; k++)
-    if (!job->figure[k].unchanged) {
-      complain(
-          "%s (%s) did not repeat its verified results while it was timed: its figures are dropped",
-          job->subject[k].kernel, job->subject[k].config);
-      job->code = EXIT_SOME;
-    }
+static uint64_t fingerprint(const void *context) {
+  const workload *w = context;
+  return bench_fingerprint(w->result,
+                           w->rows * (w->single ? sizeof(carom_result_f32) : sizeof(carom_result)));
 }
 
-/* The output is opened before the long part, so that a bad name costs nothing. */
-static bool bench_all(bench_job *job) {
-  if (!job->table->choose(job))
-    return false;
-  if (job->subject_count == 0)
+static bool takes_steps(const kernel *one) {
+  return one->is_rung || one->solver == CAROM_SOLVER_EULER;
+}
+
+static const char *config_of(const workload *w) {
+  return w->module != NULL ? w->module->name : "library";
+}
+
+static const char *isa_of(const workload *w) {
+  return w->size == 0 ? "scalar" : carom_isa_name(w->isa);
+}
+
+static const char *precision_of(const workload *w) {
+  return w->size == 0 ? w->kernel->precision : w->single ? "single" : "double";
+}
+
+/* ---- Verification */
+
+static size_t case_of(const workload *w, size_t row) {
+  return w->case_of != NULL ? w->case_of[row] : row % w->cases->count;
+}
+
+/* `reference` has one result for each case. */
+static accuracy_summary compare(const workload *w, const carom_result *reference) {
+  pair_accuracy *each = allocate(w->rows + 1, sizeof *each);
+  accuracy_summary s = {.max = INFINITY};
+  for (size_t k = 0; k < w->rows; k++) {
+    carom_result own;
+    if (w->single)
+      to_double((carom_result_f32 *)w->result + k, &own, sizeof own / sizeof(double));
+    else
+      own = ((carom_result *)w->result)[k];
+    const size_t which = case_of(w, k);
+    each[k] = accuracy_of(&own, &reference[which], w->cases->impact[which].a.radius);
+  }
+  if (w->rows > 0)
+    s = accuracy_summarise(each, w->rows);
+  free(each);
+  return s;
+}
+
+static bool compare_file(const workload *w, const char *folder, const char *name,
+                         accuracy_summary *to) {
+  reference_set reference;
+  const bool loaded = reference_load(folder, name, w->cases, &reference);
+  if (loaded)
+    *to = compare(w, reference.result);
+  reference_free(&reference);
+  return loaded;
+}
+
+/* What a kernel must reach on the cases at its claim's steps: for batches that of their
+ * precision; 0 asks for the same bits. */
+static double bound_of(const workload *w) {
+  static const double of_batches[][2] = {
+      [CAROM_SOLVER_EXACT] = {1e-6, 2e-5}, [CAROM_SOLVER_EULER] = {0.0, 1e-2}};
+  return w->size > 0 ? of_batches[w->kernel->solver][w->single] : w->kernel->claims[0].bound;
+}
+
+static bool within(const workload *w, double allowed, int steps) {
+  if (w->own.max <= allowed)
     return true;
-  FILE *out = output_open(job->shared.output);
-  if (out == NULL)
-    return false;
-  if (!time_all(job)) {
-    output_abandon();
-    return false;
-  }
-  check_unchanged(job);
-  job->table->print(job, out);
-  return output_commit();
+  char with[64] = "", lanes[64] = "";
+  if (takes_steps(w->kernel))
+    snprintf(with, sizeof with, " with %d steps", steps);
+  if (w->size > 0)
+    snprintf(lanes, sizeof lanes, ", %s, %s", isa_of(w), precision_of(w));
+  complain("%s (%s%s)%s is %.2g off its reference, and %.2g is allowed: it is not timed",
+           w->kernel->name, config_of(w), lanes, with, w->own.max, allowed);
+  return false;
 }
 
-static void bench_free(bench_job *job) {
-  carom_isa_limit(job->isa);
-  job->table->release(job);
-  free(job->subject);
-  free(job->figure);
-  free(job->machine);
+/* Single calls only: drops the rows that the kernel's precision does not resolve in so many
+ * steps. */
+static void leave_out_too_slow(workload *w) {
+  carom_impact *kept = allocate(w->rows, sizeof *kept);
+  w->case_of = allocate(w->rows, sizeof *w->case_of);
+  size_t count = 0;
+  for (size_t k = 0; k < w->rows; k++)
+    if (w->one(w, k) != CAROM_ERROR_TOO_SLOW) {
+      kept[count] = w->cases->impact[k];
+      w->case_of[count++] = k;
+    }
+  w->in = kept;
+  w->rows = w->calls = count;
+  resolve(w);
+}
+
+/* At other steps than the claim's there is no file: the reference is the library's Euler with as
+ * many steps, which has pooltool's bits. A rung that rounds differently may end one step sooner
+ * or later. A step changes a velocity by
+ * (1 + e)|v_n|/(2N), at most 2/N of the pair's scale, so allowed is 2/N + bound * max(1, N /
+ * claim's N); but a bound of 0 stays 0. */
+static bool verify_other_steps(workload *w) {
+  const double steps = w->options.steps, bound = bound_of(w);
+  resolve(w);
+  if (w->size == 0)
+    leave_out_too_slow(w);
+  carom_result *reference = allocate(w->cases->count, sizeof *reference);
+  carom_options euler = w->options;
+  euler.solver = CAROM_SOLVER_EULER;
+  for (size_t k = 0; k < w->cases->count; k++)
+    carom_collide(&w->cases->impact[k], &euler, &reference[k]);
+  w->own = compare(w, reference);
+  free(reference);
+  const double scaled = bound * fmax(1.0, steps / w->kernel->claims[0].steps);
+  return within(w, bound > 0.0 ? 2.0 / steps + scaled : 0.0, w->options.steps);
+}
+
+/* Resolves the cases and compares. *good: may it be timed? False if data could not be read. */
+static bool verify(workload *w, const char *folder, bool *good) {
+  const kernel_claim *claim = &w->kernel->claims[0];
+  const int steps = w->options.steps;
+  w->options.steps = claim->steps;
+  choose_isa(w);
+  resolve(w);
+  w->options.steps = steps;
+  if (!compare_file(w, folder, claim->reference, &w->own))
+    return false;
+  *good = within(w, bound_of(w), claim->steps);
+  if (*good && takes_steps(w->kernel) && steps != claim->steps)
+    *good = verify_other_steps(w);
+  char name[64];
+  snprintf(name, sizeof name, "reference-exact-%s.csv", carom_slip_name(w->options.slip));
+  return compare_file(w, folder, name, &w->exact);
+}
+
+/* ---- What is asked for */
+
+static bool names(const name_list *list, const char *name) {
+  bool named = false;
+  for (size_t k = 0; k < list->count; k++)
+    named |= strcmp(list->name[k], name) == 0;
+  return named;
+}
+
+static void add_name(name_list *list, const char *name) {
+  list->name = grow(list->name, &list->room, list->count + 1, sizeof *list->name);
+  list->name[list->count++] = name;
+}
+
+static void add_count(name_list *list, int count) {
+  char text[16];
+  snprintf(text, sizeof text, "%d", count);
+  add_name(list, copy_text(text));
+}
+
+static bool wants_precision(const bench_job *job, bool single) {
+  return job->shared.precision == ANY_PRECISION ||
+         (job->shared.precision == SINGLE_PRECISION) == single;
+}
+
+static workload *add(const kernel *one, int steps) {
+  all.work = grow(all.work, &all.room, all.count + 1, sizeof *all.work);
+  workload *w = &all.work[all.count++];
+  *w = (workload){.kernel = one, .cases = &all.cases, .isa = carom_isa_in_force()};
+  w->options = (carom_options){.slip = one->claims[0].slip,
+                               .steps = takes_steps(one) ? steps : CAROM_DEFAULT_STEPS,
+                               .solver = one->is_rung ? CAROM_SOLVER_EXACT : one->solver};
+  return w;
+}
+
+/* The cases, one call each, unless they are there already. Where a kernel takes no steps, they
+ * are not read. */
+static void add_calls(const kernel *one, const ladder_module *module, int steps) {
+  for (const workload *w = all.work; w < all.work + all.count; w++)
+    if (w->size == 0 && w->kernel == one && w->module == module &&
+        (w->options.steps == steps || !takes_steps(one)))
+      return;
+  workload *w = add(one, steps);
+  w->module = module;
+  w->one = one->is_rung ? by_ladder : by_library;
+  w->in = all.cases.impact;
+  w->stride = 1;
+  w->rows = w->calls = all.cases.count;
+  w->result = allocate(w->rows, sizeof(carom_result));
+}
+
+static bool add_config(const bench_job *job, const kernel *one, const char *config) {
+  const ladder_module *module;
+  if (!kernel_module(one, config, &module))
+    return false;
+  for (size_t k = 0; k < job->steps.count; k++)
+    add_calls(one, module, atoi(job->steps.name[k]));
+  return true;
+}
+
+static bool add_configs(const bench_job *job, const kernel *one) {
+  const name_list *configs = &job->configs;
+  bool good = true;
+  for (size_t k = 0; k < configs->count && one->is_rung; k++)
+    if (strcmp(configs->name[k], "all") != 0)
+      good = good && add_config(job, one, configs->name[k]);
+    else
+      for (size_t m = 0; ladder_module_name(m) != NULL; m++)
+        good = good && add_config(job, one, ladder_module_name(m));
+  return good && ((configs->count > 0 && one->is_rung) || add_config(job, one, NULL));
+}
+
+/* Where nothing is named, what cannot run here is left out; where it is named, it is an error. */
+static bool add_all_calls(const bench_job *job) {
+  const kernel *one;
+  const ladder_module *unused;
+  if (job->configs.count > 0 && ladder_module_name(0) == NULL)
+    return kernel_module(kernel_find(ladder_rung_at(0)->name), NULL, &unused);
+  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
+    const bool runs = one->is_rung ? ladder_module_name(0) != NULL &&
+                                         ladder_rung_runs(ladder_rung_find(one->name))
+                                   : job->configs.count == 0;
+    if ((job->kernels.count > 0 ? names(&job->kernels, one->name) : runs) &&
+        wants_precision(job, strcmp(one->precision, "single") == 0) && !add_configs(job, one))
+      return false;
+  }
+  return true;
+}
+
+static size_t common_divisor(size_t a, size_t b) {
+  return b == 0 ? a : common_divisor(b, a % b);
+}
+
+/* Batches of `size` pairs by a solver in lanes of `isa`, from the cases over and over. */
+static void add_batch(const kernel *one, carom_isa isa, bool single, int threads, int steps,
+                      size_t size) {
+  const size_t n = all.cases.count, shared = common_divisor(size, n);
+  workload *w = add(one, steps);
+  w->in = single ? (const void *)all.tiled_f32 : all.tiled;
+  w->isa = isa;
+  w->single = single;
+  w->size = size;
+  w->calls = size < LARGE ? n / shared : 1;
+  w->stride = size % n;
+  w->one = by_batch;
+  w->rows = w->calls > 1 ? size + n - shared : size;
+  w->options.threads = threads;
+  w->result = allocate(w->rows, single ? sizeof(carom_result_f32) : sizeof(carom_result));
+}
+
+/* Does this processor have it, and is it not above what CAROM_ISA allows? */
+static bool isa_is_here(carom_isa isa) {
+  return carom_isa_available(isa) && isa <= carom_isa_in_force();
+}
+
+static bool wants_isa(const bench_job *job, carom_isa isa) {
+  return isa_is_here(isa) && (job->isas.count == 0 || names(&job->isas, carom_isa_name(isa)) ||
+                              (isa == carom_isa_in_force() && names(&job->isas, "best")));
+}
+
+/* Solvers with steps cost a batch as much as thousands of the others, so they have to be asked
+ * for. */
+static bool wants_batches(const bench_job *job, const kernel *one) {
+  return !one->is_rung && (job->kernels.count == 0 || names(&job->kernels, one->name)) &&
+         (job->batch || (job->configs.count == 0 && !takes_steps(one)));
+}
+
+/* Every size, precision, number of threads and, where a kernel takes any, of steps that is
+ * wanted. */
+static void add_batches(const bench_job *job, const kernel *one, carom_isa isa) {
+  for (size_t size = 0; size < job->pairs.count; size++)
+    for (int single = 0; single < 2; single++)
+      for (size_t t = 0; t < job->threads.count && wants_precision(job, single != 0); t++)
+        for (size_t k = 0; k < (takes_steps(one) ? job->steps.count : 1); k++)
+          add_batch(one, isa, single != 0, atoi(job->threads.name[t]), atoi(job->steps.name[k]),
+                    (size_t)atoi(job->pairs.name[size]));
+}
+
+static void add_all_batches(bench_job *job) {
+  const size_t n = all.cases.count;
+  const name_list *pairs = &job->pairs;
+  if (job->threads.count == 0) {
+    add_count(&job->threads, 1);
+    if (sysconf(_SC_NPROCESSORS_ONLN) > 1)
+      add_count(&job->threads, 2);
+  }
+  size_t rows = n;
+  for (size_t k = 0; k < pairs->count; k++) {
+    const size_t needed = n + (size_t)atoi(pairs->name[k]);
+    rows = needed > rows ? needed : rows;
+  }
+  all.tiled = allocate(rows, sizeof *all.tiled);
+  all.tiled_f32 = allocate(rows, sizeof *all.tiled_f32);
+  for (size_t k = 0; k < rows; k++)
+    all.tiled[k] = all.cases.impact[k % n];
+  to_single(all.tiled, all.tiled_f32, rows * sizeof *all.tiled / sizeof(double));
+  const kernel *one;
+  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
+    for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL && wants_batches(job, one); isa++)
+      if (wants_isa(job, (carom_isa)isa))
+        add_batches(job, one, (carom_isa)isa);
+}
+
+/* ---- The reference of speedup: the ladder's first rung in the default configuration; without a
+ * ladder, the library's Euler; with as many steps as the workload, or the default where it takes
+ * none */
+
+static bool is_reference(const workload *w) {
+  return w->size == 0 && w->kernel == all.reference && w->module == all.reference_module;
+}
+
+static bool add_references(void) {
+  const char *name = ladder_module_name(0) != NULL ? ladder_rung_at(0)->name
+                                                   : carom_solver_name(CAROM_SOLVER_EULER);
+  all.reference = kernel_find(name);
+  if (all.reference->is_rung && !kernel_module(all.reference, NULL, &all.reference_module))
+    return false;
+  for (size_t k = 0, chosen = all.count; k < chosen; k++)
+    add_calls(all.reference, all.reference_module, all.work[k].options.steps);
+  return true;
+}
+
+/* ---- The table of work */
+
+static bool verify_all(bench_job *job, const char *folder) {
+  size_t count = 0;
+  for (size_t k = 0; k < all.count; k++) {
+    bool good;
+    if (!verify(&all.work[k], folder, &good))
+      return false;
+    progress_show("kernels verified", (double)(k + 1), (double)all.count);
+    const workload passed = all.work[k];
+    all.work[k] = all.work[count]; /* those that are refused come to the end */
+    all.work[count] = passed;
+    count += good;
+    job->code = good ? job->code : EXIT_SOME;
+  }
+  job->subject_count = count;
+  job->subject = allocate(count + 1, sizeof *job->subject);
+  for (size_t k = 0; k < count; k++) {
+    workload *w = &all.work[k];
+    bench_subject *s = &job->subject[k];
+    *s = (bench_subject){.name = w->kernel->name,
+                         .context = w,
+                         .prepare = choose_isa,
+                         .resolve = resolve,
+                         .fingerprint = fingerprint,
+                         .pairs = w->calls * (w->size > 0 ? w->size : 1),
+                         .threads = w->size > 0 ? w->options.threads : 1,
+                         .reference = SIZE_MAX};
+    for (size_t j = 0; j < count; j++)
+      if (is_reference(&all.work[j]) && all.work[j].options.steps == w->options.steps)
+        s->reference = j;
+  }
+  return true;
+}
+
+static bool choose(bench_job *job) {
+  const char *folder = data_folder(job->shared.folder);
+  if (job->steps.count == 0)
+    add_count(&job->steps, CAROM_DEFAULT_STEPS);
+  if (job->budget == 0.0)
+    job->budget = 20.0;
+  if (!cases_load(folder, "collisions-204.csv", &all.cases))
+    return false;
+  if (job->pairs.count == 0) { /* whole turns of the cases */
+    const size_t n = all.cases.count;
+    add_count(&job->pairs, (int)((DEFAULT_SIZE + n - 1) / n * n));
+    job->pairs.room = 0; /* no column for them */
+  }
+  if (!job->batch && (job->isas.count == 0 || names(&job->isas, "scalar")) && !add_all_calls(job))
+    return false;
+  add_all_batches(job);
+  if (all.count == 0) {
+    complain("nothing to time: no kernel is all that is asked for (see `carom-lab kernels`; only "
+             "the library's come in batches)");
+    return false;
+  }
+  return add_references() && verify_all(job, folder);
 }
 
 /* ---- Printing */
 
-static void print_number(FILE *out, const char *before, const char *format, double x) {
-  fputs(before, out);
-  if (isnan(x))
-    fputs("NA", out);
+static void note(const bench_job *job, FILE *out) {
+  machine_note(out, "workload", "%zu reference cases, one call each, mean over the cases",
+               all.cases.count);
+  machine_note(out, "batches", "the cases over and over, %s pairs in a call",
+               job->pairs.room > 0 ? "column" : job->pairs.name[0]);
+  machine_note(out, "reference kernel", "%s, %s, with as many steps", all.reference->name,
+               all.reference_module != NULL ? all.reference_module->name : "library");
+  const char *name;
+  for (size_t k = 0; (name = ladder_module_name(k)) != NULL; k++)
+    for (size_t w = 0; w < job->subject_count; w++)
+      if (all.work[w].module != NULL && all.work[w].module->name == name) {
+        const ladder_module *module = all.work[w].module;
+        machine_note(out, module->name, "%s, %s, %s", module->compiler, module->version,
+                     module->flags);
+        break;
+      }
+  for (const workload *w = all.work; w < all.work + job->subject_count; w++)
+    if (w->case_of != NULL && w->rows < all.cases.count)
+      machine_note(out, "left out",
+                   "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not "
+                   "resolve in as many steps",
+                   w->kernel->name, config_of(w), w->options.steps, all.cases.count - w->rows,
+                   all.cases.count);
+}
+
+/* The head of the table for w = NULL. */
+static void print_row(const bench_job *job, FILE *out, const workload *w, const bench_figure *f) {
+  const workload none = {.kernel = all.reference};
+  const workload *of = w != NULL ? w : &none;
+  const bool csv = job->csv, more = job->spread;
+  const struct {
+    bool shown;
+    const char *name, *format;
+    double x;
+  } columns[] = {
+      {true, "threads", "%.0f", of->size > 0 ? of->options.threads : 1},
+      {true, "steps", "%.0f", takes_steps(of->kernel) ? of->options.steps : 0},
+      {true, "ns_median", "%.6g", f->ns.median},
+      {csv, "ns_min", "%.6g", f->ns.min},
+      {csv, "ns_max", "%.6g", f->ns.max},
+      {!csv, "spread", "%.3g", f->ns.spread},
+      {true, "speedup", "%.5g", f->speedup.median},
+      {!csv, "spread", "%.3g", f->speedup.spread},
+      {true, "pair_error_max", "%.3g", of->own.max},
+      {more, "ns_spread", "%.3g", f->ns.spread},
+      {more, "speedup_min", "%.5g", f->speedup.min},
+      {more, "speedup_max", "%.5g", f->speedup.max},
+      {more, "speedup_spread", "%.3g", f->speedup.spread},
+      {job->errors, "slip", NULL, 0.0},
+      {job->errors, "error_exact_median", "%.3g", of->exact.median},
+      {job->errors, "error_exact_max", "%.3g", of->exact.max},
+      {job->pairs.room > 0, "pairs", "%.0f", (double)(of->size > 0 ? of->size : of->rows)},
+  };
+  if (w == NULL)
+    fputs("kernel,config,isa,precision", out);
   else
-    fprintf(out, format, x);
-}
-
-static void print_notes(const bench_job *job, FILE *out) {
-  fputs(job->machine, out);
-  machine_note(out, "pinning", "%s", job->pinning);
-  job->table->note(job, out);
-  machine_note(out, "rounds", "%zu; an empty call, subtracted, takes %.2f ns",
-               job->figure[0].ns.count, job->figure[0].empty_ns);
-}
-
-static void print_csv_row(const bench_job *job, FILE *out, size_t k) {
-  const bench_subject *s = &job->subject[k];
-  const bench_figure *f = &job->figure[k];
-  fprintf(out, "%s,%s,%s,%s,%d,%d", s->kernel, s->config, s->isa, s->precision, s->threads,
-          s->steps);
-  print_number(out, ",", "%.6g", f->ns.median);
-  print_number(out, ",", "%.6g", f->ns.min);
-  print_number(out, ",", "%.6g", f->ns.max);
-  print_number(out, ",", "%.5g", f->speedup.median);
-  print_number(out, ",", "%.3g", s->pair_error_max);
-  if (job->spread) {
-    print_number(out, ",", "%.3g", f->ns.spread);
-    print_number(out, ",", "%.5g", f->speedup.min);
-    print_number(out, ",", "%.5g", f->speedup.max);
-    print_number(out, ",", "%.3g", f->speedup.spread);
-  }
-  if (job->errors) {
-    fprintf(out, ",%s", s->slip);
-    print_number(out, ",", "%.3g", s->error_exact_median);
-    print_number(out, ",", "%.3g", s->error_exact_max);
-  }
-  if (job->show_pairs)
-    fprintf(out, ",%zu", s->in_a_call > 0 ? s->in_a_call : s->pairs);
-  fputc('\n', out);
-}
-
-static void print_csv(const bench_job *job, FILE *out) {
-  print_notes(job, out);
-  fputs("kernel,config,isa,precision,threads,steps,ns_median,ns_min,ns_max,speedup,pair_error_max",
-        out);
-  if (job->spread)
-    fputs(",ns_spread,speedup_min,speedup_max,speedup_spread", out);
-  if (job->errors)
-    fputs(",slip,error_exact_median,error_exact_max", out);
-  if (job->show_pairs)
-    fputs(",pairs", out);
-  fputc('\n', out);
-  for (size_t k = 0; k < job->subject_count; k++)
-    if (job->figure[k].unchanged)
-      print_csv_row(job, out, k);
-}
-
-/* Three decimals or, from a hundred, four digits. */
-static void print_ratio(FILE *out, const char *before, double x) {
-  print_number(out, before, x < 100.0 ? "%8.3f" : x < 1000.0 ? "%8.1f" : "%8.0f", x);
-}
-
-static void print_table(const bench_job *job, FILE *out) {
-  print_notes(job, out);
-  fprintf(out, "\n%-16s %-16s %-7s %-9s %7s %6s ", "kernel", "config", "isa", "precision",
-          "threads", "steps");
-  if (job->show_pairs)
-    fprintf(out, "%8s ", "pairs");
-  fprintf(out, "%12s %8s %8s %8s %9s  %s\n", "ns median", "spread", "speedup", "spread", "error",
-          "paper");
-  for (size_t k = 0; k < job->subject_count; k++) {
-    const bench_subject *s = &job->subject[k];
-    const bench_figure *f = &job->figure[k];
-    if (!f->unchanged)
+    fprintf(out, "%s,%s,%s,%s", w->kernel->name, config_of(w), isa_of(w), precision_of(w));
+  for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
+    if (!columns[k].shown)
       continue;
-    fprintf(out, "%-16s %-16s %-7s %-9s %7d %6d ", s->kernel, s->config, s->isa, s->precision,
-            s->threads, s->steps);
-    if (job->show_pairs)
-      fprintf(out, "%8zu ", s->in_a_call > 0 ? s->in_a_call : s->pairs);
-    fprintf(out, f->ns.median < 100.0 ? "%12.3f" : "%12.1f", f->ns.median);
-    fprintf(out, " %6.2f %% ", 100.0 * f->ns.spread / f->ns.median);
-    print_ratio(out, "", f->speedup.median);
-    print_ratio(out, " ", f->speedup.spread);
-    if (isnan(s->pair_error_max))
-      fprintf(out, "%10s", "NA");
+    fputc(',', out);
+    if (w == NULL)
+      fputs(columns[k].name, out);
+    else if (columns[k].format == NULL)
+      fputs(carom_slip_name(w->options.slip), out);
+    else if (isnan(columns[k].x))
+      fputs("NA", out);
     else
-      fprintf(out, " %9.2g", s->pair_error_max);
-    fprintf(out, "  %s\n",
-            s->paper != NULL && strcmp(s->config, job->subject[0].config) == 0 ? s->paper : "-");
+      fprintf(out, columns[k].format, columns[k].x);
   }
+  const bool paper = w != NULL && w->module != NULL && w->module == all.reference_module;
+  if (!csv)
+    fprintf(out, ",%s",
+            w == NULL ? "paper"
+            : paper   ? ladder_rung_find(w->kernel->name)->paper
+                      : "-");
+  fputc('\n', out);
 }
 
-void bench_print(const bench_job *job, FILE *out) {
-  (job->csv ? print_csv : print_table)(job, out);
+static void print(const bench_job *job, FILE *out) {
+  sheet table;
+  note(job, out);
+  FILE *rows = sheet_begin(&table, out, job->csv);
+  print_row(job, rows, NULL, &(bench_figure){.loops = 0});
+  for (int others = 0; others < 2; others++) /* what speedup is relative to stands first */
+    for (size_t k = 0; k < job->subject_count; k++)
+      if (is_reference(&all.work[k]) == (others == 0) && job->figure[k].unchanged)
+        print_row(job, rows, &all.work[k], &job->figure[k]);
+  sheet_end(&table, rows);
+}
+
+static const bench_table bench_of_collisions = {.choose = choose, .print = print};
+
+/* ---- The run */
+
+static void show_time(double done, double total) {
+  progress_show("seconds measured", done, total);
+}
+
+static bool bench_all(bench_job *job) {
+  const carom_isa isa = carom_isa_in_force();
+  if (!job->table->choose(job))
+    return false;
+  if (job->subject_count == 0)
+    return true;
+  /* the output is opened before the long part, so that a bad name costs nothing */
+  FILE *out = output_open(job->shared.output);
+  if (out == NULL)
+    return false;
+  job->figure = allocate(job->subject_count, sizeof *job->figure);
+  machine_describe(out);
+  job->pinning = pinning_begin();
+  const bench_settings settings = {.budget = job->budget, .now = job->now, .progress = show_time};
+  bench_rounds(job->subject, job->subject_count, &settings, job->figure);
+  pinning_end();
+  progress_clear();
+  carom_isa_limit(isa);
+  for (size_t k = 0; k < job->subject_count; k++)
+    if (!job->figure[k].unchanged) {
+      complain("%s did not repeat its verified results while it was timed: its figures are dropped",
+               job->subject[k].name);
+      job->code = EXIT_SOME;
+    }
+  machine_note(out, "pinning", "%s", job->pinning);
+  machine_note(out, "rounds", "%zu", job->figure[0].ns.count);
+  job->table->print(job, out);
+  return output_commit();
 }
 
 /* ---- Arguments */
 
-void add_count(count_list *list, int value) {
-  list->value = grow(list->value, &list->room, list->count + 1, sizeof *list->value);
-  list->value[list->count++] = value;
+/* Adds to a list what stands between commas, each good. */
+static bool add_each(const option_row *row, char *text, name_list *list,
+                     bool good(const option_row *row, char *one)) {
+  char *rest, *one = strtok_r(text, ",", &rest);
+  if (one == NULL)
+    return good(row, text + strlen(text));
+  for (; one != NULL && good(row, one); one = strtok_r(NULL, ",", &rest))
+    add_name(list, one);
+  return one == NULL;
+}
+
+static bool is_name(const option_row *row, char *one) {
+  if (one[0] == '\0')
+    complain("--%s needs a name", row->name);
+  return one[0] != '\0';
+}
+
+static bool is_count(const option_row *row, char *one) {
+  int unused;
+  return set_count(row, one, &unused);
+}
+
+static bool is_kernel(const option_row *row, char *one) {
+  const kernel *unused;
+  return is_name(row, one) && set_kernel(row, one, &unused);
+}
+
+static bool is_isa(const option_row *row, char *one) {
+  char here[128] = "scalar, best";
+  bool good = strcmp(one, "scalar") == 0 || strcmp(one, "best") == 0;
+  for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL; isa++)
+    if (isa_is_here((carom_isa)isa)) {
+      good |= strcmp(one, carom_isa_name((carom_isa)isa)) == 0;
+      strcat(strcat(here, ", "), carom_isa_name((carom_isa)isa));
+    }
+  if (!is_name(row, one) || good)
+    return good;
+  complain("no instruction set '%s' here; there are %s", one, here);
+  return false;
 }
 
 static OPTION_SET(set_names) {
-  name_list *list = field;
-  const size_t before = list->count;
-  char *rest;
-  for (char *name = strtok_r(text, ",", &rest); name != NULL; name = strtok_r(NULL, ",", &rest)) {
-    list->name = grow(list->name, &list->room, list->count + 1, sizeof *list->name);
-    list->name[list->count++] = name;
-  }
-  if (list->count == before)
-    complain("--%s needs a name", row->name);
-  return list->count > before;
+  return add_each(row, text, field, is_name);
 }
-
-static OPTION_SET(set_counts) {
-  count_list *list = field;
-  const size_t before = list->count;
-  int value;
-  char *rest, *one;
-  for (one = strtok_r(text, ",", &rest); one != NULL && set_count(row, one, &value);
-       one = strtok_r(NULL, ",", &rest))
-    add_count(list, value);
-  return one == NULL && (list->count > before || set_count(row, text + strlen(text), &value));
-}
-
 static OPTION_SET(set_kernels) {
-  name_list *list = field;
-  const size_t before = list->count;
-  const kernel *unused;
-  bool good = set_names(row, text, field);
-  for (size_t k = before; k < list->count && good; k++)
-    good = set_kernel(row, (char *)list->name[k], &unused);
-  return good;
+  return add_each(row, text, field, is_kernel);
 }
-
 static OPTION_SET(set_isas) {
-  name_list *list = field;
-  const size_t before = list->count;
-  bool good = set_names(row, text, field);
-  for (size_t k = before; k < list->count && good; k++) {
-    char here[128] = "scalar, best";
-    good = strcmp(list->name[k], "scalar") == 0 || strcmp(list->name[k], "best") == 0;
-    for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL; isa++)
-      if (bench_isa_here((carom_isa)isa)) {
-        good |= strcmp(list->name[k], carom_isa_name((carom_isa)isa)) == 0;
-        strcat(strcat(here, ", "), carom_isa_name((carom_isa)isa));
-      }
-    if (!good)
-      complain("no instruction set '%s' here; there are %s", list->name[k], here);
-  }
-  return good;
+  return add_each(row, text, field, is_isa);
+}
+static OPTION_SET(set_counts) {
+  return add_each(row, text, field, is_count);
 }
 
 static OPTION_SET(set_threads) {
@@ -333,25 +760,13 @@ static int bench(bench_job *job) {
              "for collisions of two balls");
   else {
     job->table = job->shots != NULL ? &bench_of_shots : &bench_of_collisions;
-    job->folder = data_folder(job->shared.folder);
-    job->isa = carom_isa_in_force();
-    const int code = bench_all(job) ? job->code : EXIT_USAGE;
-    bench_free(job);
-    return code;
+    return bench_all(job) ? job->code : EXIT_USAGE;
   }
   return usage_hint(&form);
 }
 
 int command_bench(int argc, char **argv) {
-  bench_job job = {.shared = {.precision = ANY_PRECISION, .output = "-"}, .code = EXIT_GOOD};
-  int code = parse_arguments(&form, argc, argv, &job, NULL);
-  if (code < 0)
-    code = bench(&job);
-  free(job.kernels.name);
-  free(job.configs.name);
-  free(job.isas.name);
-  free(job.steps.value);
-  free(job.pairs.value);
-  free(job.threads.value);
-  return code;
+  static bench_job job = {.shared = {.precision = ANY_PRECISION, .output = "-"}};
+  const int code = parse_arguments(&form, argc, argv, &job, NULL);
+  return code >= 0 ? code : bench(&job);
 }

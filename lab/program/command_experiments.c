@@ -8,6 +8,7 @@
 #include "output.h"
 #include "place.h"
 #include "records.h"
+#include "sheet.h"
 #include "subcommands.h"
 
 #include <limits.h>
@@ -20,8 +21,6 @@ static const double degree = 3.14159265358979323846 / 180.0;
 
 /* What is compared, in the order of the columns: m/s and degrees. */
 enum { V_CUE, V_OBJECT, ANGLE_CUE, ANGLE_OBJECT, OUTCOMES };
-static const char *const outcome_names[OUTCOMES] = {"v_cue", "v_object", "angle_cue_deg",
-                                                    "angle_object_deg"};
 
 typedef struct shot {
   char id[32];
@@ -101,31 +100,28 @@ static bool outcome_of(const shot *s, const kernel *one, carom_slip slip,
 }
 
 /* One line: what a source says of a shot. */
-static void print_line(FILE *out, bool csv, const char *id, const char *source,
-                       const double outcome[OUTCOMES], bool computed) {
-  fprintf(out, csv ? "%s,%s" : "%-20s %-10s", id, source);
+static void print_line(FILE *out, const char *id, const char *source, const char *format,
+                       const double outcome[OUTCOMES]) {
+  fprintf(out, "%s,%s", id, source);
   for (int k = 0; k < OUTCOMES; k++)
-    if (csv)
-      fprintf(out, computed ? ",%.6f" : ",%g", outcome[k]);
-    else
-      fprintf(out, " %16.3f", outcome[k]);
+    fprintf(out, format, outcome[k]);
   fputc('\n', out);
 }
 
 static void print_all(FILE *out, bool csv, const shot *shots, size_t count, carom_slip slip) {
-  fputs(csv ? "shot,source" : "shot                 source    ", out);
-  for (int k = 0; k < OUTCOMES; k++)
-    fprintf(out, csv ? ",%s" : " %16s", outcome_names[k]);
-  fputc('\n', out);
+  sheet table;
+  FILE *rows = sheet_begin(&table, out, csv);
+  fputs("shot,source,v_cue,v_object,angle_cue_deg,angle_object_deg\n", rows);
   for (const shot *s = shots; s < shots + count; s++) {
-    print_line(out, csv, s->id, "measured", s->measured, false);
-    print_line(out, csv, s->id, "predicted", s->predicted, false);
+    print_line(rows, s->id, "measured", ",%g", s->measured);
+    print_line(rows, s->id, "predicted", ",%g", s->predicted);
     const kernel *one;
     double outcome[OUTCOMES];
     for (size_t at = 0; (one = kernel_at(at)) != NULL; at++)
       if (!one->is_rung && outcome_of(s, one, slip, outcome))
-        print_line(out, csv, s->id, one->name, outcome, true);
+        print_line(rows, s->id, one->name, ",%.6f", outcome);
   }
+  sheet_end(&table, rows);
 }
 
 typedef struct experiments_job {

@@ -2,6 +2,7 @@
 #include "command.h"
 #include "kernel.h"
 #include "output.h"
+#include "sheet.h"
 #include "subcommands.h"
 
 #include <csv.h>
@@ -30,27 +31,26 @@ static const command_form form = {
     .example = "carom-lab kernels",
 };
 
-static void print_csv(FILE *out) {
+/* People are told of the kernels that run here, and of the builds of the ladder. */
+static void print_kernels(FILE *out, bool csv) {
   static const char *const needs[] = {
       [LADDER_BASELINE] = "scalar", [LADDER_AVX2] = "avx2", [LADDER_AVX512] = "avx512"};
+  sheet table;
+  FILE *rows = sheet_begin(&table, out, csv);
   const kernel *one;
-  fputs("kernel,precision,parent,needs,paper,idea\n", out);
+  fputs("kernel,precision,parent,needs,paper,idea\n", rows);
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
     const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
-    fprintf(out, "%s,%s,%s,%s,%s,", one->name, one->precision, rung != NULL ? rung->parent : "",
+    if (!csv && rung != NULL && !ladder_rung_runs(rung))
+      continue;
+    fprintf(rows, "%s,%s,%s,%s,%s,", one->name, one->precision, rung != NULL ? rung->parent : "",
             rung != NULL ? needs[rung->isa] : "", rung != NULL ? rung->paper : "");
-    csv_fwrite(out, one->text, strlen(one->text));
-    fputc('\n', out);
+    csv_fwrite(rows, one->text, strlen(one->text));
+    fputc('\n', rows);
   }
-}
-
-static void print_table(FILE *out) {
-  const kernel *one;
-  fprintf(out, "%-15s %-10s %s\n", "kernel", "precision", "what it is");
-  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
-    if (!one->is_rung || ladder_rung_runs(ladder_rung_find(one->name)))
-      fprintf(out, "%-15s %-10s %s%s\n", one->name, one->precision, one->is_rung ? "ladder: " : "",
-              one->text);
+  sheet_end(&table, rows);
+  if (csv)
+    return;
   fprintf(out, "\nconfigurations of the ladder:");
   const char *module;
   for (size_t k = 0; (module = ladder_module_name(k)) != NULL; k++)
@@ -69,6 +69,6 @@ int command_kernels(int argc, char **argv) {
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
-  (job.csv ? print_csv : print_table)(out);
+  print_kernels(out, job.csv);
   return output_commit() ? EXIT_GOOD : EXIT_USAGE;
 }

@@ -7,6 +7,7 @@
 #include "message.h"
 #include "output.h"
 #include "place.h"
+#include "sheet.h"
 #include "subcommands.h"
 
 #include <math.h>
@@ -32,20 +33,11 @@ typedef struct verification {
   case_set cases;
   carom_result *result;
   pair_accuracy *each;
-  FILE *out;
+  FILE *out, *rows;
   bool csv, all_pass;
   char parity[1024]; /* sentences for below the table */
   ladder_summary ladder;
 } verification;
-
-/* "3 (26)", or "3" where the paper gives no count. */
-static const char *count_beside_paper(size_t ours, int paper, char text[32]) {
-  if (paper >= 0)
-    snprintf(text, 32, "%zu (%d)", ours, paper);
-  else
-    snprintf(text, 32, "%zu", ours);
-  return text;
-}
 
 /* The seed paper's count, or NA. */
 static const char *paper_count(int paper, char text[32]) {
@@ -53,37 +45,18 @@ static const char *paper_count(int paper, char text[32]) {
   return text;
 }
 
-static void way_or_module(const verification *v, const ladder_module *module, char text[32]) {
-  if (module != NULL)
-    snprintf(text, 32, "%s", module->name);
-  else if (v->way == SINGLE_CALLS)
-    snprintf(text, 32, "%s", v->csv ? "library" : "single calls");
-  else
-    snprintf(text, 32, v->csv ? "library-%s" : "lanes, %s", carom_isa_name((carom_isa)v->way));
-}
-
 static void print_claim(const verification *v, const kernel *one, const ladder_module *module,
                         const kernel_claim *claim, const accuracy_summary *s, bool pass) {
   const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
-  const int paper_1e3 = rung != NULL ? rung->over_1e3 : -1,
-            paper_1e2 = rung != NULL ? rung->over_1e2 : -1;
-  char config[32];
-  way_or_module(v, module, config);
+  const char *lanes = v->way != SINGLE_CALLS ? carom_isa_name((carom_isa)v->way) : "";
   char over_1e3[32], over_1e2[32];
-  if (v->csv)
-    fprintf(v->out, "%s,%s,%s,%d,%s,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%s,%zu,%s,%s\n", one->name,
-            config, carom_slip_name(claim->slip), claim->steps, claim->reference, s->cases,
-            s->identical, s->mean, s->median, s->p99, s->max, claim->bound, s->component_1e3,
-            paper_count(paper_1e3, over_1e3), s->component_1e2, paper_count(paper_1e2, over_1e2),
-            pass ? "pass" : "fail");
-  else
-    fprintf(
-        v->out,
-        "%-15s %-17s %-9s %5d %-29s %4zu/%-4zu %-9.2g %-9.2g %-9.2g %-9.2g %-7.1g %7s %6s  %s\n",
-        one->name, config, carom_slip_name(claim->slip), claim->steps, claim->reference,
-        s->identical, s->cases, s->mean, s->median, s->p99, s->max, claim->bound,
-        count_beside_paper(s->component_1e3, paper_1e3, over_1e3),
-        count_beside_paper(s->component_1e2, paper_1e2, over_1e2), pass ? "pass" : "FAIL");
+  fprintf(v->rows, "%s,%s%s%s,%s,%d,%s,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%s,%zu,%s,%s\n",
+          one->name, module != NULL ? module->name : "library",
+          module == NULL && lanes[0] != '\0' ? "-" : "", module == NULL ? lanes : "",
+          carom_slip_name(claim->slip), claim->steps, claim->reference, s->cases, s->identical,
+          s->mean, s->median, s->p99, s->max, claim->bound, s->component_1e3,
+          paper_count(rung != NULL ? rung->over_1e3 : -1, over_1e3), s->component_1e2,
+          paper_count(rung != NULL ? rung->over_1e2 : -1, over_1e2), pass ? "pass" : "fail");
 }
 
 static void tell_ladder(const verification *v) {
@@ -186,24 +159,22 @@ static bool verify_rung(verification *v, const kernel *one) {
 static bool verify_all(verification *v) {
   v->result = allocate(v->cases.count, sizeof *v->result);
   v->each = allocate(v->cases.count, sizeof *v->each);
-  if (v->csv)
-    fputs("kernel,config,slip,steps,reference,cases,identical,mean,median,p99,max,bound,over_1e3,"
-          "paper_1e3,over_1e2,paper_1e2,verdict\n",
-          v->out);
-  else
-    fprintf(v->out, "%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n",
-            "kernel", "configuration", "slip", "steps", "reference", "identical", "mean", "median",
-            "p99", "max", "bound", ">0.1%", ">1%", "");
+  sheet table;
+  v->rows = sheet_begin(&table, v->out, v->csv);
+  fputs("kernel,config,slip,steps,reference,cases,identical,mean,median,p99,max,bound,over_1e3,"
+        "paper_1e3,over_1e2,paper_1e2,verdict\n",
+        v->rows);
+  bool good = true;
   const kernel *one;
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
-    if ((v->only == NULL || v->only == one) &&
-        !(one->is_rung ? verify_rung(v, one) : verify_solver(v, one)))
-      return false;
+    if (v->only == NULL || v->only == one)
+      good = good && (one->is_rung ? verify_rung(v, one) : verify_solver(v, one));
+  sheet_end(&table, v->rows);
   if (!v->csv) {
     fprintf(v->out, "\n%s", v->parity);
     tell_ladder(v);
   }
-  return true;
+  return good;
 }
 
 OPTION(verification, option_kernel, "kernel", only, 0, "NAME", set_kernel, 0, "only this kernel");
@@ -220,8 +191,9 @@ static const char about[] =
 static const char details[] =
     "Pair error: the largest deviation of a velocity or R times an angular velocity, over the "
     "largest such value of the pair. Component errors compare each number with itself; the columns "
-    "count the cases with one above 0.1 % or 1 %, and the seed paper's own count in brackets where "
-    "it gives one. A bound of 0 requires the same bits in every component.\n\n"
+    "over_1e3 and over_1e2 count the cases with one above 0.1 % or 1 %, and the next columns are "
+    "the "
+    "seed paper's own counts. A bound of 0 requires the same bits in every component.\n\n"
     "exit code: 0 if all is within its bounds, 1 if something is not, 2 for bad usage or "
     "unreadable data\n";
 

@@ -1,6 +1,6 @@
 # Bad usage and unreadable input: exit 2, a message that says what would be right, and nothing written.
 header=id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R,M,u_s1,u_s2,u_b,e_b
-try carom 2>&1 | head -n 1
+try carom > said 2>&1; sed -n '1p;$p' said; rm said
 try carom frobnicate
 try carom resolve
 try carom resolve a b

@@ -1,5 +1,5 @@
 # Bad usage of the study's program: exit 2, and a message that says what would be right.
-try lab 2>&1 | head -n 1
+try lab > said 2>&1; sed -n '1p;$p' said; rm said
 try lab trace
 try lab kernels now
 try lab kernels --csv -o nowhere/kernels.csv

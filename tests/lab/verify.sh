@@ -1,14 +1,14 @@
 # verify passes on the real references and fails when a reference is wrong.
 lab verify > table
 echo "exit $?"
-grep -c '^euler *single calls .*pass' table
-grep -c '^euler *lanes, plain .*pass' table
-grep -c FAIL table || true
+grep -c '^euler *library  .*pass' table
+grep -c '^euler *library-plain .*pass' table
+grep -c fail table || true
 mkdir data
 cp "$DATA"/*.csv data
 sed '2s/,-0.008/,-0.009/' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
 lab verify --data data > table || echo "exit $?"
-grep -c '^euler *single calls .*FAIL' table
+grep -c '^euler *library  .*fail' table
 CAROM_DATA=data lab verify > table || echo "exit $?"
 sed '3d' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
 lab verify --data data > table || echo "exit $?"
