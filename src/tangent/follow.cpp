@@ -248,48 +248,80 @@ CAROM_APART number edge(scene *s, const carom_ball_state *a) {
   return nearest;
 }
 
+/* The distance of a ball from the line of a rail. */
+number off_line(const scene *s, const carom_ball_state *a) {
+  const number *line = s->features.line[0];
+  return line[0] * a->r[0] + line[1] * a->r[1] + line[2];
+}
+
+/* The distance at which a ball on the cloth touches a rail, or a jaw beyond its radius. */
+number reach_on_cloth(const scene *s, const number &height) {
+  const text::carom_ball_kind *kind = &s->ball[0].kind;
+  return s->w->opt->space == CAROM_SPACE_FLAT
+             ? kind->radius
+             : text::carom_reach_on_cloth(kind, height, s->features.reference);
+}
+
+/* Two round bodies that touch at an event: d from ball a to the middle of the other one, v how a
+ * comes nearer to it. Returns the distance at which they touch; 0 where the event is no touch of
+ * such bodies. A nose is one in the plane across it: level, and up. */
+CAROM_APART number bodies(const scene *s, number d[3], number v[3]) {
+  const carom_event *e = s->event;
+  const carom_ball_state *a = &s->ball[0].state, *b = &s->ball[1].state;
+  const text::carom_ball_kind *kind = &s->ball[0].kind;
+  const bool flies = text::carom_flies(a), jaw = e->type == CAROM_EVENT_JAW;
+  for (int k = 0; k < 3; k++) {
+    d[k] = s->two ? b->r[k] - a->r[k] : number(0);
+    v[k] = s->two ? a->v[k] - b->v[k] : k < 2 ? a->v[k] : number(0);
+  }
+  if (s->two) { /* a ball on the cloth is at the height of its radius */
+    d[2] = (text::carom_flies(b) ? b->r[2] : s->ball[1].kind.radius) -
+           (flies ? a->r[2] : kind->radius);
+    return kind->radius + s->ball[1].kind.radius;
+  }
+
+  /* on the cloth, the circle of a jaw or a pocket */
+  if (e->type == CAROM_EVENT_POCKET || (jaw && !flies)) {
+    const carom_pocket *p = &s->w->table->pocket[e->b];
+    for (int k = 0; k < 2; k++)
+      d[k] = (jaw ? s->table.jaw[0].centre[k] : number(p->centre[k])) - a->r[k];
+    return jaw ? s->table.jaw[0].radius + reach_on_cloth(s, s->table.jaw[0].height)
+               : number(p->radius);
+  }
+  if (!flies || !(jaw || e->type == CAROM_EVENT_RAIL))
+    return 0.0;
+
+  /* one that flies meets the nose itself, which is inside the wall */
+  number across = off_line(s, a), out[2] = {s->features.line[0][0], s->features.line[0][1]};
+  if (jaw) {
+    const number x = a->r[0] - s->table.jaw[0].centre[0], y = a->r[1] - s->table.jaw[0].centre[1],
+                 q = sqrt(x * x + y * y);
+    across = q - s->table.jaw[0].radius;
+    out[0] = x / q;
+    out[1] = y / q;
+  }
+  const number height =
+      text::carom_nose_height(kind, jaw ? s->table.jaw[0].height : s->table.rail[0].height);
+  d[0] = text::carom_nose_shift(height, s->features.reference) - across;
+  d[2] = height - a->r[2];
+  v[0] = out[0] * a->v[0] + out[1] * a->v[1];
+  v[1] = 0.0;
+  v[2] = a->v[2];
+  return kind->radius;
+}
+
 /* The gap whose zero is the event. */
 CAROM_APART number gap(scene *s) {
   const carom_event *e = s->event;
   const carom_tangent_work *w = s->w;
-  carom_ball_state *a = &s->ball[0].state, *b = &s->ball[1].state;
-  const text::carom_ball_kind *kind = &s->ball[0].kind;
+  const carom_ball_state *a = &s->ball[0].state;
+  number d[3], v[3];
+  const number touch = bodies(s, d, v);
+  if (touch.x > 0)
+    return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - touch;
   switch (e->type) {
-  case CAROM_EVENT_BALL_BALL: {
-    /* the distance of the centres; a ball on the cloth is at the height of its radius */
-    number square = 0.0;
-    for (int k = 0; k < 2; k++)
-      square += (b->r[k] - a->r[k]) * (b->r[k] - a->r[k]);
-    const number z = (text::carom_flies(b) ? b->r[2] : s->ball[1].kind.radius) -
-                     (text::carom_flies(a) ? a->r[2] : kind->radius);
-    return sqrt(square + z * z) - kind->radius - s->ball[1].kind.radius;
-  }
   case CAROM_EVENT_RAIL:
-  case CAROM_EVENT_JAW: {
-    const bool rail = e->type == CAROM_EVENT_RAIL;
-    /* the horizontal distance from the line of a rail or the circle of a jaw */
-    const number *line = s->features.line[0],
-                 height = rail ? s->table.rail[0].height : s->table.jaw[0].height;
-    const number x = a->r[0] - (rail ? number(0) : s->table.jaw[0].centre[0]),
-                 y = a->r[1] - (rail ? number(0) : s->table.jaw[0].centre[1]);
-    const number across =
-        rail ? line[0] * x + line[1] * y + line[2] : sqrt(x * x + y * y) - s->table.jaw[0].radius;
-
-    /* a ball on the cloth meets the wall, one that flies the nose itself */
-    if (!text::carom_flies(a))
-      return across - (w->opt->space == CAROM_SPACE_FLAT
-                           ? kind->radius
-                           : text::carom_reach_on_cloth(kind, height, s->features.reference));
-    const number own = text::carom_nose_height(kind, height),
-                 out = across - text::carom_nose_shift(own, s->features.reference);
-    const number up = a->r[2] - own;
-    return sqrt(out * out + up * up) - kind->radius;
-  }
-  case CAROM_EVENT_POCKET: {
-    const carom_pocket *p = &w->table->pocket[e->b];
-    const number x = a->r[0] - p->centre[0], y = a->r[1] - p->centre[1];
-    return sqrt(x * x + y * y) - p->radius;
-  }
+    return off_line(s, a) - reach_on_cloth(s, s->table.rail[0].height);
   case CAROM_EVENT_RAIL_TOP:
     return a->r[2] - text::carom_height_on_top(&s->sim, 0, e->b < w->table->rails ? 0 : 1);
   case CAROM_EVENT_LEFT_TABLE: /* it comes to lie on a rail, or to the edge of the rails */
@@ -297,6 +329,29 @@ CAROM_APART number gap(scene *s) {
   default: /* the strike */
     return 0.0;
   }
+}
+
+/* How far a hit is from a miss: the distance at which bodies touch less that at which the straight
+ * line along v would pass. For reach. */
+CAROM_APART void note_margin(scene *s) {
+  carom_tangent_work *w = s->w;
+  number d[3], v[3], V2 = 0.0, along = 0.0, square = 0.0;
+  const number touch = bodies(s, d, v);
+  w->margin = INFINITY;
+  if (!(touch.x > 0) ||
+      (s->event->type == CAROM_EVENT_POCKET && text::carom_flies(&s->ball[0].state)))
+    return;
+  for (int k = 0; k < 3; k++) {
+    V2 += v[k] * v[k];
+    along += d[k] * v[k];
+  }
+  for (int k = 0; k < 3; k++) {
+    const number across = d[k] - along / V2 * v[k];
+    square += across * across;
+  }
+  const number margin = touch - sqrt(square);
+  w->margin = square.x > 0 ? margin.x : (real)INFINITY;
+  store(margin, w->margin_row);
 }
 
 /* ---- Flags of an event ---- */
@@ -534,6 +589,21 @@ void begin_scene(carom_tangent_work *w, scene *s) {
   s->sim.count = 2;
 }
 
+/* The balls of an event at its time, which is fixed, and its part of the table. */
+CAROM_APART void begin_event(carom_tangent_work *w, const carom_event *e, scene *s) {
+  begin_scene(w, s);
+  s->event = e;
+  s->two = e->type == CAROM_EVENT_BALL_BALL;
+  s->side[0] = e->a;
+  s->side[1] = e->b;
+  if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW || e->type == CAROM_EVENT_RAIL_TOP)
+    take_part(s);
+  for (int i = 0; i <= s->two; i++) {
+    begin_ball(w, s->side[i], i, s);
+    state_at(w, s->side[i], i, e->time, s, &s->ball[i].state);
+  }
+}
+
 /* ---- A cluster ---- */
 
 struct member {
@@ -570,15 +640,7 @@ int place_of(const cluster *c, int ball) {
 /* The derivatives of the time of the contact that starts a cluster, and its own two balls. */
 CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e) {
   scene s;
-  begin_scene(w, &s);
-  s.event = e;
-  s.two = true;
-  s.side[0] = e->a;
-  s.side[1] = e->b;
-  for (int i = 0; i < 2; i++) {
-    begin_ball(w, s.side[i], i, &s);
-    state_at(w, s.side[i], i, e->time, &s, &s.ball[i].state);
-  }
+  begin_event(w, e, &s);
   const number g = gap(&s);
   row dT = {};
   if (g.d[CLOCK] != 0)
@@ -591,6 +653,8 @@ CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e) {
     set(e->before[i], &s.ball[i].state);
     store_state(&s.ball[i].state, w->before[i]);
   }
+  if (w->tangent->reach != nullptr)
+    note_margin(&s);
   return dT;
 }
 
@@ -767,25 +831,21 @@ void carom_tangent_at(const carom_tangent_work *w, int i, double time, carom_tan
   store_state(&s.ball[0].state, d);
 }
 
+double carom_tangent_gap(carom_tangent_work *w, const carom_event *e, carom_tangent_row d) {
+  scene s;
+  begin_event(w, e, &s);
+  const number g = gap(&s);
+  store(g, d);
+  return g.x;
+}
+
 carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   scene s;
-  begin_scene(w, &s);
-  s.event = e;
-  s.two = e->type == CAROM_EVENT_BALL_BALL;
-  s.side[0] = e->a;
-  s.side[1] = e->b;
-  if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW || e->type == CAROM_EVENT_RAIL_TOP)
-    take_part(&s);
-
+  begin_event(w, e, &s);
   w->note = {0, 0};
   watched = {false, {0, 0}};
 
-  /* the states at the fixed time of the event, and the derivatives of that time */
-  for (int i = 0; i <= s.two; i++) {
-    begin_ball(w, s.side[i], i, &s);
-    state_at(w, s.side[i], i, e->time, &s, &s.ball[i].state);
-  }
-
+  /* the derivatives of the time of the event */
   row dT = {};
   if (ends_phase(e) || lands(&s)) {
     dT = s.sim.path[0].end.d;
@@ -804,6 +864,8 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
     set(e->before[i], &s.ball[i].state);
     store_state(&s.ball[i].state, w->before[i]);
   }
+  if (w->tangent->reach != nullptr)
+    note_margin(&s);
 
   /* a landing is on the slate exactly, at the speed of its fall */
   if (e->type == CAROM_EVENT_SLATE) {

@@ -52,120 +52,16 @@ static void take(carom_reach *reach, int j, double gap, double rate) {
     reach->reach[j] = carom_lesser(reach->reach[j], carom_greater(gap, 0.0) / fabs(rate));
 }
 
-/* The separation to a ball or part, quadratic in the time since `from`: d + v t + a t^2.
- * It may be a point, or the nearest point of a ring around it, at its height; or of a level
- * line, from which `across` points to the ball. */
-typedef struct separation {
-  double from, d[3], v[3], a[3];
-  double ring;
-  const double *across;
-  bool centre; /* the distance of the ball's centre counts, and not that of its surface */
-} separation;
+/* ---- Misses */
 
-/* The distance, the unit vector n along it, and its rate. */
-typedef struct distance {
-  double size, n[3], opens;
-} distance;
-
-static distance distance_at(const separation *s, double t) {
-  double place[3], v[3];
-  distance is = {0};
-  for (int k = 0; k < 3; k++) {
-    place[k] = s->d[k] + t * (s->v[k] + t * s->a[k]);
-    v[k] = s->v[k] + 2.0 * t * s->a[k];
-  }
-  if (s->across != NULL) {
-    const double level = s->across[0] * place[0] + s->across[1] * place[1];
-    place[0] = level * s->across[0];
-    place[1] = level * s->across[1];
-  } else if (s->ring > 0.0) {
-    const double q = sqrt(place[0] * place[0] + place[1] * place[1]), share = 1.0 - s->ring / q;
-    place[0] *= share;
-    place[1] *= share;
-  }
-  is.size = sqrt(place[0] * place[0] + place[1] * place[1] + place[2] * place[2]);
-  for (int k = 0; k < 3; k++) {
-    is.n[k] = place[k] / is.size;
-    is.opens += is.n[k] * v[k];
-  }
-  return is;
-}
-
-/* Whether a gap is one that a change may close. first: the gap where the way began. */
-static bool is_missed(double gap, double first) {
-  return gap > (first <= TOUCHING ? TOUCHING : 0.0) && gap < NEAR;
-}
-
-/* What the gap at a time is worth in each direction. other: the ball that is missed, or NULL.
- * surface: of the ball, and not its centre. */
-__attribute__((noinline)) static void take_gap(carom_reach *reach, const carom_tangent_ball *ball,
-                                               const carom_tangent_ball *other, double time,
-                                               const double n[3], double gap, bool surface) {
-  const carom_tangent_work *w = reach->work;
-  const int m = w->pass.columns, radius = (int)(offsetof(carom_ball_kind, radius) / sizeof(double));
-  carom_tangent_rows d;
-  carom_tangent_row along;
-  for (int side = 0; side < (other != NULL ? 2 : 1); side++) {
-    const carom_tangent_ball *one = side == 0 ? ball : other;
-    const int i = (int)(one - w->ball);
-    const double *dR =
-        w->seeds->kind != NULL
-            ? w->seeds->kind + (i * CAROM_KIND_NUMBERS + radius) * w->pass.m + w->pass.first
-            : NULL;
-    carom_tangent_at(w, i, time, d);
-    for (int j = 0; j < m; j++) {
-      const double moves = n[0] * d[S_X][j] + n[1] * d[S_Y][j] + n[2] * d[S_Z][j];
-      along[j] = side == 0 ? -moves : along[j] + moves;
-      along[j] -= surface && dR != NULL ? dR[j] : 0.0;
-    }
-  }
-  for (int j = 0; j < m; j++)
-    take(reach, j, gap, along[j]);
-}
-
-/* The least distances on the way from t = 0 to T; stops: the end of the way counts as one. rail:
- * between whose ends they count, or NULL. */
-static void search(carom_reach *reach, const carom_tangent_ball *ball,
-                   const carom_tangent_ball *other, const separation *s, double T, double reaches,
-                   bool stops, const carom_rail *rail) {
-  /* nothing is missed that is too far for the whole way */
-  double way = 0.0;
-  for (int k = 0; k < 3; k++)
-    way += T * (fabs(s->v[k]) + T * fabs(s->a[k]));
-  const distance first = distance_at(s, 0.0);
-  if (!(T > 0.0) || first.size - way > reaches + NEAR)
-    return;
-  double before = first.opens;
-  for (int k = 1; k <= PARTS_OF_WAY; k++) {
-    double low = T * (k - 1) / (double)PARTS_OF_WAY, high = T * k / (double)PARTS_OF_WAY;
-    /* a part of the way at whose end the distance grows has a least one within */
-    const double now = distance_at(s, high).opens;
-    const bool least = before < 0.0 && now >= 0.0,
-               end = stops && k == PARTS_OF_WAY && before < 0.0 && !least;
-    before = now;
-    if (!least && !end)
-      continue;
-    for (int n = 0; n < BISECTIONS && least; n++) {
-      const double middle = 0.5 * (low + high);
-      *(distance_at(s, middle).opens < 0.0 ? &low : &high) = middle;
-    }
-
-    /* what the gap there is worth */
-    const distance there = distance_at(s, high);
-    const double gap = there.size - reaches;
-    if (!is_missed(gap, first.size - reaches))
-      continue;
-    if (rail != NULL) { /* d points to p */
-      const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1];
-      const double x = s->d[0] + high * (s->v[0] + high * s->a[0]),
-                   y = s->d[1] + high * (s->v[1] + high * s->a[1]);
-      const double along = -(x * e_x + y * e_y) / (e_x * e_x + e_y * e_y);
-      if (!(along >= 0.0 && along <= 1.0))
-        continue;
-    }
-    take_gap(reach, ball, other, s->from + high, there.n, gap, !s->centre);
-  }
-}
+/* A ball and what it may miss, from a time on: the way from the ball to the middle of that, d +
+ * v t + a t^2, or to an end of a rail, across whose line they touch. The distance is that from a
+ * ring around the middle, or behind the line; they touch at `reach`. */
+typedef struct miss {
+  int type, ball, other; /* of the event that does not happen */
+  double from, d[3], v[3], a[3], line[3];
+  double ring, reach;
+} miss;
 
 /* Place, velocity and half the acceleration of a ball at a time; on the cloth, at the height of
  * its radius. */
@@ -182,84 +78,114 @@ static void motion_at(const carom_tangent_ball *ball, double time, double r[3], 
     r[2] = ball->kind->radius;
 }
 
-/* From a ball to another one, or to a point, whose height is that of the ball if it is not a
- * number. */
-static separation between(const carom_tangent_ball *ball, const carom_tangent_ball *other,
-                          const double *point, double height, double from) {
-  separation s = {.from = from};
+/* Ball i, and ball or part b. */
+static miss miss_of(const carom_tangent_work *w, int i, int type, int b) {
+  const carom_tangent_ball *ball = &w->ball[i];
+  const carom_table *table = w->table;
+  miss m = {.type = type, .ball = i, .other = b, .from = ball->since};
   double r[2][3], v[2][3] = {{0}}, a[2][3] = {{0}};
-  motion_at(ball, from, r[0], v[0], a[0]);
-  if (other != NULL) {
-    motion_at(other, from, r[1], v[1], a[1]);
-  } else {
-    memcpy(r[1], point, 2 * sizeof *point);
-    r[1][2] = isnan(height) ? r[0][2] : height;
+  if (type == CAROM_EVENT_BALL_BALL) {
+    m.from = fmax(ball->since, w->ball[b].since);
+    motion_at(&w->ball[b], m.from, r[1], v[1], a[1]);
+    m.reach = ball->kind->radius + w->ball[b].kind->radius;
+  }
+  motion_at(ball, m.from, r[0], v[0], a[0]);
+
+  /* a pocket has no height, nor has a cushion for a ball on the cloth */
+  if (type == CAROM_EVENT_POCKET) {
+    memcpy(r[1], table->pocket[b].centre, sizeof table->pocket[b].centre);
+    r[1][2] = r[0][2];
+    m.reach = table->pocket[b].radius;
+  } else if (type != CAROM_EVENT_BALL_BALL) {
+    const bool rail = type == CAROM_EVENT_RAIL, flies = carom_flies(&ball->from);
+    const double height = rail ? table->rail[b].height : table->jaw[b].height,
+                 nose = carom_nose_height(ball->kind, height);
+    memcpy(r[1], rail ? table->rail[b].p : table->jaw[b].centre, 2 * sizeof r[1][0]);
+    r[1][2] = flies ? nose : r[0][2];
+    m.ring =
+        (rail ? 0.0 : table->jaw[b].radius) + (flies ? carom_nose_shift(nose, w->reference) : 0.0);
+    m.reach = flies ? ball->kind->radius : carom_reach_on_cloth(ball->kind, height, w->reference);
+    if (rail)
+      carom_rail_line(&table->rail[b], m.line);
   }
   for (int k = 0; k < 3; k++) {
-    s.d[k] = r[1][k] - r[0][k];
-    s.v[k] = v[1][k] - v[0][k];
-    s.a[k] = a[1][k] - a[0][k];
+    m.d[k] = r[1][k] - r[0][k];
+    m.v[k] = v[1][k] - v[0][k];
+    m.a[k] = a[1][k] - a[0][k];
   }
-  return s;
+  return m;
 }
 
-/* The noses that a flying ball missed. */
-static void noses_missed(carom_reach *reach, const carom_tangent_ball *ball,
-                         const carom_event *event) {
-  const carom_table *table = reach->work->table;
-  const double start = ball->since, R = ball->kind->radius, ref = reach->work->reference;
-  for (int64_t k = 0; k < table->rails; k++) {
-    if (event->type == CAROM_EVENT_RAIL && event->b == k)
-      continue;
-    const carom_rail *rail = &table->rail[k];
-    const double h = carom_nose_height(ball->kind, rail->height), shift = carom_nose_shift(h, ref);
-    double line[3];
-    carom_rail_line(rail, line);
-    const double p[2] = {rail->p[0] + shift * line[0], rail->p[1] + shift * line[1]};
-    separation s = between(ball, NULL, p, h, start);
-    s.across = line;
-    search(reach, ball, NULL, &s, event->time - start, R, false, rail);
+/* The distance at a time, below 0 behind a rail on the cloth; and whether it grows: above 0. */
+static double distance_at(const miss *m, double t, double *opens) {
+  double d[3], v[3];
+  for (int k = 0; k < 3; k++) {
+    d[k] = m->d[k] + t * (m->v[k] + t * m->a[k]);
+    v[k] = m->v[k] + 2.0 * t * m->a[k];
   }
-  for (int64_t k = 0; k < table->jaws; k++) {
-    if (event->type == CAROM_EVENT_JAW && event->b == k)
-      continue;
-    const carom_jaw *jaw = &table->jaw[k];
-    const double h = carom_nose_height(ball->kind, jaw->height);
-    separation s = between(ball, NULL, jaw->centre, h, start);
-    s.ring = jaw->radius + carom_nose_shift(h, ref);
-    search(reach, ball, NULL, &s, event->time - start, R, false, NULL);
-  }
+
+  /* the level part of the way, or that across the line of a rail */
+  const bool rail = m->type == CAROM_EVENT_RAIL;
+  const double q = sqrt(d[0] * d[0] + d[1] * d[1]);
+  const double level = (rail ? -(m->line[0] * d[0] + m->line[1] * d[1]) : q) - m->ring;
+  const double rate =
+      rail ? -(m->line[0] * v[0] + m->line[1] * v[1]) : (d[0] * v[0] + d[1] * v[1]) / q;
+  *opens = level * rate + d[2] * v[2];
+  return rail && d[2] == 0.0 ? level : sqrt(level * level + d[2] * d[2]);
 }
 
-/* The cushions and pockets that a ball on the cloth missed; stops: it came to rest. */
-static void cushions_missed(carom_reach *reach, const carom_tangent_ball *ball,
-                            const carom_event *event, bool stops) {
-  const carom_table *table = reach->work->table;
-  const double start = ball->since, T = event->time - start;
-  for (int64_t k = 0; k < table->jaws; k++) {
-    const separation s = between(ball, NULL, table->jaw[k].centre, NAN, start);
-    const double R = carom_reach_on_cloth(ball->kind, table->jaw[k].height, reach->work->reference);
-    if (event->type != CAROM_EVENT_JAW || event->b != k)
-      search(reach, ball, NULL, &s, T, table->jaw[k].radius + R, stops, NULL);
+/* What the gap at a time is worth in each direction, where it is one that a change may close.
+ * first: the gap where the way began. */
+static void take_gap(carom_reach *reach, const miss *m, double t, double first) {
+  carom_tangent_row d;
+  double opens;
+  const double gap = distance_at(m, t, &opens) - m->reach;
+  if (!(gap > (first <= TOUCHING ? TOUCHING : 0.0) && gap < NEAR))
+    return;
+  const carom_event event = {.time = m->from + t, .type = m->type, .a = m->ball, .b = m->other};
+  carom_tangent_gap(reach->work, &event, d);
+  for (int j = 0; j < reach->work->pass.columns; j++)
+    take(reach, j, gap, d[j]);
+}
+
+/* Whether a place on the way is beside a rail, and not beyond its ends. */
+static bool is_beside(const miss *m, const carom_rail *rail, double t) {
+  const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1];
+  const double along = -((m->d[0] + t * (m->v[0] + t * m->a[0])) * e_x +
+                         (m->d[1] + t * (m->v[1] + t * m->a[1])) * e_y);
+  return along >= 0.0 && along <= e_x * e_x + e_y * e_y;
+}
+
+/* The least distances on the way up to a time; stops: the end of the way counts as one. */
+static void search(carom_reach *reach, const miss *m, double until, bool stops) {
+  /* nothing is missed that is too far for the whole way */
+  const carom_tangent_work *w = reach->work;
+  double way = 0.0, before, now;
+  const double T = until - m->from, first = distance_at(m, 0.0, &before) - m->reach;
+  for (int k = 0; k < 3; k++)
+    way += T * (fabs(m->v[k]) + T * fabs(m->a[k]));
+  if (!(T > 0.0) || first - way > NEAR)
+    return;
+
+  const bool rail = m->type == CAROM_EVENT_RAIL;
+  if (rail && !carom_flies(&w->ball[m->ball].from)) {
+    take_gap(reach, m, T, first);
+    return;
   }
-  for (int64_t k = 0; k < table->pockets; k++) {
-    separation s = between(ball, NULL, table->pocket[k].centre, NAN, start);
-    s.centre = true;
-    if (event->type != CAROM_EVENT_POCKET || event->b != k)
-      search(reach, ball, NULL, &s, T, table->pocket[k].radius, stops, NULL);
-  }
-  /* rails, which a ball misses only where it stops short of them */
-  for (int64_t k = 0; stops && k < table->rails; k++) {
-    double line[3];
-    carom_rail_line(&table->rail[k], line);
-    const double *r = event->before[0].r,
-                 R = carom_reach_on_cloth(ball->kind, table->rail[k].height,
-                                          reach->work->reference);
-    const double gap = line[0] * r[0] + line[1] * r[1] + line[2] - R,
-                 n[3] = {-line[0], -line[1], 0.0};
-    const double *from = ball->from.r, first = line[0] * from[0] + line[1] * from[1] + line[2] - R;
-    if (is_missed(gap, first))
-      take_gap(reach, ball, NULL, event->time, n, gap, true);
+
+  /* a part of the way at whose end the distance grows has a least one within */
+  for (int k = 1; k <= PARTS_OF_WAY; k++, before = now) {
+    double low = T * (k - 1) / (double)PARTS_OF_WAY, high = T * k / (double)PARTS_OF_WAY, opens;
+    distance_at(m, high, &now);
+    const bool least = before < 0.0 && now >= 0.0;
+    for (int n = 0; n < BISECTIONS && least; n++) {
+      const double middle = 0.5 * (low + high);
+      distance_at(m, middle, &opens);
+      *(opens < 0.0 ? &low : &high) = middle;
+    }
+    if ((least || (stops && k == PARTS_OF_WAY && before < 0.0)) &&
+        (!rail || is_beside(m, &w->table->rail[m->other], high)))
+      take_gap(reach, m, high, first);
   }
 }
 
@@ -277,28 +203,29 @@ static void spin_of(carom_reach *reach, int i, const carom_event *event) {
     take(reach, j, fabs(fabs(ball->from.w[2]) - lost), d[j]);
 }
 
-/* The misses of ball i on its path, up to the event; `with` is the part or ball that it met. */
+/* What ball i misses on its path, up to the event: on the cloth a rail only where it stops short of
+ * it, in flight no pocket. */
 static void misses_of(carom_reach *reach, int i, const carom_event *event) {
+  static const int types[] = {CAROM_EVENT_BALL_BALL, CAROM_EVENT_RAIL, CAROM_EVENT_JAW,
+                              CAROM_EVENT_POCKET};
   const carom_tangent_work *w = reach->work;
-  const carom_tangent_ball *ball = &w->ball[i];
+  const int64_t counts[] = {w->count, w->table->rails, w->table->jaws, w->table->pockets};
+  const carom_ball_state *from = &w->ball[i].from;
+  const bool moves = carom_translates(from->label), flies = carom_flies(from);
   const bool stops =
       event->type == CAROM_EVENT_ROLLING_SPINNING || event->type == CAROM_EVENT_ROLLING_STATIONARY;
-  const bool moves = carom_translates(ball->from.label);
-  for (int q = 0; q < w->count; q++) {
-    const carom_tangent_ball *other = &w->ball[q];
-    const bool met = event->type == CAROM_EVENT_BALL_BALL && (q == event->a || q == event->b);
-    if (q == i || met || carom_is_out(other->from.label) ||
-        !(moves || carom_translates(other->from.label)))
-      continue;
-    const double from = fmax(ball->since, other->since);
-    const separation s = between(ball, other, NULL, NAN, from);
-    search(reach, ball, other, &s, event->time - from, ball->kind->radius + other->kind->radius,
-           stops, NULL);
-  }
-  if (carom_flies(&ball->from))
-    noses_missed(reach, ball, event);
-  else if (moves)
-    cushions_missed(reach, ball, event, stops);
+  for (int n = 0; n < 4; n++)
+    for (int b = 0; b < counts[n]; b++) {
+      const int type = types[n];
+      const bool ball = type == CAROM_EVENT_BALL_BALL;
+      const int64_t other = ball ? w->ball[b].from.label : CAROM_BALL_STATIONARY;
+      const bool met = event->type == type && (b == event->b || (ball && b == event->a));
+      if (met || (ball && b == i) || carom_is_out(other) || !(moves || carom_translates(other)) ||
+          (type == CAROM_EVENT_RAIL && !flies && !stops) || (type == CAROM_EVENT_POCKET && flies))
+        continue;
+      const miss m = miss_of(w, i, type, b);
+      search(reach, &m, event->time, stops);
+    }
 }
 
 void carom_reach_misses(carom_reach *reach, const carom_event *event) {
@@ -308,96 +235,6 @@ void carom_reach_misses(carom_reach *reach, const carom_event *event) {
     if (two || event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW)
       spin_of(reach, side == 0 ? event->a : event->b, event);
   }
-}
-
-/* A hit on a body that is d away and comes nearer by v, with their tangents in one direction; r:
- * the sum of the radii, 0 for no hit. */
-typedef struct hit {
-  double d[3], v[3], dd[3], dv[3], r;
-} hit;
-
-/* That it would be a miss: r - s, s = |d x v|/|v|. */
-static void take_hit(carom_reach *reach, int j, const hit *h) {
-  /* the part of d across v */
-  double V2 = 0.0, along = 0.0, across[3], s = 0.0, ds = 0.0;
-  for (int k = 0; k < 3; k++) {
-    V2 += h->v[k] * h->v[k];
-    along += h->d[k] * h->v[k];
-  }
-  for (int k = 0; k < 3; k++) {
-    across[k] = h->d[k] - along / V2 * h->v[k];
-    s += across[k] * across[k];
-    ds += across[k] * (h->dd[k] - along / V2 * h->dv[k]);
-  }
-  s = sqrt(s);
-  if (s > 0.0)
-    take(reach, j, h->r - s, ds / s);
-}
-
-/* The hit of an event, with tangents t. On a nose in flight it is one in the plane across that:
- * level and up. */
-static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tangent_rows *t,
-                  int j) {
-  static const int X[3] = {S_X, S_Y, S_Z}, V[3] = {S_V_X, S_V_Y, S_V_Z};
-  const carom_tangent_work *w = reach->work;
-  const carom_table *table = w->table;
-  const carom_ball_kind *kind = w->ball[event->a].kind;
-  const carom_ball_state *a = &event->before[0], *b = &event->before[1];
-  const bool two = event->type == CAROM_EVENT_BALL_BALL, is_jaw = event->type == CAROM_EVENT_JAW;
-  const bool in_flight = carom_flies(a),
-             at_nose = in_flight && (is_jaw || event->type == CAROM_EVENT_RAIL);
-  hit h = {.r = 0.0};
-  double to[2];
-
-  /* where the other body's centre is, and the sum of the radii */
-  if (two) {
-    memcpy(to, b->r, sizeof to);
-    h.r = kind->radius + w->ball[event->b].kind->radius;
-    h.d[2] = (carom_flies(b) ? b->r[2] : w->ball[event->b].kind->radius) -
-             (in_flight ? a->r[2] : kind->radius);
-  } else if (is_jaw) {
-    const carom_jaw *jaw = &table->jaw[event->b];
-    memcpy(to, jaw->centre, sizeof to);
-    h.r = jaw->radius + carom_reach_on_cloth(kind, jaw->height, w->reference);
-  } else if (event->type == CAROM_EVENT_POCKET && !in_flight) {
-    memcpy(to, table->pocket[event->b].centre, sizeof to);
-    h.r = table->pocket[event->b].radius;
-  } else if (at_nose) {
-    memcpy(to, table->rail[event->b].p, sizeof to);
-  } else {
-    return h;
-  }
-
-  /* from the ball to the body, and how it comes nearer, with their tangents */
-  for (int k = 0; k < (two || at_nose ? 3 : 2); k++) {
-    h.d[k] = k < 2 ? to[k] - a->r[k] : h.d[k];
-    h.v[k] = a->v[k] - (two ? b->v[k] : 0.0);
-    h.dd[k] = (two ? t[1][X[k]][j] : 0.0) - t[0][X[k]][j];
-    h.dv[k] = t[0][V[k]][j] - (two ? t[1][V[k]][j] : 0.0);
-  }
-  if (!at_nose)
-    return h;
-
-  /* along the vector from the nose to the ball, which takes the place of x */
-  const double height =
-      carom_nose_height(kind, is_jaw ? table->jaw[event->b].height : table->rail[event->b].height);
-  const double q = sqrt(h.d[0] * h.d[0] + h.d[1] * h.d[1]);
-  double out[3] = {-h.d[0] / q, -h.d[1] / q, 0.0};
-  if (!is_jaw)
-    carom_rail_line(&table->rail[event->b], out);
-
-  /* the nose is inside the wall; level parts are along that vector from here on */
-  const double beyond =
-      (is_jaw ? table->jaw[event->b].radius : 0.0) + carom_nose_shift(height, w->reference);
-  double *const level[4] = {h.d, h.v, h.dd, h.dv};
-  for (int n = 0; n < 4; n++) {
-    level[n][0] = out[0] * level[n][0] + out[1] * level[n][1];
-    level[n][1] = 0.0;
-  }
-  h.d[0] += beyond;
-  h.d[2] = height - a->r[2];
-  h.r = kind->radius;
-  return h;
 }
 
 /* Whether a jaw rounds an end of a rail. */
@@ -492,9 +329,6 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
     take_rails(reach, event, d[0]);
 
   /* of a cluster the contact that starts it */
-  for (int j = 0; j < m && !w->inner; j++) {
-    const hit h = hit_of(reach, event, d, j);
-    if (h.r > 0.0)
-      take_hit(reach, j, &h);
-  }
+  for (int j = 0; j < m && !w->inner && w->margin < INFINITY; j++)
+    take(reach, j, w->margin, w->margin_row[j]);
 }

@@ -61,6 +61,9 @@ typedef struct carom_tangent_work {
   carom_tangent_row time;
   carom_tangent_rows before[2];
   bool inner; /* it is one of a cluster, and not the one that starts it */
+  /* m: how far its hit is from a miss, or infinity; for reach only */
+  double margin;
+  carom_tangent_row margin_row;
 } carom_tangent_work;
 
 /* The numbers of the caller that stand for row `row` in a pass. */
@@ -73,7 +76,10 @@ static inline double *carom_tangent_columns(const carom_tangent_pass *pass, doub
  * x, low and high y, m. */
 void carom_tangent_edges(const carom_tangent_work *w, const carom_ball_kind *kind, double edge[4]);
 
-/* follow.cpp: takes a ball to where it begins, from the seeds; */
+/* follow.cpp: the gap whose zero would be an event of `type`, `a` and `b`, at its time, m, with its
+ * derivatives at that time, as the balls move from their last events on. */
+double carom_tangent_gap(carom_tangent_work *w, const carom_event *event, carom_tangent_row d);
+/* Takes a ball to where it begins, from the seeds; */
 void carom_tangent_begin(carom_tangent_work *w, int i);
 /* an event and its balls behind it; CAROM_OK, or an error of the collision; */
 carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *event);
@@ -104,6 +110,7 @@ static inline carom_status carom_no_tangents(const void *first, ...) {
 #define carom_tangent_follow carom_no_tangents
 #define carom_tangent_follow_cluster carom_no_tangents
 #define carom_tangent_at carom_no_tangents
+#define carom_tangent_gap carom_no_tangents
 #define carom_tangent_of_balls carom_no_tangents
 #define carom_tangent_of_cushion carom_no_tangents
 #endif
