@@ -15,5 +15,6 @@ lab verify --data data > table || echo "exit $?"
 echo "--- as CSV"
 lab verify --kernel euler --csv -o table.csv
 grep -v ',library-' table.csv | cut -d, -f1-7,12,17
+lab verify --kernel exact --csv | awk -F, 'NR > 1 { rows++; if ($9 > 5e-9 || $11 > 1e-6 || $6 != 204) print "not as it should be: " $0 } END { print (rows >= 4 ? "exact" : "too few rows") }'
 echo "--- in sentences"
 lab verify --kernel euler | grep '^euler[:,]'
