@@ -353,7 +353,7 @@ TEST(ends_of_the_range) {
 }
 
 /* ---- Euler's method: pooltool's step counts on the 204 cases (`carom-lab verify` compares the
- * bits); and it is of first order: ten times the steps, a tenth of the error against the exact references. */
+ * bits); and it is of first order: ten times the steps, a tenth of the error. */
 
 TEST(every_step_of_euler) {
   case_set cases;
