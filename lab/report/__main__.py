@@ -92,11 +92,10 @@ def number(text):
         return math.nan
 
 
-def shown(text, digits=4):
-    """A number with so many digits, from 1000 on whole and grouped; nothing for NA; other text as it is."""
+def shown(text):
+    """A number with four digits, from 1000 on whole and grouped; nothing for NA; other text as it is."""
     x = number(text)
-    return ("" if text in (None, "NA") or x != x and isinstance(text, float) else str(text) if x != x
-            else f"{x:,.0f}" if abs(x) >= 1000 else f"{x:.{digits}g}")  # fmt: skip
+    return "" if text in (None, "NA", "nan") else str(text) if x != x else f"{x:,.0f}" if abs(x) >= 1000 else f"{x:.4g}"
 
 
 # ---- Data
@@ -120,30 +119,31 @@ def measure(options, names):
             target.unlink(missing_ok=True)
 
 
-def write(options, name, notes, header, rows):
+def write(options, name, notes, rows):
+    """NAME.csv of rows, dictionaries with the same names; returns the sheet."""
+    target = options.folder / f"{name}.csv"
     if rows:
-        with open(options.folder / f"{name}.csv", "w", encoding="utf-8", newline="") as out:
+        with open(target, "w", encoding="utf-8", newline="") as out:
             out.writelines(f"# {what}: {text}\n" for what, text in notes.items())
-            csv.writer(out, lineterminator="\n").writerows([header, *rows])
-
-
-def default_config(ladder):
-    """bench notes "reference kernel: base, clang-default, with as many steps"."""
-    return ladder.notes.get("reference kernel", ",?").split(",")[1].strip()
+            csv.writer(out, lineterminator="\n").writerows([rows[0].keys(), *(row.values() for row in rows)])
+    return Sheet(target)
 
 
 def derive_speedup(options, data):
-    """The ladder's kernels in the default configuration. `paper` has the paper's number or NA, `paper_text` what it says."""
-    ladder, names = data["ladder"], ["ns_median", "ns_spread", "speedup", "speedup_spread"]
+    """The ladder's kernels in the configuration that bench notes: "reference kernel: base, clang-default, with as many steps".
+    `paper` has the paper's number or NA, `paper_text` what it says."""
+    ladder, names = data["ladder"], ["ns_spread", "speedup", "speedup_spread"]
+    config = ladder.notes.get("reference kernel", ",?").split(",")[1].strip()
     rows = []
     for kernel in data["kernels"].rows:
-        timed = ladder.first(kernel=kernel["kernel"], config=default_config(ladder)) if kernel["parent"] else {}
+        timed = ladder.first(kernel=kernel["kernel"], config=config) if kernel["parent"] else {}
         if timed:
-            paper = kernel["paper"] if number(kernel["paper"]) == number(kernel["paper"]) else "NA"
-            rows.append([kernel["kernel"], kernel["parent"], kernel["needs"], *(timed[name] for name in names)]
-                        + [paper, kernel["paper"], timed["config"]])  # fmt: skip
-    header = ["kernel", "parent", "needs", "ns", *names[1:], "paper", "paper_text", "config"]
-    write(options, "speedup", ladder.notes, header, rows)
+            paper = number(kernel["paper"])
+            rows.append({name: kernel[name] for name in ("kernel", "parent", "needs")} | {"ns": timed["ns_median"]}
+                        | {name: timed[name] for name in names} | {"paper": kernel["paper"] if paper == paper else "NA"}
+                        | {"paper_text": kernel["paper"], "ours_over_paper": f"{number(timed['speedup']) / paper:.4g}"}
+                        | {"config": config, "idea": kernel["idea"]})  # fmt: skip
+    return write(options, "speedup", ladder.notes, rows)
 
 
 def derive_performance(options, data):
@@ -153,20 +153,46 @@ def derive_performance(options, data):
     config = bounds.rows[0]["config"] if bounds.rows else ""
     if cycles.notes.get(config) != bounds.notes.get(config):
         complain(f"{config} was timed as another build than its operations were counted in")
-        return
+        return Sheet(options.folder / "performance.csv")
     cycle = number(cycles.notes.get("core cycle", "").split(" ")[0])
     for row in cycles.rows:
         count = bounds.first(kernel=row["kernel"], config=row["config"])
-        if number(count.get("flops_amd")) != number(count.get("flops_amd")) or not cycle > 0:
-            continue
-        steps, a_step = number(row["steps"]), number(count["per_step_flops_amd"])
-        flops, taken = number(count["flops_amd"]) + (steps - 1000) * a_step, number(row["ns_median"]) / cycle
-        bound = 1000 * a_step / number(count["chain_cycles_native"])
-        rows.append([row["kernel"], row["config"], row["steps"]]
-                    + [f"{x:.5g}" for x in (flops, taken, flops / taken, bound, flops / taken / bound)])  # fmt: skip
-    header = ["kernel", "config", "steps", "flops", "cycles", "flops_per_cycle", "bound_flops_per_cycle", "share_of_bound"]
-    write(options, "performance", cycles.notes, header, rows)
+        steps, a_step = number(row["steps"]), number(count.get("per_step_flops_amd"))
+        flops, taken = number(count.get("flops_amd")) + (steps - 1000) * a_step, number(row["ns_median"]) / cycle
+        bound = 1000 * a_step / number(count.get("chain_cycles_native"))
+        named = {"flops": flops, "cycles": taken, "flops_per_cycle": flops / taken, "bound_flops_per_cycle": bound, "share_of_bound": flops / taken / bound}
+        if flops == flops:
+            rows.append({name: row[name] for name in ("kernel", "config", "steps")} | {name: f"{x:.5g}" for name, x in named.items()})
+    return write(options, "performance", cycles.notes, rows)
 
+
+def operations(data):
+    """The counts, beside the paper's and the share of the bound at N = 1000, in per cent."""
+    rows = []
+    for row in data["bounds"].rows:
+        flops, bound, taken = PAPER_BOUNDS.get(row["kernel"], (math.nan,) * 3)
+        share = number(data["performance"].first(kernel=row["kernel"], steps="1000").get("share_of_bound"))
+        rows.append({**row, "paper_flops": flops, "paper_bound": bound, "share": 100 * share, "paper_share": 100 * bound / taken})
+    return [row for row in rows if row["flops_amd"] != "NA"]
+
+
+def worst_of_builds(rows):
+    worst = {}
+    for row in rows:
+        group = worst.setdefault((row["kernel"], row["reference"]), {**row, "builds": 0})
+        group["builds"] += 1
+        group["identical"] = min(group["identical"], row["identical"], key=number)
+        for name in ("max", "over_1e3", "over_1e2"):
+            group[name] = max(group[name], row[name], key=number)
+        group["verdict"] = min(group["verdict"], row["verdict"])  # fail before pass
+    return list(worst.values())
+
+
+def crossed(sheet, down, across, value):
+    """A row for each value of one column, a column for each of another."""
+    heads = dict.fromkeys(row[across] for row in sheet.rows)
+    return [{down: name} | {head: sheet.first(**{down: name, across: head}).get(value) for head in heads}
+            for name in dict.fromkeys(row[down] for row in sheet.rows)]  # fmt: skip
 
 def derive_cushion(options, measured):
     """Rolling balls straight into a cushion, the ball and the fitted numbers of the 2010 paper; and fine sweeps of the side spin of
@@ -191,7 +217,7 @@ def derive_cushion(options, measured):
                     rows.append([f"{what}-{model}", row["value"], f"{y:.6g}"])
     work.unlink()
     notes = {what: measured[what] for what in ("processor", "compiler", "commit", "date") if what in measured}
-    write(options, "cushion", {**notes, "solver": solver_bits(options)}, ["what", "x", "y"], rows)
+    write(options, "cushion", {**notes, "solver": solver_bits(options)}, [dict(zip(("what", "x", "y"), row)) for row in rows])
 
 
 def solver_bits(options):
@@ -206,12 +232,12 @@ def solver_bits(options):
 # ---- Figures
 
 
-def draw(name, options, data):
+def draw(name, options):
     """NAME.svg, with ids of its own, so that many can stand in one page."""
     source, title = FIGURES[name]
     target = options.folder / f"{name}.svg"
     target.unlink(missing_ok=True)
-    if not data[source].rows:
+    if not Sheet(options.folder / f"{source}.csv").rows:
         return
     script = HERE.parent / "figures" / f"{name}.gp"
     script = script if script.is_file() else ROOT / "cli" / "figures" / f"{name}.gp"
@@ -229,109 +255,50 @@ def draw(name, options, data):
 # ---- The page
 
 
-def table(rows, *columns):
-    """Of columns (head, name of a column or function of a row)."""
-    if not rows:
-        return None
-    cells = [[shown(what(row) if callable(what) else row.get(what)) for _, what in columns] for row in rows]
-    return {"heads": [head for head, _ in columns], "rows": cells}
-
-
-def crossed(sheet, down, across, value):
-    """A row for each value of one column, a column for each of another."""
-    heads = list(dict.fromkeys(row[across] for row in sheet.rows))
-    rows = [{"": name} for name in dict.fromkeys(row[down] for row in sheet.rows)]
-    columns = [(head, lambda row, head=head: sheet.first(**{down: row[""], across: head}).get(value)) for head in heads]
-    return table(rows, (down, ""), *columns)
-
-
-def worst_of_builds(verify):
-    rows = {}
-    for row in verify.rows:
-        group = rows.setdefault((row["kernel"], row["reference"]), {**row, "builds": 0})
-        group["builds"] += 1
-        group["identical"] = min(group["identical"], row["identical"], key=number)
-        for name in ("max", "over_1e3", "over_1e2"):
-            group[name] = max(group[name], row[name], key=number)
-        group["verdict"] = min(group["verdict"], row["verdict"])  # fail before pass
-    return list(rows.values())
-
-
-def ratio(above, below, factor=1.0):
-    return factor * number(above) / number(below) if number(below) else math.nan
-
-
-def tables(data):
-    ladder, kernels, performance = data["ladder"], data["kernels"], data["performance"]
-    library = [row for row in ladder.rows if row["config"] == "library" and row["isa"] == "scalar"]
-    batches = [row for row in ladder.rows + data["isas"].rows if row["isa"] not in ("scalar", "memcpy")]
-
-    def paper(place):
-        return lambda row: PAPER_BOUNDS.get(row["kernel"], ("NA",) * 3)[place]
-
-    def share(row):
-        return ratio(performance.first(kernel=row["kernel"], steps="1000").get("share_of_bound"), 1, 100)
-
-    def paper_share(row):
-        return ratio(paper(1)(row), paper(2)(row), 100)
-
-    return {
-        "speedups": table(
-            data["speedup"].rows + library, ("kernel", "kernel"), ("idea", lambda row: kernels.first(kernel=row["kernel"]).get("idea")),
-            ("ns", lambda row: row.get("ns") or row["ns_median"]), ("±", "ns_spread"), ("speedup", "speedup"), ("±", "speedup_spread"),
-            ("paper", "paper_text"), ("ours / paper", lambda row: ratio(row["speedup"], row.get("paper"))),
-        ),
-        "errors": table(
-            worst_of_builds(data["verify"]), ("kernel", "kernel"), ("reference", "reference"), ("builds", "builds"),
-            ("identical", lambda row: f"{row['identical']} of {row['cases']}"), ("largest error", "max"), ("bound", "bound"),
-            ("> 0.1 %", "over_1e3"), ("paper", "paper_1e3"), ("> 1 %", "over_1e2"), ("paper", "paper_1e2"), ("", "verdict"),
-        ),
-        "configurations": crossed(data["configs"], "kernel", "config", "speedup"),
-        "operations": table(
-            [row for row in data["bounds"].rows if row["flops_amd"] != "NA"], ("kernel", "kernel"),
-            *((kind, f"flops_{kind}") for kind in ("add", "mul", "div", "sqrt", "fma")), ("estimates", "rsqrt"),
-            ("conversions", "conversions"), ("sum", "flops_amd"), ("paper", paper(0)), ("bound, Zen 2 (cycles)", "chain_cycles_zen2"),
-            ("paper", paper(1)), ("bound, here (cycles)", "chain_cycles_native"), ("share, %", share), ("paper, %", paper_share),
-        ),
-        **{f"experiments_{name}": crossed(data["experiments"], "shot", "source", name)
-           for name in ("v_cue", "v_object", "angle_cue_deg", "angle_object_deg")},
-        "batches": table(
-            batches, *((name, name) for name in ("kernel", "isa", "precision", "threads")), ("pairs", lambda row: row.get("pairs", "65,688")),
-            ("ns", "ns_median"), ("±", "ns_spread"), ("speedup", "speedup"), ("largest error", "pair_error_max"),
-        ),
-    }  # fmt: skip
-
-
 def write_page(options, data):
-    pictures = {}
-    for name in (*FIGURES, "break"):
+    """index.html from its template, which names the figures and the tables; returns what it names and is not there."""
+    missing = []
+
+    def picture(name):
         svg = options.folder / f"{name}.svg"
-        if svg.is_file():
-            text = svg.read_text(encoding="utf-8")
-            pictures[name] = markupsafe.Markup(text[text.index("<svg") :])
+        if not svg.is_file():
+            missing.append(name)
+            return None
+        text = svg.read_text(encoding="utf-8")
+        return markupsafe.Markup(text[text.index("<svg") :])
+
+    def cells(name, rows, columns):
+        """The heads and the rows of a table, of the columns named, or all."""
+        if not rows:
+            missing.append(name)
+            return None
+        heads = columns.split() if columns else list(rows[0])
+        return [heads, *([shown(row.get(head)) for head in heads] for row in rows)]
+
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined,
                                      trim_blocks=True, lstrip_blocks=True)  # fmt: skip
-    notes, made = data["ladder"].notes, tables(data)
+    ladder = data["ladder"]
     page = environment.get_template("page.html").render(
-        pictures=pictures, tables=made, titles={name: title for name, (_, title) in FIGURES.items()}, notes=notes,
-        machine=[(what, notes[what]) for what in MACHINE if what in notes],
+        picture=picture, cells=cells, is_number=lambda text: not math.isnan(number(text.replace(",", ""))),
+        speedups=data["speedup"].rows, errors=worst_of_builds(data["verify"].rows), operations=operations(data),
+        configurations=crossed(data["configs"], "kernel", "config", "speedup"), experiments=data["experiments"].rows,
+        batches=[row for row in ladder.rows + data["isas"].rows if row["config"] == "library"],
+        machine=[(what, ladder.notes[what]) for what in MACHINE if what in ladder.notes],
         commands=[(f"{name}.csv", command) for name, (_, command) in DATA.items()],
     )  # fmt: skip
     (options.folder / "index.html").write_text(page, encoding="utf-8")
-    return [name for name in (*FIGURES, "break") if name not in pictures] + [name for name, one in made.items() if not one]
+    return missing
 
 
 def print_speedups(data):
     ladder = data["ladder"]
-    print(f"\nspeedup over base, {default_config(ladder)}, N = 1000, {ladder.notes.get('processor', 'processor unknown')}")
-    print(f"{'kernel':<17} {'ns':>9} {'speedup':>9}  paper")
+    print(f"\nspeedup over {ladder.notes.get('reference kernel')}, {ladder.notes.get('processor', 'processor unknown')}")
     for row in data["speedup"].rows:
-        print(f"{row['kernel']:<17} {number(row['ns']):>9.0f} {number(row['speedup']):>9.2f}  {row['paper_text']}")
-    batches = [row for row in ladder.rows if row["isa"] not in ("scalar", "memcpy")]
+        print(f"{row['kernel']:<17} {number(row['ns']):>9.0f} ns {number(row['speedup']):>9.2f}  the paper: {row['paper_text']}")
     for row in ladder.rows:
-        if row["config"] == "library" and (row["isa"] == "scalar" or row["isa"] == batches[-1]["isa"]):
-            how = "single calls" if row["isa"] == "scalar" else f"batches, {row['isa']}, {row['precision']}, {row['threads']} thread(s)"
-            print(f"{row['kernel']:<17} {number(row['ns_median']):>9.1f} {number(row['speedup']):>9.2f}  the library, {how}")
+        if row["config"] == "library":
+            how = f"{row['isa']}, {row['precision']}, {row['threads']} thread(s)"
+            print(f"{row['kernel']:<17} {number(row['ns_median']):>9.1f} ns {number(row['speedup']):>9.2f}  the library, {how}")
 
 
 # ---- The command
@@ -372,12 +339,10 @@ def main(words):
         derive_cushion(options, Sheet(options.folder / "accuracy.csv").notes)
         for name, command in DRAWN.items():
             run(command.format(shlex.quote(str(options.folder / f"{name}.svg"))), options, environment=PLAIN)
-    data = {name: Sheet(options.folder / f"{name}.csv") for name in (*DATA, "cushion")}
-    for name, derive in (("speedup", derive_speedup), ("performance", derive_performance)):
-        derive(options, data)
-        data[name] = Sheet(options.folder / f"{name}.csv")
+    data = {name: Sheet(options.folder / f"{name}.csv") for name in DATA}
+    data["speedup"], data["performance"] = derive_speedup(options, data), derive_performance(options, data)
     for name in wanted:
-        draw(name, options, data)
+        draw(name, options)
     if options.docs:
         (options.docs / "data").mkdir(exist_ok=True)
         for name in (*OF_DOCS, *DRAWN):

@@ -41,7 +41,7 @@ with tempfile.TemporaryDirectory() as work:
     shutil.copytree(SOURCE / "lab", folder / "lab")  # whose report looks for the build from where it lies
     (folder / "build").symlink_to(BUILD)
     (folder / "DIR").mkdir()
-    for measured in [*Path(SOURCE, "tests/report").glob("*.csv"), Path(SOURCE, "tests/report/break.svg")]:
+    for measured in [*Path(SOURCE, "docs/figures/data").glob("*.csv"), *Path(SOURCE, "tests/report").glob("*.csv"), Path(SOURCE, "docs/figures/break.svg")]:
         shutil.copy(measured, folder / "DIR")
     shutil.copy(folder / "DIR/steps.csv", folder)
     for page in pages(SOURCE):

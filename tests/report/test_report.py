@@ -17,14 +17,14 @@ sys.path.insert(0, str(ROOT))
 from lab.report import __main__ as report
 
 
-def page_of(folder):
-    page = folder / "index.html"
-    return tree.fromstring(page.read_text(encoding="utf-8")) if page.is_file() else None
-
-
 def make(folder, *words):
     done = subprocess.run([sys.executable, "-m", "lab.report", *map(str, words), str(folder)], capture_output=True, text=True, cwd=ROOT)
     return done, page_of(folder)
+
+
+def page_of(folder):
+    page = folder / "index.html"
+    return tree.fromstring(page.read_text(encoding="utf-8")) if page.is_file() else None
 
 
 def missing(page):
@@ -32,58 +32,51 @@ def missing(page):
 
 
 def table(page, name):
-    """The rows of the table under that heading, as texts."""
+    """The rows of the table under that heading, {head: text} each."""
     elements = list(page.iter())
     place = next(k for k, e in enumerate(elements) if e.get("id") == f"table-{name}")
     found = next(e for e in elements[place:] if e.tag == "table")
-    return [["".join(cell.itertext()) for cell in row] for row in found.iter("tr")]
+    heads, *rows = [["".join(cell.itertext()) for cell in row] for row in found.iter("tr")]
+    return [dict(zip(heads, row)) for row in rows]
 
 
 def test_stored(tmp_path):
-    """Whole, well-formed, without names that occur twice, and of the same bytes each time."""
-    (one, page), (two, _) = make(tmp_path / "one", "--from", STORED), make(tmp_path / "two", "--from", STORED)
+    """From stored rows: whole, well-formed, without names that occur twice, of the same bytes each time, and with the cells of the rows;
+    what is not there is named."""
+    stored = tmp_path / "stored"
+    stored.mkdir()
+    for path in [*(DOCS / "data").glob("*.csv"), *STORED.glob("*.csv"), DOCS / "break.svg"]:
+        shutil.copy(path, stored)
+    (one, page), (two, _) = make(tmp_path / "one", "--from", stored), make(tmp_path / "two", "--from", stored)
     assert (one.returncode, one.stderr) == (0, "") and missing(page) == []
-    figures = [e.get("id") for e in page.iter("figure")]
-    assert figures[:3] == ["figure-accuracy", "figure-speedup", "figure-break"]
-    assert sorted(figures) == sorted(f"figure-{name}" for name in (*report.FIGURES, "break"))
     ids = [e.get("id") for e in page.iter() if e.get("id")]
-    assert len(ids) == len(set(ids))
+    assert len(ids) == len(set(ids)) and {f"figure-{name}" for name in (*report.FIGURES, "break")} <= set(ids)
     for path in sorted((tmp_path / "one").iterdir()):
         assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes(), path.name
     assert one.stdout.replace(str(tmp_path / "one"), "") == two.stdout.replace(str(tmp_path / "two"), "")
 
+    bounds, base = report.Sheet(stored / "bounds.csv").first(kernel="base"), table(page, "operations")[0]
+    assert [base[name] for name in ("kernel", "flops amd", "paper flops", "chain cycles zen2", "paper bound")] == [
+        "base", f"{float(bounds['flops_amd']):,.0f}", "77,796", f"{float(bounds['chain_cycles_zen2']):,.0f}", "77,000"]  # fmt: skip
+    configs = report.Sheet(stored / "configs.csv")
+    for row in table(page, "configurations"):
+        for config in list(row)[1:]:
+            assert row[config] == report.shown(configs.first(kernel=row["kernel"], config=config).get("speedup")), (row, config)
+    errors = {(row["kernel"], row["reference"]): row for row in table(page, "errors")}
+    for row in report.Sheet(stored / "verify.csv").rows:
+        assert float(errors[row["kernel"], row["reference"]]["max"]) >= 0.999 * float(row["max"])
+    performance = report.Sheet(tmp_path / "one" / "performance.csv").first(kernel="base", steps="1000")
+    assert float(performance["flops_per_cycle"]) == pytest.approx(float(performance["flops"]) / float(performance["cycles"]), rel=1e-3)
 
-def test_tables(tmp_path):
-    """Cells beside the rows they come from."""
-    _, page = make(tmp_path / "one", "--from", STORED)
-    bounds = report.Sheet(STORED / "bounds.csv").first(kernel="base")
-    base = next(row for row in table(page, "operations") if row[0] == "base")
-    assert base[8:12] == [f"{float(bounds['flops_amd']):,.0f}", "77,796", f"{float(bounds['chain_cycles_zen2']):,.0f}", "77,000"]
-    configs = report.Sheet(STORED / "configs.csv")
-    crossed = table(page, "configurations")
-    for row in crossed[1:]:
-        for config, cell in zip(crossed[0][1:], row[1:]):
-            assert cell == report.shown(configs.first(kernel=row[0], config=config).get("speedup")), (row[0], config)
-    errors = {(row[0], row[1]): row for row in table(page, "errors")[1:]}
-    for row in report.Sheet(STORED / "verify.csv").rows:
-        assert float(errors[row["kernel"], row["reference"]][4]) >= 0.999 * float(row["max"])
-    operations = report.Sheet(tmp_path / "one" / "performance.csv").first(kernel="base", steps="1000")
-    assert float(operations["flops_per_cycle"]) == pytest.approx(float(operations["flops"]) / float(operations["cycles"]), rel=1e-3)
-
-
-def test_what_is_not_there_is_named(tmp_path):
-    shutil.copytree(STORED, tmp_path / "some", ignore=shutil.ignore_patterns("bounds.csv", "break.svg"))
-    done, page = make(tmp_path / "one", "--from", tmp_path / "some")
-    assert done.returncode == 1 and len(missing(page)) == 3  # the performance, its table, the break
-    assert "not there: performance, break, operations" in done.stderr
+    for name in ("bounds.csv", "break.svg"):
+        (stored / name).unlink()
+    done, page = make(tmp_path / "three", "--from", stored)
+    assert done.returncode == 1 and len(missing(page)) == 3
+    assert "not there: break, performance, operations" in done.stderr
+    assert make(tmp_path / "four", "--from", tmp_path / "nowhere")[0].returncode == 2
+    assert "--budget" in make(tmp_path / "four", "--budget", "0")[0].stderr
 
 
-def test_bad_usage(tmp_path):
-    assert make(tmp_path / "one", "--from", tmp_path / "nowhere")[0].returncode == 2
-    assert "--budget" in make(tmp_path / "one", "--budget", "0")[0].stderr
-
-
-@pytest.mark.skipif(not (DOCS / "data").is_dir(), reason="the figures of the docs were not made with their data yet")
 def test_figures_of_the_docs(tmp_path):
     """Each figure is what gnuplot draws from the CSV beside it, all were measured by one build on one machine, and the solver that
     they show computes the same bits as this one."""
