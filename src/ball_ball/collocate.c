@@ -365,6 +365,7 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
     error = take_full_step(a, ahead, to_end, s, out);
   else if (kind == STICK)
     error = take_stick_step(a, ahead, s, out);
+  /* those with graded lengths: to the end, a part of it, or up to where the slip turns */
   else if (kind == FULL_GRADED)
     error = take_graded_step(a, ahead, length_to_end(a, ahead, to_end), last, s, &behind, out);
   else if (kind == PART) {
@@ -377,6 +378,7 @@ always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead,
     error = take_turn_step(a, &p, last, s, &behind, out);
   }
 
+  /* the lanes that it has brought to the end */
   const vmask accepted = v_less(error, a->tolerance) & v_not(impossible), solved = accepted & last;
   if (!v_any(v_not(solved)))
     return solved;

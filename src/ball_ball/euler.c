@@ -88,6 +88,7 @@ carom_status carom_euler(carom_local *state, int N, int64_t most, carom_euler_ru
       DP1 = -c.mu_b * DP * u_x / u;
       if (fabs(u_z) >= 1e-16) {
         DP2 = -c.mu_b * DP * u_z / u;
+        /* the pressed ball, j or i, rubs on the cloth against its slip there */
         if (DP2 > 0.0) {
           const double b = sqrt(b_x * b_x + b_y * b_y);
           if (b != 0.0) {

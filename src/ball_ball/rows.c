@@ -49,6 +49,8 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
               inverse = v_reciprocal_sqrt(square);
   r->y_x = r_x * inverse;
   r->y_y = r_y * inverse;
+
+  /* relative velocity and the sum of spins, by which u and the approach follow */
   const vreal v_x = a[3] - b[3], v_y = a[4] - b[4], w_x = a[6] + b[6], w_y = a[7] + b[7],
               w_z = a[8] + b[8];
   const vreal approach = v_x * r_x + v_y * r_y, u_z = R * (w_x * r_y - w_y * r_x);
@@ -70,6 +72,8 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
   r->per_kappa = M_o * r->per_total;
   r->u_x = u_x * per_unit;
   r->u_z = v_abs(u_z) * per_unit;
+
+  /* the columns of the kernel; the mirror image where ball b is pressed */
   const vreal side = v_select(b_pressed, -per_unit, per_unit),
               mu = v_select(b_pressed, b[11], a[11]);
   out[IN_U_X] = r->u_x;
@@ -90,6 +94,7 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
    * friction does. It must be well above 0, else friction would choose the direction of the
    * slip, and twice that friction: see is_sensitive(). */
   const vreal drift = s < 0 ? v_splat(1) : 1 - mu_b * ((real)2.5 + (real)1.5 * mu);
+  /* all limits at once, without a branch */
   const vmask in_range =
       v_less(v_splat(LEAST_DRIFT), drift) & v_less(3 * mu * mu_b, drift) &
       v_less(v_splat(LEAST_APPROACH), r->approach) & v_less(r->approach, v_splat(MOST_APPROACH)) &
@@ -97,6 +102,8 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
       v_less(mu_b, v_splat(MOST_MU_B)) & v_less(mu * mu_b, v_splat(MOST_MU_MU_B)) &
       v_less(v_splat(LEAST_MARGIN), kappa - mu) & v_less(v_splat(LEAST_RATIO), ratio) &
       v_less(ratio, v_splat(MOST_RATIO));
+
+  /* what the way back from the reduced collision needs */
   lanes_unrolled for (int k = 0; k < 2; k++) {
     r->a_v[k] = a[3 + k];
     r->b_v[k] = b[3 + k];

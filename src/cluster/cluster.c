@@ -302,6 +302,8 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
     const double share = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
     f[0] = x->f[0] - share * u[0];
     f[1] = x->f[1] - share * u[1];
+
+    /* as large as mu lets it be */
     const double size2 = f[0] * f[0] + f[1] * f[1];
     if (size2 > most * most) {
       const double down = most / sqrt(size2);
@@ -314,6 +316,7 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
     f[1] = k * m_y;
   }
 
+  /* the new iterate */
   for (int k = 0; k < 2; k++) {
     change[k] = f[k] - x->f[k];
     x->f[k] = f[k];

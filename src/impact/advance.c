@@ -415,13 +415,15 @@ static bool next_step(carom_trajectory *path, double to) {
       carom_variation_straight(path, &before, planar);
     if (there)
       end_phase(path);
+
+    /* a slip that has come to nothing is zero from here on */
     const bool goes_on = !snap_to_zero(path, &before) || carom_impact_regime(path, false);
     if (path->variation != NULL)
       carom_variation_follow(path, &before, there);
     return goes_on;
   }
 
-  /* the plan: the first that applies */
+  /* what every plan needs, and the plan: the first that applies */
   plan n;
   n.s.target = s.target;
   n.s.restitution = path->restitution;
@@ -457,6 +459,8 @@ static bool next_step(carom_trajectory *path, double to) {
       return true;
     }
   }
+
+  /* taken: the next regime or phase, if one begins at the end of the step */
   if (r == TAKEN) {
     path->longest = INFINITY;
     path->refusals = 0;

@@ -344,6 +344,8 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     per_E[i] = driving_slips && exact == FOR_NONE ? 1 / s->E[i] : splat(1);
     to_end[i] = PART(WEIGHT, i) * s->z[i] * (s->length - s->p[i]);
   }
+
+  /* iterations; `scale` is the length over the planned one, `last` the last correction */
   double scale = 1, last = 1, last_rate = 0.3;
   bool converged = false, forward = true, near = false;
   for (int n = 0; n < MOST_ITERATIONS && !converged; n++) {
@@ -356,6 +358,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
             ? 0
             : to_goal(&k, at, s, &c, scale, to_end, driving_slips) / (scale * s->length);
     EACH correction[i] = splat(0);
+
     /* u from the slip at the driving contact */
     if (driving_slips) {
       integrate_slip(at->a_x, at->a_y, c.za_x, c.za_y, slip_x, slip_y);
@@ -372,6 +375,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
       else
         rotate(slip_x, slip_y, zk, per_E, s->E, near, inverse_a, c.u_x, c.u_y, correction);
     }
+
     /* t from the slip on the cloth */
     if (loaded) {
       integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
@@ -387,6 +391,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
           D_y[i] = -k.H_y * (zw * c.t_x[i] + zw_t * c.t_y[i]);
           zk[i] = c.t_y[i] * D_x[i] - c.t_x[i] * D_y[i];
         }
+      /* by its linear equations, or by the kernel for t: ITERATION */
       if (exact == FOR_BOTH)
         forward &= rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_t, c.t_x,
                                   c.t_y, correction_t);
@@ -400,6 +405,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
       }
       EACH correction[i] = greater(correction[i], correction_t[i]);
     }
+
     /* the error left is the last correction times the rate of convergence; it acts over the length
      * of the step */
     const double now = largest(correction), rate = n > 0 ? now / last : 0.3,
@@ -409,6 +415,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     const double share = scale * s->length < 1 ? scale * s->length : 1;
     converged = now * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance && now < 1e-3 &&
                 fabs(change) < SETTLED;
+
     /* the new length, within limits */
     scale *= 1 + (change > 0.5 ? 0.5 : change > -0.4 ? change : -0.4);
     near = now < NEARLY_CONVERGED && fabs(change) < NEARLY_CONVERGED;

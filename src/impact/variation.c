@@ -98,6 +98,7 @@ static double changed_terms(const carom_trajectory *path, enum carom_variable by
       l[k].mu_c += s * law->mu_c;
       step = COEFFICIENT * law->mu_c;
     } else {
+      /* of the driving contact, of the cloth, of its load and of the approach: law.h */
       l[k].A_0 += s * d->A_0;
       l[k].K_x += s * d->K_x;
       l[k].K_y += s * d->K_y;

@@ -157,6 +157,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   for (int r = 0; r < CAROM_VARIED; r++)
     EACH d[r][i] = PART(g->d[r], i);
   EACH alpha[i] = splat(0);
+
+  /* which slip that is, or none */
   int split = vanishes;
   const double size_a = before->a_x * before->a_x + before->a_y * before->a_y,
                size_b = before->b_x * before->b_x + before->b_y * before->b_y;
@@ -164,6 +166,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     split = OF_A_X;
   else if (split < 0 && loaded && size_b > 0 && size_b < SMALL * SMALL)
     split = OF_B_X;
+
+  /* alpha by the rates of that slip at the start of the step */
   if (split >= 0) {
     const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x,
                               path->regime.t_y};
@@ -208,7 +212,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   table phi, psi, right;
   nodes rate_x, rate_y, along;
   if (driving_slips) {
-    EACH {
+    EACH { /* the rates of the slip, z a' */
       rate_x[i] = z[i] * (k->S_x * u_x[i] - k->C_x * w[i] * t_x[i]);
       rate_y[i] = z[i] * (k->A_0 + k->S_y * u_y[i] - k->C_y * w[i] * t_y[i]);
     }
@@ -219,13 +223,16 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
     right_sides(d, by, OF_A_X, parameters, u_x, u_y, right);
     multiply(of_u, right, phi);
   }
+
+  /* likewise t, where the cloth bears a load */
   if (loaded) {
-    EACH {
+    EACH { /* the rates of the slip, z b' */
       rate_x[i] = z[i] * (k->R_x * u_x[i] - k->H_x * w[i] * t_x[i]);
       rate_y[i] = z[i] * (k->B_0 + k->R_y * u_y[i] - k->H_y * w[i] * t_y[i]);
     }
     lengths(before->b_x, before->b_y, rate_x, rate_y, t_x, t_y, along);
     block(t_x, t_y, by_t[OF_B_X], by_t[OF_B_Y], along, of_t);
+
     /* its own block and right sides; then what phi takes from them */
     right_sides(d, by, OF_B_X, parameters, t_x, t_y, right);
     matrix of_ut;
@@ -233,6 +240,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
       /* of_ut becomes the product of the inverse and its block */
       block(u_x, u_y, by_t[OF_A_X], by_t[OF_A_Y], NULL, of_ut);
       block(t_x, t_y, by_u[OF_B_X], by_u[OF_B_Y], NULL, of_tu);
+
+      /* column by column; the Schur complement is what remains of its own block */
       for (int j = 0; j < NODES; j++) {
         nodes column, product;
         EACH column[i] = PART(of_ut[j], i);
@@ -241,12 +250,17 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
         apply((const double(*)[NODES])of_tu, product, column);
         EACH((part_of_row *)of_t[j])[i] -= (part_of_row)column[i];
       }
+
+      /* likewise of the right sides */
       multiply(of_tu, phi, psi);
       for (int j = 0; j < NODES; j++)
         EACH right[j][i] -= psi[j][i];
     }
+
+    /* psi, of what phi has left */
     invert(of_t);
     multiply(of_t, right, psi);
+
     /* what psi takes from phi */
     if (driving_slips) {
       multiply(of_ut, psi, right);
@@ -277,6 +291,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
         EACH x[i] = madd(splat(AT(by_u[r], j)), phi[j][i], x[i]);
       if (loaded)
         EACH x[i] = madd(splat(AT(by_t[r], j)), psi[j][i], x[i]);
+
+      /* the sums, and for W that of v once more */
       EACH {
         end[r][i] = madd(splat(WEIGHT[j]), x[i], end[r][i]);
         highest[i] = madd(splat(HIGHEST[j]), x[i], highest[i]);
@@ -284,6 +300,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
           end[OF_W][i] = madd(splat(to_end[j]), x[i], end[OF_W][i]);
       }
     }
+
+    /* the largest derivative of all rows, and the largest coefficient */
     EACH {
       size[i] = greater(greater(magnitude(PART(g->d[r], i)), magnitude(end[r][i])), size[i]);
       error[i] = greater(magnitude(highest[i]), error[i]);

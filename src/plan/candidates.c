@@ -187,17 +187,22 @@ void carom_search_breaks(search *of, int64_t most) {
     ball[at] = k;
   }
 
+  /* strokes in an order that is drawn: a number stands for ball, side, speed and tip */
   int order[TARGETS * SIDES * SPEEDS * HEIGHTS];
   const int strokes = balls * SIDES * SPEEDS * HEIGHTS;
   draw_order(of, DRAW_BREAKS, order, strokes);
   for (int n = 0; n < strokes && n < most; n++) {
     const int target = order[n] % balls, stroke = order[n] / balls;
     const double *r = of->job.balls[ball[target]].state.r;
+
+    /* aimed beside the middle of the ball, by a part of both radii */
     const double both = of->view.radius[of->view.cue_ball] + of->view.radius[ball[target]];
     const double beside = both * side[stroke % SIDES] / distance[target];
     const double phi =
         (carom_angle_of(r[0] - c[0], r[1] - c[1]) + carom_asin(carom_within(beside, -1.0, 1.0))) /
         degree;
+
+    /* as hard as the player can, or somewhat less */
     const double speed = share[stroke / SIDES % SPEEDS] * of->player.speed_most;
     const double tip = above[stroke / SIDES / SPEEDS];
     carom_search_add(

@@ -459,6 +459,7 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   carom_record *record = in->record;
   in->key = NULL;
   switch (kind) {
+  /* what the game begins with */
   case CAROM_RECORD_HEAD:
     in->key = "format";
     return record->format == FORMAT ||
@@ -470,6 +471,8 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
     record->moved = 0;
     in->key = "list";
     return record->count > 0 || wrong(in, "must have 1 to 32 balls");
+
+  /* a ball is placed by the rules of carom_place_ball() */
   case CAROM_RECORD_PLACE: {
     const int ball =
         record->placed >= 0 && record->placed < record->count ? (int)record->placed : -1;

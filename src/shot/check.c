@@ -164,6 +164,8 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
   carom_status bad = prepare_for(table, layout, count, flat, features, where);
   if (bad != CAROM_OK)
     return bad;
+
+  /* each ball by itself, on the table, and beside those before it */
   double height[CAROM_BALLS_MOST];
   for (*where = 0; *where < count; ++*where) {
     const carom_ball_kind *kind = carom_kind_in(layout, *where);
@@ -173,6 +175,8 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
         *where > 0 && memcmp(kind, carom_kind_in(layout, *where - 1), sizeof *kind) == 0;
     if (!known)
       bad = check_kind(kind);
+
+    /* beside the first one, and for the table */
     if (bad == CAROM_OK && flat && kind->radius != layout.kind->radius)
       bad = CAROM_ERROR_RADII_DIFFER;
     if (bad == CAROM_OK && kind->nose_height >= 2.0 * features->reference)
@@ -183,6 +187,8 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
       bad = check_state(state, kind->radius, flat);
     if (bad != CAROM_OK)
       return bad;
+
+    /* where it is, unless it is out of play */
     const double r[3] = {state->r[0], state->r[1], height_of(state, kind->radius)};
     height[*where] = r[2];
     if (carom_is_out(state->label))

@@ -221,6 +221,8 @@ carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *b
   const carom_status status = carom_shot_at_times(balls, count, shot, times, n, states);
   if (status < 0)
     return status;
+
+  /* balls that fall, in the order in which they do; those that lie in the pockets already */
   const int64_t known = shot->count < shot->room ? shot->count : shot->room;
   lying others[CAROM_BALLS_MOST];
   int down = 0;
@@ -229,6 +231,8 @@ carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *b
     if (event->type != CAROM_EVENT_POCKET || event->a < 0 || event->a >= count || event->b < 0 ||
         event->b >= table->pockets || !(balls[event->a].kind.gravity > 0.0))
       continue;
+
+    /* its fall, seen at all times that are later */
     fall f = {.pocket = &table->pocket[event->b],
               .kind = &balls[event->a].kind,
               .from = &event->before[0]};
@@ -236,6 +240,8 @@ carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *b
     for (size_t k = 0; k < n; k++)
       if (times[k] >= event->time)
         state_at(&f, times[k] - event->time, &states[k * (size_t)count + (size_t)event->a]);
+
+    /* where it lies at last, for those that fall on it */
     if (down == CAROM_BALLS_MOST) /* events that no shot has */
       continue;
     carom_ball_state last = event->before[0];

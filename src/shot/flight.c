@@ -246,6 +246,8 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
                rise = f->v[2] > 0.0 ? 0.5 * f->v[2] * f->v[2] / f->g : 0.0;
   /* it is or comes to be higher than a rail */
   const bool above = f->r[2] + rise >= low + f->radius - on_top;
+
+  /* of the parts beside the track only; their tops from above */
   float box[4];
   box_of(f, *T, features->reference, box); /* noses are inside their walls, by less than that */
   for (int k = 0; k < features->rails + features->jaws; k++) {
@@ -253,6 +255,8 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
     if (!above && !is_near)
       continue;
     const int j = k - features->rails;
+
+    /* its nose, or the circle of that */
     const double h =
         carom_nose_height(kind, j < 0 ? sim->table->rail[k].height : sim->table->jaw[j].height);
     const double shift = carom_nose_shift(h, features->reference);
@@ -261,6 +265,8 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
       const carom_jaw *jaw = &sim->table->jaw[j];
       c = (circle){{jaw->centre[0], jaw->centre[1]}, jaw->radius + shift, h};
     }
+
+    /* its top, on which a ball that rests has left the table; then the nose */
     bool lies = false;
     const double top = above ? fall_on(f, h + f->radius, &lies) : INFINITY;
     if (top <= *T && (j < 0 ? over_rail(features, k, shift, f, top) : over_jaw(&c, f, top)))

@@ -40,6 +40,7 @@ static int list_due(const carom_sim *sim, double limit, carom_due due[MOST_DUE])
     /* neither the ball itself nor a pair with one behind it is due */
     if (sim->own[i] > limit && sim->first[i] > limit)
       continue;
+
     /* the end of its phase, its meeting with the table, its pairs with balls j > i */
     if (sim->path[i].end <= limit)
       due[count++] = end_of(sim, i);

@@ -274,6 +274,7 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
     resolve_slowly(&c, slow, closing);
   }
 
+  /* the phases that follow */
   carom_label_after(c.in_space, c.kind_a, a);
   if (b != NULL)
     carom_label_after(c.in_space, c.kind_b, b);

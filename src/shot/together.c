@@ -26,6 +26,8 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
     b.r[2] = kind->radius;
     b.v[2] = 0.0;
   }
+
+  /* what it is made of, where 0 stands for usual */
   b.flies = flies;
   b.which = (int8_t)which;
   b.radius = kind->radius;
@@ -34,6 +36,8 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
   b.restitution = kind->restitution;
   b.modulus = kind->modulus > 0.0 ? kind->modulus : usual_modulus;
   b.friction = (int8_t)opt->friction;
+
+  /* a mirror has no friction with others: all numbers of the law 0 */
   if (opt->ball_model != CAROM_BALL_MODEL_MIRROR)
     carom_law_of_ball(opt->friction, kind, b.law);
   return b;
@@ -200,18 +204,24 @@ static carom_status solve(const carom_shot_ball *balls, int count, const carom_s
                           int *found) {
   carom_cluster_state c;
   bool done[CAROM_CLUSTER_BALLS];
+
+  /* balls keep their motion that are in no cluster */
   for (int k = 0; k < count; k++) {
     done[k] = carom_is_out(balls[k].state.label);
     memcpy(out[k].v, balls[k].state.v, sizeof out[k].v);
     memcpy(out[k].w, balls[k].state.w, sizeof out[k].w);
   }
+
   for (;;) {
+    /* the fastest contact of the balls that are left, with all that it can reach */
     gather(balls, count, opt, done, &c);
     const int size = carom_cluster_members(&c, -1, -1);
     if (size == 0)
       return *found > 0 ? CAROM_OK : CAROM_SEPARATING;
     if (size < 0 || !carom_cluster_solve(&c))
       return CAROM_ERROR_UNRESOLVED;
+
+    /* its balls are done, */
     for (int k = 0; k < c.balls; k++) {
       const int i = c.ball[k].which;
       done[i] = true;
@@ -219,6 +229,8 @@ static carom_status solve(const carom_shot_ball *balls, int count, const carom_s
       if (!carom_is_finite(out[i].v) || !carom_is_finite(out[i].w))
         return CAROM_ERROR_OVERFLOW;
     }
+
+    /* and its contacts are told */
     uint8_t order[CAROM_CLUSTER_CONTACTS];
     const int touched = in_order(&c, order);
     for (int k = 0; k < touched; k++, ++*found)

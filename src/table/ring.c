@@ -155,6 +155,8 @@ static bool encloses(ring *g, double first, double grown, const double P[2], con
     g->parent[i] = i;
     g->windings[i] = 0;
   }
+
+  /* edges between neighbours: those that are short first */
   for (int pass = 0; pass < (first < grown ? 2 : 1); pass++)
     for (int i = 0; i < g->count; i++)
       for (int j = i + 1; j < g->count; j++)
@@ -163,11 +165,13 @@ static bool encloses(ring *g, double first, double grown, const double P[2], con
              which++) {
           const shape *a = &g->shape[i], *b = &g->shape[j];
           double in_a[2], in_b[2];
+          /* an edge that is not too long for this pass */
           const double apart = edge(a, b, which, in_a, in_b) - a->reach - b->reach;
           if (!(apart <= (pass == 0 ? first : grown) && apart < INFINITY))
             continue;
           const int turns =
               windings_of(a, b, in_a, in_b, P) - (Q != NULL ? windings_of(a, b, in_a, in_b, Q) : 0);
+          /* it joins two trees, or closes a chain, of which the windings are known then */
           int to_i, to_j;
           const int root_i = root_of(g, i, &to_i), root_j = root_of(g, j, &to_j);
           if (root_i != root_j) {

@@ -182,6 +182,8 @@ CAROM_APART void take_part(scene *s) {
          (int64_t)(w->count - 1) * CAROM_KIND_NUMBERS +
              (int)(offsetof(carom_ball_kind, radius) / sizeof(real)),
          &s->features.reference);
+
+  /* the part: tops count rails first, then jaws */
   const int b = e->type == CAROM_EVENT_RAIL_TOP && e->b >= w->table->rails
                     ? e->b - (int)w->table->rails
                     : e->b;
@@ -201,7 +203,7 @@ CAROM_APART void take_part(scene *s) {
       nose[k] = k == 0 ? &to->height : k == 1 ? &to->mu_cushion : &to->restitution;
       value[k] = k == 0 ? from->height : k == 1 ? from->mu_cushion : from->restitution;
     }
-  } else {
+  } else { /* likewise a jaw, with its circle */
     const carom_jaw *from = &w->table->jaw[b];
     text::carom_jaw *to = &s->table.jaw[0];
     to->centre[0] = from->centre[0];
@@ -424,12 +426,16 @@ real leaves_slate(const scene *s, const carom_ball_state *struck, real scale) {
 
 CAROM_APART text::carom_status strike(scene *s) {
   const carom_tangent_work *w = s->w;
+
+  /* the numbers of the cue with their seeds */
   text::carom_cue cue = {};
   number *x = &cue.speed;
   for (int k = 0; k < CAROM_CUE_NUMBERS; k++) {
     x[k] = (&w->cue->speed)[k];
     load(w->pass, w->seeds->cue, k, &x[k]);
   }
+
+  /* a level cue that a change raises is raised a trace now */
   const bool flat = w->opt->space == CAROM_SPACE_FLAT,
              level = !flat && cue.theta.x == 0 && text::changes(cue.theta);
   if (level)
@@ -440,6 +446,7 @@ CAROM_APART text::carom_status strike(scene *s) {
   if (status < 0)
     return status;
 
+  /* a blow that goes down presses the ball on the slate */
   carom_ball_state *state = &s->ball[0].state;
   memcpy(state->v, motion.v, sizeof motion.v);
   memcpy(state->w, motion.w, sizeof motion.w);

@@ -102,12 +102,15 @@ static miss miss_of(const carom_tangent_work *w, int i, int type, int b) {
                  nose = carom_nose_height(ball->kind, height);
     memcpy(r[1], rail ? table->rail[b].p : table->jaw[b].centre, 2 * sizeof r[1][0]);
     r[1][2] = flies ? nose : r[0][2];
+
+    /* the ring of a jaw; a nose in flight is inside its wall, where the ball touches it at R */
     m.ring =
         (rail ? 0.0 : table->jaw[b].radius) + (flies ? carom_nose_shift(nose, w->reference) : 0.0);
     m.reach = flies ? ball->kind->radius : carom_reach_on_cloth(ball->kind, height, w->reference);
     if (rail)
       carom_rail_line(&table->rail[b], m.line);
   }
+
   for (int k = 0; k < 3; k++) {
     m.d[k] = r[1][k] - r[0][k];
     m.v[k] = v[1][k] - v[0][k];

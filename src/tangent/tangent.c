@@ -237,6 +237,8 @@ static carom_status shot_tangent(const carom_table *table, carom_layout layout, 
   status = status == CAROM_OK ? BUILT : status;
   tangent->error = 0.0;
   tangent->all_flags = 0;
+
+  /* pass by pass, as many directions at a time as a number carries */
   work w;
   w.table = table;
   w.cue = cue;
@@ -249,6 +251,8 @@ static carom_status shot_tangent(const carom_table *table, carom_layout layout, 
     w.pass = pass_of(m, first);
     status = differentiate(&w, layout, shot);
   }
+
+  /* derivatives that overflow, and those of an error, are NaN */
   const int64_t finals = (int64_t)count * CAROM_STATE_NUMBERS * seeds->directions;
   for (int64_t k = 0; status == CAROM_OK && k < finals; k++)
     status = isfinite(tangent->final[k]) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
@@ -326,12 +330,16 @@ carom_status carom_collide_tangent(const carom_impact *in, const carom_options *
   const size_t m = (size_t)directions;
   carom_result out;
   carom_tangent_note note = {0, 0.0};
+
+  /* the impact itself, which checks the arguments; other models have no derivatives */
   carom_status status = carom_collide(in, opt, &out);
   opt = opt != NULL ? opt : &defaults;
   memset(tangent, 0, 12 * m * sizeof *tangent);
   if (status >= 0 && (opt->solver != CAROM_SOLVER_EXACT || opt->slip != CAROM_SLIP_PAPER))
     status = CAROM_ERROR_TANGENT;
   status = status >= 0 && BUILT < 0 ? BUILT : status;
+
+  /* balls that part keep their motion: v and w of both among the numbers of an impact */
   if (status == CAROM_SEPARATING) {
     static const int from[12] = {3, 4, 5, 6, 7, 8, 15, 16, 17, 18, 19, 20};
     for (int k = 0; k < 12; k++)
