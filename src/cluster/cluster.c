@@ -127,6 +127,8 @@ static void touch(bool flat, contact *x, double half) {
     d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
     v[k] = q->v[k] - p->v[k];
   }
+
+  /* when |d + v time| was R, at most a step ago; the normal there */
   const double R = p->radius + q->radius;
   const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v),
                C = cluster_dot(flat, d, d) - R * R;
@@ -139,6 +141,8 @@ static void touch(bool flat, contact *x, double half) {
   const double size = sqrt(cluster_dot(flat, x->n, x->n));
   for (int k = 0; k < 3; k++)
     x->n[k] /= size;
+
+  /* the offset with which the overlap is R less the distance along n, as s counts on */
   double s[3];
   cluster_minus(flat, p->s, q->s, s);
   x->offset = R - cluster_dot(flat, d, x->n) - cluster_dot(flat, s, x->n);
@@ -213,14 +217,18 @@ static inline bool find_acting(bool flat, double h, double tau, pushes *now, con
     x->touched = overlap = true;
     if (x->d_max == 0.0) { /* it touches now */
       const double v = closing_of(flat, x);
-      x->U = -1.0;
+      x->U = -1.0; /* less than any slip: the first one sets mu */
       x->f[0] = x->f[1] = 0.0;
       if (x->time < 0.0)
         x->time = greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
     }
+
+    /* its force, by the overlap at half a step */
     x->d = d;
     x->size = d >= x->d_max ? greater(x->size, d) : x->size;
     x->J = h * carom_hertz_force(x->K, x->e, d, &x->d_max);
+
+    /* a contact's duration is as (K B)^-1/2 size^-1/4 */
     const double KB = x->K * mobility(x), stiff = KB * KB * x->size;
     if (stiff > stiffest) {
       stiffest = stiff;
@@ -259,7 +267,8 @@ static inline void rub_on_cloth(ball *p) {
       g[0] = -u_x / m;
       g[1] = -u_y / m;
     } else {
-      /* a slip that may turn back within the step has no mean direction */
+      /* a slip that may turn back within the step, of a mean below twice what friction takes, has
+       * no mean direction */
       const double x = p->base[0] + u_x, y = p->base[1] + u_y, mean2 = x * x + y * y;
       const bool by_end = mean2 < 16.0 * stops * stops;
       const double k = -most / sqrt(by_end ? end2 : mean2);
@@ -368,6 +377,7 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
   }
 }
 
+/* The friction of a step, of all contacts and of the cloth. */
 static inline void rub_all(bool flat, const pushes *now) {
   double change[CAROM_CLUSTER_CONTACTS][2];
   /* first that of the step before */
@@ -389,6 +399,7 @@ static inline void rub_all(bool flat, const pushes *now) {
   }
 }
 
+/* The other half of the step, after which contacts may be open. */
 static inline void end_step(bool flat, state *c, double h, const pushes *now) {
   move(flat, c, 0.5 * h);
   for (int a = 0; a < now->contacts; a++) {
@@ -435,6 +446,7 @@ static void take_back(state *c, double before) {
     if (c->contact[k].impulse > 0.0)
       touched[c->contact[k].i] = touched[c->contact[k].j] = true;
 
+  /* their momentum, and the energy about the centre of mass */
   double mass = 0.0, P[3] = {0.0, 0.0, 0.0}, about = 0.0;
   for (int k = 0; k < c->balls; k++) {
     if (!touched[k])
@@ -450,6 +462,8 @@ static void take_back(state *c, double before) {
     cluster_minus(false, c->ball[k].v, centre, v);
     about += 0.5 * cluster_dot(false, v, v) / c->ball[k].inverse_mass;
   }
+
+  /* a little less than all of it, so that rounding adds nothing */
   const double share = sqrt(greater(1.0 - (after - before) / about, 0.0)) * (1.0 - 1e-15);
   for (int k = 0; k < c->balls; k++)
     for (int axis = 0; axis < 3 && touched[k]; axis++)
@@ -462,6 +476,7 @@ static inline double first_step(bool flat, const state *c, double *parts) {
   double most = 0.0, T = 0.0, stiff = 1.0;
   for (int k = 0; k < c->contacts; k++) {
     const contact *x = &c->contact[k];
+    /* unloading has K/e^3 over e^2 of the overlap, and so lasts e times as long as loading */
     const double v = closing_of(flat, x);
     stiff = greater(stiff, 1.0 / x->e);
     if (!x->touched || v <= most)
@@ -473,6 +488,7 @@ static inline double first_step(bool flat, const state *c, double *parts) {
   return T / *parts;
 }
 
+/* Step by step, until no contact acts. */
 static inline bool solve(bool flat, state *c) {
   const double before = energy_of(c);
   const contact *lead = c->contact;
@@ -481,9 +497,11 @@ static inline bool solve(bool flat, state *c) {
   for (;; c->taken++) {
     if (c->taken == CAROM_CLUSTER_STEPS_MOST)
       return false;
+
     /* half a step of the positions */
     pushes now;
     move(flat, c, 0.5 * h);
+
     /* a touch that is faster than what acts asks for a shorter step */
     const double longest = find_pressed(flat, c, h, parts, &now);
     if (longest < h) {
@@ -492,7 +510,7 @@ static inline bool solve(bool flat, state *c) {
       find_pressed(flat, c, h, parts, &now);
     }
 
-    /* where no contact acts, one may touch again; else all is over */
+    /* where no contact acts, one may touch again, from where the balls are; else all is over */
     tau += 0.5 * h;
     if (!find_acting(flat, h, tau, &now, &lead)) {
       if (!touch_again(flat, c))

@@ -55,8 +55,9 @@ static int64_t shots_of(const carom_plan_options *o) {
   return o->shots > 0 ? o->shots : SHOTS_USUAL;
 }
 
-/* Pots, the shots that the scan keeps, half as many again that it tries, and room for small
- * numbers. */
+/* A quarter of the shots are strokes of pots, each of which is played once without errors; then
+ * those that the scan keeps, half as many again of the block that it tries, and room for the
+ * least numbers of both. */
 static int64_t most_candidates(int64_t shots, double scan) {
   return (int64_t)((1.0 - scan) * (double)shots / 4.0) + (int64_t)(1.5 * scan * (double)shots) +
          SPARE;
@@ -138,7 +139,7 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   if (job->count < 2 || job->count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
 
-  /* The options of its shots are not those of when to stop. */
+  /* Its shots have the caller's options but for when to stop, which the plan says itself. */
   of->job = *job;
   of->options = *options;
   of->player = carom_player_bounded(job->player, job->cue);
@@ -156,6 +157,8 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
     return bad != CAROM_OK ? bad : CAROM_ERROR_CUE_BALL;
   if (!is_at_rest(of, job->balls, in_hand ? (int)job->cue->ball : -1))
     return CAROM_ERROR_IN_MOTION;
+
+  /* Candidates and outcomes stand behind the plan in the caller's memory. */
   of->count = 0;
   of->most = most_candidates(shots_of(options), carom_scan_of(options));
   of->room = most_rows(shots_of(options), carom_scan_of(options));
@@ -166,6 +169,8 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   carom_view_make(&of->view, &of->job, options);
   for (int k = 0; k < job->count; k++)
     of->state[k] = job->balls[k].state;
+
+  /* which balls are in play, which of them may be met first, and what the stroke may do */
   const int cue_ball = of->view.cue_ball;
   of->in_play = carom_in_play(of->state, of->view.count) | (in_hand ? UINT32_C(1) << cue_ball : 0);
   of->on = rules->on(rules->user, of->in_play) & of->in_play & ~(UINT32_C(1) << cue_ball);
@@ -181,7 +186,7 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   of->left = left[0] > 1 ? left[0] : 1;
 
   /* A foul at the first contact leaves about the layout that there is. */
-  uint64_t user[8];
+  uint64_t user[8]; /* rules change it as they judge */
   memcpy(user, rules->user, sizeof user);
   const carom_turn turn =
       rules->judge(user, of->in_play, cue_ball, &carom_no_facts, (carom_call){-1, -1});
@@ -231,12 +236,15 @@ static void plan_places(void *context, carom_crew *crew) {
     put(of, k);
     carom_search_run(of, small);
     const candidate *c = &of->found[0];
+    /* a plan that was stopped before the rounds of the best one tells less */
     const bool stopped = c->round < best.round && carom_is_stopped(of);
     if (k == 0 || (!stopped && c->sum / (double)c->seen > best.sum / (double)best.seen)) {
       best = *c;
       chosen = k;
     }
   }
+
+  /* the shots that are left, from there */
   put(of, chosen);
   of->count = 0;
   if (!carom_is_stopped(of))
@@ -263,6 +271,8 @@ static void try_all(void *context, carom_crew *crew) {
                                      .kind = CAROM_PLAN_GIVEN,
                                      .ball = -1,
                                      .pocket = -1});
+
+    /* once without errors, which names the pot; then with errors, as the last round of a plan */
     if (!carom_is_stopped(of)) {
       carom_search_play(of, 0, 1, 1, 0);
       carom_search_take(of, 0, &of->outcome[0]);
@@ -328,7 +338,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     state[k] = balls[k].state;
   const int cue_ball = of->view.cue_ball;
   const double R = of->view.radius[cue_ball], size[2] = {of->view.width, of->view.length};
-  const double head = 0.25 * of->view.length;
+  const double head = 0.25 * of->view.length; /* the line from which a game is opened */
   static const double edge[PLACES_PLANNED] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
   int tried = 0;
   of->places = 0;
@@ -343,6 +353,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
       if (!(least <= most))
         return CAROM_ERROR_OFF_TABLE;
       r[x] = least + (most - least) * carom_uniform(of->options.seed, DRAW_PLACES, k, (uint32_t)x);
+      /* a break: at one of six places across, at the head line or where the range ends */
       if (of->breaks)
         r[x] = x == 1 ? (high == NULL && most > head ? head : most)
                       : least + (most - least) * edge[k % PLACES_PLANNED];
@@ -363,6 +374,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   if (of->places == 0)
     return CAROM_ERROR_OFF_TABLE;
 
+  /* with the cue ball on the best place the layout can be checked */
   of->job.balls = balls;
   put(of, 0);
   const carom_status refused = check_layout(of, balls, true);

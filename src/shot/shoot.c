@@ -130,7 +130,7 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
     *state = (carom_ball_state){.label = CAROM_BALL_OFF};
     memcpy(state->r, event->before[0].r, sizeof state->r);
     return CAROM_OK;
-  default: {
+  default: { /* the end of a phase */
     carom_ball_state end;
     carom_path_end(&sim->path[i], &sim->rates[i], &end);
     *state = end;
@@ -314,7 +314,8 @@ static void begin(carom_sim *sim) {
   }
 }
 
-/* Whether the shot is to stop after an event of this kind. */
+/* Whether the shot is to stop after an event of this kind: where the caller's set of events has
+ * it, or where the first ball that the cue ball meets is not one of first_of. */
 static bool stops_at(carom_sim *sim, int type, int a, int b) {
   const bool contact = type == CAROM_EVENT_BALL_BALL && (a == sim->struck || b == sim->struck);
   const bool first = contact && !sim->met;
@@ -371,6 +372,8 @@ static carom_status finish(carom_sim *sim, carom_status status) {
   carom_shot *shot = sim->shot;
   for (int i = 0; shot->final != NULL && i < sim->count; i++)
     carom_path_at(&sim->path[i], &sim->rates[i], shot->time, &shot->final[i]);
+
+  /* a shot that a bound has cut off goes on with a greater one */
   const bool goes_on =
       status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
   if (shot->state != NULL && goes_on)
@@ -445,7 +448,8 @@ static void clear(carom_shot *shot) {
     no_facts(shot->facts);
 }
 
-/* The layout that was checked last, and with which status. */
+/* The layout that was checked last, and with which status. It is known by its address, as the rows
+ * of a batch that share one have the same. */
 typedef struct checked {
   const carom_ball_state *states; /* NULL: none */
   carom_status status;
