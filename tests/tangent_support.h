@@ -11,15 +11,19 @@
 #include "shot_support.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { LAYOUT_BALLS = 16, NUMBERS = CAROM_STATE_NUMBERS, LAYOUT_DIRECTIONS = 24 };
 
+/* All that a shot is played with. */
 typedef struct layout {
   int count;
   carom_shot_ball ball[LAYOUT_BALLS];
   carom_cue cue;
+  const carom_table *table; /* NULL: of pool */
+  carom_shot_options options;
 } layout;
 
 /* A number of a layout: of the cue, of the state of a ball, or a constant of a ball, -1 for all
@@ -73,31 +77,68 @@ static inline carom_tangent_seeds seeds_of(const direction *d, int m) {
   return (carom_tangent_seeds){.directions = m, .cue = cue, .kind = kind, .state = state};
 }
 
-/* The final numbers of a shot, if it has the same events as `shot`. */
-static inline bool plays_alike(const carom_table *table, const layout *l,
-                               const carom_shot_options *options, const carom_shot *shot,
-                               double *to) {
+static inline const carom_table *table_of(const layout *l) {
+  static carom_table pool;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &pool);
+  return l->table != NULL ? l->table : &pool;
+}
+
+static inline carom_status shoot(const layout *l, carom_shot *s) {
+  return carom_shoot(table_of(l), l->ball, l->count, l->cue.speed > 0.0 ? &l->cue : NULL,
+                     &l->options, s);
+}
+
+/* The shot that was played last, with events[] and final[], and its derivatives. */
+static carom_shot shot;
+static double ends[LAYOUT_BALLS * NUMBERS * LAYOUT_DIRECTIONS], times[ROOM * LAYOUT_DIRECTIONS],
+    reach[LAYOUT_DIRECTIONS];
+static int32_t event_flags[ROOM];
+
+/* The derivatives of the shot that was played last; returns all its flags. */
+static inline int64_t derive(const layout *l, const direction *by, int m) {
+  const carom_tangent_seeds seeds = seeds_of(by, m);
+  carom_tangent t = {.final = ends, .time = times, .flags = event_flags, .reach = reach};
+  ck_assert_int_eq(
+      carom_shot_tangent(table_of(l), l->ball, l->count, &l->cue, &l->options, &shot, &seeds, &t),
+      CAROM_OK);
+  return t.all_flags;
+}
+
+/* Plays a shot, without an error, and derives it. */
+static inline int64_t differentiate(const layout *l, const direction *by, int m) {
+  shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+  const carom_status status = shoot(l, &shot);
+  ck_assert_msg(status >= CAROM_OK, "%s", carom_status_name(status));
+  return derive(l, by, m);
+}
+
+/* The final numbers of a layout of which one is changed, if it has the same events as the shot
+ * that was played last. */
+static inline bool plays_alike(const layout *l, const direction *by, double change_of, double *to) {
   static carom_event other[ROOM];
   carom_ball_state end[LAYOUT_BALLS];
+  layout changed = *l;
+  change(&changed, by, change_of);
   carom_shot s = {.events = other, .room = ROOM, .final = end};
-  if (carom_shoot(table, l->ball, l->count, &l->cue, options, &s) < CAROM_OK ||
-      s.count != shot->count)
+  if (shoot(&changed, &s) < CAROM_OK || s.count != shot.count)
     return false;
   for (int64_t k = 0; k < s.count; k++)
-    if (other[k].type != shot->events[k].type || other[k].a != shot->events[k].a ||
-        other[k].b != shot->events[k].b)
+    if (other[k].type != events[k].type || other[k].a != events[k].a || other[k].b != events[k].b)
       return false;
   for (int i = 0; i < l->count; i++)
     numbers_of(&end[i], to + NUMBERS * i);
   return true;
 }
 
+/* Of differences of order 4, f at -2, -1, 1 and 2 steps h. */
+static inline double slope_of_four(double f_2, double f_1, double f1, double f2, double h) {
+  return (8.0 * (f1 - f_1) - (f2 - f_2)) / (12.0 * h);
+}
+
 /* Largest difference of the tangents in column j of m from the best plateau, and by how much
  * that itself disagrees; false if there is none. */
-static inline bool compare(const carom_table *table, const layout *l,
-                           const carom_shot_options *options, const carom_shot *shot,
-                           const direction *by, const double *tangent, int j, int m, double *error,
-                           double *plateau) {
+static inline bool compare(const layout *l, const direction *by, const double *tangent, int j,
+                           int m, double *error, double *plateau) {
   double last[NUMBERS * LAYOUT_BALLS] = {0};
   bool had = false;
   *plateau = *error = INFINITY;
@@ -106,13 +147,10 @@ static inline bool compare(const carom_table *table, const layout *l,
     static const double steps[4] = {-2, -1, 1, 2};
     double f[4][NUMBERS * LAYOUT_BALLS], apart = 0.0, off = 0.0;
     bool same = true;
-    for (int s = 0; s < 4 && same; s++) {
-      layout changed = *l;
-      change(&changed, by, steps[s] * h);
-      same = plays_alike(table, &changed, options, shot, f[s]);
-    }
+    for (int s = 0; s < 4 && same; s++)
+      same = plays_alike(l, by, steps[s] * h, f[s]);
     for (int x = 0; x < NUMBERS * l->count && same; x++) {
-      const double d = (8.0 * (f[2][x] - f[1][x]) - (f[3][x] - f[0][x])) / (12.0 * h);
+      const double d = slope_of_four(f[0][x], f[1][x], f[2][x], f[3][x], h);
       apart = fmax(apart, had ? fabs(d - last[x]) : INFINITY);
       off = fmax(off, fabs(d - tangent[x * m + j]));
       last[x] = d;
@@ -133,10 +171,12 @@ static inline double largest(const double *tangent, int numbers, int j, int m) {
   return most;
 }
 
-static inline const carom_table *table_of_pool(void) {
-  static carom_table table;
-  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
-  return &table;
+/* Sorts errors and prints their distribution behind some words; returns the p-th of 1. */
+static inline double tell(double *errors, int n, double p, const char *words) {
+  qsort(errors, (size_t)n, sizeof *errors, by_size);
+  printf("%s: %d derivatives, error median %.1e, 90 %% %.1e, 99 %% %.1e, largest %.1e\n", words, n,
+         errors[n / 2], errors[n * 9 / 10], errors[n * 99 / 100], errors[n - 1]);
+  return errors[(int)(n * p)];
 }
 
 /* Balls at random on the table, of which the first is shot at the second. */
