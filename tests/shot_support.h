@@ -45,6 +45,20 @@ static inline carom_shot_ball ball_at(double x, double y) {
   return b;
 }
 
+/* The impact of a ball of a kind on a cushion; the nose of pool where the kind has none. */
+static inline carom_cushion_impact at_cushion(const carom_ball_kind *k, const double v[3],
+                                              const double w[3], double n_x, double n_y) {
+  return (carom_cushion_impact){.v = {v[0], v[1], v[2]},
+                                .w = {w[0], w[1], w[2]},
+                                .normal = {n_x, n_y},
+                                .height = k->nose_height > 0.0 ? k->nose_height : 0.036576,
+                                .radius = k->radius,
+                                .mass = k->mass,
+                                .mu_cloth = k->mu_slide,
+                                .mu_cushion = k->mu_cushion,
+                                .restitution = k->restitution_cushion};
+}
+
 #define NEAR(is, says, within)                                                                \
   ck_assert_msg(fabs((is) - (says)) <= (within), "%s is %.12g, not %.12g", #is, (double)(is), \
                 (double)(says))

@@ -520,8 +520,6 @@ TEST(jump_at_the_cloth) {
   ck_assert_double_lt(worst, 0.006);
 }
 
-/* carom_impact3() keeps momentum and angular momentum about the contact, loses energy, turns
- * with the frame, and refuses what has no meaning. */
 /* A ball on another one, not balanced: it rolls off in a bounded number of hops, though neither
  * spins. From 1 mm off the top it came to 10,000 events within 4 ms. */
 TEST(rolls_off_a_ball) {
@@ -544,6 +542,8 @@ TEST(rolls_off_a_ball) {
   }
 }
 
+/* carom_impact3() keeps momentum, loses energy, does the same with both balls swapped, and refuses
+ * what has no meaning. */
 TEST(spheres) {
   random_source random = {test_seed()};
   double worst = 0.0, rise = -1.0;

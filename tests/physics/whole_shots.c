@@ -368,15 +368,8 @@ TEST(left_moving_into_the_cushion) {
       ck_assert_msg(events[k].after[0].v[1] >= 0.0,
                     "shot %d: event %d leaves %g m/s into the cushion", n, k,
                     -events[k].after[0].v[1]);
-      const carom_cushion_impact in = {.v = {before->v[0], before->v[1], 0.0},
-                                       .w = {before->w[0], before->w[1], before->w[2]},
-                                       .normal = {0.0, -1.0},
-                                       .height = t.rail[0].height,
-                                       .radius = R,
-                                       .mass = b.kind.mass,
-                                       .mu_cloth = b.kind.mu_slide,
-                                       .mu_cushion = b.kind.mu_cushion,
-                                       .restitution = e};
+      carom_cushion_impact in = at_cushion(&b.kind, before->v, before->w, 0.0, -1.0);
+      in.height = t.rail[0].height;
       const carom_cushion_options of_model = {.model =
                                                   (carom_cushion_model)(options.cushion_model - 1)};
       carom_motion out;
@@ -388,7 +381,6 @@ TEST(left_moving_into_the_cushion) {
 
 /* ---- What players know */
 
-/* A ball alone: it slides to 5/7 v + 2/7 R w, then rolls v^2 / (2 mu g). */
 /* The strike of a tip of any restitution: momentum along the cue, the speed at which tip and ball
  * part, and the energy that is lost. The restitution 1, for which 0 stands, loses nothing. */
 TEST(tips) {
@@ -434,6 +426,7 @@ TEST(tips) {
               (game < CAROM_GAME_POOLTOOL_POOL ? CAROM_TIP_LEATHER : 1.0));
 }
 
+/* A ball alone: it slides to 5/7 v + 2/7 R w, then rolls v^2 / (2 mu g). */
 TEST(alone) {
   random_source r = {test_seed()};
   const carom_table t = empty_table(200.0);
