@@ -130,28 +130,36 @@ static double reach_on_cloth(const follower *f, double h, double R) {
       f->table->ball_radius > 0.0 ? f->table->ball_radius : f->balls[f->count - 1].kind.radius;
   return R == reference ? R : nose_shift(f, h) + sqrt(h * (2.0 * R - h));
 }
-/* How deep a nose is in a flying ball that is in front of it; what is behind it or over it is
- * left to the library. */
-static double nose_intrusion(const follower *f, double left, double h, double R, double z) {
-  const double across = left - nose_shift(f, h);
-  return across >= 0.0 ? R - hypot(across, z - h) : -INFINITY;
+/* How deep ball i is in a nose at a distance from its wall; of what is behind or under a flying one
+ * the library judges. */
+static double depth_of(const follower *f, int i, double left, double height) {
+  const carom_ball_kind *kind = &f->balls[i].kind;
+  const double h = kind->nose_height > 0.0 ? kind->nose_height : height,
+               across = left - nose_shift(f, h);
+  if (!flies(&f->at[i]))
+    return reach_on_cloth(f, height, kind->radius) - left;
+  return across >= 0.0 ? kind->radius - hypot(across, f->at[i].r[2] - h) : -INFINITY;
+}
+
+/* Keeps the deepest, and after which event it was. */
+static void deepen(follower *f, double *deepest, double depth) {
+  if (depth > *deepest) {
+    *deepest = depth;
+    f->m.worst_at = type_name(f->last_type);
+  }
 }
 
 static void measure_places(follower *f) {
   for (int i = 0; i < f->count; i++) {
     if (is_out(&f->at[i]))
       continue;
-    const double *r = f->at[i].r, R = f->balls[i].kind.radius, own = f->balls[i].kind.nose_height;
+    const double *r = f->at[i].r, R = f->balls[i].kind.radius;
     if (flies(&f->at[i]))
       f->m.depth = fmax(f->m.depth, R - r[2]);
     for (int j = 0; j < i; j++) {
       if (is_out(&f->at[j]))
         continue;
-      const double overlap = R + f->balls[j].kind.radius - distance(f, i, j);
-      if (overlap > f->m.overlap) {
-        f->m.overlap = overlap;
-        f->m.worst_at = type_name(f->last_type);
-      }
+      deepen(f, &f->m.overlap, R + f->balls[j].kind.radius - distance(f, i, j));
     }
     for (int k = 0; k < f->table->rails; k++) {
       const carom_rail *rail = &f->table->rail[k];
@@ -163,30 +171,13 @@ static void measure_places(follower *f) {
       /* whether the given line counts that as positive */
       const double line = rail->line[0] * -e_y + rail->line[1] * e_x;
       left = (rail->side == 1) == (line >= 0.0) ? left : -left;
-      if (flies(&f->at[i])) {
-        const double deep = nose_intrusion(f, left, own > 0.0 ? own : rail->height, R, r[2]);
-        if (place >= 0.0 && place <= 1.0 && deep > f->m.intrusion) {
-          f->m.intrusion = deep;
-          f->m.worst_at = type_name(f->last_type);
-        }
-        continue;
-      }
-      const double intrusion = reach_on_cloth(f, rail->height, R) - left;
-      if (place >= 0.0 && place <= 1.0 && left > -R && intrusion > f->m.intrusion) {
-        f->m.intrusion = intrusion;
-        f->m.worst_at = type_name(f->last_type);
-      }
+      if (place >= 0.0 && place <= 1.0 && (flies(&f->at[i]) || left > -R))
+        deepen(f, &f->m.intrusion, depth_of(f, i, left, rail->height));
     }
     for (int k = 0; k < f->table->jaws; k++) {
       const carom_jaw *jaw = &f->table->jaw[k];
       const double left = length2(r[0] - jaw->centre[0], r[1] - jaw->centre[1]) - jaw->radius;
-      const double intrusion = flies(&f->at[i])
-                                   ? nose_intrusion(f, left, own > 0.0 ? own : jaw->height, R, r[2])
-                                   : reach_on_cloth(f, jaw->height, R) - left;
-      if (intrusion > f->m.intrusion) {
-        f->m.intrusion = intrusion;
-        f->m.worst_at = type_name(f->last_type);
-      }
+      deepen(f, &f->m.intrusion, depth_of(f, i, left, jaw->height));
     }
   }
 }
