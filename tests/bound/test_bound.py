@@ -26,48 +26,31 @@ def code(*lines):
     return machine_code.parse_disassembly("".join(f"  {4 * k:x}:\t{line}\n" for k, line in enumerate(lines)))
 
 
+def one(line):
+    (instruction,) = code(line).values()
+    return instruction
+
+
 class Classifying(unittest.TestCase):
-    def operations(self, line):
-        (instruction,) = code(line).values()
-        return machine_code.operations(instruction)
+    def test_operations(self):
+        """Scalar instructions are one operation, packed ones as many as lanes, conversions as many as elements; the rest is none."""
+        for line, expected in {
+            "vaddsd %xmm1,%xmm2,%xmm3": {"add": 1}, "mulss  0x10(%rsp,%rax,4),%xmm0": {"mul": 1}, "vfnmadd231sd %xmm1,%xmm2,%xmm3": {"fma": 1},
+            "vdivsd %xmm1,%xmm2,%xmm3": {"div": 1}, "vsqrtsd %xmm1,%xmm1,%xmm3": {"sqrt": 1}, "vucomisd %xmm1,%xmm2": {"compare": 1},
+            "vsubpd %xmm1,%xmm2,%xmm3": {"add": 2}, "vaddpd 0x20(%rsp),%ymm2,%ymm3": {"add": 4}, "vmulps %ymm1,%ymm2,%ymm3": {"mul": 8},
+            "vrsqrtps %xmm1,%xmm2": {"rsqrt": 4}, "vminpd %zmm1,%zmm2,%zmm3": {"minmax": 8}, "vcmpltpd %ymm1,%ymm2,%ymm3": {"compare": 4},
+            "vdpps $0x71,%xmm1,%xmm2,%xmm3": {"mul": 4, "add": 3}, "vcvtsd2ss %xmm1,%xmm1,%xmm1": {"convert": 1},
+            "vcvtpd2ps %ymm1,%xmm1": {"convert": 4}, "vcvtps2pd %xmm1,%ymm1": {"convert": 4}, "vcvtpd2psy (%rax),%xmm1": {"convert": 4},
+            "vmovapd %xmm1,%xmm2": {}, "vxorpd %xmm1,%xmm1,%xmm1": {}, "vshufpd $0x1,%xmm1,%xmm1,%xmm2": {}, "ja 1d0 <f+0x1d0>": {},
+        }.items():  # fmt: skip
+            self.assertEqual(machine_code.operations(one(line)), expected, line)
+        with self.assertRaisesRegex(machine_code.UnknownInstruction, "vfrobpd"):  # not guessed
+            machine_code.operations(one("vfrobpd %xmm1,%xmm2"))
 
-    def test_scalar_is_one_operation(self):
-        self.assertEqual(self.operations("vaddsd %xmm1,%xmm2,%xmm3"), {"add": 1})
-        self.assertEqual(self.operations("mulss  0x10(%rsp,%rax,4),%xmm0"), {"mul": 1})
-        self.assertEqual(self.operations("vfnmadd231sd %xmm1,%xmm2,%xmm3"), {"fma": 1})
-        self.assertEqual(self.operations("vdivsd %xmm1,%xmm2,%xmm3"), {"div": 1})
-        self.assertEqual(self.operations("vsqrtsd %xmm1,%xmm1,%xmm3"), {"sqrt": 1})
-        self.assertEqual(self.operations("vucomisd %xmm1,%xmm2"), {"compare": 1})
-
-    def test_packed_counts_lanes(self):
-        self.assertEqual(self.operations("vsubpd %xmm1,%xmm2,%xmm3"), {"add": 2})
-        self.assertEqual(self.operations("vaddpd 0x20(%rsp),%ymm2,%ymm3"), {"add": 4})
-        self.assertEqual(self.operations("vmulps %ymm1,%ymm2,%ymm3"), {"mul": 8})
-        self.assertEqual(self.operations("vrsqrtps %xmm1,%xmm2"), {"rsqrt": 4})
-        self.assertEqual(self.operations("vminpd %zmm1,%zmm2,%zmm3"), {"minmax": 8})
-        self.assertEqual(self.operations("vcmpltpd %ymm1,%ymm2,%ymm3"), {"compare": 4})
-        self.assertEqual(self.operations("vdpps $0x71,%xmm1,%xmm2,%xmm3"), {"mul": 4, "add": 3})
-
-    def test_conversions_count_the_elements(self):
-        self.assertEqual(self.operations("vcvtsd2ss %xmm1,%xmm1,%xmm1"), {"convert": 1})
-        self.assertEqual(self.operations("vcvtpd2ps %ymm1,%xmm1"), {"convert": 4})
-        self.assertEqual(self.operations("vcvtps2pd %xmm1,%ymm1"), {"convert": 4})
-        self.assertEqual(self.operations("vcvtpd2psy (%rax),%xmm1"), {"convert": 4})
-
-    def test_moves_and_logic_are_no_arithmetic(self):
-        for line in ("vmovapd %xmm1,%xmm2", "vxorpd %xmm1,%xmm1,%xmm1", "vshufpd $0x1,%xmm1,%xmm1,%xmm2", "ja 1d0 <f+0x1d0>"):
-            self.assertEqual(self.operations(line), {})
-
-    def test_unknown_is_an_error_not_a_guess(self):
-        with self.assertRaisesRegex(machine_code.UnknownInstruction, "vfrobpd"):
-            self.operations("vfrobpd %xmm1,%xmm2")
-
-    def test_division_and_root_know_their_precision(self):
-        single, double = code("vdivss %xmm1,%xmm2,%xmm3", "vsqrtpd %xmm1,%xmm2").values()
-        self.assertEqual(machine_code.latency_row(single), "div.s")
-        self.assertEqual(machine_code.latency_row(double), "sqrt.d")
-
-    def test_every_row_of_latencies_exists(self):
+    def test_latencies(self):
+        """Division and root know their precision, and every row exists."""
+        self.assertEqual(machine_code.latency_row(one("vdivss %xmm1,%xmm2,%xmm3")), "div.s")
+        self.assertEqual(machine_code.latency_row(one("vsqrtpd %xmm1,%xmm2")), "sqrt.d")
         rows = set(machine_code.read_latencies())
         for _, row, _ in machine_code.INSTRUCTIONS:
             self.assertTrue(row in rows or row + ".d" in rows and row + ".s" in rows, row)
@@ -97,25 +80,15 @@ class Paths(unittest.TestCase):
 
 
 class Chains(unittest.TestCase):
-    def pace(self, *lines):
-        return machine_code.chain(machine_code.steps_of(code(*lines).values(), machine_code.read_latencies()))
-
-    def test_carried_by_a_register(self):
-        self.assertEqual(self.pace("vaddsd %xmm1,%xmm0,%xmm0", "vmulsd %xmm2,%xmm0,%xmm0"), 6)
-
-    def test_independent_work_is_free(self):
-        self.assertEqual(self.pace("vaddsd %xmm1,%xmm0,%xmm0", "vdivsd %xmm2,%xmm3,%xmm4"), 3)
-
-    def test_carried_by_memory(self):
-        self.assertEqual(self.pace("vaddsd 0x8(%rsp),%xmm1,%xmm0", "vmovsd %xmm0,0x8(%rsp)"), 3 + 7)
-        self.assertEqual(self.pace("vaddsd 0x8(%rsp),%xmm1,%xmm0", "vmovsd %xmm0,0x10(%rsp)"), 0)
-        self.assertEqual(self.pace("vaddsd 0x8(%rsp),%xmm1,%xmm0", "vmovapd %xmm0,(%rsp)"), 3 + 7)
-
-    def test_a_zero_breaks_the_chain(self):
-        self.assertEqual(self.pace("vxorpd %xmm0,%xmm0,%xmm0", "vdivsd %xmm1,%xmm0,%xmm0"), 0)
-
-    def test_fma_reads_its_target(self):
-        self.assertEqual(self.pace("vfmadd231sd %xmm1,%xmm2,%xmm0"), 5)
+    def test_pace(self):
+        """Carried by a register; not by independent work; by memory; broken by a zero; an fma reads its target."""
+        for pace, *lines in (
+            (6, "vaddsd %xmm1,%xmm0,%xmm0", "vmulsd %xmm2,%xmm0,%xmm0"), (3, "vaddsd %xmm1,%xmm0,%xmm0", "vdivsd %xmm2,%xmm3,%xmm4"),
+            (3 + 7, "vaddsd 0x8(%rsp),%xmm1,%xmm0", "vmovsd %xmm0,0x8(%rsp)"), (0, "vaddsd 0x8(%rsp),%xmm1,%xmm0", "vmovsd %xmm0,0x10(%rsp)"),
+            (3 + 7, "vaddsd 0x8(%rsp),%xmm1,%xmm0", "vmovapd %xmm0,(%rsp)"), (0, "vxorpd %xmm0,%xmm0,%xmm0", "vdivsd %xmm1,%xmm0,%xmm0"),
+            (5, "vfmadd231sd %xmm1,%xmm2,%xmm0"),
+        ):  # fmt: skip
+            self.assertEqual(machine_code.chain(machine_code.steps_of(code(*lines).values(), machine_code.read_latencies())), pace, lines)
 
 
 class Command(unittest.TestCase):

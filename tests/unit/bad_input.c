@@ -61,27 +61,26 @@ static carom_impact with(int field, double value) {
   return in;
 }
 
-static void expect_all_nan(const carom_result *out) {
+/* Refused by a call, with nothing but NaN; by the check, which names the field; and by a batch. */
+static void expect_refused(const carom_impact *in, const carom_options *options,
+                           carom_status expected, int field) {
+  carom_result out;
+  int blamed;
+  ck_assert_msg(carom_collide(in, options, &out) == expected, "field %d: not %s", field,
+                carom_status_name(expected));
   for (int k = 0; k < 12; k++)
-    ck_assert_msg(isnan(((const double *)out)[k]), "component %d is a number", k);
+    ck_assert(isnan(((const double *)&out)[k]));
+  ck_assert_int_eq(carom_check(in, options, &blamed), expected);
+  ck_assert_int_eq(blamed, field);
+  ck_assert_int_eq(carom_collide_batch(in, 1, options, &out, NULL), expected);
 }
 
 TEST(each_field_is_named) {
   for (int k = 0; k < BAD_CASES; k++) {
-    const bad_case *bad = &bad_cases[k];
-    const carom_impact in = with(bad->field, bad->value);
-    carom_result out;
-    int blamed;
-    const carom_status status = carom_collide(&in, NULL, &out);
-    ck_assert_msg(status == bad->status, "%s = %g: %s, not %s", carom_field_name(bad->field),
-                  bad->value, carom_status_name(status), carom_status_name(bad->status));
-    expect_all_nan(&out);
-    ck_assert_int_eq(carom_check(&in, NULL, &blamed), bad->status);
-    ck_assert_int_eq(blamed, bad->blamed);
+    const carom_impact in = with(bad_cases[k].field, bad_cases[k].value);
+    expect_refused(&in, NULL, bad_cases[k].status, bad_cases[k].blamed);
   }
-}
-
-TEST(no_field_may_be_infinite_or_nan) {
+  /* no field may be infinite or NaN */
   static const carom_status of_ball[12] = {
       CAROM_ERROR_POSITION, CAROM_ERROR_POSITION, CAROM_ERROR_POSITION, CAROM_ERROR_VELOCITY,
       CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY, CAROM_ERROR_SPIN,     CAROM_ERROR_SPIN,
@@ -91,42 +90,25 @@ TEST(no_field_may_be_infinite_or_nan) {
     const carom_status expected = k / 3 < 24    ? of_ball[k / 3 % 12]
                                   : k / 3 == 24 ? CAROM_ERROR_MU_BALL
                                                 : CAROM_ERROR_RESTITUTION;
-    carom_result out;
-    int blamed;
-    ck_assert_int_eq(carom_collide(&in, NULL, &out), expected);
-    expect_all_nan(&out);
-    ck_assert_int_eq(carom_check(&in, NULL, &blamed), expected);
-    ck_assert_int_eq(blamed, k / 3);
+    expect_refused(&in, NULL, expected, k / 3);
   }
-}
-
-TEST(coincident_centres) {
   carom_impact in = good_impact();
-  carom_result out;
-  int blamed;
   memcpy(in.b.r, in.a.r, sizeof in.b.r);
-  ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_COINCIDENT);
-  expect_all_nan(&out);
-  ck_assert_int_eq(carom_check(&in, NULL, &blamed), CAROM_ERROR_COINCIDENT);
-  ck_assert_int_eq(blamed, -1);
+  expect_refused(&in, NULL, CAROM_ERROR_COINCIDENT, -1);
+  carom_result out;
   in.b.r[1] += 1e-200; /* distinct, but the square of the distance is not */
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_COINCIDENT);
 }
 
 TEST(good_input_passes_the_check) {
-  const carom_impact in = good_impact();
+  carom_impact in = good_impact();
   carom_result out;
   int blamed;
   ck_assert_int_eq(carom_check(&in, NULL, &blamed), CAROM_OK);
   ck_assert_int_eq(blamed, -1);
   ck_assert_int_eq(carom_check(&in, NULL, NULL), CAROM_OK);
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
-}
-
-TEST(noise_in_the_heights_passes) {
-  carom_impact in = good_impact();
-  carom_result out;
-  in.b.r[2] += 1e-15;
+  in.b.r[2] += 1e-15; /* noise in the heights */
   in.a.v[2] = 1e-15;
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
 }
@@ -163,19 +145,16 @@ TEST(noise_in_the_radii_passes) {
 
 TEST(bad_options) {
   const carom_impact in = good_impact();
-  carom_result out;
-  int8_t status = 77;
   const struct {
     carom_options options;
     carom_status status;
   } cases[] = {
-      {{.solver = (carom_solver)99, .steps = 1000}, CAROM_ERROR_SOLVER},
-      {{.solver = (carom_solver)-1, .steps = 1000}, CAROM_ERROR_SOLVER},
-      {{.solver = (carom_solver)CAROM_SOLVER_COUNT, .steps = 1000}, CAROM_ERROR_SOLVER},
-      {{.slip = (carom_slip)CAROM_SLIP_COUNT, .steps = 1000}, CAROM_ERROR_SLIP},
-      {{.slip = (carom_slip)-1, .steps = 1000}, CAROM_ERROR_SLIP},
+      {{.solver = (carom_solver)99}, CAROM_ERROR_SOLVER},
+      {{.solver = (carom_solver)-1}, CAROM_ERROR_SOLVER},
+      {{.solver = (carom_solver)CAROM_SOLVER_COUNT}, CAROM_ERROR_SOLVER},
+      {{.slip = (carom_slip)CAROM_SLIP_COUNT}, CAROM_ERROR_SLIP},
+      {{.slip = (carom_slip)-1}, CAROM_ERROR_SLIP},
       {{.steps = -1}, CAROM_ERROR_STEPS},
-      {{.steps = -5}, CAROM_ERROR_STEPS},
       {{.threads = -2}, CAROM_ERROR_THREADS},
       {{.reserved = {1}}, CAROM_ERROR_OPTIONS},
       {{.reserved = {[4] = (uint64_t)1 << 63}}, CAROM_ERROR_OPTIONS},
@@ -184,11 +163,10 @@ TEST(bad_options) {
       {{.unused = 1}, CAROM_ERROR_OPTIONS},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    ck_assert_int_eq(carom_collide(&in, &cases[k].options, &out), cases[k].status);
-    expect_all_nan(&out);
-    ck_assert_int_eq(carom_check(&in, &cases[k].options, NULL), cases[k].status);
-    ck_assert_int_eq(carom_collide_batch(&in, 1, &cases[k].options, &out, &status),
-                     cases[k].status);
+    carom_result out;
+    int8_t status = 77;
+    expect_refused(&in, &cases[k].options, cases[k].status, -1);
+    carom_collide_batch(&in, 1, &cases[k].options, &out, &status);
     ck_assert_int_eq(status, 77);
   }
 }
@@ -264,7 +242,7 @@ TEST(a_bad_row_disturbs_no_neighbour) {
     if (k % 2 == 0)
       ck_assert_mem_eq(&out[k], &alone, sizeof alone);
     else
-      expect_all_nan(&out[k]);
+      ck_assert(isnan(out[k].a.v[0]) && isnan(out[k].b.w[2]));
   }
   ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, NULL), bad_cases[0].status);
   ck_assert_int_eq(carom_collide_batch(in, 1, NULL, out, NULL), CAROM_OK);
@@ -305,23 +283,19 @@ TEST(separating_pairs_are_unchanged) {
 TEST(too_slow_for_euler) {
   carom_impact in = good_impact();
   carom_result out;
-  carom_options options = {0};
+  carom_options options = {.solver = CAROM_SOLVER_EULER};
   in.a.v[0] = 0.0;
   for (int k = 0; k < CAROM_SLIP_COUNT; k++)
     for (double approach = 0x1p-52; approach < 1e-13; approach *= 2.0) {
       carom_detail detail;
       options.slip = (carom_slip)k;
-      options.solver = CAROM_SOLVER_EULER;
       in.b.v[1] = 1.0;
       in.a.v[1] = 1.0 + approach;
       const carom_status status = carom_collide_detail(&in, &options, &out, &detail);
       ck_assert(detail.steps <= 2 * (1010 + 2));
       if (approach < 1e-14)
         ck_assert_int_eq(status, CAROM_ERROR_TOO_SLOW);
-      if (status == CAROM_ERROR_TOO_SLOW)
-        expect_all_nan(&out);
-      else
-        ck_assert_int_eq(status, CAROM_OK);
+      ck_assert(status == CAROM_OK || (status == CAROM_ERROR_TOO_SLOW && isnan(out.a.v[0])));
     }
 }
 
@@ -332,14 +306,11 @@ TEST(overflow_is_told) {
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
   in.a.v[0] = in.a.v[1] = 1e308; /* spins are these over the radius */
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_OVERFLOW);
-  expect_all_nan(&out);
-  in = good_impact();
-  in.b.r[1] = 1e300;
+  ck_assert(isnan(out.a.v[0]) && isnan(out.b.w[2]));
+  in = with(FIELD(b.r[1]), 1e300);
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_OVERFLOW);
-  carom_options options = {0};
-  options.solver = CAROM_SOLVER_EULER; /* whose impulses carry the mass; for the exact solver
-                                          only ratios count */
+  /* the impulses of Euler's method carry the mass; for the exact solver only ratios count */
   in = good_impact();
   in.a.mass = in.b.mass = 1e-310;
-  ck_assert_int_lt(carom_collide(&in, &options, &out), 0);
+  ck_assert_int_lt(carom_collide(&in, &(carom_options){.solver = CAROM_SOLVER_EULER}, &out), 0);
 }
