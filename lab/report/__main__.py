@@ -292,7 +292,7 @@ def write_page(options, data):
 
 def print_speedups(data):
     ladder = data["ladder"]
-    print(f"\nspeedup over {ladder.notes.get('reference kernel')}, {ladder.notes.get('processor', 'processor unknown')}")
+    print(f"\nspeedup over {ladder.notes.get('reference kernel', 'nothing').rpartition(', ')[0]}, {ladder.notes.get('processor', 'processor unknown')}")
     for row in data["speedup"].rows:
         print(f"{row['kernel']:<17} {number(row['ns']):>9.0f} ns {number(row['speedup']):>9.2f}  the paper: {row['paper_text']}")
     for row in ladder.rows:

@@ -3,7 +3,6 @@
  * 0 over rounding errors to 1e-3. Half of all impacts of two balls lie along the y axis, where
  * zeros stay zero; so do all impacts on cushions but one in four. */
 #include "draws.h"
-#include "regimes.h"
 
 #include <string.h>
 

@@ -3,8 +3,6 @@
  * every draw: any of them can be made again alone. */
 #include "draws.h"
 
-#include "regimes.h"
-
 #include "platform/enumerations.h"
 
 #define U(low, high) lab_uniform(r, low, high)

@@ -3,12 +3,15 @@
 #define CAROM_LAB_DRAWS_H
 
 #include "carom_shot.h"
+#include "random.h"
+
+#include "ball_ball/frame.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
 /* Kinds of draws: collisions of play, with any speed, spin and cut that it has, mu_b <= 0.2, mu
- * <= 0.5, e >= 0.5, masses within 1 : 2; those of regimes.h, in turn; everything that is accepted
+ * <= 0.5, e >= 0.5, masses within 1 : 2; those of regimes.c, in turn; everything that is accepted
  * at all; impacts on a cushion; and impacts of both sorts with coincidences that no draw from a
  * continuum has (coincidences.c). Groups are the slips, kinds of cushions and of coincidences. */
 typedef enum draw_kind {
@@ -50,6 +53,24 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k);
 int coincidence_kinds(void);
 const char *coincidence_name(int kind);
 drawn coincidence_draw(int kind, uint64_t seed, uint64_t k);
+
+/* Collisions by named regime (regimes.c). */
+int regimes_count(void);
+const char *regimes_name(int regime);
+
+/* One random collision of the regime that suits the slip sign s. */
+carom_impact regimes_draw(int regime, double s, lab_random *rng);
+
+/* A collision of the frame of ball_ball/frame.h, its line of centres turned from the y axis by
+ * an angle, rad. */
+carom_impact draw_turned(const carom_local *c, double angle);
+
+/* The same collision seen from the other side, the second ball named first. */
+carom_local draw_exchanged(const carom_local *c);
+
+/* Gives a ball the velocity (v_x, v_y), the share `roll` of the spin of rolling (1 rolls, 0
+ * slides, -1 spins backward) and the surface speed `side` of side spin. */
+void draw_ball(carom_local *c, bool second, double v_x, double v_y, double roll, double side);
 
 /* Largest difference of v and R w, over the largest of them before the impact. */
 double cushion_distance(const carom_cushion_impact *in, const carom_motion *a,

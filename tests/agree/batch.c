@@ -6,7 +6,7 @@
  * over any number of threads. Arrays end where memory ends, so that reading or writing past them
  * is seen, and begin at odd places. */
 #include "carom_shot.h"
-#include "regimes.h"
+#include "draws.h"
 #include "support.h"
 
 #include "ball_ball/kernels.h"
@@ -236,34 +236,6 @@ TEST(cut_anywhere_in_any_order) {
     }
   }
   table_free(&t), table_free(&mixed), free(order);
-}
-
-/* Single precision against double, relative to the pair's scale. */
-TEST(single_precision_is_near) {
-  static const double allowed[CAROM_SOLVER_COUNT] = {
-      [CAROM_SOLVER_EXACT] = 2e-4, [CAROM_SOLVER_EULER] = 2e-2};
-  random_source source = {test_seed()};
-  carom_impact wide[MOST];
-  carom_impact_f32 in[MOST];
-  carom_result_f32 out[MOST];
-  int8_t status[MOST];
-  FOR_EACH_ISA(isa)
-  for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++)
-    for (int trial = 0; trial < 20; trial++) {
-      const carom_options options = options_for(solver, CAROM_SLIP_PAPER);
-      for (size_t k = 0; k < MOST; k++) {
-        const carom_impact drawn = good_row(&source, k);
-        in[k] = narrowed(&drawn);
-        wide[k] = widened(&in[k]);
-      }
-      carom_collide_batch_f32(in, MOST, &options, out, status);
-      for (size_t k = 0; k < MOST; k++) {
-        carom_result near;
-        const carom_result seen = widened_result(&out[k]);
-        ck_assert_int_eq(status[k], carom_collide(&wide[k], &options, &near));
-        ck_assert_double_le(result_distance(&seen, &near, wide[k].a.radius), allowed[solver]);
-      }
-    }
 }
 
 /* All that a call may compute of some rows, by both precisions; cushions too. */

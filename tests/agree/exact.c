@@ -12,7 +12,6 @@
 #include "draws.h"
 #include "kept.h"
 #include "precisely.h"
-#include "regimes.h"
 #include "support.h"
 
 #include "ball_ball/frame.h"

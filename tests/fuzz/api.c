@@ -4,6 +4,7 @@
  * calls; bytes written beside the results; a trace or a derivative that does not fit. Crashes,
  * hangs and undefined behaviour are for the fuzzer and the sanitizers to see. */
 #include "about/numbers.h"
+#include "ball_ball/kernels.h"
 #include "carom_tangent.h"
 #include "cushion/list.h"
 #include "draws.h"
@@ -57,6 +58,45 @@ static void check_tangent(const double *tangent, int n, int64_t m, carom_status 
             "a derivative writes beside its place");
 }
 
+/* A row of a batch, among others, is a call: finite where it has a result, of the same bits, with
+ * nothing written beside it. A batch whose options are refused writes no status; the call in single
+ * precision is an inner one, and takes all options for good. */
+static void check_batch(carom_precision precision, const void *in, const carom_options *o) {
+  const bool single = precision == CAROM_F32;
+  const size_t row = single ? sizeof(carom_impact_f32) : sizeof(carom_impact),
+               result = single ? sizeof(carom_result_f32) : sizeof(carom_result);
+  carom_impact rows[ROWS];
+  carom_result many[ROWS + 1], out;
+  int8_t statuses[ROWS + 1];
+  const int n = 1 + choice(ROWS), at = choice(n);
+  for (int k = 0; k < n; k++) {
+    char *to = (char *)rows + (size_t)k * row;
+    memcpy(to, in, row);
+    if (k != at && single)
+      ((carom_impact_f32 *)to)->a.v[k % 2] += 0.01F * (float)k;
+    else if (k != at)
+      ((carom_impact *)to)->a.v[k % 2] += 0.01 * k;
+  }
+  memset(&out, 0xFF, sizeof out); /* NaN, as in rows in error */
+  memset(many, GUARD, sizeof many);
+  memset(statuses, GUARD, sizeof statuses);
+  const carom_status status = carom_collide_one(precision, in, o, &out);
+  for (int k = 0; k < 12; k++)
+    if (isfinite(single ? (double)((float *)&out)[k] : ((double *)&out)[k]) != (status >= 0))
+      fail("a call's result does not fit its status");
+  const carom_status returned = single
+                                    ? carom_collide_batch_f32((carom_impact_f32 *)rows, (size_t)n,
+                                                              o, (carom_result_f32 *)many, statuses)
+                                    : carom_collide_batch(rows, (size_t)n, o, many, statuses);
+  const bool refused = statuses[at] == GUARD;
+  if (refused ? returned >= 0 || (!single && status >= 0)
+              : statuses[at] != status ||
+                    (status >= 0 && memcmp((char *)many + (size_t)at * result, &out, result) != 0))
+    fail("a batch differs from a call");
+  unwritten((char *)many + (size_t)n * result, result, "a batch writes beside its results");
+  unwritten(&statuses[n], sizeof statuses[n], "a batch writes beside its statuses");
+}
+
 static void two_balls(void) {
   carom_impact in = {
       .a = make_ball(), .b = make_ball(), .mu_ball = number(0, 0.2), .restitution = number(0.5, 1)};
@@ -74,8 +114,7 @@ static void two_balls(void) {
                      .plain = choice(16) == 0 ? choice(5) - 2 : choice(2)};
   RESERVE(o);
   carom_isa_limit((carom_isa)choice(CAROM_ISA_AVX512 + 1));
-  carom_result out, many[ROWS + 1];
-  int8_t statuses[ROWS + 1];
+  carom_result out;
   const carom_status status = carom_collide(&in, &o, &out);
   expect((double *)&out, 12, status >= 0, "carom_collide");
   if (carom_check(&in, &o, NULL) < 0 && status >= 0)
@@ -91,27 +130,7 @@ static void two_balls(void) {
                          energy(fmax(in.a.mass, in.b.mass), R, in.b.v, in.b.w)))
       fail("the energy of two balls rises");
   }
-  /* a batch of it among others */
-  carom_impact rows[ROWS];
-  const int n = 1 + choice(ROWS), at = choice(n);
-  for (int k = 0; k < n; k++) {
-    rows[k] = in;
-    if (k != at)
-      rows[k].a.v[k % 2] += 0.01 * k;
-  }
-  memset(many, GUARD, sizeof many);
-  memset(statuses, GUARD, sizeof statuses);
-  if (carom_collide_batch(rows, (size_t)n, &o, many, statuses) != CAROM_ERROR_THREADS &&
-      o.steps >= 0 && o.threads >= -1) {
-    bool bad_options = (o.plain & ~1) != 0;
-    for (int k = 0; k < 5; k++)
-      bad_options |= o.reserved[k] != 0;
-    if (!bad_options && (unsigned)o.solver <= 1 && (unsigned)o.slip <= 1 &&
-        (statuses[at] != status || (status >= 0 && memcmp(&many[at], &out, sizeof out) != 0)))
-      fail("a batch differs from a call");
-  }
-  unwritten(&many[n], sizeof many[n], "a batch writes beside its results");
-  unwritten(&statuses[n], sizeof statuses[n], "a batch writes beside its statuses");
+  check_batch(CAROM_F64, &in, &o);
   carom_result seen;
   carom_detail detail;
   if (carom_collide_detail(&in, &o, &seen, &detail) != status ||
@@ -128,33 +147,12 @@ static void two_balls(void) {
     expect((double *)&points[k].state, 12, traced >= 0, "carom_trace");
     expect(&points[k].normal, 1, traced >= 0, "the impulse of carom_trace");
   }
-  /* in single precision */
   carom_impact_f32 narrow;
-  carom_result_f32 out32;
   for (int k = 0; k < 26; k++) {
     const double x = ((double *)&in)[k];
     ((float *)&narrow)[k] = fabs(x) <= (double)FLT_MAX || !isfinite(x) ? (float)x : FLT_MAX;
   }
-  memset(&out32, 0xFF, sizeof out32); /* NaN, as in rows in error */
-  int8_t narrowly = CAROM_ERROR_NULL;
-  carom_collide_batch_f32(&narrow, 1, &o, &out32, &narrowly);
-  for (int k = 0; k < 12; k++)
-    if (isfinite(((float *)&out32)[k]) != (narrowly >= 0))
-      fail("carom_collide_batch_f32 of one");
-  carom_impact_f32 narrow_rows[ROWS];
-  carom_result_f32 many32[ROWS + 1];
-  for (int k = 0; k < n; k++) {
-    narrow_rows[k] = narrow;
-    if (k != at)
-      narrow_rows[k].a.v[k % 2] += 0.01F * (float)k;
-  }
-  memset(many32, GUARD, sizeof many32);
-  memset(statuses, GUARD, sizeof statuses);
-  carom_collide_batch_f32(narrow_rows, (size_t)n, &o, many32, statuses);
-  if (narrowly >= 0 && o.solver == CAROM_SOLVER_EXACT &&
-      (statuses[at] != narrowly || memcmp(&many32[at], &out32, sizeof out32) != 0))
-    fail("a batch in single precision differs from a call");
-  unwritten(&many32[n], sizeof many32[n], "a batch in single precision writes beside its results");
+  check_batch(CAROM_F32, &narrow, &o);
   /* derivatives */
   double seeds[26 * DIRECTIONS], tangent[12 * (DIRECTIONS + 1)];
   const int64_t directions = make_seeds(seeds, 26);

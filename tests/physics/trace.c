@@ -4,7 +4,7 @@
  * a test of both.
  */
 #include "cases.h"
-#include "regimes.h"
+#include "draws.h"
 #include "support.h"
 
 #include <float.h>

@@ -2,8 +2,8 @@
  * takes its share too. The stack is painted before, with a page that may not be touched below
  * it; what lost its paint was used. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
+#include "draws.h"
 #include "every_function.h"
-#include "regimes.h"
 #include "support.h"
 
 #include <pthread.h>
