@@ -74,22 +74,31 @@ carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   /* friction without a limit, and the limit */
   const double once = c->v_y * c->cosine, P = (1 + e) * once, most = c->mu_w * P;
   const double F_x = 2.0 / 7.0 * C_x * s_x, F_t = 2.0 / 7.0 * C_t * s_t;
-  const double across = F_t / (1 + a), square = F_x * F_x + across * across, wanted = sqrt(square);
+  const double across = F_t / (1 + a), square = F_x * F_x + across * across, limit = most * most;
 
-  /* sigma and rho sigma, by rho or 1/rho, whichever is below 1 */
-  const bool sticks = wanted < most;
-  const double ratio = sticks ? wanted / most : wanted > 0 ? most / wanted : 0;
-  const double corner = carom_power(1 + carom_power(ratio, 1 / q), -q);
-  const double sigma = sticks ? corner : ratio * corner, used = sticks ? ratio * corner : corner;
+  /* sigma, by rho or 1/rho, whichever is below 1 */
+  const bool sticks = square < limit;
+  const double small = sticks ? square : limit, large = sticks ? limit : square,
+               ratio = large > 0 ? small / large : 0, corner = carom_bend(ratio, q),
+               sigma = sticks       ? corner
+                       : square > 0 ? most / sqrt(square) * corner
+                                    : (double)0;
 
-  /* the rebound, the larger the further friction is from sticking; no more than energy allows */
-  double more = carom_lesser(P * (1 + k * used), 2 * once);
+  /* the rebound, the larger the further friction is from sticking; no more than energy allows,
+   * which is never less than 2 c */
+  double more = P;
+  if (!carom_absent(k))
+    more = carom_lesser(P * (1 + k * (sticks ? sqrt(ratio) * corner : corner)), 2 * once);
   if (!carom_absent(g) || !carom_absent(g_log)) {
-    const double least = 4 * most * most, D_x = sigma * C_x, D_t = sigma * C_t;
-    const double lost = (s_x * s_x * D_x * (2 - D_x) + s_t * s_t * D_t * (2 - D_t)) / 7;
+    const double least = 4 * limit;
     const double slides = square + least > 0 ? square / (square + least) : 0;
     more += P * (g + g_log * c->log_v) * slides;
-    more = carom_greater(carom_lesser(more, once + sqrt(once * once + 2 * lost)), 0);
+    if (more > 2 * once) {
+      const double D_x = sigma * C_x, D_t = sigma * C_t;
+      const double lost = (s_x * s_x * D_x * (2 - D_x) + s_t * s_t * D_t * (2 - D_t)) / 7;
+      more = carom_lesser(more, once + sqrt(once * once + 2 * lost));
+    }
+    more = carom_greater(more, 0);
   }
   const carom_impulse all = {.P = more, .f_x = -sigma * F_x, .f_t = -sigma * F_t};
   carom_push(c, &all);

@@ -9,11 +9,12 @@
 /* exp(x), to 1.2 ulp; 0 below -708, infinite where it is beyond all numbers. */
 double carom_exp(double x);
 
-/* ln(x), to 4 ulp; minus infinity for 0, NaN below. */
+/* ln(x), to 3 ulp of the larger of 1 and |ln(x)|; minus infinity for 0, NaN below. */
 double carom_log(double x);
 
-/* x^y for x >= 0, to 5 + 4 |y ln(x)| ulp, or within 1e-300; 0 for x = 0 and y > 0. */
-double carom_power(double x, double y);
+/* (1 + x^(1/(2 q)))^-q, the bend between 1 and 1/sqrt(x), for 0 <= x <= 1 and 0 < q <= 1/2, to 2
+ * ulp. */
+double carom_bend(double x, double q);
 
 /* Sine and cosine of an angle in degrees, to 1 ulp of 1; exact at multiples of 90 degrees.
  * |degrees| <= 1e15. */

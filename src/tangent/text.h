@@ -83,9 +83,13 @@ double carom_exp(double x) {
 double carom_log(double x) {
   return {::carom_log(x.x), x.d * (1 / x.x)};
 }
-double carom_power(double x, double y) {
-  const real z = ::carom_power(x.x, y.x);
-  return z > 0 ? number(z, x.d * (y.x * z / x.x) + y.d * (::carom_log(x.x) * z)) : number(z);
+/* Its logarithm is -q ln(1 + z), z = x^(1/(2 q)). */
+double carom_bend(double x, double q) {
+  const real y = ::carom_bend(x.x, q.x), z_log = ::carom_log(x.x) / (2 * q.x),
+             z = ::carom_exp(z_log), share = z / (1 + z);
+  return z > 0 ? number(y, x.d * (-0.5 * y * share / x.x) +
+                               q.d * (y * (share * z_log - ::carom_log(1 + z))))
+               : number(y);
 }
 void carom_sincos(double x, double *sine, double *cosine) {
   real s, c;
