@@ -640,6 +640,17 @@ TEST(reach_of_near_misses) {
   }
 }
 
+/* Of a ball that just touches another one, which smaller balls would not. */
+TEST(reach_of_thin_hits) {
+  static const double overlaps[] = {1e-7, 1e-6, 1e-5};
+  const direction by_radii = {OF_KIND, -1, 1, 0.02};
+  for (int k = 0; k < 3; k++) {
+    const layout l = of_two(0.4 + 2.0 * R - overlaps[k], 1.0, 2.0, 90.0, 0.0, 0.0);
+    differentiate(&l, &by_radii, 1);
+    ck_assert_double_eq_tol(reach[0], 0.5 * overlaps[k], 0.05 * overlaps[k]);
+  }
+}
+
 /* English that a change brings about ends before the contact, unless the change is above the
  * reach. */
 TEST(reach_of_english) {
