@@ -122,7 +122,10 @@ typedef struct carom_cushion_options {
                           the nose, as that of a ball that rolls into it, -1 to 1. */
   double restitution_log2; /* any model: as restitution_log, times ln(v)^2, which counts up to 1,
                               as at 0.37 and 2.7 m/s. -1 to 1. */
-  uint64_t reserved[4];    /* must be 0. */
+  double roll_loss;     /* any model: after the impact the ball loses this part of its speed along
+                           the cushion before it from its roll along the cushion, 0 to 1, */
+  double roll_loss_log; /* plus this times ln(v), -1 to 1; in total 0 to 1. v as of mu_log. */
+  uint64_t reserved[2]; /* must be 0. */
 } carom_cushion_options;
 
 /* The name of a model ("mathavan", "stronge", "han", "mirror", "euler", "smooth"), or NULL for a
@@ -185,7 +188,7 @@ typedef struct carom_cushion_point {
 
 /* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of
  * normal impulse (EULER: the nearest whole steps) from 0 at points[0] to the end, which is the
- * result of carom_cushion(). `opt` may be NULL. It is not made for speed: MATHAVAN may take 400
+ * result of carom_cushion() without the loss of roll. `opt` may be NULL. It is not made for speed: MATHAVAN may take 400
  * iterations for each point, EULER takes n/2 times an impact. Returns the status of
  * carom_cushion(), or CAROM_ERROR_CUSHION_MODEL for a model in closed form. CAROM_SEPARATING: every
  * point is the motion before, with impulse 0. An error: every number is NaN (but nothing is written
@@ -951,6 +954,11 @@ CAROM_API const carom_number *carom_ball_fault(const carom_ball_kind *kind, char
 /* Whether a shot with these options, NULL for the defaults, reads the number of this ball. */
 CAROM_API int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
                                    const carom_shot_options *options);
+
+/* With what a fit of recorded shots begins for a model of the cushion: writes restitution_cushion,
+ * mu_cushion and nose_height as single impacts on the table of CAROM_GAME_BILLIARD tell them by
+ * it, and returns 1. Returns 0 and writes nothing where the model has no such start. */
+CAROM_API int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind);
 
 /* Enumerations whose values have words. */
 typedef enum carom_words {

@@ -184,6 +184,23 @@ const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_
   return NULL;
 }
 
+/* ---- Starts of fits */
+
+int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind) {
+#define START(NAME, name, impact, flight, rows, start, ...) {start},
+  static const struct start {
+    bool is;
+    double e, mu, height;
+  } starts[] = {CAROM_CUSHION_MODELS(START)};
+#undef START
+  if ((uint32_t)model >= CAROM_CUSHION_MODEL_COUNT || kind == NULL || !starts[model].is)
+    return 0;
+  kind->restitution_cushion = starts[model].e;
+  kind->mu_cushion = starts[model].mu;
+  kind->nose_height = starts[model].height;
+  return 1;
+}
+
 /* ---- Words */
 
 static const struct word {
@@ -191,8 +208,8 @@ static const struct word {
   const char *word, *text;
 } words_of[] = {
 #define WORD(OF, VALUE, word, text) {CAROM_WORDS_##OF, CAROM_##VALUE, word, text},
-#define CUSHION(NAME, word, impact, flight, rows, sources, text) \
-  {CAROM_WORDS_CUSHION_MODEL, CAROM_CUSHION_##NAME, word, text}, \
+#define CUSHION(NAME, word, impact, flight, rows, start, sources, text) \
+  {CAROM_WORDS_CUSHION_MODEL, CAROM_CUSHION_##NAME, word, text},        \
       {CAROM_WORDS_SHOT_CUSHION, CAROM_SHOT_CUSHION_##NAME, word, text},
 #define LAW(NAME, word, of, numbers, at, ahead, sources, text) \
   {CAROM_WORDS_BALL_FRICTION, CAROM_FRICTION_##NAME, word, text},

@@ -174,6 +174,15 @@ EVERY_BODY(ball_fault) {
   const carom_ball_kind none = {.mass = 0};
   return every_text(h, carom_ball_fault(&none, text, sizeof text)->name);
 }
+EVERY_BODY(cushion_start) {
+  carom_ball_kind kind = {.mass = carom_cushion_start(CAROM_CUSHION_EULER, NULL)};
+  for (int model = 0; carom_cushion_model_name((carom_cushion_model)model) != NULL; model++) {
+    const int is = carom_cushion_start((carom_cushion_model)model, &kind);
+    HASH(is);
+    HASH(kind);
+  }
+  return h;
+}
 EVERY_BODY(word) {
   for (int of = 0; of <= CAROM_WORDS_SLIP; of++)
     h = every_text(h, carom_word((carom_words)of, 1));
@@ -602,7 +611,7 @@ EVERY_BODY(record_settle) {
   F(aim) F(alciatore) F(ball_fault) F(ball_kind_of) F(ball_number) F(check) F(cite) F(collide) \
   F(cluster) F(collide_batch) \
   F(collide_batch_f32) F(collide_detail) F(collide_tangent) F(cue_of) F(cushion) \
-  F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_tangent) \
+  F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_start) F(cushion_tangent) \
   F(cushion_trace) F(event_name) F(field_name) F(foul_of) F(foul_string) F(impact3) \
   F(isa_available) F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) \
   F(number_is_read) F(number_range) \

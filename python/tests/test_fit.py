@@ -8,6 +8,7 @@ import warnings
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import get_args
 from xml.etree import ElementTree
 
 import numpy as np
@@ -16,7 +17,8 @@ from spoil import spoiled
 from test_tracks import RADIUS, TABLE, csv_of
 
 import carom
-from carom import _constants, _covariance, _from_events, _joint, _recordings, _strikes, _summary, fit, tracks
+from carom import _constants, _covariance, _described, _from_events, _joint, _recordings, _strikes, _summary, fit, tracks
+from carom.cushions import NUMBERS
 
 HAN = {"mu_slide": 0.21, "mu_roll": 0.005, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "law_a": 0.05}
 
@@ -447,6 +449,42 @@ def test_events_are_predicted_by_the_laws_of_the_library(monkeypatch):
     for name, value in (("restitution_log", -0.1), ("restitution_log2", -0.05), ("mu_log", 0.2), ("smooth_q", 0.1), ("smooth_g", 0.3)):
         monkeypatch.setattr(_from_events, "usual", lambda model, name=name, value=value: usual | {name: value})
         assert (_from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)[:, :4] != before[:, :4]).any(), name
+
+
+def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name():
+    every = get_args(_described.CushionModel)
+    assert set(_constants.STARTS) == {*every} - {"euler"}
+    for model in _constants.STARTS:
+        usual = _constants.usual(model)
+        found = fit._priors(["default"], {}, usual, model)
+        assert ("mu_cushion" in found) == (usual["mu_cushion"] > 0.0) == ("nose_height" in found)
+        carom.cushion(carom.cushion_impacts(v=(0.5, 1.0, 0.0)), model=model, **{name: usual[name] for name in NUMBERS})
+    usual = _constants.usual("smooth")
+    for name in NUMBERS:
+        own = {**usual, name: usual[name] or (1.5 if name == "omega_ratio" else 0.0)}
+        mean, deviation = fit._priors([name], {}, own, "smooth")[name]
+        assert mean == own[name] and 0.0 < deviation <= 0.2
+    assert fit._priors(["law_c"], {"law_c": (1.0, 0.1)}, usual, "smooth") == {"law_c": (1.0, 0.1)}
+    for name, message in (("law_c", "law_c needs its mean and deviation"), ("omega_ratio", "omega_ratio must begin at 1 to 2"), ("radius", "no constant")):
+        with pytest.raises(ValueError, match=message):
+            fit._priors([name], {}, usual, "smooth")
+
+
+def test_a_number_of_the_cushion_is_found_by_whole_shots():
+    made = tracks.synthetic(6, seed=5, cushion_model="smooth", constants={"smooth_x": 1.1})
+    found = fit.fit(made.recordings, TABLE, RADIUS, cushion_model="smooth", constants={**made.constants, "smooth_x": 1.3}, free=["smooth_x"], seed=1)
+    assert found.constants["smooth_x"] == pytest.approx(1.1, abs=0.05) and found.fitted == ("smooth_x",)
+
+
+def test_an_impact_loses_roll_as_in_a_shot():
+    usual = _constants.usual("smooth")
+    impact = carom.cushion_impacts(v=(1.0, 2.0, 0.0), w=(-2.0 / RADIUS, 1.0 / RADIUS, 0.0), radius=RADIUS, mass=0.21, height=0.0365)
+    share = usual["roll_loss"] + usual["roll_loss_log"] * np.log(2.0)
+    without, lost, none = (
+        carom.cushion(impact, model="smooth", **numbers)[0]["w"][1] * RADIUS
+        for numbers in ({}, {name: usual[name] for name in ("roll_loss", "roll_loss_log")}, {"roll_loss": 1.0})
+    )
+    assert without - lost == pytest.approx(share, rel=1e-12) and none == pytest.approx(0.0, abs=1e-15)
 
 
 def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(made):

@@ -39,8 +39,8 @@
   BALL(gravity, "g", "m/s^2", CAROM_ABOVE(0), 1e6, NAN, GRAVITY, ALWAYS, "gravity")             \
   BALL(drag, "drag", "1/m", 0, 1, NAN, DRAG, ALWAYS,                                            \
        "deceleration of a rolling ball over the square of its speed")                           \
-  BALL(roll_loss, "roll_loss", "", 0, 1, NAN, BALL_CUSHION, ALWAYS,                             \
-       "part of the speed along a cushion that an impact takes from the roll along it")         \
+  CUSHION(roll_loss, "roll_loss", "", 0, 1, NAN, BALL_CUSHION, ALWAYS,                          \
+          "part of the speed along a cushion that an impact takes from the roll along it")      \
   BALL(law_a, "law_a", "", 0, 1, NAN, MU_BALL, BY_FRICTION(ALCIATORE),                          \
        "friction between balls at great slips; law_a, law_b and law_c 0: carom_alciatore()")    \
   BALL(law_b, "law_b", "", 0, 1, NAN, MU_BALL, BY_FRICTION(ALCIATORE),                          \
@@ -78,8 +78,8 @@
           "restitution that a ball which rolls into the cushion gains, at most")                \
   CUSHION(restitution_log2, "e_c_log2", "", -1, 1, NAN, SPEED_LOG, ALWAYS,                      \
           "change of the cushion's restitution with ln(speed)^2, which counts up to 1")         \
-  BALL(roll_loss_log, "roll_loss_log", "", -1, 1, NAN, SPEED_LOG, ALWAYS,                       \
-       "change of roll_loss for each unit of ln(speed)")
+  CUSHION(roll_loss_log, "roll_loss_log", "", -1, 1, NAN, SPEED_LOG, ALWAYS,                    \
+          "change of roll_loss for each unit of ln(speed)")
 
 /* Conditions on several numbers of `k`, each of which is within its range: BALL(member to blame,
  * condition, ERROR, text) or CUSHION(...), as above. The text says what the member must be. */

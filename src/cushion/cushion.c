@@ -29,6 +29,20 @@ void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
     carom_apply_speed(contact, opt);
 }
 
+void carom_lose_roll(const carom_cushion_options *opt, double R, const double n[2],
+                     const double v[3], double w[3]) {
+  const double v_t = v[0] * n[1] - v[1] * n[0], roll = R * (w[0] * n[0] + w[1] * n[1]);
+  const double v_y = v[0] * n[0] + v[1] * n[1];
+  const double share = carom_absent(opt->roll_loss_log)
+                           ? opt->roll_loss
+                           : opt->roll_loss + opt->roll_loss_log * carom_log_of_speed(v_y);
+  /* a share of 0 has derivatives by the numbers that make it */
+  const double pull = carom_limited(share) * v_t;
+  const double loss = share == 0.0 && v_t * roll > 0.0 ? pull : carom_minmod(pull, roll);
+  for (int k = 0; k < 2; k++)
+    w[k] -= loss / R * n[k] + 0.0; /* without a loss w keeps its bits */
+}
+
 carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cushion_options *opt,
                                  carom_motion *out) {
   int field;
@@ -53,6 +67,18 @@ carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cus
   return status;
 }
 
+/* The impact, and the loss of roll. */
+static carom_status solve_and_lose(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                   carom_motion *out) {
+  const carom_status status = carom_cushion_solve(in, opt, out);
+  if (status == CAROM_OK && carom_loses_roll(opt)) {
+    const carom_cushion_frame frame = carom_cushion_frame_of(in);
+    const double n[2] = {frame.y_x, frame.y_y};
+    carom_lose_roll(opt, in->radius, n, in->v, out->w);
+  }
+  return status;
+}
+
 carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
                            carom_motion *out) {
   if (in == NULL || out == NULL)
@@ -61,7 +87,7 @@ carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_o
     opt = &defaults;
   const carom_status status = carom_cushion_check_options(opt);
   if (status == CAROM_OK)
-    return carom_cushion_solve(in, opt, out);
+    return solve_and_lose(in, opt, out);
   *out = (carom_motion){{NAN, NAN, NAN}, {NAN, NAN, NAN}};
   return status;
 }
@@ -78,7 +104,7 @@ static size_t solve_rows(const void *context, size_t first, size_t end) {
   const batch *b = (const batch *)context;
   size_t first_bad = end;
   for (size_t k = first; k < end; k++) {
-    const carom_status status = carom_cushion_solve(&b->in[k], b->opt, &b->out[k]);
+    const carom_status status = solve_and_lose(&b->in[k], b->opt, &b->out[k]);
     if (b->status != NULL)
       b->status[k] = (int8_t)status;
     if (status < 0 && first_bad == end)
@@ -115,5 +141,5 @@ carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,
     return CAROM_OK;
   /* Only its index came back through the threads; doing the row again tells its status. */
   carom_motion unused;
-  return carom_cushion_solve(&in[first_bad], opt, &unused);
+  return solve_and_lose(&in[first_bad], opt, &unused);
 }

@@ -122,7 +122,7 @@ static const struct {
      "}\n"},
 };
 
-#define OF_CUSHION(NAME, name, impact, flight, rows, sources, ...) \
+#define OF_CUSHION(NAME, name, impact, flight, rows, start, sources, ...) \
   [CAROM_CUSHION_##NAME] = (sources),
 #define OF_LAW(NAME, name, of, numbers, at, ahead, sources, ...) [CAROM_LAW_##NAME] = (sources),
 static const unsigned of_cushion[] = {CAROM_CUSHION_MODELS(OF_CUSHION)};

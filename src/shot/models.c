@@ -105,24 +105,6 @@ static void take_motion(const carom_motion *motion, carom_ball_state *s) {
   }
 }
 
-/* Takes roll_loss, at 1 m/s across a cushion, of the speed v_t along it, before the impact, from
- * the roll along it. Along t = (n_y, -n_x) a ball rolls at R w . n. The roll does not change sign,
- * so the energy falls. */
-__attribute__((noinline, cold)) static void
-lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3], carom_ball_state *s) {
-  const double v_t = v[0] * n[1] - v[1] * n[0],
-               roll = kind->radius * (s->w[0] * n[0] + s->w[1] * n[1]);
-  const double v_y = v[0] * n[0] + v[1] * n[1];
-  const double share = carom_absent(kind->roll_loss_log)
-                           ? kind->roll_loss
-                           : kind->roll_loss + kind->roll_loss_log * carom_log_of_speed(v_y);
-  /* a share of 0 has derivatives by the numbers that make it */
-  const double pull = carom_limited(share) * v_t;
-  const double loss = share == 0.0 && v_t * roll > 0.0 ? pull : carom_minmod(pull, roll);
-  for (int k = 0; k < 2; k++)
-    s->w[k] -= loss / kind->radius * n[k] + 0.0; /* without a loss w keeps its bits */
-}
-
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a,
                            const carom_ball_kind *kind_b, const carom_ball_state *b, double n[3]) {
   n[0] = b->r[0] - a->r[0];
@@ -279,8 +261,8 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
     return status;
   take_motion(&out, s);
   s->v[2] = 0.0;
-  if (!carom_absent(kind->roll_loss) || !carom_absent(kind->roll_loss_log))
-    lose_roll(kind, n, in.v, s);
+  if (carom_loses_roll(&options))
+    carom_lose_roll(&options, kind->radius, n, in.v, s->w);
   return status;
 }
 

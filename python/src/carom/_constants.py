@@ -7,46 +7,50 @@ stands for a law that does not depend on the slip.
 from __future__ import annotations
 
 from collections.abc import Mapping
+
 import numpy as np
 
 from carom import dtypes
-from carom._rows import Array
+from carom._carom import ffi, lib
+from carom._rows import Array, numbered
 from carom._shot_options import ShotCushion
+from carom.cushions import NUMBERS
 from carom.layouts import Table, balls
 
 Constants = dict[str, float]
 
-# Restitution and friction of the cushion, height of the nose: these belong to a model. Fitted to single impacts, by that model, on the
-# table of CAROM_GAME_BILLIARD (docs/understanding/constants.md), whose other constants stand in for what a recording does not tell.
-_CUSHION = {
-    "mathavan": (0.898, 0.22, 0.037),
-    "stronge": (0.874, 0.22, 0.0365),
-    "han": (0.874, 0.231, 0.03545),
-    "mirror": (0.875, 0.0, 0.037),
-    "smooth": (0.798, 0.255, 0.0365),
-}
-# The constants of the game were fitted to whole shots with the smooth law. For the others these are what single events say,
+# The constants of the game were fitted to whole shots with the smooth law. For the others these are what single events say, and
+# what a cushion has besides is 0.
 _SINGLE = {"mu_slide": 2.02 / 9.81, "mu_roll": 0.0418 / 9.81, "drag": 0.0129, "mu_spin": 0.004, "restitution": 0.951, "roll_loss": 0.087}
-# and these are 0.
-_OF_SMOOTH = ("mu_log", "roll_loss_log", "smooth_q", "smooth_x", "smooth_t", "smooth_a", "smooth_g", "smooth_g_log", "smooth_e")
 # Friction between balls over their slip: Alciatore's law, 4.5 times.
 _LAW = {"law_a": 0.0448, "law_b": 0.486, "law_c": 1.088}
 KINDS = tuple(name for name in dtypes.ball_kind.names or () if name != "radius")
+_START = ("restitution_cushion", "mu_cushion", "nose_height")
+
+
+def _starts() -> dict[str, Constants]:
+    """What a fit begins with, by the models of the cushion: single impacts on the table of CAROM_GAME_BILLIARD told it
+    (docs/understanding/constants.md), whose other constants stand in for what a recording does not tell."""
+    found, kind = {}, ffi.new("carom_ball_kind *")
+    for word, model in numbered("carom_cushion_model").items():
+        if lib.carom_cushion_start(model, kind):
+            found[word] = {name: getattr(kind, name) for name in _START}
+    return found
+
+
+STARTS = _starts()
 
 
 def usual(cushion_model: ShotCushion) -> Constants:
     """The constants to begin with, for a model of the cushion."""
-    if not isinstance(cushion_model, str) or cushion_model not in _CUSHION:
-        raise ValueError(f"cushion_model: must be one of {', '.join(map(repr, _CUSHION))}, not {cushion_model!r}")
+    if not isinstance(cushion_model, str) or cushion_model not in STARTS:
+        raise ValueError(f"cushion_model: must be one of {', '.join(map(repr, STARTS))}, which a fit can begin with, not {cushion_model!r}")
     kind = balls(np.zeros((1, 2)), game="billiard")["kind"][0]
-    e, mu, height = _CUSHION[cushion_model]
-    cushion = {"restitution_cushion": e, "mu_cushion": mu, "nose_height": height}
     own = {name: float(kind[name]) for name in KINDS if name != "mu_ball"}
     if cushion_model == "smooth":
-        return {**own, **cushion}
-    if cushion_model == "mirror":
-        cushion["roll_loss"] = 0.0
-    return {**own, **_SINGLE, **_LAW, **dict.fromkeys(_OF_SMOOTH, 0.0), **cushion}
+        return {**own, **STARTS[cushion_model]}
+    made = {**own, **dict.fromkeys(NUMBERS, 0.0), **_SINGLE, **_LAW, **STARTS[cushion_model]}
+    return made if made["mu_cushion"] else {**made, "roll_loss": 0.0}
 
 
 def complete(given: Mapping[str, float], cushion_model: ShotCushion, where: str = "constants") -> Constants:

@@ -20,6 +20,8 @@ CushionLaw = Literal["constant", "han"]
 class CushionNumbers(TypedDict, total=False):
     """Numbers of an impact on a cushion, by the models that read them."""
 
+    roll_loss: float
+    """any model: part of the speed along a cushion that an impact takes from the roll along it; 0 to 1"""
     omega_ratio: float
     """stronge: frequency of the nose along its surface over that across it; 0: 1.8; 0, or between 1 and 2"""
     restitution_log: float
@@ -44,6 +46,8 @@ class CushionNumbers(TypedDict, total=False):
     """smooth: restitution that a ball which rolls into the cushion gains, at most; -1 to 1"""
     restitution_log2: float
     """any model: change of the cushion's restitution with ln(speed)^2, which counts up to 1; -1 to 1"""
+    roll_loss_log: float
+    """any model: change of roll_loss for each unit of ln(speed); -1 to 1"""
 
 
 class BallNumbers(TypedDict, total=False):

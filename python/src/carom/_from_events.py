@@ -15,6 +15,7 @@ itself is off by, added in quadrature: see _METHOD.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import cast
 
 import numpy as np
@@ -38,14 +39,16 @@ _MU_ERROR = 0.15  # deviation of the prior of mu_cushion
 _OUTLIER = 3.0  # standard deviations where an impact's cost turns from a square to a logarithm
 
 
-def measured(events: Events, radius: float, cushion_model: ShotCushion, seed: int) -> tuple[dict[str, float], dict[str, float]]:
-    """The constants that the events tell, and their errors. What too few events tell is left out."""
+def measured(
+    events: Events, radius: float, cushion_model: ShotCushion, seed: int, given: Mapping[str, float] | None = None
+) -> tuple[dict[str, float], dict[str, float]]:
+    """The constants that the events tell, and their errors. What too few events tell is left out. Other numbers of the cushion are `given`."""
     found: dict[str, tuple[float, float]] = {
         "mu_slide": (events.slide[0] / _GRAVITY, events.slide[1] / _GRAVITY),
         "mu_roll": (events.roll[0][0] / _GRAVITY, events.roll[0][1] / _GRAVITY),
         "drag": (max(events.roll[1][0], 0.0), events.roll[1][1]),
         "restitution": _hits(events.hits),
-        **_cushion(events.impacts, radius, cushion_model, np.random.default_rng(seed)),
+        **_cushion(events.impacts, radius, cushion_model, np.random.default_rng(seed), given or usual(cushion_model)),
     }
     found = {name: pair for name, pair in found.items() if math.isfinite(pair[0])}
     errors = {name: math.hypot(error, _METHOD.get(name, 0.0)) for name, (_, error) in found.items()}
@@ -69,11 +72,12 @@ def chosen(impacts: Records) -> Records:
 
 
 def predicted(
-    impacts: Records, radius: float, model: ShotCushion, e: float | Doubles, mu: float | Doubles, height: float, roll_loss: float = 0.0
-) -> Doubles:
+    impacts: Records, radius: float, model: ShotCushion, e: float | Doubles, mu: float | Doubles, height: float, roll_loss: float = 0.0,
+    given: Mapping[str, float] | None = None,
+) -> Doubles:  # fmt: skip
     """w_t, w_n, u_t and u_n after each impact of a rolling ball, by the model, with its best side spin, and the misfit, (n, 5).
 
-    The misfit is chi^2 of the four, whose errors are those of the events and 1.2 % of v for w, 3 % for u, and the prior's.
+    Other numbers of the cushion are `given`, or the usual ones. The misfit is chi^2 of the four, whose errors are those of the events and 1.2 % of v for w, 3 % for u, and the prior's.
     """
     v = np.hypot(impacts["v_n"], impacts["v_t"])
     shape = (len(impacts), len(_SPINS))
@@ -85,16 +89,10 @@ def predicted(
     for name, value in (("height", height), ("radius", radius), ("mass", 0.21), ("mu_cloth", 0.2), ("mu_cushion", mu),
                         ("restitution", e)):  # fmt: skip
         balls[name] = value
-    # the numbers of the model, such as the change with the speed, are those of the usual constants
-    given = usual(model)
-    own = cast(CushionNumbers, {name: given[name] for name in NUMBERS})
+    given = given or usual(model)
+    own = cast(CushionNumbers, {**{name: given[name] for name in NUMBERS}, "roll_loss": roll_loss})
     motion = cushion(balls, model="mathavan" if model == "default" else model, **own)[0]
-    w_x, w_y = motion["v"][..., 0], motion["v"][..., 1]
-    # the loss of roll along the cushion, as carom_shoot() takes it
-    logarithm = np.log(np.maximum(impacts["v_n"], 0.1))[:, None]
-    v_t, roll = impacts["v_t"][:, None], radius * motion["w"][..., 1]
-    share = np.clip(roll_loss + given["roll_loss_log"] * logarithm, 0.0, 1.0)
-    roll = np.where(v_t * roll > 0.0, np.sign(roll) * np.maximum(np.abs(roll) - share * np.abs(v_t), 0.0), roll)
+    w_x, w_y, roll = motion["v"][..., 0], motion["v"][..., 1], radius * motion["w"][..., 1]
     after = np.stack([w_x, w_y, w_x - roll, w_y + radius * motion["w"][..., 0]], axis=-1)
     seen = np.stack([impacts["w_t"], impacts["w_n"], impacts["u_t"], impacts["u_n"]], axis=-1)
     # the best spin of each
@@ -111,25 +109,30 @@ _CUSHION = ("restitution_cushion", "mu_cushion", "roll_loss", "nose_height")
 _LEAST, _MOST = np.array([0.05, 0.0, 0.0, 1.0]), np.array([1.0, 1.0, 0.5, 1.7])  # of the last: over the radius
 
 
-def _cost(impacts: Records, radius: float, model: ShotCushion, given: Doubles) -> float:
+def _free(model: ShotCushion) -> tuple[str, ...]:
+    """Those of _CUSHION that impacts tell: without friction the first alone."""
+    return _CUSHION if usual(model)["mu_cushion"] else _CUSHION[:1]
+
+
+def _cost(impacts: Records, radius: float, model: ShotCushion, values: Doubles, given: Mapping[str, float]) -> float:
     """The cost of constants of _CUSHION, the last over the radius, with a prior of the friction: above some value every ball sticks."""
-    e, mu, loss, height = given
+    e, mu, loss, height = values
     prior = ((mu - usual(model)["mu_cushion"]) / _MU_ERROR) ** 2
-    chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss)[:, 4]
+    chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss, given)[:, 4]
     return float(prior + (_OUTLIER**2 * np.log1p(chi2 / _OUTLIER**2)).sum())
 
 
-def _fit_cushion(impacts: Records, radius: float, model: ShotCushion, start: Doubles) -> Doubles:
+def _fit_cushion(impacts: Records, radius: float, model: ShotCushion, start: Doubles, given: Mapping[str, float]) -> Doubles:
     """The constants of _CUSHION, the last over the radius, of these impacts."""
-    free = 1 if model == "mirror" else len(_CUSHION)
+    free = len(_free(model))
 
     def residuals(sets: Doubles) -> Doubles:
         rows: list[Doubles] = []
-        for given in sets:
-            e, mu, loss, height = bounded = np.clip([*given, *start[free:]], _LEAST, _MOST)
-            chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss)[:, 4]
+        for values in sets:
+            e, mu, loss, height = bounded = np.clip([*values, *start[free:]], _LEAST, _MOST)
+            chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss, given)[:, 4]
             # the square root of the cost, so that squares add up to it, and what leads back from beyond the bounds
-            outside = 100.0 * (np.array(given) - bounded[:free])
+            outside = 100.0 * (np.array(values) - bounded[:free])
             outside = np.append(outside, (mu - usual(model)["mu_cushion"]) / _MU_ERROR)
             rows.append(np.concatenate([_OUTLIER * np.sqrt(np.log1p(chi2 / _OUTLIER**2)), outside]))
         return np.array(rows)
@@ -139,7 +142,7 @@ def _fit_cushion(impacts: Records, radius: float, model: ShotCushion, start: Dou
 
 
 def _cushion(
-    impacts: Records, radius: float, model: ShotCushion, random: np.random.Generator
+    impacts: Records, radius: float, model: ShotCushion, random: np.random.Generator, given: Mapping[str, float]
 ) -> dict[str, tuple[float, float]]:
     """The constants of _CUSHION."""
     good = chosen(impacts)
@@ -148,8 +151,7 @@ def _cushion(
     first, size = usual(model), np.array([1.0, 1.0, 1.0, radius])
     start = np.array([first[name] for name in _CUSHION]) / size
     # another friction may be another minimum, in which most balls stick
-    tried = [_fit_cushion(good, radius, model, start * [1.0, share, 1.0, 1.0]) for share in (1.0, 0.6)]
-    found = min(tried, key=lambda one: _cost(good, radius, model, one))
-    error = _events.halves(len(good), _SPLITS, random, lambda half: _fit_cushion(good[half], radius, model, found))
-    names = _CUSHION[: 1 if model == "mirror" else None]
-    return {name: (float(value), float(spread)) for name, value, spread in zip(names, found * size, error * size)}
+    tried = [_fit_cushion(good, radius, model, start * [1.0, share, 1.0, 1.0], given) for share in (1.0, 0.6)]
+    found = min(tried, key=lambda one: _cost(good, radius, model, one, given))
+    error = _events.halves(len(good), _SPLITS, random, lambda half: _fit_cushion(good[half], radius, model, found, given))
+    return {name: (float(value), float(spread)) for name, value, spread in zip(_free(model), found * size, error * size)}

@@ -23,7 +23,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from carom import _events
+from carom import _events, dtypes
+from carom._carom import lib
 from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
 from carom.layouts import balls
@@ -45,6 +46,8 @@ _SHAPE = {
     "restitution_cushion": 9e-4, "mu_cushion": 9e-4, "roll_loss": 3e-3, "nose_height": 8e-5,
     "restitution_log": 2e-3, "mu_log": 2e-3,
 }  # fmt: skip
+_WIDE = 10.0  # a range that is wider says nothing of the deviation of a constant
+_OTHER = 0.1  # the deviation of a prior of other constants over the width of their range, and _SHAPE over the deviation
 _STEP = 1e-3  # of the differences, in deviations
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
 _ELSEWHERE = 4  # the stage before which a search may begin again
@@ -54,6 +57,20 @@ _STEPS = 12  # at most, of each
 # each one's own; and what the search leaves, over _SHAPE and the misfit over that of the noise.
 _COMMON, _LEFT = 0.8, 0.1
 _SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
+
+
+def prior(name: str) -> tuple[float | None, float, float]:
+    """The deviation of the prior of a constant, None where it has to be given, and its bounds."""
+    if name in PRIORS:
+        return PRIORS[name]
+    row = lib.carom_ball_number(list(dtypes.ball_kind.names or ()).index(name))
+    width = row.high - row.low
+    return (_OTHER * width if width <= _WIDE else None), row.low, row.high
+
+
+def _shape(search: Search) -> Doubles:
+    """How large errors of the constants are beside each other."""
+    return np.array([_SHAPE.get(name, _OTHER * scale) for name, scale in zip(search.names, search.scale.tolist())])
 
 
 def damped(square: Doubles) -> Doubles:
@@ -78,7 +95,7 @@ class Search:
         self.values = np.array([plays.constants[name] for name in priors])
         self.start = self.values.copy()
         self.first, self.scale = np.array(list(priors.values())).T
-        self.low, self.high = np.array([PRIORS[name][1:] for name in priors]).T
+        self.low, self.high = np.array([prior(name)[1:] for name in priors]).T
         self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
         self.counts = plays.counts[self.rows].astype(float)
         self.again = True  # whether a search that stops early begins again elsewhere
@@ -213,7 +230,7 @@ def spread(search: Search, seed: int) -> dict[str, float]:
 
     error = _events.halves(len(search.rows), _SPLITS, np.random.default_rng(seed), find)
     # few halves tell each error roughly, and all of them together the size of all errors
-    shape = np.array([_SHAPE[name] for name in search.names])
+    shape = _shape(search)
     common = float(np.median(error / shape)) * shape
     found = np.sqrt((1.0 - _COMMON) * error**2 + _COMMON * common**2 + left(search) ** 2)
     return dict(zip(search.names, found.tolist()))
@@ -222,4 +239,4 @@ def spread(search: Search, seed: int) -> dict[str, float]:
 def left(search: Search) -> Doubles:
     """What a search leaves of each constant: the more the farther the misfit is above that of the noise."""
     above = math.sqrt(0.25 * search.middle) / search.noise
-    return np.array([_LEFT * min(above, 6.0) * _SHAPE[name] for name in search.names])
+    return _LEFT * min(above, 6.0) * _shape(search)

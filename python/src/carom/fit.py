@@ -62,18 +62,26 @@ def _priors(
     free: Sequence[str], priors: Mapping[str, tuple[float, float]], values: Mapping[str, float], cushion_model: ShotCushion
 ) -> dict[str, tuple[float, float]]:
     """Mean and deviation of each constant that whole shots are to tell."""
-    left_out: tuple[str, ...] = ("mu_cushion", "roll_loss", "nose_height") if cushion_model == "mirror" else ()
-    left_out += ("restitution_log",) if cushion_model == "smooth" else ("restitution_log", "mu_log")
-    names = [name for name in _joint.PRIORS if name not in left_out]
-    if list(free) != ["default"]:
-        names = list(free)
-    unknown = [name for name in [*names, *priors] if name not in _joint.PRIORS]
+    # a change with the speed is not sought where the usual cushion has none, nor a height where it has no friction
+    usual, some = _constants.usual(cushion_model), ("mu_cushion", "roll_loss", "restitution_log", "mu_log")
+    left_out = {name for name in some if not usual[name]} | ({"nose_height"} if not usual["mu_cushion"] else set())
+    names = [name for name in _joint.PRIORS if name not in left_out] if list(free) == ["default"] else list(free)
+    known = [name for name in _constants.KINDS if name in values]
+    unknown = [name for name in [*names, *priors] if name not in known]
     if unknown:
-        raise ValueError(f"free, priors: there is no constant {unknown[0]!r} to fit; known are {', '.join(_joint.PRIORS)}")
+        raise ValueError(f"free, priors: there is no constant {unknown[0]!r} to fit; known are {', '.join(known)}")
     for name, (mean, deviation) in priors.items():
         if not (math.isfinite(mean) and math.isfinite(deviation) and deviation > 0.0):
             raise ValueError(f"priors: {name} must have a finite mean and a deviation above 0, not {mean!r}, {deviation!r}")
-    return {name: priors.get(name, (values[name], _joint.PRIORS[name][0])) for name in names}
+    found = {}
+    for name in names:
+        width, low, high = _joint.prior(name)
+        if name not in _joint.PRIORS and not low <= values[name] <= high:
+            raise ValueError(f"free: {name} must begin at {low:g} to {high:g}, not at its default of {values[name]:g}: constants gives it")
+        if name not in priors and width is None:
+            raise ValueError(f"free: {name} needs its mean and deviation in priors, as its range has no end")
+        found[name] = priors.get(name, (values[name], width or 0.0))
+    return found
 
 
 class _Saved:
@@ -123,7 +131,8 @@ def fit(
     free : "none", "events", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
         drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all of
-        `_joint.PRIORS` together, by whole shots. Names: these constants alone, by whole shots.
+        `_joint.PRIORS` together, by whole shots. Names: these constants alone, by whole shots: any field of `carom.dtypes.ball_kind`
+        but radius and mu_ball, also a cushion's own numbers.
     priors : mapping, optional
         Mean and deviation of constants that are fitted by whole shots. Without: about the value before, as wide as the constants of
         different tables are.
@@ -181,7 +190,7 @@ def fit(
                 progress("events", 0.0)
             shots = [recordings[k] for k in fitted]
             measured, spread = saved.get(
-                "events", lambda: _from_events.measured(events(shots, table, radius), radius, cushion_model, seed)
+                "events", lambda: _from_events.measured(events(shots, table, radius), radius, cushion_model, seed, values)
             )
             values = {**values, **measured}
         if free[0] not in ("none", "events") and fitted:
@@ -208,7 +217,7 @@ def fit(
             covariance = _covariance.of_constants(search, evidence, errors)
             spread = {**spread, **errors}
             told += [f"{name} is at its bound, {values[name]:g}: the recordings do not tell it, or the cushion's model does not fit them"
-                     for name in names if values[name] in _joint.PRIORS[name][1:]]  # fmt: skip
+                     for name in names if values[name] in _joint.prior(name)[1:]]  # fmt: skip
         plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
@@ -269,7 +278,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("tracks", type=Path, help="recorded tracks: a CSV with shot,ball,t,x,y, or JSON Lines; .xz and .gz too")
     parser.add_argument("--table", type=_extents, required=True, metavar="W,L", help="extents of x and y, m")
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
-    parser.add_argument("--cushion-model", default="han", choices=["mathavan", "stronge", "han", "mirror", "smooth"])
+    parser.add_argument("--cushion-model", default="han", choices=list(_constants.STARTS))
     parser.add_argument("--constants", type=Path, metavar="IN.json", help="known constants; the usual ones otherwise")
     parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|default|NAME,...",
                         help="constants that are fitted besides the strikes")  # fmt: skip
