@@ -1,6 +1,6 @@
 """The rows of src/about as data: what the library says of itself at run time, for what is needed before it runs.
 
-rows.py json      numbers of a ball and words, as carom_ball_number() and carom_word() tell them
+rows.py json      numbers of a ball, options and words, as carom_number_of() and carom_word() tell them
 rows.py python    python/src/carom/_described.py
 rows.py markdown  the tables of pages between <!-- rows: NAME --> and <!-- rows: end -->
 """
@@ -35,6 +35,7 @@ def rows(file, macro):
     text = (SOURCE / file).read_text(encoding="utf-8")
     head = re.search(rf"#define {macro}\(([^)]*)\)((?:.*\\\n)*.*)\n", text)
     body, calls = head[2].replace("\\\n", "\n"), head[1].replace(" ", "").split(",")
+    body = re.sub(r"\bCAROM_\w+_OPTIONS\(\w+\)", lambda of: "".join(f"{calls[0]}({', '.join(row)})" for _, row in rows(file, of[0][:-len(calls[0]) - 2])), body)
     call_of, found, at = re.compile(rf"\b({'|'.join(calls)})\("), [], 0
     while call := call_of.search(body, at):
         values, size = arguments(body[call.end() :])
@@ -50,7 +51,7 @@ def text_of(value):
 def end_of(value):
     """A number of a row, None for one that is not there; and whether it belongs to the range."""
     inner = re.fullmatch(r"CAROM_(?:ABOVE|BELOW)\((.*)\)", value)
-    number = {"DBL_MAX": None, "NAN": None}.get(value, inner[1] if inner else value)
+    number = {"DBL_MAX": None, "-DBL_MAX": None, "NAN": None}.get(value, inner[1] if inner else value)
     return (None if number is None else float(number)), inner is None
 
 
@@ -63,7 +64,9 @@ def range_of(unit, low, high, other):
     """A range in the words of carom_number_range()."""
     (low, from_), (high, to), (other, _) = end_of(low), end_of(high), end_of(other)
     begin = "" if other is None else f"{digits(other)}, or "
-    if high is None:
+    if low is None:
+        words = "finite" if high is None else f"at most {digits(high)}"
+    elif high is None:
         words = f"{digits(low)} or more and finite" if from_ else f"above {digits(low)} and finite"
     elif from_ and to:
         words = f"{digits(low)} to {digits(high)}"
@@ -96,6 +99,36 @@ def words():
     found["CUSHION_MODEL"] = models
     found["SHOT_CUSHION"] += models
     found["BALL_FRICTION"] = [(text_of(row[1]), text_of(row[-1])) for _, row in rows("friction/laws.h", "CAROM_FRICTION_LAWS")]
+    return found
+
+
+STRUCTS = {
+    "MOTION": "carom_shot_options", "STOP": "carom_shot_options", "COMPUTE": "carom_shot_options", "IMPACT": "carom_options",
+    "RAIL": "carom_cushion_options", "PLAN": "carom_plan_options",
+}  # fmt: skip
+
+
+def options():
+    """The options of each struct, in the order of carom_number_of(), by its name. `form` is words, count, flag, seed, number or set; `words`
+    the name in words() of an enumeration or a set; `group` motion, stop or compute."""
+    found = {}
+    for group, struct in STRUCTS.items():
+        for _, (name, key, form, low, high, error, text, *_place) in rows("about/options.h", f"CAROM_{group}_OPTIONS"):
+            kind, of = re.fullmatch(r"(\w+)(?:\((.*)\))?", form).groups()
+            words_of, unit = (of if kind in ("WORDS", "SET") and of != "BALLS" else None), text_of(of or "")
+            if kind == "WORDS":
+                several = [word for word, _ in words()[of]]
+                range_ = " or ".join([", ".join(several[:-1]), several[-1]])
+            elif kind in ("SET", "SEED"):
+                range_ = f"a set of bits 0 to {63 if high == 'UINT64_MAX' else int(high).bit_length() - 1}"
+            elif high == "INT32_MAX":
+                range_ = f"{low} or more"
+            else:
+                range_ = range_of(unit, low, high, "0" if end_of(low)[0] is not None and end_of(low)[0] > 0 else "NAN")
+            found.setdefault(struct, []).append({
+                "name": name, "key": text_of(key), "form": kind.lower(), "words": words_of, "unit": unit, "range": range_,
+                "error": f"CAROM_ERROR_{error}", "group": group.lower() if group in ("STOP", "COMPUTE") else "motion", "text": text_of(text),
+            })  # fmt: skip
     return found
 
 
@@ -143,7 +176,7 @@ def with_tables(page):
 
 if __name__ == "__main__":
     made = {
-        "json": lambda: json.dumps({"numbers": numbers(), "words": words()}, indent=1) + "\n",
+        "json": lambda: json.dumps({"numbers": numbers(), "options": options(), "words": words()}, indent=1) + "\n",
         "python": python,
         "markdown": lambda: "\n\n".join(tables().values()) + "\n",
     }

@@ -22,11 +22,20 @@ static const struct kind {
              {CAROM_WORDS_GAME, "game of a file", "params.game"}};
 enum { KINDS = sizeof kinds / sizeof kinds[0], NAME_WIDTH = 20 };
 
+/* What has numbers, and the title of its list. */
+static const struct list {
+  carom_part_kind part;
+  const char *title;
+} lists[] = {{CAROM_PART_OPTIONS, "options of a shot in programs, and their options here"},
+             {CAROM_PART_BALL, "numbers of a ball and its cushions, by their names, for --with, "
+                               "and their keys in files"}};
+enum { LISTS = sizeof lists / sizeof lists[0] };
+
 static void print_number(FILE *out, const carom_number *n) {
   char range[100], reader[160];
   carom_number_range(n, range, sizeof range);
   fprintf(out, "  %-*s %-12s %s; %s", NAME_WIDTH, n->name, n->key, n->text, range);
-  if (n->reader != CAROM_READ_ALWAYS)
+  if (n->reader == CAROM_READ_BY_CUSHION || n->reader == CAROM_READ_BY_FRICTION)
     fprintf(out, " (%s)", reader_of(n, "cushion", reader));
   putc('\n', out);
 }
@@ -36,7 +45,7 @@ static void print_numbers_of(FILE *out, carom_reader reader, carom_shot_options 
   static const carom_ball_kind any = {0};
   const carom_number *n;
   int count = 0;
-  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     if (n->reader == reader && carom_number_is_read(n, &any, &options)) {
       if (count++ == 0)
         fputs("numbers of its own, by their names, for --with, and their keys in files:\n", out);
@@ -54,11 +63,11 @@ static void print_all(FILE *out) {
     for (int value = 0; (word = carom_word(kinds[k].of, value)) != NULL; value++)
       fprintf(out, "  %-*s %s\n", NAME_WIDTH, word, carom_word_text(kinds[k].of, value));
   }
-  fputs("numbers of a ball and its cushions, by their names, for --with, and their keys in "
-        "files:\n",
-        out);
-  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
-    print_number(out, n);
+  for (int of = 0; of < LISTS; of++) {
+    fprintf(out, "%s:\n", lists[of].title);
+    for (int k = 0; (n = carom_number_of(lists[of].part, k)) != NULL; k++)
+      print_number(out, n);
+  }
 }
 
 /* Prints all that has this name; whether there is something. */
@@ -80,11 +89,12 @@ static bool print_named(FILE *out, const char *name) {
         print_numbers_of(out, CAROM_READ_BY_FRICTION,
                          (carom_shot_options){.friction = (carom_ball_friction)value});
     }
-  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
-    if (strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0) {
-      found = true;
-      print_number(out, n);
-    }
+  for (int of = 0; of < LISTS; of++)
+    for (int k = 0; (n = carom_number_of(lists[of].part, k)) != NULL; k++)
+      if (strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0) {
+        found = true;
+        print_number(out, n);
+      }
   return found;
 }
 
@@ -97,8 +107,9 @@ static void hint_at_name(const char *name) {
   for (int k = 0; k < KINDS; k++)
     for (int value = 0; (word = carom_word(kinds[k].of, value)) != NULL; value++)
       size += snprintf(known + size, sizeof known - (size_t)size, "%s|", word);
-  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
-    size += snprintf(known + size, sizeof known - (size_t)size, "%s|%s|", n->name, n->key);
+  for (int of = 0; of < LISTS; of++)
+    for (int k = 0; (n = carom_number_of(lists[of].part, k)) != NULL; k++)
+      size += snprintf(known + size, sizeof known - (size_t)size, "%s|%s|", n->name, n->key);
   known[size - 1] = '\0';
   complain("there is no model or number '%.40s'%s", name, did_you_mean(name, known, hint));
 }

@@ -118,9 +118,7 @@ static const command_form record_form = {
              "the balls, each stroke, and a hash of the bits in which its shot ended. The bits are "
              "those of plain C, which all machines share. IN may be -.\n",
     .options =
-        (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion_of_shots,
-                                    &option_friction_of_shots, &option_space, &option_simultaneous,
-                                    &option_events, &option_output, NULL},
+        (const option_row *const[]){&options_of_motion, &option_events, &option_output, NULL},
     .details = "exit code: 0 if all shots were recorded and came to rest; 1 if some have errors, "
                "which are told; 2 for bad usage or unreadable input\n",
     .example = "carom record -o game.jsonl shots.jsonl",

@@ -55,10 +55,6 @@ OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_cho
 OPTION(shoot_job, option_story, "csv", csv, 0, NULL, set_flag, 0,
        "with a shot by options: write what the balls do as rows, instead of words: where each "
        "leaves, rolls from, meets a rail, passes another ball and rests");
-OPTION(shoot_job, option_events_most, "events-most", from.shared.shot.events_most, 0, "N",
-       set_count, 1, "largest number of events of a shot (default 10000)");
-OPTION(shoot_job, option_time_most, "time-most", from.shared.shot.time_most, 0, "SECONDS",
-       set_number, 0, "largest time of a shot, on its own clock (default 1000)");
 OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the table and the paths of the balls in the first shot without an error, or in all "
        "that options describe; from the side too where a ball flies");
@@ -76,7 +72,6 @@ OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0,
 
 static carom_shot_options options_of(const shoot_job *job) {
   carom_shot_options options = job->from.shared.shot;
-  options.steps = job->from.shared.options.steps;
   options.threads = job->from.shared.options.threads;
   return options;
 }
@@ -340,7 +335,7 @@ static void report_unread(block *b, shot_line *line, const shoot_job *job) {
   const carom_number *n;
   if (line->error != NULL)
     return;
-  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++) {
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     int i = 0;
     while (i < line->count && !carom_number_is_read(n, &line->ball[i].kind, &options))
       i++;
@@ -416,42 +411,20 @@ static const command_form form = {
              "are ignored) and writes each table and each shot with its events and final states. "
              "IN may be -. Or plays a shot that options describe, and tells it in words; several "
              "values with commas give several shots, drawn over each other.\n",
-    .options = (const option_row *const[]){&option_table,
-                                           &option_cue,
-                                           &option_balls,
-                                           &option_aim,
-                                           &option_at_ball,
-                                           &option_pocket,
-                                           &option_via,
-                                           &option_shot_cut,
-                                           &option_shot_speed,
-                                           &option_ball_speed,
-                                           &option_tip,
-                                           &option_elevation,
-                                           &option_tip_time,
-                                           &option_tip_restitution,
-                                           &option_json,
-                                           &option_story,
-                                           &option_models,
-                                           &option_ball_ball,
-                                           &option_cushion_of_shots,
-                                           &option_friction_of_shots,
-                                           &option_with_of_shots,
-                                           &option_space,
-                                           &option_simultaneous,
-                                           &option_events,
-                                           &option_steps,
-                                           &option_events_most,
-                                           &option_time_most,
-                                           &option_threads,
-                                           &option_plot,
-                                           &option_spread,
-                                           &option_animate,
-                                           &option_shot_id,
-                                           &option_strict,
-                                           &option_cite,
-                                           &option_output,
-                                           NULL},
+    .options = (const option_row *const[]){&option_table,      &option_cue,
+                                           &option_balls,      &option_aim,
+                                           &option_at_ball,    &option_pocket,
+                                           &option_via,        &option_shot_cut,
+                                           &option_shot_speed, &option_ball_speed,
+                                           &option_tip,        &option_elevation,
+                                           &option_tip_time,   &option_tip_restitution,
+                                           &option_json,       &option_story,
+                                           &options_of_shots,  &option_with_of_shots,
+                                           &option_events,     &option_threads,
+                                           &option_plot,       &option_spread,
+                                           &option_animate,    &option_shot_id,
+                                           &option_strict,     &option_cite,
+                                           &option_output,     NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
         "the error; the others are played); 2 for bad usage or unreadable input\n",
@@ -509,10 +482,6 @@ int command_shoot(int argc, char **argv) {
   if (job.csv && !job.words) {
     complain("--csv writes a shot by options, without --events; a file's shots are written as "
              "lines of JSON");
-    return EXIT_USAGE;
-  }
-  if (job.from.shared.shot.time_most < 0.0) {
-    complain("--time-most is a number of seconds above 0");
     return EXIT_USAGE;
   }
   if (job.error.given && job.from.shared.shot.world == CAROM_WORLD_POOLTOOL) {

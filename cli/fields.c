@@ -104,9 +104,55 @@ OPTION_SET(set_named) {
   return set_place(row, text, words_of(row->least, true, all), field);
 }
 
+/* ---- Options of shots, as the library tells them */
+
+static OPTION_SET(set_option);
+
+static const carom_number *option_of(const option_row *row) {
+  return row->set == set_option ? carom_number_of(CAROM_PART_OPTIONS, row->least) : NULL;
+}
+
+static OPTION_SET(set_option) {
+  const carom_number *n = option_of(row);
+  char all[MOST_WORDS], must[100];
+  double x;
+  if (n->words >= 0)
+    return set_place(row, text, words_of(n->words, true, all), field);
+  const bool whole = n->type == CAROM_TYPE_INT32;
+  if (parse_number(text, &x) && x >= n->low && x <= n->high && (!whole || x == floor(x))) {
+    if (whole)
+      *(int32_t *)field = (int32_t)x;
+    else
+      *(double *)field = x;
+    return true;
+  }
+  carom_number_range(n, must, sizeof must);
+  complain("--%s is %s%s, not '%s'%s", row->name, whole ? "a whole number, " : "a number, ", must,
+           text, comma_hint(text));
+  return false;
+}
+
+int rows_of_shots(const option_row *for_all, option_row rows[MOST_OF_SHOTS]) {
+  const carom_number *n;
+  int count = 0;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_OPTIONS, k)) != NULL; k++)
+    if (n->key[0] != '\0' && (n->reader == CAROM_READ_ALWAYS || (int)n->reader == for_all->least))
+      rows[count++] = (option_row){.name = n->key,
+                                   .help = n->text,
+                                   .set = set_option,
+                                   .field = for_all->field + (size_t)n->offset,
+                                   .least = k};
+  return count;
+}
+
 const char *argument_of(const option_row *row) {
   static char text[MOST_WORDS];
-  return row->set == set_named ? words_of(row->least, false, text) : row->argument;
+  const carom_number *n = option_of(row);
+  if (n != NULL && n->words < 0)
+    return n->type == CAROM_TYPE_DOUBLE ? "X" : "N";
+  if (n != NULL || row->set == set_named)
+    return words_of(n != NULL ? n->words : row->least, false, text);
+  return row->argument;
 }
 
 /* ---- Numbers of balls */
@@ -120,7 +166,7 @@ static bool takes(const option_row *row, const carom_number *n) {
 static int number_named(const option_row *row, const char *name) {
   char known[800] = "", hint[HINT_TEXT];
   const carom_number *n;
-  for (int k = 0, size = 0; (n = carom_ball_number(k)) != NULL; k++) {
+  for (int k = 0, size = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     if (!takes(row, n))
       continue;
     if (strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0)
@@ -143,7 +189,7 @@ OPTION_SET(set_numbers) {
     const int k = number_named(row, one);
     if (k < 0)
       return false;
-    const carom_number *n = carom_ball_number(k);
+    const carom_number *n = carom_number_of(CAROM_PART_BALL, k);
     double x;
     if (value == NULL || !parse_number(value, &x) ||
         !((x >= n->low && x <= n->high) || x == n->other)) {
@@ -160,7 +206,7 @@ OPTION_SET(set_numbers) {
 
 static void give(const given_numbers *given, void *to, bool to_cushion) {
   const carom_number *n;
-  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     if ((given->which >> k & 1) != 0)
       memcpy((char *)to + (to_cushion ? n->cushion_offset : n->offset),
              (const char *)&given->kind + n->offset, sizeof(double));
@@ -184,7 +230,7 @@ bool numbers_are_read(shared_options *shared) {
     options.cushion_model = (carom_shot_cushion)((int)shared->rail.model + 1);
   const carom_number *n;
   char reader[160];
-  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     if ((with->which >> k & 1) != 0 && !carom_number_is_read(n, &with->kind, &options)) {
       complain("--with: %s has no effect; %s reads it", n->name,
                reader_of(n, shared->cushion ? "model" : "cushion", reader));
@@ -300,27 +346,9 @@ ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
     "numbers of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1: `carom models NAME` lists "
     "them");
 
-/* Of whole shots. */
-ROW(option_models, "models", shot.world, 0, NULL, set_named, CAROM_WORDS_WORLD, ANY_KIND,
-    "the rules of contact and the default models (default carom)");
-ROW(option_ball_ball, "ball-ball", shot.ball_model, 0, NULL, set_named, CAROM_WORDS_BALL_MODEL,
-    ANY_KIND,
-    "model of the collision of two balls (default: exact; with --models pooltool inelastic)");
-ROW(option_cushion_of_shots, "cushion", shot.cushion_model, 0, NULL, set_named,
-    CAROM_WORDS_SHOT_CUSHION, ANY_KIND,
-    "model of the impact on a cushion; mathavan is the exact limit (default: smooth for balls with "
-    "a smooth_q, as those of the game billiard, else han; with --models pooltool stronge)");
-ROW(option_friction_of_shots, "friction", shot.friction, 0, NULL, set_named,
-    CAROM_WORDS_BALL_FRICTION, ANY_KIND,
-    "friction between balls: alciatore falls with the speed of slip (default); constant is u_b of "
-    "the balls");
-ROW(option_space, "space", shot.space, 0, NULL, set_named, CAROM_WORDS_SPACE, ANY_KIND,
-    "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
-ROW(option_simultaneous, "simultaneous", shot.simultaneous, 0, NULL, set_named,
-    CAROM_WORDS_SIMULTANEOUS, ANY_KIND,
-    "contacts of several balls at one instant, as in a rack: they last and overlap in time, or "
-    "they are resolved one after the other (default: cluster; by pooltool's rules and with "
-    "--ball-ball euler or inelastic always pairs)");
+/* Of whole shots: rows without a name stand for those of rows_of_shots(). */
+ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);
+ROW(options_of_motion, NULL, shot, 0, NULL, set_option, CAROM_READ_ALWAYS, ANY_KIND, NULL);
 ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIND,
     "numbers of all balls and their cushions, instead of those of IN, such as "
     "mu_slide=0.15,u_b=0.03: `carom models` lists them");

@@ -105,6 +105,33 @@ int usage_hint(const command_form *form) {
   return EXIT_USAGE;
 }
 
+/* The form with the rows of the library; its own stand for those of the same name. */
+static const command_form *with_all_rows(const command_form *form) {
+  static option_row of_library[MOST_OF_SHOTS];
+  static const option_row *rows[MOST_ROWS];
+  static command_form whole;
+  int count = 0;
+  for (int k = 0; form->options[k] != NULL; k++) {
+    if (form->options[k]->name != NULL) {
+      rows[count++] = form->options[k];
+      continue;
+    }
+    const int more = rows_of_shots(form->options[k], of_library);
+    for (int j = 0; j < more; j++) {
+      int own = 0;
+      while (form->options[own] != NULL &&
+             (form->options[own]->name == NULL ||
+              strcmp(form->options[own]->name, of_library[j].name) != 0))
+        own++;
+      if (form->options[own] == NULL)
+        rows[count++] = &of_library[j];
+    }
+  }
+  whole = *form;
+  whole.options = rows;
+  return &whole;
+}
+
 static const option_row *row_of(const command_form *form, int code) {
   for (int k = 0; form->options[k] != NULL; k++)
     if (code == FIRST_CODE + k || (code != 0 && code == form->options[k]->letter))
@@ -212,6 +239,7 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
 }
 
 int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file) {
+  form = with_all_rows(form);
   const int code = parse_options(form, argc, argv, job), files = argc - optind;
   if (code >= 0)
     return code;

@@ -13,7 +13,7 @@
 #include <stddef.h>
 
 typedef struct option_row {
-  const char *name;     /* without its dashes */
+  const char *name;     /* without its dashes; NULL: it stands for several, see rows_of_shots() */
   char letter;          /* the short form, or 0 */
   const char *argument; /* what the help calls it; NULL for a flag, which has none */
   const char *help;     /* of any length: it is wrapped */
@@ -62,10 +62,15 @@ OPTION_SET(
     set_named); /* an enumeration by the words of the library; its default has none in help */
 OPTION_SET(set_numbers); /* given_numbers: NAME=X,... of the library's numbers of balls */
 
+/* Writes the rows of options of shots for which a row without a name stands, at most MOST_OF_SHOTS;
+ * returns how many: options_of_motion, or with those of when to stop options_of_shots. */
+enum { MOST_OF_SHOTS = 24 };
+int rows_of_shots(const option_row *for_all, option_row rows[MOST_OF_SHOTS]);
+
 /* What the help calls the argument of an option, "this|that"; NULL for a flag. */
 const char *argument_of(const option_row *row);
 
-/* Numbers of balls that --with gives: bit k of `which` is carom_ball_number(k). */
+/* Numbers of balls that --with gives: bit k of `which` is carom_number_of(CAROM_PART_BALL, k). */
 typedef struct given_numbers {
   uint64_t which;
   carom_ball_kind kind;
@@ -117,8 +122,7 @@ bool numbers_are_read(shared_options *shared);
 extern const option_row option_solver, option_solvers, option_slip, option_steps, option_threads,
     option_friction, option_precision, option_id, option_data, option_output, option_summary,
     option_bare, option_strict, option_derived, option_cushion, option_model, option_convention,
-    option_law, option_least_step, option_with, option_models, option_ball_ball,
-    option_cushion_of_shots, option_friction_of_shots, option_space, option_simultaneous,
+    option_law, option_least_step, option_with, options_of_shots, options_of_motion,
     option_with_of_shots;
 
 /* A row of one table alone: OPTION(job, option_NAME, name, field, letter, argument, set, least,

@@ -50,7 +50,7 @@ _Static_assert(offsetof(carom_cue, ball) == 9 * sizeof(double) &&
 static const char *kind_keys(void) {
   static char keys[600];
   const carom_number *n;
-  for (int k = 0, size = 0; (n = carom_ball_number(k)) != NULL; k++)
+  for (int k = 0, size = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     size += snprintf(keys + size, sizeof keys - (size_t)size, "%s%s", k > 0 ? " " : "", n->key);
   return keys;
 }
@@ -66,7 +66,7 @@ static bool read_kind(const json_t *params, const char *where, carom_ball_kind *
   if (!json_get_doubles(params, where, kind_keys(), &kind->mass, f) ||
       !json_only(params, where, known, f))
     return false;
-  for (int k = 0; (n = carom_ball_number(k)) != NULL; k++)
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     if (memcmp((const char *)kind + n->offset, (const char *)&of_game + n->offset,
                sizeof(double)) != 0)
       *given |= (uint64_t)1 << k;

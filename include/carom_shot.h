@@ -399,7 +399,13 @@ typedef enum carom_part_kind {
   CAROM_PART_RAIL = 1,
   CAROM_PART_JAW = 2,
   CAROM_PART_POCKET = 3,
-  CAROM_PART_BALL = 4
+  CAROM_PART_BALL = 4, /* whose numbers are those of carom_ball_kind */
+  /* what else has numbers; see carom_number_of() */
+  CAROM_PART_OPTIONS = 5,         /* carom_shot_options */
+  CAROM_PART_IMPACT_OPTIONS = 6,  /* carom_options */
+  CAROM_PART_CUSHION_OPTIONS = 7, /* carom_cushion_options, but for the numbers of a ball's
+                                     cushions */
+  CAROM_PART_PLAN_OPTIONS = 8     /* carom_plan_options */
 } carom_part_kind;
 
 typedef struct carom_part {
@@ -918,32 +924,45 @@ CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int 
 /* What reads a number. */
 typedef enum carom_reader {
   CAROM_READ_ALWAYS = 0,
-  CAROM_READ_BY_CUSHION = 1, /* a carom_cushion_model, */
-  CAROM_READ_BY_FRICTION = 2 /* or a carom_ball_friction */
+  CAROM_READ_BY_CUSHION = 1,  /* a carom_cushion_model, */
+  CAROM_READ_BY_FRICTION = 2, /* a carom_ball_friction, */
+  CAROM_READ_TO_STOP = 3,     /* or an option of when to stop, */
+  CAROM_READ_TO_COMPUTE = 4   /* or of how to compute */
 } carom_reader;
 
-/* A number of a ball, a double: low to high, to which both ends belong, or `other`. Later versions
- * add members at the end. */
+/* Types of members. */
+typedef enum carom_type {
+  CAROM_TYPE_DOUBLE = 0,
+  CAROM_TYPE_INT32 = 1,
+  CAROM_TYPE_INT64 = 2,
+  CAROM_TYPE_UINT64 = 3 /* a set: bit k is value k of `words`, or ball k; or any number, a seed */
+} carom_type;
+
+/* A number of a struct: low to high, to which both ends belong, or `other`. Later versions add
+ * members at the end. */
 typedef struct carom_number {
-  const char *name;       /* of the member of carom_ball_kind. */
-  const char *key;        /* in files of `carom shoot`. */
+  const char *name;       /* of the member. */
+  const char *key;        /* in files of `carom shoot`; of options that of the command; "": none. */
   const char *unit;       /* "" without one. */
   const char *text;       /* what it is, in a few words. */
   double low, high;       /* the range. */
   double other;           /* a value beside the range: 0, which is a default, or -1; NaN: none. */
-  int32_t offset;         /* bytes in carom_ball_kind, */
-  int32_t cushion_offset; /* and in carom_cushion_options; -1: it is no number of that. */
+  int32_t offset;         /* bytes in the struct, */
+  int32_t cushion_offset; /* and of a ball's in carom_cushion_options; -1: it is not there. */
   carom_status error;     /* of a number that it may not be. */
   carom_reader reader;    /* what reads it, */
   int32_t model;          /* of these the one that does. */
-  int32_t unused;         /* 0. */
+  carom_type type;
+  int32_t words; /* of values that have words a carom_words, else -1. */
+  int32_t count; /* numbers of an array; 1. */
 } carom_number;
 
-/* Number k of a ball, in the order of carom_ball_kind; NULL beyond the last. */
-CAROM_API const carom_number *carom_ball_number(int k);
+/* Number k of a part, in the order of its struct, options in that of their rows; NULL beyond the
+ * last, or of a part without numbers. */
+CAROM_API const carom_number *carom_number_of(carom_part_kind part, int k);
 
-/* Writes what it may be, such as "0, or 1e6 to 1e15, in Pa", into text[room], cut there, with a
- * closing 0. Returns the length of the whole without the 0. */
+/* Writes what it may be, such as "0, or 1e6 to 1e15, in Pa" or "3d or flat", into text[room], cut
+ * there, with a closing 0. Returns the length of the whole without the 0. */
 CAROM_API size_t carom_number_range(const carom_number *number, char *text, size_t room);
 
 /* Returns the number of a ball that is at fault, and writes what it must be into text[room], as

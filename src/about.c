@@ -1,9 +1,9 @@
 /* What there is, for programs that ask: the rows of about/ at run time. Nothing here is on the path
  * of an impact. */
-#include "carom_shot.h"
+#include "carom_plan.h"
 #include "platform/arithmetic.h"
 
-#include "about/numbers.h"
+#include "about/options.h"
 #include "about/words.h"
 #include "cushion/list.h"
 #include "friction/laws.h"
@@ -18,23 +18,92 @@
 #define READ_WITH(MODEL, number) READ_BY_CUSHION(MODEL)
 
 #define IN_CUSHION(member) (int32_t) offsetof(carom_cushion_options, member)
-#define NUMBER(member, key, unit, low, high, other, ERROR, reader, text, in_cushion) \
-  {#member,       key,                                                               \
-   unit,          text,                                                              \
-   low,           high,                                                              \
-   other,         offsetof(carom_ball_kind, member),                                 \
-   in_cushion,    CAROM_ERROR_##ERROR,                                               \
-   READ_##reader, 0},
-#define BALL(...) NUMBER(__VA_ARGS__, -1)
-#define CUSHION(member, ...) NUMBER(member, __VA_ARGS__, IN_CUSHION(member))
+#define BALL_ROW(member, key, unit, low, high, other, ERROR, reader, text, in_cushion) \
+  {#member,                                                                            \
+   key,                                                                                \
+   unit,                                                                               \
+   text,                                                                               \
+   low,                                                                                \
+   high,                                                                               \
+   other,                                                                              \
+   offsetof(carom_ball_kind, member),                                                  \
+   in_cushion,                                                                         \
+   CAROM_ERROR_##ERROR,                                                                \
+   READ_##reader,                                                                      \
+   CAROM_TYPE_DOUBLE,                                                                  \
+   -1,                                                                                 \
+   1},
+#define BALL(...) BALL_ROW(__VA_ARGS__, -1)
+#define CUSHION(member, ...) BALL_ROW(member, __VA_ARGS__, IN_CUSHION(member))
 static const carom_number numbers[] = {CAROM_NUMBERS(BALL, CUSHION)};
 #undef BALL
 #undef CUSHION
 enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 _Static_assert(sizeof(carom_ball_kind) == NUMBERS * sizeof(double), "a row for each number");
 
-const carom_number *carom_ball_number(int k) {
-  return k >= 0 && k < NUMBERS ? &numbers[k] : NULL;
+/* Options, of which 0 is always right. */
+#define FORM_WORDS(of) .unit = "", .words = CAROM_WORDS_##of
+#define FORM_SET(of) FORM_WORDS(of)
+#define FORM_COUNT FORM_NUMBER("")
+#define FORM_FLAG FORM_COUNT
+#define FORM_SEED FORM_COUNT
+#define FORM_NUMBER(of) .unit = of, .words = -1
+#define CAROM_WORDS_BALLS -1
+#define TYPE_OF(x)                      \
+  _Generic(x, double                    \
+           : CAROM_TYPE_DOUBLE, int64_t \
+           : CAROM_TYPE_INT64, uint64_t \
+           : CAROM_TYPE_UINT64, default \
+           : CAROM_TYPE_INT32)
+#define OPTION(STRUCT, READER, member, named, FORM, least, most, ERROR, about, ...) \
+  {.name = #member,                                                                 \
+   .key = named,                                                                    \
+   .text = about,                                                                   \
+   .low = (double)(least),                                                          \
+   .high = (double)(most),                                                          \
+   .other = (least) > 0 ? 0 : NAN,                                                  \
+   .offset = offsetof(STRUCT, member),                                              \
+   .cushion_offset = -1,                                                            \
+   .error = CAROM_ERROR_##ERROR,                                                    \
+   .reader = CAROM_READ_##READER,                                                   \
+   .type = TYPE_OF(((STRUCT *)NULL)->member),                                       \
+   .count = 1,                                                                      \
+   FORM_##FORM},
+#define MOTION(...) OPTION(carom_shot_options, ALWAYS, __VA_ARGS__)
+#define STOP(...) OPTION(carom_shot_options, TO_STOP, __VA_ARGS__, 0)
+#define COMPUTE(...) OPTION(carom_shot_options, TO_COMPUTE, __VA_ARGS__, 0)
+#define IMPACT(...) OPTION(carom_options, ALWAYS, __VA_ARGS__, 0)
+#define RAIL(...) OPTION(carom_cushion_options, ALWAYS, __VA_ARGS__, 0)
+#define PLAN(...) OPTION(carom_plan_options, ALWAYS, __VA_ARGS__, 0)
+static const carom_number shot_options[] = {CAROM_MOTION_OPTIONS(MOTION) CAROM_STOP_OPTIONS(STOP)
+                                                CAROM_COMPUTE_OPTIONS(COMPUTE)},
+                          impact_options[] = {CAROM_IMPACT_OPTIONS(IMPACT)},
+                          rail_options[] = {CAROM_RAIL_OPTIONS(RAIL)},
+                          plan_options[] = {CAROM_PLAN_OPTIONS(PLAN)};
+#undef OPTION
+#undef MOTION
+#undef STOP
+#undef COMPUTE
+#undef IMPACT
+#undef RAIL
+#undef PLAN
+
+static const struct {
+  const carom_number *row;
+  int count;
+} parts[] = {
+#define ROWS(of) \
+  { of, sizeof of / sizeof of[0] }
+    [CAROM_PART_BALL] = ROWS(numbers),
+    [CAROM_PART_OPTIONS] = ROWS(shot_options),
+    [CAROM_PART_IMPACT_OPTIONS] = ROWS(impact_options),
+    [CAROM_PART_CUSHION_OPTIONS] = ROWS(rail_options),
+    [CAROM_PART_PLAN_OPTIONS] = ROWS(plan_options),
+};
+
+const carom_number *carom_number_of(carom_part_kind part, int k) {
+  const bool known = (uint32_t)part < sizeof parts / sizeof parts[0];
+  return known && k >= 0 && k < parts[part].count ? &parts[part].row[k] : NULL;
 }
 
 /* ---- Ranges in words */
@@ -116,25 +185,44 @@ size_t carom_number_range(const carom_number *n, char *text, size_t room) {
   words w = {text, room, 0};
   if (n == NULL)
     return end_of(&w);
+  if (n->type == CAROM_TYPE_UINT64) {
+    int bit = 0;
+    for (double above = 2; above < n->high; above *= 2)
+      bit++;
+    add(&w, "a set of bits 0 to ");
+    add_whole(&w, bit);
+    return end_of(&w);
+  }
+  const char *word = NULL;
+  for (int k = 0; n->words >= 0 && (word = carom_word((carom_words)n->words, k)) != NULL; k++) {
+    const bool last = carom_word((carom_words)n->words, k + 1) == NULL;
+    add(&w, k == 0 ? "" : last ? " or " : ", ");
+    add(&w, word);
+  }
+  if (n->words >= 0)
+    return end_of(&w);
   if (add_short(&w, n->other)) /* not NAN */
     add(&w, ", or ");
   char low_text[32], high_text[32];
   words low = {low_text, sizeof low_text, 0}, high = {high_text, sizeof high_text, 0};
-  const bool from = add_end(&low, n->low, -INFINITY),
-             to = n->high == DBL_MAX || add_end(&high, n->high, INFINITY);
+  const bool finite = n->high == DBL_MAX, any = n->low == -DBL_MAX,
+             open = finite || (n->type != CAROM_TYPE_DOUBLE && n->high >= INT32_MAX);
+  const bool from = any || add_end(&low, n->low, -INFINITY),
+             to = open || add_end(&high, n->high, INFINITY);
   end_of(&low);
   end_of(&high);
 
-  /* "0 to 1", "0 or more and finite", "above 0 and at most 1", "between 1 and 2" */
-  const bool finite = n->high == DBL_MAX;
-  add(&w, from ? "" : to ? "above " : "between ");
+  /* "0 to 1", "0 or more and finite", "above 0 and at most 1", "between 1 and 2", "at most 1" */
+  add(&w, any ? finite ? "finite" : "at most " : from ? "" : to ? "above " : "between ");
   add(&w, low_text);
-  add(&w, finite         ? from ? " or more and finite" : " and finite"
+  add(&w, any            ? ""
+          : finite       ? from ? " or more and finite" : " and finite"
+          : open         ? " or more"
           : from && to   ? " to "
           : !from && !to ? " and "
           : to           ? " and at most "
                          : " or more and below ");
-  add(&w, finite ? "" : high_text);
+  add(&w, open ? "" : high_text);
   if (n->unit[0] != '\0') {
     add(&w, ", in ");
     add(&w, n->unit);

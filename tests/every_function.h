@@ -156,15 +156,17 @@ EVERY_BODY(cite) {
   HASH(length);
   return every_text(h, text);
 }
-EVERY_BODY(ball_number) {
-  for (int k = 0; carom_ball_number(k) != NULL; k++)
-    h = every_text(h, carom_ball_number(k)->name);
+EVERY_BODY(number_of) {
+  for (int part = CAROM_PART_BALL; part <= CAROM_PART_PLAN_OPTIONS; part++)
+    for (int k = 0; carom_number_of((carom_part_kind)part, k) != NULL; k++)
+      h = every_text(h, carom_number_of((carom_part_kind)part, k)->name);
   return h;
 }
 EVERY_BODY(number_range) {
   char text[80];
-  for (int k = 0; carom_ball_number(k) != NULL; k++) {
-    const size_t length = carom_number_range(carom_ball_number(k), text, sizeof text);
+  for (int k = 0; carom_number_of(CAROM_PART_BALL, k) != NULL; k++) {
+    const size_t length =
+        carom_number_range(carom_number_of(CAROM_PART_BALL, k), text, sizeof text);
     HASH(length);
   }
   return every_text(h, text);
@@ -193,7 +195,8 @@ EVERY_BODY(word_text) {
     h = every_text(h, carom_word_text((carom_words)of, 1));
   return h;
 }
-EVERY_VALUE(number_is_read, carom_number_is_read(carom_ball_number(5), &in->balls[0].kind, NULL))
+EVERY_VALUE(number_is_read,
+            carom_number_is_read(carom_number_of(CAROM_PART_BALL, 5), &in->balls[0].kind, NULL))
 EVERY_VALUE(version_number, carom_version_number())
 EVERY_VALUE(physics_revision, carom_physics_revision())
 EVERY_VALUE(serves, carom_serves(CAROM_VERSION_NUMBER))
@@ -608,13 +611,13 @@ EVERY_BODY(record_settle) {
 
 /* clang-format off */
 #define EVERY_ONE(F) \
-  F(aim) F(alciatore) F(ball_fault) F(ball_kind_of) F(ball_number) F(check) F(cite) F(collide) \
+  F(aim) F(alciatore) F(ball_fault) F(ball_kind_of) F(check) F(cite) F(collide) \
   F(cluster) F(collide_batch) \
   F(collide_batch_f32) F(collide_detail) F(collide_tangent) F(cue_of) F(cushion) \
   F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_start) F(cushion_tangent) \
   F(cushion_trace) F(event_name) F(field_name) F(foul_of) F(foul_string) F(impact3) \
   F(isa_available) F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) \
-  F(number_is_read) F(number_range) \
+  F(number_is_read) F(number_of) F(number_range) \
   F(physics_revision) F(place_ball) F(plan) F(plan_hand) F(plan_memory) F(plan_rules_of) \
   F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(pocket_name) F(rack) \
   F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) \

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -162,6 +163,34 @@ static int run(const char *name, TCase *tcase, enum fork_status fork) {
   const int failed = srunner_ntests_failed(runner);
   srunner_free(runner);
   return failed == 0 ? 0 : 1;
+}
+
+void put_number(void *to, const carom_number *n, int at, double x) {
+  const size_t sizes[] = {sizeof(double), sizeof(int32_t), sizeof(int64_t), sizeof(uint64_t)};
+  const int64_t whole = (int64_t)(n->type == CAROM_TYPE_DOUBLE ? 0 : x);
+  const int32_t half = (int32_t)(n->type == CAROM_TYPE_INT32 ? x : 0);
+  memcpy((char *)to + (size_t)n->offset + (size_t)at * sizes[n->type],
+         n->type == CAROM_TYPE_DOUBLE  ? (const void *)&x
+         : n->type == CAROM_TYPE_INT32 ? (const void *)&half
+                                       : &whole,
+         sizes[n->type]);
+}
+
+bool set_bad(void *to, const carom_number *n, int way) {
+  const bool whole = n->type != CAROM_TYPE_DOUBLE;
+  const double most = n->type == CAROM_TYPE_INT32 ? INT32_MAX : 0x1p63;
+  const double beyond[] = {whole ? n->low - 1 : nextafter(n->low, -INFINITY),
+                           whole ? n->high + 1 : nextafter(n->high, INFINITY), NAN};
+  for (int k = 0; k < 3; k++) {
+    const bool none =
+        whole && (k == 2 || (k == 0 && n->type == CAROM_TYPE_UINT64) || beyond[k] >= most);
+    if (!none && beyond[k] != n->other && way-- == 0) {
+      for (int at = 0; at < n->count; at++)
+        put_number(to, n, at, beyond[k]);
+      return true;
+    }
+  }
+  return false;
 }
 
 int run_tests(const char *name, const TTest *const *tests, size_t count) {

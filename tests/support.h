@@ -100,6 +100,11 @@ int run_looped(const char *name, const looped_test *tests, size_t count);
 
 /* Runs one test case and returns main's exit code. */
 int run_tests(const char *name, const TTest *const *tests, size_t count);
+
+/* Sets a number of a struct, of element `at` where it is an array. */
+void put_number(void *to, const carom_number *number, int at, double x);
+/* Sets it just beyond its range, in way 0, 1, ...; false where there is no such way. */
+bool set_bad(void *to, const carom_number *number, int way);
 #define RUN_TESTS(name, ...)                           \
   run_tests(name, (const TTest *const[]){__VA_ARGS__}, \
             sizeof((const TTest *const[]){__VA_ARGS__}) / sizeof(const TTest *))

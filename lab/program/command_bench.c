@@ -712,10 +712,6 @@ OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
        "largest");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "time the whole shots of this file instead, beside pooltool's recorded times");
-OPTION(bench_job, option_cushion_model, "cushion-model", shared.shot.cushion_model, 0, NULL,
-       set_named, CAROM_WORDS_SHOT_CUSHION,
-       "impacts on cushions in the shots (default: han; by pooltool's models stronge)");
-
 static const char about[] =
     "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each "
     "kernel is verified first; one whose error is above its bound is not timed. Times are "
@@ -735,11 +731,11 @@ static const command_form form = {
     .usage = "[OPTIONS]",
     .about = about,
     .options =
-        (const option_row *const[]){
-            &option_kernel, &option_config, &option_counts, &option_batch, &option_isa,
-            &option_one_precision, &option_thread_counts, &option_pairs, &option_budget,
-            &option_csv, &option_spread, &option_errors, &option_shots, &option_models,
-            &option_cushion_model, &option_simultaneous, &option_data, &option_output, NULL},
+        (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch,
+                                    &option_isa, &option_one_precision, &option_thread_counts,
+                                    &option_pairs, &option_budget, &option_csv, &option_spread,
+                                    &option_errors, &option_shots, &options_of_motion, &option_data,
+                                    &option_output, NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };

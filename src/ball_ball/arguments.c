@@ -6,7 +6,7 @@
  */
 #include "ball_ball/arguments.h"
 
-#include "platform/enumerations.h"
+#include "about/options.h"
 #include "platform/ranges.h"
 
 #include <math.h>
@@ -30,18 +30,9 @@ static int field_at(size_t offset) {
 }
 #define FIELD(member) field_at(offsetof(carom_impact, member))
 
-carom_status carom_check_options(const carom_options *opt) {
-  if ((int)opt->solver < 0 || opt->solver >= CAROM_SOLVER_COUNT)
-    return CAROM_ERROR_SOLVER;
-  if ((int)opt->slip < 0 || opt->slip >= CAROM_SLIP_COUNT)
-    return CAROM_ERROR_SLIP;
-  if (opt->steps < 0)
-    return CAROM_ERROR_STEPS;
-  if (opt->threads < CAROM_ALL_THREADS)
-    return CAROM_ERROR_THREADS;
-  if ((opt->plain & ~1) != 0)
-    return CAROM_ERROR_PLAIN;
-  return opt->unused != 0 || !CAROM_RESERVED_IS_ZERO(opt) ? CAROM_ERROR_OPTIONS : CAROM_OK;
+carom_status carom_check_options(const carom_options *o) {
+  CAROM_IMPACT_OPTIONS(CAROM_CHECK_OPTION)
+  return o->unused != 0 || !CAROM_RESERVED_IS_ZERO(o) ? CAROM_ERROR_OPTIONS : CAROM_OK;
 }
 
 static bool vertical(const carom_ball *ball) {

@@ -1,7 +1,7 @@
 /* The one place where the arguments of an impact on a cushion are checked, by the conditions of
  * the comments in carom_shot.h.
  */
-#include "about/numbers.h"
+#include "about/options.h"
 #include "cushion/models.h"
 #include "platform/ranges.h"
 
@@ -20,22 +20,10 @@ _Static_assert(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 double
 #define FIELD(member) ((int)(offsetof(carom_cushion_impact, member) / sizeof(double)))
 
 carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
-  if ((uint32_t)opt->model >= CAROM_CUSHION_MODEL_COUNT)
-    return CAROM_ERROR_CUSHION_MODEL;
-  if (opt->steps < 0)
-    return CAROM_ERROR_STEPS;
-  if (opt->threads < 0 && opt->threads != CAROM_ALL_THREADS)
-    return CAROM_ERROR_THREADS;
-  if ((opt->plain & ~1) != 0)
-    return CAROM_ERROR_PLAIN;
+  const carom_cushion_options *o = opt;
+  CAROM_RAIL_OPTIONS(CAROM_CHECK_OPTION)
   if (!CAROM_RESERVED_IS_ZERO(opt))
     return CAROM_ERROR_OPTIONS;
-  if ((int)opt->convention < 0 || opt->convention > CAROM_CONVENTION_POOLTOOL)
-    return CAROM_ERROR_CONVENTION;
-  if ((int)opt->law < 0 || opt->law > CAROM_CUSHION_LAW_HAN)
-    return CAROM_ERROR_CUSHION_LAW;
-  if (!carom_is_not_negative(opt->least_step))
-    return CAROM_ERROR_LEAST_STEP;
   const carom_cushion_options *k = opt;
   CAROM_NUMBERS(CAROM_NO_ROW, CAROM_CHECK_NUMBER)
   CAROM_CONDITIONS(CAROM_NO_ROW, CAROM_CHECK_CONDITION)

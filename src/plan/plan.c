@@ -13,6 +13,7 @@
  *
  * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
  * threads and added up in their order, so no bit of a sum depends on threads. */
+#include "about/options.h"
 #include "plan/search.h"
 #include "platform/ranges.h"
 
@@ -30,14 +31,12 @@ enum { PLACES = 60 }; /* of a cue ball in hand, of which PLACES_PLANNED are plan
 
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
-enum { SHOTS_USUAL = 2000, SHOTS_LEAST = 100, SHOTS_MOST = 1000000, SPARE = 160 };
+enum { SHOTS_USUAL = 2000, SPARE = 160 };
 static const double player_most = 1000.0; /* of each number of a player */
 
-static bool good_options(const carom_plan_options *o) {
-  return o->unused == 0 && CAROM_RESERVED_IS_ZERO(o) &&
-         (o->shots == 0 || (o->shots >= SHOTS_LEAST && o->shots <= SHOTS_MOST)) && o->scan <= 0.9 &&
-         (o->threads >= 0 || o->threads == CAROM_ALL_THREADS) && o->chance_me >= 0.0 &&
-         o->chance_me <= 1.0 && o->chance_opponent >= 0.0 && o->chance_opponent <= 1.0;
+static carom_status check_options(const carom_plan_options *o) {
+  CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
+  return o->unused == 0 && CAROM_RESERVED_IS_ZERO(o) ? CAROM_OK : CAROM_ERROR_OPTIONS;
 }
 
 static bool good_player(const carom_player *p) {
@@ -76,7 +75,7 @@ static size_t bytes_of(int64_t shots, double scan) {
 
 size_t carom_plan_memory(const carom_plan_options *options) {
   const carom_plan_options *o = options != NULL ? options : &no_options;
-  return good_options(o) ? bytes_of(shots_of(o), carom_scan_of(o)) : 0;
+  return check_options(o) == CAROM_OK ? bytes_of(shots_of(o), carom_scan_of(o)) : 0;
 }
 
 /* Where a plan is in the caller's memory; NULL where there is too little of it, or nothing to
@@ -129,7 +128,7 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
     return CAROM_ERROR_NULL;
   const carom_plan_options *options = job->options != NULL ? job->options : &no_options;
   const carom_plan_rules *rules = job->rules;
-  const bool good = good_options(options) && good_player(job->player) &&
+  const bool good = check_options(options) == CAROM_OK && good_player(job->player) &&
                     (options->opponent == NULL || good_player(options->opponent)) &&
                     rules->on != NULL && rules->judge != NULL && rules->left != NULL &&
                     (uint32_t)rules->breaks <= 1 && (uint32_t)rules->race <= CAROM_RACE_ALONE &&

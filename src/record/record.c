@@ -5,7 +5,7 @@
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
  * that default, and a reader begins with it. Every other key is refused, and every one that comes
  * twice. */
-#include "about/numbers.h"
+#include "about/options.h"
 #include "carom_record.h"
 #include "platform/arithmetic.h"
 #include "platform/fingerprint.h"
@@ -79,25 +79,18 @@ static const field table[] = {
     LISTED("jaws", CAROM_JAWS_MOST, table.jaw, table.jaws, jaw_fields),
     LISTED("pockets", CAROM_POCKETS_MOST, table.pocket, table.pockets, pocket_fields),
     END};
-static const field models[] = {R("world", INT32, false, 1, options.world),
-                               R("ball_model", INT32, false, 1, options.ball_model),
-                               R("cushion_model", INT32, false, 1, options.cushion_model),
-                               R("friction", INT32, false, 1, options.friction),
-                               R("steps", INT32, false, 1, options.steps),
-                               R("space", INT32, false, 1, options.space),
-                               R("simultaneous", INT32, false, 1, options.simultaneous),
-                               R("cluster_steps", INT32, false, 1, options.cluster_steps),
-                               END};
+#define OPTION(member, key, FORM, ...) \
+  {#member, TYPE_OF_##FORM, false, 1, offsetof(carom_record, options.member), 0, 0, NULL},
+#define TYPE_OF_WORDS(of) INT32
+#define TYPE_OF_COUNT INT32
+#define TYPE_OF_NUMBER(unit) DOUBLE
+#define TYPE_OF_SET(of) INT64
+static const field models[] = {CAROM_MOTION_OPTIONS(OPTION) END};
 static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), END};
 static const field place_fields[] = {R("ball", INT64, true, 1, placed),
                                      R("at", DOUBLE, true, 2, place), END};
 
-/* When a shot stops, and how it ended. */
-#define STOPS                                           \
-  R("time_most", DOUBLE, false, 1, options.time_most),  \
-      R("stop_at", INT64, false, 1, options.stop_at),   \
-      R("first_of", INT64, false, 1, options.first_of), \
-      R("events_most", INT32, false, 1, options.events_most)
+/* How a shot ended. */
 #define ENDS                                                                                  \
   R("status", INT64, true, 1, recorded.status), R("events", INT64, true, 1, recorded.events), \
       R("time", DOUBLE, true, 1, recorded.time), R("hash", HASH, true, 1, recorded.hash)
@@ -113,10 +106,9 @@ static const field shot[] = {R("speed", DOUBLE, false, 1, cue.speed),
                              R("ball", INT64, false, 1, cue.ball),
                              R("miscue", DOUBLE, false, 1, cue.miscue),
                              R("tip_time", DOUBLE, false, 1, cue.tip_time),
-                             STOPS,
-                             ENDS,
+                             CAROM_STOP_OPTIONS(OPTION) ENDS,
                              END};
-static const field goes_on[] = {STOPS, ENDS, END};
+static const field goes_on[] = {CAROM_STOP_OPTIONS(OPTION) ENDS, END};
 static const field event[] = {R("time", DOUBLE, true, 1, event.time),
                               R("type", INT32, true, 1, event.type),
                               R("a", INT32, true, 1, event.a),

@@ -1,7 +1,8 @@
 /* The one place where the arguments of a shot are checked, by the conditions of the comments in
  * carom_shot.h: the table and the options once for a batch; a layout, its cue, and whether the
  * table suits the radius of its balls, for each. */
-#include "about/numbers.h"
+#include "about/options.h"
+#include "cushion/list.h"
 #include "cushion/models.h"
 #include "friction/laws.h"
 #include "motion/strike.h"
@@ -16,35 +17,7 @@ static bool is_flat(const carom_shot_options *o) {
 }
 
 carom_status carom_check_shot_options(const carom_shot_options *o) {
-  /* enumerations may be signed or not; a number below 0 is a large one here */
-  if ((uint32_t)o->world > CAROM_WORLD_POOLTOOL)
-    return CAROM_ERROR_WORLD;
-  if ((uint32_t)o->ball_model > CAROM_BALL_MODEL_MIRROR)
-    return CAROM_ERROR_BALL_MODEL;
-  if ((uint32_t)o->cushion_model > CAROM_CUSHION_MODEL_COUNT)
-    return CAROM_ERROR_SHOT_CUSHION_MODEL;
-  if ((uint32_t)o->friction >= CAROM_LAW_COUNT)
-    return CAROM_ERROR_FRICTION;
-  if ((uint32_t)o->space > CAROM_SPACE_FLAT)
-    return CAROM_ERROR_SPACE;
-  if ((uint32_t)o->simultaneous > CAROM_SIMULTANEOUS_PAIRS)
-    return CAROM_ERROR_SIMULTANEOUS;
-
-  /* bounds, when to stop, and how to compute */
-  if (o->steps < 0)
-    return CAROM_ERROR_STEPS;
-  if ((uint32_t)o->cluster_steps > 10000)
-    return CAROM_ERROR_CLUSTER_STEPS;
-  if (o->events_most < 0)
-    return CAROM_ERROR_EVENTS_MOST;
-  if (!(o->time_most >= 0.0 && o->time_most < INFINITY))
-    return CAROM_ERROR_TIME_MOST;
-  if (o->stop_at >> CAROM_DUE_PIECE != 0)
-    return CAROM_ERROR_STOP_AT;
-  if ((o->plain & ~1) != 0)
-    return CAROM_ERROR_PLAIN;
-  if (o->threads < CAROM_ALL_THREADS)
-    return CAROM_ERROR_THREADS;
+  CAROM_SHOT_OPTIONS(CAROM_CHECK_OPTION)
   return o->unused != 0 || !CAROM_RESERVED_IS_ZERO(o) ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
 }
 

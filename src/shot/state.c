@@ -8,6 +8,7 @@
  *
  * With the state are kept fingerprints of the table, the balls and the options that it is of, so
  * that it does not go on with others. */
+#include "about/options.h"
 #include "platform/fingerprint.h"
 #include "shot/rules.h"
 
@@ -32,11 +33,11 @@ static uint64_t of_table(const carom_table *t) {
 
 /* Of the options that decide the motion, and not only when the shot stops. */
 static uint64_t of_options(const carom_shot_options *o) {
-  const uint64_t words[] = {(uint32_t)o->world | (uint64_t)(uint32_t)o->ball_model << 32,
-                            (uint32_t)o->cushion_model | (uint64_t)(uint32_t)o->friction << 32,
-                            (uint32_t)o->space | (uint64_t)(uint32_t)o->steps << 32,
-                            (uint32_t)o->plain | (uint64_t)(uint32_t)o->simultaneous << 32,
-                            (uint32_t)o->cluster_steps};
+  uint64_t words[5] = {[3] = (uint32_t)o->plain};
+#define PACK(member, key, FORM, low, high, ERROR, text, place) \
+  words[place / 2] |= (uint64_t)(uint32_t)o->member << place % 2 * 32;
+  CAROM_MOTION_OPTIONS(PACK)
+#undef PACK
   return carom_fingerprint(0, words, sizeof words);
 }
 

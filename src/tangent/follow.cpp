@@ -20,6 +20,7 @@
  *
  * LABELS. A ball that rolls after an event, or lies, keeps doing so where a change of the first
  * order would have it slide for a time of the first order: a slip du becomes the speed -2/7 du. */
+#include "about/options.h"
 #include "tangent/text.h"
 extern "C" {
 #include "tangent/follow_cluster.h"
@@ -577,16 +578,19 @@ CAROM_APART void put(carom_tangent_work *w, int i, const ::carom_ball_state &pla
   ball->since = time;
 }
 
+/* The options of a shot, but when it stops. */
+void copy(const carom_tangent_work *w, text::carom_shot_options *to) {
+  *to = {};
+#define COPY(member, ...) to->member = (decltype(to->member))w->opt->member;
+  CAROM_MOTION_OPTIONS(COPY)
+  CAROM_COMPUTE_OPTIONS(COPY)
+#undef COPY
+}
+
 /* The data that all events share. */
 void begin_scene(carom_tangent_work *w, scene *s) {
   s->w = w;
-  s->opt = {};
-  s->opt.ball_model = (text::carom_ball_model)w->opt->ball_model;
-  s->opt.cushion_model = (text::carom_shot_cushion)w->opt->cushion_model;
-  s->opt.friction = (text::carom_ball_friction)w->opt->friction;
-  s->opt.space = (text::carom_space)w->opt->space;
-  s->opt.steps = w->opt->steps;
-  s->opt.plain = w->opt->plain;
+  copy(w, &s->opt);
   memset(&s->rules, 0, sizeof s->rules);
   s->sim.rules = &s->rules;
   s->sim.table = &s->table;
@@ -710,9 +714,8 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS], real d[CAROM_MEMBE
   text::carom_ball_kind kind;
   carom_ball_state s;
   load_member(c->w, of->ball, of->event->before[of->side], &kind, &s);
-  text::carom_shot_options opt = {};
-  opt.ball_model = (text::carom_ball_model)c->w->opt->ball_model;
-  opt.friction = (text::carom_ball_friction)c->w->opt->friction;
+  text::carom_shot_options opt;
+  copy(c->w, &opt);
   const text::carom_cluster_ball ball =
       text::member_of(&kind, &s, &opt, text::carom_flies(&s), of->ball);
   const number *from = ball.r;
@@ -952,12 +955,8 @@ carom_status carom_tangent_of_cushion(const carom_cushion_impact *in,
   text::carom_cushion_options options = {};
   text::carom_motion out;
   load_struct(*pass, in, seeds, &impact);
-  options.model = (text::carom_cushion_model)opt->model;
-  options.law = (text::carom_cushion_law)opt->law;
-  options.steps = opt->steps;
-  options.plain = opt->plain;
-  options.least_step = opt->least_step;
-#define COPY(member, ...) options.member = opt->member;
+#define COPY(member, ...) options.member = (decltype(options.member))opt->member;
+  CAROM_RAIL_OPTIONS(COPY)
   CAROM_NUMBERS(CAROM_NO_ROW, COPY)
 #undef COPY
   watched = {true, *note};

@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(sys.argv[1])
 sys.path.insert(0, str(ROOT / "bindings"))
 from api import describe  # noqa: E402
-from rows import digits, numbers, python, with_tables, words  # noqa: E402
+from rows import digits, numbers, options, python, with_tables, words  # noqa: E402
 
 api = describe(ROOT / "include")
 structs = {one["name"]: one["fields"] for one in api["structs"]}
@@ -62,17 +62,24 @@ class Number(ctypes.Structure):
 
 
 library = ctypes.CDLL(sys.argv[2])
-library.carom_ball_number.restype = ctypes.POINTER(Number)
-for k, one in enumerate(described):
-    told, room = library.carom_ball_number(k), ctypes.create_string_buffer(100)
-    library.carom_number_range(told, room, ctypes.c_size_t(100))
-    seen = [value.decode() for value in (told[0].name, told[0].key, told[0].unit, told[0].text, room.value)]
-    expected = [one[key] for key in ("name", "key", "unit", "text", "range")]
-    if seen != expected:
-        faults.append(f"the library tells {seen}, bindings/rows.py {expected}")
+library.carom_number_of.restype = ctypes.POINTER(Number)
+enums = {one["name"]: one["values"] for one in api["enums"]}
+
+# The comment of each carom_part_kind that has numbers names its struct.
+for part in enums["carom_part_kind"]:
+    struct = (re.findall(r"carom_\w+", part["comment"]) or [None])[0]
+    rows_of = options().get(struct, []) if struct != "carom_ball_kind" else described
+    for k, one in enumerate(rows_of):
+        told, room = library.carom_number_of(part["value"], k), ctypes.create_string_buffer(100)
+        library.carom_number_range(told, room, ctypes.c_size_t(100))
+        seen = [value.decode() for value in (told[0].name, told[0].key, told[0].unit, told[0].text, room.value)] if told else None
+        expected = [one[key] for key in ("name", "key", "unit", "text", "range")]
+        if seen != expected:
+            faults.append(f"the library tells {seen}, bindings/rows.py {expected}")
+    if library.carom_number_of(part["value"], len(rows_of)):
+        faults.append(f"{part['name']} has more than {len(rows_of)} numbers")
 
 # The comment of each carom_words names the enumeration whose values have words.
-enums = {one["name"]: one["values"] for one in api["enums"]}
 library.carom_word.restype = ctypes.c_char_p
 for of in enums["carom_words"]:
     name = re.search(r"carom_\w+", of["comment"])[0]

@@ -24,7 +24,7 @@ ALLOWED = {
     "src/table": ("include", "src/platform"),
     "src/shot": ("include", "src/platform", "src/about", "src/friction", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/table"),
     "src/tangent": ("include", "src/platform", "src/about", "src/friction", "src/impact", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/shot", "src/table"),
-    "src/plan": ("include", "src/platform", "src/shot", "src/table"),
+    "src/plan": ("include", "src/platform", "src/about", "src/shot", "src/table"),
     "src/record": ("include", "src/platform", "src/about"),
     "src": ("include", "src/platform", "src/about", "src/cushion", "src/friction"),
     "cli": ("include",),

@@ -291,8 +291,8 @@ TEST(bounds_with_drag) {
 
 /* Field `name` of a kind; the fields are doubles without gaps. */
 static double *field_of(carom_ball_kind *kind, const char *name) {
-  for (int k = 0; carom_ball_number(k) != NULL; k++)
-    if (strcmp(carom_ball_number(k)->name, name) == 0)
+  for (int k = 0; carom_number_of(CAROM_PART_BALL, k) != NULL; k++)
+    if (strcmp(carom_number_of(CAROM_PART_BALL, k)->name, name) == 0)
       return (double *)kind + k;
   ck_abort_msg("there is no field %s", name);
 }

@@ -17,10 +17,11 @@ static void set(carom_ball_kind *kind, const carom_number *n, double x) {
 
 static const carom_number *number_of(const char *name) {
   int k = 0;
-  while (carom_ball_number(k) != NULL && strcmp(carom_ball_number(k)->name, name) != 0)
+  while (carom_number_of(CAROM_PART_BALL, k) != NULL &&
+         strcmp(carom_number_of(CAROM_PART_BALL, k)->name, name) != 0)
     k++;
-  ck_assert_ptr_nonnull(carom_ball_number(k));
-  return carom_ball_number(k);
+  ck_assert_ptr_nonnull(carom_number_of(CAROM_PART_BALL, k));
+  return carom_number_of(CAROM_PART_BALL, k);
 }
 
 TEST(each_number_is_refused_by_name) {
@@ -29,7 +30,7 @@ TEST(each_number_is_refused_by_name) {
   const carom_number *n;
   char text[80];
   int k = 0;
-  for (; (n = carom_ball_number(k)) != NULL; k++) {
+  for (; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
     const double outside[] = {NAN, nextafter(n->low, -INFINITY), nextafter(n->high, INFINITY)};
     for (int j = 0; j < 3; j++) {
       if (outside[j] == n->other)
@@ -43,7 +44,7 @@ TEST(each_number_is_refused_by_name) {
     ck_assert(n->text[0] != '\0' && n->key[0] != '\0');
   }
   ck_assert_int_eq(k, sizeof(carom_ball_kind) / sizeof(double));
-  ck_assert_ptr_null(carom_ball_number(-1));
+  ck_assert_ptr_null(carom_number_of(CAROM_PART_BALL, -1));
   for (int game = 0; game <= CAROM_GAME_POOLTOOL_BILLIARD; game++) {
     const carom_ball_kind kind = carom_ball_kind_of((carom_game)game);
     ck_assert_ptr_null(carom_ball_fault(&kind, text, sizeof text));
@@ -57,13 +58,13 @@ TEST(every_refusal_names_a_number) {
   ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_9FT, &table), CAROM_OK);
   static const double values[] = {-2, -1, 0, 1e-13, 0.05, 0.3, 0.99, 1.5, 3, 1e7};
   int refused = 0;
-  for (int j = 0; carom_ball_number(j) != NULL; j++)
-    for (int k = 0; carom_ball_number(k) != NULL; k++)
+  for (int j = 0; carom_number_of(CAROM_PART_BALL, j) != NULL; j++)
+    for (int k = 0; carom_number_of(CAROM_PART_BALL, k) != NULL; k++)
       for (int x = 0; x < 100; x++) {
         carom_shot_ball ball = fit();
         char text[80];
-        set(&ball.kind, carom_ball_number(j), values[x % 10]);
-        set(&ball.kind, carom_ball_number(k), values[x / 10]);
+        set(&ball.kind, carom_number_of(CAROM_PART_BALL, j), values[x % 10]);
+        set(&ball.kind, carom_number_of(CAROM_PART_BALL, k), values[x / 10]);
         const carom_number *n = carom_ball_fault(&ball.kind, text, sizeof text);
         const carom_status status = carom_shot_check(&table, &ball, 1, NULL, NULL, NULL);
         if (n == NULL) /* a radius beside its state or table */
@@ -115,7 +116,7 @@ TEST(ranges_in_words) {
               {0.001, 12000, NAN, "", "0.001 to 12000"}};
   for (size_t k = 0; k < sizeof some / sizeof some[0]; k++) {
     char text[64], cut[8];
-    carom_number n = *carom_ball_number(0);
+    carom_number n = *carom_number_of(CAROM_PART_BALL, 0);
     n.low = some[k].low;
     n.high = some[k].high;
     n.other = some[k].other;

@@ -23,14 +23,6 @@ static void set_up(void) {
   options = (carom_shot_options){0};
 }
 
-/* How many values of an enumeration have words: the first value that is none. */
-static int words_of(carom_words of) {
-  int n = 0;
-  while (carom_word(of, n) != NULL)
-    n++;
-  return n;
-}
-
 /* The shot is refused for this reason, at this ball or part. */
 static void expect(carom_status status, int where) {
   int at = -2;
@@ -279,35 +271,16 @@ TEST(tables) {
 }
 
 TEST(options_and_calls) {
-  NAMED(options.world, (carom_world)words_of(CAROM_WORDS_WORLD), CAROM_ERROR_WORLD);
-  NAMED(options.ball_model, (carom_ball_model)words_of(CAROM_WORDS_BALL_MODEL),
-        CAROM_ERROR_BALL_MODEL);
-  NAMED(options.world, (carom_world)-1, CAROM_ERROR_WORLD);
-  NAMED(options.ball_model, (carom_ball_model)-1, CAROM_ERROR_BALL_MODEL);
-  NAMED(options.cushion_model, (carom_shot_cushion)-1, CAROM_ERROR_SHOT_CUSHION_MODEL);
-  NAMED(options.cushion_model, (carom_shot_cushion)words_of(CAROM_WORDS_SHOT_CUSHION),
-        CAROM_ERROR_SHOT_CUSHION_MODEL);
-  NAMED(options.friction, (carom_ball_friction)-1, CAROM_ERROR_FRICTION);
-  NAMED(options.friction, (carom_ball_friction)words_of(CAROM_WORDS_BALL_FRICTION),
-        CAROM_ERROR_FRICTION);
-  NAMED(options.events_most, -1, CAROM_ERROR_EVENTS_MOST);
-  NAMED(options.space, (carom_space)words_of(CAROM_WORDS_SPACE), CAROM_ERROR_SPACE);
-  NAMED(options.space, (carom_space)-1, CAROM_ERROR_SPACE);
-  NAMED(options.plain, 2, CAROM_ERROR_PLAIN);
-  NAMED(options.simultaneous, (carom_simultaneous)words_of(CAROM_WORDS_SIMULTANEOUS),
-        CAROM_ERROR_SIMULTANEOUS);
-  NAMED(options.simultaneous, (carom_simultaneous)-1, CAROM_ERROR_SIMULTANEOUS);
-  NAMED(options.cluster_steps, -1, CAROM_ERROR_CLUSTER_STEPS);
-  NAMED(options.cluster_steps, 10001, CAROM_ERROR_CLUSTER_STEPS);
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_OPTIONS, k)) != NULL; k++)
+    for (int way = 0; set_up(), set_bad(&options, n, way); way++) {
+      char field[64];
+      snprintf(field, sizeof field, "options.%s", n->name);
+      expect(n->error, -1);
+      named(field, n->error);
+    }
   REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.reserved[0], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  NAMED(options.time_most, NAN, CAROM_ERROR_TIME_MOST);
-  NAMED(options.time_most, -1.0, CAROM_ERROR_TIME_MOST);
-  NAMED(options.time_most, INFINITY, CAROM_ERROR_TIME_MOST);
-  NAMED(options.stop_at, UINT64_C(1) << 13, CAROM_ERROR_STOP_AT);
-  NAMED(options.plain, -1, CAROM_ERROR_PLAIN);
-  NAMED(options.steps, -1, CAROM_ERROR_STEPS);
-  NAMED(options.threads, -2, CAROM_ERROR_THREADS);
   set_up();
   carom_shot shot = {0};
   ck_assert_int_eq(carom_shoot(NULL, balls, 10, &cue, NULL, &shot), CAROM_ERROR_NULL);

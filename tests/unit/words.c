@@ -13,12 +13,17 @@ TEST(words_of_an_option) {
     strcat(all, carom_word(CAROM_WORDS_SHOT_CUSHION, k));
   }
   ck_assert(strstr(all, "han|mirror|") != NULL);
-  ck_assert_str_eq(argument_of(&option_cushion_of_shots), all);
-  ck_assert(option_cushion_of_shots.set(&option_cushion_of_shots, smooth, &cushion));
+  option_row rows[MOST_OF_SHOTS], *row = rows;
+  const int count = rows_of_shots(&options_of_shots, rows);
+  ck_assert_int_gt(count, rows_of_shots(&options_of_motion, rows));
+  while (strcmp(row->name, "cushion") != 0)
+    row++;
+  ck_assert_str_eq(argument_of(row), all);
+  ck_assert(row->set(row, smooth, &cushion));
   ck_assert_int_eq(cushion, CAROM_SHOT_CUSHION_SMOOTH);
-  ck_assert(option_cushion_of_shots.set(&option_cushion_of_shots, usual, &cushion));
+  ck_assert(row->set(row, usual, &cushion));
   ck_assert_int_eq(cushion, CAROM_SHOT_CUSHION_DEFAULT);
-  ck_assert(!option_cushion_of_shots.set(&option_cushion_of_shots, none, &cushion));
+  ck_assert(!row->set(row, none, &cushion));
 }
 
 TEST(numbers_by_name_and_key) {

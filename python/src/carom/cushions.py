@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 _MODELS, _CONVENTIONS, _LAWS = numbered("carom_cushion_model"), numbered("carom_cushion_convention"), numbered("carom_cushion_law")
-_ROWS = iter(map(lib.carom_ball_number, range(1000)).__next__, ffi.NULL)
+_ROWS = iter((lib.carom_number_of(lib.CAROM_PART_BALL, k) for k in range(1000)).__next__, ffi.NULL)
 NUMBERS = [ffi.string(row.name).decode() for row in _ROWS if row.cushion_offset >= 0]
 
 
