@@ -241,7 +241,9 @@ TEST(numbers_and_small_changes) {
   for (int change = 0; change < 3; change++) {
     printf("%s: %d of %d clusters move a ball by more than %g of the way of the cue ball\n",
            name[change], over[change], shots, large[change]);
-    ck_assert_double_le(over[change], 4.0 + per_1000[change] * 1e-3 * shots);
+    /* three deviations of a count above what is allowed, for any seed */
+    const double allowed = per_1000[change] * 1e-3 * shots;
+    ck_assert_double_le(over[change], 4.0 + allowed + 3.0 * sqrt(allowed));
   }
 }
 
