@@ -63,7 +63,7 @@ def prior(name: str) -> tuple[float | None, float, float]:
     """The deviation of the prior of a constant, None where it has to be given, and its bounds."""
     if name in PRIORS:
         return PRIORS[name]
-    row = lib.carom_ball_number(list(dtypes.ball_kind.names or ()).index(name))
+    row = lib.carom_number_of(lib.CAROM_PART_BALL, list(dtypes.ball_kind.names or ()).index(name))
     width = row.high - row.low
     return (_OTHER * width if width <= _WIDE else None), row.low, row.high
 
