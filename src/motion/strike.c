@@ -44,18 +44,8 @@ carom_status carom_check_cue(const carom_cue *cue) {
   return cue->a * cue->a + cue->b * cue->b < limit * limit ? CAROM_OK : CAROM_ERROR_MISCUE;
 }
 
-static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bool in_space,
-                           carom_motion *out) {
-  if (cue == NULL || kind == NULL || out == NULL)
-    return CAROM_ERROR_NULL;
-  const carom_status bad = carom_check_cue(cue);
-  if (bad != CAROM_OK)
-    return bad;
-  if (!carom_is_positive(kind->mass))
-    return CAROM_ERROR_MASS;
-  if (!carom_is_positive(kind->radius))
-    return CAROM_ERROR_RADIUS;
-
+carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, bool in_space,
+                        carom_motion *out) {
   /* the directions of the cue, and the speed of the ball along it */
   const double a = cue->a, b = cue->b, inside = 1.0 - a * a;
   double sin_phi, cos_phi, sin_theta, cos_theta;
@@ -88,10 +78,12 @@ static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bo
 }
 
 carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out) {
-  return strike(cue, kind, false, out);
-}
-
-carom_status carom_strike_in_space(const carom_cue *cue, const carom_ball_kind *kind,
-                                   carom_motion *out) {
-  return strike(cue, kind, true, out);
+  if (cue == NULL || kind == NULL || out == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_status bad = carom_check_cue(cue);
+  if (bad != CAROM_OK)
+    return bad;
+  if (!carom_is_positive(kind->mass))
+    return CAROM_ERROR_MASS;
+  return carom_is_positive(kind->radius) ? carom_blow(cue, kind, false, out) : CAROM_ERROR_RADIUS;
 }

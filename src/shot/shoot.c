@@ -267,8 +267,7 @@ static carom_status strike(carom_sim *sim) {
   const int i = (int)cue->ball;
   carom_motion motion;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
-  const carom_status status =
-      (flat ? carom_strike : carom_strike_in_space)(cue, carom_kind_in(sim->ball, i), &motion);
+  const carom_status status = carom_blow(cue, carom_kind_in(sim->ball, i), !flat, &motion);
   if (status < 0)
     return status;
 

@@ -167,6 +167,17 @@ CAROM_APART void add_time(const row &dT, carom_ball_state *s) {
   }
 }
 
+/* The numbers of a nose that have seeds, of a rail or a jaw. */
+template <class plain, class type>
+void take_nose(const carom_tangent_work *w, const plain &from, type *to) {
+  const real value[] = {from.height, from.mu_cushion, from.restitution};
+  number *const nose[] = {&to->height, &to->mu_cushion, &to->restitution};
+  for (int k = 0; k < 3; k++) {
+    *nose[k] = value[k];
+    load(w->pass, w->seeds->table, k, nose[k]);
+  }
+}
+
 /* The part of the table that an event has, as the only one. */
 CAROM_APART void take_part(scene *s) {
   const carom_tangent_work *w = s->w;
@@ -191,33 +202,19 @@ CAROM_APART void take_part(scene *s) {
   const bool rail =
       e->type == CAROM_EVENT_RAIL || (e->type == CAROM_EVENT_RAIL_TOP && e->b < w->table->rails);
 
-  /* its place has no seeds; height, friction and restitution have */
-  number *nose[3];
-  real value[3];
+  /* its place has no seeds */
   if (rail) {
-    const carom_rail *from = &w->table->rail[b];
-    text::carom_rail *to = &s->table.rail[0];
     real line[3];
-    ::carom_rail_line(from, line);
-    for (int k = 0; k < 3; k++) {
+    ::carom_rail_line(&w->table->rail[b], line);
+    for (int k = 0; k < 3; k++)
       s->features.line[0][k] = line[k];
-      nose[k] = k == 0 ? &to->height : k == 1 ? &to->mu_cushion : &to->restitution;
-      value[k] = k == 0 ? from->height : k == 1 ? from->mu_cushion : from->restitution;
-    }
-  } else { /* likewise a jaw, with its circle */
-    const carom_jaw *from = &w->table->jaw[b];
-    text::carom_jaw *to = &s->table.jaw[0];
-    to->centre[0] = from->centre[0];
-    to->centre[1] = from->centre[1];
-    to->radius = from->radius;
-    for (int k = 0; k < 3; k++) {
-      nose[k] = k == 0 ? &to->height : k == 1 ? &to->mu_cushion : &to->restitution;
-      value[k] = k == 0 ? from->height : k == 1 ? from->mu_cushion : from->restitution;
-    }
-  }
-  for (int k = 0; k < 3; k++) {
-    *nose[k] = value[k];
-    load(w->pass, w->seeds->table, k, nose[k]);
+    take_nose(w, w->table->rail[b], &s->table.rail[0]);
+  } else {
+    const carom_jaw *jaw = &w->table->jaw[b];
+    for (int k = 0; k < 2; k++)
+      s->table.jaw[0].centre[k] = jaw->centre[k];
+    s->table.jaw[0].radius = jaw->radius;
+    take_nose(w, *jaw, &s->table.jaw[0]);
   }
 }
 
@@ -442,8 +439,7 @@ CAROM_APART text::carom_status strike(scene *s) {
   if (level)
     cue.theta.x = AT_ONCE;
   text::carom_motion motion;
-  const text::carom_status status =
-      (flat ? text::carom_strike : text::carom_strike_in_space)(&cue, &s->ball[0].kind, &motion);
+  const text::carom_status status = text::carom_blow(&cue, &s->ball[0].kind, !flat, &motion);
   if (status < 0)
     return status;
 
