@@ -31,6 +31,7 @@
 #include "cluster/vectors.h"
 #include "friction/laws.h"
 #include "platform/promise.h"
+#include "platform/ranges.h"
 
 #include <math.h>
 
@@ -48,13 +49,6 @@ typedef struct pushes {
 } pushes;
 
 static const double open = 1e-12; /* m: overlaps below it are none; their forces could underflow */
-
-static inline double greater(double a, double b) {
-  return a > b ? a : b;
-}
-static inline double lesser(double a, double b) {
-  return a < b ? a : b;
-}
 
 /* ---- A contact's geometry and motion */
 
@@ -132,8 +126,8 @@ static void touch(bool flat, contact *x, double half) {
   const double R = p->radius + q->radius;
   const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v),
                C = cluster_dot(flat, d, d) - R * R;
-  const double D = greater(B * B - A * C, 0.0);
-  const double back = A > 0.0 ? greater((-B - sqrt(D)) / A, -2.0 * half) : 0.0;
+  const double D = carom_greater(B * B - A * C, 0.0);
+  const double back = A > 0.0 ? carom_greater((-B - sqrt(D)) / A, -2.0 * half) : 0.0;
   for (int k = 0; k < 3; k++)
     x->n[k] = d[k] + back * v[k];
   if (flat)
@@ -198,7 +192,7 @@ static inline double find_pressed(bool flat, state *c, double h, double parts, p
       now->press[now->pressed++] = x;
     x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(x), v) : 0.0;
     if (v > 0.0)
-      longest = lesser(longest, carom_cluster_duration(x->pace, x->size) / parts);
+      longest = carom_lesser(longest, carom_cluster_duration(x->pace, x->size) / parts);
   }
   return longest;
 }
@@ -220,12 +214,12 @@ static inline bool find_acting(bool flat, double h, double tau, pushes *now, con
       x->U = -1.0; /* less than any slip: the first one sets mu */
       x->f[0] = x->f[1] = 0.0;
       if (x->time < 0.0)
-        x->time = greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
+        x->time = carom_greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
     }
 
     /* its force, by the overlap at half a step */
     x->d = d;
-    x->size = d >= x->d_max ? greater(x->size, d) : x->size;
+    x->size = d >= x->d_max ? carom_greater(x->size, d) : x->size;
     x->J = h * carom_hertz_force(x->K, x->e, d, &x->d_max);
 
     /* a contact's duration is as (K B)^-1/2 size^-1/4 */
@@ -464,7 +458,7 @@ static void take_back(state *c, double before) {
   }
 
   /* a little less than all of it, so that rounding adds nothing */
-  const double share = sqrt(greater(1.0 - (after - before) / about, 0.0)) * (1.0 - 1e-15);
+  const double share = sqrt(carom_greater(1.0 - (after - before) / about, 0.0)) * (1.0 - 1e-15);
   for (int k = 0; k < c->balls; k++)
     for (int axis = 0; axis < 3 && touched[k]; axis++)
       c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
@@ -478,7 +472,7 @@ static inline double first_step(bool flat, const state *c, double *parts) {
     const contact *x = &c->contact[k];
     /* unloading has K/e^3 over e^2 of the overlap, and so lasts e times as long as loading */
     const double v = closing_of(flat, x);
-    stiff = greater(stiff, 1.0 / x->e);
+    stiff = carom_greater(stiff, 1.0 / x->e);
     if (!x->touched || v <= most)
       continue;
     most = v;

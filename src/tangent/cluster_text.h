@@ -10,6 +10,7 @@
   40 /* more would take too much of the stack; a triangle of 15
                                      balls has 30 */
 #include "tangent/dual.h"
+#undef CAROM_SRC_PLATFORM_RANGES_H /* plain doubles have had it */
 
 namespace {
 namespace text {

@@ -140,7 +140,7 @@ static double distance_at(const miss *m, double t, double *opens) {
 /* What the gap at a time is worth in each direction, where it is one that a change may close.
  * first: the gap where the way began. */
 static void take_gap(carom_reach *reach, const miss *m, double t, double first) {
-  carom_tangent_row d;
+  carom_tangent_row d = {0.0};
   double opens;
   const double gap = distance_at(m, t, &opens) - m->reach;
   if (!(gap > (first <= TOUCHING ? TOUCHING : 0.0) && gap < NEAR))
