@@ -5,8 +5,8 @@
 
 #include "about/sources.h"
 
-/* X(NAME, name, impact, flight, rows, start, sources, text). In `impact` and `flight`, `c` is the contact
- * and `opt` are the options.
+/* X(NAME, name, impact, flight, rows, start, sources, text). In `impact` and `flight`, `c` is the
+ * contact and `opt` are the options.
  *
  * impact: a call that takes the contact through the impact, with `mass` in kg; a carom_status.
  * flight: friction's impulse over the mass on a ball in flight, m/s. `v_n` is the closing speed
