@@ -17,6 +17,7 @@ import {
   readTable,
   refuseName,
   refuseUnknownOf,
+  setStruct,
   value,
   vec3,
   writeBalls,
@@ -63,7 +64,6 @@ const CUSHION_OPTIONS = layout.carom_cushion_options;
 const SHOT = layout.carom_shot;
 const SHOT_OPTIONS = layout.carom_shot_options;
 const EVENT = layout.carom_event;
-const JOB = layout.carom_shot_job;
 const BALLS_MOST = values.CAROM_BALLS_MOST;
 
 const STICK = ["never", "in compression", "in restitution"] as const;
@@ -192,7 +192,6 @@ export class Carom {
       writeShotOptions: (options) => this.#writeShotOptions(options),
       writeShot: () => this.#writeShot(0),
       eventName: (type) => this.#eventNames[type]!,
-      placeBall: (table, balls, ball, x, y) => this.placeBall(table, balls, ball, x, y),
       refuse: (code, field) => this.#refuse(code, field),
     });
     this.#recordings = {
@@ -269,13 +268,11 @@ export class Carom {
 
   #writeOptions(options: CollideOptions): Pointer {
     refuseUnknown(options, KEYS.collide);
-    const { options: at } = this.#at;
-    this.#memory.u8.fill(0, at, at + OPTIONS.size);
-    const i32 = this.#memory.i32;
-    i32[(at + OPTIONS.offset.solver) / 4] = value("CAROM_SOLVER_", options.solver ?? "exact", "solver");
-    i32[(at + OPTIONS.offset.slip) / 4] = value("CAROM_SLIP_", options.slip ?? "paper", "slip");
-    i32[(at + OPTIONS.offset.steps) / 4] = whole(options.steps, "steps");
-    return at;
+    return setStruct(this.#memory, this.#at.options, "carom_options", {
+      solver: value("CAROM_SOLVER_", options.solver ?? "exact", "solver"),
+      slip: value("CAROM_SLIP_", options.slip ?? "paper", "slip"),
+      steps: whole(options.steps, "steps"),
+    });
   }
 
   /** What carom_check() says of the impact that a call refused. */
@@ -369,13 +366,12 @@ export class Carom {
     const { impact: at, options: opt, motion, number } = this.#at;
     refuseUnknown(options, KEYS.cushion);
     writeStruct(this.#memory, at, "carom_cushion_impact", impact, "impact", RAIL);
-    this.#memory.u8.fill(0, opt, opt + CUSHION_OPTIONS.size);
-    const i32 = this.#memory.i32;
-    const o = CUSHION_OPTIONS.offset;
-    i32[(opt + o.model) / 4] = value("CAROM_CUSHION_", options.model ?? "mathavan", "model");
-    i32[(opt + o.convention) / 4] = value("CAROM_CONVENTION_", options.convention ?? "paper", "convention");
-    i32[(opt + o.law) / 4] = value("CAROM_CUSHION_LAW_", options.law ?? "constant", "law");
-    i32[(opt + o.steps) / 4] = whole(options.steps, "steps");
+    setStruct(this.#memory, opt, "carom_cushion_options", {
+      model: value("CAROM_CUSHION_", options.model ?? "mathavan", "model"),
+      convention: value("CAROM_CONVENTION_", options.convention ?? "paper", "convention"),
+      law: value("CAROM_CUSHION_LAW_", options.law ?? "constant", "law"),
+      steps: whole(options.steps, "steps"),
+    });
     const code = this.#call.carom_cushion(at, opt, motion);
     if (code < 0) {
       this.#call.carom_cushion_check(at, opt, number);
@@ -509,29 +505,22 @@ export class Carom {
 
   #writeShotOptions(options: ShotOptions): Pointer {
     refuseUnknown(options, KEYS.shot);
-    const { options: at } = this.#at;
-    this.#memory.u8.fill(0, at, at + SHOT_OPTIONS.size);
-    const i32 = this.#memory.i32;
-    const o = SHOT_OPTIONS.offset;
-    i32[(at + o.world) / 4] = value("CAROM_WORLD_", options.world ?? "carom", "world");
-    i32[(at + o.ballModel) / 4] = value("CAROM_BALL_MODEL_", options.ballModel ?? "default", "ballModel");
-    i32[(at + o.cushionModel) / 4] = value("CAROM_SHOT_CUSHION_", options.cushionModel ?? "default", "cushionModel");
-    i32[(at + o.space) / 4] = value("CAROM_SPACE_", options.space ?? "3d", "space");
-    i32[(at + o.simultaneous) / 4] = value("CAROM_SIMULTANEOUS_", options.simultaneous ?? "cluster", "simultaneous");
-    i32[(at + o.clusterSteps) / 4] = whole(options.clusterSteps, "clusterSteps");
-    i32[(at + o.friction) / 4] = value("CAROM_FRICTION_", options.friction ?? "alciatore", "friction");
-    i32[(at + o.steps) / 4] = whole(options.steps, "steps");
-    this.#writeStops(options);
-    return at;
+    setStruct(this.#memory, this.#at.options, "carom_shot_options", {
+      world: value("CAROM_WORLD_", options.world ?? "carom", "world"),
+      ballModel: value("CAROM_BALL_MODEL_", options.ballModel ?? "default", "ballModel"),
+      cushionModel: value("CAROM_SHOT_CUSHION_", options.cushionModel ?? "default", "cushionModel"),
+      space: value("CAROM_SPACE_", options.space ?? "3d", "space"),
+      simultaneous: value("CAROM_SIMULTANEOUS_", options.simultaneous ?? "cluster", "simultaneous"),
+      clusterSteps: whole(options.clusterSteps, "clusterSteps"),
+      friction: value("CAROM_FRICTION_", options.friction ?? "alciatore", "friction"),
+      steps: whole(options.steps, "steps"),
+    });
+    return this.#writeStops(options);
   }
 
-  #writeStops({ timeMost = 0, stopAt = [], eventsMost }: StopOptions): void {
-    const { options: at } = this.#at;
-    const o = SHOT_OPTIONS.offset;
-    const stops = typeof stopAt === "string" ? [stopAt] : stopAt;
-    this.#memory.i32[(at + o.eventsMost) / 4] = whole(eventsMost, "eventsMost");
-    this.#memory.f64[(at + o.timeMost) / 8] = timeMost;
-    this.#memory.i64[(at + o.stopAt) / 8] = stops.reduce((set, stop) => set | (1n << BigInt(this.#kind(this.#stops, stop, "stopAt"))), 0n);
+  #writeStops({ timeMost = 0, stopAt = [], eventsMost }: StopOptions): Pointer {
+    const stops = (typeof stopAt === "string" ? [stopAt] : stopAt).reduce((set, stop) => set | (1n << BigInt(this.#kind(this.#stops, stop, "stopAt"))), 0n);
+    return setStruct(this.#memory, this.#at.options, "carom_shot_options", { eventsMost: whole(eventsMost, "eventsMost"), timeMost, stopAt: stops }, false);
   }
 
   #needRoom(room: number): void {
@@ -543,12 +532,7 @@ export class Carom {
 
   #writeShot(count: number): void {
     const { shot: at, final, state } = this.#at;
-    this.#memory.u8.fill(0, at, at + SHOT.size);
-    this.#memory.u32[(at + SHOT.offset.events) / 4] = this.#events;
-    this.#memory.u32[(at + SHOT.offset.final) / 4] = final;
-    this.#memory.u32[(at + SHOT.offset.state) / 4] = state;
-    this.#memory.i64[(at + SHOT.offset.room) / 8] = BigInt(this.#room);
-    this.#memory.i64[(at + SHOT.offset.count) / 8] = BigInt(count);
+    setStruct(this.#memory, at, "carom_shot", { events: this.#events, final, state, room: this.#room, count });
   }
 
   #count(): number {
@@ -713,9 +697,7 @@ export class Carom {
   /** Plays all shots of a batch, each with the bits of `simulate`. Returns "ok", or the name of the first error. */
   simulateBatch(shots: Shots, options: ShotOptions = {}): string {
     const opt = this.#writeShotOptions(options);
-    const job = shots.at(7);
     const { u32, i64, u8 } = this.#memory;
-    u8.fill(0, job, job + JOB.size);
     for (let k = 0; k < shots.n; k++) {
       const shot = shots.at(3) + k * SHOT.size;
       u8.fill(0, shot, shot + SHOT.size);
@@ -723,17 +705,10 @@ export class Carom {
       u32[(shot + SHOT.offset.final) / 4] = shots.at(4) + k * shots.count * layout.carom_ball_state.size;
       i64[(shot + SHOT.offset.room) / 8] = BigInt(shots.room);
     }
-    const o = JOB.offset;
-    u32[(job + o.table) / 4] = shots.at(0);
-    u32[(job + o.balls) / 4] = shots.at(1);
-    u32[(job + o.cues) / 4] = shots.at(2);
-    i64[(job + o.count) / 8] = BigInt(shots.count);
-    i64[(job + o.ballStride) / 8] = shots.layouts.length === 1 ? 0n : BigInt(shots.count);
-    i64[(job + o.cueStride) / 8] = 1n;
-    i64[(job + o.n) / 8] = BigInt(shots.n);
-    u32[(job + o.options) / 4] = opt;
-    u32[(job + o.shots) / 4] = shots.at(3);
-    u32[(job + o.status) / 4] = shots.at(5);
+    const job = setStruct(this.#memory, shots.at(7), "carom_shot_job", {
+      ...{ table: shots.at(0), balls: shots.at(1), cues: shots.at(2), shots: shots.at(3), status: shots.at(5), options: opt },
+      ...{ count: shots.count, ballStride: shots.layouts.length === 1 ? 0 : shots.count, cueStride: 1, n: shots.n },
+    });
     return this.statusName(this.#call.carom_shoot_batch(job));
   }
 

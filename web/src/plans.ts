@@ -4,7 +4,7 @@ import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import { refuseOrder } from "./lines.js";
 import type { Memory, Pointer } from "./memory.js";
-import { readState, readStruct, refuseName, value, writeStruct } from "./structs.js";
+import { readBalls, readState, readStruct, refuseName, setStruct, value, writeStruct } from "./structs.js";
 import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Ruling, ShotBall, ShotOptions, Table } from "./types.js";
 
 const PLAYER = layout.carom_player;
@@ -32,7 +32,6 @@ export interface Host {
   writeShotOptions(options: ShotOptions): Pointer;
   writeShot(): void;
   eventName(type: number): EventType;
-  placeBall(table: Table, balls: readonly ShotBall[], ball: number, x: number, y: number): ShotBall[];
   refuse(code: number, field?: string): void;
 }
 
@@ -95,8 +94,7 @@ export class Plans {
     const choices = memory.allocate(most * CHOICE.size);
     const strokes = memory.allocate(most * layout.carom_cue.size);
     try {
-      memory.u32[(job + JOB.offset.memory) / 4] = room;
-      memory.u32[(job + JOB.offset.memorySize) / 4] = size;
+      setStruct(memory, job, "carom_plan_job", { memory: room, memorySize: size }, false);
       let found = most;
       let code: number;
       if (cues !== undefined) {
@@ -204,22 +202,10 @@ export class Plans {
       const taken = code < 0 || leave === values.CAROM_LEAVE_BEFORE;
       return taken ? ball : { ...ball, state: readState(memory, at.final + k * layout.carom_ball_state.size) };
     });
-    for (let k = 0; k < balls.length; k++) if ((spot >>> k) & 1) lie = this.#spotted(table, lie, k);
+    if (spot !== 0) this.#host.writeLayout(table, lie);
+    for (let k = 0; k < balls.length; k++) if ((spot >>> k) & 1) this.#host.refuse(memory.exports.carom_spot_ball(at.table, at.balls, balls.length, k), `balls[${k}]`);
+    if (spot !== 0) lie = readBalls(memory, at.balls, balls.length);
     return { turn, foul: reason !== "none", reason, hand: HANDS[leave]!, balls: lie, game: after };
-  }
-
-  /** A ball on the foot spot, or behind it on the long string as near as there is room. */
-  #spotted(table: Table, balls: readonly ShotBall[], ball: number): ShotBall[] {
-    const foot = 0.75 * table.length;
-    for (let k = 0; ; k++) {
-      const behind = foot + 1e-3 * k;
-      const y = behind < table.length ? behind : foot - (behind - table.length);
-      try {
-        return this.#host.placeBall(table, balls, ball, 0.5 * table.width, y);
-      } catch (error) {
-        if (y <= 0) throw error;
-      }
-    }
   }
 
   // ---- Structs ---------------------------------------------------------------------------------------------------------------
@@ -259,16 +245,12 @@ export class Plans {
     const shot = this.#host.writeShotOptions(options.shot ?? {});
     this.#writeRules(options, balls);
     refuseLayout(table, balls, options.rules ?? "eightball");
-    memory.u8.fill(0, optionsAt, optionsAt + OPTIONS.size);
-    memory.i64[(optionsAt + OPTIONS.offset.shots) / 8] = whole(options.shots ?? 0, "shots");
-    memory.i64[(optionsAt + OPTIONS.offset.seed) / 8] = whole(options.seed ?? 0, "seed");
-    if (options.opponent) memory.u32[(optionsAt + OPTIONS.offset.opponent) / 4] = this.#writePlayer(opponent, options.opponent, "opponent");
-    memory.u8.fill(0, job, job + JOB.size);
-    const o = JOB.offset;
-    const parts = [[o.table, at.table], [o.balls, at.balls], [o.cue, at.cue], [o.player, player], [o.rules, rules], [o.shot, shot], [o.options, optionsAt]] as const;
-    for (const [offset, part] of parts) memory.u32[(job + offset) / 4] = part;
-    memory.i64[(job + o.count) / 8] = BigInt(balls.length);
-    return job;
+    setStruct(memory, optionsAt, "carom_plan_options", {
+      shots: whole(options.shots ?? 0, "shots"),
+      seed: whole(options.seed ?? 0, "seed"),
+      opponent: options.opponent ? this.#writePlayer(opponent, options.opponent, "opponent") : 0,
+    });
+    return setStruct(memory, job, "carom_plan_job", { table: at.table, balls: at.balls, cue: at.cue, player, rules, shot, options: optionsAt, count: balls.length });
   }
 
   #readChoice(at: Pointer): Choice {

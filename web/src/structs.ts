@@ -63,7 +63,21 @@ export function writeStruct(memory: Memory, at: Pointer, struct: StructName, fro
   }
 }
 
-/** The same, back: numbers, lists of numbers, and structs in it. */
+/** Sets some fields of a struct, which is cleared before: numbers, enumerators and addresses. */
+export function setStruct<S extends StructName>(memory: Memory, at: Pointer, struct: S, from: { [key in keyof (typeof layout)[S]["offset"]]?: number | bigint }, clear = true): Pointer {
+  if (clear) memory.u8.fill(0, at, at + layout[struct].size);
+  const { f64, i64, i32 } = memory;
+  for (const { key, begin, type, size } of FIELDS[struct]) {
+    const given = (from as Record<string, number | bigint | undefined>)[key];
+    if (given === undefined) continue;
+    if (type === "f64") f64[(at + begin) / 8] = Number(given);
+    else if (size * bytesOf(type) === 8) i64[(at + begin) / 8] = BigInt(given);
+    else i32[(at + begin) / 4] = Number(given);
+  }
+  return at;
+}
+
+/** A struct as an object: numbers, lists of numbers, and structs in it. */
 export function readStruct<T>(memory: Memory, at: Pointer, struct: StructName): T {
   const { f64, i64, i32 } = memory;
   const one = (type: Type, at: Pointer): unknown =>
