@@ -141,8 +141,8 @@ TEST(simultaneous) {
  * The place of a ball that touches another one at the start counts on one side only: a change opens
  * a gap, or there is none. By what moves neither there is no such flag, and the strike has its own
  * derivatives at the instant of the contact: side spin that a change brings about goes on into it;
- * phi changes it before slip between the balls can begin. Where that contact has no vertical slip, a
- * change presses one or the other ball on the cloth: by b there is a kink, by a and phi there is
+ * phi changes it before slip between the balls can begin. Where that contact has no vertical slip,
+ * a change presses one or the other ball on the cloth: by b there is a kink, by a and phi there is
  * none. By theta, at no elevation, the derivative is that upward, which the cloth takes a part of
  * at once; in flat play there is no kink. */
 TEST(strokes) {

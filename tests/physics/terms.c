@@ -184,7 +184,7 @@ TEST(law_of_friction) {
   }
 }
 
-/* Whether a ball leaves an event as it leaves an impact by a model; false too where there is none. */
+/* Whether a ball leaves an event as it leaves an impact by a model. */
 static bool leaves_as(const carom_event *e, const carom_cushion_impact *in,
                       const carom_cushion_options *options, double within) {
   carom_motion out;

@@ -278,8 +278,8 @@ static double impulse_error(const follower *f, const carom_event *e, int togethe
   }
 
   /* Several impulses on a ball can cancel, one cannot. Friction is at most 0.12 of the normal
-   * impulse; its vertical part does not show, and the cloth takes mu_slide times as much. A ball that
-   * would move at 1e-12 m/s rests. */
+   * impulse; its vertical part does not show, and the cloth takes mu_slide times as much. A ball
+   * that would move at 1e-12 m/s rests. */
   for (int i = 0; i < f->count; i++) {
     const double off = contacts[i] == 1 ? fabs(shown[i] - sum[i]) : shown[i] - sum[i];
     const double hidden = 0.015 + 0.12 * f->balls[i].kind.mu_slide;
