@@ -239,6 +239,12 @@ static double friction_at(const double *x) {
   return law.a + law.b * exp(-law.c * x[0] * sin(45.0 * degree));
 }
 
+/* of the balls of the game x[0] at a slip of x[1] m/s */
+static double friction_of(const double *x) {
+  const carom_ball_kind kind = carom_ball_kind_of((carom_game)x[0]);
+  return kind.law_a + kind.law_b * exp(-kind.law_c * x[1]);
+}
+
 /* of the first of two frozen balls: how far from the kiss line to the line of centres its path
  * lies, by tangents; a third ball drives it at x[0] degrees from the kiss line, at x[1] m/s */
 static double kiss_share(const double *x) {
@@ -283,14 +289,97 @@ static double rebound(const double *x) {
   return NAN;
 }
 
+/* Lengths of a 9 ft table that a ball goes at x[0] m/s from the head spot through the foot spot. */
+static double lengths_of_travel(const double *x) {
+  enum { EVENTS = 100 };
+  carom_event events[EVENTS];
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  carom_shot shot = {.events = events, .room = EVENTS};
+  carom_table table;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  ball.state = (carom_ball_state){.r = {0.5 * table.width, 0.25 * table.length, ball.kind.radius},
+                                  .v = {0.0, x[0], 0.0}};
+  carom_shoot(&table, &ball, 1, NULL, NULL, &shot);
+  double from = ball.state.r[1], sum = 0.0;
+  for (int64_t k = 0; k < shot.count && k < EVENTS; k++) {
+    sum += fabs(events[k].before[0].r[1] - from);
+    from = events[k].before[0].r[1];
+  }
+  return sum / table.length;
+}
+
+/* How far beyond its aim a ball meets a rail, in diamonds: it rolls from the diamond `from` of one
+ * long rail to the diamond `at` of the other, with side spin R w_z / v to run on; diamonds count
+ * from the end that it nears, and lie 94 mm behind the noses. The diamond of the rail `nth`, which
+ * is that from which it came. */
+static double diamond(carom_table_kind of, carom_game game, double from, double at, double speed,
+                      double side, int nth) {
+  enum { EVENTS = 100 };
+  const double back = 0.094;
+  carom_event events[EVENTS];
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(game)};
+  carom_shot shot = {.events = events, .room = EVENTS};
+  carom_table table;
+  carom_table_make(of, &table);
+  const double one = table.length / 8.0, across = table.width + 2.0 * back,
+               along = (from - at) * one, R = ball.kind.radius;
+  const double v_x = speed * across / hypot(across, along),
+               v_y = speed * along / hypot(across, along), start = 0.3;
+  ball.state = (carom_ball_state){
+      .r = {start, table.length - from * one + (start + back) * along / across, R},
+      .v = {v_x, v_y, 0.0},
+      .w = {-v_y / R, v_x / R, -side * speed / R}};
+  carom_shoot(&table, &ball, 1, NULL, NULL, &shot);
+  int64_t k = 0;
+  for (int rails = 0; k < shot.count && k < EVENTS; k++)
+    if (events[k].type == CAROM_EVENT_RAIL && ++rails == nth)
+      break;
+  if (k == shot.count || k == EVENTS)
+    return NAN;
+  const carom_ball_state *s = &events[k].before[0];
+  return s->r[0] < 0.5 * table.width
+             ? (table.length - s->r[1] + (s->r[0] + back) * s->v[1] / s->v[0]) / one
+             : NAN;
+}
+
+/* Diamonds between a ball and where it comes back by one rail: aimed x[1] / 2 diamonds beyond
+ * x[0], at x[2] m/s. */
+static double one_rail(const double *x) {
+  return x[0] -
+         diamond(CAROM_TABLE_POOL_9FT, CAROM_GAME_POOL, x[0], x[0] - 0.5 * x[1], x[2], 0.0, 2);
+}
+
+/* The corner-five system: from x[0], whose numbers are half as dense, at x[1], at x[2] m/s, with
+ * side spin x[3]. */
+static double three_rails(const double *x) {
+  return diamond(CAROM_TABLE_THREECUSHION, CAROM_GAME_BILLIARD, 2.0 * (x[0] - 1.0), x[1], x[2],
+                 x[3], 3);
+}
+
+/* How high a ball of pool bounces on the slate, over the height x[0] from which it falls. */
+static double bounce(const double *x) {
+  enum { EVENTS = 4 };
+  carom_event events[EVENTS];
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  carom_shot shot = {.events = events, .room = EVENTS};
+  carom_table table;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  ball.state = (carom_ball_state){.r = {0.5, 0.7, ball.kind.radius + x[0]}};
+  carom_shoot(&table, &ball, 1, NULL, NULL, &shot);
+  if (shot.count == 0 || events[0].type != CAROM_EVENT_SLATE)
+    return NAN;
+  const double ratio = events[0].after[0].v[2] / events[0].before[0].v[2];
+  return ratio * ratio;
+}
+
 /* ---- Breaks: the rack x[0] on the table x[1] with a gap of x[2] mm, 400 times.
  * The cue ball is x[3] m beside the long string, on the head string; the ball's speed is x[4]. */
 
 enum { BREAKS = 400, BALLS_OF_A_RACK = 16 };
 
-/* What was counted in 400 breaks. */
+/* What was counted in 400 breaks: `any` are those that made a ball. */
 typedef struct break_counts {
-  int success, scratch, eight, made;
+  int success, scratch, eight, made, any;
 } break_counts;
 
 static double normal_draw(lab_random *draw) {
@@ -338,6 +427,7 @@ static break_counts breaks(const double *x) {
     counts.scratch += scratch;
     counts.eight += (facts.down >> 8 & 1) != 0;
     counts.made += made;
+    counts.any += made > 0;
   }
   return counts;
 }
@@ -354,8 +444,10 @@ static double break_eight(const double *x) {
   return 100.0 * breaks(x).eight / BREAKS;
 }
 
+/* balls of a break that made one */
 static double break_made(const double *x) {
-  return (double)breaks(x).made / BREAKS;
+  const break_counts counts = breaks(x);
+  return (double)counts.made / counts.any;
 }
 
 /* ---- The table of rows */
@@ -394,15 +486,21 @@ static const struct {
     {"speed_share", speed_share},
     {"distance_ratio", distance_ratio},
     {"friction_at", friction_at},
+    {"friction_of", friction_of},
     {"kiss_share", kiss_share},
     {"rebound", rebound},
+    {"lengths_of_travel", lengths_of_travel},
+    {"one_rail", one_rail},
+    {"three_rails", three_rails},
+    {"bounce", bounce},
     {"break_success", break_success},
     {"break_scratch", break_scratch},
     {"break_eight", break_eight},
     {"break_made", break_made},
 };
 
-/* "rebound:1:1.5": the function and its numbers. False where there is no such function. */
+/* "rebound:1:1.5": the function and its numbers. False where there is no such function, or it has
+ * no value. */
 static bool compute(const char *computed, double *value) {
   const size_t length = strcspn(computed, ":");
   double x[NUMBERS_MOST] = {0};
@@ -416,7 +514,7 @@ static bool compute(const char *computed, double *value) {
     if (*rest == '\0' && strlen(functions[k].name) == length &&
         strncmp(functions[k].name, computed, length) == 0) {
       *value = functions[k].value(x);
-      return true;
+      return !isnan(*value);
     }
   return false;
 }
