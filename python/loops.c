@@ -211,8 +211,10 @@ enum {
   EVENTS_MOST = 400,
   PIECES_MOST = 800,
   STRIKE = 6,
+  KICKS = 5, /* of a contact */
+  KICKED_MOST = 16,
   CONSTANTS_MOST = 24,
-  PLAYS_MOST = 1 + STRIKE + CONSTANTS_MOST
+  PLAYS_MOST = 1 + STRIKE + KICKS * KICKED_MOST + CONSTANTS_MOST
 };
 static const double piece_most = 1.0; /* s */
 
@@ -285,13 +287,78 @@ static bool go(way *w, const carom_shot_ball *ball, double start, double end,
   return true;
 }
 
-/* Plays a shot by a strike until a time on the play's own clock, and finds the ways of its
- * balls, whose layout is that of a variant: 0, or 1 + the constant that is changed. False: it
- * ended in an error. */
-static bool play(const carom_python_tracks *tracks, int32_t shot, int variant, const double *strike,
-                 double end, carom_event *events, way *ways) {
+/* Adds the five kicks of a contact to the balls, whose states before it the event has. */
+static void kick(const carom_table *table, const carom_event *e, const double k[KICKS],
+                 carom_shot_ball *balls) {
+  carom_ball_state *a = &balls[e->a].state, *b = &balls[e->b].state;
+  const carom_ball_state *from = &e->before[0], *to = &e->before[1];
+  const bool two = e->type == CAROM_EVENT_BALL_BALL;
+  const double R = balls[e->a].kind.radius;
+
+  /* The normal, from a into what it meets, and the speed before. */
+  double n[2];
+  if (two) {
+    for (int x = 0; x < 2; x++)
+      n[x] = to->r[x] - from->r[x];
+  } else {
+    const carom_rail *rail = &table->rail[e->b];
+    n[0] = rail->q[1] - rail->p[1];
+    n[1] = rail->p[0] - rail->q[0];
+  }
+  const double size = hypot(n[0], n[1]);
+  double closing = 0.0;
+  for (int x = 0; x < 2; x++) {
+    n[x] /= size;
+    closing += n[x] * (from->v[x] - (two ? to->v[x] : 0.0));
+  }
+  for (int x = 0; x < 2 && !two && closing < 0.0; x++)
+    n[x] = -n[x];
+  const double t[2] = {n[1], -n[0]}, V = two ? closing : hypot(from->v[0], from->v[1]);
+
+  for (int x = 0; x < 2; x++) {
+    const double push = V * k[0] * n[x], throw = V * k[1] * t[x], lift = V / R * k[2] * t[x];
+    if (two) {
+      a->v[x] += throw -push;
+      b->v[x] += push - throw;
+      a->w[x] += lift;
+      b->w[x] += lift;
+    } else {
+      a->v[x] += V * (k[0] * t[x] - k[1] * n[x]);
+      a->w[x] += V / R * (k[2] * n[x] + k[3] * t[x]);
+    }
+  }
+  a->w[2] += V / R * k[two ? 3 : 4];
+  if (two)
+    b->w[2] += V / R * k[4];
+}
+
+/* Appends the ways up to some events of all balls, which are at `balls` at the times since[]. */
+static bool follow(const carom_event *events, int many, carom_shot_ball *balls, double *since,
+                   way *ways) {
+  bool good = true;
+  for (const carom_event *e = events; e < events + many; e++)
+    for (int side = 0; side < (e->type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++) {
+      const int i = side == 0 ? e->a : e->b;
+      good = good && go(&ways[i], &balls[i], since[i], e->time, &e->before[side]);
+      since[i] = e->time;
+      balls[i].state = e->after[side];
+    }
+  return good;
+}
+
+static bool is_contact(const carom_event *e) {
+  return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL;
+}
+
+/* Plays a shot by a strike, and kicks, until a time on the play's own clock, and finds the events,
+ * *many of them, and the ways of its balls, whose layout is that of a variant: 0, or 1 + the
+ * constant that is changed. CAROM_ERROR_ROOM: it has too many events. */
+static carom_status play(const carom_python_tracks *tracks, int32_t shot, int variant,
+                         const double *strike, double end, carom_event *events, int *many,
+                         way *ways) {
   const int count = tracks->count;
-  carom_shot_ball balls[CAROM_BALLS_MOST];
+  carom_shot_ball balls[CAROM_BALLS_MOST], now[CAROM_BALLS_MOST];
+  carom_ball_state final[CAROM_BALLS_MOST];
   const size_t layout = (size_t)variant * (size_t)tracks->shots + (size_t)shot;
   memcpy(balls, &tracks->balls[layout * (size_t)count], (size_t)count * sizeof *balls);
 
@@ -301,33 +368,55 @@ static bool play(const carom_python_tracks *tracks, int32_t shot, int variant, c
     struck->state.v[k] = strike[k];
   for (int k = 0; k < 3; k++)
     struck->state.w[k] = strike[2 + k] / struck->kind.radius;
+  memcpy(now, balls, (size_t)count * sizeof *now);
 
+  /* In parts: up to each contact that has kicks, from the states just after them. */
+  double since[CAROM_BALLS_MOST] = {0}, begin = 0.0;
   carom_shot_options options = *tracks->options;
-  options.events_most = EVENTS_MOST;
-  options.time_most = end > 1e-3 ? end : 1e-3;
-  carom_shot played = {.events = events, .room = EVENTS_MOST};
-  const carom_status status = carom_shoot(tracks->table, balls, count, NULL, &options, &played);
-  if (status < 0)
-    return false;
-
-  /* The ways between the events of each ball: from the state after one to the state before the
-   * next. */
-  double since[CAROM_BALLS_MOST] = {0};
+  end = end > 1e-3 ? end : 1e-3;
   bool good = true;
   for (int i = 0; i < count; i++)
     ways[i].pieces = 0;
-  for (int e = 0; e < (int)played.count; e++)
-    for (int side = 0; side < (events[e].type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++) {
-      const int i = side == 0 ? events[e].a : events[e].b;
-      good = good && go(&ways[i], &balls[i], since[i], events[e].time, &events[e].before[side]);
-      since[i] = events[e].time;
-      balls[i].state = events[e].after[side];
+  *many = 0;
+  for (int contact = 0;;) {
+    const bool parts = contact < tracks->kicks;
+    options.stop_at =
+        parts ? CAROM_STOP_AT(CAROM_EVENT_BALL_BALL) | CAROM_STOP_AT(CAROM_EVENT_RAIL) : 0;
+    options.events_most = EVENTS_MOST;
+    options.time_most = end - begin;
+    carom_event *first = &events[*many];
+    carom_shot played = {.events = first, .room = EVENTS_MOST - *many, .final = final};
+    const carom_status status = carom_shoot(tracks->table, now, count, NULL, &options, &played);
+    if (status < 0)
+      return status;
+    if (played.count > played.room)
+      return CAROM_ERROR_ROOM;
+    for (int e = 0; e < (int)played.count; e++) {
+      first[e].time += begin;
+      contact += parts && is_contact(&first[e]);
     }
+    *many += (int)played.count;
+    good = good && follow(first, (int)played.count, balls, since, ways);
+    begin += played.time;
+    if (status != CAROM_STOPPED_AT_EVENT || begin >= end)
+      break;
+
+    /* The kicks of the last contact; its balls go on with them, on all other ways nothing ends. */
+    for (int i = 0; i < count; i++)
+      now[i].state = final[i];
+    const carom_event *last = &events[*many - 1];
+    if (contact > tracks->kicks)
+      continue;
+    kick(tracks->table, last, &strike[STRIKE + KICKS * (contact - 1)], now);
+    balls[last->a].state = now[last->a].state;
+    if (last->type == CAROM_EVENT_BALL_BALL)
+      balls[last->b].state = now[last->b].state;
+  }
 
   /* What follows a ball's last event goes to the end of the time. */
   for (int i = 0; i < count; i++)
-    good = good && go(&ways[i], &balls[i], since[i], options.time_most, NULL);
-  return good;
+    good = good && go(&ways[i], &balls[i], since[i], end, NULL);
+  return good ? CAROM_OK : CAROM_ERROR_ROOM;
 }
 
 static void copy(way *to, const way *from) {
@@ -347,9 +436,10 @@ static void place(const way *w, double time, int *at, double r[2]) {
 
 /* Adds up the sums of a play. ways[0 ... count - 1] are those of the play itself, with start[0]
  * the strike's time; with `plays` above 1, the next `count` are those with the first number
- * changed by step[0], and so on. */
+ * changed by step[0], which changes nothing before from[0] on the play's clock, and so on. */
 static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *ways,
-                   const double *start, int plays, const double *step, double until, double *sums) {
+                   const double *start, int plays, const double *step, const double *from,
+                   double until, double *sums) {
   const int count = tracks->count;
   const double c2 = tracks->huber * tracks->huber;
   double *gradient = &sums[3], *square = &gradient[plays - 1];
@@ -373,65 +463,111 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
       sums[1] += size;
       sums[2] += 1.0;
 
-      /* The derivatives, and what they add to J^T W d and J^T W J. */
+      /* The derivatives by the numbers that count here, and what they add to J^T W d and
+       * J^T W J. */
+      int live[PLAYS_MOST], lives = 0;
       for (int a = 0; a + 1 < plays; a++) {
         double moved[2];
+        if (sample[0] - start[0] < from[a])
+          continue;
+        live[lives++] = a;
         place(&ways[(a + 1) * count + i], sample[0] - start[a + 1], &at[a + 1], moved);
         for (int k = 0; k < 2; k++)
           J[a][k] = (moved[k] - r[k]) / step[a];
       }
-      double *entry = square;
-      for (int a = 0; a + 1 < plays; a++) {
+      for (int p = 0; p < lives; p++) {
+        const int a = live[p];
+        double *row = &square[a * (a + 1) / 2];
         gradient[a] += (J[a][0] * d[0] + J[a][1] * d[1]) / root;
-        for (int b = 0; b <= a; b++)
-          *entry++ += (J[a][0] * J[b][0] + J[a][1] * J[b][1]) / root;
+        for (int q = 0; q <= p; q++) {
+          const int b = live[q];
+          row[b] += (J[a][0] * J[b][0] + J[a][1] * J[b][1]) / root;
+        }
       }
     }
   }
 }
 
+/* When each of the numbers of a strike and its kicks begins to change a play, on its clock: its
+ * contact, or never. */
+static void begins(const carom_python_tracks *tracks, const carom_event *events, int many,
+                   double *from) {
+  const int kicks = KICKS * tracks->kicks;
+  for (int d = 0; d < STRIKE + kicks + tracks->constants; d++)
+    from[d] = d < STRIKE || d >= STRIKE + kicks ? -HUGE_VAL : HUGE_VAL;
+  int contact = 0;
+  for (int e = 0; e < many && contact < tracks->kicks; e++)
+    if (is_contact(&events[e]))
+      for (int k = KICKS * contact++; k < KICKS * contact; k++)
+        from[STRIKE + k] = events[e].time;
+}
+
 carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of,
                                  const double *strikes, const double *until, const double *most,
                                  double *sums) {
-  const int numbers = STRIKE + tracks->constants, size = 3 + numbers + numbers * (numbers + 1) / 2;
-  if (tracks->constants > CONSTANTS_MOST)
+  if (tracks->constants > CONSTANTS_MOST || tracks->kicks > KICKED_MOST)
     return CAROM_ERROR_NULL;
+  const int count = tracks->count, free_numbers = STRIKE + KICKS * tracks->kicks;
+  const int numbers = free_numbers + tracks->constants,
+            size = 3 + numbers + numbers * (numbers + 1) / 2;
   carom_event *events = malloc(EVENTS_MOST * sizeof *events);
-  way *ways = malloc((1 + (size_t)numbers) * (size_t)tracks->count * sizeof *ways);
+  way *ways = malloc((1 + (size_t)numbers) * (size_t)count * sizeof *ways);
   const bool room = events != NULL && ways != NULL;
-  for (size_t k = 0; k < n && room; k++, strikes += STRIKE, sums += size) {
+  for (size_t k = 0; k < n && room; k++, strikes += free_numbers, sums += size) {
     /* The play itself, */
-    double start[PLAYS_MOST], step[PLAYS_MOST];
+    double start[PLAYS_MOST], step[PLAYS_MOST], from[PLAYS_MOST];
+    int many;
     start[0] = strikes[5];
     memset(sums, 0, (size_t)size * sizeof *sums);
-    if (!play(tracks, of[k], 0, strikes, until[k] - start[0], events, ways)) {
+    if (play(tracks, of[k], 0, strikes, until[k] - start[0], events, &many, ways) < 0) {
       sums[0] = sums[1] = HUGE_VAL;
       continue;
     }
-    add_up(tracks, of[k], ways, start, 1, step, until[k], sums);
+    add_up(tracks, of[k], ways, start, 1, step, from, until[k], sums);
 
     /* and, where it is good enough, those beside it. */
     bool good = sums[0] < most[k];
+    begins(tracks, events, many, from);
     for (int d = 0; d < numbers && good; d++) {
-      double strike[STRIKE];
-      memcpy(strike, strikes, sizeof strike);
-      step[d] = d < STRIKE ? tracks->step : tracks->steps[d - STRIKE];
-      if (d < STRIKE)
+      double strike[STRIKE + KICKS * KICKED_MOST];
+      memcpy(strike, strikes, (size_t)free_numbers * sizeof *strike);
+      step[d] = d < free_numbers ? tracks->step : tracks->steps[d - free_numbers];
+      if (d < free_numbers)
         strike[d] += step[d];
       start[d + 1] = strike[5];
+      if (from[d] == HUGE_VAL)
+        continue;
       if (d == STRIKE - 1) {
         /* struck later, the balls go the same way */
-        for (int i = 0; i < tracks->count; i++)
-          copy(&ways[(d + 1) * tracks->count + i], &ways[i]);
+        for (int i = 0; i < count; i++)
+          copy(&ways[(d + 1) * count + i], &ways[i]);
         continue;
       }
-      good = play(tracks, of[k], d < STRIKE ? 0 : 1 + d - STRIKE, strike, until[k] - start[d + 1],
-                  events, &ways[(d + 1) * tracks->count]);
+      good = play(tracks, of[k], d < free_numbers ? 0 : 1 + d - free_numbers, strike,
+                  until[k] - start[d + 1], events, &many, &ways[(d + 1) * count]) >= 0;
     }
     if (good)
-      add_up(tracks, of[k], ways, start, 1 + numbers, step, until[k], sums);
+      add_up(tracks, of[k], ways, start, 1 + numbers, step, from, until[k], sums);
   }
   free(events);
   free(ways);
   return room ? CAROM_OK : CAROM_ERROR_NULL;
+}
+
+carom_status carom_python_kicked(const carom_python_tracks *tracks, int32_t shot,
+                                 const double *strike, double until, size_t n, const double *times,
+                                 carom_event *events, int32_t *many, double *places) {
+  way *ways = malloc((size_t)tracks->count * sizeof *ways);
+  int happened = 0;
+  carom_status status = CAROM_ERROR_NULL;
+  if (ways != NULL)
+    status = play(tracks, shot, 0, strike, until - strike[5], events, &happened, ways);
+  *many = happened;
+  for (int i = 0; i < tracks->count && status >= 0; i++) {
+    int at = 0;
+    for (size_t k = 0; k < n; k++)
+      place(&ways[i], times[k] - strike[5], &at, &places[2 * ((size_t)i * n + k)]);
+  }
+  free(ways);
+  return status;
 }

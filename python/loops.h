@@ -55,23 +55,41 @@ typedef struct carom_python_tracks {
   const int64_t *first;
   const double *steps; /* of the constants */
   int32_t count, shots, constants;
+  int32_t kicks;  /* contacts of a play, from its first on, that have kicks: at most 16 */
   int32_t stride; /* one of so many samples of a ball is compared, the first among them */
   double step;    /* of the differences by the strike, m/s and s */
   double huber;   /* c of the cost, the sum of 2 c^2 (sqrt(1 + d^2/c^2) - 1) over the distances
                      d, m; 0: the sum of d^2 */
 } carom_python_tracks;
 
-/* How far n plays are from what was recorded. Play k is of shot of[k] by the strike strikes[6 k
- * ...]: v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and the
- * strike's time (s); samples up to the time until[k] count.
+/* How far n plays are from what was recorded. Play k is of shot of[k] by the strike strikes[(6 +
+ * 5 kicks) k ...]: v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike,
+ * the strike's time (s), and five kicks of each of the first contacts; samples up to the time
+ * until[k] count.
  *
- * With m = 6 + constants, sums[(3 + m + m (m + 1)/2) k ...] becomes: the cost; the sum of d^2;
- * the number of samples; and, where the cost is below most[k], J^T W d (m) and J^T W J (the
- * lower triangle by rows): W are the weights that make the cost a weighted sum of squares
- * nearby, J is by forward differences, of the strike and then of the constants. A play that ends
- * in an error has infinite cost. Returns CAROM_OK, or CAROM_ERROR_NULL without memory. */
+ * Kicks are changes of the motion just after a contact, over the speed V before it. Of a ball at a
+ * cushion, with n into it and t = (n_y, -n_x): velocity along t and away from it, roll along t and
+ * away from it, R w_z; V is the ball's speed. Of balls a and b, with n from a to b, V is the speed
+ * of closing: velocity of b along n and of a against it; of a along t and of b against it; R w
+ * along t of both; R w_z of a, and of b. Contacts are the CAROM_EVENT_BALL_BALL and
+ * CAROM_EVENT_RAIL in the order of the events; of a cluster the last has the kicks.
+ *
+ * With m = 6 + 5 kicks + constants, sums[(3 + m + m (m + 1)/2) k ...] becomes: the cost; the sum
+ * of d^2; the number of samples; and, where the cost is below most[k], J^T W d (m) and J^T W J
+ * (the lower triangle by rows): W are the weights that make the cost a weighted sum of squares
+ * nearby, J is by forward differences, of the strike, the kicks and then the constants. A play
+ * that ends in an error has infinite cost. Returns CAROM_OK, or CAROM_ERROR_NULL without memory or
+ * for too many numbers. */
 carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of,
                                  const double *strikes, const double *until, const double *most,
                                  double *sums);
+
+/* One such play: its events, 400 of them at most, whose states `after` are those before kicks,
+ * the number of them in *many, and the places places[(n ball + k) 2 ...] of the balls at the
+ * times times[k], ascending, of the recording's clock. The status is that of the play;
+ * CAROM_ERROR_ROOM: it has too many events. */
+carom_status carom_python_kicked(const carom_python_tracks *tracks, int32_t shot,
+                                 const double *strike, double until, size_t n, const double *times,
+                                 carom_event *events, int32_t *many, double *places);
 
 #endif

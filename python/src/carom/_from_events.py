@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -71,29 +71,33 @@ def chosen(impacts: Records) -> Records:
     return picked
 
 
+def rebound(v_t: Doubles, v_n: Doubles, spin: Doubles, radius: float, model: ShotCushion, given: Mapping[str, Any]) -> Doubles:
+    """v_t, v_n and R w_t, R w_n, R w_z after impacts, (..., 5), as carom_shoot() has them; `spin` has the last three before, (..., 3)."""
+    balls: Array = np.zeros(np.shape(v_t), dtypes.cushion_impact)
+    balls["v"][..., 0], balls["v"][..., 1], balls["w"] = v_t, v_n, spin / radius
+    balls["normal"], balls["radius"] = (0.0, 1.0), radius
+    for field, name in (("height", "nose_height"), ("mass", "mass"), ("mu_cloth", "mu_slide"), ("mu_cushion", "mu_cushion"),
+                        ("restitution", "restitution_cushion")):  # fmt: skip
+        balls[field] = given[name]
+    own = cast(CushionNumbers, {name: given[name] for name in NUMBERS})
+    motion = cushion(balls, model="mathavan" if model == "default" else model, **own)[0]
+    return np.concatenate([motion["v"][..., :2], radius * motion["w"]], axis=-1)
+
+
 def predicted(
     impacts: Records, radius: float, model: ShotCushion, e: float | Doubles, mu: float | Doubles, height: float, roll_loss: float = 0.0,
     given: Mapping[str, float] | None = None,
 ) -> Doubles:  # fmt: skip
     """w_t, w_n, u_t and u_n after each impact of a rolling ball, by the model, with its best side spin, and the misfit, (n, 5).
 
-    Other numbers of the cushion are `given`, or the usual ones. The misfit is chi^2 of the four, whose errors are those of the events and 1.2 % of v for w, 3 % for u, and the prior's.
+    Other numbers of the cushion are `given`, or the usual ones. The misfit is chi^2 of the four, whose errors are those of the events and
+    1.2 % of v for w, 3 % for u, and the prior's.
     """
     v = np.hypot(impacts["v_n"], impacts["v_t"])
-    shape = (len(impacts), len(_SPINS))
-    balls: Array = np.zeros(shape, dtypes.cushion_impact)
-    balls["v"][..., 0], balls["v"][..., 1] = impacts["v_t"][:, None], impacts["v_n"][:, None]
-    balls["w"][..., 0], balls["w"][..., 1] = -impacts["v_n"][:, None] / radius, impacts["v_t"][:, None] / radius
-    balls["w"][..., 2] = _SPINS * v[:, None] / radius
-    balls["normal"] = (0.0, 1.0)
-    for name, value in (("height", height), ("radius", radius), ("mass", 0.21), ("mu_cloth", 0.2), ("mu_cushion", mu),
-                        ("restitution", e)):  # fmt: skip
-        balls[name] = value
-    given = given or usual(model)
-    own = cast(CushionNumbers, {**{name: given[name] for name in NUMBERS}, "roll_loss": roll_loss})
-    motion = cushion(balls, model="mathavan" if model == "default" else model, **own)[0]
-    w_x, w_y, roll = motion["v"][..., 0], motion["v"][..., 1], radius * motion["w"][..., 1]
-    after = np.stack([w_x, w_y, w_x - roll, w_y + radius * motion["w"][..., 0]], axis=-1)
+    v_t, v_n = (np.broadcast_to(impacts[name][:, None], (len(impacts), len(_SPINS))) for name in ("v_t", "v_n"))
+    numbers = {"restitution_cushion": e, "mu_cushion": mu, "nose_height": height, "roll_loss": roll_loss}
+    made = rebound(v_t, v_n, np.stack([-v_n, v_t, _SPINS * v[:, None]], axis=-1), radius, model, {**(given or usual(model)), **numbers})
+    after = np.stack([made[..., 0], made[..., 1], made[..., 0] - made[..., 3], made[..., 1] + made[..., 2]], axis=-1)
     seen = np.stack([impacts["w_t"], impacts["w_n"], impacts["u_t"], impacts["u_n"]], axis=-1)
     # the best spin of each
     w_error, u_error = np.hypot(impacts["w_error"], 0.012 * v), np.hypot(impacts["u_error"], 0.03 * v)

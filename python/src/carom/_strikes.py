@@ -16,15 +16,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from carom import _constants
+from carom import _constants, dtypes
 from carom._carom import ffi, lib
-from carom._rows import pointer, workers
+from carom._rows import Array, pointer, workers
 from carom._shot_options import Options, ShotCushion, shot_options
-from carom.dtypes import Doubles
+from carom.dtypes import Doubles, Records
 from carom.status import CaromError
 from carom.tracks import Recording
 
@@ -36,6 +37,8 @@ EARLIEST, LATEST = -0.03, 0.13  # of a strike on the clock of a play, s
 _STILL = 0.12  # s: a ball was struck no longer before the first row that shows its motion
 _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
 _NUMBERS = 6
+KICKS = 5  # numbers of a contact's kicks, which follow a strike
+EVENTS_MOST = 400  # of a play
 # The first stage: samples up to a time (s), how many starts descend, and iterations.
 _FIRST, _FIRST_ITERATIONS = 0.9, 4
 _FIRST_KEPT = {False: 8, True: 14}  # True: for the strikes of the result, where it counts that none of the worst stays bad
@@ -92,17 +95,9 @@ class Plays:
         shots = [self.recordings[row] for row in np.asarray(rows)]
         return Plays(shots, self.table_size, self.radius, self.constants, self.cushion_model, self.threads)
 
-    def misfit(
-        self, of: Integers, strikes: Doubles, until: Doubles, most: Doubles | float, *, huber: float = HUBER, stride: int = 1
-    ) -> Doubles:
-        """Costs, and normal equations where the cost is below `most`, of n plays: see loops.h. Shape (n, 3 + m + m (m + 1)/2), m = 6 and
-        the number of steps. Play k is of recording of[k], by strikes[k], with the samples up to until[k], s.
-        """
-        numbers = _NUMBERS + len(self.steps)
-        sums = np.empty((len(of), 3 + numbers + numbers * (numbers + 1) // 2))
-        of, strikes, until = np.ascontiguousarray(of, np.int32), np.ascontiguousarray(strikes), np.ascontiguousarray(until)
-        most = np.ascontiguousarray(np.broadcast_to(most, len(of)), np.float64)
-        tracks = ffi.new(
+    def _of_c(self, strikes: Doubles, stride: int = 1, huber: float = HUBER) -> Any:
+        """The recordings for C, to be played by strikes with so many numbers."""
+        return ffi.new(
             "carom_python_tracks *",
             {
                 "table": pointer("carom_table[]", self.table.record),
@@ -115,11 +110,42 @@ class Plays:
                 "count": self.layouts.shape[2],
                 "shots": self.layouts.shape[1],
                 "constants": len(self.steps),
+                "kicks": (strikes.shape[-1] - _NUMBERS) // KICKS,
                 "stride": stride,
                 "step": STEP,
                 "huber": huber,
             },
         )
+
+    def played(self, row: int, strike: Doubles, times: Doubles | None = None) -> tuple[Records, Doubles]:
+        """The events of a play of one shot, on the play's clock, whose states `after` are those before kicks; and the places of the balls
+        at ascending times of the plays' clock, (balls, n, 2).
+
+        Raises CaromError: The play ends in an error.
+        """
+        strike, when = np.ascontiguousarray(strike), np.ascontiguousarray([] if times is None else times, np.float64)
+        events: Array = np.empty(EVENTS_MOST, dtypes.event)
+        places, many = np.empty((self.layouts.shape[2], len(when), 2)), ffi.new("int32_t *")
+        code = lib.carom_python_kicked(
+            self._of_c(strike), row, pointer("double[]", strike), self.ends[row], len(when), pointer("double[]", when),
+            pointer("carom_event[]", events), many, pointer("double[]", places),
+        )  # fmt: skip
+        if code < 0:
+            raise CaromError(code)
+        return events[: many[0]], places
+
+    def misfit(
+        self, of: Integers, strikes: Doubles, until: Doubles, most: Doubles | float, *, huber: float = HUBER, stride: int = 1
+    ) -> Doubles:
+        """Costs, and normal equations where the cost is below `most`, of n plays: see loops.h. Shape (n, 3 + m + m (m + 1)/2), m = 6 and
+        the number of steps. Play k is of recording of[k], by strikes[k], with the samples up to until[k], s. Kicks of contacts follow each
+        strike: m has five more for each.
+        """
+        numbers = strikes.shape[1] + len(self.steps)
+        sums = np.empty((len(of), 3 + numbers + numbers * (numbers + 1) // 2))
+        of, strikes, until = np.ascontiguousarray(of, np.int32), np.ascontiguousarray(strikes), np.ascontiguousarray(until)
+        most = np.ascontiguousarray(np.broadcast_to(most, len(of)), np.float64)
+        tracks = self._of_c(strikes, stride, huber)
 
         def part(rows: slice) -> int:
             # at most some milliseconds of C at a time, so that Ctrl-C is heard
@@ -232,33 +258,40 @@ def normal(sums: Doubles) -> tuple[Doubles, Doubles]:
 
 
 def descend(
-    plays: Plays, of: Integers, strikes: Doubles, until: Doubles, iterations: int, *, huber: float = HUBER, stride: int = 1
-) -> tuple[Doubles, Doubles]:
-    """Levenberg and Marquardt's method from each strike: the strikes found, (n, 6), and the sums of `misfit` there.
+    plays: Plays, of: Integers, strikes: Doubles, until: Doubles, iterations: int, *, huber: float = HUBER, stride: int = 1,
+    held: Doubles | None = None,
+) -> tuple[Doubles, Doubles]:  # fmt: skip
+    """Levenberg and Marquardt's method from each strike: the strikes found, (n, numbers), and the sums of `misfit` there.
 
-    An iteration is one play of each start that is not done; where the cost falls, six more for the next step.
+    An iteration is one play of each start that is not done; where the cost falls, one more of each number for the next step. `held`,
+    (n, numbers), is what the square of a number costs, as kicks that follow the six of a strike do; without, nothing does.
     """
     strikes = _allowed(strikes)
-    n = len(strikes)
+    n, numbers = strikes.shape
+    held = np.zeros((n, numbers)) if held is None else held
     sums = plays.misfit(of, strikes, until, np.inf, huber=huber, stride=stride)
+    costs = sums[:, 0] + (held * strikes**2).sum(axis=1)
     damping, failed = np.full(n, 1e-2), np.zeros(n, int)
-    active = np.isfinite(sums[:, 0])
-    diagonal = np.arange(_NUMBERS)
+    active = np.isfinite(costs)
+    diagonal = np.arange(numbers)
     for _ in range(iterations):
         rows = np.flatnonzero(active)
         if len(rows) == 0:
             break
         # the step; what no sample depends on stays where it is
         square, gradient = normal(sums[rows])
+        square[:, diagonal, diagonal] += held[rows]
         scale = square[:, diagonal, diagonal]
         square[:, diagonal, diagonal] += damping[rows, None] * scale + 1e-12 * (1.0 + scale.sum(axis=1, keepdims=True))
-        step = np.linalg.solve(square, -gradient[..., None])[..., 0]
+        step = np.linalg.solve(square, -(gradient + held[rows] * strikes[rows])[..., None])[..., 0]
         tried = _allowed(strikes[rows] + step)
         # taken where the cost falls; else a shorter one next time, up to six times
-        new = plays.misfit(of[rows], tried, until[rows], sums[rows, 0], huber=huber, stride=stride)
-        better = new[:, 0] < sums[rows, 0]
-        drop = 1.0 - new[:, 0] / sums[rows, 0]
-        strikes[rows[better]], sums[rows[better]] = tried[better], new[better]
+        price = (held[rows] * tried**2).sum(axis=1)
+        new = plays.misfit(of[rows], tried, until[rows], costs[rows] - price, huber=huber, stride=stride)
+        cost = new[:, 0] + price
+        better = cost < costs[rows]
+        drop = 1.0 - cost / costs[rows]
+        strikes[rows[better]], sums[rows[better]], costs[rows[better]] = tried[better], new[better], cost[better]
         damping[rows] = np.where(better, np.maximum(0.2 * damping[rows], 1e-9), 6.0 * damping[rows])
         failed[rows] = np.where(better, 0, failed[rows] + 1)
         active[rows] = np.where(better, drop > 1e-5, failed[rows] < 6)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import html
 import math
 from collections.abc import Sequence
@@ -11,8 +12,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from carom import _constants, _covariance, _strikes, pictures
+from carom import _constants, _covariance, _kicks, _strikes, pictures
 from carom._events import events
+from carom._kicks import Kicks
 from carom._recordings import Recording
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
@@ -98,7 +100,7 @@ class Fit:
         Raises ValueError: No strike was found.
         """
         self.shot(i)
-        plays = _strikes.Plays([self.recordings[i]], self.table, self.radius, self.constants, self.cushion_model)
+        plays = self._plays([i])
         return _covariance.of_strike(plays, 0, self.strikes[i] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]])
 
     def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
@@ -106,12 +108,37 @@ class Fit:
         at = np.asarray(times, np.float64)
         return self.shot(i).positions(at - self.strikes[i, 5])[..., :2]
 
-    def plot(self, i: int) -> pictures.Picture:
-        """Shot i: lines as played, dots as recorded. Its `svg` is the text of a file."""
-        shot = self.shot(i)
-        return pictures.Picture(pictures.picture(shot.table, shot, [track[:, 1:] for track in self.recordings[i].tracks]))
+    def kicks(self) -> Kicks:
+        """What the models get wrong at each contact of the shots that count: the small changes of the motion just after it, kicks, with
+        which the shots go as they were recorded.
+        """
+        rows = [k for k, counts in enumerate(self.counts) if counts]
+        plays = self._plays(rows)
+        strikes = self.strikes[rows].copy()
+        strikes[:, 5] -= plays.origins
+        return _kicks.report(plays, strikes, rows, len(self.recordings))
 
-    def to_dict(self) -> dict[str, Any]:
+    def _plays(self, rows: Sequence[int]) -> _strikes.Plays:
+        return _strikes.Plays([self.recordings[k] for k in rows], self.table, self.radius, self.constants, self.cushion_model)
+
+    def plot(self, i: int, kicks: Kicks | None = None) -> pictures.Picture:
+        """Shot i: lines as played, dots as recorded. Its `svg` is the text of a file. With kicks, as played with them: each contact has a
+        circle, the larger the more of the RMSE it has, and those of more than 3 mm the kick that stands out.
+        """
+        shot: Any = self.shot(i)
+        marks = []
+        if kicks is not None:
+            plays, numbers = self._plays([i]), kicks.numbers[i]
+            shot = copy.copy(shot)
+            shot.events = plays.played(0, numbers)[0]
+            shot.time, shot.count = float(plays.ends[0] - numbers[5]), len(shot.events)
+            shot.positions = lambda times: plays.played(0, numbers, np.asarray(times) + numbers[5])[1].transpose(1, 0, 2)
+            shot.final = shot.final.copy()
+            shot.final["r"][:, :2] = shot.positions([shot.time])[0]
+            marks = [(r, min(0.015 + 3.0 * size, 0.1), long, short if size > 3e-3 else "") for r, size, long, short in kicks.marks(i)]
+        return pictures.Picture(pictures.picture(shot.table, shot, [track[:, 1:] for track in self.recordings[i].tracks], marks))
+
+    def to_dict(self, kicks: Kicks | None = None) -> dict[str, Any]:
         """What the command writes, of numbers that JSON has."""
         shots: list[dict[str, Any]] = []
         for recording, strike, status, rmse in zip(self.recordings, self.strikes, self.status, self.rmse):
@@ -135,6 +162,7 @@ class Fit:
             "p90_rmse": self.p90_rmse if len(self.counted()) else None,
             "noise": self.recordings[0].noise,
             "warnings": list(self.warnings),
+            **({} if kicks is None else {"kicks": kicks.to_list()}),
         }
 
 
@@ -246,8 +274,8 @@ def told(fit: Fit) -> list[str]:
     return lines + [f"shot {shot.id}: {status}" for shot, status in zip(fit.recordings, fit.status) if not status.startswith(silent)]
 
 
-def page(fit: Fit, name: str) -> str:
-    """The page, of tracks of that name."""
+def page(fit: Fit, name: str, kicks: Kicks | None = None) -> str:
+    """The page, of tracks of that name; with kicks, their tables too, and pictures of the shots as played with them."""
     ok = [k for k, counts in enumerate(fit.counts) if counts]
     order = sorted(ok, key=lambda k: float(fit.rmse[k]))
     parts = [f"<h1>{html.escape(name)}</h1>"]
@@ -260,7 +288,9 @@ def page(fit: Fit, name: str) -> str:
     figures = [("RMSE over all samples of all balls of a shot.", histogram(fit))] if order else []
     for what, k in [("best", order[0]), ("median", order[len(order) // 2]), ("worst", order[-1])] if order else []:
         text = f"The {what} shot, {fit.recordings[k].id}: {100 * fit.rmse[k]:.2f} cm. Lines as played, dots as recorded."
-        figures.append((text, fit.plot(k).svg))
+        if kicks is not None:
+            text += f" Played with kicks: {100 * kicks.rmse[k]:.2f} cm. Circles: contacts, the larger the more of the RMSE they have."
+        figures.append((text, fit.plot(k, kicks).svg))
     figures += laws(fit)
     rows = [
         f"<tr><td>{constant}</td><td>{value:.5g}</td><td>{f'{fit.spread[constant]:.2g}' if constant in fit.spread else 'given'}</td></tr>"
@@ -268,5 +298,8 @@ def page(fit: Fit, name: str) -> str:
     ]
     parts += [f"<figure>{svg}<figcaption>{html.escape(text)}</figcaption></figure>" for text, svg in figures]
     parts.append(f"<table><tr><th>constant</th><th>value</th><th>spread</th></tr>{''.join(rows)}</table>")
+    for table in kicks.tables if kicks is not None else ():
+        cells = ["".join(f"<td>{html.escape(cell)}</td>" for cell in row) for row in table]
+        parts.append(f"<h2>Kicks</h2><table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>")
     head = f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(name)}</title><style>{_STYLE}</style></head>'
     return f"{head}<body>{''.join(parts)}</body></html>\n"

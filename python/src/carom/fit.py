@@ -23,13 +23,14 @@ from typing import Any, cast
 import numpy as np
 
 from carom import _constants, _covariance, _from_events, _joint, _recordings, _strikes, _summary
+from carom._kicks import Kicks, contact
 from carom._rows import listing
 from carom._shot_options import ShotCushion
 from carom._summary import Fit
 from carom.dtypes import Doubles
 from carom.tracks import Recording, TrackError, events, read
 
-__all__ = ["Fit", "fit", "main"]
+__all__ = ["Fit", "Kicks", "contact", "fit", "main"]
 __dir__ = listing(__name__)
 
 Progress = Callable[[str, float], None]
@@ -285,6 +286,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--priors", type=Path, metavar="PRIORS.json", help='{"mu_spin": [mean, deviation], ...}')
     parser.add_argument("--split", action="store_true", help="fit constants to every second shot, and tell how they predict the others")
     parser.add_argument("--calibrate", action="store_true", help="put right tracks on which the table lies crooked, has another size or is bent")
+    parser.add_argument("--kicks", action="store_true", help="tell what the models get wrong at each contact")
     parser.add_argument("--summary", type=Path, metavar="OUT.html", help="write a page with pictures")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--threads", type=int, default=0, help="0: one; -1: all processors")
@@ -301,9 +303,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             seed=given.seed, threads=given.threads, progress=_show if sys.stderr.isatty() else None,
             state=given.output.with_name(given.output.name + ".state"), calibrate=given.calibrate,
         )  # fmt: skip
+        kicks = found.kicks() if given.kicks else None
         if given.summary:
-            given.summary.write_text(_summary.page(found, given.tracks.name), encoding="utf-8")
-        given.output.write_text(json.dumps(found.to_dict(), indent=1) + "\n", encoding="utf-8")
+            given.summary.write_text(_summary.page(found, given.tracks.name, kicks), encoding="utf-8")
+        given.output.write_text(json.dumps(found.to_dict(kicks), indent=1) + "\n", encoding="utf-8")
     except (OSError, ValueError) as error:
         print(f"carom.fit: {error}", file=sys.stderr)
         return 2
@@ -316,6 +319,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if len(rmse):
             print(f"{what}{len(rmse)} of {len(recordings)} shots: RMSE median {np.median(rmse):.2f} cm, p90 {np.percentile(rmse, 90):.2f} cm")
     print("\n".join(_summary.told(found)))
+    if kicks is not None and np.isfinite(kicks.rmse).any():
+        rmse = 100.0 * kicks.rmse[np.isfinite(kicks.rmse)]
+        print(f"with kicks: RMSE median {np.median(rmse):.2f} cm, p90 {np.percentile(rmse, 90):.2f} cm\n\n{kicks.markdown()}")
     return 0
 
 

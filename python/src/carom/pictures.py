@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,7 +19,7 @@ __dir__ = listing(__name__)
 
 _SCALE = 300.0  # pixels a metre
 _MARGIN = 0.12  # m around the cushions, for pockets and the frame
-_CLOTH, _CUSHION, _WOOD, _POCKET = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111"
+_CLOTH, _CUSHION, _WOOD, _POCKET, _MARK = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111", "#ffd166"
 # The balls in the order of the layout: the cue ball, then 1 to 15 in the colours of pool, and again.
 _COLOURS = (
     "#ffffff #f2c200 #1f4fd8 #d32f2f #6a1b9a #ef6c00 #2e9b3a #7b1c1c #222222 #f7dc6f #7fa3f5 #ef8a8a #b58ad4 #f7b27a #8fd19a #c58a8a"
@@ -122,10 +123,13 @@ def _paths(shot: Any) -> dtypes.Doubles:
     return paths
 
 
-def picture(table: Any, shot: Any = None, seen: Sequence[dtypes.Doubles] = ()) -> str:
+def picture(
+    table: Any, shot: Any = None, seen: Sequence[dtypes.Doubles] = (), marks: Sequence[tuple[npt.ArrayLike, float, str, str]] = ()
+) -> str:
     """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of an SVG.
 
-    `seen` are places of each ball, shapes (..., 2), that are drawn as dots.
+    `seen` are places of each ball, shapes (..., 2), that are drawn as dots. `marks` are circles: place, radius (m), a text for a pointer that
+    rests on it, and a text beside it.
     """
     canvas = _Canvas(table)
     parts = _table(canvas, table)
@@ -140,6 +144,17 @@ def picture(table: Any, shot: Any = None, seen: Sequence[dtypes.Doubles] = ()) -
             parts += [canvas.ball(shot, ball, state["r"][np.newaxis], opacity) for ball, state in enumerate(states)]
     for ball, places in enumerate(seen):
         parts += [canvas.circle(r, _DOT, f'fill="{colour(ball)}" stroke="#000" stroke-width="0.3"') for r in places]
+    texts: list[tuple[float, float]] = []
+    for place, size, told, beside in marks:
+        x, y = canvas.at(place)
+        circle = canvas.circle(place, size, f'fill="none" stroke="{_MARK}" stroke-width="1.5" pointer-events="all"')
+        # the text lies towards the middle of the picture, below others
+        anchor, x = ("start", x + size * _SCALE) if x < 0.5 * canvas.size[0] else ("end", x - size * _SCALE)
+        while beside and any(abs(x - other) < 140.0 and abs(y - below) < 13.0 for other, below in texts):
+            y += 13.0
+        texts += [(x, y)] if beside else []
+        text = f'<text x="{_number(x)}" y="{_number(y)}" text-anchor="{anchor}" font-size="12" font-family="sans-serif" fill="#fff">'
+        parts.append(f"<g><title>{html.escape(told)}</title>{circle}{text}{html.escape(beside)}</text></g>")
     return canvas.document(parts)
 
 
