@@ -2,8 +2,8 @@
  * which shares nothing with them. Here is what `carom-lab verify` and `carom-lab stress` do not
  * compare: details, speeds of all orders, and what once was wrong.
  *
- * Random collisions come by regime (tests/regimes.c): slow and fast, grazing and head-on, draw,
- * follow and stun, sidespin, both moving, stick at every moment and just missed, the cloth's
+ * Random collisions come by regime (lab/stress/regimes.c): slow and fast, grazing and head-on,
+ * draw, follow and stun, sidespin, both moving, stick at every moment and just missed, the cloth's
  * slip passing near zero or through it, friction and restitution from 0 to 1, unequal masses.
  * $CAROM_TEST_DRAWS says how many of each.
  */
