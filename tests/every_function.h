@@ -615,7 +615,8 @@ EVERY_BODY(record_settle) {
   F(cluster) F(collide_batch) \
   F(collide_batch_f32) F(collide_detail) F(collide_tangent) F(cue_of) F(cushion) \
   F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_start) \
-  F(cushion_tangent) F(cushion_trace) F(event_name) F(field_name) F(foul_of) F(foul_string) F(impact3) \
+  F(cushion_tangent) F(cushion_trace) F(event_name) F(field_name) F(foul_of) F(foul_string) \
+  F(impact3) \
   F(isa_available) F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) \
   F(number_is_read) F(number_of) F(number_range) \
   F(physics_revision) F(place_ball) F(plan) F(plan_hand) F(plan_memory) F(plan_rules_of) \
