@@ -38,14 +38,16 @@ def law(values: Doubles, by: Doubles, edges: Sequence[float]) -> list[str]:
     return rows
 
 
-def held_out(recordings: Recordings, table: tuple[float, float], radius: float, models: Sequence[Any], seed: int) -> carom.fit.Fit:
+def held_out(
+    recordings: Recordings, table: tuple[float, float], radius: float, models: Sequence[Any], free: Sequence[str], seed: int
+) -> carom.fit.Fit:
     """The RMSE of unseen shots by each model; the fit of the first half by the best."""
     print("| cushion | RMSE, median, cm | 9 in 10 below, cm | mean, cm | shots | processor time, ms a shot |\n|---|--:|--:|--:|--:|--:|")
     best: tuple[float, carom.fit.Fit] | None = None
     for model in models:
         rmse, spent = [], 0.0
         for fold in (0, 1):
-            found = carom.fit.fit(recordings[fold::2], table, radius, cushion_model=model, seed=seed)
+            found = carom.fit.fit(recordings[fold::2], table, radius, cushion_model=model, free=free, seed=seed)
             begin = time.process_time()
             test = carom.fit.fit(
                 recordings[1 - fold :: 2], table, radius, cushion_model=model, constants=found.constants, free="none", seed=seed
@@ -129,6 +131,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--table", type=carom.fit._extents, required=True, metavar="W,L")
     parser.add_argument("--radius", type=float, required=True, metavar="R")
     parser.add_argument("--models", default="smooth,han,stronge,mathavan")
+    parser.add_argument("--free", default="default", help="constants that are fitted, as in carom.fit")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--pictures", type=Path, metavar="FOLDER")
     given = parser.parse_args(arguments)
@@ -139,7 +142,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     single_events(seen)
     outputs(seen, given.radius, models, given.seed)
     print()
-    fit = held_out(recordings, given.table, given.radius, models, given.seed)
+    fit = held_out(recordings, given.table, given.radius, models, given.free.split(","), given.seed)
     floor(fit, len(recordings), given.seed)
     growth(fit, given.seed)
     if given.pictures:

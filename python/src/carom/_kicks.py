@@ -25,8 +25,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from carom import _from_events, _strikes, dtypes
+from carom import _events, _from_events, _joint, _strikes, dtypes
 from carom._carom import lib
 from carom._rows import Array, Arrays
 from carom._strikes import KICKS, Plays
@@ -138,6 +139,7 @@ def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
 
 _FREE = 0.06  # k: what the models still lack, beside what the constants give
 _PRIOR = 0.1  # what one deviation of a constant costs
+_ROUNDS, _SPLITS = 2, 4  # searches of kicks, and splits in halves for the errors
 
 
 def constants(
@@ -150,7 +152,7 @@ def constants(
     parts = []
     for one in found:
         cushion = np.repeat(one.met["type"] == lib.CAROM_EVENT_RAIL, KICKS)
-        if not (cushion.any() and one.good):
+        if not cushion.any():
             continue
         D = one.price / _FREE**2
         inverse = one.inverse(D)
@@ -160,9 +162,7 @@ def constants(
         at = 6 + np.flatnonzero(cushion)
         least = one.cost - one.g @ inverse @ one.g + r @ Q @ r + 2.0 * l @ r
         parts.append((Q[np.ix_(at, at)], (l + Q @ r)[at], least, one.kicks[cushion], one.count))
-    if not parts:
-        return {name: float(value) for name, value in zip(names, first)}
-    states = np.concatenate([one.met[one.met["type"] == lib.CAROM_EVENT_RAIL] for one in found if one.good])
+    states = np.concatenate([one.met[one.met["type"] == lib.CAROM_EVENT_RAIL] for one in found])
     cuts = np.cumsum([0, *(len(part[1]) for part in parts)])
     before = _law(states, plays, plays.constants)
 
@@ -196,6 +196,32 @@ def constants(
             break
         best, values, damping = new, tried, 0.2 * damping
     return dict(zip(names, values.tolist()))
+
+
+def fitted(plays: Plays, strikes: Doubles, priors: Mapping[str, tuple[float, float]], seed: int) -> tuple[dict[str, float], dict[str, float]]:
+    """The constants of a cushion, mean and deviation, by the kicks of shots that begin with `strikes`, and their errors by halves of the shots.
+
+    Kicks are found twice, as they depend on the constants in force.
+    """
+    rows = np.flatnonzero(np.isfinite(strikes).all(axis=1))
+    plays, numbers = plays.some(rows), strikes[rows]
+    bounds = {name: _joint.prior(name)[1:] for name in priors}
+    bounds |= {"nose_height": (1.001 * plays.radius, 1.7 * plays.radius)} if "nose_height" in priors else {}
+    made, errors = dict[str, float](), dict[str, float]()
+    for _ in range(_ROUNDS):
+        numbers = find(plays, numbers[:, :6])
+        near = [one for one in quadratics(plays, numbers) if one.good]
+        if not any((one.met["type"] == lib.CAROM_EVENT_RAIL).any() for one in near):
+            break
+        made = constants(near, plays, priors, bounds)
+
+        def of(half: npt.NDArray[np.intp]) -> Doubles:
+            return np.array(list(constants([near[k] for k in half], plays, priors, bounds).values()))
+
+        if len(near) >= 2 * _joint._HALF_LEAST:
+            errors = dict(zip(made, _events.halves(len(near), _SPLITS, np.random.default_rng(seed), of).tolist()))
+        plays.set({**plays.constants, **made})
+    return made, errors
 
 
 def _law(impacts: Records, plays: Plays, given: Mapping[str, float]) -> Doubles:

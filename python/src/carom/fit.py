@@ -22,7 +22,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from carom import _constants, _covariance, _from_events, _joint, _recordings, _strikes, _summary
+from carom import _constants, _covariance, _from_events, _joint, _kicks, _recordings, _strikes, _summary
 from carom._kicks import Kicks, contact
 from carom._rows import listing
 from carom._shot_options import ShotCushion
@@ -66,7 +66,11 @@ def _priors(
     # a change with the speed is not sought where the usual cushion has none, nor a height where it has no friction
     usual, some = _constants.usual(cushion_model), ("mu_cushion", "roll_loss", "restitution_log", "mu_log")
     left_out = {name for name in some if not usual[name]} | ({"nose_height"} if not usual["mu_cushion"] else set())
-    names = [name for name in _joint.PRIORS if name not in left_out] if list(free) == ["default"] else list(free)
+    names = [name for name in _joint.PRIORS if name not in left_out] if list(free) in (["default"], ["kicks"]) else list(free)
+    if list(free[:1]) == ["kicks"]:
+        names = names[1:] if len(free) > 1 else [name for name in names if name in _constants.OF_CUSHION]
+        if others := [name for name in names if name not in _constants.OF_CUSHION]:
+            raise ValueError(f"free: kicks tell constants of the cushion, {', '.join(_constants.OF_CUSHION)}, not {others[0]!r}")
     known = [name for name in _constants.KINDS if name in values]
     unknown = [name for name in [*names, *priors] if name not in known]
     if unknown:
@@ -129,11 +133,12 @@ def fit(
     cushion_model : {"mathavan", "stronge", "han", "mirror", "smooth"}
     constants : mapping, optional
         Known constants; the usual ones stand for those that are not given.
-    free : "none", "events", "default", or names of constants
+    free : "none", "events", "kicks", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
         drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all of
         `_joint.PRIORS` together, by whole shots. Names: these constants alone, by whole shots: any field of `carom.dtypes.ball_kind`
-        but radius and mu_ball, also a cushion's own numbers.
+        but radius and mu_ball, also a cushion's own numbers. "kicks": the constants of the cushion by the kicks of its contacts, with the
+        others as given, in a fraction of the time; "kicks" and names: these constants of the cushion.
     priors : mapping, optional
         Mean and deviation of constants that are fitted by whole shots. Without: about the value before, as wide as the constants of
         different tables are.
@@ -194,7 +199,12 @@ def fit(
                 "events", lambda: _from_events.measured(events(shots, table, radius), radius, cushion_model, seed, values)
             )
             values = {**values, **measured}
-        if free[0] not in ("none", "events") and fitted:
+        if free[0] == "kicks" and fitted:
+            plays = _strikes.Plays([recordings[k] for k in fitted], table, radius, values, cushion_model, threads)
+            wanted, start = _priors(free, priors or {}, values, cushion_model), _strikes.find(plays, seed, progress)[0]
+            measured, spread = saved.get("kicks", lambda: _kicks.fitted(plays, start, wanted, seed))
+            values = {**values, **measured}
+        elif free[0] not in ("none", "events") and fitted:
             plays = _strikes.Plays([recordings[k] for k in fitted], table, radius, values, cushion_model, threads)
             found = saved.get("strikes", lambda: _strikes.find(plays, seed, progress)[0].tolist())
             wanted = _priors(free, priors or {}, values, cushion_model)
@@ -281,7 +291,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
     parser.add_argument("--cushion-model", default="han", choices=list(_constants.STARTS))
     parser.add_argument("--constants", type=Path, metavar="IN.json", help="known constants; the usual ones otherwise")
-    parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|default|NAME,...",
+    parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|kicks|default|NAME,...",
                         help="constants that are fitted besides the strikes")  # fmt: skip
     parser.add_argument("--priors", type=Path, metavar="PRIORS.json", help='{"mu_spin": [mean, deviation], ...}')
     parser.add_argument("--split", action="store_true", help="fit constants to every second shot, and tell how they predict the others")
