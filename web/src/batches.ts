@@ -23,10 +23,8 @@ const owned = new FinalizationRegistry<{ memory: Memory; at: Pointer[] }>(({ mem
 
 class Owner {
   readonly #held: { memory: Memory; at: Pointer[] };
-  protected readonly library: Library;
 
-  constructor(library: Library, sizes: number[]) {
-    this.library = library;
+  constructor(protected readonly library: Library, sizes: number[]) {
     this.#held = { memory: library.memory, at: sizes.map((bytes) => library.memory.allocate(bytes)) };
     owned.register(this, this.#held, this.#held);
   }
@@ -105,18 +103,20 @@ export const cueSize = CUE.size / 8;
 
 /** Many shots on one table for `simulateBatch`. `cues`, `final` and `status` are views of WebAssembly memory, as in `Collisions`. */
 export class Shots extends Owner {
-  /** Number of shots. */
-  readonly n: number;
   /** Balls of a shot. */
   readonly count: number;
-  /** How many events of each shot are kept. */
-  readonly room: number;
-  readonly table: Table;
-  /** @internal */
-  readonly layouts: readonly (readonly ShotBall[])[];
 
   /** @internal */
-  constructor(library: Library, table: Table, layouts: readonly (readonly ShotBall[])[], n: number, room: number) {
+  constructor(
+    library: Library,
+    readonly table: Table,
+    /** @internal */
+    readonly layouts: readonly (readonly ShotBall[])[],
+    /** Number of shots. */
+    readonly n: number,
+    /** How many events of each shot are kept. */
+    readonly room: number,
+  ) {
     const count = layouts[0]?.length ?? 0;
     if (layouts.length !== 1 && layouts.length !== n) throw new RangeError(`balls: 1 layout or ${n} of them are needed, not ${layouts.length}`);
     if (layouts.some((balls) => balls.length !== count)) throw new RangeError("balls: all layouts must have the same number of balls");
@@ -131,11 +131,7 @@ export class Shots extends Owner {
       layout.carom_shot_job.size,
     ];
     super(library, sizes);
-    this.n = n;
     this.count = count;
-    this.room = room;
-    this.table = table;
-    this.layouts = layouts;
     writeTable(library.memory, this.at(0), table);
     layouts.forEach((balls, k) => writeBalls(library.memory, this.at(1) + k * count * layout.carom_shot_ball.size, balls));
   }

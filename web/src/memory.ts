@@ -34,7 +34,6 @@ function bytesOf(base64: string): Promise<ArrayBuffer> {
 
 /** Memory of the module, with views that are renewed after it has grown. */
 export class Memory {
-  readonly exports: Exports;
   #f64 = new Float64Array();
   #i32 = new Int32Array();
   #u32 = new Uint32Array();
@@ -43,9 +42,7 @@ export class Memory {
   #i64 = new BigInt64Array();
   readonly #text = new TextDecoder();
 
-  constructor(exports: Exports) {
-    this.exports = exports;
-  }
+  constructor(readonly exports: Exports) {}
 
   get buffer(): ArrayBuffer {
     return this.exports.memory.buffer;

@@ -15,45 +15,29 @@ export type Kept = Readonly<Record<"table" | "options" | "state", Uint8Array>>;
 
 /** One shot that was played. It keeps its events in JavaScript's memory and needs no release. */
 export class Shot {
-  /** "ok" where everything came to rest; "stopped_at_time", "stopped_at_event"; or how it failed. */
-  readonly status: string;
-  /** How long it lasts, s. */
-  readonly time: number;
-  readonly table: Table;
-  /** The balls at the start. */
-  readonly balls: readonly ShotBall[];
-  /** The states at the end. */
-  readonly final: readonly BallState[];
-  /** The number of events. */
-  readonly count: number;
-  /** @internal The events as the library wrote them. */
-  readonly bytes: Uint8Array;
-  /** @internal What `continue` needs. */
-  readonly kept: Kept | undefined;
   readonly #reader: Reader;
   #events: readonly ShotEvent[] | undefined;
 
   /** @internal */
   constructor(
     reader: Reader,
-    table: Table,
-    balls: readonly ShotBall[],
-    status: string,
-    time: number,
-    final: readonly BallState[],
-    count: number,
-    bytes: Uint8Array,
-    kept?: Kept,
+    readonly table: Table,
+    /** The balls at the start. */
+    readonly balls: readonly ShotBall[],
+    /** "ok" where everything came to rest; "stopped_at_time", "stopped_at_event"; or how it failed. */
+    readonly status: string,
+    /** How long it lasts, s. */
+    readonly time: number,
+    /** The states at the end. */
+    readonly final: readonly BallState[],
+    /** The number of events. */
+    readonly count: number,
+    /** @internal The events as the library wrote them. */
+    readonly bytes: Uint8Array,
+    /** @internal What `continue` needs. */
+    readonly kept?: Kept,
   ) {
     this.#reader = reader;
-    this.table = table;
-    this.balls = balls;
-    this.status = status;
-    this.time = time;
-    this.final = final;
-    this.count = count;
-    this.bytes = bytes;
-    this.kept = kept;
   }
 
   /** What happened, in order. */
