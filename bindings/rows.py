@@ -102,6 +102,18 @@ def words():
     return found
 
 
+def parts():
+    """The numbers of cue, table, its parts, and states, as numbers() has those of balls, by the names of their structs."""
+    found = {}
+    for struct in ("cue", "table", "rail", "jaw", "pocket", "ball_state"):
+        found[f"carom_{struct}"] = [
+            {"name": name, "key": text_of(key), "unit": text_of(unit), "range": range_of(text_of(unit), low, high.replace("CAROM_BALLS_MOST - 1", "31"), other),
+             "error": f"CAROM_ERROR_{error}", "text": text_of(text)}
+            for _, (name, key, unit, low, high, other, error, text) in rows("about/numbers.h", f"CAROM_{struct.removeprefix('ball_').upper()}_NUMBERS")
+        ]  # fmt: skip
+    return found
+
+
 STRUCTS = {
     "MOTION": "carom_shot_options", "STOP": "carom_shot_options", "COMPUTE": "carom_shot_options", "IMPACT": "carom_options",
     "RAIL": "carom_cushion_options", "PLAN": "carom_plan_options",
@@ -176,7 +188,7 @@ def with_tables(page):
 
 if __name__ == "__main__":
     made = {
-        "json": lambda: json.dumps({"numbers": numbers(), "options": options(), "words": words()}, indent=1) + "\n",
+        "json": lambda: json.dumps({"numbers": numbers(), "options": options(), "parts": parts(), "words": words()}, indent=1) + "\n",
         "python": python,
         "markdown": lambda: "\n\n".join(tables().values()) + "\n",
     }

@@ -28,7 +28,12 @@ static const struct list {
   const char *title;
 } lists[] = {{CAROM_PART_OPTIONS, "options of a shot in programs, and their options here"},
              {CAROM_PART_BALL, "numbers of a ball and its cushions, by their names, for --with, "
-                               "and their keys in files"}};
+                               "and their keys in files"},
+             {CAROM_PART_CUE, "numbers of a cue, and their keys in files"},
+             {CAROM_PART_TABLE, "numbers of a table, and their keys in files"},
+             {CAROM_PART_RAIL, "numbers of a rail, and their keys in files"},
+             {CAROM_PART_JAW, "numbers of a jaw, and their keys in files"},
+             {CAROM_PART_POCKET, "numbers of a pocket, and their keys in files"}};
 enum { LISTS = sizeof lists / sizeof lists[0] };
 
 static void print_number(FILE *out, const carom_number *n) {
@@ -100,7 +105,7 @@ static bool print_named(FILE *out, const char *name) {
 
 /* What the name may have been. */
 static void hint_at_name(const char *name) {
-  char known[2000], hint[HINT_TEXT];
+  char known[3000], hint[HINT_TEXT];
   const carom_number *n;
   const char *word;
   int size = 0;
@@ -117,8 +122,9 @@ static void hint_at_name(const char *name) {
 static const command_form form = {
     .name = "models",
     .usage = "[OPTIONS] [NAME]",
-    .about = "Lists the models and their words, and the numbers of balls and cushions with ranges "
-             "and units. With NAME, tells what has that name: a model with its own numbers, or a "
+    .about = "Lists the models and their words, the options of shots, and the numbers of balls, "
+             "cushions, cues and tables with ranges and units. With NAME, tells what has that "
+             "name: a model with its own numbers, or a "
              "number with its range and the model that reads it.\n",
     .options = (const option_row *const[]){&option_output, NULL},
     .details = "exit code: 0; 2 for bad usage or a name that there is not\n",

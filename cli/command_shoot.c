@@ -127,45 +127,53 @@ static double tip_of(const carom_cue *cue) {
 /* What is wrong with the arguments of a shot, with the key. False if nothing is. */
 static bool argument_error(const shot_line *line, const carom_shot_options *options,
                            char text[300]) {
-  const carom_number *n;
+  static const char *const lists[] = {
+      [CAROM_PART_RAIL] = "linear", [CAROM_PART_JAW] = "circular", [CAROM_PART_POCKET] = "pockets"};
+  carom_fault f;
   char must[100];
-  int where;
-  const carom_status bad =
-      carom_shot_check(&line->table->table, line->ball, line->count, &line->cue, options, &where);
+  const carom_status bad = carom_shot_fault(&line->table->table, line->ball, line->count,
+                                            &line->cue, options, &f, must, sizeof must);
+  const carom_number *n = f.row;
+  const char *key = n == NULL ? "" : n->key[0] != '\0' ? n->key : n->name;
+  const int at = f.part.index;
   if (bad == CAROM_OK)
     return false;
+
+  /* where it is */
+  int size = 0;
   if (bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT)
-    snprintf(text, 300, "table '%s': %s", line->table->id, carom_status_string(bad));
-  else if (bad == CAROM_ERROR_MISCUE)
-    snprintf(text, 300,
+    size = snprintf(text, 300, "table '%s': ", line->table->id);
+  else if (f.part.kind == CAROM_PART_BALL || f.part.kind == CAROM_PART_STATE)
+    size = snprintf(text, 300, "balls[%d] ('%s'): ", at, line->name[at]);
+  char *rest = text + size;
+  const size_t room = (size_t)(300 - size);
+
+  /* which number it is, and what would be right */
+  if (bad == CAROM_ERROR_MISCUE)
+    snprintf(rest, room,
              "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on",
              tip_of(&line->cue), line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
-  /* the keys of these fields have other names */
-  else if (bad == CAROM_ERROR_CUE_SPEED || bad == CAROM_ERROR_CUE_MASS)
-    snprintf(text, 300, "cue.%s%s", bad == CAROM_ERROR_CUE_SPEED ? "V0" : "M",
-             strchr(carom_status_string(bad), ' '));
-  else if (where >= 0 &&
-           (n = carom_ball_fault(&line->ball[where].kind, must, sizeof must)) != NULL) {
-    double x;
-    memcpy(&x, (const char *)&line->ball[where].kind + n->offset, sizeof x);
-    snprintf(text, 300, "balls[%d] ('%s'): params.%s must be %s, not %.6g", where,
-             line->name[where], n->key, must, x);
-  } else if (bad == CAROM_ERROR_OFF_TABLE && where >= 0) {
-    const carom_shot_ball *ball = &line->ball[where];
-    const double *r = ball->state.r, R = ball->kind.radius;
-    const int size = snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where],
-                              carom_status_string(bad));
+  else if (bad == CAROM_ERROR_OFF_TABLE && f.part.kind == CAROM_PART_BALL) {
+    const double *r = line->ball[at].state.r, R = line->ball[at].kind.radius;
+    size = snprintf(rest, room, "%s", carom_status_string(bad));
     if (fabs(r[2] - R) > 1e-6)
-      snprintf(text + size, (size_t)(300 - size),
+      snprintf(rest + size, room - (size_t)size,
                ": its centre must lie at z = R = %.6g m, not at z = %.6g", R, r[2]);
     else
-      snprintf(text + size, (size_t)(300 - size),
+      snprintf(rest + size, room - (size_t)size,
                ": x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s", r[0], r[1],
                fmax(r[0], r[1]) > 10.0 ? "; are places in m?" : "");
-  } else if (where >= 0)
-    snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where], carom_status_string(bad));
+  } else if (n == NULL || must[0] == '\0' || f.part.kind == CAROM_PART_STATE)
+    snprintf(rest, room, "%s", carom_status_string(bad));
+  else if (f.part.kind <= CAROM_PART_POCKET)
+    snprintf(rest, room, "%s[%d].%s must be %s, not %.6g", lists[f.part.kind], at, key, must,
+             f.value);
   else
-    snprintf(text, 300, "%s", carom_status_string(bad));
+    snprintf(rest, room, "%s%s must be %s, not %.6g",
+             f.part.kind == CAROM_PART_BALL  ? "params."
+             : f.part.kind == CAROM_PART_CUE ? "cue."
+                                             : "",
+             key, must, f.value);
   return true;
 }
 

@@ -16,17 +16,26 @@ bool json_wrong(json_fault *f, const char *format, ...) {
   return false;
 }
 
-bool json_get_doubles(const json_t *object, const char *where, const char *keys, double *to,
-                      json_fault *f) {
-  char key[32];
-  for (int read; sscanf(keys, "%31s%n", key, &read) == 1; keys += read, to++) {
-    const json_t *v = json_object_get(object, key);
+bool json_get_part(const json_t *object, const char *where, carom_part_kind part, void *to,
+                   json_fault *f) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(part, k)) != NULL; k++) {
+    const json_t *v = n->key[0] != '\0' ? json_object_get(object, n->key) : NULL;
     if (v != NULL && !json_is_number(v))
-      return json_wrong(f, "%s%s must be a number", where, key);
-    if (v != NULL)
-      *to = json_number_value(v);
+      return json_wrong(f, "%s%s must be a number", where, n->key);
+    if (v != NULL && n->type == CAROM_TYPE_DOUBLE)
+      memcpy((char *)to + n->offset, &(double){json_number_value(v)}, sizeof(double));
   }
   return true;
+}
+
+const char *json_keys_of(carom_part_kind part, const char *besides, char text[JSON_KEYS]) {
+  const carom_number *n;
+  int size = snprintf(text, JSON_KEYS, "%s", besides);
+  for (int k = 0; (n = carom_number_of(part, k)) != NULL; k++)
+    if (n->key[0] != '\0')
+      size += snprintf(text + size, (size_t)(JSON_KEYS - size), " %s", n->key);
+  return text;
 }
 
 bool json_only(const json_t *object, const char *where, const char *keys, json_fault *f) {

@@ -2,6 +2,8 @@
 #ifndef CAROM_CLI_JSON_VALUES_H
 #define CAROM_CLI_JSON_VALUES_H
 
+#include "carom_shot.h"
+
 #include <jansson.h>
 #include <stdbool.h>
 
@@ -12,11 +14,14 @@ typedef struct json_fault {
 /* Says what is wrong; returns false. */
 __attribute__((format(printf, 2, 3))) bool json_wrong(json_fault *f, const char *format, ...);
 
-/* The numbers of an object by their keys, with a blank between them, into doubles in the same
- * order, which stay as they are where there is no such key. `where` stands before the key in
- * what is said. */
-bool json_get_doubles(const json_t *object, const char *where, const char *keys, double *to,
-                      json_fault *f);
+/* The doubles of a struct by the keys of its numbers, which stay as they are where there is no such
+ * key. `where` stands before the key in what is said. */
+bool json_get_part(const json_t *object, const char *where, carom_part_kind part, void *to,
+                   json_fault *f);
+
+/* All its keys, with a blank between them, behind others. */
+enum { JSON_KEYS = 700 };
+const char *json_keys_of(carom_part_kind part, const char *besides, char text[JSON_KEYS]);
 
 /* Whether an object has no key but these. */
 bool json_only(const json_t *object, const char *where, const char *keys, json_fault *f);

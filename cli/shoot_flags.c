@@ -253,18 +253,18 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
   if (f->tip.count > 1)
     snprintf(id + strlen(id), sizeof id - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "",
              f->tip.at[tip].x.name, f->tip.at[tip].y.name);
-  fprintf(out, "{\"kind\": \"shot\", \"id\": \"%s\", \"table\": \"%s\", \"cue\": {\"V0\": %s",
-          id[0] != '\0' ? id : "shot", l->table_name, number_text(cue.speed, number));
-  fprintf(out, ", \"phi\": %s", number_text(cue.phi, number));
-  fprintf(out, ", \"theta\": %s", number_text(cue.theta, number));
-  fprintf(out, ", \"a\": %s", number_text(cue.a == 0.0 ? 0.0 : cue.a, number));
-  fprintf(out, ", \"M\": %s", number_text(cue.mass, number));
-  fprintf(out, ", \"end_mass\": %s", number_text(cue.end_mass, number));
-  fprintf(out, ", \"tip_restitution\": %s", number_text(cue.tip_restitution, number));
-  if (cue.tip_time != 0.0)
-    fprintf(out, ", \"tip_time\": %s", number_text(cue.tip_time, number));
-  fprintf(out, ", \"b\": %s, \"ball\": \"%s\"}, \"balls\": [", number_text(cue.b, number),
-          l->name[0]);
+  fprintf(out, "{\"kind\": \"shot\", \"id\": \"%s\", \"table\": \"%s\", \"cue\": {",
+          id[0] != '\0' ? id : "shot", l->table_name);
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
+    double x = 0.0;
+    if (n->key[0] != '\0')
+      memcpy(&x, (const char *)&cue + n->offset, sizeof x);
+    /* the stroke is always said */
+    if (x != 0.0 || n->offset <= (int32_t)offsetof(carom_cue, b))
+      fprintf(out, "\"%s\": %s, ", n->key, number_text(x + 0.0, number));
+  }
+  fprintf(out, "\"ball\": \"%s\"}, \"balls\": [", l->name[0]);
   for (int k = 0; k < l->count; k++) {
     static const char *const games[] = {"pool", "snooker", "billiard"};
     fprintf(out, "%s{\"id\": \"%s\", \"params\": {\"game\": \"%s\"}, \"state\": [0",

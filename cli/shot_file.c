@@ -40,31 +40,15 @@ static void keep_table(shot_file *file, named_table *t) {
 
 /* ---- Shots */
 
-/* The keys of the doubles of carom_cue, in their order there. */
-#define CUE_KEYS "V0 phi theta a b M end_mass tip_restitution tip_radius"
-_Static_assert(offsetof(carom_cue, ball) == 9 * sizeof(double) &&
-                   offsetof(carom_cue, tip_time) - offsetof(carom_cue, miscue) == sizeof(double),
-               "a key for each double");
-
-/* The keys of the numbers of a ball, in their order. */
-static const char *kind_keys(void) {
-  static char keys[600];
-  const carom_number *n;
-  for (int k = 0, size = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
-    size += snprintf(keys + size, sizeof keys - (size_t)size, "%s%s", k > 0 ? " " : "", n->key);
-  return keys;
-}
-
 /* The numbers of a ball by their keys; the bits of `given` become those that differ from the
  * game's. */
 static bool read_kind(const json_t *params, const char *where, carom_ball_kind *kind,
                       uint64_t *given, json_fault *f) {
   const carom_ball_kind of_game = *kind;
-  char known[620];
+  char known[JSON_KEYS];
   const carom_number *n;
-  snprintf(known, sizeof known, "game %s", kind_keys());
-  if (!json_get_doubles(params, where, kind_keys(), &kind->mass, f) ||
-      !json_only(params, where, known, f))
+  if (!json_get_part(params, where, CAROM_PART_BALL, kind, f) ||
+      !json_only(params, where, json_keys_of(CAROM_PART_BALL, "game", known), f))
     return false;
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     if (memcmp((const char *)kind + n->offset, (const char *)&of_game + n->offset,
@@ -136,9 +120,9 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
     return true;
   if (!json_is_object(v))
     return json_wrong(f, "cue must be an object");
-  if (!json_get_doubles(v, "cue.", CUE_KEYS, &cue->speed, f) ||
-      !json_get_doubles(v, "cue.", "miscue tip_time", &cue->miscue, f) ||
-      !json_only(v, "cue.", CUE_KEYS " miscue tip_time ball", f))
+  char known[JSON_KEYS];
+  if (!json_get_part(v, "cue.", CAROM_PART_CUE, cue, f) ||
+      !json_only(v, "cue.", json_keys_of(CAROM_PART_CUE, "ball", known), f))
     return false;
   /* A strike says how high it is: the cue's usual b is not the centre. */
   if (json_object_get(v, "b") == NULL && json_object_size(v) > (json_object_get(v, "ball") != NULL))

@@ -21,7 +21,7 @@ void free_table(named_table *t) {
 
 static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char **id,
                       json_fault *f) {
-  double p[3], q[3], side = NAN;
+  double p[3], q[3];
   char key[80];
   snprintf(key, sizeof key, "%sp1", where);
   if (!json_get_numbers(json_object_get(v, "p1"), key, 3, p, f))
@@ -30,10 +30,17 @@ static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char
   if (!json_get_numbers(json_object_get(v, "p2"), key, 3, q, f))
     return false;
   *rail = (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = p[2]};
-  if (!json_get_doubles(v, where, "lx ly l0", rail->line, f) ||
-      !json_get_doubles(v, where, "direction", &side, f) ||
-      !json_get_doubles(v, where, "f_c e_c", &rail->mu_cushion, f))
+  static const char *const line[] = {"lx", "ly", "l0"};
+  for (int k = 0; k < 3; k++) {
+    const json_t *number = json_object_get(v, line[k]);
+    if (number != NULL && !json_is_number(number))
+      return json_wrong(f, "%s%s must be a number", where, line[k]);
+    rail->line[k] = json_number_value(number);
+  }
+  if (!json_get_part(v, where, CAROM_PART_RAIL, rail, f))
     return false;
+  const json_t *direction = json_object_get(v, "direction");
+  const double side = direction != NULL ? json_number_value(direction) : NAN;
   if (side != 0.0 && side != 1.0)
     return json_wrong(f, "%sdirection must be 0 or 1", where);
   rail->side = side == 1.0;
@@ -41,7 +48,7 @@ static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char
 }
 
 static bool read_circle(const json_t *v, const char *where, double centre[2], double *third,
-                        double *radius, char **id, json_fault *f) {
+                        char **id, json_fault *f) {
   double c[3] = {0.0};
   char key[80];
   snprintf(key, sizeof key, "%scenter", where);
@@ -51,11 +58,8 @@ static bool read_circle(const json_t *v, const char *where, double centre[2], do
   centre[0] = c[0];
   centre[1] = c[1];
   *third = c[2];
-  *radius = NAN;
-  if (!json_get_doubles(v, where, "radius", radius, f))
-    return false;
-  return isnan(*radius) ? json_wrong(f, "%sradius is missing", where)
-                        : json_get_id(v, where, id, f);
+  return json_object_get(v, "radius") == NULL ? json_wrong(f, "%sradius is missing", where)
+                                              : json_get_id(v, where, id, f);
 }
 
 bool read_table(const json_t *json, named_table *t, json_fault *f) {
@@ -63,8 +67,7 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
   size_t k;
   char where[64];
   carom_table *table = &t->table;
-  if (!json_get_id(json, "", &t->id, f) || !json_get_doubles(json, "", "w l", &table->width, f) ||
-      !json_get_doubles(json, "", "ball_radius rail_width pocket_back", &table->ball_radius, f) ||
+  if (!json_get_id(json, "", &t->id, f) || !json_get_part(json, "", CAROM_PART_TABLE, table, f) ||
       !json_get_list(json, "linear", CAROM_RAILS_MOST, &list, f))
     return false;
   json_array_foreach((json_t *)list, k, v) {
@@ -78,8 +81,8 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
   json_array_foreach((json_t *)list, k, v) {
     carom_jaw *jaw = &table->jaw[k];
     snprintf(where, sizeof where, "circular[%zu].", k);
-    if (!read_circle(v, where, jaw->centre, &jaw->height, &jaw->radius, &t->jaw[k], f) ||
-        !json_get_doubles(v, where, "f_c e_c", &jaw->mu_cushion, f))
+    if (!read_circle(v, where, jaw->centre, &jaw->height, &t->jaw[k], f) ||
+        !json_get_part(v, where, CAROM_PART_JAW, jaw, f))
       return false;
     table->jaws++;
   }
@@ -90,8 +93,8 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
     double unused;
     snprintf(where, sizeof where, "pockets[%zu].", k);
     pocket->depth = 0.08;
-    if (!read_circle(v, where, pocket->centre, &unused, &pocket->radius, &t->pocket[k], f) ||
-        !json_get_doubles(v, where, "depth", &pocket->depth, f))
+    if (!read_circle(v, where, pocket->centre, &unused, &t->pocket[k], f) ||
+        !json_get_part(v, where, CAROM_PART_POCKET, pocket, f))
       return false;
     table->pockets++;
   }

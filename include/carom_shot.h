@@ -396,16 +396,19 @@ CAROM_API const char *carom_pocket_name(const carom_table *table, int pocket);
 /* A part of a table, or a ball. */
 typedef enum carom_part_kind {
   CAROM_PART_NONE = 0,
-  CAROM_PART_RAIL = 1,
-  CAROM_PART_JAW = 2,
-  CAROM_PART_POCKET = 3,
-  CAROM_PART_BALL = 4, /* whose numbers are those of carom_ball_kind */
+  CAROM_PART_RAIL = 1,   /* carom_rail */
+  CAROM_PART_JAW = 2,    /* carom_jaw */
+  CAROM_PART_POCKET = 3, /* carom_pocket */
+  CAROM_PART_BALL = 4,   /* carom_ball_kind */
   /* what else has numbers; see carom_number_of() */
   CAROM_PART_OPTIONS = 5,         /* carom_shot_options */
   CAROM_PART_IMPACT_OPTIONS = 6,  /* carom_options */
   CAROM_PART_CUSHION_OPTIONS = 7, /* carom_cushion_options, but for the numbers of a ball's
                                      cushions */
-  CAROM_PART_PLAN_OPTIONS = 8     /* carom_plan_options */
+  CAROM_PART_PLAN_OPTIONS = 8,    /* carom_plan_options */
+  CAROM_PART_CUE = 9,             /* carom_cue */
+  CAROM_PART_TABLE = 10,          /* carom_table */
+  CAROM_PART_STATE = 11           /* carom_ball_state */
 } carom_part_kind;
 
 typedef struct carom_part {
@@ -969,6 +972,22 @@ CAROM_API size_t carom_number_range(const carom_number *number, char *text, size
  * above; NULL where all are right. */
 CAROM_API const carom_number *carom_ball_fault(const carom_ball_kind *kind, char *text,
                                                size_t room);
+
+/* What carom_shot_check() refuses. */
+typedef struct carom_fault {
+  carom_status status;     /* CAROM_OK: nothing. */
+  carom_part part;         /* what is at fault; of balls CAROM_PART_BALL or CAROM_PART_STATE. */
+  int32_t element;         /* of an array, which number. */
+  const carom_number *row; /* the number of the part; NULL: none alone. */
+  double value;            /* that it has. */
+} carom_fault;
+
+/* carom_shot_check() with the number at fault; writes what it must be into text[room], as above,
+ * or nothing where that is not its range alone, which the text of the status tells. */
+CAROM_API carom_status carom_shot_fault(const carom_table *table, const carom_shot_ball *balls,
+                                        int count, const carom_cue *cue,
+                                        const carom_shot_options *opt, carom_fault *fault,
+                                        char *text, size_t room);
 
 /* Whether a shot with these options, NULL for the defaults, reads the number of this ball. */
 CAROM_API int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,

@@ -12,63 +12,72 @@
 #include <stdint.h>
 #include <string.h>
 
-#define READ_ALWAYS CAROM_READ_ALWAYS, 0
-#define READ_BY_CUSHION(MODEL) CAROM_READ_BY_CUSHION, CAROM_CUSHION_##MODEL
-#define READ_BY_FRICTION(LAW) CAROM_READ_BY_FRICTION, CAROM_FRICTION_##LAW
-#define READ_WITH(MODEL, number) READ_BY_CUSHION(MODEL)
+#define CAROM_ERROR_NONE CAROM_OK
 
-#define IN_CUSHION(member) (int32_t) offsetof(carom_cushion_options, member)
-#define BALL_ROW(member, key, unit, low, high, other, ERROR, reader, text, in_cushion) \
-  {#member,                                                                            \
-   key,                                                                                \
-   unit,                                                                               \
-   text,                                                                               \
-   low,                                                                                \
-   high,                                                                               \
-   other,                                                                              \
-   offsetof(carom_ball_kind, member),                                                  \
-   in_cushion,                                                                         \
-   CAROM_ERROR_##ERROR,                                                                \
-   READ_##reader,                                                                      \
-   CAROM_TYPE_DOUBLE,                                                                  \
-   -1,                                                                                 \
-   1},
+/* A row of any struct; behind its text stand the members of carom_number that it has besides. */
+#define TYPE_OF(x) \
+  _Generic(x, double *: CAROM_TYPE_DOUBLE, double: CAROM_TYPE_DOUBLE,          \
+           int64_t: CAROM_TYPE_INT64, uint64_t: CAROM_TYPE_UINT64, default: CAROM_TYPE_INT32)
+#define ROW(STRUCT, member, named, least, most, beside, ERROR, about, ...)                         \
+  {.name = #member,                                                                                \
+   .key = named,                                                                                   \
+   .text = about,                                                                                  \
+   .low = (double)(least),                                                                         \
+   .high = (double)(most),                                                                         \
+   .other = beside,                                                                                \
+   .offset = offsetof(STRUCT, member),                                                             \
+   .error = CAROM_ERROR_##ERROR,                                                                   \
+   .type = TYPE_OF(((STRUCT *)NULL)->member),                                                      \
+   .count =                                                                                        \
+       sizeof(((STRUCT *)NULL)->member) > 8 ? (int32_t)(sizeof(((STRUCT *)NULL)->member) / 8) : 1, \
+   __VA_ARGS__},
+
+/* Numbers of a ball. */
+#define READ_ALWAYS .reader = CAROM_READ_ALWAYS
+#define READ_BY_CUSHION(MODEL) .reader = CAROM_READ_BY_CUSHION, .model = CAROM_CUSHION_##MODEL
+#define READ_BY_FRICTION(LAW) .reader = CAROM_READ_BY_FRICTION, .model = CAROM_FRICTION_##LAW
+#define READ_WITH(MODEL, number) READ_BY_CUSHION(MODEL)
+#define BALL_ROW(member, key, measure, low, high, other, ERROR, reads, about, in_cushion)          \
+  ROW(carom_ball_kind, member, key, low, high, other, ERROR, about, .unit = measure, READ_##reads, \
+      .cushion_offset = in_cushion, .words = -1)
 #define BALL(...) BALL_ROW(__VA_ARGS__, -1)
-#define CUSHION(member, ...) BALL_ROW(member, __VA_ARGS__, IN_CUSHION(member))
+#define CUSHION(member, ...) \
+  BALL_ROW(member, __VA_ARGS__, (int32_t)offsetof(carom_cushion_options, member))
 static const carom_number numbers[] = {CAROM_NUMBERS(BALL, CUSHION)};
 #undef BALL
 #undef CUSHION
 enum { NUMBERS = sizeof numbers / sizeof numbers[0] };
 _Static_assert(sizeof(carom_ball_kind) == NUMBERS * sizeof(double), "a row for each number");
 
+/* Of the cue, the table and its parts, and the state of a ball. */
+#define PART(STRUCT, member, key, measure, low, high, other, ERROR, about)                        \
+  ROW(STRUCT, member, key, low, high, other, ERROR, about, .unit = measure, .cushion_offset = -1, \
+      .words = -1)
+#define CUE(...) PART(carom_cue, __VA_ARGS__)
+#define TABLE(...) PART(carom_table, __VA_ARGS__)
+#define RAIL(...) PART(carom_rail, __VA_ARGS__)
+#define JAW(...) PART(carom_jaw, __VA_ARGS__)
+#define POCKET(...) PART(carom_pocket, __VA_ARGS__)
+#define STATE(...) PART(carom_ball_state, __VA_ARGS__)
+static const carom_number cue_numbers[] = {CAROM_CUE_NUMBERS(CUE, CUE)},
+                          table_numbers[] = {CAROM_TABLE_NUMBERS(TABLE, TABLE)},
+                          rail_numbers[] = {CAROM_RAIL_NUMBERS(RAIL, RAIL)},
+                          jaw_numbers[] = {CAROM_JAW_NUMBERS(JAW, JAW)},
+                          pocket_numbers[] = {CAROM_POCKET_NUMBERS(POCKET, POCKET)},
+                          state_numbers[] = {CAROM_STATE_NUMBERS(STATE, STATE)};
+#undef RAIL
+
 /* Options, of which 0 is always right. */
 #define FORM_WORDS(of) .unit = "", .words = CAROM_WORDS_##of
 #define FORM_SET(of) FORM_WORDS(of)
+#define FORM_NUMBER(of) .unit = of, .words = -1
 #define FORM_COUNT FORM_NUMBER("")
 #define FORM_FLAG FORM_COUNT
 #define FORM_SEED FORM_COUNT
-#define FORM_NUMBER(of) .unit = of, .words = -1
 #define CAROM_WORDS_BALLS -1
-#define TYPE_OF(x)                      \
-  _Generic(x, double                    \
-           : CAROM_TYPE_DOUBLE, int64_t \
-           : CAROM_TYPE_INT64, uint64_t \
-           : CAROM_TYPE_UINT64, default \
-           : CAROM_TYPE_INT32)
-#define OPTION(STRUCT, READER, member, named, FORM, least, most, ERROR, about, ...) \
-  {.name = #member,                                                                 \
-   .key = named,                                                                    \
-   .text = about,                                                                   \
-   .low = (double)(least),                                                          \
-   .high = (double)(most),                                                          \
-   .other = (least) > 0 ? 0 : NAN,                                                  \
-   .offset = offsetof(STRUCT, member),                                              \
-   .cushion_offset = -1,                                                            \
-   .error = CAROM_ERROR_##ERROR,                                                    \
-   .reader = CAROM_READ_##READER,                                                   \
-   .type = TYPE_OF(((STRUCT *)NULL)->member),                                       \
-   .count = 1,                                                                      \
-   FORM_##FORM},
+#define OPTION(STRUCT, READER, member, key, FORM, low, high, ERROR, about, ...)       \
+  ROW(STRUCT, member, key, low, high, (low) > 0 ? 0 : NAN, ERROR, about, FORM_##FORM, \
+      .cushion_offset = -1, .reader = CAROM_READ_##READER)
 #define MOTION(...) OPTION(carom_shot_options, ALWAYS, __VA_ARGS__)
 #define STOP(...) OPTION(carom_shot_options, TO_STOP, __VA_ARGS__, 0)
 #define COMPUTE(...) OPTION(carom_shot_options, TO_COMPUTE, __VA_ARGS__, 0)
@@ -80,11 +89,9 @@ static const carom_number shot_options[] = {CAROM_MOTION_OPTIONS(MOTION) CAROM_S
                           impact_options[] = {CAROM_IMPACT_OPTIONS(IMPACT)},
                           rail_options[] = {CAROM_RAIL_OPTIONS(RAIL)},
                           plan_options[] = {CAROM_PLAN_OPTIONS(PLAN)};
+#undef ROW
+#undef PART
 #undef OPTION
-#undef MOTION
-#undef STOP
-#undef COMPUTE
-#undef IMPACT
 #undef RAIL
 #undef PLAN
 
@@ -94,11 +101,17 @@ static const struct {
 } parts[] = {
 #define ROWS(of) \
   { of, sizeof of / sizeof of[0] }
+    [CAROM_PART_RAIL] = ROWS(rail_numbers),
+    [CAROM_PART_JAW] = ROWS(jaw_numbers),
+    [CAROM_PART_POCKET] = ROWS(pocket_numbers),
     [CAROM_PART_BALL] = ROWS(numbers),
     [CAROM_PART_OPTIONS] = ROWS(shot_options),
     [CAROM_PART_IMPACT_OPTIONS] = ROWS(impact_options),
     [CAROM_PART_CUSHION_OPTIONS] = ROWS(rail_options),
     [CAROM_PART_PLAN_OPTIONS] = ROWS(plan_options),
+    [CAROM_PART_CUE] = ROWS(cue_numbers),
+    [CAROM_PART_TABLE] = ROWS(table_numbers),
+    [CAROM_PART_STATE] = ROWS(state_numbers),
 };
 
 const carom_number *carom_number_of(carom_part_kind part, int k) {
@@ -270,6 +283,77 @@ const carom_number *carom_ball_fault(const carom_ball_kind *k, char *text, size_
 #undef ALONE
 #undef CONDITION
   return NULL;
+}
+
+/* The value of element k of a number. */
+static double value_of(const carom_number *n, const void *object, int k) {
+  const char *at = (const char *)object + n->offset;
+  switch (n->type) {
+  case CAROM_TYPE_INT32:
+    return ((const int32_t *)(const void *)at)[k];
+  case CAROM_TYPE_INT64:
+    return (double)((const int64_t *)(const void *)at)[k];
+  case CAROM_TYPE_UINT64:
+    return (double)((const uint64_t *)(const void *)at)[k];
+  default:
+    return ((const double *)(const void *)at)[k];
+  }
+}
+
+/* Blames the first number of a part that has the status of the fault and is outside its range; or
+ * with `within` is in it, so that it is at fault beside others. */
+static bool blame(carom_fault *f, carom_part_kind part, int index, const void *object,
+                  bool within) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(part, k)) != NULL; k++)
+    for (int j = 0; j < n->count && n->error == f->status; j++) {
+      const double x = value_of(n, object, j);
+      if (within != ((x >= n->low && x <= n->high) || x == n->other))
+        continue;
+      *f = (carom_fault){f->status, {part, index}, j, n, x};
+      return true;
+    }
+  return false;
+}
+
+carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls, int count,
+                              const carom_cue *cue, const carom_shot_options *opt,
+                              carom_fault *fault, char *text, size_t room) {
+  words w = {text, room, 0};
+  int at;
+  if (fault == NULL)
+    return CAROM_ERROR_NULL;
+  end_of(&w);
+  *fault = (carom_fault){.status = carom_shot_check(t, balls, count, cue, opt, &at)};
+  if (fault->status >= 0 || fault->status == CAROM_ERROR_NULL)
+    return fault->status;
+
+  /* a number outside its range: of what comes once, and of the part or the ball at the place */
+  const bool rail = at >= 0 && at < CAROM_RAILS_MOST && at < t->rails,
+             jaw = at >= 0 && at < CAROM_JAWS_MOST && at < t->jaws,
+             pocket = at >= 0 && at < CAROM_POCKETS_MOST && at < t->pockets,
+             ball = at >= 0 && at < count;
+  if ((opt != NULL && blame(fault, CAROM_PART_OPTIONS, 0, opt, false)) ||
+      blame(fault, CAROM_PART_TABLE, 0, t, false) ||
+      (rail && blame(fault, CAROM_PART_RAIL, at, &t->rail[at], false)) ||
+      (jaw && blame(fault, CAROM_PART_JAW, at, &t->jaw[at], false)) ||
+      (pocket && blame(fault, CAROM_PART_POCKET, at, &t->pocket[at], false)) ||
+      (ball && blame(fault, CAROM_PART_BALL, at, &balls[at].kind, false)) ||
+      (ball && blame(fault, CAROM_PART_STATE, at, &balls[at].state, false)) ||
+      (cue != NULL && blame(fault, CAROM_PART_CUE, 0, cue, false))) {
+    carom_number_range(fault->row, text, room);
+    return fault->status;
+  }
+
+  /* one beside others: of a ball, whose conditions have texts, of the cue, or of a state */
+  const carom_number *n = ball ? carom_ball_fault(&balls[at].kind, text, room) : NULL;
+  if (n != NULL)
+    *fault = (carom_fault){n->error, {CAROM_PART_BALL, at}, 0, n, value_of(n, &balls[at].kind, 0)};
+  else if (!(cue != NULL && blame(fault, CAROM_PART_CUE, 0, cue, true)) && ball &&
+           fault->status != CAROM_ERROR_TABLE && fault->status != CAROM_ERROR_NOSE_HEIGHT &&
+           !blame(fault, CAROM_PART_STATE, at, &balls[at].state, true))
+    fault->part = (carom_part){CAROM_PART_BALL, at};
+  return fault->status;
 }
 
 /* ---- Starts of fits */

@@ -156,6 +156,13 @@ EVERY_BODY(cite) {
   HASH(length);
   return every_text(h, text);
 }
+EVERY_BODY(shot_fault) {
+  carom_fault fault;
+  char text[100];
+  const carom_cue cue = {.speed = -1};
+  STATUS(carom_shot_fault(&in->table, in->balls, 2, &cue, NULL, &fault, text, sizeof text));
+  return every_text(h, text);
+}
 EVERY_BODY(number_of) {
   for (int part = CAROM_PART_BALL; part <= CAROM_PART_PLAN_OPTIONS; part++)
     for (int k = 0; carom_number_of((carom_part_kind)part, k) != NULL; k++)
@@ -624,6 +631,7 @@ EVERY_BODY(record_settle) {
   F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) \
   F(record_settle) F(record_write) F(rolling_velocity) F(rules_name) F(serves) F(shoot) \
   F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) F(shot_continue) F(shot_drawn) \
+  F(shot_fault) \
   F(shot_orientation) \
   F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(status_name) \
   F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(table_polygon) F(trace) \

@@ -89,6 +89,70 @@
   CUSHION(smooth_x, (k->smooth_q > 0) <= (k->smooth_x > 0), SMOOTH, "above 0 where smooth_q is") \
   CUSHION(smooth_t, (k->smooth_q > 0) <= (k->smooth_t > 0), SMOOTH, "above 0 where smooth_q is")
 
+/* Numbers of other structs, of doubles but where the header says otherwise, in their order:
+ * ROW(member, key, unit, low, high, other, ERROR, text), as above. LATER(...): it is checked where
+ * more is known, as the radius of the balls; with the error NONE by nobody. */
+#define CAROM_CUE_NUMBERS(ROW, LATER)                                                             \
+  ROW(speed, "V0", "m/s", 0, 1e3, NAN, CUE_SPEED,                                                 \
+      "speed of the cue before the strike; 0: no strike")                                         \
+  ROW(phi, "phi", "degrees", -1e9, 1e9, NAN, CUE_PHI, "direction, from +x towards +y")            \
+  ROW(theta, "theta", "degrees", 0, 90, NAN, CUE_THETA, "elevation of the butt")                  \
+  LATER(a, "a", "R", -1, 1, NAN, MISCUE, "where the tip touches, to the left of the centre")      \
+  LATER(b, "b", "R", -1, 1, NAN, MISCUE, "where the tip touches, above the centre")               \
+  ROW(mass, "M", "kg", CAROM_ABOVE(0), DBL_MAX, NAN, CUE_MASS, "mass of the cue")                 \
+  ROW(end_mass, "end_mass", "kg", CAROM_ABOVE(0), DBL_MAX, NAN, CUE_END_MASS,                     \
+      "effective mass of the end of the cue, which makes squirt")                                 \
+  ROW(tip_restitution, "tip_restitution", "", 0, 1, NAN, CUE_TIP_RESTITUTION,                     \
+      "restitution of tip and ball; 0: 1")                                                        \
+  LATER(tip_radius, "tip_radius", "m", 0, DBL_MAX, NAN, NONE,                                     \
+        "radius of the tip, which no strike reads")                                               \
+  LATER(ball, "", "", 0, CAROM_BALLS_MOST - 1, NAN, CUE_BALL, "index of the ball that is struck") \
+  ROW(miscue, "miscue", "R", 0, 1, NAN, CUE_MISCUE,                                               \
+      "offset at which the tip slips off the ball; 0: 1")                                         \
+  ROW(tip_time, "tip_time", "s", 0, 0.01, -1, CUE_TIP_TIME,                                       \
+      "how long the tip of a raised cue touches the ball; 0: 0.002; -1: no time")
+
+#define CAROM_TABLE_NUMBERS(ROW, LATER)                                            \
+  LATER(width, "w", "m", 0, DBL_MAX, NAN, NONE, "width, for racks and drawings")   \
+  LATER(length, "l", "m", 0, DBL_MAX, NAN, NONE, "length, for racks and drawings") \
+  ROW(ball_radius, "ball_radius", "m", 0, DBL_MAX, NAN, TABLE,                     \
+      "radius of the balls for which rails are placed; 0: that of the last ball")  \
+  ROW(rail_width, "rail_width", "m", 0, DBL_MAX, NAN, TABLE,                       \
+      "width of the tops of rails; 0: 0.12")                                       \
+  ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                     \
+      "height of the backs of pockets; 0: that of the highest nose")
+
+#define CAROM_RAIL_NUMBERS(ROW, LATER)                                                           \
+  ROW(p, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "one end")                                      \
+  ROW(q, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "the other end")                                \
+  LATER(height, "", "m", CAROM_ABOVE(0), DBL_MAX, NAN, NOSE_HEIGHT,                              \
+        "height of the nose above the cloth, below 2 R")                                         \
+  ROW(line, "", "", -DBL_MAX, DBL_MAX, NAN, TABLE,                                               \
+      "lx, ly and l0 of the line lx x + ly y + l0 = 0; all 0: through the ends")                 \
+  ROW(side, "direction", "", 0, 1, NAN, TABLE,                                                   \
+      "the side where balls are: 0 where that is below 0, 1 above")                              \
+  ROW(mu_cushion, "f_c", "", 0, 1, NAN, TABLE, "friction of ball and rail; 0: that of the ball") \
+  ROW(restitution, "e_c", "", 0, 1, NAN, TABLE, "restitution of ball and rail; 0: that of the ball")
+
+#define CAROM_JAW_NUMBERS(ROW, LATER)                                                           \
+  ROW(centre, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "centre")                                 \
+  ROW(radius, "radius", "m", 0, DBL_MAX, NAN, TABLE, "radius")                                  \
+  LATER(height, "", "m", CAROM_ABOVE(0), DBL_MAX, NAN, NOSE_HEIGHT,                             \
+        "height of the nose above the cloth, below 2 R")                                        \
+  ROW(mu_cushion, "f_c", "", 0, 1, NAN, TABLE, "friction of ball and jaw; 0: that of the ball") \
+  ROW(restitution, "e_c", "", 0, 1, NAN, TABLE, "restitution of ball and jaw; 0: that of the ball")
+
+#define CAROM_POCKET_NUMBERS(ROW, LATER)                          \
+  ROW(centre, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "centre")   \
+  ROW(radius, "radius", "m", 1e-9, DBL_MAX, NAN, TABLE, "radius") \
+  ROW(depth, "depth", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "depth at which a ball lies in it")
+
+#define CAROM_STATE_NUMBERS(ROW, LATER)                           \
+  LATER(r, "", "m", -1e6, 1e6, NAN, POSITION, "centre")           \
+  LATER(v, "", "m/s", -1e4, 1e4, NAN, VELOCITY, "velocity")       \
+  LATER(w, "", "rad/s", -1e6, 1e6, NAN, SPIN, "angular velocity") \
+  LATER(label, "", "", 0, 6, NAN, LABEL, "how it moves, a carom_label")
+
 /* For the rows that are not wanted. */
 #define CAROM_NO_ROW(...)
 
@@ -104,6 +168,9 @@
 /* Returns the error of the first number of `k` at fault. */
 #define CAROM_CHECK_NUMBER(member, key, unit, low, high, other, error, reader, text) \
   if (!CAROM_IS_RIGHT(member, low, high, other, reader))                             \
+    return CAROM_ERROR_##error;
+#define CAROM_CHECK_ROW(member, key, unit, low, high, other, error, text) \
+  if (!CAROM_IS_RIGHT(member, low, high, other, ALWAYS))                  \
     return CAROM_ERROR_##error;
 #define CAROM_CHECK_CONDITION(member, holds, error, text) \
   if (!(holds))                                           \

@@ -17,6 +17,7 @@
  * ball on it. With theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30
  * and TP A-31; pooltool's. */
 #include "motion/strike.h"
+#include "about/numbers.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
 
@@ -24,22 +25,8 @@
 #include <stddef.h>
 
 carom_status carom_check_cue(const carom_cue *cue) {
-  if (!(cue->speed >= 0.0 && cue->speed <= 1e3))
-    return CAROM_ERROR_CUE_SPEED;
-  if (!(fabs(cue->phi) <= 1e9))
-    return CAROM_ERROR_CUE_PHI;
-  if (!(cue->theta >= 0.0 && cue->theta <= 90.0))
-    return CAROM_ERROR_CUE_THETA;
-  if (!carom_is_positive(cue->mass))
-    return CAROM_ERROR_CUE_MASS;
-  if (!carom_is_positive(cue->end_mass))
-    return CAROM_ERROR_CUE_END_MASS;
-  if (!(cue->tip_restitution >= 0.0 && cue->tip_restitution <= 1.0))
-    return CAROM_ERROR_CUE_TIP_RESTITUTION;
-  if (!(cue->miscue >= 0.0 && cue->miscue <= 1.0))
-    return CAROM_ERROR_CUE_MISCUE;
-  if (!(cue->tip_time == -1.0 || (cue->tip_time >= 0.0 && cue->tip_time <= 0.01)))
-    return CAROM_ERROR_CUE_TIP_TIME;
+  const carom_cue *k = cue;
+  CAROM_CUE_NUMBERS(CAROM_CHECK_ROW, CAROM_NO_ROW)
   const double limit = cue->miscue > 0.0 ? cue->miscue : 1.0;
   return cue->a * cue->a + cue->b * cue->b < limit * limit ? CAROM_OK : CAROM_ERROR_MISCUE;
 }

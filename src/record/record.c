@@ -30,33 +30,36 @@ typedef struct field {
   const struct field *of; /* and its fields. Tables of fields end with a key of NULL. */
 } field;
 
-#define D(of, name) \
-  { #name, DOUBLE, false, 1, offsetof(of, name), 0, 0, NULL }
-#define DS(of, name, n) \
-  { #name, DOUBLE, false, n, offsetof(of, name), 0, 0, NULL }
-#define L(of, name) \
-  { #name, INT64, false, 1, offsetof(of, name), 0, 0, NULL }
 #define END \
   { NULL, DOUBLE, false, 0, 0, 0, 0, NULL }
 
-static const field rail_fields[] = {DS(carom_rail, p, 2),       DS(carom_rail, q, 2),
-                                    D(carom_rail, height),      DS(carom_rail, line, 3),
-                                    L(carom_rail, side),        D(carom_rail, mu_cushion),
-                                    D(carom_rail, restitution), END};
-static const field jaw_fields[] = {DS(carom_jaw, centre, 2),  D(carom_jaw, radius),
-                                   D(carom_jaw, height),      D(carom_jaw, mu_cushion),
-                                   D(carom_jaw, restitution), END};
-static const field pocket_fields[] = {DS(carom_pocket, centre, 2), D(carom_pocket, radius),
-                                      D(carom_pocket, depth), END};
-static const field state_fields[] = {DS(carom_ball_state, r, 3), DS(carom_ball_state, v, 3),
-                                     DS(carom_ball_state, w, 3), L(carom_ball_state, label), END};
+/* The type of a member and how many it has; and of members of structs that have rows. */
+#define KEY_TYPE(x) \
+  _Generic(x, double *: DOUBLE, double: DOUBLE, int64_t: INT64, uint64_t: INT64, default: INT32)
+#define MEMBER(name, of, member)                                            \
+  {name,                                                                    \
+   KEY_TYPE(((of *)NULL)->member),                                          \
+   false,                                                                   \
+   sizeof(((of *)NULL)->member) > 8 ? sizeof(((of *)NULL)->member) / 8 : 1, \
+   offsetof(of, member),                                                    \
+   0,                                                                       \
+   0,                                                                       \
+   NULL},
+#define RAIL_KEY(member, ...) MEMBER(#member, carom_rail, member)
+#define JAW_KEY(member, ...) MEMBER(#member, carom_jaw, member)
+#define POCKET_KEY(member, ...) MEMBER(#member, carom_pocket, member)
+#define STATE_KEY(member, ...) MEMBER(#member, carom_ball_state, member)
+#define BALL_KEY(member, ...) MEMBER(#member, carom_shot_ball, kind.member)
+#define PLACE_KEY(member, ...) MEMBER(#member, carom_shot_ball, state.member)
+#define CUE_KEY(member, ...) MEMBER(#member, carom_record, cue.member)
+#define OPTION_KEY(member, ...) MEMBER(#member, carom_record, options.member)
 
-#define S(name, n, type) \
-  { #name, type, false, n, offsetof(carom_shot_ball, state.name), 0, 0, NULL }
-#define KIND(member, ...) \
-  {#member, DOUBLE, false, 1, offsetof(carom_shot_ball, kind.member), 0, 0, NULL},
-static const field ball_fields[] = {CAROM_NUMBERS(KIND, KIND) S(r, 3, DOUBLE), S(v, 3, DOUBLE),
-                                    S(w, 3, DOUBLE), S(label, 1, INT64), END};
+static const field rail_fields[] = {CAROM_RAIL_NUMBERS(RAIL_KEY, RAIL_KEY) END};
+static const field jaw_fields[] = {CAROM_JAW_NUMBERS(JAW_KEY, JAW_KEY) END};
+static const field pocket_fields[] = {CAROM_POCKET_NUMBERS(POCKET_KEY, POCKET_KEY) END};
+static const field state_fields[] = {CAROM_STATE_NUMBERS(STATE_KEY, STATE_KEY) END};
+static const field ball_fields[] = {CAROM_NUMBERS(BALL_KEY, BALL_KEY)
+                                        CAROM_STATE_NUMBERS(PLACE_KEY, PLACE_KEY) END};
 
 /* Of the record itself: a key and the member of carom_record that it is. */
 #define R(key, type, always, n, member) \
@@ -79,13 +82,7 @@ static const field table[] = {
     LISTED("jaws", CAROM_JAWS_MOST, table.jaw, table.jaws, jaw_fields),
     LISTED("pockets", CAROM_POCKETS_MOST, table.pocket, table.pockets, pocket_fields),
     END};
-#define OPTION(member, key, FORM, ...) \
-  {#member, TYPE_OF_##FORM, false, 1, offsetof(carom_record, options.member), 0, 0, NULL},
-#define TYPE_OF_WORDS(of) INT32
-#define TYPE_OF_COUNT INT32
-#define TYPE_OF_NUMBER(unit) DOUBLE
-#define TYPE_OF_SET(of) INT64
-static const field models[] = {CAROM_MOTION_OPTIONS(OPTION) END};
+static const field models[] = {CAROM_MOTION_OPTIONS(OPTION_KEY) END};
 static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), END};
 static const field place_fields[] = {R("ball", INT64, true, 1, placed),
                                      R("at", DOUBLE, true, 2, place), END};
@@ -94,21 +91,9 @@ static const field place_fields[] = {R("ball", INT64, true, 1, placed),
 #define ENDS                                                                                  \
   R("status", INT64, true, 1, recorded.status), R("events", INT64, true, 1, recorded.events), \
       R("time", DOUBLE, true, 1, recorded.time), R("hash", HASH, true, 1, recorded.hash)
-static const field shot[] = {R("speed", DOUBLE, false, 1, cue.speed),
-                             R("phi", DOUBLE, false, 1, cue.phi),
-                             R("theta", DOUBLE, false, 1, cue.theta),
-                             R("a", DOUBLE, false, 1, cue.a),
-                             R("b", DOUBLE, false, 1, cue.b),
-                             R("mass", DOUBLE, false, 1, cue.mass),
-                             R("end_mass", DOUBLE, false, 1, cue.end_mass),
-                             R("tip_restitution", DOUBLE, false, 1, cue.tip_restitution),
-                             R("tip_radius", DOUBLE, false, 1, cue.tip_radius),
-                             R("ball", INT64, false, 1, cue.ball),
-                             R("miscue", DOUBLE, false, 1, cue.miscue),
-                             R("tip_time", DOUBLE, false, 1, cue.tip_time),
-                             CAROM_STOP_OPTIONS(OPTION) ENDS,
-                             END};
-static const field goes_on[] = {CAROM_STOP_OPTIONS(OPTION) ENDS, END};
+static const field shot[] = {
+    CAROM_CUE_NUMBERS(CUE_KEY, CUE_KEY) CAROM_STOP_OPTIONS(OPTION_KEY) ENDS, END};
+static const field goes_on[] = {CAROM_STOP_OPTIONS(OPTION_KEY) ENDS, END};
 static const field event[] = {R("time", DOUBLE, true, 1, event.time),
                               R("type", INT32, true, 1, event.type),
                               R("a", INT32, true, 1, event.a),

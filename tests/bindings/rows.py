@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(sys.argv[1])
 sys.path.insert(0, str(ROOT / "bindings"))
 from api import describe  # noqa: E402
-from rows import digits, numbers, options, python, with_tables, words  # noqa: E402
+from rows import digits, numbers, options, parts, python, with_tables, words  # noqa: E402
 
 api = describe(ROOT / "include")
 structs = {one["name"]: one["fields"] for one in api["structs"]}
@@ -68,7 +68,7 @@ enums = {one["name"]: one["values"] for one in api["enums"]}
 # The comment of each carom_part_kind that has numbers names its struct.
 for part in enums["carom_part_kind"]:
     struct = (re.findall(r"carom_\w+", part["comment"]) or [None])[0]
-    rows_of = options().get(struct, []) if struct != "carom_ball_kind" else described
+    rows_of = (options() | parts() | {"carom_ball_kind": described}).get(struct, [])
     for k, one in enumerate(rows_of):
         told, room = library.carom_number_of(part["value"], k), ctypes.create_string_buffer(100)
         library.carom_number_range(told, room, ctypes.c_size_t(100))

@@ -20,7 +20,7 @@ ALLOWED = {
     "src/ball_ball": ("include", "src/platform", "src/about", "src/friction", "src/impact"),
     "src/cushion": ("include", "src/platform", "src/about", "src/impact"),
     "src/cluster": ("include", "src/platform", "src/about", "src/friction"),
-    "src/motion": ("include", "src/platform"),
+    "src/motion": ("include", "src/platform", "src/about"),
     "src/table": ("include", "src/platform"),
     "src/shot": ("include", "src/platform", "src/about", "src/friction", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/table"),
     "src/tangent": ("include", "src/platform", "src/about", "src/friction", "src/impact", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/shot", "src/table"),
