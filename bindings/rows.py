@@ -8,6 +8,7 @@ rows.py markdown  the tables of pages between <!-- rows: NAME --> and <!-- rows:
 import json
 import re
 import sys
+import textwrap
 from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parent.parent / "src"
@@ -144,16 +145,62 @@ def options():
     return found
 
 
-OF_PYTHON = "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSHION_MODEL CUSHION_CONVENTION CUSHION_LAW".split()
+OF_PYTHON = "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSHION_MODEL CUSHION_CONVENTION CUSHION_LAW GAME SOLVER SLIP".split()
+# Options of shots that Python has in another form: their types, defaults, texts.
+OWN = [
+    ("t_final", "float | None", "None", "The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that "
+     "lasts longer than 1000 s is an error."),
+    ("stop_at", "StopAt | Iterable[StopAt]", "()", 'The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the '
+     'cue ball with another, or a type of `carom.EventType` in lower case, such as "pocket". `carom.resume` goes on with a shot that was stopped.'),
+    ("first_of", "int | Iterable[int]", "()", "Indices of balls. The shot is stopped right after the first contact of the cue ball with another ball, with the "
+     "status STOPPED_AT_EVENT, unless that ball is one of these. (): it is not stopped."),
+]  # fmt: skip
+
+
+def name_of(words_of):
+    """The type of words in Python: BallModel."""
+    return "".join(part.capitalize() for part in words_of.split("_"))
+
+
+def shot_options():
+    """The options of shots in Python, (name, type, default, text, enumeration or bound): models, then counts, then its own."""
+    given = [one for one in options()["carom_shot_options"] if one["form"] in ("words", "count", "flag") and one["name"] != "threads"]
+    given.sort(key=lambda one: (one["form"] == "flag", one["group"] == "stop", one["form"] == "count", one["name"] if one["form"] == "count" else ""))
+    for one in given:
+        if one["form"] == "words":
+            yield one["name"], name_of(one["words"]), json.dumps(words()[one["words"]][0][0]), one["text"], one["words"]
+        else:
+            yield one["name"], "bool" if one["form"] == "flag" else "int", "False" if one["form"] == "flag" else "0", one["text"], int(most[1]) if (most := re.fullmatch(r"0 to (\d+)", one["range"])) else 2**31 - 1
+    for one in OWN:
+        yield *one, None
+
+
+def wrapped(text, indent, width=140):
+    """Lines of a text."""
+    return textwrap.wrap(text, width, initial_indent=indent, subsequent_indent=indent)
 
 
 def python():
     """Types for checkers of types, which know nothing of the library: words, and the numbers of one impact on a cushion."""
     lines = ['"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""', ""]
-    lines += ["from __future__ import annotations", "", "from typing import Literal, TypedDict", "", "import numpy.typing as npt", ""]
+    lines += ["from __future__ import annotations", "", "from collections.abc import Iterable"]
+    lines += ["from typing import Literal, NamedTuple, TypedDict", "", "import numpy.typing as npt", ""]
     for of in OF_PYTHON:
-        name = "".join(part.capitalize() for part in of.split("_"))
-        lines.append(f"{name} = Literal[{', '.join(json.dumps(word) for word, _ in words()[of])}]")
+        lines.append(f"{name_of(of)} = Literal[{', '.join(json.dumps(word) for word, _ in words()[of])}]")
+    events = [value.removeprefix("EVENT_").lower() for _, (of, value, *_) in rows("about/words.h", "CAROM_WORD_ROWS") if of == "EVENT"]
+    lines += ["StopAt = Literal[", *wrapped(", ".join(json.dumps(word) for word in ["contact", *events]) + ",", "    "), "]  # fmt: skip"]
+    chosen = list(shot_options())
+    lines += ["", "", "class ShotOptions(NamedTuple):", '    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this']
+    lines += ["    class, or both.", "", "    Attributes", "    ----------"]
+    for name, kind, _, text, of in chosen:
+        several = "{" + ", ".join(json.dumps(word) for word, _ in words()[of]) + "}" if of in words() else kind
+        lines += [f"    {name} : {several}", *wrapped(text[0].upper() + text[1:], "        ")]
+    lines += ['    """', ""] + [f"    {name}: {kind} = {default}" for name, kind, default, *_ in chosen]
+    lines += ["", "", "class Changes(TypedDict, total=False):", '    """Some of the options, as keywords."""', ""]
+    lines += [f"    {name}: {kind}" for name, kind, *_ in chosen]
+    lines += ["", "", "# What each of them is: words, or a whole number up to this."]
+    lines += ["WORDS = {", *wrapped(", ".join(f'"{name}": "{of}"' for name, *_, of in chosen if of in words()) + ",", "    "), "}  # fmt: skip"]
+    lines.append("COUNTS = {" + ", ".join(f'"{name}": {of}' for name, *_, of in chosen if isinstance(of, int)) + "}")
     lines += ["", "", "class CushionNumbers(TypedDict, total=False):", '    """Numbers of an impact on a cushion, by the models that read them."""', ""]
     for one in numbers():
         if one["of_cushion"]:

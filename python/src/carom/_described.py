@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypedDict
+from collections.abc import Iterable
+from typing import Literal, NamedTuple, TypedDict
 
 import numpy.typing as npt
 
@@ -15,6 +16,93 @@ Simultaneous = Literal["cluster", "pairs"]
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler", "smooth"]
 CushionConvention = Literal["paper", "pooltool"]
 CushionLaw = Literal["constant", "han"]
+Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
+Solver = Literal["exact", "euler"]
+Slip = Literal["paper", "pooltool"]
+StopAt = Literal[
+    "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
+    "spinning_stationary", "slate", "rail_top", "left_table",
+]  # fmt: skip
+
+
+class ShotOptions(NamedTuple):
+    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this
+    class, or both.
+
+    Attributes
+    ----------
+    world : {"carom", "pooltool"}
+        Rules of contact, and the default models
+    ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
+        Model of the collision of two balls (default: exact; in the world pooltool inelastic)
+    cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler", "smooth"}
+        Model of the impact on a cushion; mathavan, the exact limit, takes most of the time (default: smooth for balls with a smooth_q, as
+        those of billiard, else han; in the world pooltool stronge)
+    friction : {"alciatore", "constant"}
+        Friction between balls: by the speed of slip (default), or their mu_ball
+    space : {"3d", "flat"}
+        Whether balls can leave the cloth (default: 3d); the world pooltool is flat
+    simultaneous : {"cluster", "pairs"}
+        Contacts of several balls at one instant, as in a rack: they last and overlap in time (default), or are resolved one after the
+        other, as always in the world pooltool and by the models euler and inelastic
+    cluster_steps : int
+        Steps of the integrator of clusters for the duration of a contact; 0: 25
+    steps : int
+        Steps of Euler's models; 0: 1000
+    events_most : int
+        Largest number of events of a shot; 0: 10000
+    plain : bool
+        1: with the instruction set plain, and so with the bits that all machines share
+    t_final : float | None
+        The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that lasts
+        longer than 1000 s is an error.
+    stop_at : StopAt | Iterable[StopAt]
+        The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the cue ball with another, or a
+        type of `carom.EventType` in lower case, such as "pocket". `carom.resume` goes on with a shot that was stopped.
+    first_of : int | Iterable[int]
+        Indices of balls. The shot is stopped right after the first contact of the cue ball with another ball, with the status
+        STOPPED_AT_EVENT, unless that ball is one of these. (): it is not stopped.
+    """
+
+    world: World = "carom"
+    ball_model: BallModel = "default"
+    cushion_model: ShotCushion = "default"
+    friction: BallFriction = "alciatore"
+    space: Space = "3d"
+    simultaneous: Simultaneous = "cluster"
+    cluster_steps: int = 0
+    steps: int = 0
+    events_most: int = 0
+    plain: bool = False
+    t_final: float | None = None
+    stop_at: StopAt | Iterable[StopAt] = ()
+    first_of: int | Iterable[int] = ()
+
+
+class Changes(TypedDict, total=False):
+    """Some of the options, as keywords."""
+
+    world: World
+    ball_model: BallModel
+    cushion_model: ShotCushion
+    friction: BallFriction
+    space: Space
+    simultaneous: Simultaneous
+    cluster_steps: int
+    steps: int
+    events_most: int
+    plain: bool
+    t_final: float | None
+    stop_at: StopAt | Iterable[StopAt]
+    first_of: int | Iterable[int]
+
+
+# What each of them is: words, or a whole number up to this.
+WORDS = {
+    "world": "WORLD", "ball_model": "BALL_MODEL", "cushion_model": "SHOT_CUSHION", "friction": "BALL_FRICTION", "space": "SPACE",
+    "simultaneous": "SIMULTANEOUS",
+}  # fmt: skip
+COUNTS = {"cluster_steps": 10000, "steps": 2147483647, "events_most": 2147483647, "plain": 1}
 
 
 class CushionNumbers(TypedDict, total=False):

@@ -17,7 +17,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 import numpy.typing as npt
 
-from carom._carom import ffi
+from carom._carom import ffi, lib
 from carom.dtypes import described
 
 Array = npt.NDArray[Any]
@@ -263,6 +263,14 @@ def numbered(enum: str) -> dict[str, int]:
     values: dict[str, int] = ffi.typeof(enum).relements
     common = os.path.commonprefix(list(values)).rindex("_") + 1
     return {name[common:].lower(): value for name, value in sorted(values.items(), key=operator.itemgetter(1))}
+
+
+def worded(of: str) -> dict[str, int]:
+    """The values of an enumeration of C by their words, from 0 on: WORLD has carom and pooltool."""
+    found: dict[str, int] = {}
+    while (word := lib.carom_word(getattr(lib, f"CAROM_WORDS_{of}"), len(found))) != ffi.NULL:
+        found[ffi.string(word).decode()] = len(found)
+    return found
 
 
 def choice(names: dict[str, int], value: str, option: str) -> int:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
+from carom._described import Slip as Slip
+from carom._described import Solver as Solver
 from carom._impacts import BALLS, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, as_array, cached, choice, fill, in_chunks, numbered, pointer, rows, whole
+from carom._rows import Array, as_array, cached, choice, fill, in_chunks, pointer, rows, whole, worded
 
-Solver = Literal["exact", "euler"]
-Slip = Literal["paper", "pooltool"]
-_SOLVERS, _SLIPS = numbered("carom_solver"), numbered("carom_slip")
+_SOLVERS, _SLIPS = worded("SOLVER"), worded("SLIP")
 
 ALL_THREADS = -1
 """For `threads`: one thread for each processor that the process may use."""

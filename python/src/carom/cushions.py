@@ -12,12 +12,12 @@ from carom._carom import ffi, lib
 from carom._described import CushionConvention, CushionLaw, CushionModel, CushionNumbers
 from carom._impacts import CUSHION, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, cached, choice, fill, number, numbered, whole
+from carom._rows import Array, cached, choice, fill, number, whole, worded
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-_MODELS, _CONVENTIONS, _LAWS = numbered("carom_cushion_model"), numbered("carom_cushion_convention"), numbered("carom_cushion_law")
+_MODELS, _CONVENTIONS, _LAWS = worded("CUSHION_MODEL"), worded("CUSHION_CONVENTION"), worded("CUSHION_LAW")
 _ROWS = iter((lib.carom_number_of(lib.CAROM_PART_BALL, k) for k in range(1000)).__next__, ffi.NULL)
 NUMBERS = [ffi.string(row.name).decode() for row in _ROWS if row.cushion_offset >= 0]
 

@@ -12,8 +12,9 @@ import numpy.typing as npt
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
 from carom._described import BallNumbers
+from carom._described import Game as Game
 from carom._faults import fault, is_of_cue
-from carom._rows import Array, as_array, choice, copied, fill, number, pointer, several, whole
+from carom._rows import Array, as_array, choice, copied, fill, number, pointer, several, whole, worded
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -21,8 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Table", "balls", "by_number", "cue", "place_ball", "struck"]
 
-Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
-GAMES = {"pool": 0, "snooker": 1, "billiard": 2, "pooltool_pool": 3, "pooltool_snooker": 4, "pooltool_billiard": 5}
+GAMES = worded("GAME")
 
 
 class Table:
