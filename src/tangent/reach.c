@@ -140,15 +140,17 @@ static double distance_at(const miss *m, double t, double *opens) {
 /* What the gap at a time is worth in each direction, where it is one that a change may close.
  * first: the gap where the way began. */
 static void take_gap(carom_reach *reach, const miss *m, double t, double first) {
-  carom_tangent_row d = {0.0};
   double opens;
-  const double gap = distance_at(m, t, &opens) - m->reach;
-  if (!(gap > (first <= TOUCHING ? TOUCHING : 0.0) && gap < NEAR))
+  if (distance_at(m, t, &opens) - m->reach >= NEAR)
     return;
+
+  /* its value, too, by the path itself, whose pieces with drag m does not know */
+  carom_tangent_row d = {0.0};
   const carom_event event = {.time = m->from + t, .type = m->type, .a = m->ball, .b = m->other};
-  carom_tangent_gap(reach->work, &event, d);
+  const double gap = carom_tangent_gap(reach->work, &event, d);
   for (int j = 0; j < reach->work->pass.columns; j++)
-    take(reach, j, gap, d[j]);
+    if (gap > (first <= TOUCHING ? TOUCHING : 0.0))
+      take(reach, j, gap, d[j]);
 }
 
 /* Whether a place on the way is beside a rail, and not beyond its ends. */
