@@ -141,10 +141,10 @@ static inline double binary_power(double x) {
   const double shifted = x + 0x1.8p48, r = x - (shifted - 0x1.8p48), r2 = r * r;
   const double series =
       ((E[0] + r * E[1]) + r2 * (E[2] + r * E[3])) + r2 * r2 * ((E[4] + r * E[5]) + r2 * E[6]);
-  int64_t sixteenths = 0, bits = 0;
+  uint64_t sixteenths = 0, bits = 0; /* the exponents add up modulo 2^12 */
   memcpy(&sixteenths, &shifted, sizeof sixteenths);
   memcpy(&bits, &roots[sixteenths & 15], sizeof bits);
-  bits += (sixteenths >> 4) * (INT64_C(1) << 52);
+  bits += sixteenths >> 4 << 52;
   double whole = 0.0;
   memcpy(&whole, &bits, sizeof whole);
   return whole + whole * r * series;

@@ -282,11 +282,11 @@ CAROM_APART number bodies(const scene *s, number d[3], number v[3]) {
 
   /* on the cloth, the circle of a jaw or a pocket */
   if (e->type == CAROM_EVENT_POCKET || (jaw && !flies)) {
-    const carom_pocket *p = &s->w->table->pocket[e->b];
     for (int k = 0; k < 2; k++)
-      d[k] = (jaw ? s->table.jaw[0].centre[k] : number(p->centre[k])) - a->r[k];
+      d[k] =
+          (jaw ? s->table.jaw[0].centre[k] : number(s->w->table->pocket[e->b].centre[k])) - a->r[k];
     return jaw ? s->table.jaw[0].radius + reach_on_cloth(s, s->table.jaw[0].height)
-               : number(p->radius);
+               : number(s->w->table->pocket[e->b].radius);
   }
   if (!flies || !(jaw || e->type == CAROM_EVENT_RAIL))
     return 0.0;

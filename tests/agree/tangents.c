@@ -649,22 +649,22 @@ START_TEST(states_at_times) {
     l.options = (carom_shot_options){INELASTIC, HAN};
     differentiate(&l, &by_speed, 1);
     const double at[3] = {0.1 * shot.time, 0.2 * shot.time, 2.0 * shot.time};
-    static double states[3][MOST_BALLS * NUMBERS];
+    static double states[3 * MOST_BALLS * NUMBERS];
     const carom_tangent_seeds seeds = seeds_of(&by_speed, 1);
-    carom_tangent tangent = {.final = ends, .at = states[0], .times = at, .times_count = 3};
+    carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 3};
     const int numbers = l.count * NUMBERS;
     ck_assert_int_eq(carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot,
                                         &seeds, &tangent),
                      CAROM_OK);
     for (int x = 0; x < numbers; x++)
-      ck_assert_double_eq(states[0][2 * numbers + x], ends[x]);
+      ck_assert_double_eq(states[2 * numbers + x], ends[x]);
     for (int n = 0; n < 2; n++) {
       l.options.time_most = at[n];
       shot = (carom_shot){.events = events, .room = ROOM, .final = final};
       ck_assert_int_eq(shoot(&l, &shot), CAROM_STOPPED_AT_TIME);
       double error, plateau;
-      ck_assert(compare(&l, &by_speed, &states[0][n * numbers], 0, 1, &error, &plateau));
-      ck_assert_double_lt(error, 1e-4 * largest(&states[0][n * numbers], numbers, 0, 1));
+      ck_assert(compare(&l, &by_speed, &states[n * numbers], 0, 1, &error, &plateau));
+      ck_assert_double_lt(error, 1e-4 * largest(&states[n * numbers], numbers, 0, 1));
     }
   }
 }
