@@ -29,8 +29,12 @@ static inline double carom_limited(double x) {
   return x < 0 ? (double)0 : x > 1 ? (double)1 : x;
 }
 
+/* Without isfinite(), which C++ has in std alone. */
 static inline bool carom_is_finite(const double x[3]) {
-  return isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
+  bool finite = true;
+  for (int k = 0; k < 3; k++)
+    finite = finite && x[k] > -INFINITY && x[k] < INFINITY;
+  return finite;
 }
 static inline bool carom_is_positive(double x) {
   return x > 0.0 && x < INFINITY;
