@@ -3,6 +3,7 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
+#include "about/project.h"
 #include "cushion/list.h"
 #include "friction/laws.h"
 #include "shot/rules.h"
@@ -16,11 +17,11 @@ static const struct {
   unsigned source; /* about/sources.h */
   const char *text;
 } entries[] = {
-    {CAROM_BY_CAROM, "@software{carom,\n"
-                     "  title = {carom: billiards, computed},\n"
-                     "  author = {{The developers of carom}},\n"
-                     "  version = {" VERSION "}\n"
-                     "}\n"},
+    {CAROM_BY_CAROM,
+     "@software{carom,\n"
+     "  title = {carom: billiards, computed},\n"
+     "  author = {" PROJECT_AUTHORS "},\n" PROJECT_CITED "  version = {" VERSION "}\n"
+     "}\n"},
     {CAROM_BY_MARLOW1995, "@book{marlow1995,\n"
                           "  author = {Marlow, Wayland C.},\n"
                           "  title = {The Physics of Pocket Billiards},\n"

@@ -24,9 +24,8 @@ def entries(bibtex):
 
 
 def people(names):
-    for name in names.split(" and "):
-        last, _, first = name.partition(", ")
-        yield f"      - family-names: {last}\n        given-names: {first}\n" if first else f"      - name: {last}\n"
+    parts = [name.partition(", ") for name in names.split(" and ")]
+    return "".join(f"      - family-names: {last}\n        given-names: {first}\n" if first else f"      - name: {last}\n" for last, _, first in parts)
 
 
 found = {}
@@ -35,6 +34,9 @@ for models in MODELS:
     assert len(list(entries(said))) == said.count("@"), said
     found.update({key: (kind, fields) for key, kind, fields in entries(said)})
 own = found.pop("carom")[1]
+url = f"repository-code: {own['url']}\n" if "url" in own else ""
+released = re.search(rf"^## {re.escape(own['version'])}, (\d{{4}}-\d\d-\d\d)$", (SOURCE / "CHANGELOG.md").read_text(encoding="utf-8"), flags=re.M)
+date = f"date-released: {released[1]}\n" if released else ""
 text = f"""# Written by UPDATE=1 ctest -R docs/cite, from src/shot/cite.c.
 cff-version: 1.2.0
 message: If you use carom, please cite it, and the sources of the models that you used (carom --cite).
@@ -43,11 +45,10 @@ type: software
 version: {own['version']}
 license: Apache-2.0
 authors:
-  - name: {own['author']}
-references:
+{re.sub("^    ", "", people(own['author']), flags=re.M)}{url}{date}references:
 """
 for kind, fields in found.values():
-    text += f"  - type: {KINDS[kind]}\n    title: \"{fields['title']}\"\n    authors:\n{''.join(people(fields['author']))}"
+    text += f"  - type: {KINDS[kind]}\n    title: \"{fields['title']}\"\n    authors:\n{people(fields['author'])}"
     for name, cff in (("journal", "journal"), ("volume", "volume"), ("year", "year"), ("doi", "doi"), ("url", "url")):
         text += f"    {cff}: {fields[name]}\n" if name in fields else ""
     for end, number in zip(("start", "end"), fields.get("pages", "").split("--")):

@@ -1,0 +1,89 @@
+"""project.py SOURCE BUILD CC: the files of the tree are as packaging/project.toml says, and a copy of which it is filled has every field.
+
+The command is linked once more with the citation of the copy, by which CITATION.cff is made there.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+SOURCE, BUILD, CC = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), sys.argv[3]
+FIELDS = {"address": "https://example.org/carom.git", "tracker": "https://example.org/carom/issues", "contact": "Zoë Kö <zoe@example.org>",
+          "copyright": "The Example Society", "authors": ["Kö, Zoë", "Doe, Jo"], "year": "2031"}  # fmt: skip
+
+
+def run(*command, code=0, **more):
+    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **more)
+    assert done.returncode == code, f"{command}\n{done.stdout}"
+    return done.stdout
+
+
+def toml(path):
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+run(sys.executable, SOURCE / "tools/project.py", "--check")
+with tempfile.TemporaryDirectory() as work:
+    work = Path(work)
+    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "CITATION.cff", "cmake", "include", "src", "cli", "packaging", "tools"):
+        (shutil.copytree if (SOURCE / part).is_dir() else shutil.copy)(SOURCE / part, work / part)
+    for part in ("python/pyproject.toml", "web/package.json", "bindings/csharp/package.json", "bindings/rust/carom/Cargo.toml", "bindings/rust/carom-sys/Cargo.toml"):
+        (work / part).parent.mkdir(parents=True)
+        shutil.copy(SOURCE / part, work / part)
+    tool = [sys.executable, work / "tools/project.py"]
+    before = {path: path.read_bytes() for path in work.rglob("*") if path.is_file()}
+
+    def fill(fields):
+        text = (SOURCE / "packaging/project.toml").read_text(encoding="utf-8")
+        for name, value in fields.items():
+            text, found = re.subn(rf'^{name} = ("[^"]*"|\[[^]]*\])', lambda match: f"{name} = {json.dumps(value, ensure_ascii=False)}", text, flags=re.M)
+            assert found == 1, f"packaging/project.toml has no {name}"
+        (work / "packaging/project.toml").write_text(text, encoding="utf-8")
+
+    # What is missing is told by name.
+    fill({**FIELDS, "tracker": ""})
+    assert run(*tool, "--missing", code=1).strip() == "packaging/project.toml lacks tracker"
+    fill(FIELDS)
+    assert not run(*tool, "--missing")
+    assert "not as packaging/project.toml says: python/pyproject.toml" in run(*tool, "--check", code=1)
+    run(*tool)
+    run(*tool, "--check")
+
+    python = toml(work / "python/pyproject.toml")["project"]
+    assert python["authors"] == [{"name": "Zoë Kö"}, {"name": "Jo Doe"}] and python["maintainers"] == [{"name": "Zoë Kö", "email": "zoe@example.org"}]
+    assert python["urls"] == {"Repository": FIELDS["address"], "Issues": FIELDS["tracker"]}
+    for crate in ("carom", "carom-sys"):
+        rust = toml(work / f"bindings/rust/{crate}/Cargo.toml")["package"]
+        assert rust["authors"] == ["Zoë Kö", "Jo Doe"] and rust["repository"] == FIELDS["address"]
+    npm, csharp = (json.loads((work / part).read_text(encoding="utf-8")) for part in ("web/package.json", "bindings/csharp/package.json"))
+    assert npm["author"] == csharp["author"]["name"] == "Zoë Kö, Jo Doe" and npm["bugs"] == FIELDS["tracker"]
+    assert npm["repository"]["url"] == "git+" + FIELDS["address"] and csharp["documentationUrl"] == FIELDS["address"]
+    assert "Copyright 2031 The Example Society\n" in (work / "NOTICE").read_text(encoding="utf-8")
+    assert "(`git clone https://example.org/carom.git carom`; it takes" in (work / "README.md").read_text(encoding="utf-8")
+    conan = (work / "packaging/conan/conanfile.py").read_text(encoding="utf-8")
+    assert '    author = "Zoë Kö, Jo Doe"\n    url = "https://example.org/carom.git"\n' in conan
+
+    # The command, and the citation that is made of what it says.
+    run(CC, "-std=c17", "-Iinclude", "-Isrc", "-c", "src/shot/cite.c", "-o", "cite.o", cwd=work)
+    (work / "b").mkdir()
+    libraries = [BUILD / "cli/libcarom_cli_parts.a", BUILD / "libcarom.a", *os.environ.get("LDLIBS", "-lcsv -ljansson").split(), "-lm", "-pthread"]
+    run(CC, "-Iinclude", "-Icli", "cli/main.c", "cite.o", *libraries, "-o", "b/carom", cwd=work)
+    said = run("b/carom", "--cite", cwd=work)
+    assert "author = {Kö, Zoë and Doe, Jo},\n  url = {https://example.org/carom.git},\n  year = {2031},\n" in said, said
+    run(sys.executable, SOURCE / "tests/docs/cite.py", work, work / "b", env={**os.environ, "UPDATE": "1"})
+    cff = (work / "CITATION.cff").read_text(encoding="utf-8")
+    people = "".join(f"  - family-names: {last}\n    given-names: {first}\n" for last, first in (("Kö", "Zoë"), ("Doe", "Jo")))
+    assert f"\nauthors:\n{people}repository-code: {FIELDS['address']}\n" in cff, cff
+
+    # With the fields of the tree again, the files are those of before.
+    fill({})
+    run(*tool)
+    changed = [str(path.relative_to(work)) for path, text in before.items() if path.read_bytes() != text]
+    assert changed == ["CITATION.cff"], changed
+print("every field is in packages, citation and pages")

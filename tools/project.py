@@ -1,0 +1,109 @@
+"""project.py [ROOT]: writes packaging/project.toml into the files of the tree that name address, tracker, contact, holder, authors and year.
+
+A field that is empty is left out. With --check nothing is written: it fails where a file is not as it would be written, with --missing where
+a field is empty. With --get NAME it prints a field; `version` is that of the public header.
+"""
+
+import json
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+NOBODY = "The developers of carom"
+
+
+def read(root):
+    """The fields, with what follows from them."""
+    found = tomllib.loads((root / "packaging/project.toml").read_text(encoding="utf-8"))
+    header = (root / found["version_in"]).read_text(encoding="utf-8")
+    found["version"] = ".".join(re.findall(r"^#define CAROM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", header, flags=re.M))
+    found["people"] = [" ".join(reversed(name.split(", ", 1))) for name in found["authors"]]
+    found["maintainer"] = found["contact"] or f"{NOBODY} <developers@carom.invalid>"
+    found["holder"] = found["copyright"] or NOBODY
+    return found
+
+
+def missing(project):
+    return [name for name in ("address", "tracker", "contact", "copyright", "authors", "year") if not project[name]]
+
+
+def lines(project):
+    """Lines behind the anchor of each file, the first key of which begins an older line: (file, anchor, [(key, line)])."""
+    p, text = project, json.dumps
+    name, _, mail = p["contact"].removesuffix(">").partition(" <")
+    author = text(", ".join(p["people"]), ensure_ascii=False)
+    people = ", ".join(f"{{ name = {text(each, ensure_ascii=False)} }}" for each in p["people"])
+    urls = ", ".join(f"{what} = {text(to)}" for what, to in (("Repository", p["address"]), ("Issues", p["tracker"])) if to)
+    yield "python/pyproject.toml", "license = ", [
+        ("authors = ", people and f"[{people}]"),
+        ("maintainers = ", name and f"[{{ name = {text(name, ensure_ascii=False)}, email = {text(mail)} }}]"),
+        ("urls = ", urls and f"{{ {urls} }}"),
+    ]
+    for crate in ("carom-sys", "carom"):
+        yield f"bindings/rust/{crate}/Cargo.toml", "license = ", [
+            ("authors = ", p["authors"] and text(p["people"], ensure_ascii=False)),
+            ("repository = ", p["address"] and text(p["address"])),
+        ]
+    yield "web/package.json", '  "license": ', [
+        ('  "author": ', p["authors"] and f"{author},"),
+        ('  "repository": ', p["address"] and f'{{ "type": "git", "url": {text("git+" + p["address"])} }},'),
+        ('  "bugs": ', p["tracker"] and f"{text(p['tracker'])},"),
+    ]
+    yield "bindings/csharp/package.json", '  "license": ', [
+        ('  "author": ', p["authors"] and f'{{ "name": {author} }},'),
+        ('  "documentationUrl": ', p["address"] and f"{text(p['address'])},"),
+    ]
+    yield "packaging/conan/conanfile.py", "    license = ", [
+        ("    author = ", p["authors"] and author),
+        ("    url = ", p["address"] and text(p["address"])),
+    ]
+
+
+def with_lines(text, anchor, wanted):
+    kept = [line for line in text.splitlines(keepends=True) if not line.startswith(tuple(key for key, _ in wanted))]
+    at = next(k for k, line in enumerate(kept) if line.startswith(anchor)) + 1
+    return "".join([*kept[:at], *(f"{key}{value}\n" for key, value in wanted if value), *kept[at:]])
+
+
+def written(root, project):
+    """Each file with the text that it must have."""
+    p = project
+    for name, anchor, wanted in lines(p):
+        yield name, with_lines((root / name).read_text(encoding="utf-8"), anchor, wanted)
+    readme = (root / "README.md").read_text(encoding="utf-8")
+    clone = f"`git clone {p['address']} carom`; " if p["address"] else ""
+    yield "README.md", re.sub(r"(?<=In a clone of this repository \().*(?=it takes a minute\))", clone, readme)
+    holder = f"Copyright {p['year']} {p['copyright']}\n".replace("  ", " ") if p["copyright"] else ""
+    yield "NOTICE", f"carom: billiards, computed\n{holder}\nLicensed under the Apache License, version 2.0 (LICENSE).\n"
+    cited = "".join(f"  {key} = {{{value}}},\\n" for key, value in (("url", p["address"]), ("year", p["year"])) if value)
+    defined = {"AUTHORS": " and ".join(p["authors"]) or f"{{{NOBODY}}}", "CITED": cited, "TRACKER": p["tracker"]}
+    macros = "".join(f'#define PROJECT_{key} "{value}"\n' for key, value in defined.items())
+    yield "src/about/project.h", (
+        "/* Written by tools/project.py from packaging/project.toml: authors and lines of the citation as\n"
+        " * BibTeX, and for CMake where bugs are reported. */\n#ifndef CAROM_PROJECT_H\n#define CAROM_PROJECT_H\n\n" + macros + "\n#endif\n"
+    )
+
+
+def main():
+    flags = [word for word in sys.argv[1:] if word.startswith("--")]
+    words = [word for word in sys.argv[1:] if not word.startswith("--")]
+    if flags == ["--get"]:
+        return print(read(Path(__file__).parents[1])[words[0]])
+    root = Path(words[0]) if words else Path(__file__).parents[1]
+    project, wrong = read(root), []
+    if "--missing" in flags:
+        empty = missing(project)
+        sys.exit(f"packaging/project.toml lacks {', '.join(empty)}" if empty else 0)
+    for name, text in written(root, project):
+        path = root / name
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            wrong.append(name)
+            if "--check" not in flags:
+                path.write_text(text, encoding="utf-8")
+    if "--check" in flags and wrong:
+        sys.exit(f"not as packaging/project.toml says: {', '.join(wrong)}; python3 tools/project.py writes them")
+
+
+if __name__ == "__main__":
+    main()
