@@ -180,7 +180,7 @@ def test_the_planner_is_an_opponent():
     won = 0
     for seed in range(3):
         game.reset(seed=seed)
-        game.action_space("player_0").seed(seed)
+        game.action_space("player_1").seed(seed)
         for agent in game.agent_iter():
             ended = game.terminations[agent] or game.truncations[agent]
             if agent == "player_0" and not ended:
