@@ -232,6 +232,9 @@ def main():
     }
     for language in ("csharp", "rust"):
         shutil.copytree(HERE / language, out / language, dirs_exist_ok=True)
+        for package in [*(out / language).glob("*/Cargo.toml"), *(out / language).glob("package.json")]:
+            for licence in ("LICENSE", "NOTICE"):
+                shutil.copy(HERE.parent / licence, package.parent)
         for part in (out / language).rglob("*"):
             if part.suffix in (".json", ".toml"):
                 part.write_text(part.read_text(encoding="utf-8").replace("VERSION", api["version"]), encoding="utf-8")

@@ -1,4 +1,5 @@
-"""The Conan 2 recipe of the library, without the command: conan create packaging/conan
+"""The Conan 2 recipe of the library, without the command: conan create packaging/conan packs the tree; beside the conandata.yml of a release
+it packs the archive that this names.
 
 A consumer finds what CMake installs: the targets carom::carom and, if the library is static, carom::static. There is no option fPIC, as
 carom's CMake files compile all code position-independent.
@@ -9,7 +10,7 @@ from pathlib import Path
 
 from conan import ConanFile
 from conan.tools.cmake import CMake, CMakeToolchain, cmake_layout
-from conan.tools.files import copy, load
+from conan.tools.files import copy, get, load
 
 TREE = "../.."
 
@@ -26,16 +27,25 @@ class Carom(ConanFile):
     default_options = {"shared": False, "threads": True, "isas": "all"}
 
     def set_version(self):
+        if self.conan_data:
+            self.version = next(iter(self.conan_data["sources"]))
+            return
         # The version has one source, the public header.
         header = load(self, Path(self.recipe_folder, TREE, "include", "carom.h"))
         self.version = ".".join(re.search(rf"^#define CAROM_VERSION_{part} (\d+)$", header, re.M)[1] for part in ("MAJOR", "MINOR", "PATCH"))
 
     def export_sources(self):
-        for part in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*"):
+        if self.conan_data:
+            return
+        for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "cmake/*", "include/*", "src/*"):
             copy(self, part, Path(self.recipe_folder, TREE), self.export_sources_folder)
 
+    def source(self):
+        if self.conan_data:
+            get(self, **self.conan_data["sources"][self.version], strip_root=True)
+
     def layout(self):
-        self.folders.root = TREE
+        self.folders.root = None if self.conan_data else TREE
         cmake_layout(self, build_folder="build/conan")
 
     def generate(self):
@@ -53,7 +63,8 @@ class Carom(ConanFile):
 
     def package(self):
         CMake(self).install()
-        copy(self, "LICENSE", self.source_folder, Path(self.package_folder, "licenses"))
+        for name in ("LICENSE", "NOTICE"):
+            copy(self, name, self.source_folder, Path(self.package_folder, "licenses"))
 
     def package_info(self):
         # CMake uses the installed package; the rest is for consumers that use other build systems.
