@@ -15,12 +15,13 @@ import {
   readState,
   readStruct,
   readTable,
-  refuseName,
   refuseUnknownOf,
   setStruct,
   value,
   vec3,
+  whole,
   writeBalls,
+  writeOptions,
   writeStruct,
   writeTable,
 } from "./structs.js";
@@ -38,7 +39,6 @@ import type {
   CushionImpact,
   CushionOptions,
   Detail,
-  EventType,
   Game,
   GameState,
   Impact,
@@ -76,12 +76,6 @@ const REFUSED: readonly number[] = [
   ...[values.CAROM_ERROR_TIME_MOST, values.CAROM_ERROR_STOP_AT, values.CAROM_ERROR_EVENTS_MOST],
 ];
 
-function whole(number: number | undefined, option: string): number {
-  if (number === undefined) return 0;
-  if (!Number.isInteger(number) || number < 0 || number > 0x7fffffff) throw new RangeError(`${option}: it must be a whole number, 0 or more, not ${number}`);
-  return number;
-}
-
 /** Parts of the memory that every call uses again, one behind the other. */
 function arena(memory: Memory): (bytes: number) => Pointer {
   let next = memory.allocate(65536);
@@ -110,11 +104,6 @@ export class Carom {
   #room = 0;
   /** The shot whose balls and events are in the module's memory. */
   #resident: Shot | undefined;
-  readonly #tables: Map<string, number>;
-  readonly #racks: Map<string, number>;
-  /** What a shot may be stopped after, by the bit in stop_at: "contact", then the types of events. */
-  readonly #stops: Map<string, number>;
-  readonly #eventNames: readonly EventType[];
 
   /** @internal */
   constructor(memory: Memory, build: Build) {
@@ -144,8 +133,7 @@ export class Carom {
     this.#reader = {
       events: (shot) => {
         this.#reside(shot);
-        const name = (type: number): EventType => this.#eventNames[type]!;
-        return Array.from({ length: shot.count }, (_, k) => readEvent(this.#memory, this.#events + k * EVENT.size, name));
+        return Array.from({ length: shot.count }, (_, k) => readEvent(this.#memory, this.#events + k * EVENT.size));
       },
       states: (shot, time, drawn) => {
         this.#look(shot, time, drawn);
@@ -191,7 +179,6 @@ export class Carom {
       writeLayout: (table, balls) => this.#writeLayout(table, balls),
       writeShotOptions: (options) => this.#writeShotOptions(options),
       writeShot: () => this.#writeShot(0),
-      eventName: (type) => this.#eventNames[type]!,
       refuse: (code, field) => this.#refuse(code, field),
     });
     this.#recordings = {
@@ -202,14 +189,6 @@ export class Carom {
       played: (...of) => this.#played(...of),
       refuse: (code, field) => this.#refuse(code, field),
     };
-    const names = (name: (kind: number) => Pointer, found = new Map<string, number>()): Map<string, number> => {
-      for (let text; (text = memory.text(name(found.size))) !== undefined; ) found.set(text, found.size);
-      return found;
-    };
-    this.#tables = names((kind) => this.#call.carom_table_name(kind));
-    this.#racks = names((kind) => this.#call.carom_rack_name(kind));
-    this.#stops = names((type) => this.#call.carom_event_name(type), new Map([["contact", 0]]));
-    this.#eventNames = [...this.#stops.keys()] as EventType[];
   }
 
   get #call(): Memory["exports"] {
@@ -268,11 +247,7 @@ export class Carom {
 
   #writeOptions(options: CollideOptions): Pointer {
     refuseUnknown(options, KEYS.collide);
-    return setStruct(this.#memory, this.#at.options, "carom_options", {
-      solver: value("CAROM_SOLVER_", options.solver ?? "exact", "solver"),
-      slip: value("CAROM_SLIP_", options.slip ?? "paper", "slip"),
-      steps: whole(options.steps, "steps"),
-    });
+    return writeOptions(this.#memory, this.#at.options, "carom_options", options);
   }
 
   /** What carom_check() says of the impact that a call refused. */
@@ -366,12 +341,7 @@ export class Carom {
     const { impact: at, options: opt, motion, number } = this.#at;
     refuseUnknown(options, KEYS.cushion);
     writeStruct(this.#memory, at, "carom_cushion_impact", impact, "impact", RAIL);
-    setStruct(this.#memory, opt, "carom_cushion_options", {
-      model: value("CAROM_CUSHION_", options.model ?? "mathavan", "model"),
-      convention: value("CAROM_CONVENTION_", options.convention ?? "paper", "convention"),
-      law: value("CAROM_CUSHION_LAW_", options.law ?? "constant", "law"),
-      steps: whole(options.steps, "steps"),
-    });
+    writeOptions(this.#memory, opt, "carom_cushion_options", options);
     const code = this.#call.carom_cushion(at, opt, motion);
     if (code < 0) {
       this.#call.carom_cushion_check(at, opt, number);
@@ -382,13 +352,9 @@ export class Carom {
 
   // ---- Tables, racks, balls, cues --------------------------------------------------------------------------------------------
 
-  #kind(names: Map<string, number>, name: string, what: string): number {
-    return names.get(name) ?? refuseName(what, name, [...names.keys()]);
-  }
-
   /** A built-in table. */
   table(name: TableName): Table {
-    this.#refuse(this.#call.carom_table_make(this.#kind(this.#tables, name, "table"), this.#at.table), "table");
+    this.#refuse(this.#call.carom_table_make(value("carom_table_kind", name, "table"), this.#at.table), "table");
     this.#resident = undefined;
     return readTable(this.#memory, this.#at.table);
   }
@@ -437,7 +403,7 @@ export class Carom {
   rack(name: RackName, table: Table, options: { gap?: number; seed?: number | bigint } = {}): ShotBall[] {
     refuseUnknown(options, KEYS.rack);
     const { gap = 1e-4, seed = 1 } = options;
-    const kind = this.#kind(this.#racks, name, "rack");
+    const kind = value("carom_rack_kind", name, "rack");
     this.#resident = undefined;
     writeTable(this.#memory, this.#at.table, table);
     const { table: of, balls } = this.#at;
@@ -449,7 +415,7 @@ export class Carom {
 
   /** The constants of a game's balls. */
   kind(game: Game): BallKind {
-    this.#call.carom_ball_kind_of(this.#at.detail, value("CAROM_GAME_", game, "game"));
+    this.#call.carom_ball_kind_of(this.#at.detail, value("carom_game", game, "game"));
     return readStruct(this.#memory, this.#at.detail, "carom_ball_kind");
   }
 
@@ -495,7 +461,7 @@ export class Carom {
   }
 
   #cue(fields: Partial<Cue> = {}, game: Game = "pool"): Cue {
-    this.#call.carom_cue_of(this.#at.detail, value("CAROM_GAME_", game, "game"));
+    this.#call.carom_cue_of(this.#at.detail, value("carom_game", game, "game"));
     const cue = readStruct<Cue>(this.#memory, this.#at.detail, "carom_cue");
     refuseUnknownOf("carom_cue", fields, "cue");
     return { ...cue, ...Object.fromEntries(Object.entries(fields).filter(([, given]) => given !== undefined)) };
@@ -505,22 +471,7 @@ export class Carom {
 
   #writeShotOptions(options: ShotOptions): Pointer {
     refuseUnknown(options, KEYS.shot);
-    setStruct(this.#memory, this.#at.options, "carom_shot_options", {
-      world: value("CAROM_WORLD_", options.world ?? "carom", "world"),
-      ballModel: value("CAROM_BALL_MODEL_", options.ballModel ?? "default", "ballModel"),
-      cushionModel: value("CAROM_SHOT_CUSHION_", options.cushionModel ?? "default", "cushionModel"),
-      space: value("CAROM_SPACE_", options.space ?? "3d", "space"),
-      simultaneous: value("CAROM_SIMULTANEOUS_", options.simultaneous ?? "cluster", "simultaneous"),
-      clusterSteps: whole(options.clusterSteps, "clusterSteps"),
-      friction: value("CAROM_FRICTION_", options.friction ?? "alciatore", "friction"),
-      steps: whole(options.steps, "steps"),
-    });
-    return this.#writeStops(options);
-  }
-
-  #writeStops({ timeMost = 0, stopAt = [], eventsMost }: StopOptions): Pointer {
-    const stops = (typeof stopAt === "string" ? [stopAt] : stopAt).reduce((set, stop) => set | (1n << BigInt(this.#kind(this.#stops, stop, "stopAt"))), 0n);
-    return setStruct(this.#memory, this.#at.options, "carom_shot_options", { eventsMost: whole(eventsMost, "eventsMost"), timeMost, stopAt: stops }, false);
+    return writeOptions(this.#memory, this.#at.options, "carom_shot_options", options);
   }
 
   #needRoom(room: number): void {
@@ -592,7 +543,7 @@ export class Carom {
       this.#reside(shot);
       this.#resident = undefined;
       for (const part of ["table", "options", "state"] as const) this.#memory.u8.set(kept[part], at[part]);
-      this.#writeStops(options);
+      writeOptions(this.#memory, at.options, "carom_shot_options", options, true);
       code = this.#call.carom_shot_continue(at.table, at.balls, shot.balls.length, at.options, at.shot);
       if (REFUSED.includes(code)) throw this.#error(code);
       if (this.#count() <= this.#room) break;

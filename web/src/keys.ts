@@ -1,27 +1,29 @@
 // The keys of objects that users hand in: an unknown one is refused, by its name, with the one that was probably meant.
+import { numbers, options } from "./generated/layout.js";
+import type { PlanOptions as PlanRows } from "./generated/structs.js";
 import type { Line } from "./lines.js";
-import type { AimOf, CollideOptions, CushionOptions, GameState, Impact, Motion, PlanOptions, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
+import type { AimOf, GameState, Impact, Motion, PlanOptions, ShotBall } from "./types.js";
 
 /** The keys of an interface; the compiler refuses a list that lacks one or has another. */
 const all = <T>(keys: Record<keyof T, 1>): readonly string[] => Object.keys(keys);
 
 const GAME: Record<keyof GameState, 1> = { rules: 1, group: 1, opening: 1, fouls: 1, may: 1 };
-const STOP: Record<keyof StopOptions, 1> = { timeMost: 1, stopAt: 1, eventsMost: 1 };
+const keysOf = (struct: keyof typeof options): string[] => options[struct].map(({ key }) => key);
 
 /** The keys of the objects that are no struct of C. */
 export const KEYS = {
   impact: all<Impact>({ a: 1, b: 1, muBall: 1, restitution: 1 }),
-  collide: all<CollideOptions>({ solver: 1, slip: 1, steps: 1 }),
-  cushion: all<CushionOptions>({ model: 1, convention: 1, law: 1, steps: 1 }),
+  collide: keysOf("carom_options"),
+  cushion: keysOf("carom_cushion_options"),
   motion: all<Motion & { status: string }>({ v: 1, w: 1, status: 1 }),
   ball: all<ShotBall>({ kind: 1, state: 1, id: 1 }),
-  table: all<Table>({ width: 1, length: 1, ballRadius: 1, railWidth: 1, pocketBack: 1, rails: 1, jaws: 1, pockets: 1 }),
-  stop: all<StopOptions>(STOP),
-  shot: all<ShotOptions>({ world: 1, ballModel: 1, cushionModel: 1, space: 1, simultaneous: 1, clusterSteps: 1, friction: 1, steps: 1, ...STOP }),
+  table: [...numbers.carom_table.map(([, field]) => field), "rails", "jaws", "pockets"],
+  stop: options.carom_shot_options.filter(({ stop }) => stop).map(({ key }) => key),
+  shot: keysOf("carom_shot_options"),
   line: all<Line>({ id: 1, tableName: 1, table: 1, names: 1, balls: 1, cue: 1 }),
   game: all<GameState>(GAME),
   aim: all<AimOf>({ ball: 1, pocket: 1, via: 1 }),
-  plan: all<PlanOptions>({ player: 1, opponent: 1, shots: 1, seed: 1, inHand: 1, best: 1, cue: 1, shot: 1, ...GAME }),
+  plan: [...keysOf("carom_plan_options"), ...all<Omit<PlanOptions, keyof PlanRows>>({ player: 1, opponent: 1, inHand: 1, best: 1, cue: 1, shot: 1, ...GAME })],
   player: ["errors", "fargo"],
   rack: ["gap", "seed"],
   polygon: ["noseHeight", "jawRadius", "ballRadius"],

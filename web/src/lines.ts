@@ -17,21 +17,9 @@ export interface Line {
   cue: Cue;
 }
 
-/** Keys of lines and fields of a kind, in the order of the fields. */
-const PARAMS: readonly (readonly [string, keyof BallKind])[] = NUMBERS;
-const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
-  ["V0", "speed"],
-  ["phi", "phi"],
-  ["theta", "theta"],
-  ["a", "a"],
-  ["b", "b"],
-  ["M", "mass"],
-  ["end_mass", "endMass"],
-  ["tip_restitution", "tipRestitution"],
-  ["tip_radius", "tipRadius"],
-  ["miscue", "miscue"],
-  ["tip_time", "tipTime"],
-];
+/** Keys of lines and fields, in the order of the fields. */
+const PARAMS: readonly (readonly [string, keyof BallKind])[] = NUMBERS.carom_ball_kind;
+const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = NUMBERS.carom_cue;
 
 /** The line of a shot, without a line break. `carom shoot` plays it with the same bits under CAROM_ISA=plain. */
 export function toLine(shot: Pick<Line, "tableName" | "balls" | "cue"> & { id?: string; names?: string[] }): string {

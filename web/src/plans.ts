@@ -4,7 +4,7 @@ import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import { refuseOrder } from "./lines.js";
 import type { Memory, Pointer } from "./memory.js";
-import { readBalls, readState, readStruct, refuseName, setStruct, value, writeStruct } from "./structs.js";
+import { indexOf, readBalls, readState, readStruct, refuseName, setStruct, value, whole, writeOptions, writeStruct } from "./structs.js";
 import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Ruling, ShotBall, ShotOptions, Table } from "./types.js";
 
 const PLAYER = layout.carom_player;
@@ -31,7 +31,6 @@ export interface Host {
   writeLayout(table: Table, balls: readonly ShotBall[]): void;
   writeShotOptions(options: ShotOptions): Pointer;
   writeShot(): void;
-  eventName(type: number): EventType;
   refuse(code: number, field?: string): void;
 }
 
@@ -77,7 +76,7 @@ export class Plans {
     const { cue: at } = this.#host.at;
     this.#writePlayer(this.#at.player, player, "player");
     writeStruct(this.#memory, at, "carom_cue", this.#host.cue(cue), "cue");
-    this.#memory.exports.carom_player_strike(this.#at.player, whole(seed, "seed"), whole(number, "number"), at);
+    this.#memory.exports.carom_player_strike(this.#at.player, BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER)), BigInt(whole(number, "number")), at);
     return readStruct<Cue>(this.#memory, at, "carom_cue");
   }
 
@@ -155,7 +154,7 @@ export class Plans {
     const { type, a, b } = met;
     return {
       ...{ is, cue: readStruct<Cue>(memory, at.cue, "carom_cue"), cut, margin, phi, speed },
-      ...(is === "barred" || is === "short" ? { met: { type: this.#host.eventName(type), a, b } } : {}),
+      ...(is === "barred" || is === "short" ? { met: { type: names.carom_event_type[type] as EventType, a, b } } : {}),
     };
   }
 
@@ -223,15 +222,10 @@ export class Plans {
   #writeRules({ rules = "eightball", group = "open", opening = false, fouls = [0, 0], may = "nothing" }: Partial<GameState>, balls: readonly ShotBall[]): void {
     refuseOrder(balls, rules);
     const { rules: at } = this.#at;
-    this.#memory.exports.carom_plan_rules_of(at, value("CAROM_RULES_", rules, "rules"));
-    const index = (name: string, of: string, list: readonly string[]): number => {
-      const found = list.indexOf(name);
-      if (found < 0) throw new TypeError(`${of}: it must be one of ${list.join(", ")}, not ${JSON.stringify(name)}`);
-      return found;
-    };
+    this.#memory.exports.carom_plan_rules_of(at, value("carom_rules_kind", rules, "rules"));
     if (group !== "open" && rules !== "eightball") throw new TypeError("group: it is of eight-ball");
     if (may !== "nothing" && rules !== "nineball") throw new TypeError("may: it is of nine-ball");
-    const words = [index(group, "group", GROUPS), Number(opening), ...fouls.map((count) => Number(whole(count, "fouls"))), index(may, "may", MAY)];
+    const words = [indexOf(GROUPS, group, "group"), Number(opening), ...fouls.map((count) => whole(count, "fouls")), indexOf(MAY, may, "may")];
     for (const [k, word] of words.entries()) this.#memory.i64[at / 8 + k] = BigInt(word);
   }
 
@@ -245,11 +239,8 @@ export class Plans {
     const shot = this.#host.writeShotOptions(options.shot ?? {});
     this.#writeRules(options, balls);
     refuseLayout(table, balls, options.rules ?? "eightball");
-    setStruct(memory, optionsAt, "carom_plan_options", {
-      shots: whole(options.shots ?? 0, "shots"),
-      seed: whole(options.seed ?? 0, "seed"),
-      opponent: options.opponent ? this.#writePlayer(opponent, options.opponent, "opponent") : 0,
-    });
+    writeOptions(memory, optionsAt, "carom_plan_options", options);
+    if (options.opponent) setStruct(memory, optionsAt, "carom_plan_options", { opponent: this.#writePlayer(opponent, options.opponent, "opponent") }, false);
     return setStruct(memory, job, "carom_plan_job", { table: at.table, balls: at.balls, cue: at.cue, player, rules, shot, options: optionsAt, count: balls.length });
   }
 
@@ -261,9 +252,4 @@ export class Plans {
 
 function inPlay(balls: readonly ShotBall[]): number {
   return balls.reduce((set, { state }, k) => (state.label === "pocketed" || state.label === "off" ? set : set | (1 << k)), 0) >>> 0;
-}
-
-function whole(number: number, option: string): bigint {
-  if (!Number.isSafeInteger(number) || number < 0) throw new RangeError(`${option}: it must be a whole number, 0 or more, not ${number}`);
-  return BigInt(number);
 }

@@ -1,20 +1,20 @@
 // Objects to structs in the module's memory, and back.
-import { layout, names as NAMES, values } from "./generated/layout.js";
+import { layout, names as NAMES, numbers as NUMBERS, options as OPTIONS, values } from "./generated/layout.js";
 import { KEYS, meant, refuseUnknown } from "./keys.js";
 import type { Memory, Pointer } from "./memory.js";
 import type { BallState, EventType, Motion, ShotBall, ShotEvent, Table, Vec3 } from "./types.js";
 
 export type StructName = keyof typeof layout;
 
-/** The value of an enumerator from the end of its name: value("CAROM_CUSHION_", "han", "model"). */
-export function value(prefix: string, name: string, option: string): number {
-  const found = (values as Record<string, number>)[prefix + name.toUpperCase()];
-  if (found !== undefined && name === name.toLowerCase()) return found;
-  // CAROM_CUSHION_ is the beginning of other lists too: a name of one's own has one word, but for games.
-  const names = Object.keys(values)
-    .filter((key) => key.startsWith(prefix) && (prefix === "CAROM_GAME_" || !key.slice(prefix.length).includes("_")))
-    .map((key) => key.slice(prefix.length).toLowerCase());
-  return refuseName(option, name, names);
+/** The place of a word in a list. */
+export function indexOf(words: readonly string[], word: unknown, option: string): number {
+  const found = word === "" ? -1 : words.indexOf(word as string);
+  return found >= 0 ? found : refuseName(option, word as string, words.filter(Boolean));
+}
+
+/** The value of a word of an enumeration: value("carom_cushion_model", "han", "model"). */
+export function value(of: keyof typeof NAMES, word: unknown, option: string): number {
+  return indexOf(NAMES[of], word, option);
 }
 
 /** Throws because a name is none of a list. */
@@ -77,6 +77,28 @@ export function setStruct<S extends StructName>(memory: Memory, at: Pointer, str
   return at;
 }
 
+/** A number of a count or a seed. */
+export function whole(number: number | undefined, option: string, most = 0x7fffffff): number {
+  if (number === undefined) return 0;
+  if (!Number.isSafeInteger(number) || number < 0 || number > most) throw new RangeError(`${option}: it must be a whole number, 0 or more, not ${number}`);
+  return number;
+}
+
+/** Options of a call by their rows; each that is missing is 0, its default. With `stops` only when to stop. */
+export function writeOptions(memory: Memory, at: Pointer, struct: keyof typeof OPTIONS, from: object, stops = false): Pointer {
+  const fields: Record<string, number | bigint> = {};
+  for (const { key, form, of, stop } of OPTIONS[struct]) {
+    if (stops && !stop) continue;
+    const given = (from as Record<string, unknown>)[key] ?? 0;
+    const bit = (one: unknown): bigint => 1n << BigInt(of === "" ? whole(one as number, key, 63) : indexOf(["contact", ...NAMES[of].slice(1)], one, key));
+    if (form === "words") fields[key] = given === 0 ? 0 : value(of as keyof typeof NAMES, given, key);
+    else if (form === "set") fields[key] = given === 0 ? 0n : (Array.isArray(given) ? given : [given]).reduce((set: bigint, one) => set | bit(one), 0n);
+    else if (form === "number" && typeof given !== "number") throw new TypeError(`${key}: it must be a number, not ${JSON.stringify(given)}`);
+    else fields[key] = form === "number" ? (given as number) : whole(given as number, key, form === "seed" ? Number.MAX_SAFE_INTEGER : undefined);
+  }
+  return setStruct(memory, at, struct, fields, !stops);
+}
+
 /** A struct as an object: numbers, lists of numbers, and structs in it. */
 export function readStruct<T>(memory: Memory, at: Pointer, struct: StructName): T {
   const { f64, i64, i32 } = memory;
@@ -110,8 +132,7 @@ export function writeBalls(memory: Memory, at: Pointer, balls: readonly ShotBall
     const name = `balls[${k}]`;
     refuseUnknown(ball, KEYS.ball, name);
     writeStruct(memory, ballAt + kind, "carom_ball_kind", ball.kind, `${name}.kind`);
-    const label = (NAMES.carom_label as readonly string[]).indexOf(ball.state.label ?? "stationary");
-    if (label < 0) refuseName(`${name}.state.label`, ball.state.label, NAMES.carom_label);
+    const label = value("carom_label", ball.state.label ?? "stationary", `${name}.state.label`);
     writeStruct(memory, ballAt + state, "carom_ball_state", { ...ball.state, label }, `${name}.state`);
   }
 }
@@ -125,7 +146,7 @@ export function readBalls(memory: Memory, at: Pointer, count: number): ShotBall[
 }
 
 const TABLE = layout.carom_table.offset;
-const TABLE_NUMBERS = ["width", "length", "ballRadius", "railWidth", "pocketBack"] as const;
+const TABLE_NUMBERS = NUMBERS.carom_table.map(([, field]) => field);
 const PARTS = [
   ["rails", TABLE.rails, "carom_rail", TABLE.rail, values.CAROM_RAILS_MOST],
   ["jaws", TABLE.jaws, "carom_jaw", TABLE.jaw, values.CAROM_JAWS_MOST],
@@ -159,7 +180,7 @@ export function readTable(memory: Memory, at: Pointer): Table {
 
 const EVENT = layout.carom_event.offset;
 
-export function readEvent(memory: Memory, at: Pointer, typeName: (type: number) => EventType): ShotEvent {
+export function readEvent(memory: Memory, at: Pointer): ShotEvent {
   const i32 = memory.i32;
   const type = i32[(at + EVENT.type) / 4]!;
   const sides = type === values.CAROM_EVENT_BALL_BALL ? 2 : 1;
@@ -167,7 +188,7 @@ export function readEvent(memory: Memory, at: Pointer, typeName: (type: number) 
     Array.from({ length: sides }, (_, k) => readState(memory, at + begin + k * layout.carom_ball_state.size));
   return {
     time: memory.f64[(at + EVENT.time) / 8]!,
-    type: typeName(type),
+    type: NAMES.carom_event_type[type] as EventType,
     a: i32[(at + EVENT.a) / 4]!,
     b: i32[(at + EVENT.b) / 4]!,
     before: states(EVENT.before),

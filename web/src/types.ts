@@ -28,15 +28,7 @@ export interface Impact {
 
 export type Motion = C.Motion;
 
-/** Options of collisions. */
-export interface CollideOptions {
-  /** "exact" (default): the limit of infinitely many steps. "euler": Mathavan's steps of impulse. */
-  solver?: C.Solver;
-  /** The sign of spin in the slip on the cloth: the 2014 paper's (default), or pooltool's. */
-  slip?: C.Slip;
-  /** Steps of Euler's method; default 1000. */
-  steps?: number;
-}
+export type CollideOptions = C.Options;
 
 /** Two balls after a collision. */
 export interface Collided {
@@ -71,17 +63,7 @@ export type CushionImpact = Optional<C.CushionImpact, Exclude<keyof C.CushionImp
 
 export type CushionModel = C.CushionModel;
 
-/** Options of impacts on cushions. */
-export interface CushionOptions {
-  /** Default "mathavan", the exact limit of the 2010 model. */
-  model?: CushionModel;
-  /** The papers' conventions (default), or pooltool's. */
-  convention?: C.CushionConvention;
-  /** Restitution and friction of the fields (default), or by Han's fits. */
-  law?: C.CushionLaw;
-  /** Steps of Euler's method; default 1000. */
-  steps?: number;
-}
+export type CushionOptions = C.CushionOptions;
 
 /** A game: whose balls, cloth and cue. docs/understanding/constants.md has the source of each number. */
 export type Game = C.Game;
@@ -113,69 +95,21 @@ export type Jaw = Optional<C.Jaw, "muCushion" | "restitution">;
 export type Pocket = C.Pocket;
 
 /** A table of any geometry. The playing surface of the built-in ones is 0 <= x <= width, 0 <= y <= length, in m. */
-export interface Table {
-  width: number;
-  length: number;
-  /** For shots in space, m: the radius of the balls that the table is meant for; 0 (the default): that of the last ball. */
-  ballRadius?: number;
-  /** For shots in space, m: of the tops of the rails, behind the noses; 0 (the default): 0.12, a convention. */
-  railWidth?: number;
-  /** For shots in space, m: how high a ball may fly into the back of a pocket; 0 (the default): the greatest height of a nose. */
-  pocketBack?: number;
+export interface Table extends Optional<Omit<C.Table, Counted>, Exclude<keyof C.Table, Counted | "width" | "length">> {
   rails: Rail[];
   jaws: Jaw[];
   pockets: Pocket[];
 }
+type Counted = "rails" | "jaws" | "pockets" | "rail" | "jaw" | "pocket";
 
 export type Cue = C.Cue;
 
 /** What happened, in the words of files of `carom shoot`. */
-export type EventType =
-  | "stick_ball"
-  | "ball_ball"
-  | "ball_linear_cushion"
-  | "ball_circular_cushion"
-  | "ball_pocket"
-  | "sliding_rolling"
-  | "rolling_spinning"
-  | "rolling_stationary"
-  | "spinning_stationary"
-  | "slate"
-  | "rail_top"
-  | "left_table";
+export type EventType = C.EventType;
 
-/** When a shot is stopped. */
-export interface StopOptions {
-  /** At this time, s, counted from the start of the shot, with the status "stopped_at_time". 0 (default): it is not. */
-  timeMost?: number;
-  /**
-   * Right after an event of this type, or of one of these, with the status "stopped_at_event". "contact" is the contact of the cue ball with
-   * another ball. Default: after none.
-   */
-  stopAt?: "contact" | EventType | readonly ("contact" | EventType)[];
-  /** Bound of events; default 10000. A shot with more fails with "too_many_events". */
-  eventsMost?: number;
-}
+export type StopOptions = C.StopOptions;
 
-/** Options of shots. */
-export interface ShotOptions extends StopOptions {
-  /** The rules of contact: carom's (default), or pooltool's. */
-  world?: C.World;
-  /** The collision of two balls; default exact in the world carom. */
-  ballModel?: C.BallModel;
-  /** The impact on a cushion; default smooth for balls with its numbers, else han. "mathavan", the exact limit, takes more than ten times as long. */
-  cushionModel?: C.ShotCushion;
-  /** "3d" (default): balls hop, jump and leave the table. "flat": they stay on the cloth. */
-  space?: C.Space;
-  /** Contacts of several balls at one instant: they last and overlap in time (default), or they are resolved one after the other. */
-  simultaneous?: C.Simultaneous;
-  /** Of the integrator of clusters, for the duration of a contact; default 25. */
-  clusterSteps?: number;
-  /** Between balls: by their speed of slip (default), or muBall. */
-  friction?: C.BallFriction;
-  /** Of Euler's models; default 1000. */
-  steps?: number;
-}
+export type ShotOptions = C.ShotOptions;
 
 /** One event of a shot. */
 export interface ShotEvent {
@@ -206,7 +140,7 @@ export interface Contact {
   event: ShotEvent;
 }
 
-export type TableName = "7ft" | "8ft" | "9ft" | "snooker" | "threecushion" | "pooltool";
+export type TableName = C.TableKind;
 export type RackName = C.RackKind;
 
 /** How the strokes of a player differ from those that are meant. What is missing is 0. */
@@ -254,15 +188,11 @@ export interface Aim {
 }
 
 /** Options of plans. */
-export interface PlanOptions extends Partial<GameState> {
+export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   /** Default: `player()`. */
   player?: Player;
   /** Default: as the player. */
   opponent?: Player;
-  /** That a plan plays, about: 100 to 1,000,000. Default 2000. */
-  shots?: number;
-  /** Of the errors of strokes. Default 0. */
-  seed?: number;
   /** Whether the cue ball is in hand: `place` says where to put it. Two corners of a rectangle, m: there alone. */
   inHand?: boolean | readonly [Vec2, Vec2];
   /** How many choices at most; default 5. */

@@ -206,7 +206,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const changed = carom.simulate(table, balls, { speed: 20 }, { timeMost: 0.01 });
     (changed.balls[1]!.kind as { mass: number }).mass *= 1.1;
     expect(() => carom.continue(changed)).toThrow(expect.objectContaining({ status: "other_balls", shot: undefined }));
-    expect(() => carom.continue(first, { cushionModel: "han" } as never)).toThrow("cushionModel: there is no such key; there are timeMost, stopAt, eventsMost");
+    expect(() => carom.continue(first, { cushionModel: "han" } as never)).toThrow("cushionModel: there is no such key; there are timeMost, stopAt, firstOf, eventsMost");
     const batch = carom.shots(table, balls, 1, { room: 64 });
     carom.simulateBatch(batch, { timeMost: 0.01 });
     expect(() => carom.continue(batch.shot(0))).toThrow(/^shot: only what simulate\(\) or continue\(\) stopped can go on, .*"stopped_at_time"/);

@@ -14,7 +14,6 @@ const note = "// Written by tools/generate.mjs from the headers and rows of the 
 const sources = readdirSync("src").filter((name) => name.endsWith(".ts")).map((name) => readFileSync(`src/${name}`, "utf8")).join("");
 const isNamed = (name) => new RegExp(`\\b${name}\\b`).test(sources);
 const byName = new Map(api.structs.map((one) => [one.name, one]));
-const prefixes = [...sources.matchAll(/"(CAROM_\w+_)"/g)].map(([, prefix]) => prefix);
 
 /** What a field is made of: numbers of 64 or 32 bits, another struct, or nothing that is converted. */
 function kindOf({ name, type, pointer }) {
@@ -37,33 +36,46 @@ for (const { name, fields, wasm32 } of api.structs.filter(({ name }) => wanted.h
   const numbers = (list) => Object.fromEntries(keys.map((key, k) => [key, list[k]]));
   structs[name] = { size: wasm32.size, offset: numbers(wasm32.offsets), bytes: numbers(wasm32.sizes), type: numbers(fields.map(kindOf)) };
 }
-const enumerators = [...api.enums.flatMap((one) => one.values), ...api.constants].filter(
-  ({ name, value }) => Number.isInteger(value) && (isNamed(name) || prefixes.some((prefix) => name.startsWith(prefix))),
-);
+const enumerators = [...api.enums.flatMap((one) => one.values), ...api.constants].filter(({ name, value }) => Number.isInteger(value) && isNamed(name));
 const values = Object.fromEntries(enumerators.sort((a, b) => (a.name < b.name ? -1 : 1)).map(({ name, value }) => [name, value]));
 
-/** The ends of the names of an enumeration: ["stationary", "spinning", ...]. */
-function names({ values }) {
+/** The words of an enumeration, or else the ends of its names: ["stationary", "spinning", ...]. */
+const worded = new Map(api.enums.find(({ name }) => name === "carom_words").values.map(({ name, comment }) => [name.replace("CAROM_WORDS_", ""), comment.match(/carom_\w+/)[0]]));
+const words = new Map(Object.entries(rows.words).map(([of, list]) => [worded.get(of), list.map(([word]) => word)]));
+function names({ name, values }) {
+  if (words.has(name)) return words.get(name);
   let common = values[0].name;
   while (!values.every(({ name }) => name.startsWith(common))) common = common.slice(0, -1);
   common = common.slice(0, common.lastIndexOf("_") + 1);
   return values.map(({ name }) => name.slice(common.length).toLowerCase());
 }
-/** The enumerations whose names the package's sources look up. */
+const enums = Object.fromEntries(api.enums.map((one) => [one.name, names(one)]));
+
+/** The options of calls and the numbers of a ball's cushions; the package has neither threads nor instruction sets. */
+const options = {};
+for (const [struct, list] of Object.entries(rows.options)) {
+  const numbers = rows.numbers.filter(({ of_cushion }) => of_cushion && struct === "carom_cushion_options").map((one) => ({ ...one, form: "number" }));
+  options[struct] = [...list, ...numbers]
+    .filter(({ name }) => name !== "threads" && name !== "plain")
+    .map((one) => ({ ...one, key: camel(one.name), of: one.words ? worded.get(one.words) : "" }));
+}
+
+/** The enumerations whose names the package looks up, by their values: "" is none. */
+const asked = new Set(Object.values(options).flat().map(({ of }) => of));
 const named = Object.fromEntries(
   api.enums
-    .filter(({ name }) => new RegExp(`names\\.${name}\\b`, "i").test(sources))
-    .map((one) => {
-      if (one.values.some(({ value }, k) => value !== k)) throw new Error(`${one.name}: its values are not 0, 1, 2, ...`);
-      return [one.name, names(one)];
+    .filter(({ name }) => asked.has(name) || new RegExp(`(names\\.|")${name}\\b`, "i").test(sources))
+    .map(({ name, values }) => {
+      const [{ value: first }] = values;
+      if (values.some(({ value }, k) => value !== first + k)) throw new Error(`${name}: its values are not ${first}, ${first + 1}, ...`);
+      return [name, [...Array(first).fill(""), ...enums[name]]];
     }),
 );
-const enums = Object.fromEntries(api.enums.map((one) => [one.name, names(one)]));
 
 // Comments speak of fields; these have their names in TypeScript.
 const known = new Set(api.structs.flatMap(({ fields }) => fields.map(({ name }) => name)));
-const words = (comment) => comment.replace(/\b[a-z]+(_[a-z]+)+\b/g, (name) => (known.has(name) ? camel(name) : name)).replaceAll("*/", "");
-const comment = (text, indent) => (text ? `${indent}/** ${words(text)} */\n` : "");
+const said = (comment) => comment.replace(/\b[a-z]+(_[a-z]+)+\b/g, (name) => (known.has(name) ? camel(name) : name)).replaceAll("*/", "");
+const comment = (text, indent) => (text ? `${indent}/** ${said(text)} */\n` : "");
 const isEnum = new Set(api.enums.map(({ name }) => name));
 const isStruct = new Set(api.structs.map(({ name }) => name));
 
@@ -76,19 +88,40 @@ function typeOf({ type, array = [], pointer }) {
 }
 let types = `${note}import type { Vec2, Vec3 } from "../types.js";\n`;
 for (const [name, ends] of Object.entries(enums)) types += `\nexport type ${pascal(name)} = ${ends.map((end) => `"${end}"`).join(" | ")};\n`;
-for (const one of api.structs) {
+for (const one of api.structs.filter(({ name }) => !(name in options))) {
   const fields = one.fields.filter((field) => !/^(reserved|unused|opaque)$/.test(field.name) && typeOf(field));
   const lines = fields.map((field) => `${comment(field.comment, "  ")}  ${camel(field.name)}: ${typeOf(field)};\n`);
   types += `\n${comment(one.comment, "")}export interface ${pascal(one.name)} {\n${lines.join("")}}\n`;
 }
+
+/** The type of an option by its form. */
+function typeOfOption({ form, of }) {
+  if (form === "words") return pascal(of);
+  if (form === "set") return of ? `"contact" | ${pascal(of)} | readonly ("contact" | ${pascal(of)})[]` : "number | readonly number[]";
+  return form === "flag" ? "boolean" : "number";
+}
+const optionLines = (list) => list.map((one) => `${comment(/words|set/.test(one.form) ? one.text : `${one.text}; ${one.range}`, "  ")}  ${one.key}?: ${typeOfOption(one)};\n`).join("");
+const [toStop, others] = [true, false].map((stop) => options.carom_shot_options.filter(({ group }) => (group === "stop") === stop));
+types += `\n/** When a shot is stopped. */\nexport interface StopOptions {\n${optionLines(toStop)}}\n`;
+for (const [struct, list] of Object.entries(options)) {
+  const shot = struct === "carom_shot_options";
+  types += `\n${comment(byName.get(struct).comment, "")}export interface ${pascal(struct)} ${shot ? "extends StopOptions " : ""}{\n${optionLines(shot ? others : list)}}\n`;
+}
 writeFileSync(`${out}/structs.ts`, types);
+
+/** Numbers of structs: the key in lines, and the field. */
+const numbers = Object.fromEntries(
+  ["carom_ball_kind", "carom_cue", "carom_table"].map((struct) => [struct, (rows.parts[struct] ?? rows.numbers).map(({ key, name }) => [key, camel(name)]).filter(([key]) => key)]),
+);
+const layoutOptions = Object.fromEntries(Object.entries(options).map(([struct, list]) => [struct, list.map(({ key, form, of, group }) => ({ key, form, of, stop: group === "stop" }))]));
 writeFileSync(
   `${out}/layout.ts`,
   `${note}/** Sizes of the structs in bytes; offsets, sizes and types of their fields. */\n` +
     `export const layout = ${JSON.stringify(structs, null, 1)} as const;\n` +
     `/** Values of the enumerators. */\nexport const values = ${JSON.stringify(values, null, 1)} as const;\n` +
-    `/** Numbers of a ball: the key in lines, and the field. */\nexport const numbers = ${JSON.stringify(rows.numbers.map(({ key, name }) => [key, camel(name)]))} as const;\n` +
-    `/** Names of enumerators, by their values. */\nexport const names = ${JSON.stringify(named, null, 1)} as const;\n`,
+    `/** Numbers of a ball, a cue and a table: the key in lines, and the field. */\nexport const numbers = ${JSON.stringify(numbers)} as const;\n` +
+    `/** Options of calls: their form, the enumeration of their words, and whether they say when a shot is stopped. */\nexport const options = ${JSON.stringify(layoutOptions)} as const;\n` +
+    `/** Words or names of enumerators, by their values. */\nexport const names = ${JSON.stringify(named, null, 1)} as const;\n`,
 );
 for (const name of ["plain", "simd"]) {
   // The type is written out: else the declarations would have the module once more.
