@@ -20,7 +20,7 @@ def anchors(page):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)$", text, flags=re.M)}
 
 
-skipped = {"build", ".git", "__pycache__", "node_modules"}
+skipped = {"build", "dist", ".git", "__pycache__", "node_modules"}
 files = [path for path in sorted(SOURCE.rglob("*")) if path.is_file() and not any(part in skipped or part.startswith("build-")
                                                                                 for part in path.relative_to(SOURCE).parts)]
 wrong, links = [], 0
