@@ -5,6 +5,7 @@
 #include "manual.h"
 #include "message.h"
 #include "output.h"
+#include "report.h"
 #include "words.h"
 
 #include <fcntl.h>
@@ -21,8 +22,11 @@ static void print_help(FILE *to, const program *p) {
   fprintf(to, "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n", p->name,
           p->name);
   if (p->cites != NULL)
-    fprintf(to, "`%s --cite` lists what to cite, as BibTeX, with the models of `%s`.\n", p->name,
-            p->cites);
+    fprintf(
+        to,
+        "`%s --cite` lists what to cite, as BibTeX, with the models of `%s`,\n`%s --report` what "
+        "a report of a bug needs.\n",
+        p->name, p->cites, p->name);
   fprintf(to, "\nexample:\n  %s\n", p->example);
 }
 
@@ -36,10 +40,12 @@ static void print_manual(FILE *to, const program *p) {
   manual_section(to, "OPTIONS", "");
   manual_item(to, "--help", NULL, "the commands; behind a command, its arguments");
   manual_item(to, "--version", NULL, "the version");
-  if (p->cites != NULL)
+  if (p->cites != NULL) {
     manual_item(to, "--cite", NULL,
                 "what to cite, as BibTeX: the sources of the models of shots; options such as "
                 "--cushion choose them");
+    manual_item(to, "--report", NULL, "what a report of a bug needs: versions, system, processor");
+  }
   manual_section(to, "ENVIRONMENT", "");
   manual_item(to, "CAROM_ISA", NULL,
               "the largest instruction set to use: plain, sse2, avx2 or avx512; on arm64 plain or "
@@ -120,6 +126,8 @@ int program_run(const program *p, int argc, char **argv) {
     printf("%s %s\n", p->name, carom_version());
     return finish(EXIT_GOOD);
   }
+  if (p->cites != NULL && strcmp(name, "--report") == 0)
+    return finish(print_report(p->name));
   const bool cite = p->cites != NULL && strcmp(name, "--cite") == 0;
   if (cite) /* an argument of that command, as what follows */
     name = p->cites;
@@ -130,7 +138,7 @@ int program_run(const program *p, int argc, char **argv) {
       return finish(p->commands[k].run(argc - !cite, argv + !cite));
   char words[256] = "--help|--version", hint[HINT_TEXT];
   if (p->cites != NULL)
-    strcat(words, "|--cite");
+    strcat(words, "|--cite|--report");
   for (size_t k = 0; k < p->count; k++)
     snprintf(words + strlen(words), sizeof words - strlen(words), "|%s", p->commands[k].name);
   complain("no command '%s'; `%s --help` lists them%s", name, p->name,

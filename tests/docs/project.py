@@ -31,7 +31,7 @@ def toml(path):
 run(sys.executable, SOURCE / "tools/project.py", "--check")
 with tempfile.TemporaryDirectory() as work:
     work = Path(work)
-    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "CITATION.cff", "cmake", "include", "src", "cli", "packaging", "tools"):
+    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "CITATION.cff", "cmake", "include", "src", "cli", "data", "packaging", "tools"):
         (shutil.copytree if (SOURCE / part).is_dir() else shutil.copy)(SOURCE / part, work / part)
     for part in ("python/pyproject.toml", "web/package.json", "bindings/csharp/package.json", "bindings/rust/carom/Cargo.toml", "bindings/rust/carom-sys/Cargo.toml"):
         (work / part).parent.mkdir(parents=True)
@@ -76,6 +76,9 @@ with tempfile.TemporaryDirectory() as work:
     run(CC, "-Iinclude", "-Icli", "cli/main.c", "cite.o", *libraries, "-o", "b/carom", cwd=work)
     said = run("b/carom", "--cite", cwd=work)
     assert "author = {Kö, Zoë and Doe, Jo},\n  url = {https://example.org/carom.git},\n  year = {2031},\n" in said, said
+    run("cmake", "-S", work, "-B", work / "c", "-G", "Ninja", f"-DCMAKE_C_COMPILER={CC}", "-DCAROM_CLI=ON", "-DCAROM_ISAS=none")
+    compiled = json.loads((work / "c/compile_commands.json").read_text(encoding="utf-8"))
+    assert any(f'CAROM_TRACKER=\\"{FIELDS["tracker"]}\\"' in entry["command"] for entry in compiled if entry["file"].endswith("report.c"))
     run(sys.executable, SOURCE / "tests/docs/cite.py", work, work / "b", env={**os.environ, "UPDATE": "1"})
     cff = (work / "CITATION.cff").read_text(encoding="utf-8")
     people = "".join(f"  - family-names: {last}\n    given-names: {first}\n" for last, first in (("Kö", "Zoë"), ("Doe", "Jo")))
