@@ -73,7 +73,10 @@ def written(root, project):
         yield name, with_lines((root / name).read_text(encoding="utf-8"), anchor, wanted)
     readme = (root / "README.md").read_text(encoding="utf-8")
     clone = f"`git clone {p['address']} carom`; " if p["address"] else ""
-    yield "README.md", re.sub(r"(?<=In a clone of this repository \().*(?=it takes a minute\))", clone, readme)
+    yield "README.md", re.sub(r"(?<=In a clone of this repository \().*(?=it takes a minute\))", lambda _: clone, readme)
+    security = (root / "SECURITY.md").read_text(encoding="utf-8")
+    to = p["contact"] or "the owner of the repository"
+    yield "SECURITY.md", re.sub(r"(?<=^Report a weakness to ).*(?=, not in public)", lambda _: to, security, flags=re.M)
     holder = f"Copyright {p['year']} {p['copyright']}\n".replace("  ", " ") if p["copyright"] else ""
     yield "NOTICE", f"carom: billiards, computed\n{holder}\nLicensed under the Apache License, version 2.0 (LICENSE).\n"
     cited = "".join(f"  {key} = {{{value}}},\\n" for key, value in (("url", p["address"]), ("year", p["year"])) if value)

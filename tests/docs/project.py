@@ -31,7 +31,7 @@ def toml(path):
 run(sys.executable, SOURCE / "tools/project.py", "--check")
 with tempfile.TemporaryDirectory() as work:
     work = Path(work)
-    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "CITATION.cff", "cmake", "include", "src", "cli", "data", "packaging", "tools"):
+    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "SECURITY.md", "CITATION.cff", "cmake", "include", "src", "cli", "data", "packaging", "tools"):
         (shutil.copytree if (SOURCE / part).is_dir() else shutil.copy)(SOURCE / part, work / part)
     for part in ("python/pyproject.toml", "web/package.json", "bindings/csharp/package.json", "bindings/rust/carom/Cargo.toml", "bindings/rust/carom-sys/Cargo.toml"):
         (work / part).parent.mkdir(parents=True)
@@ -66,6 +66,7 @@ with tempfile.TemporaryDirectory() as work:
     assert npm["repository"]["url"] == "git+" + FIELDS["address"] and csharp["documentationUrl"] == FIELDS["address"]
     assert "Copyright 2031 The Example Society\n" in (work / "NOTICE").read_text(encoding="utf-8")
     assert "(`git clone https://example.org/carom.git carom`; it takes" in (work / "README.md").read_text(encoding="utf-8")
+    assert "Report a weakness to Zoë Kö <zoe@example.org>, not" in (work / "SECURITY.md").read_text(encoding="utf-8")
     conan = (work / "packaging/conan/conanfile.py").read_text(encoding="utf-8")
     assert '    author = "Zoë Kö, Jo Doe"\n    url = "https://example.org/carom.git"\n' in conan
 
