@@ -153,7 +153,7 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
     snprintf(rest, room,
              "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on",
              tip_of(&line->cue), line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
-  else if (bad == CAROM_ERROR_OFF_TABLE && f.part.kind == CAROM_PART_BALL) {
+  else if (bad == CAROM_ERROR_OFF_TABLE && at >= 0 && at < line->count) {
     const double *r = line->ball[at].state.r, R = line->ball[at].kind.radius;
     size = snprintf(rest, room, "%s", carom_status_string(bad));
     if (fabs(r[2] - R) > 1e-6)

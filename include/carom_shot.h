@@ -977,7 +977,7 @@ CAROM_API const carom_number *carom_ball_fault(const carom_ball_kind *kind, char
 typedef struct carom_fault {
   carom_status status;     /* CAROM_OK: nothing. */
   carom_part part;         /* what is at fault; of balls CAROM_PART_BALL or CAROM_PART_STATE. */
-  int32_t element;         /* of an array, which number. */
+  int32_t element;         /* of an array, which number; -1: all together. */
   const carom_number *row; /* the number of the part; NULL: none alone. */
   double value;            /* that it has. */
 } carom_fault;

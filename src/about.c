@@ -300,17 +300,37 @@ static double value_of(const carom_number *n, const void *object, int k) {
   }
 }
 
+/* The status of the numbers that a status is about, beside others. */
+static carom_status status_of_numbers(carom_status status) {
+  switch (status) {
+  case CAROM_ERROR_OVERLAP:
+  case CAROM_ERROR_OFF_TABLE:
+    return CAROM_ERROR_POSITION;
+  case CAROM_ERROR_VERTICAL:
+    return CAROM_ERROR_VELOCITY;
+  case CAROM_ERROR_RADII_DIFFER:
+    return CAROM_ERROR_RADIUS;
+  case CAROM_ERROR_MASSES_DIFFER:
+    return CAROM_ERROR_MASS;
+  case CAROM_ERROR_CUE_BALL_OUT:
+    return CAROM_ERROR_CUE_BALL;
+  default:
+    return status;
+  }
+}
+
 /* Blames the first number of a part that has the status of the fault and is outside its range; or
  * with `within` is in it, so that it is at fault beside others. */
 static bool blame(carom_fault *f, carom_part_kind part, int index, const void *object,
                   bool within) {
+  const carom_status status = within ? status_of_numbers(f->status) : f->status;
   const carom_number *n;
   for (int k = 0; (n = carom_number_of(part, k)) != NULL; k++)
-    for (int j = 0; j < n->count && n->error == f->status; j++) {
+    for (int j = 0; j < n->count && n->error == status; j++) {
       const double x = value_of(n, object, j);
       if (within != ((x >= n->low && x <= n->high) || x == n->other))
         continue;
-      *f = (carom_fault){f->status, {part, index}, j, n, x};
+      *f = (carom_fault){f->status, {part, index}, within && n->count > 1 ? -1 : j, n, x};
       return true;
     }
   return false;
@@ -351,7 +371,8 @@ carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls
     *fault = (carom_fault){n->error, {CAROM_PART_BALL, at}, 0, n, value_of(n, &balls[at].kind, 0)};
   else if (!(cue != NULL && blame(fault, CAROM_PART_CUE, 0, cue, true)) && ball &&
            fault->status != CAROM_ERROR_TABLE && fault->status != CAROM_ERROR_NOSE_HEIGHT &&
-           !blame(fault, CAROM_PART_STATE, at, &balls[at].state, true))
+           !blame(fault, CAROM_PART_STATE, at, &balls[at].state, true) &&
+           !blame(fault, CAROM_PART_BALL, at, &balls[at].kind, true))
     fault->part = (carom_part){CAROM_PART_BALL, at};
   return fault->status;
 }

@@ -2,12 +2,14 @@
 
 import re
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import carom
-from carom import _shot_options, collisions, cushions, tracks
+from carom import tracks
+from carom._carom import ffi, lib
 from carom._rows import numbered
 from carom.potting import Potting
 from carom.record import Recorder
@@ -22,16 +24,7 @@ POCKETED["state"]["label"][3] = carom.Label.POCKETED
 MASKED = np.ma.masked_array(ROWS, mask=np.zeros_like(ROWS, bool))
 
 
-def test_names_of_options_are_those_of_c():
-    pairs = [
-        (_shot_options.World, "carom_world"), (_shot_options.BallModel, "carom_ball_model"), (_shot_options.ShotCushion, "carom_shot_cushion"),
-        (_shot_options.Friction, "carom_ball_friction"), (_shot_options.Space, "carom_space"), (_shot_options.Simultaneous, "carom_simultaneous"),
-        (collisions.Solver, "carom_solver"), (collisions.Slip, "carom_slip"), (cushions.CushionModel, "carom_cushion_model"),
-        (cushions.CushionConvention, "carom_cushion_convention"), (cushions.CushionLaw, "carom_cushion_law"),
-    ]  # fmt: skip
-    for names, enum in pairs:
-        assert names.__args__ == tuple(numbered(enum)), enum
-    assert _shot_options.StopAt.__args__ == ("contact", *numbered("carom_event_type"))
+def test_names_of_events_and_labels_are_those_of_c():
     for members, enum in ((carom.Label, "carom_label"), (carom.EventType, "carom_event_type")):
         assert {member.name.lower(): member.value for member in members} == numbered(enum)
 
@@ -47,6 +40,23 @@ def balls(**fields):
 def billiard(**fields):
     return carom.simulate(carom.tables.threecushion(), carom.balls([[0.7, 1.0]], game="billiard", **fields))
 
+
+def spoiled():
+    table = carom.tables.pool_9ft()
+    table.record["rail"]["restitution"][..., 3] = np.nan
+    return table
+
+
+def rows_of(part):
+    """The numbers of a part, with their ranges."""
+    k, text = 0, ffi.new("char[]", 100)
+    while (row := lib.carom_number_of(part, k)) != ffi.NULL:
+        lib.carom_number_range(row, text, 100)
+        yield SimpleNamespace(name=ffi.string(row.name).decode(), range=ffi.string(text).decode(), error=row.error)
+        k += 1
+
+
+ROWS_OF_CUE, ROWS_OF_BALL = (list(rows_of(part)) for part in (lib.CAROM_PART_CUE, lib.CAROM_PART_BALL))
 
 VALUES = [
     # collisions and cushions
@@ -158,18 +168,9 @@ FIELDS = [
     (r"mu_ball = 2\.0", lambda: carom.collide(carom.impacts(v_a=(1, 0, 0), r_b=(0.05715, 0, 0), mu_ball=2.0))),
     (r"mu_cushion = 3\.0", lambda: carom.cushion(carom.cushion_impacts(v=(0, 1, 0), mu_cushion=3.0))),
     (r"mu_cushion = 3\.0", lambda: carom.cushion_trace(carom.cushion_impacts(v=(0, 1, 0), mu_cushion=3.0))),
-    (r"cue\.speed = nan: it must be 0 to 1000 m/s", lambda: shot(speed=np.nan)),
-    (r"cue\.speed = -1\.0: it must be 0", lambda: shot(speed=-1.0)),
-    (r"cue\.phi = inf: .* direction", lambda: shot(phi=np.inf)),
-    (r"cue\.theta = 91\.0: .*0 to 90 degrees", lambda: shot(theta=91.0)),
-    (r"cue\.mass = 0\.0: .*positive", lambda: shot(mass=0.0)),
-    (r"cue\.end_mass = inf: .*positive and finite", lambda: shot(end_mass=np.inf)),
-    (r"cue\.ball = 99: it must be the index of one of the balls", lambda: shot(ball=99)),
-    (r"cue\.ball = -1: .* counted from 0", lambda: shot(ball=-1)),
+    *((rf"cue\.{row.name} = {value}: it must be {re.escape(row.range)}$", lambda row=row, value=value: shot(**{row.name: value}))
+      for row in ROWS_OF_CUE if row.error not in (0, lib.CAROM_ERROR_MISCUE) for value in ([99, -1] if row.name == "ball" else [np.nan])),
     (r"cue\.ball = 3: it must be in play", lambda: shot(ball=3)),
-    (r"cue\.tip_time = 0\.02: it must be 0 to 0\.01 s, or -1", lambda: shot(tip_time=0.02)),
-    (r"cue\.tip_restitution = 1\.1: it must be 0 to 1", lambda: shot(tip_restitution=1.1)),
-    (r"cue\.miscue = 1\.1: it must be 0 to 1", lambda: shot(miscue=1.1)),
     (r"cue\.a, cue\.b = 0\.8, 0\.8: the tip misses the ball: .* must be below", lambda: shot(a=0.8, b=0.8)),
     (r"cue\.a, cue\.b = 0\.3, 0\.4: .*miscue", lambda: shot(a=0.3, b=0.4, miscue=0.5)),
     (r"cue\.phi = 1e\+308: ", lambda: carom.struck(carom.cue(phi=1e308), RACK[0]["kind"])),
@@ -179,15 +180,12 @@ FIELDS = [
     (r"balls = 40: the count of balls must be 1 to 32", lambda: carom.simulate(TABLE, np.repeat(RACK, 4))),
     (r"layouts = 40: the count of balls must be 1 to 32", lambda: carom.simulate_batch(TABLE, np.repeat(RACK, 4))),
     (r"x, y = nan, 0\.5: a position must be finite", lambda: carom.place_ball(TABLE, RACK, 0, np.nan, 0.5)),
-    (r"balls\[1\]\.kind\.mass = -1\.0: ", lambda: balls(mass=[0.17, -1.0])),
-    (r"balls\[0\]\.kind\.mu_roll = 0\.0: it must be above 0 and at most 1", lambda: balls(mu_roll=0.0)),
-    (r"balls\[0\]\.kind\.restitution_cushion = 2\.0: ", lambda: balls(restitution_cushion=2.0)),
-    (r"balls\[0\]\.kind\.restitution_table = 0\.99: it must be -1, or 0 to 0\.98", lambda: balls(restitution_table=0.99)),
+    *((rf"balls\[1\]\.kind\.{row.name} = nan: it must be {re.escape(row.range)}$", lambda row=row: balls(**{row.name: [RACK[0]["kind"][row.name], np.nan]}))
+      for row in ROWS_OF_BALL),
     (r"balls\[1\]\.state\.v = \[ ?0\. nan ", lambda: balls(v=[[0, 0, 0], [0, np.nan, 0]])),
     (r"balls\[1\]\.state\.r = \[-0\.5", lambda: balls(r=[[0.5, 0.5], [-0.5, 0.5]])),
-    *((rf"balls\[0\]\.kind\.{name}", lambda name=name, value=value: billiard(**{name: value}))
-      for name, value in (("drag", 2.0), ("roll_loss", -0.1), ("law_b", 1.5), ("law_c", np.inf), ("nose_height", 0.07), ("omega_ratio", 2.0),
-                          ("modulus", 1e5), ("restitution_log", 2.0), ("mu_log", -2.0), ("gravity", 0.0), ("smooth_q", 1.0), ("smooth_k", 2.0))),
+    (r"balls\[0\]\.kind\.nose_height = 0\.07: it must be below 2 R", lambda: billiard(nose_height=0.07)),
+    (r"table\.rails\[3\]\.restitution = nan: it must be 0 to 1", lambda: carom.simulate(spoiled(), RACK, CUE)),
 ]  # fmt: skip
 
 CASES = [(kind, *case) for kind, cases in ((ValueError, VALUES), (TypeError, TYPES), (carom.CaromError, FIELDS)) for case in cases]

@@ -1,7 +1,7 @@
 // The library: every call of C that the package offers.
 import { Collisions, type Library, Shots } from "./batches.js";
 import { CaromError } from "./error.js";
-import { layout, values } from "./generated/layout.js";
+import { layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { Build, Memory, Pointer } from "./memory.js";
@@ -64,6 +64,7 @@ const CUSHION_OPTIONS = layout.carom_cushion_options;
 const SHOT = layout.carom_shot;
 const SHOT_OPTIONS = layout.carom_shot_options;
 const EVENT = layout.carom_event;
+const FAULT = layout.carom_fault;
 const BALLS_MOST = values.CAROM_BALLS_MOST;
 
 const STICK = ["never", "in compression", "in restitution"] as const;
@@ -97,7 +98,7 @@ export class Carom {
   readonly #reader: Reader;
   readonly #plans: Plans;
   readonly #recordings: RecordingHost;
-  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number", Pointer>;
+  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number" | "fault" | "text", Pointer>;
   #points: Pointer = 0;
   #pointRoom = 0;
   #events: Pointer = 0;
@@ -123,6 +124,8 @@ export class Carom {
       state: memory.allocate(layout.carom_shot_state.size),
       motion: part(BALLS_MOST * 32),
       number: part(64),
+      fault: part(FAULT.size),
+      text: part(128),
     };
     this.#library = {
       memory,
@@ -393,7 +396,9 @@ export class Carom {
   #part(at: Pointer): string {
     const kind = this.#memory.i32[(at + layout.carom_part.offset.kind) / 4]!;
     const index = this.#memory.i32[(at + layout.carom_part.offset.index) / 4]!;
-    return kind === 0 ? "table" : `${["", "table.rails", "table.jaws", "table.pockets", "balls"][kind]}[${index}]`;
+    const name = names.carom_part_kind[kind]!;
+    if (name === "ball" || name === "state") return `balls[${index}]`;
+    return name === "cue" ? name : name === "options" ? "" : name === "none" || name === "table" ? "table" : `table.${name}s[${index}]`;
   }
 
   /**
@@ -518,10 +523,7 @@ export class Carom {
       if (this.#count() <= this.#room) break;
       this.#needRoom(this.#count());
     }
-    if (code < 0 && this.#count() === 0) {
-      this.#call.carom_shot_check(at.table, at.balls, balls.length, cueAt, opt, at.number);
-      throw this.#error(code, this.#where(code, this.#memory.i32[at.number / 4]!));
-    }
+    if (code < 0 && this.#count() === 0) throw this.#shotError(at.table, at.balls, balls.length, cueAt, opt);
     return this.#ended(table, balls.map((ball) => ({ ...ball, kind: { ...ball.kind }, state: { ...ball.state } })), code);
   }
 
@@ -566,10 +568,20 @@ export class Carom {
     return shot;
   }
 
-  #where(code: number, index: number): string | undefined {
-    if (code === values.CAROM_ERROR_MISCUE) return "cue.a, cue.b";
-    if (index < 0) return undefined;
-    return code === values.CAROM_ERROR_TABLE || code === values.CAROM_ERROR_NOSE_HEIGHT ? `table, part ${index}` : `balls[${index}]`;
+  /** What carom_shot_fault() says of arguments that it refuses: the number at fault, its value, and what it must be. */
+  #shotError(...args: [table: Pointer, balls: Pointer, count: number, cue: Pointer, options: Pointer]): CaromError {
+    const { fault, text } = this.#at;
+    const code = this.#call.carom_shot_fault(...args, fault, text, 128);
+    const row = this.#memory.u32[(fault + FAULT.offset.row) / 4]!;
+    const part = this.#part(fault + FAULT.offset.part);
+    if (code === values.CAROM_ERROR_MISCUE) return this.#error(code, "cue.a, cue.b");
+    if (row === 0) return this.#error(code, part === "table" && code !== values.CAROM_ERROR_TABLE ? undefined : part);
+    const kind = names.carom_part_kind[this.#memory.i32[(fault + FAULT.offset.part) / 4]!];
+    const name = this.#memory.text(this.#memory.u32[(row + layout.carom_number.offset.name) / 4]!)!.replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());
+    const field = [part, kind === "ball" ? "kind" : kind === "state" ? kind : "", name].filter(Boolean).join(".");
+    const must = this.#memory.text(text);
+    if (must) return this.#error(code, field, undefined, `it must be ${must}, not ${this.#memory.f64[(fault + FAULT.offset.value) / 8]}`);
+    return this.#error(code, field, undefined, this.#memory.text(this.#call.carom_status_string(code))!.replace(/^\w+\.\w+ must/, "it must"));
   }
 
   #played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer, kept?: Kept): Shot {
@@ -628,7 +640,7 @@ export class Carom {
     writeStruct(this.#memory, at, "carom_cue", this.#cue(cue), "cue");
     writeStruct(this.#memory, detail, "carom_ball_kind", kind, "kind");
     const code = this.#call.carom_strike(at, detail, motion);
-    if (code < 0) throw this.#error(code, this.#where(code, -1));
+    if (code < 0) throw this.#error(code, code === values.CAROM_ERROR_MISCUE ? "cue.a, cue.b" : undefined);
     return readMotion(this.#memory.f64, motion);
   }
 

@@ -41,9 +41,9 @@ test.each(options)("option $key of $struct", ({ key, form, words, call }) => {
   expect(() => call({ [`${key}x`]: 1 })).toThrow("there is no such key; did you mean");
 });
 
-test.each(rows.numbers.map((row) => ({ ...row, field: camel(row.name) as keyof BallKind })))("number $name of a ball", ({ field, key, of_cushion }) => {
+test.each(rows.numbers.map((row) => ({ ...row, field: camel(row.name) as keyof BallKind })))("number $name of a ball", ({ field, key, of_cushion, range }) => {
   expect(carom.kind("pool")[field]).toBeTypeOf("number");
-  expect(() => carom.simulate(table, [{ ...balls[0]!, kind: { ...balls[0]!.kind, [field]: NaN } }])).toThrow(/^balls\[0\]/);
+  expect(() => carom.simulate(table, [{ ...balls[0]!, kind: { ...balls[0]!.kind, [field]: NaN } }])).toThrow(`balls[0].kind.${field}: it must be ${range}, not NaN`);
   // In a line it is as it was.
   const kind = { ...balls[0]!.kind, [field]: 0.125 };
   const line = toLine({ tableName: "9ft", balls: [{ ...balls[0]!, kind }], cue: carom.cue() });
@@ -55,11 +55,21 @@ test.each(rows.numbers.map((row) => ({ ...row, field: camel(row.name) as keyof B
   }
 });
 
-test.each(rows.parts.carom_cue!.filter(({ name }) => name !== "ball").map((row) => ({ ...row, field: camel(row.name) })))("number $name of a cue", ({ field, key }) => {
+test.each(rows.parts.carom_cue!.filter(({ name }) => name !== "ball").map((row) => ({ ...row, field: camel(row.name) })))("number $name of a cue", ({ field, key, range }) => {
+  // The tip is checked with its place on the ball, and its radius by nobody.
+  if (field !== "tipRadius") expect(() => carom.simulate(table, balls, { [field]: NaN })).toThrow(field.length === 1 ? /^cue.a, cue.b: the tip misses/ : `cue.${field}: it must be ${range}, not NaN`);
   const cue = { ...carom.cue(), [field]: 0.25 };
   const line = toLine({ tableName: "9ft", balls, cue });
   expect((JSON.parse(line) as { cue: object }).cue).toHaveProperty([key], 0.25);
   expect(fromLine(carom, line).cue).toEqual(cue);
+});
+
+test.each(["rail", "jaw", "pocket"].flatMap((part) => rows.parts[`carom_${part}`]!.map((row) => ({ ...row, part, field: camel(row.name) }))))("number $name of a $part", ({ part, field, range }) => {
+  const wrong = structuredClone(table) as unknown as Record<string, Record<string, number | number[]>[]>;
+  const one = wrong[`${part}s`]![1]!;
+  const bad = field === "side" ? 7 : NaN;
+  one[field] = Array.isArray(one[field]) ? one[field].map(() => bad) : bad;
+  expect(() => carom.simulate(wrong as never, balls)).toThrow(`table.${part}s[1].${field}: it must be ${range}, not ${bad}`);
 });
 
 test("words of games, tables and racks", () => {

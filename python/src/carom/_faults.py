@@ -1,8 +1,4 @@
-"""Which argument of a shot C refuses: the exception that names the field, the value given, and what would be right.
-
-C says which number of a ball is at fault, and what it must be. Of cues and states the field follows from the name of the status,
-ERROR_CUE_SPEED, and what would be right from its text.
-"""
+"""Which argument of a shot C refuses: the exception that names the field, the value given, and what would be right, as C tells them."""
 
 from __future__ import annotations
 
@@ -10,38 +6,32 @@ from typing import Any
 
 from carom import dtypes
 from carom._carom import ffi, lib
+from carom._rows import numbers_of
 from carom.status import CaromError, Status
 
-# Fields whose statuses have other names.
-_NAMES = {"position": "r", "overlap": "r", "off_table": "r", "velocity": "v", "vertical": "v", "spin": "w"}
-_NAMES |= {"radii_differ": "radius", "masses_differ": "mass", "cue_ball_out": "ball"}
+_TABLE = {lib.CAROM_PART_RAIL: "rails", lib.CAROM_PART_JAW: "jaws", lib.CAROM_PART_POCKET: "pockets"}
 
 
-def _word(status: int) -> str:
-    return Status(status).name.removeprefix("ERROR_").lower()
+def _numbers(part: int, status: int) -> list[str]:
+    """The numbers of a part that have a status."""
+    return [ffi.string(row.name).decode() for row in numbers_of(part) if row.error == status]
 
 
-def fault(status: int, name: str, record: dtypes.Records) -> CaromError:
-    """The exception for a record, called `name`, that C refuses: a cue, or the kind or the state of a ball."""
-    word = _word(status)
-    if status == Status.ERROR_MISCUE:
-        return CaromError(status, f"{name}.a, {name}.b", f"{record['a']}, {record['b']}")
-    if record.dtype == dtypes.ball_kind:
-        kind, must = record.tobytes(), ffi.new("char[]", 100)
-        number = lib.carom_ball_fault(ffi.from_buffer("carom_ball_kind[]", kind), must, 100)
-        if number != ffi.NULL:
-            field = ffi.string(number.name).decode()
-            return CaromError(status, f"{name}.{field}", record[field].item(), text=f"it must be {ffi.string(must).decode()}")
-    field = _NAMES.get(word, word.removeprefix("cue_"))
-    if field not in (record.dtype.names or ()):
-        return CaromError(status, name)
-    text = Status(status).text.replace(f"{name}.{field} must", "it must")
-    return CaromError(status, f"{name}.{field}", record[field] if record[field].ndim else record[field].item(), text=text)
+def _fault(status: int, name: str, fields: list[str], record: dtypes.Records, must: str = "") -> CaromError:
+    """The exception for numbers of a record, called `name`."""
+    where = [f"{name}.{field}" for field in fields]
+    values = [record[field] if record[field].ndim else record[field].item() for field in fields]
+    text = f"it must be {must}" if must else Status(status).text.replace(f"{where[0]} must", "it must")
+    return CaromError(status, ", ".join(where), values[0] if len(values) == 1 else ", ".join(map(str, values)), text=text)
 
 
-def is_of_cue(status: int) -> bool:
-    """Whether a status is about a cue."""
-    return _word(status).startswith(("cue", "miscue"))
+def strike_error(status: int, cue: dtypes.Records, kind: dtypes.Records) -> CaromError:
+    """The exception for a cue and a kind that carom_strike() refuses."""
+    if fields := _numbers(lib.CAROM_PART_CUE, status):
+        return _fault(status, "cue", fields, cue)
+    must = ffi.new("char[]", 100)
+    number = lib.carom_ball_fault(ffi.from_buffer("carom_ball_kind[]", kind.tobytes()), must, 100)
+    return CaromError(status, "kind") if number == ffi.NULL else _fault(status, "kind", [ffi.string(number.name).decode()], kind, ffi.string(must).decode())
 
 
 def shot_arguments(table: Any, layout: dtypes.Records, cue: dtypes.Records | None, options: Any) -> tuple[Any, ...]:
@@ -53,14 +43,21 @@ def shot_arguments(table: Any, layout: dtypes.Records, cue: dtypes.Records | Non
 def argument_error(arguments: tuple[Any, ...], layout: dtypes.Records, cue: dtypes.Records | None) -> CaromError | None:
     """The exception for arguments that carom_shot_check() refuses; None if they are right."""
     where = ffi.new("int *", -1)
-    code = lib.carom_shot_check(*arguments, where)
-    if code >= 0:
+    if lib.carom_shot_check(*arguments, where) >= 0:
         return None
-    if cue is not None and is_of_cue(code):
-        return fault(code, "cue", cue)
+    told, text = ffi.new("carom_fault *"), ffi.new("char[]", 100)
+    code = lib.carom_shot_fault(*arguments, told, text, 100)
+    kind, index, must = told.part.kind, told.part.index, ffi.string(text).decode()
+    # Several numbers of the cue may be at fault together.
+    name = "" if told.row == ffi.NULL else ffi.string(told.row.name).decode()
+    if name and kind == lib.CAROM_PART_CUE and cue is not None:
+        return _fault(code, "cue", [name] if must else _numbers(kind, told.row.error), cue, must)
+    if name and kind in (lib.CAROM_PART_BALL, lib.CAROM_PART_STATE):
+        part = "kind" if kind == lib.CAROM_PART_BALL else "state"
+        return _fault(code, f"balls[{index}].{part}", [name], layout[index][part], must)
     if code in (lib.CAROM_ERROR_TABLE, lib.CAROM_ERROR_NOSE_HEIGHT):
+        if name and must:
+            part = f"table.{_TABLE[kind]}[{index}]" if kind in _TABLE else "table"
+            return CaromError(code, f"{part}.{name}", told.value, text=f"it must be {must}")
         return CaromError(code, "table")
-    if not 0 <= where[0] < len(layout):
-        return CaromError(code, "balls", len(layout)) if code == lib.CAROM_ERROR_BALLS else CaromError(code)
-    part = "state" if _NAMES.get(_word(code), _word(code)) in ("r", "v", "w", "label") else "kind"
-    return fault(code, f"balls[{where[0]}].{part}", layout[where[0]][part])
+    return CaromError(code, "balls", len(layout)) if code == lib.CAROM_ERROR_BALLS else CaromError(code)

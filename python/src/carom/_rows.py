@@ -10,7 +10,7 @@ import os
 import reprlib
 import sys
 import time
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar, cast
 
@@ -256,6 +256,31 @@ def listing(module: str) -> Callable[[], list[str]]:
         return sorted(found.get("__all__", own))
 
     return names
+
+
+def numbers_of(part: int) -> Iterator[Any]:
+    """The rows of a part's numbers, each a `carom_number`."""
+    k = 0
+    while (row := lib.carom_number_of(part, k)) != ffi.NULL:
+        yield row
+        k += 1
+
+
+def with_numbers(part: int) -> Callable[[_Made], _Made]:
+    """Writes the numbers of a part into a docstring, in place of {fields}."""
+    text = ffi.new("char[]", 100)
+
+    def told(row: Any) -> str:
+        lib.carom_number_range(row, text, 100)
+        name, about = ffi.string(row.name).decode(), ffi.string(row.text).decode()
+        return f"{name} : array_like, shape (...)\n        {about[0].upper()}{about[1:]}; {ffi.string(text).decode()}."
+
+    def written(function: _Made) -> _Made:
+        if function.__doc__:
+            function.__doc__ = function.__doc__.replace("{fields}", "\n    ".join(map(told, numbers_of(part))))
+        return function
+
+    return written
 
 
 def numbered(enum: str) -> dict[str, int]:

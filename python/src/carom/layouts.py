@@ -13,8 +13,8 @@ from carom import dtypes, pictures
 from carom._carom import ffi, lib
 from carom._described import BallNumbers
 from carom._described import Game as Game
-from carom._faults import fault, is_of_cue
-from carom._rows import Array, as_array, choice, copied, fill, number, pointer, several, whole, worded
+from carom._faults import strike_error
+from carom._rows import Array, as_array, choice, copied, fill, number, pointer, several, whole, with_numbers, worded
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -197,7 +197,7 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     if code == lib.CAROM_ERROR_POSITION:
         raise CaromError(code, "x, y", f"{x}, {y}")
     if code == lib.CAROM_ERROR_RADIUS:
-        raise fault(code, f"balls[{index}].kind", placed[index]["kind"])
+        raise CaromError(code, f"balls[{index}].kind.radius", placed[index]["kind"]["radius"].item())
     if code < 0:
         raise CaromError(code, "balls" if code == lib.CAROM_ERROR_BALLS else _part(way))
     return placed
@@ -242,6 +242,7 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["e
     return made
 
 
+@with_numbers(lib.CAROM_PART_BALL)
 def balls(
     r: npt.ArrayLike, *, v: npt.ArrayLike = 0.0, w: npt.ArrayLike = 0.0, game: Game = "pool",
     **kind: Unpack[BallNumbers]
@@ -255,38 +256,9 @@ def balls(
     v, w : array_like, shape (..., 3)
         Velocities, m/s, and angular velocities, rad/s.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
-        Whose balls they are: the defaults of the fields of `carom.dtypes.ball_kind`, which follow. docs/understanding/constants.md has the source of each number: those of billiard are
-        measured, with drag and loss of roll; pooltool_... are pooltool's figures.
-    mass, radius, gravity : array_like, shape (...)
-        kg, m, m/s^2. With space="flat" all balls of a layout have the same radius.
-    mu_slide, mu_roll, mu_spin : array_like, shape (...)
-        Friction of sliding, rolling and turning on the spot, above 0, at most 1.
-    mu_ball, restitution : array_like, shape (...)
-        Ball and ball, 0 to 1; a pair has the mean. mu_ball counts with friction="constant" only.
-    mu_cushion, restitution_cushion : array_like, shape (...)
-        Ball and cushion, 0 to 1.
-    drag : array_like, shape (...)
-        1/m, 0 to 1: a rolling ball slows by mu_roll gravity + drag v^2.
-    roll_loss : array_like, shape (...)
-        0 to 1: the part of the speed along a cushion that an impact takes from the roll along it.
-    law_a, law_b, law_c : array_like, shape (...)
-        Friction with another ball at a slip of u, m/s: law_a + law_b exp(-law_c u). All 0: Alciatore's law.
-    nose_height : array_like, shape (...)
-        Of every cushion that the ball meets, m; 0: that of the table.
-    omega_ratio : array_like, shape (...)
-        Of Stronge's cushions; 0: 1.8.
-    restitution_table : array_like, shape (...)
-        Ball and slate, at most 0.98; 0: 0.5; -1: none.
-    modulus : array_like, shape (...)
-        Stiffness of the material, E/(1 - nu^2), 1e6 to 1e15 Pa; 0: 6.6e9. It counts where several balls touch at one instant.
-    restitution_log, mu_log : array_like, shape (...)
-        Of cushions: restitution and friction change by these for each unit of ln(v), v in m/s the speed across the cushion. -1 to 1.
-    smooth_q, smooth_x, smooth_t, smooth_a, smooth_k, smooth_g, smooth_g_log, smooth_e : array_like, shape (...)
-        Of smooth cushions: width of the passage from sticking to sliding (up to 0.5), the parts of the slip along and across the cushion that
-        friction takes if it can (up to 2), reach and rebound (0 to 1), rebound by slip, by slip and ln(v), by roll (-1 to 1). All 0: those measured
-        on one table. Above 0, smooth_q makes the smooth cushion the default of the ball.
-    restitution_log2, roll_loss_log : array_like, shape (...)
-        restitution changes by the first times ln(v)^2, which counts up to 1; roll_loss by the second times ln(v). -1 to 1.
+        Whose balls they are: the defaults of the fields of `carom.dtypes.ball_kind`, which follow. docs/understanding/constants.md has the
+        source of each number: those of billiard are measured, with drag and loss of roll; pooltool_... are pooltool's figures.
+    {fields}
 
     Returns an ndarray of `carom.dtypes.shot_ball`, shape (..., balls).
     """
@@ -409,5 +381,5 @@ def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
     ball = of_record(kind, dtypes.ball_kind, "kind", "balls()['kind']").reshape(1)
     code = lib.carom_strike(pointer("carom_cue[]", strike), pointer("carom_ball_kind[]", ball), pointer("carom_motion[]", motion))
     if code < 0:
-        raise fault(code, "cue", strike) if is_of_cue(code) else fault(code, "kind", ball[0])
+        raise strike_error(code, strike, ball[0])
     return motion
