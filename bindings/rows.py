@@ -183,14 +183,19 @@ def wrapped(text, indent, width=140):
 def python():
     """Types for checkers of types, which know nothing of the library: words, and the numbers of one impact on a cushion."""
     lines = ['"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""', ""]
-    lines += ["from __future__ import annotations", "", "from collections.abc import Iterable"]
+    lines += ["from __future__ import annotations", "", "import enum", "from collections.abc import Iterable"]
     lines += ["from typing import Literal, NamedTuple, TypedDict", "", "import numpy.typing as npt", ""]
+    enums = []
     for of in OF_PYTHON:
         lines.append(f"{name_of(of)} = Literal[{', '.join(json.dumps(word) for word, _ in words()[of])}]")
     events = [value.removeprefix("EVENT_").lower() for _, (of, value, *_) in rows("about/words.h", "CAROM_WORD_ROWS") if of == "EVENT"]
+    for name, of, text in (("Label", "LABEL", "How a ball moves."), ("EventType", "EVENT", "What happened: to ball a, and to ball, rail, jaw or pocket b.")):
+        values = [row[1] for _, row in rows("about/words.h", "CAROM_WORD_ROWS") if row[0] == of]
+        enums += ["", "", f"class {name}(enum.IntEnum):", f'    """{text}"""', ""]
+        enums += [f"    {value.split('_', 1)[1]} = {k}" for k, value in enumerate(values, of == "EVENT")]
     lines += ["StopAt = Literal[", *wrapped(", ".join(json.dumps(word) for word in ["contact", *events]) + ",", "    "), "]  # fmt: skip"]
     chosen = list(shot_options())
-    lines += ["", "", "class ShotOptions(NamedTuple):", '    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this']
+    lines += [*enums, "", "", "class ShotOptions(NamedTuple):", '    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this']
     lines += ["    class, or both.", "", "    Attributes", "    ----------"]
     for name, kind, _, text, of in chosen:
         several = "{" + ", ".join(json.dumps(word) for word, _ in words()[of]) + "}" if of in words() else kind
@@ -221,10 +226,36 @@ def reader_of(number):
 
 def tables():
     """The tables of pages, by name."""
-    lines = ["| key | field of `carom_ball_kind` | range | read by | what it is |", "|---|---|---|---|---|"]
-    for one in numbers():
-        lines.append(f"| `{one['key']}` | `{one['name']}` | {one['range']} | {reader_of(one) or 'all'} | {one['text']} |")
-    return {"numbers": "\n".join(lines)}
+
+    def table(*lines):
+        head, *rest = ("| " + " | ".join(line) + " |" for line in lines)
+        return "\n".join([re.sub(r" \| $", " |", head), "|" + "---|" * len(lines[0]), *rest])
+
+    def code(name):
+        return f"`{name}`" if name else ""
+
+    def told(one):
+        return one["range"], one["text"]
+
+    def camel(name):
+        return re.sub("_(.)", lambda letter: letter[1].upper(), name)
+
+    python = {one: f"{one}=" for one, *_ in shot_options()} | {"time_most": "t_final=", "threads": "threads="}
+    shots = [
+        (code(f"--{one['key']}" if one["key"] else ""), code(python[one["name"]]), code(f"options.{one['name']}"), code("" if one["group"] == "compute" else camel(one["name"])), *told(one))
+        for one in options()["carom_shot_options"]
+    ]
+    plans = [(code(f"--{one['key']}" if one["key"] else ""), code(one["name"]), code("" if one["name"] == "threads" else camel(one["name"])), *told(one)) for one in options()["carom_plan_options"]]
+    objects = {"carom_table": "table", "carom_rail": "linear", "carom_jaw": "circular", "carom_pocket": "pockets"}
+    return {
+        "numbers": table(("key", "field of `carom_ball_kind`", "range", "read by", "what it is"),
+                         *((code(one["key"]), code(one["name"]), one["range"], reader_of(one) or "all", one["text"]) for one in numbers())),
+        "options": table(("command", "Python", "C", "npm", "may be", "what it is"), *shots),
+        "plans": table(("command", "field of `carom_plan_options`", "npm", "may be", "what it is"), *plans),
+        "cue": table(("key", "field of `carom_cue`", "range", "what it is"), *((code(one["key"] or "ball"), code(one["name"]), *told(one)) for one in parts()["carom_cue"])),
+        "table": table(("object", "key", "range", "what it is"),
+                       *((code(name), code(one["key"]), *told(one)) for struct, name in objects.items() for one in parts()[struct] if one["key"])),
+    }  # fmt: skip
 
 
 def with_tables(page):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import enum
 from collections.abc import Iterable
 from typing import Literal, NamedTuple, TypedDict
 
@@ -23,6 +24,35 @@ StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
     "spinning_stationary", "slate", "rail_top", "left_table",
 ]  # fmt: skip
+
+
+class Label(enum.IntEnum):
+    """How a ball moves."""
+
+    STATIONARY = 0
+    SPINNING = 1
+    SLIDING = 2
+    ROLLING = 3
+    POCKETED = 4
+    AIRBORNE = 5
+    OFF = 6
+
+
+class EventType(enum.IntEnum):
+    """What happened: to ball a, and to ball, rail, jaw or pocket b."""
+
+    STRIKE = 1
+    BALL_BALL = 2
+    RAIL = 3
+    JAW = 4
+    POCKET = 5
+    SLIDING_ROLLING = 6
+    ROLLING_SPINNING = 7
+    ROLLING_STATIONARY = 8
+    SPINNING_STATIONARY = 9
+    SLATE = 10
+    RAIL_TOP = 11
+    LEFT_TABLE = 12
 
 
 class ShotOptions(NamedTuple):

@@ -13,41 +13,14 @@ import numpy.typing as npt
 
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
+from carom._described import EventType as EventType
+from carom._described import Label as Label
 from carom._faults import argument_error, shot_arguments
 from carom._rows import INT8, Array, Arrays, addresses, as_array, in_chunks, one_or_all, pointer, several, spread, whole
 from carom._shot_options import Options, shot_options
 from carom.layouts import Table
 from carom.pictures import Animation
 from carom.status import CaromError, Status
-
-
-class Label(enum.IntEnum):
-    """How a ball moves."""
-
-    STATIONARY = 0
-    SPINNING = 1
-    SLIDING = 2
-    ROLLING = 3
-    POCKETED = 4
-    AIRBORNE = 5
-    OFF = 6
-
-
-class EventType(enum.IntEnum):
-    """What happened: to ball a, and to ball, rail, jaw or pocket b."""
-
-    STRIKE = 1
-    BALL_BALL = 2
-    RAIL = 3
-    JAW = 4
-    POCKET = 5
-    SLIDING_ROLLING = 6
-    ROLLING_SPINNING = 7
-    ROLLING_STATIONARY = 8
-    SPINNING_STATIONARY = 9
-    SLATE = 10
-    RAIL_TOP = 11
-    LEFT_TABLE = 12
 
 
 def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
