@@ -54,6 +54,11 @@ def lines(project):
         ('  "author": ', p["authors"] and f'{{ "name": {author} }},'),
         ('  "documentationUrl": ', p["address"] and f"{text(p['address'])},"),
     ]
+    named = ", ".join(f"{{ name: {text(each, ensure_ascii=False)}, affiliation: 1 }}" for each in p["people"])
+    yield "packaging/paper/paper.md", "title: ", [
+        ("authors: ", named and f"[{named}]"),
+        ("affiliations: ", named and f"[{{ name: {text(p['copyright'], ensure_ascii=False)}, index: 1 }}]"),
+    ]
     yield "packaging/conan/conanfile.py", "    license = ", [
         ("    author = ", p["authors"] and author),
         ("    url = ", p["address"] and text(p["address"])),
