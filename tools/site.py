@@ -12,7 +12,10 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
+
+from reference import pages
 
 SOURCE, WORK = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
@@ -93,10 +96,10 @@ if LIVE:
 navigation = [{"carom": "README.md"}]
 add("README.md")
 for name, folder in FOLDERS.items():
-    pages = [str(page.relative_to(SOURCE)) for page in sorted((SOURCE / folder).glob("*.md"), key=lambda page: (FIRST.index(page.stem) if page.stem in FIRST else len(FIRST), page.stem))]  # fmt: skip
-    for page in pages:
+    sheets = [str(page.relative_to(SOURCE)) for page in sorted((SOURCE / folder).glob("*.md"), key=lambda page: (FIRST.index(page.stem) if page.stem in FIRST else len(FIRST), page.stem))]  # fmt: skip
+    for page in sheets:
         add(page)
-    navigation.append({name: [{title(page): page} for page in pages]})
+    navigation.append({name: [{title(page): page} for page in sheets]})
 programs = [*sorted((SOURCE / "examples").glob("*.c*")), *sorted((SOURCE / "python/examples").glob("*.py")), *sorted((SOURCE / "web/examples").glob("*.mjs"))]
 add("examples/README.md")
 made = [page for page in map(example, programs) if page]
@@ -104,11 +107,16 @@ navigation.append({"Examples": [{"Programs": "examples/README.md"}, *({Path(page
 for page in OTHERS:
     add(page)
 navigation.append({"In the repository": [{title(page): page} for page in OTHERS]})
+reference = [(name, page, put(page, text)) for name, page, text in pages(SOURCE)]
+navigation.append({"Reference": [{name: page} for name, page, _ in reference]})
 if EXPLORER.is_file():
     shutil.copytree(EXPLORER.parent, PAGES / "explorer")
     navigation.append({"Explorer": "explorer/index.html"})
 
+project = tomllib.loads((SOURCE / "packaging/project.toml").read_text(encoding="utf-8"))
 settings = {"INHERIT": str(SOURCE / "tools/site.yml"), "docs_dir": str(PAGES), "site_dir": str(WORK / "site"), "nav": navigation}
+settings |= {"repo_url": project["address"].removesuffix(".git")} if project["address"] else {}
+settings |= {"copyright": f"{project['year']} {project['copyright']}".strip()} if project["copyright"] else {}
 (WORK / "mkdocs.yml").write_text(json.dumps(settings, indent=1), encoding="utf-8")
 # Not --quiet, by which mkdocs counts no warnings.
 done = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "--config-file", WORK / "mkdocs.yml"], text=True,

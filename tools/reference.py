@@ -1,0 +1,120 @@
+"""The pages of the site that list every call: of C from the description of the headers (bindings/api.py), of Python, npm, C# and Rust from their
+sources. pages(SOURCE) gives names and texts."""
+
+import ast
+import re
+import sys
+from pathlib import Path
+
+
+def plain(words):
+    """A comment as Markdown: only what stands between backquotes is code."""
+    parts = re.split(r"(`[^`]*`)", " ".join(words.split()))
+    return "".join(part if part.startswith("`") else re.sub(r"([\[\]<>*_|`#])", r"\\\1", part) for part in parts)
+
+
+def entry(name, code, kind, words, more=""):
+    return f"### {name}\n\n```{kind}\n{code.rstrip()}\n```\n\n{plain(words)}\n\n{more}"
+
+
+def rows(head, lines):
+    table = [head, *(line for line in lines)]
+    bar = "|".join("---" for _ in head)
+    return "\n".join([f"| {' | '.join(table[0])} |", f"|{bar}|", *(f"| {' | '.join(line)} |" for line in table[1:])]) + "\n\n" if lines else ""
+
+
+def of_c(source):
+    """A page: constants and enumerations, structs, functions, all by name."""
+    sys.path.insert(0, str(source / "bindings"))
+    from api import describe
+
+    api = describe(source / "include")
+
+    def typed(about):
+        """const double *v[3]"""
+        stars, lengths = "*" * about.get("pointer", 0), "".join(f"[{length}]" for length in about.get("array", ()))
+        return f"{'const ' if about.get('const') else ''}{about['type']} {stars}{about.get('name', '')}{lengths}".rstrip()
+
+    def called(one):
+        return f"{typed({**one['returns'], 'name': one['name']})}({', '.join(map(typed, one['arguments'])) or 'void'});"
+
+    text = f"# Reference: C\n\nEvery name of the headers of carom {api['version']}, which are the manual.\n\n## Functions\n\n"
+    text += "".join(entry(one["name"], called(one), "c", one["comment"]) for one in api["functions"])
+    text += "## Functions of the caller\n\n" + "".join(entry(one["name"], called(one), "c", one["comment"]) for one in api["callbacks"])
+    text += "## Structs\n\n"
+    for one in api["structs"]:
+        fields = [[f"`{typed(field)}`", field.get("unit", ""), plain(field["comment"])] for field in one["fields"]]
+        text += entry(one["name"], f"{one['name']} /* {one['size']} bytes */", "c", one["comment"], rows(["field", "unit", ""], fields))
+    text += "## Enumerations\n\n"
+    for one in api["enums"]:
+        values = [[f"`{value['name']}`", str(value["value"]), plain(value["comment"])] for value in one["values"]]
+        text += entry(one["name"], f"enum {one['name']}", "c", one["comment"], rows(["name", "value", ""], values))
+    constants = [[f"`{one['name']}`", str(one["value"]), plain(one["comment"])] for one in api["constants"]]
+    return text + "## Constants\n\n" + rows(["name", "value", ""], constants)
+
+
+def of_python(source):
+    """A page: the public functions and classes of each module, with their docstrings."""
+    text = "# Reference: Python\n\nEvery public call of the package `carom`. [python.md](../docs/using/python.md) is the manual.\n\n"
+    for path in sorted((source / "python/src/carom").glob("[a-z]*.py")):
+        found = ""
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
+                continue
+            inside = node.body if isinstance(node, ast.ClassDef) else []
+            for one, name in ((node, node.name), *((inner, f"{node.name}.{inner.name}") for inner in inside if isinstance(inner, ast.FunctionDef))):
+                words = ast.get_docstring(one) or ""
+                if words and not name.rpartition(".")[2].startswith("_"):
+                    returns = f" -> {ast.unparse(one.returns)}" if getattr(one, "returns", None) else ""
+                    head = f"class {name}" if one in (node,) and inside else f"{name}({ast.unparse(one.args)}){returns}"
+                    # A docstring is text with columns of its own.
+                    found += f"### {name}\n\n```python\n{head}\n```\n\n```text\n{words.replace('```', '')}\n```\n\n"
+        text += f"## carom.{path.stem}\n\n{found}" if found else ""
+    return text
+
+
+def documented(source, files, comment, kind, title, named):
+    """A page: each declaration with a comment of that form above it, in the order of the files. A member has the name of its class too."""
+    text, holder = f"# Reference: {title}\n\n", None
+    for file in files:
+        for words, line in re.findall(comment, (source / file).read_text(encoding="utf-8"), flags=re.M | re.S):
+            name = "@internal" not in words and named(line.strip())
+            outer = not line.startswith(" ") or re.search(r"\bclass\b", line)
+            if outer:
+                holder = name
+            if name and holder:
+                words = re.sub(r"</?summary>|^\s*(?:\*|///) ?", " ", words, flags=re.M)
+                text += entry(name if outer or kind == "rust" else f"{holder}.{name}", re.sub(r"\s*\{.*$", "", line.strip(), flags=re.S), kind, words)
+    return text
+
+
+def of_npm(line, public):
+    if re.match(r"(?:const|let|private|constructor|import|#|readonly #|function|class)", line):
+        return None
+    found = re.match(r"(export )?(?:static |async |get |readonly |abstract |const )*(?:class |interface |type |function )?([A-Za-z]\w*)", line)
+    return found and found[2] if found and (not found[1] or found[2] in public) else None
+
+
+def of_csharp(line):
+    found = re.match(r"public (?:static |sealed |unsafe |readonly )*(?:class )?(?:[\w\[\]<>.]+ )?(\w+)", line)
+    return found and found[1]
+
+
+def of_rust(line):
+    found = re.match(r"pub (?:fn|struct|type|const|use) (\w+)", line)
+    return found and found[1]
+
+
+def pages(source):
+    source = Path(source)
+    block, slashes = r"/\*\*((?:(?!\*/).)*)\*/\n([^\n]+)", r"((?:^ *///[^\n]*\n)+)(?: *#\[[^\n]*\n)*([^\n]+(?:\([^)]*\)[^\n]*)?)"
+    npm = [str(path.relative_to(source)) for path in sorted((source / "web/src").glob("*.ts"))]
+    index = (source / "web/src/index.ts").read_text(encoding="utf-8")
+    public = set(re.findall(r"\w+", " ".join(re.findall(r"export (?:type )?\{([^}]*)\}", index)))) | set(re.findall(r"^export \w+ (?:function )?(\w+)", index, flags=re.M))
+    types = (source / "web/src/types.ts").read_text(encoding="utf-8")
+    public |= set(re.findall(r"^export (?:interface|type) (\w+)", types, flags=re.M))
+    yield "C", "reference/c.md", of_c(source)
+    yield "Python", "reference/python.md", of_python(source)
+    yield "npm", "reference/npm.md", documented(source, npm, block, "ts", "npm", lambda line: of_npm(line, public))
+    yield "C#", "reference/csharp.md", documented(source, ["bindings/csharp/Runtime/Billiards.cs"], slashes, "csharp", "C#", of_csharp)
+    yield "Rust", "reference/rust.md", documented(source, ["bindings/rust/carom/src/lib.rs"], slashes, "rust", "Rust", of_rust)
