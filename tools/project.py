@@ -1,4 +1,5 @@
-"""project.py [ROOT]: writes packaging/project.toml into the files of the tree that name address, tracker, contact, holder, authors and year.
+"""project.py [ROOT]: writes packaging/project.toml into the files of the tree that name address, tracker, contact, holder, authors and year, and the
+version of the public header into those that name it.
 
 A field that is empty is left out. With --check nothing is written: it fails where a file is not as it would be written, with --missing where
 a field is empty. With --get NAME it prints a field; `version` is that of the public header.
@@ -71,26 +72,41 @@ def with_lines(text, anchor, wanted):
     return "".join([*kept[:at], *(f"{key}{value}\n" for key, value in wanted if value), *kept[at:]])
 
 
-def written(root, project):
+def places(p):
+    """What stands once or more in the text of a file: (file, pattern of what is before and after, what is between)."""
+    minor = p["version"].rpartition(".")[0]
+    yield "README.md", r"(?m)^(In a clone of this repository \().*(it takes a minute\))", f"`git clone {p['address']} carom`; " if p["address"] else ""
+    yield "SECURITY.md", r"(?m)^(Report a weakness to ).*(, not in public)", p["contact"] or "the owner of the repository"
+    yield "web/package.json", r'(?m)^(  "version": ")[^"]*(")', p["version"]
+    yield "web/package-lock.json", r'("name": "carom",\s+"version": ")[^"]*(")', p["version"]
+    yield "docs/using/building.md", r"(`carom/)[\d.]+(`)", p["version"]
+    yield "docs/using/building.md", r"(find_package\(carom |`libcarom)[\d.]+( REQUIRED|`)", minor
+    yield "docs/using/abi.md", r"(`libcarom\.so\.)[\d.]+(`)", minor
+    for test in ("tests/install/plain", "tests/install/consumer-cmake/CMakeLists.txt"):
+        yield test, r"(find_package\(carom )[\d.]+( REQUIRED)", minor
+
+
+def written(root, p):
     """Each file with the text that it must have."""
-    p = project
+    texts = {}
+
+    def text_of(name):
+        return texts.get(name) or (root / name).read_text(encoding="utf-8")
+
     for name, anchor, wanted in lines(p):
-        yield name, with_lines((root / name).read_text(encoding="utf-8"), anchor, wanted)
-    readme = (root / "README.md").read_text(encoding="utf-8")
-    clone = f"`git clone {p['address']} carom`; " if p["address"] else ""
-    yield "README.md", re.sub(r"(?<=In a clone of this repository \().*(?=it takes a minute\))", lambda _: clone, readme)
-    security = (root / "SECURITY.md").read_text(encoding="utf-8")
-    to = p["contact"] or "the owner of the repository"
-    yield "SECURITY.md", re.sub(r"(?<=^Report a weakness to ).*(?=, not in public)", lambda _: to, security, flags=re.M)
+        texts[name] = with_lines(text_of(name), anchor, wanted)
+    for name, pattern, between in places(p):
+        texts[name] = re.sub(pattern, lambda match, between=between: match[1] + between + match[2], text_of(name))
     holder = f"Copyright {p['year']} {p['copyright']}\n".replace("  ", " ") if p["copyright"] else ""
-    yield "NOTICE", f"carom: billiards, computed\n{holder}\nLicensed under the Apache License, version 2.0 (LICENSE).\n"
+    texts["NOTICE"] = f"carom: billiards, computed\n{holder}\nLicensed under the Apache License, version 2.0 (LICENSE).\n"
     cited = "".join(f"  {key} = {{{value}}},\\n" for key, value in (("url", p["address"]), ("year", p["year"])) if value)
     defined = {"AUTHORS": " and ".join(p["authors"]) or f"{{{NOBODY}}}", "CITED": cited, "TRACKER": p["tracker"]}
     macros = "".join(f'#define PROJECT_{key} "{value}"\n' for key, value in defined.items())
-    yield "src/about/project.h", (
+    texts["src/about/project.h"] = (
         "/* Written by tools/project.py from packaging/project.toml: authors and lines of the citation as\n"
         " * BibTeX, and for CMake where bugs are reported. */\n#ifndef CAROM_PROJECT_H\n#define CAROM_PROJECT_H\n\n" + macros + "\n#endif\n"
     )
+    return texts
 
 
 def main():
@@ -103,7 +119,7 @@ def main():
     if "--missing" in flags:
         empty = missing(project)
         sys.exit(f"packaging/project.toml lacks {', '.join(empty)}" if empty else 0)
-    for name, text in written(root, project):
+    for name, text in written(root, project).items():
         path = root / name
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             wrong.append(name)

@@ -33,8 +33,8 @@ with tempfile.TemporaryDirectory() as work:
     work = Path(work)
     for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "SECURITY.md", "CITATION.cff", "cmake", "include", "src", "cli", "data", "packaging", "tools"):
         (shutil.copytree if (SOURCE / part).is_dir() else shutil.copy)(SOURCE / part, work / part)
-    for part in ("python/pyproject.toml", "web/package.json", "bindings/csharp/package.json", "bindings/rust/carom/Cargo.toml", "bindings/rust/carom-sys/Cargo.toml"):
-        (work / part).parent.mkdir(parents=True)
+    for part in ("python/pyproject.toml", "web/package.json", "web/package-lock.json", "docs/using/building.md", "docs/using/abi.md", "tests/install/plain", "tests/install/consumer-cmake/CMakeLists.txt", "bindings/csharp/package.json", "bindings/rust/carom/Cargo.toml", "bindings/rust/carom-sys/Cargo.toml"):
+        (work / part).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(SOURCE / part, work / part)
     tool = [sys.executable, work / "tools/project.py"]
     before = {path: path.read_bytes() for path in work.rglob("*") if path.is_file()}
@@ -85,6 +85,14 @@ with tempfile.TemporaryDirectory() as work:
     people = "".join(f"  - family-names: {last}\n    given-names: {first}\n" for last, first in (("Kö", "Zoë"), ("Doe", "Jo")))
     assert f"\nauthors:\n{people}repository-code: {FIELDS['address']}\n" in cff, cff
 
+    # So does the version.
+    header = work / "include/carom.h"
+    header.write_text(re.sub(r"(VERSION_MINOR) \d+", r"\1 77", header.read_text(encoding="utf-8")), encoding="utf-8")
+    run(*tool)
+    for part, text in (("web/package.json", '"0.77.0"'), ("web/package-lock.json", '"0.77.0"'), ("docs/using/building.md", "carom/0.77.0`"),
+                       ("docs/using/building.md", "`libcarom0.77`"), ("docs/using/abi.md", "libcarom.so.0.77`"), ("tests/install/plain", "(carom 0.77 ")):  # fmt: skip
+        assert text in (work / part).read_text(encoding="utf-8"), part
+    header.write_bytes(before[header])
     # With the fields of the tree again, the files are those of before.
     fill({})
     run(*tool)
