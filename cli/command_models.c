@@ -27,6 +27,7 @@ static const struct list {
   carom_part_kind part;
   const char *title;
 } lists[] = {{CAROM_PART_OPTIONS, "options of a shot in programs, and their options here"},
+             {CAROM_PART_PLAN_OPTIONS, "options of a plan in programs, and their options here"},
              {CAROM_PART_BALL, "numbers of a ball and its cushions, by their names, for --with, "
                                "and their keys in files"},
              {CAROM_PART_CUE, "numbers of a cue, and their keys in files"},

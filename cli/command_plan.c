@@ -367,6 +367,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
                           .cue = &line->cue,
                           .player = &p->player,
                           .rules = &p->rules,
+                          .shot = &job->shared.shot,
                           .options = &options,
                           .memory_size = carom_plan_memory(&options)};
   if (asked.memory_size == 0) {
@@ -406,8 +407,9 @@ static const command_form form = {
     .options =
         (const option_row *const[]){&option_rules, &option_group, &option_may, &option_opening,
                                     &option_hand, &option_try, &option_value, &option_player,
-                                    &option_errors, &option_shots, &option_seed, &option_csv,
-                                    &option_plan_plot, &option_threads, &option_output, NULL},
+                                    &option_errors, &option_shots, &option_seed, &options_of_motion,
+                                    &option_csv, &option_plan_plot, &option_threads, &option_output,
+                                    NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"

@@ -145,7 +145,8 @@ static bool lay_out(const shoot_flags *f, layout *l) {
   l->game = kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
             : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
                                                : CAROM_GAME_POOL;
-  const carom_ball_kind ball = carom_ball_kind_of(l->game);
+  carom_ball_kind ball = carom_ball_kind_of(l->game);
+  give_ball(&f->shared.with, &ball);
   /* A rack, or the places given. */
   if (f->balls.rack > 0) {
     const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
@@ -267,8 +268,15 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
   fprintf(out, "\"ball\": \"%s\"}, \"balls\": [", l->name[0]);
   for (int k = 0; k < l->count; k++) {
     static const char *const games[] = {"pool", "snooker", "billiard"};
-    fprintf(out, "%s{\"id\": \"%s\", \"params\": {\"game\": \"%s\"}, \"state\": [0",
-            k > 0 ? ", " : "", l->name[k], games[l->game]);
+    fprintf(out, "%s{\"id\": \"%s\", \"params\": {\"game\": \"%s\"", k > 0 ? ", " : "", l->name[k],
+            games[l->game]);
+    for (int j = 0; (n = carom_number_of(CAROM_PART_BALL, j)) != NULL; j++) {
+      double x;
+      memcpy(&x, (const char *)&l->ball[k].kind + n->offset, sizeof x);
+      if ((f->shared.with.which >> j & 1) != 0)
+        fprintf(out, ", \"%s\": %s", n->key, number_text(x, number));
+    }
+    fputs("}, \"state\": [0", out);
     for (int axis = 0; axis < 2; axis++)
       fprintf(out, ", %s", number_text(l->ball[k].state.r[axis], number));
     fprintf(out, ", %s, 0, 0, 0, 0, 0, 0]}", number_text(R, number));
