@@ -1,6 +1,5 @@
 // generate.mjs MADE OUT: what the build knows, as TypeScript: structs and enumerators of the headers, numbers of a ball, both modules.
 // bindings/README.md says what MADE/api.json and MADE/rows.json have.
-import { gzipSync } from "node:zlib";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 
 const [made, out] = process.argv.slice(2);
@@ -125,5 +124,5 @@ writeFileSync(
 );
 for (const name of ["plain", "simd"]) {
   // The type is written out: else the declarations would have the module once more.
-  writeFileSync(`${out}/${name}.ts`, `${note}const module: string = ${JSON.stringify(gzipSync(readFileSync(`${made}/${name}.wasm`), { level: 9 }).toString("base64"))};\nexport default module;\n`);
+  writeFileSync(`${out}/${name}.ts`, `${note}const module: string = ${JSON.stringify(readFileSync(`${made}/${name}.wasm.gz`).toString("base64"))};\nexport default module;\n`);
 }
