@@ -51,8 +51,23 @@ static class Program {
       Billiards.Play(table, balls, cue);
       return 1;
     } catch (CaromException wrong) {
-      if (wrong.Message != "cue.speed must be 0 to 1000 m/s") throw;
+      if (wrong.Message != "cue.speed must be 0 to 1000, in m/s, not -1") throw;
     }
+    // Each number of a ball is refused by its name and range.
+    cue.speed = 8;
+    var rows = Billiards.Rows(PartKind.Ball);
+    for (int k = 0; k < rows.Length; k++)
+      try {
+        var bad = (ShotBall[])balls.Clone();
+        fixed (ShotBall* ball = bad) ((double*)&ball[2].kind)[k] = double.NaN;
+        Billiards.Play(table, bad, cue);
+        return 1;
+      } catch (CaromException wrong) {
+        if (wrong.Message != $"ball[2].{rows[k].Name} must be {rows[k].Range}, not NaN") throw;
+      }
+    foreach (Words of in Enum.GetValues(typeof(Words)))
+      if (Billiards.Word(of, 1) == null || Billiards.Word(of, 99) != null) return 1;
+    if (sizeof(BallKind) != rows.Length * sizeof(double) || Billiards.Word(Words.ShotCushion, (int)ShotCushion.Han) != "han") return 1;
     return 0;
   }
 }

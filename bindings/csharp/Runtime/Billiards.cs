@@ -1,5 +1,6 @@
 // Tables, racks, shots and recordings without pointers. Native has every other function of the library.
 using System;
+using System.Collections.Generic;
 using System.Runtime.InteropServices;
 using System.Text;
 
@@ -7,6 +8,8 @@ namespace Carom {
   /// <summary>A call that could not be served.</summary>
   public sealed class CaromException : Exception {
     public readonly Status Status;
+
+    internal CaromException(string fault, Status status) : base(fault) { Status = status; }
 
     internal unsafe CaromException(Status status, string more = null)
         : base(Billiards.Text(Native.carom_status_string(status)) + (more == null ? "" : ": " + more)) {
@@ -37,6 +40,12 @@ namespace Carom {
       }
       return states;
     }
+  }
+
+  /// <summary>A number of a ball, a cue or a table, or an option: its names, unit, range in words, default, and what it is.</summary>
+  public sealed class Row {
+    public string Name, Key, Unit, Range, Text;
+    public double Low, High, Other;
   }
 
   /// <summary>What the library offers to a game.</summary>
@@ -76,7 +85,8 @@ namespace Carom {
         fixed (Event* to = events) {
           data.events = to;
           data.final = final;
-          shot.Status = Check(Native.carom_shoot(&table, of, balls.Length, &cue, &options, &data));
+          shot.Status = Native.carom_shoot(&table, of, balls.Length, &cue, &options, &data);
+          if (shot.Status < 0) throw Refused(shot.Status, &table, of, balls.Length, &cue, &options);
         }
         if (data.count <= room) {
           Array.Resize(ref events, (int)data.count);
@@ -86,6 +96,31 @@ namespace Carom {
         }
         room = data.count;
       }
+    }
+
+    /// <summary>The numbers of a part, or the options of a call, as the library describes them.</summary>
+    public static Row[] Rows(PartKind part) {
+      var rows = new List<Row>();
+      byte* range = stackalloc byte[200];
+      for (Number* one; (one = Native.carom_number_of(part, rows.Count)) != null;) {
+        Native.carom_number_range(one, range, (UIntPtr)200);
+        rows.Add(new Row { Name = Text(one->name), Key = Text(one->key), Unit = Text(one->unit), Range = Text(range), Text = Text(one->text),
+                           Low = one->low, High = one->high, Other = one->other });
+      }
+      return rows.ToArray();
+    }
+
+    /// <summary>The word of a value, such as "han"; null where it has none.</summary>
+    public static string Word(Words of, int value) { return Text(Native.carom_word(of, value)); }
+
+    /// <summary>The exception of a shot, with the number at fault where there is one.</summary>
+    static CaromException Refused(Status status, Table* table, ShotBall* balls, int count, Cue* cue, ShotOptions* options) {
+      Fault fault;
+      byte* must = stackalloc byte[200];
+      Native.carom_shot_fault(table, balls, count, cue, options, &fault, must, (UIntPtr)200);
+      if (fault.row == null || must[0] == 0) return new CaromException(status);
+      string part = fault.part.kind.ToString().ToLowerInvariant(), at = fault.part.kind <= PartKind.Ball || fault.part.kind == PartKind.State ? $"[{fault.part.index}]" : "";
+      return new CaromException(FormattableString.Invariant($"{part}{at}.{Text(fault.row->name)} must be {Text(must)}, not {fault.value}"), status);
     }
 
     internal static Status Check(Status status) {

@@ -28,7 +28,7 @@ use std::os::raw::c_char;
 pub struct Error {
     /// A value of `sys::carom_status`, below 0.
     pub status: sys::carom_status,
-    /// Of a recording: what is wrong with the line.
+    /// What is wrong with the line of a recording, or the number of a shot.
     pub fault: String,
 }
 
@@ -38,8 +38,10 @@ impl fmt::Display for Error {
         let words = text(unsafe { sys::carom_status_string(self.status) });
         if self.fault.is_empty() {
             write!(to, "{words}")
-        } else {
+        } else if self.status == sys::CAROM_ERROR_RECORD {
             write!(to, "{words}: {}", self.fault)
+        } else {
+            write!(to, "{}", self.fault)
         }
     }
 }
@@ -50,6 +52,77 @@ fn text(from: *const c_char) -> String {
     unsafe { CStr::from_ptr(from) }
         .to_string_lossy()
         .into_owned()
+}
+
+/// A number of a ball, a cue or a table, or an option: its names, unit, range in words, default, and what it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    pub name: String,
+    pub key: String,
+    pub unit: String,
+    pub range: String,
+    pub text: String,
+    pub low: f64,
+    pub high: f64,
+    /// A value beside the range: 0, which is a default, or -1; NaN: none.
+    pub other: f64,
+}
+
+/// The numbers of a part, such as `sys::CAROM_PART_BALL`, or the options of a call, as the library describes them.
+pub fn rows(part: sys::carom_part_kind) -> Vec<Row> {
+    let row = |k| unsafe { sys::carom_number_of(part, k).as_ref() };
+    let told = |one: &sys::carom_number| {
+        let mut range = [0 as c_char; 200];
+        unsafe { sys::carom_number_range(one, range.as_mut_ptr(), range.len()) };
+        Row {
+            name: text(one.name),
+            key: text(one.key),
+            unit: text(one.unit),
+            range: text(range.as_ptr()),
+            text: text(one.text),
+            low: one.low,
+            high: one.high,
+            other: one.other,
+        }
+    };
+    (0..).map_while(row).map(told).collect()
+}
+
+/// The word of a value, such as "han" of `sys::CAROM_WORDS_SHOT_CUSHION`.
+pub fn word(of: sys::carom_words, value: i32) -> Option<String> {
+    let found = unsafe { sys::carom_word(of, value) };
+    (!found.is_null()).then(|| text(found))
+}
+
+/// The error of a shot, with the number at fault where there is one.
+fn refused(
+    status: sys::carom_status,
+    table: &Table,
+    balls: &[ShotBall],
+    cue: &Cue,
+    options: &Options,
+) -> Error {
+    let mut fault = sys::carom_fault::default();
+    let mut must = [0 as c_char; 200];
+    unsafe {
+        sys::carom_shot_fault(
+            table,
+            balls.as_ptr(),
+            balls.len() as i32,
+            cue,
+            options,
+            &mut fault,
+            must.as_mut_ptr(),
+            must.len(),
+        )
+    };
+    let (row, must) = (unsafe { fault.row.as_ref() }, text(must.as_ptr()));
+    Error {
+        status,
+        fault: row.filter(|_| !must.is_empty()).map_or(String::new(), |row| {
+            format!("{} must be {must}, not {}", text(row.name), fault.value)
+        }),
+    }
 }
 
 fn check(status: sys::carom_status) -> Result<sys::carom_status, Error> {
@@ -121,9 +194,11 @@ pub fn shoot(
             r#final: last.as_mut_ptr(),
             ..Default::default()
         };
-        let status = check(unsafe {
-            sys::carom_shoot(table, balls.as_ptr(), count, cue, options, &mut shot)
-        })?;
+        let status =
+            unsafe { sys::carom_shoot(table, balls.as_ptr(), count, cue, options, &mut shot) };
+        if status < 0 {
+            return Err(refused(status, table, balls, cue, options));
+        }
         let happened = shot.count as usize;
         if happened <= room {
             events.truncate(happened);
@@ -244,7 +319,7 @@ mod tests {
         };
         let error = shoot(&table, &balls, &wrong, &Options::default()).unwrap_err();
         assert_eq!(error.status, sys::CAROM_ERROR_CUE_SPEED);
-        assert_eq!(error.to_string(), "cue.speed must be 0 to 1000 m/s");
+        assert_eq!(error.to_string(), "speed must be 0 to 1000, in m/s, not -1");
         assert_eq!(
             rack(99, &table, 1e-4, 1).unwrap_err().status,
             sys::CAROM_ERROR_RACK
@@ -254,6 +329,25 @@ mod tests {
         assert!(!damaged.ended());
         assert_eq!(error.status, sys::CAROM_ERROR_RECORD);
         assert!(error.fault.contains("game"), "{}", error.fault);
+    }
+
+    #[test]
+    fn each_number_of_a_ball_is_refused_by_its_row() {
+        let table = table(sys::CAROM_TABLE_POOL_9FT).unwrap();
+        let balls = rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1).unwrap();
+        let all = rows(sys::CAROM_PART_BALL);
+        assert_eq!(all.len() * 8, std::mem::size_of_val(&balls[0].kind));
+        for (k, row) in all.iter().enumerate() {
+            let mut bad = balls.clone();
+            // A kind is numbers alone, in the order of the rows.
+            unsafe { *(&mut bad[2].kind as *mut sys::carom_ball_kind as *mut f64).add(k) = f64::NAN };
+            let cue = cue(sys::CAROM_GAME_POOL);
+            let error = shoot(&table, &bad, &cue, &Options::default()).unwrap_err();
+            assert_eq!(error.fault, format!("{} must be {}, not NaN", row.name, row.range));
+        }
+        let han = sys::CAROM_SHOT_CUSHION_HAN;
+        assert_eq!(word(sys::CAROM_WORDS_SHOT_CUSHION, han).unwrap(), "han");
+        assert_eq!(word(sys::CAROM_WORDS_SHOT_CUSHION, 99), None);
     }
 
     #[test]
