@@ -56,6 +56,11 @@ def end_of(value):
     return (None if number is None else float(number)), inner is None
 
 
+def ends_of(*values):
+    """The numbers that a range names."""
+    return [x for x, _ in map(end_of, values) if x is not None]
+
+
 def digits(x):
     """A number as 0, 0.5, 1e6 or 1e-12."""
     return re.sub(r"e\+?(-?)0*", r"e\1", f"{x:.0e}" if abs(x) >= 1e5 else f"{x:g}")
@@ -82,10 +87,9 @@ def numbers():
     """The numbers of a ball, in the order of carom_ball_kind."""
     found = []
     for kind, (name, key, unit, low, high, other, error, reader, text) in rows("about/numbers.h", "CAROM_NUMBERS"):
-        ends = [end_of(value)[0] for value in (low, high, other)]
         found.append({
             "name": name, "key": text_of(key), "unit": text_of(unit), "range": range_of(text_of(unit), low, high, other),
-            "ends": [x for x in ends if x is not None], "error": f"CAROM_ERROR_{error}", "reader": reader, "of_cushion": kind == "CUSHION",
+            "ends": ends_of(low, high, other), "error": f"CAROM_ERROR_{error}", "reader": reader, "of_cushion": kind == "CUSHION",
             "text": text_of(text),
         })  # fmt: skip
     return found
@@ -109,8 +113,8 @@ def parts():
     for struct in ("cue", "table", "rail", "jaw", "pocket", "ball_state"):
         found[f"carom_{struct}"] = [
             {"name": name, "key": text_of(key), "unit": text_of(unit), "range": range_of(text_of(unit), low, high.replace("CAROM_BALLS_MOST - 1", "31"), other),
-             "error": f"CAROM_ERROR_{error}", "text": text_of(text)}
-            for _, (name, key, unit, low, high, other, error, text) in rows("about/numbers.h", f"CAROM_{struct.removeprefix('ball_').upper()}_NUMBERS")
+             "ends": ends_of(low, high, other) if kind == "ROW" else [], "error": f"CAROM_ERROR_{error}", "text": text_of(text)}
+            for kind, (name, key, unit, low, high, other, error, text) in rows("about/numbers.h", f"CAROM_{struct.removeprefix('ball_').upper()}_NUMBERS")
         ]  # fmt: skip
     return found
 
@@ -140,6 +144,7 @@ def options():
                 range_ = range_of(unit, low, high, "0" if end_of(low)[0] is not None and end_of(low)[0] > 0 else "NAN")
             found.setdefault(struct, []).append({
                 "name": name, "key": text_of(key), "form": kind.lower(), "words": words_of, "unit": unit, "range": range_,
+                "ends": ends_of(low, high) if kind in ("COUNT", "NUMBER") and high != "INT32_MAX" else [],
                 "error": f"CAROM_ERROR_{error}", "group": group.lower() if group in ("STOP", "COMPUTE") else "motion", "text": text_of(text),
             })  # fmt: skip
     return found

@@ -230,7 +230,7 @@ typedef struct carom_plan_options {
                                    layout and his error phi, as racks that were played told it.
                                    One below 0.001 counts as 0.001. Values of layouts depend on
                                    it. */
-  double chance_opponent;       /* and of his opponent, likewise. */
+  double chance_opponent;       /* 0 to 1: likewise, of the opponent. */
   const volatile int32_t *stop; /* not NULL: another thread may set it to end the plan early,
                                    within some ms. It then gives one choice, the best so far; of
                                    carom_plan_try() those that were not played have `seen` 0 and

@@ -340,15 +340,16 @@ typedef struct carom_rail {
 } carom_rail;
 
 /* A rounded end of a cushion: a vertical cylinder, of which balls touch the outside. radius >=
- * 0, m. */
+ * 0. */
 typedef struct carom_jaw {
-  double centre[2], radius, height;
-  double mu_cushion, restitution; /* as of a rail. */
+  double centre[2], radius, height; /* m; */
+  double mu_cushion, restitution;   /* 0 to 1, as of a rail. */
 } carom_jaw;
 
-/* A pocket takes a ball when the ball's centre crosses the circle inward. */
+/* A pocket takes a ball when the ball's centre crosses the circle inward. A pocketed ball's state is
+ * at z = -depth. */
 typedef struct carom_pocket {
-  double centre[2], radius, depth; /* m; a pocketed ball's state is at z = -depth. */
+  double centre[2], radius, depth; /* m; radius 1e-9 or more. */
 } carom_pocket;
 
 /* A table: any geometry. Fill the counts and the arrays, or call carom_table_make(). */
@@ -359,13 +360,13 @@ typedef struct carom_table {
   carom_jaw jaw[CAROM_JAWS_MOST];
   carom_pocket pocket[CAROM_POCKETS_MOST];
   /* Read with CAROM_SPACE_3D only. All >= 0, m; 0 means the default. */
-  double ball_radius; /* of the balls that touch a rail on the cloth when their centre is their
+  double ball_radius; /* m, of the balls that touch a rail on the cloth when their centre is their
                          radius from its line, which places the nose; 0: that of the last ball of
                          the layout. */
   double rail_width;  /* of the tops of the rails, behind the noses, which balls may fall on; at
                          least the radius of the largest ball; 0: 0.12 m, a convention. */
   double pocket_back; /* an airborne ball over a pocket falls into it if its centre is not higher
-                         than this above the cloth where it leaves the circle; 0: the greatest
+                         than this, m, above the cloth where it leaves the circle; 0: the greatest
                          height of a nose. */
 } carom_table;
 
@@ -489,8 +490,8 @@ CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table
 /* ---- The cue --------------------------------------------------------------------------------- */
 
 typedef struct carom_cue {
-  double speed;    /* V0 of the cue before the strike, m/s, >= 0. 0: no strike. */
-  double phi;      /* direction in the plane, degrees from +x towards +y. */
+  double speed;    /* V0 of the cue before the strike, m/s, 0 to 1000. 0: no strike. */
+  double phi;      /* direction in the plane, degrees from +x towards +y, -1e9 to 1e9. */
   double theta;    /* elevation of the butt, degrees, 0 to 90. The tip presses the ball on the
                         slate, which throws it up after a short contact of the tip; with
                         CAROM_SPACE_FLAT the part of the blow that goes down is lost. */
@@ -504,7 +505,7 @@ typedef struct carom_cue {
                              leather; a cue of pooltool's has 1, and its old bits. */
   double tip_radius;      /* m; not used by the strike, kept with the cue. */
   int64_t ball;           /* index of the ball that is struck. */
-  double miscue;          /* 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its
+  double miscue;          /* R, 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its
                         edge. Chalked tips reach 0.5. */
   double tip_time;        /* s, to 0.01: how long the tip of a raised cue touches the ball. 0:
                         CAROM_TIP_TIME; tips of hard resin, 0.0006. -1: no time; blow and landing

@@ -17,6 +17,7 @@ from rows import digits, numbers, options, parts, python, with_tables, words  # 
 
 api = describe(ROOT / "include")
 structs = {one["name"]: one["fields"] for one in api["structs"]}
+constants = {one["name"]: one["value"] for one in api["constants"]}
 OPTIONS = "carom_cushion_options"
 faults = []
 
@@ -34,9 +35,24 @@ def comment(struct, name):
     return " ".join(dict.fromkeys(sentence))
 
 
-def said_of(number):
-    text = comment("carom_ball_kind", number["name"])
+def said_of(struct, number):
+    text = comment(struct, number["name"])
     return f"{text} {comment(OPTIONS, number['name'])}" if OPTIONS in text else text
+
+
+def compare(struct, one):
+    """The unit, the range and the default of a row with the comment of its member."""
+    text = said_of(struct, one)
+    wanted = [digits(x) for x in one.get("ends", [])] + re.findall(r"\b0: (-?[\d.]+(?:e\d+)?)", one["text"])
+    named = re.sub(r"CAROM_\w+", lambda name: f"{constants.get(name[0], '')}", text)
+    said = re.findall(r"-?\d[\d,]*(?:\.\d+)?(?:e-?\d+)?", named)
+    said += [digits(float(value.replace(",", ""))) for value in said]
+    faults.extend(f"{struct}.{one['name']}: its row has {value}, which its comment does not name: {text}" for value in wanted if value not in said)
+    unit = next(field.get("unit", "") for field in structs[struct] if field["name"] == one["name"])
+    if unit and unit != one["unit"]:
+        faults.append(f"{struct}.{one['name']}: the unit is '{one['unit']}' in its row, '{unit}' in its comment")
+    if one["unit"] and not re.search(rf"\b{re.escape(one['unit'])}(?!\w)", text):
+        faults.append(f"{struct}.{one['name']}: its comment does not name the unit {one['unit']}: {text}")
 
 
 described = numbers()
@@ -45,16 +61,9 @@ if [one["name"] for one in described] != [field["name"] for field in structs["ca
 own = [field["name"] for field in structs[OPTIONS] if field["type"] == "double" and field["name"] != "least_step"]
 if sorted(own) != sorted(one["name"] for one in described if one["of_cushion"]):
     faults.append("the rows of cushions are not the numbers of carom_cushion_options")
-for one in described:
-    text = said_of(one)
-    wanted = [digits(x) for x in one["ends"]] + re.findall(r"\b0: (-?[\d.]+(?:e\d+)?)", one["text"])
-    said = re.findall(r"-?\d+(?:\.\d+)?(?:e-?\d+)?", text)
-    faults += [f"{one['name']}: its row has {value}, which its comment does not name: {text}" for value in wanted if value not in said]
-    unit = next(field.get("unit", "") for field in structs["carom_ball_kind"] if field["name"] == one["name"])
-    if unit and unit != one["unit"]:
-        faults.append(f"{one['name']}: the unit is '{one['unit']}' in its row, '{unit}' in its comment")
-    if one["unit"] and not re.search(rf"\b{re.escape(one['unit'])}(?!\w)", text):
-        faults.append(f"{one['name']}: its comment does not name the unit {one['unit']}: {text}")
+every = [(struct, one) for struct, several in {"carom_ball_kind": described, **parts(), **options()}.items() for one in several]
+for struct, one in every:
+    compare(struct, one)
 
 
 class Number(ctypes.Structure):
@@ -100,5 +109,5 @@ for kept, text in made.items():
     if kept.read_text(encoding="utf-8") != text:
         faults.append(f"{kept.relative_to(ROOT)} is not that of the rows; UPDATE=1 writes it")
 
-print("\n".join(faults) or f"{len(described)} numbers have the unit, range and default of their comments")
+print("\n".join(faults) or f"{len(every)} numbers and options have the unit, range and default of their comments")
 sys.exit(bool(faults))

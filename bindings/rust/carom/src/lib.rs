@@ -119,9 +119,11 @@ fn refused(
     let (row, must) = (unsafe { fault.row.as_ref() }, text(must.as_ptr()));
     Error {
         status,
-        fault: row.filter(|_| !must.is_empty()).map_or(String::new(), |row| {
-            format!("{} must be {must}, not {}", text(row.name), fault.value)
-        }),
+        fault: row
+            .filter(|_| !must.is_empty())
+            .map_or(String::new(), |row| {
+                format!("{} must be {must}, not {}", text(row.name), fault.value)
+            }),
     }
 }
 
@@ -340,10 +342,15 @@ mod tests {
         for (k, row) in all.iter().enumerate() {
             let mut bad = balls.clone();
             // A kind is numbers alone, in the order of the rows.
-            unsafe { *(&mut bad[2].kind as *mut sys::carom_ball_kind as *mut f64).add(k) = f64::NAN };
+            unsafe {
+                *(&mut bad[2].kind as *mut sys::carom_ball_kind as *mut f64).add(k) = f64::NAN
+            };
             let cue = cue(sys::CAROM_GAME_POOL);
             let error = shoot(&table, &bad, &cue, &Options::default()).unwrap_err();
-            assert_eq!(error.fault, format!("{} must be {}, not NaN", row.name, row.range));
+            assert_eq!(
+                error.fault,
+                format!("{} must be {}, not NaN", row.name, row.range)
+            );
         }
         let han = sys::CAROM_SHOT_CUSHION_HAN;
         assert_eq!(word(sys::CAROM_WORDS_SHOT_CUSHION, han).unwrap(), "han");
