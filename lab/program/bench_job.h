@@ -1,5 +1,5 @@
 /* One run of `carom-lab bench`: what is timed is verified, then timed in turns by the engine,
- * then printed. There are two tables of work: collisions of two balls and whole shots. */
+ * then printed. There are three tables of work: collisions of two balls, whole shots, cushions. */
 #ifndef CAROM_LAB_BENCH_JOB_H
 #define CAROM_LAB_BENCH_JOB_H
 
@@ -22,7 +22,7 @@ typedef struct bench_table {
   bool (*choose)(bench_job *job);
   void (*print)(const bench_job *job, FILE *out);
 } bench_table;
-extern const bench_table bench_of_shots;
+extern const bench_table bench_of_shots, bench_of_cushions;
 
 struct bench_job {
   shared_options shared;            /* the precision: ANY_PRECISION for both */
@@ -32,6 +32,7 @@ struct bench_job {
   double budget;                    /* 0: the table's own */
   bool csv, spread, errors;
   const char *shots; /* time a file of shots instead */
+  bool cushions;     /* time impacts on a cushion instead */
   const bench_table *table;
   double (*now)(void);    /* the clock; NULL: the engine's */
   bench_subject *subject; /* those that passed */

@@ -712,6 +712,8 @@ OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
        "largest");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "time the whole shots of this file instead, beside pooltool's recorded times");
+OPTION(bench_job, option_cushions, "cushions", cushions, 0, NULL, set_flag, 0,
+       "time impacts on a cushion by each model instead, beside Han's");
 static const char about[] =
     "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each "
     "kernel is verified first; one whose error is above its bound is not timed. Times are "
@@ -734,13 +736,13 @@ static const command_form form = {
         (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch,
                                     &option_isa, &option_one_precision, &option_thread_counts,
                                     &option_pairs, &option_budget, &option_csv, &option_spread,
-                                    &option_errors, &option_shots, &options_of_motion, &option_data,
-                                    &option_output, NULL},
+                                    &option_errors, &option_shots, &option_cushions,
+                                    &options_of_motion, &option_data, &option_output, NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
 
-/* Options that choose collisions mean nothing for shots. */
+/* Options that choose collisions mean nothing for shots and cushions. */
 static bool is_plain(const bench_job *job) {
   return job->kernels.count + job->configs.count + job->isas.count + job->steps.count +
                  job->pairs.count ==
@@ -751,11 +753,17 @@ static bool is_plain(const bench_job *job) {
 static int bench(bench_job *job) {
   if ((job->spread || job->errors) && !job->csv)
     complain("--spread and --errors add columns to the CSV: give --csv too");
-  else if (job->shots != NULL && !is_plain(job))
+  else if (job->shots != NULL && job->cushions)
+    complain("--shots and --cushions: one of them can be timed");
+  else if (job->cushions && job->threads.count > 0)
+    complain("--threads is for batches and shots, not for --cushions, which are single calls");
+  else if ((job->shots != NULL || job->cushions) && !is_plain(job))
     complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs and --errors are "
              "for collisions of two balls");
   else {
-    job->table = job->shots != NULL ? &bench_of_shots : &bench_of_collisions;
+    job->table = job->shots != NULL ? &bench_of_shots
+                 : job->cushions    ? &bench_of_cushions
+                                    : &bench_of_collisions;
     return bench_all(job) ? job->code : EXIT_USAGE;
   }
   return usage_hint(&form);

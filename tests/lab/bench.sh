@@ -30,6 +30,8 @@ CAROM_ISA=plain timed --batch --kernel exact --precision single --threads 1 --pa
 timed --kernel float --isa scalar --steps 50000 # more than its precision resolves: cases are left out
 grep -c "^# left out: float" out.csv
 lab bench --kernel euler --budget 0.3 | grep -v '^#' | awk '{ print $1, $4, $5, $6 }'
+echo "--- cushions"
+lab bench --cushions --budget 0.2 --csv | grep -v '^#' | awk -F, 'NR == 1 { print } NR > 1 { print $1, ($2 > 0 && $3 >= 0 && $4 > 0 && ($4 == 1) == ($1 == "han") ? "" : $0) }'
 rm out.csv
 mkdir data
 cp "$DATA"/*.csv data
@@ -48,7 +50,7 @@ try env CAROM_ISA=AVX2 "$LAB" bench
 try lab bench --precision half
 try lab bench now
 for words in "--isa ," "--batch --kernel base" "--kernel exact --isa scalar --precision single" "--pairs 0" "--pairs ," "--threads 1,none" "--kernel euler,fast" "--steps 10,many" \
-  "--budget never" "--budget 0" "--budget 1x" "--spread" "--shots $DATA/shots-mathavan.jsonl --pairs 8" "--shots nowhere.jsonl" "--data nowhere"; do
+  "--budget never" "--budget 0" "--budget 1x" "--spread" "--shots $DATA/shots-mathavan.jsonl --pairs 8" "--cushions --shots nowhere.jsonl" "--cushions --threads 2" "--cushions --kernel exact" "--shots nowhere.jsonl" "--data nowhere"; do
   # shellcheck disable=SC2086
   try lab bench $words
 done
