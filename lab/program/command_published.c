@@ -1,8 +1,9 @@
 /* `carom-lab published`: values that others measured or stated, beside those that carom computes.
  *
  * data/measured.csv has a value a row, with its bounds and its source. The last column, `computed`,
- * names a function of the table below and up to three numbers for it: `rebound:1:1.5`. A row
- * without bounds is printed and not judged. */
+ * names a function of the table below and up to six numbers for it: `rebound:1:1.5`; "-" where
+ * nothing of carom can be compared, which the conditions explain. A row without bounds is printed
+ * and not judged. */
 #include "command.h"
 #include "kernel.h"
 #include "message.h"
@@ -10,6 +11,7 @@
 #include "place.h"
 #include "random.h"
 #include "records.h"
+#include "rounds.h"
 #include "subcommands.h"
 
 #include <limits.h>
@@ -372,15 +374,24 @@ static double bounce(const double *x) {
   return ratio * ratio;
 }
 
-/* ---- Breaks: the rack x[0] on the table x[1] with a gap of x[2] mm, 400 times.
- * The cue ball is x[3] m beside the long string, on the head string; the ball's speed is x[4]. */
+/* ---- Breaks: the rack x[0] on the table x[1] with a gap of x[2] mm, 1600 times.
+ * The cue ball is x[3] m beside the long string, on the head string; the ball's speed is x[4], and
+ * the tip touches it x[5] R above its centre. */
 
-enum { BREAKS = 400, BALLS_OF_A_RACK = 16 };
+enum { BREAKS = 1600, BALLS_OF_A_RACK = 16, NUMBERS_MOST = 6 };
 
-/* What was counted in 400 breaks: `any` are those that made a ball. */
+/* What was counted: `any` are breaks that made a ball, `squares` sums the squares of how many each
+ * of them made, place[] how often the ball of a place of the rack fell: places are in rows from the
+ * cue ball, and from the left. */
 typedef struct break_counts {
-  int success, scratch, eight, made, any;
+  int breaks, success, scratch, eight, made, squares, any, front_in_side, place[BALLS_OF_A_RACK];
+  double back[BREAKS]; /* velocity of the cue ball along the table just after it met the rack, over
+                          that before */
+  double rest[BREAKS]; /* m: where it stopped, from the middle of the table; NAN where it is gone */
 } break_counts;
+
+/* The standard error of the last value, where it was counted or drawn. */
+static double error_of_value;
 
 static double normal_draw(lab_random *draw) {
   double sum = -6.0;
@@ -389,13 +400,69 @@ static double normal_draw(lab_random *draw) {
   return sum;
 }
 
-static break_counts breaks(const double *x) {
+/* The place of a ball in its rack, from 0: the ball in front. */
+static int place_of(const carom_shot_ball *balls, int count, int ball) {
+  const double *r = balls[ball].state.r, R = balls[ball].kind.radius;
+  int place = 0;
+  for (int b = 1; b < count; b++) {
+    const double *other = balls[b].state.r;
+    const bool same_row = fabs(other[1] - r[1]) < R;
+    place += same_row ? other[0] < r[0] : other[1] < r[1];
+  }
+  return place;
+}
+
+/* The velocity of the cue ball along the table once it has met the rack, over that before: contacts
+ * within a millisecond are one. */
+static double thrown_back(const carom_shot *shot, int64_t kept) {
+  double before = NAN, after = NAN, when = INFINITY;
+  for (int64_t k = 0; k < kept && shot->events[k].time <= when + 1e-3; k++) {
+    const carom_event *e = &shot->events[k];
+    const int own = e->a == 0 ? 0 : e->b == 0 ? 1 : -1;
+    if (e->type != CAROM_EVENT_BALL_BALL || own < 0)
+      continue;
+    if (isinf(when)) {
+      when = e->time;
+      before = e->before[own].v[1];
+    }
+    after = e->after[own].v[1];
+  }
+  return after / before;
+}
+
+static void count_break(const carom_shot *shot, const carom_table *table,
+                        const carom_shot_ball *balls, int count, int number, break_counts *counts) {
+  const carom_facts *facts = shot->facts;
+  int made = 0;
+  for (int b = 1; b < count; b++) {
+    const int place = place_of(balls, count, b);
+    if ((facts->down >> b & 1) == 0)
+      continue;
+    made++;
+    counts->place[place]++;
+    const double y = table->pocket[facts->pocket[b]].centre[1];
+    counts->front_in_side += place == 0 && fabs(y - 0.5 * table->length) < 0.25 * table->length;
+  }
+  const bool scratch = (facts->down | facts->off) & 1;
+  counts->success += made > 0 && !scratch;
+  counts->scratch += scratch;
+  counts->eight += (facts->down >> 8 & 1) != 0;
+  counts->made += made;
+  counts->squares += made * made;
+  counts->any += made > 0;
+
+  const double *end = shot->final[0].r;
+  counts->rest[number] =
+      scratch ? NAN : hypot(end[0] - 0.5 * table->width, end[1] - 0.5 * table->length);
+}
+
+static break_counts break_as(const double *x) {
   const carom_rack_kind rack = (carom_rack_kind)x[0];
   const int count = carom_rack_size(rack);
   carom_table table;
   carom_table_make((carom_table_kind)x[1], &table);
   lab_random draw = {1};
-  break_counts counts = {0};
+  break_counts counts = {.breaks = BREAKS};
   for (int k = 0; k < BREAKS; k++) {
     carom_shot_ball balls[BALLS_OF_A_RACK];
     carom_rack(rack, &table, 1e-3 * x[2], (uint64_t)k, balls, BALLS_OF_A_RACK);
@@ -404,55 +471,112 @@ static break_counts breaks(const double *x) {
 
     /* at the ball in front; errors of a good player: 0.2 degrees, 3 % of the speed, 0.03 R */
     int front = 1;
-    for (int b = 2; b < count; b++)
-      if (balls[b].state.r[1] < balls[front].state.r[1])
-        front = b;
+    while (place_of(balls, count, front) > 0)
+      front++;
     carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-    cue.b = 0.03 * normal_draw(&draw);
+    cue.b = x[5] + 0.03 * normal_draw(&draw);
     cue.a = 0.03 * normal_draw(&draw);
     cue.phi = atan2(balls[front].state.r[1] - balls[0].state.r[1],
                     balls[front].state.r[0] - balls[0].state.r[0]) /
                   degree +
               0.2 * normal_draw(&draw);
-    cue.speed = x[4] / tip_speed((const double[]){0.0}) * (1.0 + 0.03 * normal_draw(&draw));
+    cue.speed = x[4] / tip_speed((const double[]){x[5]}) * (1.0 + 0.03 * normal_draw(&draw));
 
+    enum { FEW = 64 };
+    carom_event events[FEW];
+    carom_ball_state final[BALLS_OF_A_RACK];
     carom_facts facts;
-    carom_shot shot = {.facts = &facts};
+    carom_shot shot = {.facts = &facts, .final = final, .events = events, .room = FEW};
     carom_shoot(&table, balls, count, &cue, &(carom_shot_options){.plain = 1}, &shot);
-    int made = 0;
-    for (int b = 1; b < count; b++)
-      made += (facts.down >> b & 1) != 0;
-    const bool scratch = (facts.down | facts.off) & 1;
-    counts.success += made > 0 && !scratch;
-    counts.scratch += scratch;
-    counts.eight += (facts.down >> 8 & 1) != 0;
-    counts.made += made;
-    counts.any += made > 0;
+    const int64_t kept = shot.count < FEW ? shot.count : FEW;
+    count_break(&shot, &table, balls, count, k, &counts);
+    counts.back[k] = thrown_back(&shot, kept);
   }
   return counts;
 }
 
+/* The breaks of the last row are kept, as rows that follow may count something else of them. */
+static break_counts breaks(const double *x) {
+  static double kept_x[NUMBERS_MOST];
+  static break_counts kept; /* none yet: breaks is 0 */
+  if (kept.breaks == 0 || memcmp(x, kept_x, sizeof kept_x) != 0) {
+    memcpy(kept_x, x, sizeof kept_x);
+    kept = break_as(x);
+  }
+  return kept;
+}
+
+/* %, with the error of its binomial distribution */
+static double share_of_breaks(int counted) {
+  const double share = (double)counted / BREAKS;
+  error_of_value = 100.0 * sqrt(share * (1.0 - share) / BREAKS);
+  return 100.0 * share;
+}
+
 static double break_success(const double *x) {
-  return 100.0 * breaks(x).success / BREAKS;
+  return share_of_breaks(breaks(x).success);
+}
+
+static double break_any(const double *x) {
+  return share_of_breaks(breaks(x).any);
 }
 
 static double break_scratch(const double *x) {
-  return 100.0 * breaks(x).scratch / BREAKS;
+  return share_of_breaks(breaks(x).scratch);
 }
 
 static double break_eight(const double *x) {
-  return 100.0 * breaks(x).eight / BREAKS;
+  return share_of_breaks(breaks(x).eight);
+}
+
+static double break_front_in_side(const double *x) {
+  return share_of_breaks(breaks(x).front_in_side);
 }
 
 /* balls of a break that made one */
 static double break_made(const double *x) {
   const break_counts counts = breaks(x);
-  return (double)counts.made / counts.any;
+  const double mean = (double)counts.made / counts.any;
+  error_of_value = sqrt(((double)counts.squares / counts.any - mean * mean) / counts.any);
+  return mean;
+}
+
+/* How often the likelier wing ball of nine-ball falls over how often the likeliest other ball does;
+ * the error is that of both shares. */
+static double break_wings(const double *x) {
+  const break_counts counts = breaks(x);
+  int wing = 0, other = 1;
+  for (int place = 0; place < BALLS_OF_A_RACK; place++) {
+    int *most = place == 3 || place == 5 ? &wing : &other;
+    *most = counts.place[place] > *most ? counts.place[place] : *most;
+  }
+  const double ratio = (double)wing / other;
+  error_of_value = ratio * sqrt(1.0 / (wing + 1) + 1.0 / other);
+  return ratio;
+}
+
+/* The median of n samples that are no NAN; its error as of a normal distribution. */
+static double median_of(double *sample, int count) {
+  size_t n = 0;
+  for (int k = 0; k < count; k++)
+    if (!isnan(sample[k]))
+      sample[n++] = sample[k];
+  const sample_summary s = summarise(sample, n);
+  error_of_value = 1.86 * s.spread / sqrt((double)n);
+  return s.median;
+}
+
+static double break_back(const double *x) {
+  break_counts counts = breaks(x);
+  return median_of(counts.back, BREAKS);
+}
+
+static double break_rest(const double *x) {
+  break_counts counts = breaks(x);
+  return median_of(counts.rest, BREAKS);
 }
 
 /* ---- The table of rows */
-
-enum { NUMBERS_MOST = 5 };
 
 static const struct {
   const char *name;
@@ -494,9 +618,14 @@ static const struct {
     {"three_rails", three_rails},
     {"bounce", bounce},
     {"break_success", break_success},
+    {"break_any", break_any},
     {"break_scratch", break_scratch},
     {"break_eight", break_eight},
+    {"break_front_in_side", break_front_in_side},
     {"break_made", break_made},
+    {"break_wings", break_wings},
+    {"break_back", break_back},
+    {"break_rest", break_rest},
 };
 
 /* "rebound:1:1.5": the function and its numbers. False where there is no such function, or it has
@@ -513,6 +642,7 @@ static bool compute(const char *computed, double *value) {
   for (size_t k = 0; k < sizeof functions / sizeof functions[0]; k++)
     if (*rest == '\0' && strlen(functions[k].name) == length &&
         strncmp(functions[k].name, computed, length) == 0) {
+      error_of_value = 0.0;
       *value = functions[k].value(x);
       return !isnan(*value);
     }
@@ -530,26 +660,35 @@ static bool bound(const record *row, int column, double without, double *number)
 }
 
 static bool print_row(FILE *out, bool csv, const record *row) {
-  double value, low, high;
+  double value = NAN, low, high;
+  const char *computed = row->count == COLUMNS ? row->field[COMPUTED] : "";
+  const bool countable = strcmp(computed, "-") != 0;
   if (row->count != COLUMNS || !bound(row, LOW, -INFINITY, &low) ||
       !bound(row, HIGH, INFINITY, &high))
     return false;
-  if (row->field[COMPUTED][0] == '\0')
+  if (computed[0] == '\0')
     return true;
-  if (!compute(row->field[COMPUTED], &value))
+  if (countable && !compute(computed, &value))
     return false;
-  const char *verdict = value < low                 ? "low"
-                        : value > high              ? "high"
-                        : isinf(low) && isinf(high) ? "-"
-                                                    : "ok";
+
+  /* what cannot be compared has no value and no verdict; what was drawn has an error */
+  char carom[16] = "-", error[16] = "";
+  if (countable)
+    snprintf(carom, sizeof carom, "%.4g", value);
+  if (countable && error_of_value > 0.0)
+    snprintf(error, sizeof error, "%.2g", error_of_value);
+  const char *verdict = isnan(value) || (isinf(low) && isinf(high)) ? "-"
+                        : value < low                               ? "low"
+                        : value > high                              ? "high"
+                                                                    : "ok";
   if (csv)
-    fprintf(out, "%s,%s,%s,%s,%s,%.4g,%s,%s,%s\n", row->field[QUANTITY], row->field[VALUE],
-            row->field[LOW], row->field[HIGH], row->field[UNIT], value, verdict,
+    fprintf(out, "%s,%s,%s,%s,%s,%s,%s,%s,%s,%s\n", row->field[QUANTITY], row->field[VALUE],
+            row->field[LOW], row->field[HIGH], row->field[UNIT], carom, error, verdict,
             row->field[CONDITIONS], row->field[SOURCE]);
   else
-    fprintf(out, "%-42.42s %9s %7s %7s %9.4g %-6s %-4s  %s\n", row->field[QUANTITY],
-            row->field[VALUE], row->field[LOW], row->field[HIGH], value, row->field[UNIT], verdict,
-            row->field[CONDITIONS]);
+    fprintf(out, "%-42.42s %9s %7s %7s %9s %-7s %-6s %-4s  %s\n", row->field[QUANTITY],
+            row->field[VALUE], row->field[LOW], row->field[HIGH], carom, error, row->field[UNIT],
+            verdict, row->field[CONDITIONS]);
   return true;
 }
 
@@ -559,14 +698,15 @@ typedef struct published_job {
 } published_job;
 
 OPTION(published_job, published_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV: quantity,published,low,high,unit,carom,verdict,conditions,source");
+       "as CSV: quantity,published,low,high,unit,carom,error,verdict,conditions,source");
 
 static const command_form form = {
     .name = "published",
     .usage = "[OPTIONS]",
     .about = "Values that others measured or stated (data/measured.csv) beside those that carom "
              "computes. The verdict is low or high where carom's value lies outside the bounds of "
-             "the source. Breaks are 400 each, so a share has a standard error of at most 2.5 %. "
+             "the source. Breaks are 1600 each; the standard error of what was counted stands "
+             "beside it. "
              "docs/understanding/published.md reads the table.\n",
     .options = (const option_row *const[]){&option_data, &published_csv, &option_output, NULL},
     .details = "exit code: 0, or 2 for bad usage or unreadable data\n",
@@ -584,9 +724,9 @@ int command_published(int argc, char **argv) {
   FILE *out = reader != NULL ? output_open(job.shared.output) : NULL;
   if (out == NULL)
     return EXIT_USAGE;
-  fputs(job.csv ? "quantity,published,low,high,unit,carom,verdict,conditions,source\n"
+  fputs(job.csv ? "quantity,published,low,high,unit,carom,error,verdict,conditions,source\n"
                 : "quantity                                   published     low    high     carom "
-                  "unit   verdict\n",
+                  "error   unit   verdict\n",
         out);
   record row;
   bool good = record_next(reader, &row) == READ_ONE; /* the header */
