@@ -915,10 +915,33 @@ CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_bal
  * 1e-7 rad for each phase of the ball. `turned` takes `count` of them. Returns the status of
  * carom_shot_at(), and CAROM_ERROR_UNRESOLVED where balls turn by more than 5,000,000 rad, with
  * some of them written. A call costs some 0.1 us for each radian that balls with side spin have
- * turned. */
+ * turned; carom_shot_frames() goes on from the time before. */
 CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count,
                                               const carom_shot *shot, double time,
                                               double (*turned)[4]);
+
+/* How far carom_shot_frames() has gone: the caller's memory, all zero before the first call. It is
+ * of one process: it is not to be kept in files. */
+typedef struct carom_frames {
+  uint64_t opaque[2048];
+} carom_frames;
+
+/* Frames: states and turns at `n` times, those of times[k] from states[k * count] and
+ * turned[k * count] on, with the bits of carom_shot_at() and carom_shot_orientation(). With
+ * `onward` a call goes on from the last time of the call before, where the balls and the events
+ * until then are the same, as they are after carom_shot_continue(); else, and at an earlier time, it
+ * begins with the first event. The bits are the same. `onward` may be NULL. A frame of the 16 balls
+ * of a break takes 2 us. Errors are those of carom_shot_at_times() and carom_shot_orientation().
+ *
+ *     static carom_frames film;
+ *     double turned[10][4];
+ *     for (double time = 0.0; time < shot.time; time += 1.0 / 60.0)
+ *       carom_shot_frames(balls, 10, &shot, &time, 1, &film, moved, turned);
+ */
+CAROM_API carom_status carom_shot_frames(const carom_shot_ball *balls, int count,
+                                         const carom_shot *shot, const double *times, size_t n,
+                                         carom_frames *onward, carom_ball_state *states,
+                                         double (*turned)[4]);
 
 /* ==== What there is ============================================================================
  *

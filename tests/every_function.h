@@ -48,6 +48,7 @@ typedef struct every_room {
   carom_brief_event brief[EVERY_SHOTS][EVERY_EVENTS];
   carom_shot shot[EVERY_SHOTS];
   carom_shot_state state;
+  carom_frames frames;
   carom_ball_state final[EVERY_BALLS], later[3 * EVERY_BALLS];
   double turned[EVERY_BALLS][4];
   carom_table table;
@@ -489,6 +490,14 @@ EVERY_BODY(shot_orientation) {
   STATUS(carom_shot_orientation(in->balls, EVERY_BALLS, &room->shot[0], 0.4, room->turned));
   return HASH(room->turned);
 }
+EVERY_BODY(shot_frames) {
+  every_break(in, room, 0, 0.5);
+  memset(&room->frames, 0, sizeof room->frames);
+  for (double time = 0.0; time < 0.5; time += 0.1)
+    STATUS(carom_shot_frames(in->balls, EVERY_BALLS, &room->shot[0], &time, 1, &room->frames,
+                             room->final, room->turned));
+  return HASH(room->turned);
+}
 EVERY_BODY(shoot_batch) {
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN,
                                       .threads = in->threads};
@@ -631,7 +640,7 @@ EVERY_BODY(record_settle) {
   F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) \
   F(record_settle) F(record_write) F(rolling_velocity) F(rules_name) F(serves) F(shoot) \
   F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) F(shot_continue) F(shot_drawn) \
-  F(shot_fault) \
+  F(shot_fault) F(shot_frames) \
   F(shot_orientation) \
   F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(status_name) \
   F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(table_polygon) F(trace) \

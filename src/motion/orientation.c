@@ -4,27 +4,29 @@
  * obeys Q' = [w] Q. In a phase, or a piece of one, w is linear in time, w = a + s b with s from
  * the middle of an interval of length h; where the side spin ends before the phase does, the
  * phase is cut there. In flight w is constant. Where a and b are parallel the axis keeps its
- * direction, and Q is exactly the turn by h a. Elsewhere the interval is cut into parts in which
- * a ball turns by half a radian at most, each of which has the turn by the Magnus expansion of
- * order 6,
+ * direction, and Q is exactly the turn by h a. Elsewhere the interval is cut into equal parts in
+ * which a ball turns by half a radian at most, each of which has the turn by the Magnus expansion
+ * of order 6,
  *
  *   Omega = A + (1/240) (-20 A + C) x (B + D),   A = h a, B = h^2 b, C = A x B, D = -(1/60) A x C.
  *
  * Source: S. Blanes, F. Casas, J. A. Oteo, J. Ros, "The Magnus expansion and some of its
  * applications", Physics Reports 470 (2009) 151-238, section 5. Only correctly rounded
  * operations and the library's own sines: the bits are equal on all machines.
+ *
+ * The parts are those of the whole interval, wherever a time is asked for, and the turn until then
+ * is that of the parts before and of the begun one. So its bits do not depend on times that were
+ * asked for before, and the next time goes on from the last whole part.
  */
-#include "motion/path.h"
+#include "motion/orientation.h"
 #include "platform/elementary.h"
 
 #include <math.h>
+#include <string.h>
 
 /* rad, of a part: its turn, and h^2 |b|. Found with tests/unit/games.c, which prints the largest
  * error. */
 static const double most_turn = 0.5, most_bend = 0.02;
-
-/* Of a call: about a second. All balls of a break turn by some 1,000 parts. */
-static const double most_parts = 1e7;
 
 static void cross(const double a[3], const double b[3], double out[3]) {
   out[0] = a[1] * b[2] - a[2] * b[1];
@@ -72,101 +74,86 @@ static void turn_part(double q[4], const double a[3], const double b[3], double 
   turn(q, omega);
 }
 
-/* The turn of an interval in which w goes linearly from w0 to w1, in at most *left parts, which the
- * caller has fewer of then; else false. */
-static bool turn_interval(double q[4], const double w0[3], const double w1[3], double T,
-                          double *left) {
-  double b[3], bent[3];
+/* The interval from a time on, at which the ball is at `from`: until the path ends, or until the
+ * side spin does, where that is earlier. In flight it is constant, as all spin is. */
+static void begin_interval(carom_turning *turning, const carom_path *path,
+                           const carom_ball_rates *rates, double from) {
+  carom_ball_state a, b;
+  const double kink = path->start + fabs(path->from.w[2]) / rates->spin;
+  turning->from = from;
+  turning->done = 0.0;
+  turning->until = !carom_flies(&path->from) && kink > from && kink < path->end ? kink : path->end;
+  carom_path_at(path, rates, from, &a);
+  if (from == kink)
+    a.w[2] = 0.0;
+  for (int k = 0; k < 3; k++) {
+    turning->w[k] = a.w[k];
+    turning->bend[k] = 0.0;
+  }
+  turning->part = turning->parts = 0.0;
+  /* nothing changes on a path without an end */
+  const double T = turning->until - from;
+  if (!(T < INFINITY && T > 0.0))
+    return;
+
+  double bent[3];
+  carom_path_at(path, rates, turning->until, &b);
   for (int k = 0; k < 3; k++)
-    b[k] = (w1[k] - w0[k]) / T;
-  cross(w0, w1, bent);
-  const double fastest = carom_greater(size_of(w0), size_of(w1));
+    turning->bend[k] = (b.w[k] - a.w[k]) / T;
+  cross(a.w, b.w, bent);
+  const double fastest = carom_greater(size_of(a.w), size_of(b.w));
   /* one turn about one axis, or parts */
   const bool one_axis = size_of(bent) <= 1e-12 * fastest * fastest;
-  const double wanted = carom_greater(fastest * T / most_turn, T * sqrt(size_of(b) / most_bend));
-  const double parts = one_axis ? 1.0 : ceil(wanted);
-  if (!(parts <= *left))
-    return false;
-  *left -= parts;
-  const double h = T / parts;
-  for (double k = 0.0; k < parts; k += 1.0) {
-    double a[3];
-    for (int c = 0; c < 3; c++)
-      a[c] = w0[c] + (k + 0.5) * h * b[c];
-    turn_part(q, a, b, h);
-  }
-  return true;
+  const double wanted =
+      carom_greater(fastest * T / most_turn, T * sqrt(size_of(turning->bend) / most_bend));
+  turning->parts = one_axis ? 1.0 : ceil(wanted);
+  turning->part = T / turning->parts;
 }
 
-/* The turn along a path, of one phase or several pieces of one, until a time; false where it takes
- * more than *left parts. */
-static bool turn_until(double q[4], carom_path *path, const carom_ball_rates *rates, double until,
-                       double *left) {
+/* The turn from the last whole part on, for a time h. */
+static void turn_on(double q[4], const carom_turning *turning, double h) {
+  double a[3];
+  for (int k = 0; k < 3; k++)
+    a[k] = turning->w[k] + (turning->done * turning->part + 0.5 * h) * turning->bend[k];
+  turn_part(q, a, turning->bend, h);
+}
+
+void carom_turning_begin(carom_turning *turning, const carom_path *path,
+                         const carom_ball_rates *rates) {
+  begin_interval(turning, path, rates, path->start);
+}
+
+bool carom_turning_go_to(carom_turning *turning, carom_path *path, const carom_ball_rates *rates,
+                         double time, double *left) {
   for (bool more = true; more;) {
-    if (!((*left -= 1.0) > 0.0))
+    /* whole parts, and at the end of the interval the last one, whatever rounding says */
+    const bool ends = turning->until < time;
+    while (turning->done < turning->parts &&
+           (ends || turning->from + (turning->done + 1.0) * turning->part <= time)) {
+      if (!((*left -= 1.0) > 0.0))
+        return false;
+      turn_on(turning->q, turning, turning->part);
+      turning->done += 1.0;
+    }
+
+    /* the next interval of the path, or its next piece */
+    more = ends && (turning->until < path->end || path->goes_on);
+    if (more && !((*left -= 1.0) > 0.0))
       return false;
-    more = path->goes_on && path->end < until;
-    const double end = more ? path->end : until;
-    /* the side spin ends at the kink; in flight it is constant, as all spin is */
-    const double kink = path->start + fabs(path->from.w[2]) / rates->spin;
-    double from = path->start;
-    carom_ball_state a = path->from, b;
-    if (kink > from && kink < end && !carom_flies(&path->from)) {
-      carom_path_at(path, rates, kink, &b);
-      if (!turn_interval(q, a.w, b.w, kink - from, left))
-        return false;
-      a = b;
-      a.w[2] = 0.0;
-      from = kink;
-    }
-    if (end > from) {
-      carom_path_at(path, rates, end, &b);
-      if (!turn_interval(q, a.w, b.w, end - from, left))
-        return false;
-    }
-    if (more)
+    if (more && turning->until < path->end)
+      begin_interval(turning, path, rates, turning->until);
+    else if (more) {
       carom_path_go_on(path, rates);
+      begin_interval(turning, path, rates, path->start);
+    }
   }
   return true;
 }
 
-carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot,
-                                    double time, double (*turned)[4]) {
-  if (turned == NULL)
-    return CAROM_ERROR_NULL;
-  carom_ball_state then[CAROM_BALLS_MOST];
-  const carom_status status = carom_shot_at(balls, count, shot, time, then);
-  if (status < 0)
-    return status;
-
-  const double at = carom_greater(carom_lesser(time, shot->time), 0.0);
-  double left = most_parts;
-  for (int i = 0; i < count; i++) {
-    const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
-    double *q = turned[i];
-    q[0] = 1.0;
-    q[1] = q[2] = q[3] = 0.0;
-
-    /* as it begins: not turned, on the first path */
-    carom_path path;
-    path.from = balls[i].state;
-    carom_label_of_layout(&path.from, rates.radius);
-    carom_path_begin(&path, &rates, 0.0);
-    /* from event to event of this ball; the state at the time says whether it moves at all */
-    for (int64_t k = 0; k < shot->count && k < shot->room && shot->events[k].time <= at; k++) {
-      const carom_event *event = &shot->events[k];
-      const int side = event->a == i                                           ? 0
-                       : event->type == CAROM_EVENT_BALL_BALL && event->b == i ? 1
-                                                                               : -1;
-      if (side < 0)
-        continue;
-      if (!turn_until(q, &path, &rates, event->time, &left))
-        return CAROM_ERROR_UNRESOLVED;
-      path.from = event->after[side];
-      carom_path_begin(&path, &rates, event->time);
-    }
-    if (!turn_until(q, &path, &rates, at, &left))
-      return CAROM_ERROR_UNRESOLVED;
-  }
-  return CAROM_OK;
+void carom_turning_at(const carom_turning *turning, double time, double q[4]) {
+  memcpy(q, turning->q, sizeof turning->q);
+  const double h =
+      carom_lesser(time, turning->until) - (turning->from + turning->done * turning->part);
+  if (h > 0.0)
+    turn_on(q, turning, h);
 }

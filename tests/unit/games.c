@@ -692,6 +692,57 @@ TEST(turns_in_closed_form) {
                    CAROM_ERROR_EVENTS_LOST);
 }
 
+/* Frames have the bits of single calls, however they are cut, also where a shot goes on, where time
+ * goes back, and where the memory is that of another shot's film. */
+TEST(frames) {
+  static carom_shot_state state;
+  static carom_frames film;
+  carom_table t;
+  carom_shot_ball balls[16];
+  carom_event events[2000];
+  carom_ball_state final[16], one[16], other[3 * 16];
+  double q[16][4], turned[3 * 16][4];
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  carom_shot_options options = {0};
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  random_source r = {test_seed()};
+  for (int n = 0; n < 4; n++) {
+    carom_rack(CAROM_RACK_EIGHTBALL, &t, 1e-4, (uint64_t)n, balls, 16);
+    cue.speed = 4.0 + n;
+    cue.phi = 89.0 + 2.0 * random_between(&r, 0.0, 1.0);
+    cue.a = 0.3;
+    carom_shot shot = {.events = events, .room = 2000, .final = final, .state = &state};
+    options.time_most = 1.5;
+    ck_assert_int_eq(carom_shoot(&t, balls, 16, &cue, &options, &shot), CAROM_STOPPED_AT_TIME);
+    for (double time = 0.0; time < shot.time;) {
+      double times[3];
+      for (int k = 0; k < 3; k++) {
+        times[k] = fmin(time, shot.time);
+        time += 0.08 * random_between(&r, 0.0, 1.0);
+      }
+      const size_t many = 1 + (size_t)(3 * random_between(&r, 0.0, 1.0));
+      ck_assert_int_eq(carom_shot_frames(balls, 16, &shot, times, many, &film, other, turned),
+                       CAROM_OK);
+      for (size_t k = 0; k < many; k++) {
+        ck_assert_int_eq(carom_shot_at(balls, 16, &shot, times[k], one), CAROM_OK);
+        ck_assert_int_eq(carom_shot_orientation(balls, 16, &shot, times[k], q), CAROM_OK);
+        ck_assert(memcmp(one, &other[k * 16], sizeof one) == 0);
+        ck_assert(memcmp(q, &turned[k * 16], sizeof q) == 0);
+      }
+      /* back now and then, and on with the shot */
+      if (random_between(&r, 0.0, 1.0) < 0.1 && time > 0.2)
+        time -= 0.2;
+      if (options.time_most > 0.0 && time > 1.4) {
+        options.time_most = 0.0;
+        ck_assert_int_eq(carom_shot_continue(&t, balls, 16, &options, &shot), CAROM_OK);
+      }
+    }
+    ck_assert(options.time_most == 0.0);
+  }
+  ck_assert_int_eq(carom_shot_frames(balls, 16, NULL, NULL, 0, &film, other, turned),
+                   CAROM_ERROR_NULL);
+}
+
 /* ---- What to cite */
 
 /* The entries that options call for, and no other; the text is cut where there is no room. */
