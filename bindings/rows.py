@@ -226,7 +226,9 @@ def python():
 def reader_of(number):
     """What reads a number, where not every shot does: as it stands behind an option of `carom shoot`."""
     reader = re.match(r"(BY_CUSHION|WITH|BY_FRICTION)\((\w+)", number["reader"])
-    return "" if reader is None else f"{'friction' if reader[1] == 'BY_FRICTION' else 'cushion'} `{reader[2].lower()}`"
+    if reader is None or reader[1] != "BY_FRICTION":
+        return "" if reader is None else f"cushion `{reader[2].lower()}`"
+    return "friction " + " or ".join(f"`{text_of(law[1])}`" for _, law in rows("friction/laws.h", "CAROM_FRICTION_LAWS") if law[2] == reader[2])
 
 
 def tables():

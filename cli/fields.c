@@ -217,9 +217,21 @@ void give_ball(const given_numbers *given, carom_ball_kind *kind) {
 }
 
 const char *reader_of(const carom_number *n, const char *of_cushion, char text[160]) {
+  static const carom_ball_kind any = {0};
   const bool cushion = n->reader == CAROM_READ_BY_CUSHION;
-  snprintf(text, 160, "--%s %s", cushion ? of_cushion : "friction",
-           carom_word(cushion ? CAROM_WORDS_CUSHION_MODEL : CAROM_WORDS_BALL_FRICTION, n->model));
+  size_t size = (size_t)snprintf(text, 160, "--%s", cushion ? of_cushion : "friction");
+  if (cushion)
+    snprintf(text + size, 160 - size, " %s", carom_word(CAROM_WORDS_CUSHION_MODEL, n->model));
+
+  /* several laws may read the same numbers */
+  const char *word, *before = " ";
+  for (int k = 0; !cushion && (word = carom_word(CAROM_WORDS_BALL_FRICTION, k)) != NULL; k++) {
+    const carom_shot_options options = {.friction = (carom_ball_friction)k};
+    if (size < 160 && carom_number_is_read(n, &any, &options)) {
+      size += (size_t)snprintf(text + size, 160 - size, "%s%s", before, word);
+      before = "|";
+    }
+  }
   return text;
 }
 
