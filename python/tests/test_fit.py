@@ -401,6 +401,14 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
         assert (off < 1).mean() > 0.55 and (off < 2).mean() > 0.8 and sound > 0.6 * matches
 
 
+def test_a_search_that_stopped_far_above_the_noise_has_a_larger_spread():
+    def at(times):
+        found = _joint.left(SimpleNamespace(names=["mu_spin"], scale=np.array([3e-3]), noise=1e-3, middle=4e-6 * times**2))
+        return float(found[0]) / _joint._SHAPE["mu_spin"]
+
+    assert at(1.0) == pytest.approx(0.1) and at(3.0) == pytest.approx(2.1) and at(60.0) == at(6.0)
+
+
 def test_named_constants_follow_their_priors_and_threads_change_no_bit():
     made = tracks.synthetic(8, constants=TRUTH, seed=8)
     start = {**TRUTH, "mu_spin": 0.0045}

@@ -54,8 +54,9 @@ _ELSEWHERE = 4  # the stage before which a search may begin again
 _AT_NOISE = 4.0  # variances of a coordinate: twice the cost a sample that noise alone gives
 _STEPS = 12  # at most, of each
 # On matches that are synthetic, as python/tests/test_fit.py makes them: how much the common size of the errors of halves counts, beside
-# each one's own; and what the search leaves, over _SHAPE and the misfit over that of the noise.
-_COMMON, _LEFT = 0.8, 0.1
+# each one's own; and what the search leaves, over _SHAPE and the misfit over that of the noise: above _CLEAR times the noise it stopped
+# early, as do those of halves, and so much more for each time.
+_COMMON, _LEFT, _CLEAR, _STOPPED = 0.8, 0.1, 1.2, 1.0
 _SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
 
@@ -238,5 +239,5 @@ def spread(search: Search, seed: int) -> dict[str, float]:
 
 def left(search: Search) -> Doubles:
     """What a search leaves of each constant: the more the farther the misfit is above that of the noise."""
-    above = math.sqrt(0.25 * search.middle) / search.noise
-    return _LEFT * min(above, 6.0) * _shape(search)
+    above = min(math.sqrt(0.25 * search.middle) / search.noise, 6.0)
+    return (_LEFT * above + _STOPPED * max(above - _CLEAR, 0.0)) * _shape(search)
