@@ -3,7 +3,8 @@
     python reality.py TRACKS.csv --table 2.84,1.42 --radius 0.03075 --pictures FOLDER
 
 For each model of the cushion, constants are fitted to every second shot and used for the others, and the other way round. The first table
-has the RMSE of the shots that the constants were not fitted to, of both halves: of each shot only the strike, six numbers, is fitted. Then
+has the RMSE of the shots that the constants were not fitted to, of both halves: of each shot only the strike, six numbers, is fitted, by one
+search and by the better of two with other seeds. Then
 follow the floor, which is the RMSE of a perfect model; how far single impacts are from each model, output by output; how the error grows
 with the part of a shot that the strike is fitted to; and the laws of single events. Markdown on standard output; the pictures are SVG.
 """
@@ -25,6 +26,7 @@ from carom import _events, _from_events, _summary
 
 Doubles = npt.NDArray[np.float64]
 Recordings = list[carom.tracks.Recording]
+SECOND = 3  # the second search of strikes has the seed of the first plus this
 
 
 def law(values: Doubles, by: Doubles, edges: Sequence[float]) -> list[str]:
@@ -42,26 +44,34 @@ def held_out(
     recordings: Recordings, table: tuple[float, float], radius: float, models: Sequence[Any], free: Sequence[str], seed: int
 ) -> carom.fit.Fit:
     """The RMSE of unseen shots by each model; the fit of the first half by the best."""
-    print("| cushion | RMSE, median, cm | 9 in 10 below, cm | mean, cm | shots | processor time, ms a shot |\n|---|--:|--:|--:|--:|--:|")
+    print(
+        "| cushion | one search of strikes: RMSE, median, cm | 9 in 10 below, cm | mean, cm | better of two: median, cm | 9 in 10 below, cm | "
+        "mean, cm | shots | processor time of a search, ms a shot |\n|---|" + "--:|" * 8
+    )
     best: tuple[float, carom.fit.Fit] | None = None
     for model in models:
-        rmse, spent = [], 0.0
+        once, twice, spent = [], [], 0.0
         for fold in (0, 1):
             found = carom.fit.fit(recordings[fold::2], table, radius, cushion_model=model, free=free, seed=seed)
             begin = time.process_time()
-            test = carom.fit.fit(
-                recordings[1 - fold :: 2], table, radius, cushion_model=model, constants=found.constants, free="none", seed=seed
+            one, two = (
+                carom.fit.fit(
+                    recordings[1 - fold :: 2], table, radius, cushion_model=model, constants=found.constants, free="none", seed=own
+                )
+                for own in (seed, seed + SECOND)
             )
-            spent += time.process_time() - begin
-            rmse.append(100.0 * test.counted())
-        both = np.concatenate(rmse)
-        print(
-            f"| {model} | {np.median(both):.2f} | {np.percentile(both, 90):.2f} | {both.mean():.2f} | {len(both)} | "
-            f"{1e3 * spent / len(both):.0f} |",
-            flush=True,
-        )
-        if best is None or np.median(both) < best[0]:
-            best = float(np.median(both)), found
+            spent += 0.5 * (time.process_time() - begin)
+            counts = np.array(one.counts)
+            once.append(100.0 * one.rmse[counts])
+            twice.append(100.0 * np.fmin(one.rmse, two.rmse)[counts])
+        figures: list[float] = []
+        for part in (once, twice):
+            both = np.concatenate(part)
+            figures += [float(np.median(both)), float(np.percentile(both, 90)), float(both.mean())]
+        shots = sum(map(len, once))
+        print(f"| {model} | {' | '.join(f'{value:.2f}' for value in figures)} | {shots} | {1e3 * spent / shots:.0f} |", flush=True)
+        if best is None or figures[0] < best[0]:
+            best = figures[0], found
     assert best is not None
     return best[1]
 
@@ -133,11 +143,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--models", default="smooth,han,stronge,mathavan")
     parser.add_argument("--free", default="default", help="constants that are fitted, as in carom.fit")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--folds", action="store_true", help="only the table of unseen shots")
     parser.add_argument("--pictures", type=Path, metavar="FOLDER")
     given = parser.parse_args(arguments)
     recordings = carom.tracks.read(given.tracks, table=given.table, radius=given.radius)
     recordings = [shot for shot in recordings if np.isfinite(shot.moves).any()]
     models = given.models.split(",")
+    if given.folds:
+        held_out(recordings, given.table, given.radius, models, given.free.split(","), given.seed)
+        return 0
     seen = carom.tracks.events(recordings, given.table, given.radius)
     single_events(seen)
     outputs(seen, given.radius, models, given.seed)

@@ -232,6 +232,14 @@ def fit(
         plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
+        # strikes that may have stuck are sought once more, by way of kicks
+        stuck = np.array(played)[rmse[played] > _ROUGH * noise * math.sqrt(2.0)]
+        if len(stuck):
+            some = plays.some(np.searchsorted(played, stuck))
+            other = _kicks.eased(some, strikes[stuck])
+            again = some.rmse(other)
+            better = again < rmse[stuck]
+            strikes[stuck[better]], rmse[stuck[better]] = other[better], again[better]
         for k, strike in zip(played, strikes[played]):
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
