@@ -200,7 +200,7 @@ export class Carom {
 
   // ---- Texts and errors ----------------------------------------------------------------------------------------------------
 
-  /** The version of the library, such as "0.2.0". */
+  /** The version of the library, such as "0.3.0". */
   get version(): string {
     return this.#memory.text(this.#call.carom_version())!;
   }
