@@ -346,8 +346,8 @@ typedef struct carom_jaw {
   double mu_cushion, restitution;   /* 0 to 1, as of a rail. */
 } carom_jaw;
 
-/* A pocket takes a ball when the ball's centre crosses the circle inward. A pocketed ball's state is
- * at z = -depth. */
+/* A pocket takes a ball when the ball's centre crosses the circle inward. A pocketed ball's state
+ * is at z = -depth. */
 typedef struct carom_pocket {
   double centre[2], radius, depth; /* m; radius 1e-9 or more. */
 } carom_pocket;
@@ -929,8 +929,8 @@ typedef struct carom_frames {
 /* Frames: states and turns at `n` times, those of times[k] from states[k * count] and
  * turned[k * count] on, with the bits of carom_shot_at() and carom_shot_orientation(). With
  * `onward` a call goes on from the last time of the call before, where the balls and the events
- * until then are the same, as they are after carom_shot_continue(); else, and at an earlier time, it
- * begins with the first event. The bits are the same. `onward` may be NULL. A frame of the 16 balls
+ * until then are the same, as they are after carom_shot_continue(); else, and at an earlier time,
+ * it begins with the first event. The bits are the same. `onward` may be NULL. A frame of the 16 balls
  * of a break takes 2 us. Errors are those of carom_shot_at_times() and carom_shot_orientation().
  *
  *     static carom_frames film;
