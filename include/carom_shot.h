@@ -930,8 +930,8 @@ typedef struct carom_frames {
  * turned[k * count] on, with the bits of carom_shot_at() and carom_shot_orientation(). With
  * `onward` a call goes on from the last time of the call before, where the balls and the events
  * until then are the same, as they are after carom_shot_continue(); else, and at an earlier time,
- * it begins with the first event. The bits are the same. `onward` may be NULL. A frame of the 16 balls
- * of a break takes 2 us. Errors are those of carom_shot_at_times() and carom_shot_orientation().
+ * it begins with the first event. The bits are the same. `onward` may be NULL. A frame of the 16
+ * balls of a break takes 2 us. Errors are those of carom_shot_at_times() and carom_shot_orientation().
  *
  *     static carom_frames film;
  *     double turned[10][4];
