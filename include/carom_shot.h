@@ -931,7 +931,8 @@ typedef struct carom_frames {
  * `onward` a call goes on from the last time of the call before, where the balls and the events
  * until then are the same, as they are after carom_shot_continue(); else, and at an earlier time,
  * it begins with the first event. The bits are the same. `onward` may be NULL. A frame of the 16
- * balls of a break takes 2 us. Errors are those of carom_shot_at_times() and carom_shot_orientation().
+ * balls of a break takes 2 us. Errors are those of carom_shot_at_times() and
+ * carom_shot_orientation().
  *
  *     static carom_frames film;
  *     double turned[10][4];
