@@ -28,6 +28,9 @@
  * error. */
 static const double most_turn = 0.5, most_bend = 0.02;
 
+/* rad, of an interval: a damaged state may have any spin. */
+static const double most_angle = 5e6;
+
 static void cross(const double a[3], const double b[3], double out[3]) {
   out[0] = a[1] * b[2] - a[2] * b[1];
   out[1] = a[2] * b[0] - a[0] * b[2];
@@ -91,6 +94,7 @@ static void begin_interval(carom_turning *turning, const carom_path *path,
     turning->bend[k] = 0.0;
   }
   turning->part = turning->parts = 0.0;
+  turning->fastest = size_of(a.w);
   /* nothing changes on a path without an end */
   const double T = turning->until - from;
   if (!(T < INFINITY && T > 0.0))
@@ -101,7 +105,7 @@ static void begin_interval(carom_turning *turning, const carom_path *path,
   for (int k = 0; k < 3; k++)
     turning->bend[k] = (b.w[k] - a.w[k]) / T;
   cross(a.w, b.w, bent);
-  const double fastest = carom_greater(size_of(a.w), size_of(b.w));
+  const double fastest = turning->fastest = carom_greater(size_of(a.w), size_of(b.w));
   /* one turn about one axis, or parts */
   const bool one_axis = size_of(bent) <= 1e-12 * fastest * fastest;
   const double wanted =
@@ -128,6 +132,8 @@ bool carom_turning_go_to(carom_turning *turning, carom_path *path, const carom_b
   for (bool more = true; more;) {
     /* whole parts, and at the end of the interval the last one, whatever rounding says */
     const bool ends = turning->until < time;
+    if (!(turning->fastest * (carom_lesser(time, turning->until) - turning->from) <= most_angle))
+      return false;
     while (turning->done < turning->parts &&
            (ends || turning->from + (turning->done + 1.0) * turning->part <= time)) {
       if (!((*left -= 1.0) > 0.0))
