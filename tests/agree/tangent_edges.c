@@ -454,6 +454,27 @@ TEST(edges_of_flights) {
   }
 }
 
+/* A flight that begins on the cloth without vertical speed lands at once, and a level contact in
+ * flight leaves both balls on the cloth. A change could lift a ball from both: a kink. A change of
+ * the speed along the contact lifts none; one of the place gives the ball time to fall before. */
+TEST(kinks_of_flights) {
+  static const direction by[3] = {{OF_STATE, 0, 0, 1}, {OF_STATE, 0, 8, 1}, {OF_STATE, 0, 2, 1}};
+  const double v[2] = {0.5, 0.0}, w[3] = {0.0, 0.0, 0.0};
+  for (int k = 0; k < 3; k++) {
+    layout l = of_one(0.4, 1.0, v, w);
+    l.ball[0].state.label = CAROM_BALL_AIRBORNE;
+    ck_assert_int_eq(differentiate(&l, &by[k], 1), CAROM_TANGENT_KINK);
+    ck_assert_int_eq(events[0].type, CAROM_EVENT_SLATE);
+    ck_assert_int_eq(event_flags[0], CAROM_TANGENT_KINK);
+
+    l.count = 2;
+    l.ball[1] = ball_at(0.4 + 2.0 * R, 1.0);
+    differentiate(&l, &by[k], 1);
+    ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
+    ck_assert_int_eq(event_flags[0] & CAROM_TANGENT_KINK, k < 2 ? CAROM_TANGENT_KINK : 0);
+  }
+}
+
 /* A blow of 60 degrees at 1.2327 m/s, where the slate is loaded once more within the pulse and the
  * hop has a step, and blows that are 0.5 and 3 % weaker and stronger. */
 TEST(step_of_a_hop) {

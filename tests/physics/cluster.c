@@ -425,6 +425,47 @@ TEST(balances) {
                                           the motion */
 }
 
+/* Friction without the cloth: a contact turns and pushes its two balls by its impulse and its
+ * friction, on the cloth without friction of its own, and in the air. */
+TEST(friction_of_contacts) {
+  random_source random = {test_seed()};
+  double most = 0.0, largest = 0.0;
+  for (int n = 0; n < 60; n++) {
+    layout l = random_rack(3 * n, &random);
+    restitution(&l, 0.9);
+    for (int i = 0; i < l.count; i++) {
+      carom_shot_ball *b = &l.ball[i];
+      b->kind.mu_slide = n % 2 == 0 ? 1e-15 : b->kind.mu_slide;
+      b->state.label = n % 2 == 0 ? b->state.label : CAROM_BALL_AIRBORNE;
+      b->state.r[2] += n % 2 == 0 ? 0.0 : 0.2;
+    }
+    resolve(&l, 0);
+    for (int q = 0; q < contacts_count; q++) {
+      const carom_cluster_contact *c = &contacts[q];
+      const double *m = c->normal, *f = c->friction, mass = l.ball[c->a].kind.mass;
+      for (int k = 0; k < 3; k++) {
+        const int x = (k + 1) % 3, y = (k + 2) % 3;
+        const double on_b = (c->impulse * m[k] - f[k]) / mass,
+                     turn = 2.5 / (mass * R) * (m[x] * f[y] - m[y] * f[x]);
+        out[c->a].v[k] += k == 2 && n % 2 == 0 ? 0.0 : on_b; /* the cloth holds both balls */
+        out[c->b].v[k] -= k == 2 && n % 2 == 0 ? 0.0 : on_b;
+        out[c->a].w[k] -= turn;
+        out[c->b].w[k] -= turn;
+        largest = fmax(largest, fabs(f[k]) / mass);
+      }
+    }
+    for (int i = 0; i < l.count; i++) {
+      carom_motion before;
+      memcpy(before.v, l.ball[i].state.v, sizeof before.v);
+      memcpy(before.w, l.ball[i].state.w, sizeof before.w);
+      most = fmax(most, difference(&out[i], &before, 1, true));
+    }
+  }
+  printf("friction of contacts: up to %.2f m/s, the motion is off by %.1e m/s\n", largest, most);
+  ck_assert_double_gt(largest, 0.05);
+  ck_assert_double_lt(most, 1e-12);
+}
+
 /* ---- 10, 11: scaling */
 
 /* A member that nothing touches keeps its motion to the last bit, also where the integrator's gain
