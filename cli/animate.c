@@ -93,10 +93,7 @@ static void write_shot(FILE *out, const played *p) {
   /* Of all balls at each time, and then ball by ball. */
   carom_ball_state *states = allocate(frames * (size_t)count, sizeof *states);
   double(*turned)[4] = allocate(frames * (size_t)count, sizeof *turned);
-  for (size_t k = 0; k < frames; k++) {
-    carom_shot_at(p->line->ball, count, p->shot, at[k], states + k * (size_t)count);
-    carom_shot_orientation(p->line->ball, count, p->shot, at[k], turned + k * (size_t)count);
-  }
+  carom_shot_frames(p->line->ball, count, p->shot, at, frames, NULL, states, turned);
   for (int ball = 0; ball < count; ball++) {
     fputs(ball > 0 ? ",\n[" : "[", out);
     /* A ball that lies still has one pose. */

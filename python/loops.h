@@ -7,8 +7,8 @@
 /* mu[k] = carom_mu_ball(&in[k], law), k = 0 ... n - 1. */
 void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law, double *mu);
 
-/* How all balls have turned at n times: carom_shot_orientation(), those of time k to turned[4 k
- * count ...]. Returns what it does; stops at the first error. */
+/* How all balls have turned at n times: carom_shot_frames() without the states, those of time k to
+ * turned[4 k count ...]. Returns what it does; stops at the first error. */
 carom_status carom_python_orientations(const carom_shot_ball *balls, int count,
                                        const carom_shot *shot, const double *times, size_t n,
                                        double *turned);
