@@ -60,9 +60,10 @@ static inline bool carom_loses_roll(const carom_cushion_options *opt) {
 
 /* Takes roll_loss, at 1 m/s across a cushion, of the speed v_t along it, before the impact, from
  * the roll along it. Along t = (n_y, -n_x) a ball rolls at R w . n. The roll does not change sign,
- * so the energy falls. See cushion.c. */
-void carom_lose_roll(const carom_cushion_options *opt, double R, const double n[2],
-                     const double v[3], double w[3]);
+ * so the energy falls. Cold: the balls of pool lose none. See cushion.c. */
+__attribute__((noinline, cold)) void carom_lose_roll(const carom_cushion_options *opt, double R,
+                                                     const double n[2], const double v[3],
+                                                     double w[3]);
 
 /* carom_cushion() with options that have been checked, without the loss of roll. See cushion.c. */
 carom_status carom_cushion_solve(const carom_cushion_impact *in, const carom_cushion_options *opt,
