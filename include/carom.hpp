@@ -158,6 +158,8 @@ public:
   shot &operator=(const shot &) = delete;
 
 private:
+  friend class film;
+
   int count() const {
     return static_cast<int>(balls_.size());
   }
@@ -194,6 +196,38 @@ private:
   std::vector<carom_event> events_;
   std::vector<carom_ball_state> final_;
   std::unique_ptr<carom_shot_state> state_;
+};
+
+/* Frames: of time k of a call the states of all balls are states[k n ...], n the number of balls,
+ * and their turns (w, x, y, z) turned[k n ...]. */
+struct frames {
+  std::span<const carom_ball_state> states;
+  std::span<const std::array<double, 4>> turned;
+};
+
+/* A film of shots, for drawing: each frame goes on from the one before, where that was of the same
+ * shot and earlier. */
+class film {
+public:
+  /* Valid until the next call; empty after an error. */
+  frames at(const shot &of, std::span<const double> times) {
+    const std::size_t size = times.size() * of.balls_.size();
+    states_.resize(size);
+    turned_.resize(size);
+    if (checked(carom_shot_frames(of.balls_.data(), of.count(), &of.shot_, times.data(),
+                                  times.size(), onward_.get(), states_.data(),
+                                  reinterpret_cast<double(*)[4]>(turned_.data()))) < 0)
+      return {};
+    return {states_, turned_};
+  }
+  frames at(const shot &of, double time) {
+    return at(of, {&time, 1});
+  }
+
+private:
+  std::unique_ptr<carom_frames> onward_ = std::make_unique<carom_frames>();
+  std::vector<carom_ball_state> states_;
+  std::vector<std::array<double, 4>> turned_;
 };
 
 /* ---- Plans */

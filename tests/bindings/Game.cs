@@ -46,6 +46,18 @@ static class Program {
     }
     Console.WriteLine($"break: {shot.Events.Length} events, {hash:x16}");
 
+    var film = new Film();
+    int frames = 0;
+    for (; frames / 60.0 < shot.Time; frames++) {
+      film.At(shot, frames / 60.0);
+      for (int k = 0; k < film.States.Length; k++) {
+        var state = film.States[k];
+        hash = Add(hash, state.r, 3);
+        fixed (double* turned = film.Turned) hash = Add(hash, turned + 4 * k, 4);
+      }
+    }
+    Console.WriteLine($"film: {frames} frames, {hash:x16}");
+
     cue.speed = -1;
     try {
       Billiards.Play(table, balls, cue);

@@ -1,5 +1,6 @@
-/* The same game in each language: plays the recording that is named, and a break. Prints a hash of
- * the bits of each, which is the same in C, C++, C#, Rust, Python and JavaScript. */
+/* The same game in each language: plays the recording that is named, a break, and the frames of
+ * that. Prints a hash of the bits of each, which is the same in C, C++, C#, Rust, Python and
+ * JavaScript. */
 #include <carom_record.h>
 
 #include <inttypes.h>
@@ -57,5 +58,19 @@ int main(int count, char **arguments) {
   for (int k = 0; k < 10; k++)
     hash = add(add(add(hash, last[k].r, 3), last[k].v, 3), last[k].w, 3);
   printf("break: %" PRId64 " events, %016" PRIx64 "\n", shot.count, hash);
+
+  /* each frame onward from the one before */
+  static carom_frames film;
+  carom_ball_state then[10];
+  double turned[10][4];
+  int frames = 0;
+  for (; frames / 60.0 < shot.time; frames++) {
+    const double time = frames / 60.0;
+    if (carom_shot_frames(balls, 10, &shot, &time, 1, &film, then, turned) != CAROM_OK)
+      return 1;
+    for (int k = 0; k < 10; k++)
+      hash = add(add(hash, then[k].r, 3), turned[k], 4);
+  }
+  printf("film: %d frames, %016" PRIx64 "\n", frames, hash);
   return 0;
 }

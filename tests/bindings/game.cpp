@@ -46,5 +46,14 @@ int main(int, char **arguments) {
   for (const carom_ball_state &state : shot.final_states())
     hash = add(add(add(hash, state.r), state.v), state.w);
   std::printf("break: %zu events, %016" PRIx64 "\n", shot.events().size(), hash);
+
+  carom::film film;
+  int frames = 0;
+  for (; frames / 60.0 < shot.time(); frames++) {
+    const auto [states, turned] = film.at(shot, frames / 60.0);
+    for (std::size_t k = 0; k < states.size(); k++)
+      hash = add(add(hash, states[k].r), turned[k]);
+  }
+  std::printf("film: %d frames, %016" PRIx64 "\n", frames, hash);
   return 0;
 }

@@ -29,3 +29,9 @@ hash_ = add(0xCBF29CE484222325, shot.events["time"])
 for state in shot.final:
     hash_ = add(add(add(hash_, state["r"]), state["v"]), state["w"])
 print(f"break: {len(shot.events)} events, {hash_:016x}")
+
+times = [k / 60.0 for k in range(int(shot.time * 60.0) + 1)]
+for states, turned in zip(shot.states(times), shot.orientations(times)):
+    for state, turn in zip(states, turned):
+        hash_ = add(add(hash_, state["r"]), turn)
+print(f"film: {len(times)} frames, {hash_:016x}")

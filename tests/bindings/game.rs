@@ -1,5 +1,5 @@
 // As game.c, in Rust.
-use carom::{sys, Error, Recording};
+use carom::{sys, Error, Film, Recording};
 
 fn add(hash: u64, numbers: &[f64]) -> u64 {
     let bytes = numbers
@@ -45,5 +45,16 @@ fn main() -> Result<(), Error> {
         hash = add(add(add(hash, &state.r), &state.v), &state.w);
     }
     println!("break: {} events, {hash:016x}", shot.events().len());
+
+    let mut film = Film::default();
+    let mut frames = 0;
+    while f64::from(frames) / 60.0 < shot.time() {
+        let (states, turned) = film.at(&shot, f64::from(frames) / 60.0)?;
+        for (state, turn) in states.iter().zip(turned) {
+            hash = add(add(hash, &state.r), turn);
+        }
+        frames += 1;
+    }
+    println!("film: {frames} frames, {hash:016x}");
     Ok(())
 }

@@ -39,6 +39,21 @@ int main() {
   CHECK(whole.orientations(1.0).size() == 16);
   CHECK(whole.facts().first[0] >= 0);
 
+  // frames, one after the other, many at once, and back
+  carom::film film, again;
+  const std::array<double, 3> times = {0.1, 1.0, 1.5};
+  const auto many = again.at(whole, times);
+  CHECK(many.states.size() == 48 && many.turned.size() == 48);
+  for (const std::size_t k : {0u, 1u, 2u, 1u}) {
+    const auto one = film.at(whole, times[k]);
+    const auto states = whole.states(times[k]);
+    const auto turned = whole.orientations(times[k]);
+    CHECK(std::memcmp(one.states.data(), states.data(), one.states.size_bytes()) == 0);
+    CHECK(std::memcmp(one.turned.data(), turned.data(), one.turned.size_bytes()) == 0);
+    CHECK(std::memcmp(&many.turned[16 * k], turned.data(), one.turned.size_bytes()) == 0);
+    CHECK(std::memcmp(&many.states[16 * k], states.data(), one.states.size_bytes()) == 0);
+  }
+
   // stopped before the events are more than the first room, and gone on with
   carom::shot parts;
   carom_shot_options until{};

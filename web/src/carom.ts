@@ -39,6 +39,7 @@ import type {
   CushionImpact,
   CushionOptions,
   Detail,
+  Frame,
   Game,
   GameState,
   Impact,
@@ -64,6 +65,7 @@ const CUSHION_OPTIONS = layout.carom_cushion_options;
 const SHOT = layout.carom_shot;
 const SHOT_OPTIONS = layout.carom_shot_options;
 const EVENT = layout.carom_event;
+const STATE = layout.carom_ball_state;
 const FAULT = layout.carom_fault;
 const BALLS_MOST = values.CAROM_BALLS_MOST;
 
@@ -98,13 +100,14 @@ export class Carom {
   readonly #reader: Reader;
   readonly #plans: Plans;
   readonly #recordings: RecordingHost;
-  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number" | "fault" | "text", Pointer>;
+  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number" | "fault" | "text" | "frame", Pointer>;
   #points: Pointer = 0;
   #pointRoom = 0;
   #events: Pointer = 0;
   #room = 0;
   /** The shot whose balls and events are in the module's memory. */
   #resident: Shot | undefined;
+  #frame: Frame = { states: new Float64Array(), turned: new Float64Array(), label: () => "stationary" };
 
   /** @internal */
   constructor(memory: Memory, build: Build) {
@@ -120,9 +123,11 @@ export class Carom {
       balls: part(BALLS_MOST * layout.carom_shot_ball.size),
       cue: part(layout.carom_cue.size),
       shot: part(SHOT.size),
-      final: part(BALLS_MOST * layout.carom_ball_state.size),
+      final: part(BALLS_MOST * STATE.size),
       state: memory.allocate(layout.carom_shot_state.size),
-      motion: part(BALLS_MOST * 32),
+      motion: part(layout.carom_motion.size),
+      // states, turns, and how far the film is
+      frame: memory.allocate(BALLS_MOST * (STATE.size + 32) + layout.carom_frames.size),
       number: part(64),
       fault: part(FAULT.size),
       text: part(128),
@@ -140,13 +145,13 @@ export class Carom {
       },
       states: (shot, time, drawn) => {
         this.#look(shot, time, drawn);
-        return shot.balls.map((_, k) => readState(this.#memory, this.#at.final + k * layout.carom_ball_state.size));
+        return shot.balls.map((_, k) => readState(this.#memory, this.#at.final + k * STATE.size));
       },
       positions: (shot, time, into) => {
         this.#look(shot, time);
         const f64 = this.#memory.f64;
         for (let k = 0; k < shot.balls.length; k++) {
-          const at = (this.#at.final + k * layout.carom_ball_state.size) / 8;
+          const at = (this.#at.final + k * STATE.size) / 8;
           for (let c = 0; c < 3; c++) into[3 * k + c] = f64[at + c]!;
         }
       },
@@ -154,7 +159,7 @@ export class Carom {
         this.#reside(shot);
         const n = times.length;
         const count = shot.balls.length;
-        const size = layout.carom_ball_state.size;
+        const size = STATE.size;
         const at = this.#memory.allocate(8 * n + n * count * size);
         try {
           this.#memory.f64.set(times, at / 8);
@@ -168,11 +173,21 @@ export class Carom {
           this.#memory.free(at);
         }
       },
-      orientations: (shot, time, into) => {
+      frame: (shot, time) => {
         this.#reside(shot);
-        const { balls, shot: at, motion } = this.#at;
-        this.#refuse(this.#call.carom_shot_orientation(balls, shot.balls.length, at, time, motion), `time ${time}`);
-        into.set(this.#memory.f64.subarray(motion / 8, motion / 8 + 4 * shot.balls.length));
+        const count = shot.balls.length;
+        const { balls, shot: at, number, frame: states } = this.#at;
+        const turned = states + BALLS_MOST * STATE.size;
+        this.#memory.f64[number / 8] = time;
+        this.#refuse(this.#call.carom_shot_frames(balls, count, at, number, 1, turned + BALLS_MOST * 32, states, turned), `time ${time}`);
+        const { f64, i32 } = this.#memory;
+        if (this.#frame.states.buffer !== f64.buffer || this.#frame.turned.length !== 4 * count)
+          this.#frame = {
+            states: f64.subarray(states / 8, (states + count * STATE.size) / 8),
+            turned: f64.subarray(turned / 8, turned / 8 + 4 * count),
+            label: (ball) => names.carom_label[i32[(states + ball * STATE.size + STATE.offset.label) / 4]!]!,
+          };
+        return this.#frame;
       },
     };
     this.#plans = new Plans({
@@ -587,7 +602,7 @@ export class Carom {
   #played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer, kept?: Kept): Shot {
     const count = Number(this.#memory.i64[(shot + SHOT.offset.count) / 8]);
     const bytes = this.#memory.u8.slice(events, events + count * EVENT.size);
-    const states = balls.map((_, k): BallState => readState(this.#memory, final + k * layout.carom_ball_state.size));
+    const states = balls.map((_, k): BallState => readState(this.#memory, final + k * STATE.size));
     return new Shot(this.#reader, table, balls, this.statusName(code), this.#memory.f64[(shot + SHOT.offset.time) / 8]!, states, count, bytes, kept);
   }
 
@@ -665,7 +680,7 @@ export class Carom {
       const shot = shots.at(3) + k * SHOT.size;
       u8.fill(0, shot, shot + SHOT.size);
       u32[(shot + SHOT.offset.events) / 4] = shots.room === 0 ? 0 : shots.at(6) + k * shots.room * EVENT.size;
-      u32[(shot + SHOT.offset.final) / 4] = shots.at(4) + k * shots.count * layout.carom_ball_state.size;
+      u32[(shot + SHOT.offset.final) / 4] = shots.at(4) + k * shots.count * STATE.size;
       i64[(shot + SHOT.offset.room) / 8] = BigInt(shots.room);
     }
     const job = setStruct(this.#memory, shots.at(7), "carom_shot_job", {
@@ -678,7 +693,7 @@ export class Carom {
   #shotOf(shots: Shots, k: number): Shot {
     const balls = shots.layouts[shots.layouts.length === 1 ? 0 : k]!;
     const shot = shots.at(3) + k * SHOT.size;
-    const final = shots.at(4) + k * shots.count * layout.carom_ball_state.size;
+    const final = shots.at(4) + k * shots.count * STATE.size;
     return this.#played(shots.table, balls, shots.status[k]!, shot, final, shots.at(6) + k * shots.room * EVENT.size);
   }
 

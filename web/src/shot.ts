@@ -1,5 +1,5 @@
 // One shot that was played: its events, and where the balls are at any time.
-import type { BallState, Contact, ShotBall, ShotEvent, Table } from "./types.js";
+import type { BallState, Contact, Frame, ShotBall, ShotEvent, Table } from "./types.js";
 
 /** What a shot needs of the library. */
 export interface Reader {
@@ -7,7 +7,7 @@ export interface Reader {
   states(shot: Shot, time: number, drawn: boolean): BallState[];
   positions(shot: Shot, time: number, into: Float64Array): void;
   positionsAt(shot: Shot, times: ArrayLike<number>, drawn: boolean): Float64Array;
-  orientations(shot: Shot, time: number, into: Float64Array): void;
+  frame(shot: Shot, time: number): Frame;
 }
 
 /** What a stopped shot needs to go on, as bytes of C: the table, the options and the state. */
@@ -71,7 +71,15 @@ export class Shot {
 
   /** How each ball has turned since the start, as unit quaternions w, x, y, z: 4 numbers for each ball. */
   orientations(time: number, into = new Float64Array(4 * this.balls.length)): Float64Array {
-    this.#reader.orientations(this, time, into);
+    into.set(this.#reader.frame(this, time).turned);
     return into;
+  }
+
+  /**
+   * The states of all balls at a time, s, and how they have turned, for drawing. It goes on from the frame before, where that was of this shot and
+   * earlier, and nothing is copied: the arrays are those of the next frame, too.
+   */
+  frame(time: number): Frame {
+    return this.#reader.frame(this, time);
   }
 }

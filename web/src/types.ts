@@ -73,6 +73,15 @@ export type BallKind = C.BallKind;
 /** How a ball moves. */
 export type Label = C.Label;
 
+/** A frame of a shot: views into the module's memory, which hold until the next frame, or until that memory grows. */
+export interface Frame {
+  /** Place, velocity and spin of each ball, SI: 10 numbers, of which the last is no number: its label. */
+  readonly states: Float64Array;
+  /** How each ball has turned since the start of the shot, as unit quaternions w, x, y, z: 4 numbers. */
+  readonly turned: Float64Array;
+  label(ball: number): Label;
+}
+
 /** Where a ball is and how it moves. */
 export interface BallState extends Omit<C.BallState, "label"> {
   label: Label;

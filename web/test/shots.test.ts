@@ -133,6 +133,20 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const turned = shot.orientations(2);
     for (let k = 0; k < shot.balls.length; k++) expect(Math.hypot(...turned.subarray(4 * k, 4 * k + 4))).toBeCloseTo(1, 12);
     expect([...shot.orientations(0).subarray(0, 4)]).toEqual([1, 0, 0, 0]);
+    // Frames, onward and back, are those of single calls, in the same memory.
+    const first = shot.frame(0);
+    for (const time of [0.3, 1.5, 0.7, shot.time]) {
+      const turned = other.orientations(0.1) && shot.orientations(time);
+      const frame = shot.frame(time);
+      expect(frame.states.buffer === first.states.buffer && frame.states.byteOffset === first.states.byteOffset).toBe(true);
+      expect([...frame.turned]).toEqual([...turned]);
+      shot.states(time).forEach((state, k) => {
+        expect([...frame.states.subarray(10 * k, 10 * k + 9)]).toEqual([...state.r, ...state.v, ...state.w]);
+        expect(frame.label(k)).toBe(state.label);
+      });
+    }
+    expect(other.frame(0.1).turned).toHaveLength(4 * other.balls.length);
+    expect(() => shot.frame(NaN)).toThrow("time NaN");
   });
 
   test("the first contact, without the rest of the shot", () => {

@@ -29,16 +29,46 @@ namespace Carom {
     public double Time { get; internal set; }
     internal ShotBall[] balls;
 
+    /// <summary>What the library reads of it.</summary>
+    internal Shot Data(Event* events) { return new Shot { events = events, room = Events.Length, count = Events.Length, time = Time }; }
+
     /// <summary>The states of all balls at a time, s.</summary>
     public BallState[] At(double time) {
       var states = new BallState[balls.Length];
       fixed (ShotBall* of = balls)
       fixed (Event* events = Events)
       fixed (BallState* to = states) {
-        var shot = new Shot { events = events, room = Events.Length, count = Events.Length, time = Time };
+        var shot = Data(events);
         Billiards.Check(Native.carom_shot_at(of, balls.Length, &shot, time, to));
       }
       return states;
+    }
+  }
+
+  /// <summary>A film of shots, for drawing: each frame goes on from the one before, where that was of the same shot and earlier.</summary>
+  public sealed unsafe class Film {
+    readonly Frames[] onward = new Frames[1];
+
+    /// <summary>The states of all balls at the time of the last call. The next one writes into the same array.</summary>
+    public BallState[] States { get; private set; }
+    /// <summary>How they have turned since the start of the shot: w, x, y, z of each, one behind the other.</summary>
+    public double[] Turned { get; private set; }
+
+    /// <summary>Goes to a time of a shot, s.</summary>
+    public void At(PlayedShot shot, double time) {
+      int count = shot.balls.Length;
+      if (States == null || States.Length != count) {
+        States = new BallState[count];
+        Turned = new double[4 * count];
+      }
+      fixed (ShotBall* balls = shot.balls)
+      fixed (Event* events = shot.Events)
+      fixed (Frames* film = onward)
+      fixed (BallState* states = States)
+      fixed (double* turned = Turned) {
+        var data = shot.Data(events);
+        Billiards.Check(Native.carom_shot_frames(balls, count, &data, &time, (UIntPtr)1, film, states, turned));
+      }
     }
   }
 

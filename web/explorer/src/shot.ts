@@ -17,7 +17,7 @@ const PULL = 0.04;
 const FALL = 0.16;
 /** How long the film of a shot is: a ball that was pocketed at the end falls after it. */
 const lasts = ({ time, status, events }: Shot): number => (status === "ok" && events.at(-1)?.type === "ball_pocket" ? time + FALL : time);
-const onTable = ({ label }: BallState): boolean => label !== "pocketed" && label !== "off";
+const onTable = ({ label }: Pick<BallState, "label">): boolean => label !== "pocketed" && label !== "off";
 
 export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HTMLElement): { update(): void; theme(): void } {
   let gameName: string;
@@ -222,12 +222,15 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     return {
       time: played ? lasts(played) : 0,
       at(time) {
-        const q = played?.orientations(time);
-        const states = played ? played.states(time, true) : balls.map((ball) => ball.state);
-        return states.map((state, k) => {
+        // Balls that fall in their pockets lie elsewhere than in the frame.
+        const places = played?.positionsAt([time], true);
+        const frame = played?.frame(time);
+        return balls.map(({ state }, k) => {
           const [c, s] = turned[k]!;
-          const [w, i, j, n] = q ? q.subarray(4 * k, 4 * k + 4) : [1, 0, 0, 0];
-          return { r: state.r, q: [w! * c - n! * s, i! * c + j! * s, j! * c - i! * s, n! * c + w! * s], seen: onTable(state) || (played !== undefined && state.r[2] > played.final[k]!.r[2] && state.label === "pocketed") };
+          const [w, i, j, n] = frame ? frame.turned.subarray(4 * k, 4 * k + 4) : [1, 0, 0, 0];
+          const r = places ? [...places.subarray(3 * k, 3 * k + 3)] : state.r;
+          const label = frame?.label(k) ?? state.label;
+          return { r, q: [w! * c - n! * s, i! * c + j! * s, j! * c - i! * s, n! * c + w! * s], seen: onTable({ label }) || (played !== undefined && r[2]! > played.final[k]!.r[2] && label === "pocketed") };
         });
       },
       paths,

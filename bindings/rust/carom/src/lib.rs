@@ -237,22 +237,56 @@ impl Shot {
         self.time
     }
 
-    /// The states of all balls at a time, s.
-    pub fn at(&self, time: f64) -> Result<Vec<BallState>, Error> {
-        let mut states = vec![BallState::default(); self.balls.len()];
-        let shot = sys::carom_shot {
+    /// What the library reads of it.
+    fn data(&self) -> sys::carom_shot {
+        sys::carom_shot {
             // It is read only.
             events: self.events.as_ptr() as *mut Event,
             room: self.events.len() as i64,
             count: self.events.len() as i64,
             time: self.time,
             ..Default::default()
-        };
+        }
+    }
+
+    /// The states of all balls at a time, s.
+    pub fn at(&self, time: f64) -> Result<Vec<BallState>, Error> {
+        let mut states = vec![BallState::default(); self.balls.len()];
+        let shot = self.data();
         let count = self.balls.len() as i32;
         check(unsafe {
             sys::carom_shot_at(self.balls.as_ptr(), count, &shot, time, states.as_mut_ptr())
         })?;
         Ok(states)
+    }
+}
+
+/// A film of shots, for drawing: each frame goes on from the one before, where that was of the same shot and earlier.
+#[derive(Default)]
+pub struct Film {
+    onward: Box<sys::carom_frames>,
+    states: Vec<BallState>,
+    turned: Vec<[f64; 4]>,
+}
+
+impl Film {
+    /// The states of all balls at a time, s, and how they have turned since the start of the shot: w, x, y, z.
+    pub fn at(&mut self, shot: &Shot, time: f64) -> Result<(&[BallState], &[[f64; 4]]), Error> {
+        self.states.resize(shot.balls.len(), BallState::default());
+        self.turned.resize(shot.balls.len(), [0.0; 4]);
+        check(unsafe {
+            sys::carom_shot_frames(
+                shot.balls.as_ptr(),
+                shot.balls.len() as i32,
+                &shot.data(),
+                &time,
+                1,
+                &mut *self.onward,
+                self.states.as_mut_ptr(),
+                self.turned.as_mut_ptr(),
+            )
+        })?;
+        Ok((&self.states, &self.turned))
     }
 }
 
@@ -371,5 +405,15 @@ mod tests {
             assert_eq!(state.r, last.r);
         }
         assert!(shot.at(f64::NAN).is_err());
+        let mut film = Film::default();
+        for time in [0.1, 1.0, 1.0, 0.5] {
+            let (states, turned) = film.at(&shot, time).unwrap();
+            for (k, state) in shot.at(time).unwrap().iter().enumerate() {
+                assert_eq!((state.r, state.w), (states[k].r, states[k].w));
+                let size: f64 = turned[k].iter().map(|x| x * x).sum();
+                assert!((size - 1.0).abs() < 1e-12);
+            }
+        }
+        assert!(film.at(&shot, f64::NAN).is_err());
     }
 }
