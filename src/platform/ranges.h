@@ -29,12 +29,9 @@ static inline double carom_limited(double x) {
   return x < 0 ? (double)0 : x > 1 ? (double)1 : x;
 }
 
-/* Without isfinite(), which C++ has in std alone. */
+/* x - x is 0 but where x is infinite or no number. Without isfinite(), which C++ has in std alone. */
 static inline bool carom_is_finite(const double x[3]) {
-  bool finite = true;
-  for (int k = 0; k < 3; k++)
-    finite = finite && x[k] > -INFINITY && x[k] < INFINITY;
-  return finite;
+  return (x[0] - x[0]) + (x[1] - x[1]) + (x[2] - x[2]) == 0.0;
 }
 static inline bool carom_is_positive(double x) {
   return x > 0.0 && x < INFINITY;
