@@ -80,11 +80,6 @@ carom_mouth carom_mouth_of(const carom_table *table, int index) {
 /* The chain: of each pair of numbers of balls the two equations are solved together. */
 static void chain(carom_view *view, double a, double b) {
   const bool shared = view->rules->race == CAROM_RACE_SHARED;
-  for (int k = 0; k <= MOST_LEFT; k++)
-    for (int who = 0; who < 2; who++) {
-      view->win[who][0][k] = 1.0;
-      view->win[who][k][0] = k == 0 ? 1.0 : 0.0;
-    }
   for (int total = 2; total <= 2 * MOST_LEFT; total++)
     for (int n = total > MOST_LEFT ? total - MOST_LEFT : 1; n < total && n <= MOST_LEFT; n++) {
       const int m = total - n;
