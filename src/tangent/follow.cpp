@@ -415,10 +415,7 @@ CAROM_APART void note_order(scene *s, const number &g) {
 /* The speed at which the slate lets a ball go that is struck `scale` times as fast. */
 real leaves_slate(const scene *s, const carom_ball_state *struck, real scale) {
   ::carom_ball_state state = {};
-  for (int k = 0; k < 3; k++) {
-    state.v[k] = scale * struck->v[k].x;
-    state.w[k] = scale * struck->w[k].x;
-  }
+  state.v[2] = scale * struck->v[2].x;
   return ::carom_press_on_slate(s->w->ball[s->event->a].kind, s->w->cue->tip_time, &state);
 }
 
@@ -644,14 +641,13 @@ int place_of(const cluster *c, int ball) {
   return k;
 }
 
-/* The derivatives of the time of the contact that starts a cluster, and its own two balls. */
+/* The derivatives of the time of the contact that starts a cluster, and its own two balls, which
+ * close. */
 CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e) {
   scene s;
   begin_event(w, e, &s);
   const number g = gap(&s);
-  row dT = {};
-  if (g.d[CLOCK] != 0)
-    dT = g.d / -g.d[CLOCK];
+  row dT = g.d / -g.d[CLOCK];
   dT[CLOCK] = 0;
   note_grazing(&s, g.d[CLOCK]);
   note_order(&s, g);
