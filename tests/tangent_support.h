@@ -93,6 +93,7 @@ static carom_shot shot;
 static double ends[LAYOUT_BALLS * NUMBERS * LAYOUT_DIRECTIONS], times[ROOM * LAYOUT_DIRECTIONS],
     reach[LAYOUT_DIRECTIONS];
 static int32_t event_flags[ROOM];
+static double largest_error; /* of all derivatives so far that were found by differences */
 
 /* The derivatives of the shot that was played last; returns all its flags. */
 static inline int64_t derive(const layout *l, const direction *by, int m) {
@@ -101,6 +102,10 @@ static inline int64_t derive(const layout *l, const direction *by, int m) {
   ck_assert_int_eq(
       carom_shot_tangent(table_of(l), l->ball, l->count, &l->cue, &l->options, &shot, &seeds, &t),
       CAROM_OK);
+  ck_assert(t.error <= ((t.all_flags & CAROM_TANGENT_KINK)          ? INFINITY
+                        : (t.all_flags & CAROM_TANGENT_DIFFERENCES) ? 1e-4
+                                                                    : 0.0));
+  largest_error = fmax(largest_error, t.error);
   return t.all_flags;
 }
 

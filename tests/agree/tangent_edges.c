@@ -111,6 +111,37 @@ TEST(grazing) {
   }
 }
 
+/* The same in flight: balls that pass each other upright graze by all of their speed. A ball that
+ * falls steeply comes to the far side of a pocket by its level speed alone. */
+TEST(grazing_in_flight) {
+  const direction by_z = {OF_STATE, 0, 7, 0.1};
+  for (int k = 0; k < 2; k++) {
+    layout l = of_one(0.4, 1.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
+    l.ball[0] = flying(0.4, 1.0, 0.5, 0.0, 0.0, -2.0);
+    l.ball[1] = flying(0.4 + 2.0 * R * (k == 0 ? 1.0 - 1e-5 : 0.999), 1.0, 0.4, 0.0, 0.0, 0.0);
+    l.count = 2;
+    differentiate(&l, &by_z, 1);
+    ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
+    ck_assert_int_eq(event_flags[0], k == 0 ? CAROM_TANGENT_GRAZING : 0);
+  }
+
+  /* thrown up at the corner, 4 mm above the slate where it comes to the far side */
+  layout l = of_one(0.0, 0.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
+  const carom_pocket *pocket = &table_of(&l)->pocket[0];
+  const double g = l.ball[0].kind.gravity, up = 10.0, speed = 0.08,
+               time = (up + sqrt(up * up - 8e-3 * g)) / g, side = sqrt(0.5);
+  for (int k = 0; k < 2; k++) {
+    const double out = pocket->centre[k] < 0.5 ? -side : side;
+    l.ball[0].state.r[k] = pocket->centre[k] + out * (pocket->radius - speed * time);
+    l.ball[0].state.v[k] = out * speed;
+  }
+  l.ball[0].state.v[2] = up;
+  differentiate(&l, &by_z, 1);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
+  ck_assert_double_eq_tol(events[0].before[0].r[2], R + 4e-3, 1e-6);
+  ck_assert_int_eq(event_flags[0], 0);
+}
+
 /* Racks whose balls touch have the flag, whatever the rack; with gaps they have not, and then
  * derivatives are right. */
 TEST(simultaneous) {
@@ -321,6 +352,22 @@ TEST(euler) {
   ck_assert_int_eq(differentiate(&l, &by_phi, 1), all);
   l.options = exact;
   ck_assert_int_eq(differentiate(&l, &by_phi, 1), 0);
+
+  /* the derivatives of the steps are about those of the exact model, to which the steps converge */
+  static const direction by[3] = {{OF_STATE, 0, 2, 1}, {OF_STATE, 0, 6, 50}, {OF_KIND, 0, 7, 0.2}};
+  double of_steps[NUMBERS * 3];
+  l = by_models(of_one(0.6, 2.4, (double[]){0.5, 1.0}, (double[]){-20.0, 5.0, 30.0}), steps);
+  l.options.time_most = 0.5;
+  l.options.steps = 10000;
+  differentiate(&l, by, 3);
+  memcpy(of_steps, ends, sizeof of_steps);
+  l.options.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN;
+  differentiate(&l, by, 3);
+  for (int j = 0; j < 3; j++)
+    for (int x = 0; x < NUMBERS; x++)
+      ck_assert_double_eq_tol(of_steps[x * 3 + j], ends[x * 3 + j],
+                              0.2 * largest(ends, NUMBERS, j, 3));
+
   /* at the cushion at the start, with frictions so high that the ball jams */
   static const double v[2] = {-0.89101410989132246, 1.5801067791159522},
                       w[3] = {85.794122277663121, 50.245987554195324, -5.8093137134841299};
@@ -396,6 +443,7 @@ static void shoot_squarely(const carom_table *table, carom_game game, carom_shot
 }
 
 TEST(square_at_a_cushion) {
+  largest_error = 0.0;
   for (int k = CAROM_TABLE_POOL_7FT; k <= CAROM_TABLE_POOLTOOL; k++) {
     carom_table table;
     carom_table_make((carom_table_kind)k, &table);
@@ -407,6 +455,7 @@ TEST(square_at_a_cushion) {
           shoot_squarely(&table, (carom_game)game, o);
         }
   }
+  ck_assert_double_gt(largest_error, 0.0); /* of those that were found by differences */
 }
 
 /* By the restitution of the tip, with other numbers of the cue, of two balls; where it is 0, which
@@ -467,12 +516,29 @@ TEST(kinks_of_flights) {
     ck_assert_int_eq(events[0].type, CAROM_EVENT_SLATE);
     ck_assert_int_eq(event_flags[0], CAROM_TANGENT_KINK);
 
-    l.count = 2;
-    l.ball[1] = ball_at(0.4 + 2.0 * R, 1.0);
-    differentiate(&l, &by[k], 1);
-    ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
-    ck_assert_int_eq(event_flags[0] & CAROM_TANGENT_KINK, k < 2 ? CAROM_TANGENT_KINK : 0);
+    /* whichever of the two balls flies */
+    for (int flies = 0; flies < 2; flies++) {
+      const carom_shot_ball flier = l.ball[0];
+      layout two = l;
+      direction of = by[k];
+      two.count = 2;
+      two.ball[flies] = flier;
+      two.ball[1 - flies] = ball_at(0.4 + 2.0 * R, 1.0);
+      of.ball = flies;
+      differentiate(&two, &of, 1);
+      ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
+      ck_assert_int_eq(event_flags[0] & CAROM_TANGENT_KINK, k < 2 ? CAROM_TANGENT_KINK : 0);
+    }
   }
+
+  /* balls of nearly one radius, of which a larger one lifts the other */
+  layout l = of_one(0.4, 1.0, v, w);
+  l.count = 2;
+  l.ball[1] = ball_at(0.4 + 2.0 * R, 1.0);
+  l.ball[1].kind.radius = l.ball[1].state.r[2] = nextafter(R, 1.0);
+  differentiate(&l, &(direction){OF_KIND, 0, 1, 0.03}, 1);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
+  ck_assert_int_ne(event_flags[0] & CAROM_TANGENT_KINK, 0);
 }
 
 /* A blow of 60 degrees at 1.2327 m/s, where the slate is loaded once more within the pulse and the
@@ -672,6 +738,41 @@ TEST(reach_of_thin_hits) {
   }
 }
 
+/* Of a ball that flies over the nose of a rail, by its height, and of one that leaves the table
+ * where there is no rail: rails along x and along y, which end before the corners and in the
+ * middle. */
+TEST(reach_over_a_rail) {
+  const direction by_z = {OF_STATE, 0, 7, 0.05};
+  carom_table table = empty_table(4.0);
+  table.rails = 8;
+  for (int k = 0; k < 8; k++) {
+    carom_rail *rail = &table.rail[k];
+    const double from = k % 2 == 0 ? 0.5 : 2.5;
+    *rail = table.rail[0];
+    for (int axis = 0; axis < 2; axis++) {
+      const bool along = axis == k / 4;
+      rail->p[axis] = along ? from : k / 2 % 2 == 0 ? 0.0 : 4.0;
+      rail->q[axis] = along ? from + 1.0 : rail->p[axis];
+    }
+    rail->side = (k / 2 % 2 == 0) == (k / 4 == 0);
+  }
+  for (int k = 0; k < 2 * 3; k++) {
+    static const double place[3] = {1.0, 2.0, 3.0};
+    layout l = of_one(0.0, 0.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
+    l.table = &table;
+    l.ball[0] = flying(0.3, 0.3, 0.1, 0.0, 0.0, 0.0);
+    l.ball[0].state.r[k / 3] = place[k % 3];
+    l.ball[0].state.v[1 - k / 3] = -4.0;
+    differentiate(&l, &by_z, 1);
+    const double found = change_of_events(&l, &by_z);
+    if (k % 3 == 1)
+      ck_assert_double_gt(reach[0], 0.05);
+    else
+      ck_assert_msg(found > 0.9 * reach[0] && found < 1.2 * reach[0], "place %d: %g, reach %g", k,
+                    found, reach[0]);
+  }
+}
+
 /* English that a change brings about ends before the contact, unless the change is above the
  * reach. */
 TEST(reach_of_english) {
@@ -708,6 +809,34 @@ static void way_of(const carom_ball_kind *kind, double v, double w, double to[4]
   to[1] = slides;
   to[2] = slides + atan(rolls * sqrt(k / A)) / sqrt(k * A);
   to[3] = 2.0 * kind->radius * w / (5.0 * kind->mu_spin * g);
+}
+
+/* Changes by which a ball that rolls, whichever way, slides for a time of the first order: the
+ * derivatives of the roll behind that, beside differences. */
+TEST(changes_that_leave_a_roll) {
+  static const direction by[4] = {
+      {OF_STATE, 0, 2, 1}, {OF_STATE, 0, 3, 1}, {OF_STATE, 0, 4, 30}, {OF_STATE, 0, 5, 30}};
+  for (int k = 0; k < 8; k++) {
+    const double turn = 0.3 + 0.8 * k, v[2] = {cos(turn), sin(turn)},
+                 w[3] = {-v[1] / R, v[0] / R, 0.0};
+    layout l = by_models(of_one(0.6, 1.2, v, w), (carom_shot_options){.time_most = 0.3});
+    differentiate(&l, by, 4);
+    ck_assert_int_eq(final[0].label, CAROM_BALL_ROLLING);
+    ck_assert_int_eq(shot.count, 0);
+    for (int j = 0; j < 4; j++) {
+      const double h = 1e-6 * by[j].unit;
+      double f[2][NUMBERS];
+      for (int s = 0; s < 2; s++) {
+        layout changed = l;
+        change(&changed, &by[j], s == 0 ? -h : h);
+        play(table_of(&l), changed.ball, 1, NULL, &l.options, CAROM_STOPPED_AT_TIME);
+        numbers_of(&final[0], f[s]);
+      }
+      for (int x = 0; x < NUMBERS; x++)
+        ck_assert_double_eq_tol(ends[x * 4 + j], (f[1][x] - f[0][x]) / (2.0 * h),
+                                1e-4 * largest(ends, NUMBERS, j, 4));
+    }
+  }
 }
 
 /* By the constants of the cloth, drag among them, beside differences of the closed form. */
@@ -889,6 +1018,17 @@ TEST(radius_through_a_cluster) {
   differentiate(&l, &by, 1);
   ck_assert_int_eq(events[0].cluster, 2);
   ck_assert_double_lt(off_slope(&l, &by, 0, 1, -1e-8, 1e-8), 1e-4);
+
+  /* the time of its first contact, which both have */
+  double when[2];
+  for (int s = 0; s < 2; s++) {
+    layout changed = l;
+    change(&changed, &by, s == 0 ? -1e-6 : 1e-6);
+    play(table_of(&l), changed.ball, 3, NULL, &l.options, CAROM_STOPPED_AT_TIME);
+    when[s] = events[0].time;
+  }
+  ck_assert_double_eq_tol(times[0], (when[1] - when[0]) / 2e-6, 1e-4 * fabs(times[0]));
+  ck_assert_double_eq(times[0], times[1]);
 }
 
 /* By each number of a smooth cushion and of the roll that it takes, where it is 0. */

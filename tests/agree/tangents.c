@@ -752,7 +752,40 @@ START_TEST(what_is_not_known_is_refused) {
   double contact_seeds[26] = {0}, out[12];
   ck_assert_int_eq(carom_collide_tangent(&in, &steps, 1, contact_seeds, out, NULL),
                    CAROM_ERROR_TANGENT);
-  ck_assert(isnan(out[11]));
+  for (int k = 0; k < 12; k++)
+    ck_assert(isnan(out[k]));
+  const carom_cushion_impact cushions = {.radius = -1.0};
+  double nose_seeds[15] = {0};
+  ck_assert_int_lt(carom_cushion_tangent(&cushions, NULL, 1, nose_seeds, out, NULL), 0);
+  for (int k = 0; k < 6; k++)
+    ck_assert(isnan(out[k]));
+
+  /* of many, the status is that of the first in error, and the others are derived */
+  enum { MANY = 6 };
+  static const int8_t before[MANY] = {CAROM_OK, CAROM_OK, CAROM_ERROR_TOO_LONG, CAROM_OK, -3};
+  carom_shot shots[MANY];
+  carom_tangent tangents[MANY];
+  int8_t statuses[MANY], given[MANY];
+  static double each[MANY][2 * NUMBERS];
+  memcpy(given, before, sizeof given);
+  events[1].type = CAROM_EVENT_SLIDING_ROLLING;
+  played = play(table, two, 2, &cue, NULL, CAROM_OK);
+  for (int k = 0; k < MANY; k++) {
+    shots[k] = played;
+    tangents[k] = (carom_tangent){.final = each[k]};
+  }
+  const carom_shot_job shot_job = {.table = table,
+                                   .balls = two,
+                                   .count = 2,
+                                   .cues = &cue,
+                                   .n = MANY,
+                                   .shots = shots,
+                                   .status = given};
+  const carom_tangent_job all = {
+      .played = &shot_job, .seeds = &seeds, .tangents = tangents, .status = statuses};
+  ck_assert_int_eq(carom_shot_tangent_batch(&all), CAROM_ERROR_TOO_LONG);
+  ck_assert_mem_eq(statuses, before, sizeof statuses);
+  ck_assert_mem_eq(each[5], each[0], sizeof each[0]);
 }
 END_TEST
 
