@@ -865,16 +865,43 @@ TEST(third_ball_near_by) {
   } cases[] = {
       {3e-4, 0.0, 2}, {1.0e-3, 0.0, 2}, {1.5e-3, 0.0, 0}, {3e-3, 20.0, 2}, {2e-2, 20.0, 0}};
   const carom_table table = empty_table(4.0);
-  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    carom_shot_ball b[3] = {ball_at(2.0, 2.0 - 2.0 * R), ball_at(2.0, 2.0),
-                            ball_at(2.0, 2.0 + 2.0 * R + cases[k].gap)};
-    b[0].state.v[1] = 10.0;
-    b[2].state.v[1] = -cases[k].closing;
+  for (size_t k = 0; k < 3 * sizeof cases / sizeof cases[0]; k++) {
+    /* in a row along x, along y, and between */
+    const double turn = 0.25 * PI * (double)(k % 3), x = cos(turn), y = sin(turn),
+                 far = 2.0 * R + cases[k / 3].gap;
+    carom_shot_ball b[3] = {ball_at(2.0 - 2.0 * R * x, 2.0 - 2.0 * R * y), ball_at(2.0, 2.0),
+                            ball_at(2.0 + far * x, 2.0 + far * y)};
+    b[0].state.v[0] = 10.0 * x;
+    b[0].state.v[1] = 10.0 * y;
+    b[2].state.v[0] = -cases[k / 3].closing * x;
+    b[2].state.v[1] = -cases[k / 3].closing * y;
     const carom_shot_options options = {.time_most = 0.01};
     play(&table, b, 3, NULL, &options, CAROM_STOPPED_AT_TIME);
-    ck_assert_msg(events[0].cluster == cases[k].cluster, "gap %g m: %d contacts", cases[k].gap,
-                  events[0].cluster);
+    ck_assert_msg(events[0].cluster == cases[k / 3].cluster, "gap %g m: %d contacts",
+                  cases[k / 3].gap, events[0].cluster);
   }
+}
+
+/* A pair has the mean of each number of the friction of its balls: what one ball has more and the
+ * other less changes nothing. */
+TEST(mean_friction) {
+  layout l = {.count = 2, .ball = {ball_at(0.0, 0.0), ball_at(2.0 * R, 0.0)}};
+  l.ball[0].state.v[0] = 2.0;
+  l.ball[0].state.v[1] = 1.0;
+  l.ball[0].state.w[2] = 20.0;
+  carom_motion first[2];
+  for (int k = 0; k < 2; k++) {
+    for (int i = 0; i < 2; i++) {
+      const double more = k == 0 ? 0.0 : i == 0 ? 1.0 : -1.0;
+      l.ball[i].kind.law_a = 0.0625 + more / 32.0;
+      l.ball[i].kind.law_b = 0.125 + more / 16.0;
+      l.ball[i].kind.law_c = 1.0 + more / 2.0;
+    }
+    resolve(&l, 0);
+    if (k == 0)
+      memcpy(first, out, sizeof first);
+  }
+  ck_assert_mem_eq(first, out, sizeof first);
 }
 
 /* Soft balls reach so far that there is no room for the contacts of all that are near: then those
@@ -913,9 +940,16 @@ TEST(arguments) {
   ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, out, contacts, 0, &contacts_count), CAROM_OK);
   ck_assert_int_eq(contacts_count, 1);
   ck_assert_double_eq(out[2].v[0], 0.0);
+  l.ball[0].state.v[0] = 1.0005e-3;
+  ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, out, NULL, 0, NULL), CAROM_OK);
+  l.ball[0].state.v[0] = 0.9995e-3;
+  ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, out, NULL, 0, NULL), CAROM_SEPARATING);
   l.ball[0].state.v[0] = -1.0;
   ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, out, NULL, 0, NULL), CAROM_SEPARATING);
   ck_assert_double_eq(out[0].v[0], -1.0);
+  l.ball[0].kind.modulus = 1.0;
+  ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, out, NULL, 0, NULL), CAROM_ERROR_MODULUS);
+  l.ball[0].kind.modulus = 0.0;
   l.ball[1].kind.modulus = 1.0;
   ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, out, NULL, 0, NULL), CAROM_ERROR_MODULUS);
   ck_assert(isnan(out[0].v[0]));
