@@ -128,6 +128,33 @@ TEST(rulings) {
   ck_assert_ptr_null(carom_rules_name((carom_rules_kind)3));
 }
 
+/* A break of eight-ball: one is enough, the table is open whatever falls, and the eight comes
+ * back. */
+TEST(breaks_of_eightball) {
+  static const struct {
+    uint32_t down;
+    int driven, is, leave;
+    uint32_t spot;
+  } given[] = {{0, 4, CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0},
+               {0, 3, CAROM_TURN_PASS, CAROM_LEAVE_HAND, 0},
+               {0x0008, 0, CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0},
+               {0x0100, 0, CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0x0100},
+               {0x0001, 4, CAROM_TURN_PASS, CAROM_LEAVE_KITCHEN, 0}};
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    carom_facts facts = {.first = {1, -1}, .cushions_after = given[k].driven};
+    facts.down = given[k].down;
+    for (int i = 1; i <= given[k].driven; i++)
+      facts.cushions[i] = 1;
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
+    of.user[1] = 1;
+    const carom_turn turn = of.judge(of.user, 0xffff, 0, &facts, (carom_call){-1, -1});
+    ck_assert_msg((int)turn.is == given[k].is && (int)turn.leave == given[k].leave &&
+                      turn.spot == given[k].spot,
+                  "break %zu: turn %d, leave %d", k, (int)turn.is, (int)turn.leave);
+    ck_assert(of.user[0] == 0 && of.user[1] == 0);
+  }
+}
+
 /* A stroke of nine-ball that meets a ball and drives so many to cushions, after which ball `down`
  * is down, or none for -1. */
 static carom_turn nine(carom_plan_rules *of, int first, int driven, int down, int call) {
@@ -636,6 +663,40 @@ TEST(no_aims) {
   ck_assert_int_gt(refused, FEWER(60));
 }
 
+/* Balls in a row before a pocket without jaws: the margin is the half angle at which its circle is
+ * seen from the last ball. The longest way has a ball and four before it; the first may touch the
+ * cue ball. A stroke that is too weak tells which ball comes to rest. */
+TEST(rows_before_a_pocket) {
+  for (int others = 0; others <= CAROM_VIA_MOST; others++) {
+    make_layout(1, 1);
+    table.jaws = 0;
+    const carom_pocket *pocket = &table.pocket[0];
+    carom_pot pot = {.ball = 1, .pocket = 0, .vias = others};
+    for (int k = 0; k <= others + 1; k++) { /* from the pocket to the cue ball */
+      const double far = 0.3 + 0.06 * k - (k > others && others == 0 ? 0.06 - 2.0 * 0.028575 : 0.0);
+      const double side = far * sqrt(0.5);
+      const int ball = k > others ? 0 : k + 1;
+      ck_assert_int_eq(carom_place_ball(&table, balls, BALLS, ball, pocket->centre[0] + side,
+                                        pocket->centre[1] + side, NULL),
+                       CAROM_OK);
+      if (ball > 1)
+        pot.via[others - k] = (carom_part){CAROM_PART_BALL, ball};
+    }
+    carom_cue one = cue;
+    one.speed = 4.0;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+    ck_assert_msg(pot.is == CAROM_POT_FALLS, "%d others: %d", others, pot.is);
+    ck_assert_double_eq_tol(pot.margin, asin(pocket->radius / 0.3) / per_degree, 0.01);
+
+    one.speed = 0.1;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+    ck_assert_msg(pot.is == CAROM_POT_SHORT, "%d others: %d", others, pot.is);
+    ck_assert(pot.met.type == CAROM_EVENT_ROLLING_STATIONARY ||
+              pot.met.type == CAROM_EVENT_ROLLING_SPINNING);
+    ck_assert(others > 0 || pot.met.a == 1);
+  }
+}
+
 /* Ways that cannot be are refused. */
 TEST(ways_that_cannot_be) {
   make_layout(test_seed(), 4);
@@ -660,6 +721,11 @@ TEST(ways_that_cannot_be) {
   }
 }
 
+/* A game in which balls count in one pocket only. */
+static uint32_t one_pocket(const uint64_t *user) {
+  return UINT32_C(1) << user[7];
+}
+
 /* Values: the eight alone before a pocket, and the same with a ball in the way; ball in hand is
  * no worse. */
 TEST(values) {
@@ -672,6 +738,22 @@ TEST(values) {
   ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
   ck_assert_int_eq(carom_plan_value(&job, 1, &hand), CAROM_OK);
   ck_assert(easy > 0.85 && easy <= 1.0 && blocked < easy - 0.1 && hand > blocked);
+
+  /* a pocket that does not count is worth nothing */
+  double corner;
+  make_layout(1, 2);
+  carom_place_ball(&table, balls, BALLS, 8, 0.12, 0.12, NULL);
+  carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
+  rules.pockets = one_pocket;
+  for (uint64_t pocket = 0; pocket < 6; pocket++) {
+    rules.user[7] = pocket;
+    ck_assert_int_eq(carom_plan_value(&job, 0, &corner), CAROM_OK);
+    const double *centre = table.pocket[pocket].centre;
+    if (centre[0] < 0.5 && centre[1] < 0.5)
+      ck_assert_double_eq(corner, easy);
+    else
+      ck_assert_double_lt(corner, easy - 0.1);
+  }
 
   /* players who pot next to nothing */
   options.chance_me = options.chance_opponent = 1e-17;
@@ -715,10 +797,7 @@ TEST(what_one_may_do) {
     }
 }
 
-/* A game in which balls count in one pocket only. */
-static uint32_t one_pocket(const uint64_t *user) {
-  return UINT32_C(1) << user[7];
-}
+/* Of a game in which balls count in one pocket only. */
 TEST(pockets_that_count) {
   for (int pocket = 0; pocket < 6; pocket++) {
     carom_choice best[3];
@@ -821,7 +900,8 @@ TEST(little_to_choose) {
   job.count = 10;
   make_memory();
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
-  ck_assert(found == 1 && best.kind == CAROM_PLAN_FOUL && best.foul == 1.0 && best.ball == -1);
+  ck_assert(found == 1 && best.kind == CAROM_PLAN_FOUL && best.foul == 1.0 && best.ball == -1 &&
+            best.pocket == -1);
   edge_free(&memory);
 }
 
@@ -882,13 +962,21 @@ TEST(arguments_of_plans) {
   make_memory();
 
   /* the stroke of the job's cue is not read, and those to be tried are */
+  carom_choice same;
+  ck_assert_int_eq(carom_plan(&job, &same, 1, &found), CAROM_OK);
   cue.phi = NAN;
   cue.speed = 0.0;
+  cue.theta = 30.0;
+  cue.a = cue.b = 0.2;
   ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  ck_assert_mem_eq(&best, &same, sizeof best);
   ck_assert_int_eq(carom_plan_try(&job, &cue, 1, &best), CAROM_ERROR_CUE_PHI);
   const double low[2] = {0.9, 0.9}, high[2] = {0.5, 2.0}, no[2] = {NAN, 0.0};
   ck_assert_int_eq(carom_plan_hand(&job, low, high, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
   ck_assert_int_eq(carom_plan_hand(&job, no, NULL, &best, 1, &found), CAROM_ERROR_OFF_TABLE);
+  const double point[2] = {0.5, 0.6}; /* a range of one place */
+  ck_assert_int_eq(carom_plan_hand(&job, point, point, &best, 1, &found), CAROM_OK);
+  ck_assert(best.place[0] == point[0] && best.place[1] == point[1]);
   balls[0].state.v[0] = 1.0; /* in hand, it may move */
   ck_assert_int_eq(carom_plan_hand(&job, NULL, NULL, &best, 1, &found), CAROM_OK);
   edge_free(&memory);
