@@ -15,14 +15,14 @@
     cmake windows    docs/using/building.md's: built and run by the test platforms/windows
     js            a page is a session, run in Node by the test web/package
     csharp, rust  docs/using/languages.md's: built and run by tests/bindings/game
-    python        a page is a session, in the environment of the test python/package; its kinds pooltool, jax, gymnasium, pettingzoo and scale need those packages
+    python        a page is a session, in the environment of the test python/package; its kinds pooltool, jax, torch, gymnasium, pettingzoo and scale need those packages
 """
 
 import re
 from pathlib import Path
 
 KINDS = {"sh", "sh install", "sh started", "sh program", "sh conan", "sh wheel", "console", "sh elsewhere", "c", "c piece", "cpp", "cmake fetch", "cmake package", "cmake windows", "js", "csharp", "rust", "python"}
-KINDS |= {f"python {need}" for need in ("pooltool", "jax", "gymnasium", "pettingzoo", "scale", "elsewhere")}
+KINDS |= {f"python {need}" for need in ("pooltool", "jax", "torch", "gymnasium", "pettingzoo", "scale", "elsewhere")}
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.
 ELSEWHERE = {"docs/using/examples.md": 1, "docs/using/building.md": 2, "docs/using/python.md": 1, "docs/study/report.md": 1, "docs/using/scale.md": 3, "docs/understanding/reality.md": 2, "docs/using/tracks.md": 1, "docs/using/web.md": 1, "python/README.md": 1, "docs/understanding/gradients.md": 1}

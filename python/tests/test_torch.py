@@ -1,0 +1,105 @@
+"""carom.torch: values are those of shots, gradients those of carom.tangents and of differences; batches, errors."""
+
+import numpy as np
+import pytest
+
+import carom
+
+torch = pytest.importorskip("torch", reason="PyTorch is not installed")
+
+import carom.torch  # noqa: E402
+
+TABLE = carom.tables.pool_9ft()
+BALLS = carom.balls([[0.4, 0.5], [0.6, 1.5], [0.9, 2.0]])
+CUE = carom.cue(speed=1.5, phi=79.0, a=0.1, b=0.1)
+CLOSED = {"ball_model": "inelastic", "cushion_model": "han"}
+NAMES = ("cue.speed", "cue.phi", "cue.a", "cue.b")
+AIM = torch.tensor([1.5, 79.0, 0.1, 0.1], dtype=torch.float64)
+
+
+def ends(aim, **models):
+    return carom.torch.final(TABLE, BALLS, CUE, dict(zip(NAMES, aim.unbind(-1))), **models)
+
+
+def played(aim, **models):
+    return carom.simulate(TABLE, BALLS, carom.cue(**dict(zip(("speed", "phi", "a", "b"), map(float, aim)))), **models)
+
+
+@pytest.mark.parametrize("models", [{}, CLOSED, {"t_final": 0.9}])
+def test_values_are_those_of_shots_and_jacobians_those_of_tangents(models):
+    shot = played(AIM, **models)
+    tangents, found = carom.tangents(shot, NAMES), ends(AIM, **models)
+    for name, numbers in (("r", 2), ("v", 2), ("w", 3)):
+        assert np.array_equal(getattr(found, name).numpy(), shot.final[name][:, :numbers])
+        expected = tangents.final[name]
+        jacobian = torch.autograd.functional.jacobian(lambda aim: getattr(ends(aim, **models), name), AIM)
+        forward = torch.autograd.functional.jvp(lambda aim: getattr(ends(aim, **models), name), AIM, torch.eye(4, dtype=torch.float64)[1])[1]
+        for one, other in ((jacobian, expected), (forward, expected[..., 1])):
+            np.testing.assert_allclose(one.numpy(), other, rtol=1e-13, atol=1e-13 * np.abs(expected).max())
+
+
+def test_gradients_are_differences_of_shots():
+    # closed models, as steps of the exact one change differences by 1e-4
+    scales = torch.tensor([1.0, 1.0, 0.1, 0.1], dtype=torch.float64)
+    x = (AIM / scales).requires_grad_()
+    function = lambda given: ends(given * scales, **CLOSED).r  # noqa: E731
+    assert torch.autograd.gradcheck(function, x, eps=1e-6, atol=1e-6, rtol=1e-6)
+    # float32 and lists are converted, and the gradient of a float32 tensor is float32
+    single = torch.tensor(1.5, requires_grad=True)
+    carom.torch.final(TABLE, BALLS, CUE, {"cue.speed": single}).r[1].sum().backward()
+    assert single.grad.dtype == torch.float32
+    assert float(single.grad) == pytest.approx(carom.tangents(played(AIM), ["cue.speed"]).final["r"][1].sum(), rel=1e-6)
+
+
+def test_batches_are_broadcast_and_have_the_bits_of_single_shots():
+    layouts = carom.balls([[[0.4, 0.5], [0.6, 1.5]], [[0.4, 0.6], [0.62, 1.4]], [[0.45, 0.5], [0.63, 1.45]]])
+    cues = carom.cue(speed=[[1.5], [1.9]], phi=79.0, b=0.1)
+    phi = torch.linspace(78.5, 79.5, 6, dtype=torch.float64).reshape(2, 3).requires_grad_()
+    places = torch.tensor(layouts["state"]["r"][:, 1, :2], requires_grad=True)
+    found = carom.torch.final(TABLE, layouts, cues, {"cue.phi": phi, "balls[1].r": places})
+    found.r.sum().backward()
+    assert found.r.shape == (2, 3, 2, 2)
+    slopes = np.zeros((3, 2))
+    for i, j in np.ndindex(2, 3):
+        cue = cues[i, 0].copy()
+        cue["phi"] = float(phi[i, j])
+        shot = carom.simulate(TABLE, layouts[j], cue)
+        assert np.array_equal(found.r[i, j].detach().numpy(), shot.final["r"][:, :2])
+        tangents = carom.tangents(shot, ["cue.phi", "balls[1].r"]).final["r"].sum(axis=(0, 1))
+        assert float(phi.grad[i, j]) == pytest.approx(tangents[0], rel=1e-12)
+        slopes[j] += tangents[1:]
+    np.testing.assert_allclose(places.grad.numpy(), slopes, rtol=1e-12)
+
+
+def test_an_optimiser_brings_a_ball_to_its_goal():
+    goal = ends(AIM).r[1]
+    aim = (AIM + torch.tensor([2e-3, 1e-2, 0.0, 0.0])).requires_grad_()
+    search = torch.optim.LBFGS([aim], lr=1.0, max_iter=40, tolerance_grad=1e-14, tolerance_change=1e-16, line_search_fn="strong_wolfe")
+
+    def miss():
+        search.zero_grad()
+        loss = ((ends(aim).r[1] - goal) ** 2).sum()
+        loss.backward()
+        return loss
+
+    first = float(miss())
+    search.step(miss)
+    assert first > 1e-6 and float(miss()) < 1e-10 * first
+
+
+def test_shots_that_are_refused_say_why():
+    bad = AIM.clone()
+    bad[3] = 2.0
+    for given in (bad, bad.clone().requires_grad_()):
+        with pytest.raises(carom.CaromError, match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1"):
+            ends(given)
+    both = torch.stack([AIM, bad]).requires_grad_()
+    found = ends(both, errors="nan").r
+    found[0].sum().backward()
+    assert torch.isfinite(found[0]).all() and torch.isnan(found[1]).all() and torch.isfinite(both.grad[0]).all()
+    with pytest.raises(ValueError, match=r"numbers: balls\[1\]\.r: the shape must be \(\.\.\., 2\), not \(3,\)"):
+        carom.torch.final(TABLE, BALLS, CUE, {"balls[1].r": torch.ones(3)})
+    aim = AIM.clone().requires_grad_()
+    with pytest.raises((NotImplementedError, RuntimeError), match="second derivatives of shots are not known"):
+        slope = torch.autograd.grad((ends(aim).r ** 2).sum(), aim, create_graph=True)[0]
+        slope.sum().backward()
