@@ -19,7 +19,7 @@ from carom._carom import ffi, lib
 from carom._rows import Array, addresses, as_array, in_chunks, pointer, several, whole, workers
 from carom._shot_options import Options, chosen, shot_options
 from carom.layouts import Table, of_record
-from carom.results import Shot, Shots
+from carom.results import EventType, Shot, Shots
 from carom.shots import simulate_batch
 from carom.status import CaromError, Status
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from carom._shot_options import Changes
 
-__all__ = ["Flag", "Tangents", "jacobian", "tangents"]
+__all__ = ["Flag", "Tangents", "aim_slope", "jacobian", "tangents"]
 
 MOST: int = lib.CAROM_DIRECTIONS_MOST
 """Directions of one call of C; more are given in parts."""
@@ -274,6 +274,40 @@ def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | N
     if codes[0] < 0:
         raise CaromError(int(codes[0]))
     return _tangents(names, units, (), found, codes)
+
+
+def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi") -> dtypes.Doubles:
+    """How the direction of the cue must follow other numbers of a shot, so that a ball falls at the same place across its path.
+
+    Parameters
+    ----------
+    shot : Shot
+        One that pots the ball, as by `carom.aim`.
+    ball : int
+        Index of the ball.
+    wrt : sequence of str
+        The numbers that change, such as "cue.speed", "cue.b" or "balls[1].r", as for `tangents`.
+    by : str
+        The one number that follows.
+
+    Returns an ndarray of float64, shape (m,): d by / d wrt, degrees per m/s, per R, per m and so on, to first order.
+    Raises ValueError: The ball does not fall, or `by` does not turn its path.
+    """
+    if not isinstance(shot, Shot):
+        raise TypeError(f"shot: what carom.simulate() gives is needed, not {type(shot).__name__}")
+    events = shot.events[: shot.count]
+    fell = events[(events["type"] == EventType.POCKET) & (events["a"] == whole(ball, "ball"))]
+    if len(fell) == 0:
+        raise ValueError(f"ball: ball {ball} does not fall in this shot")
+    # Across the path, a place at a time just before the fall is that of the fall, whenever it happens.
+    before = fell["time"][-1] * (1.0 - 1e-9)
+    v_x, v_y, _ = shot.states(before)["v"][ball]
+    d = tangents(shot, [by, *wrt], times=[before]).at["r"][0, ball]
+    across = v_x * d[1] - v_y * d[0]
+    if across[0] == 0.0 or len(directions([by], shot.final.shape[-1], "by")[0]) != 1:
+        raise ValueError(f"by: {by} does not turn the path of ball {ball}")
+    slopes: dtypes.Doubles = -across[1:] / across[0]
+    return slopes
 
 
 def play(
