@@ -312,6 +312,18 @@ TEST(records_that_cannot_be) {
   ck_assert_int_eq(carom_record_place(NULL, 0, 0.5, 0.5, NULL), CAROM_ERROR_NULL);
 }
 
+/* A shot with a wrong argument changes nothing. */
+TEST(a_refused_shot_changes_nothing) {
+  write_game();
+  game.cue.phi = NAN;
+  again = game;
+  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_CUE_PHI);
+  ck_assert_mem_eq(game.final, again.final, sizeof game.final);
+  ck_assert_mem_eq(&game.played, &again.played, sizeof game.played);
+  ck_assert_uint_eq(game.hash, again.hash);
+  ck_assert_int_eq(game.pending, again.pending);
+}
+
 /* A stroke that was changed is another shot, and so are a table and a constant. */
 TEST(forged_lines_have_other_bits) {
   static const char *const changes[][2] = {{"\"speed\":7.3", "\"speed\":7.31"},
