@@ -1,14 +1,14 @@
-"""Two agents play the same games of potting: one at random, and one that is greedy for the next stroke.
+"""Agents play the same games of potting: at random, greedy for the next stroke, and the library's planner with some numbers of shots.
 
 The greedy agent aims as players do: for each ball and pocket at the ghost ball, the place where the cue ball must be when it touches
 the ball to drive it straight to the pocket. Friction throws the ball off that line, and other balls are in the way; so it tries each
 aim at some speeds and a little to both sides, all in one `carom.simulate_batch`, and takes the stroke with the highest reward, and of
-those the one whose neighbours do best. It does not think of the stroke after.
+those the one whose neighbours do best. It does not think of the stroke after. The planner does, and knows how strokes err.
 
-Both begin each game with the same layout. What is printed is the mean of balls potted (less fouls), and that of the difference with
-its standard error, game by game.
+All begin each game with the same layout. What is printed is the mean of balls potted (less fouls) with its 95 % interval, and in how many games
+all balls were potted without a foul.
 
-    python potting_agents.py --games 100 --seed 1 --out potting.svg
+    python potting_agents.py --game carom/RunOutSix-v0 --games 400 --plans 300,2000
 """
 
 from __future__ import annotations
@@ -66,15 +66,20 @@ def greedy_agent(rules: Potting, observation: Doubles) -> Doubles:
     return chosen
 
 
-def play(agent: Agent, games: int, seed: int, **rules: Any) -> tuple[Doubles, str]:
+def planner(shots: int) -> Agent:
+    """The library's, with so many shots a stroke."""
+    return lambda rules, observation: rules.best(rules.layouts(observation), shots=shots)
+
+
+def play(agent: Agent, game: str, games: int, seed: int, **rules: Any) -> tuple[Doubles, str]:
     """The return of each of many games, the layout of game k drawn from seed + k; and the picture of the best stroke."""
-    envs: Any = gymnasium.make_vec("carom/Potting-v0", num_envs=games, render_mode="svg", **rules)
+    envs: Any = gymnasium.make_vec(game, num_envs=games, render_mode="svg", **rules)
     observations, _ = envs.reset(seed=seed)
     returns, running, most, best = np.zeros(games), np.ones(games, np.bool_), -np.inf, ""
     while running.any():
         actions = np.zeros((games, 4))
-        for game in np.flatnonzero(running):
-            actions[game] = agent(envs.rules, observations[game])
+        for k in np.flatnonzero(running):
+            actions[k] = agent(envs.rules, observations[k])
         observations, rewards, terminated, _, _ = envs.step(actions)
         rewards = np.where(running, rewards, 0.0)
         returns += rewards
@@ -85,28 +90,33 @@ def play(agent: Agent, games: int, seed: int, **rules: Any) -> tuple[Doubles, st
     return returns, best
 
 
-def main(arguments: list[str] | None = None) -> tuple[Doubles, Doubles]:
-    """Plays, prints, writes the picture; gives the returns of both agents, each of shape (games,)."""
+def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
+    """Plays, prints, writes the picture; gives the returns of each agent, of shape (games,)."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--game", default="carom/RunOutSix-v0", choices=list(carom.gymnasium.GAMES))
     parser.add_argument("--games", type=int, default=100)
-    parser.add_argument("--balls", type=int, default=5)
-    parser.add_argument("--strokes", type=int, default=3)
+    parser.add_argument("--balls", type=int, help="instead of the game's own")
+    parser.add_argument("--strokes", type=int, help="instead of the game's own")
+    parser.add_argument("--plans", default="300", help="shots a stroke of planners, with commas between")
     parser.add_argument("--cushion", default="han", help="model of the cushions, as for carom.simulate")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", default="potting.svg", help="the picture of the greedy agent's best stroke")
     given = parser.parse_args(arguments)
-    rules = {"balls": given.balls, "strokes": given.strokes, "cushion_model": given.cushion, "threads": carom.ALL_THREADS}
-    print(f"{given.games} games of {given.balls} balls and {given.strokes} strokes, seed {given.seed}")
-    by_chance, _ = play(random_agent(given.seed), given.games, given.seed, **rules)
-    by_greed, best = play(greedy_agent, given.games, given.seed, **rules)
-    more = by_greed - by_chance
-    error = more.std(ddof=1) / np.sqrt(len(more)) if len(more) > 1 else np.nan
-    for name, returns in (("random", by_chance), ("greedy", by_greed)):
-        print(f"{name}: {returns.mean():.2f} a game")
-    print(f"greedy - random: {more.mean():.2f} +- {error:.2f} a game")
-    Path(given.out).write_text(best, encoding="utf-8")
+    rules = {name: getattr(given, name) for name in ("balls", "strokes") if getattr(given, name) is not None}
+    rules |= {"cushion_model": given.cushion, "threads": carom.ALL_THREADS}
+    agents = {"random": random_agent(given.seed), "greedy": greedy_agent}
+    agents |= {f"plan of {shots} shots": planner(int(shots)) for shots in filter(None, given.plans.split(","))}
+    balls = carom.gymnasium.PottingEnv(**(carom.gymnasium.GAMES[given.game] | rules)).rules.balls
+    print(f"{given.games} games of {given.game}, {balls} balls, seed {given.seed}")
+    found: dict[str, Doubles] = {}
+    for name, agent in agents.items():
+        found[name], picture = play(agent, given.game, given.games, given.seed, **rules)
+        within = 1.96 * found[name].std(ddof=1) / np.sqrt(given.games) if given.games > 1 else np.nan
+        print(f"{name}: {found[name].mean():.2f} +- {within:.2f} a game, all balls in {(found[name] == balls).sum()}")
+        if name == "greedy":
+            Path(given.out).write_text(picture, encoding="utf-8")
     print(f"wrote {given.out}")
-    return by_chance, by_greed
+    return found
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom import derivatives
+from carom import _functions, derivatives
 
 jax = pytest.importorskip("jax", reason="JAX is not installed")
 jax.config.update("jax_enable_x64", True)
@@ -103,7 +103,7 @@ def test_vmap_is_one_batch_and_jit_changes_no_bit(monkeypatch):
 
     derivatives_simulate = derivatives.simulate_batch
     monkeypatch.setattr(derivatives, "simulate_batch", counted)
-    monkeypatch.setattr(carom.jax, "simulate_batch", counted)
+    monkeypatch.setattr(_functions, "simulate_batch", counted)
     many = jax.jit(jax.vmap(jax.grad(miss)))
     np.testing.assert_allclose(many(aims), singly, rtol=1e-13)
     assert batches == [(6,)]

@@ -334,13 +334,32 @@ def test_the_greedy_agent_does_better_than_chance(gymnasium, tmp_path):
     example = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(example)
     picture = tmp_path / "potting.svg"
-    by_chance, by_greed = example.main(["--games", "40", "--seed", "7", "--out", str(picture)])
+    line = ["--game", "carom/Potting-v0", "--strokes", "3", "--games", "40", "--seed", "7", "--out", str(picture)]
+    played = example.main([*line, "--plans", "100"])
+    by_chance, by_greed, planned = played.values()
     more = by_greed - by_chance
     assert more.mean() > 10.0 * more.std(ddof=1) / np.sqrt(len(more))
     assert by_greed.mean() > 3.0 and by_greed.max() <= 5.0
     assert ElementTree.parse(picture).getroot().tag.endswith("svg")
-    again, _ = example.main(["--games", "40", "--seed", "7", "--out", str(picture)])
-    np.testing.assert_array_equal(again, by_chance)
+    assert list(played) == ["random", "greedy", "plan of 100 shots"] and planned.mean() > 1.0 + by_chance.mean()
+    np.testing.assert_array_equal(example.main([*line, "--plans", ""])["random"], by_chance)
+
+
+def test_games_with_fixed_rules(gymnasium):
+    """Each id is a game that both makers know, with the errors of a player of 600; one that is the vector's first is its own."""
+    from gymnasium.utils.env_checker import check_env
+
+    player = carom.player(fargo=600)
+    np.testing.assert_allclose(carom.gymnasium._ERRORS, [float(player[name]) for name in ("phi", "speed", "a")], rtol=0.01)
+    for name, rules in carom.gymnasium.GAMES.items():
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            check_env(gymnasium.make(name).unwrapped, skip_render_check=True)
+        alone, many = gymnasium.make(name), gymnasium.make_vec(name, num_envs=3)
+        seen, _ = alone.reset(seed=5)
+        assert alone.unwrapped.rules.balls == rules.get("balls", 5) and alone.unwrapped.rules.noise == rules.get("noise", (0.0, 0.0, 0.0))
+        np.testing.assert_array_equal(seen, many.reset(seed=5)[0][0])
+        np.testing.assert_array_equal(alone.step([0.1, 0.2, 0.0, 0.0])[0], many.step(np.tile([0.1, 0.2, 0.0, 0.0], (3, 1)))[0][0])
 
 
 def test_the_planner_pots_more_than_chance():

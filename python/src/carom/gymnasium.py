@@ -1,10 +1,12 @@
-"""The game of `carom.potting` as environments of gymnasium: one game, and many at once. An experiment: names may change.
+"""The game of `carom.potting` as environments of gymnasium: one game, and many at once.
 
     import gymnasium
     import carom.gymnasium
 
     game = gymnasium.make("carom/Potting-v0", balls=5, strokes=5, render_mode="svg")
     games = gymnasium.make_vec("carom/Potting-v0", num_envs=64, cushion_model="han", threads=-1)
+
+`GAMES` has the ids. What an id with a version gives for an action and a seed changes only with `carom.physics_revision()`; other rules get another version.
 
 Actions, observations, rewards and ends are those of `carom.potting.Potting`, whose arguments both take; `rules` is that object. Game k
 of many with the seed s is the game alone with the seed s + k, to the bit. Needs gymnasium 1.1 or later.
@@ -33,7 +35,7 @@ except ImportError as missing:
     message = "carom.gymnasium needs gymnasium 1.1 or later, which is not installed here: pip install gymnasium"
     raise ImportError(message, name=missing.name) from missing
 
-__all__ = ["PottingEnv", "PottingVectorEnv"]
+__all__ = ["GAMES", "PottingEnv", "PottingVectorEnv"]
 __dir__ = listing(__name__)
 
 RenderMode = Literal["svg", "rgb_array"]
@@ -244,7 +246,15 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
         return tuple(self._games.render(game) for game in range(self.num_envs))
 
 
+_ERRORS = (0.2, 0.2, 0.006)  # degrees, m/s and radii: those of carom.player(fargo=600)
+GAMES: dict[str, dict[str, Any]] = {
+    "carom/Potting-v0": {},
+    "carom/PotOne-v0": {"balls": 1, "strokes": 1, "noise": _ERRORS},
+    "carom/RunOutSix-v0": {"balls": 6, "strokes": 6, "noise": _ERRORS},
+}
+"""The ids, and the arguments of `PottingEnv` that they have. Of the last two strokes err as those of a player with a Fargo rating of 600."""
 _registry = cast("Any", gymnasium)
-if "carom/Potting-v0" not in _registry.registry:
-    entry = {"entry_point": "carom.gymnasium:PottingEnv", "vector_entry_point": "carom.gymnasium:PottingVectorEnv"}
-    _registry.register("carom/Potting-v0", **entry)
+for _id, _arguments in GAMES.items():
+    if _id not in _registry.registry:
+        entry = {"entry_point": "carom.gymnasium:PottingEnv", "vector_entry_point": "carom.gymnasium:PottingVectorEnv"}
+        _registry.register(_id, kwargs=_arguments, **entry)
