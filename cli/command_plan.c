@@ -27,9 +27,10 @@ typedef struct plan_job {
   const char *plot;
 } plan_job;
 
-OPTION(plan_job, option_rules, "rules", rules, 0, "eightball|nineball|potting", set_choice, 0,
-       "the game (default eightball). Balls are named cue and by their numbers; potting takes any "
-       "names");
+OPTION(plan_job, option_rules, "rules", rules, 0, "eightball|nineball|potting|threecushion",
+       set_choice, 0,
+       "the game (default eightball). Balls are named cue and by their numbers; potting and "
+       "threecushion take any names");
 OPTION(plan_job, option_group, "group", group, 0, "open|solids|stripes", set_choice, 0,
        "of eight-ball: the balls of the player (default open: any but the eight)");
 OPTION(
@@ -137,7 +138,8 @@ static bool order_balls(shot_line *line, const char *file, int last) {
   return true;
 }
 
-static const char *const kinds[] = {"pot", "scan", "foul", "given", "push-out", "pass", "break"};
+static const char *const kinds[] = {"pot",   "scan", "foul", "given",       "push-out", "pass",
+                                    "break", "bank", "kick", "combination", "carom",    "safety"};
 
 /* What a choice does, by the names of the file. */
 static void describe(const shot_line *line, const carom_choice *c, char text[200]) {
@@ -148,14 +150,24 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
     snprintf(text, 200, c->kind == CAROM_PLAN_PUSH ? "a push-out" : "pass: the other plays");
   else if (c->kind == CAROM_PLAN_BREAK)
     snprintf(text, 200, "a break");
+  else if (line->table->table.pockets == 0)
+    snprintf(text, 200, c->ball < 0 ? "no point" : "a point, %sball %s first",
+             c->kind == CAROM_PLAN_KICK ? "off a cushion, " : "", line->name[c->ball]);
   else if (c->ball < 0)
     snprintf(text, 200, "a safety: nothing is potted");
   else
-    snprintf(text, 200, "ball %s into %s%s", line->name[c->ball],
+    snprintf(text, 200, "ball %s into %s%s%s", line->name[c->ball],
              pocket_words(line->table, c->pocket, pocket),
-             c->kind != CAROM_PLAN_SCAN && c->cushions == 0 ? ""
-             : c->cushions > 0                              ? ", off a cushion"
-                                                            : ", by another way than directly");
+             c->kind == CAROM_PLAN_POT || c->kind == CAROM_PLAN_GIVEN ? ""
+             : c->kind == CAROM_PLAN_SCAN                             ? ", by several ways"
+                                                                      : ", by a ",
+             c->kind > CAROM_PLAN_BREAK ? kinds[c->kind] : "");
+}
+
+static const char *value_words(const plan_job *job) {
+  return job->rules == CAROM_RULES_POTTING        ? "share potted"
+         : job->rules == CAROM_RULES_THREECUSHION ? "scores"
+                                                  : "wins";
 }
 
 static void tell(FILE *out, const plan_job *job, const shot_line *line, const carom_choice *choices,
@@ -167,14 +179,16 @@ static void tell(FILE *out, const plan_job *job, const shot_line *line, const ca
     fprintf(out, "%d. %s\n", k + 1, text);
     if (job->hand)
       fprintf(out, "   cue ball at  %.4f, %.4f m\n", c->place[0], c->place[1]);
-    fprintf(out,
-            "   stroke       speed %.3g m/s, direction %.3f degrees, tip %.2f right, %.2f above\n",
-            c->cue.speed, c->cue.phi, 0.0 - c->cue.a, c->cue.b);
+    fprintf(
+        out,
+        "   stroke       speed %.3g m/s, direction %.3f degrees, raised %.1f, tip %.2f right, %.2f "
+        "above\n",
+        c->cue.speed, c->cue.phi, c->cue.theta, 0.0 - c->cue.a, c->cue.b);
     fprintf(out,
             "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%; played %lld "
             "times\n",
-            job->rules == CAROM_RULES_POTTING ? "share potted" : "wins", 100.0 * c->value,
-            100.0 * c->error, 100.0 * c->keep, 100.0 * c->foul, (long long)c->seen);
+            value_words(job), 100.0 * c->value, 100.0 * c->error, 100.0 * c->keep, 100.0 * c->foul,
+            (long long)c->seen);
   }
 }
 
@@ -301,10 +315,12 @@ static bool are_together(const plan_job *job) {
     complain("--group: it is of eight-ball, so --rules eightball is needed");
   else if (job->may != NOT_GIVEN && job->rules != CAROM_RULES_NINEBALL)
     complain("--may: it is of nine-ball, so --rules nineball is needed");
-  else if (job->opening && job->rules == CAROM_RULES_POTTING)
+  else if (job->opening && job->rules >= CAROM_RULES_POTTING)
     complain("--opening: it is of eight-ball and nine-ball");
   else if (job->tries && (job->value || job->hand))
     complain("--try is of strokes from where the cue ball lies: without --value and --in-hand");
+  else if (job->value && job->rules == CAROM_RULES_THREECUSHION)
+    complain("--value: no estimate of a layout of three-cushion is known; a plan tells chances");
   else if (job->value && job->plot != NULL)
     complain("--value finds no shot that --plot could draw");
   else
@@ -319,8 +335,7 @@ static carom_status tell_value(const plan_job *job, const carom_plan_job *asked,
   if (status == CAROM_OK && job->csv)
     fprintf(out, "value\n%.6f\n", chance);
   else if (status == CAROM_OK)
-    fprintf(out, "%s %.1f %%\n", job->rules == CAROM_RULES_POTTING ? "share potted" : "wins",
-            100.0 * chance);
+    fprintf(out, "%s %.1f %%\n", value_words(job), 100.0 * chance);
   return status;
 }
 
@@ -329,17 +344,25 @@ static carom_status tell_value(const plan_job *job, const carom_plan_job *asked,
 static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out,
                 const carom_cue *strokes, int tried, planned *p) {
   static const int last[] = {15, 9};
-  if (line->table->table.pockets == 0) {
-    complain("%s:%zu: the table has no pockets, which these games need", file, line->number);
+  if ((line->table->table.pockets == 0) != (job->rules == CAROM_RULES_THREECUSHION)) {
+    complain("%s:%zu: %s", file, line->number,
+             line->table->table.pockets == 0
+                 ? "the table has no pockets, which this game needs"
+                 : "the table has pockets; threecushion needs one without, such as "
+                   "--table threecushion");
+    return EXIT_USAGE;
+  }
+  if (line->count < 3 && job->rules == CAROM_RULES_THREECUSHION) {
+    complain("%s:%zu: threecushion needs three balls", file, line->number);
     return EXIT_USAGE;
   }
   if (line->count < 2) {
     complain("%s:%zu: a plan needs the cue ball and one more", file, line->number);
     return EXIT_USAGE;
   }
-  if (job->rules != CAROM_RULES_POTTING && !order_balls(line, file, last[job->rules]))
+  if (job->rules < CAROM_RULES_POTTING && !order_balls(line, file, last[job->rules]))
     return EXIT_USAGE;
-  if (line->cue.ball != 0) { /* potting: the cue ball is ball 0 */
+  if (line->cue.ball != 0) { /* where names are any: the cue ball is ball 0 */
     const carom_shot_ball ball = line->ball[0];
     char *const name = line->name[0];
     line->ball[0] = line->ball[line->cue.ball];
@@ -381,8 +404,8 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
                               : tried > 0 ? carom_plan_try(&asked, strokes, tried, choices)
                               : job->hand ? carom_plan_hand(&asked, NULL, NULL, choices, BEST, &n)
                                           : carom_plan(&asked, choices, BEST, &n);
-  free(asked.memory);
   if (status != CAROM_OK) {
+    free(asked.memory);
     complain("%s:%zu: %s", file, line->number, carom_status_string(status));
     return EXIT_USAGE;
   }
@@ -390,6 +413,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     write_rows(out, line, choices, n);
   else
     tell(out, job, line, choices, n);
+  free(asked.memory);
   p->best = choices[0];
   for (int k = 1; k < n; k++)
     p->best = choices[k].value > p->best.value ? choices[k] : p->best;

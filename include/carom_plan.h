@@ -187,20 +187,23 @@ typedef struct carom_plan_rules {
  * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), but for a break of
  * eight-ball that is not legal: the opponent has ball in hand, and no choice of a new rack. */
 typedef enum carom_rules_kind {
-  CAROM_RULES_EIGHTBALL = 0, /* 15 balls; the game is over without the eight. user[0]: 1 if the
+  CAROM_RULES_EIGHTBALL = 0,   /* 15 balls; the game is over without the eight. user[0]: 1 if the
                                 player at the table has the solids (1 to 7), 2 the stripes (9 to
                                 15), 0 while the table is open. user[1]: 1 before the break. Ball
                                 and pocket are called. */
-  CAROM_RULES_NINEBALL = 1,  /* 9 balls. user[1]: 1 before the break. user[2], user[3]: fouls of
+  CAROM_RULES_NINEBALL = 1,    /* 9 balls. user[1]: 1 before the break. user[2], user[3]: fouls of
                                 the player and of the other in their last successive strokes; three
                                 lose. user[4]: 1 just after a break without a foul, when the player
                                 may push out; 2 after a push-out, when he may pass. The nine wins;
                                 without it, the highest ball. */
-  CAROM_RULES_POTTING = 2    /* a drill for one: any ball may be potted, until one misses or
+  CAROM_RULES_POTTING = 2,     /* a drill for one: any ball may be potted, until one misses or
                                 fouls. */
+  CAROM_RULES_THREECUSHION = 3 /* for one: a point where the cue ball meets three cushions before
+                                  the second ball. The value of a shot is the chance of its point,
+                                  and what follows is not estimated. No pockets are needed. */
 } carom_rules_kind;
 
-/* Its name ("eightball", "nineball", "potting"), or NULL for a value not listed. */
+/* Its name ("eightball", "nineball", "potting", "threecushion"), or NULL for a value not listed. */
 CAROM_API const char *carom_rules_name(carom_rules_kind kind);
 
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
@@ -238,30 +241,38 @@ typedef struct carom_plan_options {
   uint64_t reserved[4];         /* must be 0. */
 } carom_plan_options;
 
-/* What a candidate is. */
+/* What a choice is, by what happens. */
 typedef enum carom_plan_kind {
-  CAROM_PLAN_POT = 0,   /* a direct pot of `ball` into `pocket` */
-  CAROM_PLAN_SCAN = 1,  /* all else: a bank, a kick, a combination, a carom, a safety */
-  CAROM_PLAN_FOUL = 2,  /* no shot without a foul was found; this one is gentle */
-  CAROM_PLAN_GIVEN = 3, /* the caller's, of carom_plan_try() */
-  CAROM_PLAN_PUSH = 4,  /* a push-out, where the rules allow one */
-  CAROM_PLAN_PASS = 5,  /* not to play, where the rules allow that; the stroke says nothing */
-  CAROM_PLAN_BREAK = 6  /* a break, of rules that have them; no ball is named */
+  CAROM_PLAN_POT = 0,         /* a direct pot of `ball` into `pocket` */
+  CAROM_PLAN_SCAN = 1,        /* `ball` falls in half of the strokes, by several ways */
+  CAROM_PLAN_FOUL = 2,        /* no shot without a foul was found; this one is gentle */
+  CAROM_PLAN_GIVEN = 3,       /* the caller's, of carom_plan_try() */
+  CAROM_PLAN_PUSH = 4,        /* a push-out, where the rules allow one */
+  CAROM_PLAN_PASS = 5,        /* not to play, where the rules allow that; the stroke says nothing */
+  CAROM_PLAN_BREAK = 6,       /* a break, of rules that have them; no ball is named */
+  CAROM_PLAN_BANK = 7,        /* the cue ball meets `ball`, which meets a cushion and falls */
+  CAROM_PLAN_KICK = 8,        /* the cue ball meets a cushion before any ball */
+  CAROM_PLAN_COMBINATION = 9, /* another ball meets `ball`, which falls */
+  CAROM_PLAN_CAROM = 10,      /* the cue ball meets another ball before `ball`; without pockets: it
+                                 meets two */
+  CAROM_PLAN_SAFETY = 11      /* no ball is named */
 } carom_plan_kind;
 
 typedef struct carom_choice {
-  carom_cue cue;
+  carom_cue cue;        /* raised as little as its stick has to be over cushions and balls */
   double place[2];      /* where the cue ball lies or is put, m. */
   int32_t kind;         /* a carom_plan_kind. */
   int32_t ball;         /* the ball that falls and keeps the turn: by rules with calls the one that
                            falls first without errors, by others the one that does so most often
                            with errors. -1 if none falls without errors, nor in half of the
                            strokes with them; of a foul -1; CAROM_CALL_PUSH and _PASS of those
-                           kinds. So ball and pocket are the call. */
+                           kinds. So ball and pocket are the call. On a table without pockets it
+                           is the ball that is met first. */
   int32_t pocket;       /* and its pocket, or -1. */
   int32_t cushions;     /* impacts of that ball on cushions, of one such stroke. */
   double value;         /* chance to win; without an opponent, the share of the balls that are
-                           potted; 0 to 1. */
+                           potted; 0 to 1. A foul counts 0.03 less than what follows it, so that
+                           of strokes that are as good a legal one is chosen. */
   double error;         /* its standard error. */
   double keep;          /* chance that the player plays on, or wins, */
   double foul, lose;    /* that the shot is a foul, that it loses. */

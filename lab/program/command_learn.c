@@ -1,10 +1,11 @@
-/* `carom-lab learn`: the numbers of src/plan/learned.h, fitted to racks that are played.
+/* `carom-lab learn`: a row of src/plan/learned.h, fitted to racks that are played.
  *
- * A rack begins after a break, with some balls of both groups taken away, and is played until the
- * turn ends, by a player whose errors are drawn. Of each layout on the way the sample has x, as
- * carom_plan_features() tells it, and what came of it. Two logistic regressions by maximum
- * likelihood follow, by Newton's method: one of whether the turn was kept, and one of the later
- * pots of the visit, which come one after the other with equal chances until one fails.
+ * A rack begins after a break, with some balls taken away, and is played until the turn ends and
+ * once more by the other, by players whose errors are drawn. Of each layout on the way the sample
+ * has x, as carom_plan_features() tells it, and what came of it. Three logistic regressions by
+ * maximum likelihood follow, by Newton's method: of whether the turn was kept; of each later stroke
+ * of the visit, by the mean of each layout before it; and of whether the other kept the turn that
+ * was left to him.
  */
 #include "command.h"
 #include "memory.h"
@@ -24,8 +25,11 @@ enum { STROKES_MOST = 20, BLOCK = 256, STEPS = 30 };
 
 typedef struct learn_job {
   shared_options shared;
-  int racks, shots, seed;
+  int rules, racks, shots, seed;
 } learn_job;
+
+OPTION(learn_job, learn_rules, "rules", rules, 0, "eightball|nineball", set_choice, 0,
+       "the game (default eightball)");
 
 OPTION(learn_job, learn_racks, "racks", racks, 0, "N", set_count, 10,
        "racks to be played (default 100000)");
@@ -33,16 +37,19 @@ OPTION(learn_job, learn_shots, "shots", shots, 0, "N", set_count, 100,
        "shots of a plan (default 200)");
 OPTION(learn_job, learn_seed, "seed", seed, 0, "N", set_count, 0, "seed of the racks (default 0)");
 
-/* A layout before a stroke; how many later pots came, and how many failed. */
+typedef enum chance_of { NEXT, LATER, FIRST } chance_of;
+
+/* A stroke, for one of the three; what is known before it, and whether it kept the turn. */
 typedef struct sample {
   double x[NEXT_NUMBERS];
-  int kept, later, failed;
+  chance_of what;
+  int kept, left;
 } sample;
 
 /* The layouts of a rack. */
 typedef struct visit {
   int count;
-  sample of[STROKES_MOST];
+  sample of[STROKES_MOST + STROKES_MOST * (STROKES_MOST - 1) / 2 + 1];
 } visit;
 
 typedef struct block {
@@ -53,24 +60,32 @@ typedef struct block {
 
 /* ---- Racks */
 
-static sample look(const lab_rack *rack, bool hand) {
+static sample look(const lab_rack *rack) {
   static const int who = 0;
   carom_view view;
   carom_view_make(&view, &rack->plan, &rack->options);
   carom_ball_state state[RACK_BALLS];
-  for (int k = 0; k < RACK_BALLS; k++)
+  const int count = (int)rack->plan.count;
+  for (int k = 0; k < count; k++)
     state[k] = rack->balls[k].state;
-  const uint32_t in_play = carom_in_play(state, RACK_BALLS);
+  const uint32_t in_play = carom_in_play(state, count) | 1;
   sample s = {.kept = 0};
   carom_plan_features(&view, state, in_play, rack->rules.on(rack->rules.user, in_play),
-                      ~UINT32_C(0), who, hand, s.x);
+                      ~UINT32_C(0), who, rack->hand, s.x);
+  int32_t left[2];
+  rack->rules.left(rack->rules.user, in_play, left);
+  s.left = left[0];
   return s;
 }
 
 static void play(const learn_job *job, int number, visit *to) {
   static const double errors[] = {0.25, 0.5, 1.0, 2.0, 3.0, 4.5};
-  enum { PLAYERS = sizeof errors / sizeof errors[0], SOLIDS = 1, GROUP = 7 };
-  static const int first_of[2] = {1, 9};
+  enum { PLAYERS = sizeof errors / sizeof errors[0], SOLIDS = 1 };
+  /* balls that are taken away, of one group after the other */
+  static const struct {
+    carom_rules_kind rules;
+    int groups, first[2], balls;
+  } games[] = {{CAROM_RULES_EIGHTBALL, 2, {1, 9}, 7}, {CAROM_RULES_NINEBALL, 1, {1}, 8}};
   lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
   carom_table table;
   carom_table_make(CAROM_TABLE_POOLTOOL, &table);
@@ -84,40 +99,54 @@ static void play(const learn_job *job, int number, visit *to) {
                                .shot = &shot,
                                .memory_size = carom_plan_memory(&rack.options)};
   rack.plan.memory = allocate(1, rack.plan.memory_size);
-  lab_rack_make(&rack, lab_bits(&draw));
+  lab_rack_make(&rack, games[job->rules].rules, lab_bits(&draw));
 
-  /* some balls of both groups are down; the cue ball is anywhere, or in hand once in eight */
-  rack.rules.user[0] = SOLIDS;
-  for (int group = 0; group < 2; group++)
-    for (int left = (int)lab_uniform(&draw, 0.0, GROUP + 1); left > 0; left--) {
-      const int k = first_of[group] + (int)lab_uniform(&draw, 0.0, GROUP);
+  /* some balls are down; the cue ball is anywhere, or in hand once in eight */
+  const int balls = games[job->rules].balls;
+  rack.rules.user[0] = job->rules == 0 ? SOLIDS : 0;
+  for (int group = 0; group < games[job->rules].groups; group++)
+    for (int left = (int)lab_uniform(&draw, 0.0, balls + 1); left > 0; left--) {
+      const int k = games[job->rules].first[group] + (int)lab_uniform(&draw, 0.0, balls);
       rack.balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
     }
   double x, y;
   do {
     x = lab_uniform(&draw, 0.0, table.width);
     y = lab_uniform(&draw, 0.0, table.length);
-  } while (carom_place_ball(&table, rack.balls, RACK_BALLS, 0, x, y, NULL) != CAROM_OK);
-  bool hand = lab_bits(&draw) % 8 == 0;
+  } while (carom_place_ball(&table, rack.balls, (int)rack.plan.count, 0, x, y, NULL) != CAROM_OK);
+  rack.hand = lab_bits(&draw) % 8 == 0;
 
-  /* until the turn ends */
+  /* until the turn ends, and the other's first stroke */
   carom_turn turn = {.is = CAROM_TURN_KEEP};
   to->count = 0;
   while (turn.is == CAROM_TURN_KEEP && to->count < STROKES_MOST) {
     carom_choice choice;
-    sample s = look(&rack, hand);
-    if (!lab_rack_stroke(&rack, hand, &choice, &turn))
+    sample s = look(&rack);
+    if (!lab_rack_stroke(&rack, &choice, &turn))
       break;
     s.kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
     to->of[to->count++] = s;
-    hand = false;
   }
-  const bool won = turn.is == CAROM_TURN_WIN;
-  for (int k = 0; k < to->count; k++)
-    if (to->of[k].kept) {
-      to->of[k].later = to->count - 1 - k - !won;
-      to->of[k].failed = !won;
+  /* of each pair of strokes the later one, by the mean before the first one */
+  const int strokes = to->count;
+  for (int k = 0; k < strokes; k++)
+    for (int j = k + 1; j < strokes; j++) {
+      sample s = to->of[j];
+      s.what = LATER;
+      s.x[2] = 1.0 / s.left;
+      s.x[3] = to->of[k].x[2];
+      to->of[to->count++] = s;
     }
+  if (turn.is == CAROM_TURN_PASS) {
+    carom_choice choice;
+    sample s = look(&rack);
+    s.what = FIRST;
+    s.x[2] = 1.0 / s.left;
+    if (lab_rack_stroke(&rack, &choice, &turn)) {
+      s.kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+      to->of[to->count++] = s;
+    }
+  }
   free(rack.plan.memory);
 }
 
@@ -153,16 +182,8 @@ static double chance(const double *w, const double *x, int n) {
   return 1.0 / (1.0 + exp(-sum));
 }
 
-/* Successes and trials of a sample: of the next stroke, or of the later ones. */
-static int successes(const sample *s, bool next) {
-  return next ? s->kept : s->later;
-}
-static int trials(const sample *s, bool next) {
-  return next ? 1 : s->later + s->failed;
-}
-
 /* The numbers w of greatest likelihood, and a trace of a prior that keeps them finite. */
-static void fit(const sample *s, size_t count, bool next, int n, double *w) {
+static void fit(const sample *s, size_t count, chance_of what, int n, double *w) {
   memset(w, 0, (size_t)n * sizeof *w);
   for (int step = 0; step < STEPS; step++) {
     double H[NEXT_NUMBERS][NEXT_NUMBERS] = {{0.0}}, g[NEXT_NUMBERS];
@@ -171,8 +192,9 @@ static void fit(const sample *s, size_t count, bool next, int n, double *w) {
       g[i] = -1e-3 * w[i];
     }
     for (size_t k = 0; k < count; k++) {
-      const double *x = s[k].x, p = chance(w, x, n), t = trials(&s[k], next);
-      const double off = successes(&s[k], next) - t * p, weight = t * p * (1.0 - p);
+      if (s[k].what != what)
+        continue;
+      const double *x = s[k].x, p = chance(w, x, n), off = s[k].kept - p, weight = p * (1.0 - p);
       for (int i = 0; i < n; i++) {
         g[i] += off * x[i];
         for (int j = 0; j < n; j++)
@@ -188,52 +210,53 @@ static void fit(const sample *s, size_t count, bool next, int n, double *w) {
 /* ---- The file */
 
 /* The logarithm of the likelihood of a trial. */
-static double likelihood(const sample *s, size_t count, bool next, int n, const double *w) {
+static double likelihood(const sample *s, size_t count, chance_of what, int n, const double *w) {
   double sum = 0.0, all = 0.0;
   for (size_t k = 0; k < count; k++) {
-    const double p = chance(w, s[k].x, n), yes = successes(&s[k], next), t = trials(&s[k], next);
-    sum += yes * log(p) + (t - yes) * log(1.0 - p);
-    all += t;
+    const double p = chance(w, s[k].x, n);
+    sum += s[k].what == what ? log(s[k].kept ? p : 1.0 - p) : 0.0;
+    all += s[k].what == what;
   }
   return sum / all;
 }
 
-static void print_numbers(const sample *s, size_t count, bool next, int n, const char *name) {
+static void print_numbers(const sample *s, size_t count, chance_of what, int n, const char *name) {
   double w[NEXT_NUMBERS], constant[1];
-  fit(s, count, next, n, w);
-  fit(s, count, next, 1, constant);
-  printf("/* log-likelihood of a stroke %.4f; of one number for all, %.4f */\n",
-         likelihood(s, count, next, n, w), likelihood(s, count, next, 1, constant));
-  printf("static const double %s[] = {", name);
+  fit(s, count, what, n, w);
+  fit(s, count, what, 1, constant);
+  printf("     /* log-likelihood of a stroke %.4f; of one number for all, %.4f */\n",
+         likelihood(s, count, what, n, w), likelihood(s, count, what, 1, constant));
+  printf("     .%s = {", name);
   for (int i = 0; i < n; i++)
     printf("%s%.3f", i > 0 ? ", " : "", w[i]);
-  puts("};");
+  puts("},");
 }
 
-static void print_file(const learn_job *job, const sample *s, size_t count) {
+static void print_row(const learn_job *job, const sample *s, size_t count) {
+  static const char *const games[] = {"eightball", "nineball"};
   double mean = 0.0;
+  long strokes = 0;
   for (size_t k = 0; k < count; k++)
-    mean += s[k].x[2] / (double)count;
-  printf("/* Numbers of value.c, fitted to %zu strokes: `carom-lab learn --racks %d --shots %d "
-         "--seed\n * %d` made this file. */\n"
-         "#ifndef CAROM_SRC_PLAN_LEARNED_H\n#define CAROM_SRC_PLAN_LEARNED_H\n\n"
-         "#include \"plan/view.h\"\n\n",
-         count, job->racks, job->shots, job->seed);
-  print_numbers(s, count, true, NEXT_NUMBERS, "next_numbers");
-  putchar('\n');
-  print_numbers(s, count, false, LATER_NUMBERS, "later_numbers");
-  printf("\n/* the mean of x[2] */\nstatic const double usual_mean = %.3f;\n\n#endif\n", mean);
+    strokes += s[k].what == NEXT;
+  for (size_t k = 0; k < count; k++)
+    mean += s[k].what == NEXT ? s[k].x[2] / (double)strokes : 0.0;
+  printf("    {/* of %ld strokes: carom-lab learn --rules %s --racks %d --shots %d --seed %d */\n",
+         strokes, games[job->rules], job->racks, job->shots, job->seed);
+  print_numbers(s, count, NEXT, NEXT_NUMBERS, "next");
+  print_numbers(s, count, LATER, LATER_NUMBERS, "later");
+  print_numbers(s, count, FIRST, FIRST_NUMBERS, "first");
+  printf("     .mean = %.3f,\n     .stretch = 1.0},\n", mean);
 }
 
 static const command_form form = {
     .name = "learn",
     .usage = "[OPTIONS]",
-    .about = "Plays racks of eight-ball by plans and fits the chances of value.c to what came of "
-             "them. Prints src/plan/learned.h.\n",
-    .options =
-        (const option_row *const[]){&learn_racks, &learn_shots, &learn_seed, &option_threads, NULL},
+    .about = "Plays racks of a game by plans and fits the chances of value.c to what came of them. "
+             "Prints the row of the game in src/plan/learned.h.\n",
+    .options = (const option_row *const[]){&learn_rules, &learn_racks, &learn_shots, &learn_seed,
+                                           &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
-    .example = "carom-lab learn --threads all > src/plan/learned.h",
+    .example = "carom-lab learn --threads all --rules nineball",
     .files = NO_FILES,
 };
 
@@ -263,7 +286,7 @@ int command_learn(int argc, char **argv) {
     progress_show("racks", (double)(b.first + many), job.racks);
   }
   progress_clear();
-  print_file(&job, all, count);
+  print_row(&job, all, count);
   free(all);
   free(b.visit);
   return EXIT_GOOD;

@@ -1,6 +1,6 @@
-/* `carom-lab plan`: how strong the planner is. Racks of eight-ball after a break that pots
- * nothing, run out from ball in hand by a player who errs; and how often shots come off beside
- * the chance that was predicted for them. */
+/* `carom-lab plan`: how strong the planner is. Racks after a break that pots nothing, run out from
+ * ball in hand by a player who errs, or played to the end by two; and how often shots come off
+ * and games are won beside the chances that were predicted for them. */
 #include "command.h"
 #include "memory.h"
 #include "message.h"
@@ -13,13 +13,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BINS = 10 };
+enum { BINS = 10, STROKES_MOST = 200 };
 
 typedef struct strength_job {
   shared_options shared;
-  int racks, shots, seed;
+  int rules, racks, shots, seed, left;
+  bool games;
   double errors;
 } strength_job;
+
+OPTION(strength_job, option_rules, "rules", rules, 0, "eightball|nineball", set_choice, 0,
+       "the game (default eightball)");
+OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
+       "play each rack to the end, by two players of the same errors; and tell the chances to win");
 
 OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
        "racks to be played (default 100)");
@@ -30,6 +36,9 @@ OPTION(strength_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
 OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0,
        "seed of racks, plans and strokes (default 0)");
 
+OPTION(strength_job, option_left, "left", left, 0, "N", set_count, 1,
+       "end games: N balls of the player, one more of the other, and the eight, at random places");
+
 /* A row of the comparison of chances. */
 typedef struct bin {
   double predicted, variance;
@@ -37,50 +46,67 @@ typedef struct bin {
 } bin;
 
 typedef struct tally {
-  long racks, wins, strokes, pots, plans;
+  long racks, wins, strokes, pots, plans, fouls;
   double seconds;
-  bin bins[BINS];
+  bin bins[BINS], games[BINS];
+  double *odds; /* of the values of all strokes, logarithms, */
+  bool *won;    /* and whether that player won */
+  size_t values, odds_room, won_room;
 } tally;
 
-/* One rack: strokes until the turn is not kept. */
-static void run_out(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
-  lab_rack_make(rack, ((uint64_t)job->seed << 32) + 7919 * (number + 1));
+/* Puts a chance beside what came; `more`: its variance as a share of that of one stroke. */
+static void count(bin bins[BINS], double chance, double more, bool came) {
+  bin *b = &bins[chance < 1.0 ? (int)(BINS * chance) : BINS - 1];
+  b->predicted += chance;
+  b->variance += chance * (1.0 - chance) * (1.0 + more);
+  b->shots++;
+  b->kept += came;
+}
+
+/* One rack: strokes until the turn is not kept, or until the game is won. */
+static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
+  static const carom_rules_kind kinds[] = {CAROM_RULES_EIGHTBALL, CAROM_RULES_NINEBALL};
+  lab_rack_make(rack, kinds[job->rules], ((uint64_t)job->seed << 32) + 7919 * (number + 1));
+  if (job->left > 0)
+    lab_rack_end(rack, job->left);
   carom_turn turn = {.is = CAROM_TURN_KEEP};
-  for (bool hand = true; turn.is == CAROM_TURN_KEEP; hand = false) {
+  int who = 0, n = 0, by[STROKES_MOST];
+  double value[STROKES_MOST];
+  while (n < STROKES_MOST &&
+         (turn.is == CAROM_TURN_KEEP || (job->games && turn.is == CAROM_TURN_PASS))) {
     carom_choice best;
     const double begin = processor_ns();
-    if (!lab_rack_stroke(rack, hand, &best, &turn))
+    who = turn.is == CAROM_TURN_PASS ? 1 - who : who;
+    if (!lab_rack_stroke(rack, &best, &turn))
       return;
     to->seconds += 1e-9 * (processor_ns() - begin);
     to->plans++;
 
     /* what was predicted beside what came */
     const bool kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
-    bin *b = &to->bins[best.keep < 1.0 ? (int)(BINS * best.keep) : BINS - 1];
-    b->predicted += best.keep;
-    b->variance +=
-        best.keep * (1.0 - best.keep) * (1.0 + 1.0 / (double)(best.seen > 0 ? best.seen : 1));
-    b->shots++;
-    b->kept += kept;
+    count(to->bins, best.keep, 1.0 / (double)(best.seen > 0 ? best.seen : 1), kept);
+    by[n] = who;
+    value[n++] = best.value;
     to->strokes++;
     to->pots += kept;
-    to->wins += turn.is == CAROM_TURN_WIN;
+    to->fouls += best.foul > 0.5;
+  }
+  const int winner = turn.is == CAROM_TURN_WIN ? who : turn.is == CAROM_TURN_LOSE ? 1 - who : -1;
+  to->wins += winner == 0;
+  for (int k = 0; k < n && winner >= 0; k++) {
+    const double v = fmin(fmax(value[k], 1e-6), 1.0 - 1e-6);
+    count(to->games, value[k], 0.0, by[k] == winner);
+    to->odds = grow(to->odds, &to->odds_room, to->values + 1, sizeof *to->odds);
+    to->won = grow(to->won, &to->won_room, to->values + 1, sizeof *to->won);
+    to->odds[to->values] = log(v / (1.0 - v));
+    to->won[to->values++] = by[k] == winner;
   }
 }
 
-static void report(const tally *t, const strength_job *job) {
-  /* Wilson's interval, 95 % */
-  const double n = (double)t->racks, p = (double)t->wins / n, z = 1.96;
-  const double wide = 1.0 + z * z / n, middle = (p + z * z / (2.0 * n)) / wide;
-  const double half = z * sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / wide;
-  printf("%d shots a plan, errors %g: run out %ld of %ld, %.1f %% (95 %%: %.1f to %.1f), pots a "
-         "stroke %.3f, %.1f ms a plan\n",
-         job->shots, job->errors, t->wins, t->racks, 100.0 * p, 100.0 * (middle - half),
-         100.0 * (middle + half), (double)t->pots / (double)t->strokes,
-         1e3 * t->seconds / (double)t->plans);
-  printf("predicted,shots,kept,standard_errors\n");
+static void tell_bins(const bin bins[BINS], const char *came) {
+  printf("predicted,strokes,%s,standard_errors\n", came);
   for (int k = 0; k < BINS; k++) {
-    const bin *b = &t->bins[k];
+    const bin *b = &bins[k];
     if (b->shots > 0)
       printf("%.3f,%ld,%.3f,%.1f\n", b->predicted / (double)b->shots, b->shots,
              (double)b->kept / (double)b->shots,
@@ -88,13 +114,49 @@ static void report(const tally *t, const strength_job *job) {
   }
 }
 
+/* By what the log-odds of the values are to be stretched for the greatest likelihood of what came. */
+static double stretch_of(const tally *t) {
+  enum { STEPS = 20 };
+  double stretch = 1.0;
+  for (int step = 0; step < STEPS; step++) {
+    double slope = 0.0, bend = 1e-6;
+    for (size_t k = 0; k < t->values; k++) {
+      const double p = 1.0 / (1.0 + exp(-stretch * t->odds[k]));
+      slope += ((double)t->won[k] - p) * t->odds[k];
+      bend += p * (1.0 - p) * t->odds[k] * t->odds[k];
+    }
+    stretch += fmin(fmax(slope / bend, -0.5), 0.5);
+  }
+  return stretch;
+}
+
+static void report(const tally *t, const strength_job *job) {
+  /* Wilson's interval, 95 % */
+  const double n = (double)t->racks, p = (double)t->wins / n, z = 1.96;
+  const double wide = 1.0 + z * z / n, middle = (p + z * z / (2.0 * n)) / wide;
+  const double half = z * sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / wide;
+  printf("%d shots a plan, errors %g: %s %ld of %ld, %.1f %% (95 %%: %.1f to %.1f), pots a "
+         "stroke %.3f, %.1f ms a plan\n",
+         job->shots, job->errors, job->games ? "won by the first" : "run out", t->wins, t->racks,
+         100.0 * p, 100.0 * (middle - half), 100.0 * (middle + half),
+         (double)t->pots / (double)t->strokes, 1e3 * t->seconds / (double)t->plans);
+  tell_bins(t->bins, "kept");
+  if (job->games) {
+    printf("planned to foul: %ld of %ld strokes\n", t->fouls, t->strokes);
+    tell_bins(t->games, "won");
+    printf("log-odds to be stretched by %.2f\n", stretch_of(t));
+  }
+}
+
 static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS]",
-    .about = "Plays racks of eight-ball by plans: each is run out from ball in hand after a break "
-             "that potted nothing, by a player whose strokes err. Tells how many are run out, and "
-             "how often shots keep the turn beside the chance that was predicted.\n",
-    .options = (const option_row *const[]){&option_racks, &option_shots, &option_errors,
+    .about = "Plays racks by plans: each is run out from ball in hand after a break that potted "
+             "nothing, by a player whose strokes err. Tells how many are run out, and how often "
+             "shots keep the turn beside the chance that was predicted. With --games it is played "
+             "to the end, and chances to win stand beside how often they were won.\n",
+    .options = (const option_row *const[]){&option_rules, &option_games, &option_left,
+                                           &option_racks, &option_shots, &option_errors,
                                            &option_seed, &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
     .example = "carom-lab plan --racks 100 --shots 1000",
@@ -128,7 +190,7 @@ int command_plan(int argc, char **argv) {
   rack.plan.memory = allocate(1, rack.plan.memory_size);
   static tally t;
   for (; t.racks < job.racks; t.racks++) {
-    run_out(&job, (uint64_t)t.racks, &rack, &t);
+    play(&job, (uint64_t)t.racks, &rack, &t);
     progress_show("racks", (double)t.racks, job.racks);
   }
   progress_clear();

@@ -1,59 +1,90 @@
-/* Racks of eight-ball after a break that pots nothing, and strokes by plans. */
+/* Racks after a break that pots nothing, and strokes by plans. */
 #include "rack_play.h"
 #include "message.h"
 
-void lab_rack_make(lab_rack *rack, uint64_t seed) {
+void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
+  const carom_rack_kind kind =
+      game == CAROM_RULES_NINEBALL ? CAROM_RACK_NINEBALL : CAROM_RACK_EIGHTBALL;
   rack->state = (lab_random){seed};
-  rack->rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
+  rack->rules = carom_plan_rules_of(game);
   rack->plan.rules = &rack->rules;
   rack->plan.balls = rack->balls;
-  rack->plan.count = RACK_BALLS;
+  rack->plan.count = carom_rack_size(kind);
   rack->plan.options = &rack->options;
+  rack->hand = true;
+  const int count = (int)rack->plan.count;
   carom_facts facts = {.down = 1};
   carom_ball_state final[RACK_BALLS];
   while (facts.down != 0 || facts.off != 0) {
     carom_cue opening = *rack->plan.cue;
     opening.speed = lab_uniform(&rack->state, 7.0, 8.0) * 2.0 / (1.0 + opening.tip_restitution);
     opening.phi = lab_uniform(&rack->state, 89.0, 91.0);
-    carom_rack(CAROM_RACK_EIGHTBALL, rack->plan.table, 1e-4,
-               (uint64_t)lab_uniform(&rack->state, 0.0, 1e9), rack->balls, RACK_BALLS);
+    carom_rack(kind, rack->plan.table, 1e-4, (uint64_t)lab_uniform(&rack->state, 0.0, 1e9),
+               rack->balls, count);
     carom_shot played = {.final = final, .facts = &facts};
-    if (carom_shoot(rack->plan.table, rack->balls, RACK_BALLS, &opening, rack->plan.shot,
-                    &played) != CAROM_OK)
+    if (carom_shoot(rack->plan.table, rack->balls, count, &opening, rack->plan.shot, &played) !=
+        CAROM_OK)
       facts.down = 1;
   }
-  for (int k = 0; k < RACK_BALLS; k++)
+  for (int k = 0; k < count; k++)
     rack->balls[k].state = final[k];
 }
 
-bool lab_rack_stroke(lab_rack *rack, bool hand, carom_choice *choice, carom_turn *turn) {
+void lab_rack_end(lab_rack *rack, int left) {
+  enum { SOLIDS = 1, GROUP = 7, EIGHT = 8 };
+  left = left < GROUP ? left : GROUP - 1;
+  rack->rules.user[0] = SOLIDS;
+  rack->hand = false;
+  for (int k = 0; k < RACK_BALLS; k++)
+    rack->balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+  for (int k = 0; k < RACK_BALLS; k++) {
+    double x, y;
+    do {
+      x = lab_uniform(&rack->state, 0.0, rack->plan.table->width);
+      y = lab_uniform(&rack->state, 0.0, rack->plan.table->length);
+    } while ((k <= left || (k >= EIGHT && k <= EIGHT + left + 1)) &&
+             carom_place_ball(rack->plan.table, rack->balls, RACK_BALLS, k, x, y, NULL) !=
+                 CAROM_OK);
+  }
+}
+
+bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
   const carom_plan_job *of = &rack->plan;
+  const int count = (int)of->count;
   int found;
   rack->options.seed = rack->state.state;
-  const carom_status status =
-      hand ? carom_plan_hand(of, NULL, NULL, choice, 1, &found) : carom_plan(of, choice, 1, &found);
+  const carom_status status = rack->hand ? carom_plan_hand(of, NULL, NULL, choice, 1, &found)
+                                         : carom_plan(of, choice, 1, &found);
   if (status < 0) {
     complain("a plan: %s", carom_status_string(status));
     return false;
   }
-  if (hand)
-    carom_place_ball(of->table, rack->balls, RACK_BALLS, 0, choice->place[0], choice->place[1],
-                     NULL);
+  if (rack->hand)
+    carom_place_ball(of->table, rack->balls, count, 0, choice->place[0], choice->place[1], NULL);
 
   /* the stroke, with errors */
   carom_facts facts;
   carom_ball_state final[RACK_BALLS];
   carom_shot played = {.final = final, .facts = &facts};
   uint32_t in_play = 0;
-  for (int k = 0; k < RACK_BALLS; k++)
+  for (int k = 0; k < count; k++)
     in_play |= (uint32_t)(rack->balls[k].state.label != CAROM_BALL_POCKETED) << k;
   carom_cue cue = choice->cue;
   carom_player_strike(of->player, rack->state.state, 0, &cue);
   lab_bits(&rack->state); /* the next stroke has other errors */
-  carom_shoot(of->table, rack->balls, RACK_BALLS, &cue, of->shot, &played);
+  carom_shoot(of->table, rack->balls, count, &cue, of->shot, &played);
   *turn = rack->rules.judge(rack->rules.user, in_play, 0, &facts,
                             (carom_call){choice->ball, choice->pocket});
-  for (int k = 0; k < RACK_BALLS && turn->is == CAROM_TURN_KEEP; k++)
+
+  /* the next layout; a ball that left the table is down */
+  for (int k = 0; k < count; k++) {
     rack->balls[k].state = final[k];
+    if (final[k].label == CAROM_BALL_OFF)
+      rack->balls[k].state.label = CAROM_BALL_POCKETED;
+  }
+  for (int k = 1; k < count; k++)
+    if (turn->spot >> k & 1)
+      carom_spot_ball(of->table, rack->balls, count, k);
+  rack->hand = turn->leave != CAROM_LEAVE_AFTER;
   return true;
 }

@@ -1,4 +1,4 @@
-/* Racks of eight-ball, run out by a player who errs and plans. */
+/* Games that are played by plans of players who err: racks after a break, and their strokes. */
 #ifndef CAROM_LAB_RACK_PLAY_H
 #define CAROM_LAB_RACK_PLAY_H
 
@@ -15,13 +15,17 @@ typedef struct lab_rack {
   carom_plan_rules rules;
   carom_plan_options options;
   lab_random state;
+  bool hand; /* whether the cue ball is in hand */
 } lab_rack;
 
-/* The layout after the first break of a seed that pots nothing. */
-void lab_rack_make(lab_rack *rack, uint64_t seed);
-/* One stroke by a plan, with ball in hand or not. Gives the choice, and whether the turn was kept
- * (CAROM_TURN_KEEP, with the layout after it), won or ended. False: the plan was refused, which
+/* The layout after the first break of a seed that pots nothing, with the cue ball in hand. */
+void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed);
+/* An end game of eight-ball in its place: so many solids, one stripe more, and the eight, at random
+ * places; the cue ball is not in hand. */
+void lab_rack_end(lab_rack *rack, int left);
+/* One stroke by a plan. Gives the choice and the turn; where neither has won, the rack is that of
+ * the next stroke, of the other player after a CAROM_TURN_PASS. False: the plan was refused, which
  * is told. */
-bool lab_rack_stroke(lab_rack *rack, bool hand, carom_choice *choice, carom_turn *turn);
+bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn);
 
 #endif

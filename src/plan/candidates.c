@@ -26,8 +26,14 @@ static double speed_of(const search *of, double lossless) {
                       of->player.speed_most);
 }
 
+/* The elevation is the least of the stick, but where the caller gave it, or an aim did. A gentle
+ * stroke is added whatever that is. */
 void carom_search_add(search *of, candidate c) {
-  if (of->count < of->most) {
+  const bool given = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
+  if (!given && c.kind != CAROM_PLAN_POT)
+    c.theta = carom_least_elevation(of, &c);
+  const bool played = given || c.kind == CAROM_PLAN_FOUL || c.theta <= STICK_MOST;
+  if (of->count < of->most && played) {
     c.order = (int32_t)of->count;
     of->found[of->count++] = c;
   }
@@ -88,13 +94,22 @@ static size_t aim_rows(const void *context, size_t first, size_t end) {
     if (k > 0 && carom_is_stopped(of))
       return k;
     candidate *c = &of->found[k];
+    const carom_shot_ball *balls = of->job.balls;
+    const double *o = balls[c->aimed_ball].state.r, *r = balls[of->view.cue_ball].state.r;
+    const double both = of->view.radius[of->view.cue_ball] + of->view.radius[c->aimed_ball];
+    const double psi = c->phi;
+    double sine, cosine;
+    carom_sincos(psi, &sine, &cosine);
+    c->phi = carom_angle_of(o[0] - both * cosine - r[0], o[1] - both * sine - r[1]) / degree;
+    c->theta = carom_least_elevation(of, c);
     carom_cue cue = *of->job.cue;
-    cue.theta = 0.0;
+    cue.theta = c->theta;
     cue.speed = c->speed;
     cue.a = c->a;
     cue.b = c->b;
     of->outcome[k] =
-        (outcome){.is = aim(of->job.table, of->job.balls, c->aimed_ball, c->phi, &of->shot, &cue)};
+        (outcome){.is = c->theta <= STICK_MOST &&
+                        aim(of->job.table, balls, c->aimed_ball, psi, &of->shot, &cue)};
     c->phi = cue.phi;
   }
   return end;
@@ -232,6 +247,17 @@ void carom_search_scan(search *of, int64_t most) {
                               carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 0));
       const double *tip = scan_tip[(
           int)((double)TIPS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1))];
+      double drawn[2];
+      if (of->view.pockets == 0) { /* any place, since its side decides where cushions send it */
+        const double turned =
+            2.0 * pi * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 2);
+        const double far = of->player.tip_most *
+                           sqrt(carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1));
+        carom_sincos(turned, &drawn[0], &drawn[1]);
+        drawn[0] *= far;
+        drawn[1] *= far;
+        tip = drawn;
+      }
       carom_search_add(
           of, (candidate){.speed = speed_of(of, scan_speed[speed]),
                           .phi = 360.0 * turn,

@@ -190,11 +190,12 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   const carom_turn turn =
       rules->judge(user, of->in_play, cue_ball, &carom_no_facts, (carom_call){-1, -1});
   const bool hand = turn.leave == CAROM_LEAVE_HAND || turn.leave == CAROM_LEAVE_KITCHEN;
-  of->foul_value = turn.is == CAROM_TURN_LOSE        ? 0.0
-                   : rules->race == CAROM_RACE_ALONE ? 0.0
-                   : turn.is == CAROM_TURN_KEEP
-                       ? carom_value_of(&of->view, user, of->state, 0, hand)
-                       : 1.0 - carom_value_of(&of->view, user, of->state, 1, hand);
+  of->foul_value =
+      turn.is == CAROM_TURN_LOSE        ? 0.0
+      : rules->race == CAROM_RACE_ALONE ? 0.0
+      : turn.is == CAROM_TURN_KEEP
+          ? carom_value_of(&of->view, user, of->state, 0, hand)
+          : carom_search_foul(1.0 - carom_value_of(&of->view, user, of->state, 1, hand));
   return CAROM_OK;
 }
 
@@ -283,14 +284,15 @@ static void try_all(void *context, carom_crew *crew) {
 
 /* The best choice of each ball, pocket and kind, the best first. A plan that was stopped has not
  * sorted what it found: the first is the best. */
-static int give(const plan *of, carom_choice *choices, int room) {
+static int give(plan *of, carom_choice *choices, int room) {
   const int most = carom_is_stopped(of) ? 1 : room;
   int n = 0;
   for (int64_t k = 0; n < most && k < of->count; k++) {
-    const carom_choice c = carom_search_choice(of, &of->found[k]);
+    carom_choice c = carom_search_choice(of, &of->found[k]);
     const bool played = c.seen > 0 || c.kind == CAROM_PLAN_PASS;
     if (n > 0 && (!played || c.value > choices[0].value))
       continue;
+    c.kind = carom_search_kind(of, &of->found[k], &c);
 
     /* where it is not there yet, it is sorted in */
     int same = 0;

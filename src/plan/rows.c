@@ -24,8 +24,7 @@ typedef struct stage {
   uint32_t draws; /* 0: without errors */
 } stage;
 
-/* The stroke of a candidate, with the errors of a row. */
-static carom_cue stroke(const search *of, const candidate *c, uint32_t draws, int64_t row) {
+carom_cue carom_search_stroke(const search *of, const candidate *c, uint32_t draws, int64_t row) {
   carom_cue cue = *of->job.cue;
   double z[6] = {0};
   if (draws != 0)
@@ -40,9 +39,10 @@ static carom_cue stroke(const search *of, const candidate *c, uint32_t draws, in
 }
 
 /* The pot that a shot made: the first ball that fell into a pocket that counts. Where shots are
- * called it is one of the balls that were on, and the candidate calls it. */
+ * called it is one of the balls that were on, and the candidate calls it. Without pockets it is the
+ * ball that was met first. */
 static carom_call call_of(const search *of, const carom_facts *facts) {
-  carom_call call = {-1, -1};
+  carom_call call = {of->view.pockets > 0 ? -1 : facts->first[0], -1};
   const uint32_t all = ~(UINT32_C(1) << of->view.cue_ball);
   const uint32_t down = facts->down & (of->job.rules->calls ? of->on : all);
   for (int k = 0; down >> k != 0; k++)
@@ -111,7 +111,10 @@ static outcome judge(const search *of, const carom_facts *facts, carom_ball_stat
   const bool in_hand = turn.leave == CAROM_LEAVE_HAND || turn.leave == CAROM_LEAVE_KITCHEN;
   const bool passes = turn.is == CAROM_TURN_PASS;
   const double value = carom_value_of(&of->view, user, final, passes, in_hand);
-  o.worth = passes ? 1.0 - value : alone ? carom_search_share(of, turn.points + value) : value;
+  o.worth = passes && turn.foul != 0 ? carom_search_foul(1.0 - value)
+            : passes                 ? 1.0 - value
+            : alone                  ? carom_search_share(of, turn.points + value)
+                                     : value;
   return o;
 }
 
@@ -168,7 +171,7 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
       return k;
     const int64_t row = (int64_t)k;
     const candidate *c = &of->found[s->first + row / s->each];
-    carom_cue cue = stroke(of, c, s->draws, row % s->each);
+    carom_cue cue = carom_search_stroke(of, c, s->draws, row % s->each);
     cue.ball = of->cue_ball;
     const carom_status status =
         carom_shoot_prepared(of->job.table, &of->features, carom_layout_of(of->played), of->plays,

@@ -100,14 +100,14 @@ void carom_search_add_up(search *of, int64_t n, int64_t each, uint32_t draws) {
 }
 
 /* The candidates of the first round: the best `keep`, of which pots come first, and a third of
- * `keep` of the scan. */
+ * `keep` of the scan; of tables without pockets the best. */
 static int64_t first_round(search *of, int64_t keep) {
   const int64_t n = of->count < keep ? of->count : keep;
   int64_t scanned = 0, good = 0;
   for (int64_t k = 0; k < n; k++) {
     candidate *c = &of->found[k];
-    const bool stays =
-        c->kind == CAROM_PLAN_POT || of->breaks || scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
+    const bool stays = c->kind == CAROM_PLAN_POT || of->breaks || of->view.pockets == 0 ||
+                       scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
     if (stays) {
       const candidate kept = *c;
       *c = of->found[good];

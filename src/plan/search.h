@@ -8,7 +8,14 @@
 #include "shot/shot.h"
 
 /* Stages of draws. */
-enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_ROUND = 16 };
+enum {
+  DRAW_STROKES = 1,
+  DRAW_SCAN,
+  DRAW_PLACES,
+  DRAW_BREAKS = 5,
+  DRAW_ROUND = 16,
+  DRAW_AHEAD = 32
+};
 enum { PLACES_PLANNED = 6 }; /* of a cue ball in hand */
 enum { ROWS_LEAST = 4 };     /* rows worth a thread */
 
@@ -70,6 +77,7 @@ typedef struct carom_search {
   carom_shot_ball played[CAROM_BALLS_MOST];
   int32_t plays, which[CAROM_BALLS_MOST], cue_ball;
   carom_pot_found pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
+  carom_brief_event event[128];                       /* of a stroke whose kind is asked */
   carom_place_in_hand best_place[PLACES_PLANNED + 1]; /* the best first */
   const carom_cue *cues;                              /* that the caller gave, `tries` of them, */
   carom_choice *choices;                              /* and where he wants what they are worth */
@@ -90,8 +98,17 @@ void carom_search_lay_out(carom_search *of, const carom_shot_ball *balls);
  * those before the plan was stopped, at least one. */
 int64_t carom_search_play(carom_search *of, int64_t first, int64_t candidates, int64_t each,
                           uint32_t draws);
+/* The stroke of a candidate, with the errors of a row; draws 0: without errors. */
+carom_cue carom_search_stroke(const carom_search *of, const carom_candidate *c, uint32_t draws,
+                              int64_t row);
 /* Whether a stroke of the scan met a ball first that is on. */
 bool carom_search_begins_well(const carom_search *of, int first);
+/* What a foul that is worth `worth` counts. Values of layouts are right to some hundredths, and a
+ * legal stroke that is as good is to be chosen. */
+static inline double carom_search_foul(double worth) {
+  const double less = 0.03;
+  return worth > less ? worth - less : 0.0;
+}
 /* Points as a share of the balls left before the shot. */
 double carom_search_share(const carom_search *of, double points);
 
@@ -112,6 +129,14 @@ void carom_search_pass(carom_search *of);
  * worth. Of a round that is stopped, those count that were played so often; or any rows of the
  * only one. */
 void carom_search_add_up(carom_search *of, int64_t n, int64_t each, uint32_t draws);
+/* stick.c: the least elevation of a candidate's stick over cushions and balls, degrees; above
+ * STICK_MOST nobody plays. */
+enum { STICK_MOST = 60 };
+double carom_least_elevation(const carom_search *of, const carom_candidate *c);
+
+/* kinds.c: the carom_plan_kind of a choice, by what happens. */
+int32_t carom_search_kind(carom_search *of, const carom_candidate *c, const carom_choice *choice);
+
 carom_choice carom_search_choice(const carom_search *of, const carom_candidate *c);
 /* The share of the shots that the scan has. */
 double carom_scan_of(const carom_plan_options *o);

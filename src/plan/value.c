@@ -9,21 +9,25 @@
  * cushion, or the cut is above 80 degrees.
  *
  * From these chances the numbers of learned.h, which were fitted to racks that were played, make
- * two more: p that the player keeps his turn, by a pot of any kind, and a that he pots each later
- * ball of this visit. Both are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it.
+ * three more: p that the player keeps his turn, by a pot of any kind, a_n that he pots a later ball
+ * of this visit where n are left, and e_n that he keeps the turn that the other has left him. All
+ * are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it. They are nine-ball's where both
+ * have the same balls, else eight-ball's.
  *
  * What follows a miss is a chain over the balls left, n to the one who plays and m to the other:
- * he pots the next with a chance c, the other with d, and who misses gives the turn away:
+ * of a visit he keeps the first turn with the chance e_n and each later one with a_n, both of a
+ * layout of the usual kind, and who misses gives the turn away:
  *
- *     W(n, m) = c W(n - 1, m) + (1 - c) (1 - V(m, n)),
- *     V(m, n) = d V(m - 1, n) + (1 - d) (1 - W(n, m)),
- *     W(0, m) = 1.
+ *     W(n, m) = e_n U(n - 1, m) + (1 - e_n) (1 - V(m, n)),
+ *     U(n, m) = a_n U(n - 1, m) + (1 - a_n) (1 - V(m, n)),
+ *     U(0, m) = 1,
  *
- * c and d are a of a layout of the usual kind. The visit is worth, V being the other one's,
+ * and V of the other likewise. The visit is worth
  *
- *     (1 - p) (1 - V(m, n)) + p (sum over j of a^j (1 - a) (1 - V(m, n - 1 - j)) + a^(n - 1)),
+ *     (1 - p) (1 - V(m, n)) + p U'(n - 1, m),
  *
- * j = 0 to n - 2.
+ * U' being U with the a_n of the mean of this layout. Of games that were played to the end, the
+ * log-odds of these values were to be stretched by a number for each game.
  */
 #include "plan/learned.h"
 #include "plan/view.h"
@@ -77,19 +81,26 @@ carom_mouth carom_mouth_of(const carom_table *table, int index) {
   return mouth;
 }
 
-/* The chain: of each pair of numbers of balls the two equations are solved together. */
-static void chain(carom_view *view, double a, double b) {
+/* The chain: of each pair of numbers of balls the equations of W and V are solved together; on[]
+ * is U of both. */
+static void chain(carom_view *view, double a[2][MOST_LEFT + 1], double e[2][MOST_LEFT + 1]) {
   const bool shared = view->rules->race == CAROM_RACE_SHARED;
+  double on[2][MOST_LEFT + 1][MOST_LEFT + 1];
+  for (int k = 0; k <= MOST_LEFT; k++)
+    on[0][0][k] = on[1][0][k] = 1.0;
   for (int total = 2; total <= 2 * MOST_LEFT; total++)
     for (int n = total > MOST_LEFT ? total - MOST_LEFT : 1; n < total && n <= MOST_LEFT; n++) {
       const int m = total - n;
       if (shared && n != m)
         continue;
-      const double s = n == 1 ? 1.0 : view->win[0][n - 1][shared ? n - 1 : m];
-      const double t = m == 1 ? 1.0 : view->win[1][m - 1][shared ? m - 1 : n];
-      const double f = a * s + 1.0 - a, g = b * t + 1.0 - b, det = 1.0 - (1.0 - a) * (1.0 - b);
-      view->win[0][n][m] = (f - (1.0 - a) * g) / det;
-      view->win[1][m][n] = (g - (1.0 - b) * f) / det;
+      const double s = on[0][n - 1][shared ? n - 1 : m], t = on[1][m - 1][shared ? m - 1 : n];
+      const double c = e[0][n], d = e[1][m], f = c * s + 1.0 - c, g = d * t + 1.0 - d;
+      const double det = 1.0 - (1.0 - c) * (1.0 - d);
+      const double w = (f - (1.0 - c) * g) / det, v = (g - (1.0 - d) * f) / det;
+      view->win[0][n][m] = w;
+      view->win[1][m][n] = v;
+      on[0][n][m] = a[0][n] * s + (1.0 - a[0][n]) * (1.0 - v);
+      on[1][m][n] = a[1][m] * t + (1.0 - a[1][m]) * (1.0 - w);
     }
 }
 
@@ -100,13 +111,26 @@ static double chance(const double *w, const double *x, int n) {
   return 1.0 / (1.0 + carom_exp(-sum));
 }
 
-/* What the layout does not tell of a: the player, and the mean over the balls. */
-static double later(const carom_view *view, int who, double mean) {
-  const double x[LATER_NUMBERS] = {1.0, view->log_error[who], mean};
-  const double least = 1e-3; /* between two who never pot the chain has no end */
+/* The numbers of the race of the game. */
+static const learned *numbers_of(const carom_view *view) {
+  return &learned_of[view->rules->race == CAROM_RACE_SHARED];
+}
+
+static const double least_chance = 1e-3; /* between two who never pot the chain has no end */
+
+/* a_n, of a layout with this mean over the balls. */
+static double later(const carom_view *view, int who, double mean, int n) {
+  const double x[LATER_NUMBERS] = {1.0, view->log_error[who], 1.0 / n, mean};
   const double a =
-      view->given[who] > 0.0 ? view->given[who] : chance(later_numbers, x, LATER_NUMBERS);
-  return a > least ? a : least;
+      view->given[who] > 0.0 ? view->given[who] : chance(numbers_of(view)->later, x, LATER_NUMBERS);
+  return a > least_chance ? a : least_chance;
+}
+
+/* e_n */
+static double first(const carom_view *view, int who, int n) {
+  const double x[FIRST_NUMBERS] = {1.0, view->log_error[who], 1.0 / n};
+  const double e = chance(numbers_of(view)->first, x, FIRST_NUMBERS);
+  return e > least_chance ? e : least_chance;
 }
 
 void carom_view_make(carom_view *view, const carom_plan_job *job,
@@ -132,7 +156,14 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
     view->log_error[who] = carom_log(players[who]->phi > 0.01 ? players[who]->phi / 0.1 : 0.1);
     view->given[who] = who == 0 ? options->chance_me : options->chance_opponent;
   }
-  chain(view, later(view, 0, usual_mean), later(view, 1, usual_mean));
+  const double mean = numbers_of(view)->mean;
+  double a[2][MOST_LEFT + 1] = {{0.0}}, e[2][MOST_LEFT + 1] = {{0.0}};
+  for (int who = 0; who < 2; who++)
+    for (int n = 1; n <= MOST_LEFT; n++) {
+      a[who][n] = later(view, who, mean, n);
+      e[who][n] = first(view, who, n);
+    }
+  chain(view, a, e);
 }
 
 /* ---- A pot */
@@ -275,6 +306,12 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
   memcpy(x, is, sizeof is);
 }
 
+/* A value with its log-odds stretched. */
+static double stretched(const carom_view *view, double value) {
+  const double least = 1e-9, v = value < least ? least : value > 1.0 - least ? 1.0 - least : value;
+  return 1.0 / (1.0 + carom_exp(-numbers_of(view)->stretch * carom_log(v / (1.0 - v))));
+}
+
 static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                            uint32_t targets, uint32_t pockets, const int32_t given[2], int who,
                            bool in_hand) {
@@ -287,7 +324,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   CAROM_PROMISE(who == 0 || who == 1);
   double x[NEXT_NUMBERS];
   carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, x);
-  const double p = chance(next_numbers, x, NEXT_NUMBERS), a = later(view, who, x[2]);
+  const double p = chance(numbers_of(view)->next, x, NEXT_NUMBERS);
 
   /* the visit, ball by ball: how likely it is to come so far, and what a miss there is worth */
   double worth = 0.0, so_far = 1.0, next = p;
@@ -297,10 +334,10 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
     else
       worth += so_far * (1.0 - next) * (1.0 - view->win[1 - who][shared ? n : left[1]][n]);
     so_far *= next;
-    next = a;
+    next = n > 1 ? later(view, who, x[2], n - 1) : 0.0;
   }
   CAROM_PROMISE(worth >= 0.0 && so_far >= 0.0 && so_far <= 1.0 && (alone || worth <= 1.0));
-  return alone ? worth : worth + so_far;
+  return alone ? worth : stretched(view, worth + so_far);
 }
 
 /* The value to one who plays. */

@@ -31,6 +31,12 @@ carom shoot --cue 0.5,0.9 --balls 0.3,1.9:0.9,1.7:0.7,0.5 --aim 90 --json | cat 
 try carom plan --rules potting --try other.jsonl
 try carom plan --rules potting --try --value layout.jsonl
 try carom plan --rules potting --value --plot value.svg layout.jsonl
+echo "--- three-cushion"
+carom shoot --table threecushion --cue 0.4,0.9 --balls 0.3,1.9:1.1,2.2 --aim 90 --json > three.jsonl
+carom plan --rules threecushion --shots 600 three.jsonl | sed 's/[0-9]*[.][0-9]*/N/g' | sed -n 1,3p
+carom plan --rules threecushion --shots 600 --csv three.jsonl | awk -F , 'NR > 1 { print ($12 == $14), ($2 == "carom" || $2 == "kick" || $2 == "safety"), $4 == "" }' | sort | uniq
+try carom plan --rules threecushion layout.jsonl
+try carom plan --rules threecushion --value three.jsonl
 echo "--- rows, threads"
 for threads in 1 2; do carom plan --rules potting --shots 300 --threads $threads --csv -o rows$threads.csv layout.jsonl; done
 cmp rows1.csv rows2.csv && sed -n 1p rows1.csv && wc -l < rows1.csv | tr -d ' '
@@ -48,7 +54,7 @@ try carom plan layout.jsonl
 carom shoot --cue 0.4,0.9 --aim 90 --json > alone.jsonl
 for game in eightball nineball potting; do try carom plan --rules $game alone.jsonl; done
 carom shoot --table threecushion --cue 0.4,0.9 --balls 0.3,1.9 --aim 90 --json > carom.jsonl
-try carom plan --rules nineball carom.jsonl
+for game in nineball threecushion; do try carom plan --rules $game carom.jsonl; done
 try carom plan
 try carom plan --shots 99 layout.jsonl
 try carom plan --rules snooker layout.jsonl

@@ -1,0 +1,62 @@
+/* The least elevation of the cue with which its stick is over cushions and balls.
+ *
+ * In the vertical plane of the stick, with the origin in the cue ball's centre, the axis of a stick
+ * that is raised by theta is where x sin(theta) + z cos(theta) = b R, x forward. A point that is D
+ * behind and h above the slate is below the axis by
+ *
+ *     b R + D sin(theta) - (h - R) cos(theta) >= q,
+ *
+ * where q is the radius of the stick there; of a ball, whose centre is L beside the axis,
+ * q^2 = (its radius + that of the stick)^2 - L^2. With A^2 = D^2 + (R - h)^2 that is
+ *
+ *     theta >= asin((q - b R) / A) - atan2(R - h, D).
+ */
+#include "plan/search.h"
+#include "platform/elementary.h"
+
+#include <math.h>
+
+/* m: a cue of usual make; its radius grows evenly from the tip on */
+static const double stick_length = 1.47, tip_radius = 0.0065, radius_growth = 0.0055;
+
+static double raised(double R, double b, double D, double h, double q) {
+  const double A = sqrt(D * D + (R - h) * (R - h)), sine = (q - b * R) / A;
+  return sine >= 1.0 ? 0.5 * pi : sine <= -1.0 ? 0.0 : carom_asin(sine) - carom_angle_of(D, R - h);
+}
+
+double carom_least_elevation(const carom_search *of, const carom_candidate *c) {
+  const carom_table *table = of->job.table;
+  const carom_shot_ball *own = &of->played[of->cue_ball];
+  const double R = own->kind.radius, *r = own->state.r;
+  double u[2], most = 0.0;
+  carom_sincos(c->phi * degree, &u[1], &u[0]);
+  /* a point of the axis in the plane of the table */
+  const double at[2] = {r[0] - c->a * R * u[1], r[1] + c->a * R * u[0]};
+
+  for (int k = 0; k < table->rails; k++) {
+    /* on which side of the axis both ends are, and how far behind the ball it crosses the rail */
+    const carom_rail *rail = &table->rail[k];
+    const double p[2] = {rail->p[0] - at[0], rail->p[1] - at[1]},
+                 q[2] = {rail->q[0] - at[0], rail->q[1] - at[1]};
+    const double side_p = u[0] * p[1] - u[1] * p[0], side_q = u[0] * q[1] - u[1] * q[0];
+    if ((side_p > 0.0) == (side_q > 0.0))
+      continue;
+    const double part = side_p / (side_p - side_q);
+    const double D = -((p[0] + part * (q[0] - p[0])) * u[0] + (p[1] + part * (q[1] - p[1])) * u[1]);
+    if (D > 0.0 && D < stick_length) {
+      const double least = raised(R, c->b, D, rail->height, tip_radius + radius_growth * D);
+      most = least > most ? least : most;
+    }
+  }
+  for (int k = 0; k < of->plays; k++) {
+    const carom_shot_ball *ball = &of->played[k];
+    const double x = ball->state.r[0] - at[0], y = ball->state.r[1] - at[1];
+    const double D = -(x * u[0] + y * u[1]), L = u[0] * y - u[1] * x;
+    const double both = ball->kind.radius + tip_radius + radius_growth * D;
+    if (k == of->cue_ball || !(D > 0.0 && D < stick_length && L * L < both * both))
+      continue;
+    const double least = raised(R, c->b, D, ball->state.r[2], sqrt(both * both - L * L));
+    most = least > most ? least : most;
+  }
+  return most / degree;
+}
