@@ -324,6 +324,45 @@ TEST(a_refused_shot_changes_nothing) {
   ck_assert_int_eq(game.pending, again.pending);
 }
 
+/* A shot that ran to its end cannot go on, whatever the one before left. */
+TEST(an_ended_shot_does_not_go_on) {
+  memset(&game, 0, sizeof game);
+  carom_table_make(CAROM_TABLE_POOL_9FT, &game.table);
+  game.count = 2;
+  carom_rack(CAROM_RACK_THREECUSHION, &game.table, 1e-4, 5, game.balls, CAROM_BALLS_MOST);
+  game.cue = carom_cue_of(CAROM_GAME_POOL);
+  game.cue.speed = 1.5;
+  for (int stopped = 1; stopped >= 0; stopped--) {
+    game.options.time_most = stopped ? 0.5 : 0.0;
+    ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_SHOT, NULL),
+                     stopped ? CAROM_STOPPED_AT_TIME : CAROM_OK);
+  }
+  ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL), CAROM_ERROR_STATE);
+}
+
+/* A step of the hash of lines, as games.md has it. */
+static uint64_t step(uint64_t h, uint64_t x) {
+  h ^= x;
+  return (h << 27 | h >> 37) * UINT64_C(0x9e3779b97f4a7c15);
+}
+
+/* The hash of lines counts numbers that are not 0, behind their places: of the first line, and of
+ * options of which one is set. */
+TEST(hash_of_lines) {
+  memset(&game, 0, sizeof game);
+  size = 0;
+  put(CAROM_RECORD_HEAD);
+  uint64_t h = step(0, CAROM_RECORD_HEAD);
+  h = step(step(step(step(h, 1), 2), 2), (uint64_t)carom_physics_revision());
+  h = step(h, 0);
+  ck_assert_uint_eq(game.hash, h);
+  game.options.ball_model = CAROM_BALL_MODEL_MIRROR; /* the second number of the line */
+  put(CAROM_RECORD_OPTIONS);
+  ck_assert_ptr_nonnull(strstr(text, "ball_model"));
+  h = step(step(step(step(h, CAROM_RECORD_OPTIONS), 2), CAROM_BALL_MODEL_MIRROR), 0);
+  ck_assert_uint_eq(game.hash, h);
+}
+
 /* A stroke that was changed is another shot, and so are a table and a constant. */
 TEST(forged_lines_have_other_bits) {
   static const char *const changes[][2] = {{"\"speed\":7.3", "\"speed\":7.31"},
