@@ -5,6 +5,7 @@
 #include "options.h"
 #include "output.h"
 #include "picture.h"
+#include "plan_why.h"
 #include "shot_file.h"
 #include "shot_picture.h"
 #include "shot_story.h"
@@ -23,7 +24,7 @@ typedef struct plan_job {
   shared_options shared; /* --threads, --output */
   int rules, group, may, shots, seed;
   double rating, errors;
-  bool hand, opening, csv, tries, value;
+  bool hand, opening, csv, tries, value, why;
   const char *plot;
 } plan_job;
 
@@ -59,6 +60,9 @@ OPTION(plan_job, option_value, "value", value, 0, NULL, set_flag, 0,
        "no plan: the chance to win from the layout, an estimate that plays no shot");
 OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write rows of CSV instead of words");
+OPTION(plan_job, option_why, "why", why, 0, NULL, set_flag, 0,
+       "tell of each shot how to aim it, what it leaves, how often it misses and what that leaves, "
+       "and what errors cost");
 OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the best shot: without errors, thin with errors, and what can go wrong");
 
@@ -170,8 +174,8 @@ static const char *value_words(const plan_job *job) {
                                                   : "wins";
 }
 
-static void tell(FILE *out, const plan_job *job, const shot_line *line, const carom_choice *choices,
-                 int n) {
+static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, const shot_line *line,
+                 const carom_choice *choices, int n) {
   for (int k = 0; k < n; k++) {
     const carom_choice *c = &choices[k];
     char text[200];
@@ -189,6 +193,8 @@ static void tell(FILE *out, const plan_job *job, const shot_line *line, const ca
             "times\n",
             value_words(job), 100.0 * c->value, 100.0 * c->error, 100.0 * c->keep, 100.0 * c->foul,
             (long long)c->seen);
+    if (job->why)
+      plan_tell_why(out, asked, line, c);
   }
 }
 
@@ -321,6 +327,8 @@ static bool are_together(const plan_job *job) {
     complain("--try is of strokes from where the cue ball lies: without --value and --in-hand");
   else if (job->value && job->rules == CAROM_RULES_THREECUSHION)
     complain("--value: no estimate of a layout of three-cushion is known; a plan tells chances");
+  else if (job->why && (job->csv || job->value))
+    complain("--why is told in words, of shots: without --csv and --value");
   else if (job->value && job->plot != NULL)
     complain("--value finds no shot that --plot could draw");
   else
@@ -412,7 +420,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   if (job->csv && !job->value)
     write_rows(out, line, choices, n);
   else
-    tell(out, job, line, choices, n);
+    tell(out, job, &asked, line, choices, n);
   free(asked.memory);
   p->best = choices[0];
   for (int k = 1; k < n; k++)
@@ -432,8 +440,8 @@ static const command_form form = {
         (const option_row *const[]){&option_rules, &option_group, &option_may, &option_opening,
                                     &option_hand, &option_try, &option_value, &option_player,
                                     &option_errors, &option_shots, &option_seed, &options_of_motion,
-                                    &option_csv, &option_plan_plot, &option_threads, &option_output,
-                                    NULL},
+                                    &option_csv, &option_why, &option_plan_plot, &option_threads,
+                                    &option_output, NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"

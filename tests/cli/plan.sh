@@ -31,6 +31,9 @@ carom shoot --cue 0.5,0.9 --balls 0.3,1.9:0.9,1.7:0.7,0.5 --aim 90 --json | cat 
 try carom plan --rules potting --try other.jsonl
 try carom plan --rules potting --try --value layout.jsonl
 try carom plan --rules potting --value --plot value.svg layout.jsonl
+echo "--- why"
+carom plan --rules potting --why --shots 300 layout.jsonl | sed -n 3,7p | sed 's/[0-9][0-9.]*/N/g'
+for options in "--why --csv" "--why --value"; do try carom plan --rules potting $options layout.jsonl; done
 echo "--- three-cushion"
 carom shoot --table threecushion --cue 0.4,0.9 --balls 0.3,1.9:1.1,2.2 --aim 90 --json > three.jsonl
 carom plan --rules threecushion --shots 600 three.jsonl | sed 's/[0-9]*[.][0-9]*/N/g' | sed -n 1,3p
