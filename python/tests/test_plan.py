@@ -27,6 +27,39 @@ def test_plan():
     assert len(weak) == 1 and weak["value"][0] < best["value"][0] - 0.1
 
 
+class Points(carom.Rules):
+    """Three-cushion by its facts."""
+
+    race = "alone"
+
+    def on(self, state, in_play):
+        return in_play - {0}
+
+    def left(self, state, in_play):
+        return 1, 1
+
+    def judge(self, state, in_play, facts, call):
+        point = facts.second >= 0 and facts.cushions_before[1] >= 3
+        assert facts.second not in (0, facts.first) or facts.first == facts.second == -1
+        return carom.Turn("keep" if point else "pass", points=float(point))
+
+
+def test_points_of_three_cushion():
+    """The plan scores as often as it says, by the library's rules and by the same in Python."""
+    table = carom.tables.threecushion()
+    layout, cue = carom.racks.threecushion(table), carom.cue(game="billiard")
+    best = carom.plan(table, layout, cue, rules="threecushion", shots=600, plain=True)
+    assert best["value"][0] == best["keep"][0] > 0.2 and set(best["pocket"]) == {-1} and best["ball"][0] in (1, 2)
+    for rules in ("threecushion", Points()):
+        hit = [carom.referee(table, layout, carom.with_errors(best["cue"][0], carom.player(), 1, k), rules=rules, plain=True) for k in range(40)]
+        points = [ruling.points for ruling in hit]
+        assert abs(np.mean(points) - best["keep"][0]) < 0.35 and [ruling.turn == "keep" for ruling in hit] == [point == 1.0 for point in points]
+    with pytest.raises(ValueError, match="table: threecushion needs one without pockets"):
+        carom.plan(TABLE, LAYOUT, rules="threecushion", shots=100)
+    with pytest.raises(ValueError, match="balls: threecushion needs three"):
+        carom.plan(table, layout[:2], rules="threecushion", shots=100)
+
+
 def test_a_layout_is_planned_by_the_numbers_of_its_balls():
     """Not by their order, as the command does: the lowest ball is on, wherever it stands in the list."""
     places = {"5": [0.3, 1.9], "cue": [0.4, 0.9], "2": [0.9, 1.7], "9": [0.7, 0.5]}

@@ -38,7 +38,10 @@ type Method = (...numbers: Pointer[]) => number;
 
 /** Refuses what is no layout of a game, for a plan. */
 function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: string): void {
-  if (pockets.length === 0) throw new TypeError(`table: it has no pockets, which ${rules} needs`);
+  const pool = rules !== "threecushion";
+  if (pool && pockets.length === 0) throw new TypeError(`table: it has no pockets, which ${rules} needs`);
+  if (!pool && pockets.length > 0) throw new TypeError("table: threecushion needs one without pockets");
+  if (!pool && balls.length < 3) throw new TypeError("balls: threecushion needs three");
   const last = { eightball: 15, nineball: 9 }[rules] ?? balls.length;
   const beyond = balls.findIndex(({ state }, k) => k > last && state.label !== "pocketed" && state.label !== "off");
   if (beyond >= 0) throw new TypeError(`balls: the balls of ${rules} are the cue ball and 1 to ${last}, not ${beyond}`);

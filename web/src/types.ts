@@ -214,7 +214,7 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
 
 /** A stroke, and what is known of it. */
 export interface Choice extends Omit<C.Choice, "kind"> {
-  /** "pot" is a direct pot; "scan" was found by shots in all directions; "foul": nothing better was found; "given" was asked for; "push", "pass": as of a call. */
+  /** What happens: "pot" is a direct one; "scan": by several ways; "foul": nothing better was found; "given" was asked for; "push", "pass": as of a call. */
   kind: C.PlanKind;
 }
 

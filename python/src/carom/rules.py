@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "referee"]
 
-Game = Literal["eightball", "nineball", "potting"]
+Game = Literal["eightball", "nineball", "potting", "threecushion"]
 Group = Literal["open", "solids", "stripes"]
 State = npt.NDArray[np.uint64]
 Hand = Literal["no", "anywhere", "kitchen"]
-_GAMES = {"eightball": 0, "nineball": 1, "potting": 2}
+_GAMES = {"eightball": 0, "nineball": 1, "potting": 2, "threecushion": 3}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
 _LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3}
@@ -71,6 +71,8 @@ class Facts:
     """What happened in a shot, for `Rules.judge`."""
 
     first: int  # The ball that the cue ball met first, -1 for none, also after an error
+    second: int  # The next other ball that it met, or -1
+    cushions_before: tuple[int, int]  # Impacts of the cue ball on cushions before it met each of both
     potted: Mapping[int, int]  # The pocket that took each ball that fell, the cue ball 0 among them, in their order
     off: frozenset[int]  # Balls that left the table
     cushions: tuple[int, ...]  # Impacts of each ball on cushions
@@ -85,7 +87,9 @@ class Facts:
 def _facts(record: Any) -> Facts:
     down = sorted(_of_set(record.down), key=lambda ball: record.pocket_time[ball])
     potted = {ball: int(record.pocket[ball]) for ball in down}
-    return Facts(record.first[0], potted, _of_set(record.off), tuple(record.cushions), record.cushions_after, record)
+    first, second = record.first
+    before = (record.cushions_before[0], record.cushions_before[1])
+    return Facts(first, second, before, potted, _of_set(record.off), tuple(record.cushions), record.cushions_after, record)
 
 
 @dataclass(frozen=True)
@@ -214,7 +218,10 @@ class Made:
 
     def check_layout(self, table: Table, layout: dtypes.Records) -> None:
         """Refuses what is no layout of the game, for a plan."""
-        if not isinstance(self.rules, Rules) and not len(table.pocket_names):
+        pockets = len(table.pocket_names)
+        if self.rules == "threecushion" and (pockets or len(layout) < 3):
+            raise ValueError("table: threecushion needs one without pockets" if pockets else "balls: threecushion needs three")
+        if isinstance(self.rules, str) and self.rules != "threecushion" and not pockets:
             raise ValueError(f"table: it has no pockets, which {self.rules} needs")
         label = layout["state"]["label"]
         for ball in range(len(layout) if self.last is None else self.last + 1, len(layout)):

@@ -104,9 +104,10 @@ export function gamePanel(carom: Carom, view: View): Panel {
       if (mine === number) busy = false;
     }
   }
+  const BY: Partial<Record<Choice["kind"], string>> = { bank: ", by a bank", kick: ", by a kick", combination: ", by a combination", carom: ", by a carom" };
   function words(one: Choice): string {
     if (one.ball < 0) return one.kind === "foul" ? "no shot without a foul was found" : one.kind === "break" ? "a break" : "a safety";
-    return `ball ${view.names()[one.ball]} into the ${pocketName(view.table(), one.pocket)}${one.cushions > 0 ? ", off a cushion" : ""}`;
+    return `ball ${view.names()[one.ball]} into the ${pocketName(view.table(), one.pocket)}${BY[one.kind] ?? ""}`;
   }
 
   // ---- Advice ----------------------------------------------------------------------------------------------------------------
