@@ -49,31 +49,39 @@ static double squirt_of(const carom_cue *cue, const carom_ball_kind *kind) {
              : carom_angle_of(motion.v[0], motion.v[1]) / degree;
 }
 
-/* Turns cue->phi until ball k, hit by the cue ball, goes in the direction psi, rad. False where
- * it cannot be hit. */
-static bool aim(const carom_table *table, const carom_shot_ball *balls, int k, double psi,
-                const carom_shot_options *shot, carom_cue *cue) {
+/* Turns a candidate until the ball that it aims at, hit by the cue ball, goes in its direction phi,
+ * degrees, with the cue raised as it has to be. False where it cannot be hit. */
+static bool aim(const search *of, candidate *c) {
   enum { STEPS = 3 };
-  carom_shot_ball pair[2] = {balls[cue->ball], balls[k]};
+  const carom_shot_ball *balls = of->job.balls;
+  carom_shot_ball pair[2] = {balls[of->view.cue_ball], balls[c->aimed_ball]};
   carom_ball_state final[2];
-  carom_shot_options options = *shot;
+  carom_shot_options options = of->shot;
   options.stop_at = CAROM_STOP_AT_CONTACT;
   options.first_of = 0;
-  carom_cue alone = *cue;
+  carom_cue alone = *of->job.cue;
   alone.ball = 0;
-  const double both = pair[0].kind.radius + pair[1].kind.radius, *c = pair[0].state.r,
+  alone.theta = 0.0;
+  alone.speed = c->speed;
+  alone.a = c->a;
+  alone.b = c->b;
+  const double both = pair[0].kind.radius + pair[1].kind.radius, *r = pair[0].state.r,
                *o = pair[1].state.r;
-  const double squirt = squirt_of(&alone, &pair[0].kind);
+  const double squirt = squirt_of(&alone, &pair[0].kind), psi = c->phi * degree;
   double to = psi;
   for (int step = 0; step < STEPS; step++) {
     double sine, cosine;
     carom_sincos(to, &sine, &cosine);
     alone.phi =
-        carom_angle_of(o[0] - both * cosine - c[0], o[1] - both * sine - c[1]) / degree - squirt;
+        carom_angle_of(o[0] - both * cosine - r[0], o[1] - both * sine - r[1]) / degree - squirt;
+    c->phi = alone.phi;
+    c->theta = alone.theta = carom_least_elevation(of, c);
+    if (c->theta > STICK_MOST)
+      return false;
 
     /* throw turns the ball away from the line of centres */
     carom_shot played = {.final = final};
-    if (carom_shoot(table, pair, 2, &alone, &options, &played) != CAROM_STOPPED_AT_EVENT)
+    if (carom_shoot(of->job.table, pair, 2, &alone, &options, &played) != CAROM_STOPPED_AT_EVENT)
       return false;
     const double *v = final[1].v;
     if (!(v[0] * v[0] + v[1] * v[1] > 4e-4))
@@ -82,35 +90,17 @@ static bool aim(const carom_table *table, const carom_shot_ball *balls, int k, d
     off += off > 180.0 * degree ? -360.0 * degree : off < -180.0 * degree ? 360.0 * degree : 0.0;
     to += off;
   }
-  cue->phi = alone.phi < 0.0 ? alone.phi + 360.0 : alone.phi;
+  c->phi += c->phi < 0.0 ? 360.0 : 0.0;
   return true;
 }
 
-/* Aims the candidates: from the direction of the ball that falls to that of the stroke; whether
- * that can be done is their outcome. */
+/* Aims the candidates; whether that can be done is their outcome. */
 static size_t aim_rows(const void *context, size_t first, size_t end) {
   const search *of = context;
   for (size_t k = first; k < end; k++) {
     if (k > 0 && carom_is_stopped(of))
       return k;
-    candidate *c = &of->found[k];
-    const carom_shot_ball *balls = of->job.balls;
-    const double *o = balls[c->aimed_ball].state.r, *r = balls[of->view.cue_ball].state.r;
-    const double both = of->view.radius[of->view.cue_ball] + of->view.radius[c->aimed_ball];
-    const double psi = c->phi;
-    double sine, cosine;
-    carom_sincos(psi, &sine, &cosine);
-    c->phi = carom_angle_of(o[0] - both * cosine - r[0], o[1] - both * sine - r[1]) / degree;
-    c->theta = carom_least_elevation(of, c);
-    carom_cue cue = *of->job.cue;
-    cue.theta = c->theta;
-    cue.speed = c->speed;
-    cue.a = c->a;
-    cue.b = c->b;
-    of->outcome[k] =
-        (outcome){.is = c->theta <= STICK_MOST &&
-                        aim(of->job.table, balls, c->aimed_ball, psi, &of->shot, &cue)};
-    c->phi = cue.phi;
+    of->outcome[k] = (outcome){.is = aim(of, &of->found[k])};
   }
   return end;
 }
@@ -160,7 +150,7 @@ void carom_search_pots(search *of, int64_t most) {
       const double *tip = pot_tip[order[n] % TIPS];
       carom_search_add(
           of, (candidate){.speed = speed_of(of, pot_speed[order[n] / TIPS]),
-                          .phi = way[w].way.psi,
+                          .phi = way[w].way.psi / degree,
                           .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
                           .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
                           .kind = CAROM_PLAN_POT,

@@ -24,6 +24,24 @@ static double raised(double R, double b, double D, double h, double q) {
   return sine >= 1.0 ? 0.5 * pi : sine <= -1.0 ? 0.0 : carom_asin(sine) - carom_angle_of(D, R - h);
 }
 
+/* A nose that the stick crosses at an angle alpha is as near as q sin(alpha) / sqrt(sin(theta)^2 +
+ * cos(theta)^2 sin(alpha)^2), so q and theta are found in turn. */
+static double over_rail(double R, double b, double D, const carom_rail *rail, const double u[2]) {
+  enum { STEPS = 4 };
+  const double e[2] = {rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]};
+  const double cross = u[0] * e[1] - u[1] * e[0];
+  const double square = cross * cross / (e[0] * e[0] + e[1] * e[1]);
+  const double radius = tip_radius + radius_growth * D;
+  double theta = raised(R, b, D, rail->height, radius);
+  for (int step = 0; step < STEPS && theta > 0.0; step++) {
+    double sine, cosine;
+    carom_sincos(theta, &sine, &cosine);
+    theta = raised(R, b, D, rail->height,
+                   radius * sqrt((sine * sine + cosine * cosine * square) / square));
+  }
+  return theta;
+}
+
 double carom_least_elevation(const carom_search *of, const carom_candidate *c) {
   const carom_table *table = of->job.table;
   const carom_shot_ball *own = &of->played[of->cue_ball];
@@ -44,7 +62,7 @@ double carom_least_elevation(const carom_search *of, const carom_candidate *c) {
     const double part = side_p / (side_p - side_q);
     const double D = -((p[0] + part * (q[0] - p[0])) * u[0] + (p[1] + part * (q[1] - p[1])) * u[1]);
     if (D > 0.0 && D < stick_length) {
-      const double least = raised(R, c->b, D, rail->height, tip_radius + radius_growth * D);
+      const double least = over_rail(R, c->b, D, rail, u);
       most = least > most ? least : most;
     }
   }
