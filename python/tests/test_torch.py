@@ -33,9 +33,7 @@ def test_values_are_those_of_shots_and_jacobians_those_of_tangents(models):
         assert np.array_equal(getattr(found, name).numpy(), shot.final[name][:, :numbers])
         expected = tangents.final[name]
         jacobian = torch.autograd.functional.jacobian(lambda aim: getattr(ends(aim, **models), name), AIM)
-        forward = torch.autograd.functional.jvp(lambda aim: getattr(ends(aim, **models), name), AIM, torch.eye(4, dtype=torch.float64)[1])[1]
-        for one, other in ((jacobian, expected), (forward, expected[..., 1])):
-            np.testing.assert_allclose(one.numpy(), other, rtol=1e-13, atol=1e-13 * np.abs(expected).max())
+        np.testing.assert_allclose(jacobian.numpy(), expected, rtol=1e-13, atol=1e-13 * np.abs(expected).max())
 
 
 def test_gradients_are_differences_of_shots():
@@ -101,5 +99,4 @@ def test_shots_that_are_refused_say_why():
         carom.torch.final(TABLE, BALLS, CUE, {"balls[1].r": torch.ones(3)})
     aim = AIM.clone().requires_grad_()
     with pytest.raises((NotImplementedError, RuntimeError), match="second derivatives of shots are not known"):
-        slope = torch.autograd.grad((ends(aim).r ** 2).sum(), aim, create_graph=True)[0]
-        slope.sum().backward()
+        torch.autograd.grad((ends(aim).r ** 2).sum(), aim, create_graph=True)

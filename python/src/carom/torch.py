@@ -10,7 +10,7 @@
     aim.grad
 
 Shots are played and differentiated by C on the CPU: a call is one batch of `carom.simulate_batch`, or, where a number needs a gradient, one
-of `carom.jacobian`. `backward`, `torch.autograd.functional.jacobian` and its `jvp` all use the Jacobian of `carom.tangents`;
+of `carom.jacobian`. `backward` and `torch.autograd.functional.jacobian` use the Jacobian of `carom.tangents`;
 second derivatives are not known. docs/using/derivatives.md says what a derivative cannot tell: `carom.jacobian(..., of="reach")` has its reach.
 
 Its objects have no types here, so that carom can be checked without PyTorch.
@@ -37,35 +37,23 @@ except ImportError as missing:
     raise ImportError("carom.torch needs PyTorch, which is not installed here: pip install torch", name=missing.name) from missing
 
 
-class _Jacobian(_torch.autograd.Function):
-    """Derivatives of the states, (..., balls, STATE, m), whose own derivatives by the numbers are not known."""
-
-    @staticmethod
-    def forward(_: Any, shots: Any, x: Any, found: Any) -> Any:
-        return _torch.from_numpy(shots.both(x.detach().numpy())[1] if found is None else found)
-
-    @staticmethod
-    def backward(_: Any, __: Any) -> Any:
-        raise NotImplementedError("carom.torch: second derivatives of shots are not known; first ones need no create_graph=True")
-
-
 class _States(_torch.autograd.Function):
     """The final states (..., balls, STATE) of shots with numbers (..., m), played together with the Jacobian where one is needed."""
 
     @staticmethod
     def forward(ctx: Any, shots: Any, x: Any, differentiated: bool) -> Any:
-        ctx.shots, ctx.found = shots, None
-        ctx.save_for_backward(x)
         numbers = x.detach().numpy()
         if not differentiated:
             return _torch.from_numpy(shots.states(numbers))
-        states, ctx.found = shots.both(numbers)
+        states, derivatives = shots.both(numbers)
+        ctx.jacobian = _torch.from_numpy(derivatives)  # (..., balls, STATE, m)
         return _torch.from_numpy(states)
 
     @staticmethod
     def backward(ctx: Any, cotangent: Any) -> Any:
-        jacobian = _Jacobian.apply(ctx.shots, *ctx.saved_tensors, ctx.found)
-        return None, _torch.einsum("...bsm,...bs->...m", jacobian, cotangent), None
+        if _torch.is_grad_enabled():
+            raise NotImplementedError("carom.torch: second derivatives of shots are not known; first ones need no create_graph=True")
+        return None, _torch.einsum("...bsm,...bs->...m", ctx.jacobian, cotangent), None
 
 
 def final(
