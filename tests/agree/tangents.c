@@ -605,7 +605,8 @@ START_TEST(cushions_without_slip_at_the_nose) {
       for (int r = 0; r < 6; r++)
         all[r][asked[i]] = tangent[r];
       const double bend = bend_of(&in, asked[i], steps[i]);
-      const bool kink = bend > 1e-3 && bend_of(&in, asked[i], 0.1 * steps[i]) > 0.5 * bend;
+      /* where it bends by less, a derivative is as near as is asked below to both slopes */
+      const bool kink = bend > 2e-3 && bend_of(&in, asked[i], 0.1 * steps[i]) > 0.5 * bend;
       bends += kink;
       without_flag += kink && !(flags & CAROM_TANGENT_KINK);
       if (flags & CAROM_TANGENT_KINK)

@@ -705,8 +705,9 @@ static bool same_way(const carom_pot *a, const carom_pot *b) {
   bool same = a->pocket == b->pocket && a->vias == b->vias;
   for (int k = 0; k < a->vias && same; k++)
     same =
-        a->via[k].kind == b->via[k].kind && (a->via[k].kind == CAROM_PART_BALL ||
-                                             strcmp(carom_rail_name(&table, a->via[k].index),
+        a->via[k].kind == b->via[k].kind &&
+        (a->via[k].kind == CAROM_PART_BALL ? a->via[k].index == b->via[k].index
+                                           : strcmp(carom_rail_name(&table, a->via[k].index),
                                                     carom_rail_name(&table, b->via[k].index)) == 0);
   return same;
 }
@@ -780,7 +781,8 @@ TEST(aims) {
     const int *n = found[kind];
     printf("way %d: %d fall, %d no way, %d barred, %d short, %d rejected\n", kind, n[0], n[1], n[2],
            n[3], n[4]);
-    ck_assert_int_ge(10 * n[0], 9 * (n[0] + n[1] + n[2] + n[3] + n[4]));
+    /* one in ten, and two more by chance */
+    ck_assert_int_le(n[1] + n[2] + n[3] + n[4], (n[0] + n[1] + n[2] + n[3] + n[4]) / 10 + 2);
     ck_assert_int_gt(n[0], FEWER(30));
   }
 }
