@@ -4,7 +4,6 @@
  * players are those of carom_plan.h. With exceptions or without them, it prints the same. */
 #include <carom.hpp>
 
-#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <string>
@@ -16,16 +15,10 @@ constexpr int most_shots = 150;
 class game {
 public:
   game() {
-    carom_record &of = record_.game();
-    of.table = carom::table(CAROM_TABLE_POOL_9FT);
-    const auto balls = carom::rack(CAROM_RACK_EIGHTBALL, of.table, 1e-4, 7);
-    of.count = static_cast<int64_t>(balls.size());
-    std::copy(balls.begin(), balls.end(), of.balls);
-    of.options.plain = 1;
+    const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
+    sent_ = record_.begin(table, carom::rack(CAROM_RACK_EIGHTBALL, table, 1e-4, 7));
     rules_ = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
     rules_.user[1] = 1; // before the break
-    for (const auto kind : {CAROM_RECORD_HEAD, CAROM_RECORD_TABLE, CAROM_RECORD_BALLS})
-      sent_ += record_.write(kind);
   }
 
   bool over() const {
@@ -40,20 +33,13 @@ public:
 
   // The best stroke that a plan finds, with the errors of the player, and what it comes to by the rules.
   bool play() {
-    carom_record_settle(&record_.game());
     carom_record &of = record_.game();
     const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
     carom_plan_options wanted{};
     wanted.shots = 300;
     wanted.seed = static_cast<uint64_t>(of.shots);
     wanted.opponent = &players_[1 - player_];
-    carom_plan_job job{};
-    job.table = &of.table;
-    job.balls = of.balls;
-    job.count = static_cast<int>(of.count);
-    job.cue = &cue;
-    job.player = &players_[player_];
-    job.rules = &rules_;
+    carom_plan_job job = carom::job(of.table, record_.layout(), cue, players_[player_], rules_);
     job.shot = &of.options;
     job.options = &wanted;
     const auto best = carom::plan(job, 1, in_hand_);
@@ -85,21 +71,14 @@ private:
     const carom_turn turn = rules_.judge(rules_.user, in_play, 0, &record_.game().facts, call);
     in_hand_ = turn.leave != CAROM_LEAVE_AFTER;
     for (int k = 1; k < record_.game().count; k++)
-      if (turn.spot >> k & 1)
-        spot(k);
+      if (turn.spot >> k & 1) {
+        record_.spot(k);
+        sent_ += record_.write(CAROM_RECORD_PLACE);
+      }
     if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE)
       winner_ = turn.is == CAROM_TURN_WIN ? player_ : 1 - player_;
     else if (turn.is == CAROM_TURN_PASS)
       player_ = 1 - player_;
-  }
-
-  // On the long string, as near to the foot spot as it is free. A place that is taken is no error here.
-  void spot(int ball) {
-    carom_record &of = record_.game();
-    double y = 0.75 * of.table.length;
-    while (carom_record_place(&of, ball, 0.5 * of.table.width, y, nullptr) != CAROM_OK)
-      y -= 1e-3;
-    sent_ += record_.write(CAROM_RECORD_PLACE);
   }
 
   carom::recording record_;

@@ -231,7 +231,8 @@ typedef enum carom_status {
                                       to below 2 R. */
   CAROM_ERROR_MODULUS = -58,       /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
   CAROM_ERROR_STATE = -60,         /* carom_shot_continue(): shot.state is damaged, or of no shot
-                                      that can go on; */
+                                      that can go on. carom_plan_continue(): likewise of a plan's
+                                      memory. Of the next three, shot.state */
   CAROM_ERROR_STATE_TABLE = -64,   /* is that of a shot on another table, */
   CAROM_ERROR_STATE_BALLS = -65,   /* of other balls, or of another layout, */
   CAROM_ERROR_STATE_OPTIONS = -66, /* or with other options, besides those that say when to stop. */

@@ -19,12 +19,14 @@
 #include "carom_plan.h"
 #include "carom_record.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 #ifdef __cpp_exceptions
@@ -37,7 +39,9 @@ namespace carom {
 /* A call that could not be served. */
 class error : public std::runtime_error {
 public:
-  explicit error(carom_status code) : std::runtime_error(carom_status_string(code)), code_(code) {
+  explicit error(carom_status code, const std::string &fault = {})
+      : std::runtime_error(carom_status_string(code) + (fault.empty() ? "" : ": " + fault)),
+        code_(code) {
   }
   carom_status status() const noexcept {
     return code_;
@@ -48,11 +52,12 @@ private:
 };
 #endif
 
-/* The status; a negative one is thrown where exceptions are on. */
-inline carom_status checked(carom_status code) {
+/* The status; a negative one is thrown where exceptions are on, with what is wrong where that is
+ * known. */
+inline carom_status checked(carom_status code, [[maybe_unused]] const char *fault = "") {
 #ifdef __cpp_exceptions
   if (code < 0)
-    throw error(code);
+    throw error(code, fault);
 #endif
   return code;
 }
@@ -232,17 +237,73 @@ private:
 
 /* ---- Plans */
 
+/* A plan for the player at the table; options, models and memory are not set. */
+inline carom_plan_job job(const carom_table &on, std::span<const carom_shot_ball> balls,
+                          const carom_cue &cue, const carom_player &player,
+                          const carom_plan_rules &rules) {
+  carom_plan_job made{};
+  made.table = &on;
+  made.balls = balls.data();
+  made.count = static_cast<std::int64_t>(balls.size());
+  made.cue = &cue;
+  made.player = &player;
+  made.rules = &rules;
+  return made;
+}
+
+/* A plan that is made in slices, for an opponent who thinks between the frames of a game. All that
+ * the job points to stays as it is until the end; its memory is allocated here. */
+class thinking {
+public:
+  /* A slice is so many shots, about; 0: all at once. Up to `most` strokes are wanted. */
+  explicit thinking(const carom_plan_job &job, std::int64_t slice, int most = 1,
+                    bool in_hand = false)
+      : job_(job), options_(std::make_unique<carom_plan_options>()), in_hand_(in_hand),
+        choices_(static_cast<std::size_t>(most)) {
+    if (job.options != nullptr)
+      *options_ = *job.options;
+    options_->slice = slice;
+    memory_.resize(carom_plan_memory(options_.get()) / sizeof(double) + 1);
+    job_.options = options_.get();
+    job_.memory = memory_.data();
+    job_.memory_size = memory_.size() * sizeof(double);
+  }
+
+  /* Plays a slice. */
+  carom_status go_on() {
+    const int room = static_cast<int>(choices_.size());
+    const carom_status code =
+        begun_     ? carom_plan_continue(&job_, choices_.data(), room, &found_)
+        : in_hand_ ? carom_plan_hand(&job_, nullptr, nullptr, choices_.data(), room, &found_)
+                   : carom_plan(&job_, choices_.data(), room, &found_);
+    begun_ = true;
+    ended_ = code < 0 || found_ > 0;
+    return checked(code);
+  }
+  /* Whether it has ended, also by an error. */
+  bool ended() const {
+    return ended_;
+  }
+  /* The best strokes, best first; empty until the end, and after an error. */
+  std::span<const carom_choice> choices() const {
+    return {choices_.data(), static_cast<std::size_t>(found_)};
+  }
+
+private:
+  carom_plan_job job_;
+  std::unique_ptr<carom_plan_options> options_;
+  bool in_hand_, begun_ = false, ended_ = false;
+  int found_ = 0;
+  std::vector<carom_choice> choices_;
+  std::vector<double> memory_;
+};
+
 /* The best strokes, best first, at most `most`; the job's memory is allocated here. */
-inline std::vector<carom_choice> plan(carom_plan_job job, int most = 1, bool in_hand = false) {
-  std::vector<double> memory(carom_plan_memory(job.options) / sizeof(double) + 1);
-  std::vector<carom_choice> choices(static_cast<std::size_t>(most));
-  int found = 0;
-  job.memory = memory.data();
-  job.memory_size = memory.size() * sizeof(double);
-  checked(in_hand ? carom_plan_hand(&job, nullptr, nullptr, choices.data(), most, &found)
-                  : carom_plan(&job, choices.data(), most, &found));
-  choices.resize(static_cast<std::size_t>(found));
-  return choices;
+inline std::vector<carom_choice> plan(const carom_plan_job &job, int most = 1,
+                                      bool in_hand = false) {
+  thinking all(job, 0, most, in_hand);
+  all.go_on();
+  return {all.choices().begin(), all.choices().end()};
 }
 
 /* ---- Recordings */
@@ -261,18 +322,50 @@ public:
     return *game_;
   }
 
+  /* Begins a game: the lines up to that of the balls. */
+  std::string begin(const carom_table &on, std::span<const carom_shot_ball> balls,
+                    const carom_shot_options &options = {}) {
+    std::string lines;
+    if (balls.size() > CAROM_BALLS_MOST) {
+      checked(CAROM_ERROR_BALLS);
+      return lines;
+    }
+    game_->table = on;
+    game_->options = options;
+    game_->count = static_cast<std::int64_t>(balls.size());
+    std::copy(balls.begin(), balls.end(), game_->balls);
+    for (const auto kind :
+         {CAROM_RECORD_HEAD, CAROM_RECORD_TABLE, CAROM_RECORD_OPTIONS, CAROM_RECORD_BALLS})
+      lines += write(kind);
+    return lines;
+  }
+  /* The balls after the last shot. */
+  std::span<const carom_shot_ball> layout() {
+    carom_record_settle(game_.get());
+    return {game_->balls, static_cast<std::size_t>(game_->count)};
+  }
+
   /* The game's next line, valid until the next call; empty where it cannot be written. */
   std::string_view write(carom_record_kind kind) {
     return {text_.data(), carom_record_write(game_.get(), kind, text_.data(), text_.size())};
   }
   carom_status read(std::string_view line) {
-    return checked(carom_record_read(game_.get(), line.data(), line.size()));
+    const carom_status code = carom_record_read(game_.get(), line.data(), line.size());
+    return checked(code, code == CAROM_ERROR_RECORD ? game_->fault : "");
   }
   carom_status play(carom_record_kind kind = CAROM_RECORD_SHOT) {
     return checked(carom_record_play(game_.get(), kind, nullptr));
   }
   carom_status place(int ball, double x, double y) {
     return checked(carom_record_place(game_.get(), ball, x, y, nullptr));
+  }
+  /* Puts a ball back on the foot spot, or as near to it as there is room. */
+  carom_status spot(int ball) {
+    carom_record_settle(game_.get());
+    const carom_status code =
+        checked(carom_spot_ball(&game_->table, game_->balls, static_cast<int>(game_->count), ball));
+    const double *r = game_->balls[code < 0 ? 0 : ball].state.r;
+    return code < 0 ? code : place(ball, r[0], r[1]);
   }
 
   /* Whether the shot of the last line was played, with the bits that were recorded. */

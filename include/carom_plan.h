@@ -238,7 +238,10 @@ typedef struct carom_plan_options {
                                    within some ms. It then gives one choice, the best so far; of
                                    carom_plan_try() those that were not played have `seen` 0 and
                                    the value NaN. */
-  uint64_t reserved[4];         /* must be 0. */
+  int64_t slice;                /* shots, about, after which carom_plan() and carom_plan_hand()
+                                   return with *found 0, for carom_plan_continue(). 0: they
+                                   return at the end. Not read by carom_plan_try(). */
+  uint64_t reserved[3];         /* must be 0. */
 } carom_plan_options;
 
 /* What a choice is, by what happens. */
@@ -321,6 +324,21 @@ CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choic
 CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double low[2],
                                        const double high[2], carom_choice *choices, int room,
                                        int *found);
+
+/* Goes on with a plan in slices, for an opponent who thinks between the frames of a game: plays
+ * options->slice shots more. *found is 0 until the plan has ended; then the choices are those of
+ * one call, bit for bit. A shot takes some 20 us, and a slice somewhat longer where candidates are
+ * made or sorted. The job, its memory and all that it points to are those of the call before, unchanged.
+ * A plan that has ended stays as it is; one whose options->stop was set ends. CAROM_OK;
+ * CAROM_ERROR_NULL as of carom_plan(); CAROM_ERROR_STATE where the memory has no plan of this job.
+ *
+ *     options.slice = 100;  // 2 ms
+ *     status = carom_plan(&job, best, 5, &found);
+ *     while (status == CAROM_OK && found == 0)
+ *       status = carom_plan_continue(&job, best, 5, &found);  // a frame
+ */
+CAROM_API carom_status carom_plan_continue(const carom_plan_job *job, carom_choice *choices,
+                                           int room, int *found);
 
 /* The chances of `n` strokes of the caller's, each of which is played options->shots / n times
  * with errors, at least 10 times. choices[k] becomes the estimate of cues[k], in their order. n

@@ -115,7 +115,7 @@
   X(ERROR_NO_TANGENTS, -72, "no_tangents",                                                         \
     "this library was built without derivatives, as it was without C++")                           \
   X(ERROR_STATE, -60, "bad_state",                                                                 \
-    "shot.state is damaged, or of another build, or of no shot that can go on")                    \
+    "shot.state, or a plan's memory, is damaged, of another build, or of nothing that can go on")  \
   X(ERROR_STATE_TABLE, -64, "other_table", "shot.state is that of a shot on another table")        \
   X(ERROR_STATE_BALLS, -65, "other_balls",                                                         \
     "shot.state is that of a shot of other balls, or of another layout")                           \

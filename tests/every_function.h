@@ -422,6 +422,9 @@ static inline carom_plan_job plan_of(const every_input *in, every_room *room,
     return HASH(room->choice);                                                 \
   }
 EVERY_PLAN(plan, carom_plan(&job, room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan_continue, carom_plan(&job, room->choice, EVERY_FEW, &found) < 0
+                              ? CAROM_ERROR_NULL
+                              : carom_plan_continue(&job, room->choice, EVERY_FEW, &found))
 EVERY_PLAN(plan_hand, carom_plan_hand(&job, NULL, NULL, room->choice, EVERY_FEW, &found))
 EVERY_PLAN(plan_try, carom_plan_try(&job, in->cue, 2, room->choice))
 EVERY_PLAN(plan_value, carom_plan_value(&job, 1, &room->choice[0].value))
@@ -635,7 +638,8 @@ EVERY_BODY(record_settle) {
   F(impact3) \
   F(isa_available) F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) \
   F(number_is_read) F(number_of) F(number_range) \
-  F(physics_revision) F(place_ball) F(plan) F(plan_hand) F(plan_memory) F(plan_rules_of) \
+  F(physics_revision) F(place_ball) F(plan) F(plan_continue) F(plan_hand) F(plan_memory) \
+  F(plan_rules_of) \
   F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(pocket_name) F(rack) \
   F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) \
   F(record_settle) F(record_write) F(rolling_velocity) F(rules_name) F(serves) F(shoot) \

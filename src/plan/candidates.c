@@ -98,9 +98,10 @@ static bool aim(const search *of, candidate *c) {
 static size_t aim_rows(const void *context, size_t first, size_t end) {
   const search *of = context;
   for (size_t k = first; k < end; k++) {
-    if (k > 0 && carom_is_stopped(of))
+    const int64_t row = of->stage.done + (int64_t)k;
+    if (row > 0 && carom_is_stopped(of))
       return k;
-    of->outcome[k] = (outcome){.is = aim(of, &of->found[k])};
+    of->outcome[row] = (outcome){.is = aim(of, &of->found[row])};
   }
   return end;
 }
@@ -157,12 +158,13 @@ void carom_search_pots(search *of, int64_t most) {
                           .aimed_ball = (int16_t)way[w].ball,
                           .aimed_pocket = (int16_t)way[w].pocket});
     }
+  of->stage = (carom_stage){.work = aim_rows, .rows = of->count};
+}
 
-  /* those that cannot be aimed are dropped */
-  const int64_t added =
-      (int64_t)carom_crew_work(of->crew, aim_rows, of, (size_t)of->count, ROWS_LEAST);
+/* Those that cannot be aimed are dropped. */
+void carom_search_aimed(search *of) {
   of->count = 0;
-  for (int64_t k = 0; k < added; k++)
+  for (int64_t k = 0; k < of->stage.done; k++)
     if (of->outcome[k].is)
       carom_search_add(of, of->found[k]);
 }
@@ -218,54 +220,57 @@ void carom_search_breaks(search *of, int64_t most) {
   }
 }
 
-/* Strokes in all directions, of which those stay that meet a ball first that is on; up to
- * `most`. The directions follow the golden ratio, so that however many are tried, they are
- * spread evenly. */
-void carom_search_scan(search *of, int64_t most) {
+/* Strokes in all directions, of which those stay that meet a ball first that is on. The directions
+ * follow the golden ratio, so that however many are tried, they are spread evenly. */
+bool carom_search_scan(search *of) {
   /* in blocks that are sooner made than a plan has to stop */
   enum { LEAST = 16, MOST = 4096 };
-  const int64_t block = (int64_t)carom_within((double)most / 2.0, LEAST, MOST);
-  const int64_t tries = 4 * most, end = of->count + most;
+  const int64_t block = (int64_t)carom_within((double)of->scan / 2.0, LEAST, MOST);
+  if (of->tried >= 4 * of->scan || of->count >= of->scan_end || carom_is_stopped(of))
+    return false;
   const double begin = carom_uniform(of->options.seed, DRAW_SCAN, 0, 0);
-  for (int64_t from = 0; from < tries && of->count < end && !carom_is_stopped(of); from += block) {
-    const int64_t first = of->count;
-    for (int64_t k = from; k < from + block && of->count < of->most; k++) {
-      /* a direction, and a speed and a tip that are drawn */
-      double turn = begin + 0.61803398874989485 * (double)k;
-      turn -= floor(turn);
-      const int speed = (int)((double)SCAN_SPEEDS *
-                              carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 0));
-      const double *tip = scan_tip[(
-          int)((double)TIPS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1))];
-      double drawn[2];
-      if (of->view.pockets == 0) { /* any place, since its side decides where cushions send it */
-        const double turned =
-            2.0 * pi * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 2);
-        const double far = of->player.tip_most *
-                           sqrt(carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1));
-        carom_sincos(turned, &drawn[0], &drawn[1]);
-        drawn[0] *= far;
-        drawn[1] *= far;
-        tip = drawn;
-      }
-      carom_search_add(
-          of, (candidate){.speed = speed_of(of, scan_speed[speed]),
-                          .phi = 360.0 * turn,
-                          .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
-                          .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
-                          .kind = (of->may & CAROM_MAY_PUSH) && k % 2 == 1 ? CAROM_PLAN_PUSH
-                                                                           : CAROM_PLAN_SCAN});
+  const int64_t first = of->count, end = of->tried + block;
+  for (; of->tried < end && of->count < of->most; of->tried++) {
+    /* a direction, and a speed and a tip that are drawn */
+    const uint64_t row = (uint64_t)of->tried + 1;
+    double turn = begin + 0.61803398874989485 * (double)of->tried;
+    turn -= floor(turn);
+    const int speed =
+        (int)((double)SCAN_SPEEDS * carom_uniform(of->options.seed, DRAW_SCAN, row, 0));
+    const double *tip =
+        scan_tip[(int)((double)TIPS * carom_uniform(of->options.seed, DRAW_SCAN, row, 1))];
+    double drawn[2];
+    if (of->view.pockets == 0) { /* any place, since its side decides where cushions send it */
+      const double turned = 2.0 * pi * carom_uniform(of->options.seed, DRAW_SCAN, row, 2);
+      const double far =
+          of->player.tip_most * sqrt(carom_uniform(of->options.seed, DRAW_SCAN, row, 1));
+      carom_sincos(turned, &drawn[0], &drawn[1]);
+      drawn[0] *= far;
+      drawn[1] *= far;
+      tip = drawn;
     }
-    const int64_t added = carom_search_play(of, first, of->count - first, 1, 0);
-    CAROM_PROMISE(added <= of->count - first);
-
-    /* those that begin with a foul are dropped, and those beyond `most` */
-    of->count = first;
-    for (int64_t k = 0; k < added && of->count < end; k++)
-      if (of->found[first + k].kind == CAROM_PLAN_PUSH ||
-          carom_search_begins_well(of, of->outcome[k].first)) {
-        carom_search_add(of, of->found[first + k]);
-        carom_search_take(of, of->count - 1, &of->outcome[k]);
-      }
+    const bool pushes = (of->may & CAROM_MAY_PUSH) && of->tried % 2 == 1;
+    carom_search_add(
+        of, (candidate){.speed = speed_of(of, scan_speed[speed]),
+                        .phi = 360.0 * turn,
+                        .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
+                        .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
+                        .kind = pushes ? CAROM_PLAN_PUSH : CAROM_PLAN_SCAN});
   }
+  of->tried = end;
+  carom_search_stage(of, first, of->count - first, 1, 0);
+  return true;
+}
+
+/* Those that begin with a foul are dropped, and those that are more than the scan has. */
+void carom_search_scanned(search *of) {
+  const int64_t first = of->stage.first, added = of->stage.done;
+  CAROM_PROMISE(added <= of->count - first);
+  of->count = first;
+  for (int64_t k = 0; k < added && of->count < of->scan_end; k++)
+    if (of->found[first + k].kind == CAROM_PLAN_PUSH ||
+        carom_search_begins_well(of, of->outcome[k].first)) {
+      carom_search_add(of, of->found[first + k]);
+      carom_search_take(of, of->count - 1, &of->outcome[k]);
+    }
 }

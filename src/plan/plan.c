@@ -12,9 +12,11 @@
  *    errors for all; a quarter of them stays.
  *
  * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
- * threads and added up in their order, so no bit of a sum depends on threads. */
+ * threads and added up in their order, so no bit of a sum depends on threads. The rows of a stage
+ * are played at once or in slices, between which all of the plan is in the caller's memory. */
 #include "about/options.h"
 #include "plan/search.h"
+#include "platform/fingerprint.h"
 #include "platform/ranges.h"
 
 #include <math.h>
@@ -36,7 +38,8 @@ static const double player_most = 1000.0; /* of each number of a player */
 
 static carom_status check_options(const carom_plan_options *o) {
   CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
-  return o->unused == 0 && CAROM_RESERVED_IS_ZERO(o) ? CAROM_OK : CAROM_ERROR_OPTIONS;
+  const bool good = o->slice >= 0 && o->unused == 0 && CAROM_RESERVED_IS_ZERO(o);
+  return good ? CAROM_OK : CAROM_ERROR_OPTIONS;
 }
 
 static bool good_player(const carom_player *p) {
@@ -121,11 +124,31 @@ static carom_status check_layout(plan *of, const carom_shot_ball *balls, bool wi
   return check_stroke(&job, &(carom_cue){0});
 }
 
+static bool is_whole(const carom_plan_job *job) {
+  return job != NULL && job->table != NULL && job->balls != NULL && job->cue != NULL &&
+         job->player != NULL && job->rules != NULL;
+}
+
+/* Of a job and of all that it points to but its memory. */
+static uint64_t fingerprint_of(const carom_plan_job *job) {
+  uint64_t h = carom_fingerprint(1, job, sizeof *job);
+  h = carom_fingerprint(h, job->table, sizeof *job->table);
+  h = carom_fingerprint(h, job->balls, (size_t)job->count * sizeof *job->balls);
+  h = carom_fingerprint(h, job->cue, sizeof *job->cue);
+  h = carom_fingerprint(h, job->player, sizeof *job->player);
+  h = carom_fingerprint(h, job->rules, sizeof *job->rules);
+  if (job->shot != NULL)
+    h = carom_fingerprint(h, job->shot, sizeof *job->shot);
+  if (job->options != NULL)
+    h = carom_fingerprint(h, job->options, sizeof *job->options);
+  return h;
+}
+
 /* Checks the arguments, and makes all of a plan but its candidates. */
 static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
-  if (job == NULL || job->table == NULL || job->balls == NULL || job->cue == NULL ||
-      job->player == NULL || job->rules == NULL)
+  if (!is_whole(job))
     return CAROM_ERROR_NULL;
+  of->of = 0;
   const carom_plan_options *options = job->options != NULL ? job->options : &no_options;
   const carom_plan_rules *rules = job->rules;
   const bool good = check_options(options) == CAROM_OK && good_player(job->player) &&
@@ -196,6 +219,8 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
       : turn.is == CAROM_TURN_KEEP
           ? carom_value_of(&of->view, user, of->state, 0, hand)
           : carom_search_foul(1.0 - carom_value_of(&of->view, user, of->state, 1, hand));
+  of->ended = false;
+  of->slice = INT64_MAX;
   return CAROM_OK;
 }
 
@@ -209,9 +234,11 @@ static void with_crew(plan *of, carom_crew_caller *work) {
 static void plan_here(void *context, carom_crew *crew) {
   plan *of = context;
   of->crew = crew;
-  carom_search_run(of, shots_of(&of->options));
+  if (!carom_search_run(of))
+    return;
   if (of->may & CAROM_MAY_PASS)
     carom_search_pass(of);
+  of->ended = true;
 }
 
 /* Puts the cue ball in hand on the place k of those that are planned from. */
@@ -222,37 +249,44 @@ static void put(plan *of, int k) {
   carom_search_lay_out(of, of->hand);
 }
 
+/* The shots of the plan from each place. */
+static int64_t small_of(const plan *of) {
+  const int64_t share = shots_of(&of->options) / (2 * PLACES_PLANNED);
+  return share > 100 ? share : 100;
+}
+
 /* A small plan from each place, then one with half of the shots from the best. Where that is
  * stopped before it has told more, the best so far is that of the small plans. */
 static void plan_places(void *context, carom_crew *crew) {
   plan *of = context;
   of->crew = crew;
-  const int64_t shots = shots_of(&of->options),
-                small = shots / (2 * PLACES_PLANNED) > 100 ? shots / (2 * PLACES_PLANNED) : 100;
-  const int64_t rest = shots - of->places * small;
-  int chosen = 0;
-  candidate best = {0};
-  for (int k = 0; k < of->places && !(k > 0 && carom_is_stopped(of)); k++) {
-    put(of, k);
-    carom_search_run(of, small);
-    const candidate *c = &of->found[0];
+  const int64_t small = small_of(of), rest = shots_of(&of->options) - of->places * small;
+  while (of->place < of->places) {
+    if (!carom_search_run(of))
+      return;
+    const candidate *c = &of->found[0], *best = &of->best;
     /* a plan that was stopped before the rounds of the best one tells less */
-    const bool stopped = c->round < best.round && carom_is_stopped(of);
-    if (k == 0 || (!stopped && c->sum / (double)c->seen > best.sum / (double)best.seen)) {
-      best = *c;
-      chosen = k;
+    const bool stopped = of->place > 0 && c->round < best->round && carom_is_stopped(of);
+    if (of->place == 0 || (!stopped && c->sum / (double)c->seen > best->sum / (double)best->seen)) {
+      of->best = *c;
+      of->chosen = of->place;
     }
-  }
 
-  /* the shots that are left, from there */
-  put(of, chosen);
-  of->count = 0;
-  if (!carom_is_stopped(of))
-    carom_search_run(of, rest < small ? small : rest);
-  if (carom_is_stopped(of) && (of->count == 0 || of->found[0].seen < best.seen)) {
-    of->found[0] = best;
+    /* the next place; behind the last one the shots that are left, from the best */
+    const bool stops = carom_is_stopped(of);
+    of->place = stops ? of->places : of->place + 1;
+    put(of, of->place < of->places ? of->place : of->chosen);
+    of->count = 0;
+    if (!stops)
+      carom_search_begin(of, of->place < of->places || rest < small ? small : rest);
+  }
+  if (!carom_search_run(of))
+    return;
+  if (carom_is_stopped(of) && (of->count == 0 || of->found[0].seen < of->best.seen)) {
+    of->found[0] = of->best;
     of->count = 1;
   }
+  of->ended = true;
 }
 
 /* Strokes that the caller gave, each with its share of the shots. */
@@ -274,9 +308,12 @@ static void try_all(void *context, carom_crew *crew) {
 
     /* once without errors, which names the pot; then with errors, as the last round of a plan */
     if (!carom_is_stopped(of)) {
-      carom_search_play(of, 0, 1, 1, 0);
+      carom_search_stage(of, 0, 1, 1, 0);
+      carom_search_play(of);
       carom_search_take(of, 0, &of->outcome[0]);
-      carom_search_add_up(of, 1, each > 10 ? each : 10, DRAW_ROUND);
+      carom_search_stage(of, 0, 1, each > 10 ? each : 10, DRAW_ROUND);
+      carom_search_play(of);
+      carom_search_add_up(of);
     }
     of->choices[k] = carom_search_choice(of, &of->found[0]);
   }
@@ -309,6 +346,15 @@ static int give(plan *of, carom_choice *choices, int room) {
   return n;
 }
 
+/* Plays a slice of a plan, or what is left of it; and gives what it found if that is the end. */
+static carom_status play_slice(plan *of, carom_choice *choices, int room, int *found) {
+  of->slice = of->options.slice > 0 ? of->options.slice : INT64_MAX;
+  if (!of->ended)
+    with_crew(of, of->go);
+  *found = of->ended ? give(of, choices, room) : 0;
+  return CAROM_OK;
+}
+
 carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room, int *found) {
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
@@ -316,9 +362,22 @@ carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int ro
   const carom_status bad = of == NULL ? CAROM_ERROR_NULL : begin(of, job, false);
   if (bad != CAROM_OK)
     return bad;
-  with_crew(of, plan_here);
-  *found = give(of, choices, room);
-  return CAROM_OK;
+  of->of = fingerprint_of(job);
+  of->go = plan_here;
+  carom_search_begin(of, shots_of(&of->options));
+  return play_slice(of, choices, room, found);
+}
+
+carom_status carom_plan_continue(const carom_plan_job *job, carom_choice *choices, int room,
+                                 int *found) {
+  if (choices == NULL || found == NULL || room < 1 || !is_whole(job))
+    return CAROM_ERROR_NULL;
+  plan *of = place(job);
+  if (of == NULL)
+    return CAROM_ERROR_NULL;
+  const bool same =
+      job->count >= 2 && job->count <= CAROM_BALLS_MOST && of->of == fingerprint_of(job);
+  return same ? play_slice(of, choices, room, found) : CAROM_ERROR_STATE;
 }
 
 carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
@@ -381,9 +440,11 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   const carom_status refused = check_layout(of, balls, true);
   if (refused != CAROM_OK)
     return refused;
-  with_crew(of, plan_places);
-  *found = give(of, choices, room);
-  return CAROM_OK;
+  of->of = fingerprint_of(job);
+  of->go = plan_places;
+  of->place = 0;
+  carom_search_begin(of, small_of(of));
+  return play_slice(of, choices, room, found);
 }
 
 carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n,

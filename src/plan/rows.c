@@ -16,14 +16,6 @@ typedef struct told {
   carom_ball_state final[CAROM_BALLS_MOST];
 } told;
 
-/* A stage: rows k of candidates first + k / each, with the errors of k % each; or without
- * errors. */
-typedef struct stage {
-  const search *of;
-  int64_t first, each;
-  uint32_t draws; /* 0: without errors */
-} stage;
-
 carom_cue carom_search_stroke(const search *of, const candidate *c, uint32_t draws, int64_t row) {
   carom_cue cue = *of->job.cue;
   double z[6] = {0};
@@ -162,14 +154,14 @@ static void spread(const search *of, told *with) {
 }
 
 static size_t play_rows(const void *context, size_t first, size_t end) {
-  const stage *s = context;
-  const search *of = s->of;
+  const search *of = context;
+  const carom_stage *s = &of->stage;
   told what;
   carom_shot shot = {.final = what.final, .facts = &what.facts};
   for (size_t k = first; k < end; k++) {
-    if (k > 0 && carom_is_stopped(of))
+    const int64_t row = s->done + (int64_t)k;
+    if (row > 0 && carom_is_stopped(of))
       return k;
-    const int64_t row = (int64_t)k;
     const candidate *c = &of->found[s->first + row / s->each];
     carom_cue cue = carom_search_stroke(of, c, s->draws, row % s->each);
     cue.ball = of->cue_ball;
@@ -181,14 +173,24 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const int met = status < 0 ? -1 : what.facts.first[0];
     const bool dropped =
         s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(of, met);
-    of->outcome[k] = dropped ? (outcome){.first = (int8_t)met}
-                             : judge(of, shot.facts, shot.final, status, c, s->draws != 0);
+    of->outcome[row] = dropped ? (outcome){.first = (int8_t)met}
+                               : judge(of, shot.facts, shot.final, status, c, s->draws != 0);
   }
   return end;
 }
 
-int64_t carom_search_play(search *of, int64_t first, int64_t candidates, int64_t each,
-                          uint32_t draws) {
-  const stage s = {of, first, each, draws};
-  return (int64_t)carom_crew_work(of->crew, play_rows, &s, (size_t)(candidates * each), ROWS_LEAST);
+void carom_search_stage(search *of, int64_t first, int64_t candidates, int64_t each,
+                        uint32_t draws) {
+  of->stage = (carom_stage){
+      .work = play_rows, .first = first, .each = each, .rows = candidates * each, .draws = draws};
+}
+
+bool carom_search_play(search *of) {
+  carom_stage *s = &of->stage;
+  const int64_t left = s->rows - s->done;
+  const size_t rows = (size_t)(left > of->slice && !carom_is_stopped(of) ? of->slice : left);
+  const int64_t played = (int64_t)carom_crew_work(of->crew, s->work, of, rows, ROWS_LEAST);
+  s->done += played;
+  of->slice -= played < of->slice ? played : of->slice;
+  return s->done == s->rows || (s->done > 0 && carom_is_stopped(of));
 }

@@ -70,13 +70,11 @@ static void sort(const search *of, int64_t n) {
     }
 }
 
-void carom_search_add_up(search *of, int64_t n, int64_t each, uint32_t draws) {
-  CAROM_PROMISE(n >= 1 && n <= of->count && each >= 1 && n * each <= of->room);
-  const int64_t played = carom_search_play(of, 0, n, each, draws);
-  CAROM_PROMISE(played >= 0 && played <= n * each);
-  if (n == 1)
-    each = played;
-  for (int64_t k = 0; k < played / each; k++) {
+void carom_search_add_up(search *of) {
+  const carom_stage *s = &of->stage;
+  const int64_t n = s->rows / s->each, each = n == 1 ? s->done : s->each;
+  CAROM_PROMISE(n >= 1 && n <= of->count && each >= 1 && s->rows <= of->room);
+  for (int64_t k = 0; k < s->done / each; k++) {
     candidate *c = &of->found[k];
     if (c->round == 0) { /* the shot without errors is forgotten */
       c->sum = c->squares = 0.0;
@@ -116,53 +114,6 @@ static int64_t first_round(search *of, int64_t keep) {
   }
   CAROM_PROMISE(good >= 1 && good <= n);
   return good;
-}
-
-/* Another pot that looks better than the best, after fewer strokes, is played as often as the best
- * in the last round before it is told. */
-static void look_again(search *of, int64_t each) {
-  enum { LOOKS = 2 };
-  each = each < 2 ? 2 : each > of->room ? of->room : each;
-  for (int look = 0; look < LOOKS && !carom_is_stopped(of); look++) {
-    int64_t better = 0;
-    const candidate *best = &of->found[0];
-    double most = best->sum / (double)best->seen;
-    for (int64_t k = 1; k < of->count; k++) {
-      const candidate *c = &of->found[k];
-      const bool other = c->ball != best->ball || c->pocket != best->pocket;
-      if (other && c->round > 0 && c->round < ROUNDS && c->sum / (double)c->seen > most) {
-        better = k;
-        most = c->sum / (double)c->seen;
-      }
-    }
-    if (better == 0)
-      return;
-    const candidate first = of->found[0];
-    of->found[0] = of->found[better];
-    of->found[better] = first;
-    of->found[0].round = ROUNDS - 1;
-    carom_search_add_up(of, 1, each, DRAW_ROUND + ROUNDS - 1);
-    lead(of, better);
-    sort(of, of->count);
-  }
-}
-
-static void halve(search *of, int64_t shots) {
-  sort(of, of->count);
-  const int64_t keep = shots / 25 > 6 ? shots / 25 : 6,
-                left = shots - of->count > 0 ? shots - of->count : 0;
-  for (int round = 0; round < ROUNDS && !carom_is_stopped(of); round++) {
-    int64_t n = keep >> (2 * round);
-    n = n < 2 ? 2 : n;
-    n = round == 0 ? first_round(of, n) : n < of->count ? n : of->count;
-    int64_t each = left / ROUNDS / n;
-    each = each < 2 ? 2 : each;
-    if (each * n > of->room)
-      each = of->room / n;
-    carom_search_add_up(of, n, each, DRAW_ROUND + (uint32_t)round);
-    sort(of, of->count);
-  }
-  look_again(of, left / ROUNDS / 2);
 }
 
 /* A gentle stroke towards the nearest ball that is on: nothing better is known. */
@@ -215,23 +166,137 @@ double carom_scan_of(const carom_plan_options *o) {
   return o->scan == 0.0 ? 0.5 : o->scan > 0.0 ? o->scan : 0.0;
 }
 
-/* All stages with so many shots; the best candidate is the first. */
-void carom_search_run(search *of, int64_t shots) {
-  of->count = 0;
-  const double scan = of->breaks ? 0.0 : carom_scan_of(&of->options);
-  const int64_t most = (int64_t)((1.0 - scan) * (double)shots / 4.0);
-  of->breaks ? carom_search_breaks(of, most) : carom_search_pots(of, most);
-  of->count = carom_search_play(of, 0, of->count, 1, 0);
-  for (int64_t k = 0; k < of->count; k++)
-    carom_search_take(of, k, &of->outcome[k]);
-  if (scan > 0.0)
-    carom_search_scan(of, (int64_t)(scan * (double)shots));
-  if (of->count == 0) {
-    carom_search_add(of, gentle(of));
-    carom_search_add_up(of, 1, shots / 10, DRAW_ROUND);
+/* ---- The course of a search: each of these sets the next stage, and what comes after it */
+
+/* Shots of the rounds. */
+static int64_t left_for_rounds(const search *of) {
+  return of->shots > of->count ? of->shots - of->count : 0;
+}
+
+/* Another pot that looks better than the best, after fewer strokes, is played as often as the best
+ * in the last round before it is told. */
+static void look_again(search *of) {
+  enum { LOOKS = 2 };
+  of->next = NEXT_ENDED;
+  if (of->look == LOOKS || carom_is_stopped(of))
+    return;
+  const candidate *best = &of->found[0];
+  double most = best->sum / (double)best->seen;
+  of->better = 0;
+  for (int64_t k = 1; k < of->count; k++) {
+    const candidate *c = &of->found[k];
+    const bool other = c->ball != best->ball || c->pocket != best->pocket;
+    if (other && c->round > 0 && c->round < ROUNDS && c->sum / (double)c->seen > most) {
+      of->better = k;
+      most = c->sum / (double)c->seen;
+    }
+  }
+  if (of->better == 0)
+    return;
+
+  /* it is played in the place of the best, with which it is compared then */
+  const candidate first = of->found[0];
+  of->found[0] = of->found[of->better];
+  of->found[of->better] = first;
+  of->found[0].round = ROUNDS - 1;
+  int64_t each = left_for_rounds(of) / ROUNDS / 2;
+  each = each < 2 ? 2 : each > of->room ? of->room : each;
+  carom_search_stage(of, 0, 1, each, DRAW_ROUND + ROUNDS - 1);
+  of->look++;
+  of->next = NEXT_LOOK;
+}
+
+static void next_round(search *of) {
+  if (of->round == ROUNDS || carom_is_stopped(of)) {
+    look_again(of);
     return;
   }
-  halve(of, shots);
+  const int64_t keep = of->shots / 25 > 6 ? of->shots / 25 : 6;
+  int64_t n = keep >> (2 * of->round);
+  n = n < 2 ? 2 : n;
+  n = of->round == 0 ? first_round(of, n) : n < of->count ? n : of->count;
+  int64_t each = left_for_rounds(of) / ROUNDS / n;
+  each = each < 2 ? 2 : each;
+  if (each * n > of->room)
+    each = of->room / n;
+  carom_search_stage(of, 0, n, each, DRAW_ROUND + (uint32_t)of->round);
+  of->round++;
+  of->next = NEXT_ROUND;
+}
+
+/* A block of the scan, or the first round behind the last one. */
+static void scan(search *of) {
+  if (carom_search_scan(of)) {
+    of->next = NEXT_SCAN;
+  } else if (of->count == 0) {
+    carom_search_add(of, gentle(of));
+    carom_search_stage(of, 0, 1, of->shots / 10, DRAW_ROUND);
+    of->next = NEXT_GENTLE;
+  } else {
+    sort(of, of->count);
+    next_round(of);
+  }
+}
+
+static void go_on(search *of) {
+  switch (of->next) {
+  case NEXT_AIMED:
+    carom_search_aimed(of);
+    carom_search_stage(of, 0, of->count, 1, 0);
+    of->next = NEXT_TAKEN;
+    break;
+  case NEXT_TAKEN:
+    of->count = of->stage.done;
+    for (int64_t k = 0; k < of->count; k++)
+      carom_search_take(of, k, &of->outcome[k]);
+    of->scan_end = of->count + of->scan;
+    scan(of);
+    break;
+  case NEXT_SCAN:
+    carom_search_scanned(of);
+    scan(of);
+    break;
+  case NEXT_ROUND:
+    carom_search_add_up(of);
+    sort(of, of->count);
+    next_round(of);
+    break;
+  case NEXT_LOOK:
+    carom_search_add_up(of);
+    lead(of, of->better);
+    sort(of, of->count);
+    look_again(of);
+    break;
+  case NEXT_GENTLE:
+    carom_search_add_up(of);
+    of->next = NEXT_ENDED;
+    break;
+  case NEXT_ENDED:
+    break;
+  }
+}
+
+void carom_search_begin(search *of, int64_t shots) {
+  const double share = of->breaks ? 0.0 : carom_scan_of(&of->options);
+  const int64_t most = (int64_t)((1.0 - share) * (double)shots / 4.0);
+  of->shots = shots;
+  of->scan = (int64_t)(share * (double)shots);
+  of->count = of->tried = 0;
+  of->round = of->look = 0;
+  if (of->breaks) {
+    carom_search_breaks(of, most);
+    carom_search_stage(of, 0, of->count, 1, 0);
+    of->next = NEXT_TAKEN;
+  } else {
+    carom_search_pots(of, most);
+    of->next = NEXT_AIMED;
+  }
+}
+
+bool carom_search_run(search *of) {
+  while (of->next != NEXT_ENDED && carom_search_play(of))
+    go_on(of);
+  return of->next == NEXT_ENDED;
 }
 
 /* Not to play, as one more candidate: its worth is that of the layout to the other. */

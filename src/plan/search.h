@@ -41,6 +41,25 @@ typedef struct carom_outcome {
   int8_t first, unused;
 } carom_outcome;
 
+/* The rows of a stage: row k is of candidate first + k / each, with the errors of k % each. So many
+ * are `done`. */
+typedef struct carom_stage {
+  carom_part_worker *work;
+  int64_t first, each, rows, done;
+  uint32_t draws; /* 0: without errors */
+} carom_stage;
+
+/* What comes when the rows of the stage are done. */
+typedef enum carom_search_next {
+  NEXT_ENDED, /* nothing: the best candidate is the first */
+  NEXT_AIMED, /* those that can be aimed are played, */
+  NEXT_TAKEN, /* and taken, and strokes in all directions tried, */
+  NEXT_SCAN,  /* in blocks; */
+  NEXT_ROUND, /* rounds with errors; */
+  NEXT_LOOK,  /* and a look at those that might be better */
+  NEXT_GENTLE /* or the only stroke that is left */
+} carom_search_next;
+
 /* A direct pot that is a candidate. */
 typedef struct carom_pot_found {
   carom_way way;
@@ -82,6 +101,18 @@ typedef struct carom_search {
   const carom_cue *cues;                              /* that the caller gave, `tries` of them, */
   carom_choice *choices;                              /* and where he wants what they are worth */
   int places, tries;
+  /* how far it is: between two calls all of it is here */
+  uint64_t of;           /* fingerprint of the job; 0: no plan */
+  carom_crew_caller *go; /* what goes on with it */
+  bool ended;
+  int64_t slice; /* rows that this call may still play */
+  carom_stage stage;
+  carom_search_next next;
+  int64_t shots;                  /* of all stages, about, */
+  int64_t scan, scan_end, tried;  /* those of the scan; where its candidates end; tried so far */
+  int64_t better;                 /* the candidate that is looked at again */
+  int round, look, place, chosen; /* of places in hand: on its way, the best */
+  carom_candidate best;           /* and the stroke from there */
 } carom_search;
 
 static inline double carom_within(double x, double least, double most) {
@@ -93,11 +124,14 @@ static inline bool carom_is_stopped(const carom_search *of) {
 
 /* rows.c: the balls in play of a layout become those of shots. */
 void carom_search_lay_out(carom_search *of, const carom_shot_ball *balls);
-/* Plays candidates from the one of index `first` on, `each` times with the errors of these draws;
- * 0: without errors. The outcomes come in their order. Returns how many rows were played: all, or
- * those before the plan was stopped, at least one. */
-int64_t carom_search_play(carom_search *of, int64_t first, int64_t candidates, int64_t each,
-                          uint32_t draws);
+/* The next stage: candidates from the one of index `first` on, `each` times with the errors of
+ * these draws; 0: without errors. */
+void carom_search_stage(carom_search *of, int64_t first, int64_t candidates, int64_t each,
+                        uint32_t draws);
+/* Plays rows of the stage, whose outcomes come in their order. Returns whether that is done: all
+ * are played, or those before the plan was stopped, at least one; false where the slice has
+ * ended. */
+bool carom_search_play(carom_search *of);
 /* The stroke of a candidate, with the errors of a row; draws 0: without errors. */
 carom_cue carom_search_stroke(const carom_search *of, const carom_candidate *c, uint32_t draws,
                               int64_t row);
@@ -112,23 +146,29 @@ static inline double carom_search_foul(double worth) {
 /* Points as a share of the balls left before the shot. */
 double carom_search_share(const carom_search *of, double points);
 
-/* candidates.c: direct pots, and strokes in all directions, up to `most` of them; and one more. */
+/* candidates.c: direct pots, up to `most` of them, with the stage that aims them; of these, those
+ * that can be aimed. */
 void carom_search_pots(carom_search *of, int64_t most);
-void carom_search_scan(carom_search *of, int64_t most);
-void carom_search_breaks(carom_search *of, int64_t most); /* likewise, in place of both */
+void carom_search_aimed(carom_search *of);
+/* The next block of strokes in all directions, with its stage; false where they are enough. Of
+ * those that were played, the ones that are candidates. */
+bool carom_search_scan(carom_search *of);
+void carom_search_scanned(carom_search *of);
+void carom_search_breaks(carom_search *of, int64_t most); /* in place of both */
 void carom_search_add(carom_search *of, carom_candidate c);
 
 /* search.c: what the shot without errors says of candidate k. The best of those that were taken is
  * the first, whenever a plan is stopped. */
 void carom_search_take(carom_search *of, int64_t k, const carom_outcome *o);
-/* All stages with so many shots; the best candidate is the first. */
-void carom_search_run(carom_search *of, int64_t shots);
+/* All stages with so many shots: begins them, and goes on. Returns whether the end is reached; the
+ * best candidate is the first then. */
+void carom_search_begin(carom_search *of, int64_t shots);
+bool carom_search_run(carom_search *of);
 /* Not to play, as one more candidate. */
 void carom_search_pass(carom_search *of);
-/* Plays the first n candidates `each` times with the errors of a round, and adds up what they are
- * worth. Of a round that is stopped, those count that were played so often; or any rows of the
- * only one. */
-void carom_search_add_up(carom_search *of, int64_t n, int64_t each, uint32_t draws);
+/* Adds up what the candidates of a round are worth. Of a round that was stopped, those count that
+ * were played so often; or any rows of the only one. */
+void carom_search_add_up(carom_search *of);
 /* stick.c: the least elevation of a candidate's stick over cushions and balls, degrees; above
  * STICK_MOST nobody plays. */
 enum { STICK_MOST = 60 };

@@ -91,7 +91,8 @@ static void check_choices(const carom_choice *c, int n) {
   }
 }
 
-/* One of the three plans, in memory of its own that was filled with a byte. */
+/* One of the three plans, in memory of its own that was filled with a byte; in slices, as the
+ * options say. */
 static carom_status plan(int which, int fill, const carom_cue *cues, const double *low,
                          const double *high, carom_choice *choices, int *found) {
   carom_plan_job own = job;
@@ -100,9 +101,11 @@ static carom_status plan(int which, int fill, const carom_cue *cues, const doubl
   memset(own.memory, fill, own.memory_size);
   memset(choices, GUARD, (ROOM + 1) * sizeof *choices);
   *found = which == 2 ? ROOM : 0;
-  const carom_status status = which == 0   ? carom_plan(&own, choices, ROOM, found)
-                              : which == 1 ? carom_plan_hand(&own, low, high, choices, ROOM, found)
-                                           : carom_plan_try(&own, cues, ROOM, choices);
+  carom_status status = which == 0   ? carom_plan(&own, choices, ROOM, found)
+                        : which == 1 ? carom_plan_hand(&own, low, high, choices, ROOM, found)
+                                     : carom_plan_try(&own, cues, ROOM, choices);
+  while (status == CAROM_OK && *found == 0)
+    status = carom_plan_continue(&own, choices, ROOM, found);
   free(own.memory);
   return status;
 }
@@ -132,12 +135,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   check_choices(choices, found);
   unwritten(&choices[found], (size_t)(ROOM + 1 - found) * sizeof *choices, "a plan writes beside");
 
-  /* Neither threads nor what was in the memory count. */
-  if (status == CAROM_OK)
+  /* Neither threads nor slices nor what was in the memory count. */
+  if (status == CAROM_OK) {
     options.threads = 1 + choice(5);
+    options.slice = choice(2) ? 0 : 1 + choice(60);
+  }
   if (plan(which, 0xff, cues, low, high, again, &found_again) != status ||
       memcmp(choices, again, sizeof again) != 0)
-    fail("a plan depends on threads or memory");
+    fail("a plan depends on threads, slices or memory");
 
   double value = 0;
   const int in_hand = choice(2);

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #define CHECK(...)                                          \
   do                                                        \
@@ -63,6 +64,24 @@ int main() {
   CHECK(std::memcmp(parts.events().data(), events, parts.events().size_bytes()) == 0);
   CHECK(std::memcmp(parts.final_states().data(), final, sizeof final) == 0);
   CHECK(std::memcmp(&parts.facts(), &whole.facts(), sizeof whole.facts()) == 0);
+
+  // a plan in slices, which is moved meanwhile
+  const carom_player player = carom_player_of(1.0);
+  const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_POTTING);
+  carom_plan_options wanted{};
+  wanted.shots = 200;
+  const auto lie = whole.layout();
+  carom_plan_job job = carom::job(table, lie, cue, player, rules);
+  job.options = &wanted;
+  const auto planned = carom::plan(job, 2);
+  carom::thinking begun(job, 30, 2);
+  CHECK(begun.go_on() == CAROM_OK && !begun.ended() && begun.choices().empty());
+  carom::thinking thinks = std::move(begun);
+  int slices = 1;
+  for (; !thinks.ended(); slices++)
+    CHECK(thinks.go_on() == CAROM_OK);
+  CHECK(slices > 5 && thinks.choices().size() == planned.size());
+  CHECK(std::memcmp(thinks.choices().data(), planned.data(), thinks.choices().size_bytes()) == 0);
 
   // batches of impacts
   std::array<carom_cushion_impact, 2> in{};

@@ -1046,6 +1046,97 @@ TEST(stopped_plans) {
   edge_free(&memory);
 }
 
+/* A plan in slices has the choices of one call, bit for bit, and a slice plays no more shots than
+ * it has. */
+TEST(plans_in_slices) {
+  static const int64_t slices[] = {1, 37, 1000};
+  for (int which = 0; which < 6; which++) {
+    const bool hand = which % 2 == 1;
+    carom_choice whole[3], best[3];
+    int found, found_whole;
+    make_layout((uint64_t)which + 1, which < 4 ? 6 : 1);
+    rules = carom_plan_rules_of(which < 2 ? CAROM_RULES_EIGHTBALL : CAROM_RULES_NINEBALL);
+    if (which >= 4) { /* nothing is to be hit, or the player may pass */
+      put_ring(6);
+      job.count = 10;
+      rules.user[4] = which == 5 ? 2 : 0;
+    }
+    stopped_rules = rules;
+    rules.judge = judge_and_stop;
+    options.threads = which % 3;
+    make_memory();
+    judged_most = -1;
+    ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, whole, 3, &found_whole)
+                          : carom_plan(&job, whole, 3, &found_whole),
+                     CAROM_OK);
+    for (size_t k = 0; k < sizeof slices / sizeof slices[0]; k++) {
+      options.slice = slices[k];
+      options.threads = 0; /* the judge counts */
+      judged = 0;
+      int64_t calls = 1;
+      memset(job.memory, 0x55, job.memory_size);
+      ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, best, 3, &found)
+                            : carom_plan(&job, best, 3, &found),
+                       CAROM_OK);
+      int64_t before = judged;
+      for (; found == 0; calls++) {
+        before = judged;
+        ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
+        ck_assert_int_le(judged - before, slices[k] + 1); /* one is not to play */
+      }
+      ck_assert_int_eq(found, found_whole);
+      ck_assert_mem_eq(best, whole, (size_t)found * sizeof *best);
+      ck_assert(calls >= judged / slices[k]);
+
+      /* what has ended stays as it is */
+      before = judged;
+      ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
+      ck_assert_mem_eq(best, whole, (size_t)found * sizeof *best);
+      ck_assert_int_eq(judged, before);
+    }
+    edge_free(&memory);
+  }
+}
+
+/* A plan that goes on with something else is refused; one that is stopped between slices ends. */
+TEST(slices_of_other_plans) {
+  carom_choice best;
+  int found;
+  make_layout(3, 6);
+  options.slice = 50;
+  options.stop = &stop;
+  make_memory();
+  memset(job.memory, 0, job.memory_size);
+  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
+  stop = 0;
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  ck_assert_int_eq(found, 0);
+  double *numbers[] = {&balls[8].state.r[0], &table.width, &cue.mass, &player.phi,
+                       &options.chance_me};
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+    const double kept = *numbers[k];
+    *numbers[k] += 1e-9;
+    ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
+    *numbers[k] = kept;
+  }
+  ck_assert_int_eq(carom_plan_continue(NULL, &best, 1, &found), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_plan_continue(&job, NULL, 1, &found), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
+  ck_assert_int_eq(found, 0);
+  stop = 1;
+  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
+  ck_assert_int_eq(found, 1);
+
+  /* a plan that was refused leaves nothing to go on with */
+  stop = 0;
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  balls[8].state.v[0] = 1.0;
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_ERROR_IN_MOTION);
+  balls[8].state.v[0] = 0.0;
+  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
+  edge_free(&memory);
+}
+
 /* A plan that is stopped at once has a choice still; one without a legal shot says so. */
 TEST(little_to_choose) {
   const volatile int32_t at_once = 1;
@@ -1107,6 +1198,7 @@ TEST(arguments_of_plans) {
   REFUSED(options.scan, NAN, CAROM_ERROR_OPTIONS);
   REFUSED(options.threads, -2, CAROM_ERROR_OPTIONS);
   REFUSED(options.chance_me, 1.1, CAROM_ERROR_OPTIONS);
+  REFUSED(options.slice, -1, CAROM_ERROR_OPTIONS);
   REFUSED(options.reserved[0], 1, CAROM_ERROR_OPTIONS);
   REFUSED(player.phi, -0.1, CAROM_ERROR_OPTIONS);
   REFUSED(player.speed, NAN, CAROM_ERROR_OPTIONS);
