@@ -254,7 +254,13 @@ def tables():
     ]
     plans = [(code(f"--{one['key']}" if one["key"] else ""), code(one["name"]), code("" if one["name"] == "threads" else camel(one["name"])), *told(one)) for one in options()["carom_plan_options"]]
     objects = {"carom_table": "table", "carom_rail": "linear", "carom_jaw": "circular", "carom_pocket": "pockets"}
+    own = [(one["name"], re.match(r"(?:BY_CUSHION|WITH)\((\w+)", one["reader"])) for one in numbers()]
+    cushions = [
+        (code(word), code(f"CAROM_SHOT_CUSHION_{row[0]}"), "yes" if row[5] != "CAROM_NO_START" else "no", ", ".join(code(name) for name, of in own if of and of[1] == row[0]), text)
+        for (_, row), (word, text) in zip(rows("cushion/list.h", "CAROM_CUSHION_MODELS"), words()["CUSHION_MODEL"])
+    ]
     return {
+        "cushions": table(("command", "C", "can be fitted", "numbers of its own", "what it is"), *cushions),
         "numbers": table(("key", "field of `carom_ball_kind`", "range", "read by", "what it is"),
                          *((code(one["key"]), code(one["name"]), one["range"], reader_of(one) or "all", one["text"]) for one in numbers())),
         "options": table(("command", "Python", "C", "npm", "may be", "what it is"), *shots),

@@ -17,12 +17,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BEST = 5, TRIED_MOST = 1000, SHOTS_LEAST = 100, SHOTS_OF_RATING = 300 };
+enum { BEST = 5, TRIED_MOST = 1000, SHOTS_OF_RATING = 300 };
 enum { NOT_GIVEN = -1 };
 
 typedef struct plan_job {
-  shared_options shared; /* --threads, --output */
-  int rules, group, may, shots, seed;
+  shared_options shared;   /* --threads, --output */
+  carom_plan_options plan; /* --shots, --seed */
+  int rules, group, may;
   double rating, errors;
   bool hand, opening, csv, tries, value, why;
   const char *plot;
@@ -50,9 +51,8 @@ OPTION(
     "is then the default of --shots; with more he is stronger");
 OPTION(plan_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
        "a player by his errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
-OPTION(plan_job, option_shots, "shots", shots, 0, "N", set_count, SHOTS_LEAST,
-       "shots to be played, about; at most 1000000 (default 2000, with --player 300)");
-OPTION(plan_job, option_seed, "seed", seed, 0, "N", set_count, 0, "seed of the errors (default 0)");
+static const option_row options_of_plan = {
+    .set = set_option, .field = offsetof(plan_job, plan), .part = CAROM_PART_PLAN_OPTIONS};
 OPTION(plan_job, option_try, "try", tries, 0, NULL, set_flag, 0,
        "no plan: the chances of the strokes of the file, the first shot's and those of up to 999 "
        "further ones from the same layout, in their order");
@@ -300,7 +300,7 @@ static bool plot(const plan_job *job, shot_line *line, const planned *p) {
   for (int n = 0; n < drawn; n++)
     kept[n].final = final[n];
   if (drawn > 0)
-    say_failures(p, line, (uint64_t)job->seed, kept, said);
+    say_failures(p, line, job->plan.seed, kept, said);
   close_text(said, &words);
   const best_shot best = {{line, &shot, NULL, kept, drawn}, words};
   const bool good = svg_draw(job->plot, draw, &best);
@@ -388,10 +388,10 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   p->rules.user[1] = job->opening; /* as the rules of both games have it */
   p->rules.user[4] =
       (uint64_t)(job->may > 0 ? job->may : 0); /* 1, 2: as the rules of nine-ball have it */
-  const carom_plan_options options = {.shots =
-                                          job->shots > 0 || !rated ? job->shots : SHOTS_OF_RATING,
-                                      .threads = job->shared.options.threads,
-                                      .seed = (uint64_t)job->seed};
+  carom_plan_options options = job->plan;
+  options.threads = job->shared.options.threads;
+  if (rated && options.shots == 0)
+    options.shots = SHOTS_OF_RATING;
   carom_plan_job asked = {.table = &line->table->table,
                           .balls = line->ball,
                           .count = line->count,
@@ -401,10 +401,6 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
                           .shot = &job->shared.shot,
                           .options = &options,
                           .memory_size = carom_plan_memory(&options)};
-  if (asked.memory_size == 0) {
-    complain("--shots: it must be %d to 1000000, not %d", SHOTS_LEAST, job->shots);
-    return EXIT_USAGE;
-  }
   asked.memory = allocate(1, asked.memory_size);
   static carom_choice choices[TRIED_MOST];
   int n = tried;
@@ -437,11 +433,10 @@ static const command_form form = {
         "and cue; its stroke is read by --try alone. Balls that are missing are down. The five "
         "best shots are told in words: what they do, how to strike, and their chances.\n",
     .options =
-        (const option_row *const[]){&option_rules, &option_group, &option_may, &option_opening,
-                                    &option_hand, &option_try, &option_value, &option_player,
-                                    &option_errors, &option_shots, &option_seed, &options_of_motion,
-                                    &option_csv, &option_why, &option_plan_plot, &option_threads,
-                                    &option_output, NULL},
+        (const option_row *const[]){
+            &option_rules, &option_group, &option_may, &option_opening, &option_hand, &option_try,
+            &option_value, &option_player, &option_errors, &options_of_plan, &options_of_motion,
+            &option_csv, &option_why, &option_plan_plot, &option_threads, &option_output, NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"

@@ -362,8 +362,11 @@ static void report_unread(block *b, shot_line *line, const shoot_job *job) {
       complain("%s:%zu: %s", b->file, line->number, text);
     b->unread |= bit;
   }
-  for (int i = 0; i < line->count; i++)
-    give_ball(&job->from.shared.with, &line->ball[i].kind);
+  const given_numbers *with = &job->from.shared.with;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
+    if ((with->which >> k & 1) != 0)
+      shot_line_give(line, n,
+                     *(const double *)(const void *)((const char *)&with->kind + n->offset));
 }
 
 /* All shots of a file; an exit code. */

@@ -11,6 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* 2^53: greater whole numbers may not be doubles. */
+static const double WHOLE_MOST = 9007199254740992.0;
+
 OPTION_SET(set_flag) {
   (void)row;
   (void)text;
@@ -61,9 +64,7 @@ OPTION_SET(set_amount) {
   return false;
 }
 
-/* Sets the place of the text among words with bars between them; complains where it is none of
- * them. */
-static bool set_place(const option_row *row, const char *text, const char *words, int *place) {
+bool set_place(const option_row *row, const char *text, const char *words, int *place) {
   const int found = place_among(words, text, strlen(text));
   char list[120] = "", hint[HINT_TEXT]; /* "this, that or another" */
   for (const char *at = words; found < 0 && *at != '\0';) {
@@ -87,9 +88,7 @@ OPTION_SET(set_choice) {
   return set_place(row, text, row->argument, field);
 }
 
-/* The words of an enumeration with bars between them. */
-enum { MOST_WORDS = 200 };
-static const char *words_of(int of, bool with_default, char text[MOST_WORDS]) {
+const char *words_of(int of, bool with_default, char text[MOST_WORDS]) {
   int size = 0;
   const char *word;
   text[0] = '\0';
@@ -104,44 +103,54 @@ OPTION_SET(set_named) {
   return set_place(row, text, words_of(row->least, true, all), field);
 }
 
-/* ---- Options of shots, as the library tells them */
+/* ---- Options of the library, as it tells them */
 
-static OPTION_SET(set_option);
-
-static const carom_number *option_of(const option_row *row) {
-  return row->set == set_option ? carom_number_of(CAROM_PART_OPTIONS, row->least) : NULL;
+static carom_part_kind part_of(const option_row *row) {
+  return row->part == CAROM_PART_NONE ? CAROM_PART_OPTIONS : (carom_part_kind)row->part;
 }
 
-static OPTION_SET(set_option) {
+static const carom_number *option_of(const option_row *row) {
+  return row->set == set_option ? carom_number_of(part_of(row), row->least) : NULL;
+}
+
+OPTION_SET(set_option) {
   const carom_number *n = option_of(row);
   char all[MOST_WORDS], must[100];
   double x;
   if (n->words >= 0)
     return set_place(row, text, words_of(n->words, true, all), field);
-  const bool whole = n->type == CAROM_TYPE_INT32;
-  if (parse_number(text, &x) && x >= n->low && x <= n->high && (!whole || x == floor(x))) {
-    if (whole)
+  const bool whole = n->type != CAROM_TYPE_DOUBLE;
+  const double most = n->type == CAROM_TYPE_UINT64 ? WHOLE_MOST : n->high;
+  if (parse_number(text, &x) && ((x >= n->low && x <= most) || x == n->other) &&
+      (!whole || x == floor(x))) {
+    if (n->type == CAROM_TYPE_UINT64)
+      *(uint64_t *)field = (uint64_t)x;
+    else if (whole)
       *(int32_t *)field = (int32_t)x;
     else
       *(double *)field = x;
     return true;
   }
-  carom_number_range(n, must, sizeof must);
+  if (n->type == CAROM_TYPE_UINT64)
+    snprintf(must, sizeof must, "0 to %.0f", WHOLE_MOST);
+  else
+    carom_number_range(n, must, sizeof must);
   complain("--%s is %s%s, not '%s'%s", row->name, whole ? "a whole number, " : "a number, ", must,
            text, comma_hint(text));
   return false;
 }
 
-int rows_of_shots(const option_row *for_all, option_row rows[MOST_OF_SHOTS]) {
+int rows_of(const option_row *for_all, option_row rows[MOST_OF_LIBRARY]) {
   const carom_number *n;
   int count = 0;
-  for (int k = 0; (n = carom_number_of(CAROM_PART_OPTIONS, k)) != NULL; k++)
+  for (int k = 0; (n = carom_number_of(part_of(for_all), k)) != NULL; k++)
     if (n->key[0] != '\0' && (n->reader == CAROM_READ_ALWAYS || (int)n->reader == for_all->least))
       rows[count++] = (option_row){.name = n->key,
                                    .help = n->text,
                                    .set = set_option,
                                    .field = for_all->field + (size_t)n->offset,
-                                   .least = k};
+                                   .least = k,
+                                   .part = for_all->part};
   return count;
 }
 
@@ -152,7 +161,12 @@ const char *argument_of(const option_row *row) {
     return n->type == CAROM_TYPE_DOUBLE ? "X" : "N";
   if (n != NULL || row->set == set_named)
     return words_of(n != NULL ? n->words : row->least, false, text);
-  return row->argument;
+  if (row->words == 0)
+    return row->argument;
+  words_of(row->words, false, text);
+  if (row->argument != NULL)
+    snprintf(text + strlen(text), sizeof text - strlen(text), "|%s", row->argument);
+  return text;
 }
 
 /* ---- Numbers of balls */
@@ -300,7 +314,7 @@ static OPTION_SET(set_law) {
 
 #define ROW(row, name, member, letter, argument, set, least, only, help)                        \
   const option_row row = {name,  letter, argument, help, set, offsetof(shared_options, member), \
-                          least, only}
+                          least, only,   0,        0}
 
 ROW(option_solver, "solver", options.solver, 0, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
     "exact: the limit of infinitely many steps (default); euler: N steps of equal impulse, as in "
@@ -341,11 +355,8 @@ ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
 ROW(option_model, "model", rail.model, 0, NULL, set_named, CAROM_WORDS_CUSHION_MODEL, CUSHION_ONLY,
-    "mathavan: the exact limit of Mathavan's model (default, but of `carom rail` han, as in "
-    "shots); "
-    "stronge, han: closed forms; mirror: the velocity into the cushion is reversed and multiplied "
-    "by e; euler: Mathavan's model in N "
-    "steps; smooth: a closed form read off recorded impacts");
+    "model of the impact, which `carom models NAME` tells (default: mathavan, but of `carom rail` "
+    "han, as in shots)");
 ROW(option_convention, "convention", rail.convention, 0, NULL, set_named,
     CAROM_WORDS_CUSHION_CONVENTION, CUSHION_ONLY,
     "the conventions to follow where pooltool differs from the papers (default: paper)");
@@ -358,7 +369,7 @@ ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
     "numbers of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1: `carom models NAME` lists "
     "them");
 
-/* Of whole shots: rows without a name stand for those of rows_of_shots(). */
+/* Of whole shots: rows without a name stand for those of rows_of(). */
 ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);
 ROW(options_of_motion, NULL, shot, 0, NULL, set_option, CAROM_READ_ALWAYS, ANY_KIND, NULL);
 ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIND,

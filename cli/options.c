@@ -107,25 +107,27 @@ int usage_hint(const command_form *form) {
 
 /* The form with the rows of the library; its own stand for those of the same name. */
 static const command_form *with_all_rows(const command_form *form) {
-  static option_row of_library[MOST_OF_SHOTS];
+  static option_row
+      of_library[2 * MOST_OF_LIBRARY]; /* of a form, at most two rows without a name */
   static const option_row *rows[MOST_ROWS];
   static command_form whole;
   int count = 0;
+  option_row *of = of_library;
   for (int k = 0; form->options[k] != NULL; k++) {
     if (form->options[k]->name != NULL) {
       rows[count++] = form->options[k];
       continue;
     }
-    const int more = rows_of_shots(form->options[k], of_library);
+    const int more = rows_of(form->options[k], of);
     for (int j = 0; j < more; j++) {
       int own = 0;
-      while (form->options[own] != NULL &&
-             (form->options[own]->name == NULL ||
-              strcmp(form->options[own]->name, of_library[j].name) != 0))
+      while (form->options[own] != NULL && (form->options[own]->name == NULL ||
+                                            strcmp(form->options[own]->name, of[j].name) != 0))
         own++;
       if (form->options[own] == NULL)
-        rows[count++] = &of_library[j];
+        rows[count++] = &of[j];
     }
+    of += more;
   }
   whole = *form;
   whole.options = rows;

@@ -13,7 +13,7 @@
 #include <stddef.h>
 
 typedef struct option_row {
-  const char *name;     /* without its dashes; NULL: it stands for several, see rows_of_shots() */
+  const char *name;     /* without its dashes; NULL: it stands for several, see rows_of() */
   char letter;          /* the short form, or 0 */
   const char *argument; /* what the help calls it; NULL for a flag, which has none */
   const char *help;     /* of any length: it is wrapped */
@@ -23,6 +23,8 @@ typedef struct option_row {
   size_t field; /* offsetof(the job, field) */
   int least;    /* for set_count; of set_named the carom_words */
   int only;     /* ANY_KIND, or the kind of rows that the option is for */
+  int part;     /* of set_option: whose rows they are, a carom_part_kind; 0: CAROM_PART_OPTIONS */
+  int words;    /* a carom_words whose words it takes besides `argument`; 0: none */
 } option_row;
 
 /* Kinds of rows that an option is for: all, collisions of two balls, or impacts on a cushion,
@@ -62,10 +64,21 @@ OPTION_SET(
     set_named); /* an enumeration by the words of the library; its default has none in help */
 OPTION_SET(set_numbers); /* given_numbers: NAME=X,... of the library's numbers of balls */
 
-/* Writes the rows of options of shots for which a row without a name stands, at most MOST_OF_SHOTS;
- * returns how many: options_of_motion, or with those of when to stop options_of_shots. */
-enum { MOST_OF_SHOTS = 24 };
-int rows_of_shots(const option_row *for_all, option_row rows[MOST_OF_SHOTS]);
+OPTION_SET(set_option); /* an option of the library, by its row */
+
+/* Writes the rows of the library's options for which a row without a name stands, at most
+ * MOST_OF_LIBRARY; returns how many. Of shots: options_of_motion, or with those of when to stop
+ * options_of_shots. */
+enum { MOST_OF_LIBRARY = 24 };
+int rows_of(const option_row *for_all, option_row rows[MOST_OF_LIBRARY]);
+
+/* The words of an enumeration of the library with bars between them, with or without "default". */
+enum { MOST_WORDS = 200 };
+const char *words_of(int of, bool with_default, char text[MOST_WORDS]);
+
+/* Sets the place of the text among words with bars between them; complains and returns false where
+ * it is none of them. */
+bool set_place(const option_row *row, const char *text, const char *words, int *place);
 
 /* What the help calls the argument of an option, "this|that"; NULL for a flag. */
 const char *argument_of(const option_row *row);
@@ -131,6 +144,6 @@ extern const option_row option_solver, option_solvers, option_slip, option_steps
   OPTION_FOR(ANY_KIND, job, row, name, member, letter, argument, set, least, help)
 #define OPTION_FOR(only, job, row, name, member, letter, argument, set, least, help)        \
   static const option_row row = {name,  letter, argument, help, set, offsetof(job, member), \
-                                 least, only}
+                                 least, only,   0,        0}
 
 #endif

@@ -14,35 +14,34 @@
 
 enum { MOST_TEXT = 1024 };
 
-/* In the order of carom_table_kind and of carom_rack_kind. */
-#define RACKS "nineball|eightball|tenball|snooker|threecushion"
-static const char tables[] = "7ft|8ft|9ft|snooker|threecushion";
-
 static bool refuse(const option_row *row, const char *text) {
-  char hint[HINT_TEXT] = "";
+  char hint[HINT_TEXT] = "", racks[MOST_WORDS] = "";
+  if (row->words != 0)
+    words_of(row->words, true, racks);
   complain("--%s is %s%s%s; not '%.60s'%s", row->name,
            row->least == MEASURE_TIP
                ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
                  "several with colons: 0,0:0.2,0"
                : "X,Y in m, or with a unit: 2,3ft; several with colons: 0.6,1.5:0.9,2",
-           row == &option_balls ? "; or a rack: " : "", row == &option_balls ? RACKS : "", text,
-           row == &option_balls ? did_you_mean(text, RACKS, hint) : hint);
+           row->words != 0 ? "; or a rack: " : "", racks, text,
+           row->words != 0 ? did_you_mean(text, racks, hint) : hint);
   return false;
 }
 
 /* X,Y:X,Y:..., each perhaps behind NAME=; or the name of a rack. */
 static OPTION_SET(set_places) {
   place_list *list = field;
-  char copy[MOST_TEXT], *rest;
+  char copy[MOST_TEXT], racks[MOST_WORDS], *rest;
   static values pair;
   *list = (place_list){0};
-  list->rack = row == &option_balls ? 1 + place_among(RACKS, text, strlen(text)) : 0;
+  list->rack =
+      row->words != 0 ? 1 + place_among(words_of(row->words, true, racks), text, strlen(text)) : 0;
   snprintf(copy, sizeof copy, "%s", text);
   for (char *one = strtok_r(copy, ":", &rest); one != NULL && list->rack == 0;
        one = strtok_r(NULL, ":", &rest)) {
     char *equals = strchr(one, '='), *numbers = equals != NULL ? equals + 1 : one;
     const size_t name = equals != NULL ? (size_t)(equals - one) : 0;
-    if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row != &option_balls) ||
+    if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row->words == 0) ||
         strspn(numbers, "+-.,0123456789 eEacdfhimnprtR\"") != strlen(numbers) ||
         strchr(numbers, ',') == NULL)
       return refuse(row, text);
@@ -58,19 +57,39 @@ static OPTION_SET(set_places) {
   return list->rack > 0 || list->count > 0 ? true : refuse(row, text);
 }
 
-#define ROW(row, name, member, argument, set, least, help)                                    \
-  const option_row row = {name,  0,       argument, help, set, offsetof(shoot_flags, member), \
-                          least, ANY_KIND}
+/* 1 + the place of the word; 0: none was given. */
+static OPTION_SET(set_word) {
+  char all[MOST_WORDS];
+  int place;
+  if (!set_place(row, text, words_of(row->words, true, all), &place))
+    return false;
+  *(int *)field = 1 + place;
+  return true;
+}
 
-ROW(option_table, "table", table, tables, set_text, 0,
-    "play one shot on this table, instead of those of a file (default 9ft). x runs across the "
-    "table, y along it");
+#define ROW(row, name, member, argument, set, least, help)                                     \
+  const option_row row = {name,  0,        argument, help, set, offsetof(shoot_flags, member), \
+                          least, ANY_KIND, 0,        0}
+
+const option_row option_table = {
+    .name = "table",
+    .help = "play one shot on this table, instead of those of a file (default 9ft). x runs across "
+            "the table, y along it. A table of one's own stands in a file",
+    .set = set_word,
+    .field = offsetof(shoot_flags, table),
+    .words = CAROM_WORDS_TABLE};
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_LENGTH,
     "place of the cue ball, m, or with a unit: 2,3ft (default: the middle of the table's first "
     "quarter, or the place in the rack)");
-ROW(option_balls, "balls", balls, RACKS "|X,Y:...", set_places, MEASURE_LENGTH,
-    "places of the other balls, with colons between them: 0.6,1.5:0.9,2. They are named 1, 2, ..., "
-    "or as 8=0.6,1.5 says. Or a rack");
+const option_row option_balls = {
+    .name = "balls",
+    .argument = "X,Y:...",
+    .help = "places of the other balls, with colons between them: 0.6,1.5:0.9,2. They are named 1, "
+            "2, ..., or as 8=0.6,1.5 says. Or a rack",
+    .set = set_places,
+    .field = offsetof(shoot_flags, balls),
+    .least = MEASURE_LENGTH,
+    .words = CAROM_WORDS_RACK};
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
     "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin "
     "turns the ball off it by squirt");
@@ -109,7 +128,7 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
     "holds: a > 0 is left");
 
 bool has_flags(const shoot_flags *f) {
-  return f->table != NULL || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
+  return f->table != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
          f->cue.count > 0 || f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 ||
          f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 ||
          f->elevation.count > 0 || f->tip_time != 0.0 || f->tip_restitution != 0.0;
@@ -130,18 +149,11 @@ static void name_rack(layout *l, carom_rack_kind kind) {
     snprintf(l->name[0], PLACE_NAME, "%s", kind == CAROM_RACK_SNOOKER ? "white" : "cue");
 }
 
-static bool lay_out(const shoot_flags *f, layout *l) {
-  const char *const name = f->table != NULL ? f->table : "9ft";
-  const int kind = place_among(tables, name, strlen(name));
-  char hint[HINT_TEXT];
-  if (kind < 0) {
-    complain("--table is 7ft, 8ft, 9ft, snooker or threecushion, not '%s'; a table of one's own "
-             "stands in a file%s",
-             name, did_you_mean(name, tables, hint));
-    return false;
-  }
-  l->table_name = name;
-  carom_table_make((carom_table_kind)kind, &l->table);
+static void lay_out(const shoot_flags *f, layout *l) {
+  const carom_table_kind kind =
+      f->table != 0 ? (carom_table_kind)(f->table - 1) : CAROM_TABLE_POOL_9FT;
+  l->table_name = carom_table_name(kind);
+  carom_table_make(kind, &l->table);
   l->game = kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
             : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
                                                : CAROM_GAME_POOL;
@@ -172,7 +184,6 @@ static bool lay_out(const shoot_flags *f, layout *l) {
     l->ball[k].kind = ball;
     l->ball[k].state.r[2] = ball.radius;
   }
-  return true;
 }
 
 static double tip_of(const value *v, double radius) {
@@ -327,7 +338,8 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   else if (!good)
     complain("these are %d shots; at most %d are told and drawn at once, and %d with --csv", count,
              MOST_SHOTS, MOST_ROWS);
-  good = good && lay_out(f, &l);
+  if (good)
+    lay_out(f, &l);
   for (int k = 0; k < count && good; k++)
     good = write_shot(out, f, &l, options, k);
   return good;

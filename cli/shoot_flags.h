@@ -23,7 +23,8 @@ typedef struct place_list {
 /* The job of a subcommand that has these options begins with it. */
 typedef struct shoot_flags {
   shared_options shared;
-  const char *table, *at_ball, *pocket, *via;
+  int table; /* 1 + a carom_table_kind; 0: none was given */
+  const char *at_ball, *pocket, *via;
   values speed, ball_speed, aim, cut, elevation;
   place_list cue, balls, tip;
   double tip_time, tip_restitution; /* s, and 0 to 1 */

@@ -5,6 +5,7 @@
 #include "json_values.h"
 #include "memory.h"
 #include "message.h"
+#include "options.h"
 #include "records.h"
 #include "shot_table.h"
 
@@ -164,10 +165,10 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
   if (built_in != NULL)
     keep_table(file, built_in);
   found = found != NULL ? found : built_in;
+  char known[MOST_WORDS];
   if (found == NULL)
-    return json_wrong(
-        f, "table '%s' is not in the lines above, nor 7ft, 8ft, 9ft, snooker or threecushion",
-        name);
+    return json_wrong(f, "table '%s' is not in the lines above, nor one of carom's: %s", name,
+                      words_of(CAROM_WORDS_TABLE, true, known));
   line->table = found;
   return true;
 }
@@ -286,6 +287,17 @@ shot_read shot_file_next_shot(shot_file *file, shot_line *line) {
   while ((what = shot_file_next(file, line, &unused)) == SHOT_TABLE)
     continue;
   return what;
+}
+
+void shot_line_give(shot_line *line, const carom_number *n, double x) {
+  for (int k = 0; k < line->count; k++) {
+    memcpy((char *)&line->ball[k].kind + n->offset, &x, sizeof x);
+    json_t *ball = json_array_get(json_object_get(line->json, "balls"), (size_t)k);
+    json_t *params = json_object_get(ball, "params");
+    if (params == NULL)
+      json_object_set_new(ball, "params", params = json_object());
+    json_object_set_new(params, n->key, json_real(x));
+  }
 }
 
 /* Once more, with room for all, where the events are more than there was room for. */

@@ -47,6 +47,9 @@ shot_read shot_file_next(shot_file *file, shot_line *line, const char **text);
 /* Reads on to the next shot, over tables. */
 shot_read shot_file_next_shot(shot_file *file, shot_line *line);
 
+/* Gives all balls a number besides those that were read; the line says so where it is written. */
+void shot_line_give(shot_line *line, const carom_number *number, double x);
+
 /* Plays a shot that was read without error; shot->events, all of them, are to be freed. */
 carom_status shot_line_play(const shot_line *line, const carom_shot_options *options,
                             carom_shot *shot);

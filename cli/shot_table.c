@@ -109,8 +109,9 @@ named_table *built_in_table(const char *id) {
   static const char *const jaws[] = {"1t",  "2t",  "4t",  "5t",  "7t",  "8t",
                                      "10t", "11t", "13t", "14t", "16t", "17t"};
   static const char *const pockets[] = {"lb", "lc", "lt", "rb", "rc", "rt"};
-  for (int kind = 0; kind <= CAROM_TABLE_THREECUSHION; kind++) {
-    if (strcmp(id, carom_table_name((carom_table_kind)kind)) != 0)
+  const char *name;
+  for (int kind = 0; (name = carom_table_name((carom_table_kind)kind)) != NULL; kind++) {
+    if (strcmp(id, name) != 0)
       continue;
     named_table *t = allocate(1, sizeof *t);
     carom_table_make((carom_table_kind)kind, &t->table);

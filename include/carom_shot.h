@@ -128,8 +128,7 @@ typedef struct carom_cushion_options {
   uint64_t reserved[2]; /* must be 0. */
 } carom_cushion_options;
 
-/* The name of a model ("mathavan", "stronge", "han", "mirror", "euler", "smooth"), or NULL for a
- * value not listed. */
+/* The name of a model ("mathavan"), or NULL for a value not listed. */
 CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
 
 /* Resolves one impact. `opt` may be NULL for the defaults; `out` may not overlap `in`.

@@ -52,12 +52,15 @@
   WORD(TABLE, TABLE_POOL_9FT, "9ft", "pool, 9 feet")                                             \
   WORD(TABLE, TABLE_SNOOKER, "snooker", "snooker, 12 feet")                                      \
   WORD(TABLE, TABLE_THREECUSHION, "threecushion", "three-cushion, without pockets")              \
-  WORD(TABLE, TABLE_POOLTOOL, "pooltool", "pooltool's default")                                  \
-  WORD(RACK, RACK_NINEBALL, "nineball", "nine-ball")                                             \
-  WORD(RACK, RACK_EIGHTBALL, "eightball", "eight-ball")                                          \
-  WORD(RACK, RACK_TENBALL, "tenball", "ten-ball")                                                \
-  WORD(RACK, RACK_SNOOKER, "snooker", "snooker")                                                 \
-  WORD(RACK, RACK_THREECUSHION, "threecushion", "the opening of three-cushion")                  \
+  WORD(TABLE, TABLE_POOLTOOL, "pooltool",                                                        \
+       "pooltool's default: that of 7ft, under this name for ever")                              \
+  WORD(RACK, RACK_NINEBALL, "nineball",                                                          \
+       "cue ball, then 1 to 9 by number; 1 in front, 9 in the middle")                           \
+  WORD(RACK, RACK_EIGHTBALL, "eightball",                                                        \
+       "cue ball, then 1 to 15 by number; 8 in the middle, both kinds in the corners")           \
+  WORD(RACK, RACK_TENBALL, "tenball", "cue ball, then 1 to 10 by number; 10 in the middle")      \
+  WORD(RACK, RACK_SNOOKER, "snooker", "white, 15 reds, yellow, green, brown, blue, pink, black") \
+  WORD(RACK, RACK_THREECUSHION, "threecushion", "white, yellow, red, as for the opening")        \
   WORD(SOLVER, SOLVER_EXACT, "exact", "the limit of infinitely many steps")                      \
   WORD(SOLVER, SOLVER_EULER, "euler", "N steps of equal impulse")                                \
   WORD(SLIP, SLIP_PAPER, "paper", "that of the 2014 paper")                                      \

@@ -1,6 +1,9 @@
 /* Words that the command has are those of the library. */
 #include "options.h"
+#include "shoot_flags.h"
 #include "support.h"
+
+#include "carom_plan.h"
 
 #include <string.h>
 
@@ -13,9 +16,9 @@ TEST(words_of_an_option) {
     strcat(all, carom_word(CAROM_WORDS_SHOT_CUSHION, k));
   }
   ck_assert(strstr(all, "han|mirror|") != NULL);
-  option_row rows[MOST_OF_SHOTS], *row = rows;
-  const int count = rows_of_shots(&options_of_shots, rows);
-  ck_assert_int_gt(count, rows_of_shots(&options_of_motion, rows));
+  option_row rows[MOST_OF_LIBRARY], *row = rows;
+  const int count = rows_of(&options_of_shots, rows);
+  ck_assert_int_gt(count, rows_of(&options_of_motion, rows));
   while (strcmp(row->name, "cushion") != 0)
     row++;
   ck_assert_str_eq(argument_of(row), all);
@@ -24,6 +27,47 @@ TEST(words_of_an_option) {
   ck_assert(row->set(row, usual, &cushion));
   ck_assert_int_eq(cushion, CAROM_SHOT_CUSHION_DEFAULT);
   ck_assert(!row->set(row, none, &cushion));
+}
+
+TEST(options_of_plans_are_those_of_the_library) {
+  const option_row for_all = {.part = CAROM_PART_PLAN_OPTIONS};
+  option_row rows[MOST_OF_LIBRARY];
+  const int count = rows_of(&for_all, rows);
+  carom_plan_options options = {0};
+  const carom_number *n;
+  int keys = 0;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_PLAN_OPTIONS, k)) != NULL; k++)
+    keys += n->key[0] != '\0';
+  ck_assert_int_eq(count, keys);
+  char *field = (char *)&options, shots[] = "300", seed[] = "9007199254740992", few[] = "99",
+       half[] = "0.5", beyond[] = "9007199254740994";
+  for (int k = 0; k < count; k++) {
+    ck_assert(!rows[k].set(&rows[k], half, field + rows[k].field));
+    if (strcmp(rows[k].name, "shots") == 0)
+      ck_assert(rows[k].set(&rows[k], shots, field + rows[k].field) &&
+                !rows[k].set(&rows[k], few, field + rows[k].field));
+    if (strcmp(rows[k].name, "seed") == 0)
+      ck_assert(rows[k].set(&rows[k], seed, field + rows[k].field) &&
+                !rows[k].set(&rows[k], beyond, field + rows[k].field));
+  }
+  ck_assert(options.shots == 300 && options.seed == (uint64_t)1 << 53);
+}
+
+TEST(every_table_and_rack_has_its_word) {
+  static shoot_flags flags;
+  const char *word;
+  for (int k = 0; (word = carom_word(CAROM_WORDS_TABLE, k)) != NULL; k++) {
+    char text[40];
+    strcpy(text, word);
+    ck_assert(option_table.set(&option_table, text, &flags.table) && flags.table == 1 + k);
+    ck_assert_ptr_nonnull(strstr(argument_of(&option_table), word));
+  }
+  for (int k = 0; (word = carom_word(CAROM_WORDS_RACK, k)) != NULL; k++) {
+    char text[40];
+    strcpy(text, word);
+    ck_assert(option_balls.set(&option_balls, text, &flags.balls) && flags.balls.rack == 1 + k);
+    ck_assert_ptr_nonnull(strstr(argument_of(&option_balls), word));
+  }
 }
 
 TEST(numbers_by_name_and_key) {
