@@ -121,7 +121,21 @@ def test_tab_completion_shows_what_a_module_offers():
         shown = {name for name in dir(module) if name[0] != "_"}
         assert shown and not shown & {"np", "npt", "ffi", "lib", "annotations", "Any", "Literal", "dataclass", "Array", "pointer"}, module
         assert set(getattr(module, "__all__", ())) <= shown | {"__version__"}, module
-    assert dir(carom.racks) == ["eightball", "nineball", "snooker", "tenball", "threecushion"]
+
+
+def test_racks_and_tables_are_those_of_the_library():
+    from carom._carom import ffi, lib
+    from carom._rows import numbered, worded
+
+    assert dir(carom.racks) == sorted(worded("RACK"))
+    for kind, name in enumerate(worded("RACK")):
+        table = carom.tables.snooker() if name == "snooker" else carom.tables.pool_9ft()
+        made, text = getattr(carom.racks, name), ffi.string(lib.carom_word_text(lib.CAROM_WORDS_RACK, kind)).decode()
+        assert made.__doc__ == f"{len(made(table))} balls: {text}."
+    assert dir(carom.tables) == sorted([*numbered("carom_table_kind"), "polygon"])
+    for name in numbered("carom_table_kind"):
+        made = getattr(carom.tables, name)
+        assert f"{made().width:.4g} x {made().length:.5g} m" in made.__doc__
 
 
 def test_models_of_cushions_are_those_of_the_library():

@@ -18,6 +18,8 @@ from test_tracks import RADIUS, TABLE, csv_of
 
 import carom
 from carom import _constants, _covariance, _described, _from_events, _joint, _kicks, _recordings, _strikes, _summary, fit, tracks
+from carom._carom import ffi, lib
+from carom._rows import numbered, numbers_of
 from carom.cushions import NUMBERS
 
 HAN = {"mu_slide": 0.21, "mu_roll": 0.005, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "law_a": 0.05}
@@ -477,6 +479,12 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
         found = fit._priors(["default"], {}, usual, model)
         assert ("mu_cushion" in found) == (usual["mu_cushion"] > 0.0) == ("nose_height" in found)
         carom.cushion(carom.cushion_impacts(v=(0.5, 1.0, 0.0)), model=model, **{name: usual[name] for name in NUMBERS})
+        # a number of its own is free by its name alone, without a value or a prior
+        for row in numbers_of(lib.CAROM_PART_BALL):
+            name = ffi.string(row.name).decode()
+            if row.reader == lib.CAROM_READ_BY_CUSHION and row.model == numbered("carom_cushion_model")[model]:
+                mean, deviation = fit._priors(["kicks", name], {}, usual, model)[name]
+                assert row.low <= mean == usual[name] <= row.high and deviation > 0.0, (model, name)
     usual = _constants.usual("smooth")
     for name in NUMBERS:
         own = {**usual, name: usual[name] or (1.5 if name == "omega_ratio" else 0.0)}
@@ -485,7 +493,8 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
     assert fit._priors(["law_c"], {"law_c": (1.0, 0.1)}, usual, "smooth") == {"law_c": (1.0, 0.1)}
     for name, message in (("law_c", "law_c needs its mean and deviation"), ("omega_ratio", "omega_ratio must begin at 1 to 2"), ("radius", "no constant")):
         with pytest.raises(ValueError, match=message):
-            fit._priors([name], {}, usual, "smooth")
+            fit._priors([name], {}, {**usual, "law_c": 0.0}, "smooth")
+    assert fit._priors(["law_c"], {}, usual, "smooth") == {"law_c": (usual["law_c"], 0.5 * usual["law_c"])}
 
 
 def test_a_number_of_the_cushion_is_found_by_whole_shots():

@@ -6,13 +6,14 @@ stands for a law that does not depend on the slip.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, numbered
+from carom._rows import Array, numbered, numbers_of
 from carom._shot_options import ShotCushion
 from carom.cushions import NUMBERS
 from carom.layouts import Table, balls
@@ -29,13 +30,23 @@ _START = ("restitution_cushion", "mu_cushion", "nose_height")
 OF_CUSHION = (*_START, *NUMBERS)
 
 
+def _own(model: int) -> Constants:
+    """The numbers that this model of the cushion alone reads and whose 0 stands for another value, which their texts name: "...; 0: 1.8"."""
+    found = {}
+    for row in numbers_of(lib.CAROM_PART_BALL):
+        default = re.search(r"\b0: ([\d.]+(?:e-?\d+)?)", ffi.string(row.text).decode())
+        if default and (row.reader, row.model) == (lib.CAROM_READ_BY_CUSHION, model):
+            found[ffi.string(row.name).decode()] = float(default[1])
+    return found
+
+
 def _starts() -> dict[str, Constants]:
     """What a fit begins with, by the models of the cushion: single impacts on the table of CAROM_GAME_BILLIARD told it
     (docs/understanding/constants.md), whose other constants stand in for what a recording does not tell."""
     found, kind = {}, ffi.new("carom_ball_kind *")
     for word, model in numbered("carom_cushion_model").items():
         if lib.carom_cushion_start(model, kind):
-            found[word] = {name: getattr(kind, name) for name in _START}
+            found[word] = {name: getattr(kind, name) for name in _START} | _own(model)
     return found
 
 

@@ -48,6 +48,7 @@ _SHAPE = {
 }  # fmt: skip
 _WIDE = 10.0  # a range that is wider says nothing of the deviation of a constant
 _OTHER = 0.1  # the deviation of a prior of other constants over the width of their range, and _SHAPE over the deviation
+_ABOUT = 0.5  # and over the value that a constant begins with, where its range is wide
 _STEP = 1e-3  # of the differences, in deviations
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
 _ELSEWHERE = 4  # the stage before which a search may begin again
@@ -60,13 +61,13 @@ _COMMON, _LEFT, _CLEAR, _STOPPED = 0.8, 0.1, 1.2, 1.0
 _SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
 
-def prior(name: str) -> tuple[float | None, float, float]:
-    """The deviation of the prior of a constant, None where it has to be given, and its bounds."""
+def prior(name: str, begin: float = 0.0) -> tuple[float | None, float, float]:
+    """The deviation of the prior of a constant that begins with a value, None where it has to be given, and its bounds."""
     if name in PRIORS:
         return PRIORS[name]
     row = lib.carom_number_of(lib.CAROM_PART_BALL, list(dtypes.ball_kind.names or ()).index(name))
     width = row.high - row.low
-    return (_OTHER * width if width <= _WIDE else None), row.low, row.high
+    return (_OTHER * width if width <= _WIDE else _ABOUT * abs(begin) or None), row.low, row.high
 
 
 def _shape(search: Search) -> Doubles:

@@ -80,11 +80,11 @@ def _priors(
             raise ValueError(f"priors: {name} must have a finite mean and a deviation above 0, not {mean!r}, {deviation!r}")
     found = {}
     for name in names:
-        width, low, high = _joint.prior(name)
+        width, low, high = _joint.prior(name, values[name])
         if name not in _joint.PRIORS and not low <= values[name] <= high:
             raise ValueError(f"free: {name} must begin at {low:g} to {high:g}, not at its default of {values[name]:g}: constants gives it")
         if name not in priors and width is None:
-            raise ValueError(f"free: {name} needs its mean and deviation in priors, as its range has no end")
+            raise ValueError(f"free: {name} needs its mean and deviation in priors, as its range is wide and it begins with 0")
         found[name] = priors.get(name, (values[name], width or 0.0))
     return found
 
@@ -130,7 +130,8 @@ def fit(
         From `carom.tracks.read`, all of the same number of balls.
     table, radius
         Extents (float, float) of x and y, and the radius of the balls, m.
-    cushion_model : {"mathavan", "stronge", "han", "mirror", "smooth"}
+    cushion_model : str
+        A model with which a fit can begin: `python -m carom.fit --help` lists them.
     constants : mapping, optional
         Known constants; the usual ones stand for those that are not given.
     free : "none", "events", "kicks", "default", or names of constants

@@ -215,8 +215,8 @@ def simulate(
     models : {"pooltool", "carom"}
         The rules and models of pooltool's engine, for the same history but for rounding; or carom's, without an engine: exact
         collisions and contacts.
-    cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
-        With models="carom" only; as for `carom.simulate`.
+    cushion_model : str
+        With models="carom" only; a word as for `carom.simulate`.
     fallback : bool
         What carom cannot do is played by pooltool instead of an error. A `FallbackWarning` says why, once for each reason.
 

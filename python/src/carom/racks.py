@@ -11,8 +11,8 @@ from typing import Protocol
 import numpy as np
 
 from carom import dtypes
-from carom._carom import lib
-from carom._rows import Array, called, number, pointer, whole
+from carom._carom import ffi, lib
+from carom._rows import Array, called, number, pointer, whole, worded
 from carom.layouts import Table, check_table
 from carom.status import CaromError
 
@@ -21,7 +21,10 @@ class _Rack(Protocol):
     def __call__(self, table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records: ...
 
 
-def _maker(name: str, kind: int, text: str) -> _Rack:
+def _maker(name: str) -> _Rack:
+    kind = worded("RACK")[name]
+    text = f"{lib.carom_rack_size(kind)} balls: {ffi.string(lib.carom_word_text(lib.CAROM_WORDS_RACK, kind)).decode()}."
+
     def make(table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records:
         size = int(lib.carom_rack_size(kind))
         balls: Array = np.zeros(size, dtypes.shot_ball)
@@ -36,8 +39,8 @@ def _maker(name: str, kind: int, text: str) -> _Rack:
     return called(make, name, text)
 
 
-nineball = _maker("nineball", lib.CAROM_RACK_NINEBALL, "10 balls: cue ball, then 1 to 9 by number; 1 in front, 9 in the middle.")
-eightball = _maker("eightball", lib.CAROM_RACK_EIGHTBALL, "16 balls: cue ball, then 1 to 15 by number; 8 in the middle, both kinds in the corners.")
-tenball = _maker("tenball", lib.CAROM_RACK_TENBALL, "11 balls: cue ball, then 1 to 10 by number; 10 in the middle.")
-snooker = _maker("snooker", lib.CAROM_RACK_SNOOKER, "22 balls: white, 15 reds, yellow, green, brown, blue, pink, black.")
-threecushion = _maker("threecushion", lib.CAROM_RACK_THREECUSHION, "3 balls: white, yellow, red, as for the opening.")
+nineball = _maker("nineball")
+eightball = _maker("eightball")
+tenball = _maker("tenball")
+snooker = _maker("snooker")
+threecushion = _maker("threecushion")

@@ -8,12 +8,14 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, as_array, called, number, pointer, several
+from carom._rows import Array, as_array, called, number, numbered, pointer, several
 from carom.layouts import Table, refuse_table
 from carom.status import CaromError
 
 
-def _maker(name: str, kind: int, text: str) -> Callable[[], Table]:
+def _maker(name: str) -> Callable[[], Table]:
+    kind = numbered("carom_table_kind")[name]
+
     def make() -> Table:
         record: Array = np.zeros((), dtypes.table)
         code = lib.carom_table_make(kind, pointer("carom_table[]", record))
@@ -21,15 +23,16 @@ def _maker(name: str, kind: int, text: str) -> Callable[[], Table]:
             raise CaromError(code)
         return Table.from_record(record)
 
-    return called(make, name, text)
+    made, text = make(), ffi.string(lib.carom_word_text(lib.CAROM_WORDS_TABLE, kind)).decode()
+    return called(make, name, f"{text[0].upper()}{text[1:]}: {made.width:.4g} x {made.length:.5g} m.")
 
 
-pool_7ft = _maker("pool_7ft", lib.CAROM_TABLE_POOL_7FT, "Pool, 7 ft: 0.9906 x 1.9812 m.")
-pool_8ft = _maker("pool_8ft", lib.CAROM_TABLE_POOL_8FT, "Pool, 8 ft: 1.1176 x 2.2352 m.")
-pool_9ft = _maker("pool_9ft", lib.CAROM_TABLE_POOL_9FT, "Pool, 9 ft: 1.27 x 2.54 m.")
-snooker = _maker("snooker", lib.CAROM_TABLE_SNOOKER, "Snooker, 12 ft: 1.778 x 3.569 m.")
-threecushion = _maker("threecushion", lib.CAROM_TABLE_THREECUSHION, "Carom billiards, 10 ft, without pockets: 1.42 x 2.84 m.")
-pooltool = _maker("pooltool", lib.CAROM_TABLE_POOLTOOL, "The default table of pooltool: that of `pool_7ft`, under this name for ever.")
+pool_7ft = _maker("pool_7ft")
+pool_8ft = _maker("pool_8ft")
+pool_9ft = _maker("pool_9ft")
+snooker = _maker("snooker")
+threecushion = _maker("threecushion")
+pooltool = _maker("pooltool")
 
 
 def polygon(
