@@ -1,7 +1,7 @@
 // Every row of words, options and numbers, as bindings/rows.py reads them, is one of the package: what it takes, and how it refuses the rest.
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import { type BallKind, fromLine, toLine } from "../dist/index.js";
+import { type BallKind, fromLine, toLine, words } from "../dist/index.js";
 import { builds, root } from "./support.js";
 
 interface Row {
@@ -73,6 +73,7 @@ test.each(["rail", "jaw", "pocket"].flatMap((part) => rows.parts[`carom_${part}`
 });
 
 test("words of games, tables and racks", () => {
+  expect(Object.entries(words)).toEqual(Object.entries(rows.words).map(([of, list]) => [camel(of.toLowerCase()), list]));
   for (const [game] of rows.words.GAME!) expect(carom.kind(game as "pool").radius).toBeGreaterThan(0);
   for (const [name] of rows.words.TABLE!) expect(carom.table(name as "9ft").length).toBeGreaterThan(1);
   for (const [name] of rows.words.RACK!) expect(carom.rack(name as "nineball", carom.table(name === "snooker" ? name : name === "threecushion" ? name : "9ft")).length).toBeGreaterThan(2);

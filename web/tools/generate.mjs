@@ -114,6 +114,11 @@ const numbers = Object.fromEntries(
 );
 const layoutOptions = Object.fromEntries(Object.entries(options).map(([struct, list]) => [struct, list.map(({ key, form, of, group }) => ({ key, form, of, stop: group === "stop" }))]));
 writeFileSync(
+  `${out}/words.ts`,
+  `${note}/** The words of each enumeration that options and lines take, in the order of its values, with what each is: for choices of a page. */\n` +
+    `export const words = ${JSON.stringify(Object.fromEntries(Object.entries(rows.words).map(([of, list]) => [camel(of.toLowerCase()), list])), null, 1)} as const;\n`,
+);
+writeFileSync(
   `${out}/layout.ts`,
   `${note}/** Sizes of the structs in bytes; offsets, sizes and types of their fields. */\n` +
     `export const layout = ${JSON.stringify(structs, null, 1)} as const;\n` +

@@ -1,5 +1,5 @@
 // The games of the page: their tables, racks and names of balls.
-import { byNumber, type Game, type Line, type RackName, type TableName } from "carom";
+import { byNumber, type Game, type Line, type RackName, type TableName, words } from "carom";
 
 export interface GameOf {
   text: string;
@@ -17,7 +17,7 @@ export const GAMES: Record<string, GameOf> = {
   snooker: { text: "Snooker", table: "snooker", rack: "snooker", game: "snooker", names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : COLOURS[k - 16]!) },
   threecushion: { text: "Three-cushion", table: "threecushion", rack: "threecushion", game: "billiard", names: (k) => ["white", "yellow", "red"][k] ?? String(k) },
 };
-export const TABLES: readonly TableName[] = ["9ft", "8ft", "7ft", "snooker", "threecushion", "pooltool"];
+export const TABLES: readonly TableName[] = words.table.map(([word]) => word);
 
 /** A line that was read, and its game, in which ball k of the list is ball k. */
 export interface Read<L> {

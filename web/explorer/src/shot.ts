@@ -1,5 +1,5 @@
 // The view Table: shots are aimed on it and played while one aims; their film, their events, and a fan of shots with a player's error.
-import { type BallState, type Carom, CaromError, type Cue, fromLine, type Line, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, toLine } from "carom";
+import { type BallState, type Carom, CaromError, type Cue, fromLine, type Line, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, toLine, words } from "carom";
 import { colourOf, player, pocketName, wordsOf } from "../../../cli/player.js";
 import { gamePanel } from "./game.js";
 import { GAMES, gameOf, type GameOf, type Read, TABLES } from "./games.js";
@@ -17,6 +17,9 @@ const PULL = 0.04;
 const FALL = 0.16;
 /** How long the film of a shot is: a ball that was pocketed at the end falls after it. */
 const lasts = ({ time, status, events }: Shot): number => (status === "ok" && events.at(-1)?.type === "ball_pocket" ? time + FALL : time);
+/** Models of the cushion, the page's own choice first. */
+const about: ReadonlyMap<string, string> = new Map(words.cushionModel);
+const CUSHIONS = ["han", ...[...about.keys()].filter((word) => word !== "han")];
 const onTable = ({ label }: Pick<BallState, "label">): boolean => label !== "pocketed" && label !== "off";
 
 export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HTMLElement): { update(): void; theme(): void } {
@@ -64,7 +67,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     set("phi", gameName === "threecushion" ? 62 : 90);
     rackUp();
   });
-  const cushion = choice("cushion", "Cushions", [["han", "Han"], ["mathavan", "Mathavan, exact"], ["stronge", "Stronge"], ["mirror", "mirror"]], aimed);
+  const cushion = choice("cushion", "Cushions", CUSHIONS.map((word) => [word, `${word}: ${about.get(word)}`] as const), aimed);
   const fanned = check("fan", `Fan: ${FAN} shots with a player's error`, aimed);
   const side = el("canvas", { class: "scene", id: "side-scene", role: "img", "aria-label": "The table from the side: heights of the balls" });
   const sidePanel = el("div", { id: "side-view", hidden: "" }, el("p", { class: "note" }, "From the side; heights are enlarged."), side);
@@ -150,7 +153,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   }
   function options(): ShotOptions {
     const euler = solver() === "euler";
-    const model = cushion.select.value as "mathavan" | "han" | "stronge" | "mirror";
+    const model = cushion.select.value as NonNullable<ShotOptions["cushionModel"]>;
     return { ballModel: euler ? "euler" : "exact", cushionModel: euler && model === "mathavan" ? "euler" : model };
   }
 
@@ -321,7 +324,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       const x = given.has(key) ? Number(given.get(key)) : NaN;
       s.value = Number.isFinite(x) ? x : DEFAULTS[key]!;
     }
-    cushion.select.value = known("cushion", ["han", "mathavan", "stronge", "mirror"]);
+    cushion.select.value = known("cushion", CUSHIONS);
     fanned.input.checked = given.get("fan") === "1";
     lay();
     match.begin();
