@@ -13,7 +13,6 @@
 
 #include "carom_plan.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,7 +23,6 @@ typedef struct plan_job {
   shared_options shared;   /* --threads, --output */
   carom_plan_options plan; /* --shots, --seed */
   int rules, group, may;
-  double rating, errors;
   bool hand, opening, csv, tries, value, why;
   const char *plot;
 } plan_job;
@@ -45,12 +43,6 @@ OPTION(
     "the head string");
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
        "the cue ball is in hand: where to put it, too");
-OPTION(
-    plan_job, option_player, "player", rating, 0, "RATING", set_number, 0,
-    "a player by a Fargo rating, 300 to 850, such as 500. It holds for plans of 300 shots, which "
-    "is then the default of --shots; with more he is stronger");
-OPTION(plan_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
-       "a player by his errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
 static const option_row options_of_plan = {
     .set = set_option, .field = offsetof(plan_job, plan), .part = CAROM_PART_PLAN_OPTIONS};
 OPTION(plan_job, option_try, "try", tries, 0, NULL, set_flag, 0,
@@ -313,11 +305,10 @@ static bool plot(const plan_job *job, shot_line *line, const planned *p) {
 
 /* Whether the options go together; complains where they do not. */
 static bool are_together(const plan_job *job) {
-  if (job->rating < 300.0 || job->rating > 850.0)
-    complain("--player: it must be 300 to 850, not %g", job->rating);
-  else if (!isnan(job->rating) && !isnan(job->errors))
-    complain("--player is a rating, --errors are errors: give one of both");
-  else if (job->group != NOT_GIVEN && job->rules != CAROM_RULES_EIGHTBALL)
+  carom_player player;
+  if (!player_of(&job->shared.player, &player))
+    return false;
+  if (job->group != NOT_GIVEN && job->rules != CAROM_RULES_EIGHTBALL)
     complain("--group: it is of eight-ball, so --rules eightball is needed");
   else if (job->may != NOT_GIVEN && job->rules != CAROM_RULES_NINEBALL)
     complain("--may: it is of nine-ball, so --rules nineball is needed");
@@ -379,10 +370,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     line->name[line->cue.ball] = name;
     line->cue.ball = 0;
   }
-  const bool rated = !isnan(job->rating);
-  p->player = rated                ? carom_player_fargo(job->rating)
-              : isnan(job->errors) ? carom_player_of(1.0)
-                                   : carom_player_of(job->errors);
+  player_of(&job->shared.player, &p->player);
   p->rules = carom_plan_rules_of((carom_rules_kind)job->rules);
   p->rules.user[0] = (uint64_t)(job->group > 0 ? job->group : 0);
   p->rules.user[1] = job->opening; /* as the rules of both games have it */
@@ -390,7 +378,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
       (uint64_t)(job->may > 0 ? job->may : 0); /* 1, 2: as the rules of nine-ball have it */
   carom_plan_options options = job->plan;
   options.threads = job->shared.options.threads;
-  if (rated && options.shots == 0)
+  if (job->shared.player.rated && options.shots == 0)
     options.shots = SHOTS_OF_RATING;
   carom_plan_job asked = {.table = &line->table->table,
                           .balls = line->ball,
@@ -433,10 +421,11 @@ static const command_form form = {
         "and cue; its stroke is read by --try alone. Balls that are missing are down. The five "
         "best shots are told in words: what they do, how to strike, and their chances.\n",
     .options =
-        (const option_row *const[]){
-            &option_rules, &option_group, &option_may, &option_opening, &option_hand, &option_try,
-            &option_value, &option_player, &option_errors, &options_of_plan, &options_of_motion,
-            &option_csv, &option_why, &option_plan_plot, &option_threads, &option_output, NULL},
+        (const option_row *const[]){&option_rules, &option_group, &option_may, &option_opening,
+                                    &option_hand, &option_try, &option_value, &option_player,
+                                    &option_player_errors, &options_of_plan, &options_of_motion,
+                                    &option_csv, &option_why, &option_plan_plot, &option_threads,
+                                    &option_output, NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"
@@ -454,11 +443,8 @@ static const command_form form = {
 int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
-  job = (plan_job){.shared = {.options = COMMAND_OPTIONS, .output = "-"},
-                   .rating = NAN,
-                   .errors = NAN,
-                   .group = NOT_GIVEN,
-                   .may = NOT_GIVEN};
+  job = (plan_job){
+      .shared = {.options = COMMAND_OPTIONS, .output = "-"}, .group = NOT_GIVEN, .may = NOT_GIVEN};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;

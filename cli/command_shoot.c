@@ -429,6 +429,7 @@ static const command_form form = {
                                            &option_shot_speed, &option_ball_speed,
                                            &option_tip,        &option_elevation,
                                            &option_tip_time,   &option_tip_restitution,
+                                           &option_gap,        &option_seed,
                                            &option_json,       &option_story,
                                            &options_of_shots,  &option_with_of_shots,
                                            &option_events,     &option_threads,
@@ -443,20 +444,6 @@ static const command_form form = {
                "--plot shot.svg",
     .files = FILE_OR_NONE,
 };
-
-/* The shots that options describe, written as lines; NULL after a complaint. *text is to be
- * freed when they have been read. */
-static shot_file *shots_of(shoot_job *job, char **text) {
-  size_t size;
-  FILE *lines = open_text(text, &size);
-  const carom_shot_options options = options_of(job);
-  const bool good = flags_write(lines, &job->from, &options, job->csv ? MOST_ROWS : MOST_SHOTS);
-  close_text(lines, text);
-  FILE *in = good ? fmemopen(*text, size, "r") : NULL;
-  if (good && in == NULL)
-    out_of_memory();
-  return good ? shot_file_of(in, "the shot given") : NULL;
-}
 
 static int write_sources(const carom_shot_options *options) {
   const size_t length = carom_cite(options, NULL, 0);
@@ -507,7 +494,10 @@ int command_shoot(int argc, char **argv) {
   }
   if (!svg_possible(job.plot) || !output_possible(job.animation))
     return EXIT_USAGE;
-  shot_file *file = job.together ? shots_of(&job, &lines) : shot_file_open(path);
+  const carom_shot_options options = options_of(&job);
+  shot_file *file = job.together
+                        ? flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS, &lines)
+                        : shot_file_open(path);
   FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;
   drawing picture[DRAWINGS] = {0};
   code = EXIT_USAGE;

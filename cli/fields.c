@@ -310,6 +310,37 @@ static OPTION_SET(set_law) {
   return false;
 }
 
+static OPTION_SET(set_player) {
+  given_player *given = field;
+  given->rated = true;
+  if (!set_number(row, text, &given->rating))
+    return false;
+  const bool good = given->rating >= 300.0 && given->rating <= 850.0;
+  if (!good)
+    complain("--%s: it must be 300 to 850, not %g", row->name, given->rating);
+  return good;
+}
+
+static OPTION_SET(set_errors) {
+  given_player *given = field;
+  given->errs = true;
+  return set_amount(row, text, &given->scale);
+}
+
+bool player_of(const given_player *given, carom_player *player) {
+  *player = given->rated ? carom_player_fargo(given->rating)
+                         : carom_player_of(given->errs ? given->scale : 1.0);
+  if (given->rated && given->errs)
+    complain("--player is a rating, --errors are errors: give one of both");
+  return !(given->rated && given->errs);
+}
+
+void without_bounds(carom_player *player) {
+  player->speed_least = 0.01;
+  player->speed_most = 1000.0;
+  player->tip_most = 1.0;
+}
+
 /* ---- The rows */
 
 #define ROW(row, name, member, letter, argument, set, least, only, help)                        \
@@ -368,6 +399,12 @@ ROW(option_least_step, "least-step", rail.least_step, 0, "P", set_amount, 0, CUS
 ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
     "numbers of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1: `carom models NAME` lists "
     "them");
+
+ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
+    "a player by a Fargo rating, 300 to 850, such as 500. It holds for plans of 300 shots, which "
+    "is then their default; with more he is stronger");
+ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
+    "a player by his errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
 
 /* Of whole shots: rows without a name stand for those of rows_of(). */
 ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);

@@ -7,7 +7,7 @@
 #ifndef CAROM_CLI_OPTIONS_H
 #define CAROM_CLI_OPTIONS_H
 
-#include "carom_shot.h"
+#include "carom_plan.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -107,6 +107,19 @@ typedef struct solver_list {
   int count;
 } solver_list;
 
+/* A player that --player or --errors gives. */
+typedef struct given_player {
+  bool rated, errs;
+  double rating, scale;
+} given_player;
+
+/* Makes the player; complains and returns false where both are given. Without either, errors of
+ * scale 1. */
+bool player_of(const given_player *given, carom_player *player);
+
+/* Lets a player strike as slowly, as hard and as far from the centre as he is asked to. */
+void without_bounds(carom_player *player);
+
 enum precision { ANY_PRECISION = -1, DOUBLE_PRECISION, SINGLE_PRECISION };
 
 typedef struct shared_options {
@@ -118,6 +131,7 @@ typedef struct shared_options {
   carom_options options;      /* --solver of one, --slip, --steps, --threads */
   solver_list solvers;        /* --solver of several */
   friction_law friction;
+  given_player player;
   int precision;                       /* enum precision */
   const char *id, *folder, *output;    /* --id, --data, --output */
   bool summary, strict, derived, bare; /* bare: --no-comments */
@@ -136,7 +150,7 @@ extern const option_row option_solver, option_solvers, option_slip, option_steps
     option_friction, option_precision, option_id, option_data, option_output, option_summary,
     option_bare, option_strict, option_derived, option_cushion, option_model, option_convention,
     option_law, option_least_step, option_with, options_of_shots, options_of_motion,
-    option_with_of_shots;
+    option_with_of_shots, option_player, option_player_errors;
 
 /* A row of one table alone: OPTION(job, option_NAME, name, field, letter, argument, set, least,
  * help). */

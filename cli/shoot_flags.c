@@ -4,6 +4,7 @@
 #include "shoot_flags.h"
 
 #include "doubts.h"
+#include "memory.h"
 #include "message.h"
 #include "number.h"
 #include "words.h"
@@ -21,11 +22,59 @@ static bool refuse(const option_row *row, const char *text) {
   complain("--%s is %s%s%s; not '%.60s'%s", row->name,
            row->least == MEASURE_TIP
                ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
-                 "several with colons: 0,0:0.2,0"
-               : "X,Y in m, or with a unit: 2,3ft; several with colons: 0.6,1.5:0.9,2",
+                 "several with colons: 0,0:0.2,0, or a range of either: 0,-0.4..0.4..0.2"
+               : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds; several with colons: "
+                 "0.6,1.5:0.9,2",
            row->words != 0 ? "; or a rack: " : "", racks, text,
            row->words != 0 ? did_you_mean(text, racks, hint) : hint);
   return false;
+}
+
+/* Reads "A", "A..B" or "A..B..STEP", at most MOST_PLACES values of a measure; how many, or 0. A
+ * range without a step has five. */
+static int read_range(int measure, const char *text, value to[MOST_PLACES]) {
+  char copy[MOST_TEXT], *rest = copy;
+  value end[3];
+  int parts = 0;
+  snprintf(copy, sizeof copy, "%s", text);
+  for (char *next = rest; next != NULL; rest = next, parts++) {
+    next = strstr(rest, "..");
+    if (next != NULL) {
+      *next = '\0';
+      next += 2;
+    }
+    if (parts == 3 || !value_of(measure, rest, &end[parts]) || end[parts].times != end[0].times)
+      return 0;
+  }
+  to[0] = end[0];
+  if (parts == 1)
+    return 1;
+  const double steps = parts == 3 ? (end[1].x - end[0].x) / end[2].x : 4.0;
+  if (!(steps >= 0.0 && steps < MOST_PLACES))
+    return 0;
+  const int count = (int)(steps + 1e-9) + 1;
+  for (int k = 0; k < count; k++) {
+    to[k] = end[0];
+    to[k].x += (end[1].x - end[0].x) * (k / fmax(steps, 1e-9));
+    snprintf(to[k].name, sizeof to[k].name, "%.4g", to[k].x);
+  }
+  return count;
+}
+
+/* Adds all pairs of two ranges, A..B,C..D; false where they cannot be read or are too many. */
+static bool add_ranges(int measure, const char *text, place_list *list) {
+  static value x[MOST_PLACES], y[MOST_PLACES];
+  char first[MOST_TEXT];
+  const char *comma = strchr(text, ',');
+  snprintf(first, sizeof first, "%.*s", (int)(comma - text), text);
+  const int across = read_range(measure, first, x), along = read_range(measure, comma + 1, y);
+  if (across == 0 || along == 0 || list->count + across * along > MOST_PLACES)
+    return false;
+  for (int k = 0; k < across * along; k++) {
+    list->at[list->count].x = x[k / along];
+    list->at[list->count++].y = y[k % along];
+  }
+  return true;
 }
 
 /* X,Y:X,Y:..., each perhaps behind NAME=; or the name of a rack. */
@@ -48,6 +97,11 @@ static OPTION_SET(set_places) {
     for (size_t k = 0; k < name; k++)
       if (!isalnum((unsigned char)one[k]) && one[k] != '-' && one[k] != '_')
         return refuse(row, text);
+    if (row->least == MEASURE_TIP && strstr(numbers, "..") != NULL) {
+      if (!add_ranges(row->least, numbers, list))
+        return refuse(row, text);
+      continue;
+    }
     if (!set_values(row, numbers, &pair) || pair.count != 2)
       return refuse(row, text);
     snprintf(list->at[list->count].name, PLACE_NAME, "%.*s", (int)name, one);
@@ -78,8 +132,9 @@ const option_row option_table = {
     .set = set_word,
     .field = offsetof(shoot_flags, table),
     .words = CAROM_WORDS_TABLE};
-ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_LENGTH,
-    "place of the cue ball, m, or with a unit: 2,3ft (default: the middle of the table's first "
+ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
+    "place of the cue ball, m, or with a unit: 2,3ft, or 2,3d in diamonds from the left and the "
+    "head (default: the middle of the table's first "
     "quarter, or the place in the rack)");
 const option_row option_balls = {
     .name = "balls",
@@ -88,7 +143,7 @@ const option_row option_balls = {
             "2, ..., or as 8=0.6,1.5 says. Or a rack",
     .set = set_places,
     .field = offsetof(shoot_flags, balls),
-    .least = MEASURE_LENGTH,
+    .least = MEASURE_PLACE,
     .words = CAROM_WORDS_RACK};
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
     "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin "
@@ -111,7 +166,8 @@ ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
 ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
     "speed of the cue ball just after the strike instead, which a level cue gives it");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
-    "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip. Right is "
+    "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip; several "
+    "with colons, or ranges: 0,-0.4..0.4..0.2. Right is "
     "positive, as english is everywhere in this command (default 0,0.25). Beyond 0.5 R a chalked "
     "tip "
     "slips off the ball, of which carom warns");
@@ -127,11 +183,17 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign "
     "holds: a > 0 is left");
 
+ROW(option_gap, "gap", gap, "G", set_values, MEASURE_LENGTH,
+    "gap between neighbours of a rack, m, or with a unit: 0.1mm (the default); 0 is a frozen rack");
+ROW(option_seed, "seed", seed, "N", set_count, 1,
+    "draws how the balls of a rack are moved and placed (default 1)");
+
 bool has_flags(const shoot_flags *f) {
   return f->table != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
          f->cue.count > 0 || f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 ||
          f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 ||
-         f->elevation.count > 0 || f->tip_time != 0.0 || f->tip_restitution != 0.0;
+         f->elevation.count > 0 || f->tip_time != 0.0 || f->tip_restitution != 0.0 ||
+         f->gap.count > 0 || f->seed != 0;
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -149,6 +211,16 @@ static void name_rack(layout *l, carom_rack_kind kind) {
     snprintf(l->name[0], PLACE_NAME, "%s", kind == CAROM_RACK_SNOOKER ? "white" : "cue");
 }
 
+double place_along(const value *v, double diamond) {
+  return v->times == DIAMONDS ? v->x * diamond : v->x;
+}
+
+/* The state of a ball at rest at a place. */
+static carom_ball_state lies_at(const value *x, const value *y, const carom_table *t) {
+  return (carom_ball_state){
+      .r = {place_along(x, 0.25 * t->width), place_along(y, 0.125 * t->length)}};
+}
+
 static void lay_out(const shoot_flags *f, layout *l) {
   const carom_table_kind kind =
       f->table != 0 ? (carom_table_kind)(f->table - 1) : CAROM_TABLE_POOL_9FT;
@@ -163,7 +235,7 @@ static void lay_out(const shoot_flags *f, layout *l) {
   if (f->balls.rack > 0) {
     const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
     l->count = carom_rack_size(rack);
-    carom_rack(rack, &l->table, 1e-4, 1, l->ball, CAROM_BALLS_MOST);
+    carom_rack(rack, &l->table, f->gap.at[0].x, (uint64_t)f->seed, l->ball, CAROM_BALLS_MOST);
     name_rack(l, rack);
   } else {
     l->count = 1 + f->balls.count;
@@ -171,7 +243,7 @@ static void lay_out(const shoot_flags *f, layout *l) {
     l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
     for (int k = 1; k < l->count; k++) {
       const char *own = f->balls.at[k - 1].name;
-      l->ball[k].state = (carom_ball_state){.r = {f->balls.at[k - 1].x.x, f->balls.at[k - 1].y.x}};
+      l->ball[k].state = lies_at(&f->balls.at[k - 1].x, &f->balls.at[k - 1].y, &l->table);
       if (own[0] != '\0')
         snprintf(l->name[k], PLACE_NAME, "%s", own);
       else
@@ -179,7 +251,7 @@ static void lay_out(const shoot_flags *f, layout *l) {
     }
   }
   if (f->cue.count > 0)
-    l->ball[0].state = (carom_ball_state){.r = {f->cue.at[0].x.x, f->cue.at[0].y.x}};
+    l->ball[0].state = lies_at(&f->cue.at[0].x, &f->cue.at[0].y, &l->table);
   for (int k = 0; k < l->count; k++) {
     l->ball[k].kind = ball;
     l->ball[k].state.r[2] = ball.radius;
@@ -321,6 +393,18 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
     values_default(&f->aim, MEASURE_ANGLE, "90");
   if (f->speed.count == 0)
     values_default(&f->speed, MEASURE_SPEED, "2");
+  if ((f->gap.count > 0 || f->seed != 0) && f->balls.rack == 0) {
+    complain("--gap and --seed are of a rack: give --balls nineball or the like");
+    return false;
+  }
+  if (f->gap.count == 0)
+    values_default(&f->gap, MEASURE_LENGTH, "0.0001");
+  if (f->seed == 0)
+    f->seed = 1;
+  if (f->gap.count > 1 || !(f->gap.at[0].x >= 0.0 && f->gap.at[0].x <= GAP_MOST)) {
+    complain("--gap is one number, 0 to %g m", GAP_MOST);
+    return false;
+  }
   if (f->elevation.count == 0)
     values_default(&f->elevation, MEASURE_ANGLE, "0");
   if (f->tip.count == 0)
@@ -343,4 +427,60 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   for (int k = 0; k < count && good; k++)
     good = write_shot(out, f, &l, options, k);
   return good;
+}
+
+shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most, char **text) {
+  size_t size;
+  FILE *lines = open_text(text, &size);
+  const bool good = flags_write(lines, f, options, most);
+  close_text(lines, text);
+  FILE *in = good ? fmemopen(*text, size, "r") : NULL;
+  if (good && in == NULL)
+    out_of_memory();
+  return good ? shot_file_of(in, "the shot given") : NULL;
+}
+
+shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_options *options,
+                       int most, char **text) {
+  *text = NULL;
+  if (has_flags(f) == (path != NULL)) {
+    complain(path != NULL ? "a file has its own balls: give it, or --cue, --balls and the like"
+                          : "the balls are needed: a file of shots, or --cue 0.6,0.8 --balls "
+                            "0.5,1.6:0.9,1.2");
+    return NULL;
+  }
+  return path != NULL ? shot_file_open(path) : flags_open(f, options, most, text);
+}
+
+int strokes_read(shot_file *file, shot_line *line, carom_cue *cues, int most) {
+  shot_line next;
+  int n = 0;
+  for (shot_read what; (what = shot_file_next_shot(file, &next)) != SHOT_END;) {
+    const char *wrong = what == SHOT_FAILED  ? "" /* which was told */
+                        : next.error != NULL ? next.error
+                        : n == most          ? "these are too many strokes"
+                                             : NULL;
+    if (wrong == NULL && n > 0) {
+      bool same = next.count == line->count && next.cue.ball == line->cue.ball;
+      for (int k = 0; k < line->count && same; k++)
+        same = memcmp(&next.ball[k], &line->ball[k], sizeof next.ball[k]) == 0;
+      wrong = same ? NULL : "the balls must be those of the first shot";
+    }
+    if (wrong != NULL && wrong[0] != '\0')
+      complain("%s:%zu: %s", shot_file_name(file), next.number, wrong);
+    if (wrong == NULL)
+      cues[n++] = next.cue;
+    if (wrong == NULL && n == 1)
+      *line = next;
+    else if (what == SHOT_SHOT)
+      shot_line_free(&next);
+    if (wrong != NULL) {
+      if (n > 0)
+        shot_line_free(line);
+      return 0;
+    }
+  }
+  if (n == 0)
+    complain("%s: there is no shot", shot_file_name(file));
+  return n;
 }

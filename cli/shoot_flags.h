@@ -4,11 +4,14 @@
 #define CAROM_CLI_SHOOT_FLAGS_H
 
 #include "shoot_aim.h"
+#include "shot_file.h"
 #include "values.h"
 
 #include <stdio.h>
 
-enum { MOST_PLACES = 32, MOST_SHOTS = 16, MOST_ROWS = 1001 };
+#define GAP_MOST 0.02 /* m: below the radius of every ball */
+
+enum { MOST_PLACES = 64, MOST_SHOTS = 16, MOST_ROWS = 1001 };
 
 /* Pairs of numbers, each with the name that stood before it. */
 typedef struct place_list {
@@ -25,7 +28,8 @@ typedef struct shoot_flags {
   shared_options shared;
   int table; /* 1 + a carom_table_kind; 0: none was given */
   const char *at_ball, *pocket, *via;
-  values speed, ball_speed, aim, cut, elevation;
+  values speed, ball_speed, aim, cut, elevation, gap;
+  int seed; /* of a rack; 0: 1 */
   place_list cue, balls, tip;
   double tip_time, tip_restitution; /* s, and 0 to 1 */
   bool json;
@@ -34,13 +38,28 @@ typedef struct shoot_flags {
 
 extern const option_row option_table, option_cue, option_balls, option_aim, option_at_ball,
     option_pocket, option_via, option_shot_cut, option_shot_speed, option_ball_speed, option_tip,
-    option_elevation, option_tip_time, option_tip_restitution, option_json;
+    option_elevation, option_tip_time, option_tip_restitution, option_json, option_gap, option_seed;
 
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);
 
+/* A place, m: `diamond` is the distance of two diamonds. */
+double place_along(const value *v, double diamond);
+
 /* Writes the shots as lines of JSON, one for each combination and at most `most`, aimed for a play
  * by these options; false after a complaint. */
 bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most);
+
+/* The same lines as a file; NULL after a complaint. *text is to be freed when they have been read. */
+shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most, char **text);
+
+/* Opens the file of a subcommand, or the shots that its options describe; complains and returns
+ * NULL where both or none are given, or it cannot. *text is to be freed in the end. */
+shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_options *options,
+                       int most, char **text);
+
+/* Reads all shots of the file, at most `most`, of which all must have the layout of the first one:
+ * *line is to be freed; how many, with their strokes in cues[]. 0 after a complaint. */
+int strokes_read(shot_file *file, shot_line *line, carom_cue *cues, int most);
 
 #endif

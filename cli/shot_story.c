@@ -11,7 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double same_contact = 0.1; /* s */
 enum { SAMPLES = 1024, REFINEMENTS = 40 };
 
 static bool has_ball(const carom_event *e, int ball) {
@@ -40,7 +39,7 @@ bool counts_as_rail(const shot_line *line, const carom_shot *shot, int64_t k, in
   const carom_table *t = &line->table->table;
   bool counts = e->type == CAROM_EVENT_RAIL && e->a == ball && is_cushion(t, (int)e->b);
   for (int64_t before = k - 1;
-       before >= 0 && counts && e->time - shot->events[before].time < same_contact; before--)
+       before >= 0 && counts && e->time - shot->events[before].time < SAME_CONTACT; before--)
     counts = !(shot->events[before].type == e->type && shot->events[before].a == ball &&
                shot->events[before].b == e->b);
   return counts;

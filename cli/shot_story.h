@@ -8,6 +8,9 @@
 /* Whether a rail is no cut of a pocket: those are short. */
 bool is_cushion(const carom_table *t, int rail);
 
+/* s: contacts of a ball with one cushion that are nearer are one */
+#define SAME_CONTACT 0.1
+
 /* Whether event k is a contact of the ball with a cushion that a player would count: no jaw, no
  * cut of a pocket, and no further hop at the same cushion. */
 bool counts_as_rail(const shot_line *line, const carom_shot *shot, int64_t k, int ball);

@@ -14,6 +14,7 @@ enum measure {
   MEASURE_CUT,
   MEASURE_ANGLE,
   MEASURE_LENGTH,
+  MEASURE_PLACE, /* a length, or diamonds of a table */
   MEASURE_MASS,
   MEASURE_TIP,
   MEASURE_SHARE,
@@ -21,9 +22,9 @@ enum measure {
   MEASURE_SIDE
 };
 
-/* What a spin is a multiple of: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m, which is
+/* What a spin is a multiple of, or a place of DIAMONDS: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m, which is
  * what a tip's offset gives; or the side spin of a ball that rolls on the other without slip. */
-enum spin_unit { FIXED, ROLLING, OFFSET, GEARING };
+enum spin_unit { FIXED, ROLLING, OFFSET, GEARING, DIAMONDS };
 
 typedef struct value {
   double x;              /* SI units; angles in degrees */
