@@ -9,6 +9,8 @@ int main(int argc, char **argv) {
       {"rail", "one impact on a cushion, in the same ways", command_rail},
       {"shoot", "play whole shots, from the cue to rest", command_shoot},
       {"plan", "the shots that win most often from a layout", command_plan},
+      {"ways", "the ways to pot a ball, or to score in three-cushion", command_ways},
+      {"break", "what comes of many breaks of a rack", command_break},
       {"models", "models, their words and their numbers", command_models},
       {"record", "play shots and record them, with a hash of their bits", command_record},
       {"replay", "play a recording again", command_replay},

@@ -11,6 +11,8 @@ int command_record(int argc, char **argv);
 int command_replay(int argc, char **argv);
 int command_verify(int argc, char **argv);
 int command_plan(int argc, char **argv);
+int command_ways(int argc, char **argv);
+int command_break(int argc, char **argv);
 int command_trace(int argc, char **argv);
 int command_sweep(int argc, char **argv);
 

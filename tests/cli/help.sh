@@ -1,5 +1,5 @@
 # Help, version and the lists, as a user sees them: one sample whole, and of the others how they are wrapped.
-commands="resolve hit rail shoot plan models record replay verify trace sweep"
+commands="resolve hit rail shoot plan ways break models record replay verify trace sweep"
 try carom --help
 carom --version | sed 's/[0-9][0-9]*/N/g'
 try carom sweep --help
@@ -9,7 +9,7 @@ echo "--- pages of the manual: their sections, and what man and roff say of them
 cp "$(dirname "$CAROM")"/man/carom*.1 .
 for page in *.1; do
   sed -n 's/^\.S[HS] //p' "$page" | tr '\n' ',' && echo
-  [ "$(grep -c "^\.BR carom.*(1)" "$page")" = 11 ] || echo "$page: not all the other pages are named"
+  [ "$(grep -c "^\.BR carom.*(1)" "$page")" = "$(echo "$commands" | wc -w)" ] || echo "$page: not all the other pages are named"
   ! command -v man > /dev/null || man --warnings -l "$page" 2>&1 > /dev/null
   ! command -v groff > /dev/null || groff -man -Tascii -ww "$page" 2>&1 > /dev/null
 done | sort | uniq -c

@@ -1,0 +1,361 @@
+/* `carom break`: what comes of many breaks of a rack, with a player's errors. */
+#include "command.h"
+#include "derived.h"
+#include "memory.h"
+#include "message.h"
+#include "options.h"
+#include "output.h"
+#include "picture.h"
+#include "shoot_flags.h"
+#include "shot_file.h"
+#include "shot_picture.h"
+#include "subcommands.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_STROKES = 64, RACKS = 500, BLOCK = 64, DRAWN = 40 };
+
+typedef struct break_job {
+  shoot_flags from;
+  const char *plot;
+  int racks;
+  bool csv;
+} break_job;
+
+static const option_row option_rules = {
+    .name = "rules",
+    .help = "the rack, on the table of its game (default eightball)",
+    .set = set_named,
+    .field = offsetof(break_job, from.balls.rack),
+    .least = CAROM_WORDS_RACK};
+OPTION(break_job, option_racks, "racks", racks, 0, "N", set_count, 1,
+       "breaks of each speed, tip and gap (default 500)");
+OPTION(break_job, option_break_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "write a row for each speed, tip and gap instead of words");
+OPTION(break_job, option_break_plot, "plot", plot, 0, "OUT", set_picture, 0,
+       "draw the break without errors, thin forty with errors, and what comes of all");
+
+/* What came of the breaks of one stroke and gap: how many, and sums over the cue balls that stayed
+ * on the table. */
+typedef struct counts {
+  int breaks, makes, plays_on, fouls, scratch, off, wing, balls, stay;
+  double x, y, squares;
+} counts;
+
+/* The balls that lie farthest to either side of the rack, as a set. */
+static uint32_t wings_of(const carom_table *t, const carom_shot_ball *ball, int count) {
+  double most = 0.0;
+  uint32_t wings = 0;
+  for (int k = 1; k < count; k++)
+    most = fmax(most, fabs(ball[k].state.r[0] - 0.5 * t->width));
+  for (int k = 1; k < count; k++)
+    if (fabs(ball[k].state.r[0] - 0.5 * t->width) > most - 0.5 * ball[k].kind.radius)
+      wings |= (uint32_t)1 << k;
+  return wings;
+}
+
+/* The rules of a rack's game, at a break; false where carom has none. */
+static bool rules_of(carom_rack_kind rack, carom_plan_rules *rules) {
+  const char *name, *own = carom_rack_name(rack);
+  for (int k = 0; (name = carom_rules_name((carom_rules_kind)k)) != NULL; k++)
+    if (strcmp(name, own) == 0) {
+      *rules = carom_plan_rules_of((carom_rules_kind)k);
+      rules->user[1] = 1;
+      return rules->breaks != 0;
+    }
+  return false;
+}
+
+/* The ball nearest to the cue ball. */
+static int front_of(const carom_shot_ball *ball, int count) {
+  int front = 1;
+  for (int k = 2; k < count; k++)
+    if (hypot(ball[k].state.r[0] - ball[0].state.r[0], ball[k].state.r[1] - ball[0].state.r[1]) <
+        hypot(ball[front].state.r[0] - ball[0].state.r[0],
+              ball[front].state.r[1] - ball[0].state.r[1]))
+      front = k;
+  return front;
+}
+
+typedef struct breaker {
+  const break_job *job;
+  carom_shot_options options;
+  carom_player player;
+  carom_rack_kind rack;
+  bool aimed; /* --aim was given; else the middle of the ball in front */
+} breaker;
+
+/* Rack number k and its stroke; number -1 is the first one without errors. */
+static void set_up(const breaker *b, const shot_line *line, double gap, int number,
+                   carom_shot_ball *ball, carom_cue *cue) {
+  const int seed = b->job->from.seed, k = number < 0 ? 0 : number;
+  carom_rack(b->rack, &line->table->table, gap, (uint64_t)(seed + k), ball, CAROM_BALLS_MOST);
+  for (int n = 0; n < line->count; n++)
+    ball[n].kind = line->ball[n].kind;
+  ball[0].state = line->ball[0].state;
+  *cue = line->cue;
+  if (!b->aimed) {
+    const double *from = ball[0].state.r, *to = ball[front_of(ball, line->count)].state.r;
+    cue->phi = atan2(to[1] - from[1], to[0] - from[0]) / degree;
+  }
+  if (number >= 0)
+    carom_player_strike(&b->player, (uint64_t)seed, (uint64_t)k, cue);
+}
+
+static void count_break(const breaker *b, const carom_facts *f, const carom_ball_state *final,
+                        uint32_t wings, counts *c) {
+  const uint32_t others = ~(uint32_t)1;
+  int made = 0;
+  for (uint32_t down = f->down & others; down != 0; down &= down - 1)
+    made++;
+  c->breaks++;
+  c->balls += made;
+  c->makes += made > 0;
+  c->scratch += (f->down & 1) != 0;
+  c->off += f->off != 0;
+  c->wing += (f->down & wings) != 0;
+  carom_plan_rules rules;
+  if (rules_of(b->rack, &rules)) {
+    const uint32_t in_play = ((uint32_t)1 << carom_rack_size(b->rack)) - 1;
+    const carom_turn turn = rules.judge(rules.user, in_play, 0, f, (carom_call){-1, -1});
+    c->plays_on += turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+    c->fouls += turn.foul != 0;
+  }
+  if (((f->down | f->off) & 1) == 0) {
+    c->stay++;
+    c->x += final[0].r[0];
+    c->y += final[0].r[1];
+    c->squares += final[0].r[0] * final[0].r[0] + final[0].r[1] * final[0].r[1];
+  }
+}
+
+/* Plays the breaks of one stroke and gap; false after a complaint. */
+static bool play(const breaker *b, const shot_line *line, double gap, counts *c) {
+  static carom_shot_ball ball[BLOCK][CAROM_BALLS_MOST];
+  static carom_cue cue[BLOCK];
+  static carom_shot shot[BLOCK];
+  static carom_facts facts[BLOCK];
+  static carom_ball_state final[BLOCK][CAROM_BALLS_MOST];
+  *c = (counts){0};
+  for (int from = 0; from < b->job->racks; from += BLOCK) {
+    const int n = b->job->racks - from < BLOCK ? b->job->racks - from : BLOCK;
+    for (int k = 0; k < n; k++) {
+      set_up(b, line, gap, from + k, ball[k], &cue[k]);
+      shot[k] = (carom_shot){.facts = &facts[k], .final = final[k]};
+    }
+    const carom_shot_job job = {.table = &line->table->table,
+                                .balls = ball[0],
+                                .cues = cue,
+                                .count = line->count,
+                                .ball_stride = CAROM_BALLS_MOST,
+                                .cue_stride = 1,
+                                .n = (uint64_t)n,
+                                .options = &b->options,
+                                .shots = shot};
+    const carom_status bad = carom_shoot_batch(&job);
+    if (bad < 0) {
+      progress_clear();
+      complain("the break cannot be played: %s", carom_status_string(bad));
+      return false;
+    }
+    for (int k = 0; k < n; k++) /* the seed draws which balls lie there */
+      count_break(b, &facts[k], final[k], wings_of(&line->table->table, ball[k], line->count), c);
+    progress_show("racks", from + n, b->job->racks);
+  }
+  progress_clear();
+  return true;
+}
+
+static double share(int times, const counts *c) {
+  return (double)times / c->breaks;
+}
+
+/* How far cue balls end from their mean place, m, a standard deviation; NAN where none stays. */
+static double around(const counts *c, double *x, double *y) {
+  *x = c->x / c->stay;
+  *y = c->y / c->stay;
+  return c->stay > 0 ? sqrt(fmax(c->squares / c->stay - *x * *x - *y * *y, 0.0)) : NAN;
+}
+
+static void tell(FILE *out, const breaker *b, const shot_line *line, double gap, const counts *c) {
+  carom_plan_rules rules;
+  double x, y;
+  const double far = around(c, &x, &y), p = share(c->makes, c);
+  fprintf(out,
+          "%s on the %s table, cue at %.3g m/s, tip %.2f right and %.2f above, gap %.3g mm: %d "
+          "breaks\n",
+          carom_rack_name(b->rack), line->table->id, line->cue.speed, 0.0 - line->cue.a,
+          line->cue.b, 1e3 * gap, c->breaks);
+  fprintf(out, "  make a ball   %5.1f %% (error %.1f); %.2f balls a break\n", 100.0 * p,
+          100.0 * sqrt(p * (1.0 - p) / c->breaks), (double)c->balls / c->breaks);
+  if (rules_of(b->rack, &rules))
+    fprintf(out, "  play on       %5.1f %% by the rules; fouls %.1f %%\n",
+            100.0 * share(c->plays_on, c), 100.0 * share(c->fouls, c));
+  fprintf(out, "  cue ball      falls in %.1f %%; a ball leaves the table in %.1f %%\n",
+          100.0 * share(c->scratch, c), 100.0 * share(c->off, c));
+  fprintf(out, "  wing balls    one falls in %.1f %%\n", 100.0 * share(c->wing, c));
+  if (c->stay > 0)
+    fprintf(out, "  cue ball ends about x = %.2f, y = %.2f m, %.2f m around it\n", x, y, far);
+}
+
+static void write_row(FILE *out, const breaker *b, const shot_line *line, double gap,
+                      const counts *c) {
+  double x, y;
+  const double far = around(c, &x, &y), p = share(c->makes, c);
+  carom_plan_rules rules;
+  fprintf(out, "%s,%.17g,%.17g,%.17g,%.6g,%d,%.6f,%.6f,%.6f,", carom_rack_name(b->rack),
+          line->cue.speed, 0.0 - line->cue.a, line->cue.b, 1e3 * gap, c->breaks, p,
+          sqrt(p * (1.0 - p) / c->breaks), (double)c->balls / c->breaks);
+  if (rules_of(b->rack, &rules))
+    fprintf(out, "%.6f,%.6f,", share(c->plays_on, c), share(c->fouls, c));
+  else
+    fputs(",,", out);
+  fprintf(out, "%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", share(c->scratch, c), share(c->off, c),
+          share(c->wing, c), x, y, far);
+}
+
+typedef struct drawn_break {
+  played shot;
+  const char *words;
+} drawn_break;
+
+static void draw(FILE *out, const void *data) {
+  const drawn_break *d = data;
+  shots_draw(out, &d->shot, 1, d->words);
+}
+
+/* Draws the breaks of a stroke and gap. */
+static bool plot(const breaker *b, const shot_line *line, double gap, const char *words) {
+  static carom_ball_state final[DRAWN + 1][CAROM_BALLS_MOST];
+  static shot_line each;
+  carom_shot shot[DRAWN + 1] = {0};
+  const int drawn = b->job->racks < DRAWN ? b->job->racks : DRAWN;
+  for (int k = drawn; k >= 0; k--) { /* the one without errors comes last, and stays in `each` */
+    each = *line;
+    set_up(b, line, gap, k - 1, each.ball, &each.cue);
+    shot[k].final = final[k];
+    shot_line_play(&each, &b->options, &shot[k]);
+  }
+  const drawn_break all = {{&each, &shot[0], NULL, &shot[1], drawn}, words};
+  const bool good = svg_draw(b->job->plot, draw, &all);
+  for (int k = 0; k <= drawn; k++)
+    free(shot[k].events);
+  return good;
+}
+
+static const command_form form = {
+    .name = "break",
+    .usage = "[OPTIONS]",
+    .about = "Plays many breaks of a rack, each with a rack of its own and a player's errors, and "
+             "tells how often a ball falls, the player plays on, the cue ball falls and a wing "
+             "ball falls, and where the cue ball ends. Several speeds, tips and gaps are several "
+             "rows. The cue aims at the middle of the ball in front.\n",
+    .options =
+        (const option_row *const[]){
+            &option_rules,         &option_racks,      &option_gap,           &option_seed,
+            &option_table,         &option_cue,        &option_aim,           &option_shot_speed,
+            &option_ball_speed,    &option_tip,        &option_elevation,     &option_player,
+            &option_player_errors, &options_of_motion, &option_with_of_shots, &option_break_csv,
+            &option_break_plot,    &option_threads,    &option_output,        NULL},
+    .details = "speed where none is given: 9 m/s\n"
+               "columns of --csv: rules,speed,right,above,gap_mm,racks,makes,makes_error,balls,"
+               "plays_on,foul,scratch,off,wing,x,y,spread\n"
+               "  makes, plays_on, foul, scratch, off, wing  shares of the breaks; by the rules of "
+               "eight-ball and nine-ball, empty for other racks\n"
+               "  balls                balls made of a break\n"
+               "  x y spread           mean place of the cue balls that stay, and their standard "
+               "deviation, m\n\n"
+               "exit code: 0; 2 for bad usage\n",
+    .example = "carom break --rules nineball --speed 8,9,10m/s --gap 0.1mm --racks 500",
+    .files = NO_FILES,
+};
+
+/* Tells all strokes and gaps; false after a complaint. */
+static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke, int strokes,
+                     const values *gaps, FILE *out, char **words, double *gap_drawn) {
+  if (b->job->csv)
+    fputs("rules,speed,right,above,gap_mm,racks,makes,makes_error,balls,plays_on,foul,scratch,off,"
+          "wing,x,y,spread\n",
+          out);
+  for (int g = 0; g < gaps->count; g++)
+    for (int k = 0; k < strokes; k++) {
+      shot_line line = *first;
+      counts c;
+      line.cue = stroke[k];
+      if (!play(b, &line, gaps->at[g].x, &c))
+        return false;
+      if (b->job->csv)
+        write_row(out, b, &line, gaps->at[g].x, &c);
+      else
+        tell(out, b, &line, gaps->at[g].x, &c);
+      if (*words == NULL) {
+        size_t size;
+        FILE *said = open_text(words, &size);
+        tell(said, b, &line, gaps->at[g].x, &c);
+        close_text(said, words);
+        *gap_drawn = gaps->at[g].x;
+      }
+    }
+  return true;
+}
+
+int command_break(int argc, char **argv) {
+  static break_job job;
+  static carom_cue stroke[MOST_STROKES];
+  static shot_line line;
+  static values gaps;
+  char *lines = NULL, *words = NULL;
+  job = (break_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"},
+                             .balls = {.rack = CAROM_RACK_EIGHTBALL}},
+                    .racks = RACKS};
+  const int parsed = parse_arguments(&form, argc, argv, &job, NULL);
+  if (parsed >= 0)
+    return parsed;
+  shoot_flags *f = &job.from;
+  breaker b = {.job = &job,
+               .options = f->shared.shot,
+               .rack = (carom_rack_kind)f->balls.rack,
+               .aimed = f->aim.count > 0};
+  b.options.threads = f->shared.options.threads;
+  if (!player_of(&f->shared.player, &b.player) || !svg_possible(job.plot))
+    return EXIT_USAGE;
+  without_bounds(&b.player);
+
+  /* the rack stands on the table of its game, and breaks have a speed of their own */
+  f->balls.rack = 1 + (int)b.rack;
+  if (f->table == 0)
+    f->table = 1 + (b.rack == CAROM_RACK_SNOOKER        ? CAROM_TABLE_SNOOKER
+                    : b.rack == CAROM_RACK_THREECUSHION ? CAROM_TABLE_THREECUSHION
+                                                        : CAROM_TABLE_POOL_9FT);
+  if (f->speed.count == 0 && f->ball_speed.count == 0)
+    values_default(&f->speed, MEASURE_SPEED, "9");
+  gaps = f->gap;
+  if (gaps.count == 0)
+    values_default(&gaps, MEASURE_LENGTH, "0.0001");
+  f->gap.count = 0;
+  for (int g = 0; g < gaps.count; g++)
+    if (!(gaps.at[g].x >= 0.0 && gaps.at[g].x <= GAP_MOST)) {
+      complain("--gap is 0 to %g m, not %g", GAP_MOST, gaps.at[g].x);
+      return EXIT_USAGE;
+    }
+  shot_file *file = flags_open(f, &b.options, MOST_STROKES, &lines);
+  const int strokes = file != NULL ? strokes_read(file, &line, stroke, MOST_STROKES) : 0;
+  FILE *out = strokes > 0 ? output_open(f->shared.output) : NULL;
+  double gap_drawn = 0.0;
+  int code = EXIT_USAGE;
+  if (out != NULL && tell_all(&b, &line, stroke, strokes, &gaps, out, &words, &gap_drawn)) {
+    code = !output_commit()                                         ? EXIT_USAGE
+           : job.plot != NULL && !plot(&b, &line, gap_drawn, words) ? EXIT_SOME
+                                                                    : EXIT_GOOD;
+  } else if (out != NULL)
+    output_abandon();
+  if (strokes > 0)
+    shot_line_free(&line);
+  if (file != NULL)
+    shot_file_close(file);
+  free(words);
+  free(lines);
+  return code;
+}

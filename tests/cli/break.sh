@@ -1,0 +1,47 @@
+# break: breaks of racks, counted as the shots say that `carom shoot` plays.
+CAROM_ISA=plain
+export CAROM_ISA
+carom break --rules nineball --speed 9 --racks 100
+carom break --speed 8 --tip 0,0 --racks 40 --gap 0,0.3mm --errors 0 --csv --threads 2 --plot break.svg -o rows.csv
+carom break --speed 8 --tip 0,0 --racks 40 --gap 0,0.3mm --errors 0 --csv --threads 1 | cmp - rows.csv && echo "the same with any number of threads"
+grep -c '<g class="others"' break.svg
+# Without errors the stroke is along the table, as the ball in front lies straight ahead but for a quarter of the gap.
+for gap in 0 0.3mm; do
+  for seed in $(seq 40); do carom shoot --balls eightball --gap $gap --seed "$seed" --speed 8 --tip 0,0 --json; done > racks.jsonl
+  python - racks.jsonl > aimed.jsonl <<'PYTHON'
+import json, math, sys
+for line in open(sys.argv[1]):
+    shot = json.loads(line)
+    places = [ball["state"][1:3] for ball in shot["balls"]]
+    front = min(places[1:], key=lambda place: math.dist(place, places[0]))
+    shot["cue"]["phi"] = math.degrees(math.atan2(front[1] - places[0][1], front[0] - places[0][0]))
+    print(json.dumps(shot))
+PYTHON
+  carom shoot aimed.jsonl > "played-$gap.jsonl"
+done
+python - <<'PYTHON'
+import csv, json
+for row, gap in zip(csv.DictReader(open("rows.csv")), ("0", "0.3mm"), strict=True):
+    makes = balls = scratch = wing = on = 0
+    ends = []
+    for shot in map(json.loads, open(f"played-{gap}.jsonl")):
+        down = {ball for fallen in shot["final"]["pockets"].values() for ball in fallen}
+        x = {ball["id"]: abs(ball["state"][1] - 0.635) for ball in shot["balls"] if ball["id"] != "cue"}
+        makes += bool(down - {"cue"})
+        balls += len(down - {"cue"})
+        scratch += "cue" in down
+        wing += any(x[ball] > max(x.values()) - 0.014 for ball in down - {"cue"})
+        if "cue" not in down:
+            ends.append(shot["final"]["balls"]["cue"][1:3])
+    mean = [sum(axis) / len(ends) for axis in zip(*ends)]
+    spread = (sum((x - mean[0]) ** 2 + (y - mean[1]) ** 2 for x, y in ends) / len(ends)) ** 0.5
+    seen = {"makes": makes / 40, "balls": balls / 40, "scratch": scratch / 40, "wing": wing / 40, "x": mean[0], "y": mean[1], "spread": spread}
+    print(gap, {name: abs(float(row[name]) - value) < 2e-6 for name, value in seen.items()})
+PYTHON
+echo "--- other racks, refused"
+carom break --rules tenball --racks 20 --csv | sed -n 2p | cut -d , -f 1,10,11
+try carom break --rules straightpool
+try carom break --racks 0
+try carom break --gap 3cm
+try carom break --player 500 --errors 1
+try carom break file.jsonl
