@@ -727,6 +727,20 @@ TEST(reach_of_near_misses) {
   }
 }
 
+/* Of a ball that passes another one far from where it began, almost at rest, and with the speed
+ * that its topspin gave it. */
+TEST(reach_of_a_ball_that_gathers_speed) {
+  const direction by = {OF_STATE, 1, 0, 1};
+  layout l = of_one(0.635, 0.3, (double[]){0.0, 0.1}, (double[]){-300.0, 0.0, 0.0});
+  l.options.stop_at = CAROM_STOP_AT(CAROM_EVENT_RAIL) | CAROM_STOP_AT(CAROM_EVENT_SLIDING_ROLLING);
+  l.count = 2;
+  l.ball[1] = ball_at(0.635 + 2.0 * R + 1e-3, 1.3);
+  differentiate(&l, &by, 1);
+  ck_assert_int_eq(shot.count, 1);
+  ck_assert_double_gt(final[0].r[1], 1.35);
+  ck_assert_double_eq_tol(reach[0], 1e-3, 1e-5);
+}
+
 /* Of a ball that just touches another one, which smaller balls would not. */
 TEST(reach_of_thin_hits) {
   static const double overlaps[] = {1e-7, 1e-6, 1e-5};
@@ -738,11 +752,8 @@ TEST(reach_of_thin_hits) {
   }
 }
 
-/* Of a ball that flies over the nose of a rail, by its height, and of one that leaves the table
- * where there is no rail: rails along x and along y, which end before the corners and in the
- * middle. */
-TEST(reach_over_a_rail) {
-  const direction by_z = {OF_STATE, 0, 7, 0.05};
+/* Rails along x and along y, which end before the corners and in the middle. */
+static carom_table parted_rails(void) {
   carom_table table = empty_table(4.0);
   table.rails = 8;
   for (int k = 0; k < 8; k++) {
@@ -756,13 +767,27 @@ TEST(reach_over_a_rail) {
     }
     rail->side = (k / 2 % 2 == 0) == (k / 4 == 0);
   }
+  return table;
+}
+
+/* A ball that flies towards a rail from z, along x or y, at a place beside it. */
+static layout towards_a_rail(const carom_table *table, int axis, double place, double z) {
+  layout l = of_one(0.0, 0.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
+  l.table = table;
+  l.ball[0] = flying(0.3, 0.3, z, 0.0, 0.0, 0.0);
+  l.ball[0].state.r[axis] = place;
+  l.ball[0].state.v[1 - axis] = -4.0;
+  return l;
+}
+
+/* Of a ball that flies over the nose of a rail, by its height, and of one that leaves the table
+ * where there is no rail. */
+TEST(reach_over_a_rail) {
+  const direction by_z = {OF_STATE, 0, 7, 0.05};
+  const carom_table table = parted_rails();
   for (int k = 0; k < 2 * 3; k++) {
     static const double place[3] = {1.0, 2.0, 3.0};
-    layout l = of_one(0.0, 0.0, (double[]){0.0, 0.0}, (double[]){0.0, 0.0, 0.0});
-    l.table = &table;
-    l.ball[0] = flying(0.3, 0.3, 0.1, 0.0, 0.0, 0.0);
-    l.ball[0].state.r[k / 3] = place[k % 3];
-    l.ball[0].state.v[1 - k / 3] = -4.0;
+    const layout l = towards_a_rail(&table, k / 3, place[k % 3], 0.1);
     differentiate(&l, &by_z, 1);
     const double found = change_of_events(&l, &by_z);
     if (k % 3 == 1)
@@ -770,6 +795,34 @@ TEST(reach_over_a_rail) {
     else
       ck_assert_msg(found > 0.9 * reach[0] && found < 1.2 * reach[0], "place %d: %g, reach %g", k,
                     found, reach[0]);
+  }
+}
+
+/* Of a ball that rises and meets a nose by 15 mm or by 20 um, or misses it by as little, however
+ * fast it moves along the rail. */
+TEST(reach_at_a_nose) {
+  const direction by_z = {OF_STATE, 0, 7, 0.05};
+  const carom_table table = parted_rails();
+  for (int k = 0; k < 2 * 2; k++) {
+    double meets = 0.03, misses = 0.08;
+    layout l = towards_a_rail(&table, k / 2, 1.0, 0.0);
+    l.ball[0].state.r[1 - k / 2] = 0.15;
+    l.ball[0].state.v[k / 2] = k % 2 == 0 ? 0.0 : 3.0;
+    l.ball[0].state.v[2] = 0.45;
+    for (int n = 0; n < 40; n++) {
+      l.ball[0].state.r[2] = 0.5 * (meets + misses);
+      shot = (carom_shot){.events = events, .room = ROOM};
+      ck_assert_int_eq(shoot(&l, &shot), CAROM_OK);
+      *(events[0].type == CAROM_EVENT_RAIL ? &meets : &misses) = l.ball[0].state.r[2];
+    }
+    l.options.stop_at = CAROM_STOP_AT(CAROM_EVENT_RAIL);
+    for (int n = 0; n < 3; n++) {
+      const double off = (double[]){-0.015, -2e-5, 2e-5}[n];
+      l.ball[0].state.r[2] = meets + off;
+      differentiate(&l, &by_z, 1);
+      ck_assert_int_eq(events[0].type == CAROM_EVENT_RAIL, off < 0.0);
+      ck_assert_double_eq_tol(reach[0], fabs(off), 0.1 * fabs(off));
+    }
   }
 }
 

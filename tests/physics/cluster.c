@@ -727,6 +727,19 @@ TEST(fast_after_slow) {
   ck_assert_double_lt(worst, 1e-3);
 }
 
+/* Steps are those of the stiffest contact that acts: of a soft ball and two hard ones. */
+TEST(soft_and_hard) {
+  layout l = row(3, 0.95);
+  l.ball[0].kind.modulus = 2e7;
+  carom_motion first[MOST];
+  resolve(&l, 0);
+  memcpy(first, out, sizeof first);
+  resolve(&l, 1000);
+  const double off = difference(first, out, l.count, false);
+  printf("a soft ball on two hard ones: 25 steps are off by %.1e of the speed\n", off);
+  ck_assert_double_lt(off, 1e-4);
+}
+
 /* ---- 17: a ball falls on three */
 
 TEST(ball_on_three) {
