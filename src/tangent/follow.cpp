@@ -234,7 +234,8 @@ bool lands(const scene *s) {
           e->time >= start + s->sim.path[0].end.x - 1e-12);
 }
 
-/* Of a ball that leaves the table in flight: how far it is from the nearest edge of the rails. */
+/* Of a ball that leaves the table in flight: how far it is from the nearest edge of the rails. No
+ * flight begins beyond them: a layout there is refused. */
 CAROM_APART number edge(scene *s, const carom_ball_state *a) {
   real at[4];
   carom_tangent_edges(s->w, s->w->ball[s->event->a].kind, at);
@@ -243,8 +244,6 @@ CAROM_APART number edge(scene *s, const carom_ball_state *a) {
     const number gap = a->r[side / 2] - at[side];
     nearest = fabs(gap).x < fabs(nearest).x ? gap : nearest;
   }
-  if (!(fabs(nearest).x <= SIMULTANEOUS)) /* it was beyond at the start of its flight */
-    s->w->note.flags |= CAROM_TANGENT_KINK;
   return nearest;
 }
 
