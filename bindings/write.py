@@ -42,6 +42,7 @@ class CSharp:
         "double": "double", "float": "float", "char": "byte", "int": "int", "int8_t": "sbyte", "int32_t": "int", "uint32_t": "uint",
         "int64_t": "long", "uint64_t": "ulong", "size_t": "UIntPtr", "void": "void",
     }  # fmt: skip
+    SAFE_MOST = 32  # numbers of an array that code without pointers reads and sets
     KEYWORDS = {"is", "in", "out", "event", "fixed", "params", "ref", "base", "lock", "object", "operator"}
 
     def __init__(self, api):
@@ -69,11 +70,10 @@ class CSharp:
             count *= length
         if "array" not in about:
             return f"public {self.type(about)} {name};"
-        if about["type"] in self.BASE:
+        if about["type"] == "char" or count > self.SAFE_MOST:
             return f"public fixed {self.type(about)} {name}[{count}];"
-        struct = pascal(about["type"].removeprefix("carom_"))
-        self.arrays[struct, count] = next(one["size"] for one in self.api["structs"] if one["name"] == about["type"])
-        return f"public {struct}Array{count} {name};"
+        self.arrays[self.type(about), count] = about["size"]
+        return f"public {pascal(self.type(about))}Array{count} {name};"
 
     def text(self):
         lines = [NOTE.format(version=self.api["version"]) + "using System;", "using System.Runtime.InteropServices;", "", "namespace Carom {"]
@@ -95,8 +95,8 @@ class CSharp:
         for (struct, count), size in self.arrays.items():
             lines += [
                 f"  /// <summary>{count} of {struct}, one behind the other.</summary>",
-                f"  [StructLayout(LayoutKind.Sequential, Size = {count * size})]",
-                f"  public unsafe struct {struct}Array{count} {{",
+                f"  [StructLayout(LayoutKind.Sequential, Size = {size})]",
+                f"  public unsafe struct {pascal(struct)}Array{count} {{",
                 f"    {struct} first;",
                 f"    public {struct} this[int k] {{",
                 f"      get {{ Check(k); fixed ({struct}* at = &first) return at[k]; }}",

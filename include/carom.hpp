@@ -28,6 +28,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 #ifdef __cpp_exceptions
 #include <stdexcept>
@@ -99,6 +100,29 @@ inline std::vector<carom_shot_ball> rack(carom_rack_kind kind, const carom_table
   return balls;
 }
 
+/* Ball in hand: puts balls[ball] at rest at (x, y). Where that place is not free, which is no error
+ * here, the ball stays; `in_the_way` is what is there. */
+struct placed {
+  carom_status status;
+  carom_part in_the_way;
+};
+inline placed place(const carom_table &on, std::span<carom_shot_ball> balls, int ball, double x,
+                    double y) {
+  placed made{};
+  made.status = carom_place_ball(&on, balls.data(), static_cast<int>(balls.size()), ball, x, y,
+                                 &made.in_the_way);
+  if (made.status != CAROM_ERROR_OVERLAP && made.status != CAROM_ERROR_OFF_TABLE)
+    checked(made.status);
+  return made;
+}
+
+/* Aims a pot, as carom_aim() does. */
+inline carom_status aim(const carom_table &on, std::span<const carom_shot_ball> balls,
+                        carom_pot &pot, carom_cue &cue, const carom_shot_options &options = {}) {
+  return checked(
+      carom_aim(&on, balls.data(), static_cast<int>(balls.size()), &options, &pot, &cue));
+}
+
 /* ---- Shots */
 
 /* A shot with its events, however many, and its final states. It keeps the balls that it began
@@ -158,9 +182,33 @@ public:
     return turned;
   }
 
+  /* The states for drawing: pocketed balls fall in their pockets. */
+  std::vector<carom_ball_state> drawn(const carom_table &on, double time) const {
+    std::vector<carom_ball_state> at(balls_.size());
+    if (checked(carom_shot_drawn(&on, balls_.data(), count(), &shot_, &time, 1, at.data())) < 0)
+      at.clear();
+    return at;
+  }
+
+  /* shot_ points to the vectors: a shot is moved, and not copied. One that was moved from is as one
+   * that was not played. */
   shot() = default;
-  shot(const shot &) = delete; /* shot_ points to the vectors */
-  shot &operator=(const shot &) = delete;
+  shot(shot &&other) noexcept {
+    swap(other);
+  }
+  shot &operator=(shot &&other) noexcept {
+    shot taken(std::move(other));
+    swap(taken);
+    return *this;
+  }
+  void swap(shot &other) noexcept {
+    std::swap(shot_, other.shot_);
+    std::swap(facts_, other.facts_);
+    balls_.swap(other.balls_);
+    events_.swap(other.events_);
+    final_.swap(other.final_);
+    state_.swap(other.state_);
+  }
 
 private:
   friend class film;

@@ -328,7 +328,8 @@ CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double l
 /* Goes on with a plan in slices, for an opponent who thinks between the frames of a game: plays
  * options->slice shots more. *found is 0 until the plan has ended; then the choices are those of
  * one call, bit for bit. A shot takes some 20 us, and a slice somewhat longer where candidates are
- * made or sorted. The job, its memory and all that it points to are those of the call before, unchanged.
+ * made or sorted. The job, its memory and all that it points to are those of the call before,
+ * unchanged.
  * A plan that has ended stays as it is; one whose options->stop was set ends. CAROM_OK;
  * CAROM_ERROR_NULL as of carom_plan(); CAROM_ERROR_STATE where the memory has no plan of this job.
  *

@@ -4,13 +4,12 @@ using System.IO;
 using Carom;
 
 static class Program {
-  static unsafe ulong Add(ulong hash, double* number, int count) {
-    for (int k = 0; k < count; k++) {
-      ulong bits = (ulong)BitConverter.DoubleToInt64Bits(number[k]);
-      for (int one = 0; one < 8; one++) hash = unchecked((hash ^ (bits >> 8 * one & 255)) * 0x100000001b3);
-    }
+  static ulong Add(ulong hash, double number) {
+    ulong bits = (ulong)BitConverter.DoubleToInt64Bits(number);
+    for (int one = 0; one < 8; one++) hash = unchecked((hash ^ (bits >> 8 * one & 255)) * 0x100000001b3);
     return hash;
   }
+  static ulong Add(ulong hash, DoubleArray3 numbers) { return Add(Add(Add(hash, numbers[0]), numbers[1]), numbers[2]); }
 
   static unsafe int Main(string[] arguments) {
     using (var recording = new Recording()) {
@@ -35,15 +34,9 @@ static class Program {
     cue.speed = 8.0;
     var shot = Billiards.Play(table, balls, cue, new ShotOptions { plain = 1 });
     ulong hash = 0xcbf29ce484222325;
-    foreach (var one in shot.Events) {
-      var time = one.time;
-      hash = Add(hash, &time, 1);
-    }
+    foreach (var one in shot.Events) hash = Add(hash, one.time);
     // States after the end are those at the end.
-    foreach (var one in shot.At(shot.Time + 1)) {
-      var state = one;
-      hash = Add(Add(Add(hash, state.r, 3), state.v, 3), state.w, 3);
-    }
+    foreach (var state in shot.At(shot.Time + 1)) hash = Add(Add(Add(hash, state.r), state.v), state.w);
     Console.WriteLine($"break: {shot.Events.Length} events, {hash:x16}");
 
     var film = new Film();
@@ -51,12 +44,21 @@ static class Program {
     for (; frames / 60.0 < shot.Time; frames++) {
       film.At(shot, frames / 60.0);
       for (int k = 0; k < film.States.Length; k++) {
-        var state = film.States[k];
-        hash = Add(hash, state.r, 3);
-        fixed (double* turned = film.Turned) hash = Add(hash, turned + 4 * k, 4);
+        hash = Add(hash, film.States[k].r);
+        for (int n = 0; n < 4; n++) hash = Add(hash, film.Turned[4 * k + n]);
       }
     }
     Console.WriteLine($"film: {frames} frames, {hash:x16}");
+
+    // The layout after the shot, and a ball in hand.
+    Part part;
+    var layout = (ShotBall[])balls.Clone();
+    if (Billiards.Place(table, layout, 0, layout[3].state.r[0], layout[3].state.r[1], out part) || part.kind != PartKind.Ball || part.index != 3) return 1;
+    layout = shot.Layout();
+    if (layout[5].state.r[1] != shot.Final[5].r[1]) return 1;
+    if (!Billiards.Place(table, layout, 0, 0.31, 0.3, out part) || layout[0].state.r[0] != 0.31) return 1;
+    var facts = shot.Facts;
+    if (facts.first[0] != 1 || shot.Drawn(table, 0.5).Length != 10) return 1;
 
     cue.speed = -1;
     try {

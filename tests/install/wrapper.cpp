@@ -65,6 +65,30 @@ int main() {
   CHECK(std::memcmp(parts.final_states().data(), final, sizeof final) == 0);
   CHECK(std::memcmp(&parts.facts(), &whole.facts(), sizeof whole.facts()) == 0);
 
+  // a shot that was moved is the same; one that was moved from was not played
+  carom::shot moved = std::move(parts);
+  parts = carom::shot();
+  CHECK(moved.events().size() == whole.events().size() && parts.events().empty());
+  CHECK(moved.states(1.0)[2].r[0] == whole.states(1.0)[2].r[0]);
+  CHECK(moved.play(table, balls, cue, until) == CAROM_STOPPED_AT_TIME);
+  parts = std::move(moved);
+  CHECK(parts.resume(table) == CAROM_OK && parts.facts().first[0] == whole.facts().first[0]);
+  CHECK(whole.drawn(table, 1.0).size() == 16);
+
+  // ball in hand, and a pot that is aimed
+  auto lain = balls;
+  const auto taken = carom::place(table, lain, 0, lain[1].state.r[0], lain[1].state.r[1]);
+  CHECK(taken.status == CAROM_ERROR_OVERLAP && taken.in_the_way.kind == CAROM_PART_BALL &&
+        taken.in_the_way.index == 1);
+  CHECK(carom::place(table, lain, 0, 0.4, 0.4).status == CAROM_OK && lain[0].state.r[0] == 0.4);
+  std::vector<carom_shot_ball> two(lain.begin(), lain.begin() + 2);
+  CHECK(carom::place(table, two, 1, 0.9, 1.6).status == CAROM_OK);
+  carom_pot pot{};
+  pot.ball = 1;
+  pot.pocket = 5;
+  carom_cue aimed = carom_cue_of(CAROM_GAME_POOL);
+  CHECK(carom::aim(table, two, pot, aimed) == CAROM_OK && pot.is == CAROM_POT_FALLS);
+
   // a plan in slices, which is moved meanwhile
   const carom_player player = carom_player_of(1.0);
   const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_POTTING);

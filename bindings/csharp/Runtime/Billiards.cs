@@ -27,7 +27,28 @@ namespace Carom {
     public BallState[] Final { get; internal set; }
     /// <summary>Up to when the shot was followed, s.</summary>
     public double Time { get; internal set; }
+    /// <summary>What rules ask about.</summary>
+    public Facts Facts { get; internal set; }
     internal ShotBall[] balls;
+
+    /// <summary>The layout that it leaves.</summary>
+    public ShotBall[] Layout() {
+      var layout = (ShotBall[])balls.Clone();
+      for (int k = 0; k < layout.Length; k++) layout[k].state = Final[k];
+      return layout;
+    }
+
+    /// <summary>The states at a time for drawing, s: pocketed balls fall in their pockets.</summary>
+    public BallState[] Drawn(Table table, double time) {
+      var states = new BallState[balls.Length];
+      fixed (ShotBall* of = balls)
+      fixed (Event* events = Events)
+      fixed (BallState* to = states) {
+        var shot = Data(events);
+        Billiards.Check(Native.carom_shot_drawn(&table, of, balls.Length, &shot, &time, (UIntPtr)1, to));
+      }
+      return states;
+    }
 
     /// <summary>What the library reads of it.</summary>
     internal Shot Data(Event* events) { return new Shot { events = events, room = Events.Length, count = Events.Length, time = Time }; }
@@ -109,7 +130,8 @@ namespace Carom {
       // Most shots have fewer events; one with more is played again with room for all of them.
       for (long room = 256;;) {
         var events = new Event[room];
-        var data = new Shot { room = room };
+        Facts facts;
+        var data = new Shot { room = room, facts = &facts };
         fixed (ShotBall* of = balls)
         fixed (BallState* final = shot.Final)
         fixed (Event* to = events) {
@@ -122,10 +144,22 @@ namespace Carom {
           Array.Resize(ref events, (int)data.count);
           shot.Events = events;
           shot.Time = data.time;
+          shot.Facts = facts;
           return shot;
         }
         room = data.count;
       }
+    }
+
+    /// <summary>Ball in hand: puts a ball at rest at x, y (m). False where that place is not free; `inTheWay` is what is there, and the ball stays.</summary>
+    public static bool Place(Table table, ShotBall[] balls, int ball, double x, double y, out Part inTheWay) {
+      Part part;
+      Status status;
+      fixed (ShotBall* of = balls) status = Native.carom_place_ball(&table, of, balls.Length, ball, x, y, &part);
+      inTheWay = part;
+      if (status == Status.ErrorOverlap || status == Status.ErrorOffTable) return false;
+      Check(status);
+      return true;
     }
 
     /// <summary>The numbers of a part, or the options of a call, as the library describes them.</summary>

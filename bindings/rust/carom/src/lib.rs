@@ -167,9 +167,30 @@ pub fn cue(game: sys::carom_game) -> Cue {
     unsafe { sys::carom_cue_of(game) }
 }
 
+/// Ball in hand: puts a ball at rest at x, y (m). `Ok(Err(part))` where that place is not free: the part is there, and the ball stays.
+pub fn place(
+    table: &Table,
+    balls: &mut [ShotBall],
+    ball: usize,
+    x: f64,
+    y: f64,
+) -> Result<Result<(), sys::carom_part>, Error> {
+    let mut part = sys::carom_part::default();
+    let (count, ball) = (balls.len() as i32, ball.min(i32::MAX as usize) as i32);
+    let status = unsafe {
+        sys::carom_place_ball(table, balls.as_mut_ptr(), count, ball, x, y, &mut part)
+    };
+    if status == sys::CAROM_ERROR_OVERLAP || status == sys::CAROM_ERROR_OFF_TABLE {
+        return Ok(Err(part));
+    }
+    check(status)?;
+    Ok(Ok(()))
+}
+
 /// A shot that was played.
 #[derive(Clone, Debug)]
 pub struct Shot {
+    facts: sys::carom_facts,
     status: sys::carom_status,
     events: Vec<Event>,
     last: Vec<BallState>,
@@ -190,7 +211,9 @@ pub fn shoot(
     loop {
         let mut events = vec![Event::default(); room];
         let mut last = vec![BallState::default(); balls.len()];
+        let mut facts = sys::carom_facts::default();
         let mut shot = sys::carom_shot {
+            facts: &mut facts,
             events: events.as_mut_ptr(),
             room: room as i64,
             r#final: last.as_mut_ptr(),
@@ -205,6 +228,7 @@ pub fn shoot(
         if happened <= room {
             events.truncate(happened);
             return Ok(Shot {
+                facts,
                 status,
                 events,
                 last,
@@ -235,6 +259,29 @@ impl Shot {
     /// Up to when the shot was followed, s.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// What rules ask about.
+    pub fn facts(&self) -> &sys::carom_facts {
+        &self.facts
+    }
+
+    /// The layout that it leaves.
+    pub fn layout(&self) -> Vec<ShotBall> {
+        let after = |(ball, state): (&ShotBall, &BallState)| ShotBall {
+            kind: ball.kind,
+            state: *state,
+        };
+        self.balls.iter().zip(&self.last).map(after).collect()
+    }
+
+    /// The states at a time for drawing, s: pocketed balls fall in their pockets.
+    pub fn drawn(&self, table: &Table, time: f64) -> Result<Vec<BallState>, Error> {
+        let mut states = vec![BallState::default(); self.balls.len()];
+        let (shot, count) = (self.data(), self.balls.len() as i32);
+        let (balls, to) = (self.balls.as_ptr(), states.as_mut_ptr());
+        check(unsafe { sys::carom_shot_drawn(table, balls, count, &shot, &time, 1, to) })?;
+        Ok(states)
     }
 
     /// What the library reads of it.
@@ -405,6 +452,16 @@ mod tests {
             assert_eq!(state.r, last.r);
         }
         assert!(shot.at(f64::NAN).is_err());
+        assert_eq!(shot.facts().first[0], shot.events[1].b);
+        assert_eq!(shot.drawn(&table, 0.5).unwrap().len(), 22);
+        assert_eq!(shot.layout()[5].state.r, shot.last[5].r);
+        let mut layout = balls.clone();
+        let [x, y, _] = layout[3].state.r;
+        let part = place(&table, &mut layout, 0, x, y).unwrap().unwrap_err();
+        assert_eq!((part.kind, part.index), (sys::CAROM_PART_BALL, 3));
+        assert!(place(&table, &mut layout, 0, 0.5, 0.31).unwrap().is_ok());
+        assert_eq!(layout[0].state.r[1], 0.31);
+        assert!(place(&table, &mut layout, 99, 0.5, 0.3).is_err());
         let mut film = Film::default();
         for time in [0.1, 1.0, 1.0, 0.5] {
             let (states, turned) = film.at(&shot, time).unwrap();
