@@ -630,9 +630,13 @@ export class Carom {
     this.#refuse(drawn ? this.#call.carom_shot_drawn(table, ...rest) : this.#call.carom_shot_at_times(...rest), field);
   }
 
-  /** Begins a recording, of a game on this table with these models, that verifies itself. */
-  record(table: Table, balls: readonly ShotBall[], options: ShotOptions = {}): Recording {
-    return new Recording(this.#recordings, table, balls, options);
+  /** Begins a recording, of a game on this table with these models, that verifies itself; without them one whose lines are read at first. */
+  record(): Recording;
+  record(table: Table, balls: readonly ShotBall[], options?: ShotOptions): Recording;
+  record(table?: Table, balls: readonly ShotBall[] = [], options: ShotOptions = {}): Recording {
+    const recording = new Recording(this.#recordings);
+    if (table) recording.begin(table, balls, options);
+    return recording;
   }
 
   /**
@@ -745,6 +749,15 @@ export class Carom {
    */
   plan(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}): Choice[] {
     return this.#plans.plan(table, balls, undefined, options);
+  }
+
+  /**
+   * A plan in slices of so many shots, some 20 µs each, for an opponent who thinks between frames: `next()` plays a slice, and the last one returns
+   * the choices of `plan`, bit for bit. Table, balls and options are not changed meanwhile.
+   */
+  think(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}, slice = 100): Generator<undefined, Choice[]> {
+    if (whole(slice, "slice") < 1) throw new RangeError("slice: at least 1 shot is needed, not 0");
+    return this.#plans.think(table, balls, undefined, options, slice);
   }
 
   /** The chances of strokes that are given, each played shots / cues.length times with errors, at least 10 times. */

@@ -84,34 +84,48 @@ export class Plans {
   }
 
   plan(table: Table, balls: readonly ShotBall[], cues: readonly Partial<Cue>[] | undefined, options: PlanOptions): Choice[] {
+    const { done, value } = this.think(table, balls, cues, options, 0).next();
+    if (!done) throw new RangeError("carom: a plan at once has not ended");
+    return value;
+  }
+
+  /** A plan in slices of so many shots; 0: at once. */
+  *think(table: Table, balls: readonly ShotBall[], cues: readonly Partial<Cue>[] | undefined, options: PlanOptions, slice: number): Generator<undefined, Choice[]> {
     refuseUnknown(options, KEYS.plan);
     const { best = 5, inHand = false } = options;
     const memory = this.#memory;
     const most = cues?.length ?? best;
     if (!Number.isInteger(most) || most < 1 || most > 1000) throw new RangeError(`${cues ? "cues: there" : "best: it"} must be 1 to 1000, not ${most}`);
-    const job = this.#writeJob(table, balls, options);
+    this.#writeJob(table, balls, options);
     const size = memory.exports.carom_plan_memory(this.#at.options);
     if (size === 0) throw new RangeError(`shots: it must be a whole number from 100 to 1000000, not ${options.shots}`);
     const room = memory.allocate(size);
     const choices = memory.allocate(most * CHOICE.size);
     const strokes = memory.allocate(most * layout.carom_cue.size);
     try {
-      setStruct(memory, job, "carom_plan_job", { memory: room, memorySize: size }, false);
-      let found = most;
-      let code: number;
-      if (cues !== undefined) {
-        for (const [k, cue] of cues.entries()) writeStruct(memory, strokes + k * layout.carom_cue.size, "carom_cue", this.#host.cue(cue), `cues[${k}]`);
-        code = memory.exports.carom_plan_try(job, strokes, most, choices);
-      } else {
-        const { corners } = this.#at;
-        if (typeof inHand !== "boolean") memory.f64.set(inHand.flat(), corners / 8);
-        const [low, high] = typeof inHand === "boolean" ? [0, 0] : [corners, corners + 16];
-        if (inHand === false) code = memory.exports.carom_plan(job, choices, best, this.#at.found);
-        else code = memory.exports.carom_plan_hand(job, low, high, choices, best, this.#at.found);
-        found = memory.i32[this.#at.found / 4]!;
+      const { corners, found } = this.#at;
+      for (let begun = false; ; begun = true) {
+        // Other calls since the last slice have used the memory of arguments.
+        const job = this.#writeJob(table, balls, options);
+        setStruct(memory, this.#at.options, "carom_plan_options", { slice }, false);
+        setStruct(memory, job, "carom_plan_job", { memory: room, memorySize: size }, false);
+        memory.i32[found / 4] = most;
+        let code: number;
+        if (begun) code = memory.exports.carom_plan_continue(job, choices, best, found);
+        else if (cues !== undefined) {
+          for (const [k, cue] of cues.entries()) writeStruct(memory, strokes + k * layout.carom_cue.size, "carom_cue", this.#host.cue(cue), `cues[${k}]`);
+          code = memory.exports.carom_plan_try(job, strokes, most, choices);
+        } else if (inHand === false) code = memory.exports.carom_plan(job, choices, best, found);
+        else {
+          if (typeof inHand !== "boolean") memory.f64.set(inHand.flat(), corners / 8);
+          const [low, high] = typeof inHand === "boolean" ? [0, 0] : [corners, corners + 16];
+          code = memory.exports.carom_plan_hand(job, low, high, choices, best, found);
+        }
+        this.#host.refuse(code, "plan");
+        const many = memory.i32[found / 4]!;
+        if (many > 0) return Array.from({ length: many }, (_, k) => this.#readChoice(choices + k * CHOICE.size));
+        yield undefined;
       }
-      this.#host.refuse(code, "plan");
-      return Array.from({ length: found }, (_, k) => this.#readChoice(choices + k * CHOICE.size));
     } finally {
       for (const at of [room, choices, strokes]) memory.free(at);
     }

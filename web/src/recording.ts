@@ -44,6 +44,8 @@ export interface Replayed {
   film: Shot;
 }
 
+const hex = (hash: bigint): string => BigInt.asUintN(64, hash).toString(16).padStart(16, "0");
+
 /** What the calls of this file need of the library. */
 export interface Host {
   readonly memory: Memory;
@@ -71,12 +73,11 @@ class Game {
   }
 
   end(offset: number): ShotEnd {
-    const hash = BigInt.asUintN(64, this.#host.memory.i64[(this.at + offset + END.hash) / 8]!);
     return {
       status: this.#host.statusName(this.number(offset + END.status)),
       events: this.number(offset + END.events),
       time: this.#host.memory.f64[(this.at + offset + END.time) / 8]!,
-      hash: hash.toString(16).padStart(16, "0"),
+      hash: hex(this.#host.memory.i64[(this.at + offset + END.hash) / 8]!),
     };
   }
 
@@ -96,6 +97,14 @@ class Game {
   #shot: Pointer = 0;
   #events: Pointer = 0;
   #room = 0;
+  /** Memory for a line. */
+  #line: Pointer = 0;
+  #lineRoom = 0;
+
+  /** Whether the last line was the end. */
+  get ended(): boolean {
+    return this.number(RECORD.kind) === values.CAROM_RECORD_END;
+  }
 
   /** Plays a shot with all of its events. Where they need more memory, it is played again: it has the same bits. */
   play(kind: number): number {
@@ -118,16 +127,47 @@ class Game {
     }
   }
 
-  film(code: number, table: Table, balls: readonly ShotBall[]): Shot {
-    return this.#host.played(table, balls, code, this.#shot, this.at + RECORD.final, this.#events);
+  /** Reads a line, and plays its shot if it has one. */
+  read(line: string): Replayed | undefined {
+    const { memory } = this.#host;
+    const bytes = new TextEncoder().encode(line);
+    if (bytes.length > this.#lineRoom) {
+      memory.free(this.#line);
+      this.#line = memory.allocate((this.#lineRoom = 2 * bytes.length));
+    }
+    memory.u8.set(bytes, this.#line);
+    // Blank lines are lines too, but for the end of a text.
+    this.refuse(bytes.length === 0 ? 0 : memory.exports.carom_record_read(this.at, this.#line, bytes.length));
+    if (this.number(RECORD.pending) !== 1) return undefined;
+    const kind = this.number(RECORD.kind);
+    const code = this.play(kind);
+    if (this.number(RECORD.pending) === 1) this.#host.refuse(code, `line ${this.number(RECORD.line)}`);
+    const recorded = this.end(RECORD.recorded);
+    const played = this.end(RECORD.played);
+    const table = readTable(memory, this.at + RECORD.table);
+    const balls = readBalls(memory, this.at + RECORD.balls, this.number(RECORD.count));
+    const film = this.#host.played(table, balls, code, this.#shot, this.at + RECORD.final, this.#events);
+    return {
+      shot: this.number(RECORD.shots),
+      line: this.number(RECORD.line),
+      continues: kind === values.CAROM_RECORD_CONTINUE,
+      table,
+      balls,
+      cue: readStruct<Cue>(memory, this.at + RECORD.cue, "carom_cue"),
+      recorded,
+      played,
+      same: (Object.keys(played) as (keyof ShotEnd)[]).every((key) => Object.is(played[key], recorded[key])),
+      final: [...film.final],
+      film,
+    };
   }
 
   free(): void {
-    for (const at of [this.at, this.text, this.#shot, this.#events]) this.#host.memory.free(at);
+    for (const at of [this.at, this.text, this.#shot, this.#events, this.#line]) this.#host.memory.free(at);
   }
 }
 
-/** A game on its way, played and written: `carom.record(table, balls)`. */
+/** A game on its way, played, written and read: `carom.record(table, balls)`. */
 export class Recording {
   /** The text so far, a line each, with its end of line. */
   readonly lines: string[] = [];
@@ -135,9 +175,14 @@ export class Recording {
   readonly #game: Game;
 
   /** @internal */
-  constructor(host: Host, table: Table, balls: readonly ShotBall[], options: ShotOptions) {
+  constructor(host: Host) {
     this.#host = host;
     this.#game = new Game(host);
+  }
+
+  /** @internal */
+  begin(table: Table, balls: readonly ShotBall[], options: ShotOptions): void {
+    const host = this.#host;
     writeTable(host.memory, this.#game.at + RECORD.table, table);
     const given = host.writeShotOptions(options);
     host.memory.u8.copyWithin(this.#game.at + RECORD.options, given, given + OPTIONS.size);
@@ -146,6 +191,30 @@ export class Recording {
     this.#write(values.CAROM_RECORD_TABLE);
     this.#write(values.CAROM_RECORD_OPTIONS);
     this.setBalls(balls);
+  }
+
+  /**
+   * Reads a line that another program wrote, and plays its shot if it has one: `same` tells whether every bit agrees. Throws a CaromError where the
+   * line is wrong.
+   */
+  read(line: string): Replayed | undefined {
+    const shot = this.#game.read(line);
+    this.lines.push(`${line.trimEnd()}\n`);
+    return shot;
+  }
+
+  get table(): Table {
+    return readTable(this.#host.memory, this.#game.at + RECORD.table);
+  }
+
+  /** Whether the last line was the end. */
+  get ended(): boolean {
+    return this.#game.ended;
+  }
+
+  /** Of all lines so far: 16 hexadecimal digits. */
+  get hash(): string {
+    return hex(this.#host.memory.i64[(this.#game.at + RECORD.hash) / 8]!);
   }
 
   /** The layout after the last shot. */
@@ -218,50 +287,17 @@ export class Recording {
 
 /** The shots of a recording, played again. */
 export function* replayed(host: Host, recording: string | Iterable<string>): Generator<Replayed, void> {
-  const { memory } = host;
   const game = new Game(host);
-  const lines = typeof recording === "string" ? recording.split("\n") : recording;
-  let room = 0;
-  let at: Pointer = 0;
   try {
-    for (const line of lines) {
-      const bytes = new TextEncoder().encode(line);
-      if (bytes.length > room) {
-        if (at !== 0) memory.free(at);
-        at = memory.allocate((room = 2 * bytes.length));
-      }
-      memory.u8.set(bytes, at);
-      // Blank lines are lines too, but for the end of a text.
-      game.refuse(bytes.length === 0 ? 0 : memory.exports.carom_record_read(game.at, at, bytes.length));
-      if (game.number(RECORD.pending) !== 1) continue;
-      const kind = game.number(RECORD.kind);
-      const code = game.play(kind);
-      if (game.number(RECORD.pending) === 1) host.refuse(code, `line ${game.number(RECORD.line)}`);
-      const recorded = game.end(RECORD.recorded);
-      const played = game.end(RECORD.played);
-      const table = readTable(memory, game.at + RECORD.table);
-      const balls = readBalls(memory, game.at + RECORD.balls, game.number(RECORD.count));
-      const film = game.film(code, table, balls);
-      yield {
-        shot: game.number(RECORD.shots),
-        line: game.number(RECORD.line),
-        continues: kind === values.CAROM_RECORD_CONTINUE,
-        table,
-        balls,
-        cue: readStruct<Cue>(memory, game.at + RECORD.cue, "carom_cue"),
-        recorded,
-        played,
-        same: (Object.keys(played) as (keyof ShotEnd)[]).every((key) => Object.is(played[key], recorded[key])),
-        final: [...film.final],
-        film,
-      };
+    for (const line of typeof recording === "string" ? recording.split("\n") : recording) {
+      const shot = game.read(line);
+      if (shot) yield shot;
     }
-    if (game.number(RECORD.kind) !== values.CAROM_RECORD_END) {
+    if (!game.ended) {
       const code = values.CAROM_ERROR_RECORD;
       throw new CaromError(code, host.statusName(code), 'cut off: there is no line {"end": ...}', `line ${game.number(RECORD.line)}`);
     }
   } finally {
     game.free();
-    if (at !== 0) memory.free(at);
   }
 }

@@ -33,6 +33,28 @@ test.runIf(thereIsACommand)("both builds choose the shots that the command choos
   });
 });
 
+test("a plan in slices has the choices of one call, whatever is computed between them", () => {
+  const { carom } = builds[0]!;
+  const { table, balls } = lay(carom, "nineball", PLACES);
+  for (const inHand of [false, true]) {
+    const options = { rules: "nineball", shots: 300, best: 3, inHand } as const;
+    const thinking = carom.think(table, balls, options, 40);
+    let slices = 1;
+    let slice = thinking.next();
+    for (; !slice.done; slice = thinking.next()) {
+      if (slices++ % 5 === 0) carom.simulate(carom.table("snooker"), [carom.ball(1, 1)], { speed: 1 });
+    }
+    expect(slice.value).toEqual(carom.plan(table, balls, options));
+    expect(slices).toBeGreaterThan(8);
+  }
+  const changed = [...balls];
+  const thinking = carom.think(table, changed, { rules: "nineball" });
+  thinking.next();
+  changed[2] = carom.ball(0.5, 0.5);
+  expect(() => thinking.next()).toThrow(/bad_state|memory/);
+  expect(() => carom.think(table, balls, {}, 0)).toThrow("slice");
+});
+
 test.runIf(thereIsACommand)("a layout is planned by the numbers of its balls, in whatever order a line has them", () => {
   const { carom } = builds[0]!;
   const { balls } = lay(carom, "nineball", { 0: [0.4, 0.9], 2: [0.9, 1.7], 5: [0.3, 1.9], 9: [0.7, 0.5] });

@@ -38,6 +38,23 @@ test.runIf(thereIsACommand)("what the command records is replayed here", () => {
   for (const { carom } of builds) expect([...carom.replay(text)].filter(({ same }) => same).length).toBe(30);
 });
 
+test("two programs read each other's lines", () => {
+  const [{ carom: first }, { carom: second }] = [builds[0]!, builds[1]!];
+  const table = first.table("9ft");
+  const [here, there] = [first.record(table, first.rack("nineball", table)), second.record()];
+  for (const line of here.lines) expect(there.read(line)).toBeUndefined();
+  here.shoot({ speed: 8, phi: 90 });
+  expect(there.read(here.lines.at(-1)!)).toMatchObject({ shot: 1, same: true });
+  expect([there.balls, there.table]).toEqual([here.balls, table]);
+  there.place(0, 0.6, 0.5);
+  expect(here.read(there.lines.at(-1)!)).toBeUndefined();
+  there.shoot({ speed: 2, phi: 70 });
+  expect(here.read(there.lines.at(-1)!)).toMatchObject({ shot: 2, same: true });
+  expect([here.hash, here.ended]).toEqual([there.hash, false]);
+  expect([...first.replay(here.end())].length).toBe(2);
+  expect(() => there.read('{"shot":{}}')).toThrow(/shot.status is missing/);
+});
+
 test("a forged stroke, damage and other revisions are told", () => {
   const { carom } = builds[0]!;
   const text = aGame(carom).end();
