@@ -175,10 +175,10 @@ test("points of three-cushion", () => {
   const { carom } = builds[0]!;
   const table = carom.table("threecushion");
   const balls = carom.rack("threecushion", table);
-  const best = carom.plan(table, balls, { rules: "threecushion", shots: 600, shot: { plain: true } });
+  const best = carom.plan(table, balls, { rules: "threecushion", shots: 600 });
   expect(best[0]!.value).toBe(best[0]!.keep);
   expect(["carom", "kick"]).toContain(best[0]!.kind);
-  const { turn } = carom.referee(table, balls, best[0]!.cue, { rules: "threecushion", group: "open", opening: false }, undefined, { plain: true });
+  const { turn } = carom.referee(table, balls, best[0]!.cue, { rules: "threecushion", group: "open", opening: false });
   expect(["keep", "pass"]).toContain(turn);
   expect(() => carom.plan(table, balls.slice(0, 2), { rules: "threecushion" })).toThrow("balls: threecushion needs three");
   expect(() => carom.plan(carom.table("9ft"), balls, { rules: "threecushion" })).toThrow("table: threecushion needs one without pockets");
