@@ -6,6 +6,7 @@
 #include "output.h"
 #include "picture.h"
 #include "plan_why.h"
+#include "shoot_flags.h"
 #include "shot_file.h"
 #include "shot_picture.h"
 #include "shot_story.h"
@@ -20,7 +21,7 @@ enum { BEST = 5, TRIED_MOST = 1000, SHOTS_OF_RATING = 300 };
 enum { NOT_GIVEN = -1 };
 
 typedef struct plan_job {
-  shared_options shared;   /* --threads, --output */
+  shoot_flags from;        /* --threads, --output; and a layout from words */
   carom_plan_options plan; /* --shots, --seed */
   int rules, group, may;
   bool hand, opening, csv, tries, value, why;
@@ -306,7 +307,7 @@ static bool plot(const plan_job *job, shot_line *line, const planned *p) {
 /* Whether the options go together; complains where they do not. */
 static bool are_together(const plan_job *job) {
   carom_player player;
-  if (!player_of(&job->shared.player, &player))
+  if (!player_of(&job->from.shared.player, &player))
     return false;
   if (job->group != NOT_GIVEN && job->rules != CAROM_RULES_EIGHTBALL)
     complain("--group: it is of eight-ball, so --rules eightball is needed");
@@ -370,15 +371,15 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     line->name[line->cue.ball] = name;
     line->cue.ball = 0;
   }
-  player_of(&job->shared.player, &p->player);
+  player_of(&job->from.shared.player, &p->player);
   p->rules = carom_plan_rules_of((carom_rules_kind)job->rules);
   p->rules.user[0] = (uint64_t)(job->group > 0 ? job->group : 0);
   p->rules.user[1] = job->opening; /* as the rules of both games have it */
   p->rules.user[4] =
       (uint64_t)(job->may > 0 ? job->may : 0); /* 1, 2: as the rules of nine-ball have it */
   carom_plan_options options = job->plan;
-  options.threads = job->shared.options.threads;
-  if (job->shared.player.rated && options.shots == 0)
+  options.threads = job->from.shared.options.threads;
+  if (job->from.shared.player.rated && options.shots == 0)
     options.shots = SHOTS_OF_RATING;
   carom_plan_job asked = {.table = &line->table->table,
                           .balls = line->ball,
@@ -386,7 +387,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
                           .cue = &line->cue,
                           .player = &p->player,
                           .rules = &p->rules,
-                          .shot = &job->shared.shot,
+                          .shot = &job->from.shared.shot,
                           .options = &options,
                           .memory_size = carom_plan_memory(&options)};
   asked.memory = allocate(1, asked.memory_size);
@@ -414,18 +415,20 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
 
 static const command_form form = {
     .name = "plan",
-    .usage = "[OPTIONS] LAYOUT.jsonl",
+    .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
     .about =
         "Finds the shots that win most often from a layout, for a player whose strokes err. "
         "LAYOUT is a file as of carom shoot, of which the first shot counts: its table, balls "
         "and cue; its stroke is read by --try alone. Balls that are missing are down. The five "
         "best shots are told in words: what they do, how to strike, and their chances.\n",
     .options =
-        (const option_row *const[]){&option_rules, &option_group, &option_may, &option_opening,
-                                    &option_hand, &option_try, &option_value, &option_player,
+        (const option_row *const[]){&option_rules,         &option_table,    &option_cue,
+                                    &option_balls,         &option_gap,      &option_group,
+                                    &option_may,           &option_opening,  &option_hand,
+                                    &option_try,           &option_value,    &option_player,
                                     &option_player_errors, &options_of_plan, &options_of_motion,
-                                    &option_csv, &option_why, &option_plan_plot, &option_threads,
-                                    &option_output, NULL},
+                                    &option_csv,           &option_why,      &option_plan_plot,
+                                    &option_threads,       &option_output,   NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"
@@ -437,20 +440,22 @@ static const command_form form = {
                "exit code: 0; 2 for bad usage or unreadable input\n",
     .example =
         "carom plan --rules eightball --group solids --shots 4000 --plot best.svg layout.jsonl",
-    .files = ONE_FILE,
+    .files = FILE_OR_NONE,
 };
 
 int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
-  job = (plan_job){
-      .shared = {.options = COMMAND_OPTIONS, .output = "-"}, .group = NOT_GIVEN, .may = NOT_GIVEN};
+  job = (plan_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}},
+                   .group = NOT_GIVEN,
+                   .may = NOT_GIVEN};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
   if (!are_together(&job) || !svg_possible(job.plot))
     return EXIT_USAGE;
-  shot_file *file = shot_file_open(path);
+  char *lines;
+  shot_file *file = layout_open(&job.from, path, &job.from.shared.shot, 1, &lines);
   if (file == NULL)
     return EXIT_USAGE;
   static shot_line line;
@@ -459,7 +464,7 @@ int command_plan(int argc, char **argv) {
   static carom_cue strokes[TRIED_MOST];
   if (read_layout(file, &line)) {
     const int tried = job.tries ? read_strokes(file, &line, strokes) : 0;
-    FILE *out = job.tries && tried == 0 ? NULL : output_open(job.shared.output);
+    FILE *out = job.tries && tried == 0 ? NULL : output_open(job.from.shared.output);
     if (out != NULL) {
       code = plan(&job, &line, shot_file_name(file), out, strokes, tried, &made);
       if (code == EXIT_USAGE)
@@ -472,5 +477,6 @@ int command_plan(int argc, char **argv) {
     shot_line_free(&line);
   }
   shot_file_close(file);
+  free(lines);
   return code;
 }

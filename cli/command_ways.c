@@ -45,7 +45,7 @@ typedef struct ways_job {
   leave leave;
   const char *ball, *pocket, *plot;
   int rails, scanned;
-  bool csv, json;
+  bool csv, json, each;
 } ways_job;
 
 OPTION(ways_job, option_ball, "ball", ball, 0, "NAME|any", set_text, 0,
@@ -78,6 +78,10 @@ OPTION(ways_job, option_leave, "leave", leave, 0, "X,Y[,R]", set_leave, 0,
 OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 0,
        "strokes in all directions that are searched for caroms (default 20000), or for points "
        "(default 100000); 0: none");
+OPTION(
+    ways_job, option_each, "each", each, 0, NULL, set_flag, 0,
+    "tell each stroke by which a way comes off, in the order of the strokes, instead of the best "
+    "one: how wide it is over speeds and tips");
 OPTION(ways_job, option_ways_csv, "csv", csv, 0, NULL, set_flag, 0, "write rows instead of words");
 OPTION(ways_job, option_ways_json, "json", json, 0, NULL, set_flag, 0,
        "write each way as the line of its stroke, for `carom shoot`, with an object `way`");
@@ -208,7 +212,9 @@ static bool try_way(search *s, way_kind kind, int ball, int pocket, const carom_
         w.part[w.parts++] = via[n];
     if (!find_chance(s, &w))
       return false;
-    if (w.chance > best.chance)
+    if (s->job->each && s->ways < MOST_WAYS)
+      s->way[s->ways++] = w;
+    else if (w.chance > best.chance)
       best = w;
   }
   if (best.chance >= 0.0 && s->ways < MOST_WAYS)
@@ -670,7 +676,7 @@ static bool find(search *s) {
   progress_clear();
   if (good && s->job->scanned >= s->strokes)
     good = scan(s, ball, pocket);
-  if (good)
+  if (good && !s->job->each)
     qsort(s->way, (size_t)s->ways, sizeof *s->way, by_chance);
   return good;
 }
@@ -684,14 +690,31 @@ static const command_form form = {
              "player among those that are given: how often it comes off with errors, and between "
              "which directions it does so without. LAYOUT has shots of one layout, of which each "
              "stroke is tried, but for its direction.\n",
-    .options =
-        (const option_row *const[]){
-            &option_ball,       &option_to_pocket,     &option_rails,      &option_leave,
-            &option_scan,       &option_table,         &option_cue,        &option_balls,
-            &option_gap,        &option_seed,          &option_shot_speed, &option_ball_speed,
-            &option_tip,        &option_elevation,     &option_player,     &option_player_errors,
-            &options_of_motion, &option_with_of_shots, &option_ways_csv,   &option_ways_json,
-            &option_ways_plot,  &option_threads,       &option_output,     NULL},
+    .options = (const option_row *const[]){&option_ball,
+                                           &option_to_pocket,
+                                           &option_rails,
+                                           &option_leave,
+                                           &option_each,
+                                           &option_scan,
+                                           &option_table,
+                                           &option_cue,
+                                           &option_balls,
+                                           &option_gap,
+                                           &option_seed,
+                                           &option_shot_speed,
+                                           &option_ball_speed,
+                                           &option_tip,
+                                           &option_elevation,
+                                           &option_player,
+                                           &option_player_errors,
+                                           &options_of_motion,
+                                           &option_with_of_shots,
+                                           &option_ways_csv,
+                                           &option_ways_json,
+                                           &option_ways_plot,
+                                           &option_threads,
+                                           &option_output,
+                                           NULL},
     .details =
         "strokes where none are given: 1.5, 2.5 and 4 m/s; with --leave 1 to 4 m/s, each with five "
         "tips from draw to follow; of points 3, 4.5 and 6 m/s, each with the tip on either side "

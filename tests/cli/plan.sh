@@ -40,6 +40,10 @@ carom plan --rules threecushion --shots 600 three.jsonl | sed 's/[0-9]*[.][0-9]*
 carom plan --rules threecushion --shots 600 --csv three.jsonl | awk -F , 'NR > 1 { print ($12 == $14), ($2 == "carom" || $2 == "kick" || $2 == "safety"), $4 == "" }' | sort | uniq
 try carom plan --rules threecushion layout.jsonl
 try carom plan --rules threecushion --value three.jsonl
+echo "--- a layout by options"
+carom plan --rules potting --shots 300 --csv --cue 0.4,0.9 --balls 0.3,1.9:0.9,1.7:0.7,0.5 > options.csv
+carom plan --rules potting --shots 300 --csv layout.jsonl | cmp - options.csv && echo "as of a file"
+try carom plan --cue 0.4,0.9 layout.jsonl
 echo "--- rows, threads"
 for threads in 1 2; do carom plan --rules potting --shots 300 --threads $threads --csv -o rows$threads.csv layout.jsonl; done
 cmp rows1.csv rows2.csv && sed -n 1p rows1.csv && wc -l < rows1.csv | tr -d ' '

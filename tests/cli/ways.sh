@@ -70,6 +70,8 @@ grep -c 'class="legend"' ways.svg
 echo "--- less error, more chance"
 chance() { carom ways --cue 0.6,0.8 --balls 0.3,1.9 --pocket foot-left --rails 0 --scan 0 --speed 2 --csv "$@" | sed -n 2p | cut -d , -f 17; }
 awk -v sure="$(chance --errors 0.3)" -v weak="$(chance --errors 4)" -v rated="$(chance --player 700)" 'BEGIN { print (sure > weak + 0.3), (rated > weak) }'
+echo "--- each stroke"
+carom ways --cue 0.6,0.8 --balls 0.3,1.9 --ball 1 --pocket foot-left --rails 0 --scan 0 --speed 1:3:1 --tip -0.2..0.2..0.2,0 --each --csv | cut -d , -f 6,9
 echo "--- refused"
 try carom ways
 try carom ways --cue 0.6,0.8
