@@ -22,8 +22,9 @@ enum measure {
   MEASURE_SIDE
 };
 
-/* What a spin is a multiple of, or a place of DIAMONDS: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m, which is
- * what a tip's offset gives; or the side spin of a ball that rolls on the other without slip. */
+/* What a spin is a multiple of: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m, which is what
+ * a tip's offset gives; or the side spin of a ball that rolls on the other without slip. Of a place:
+ * DIAMONDS. */
 enum spin_unit { FIXED, ROLLING, OFFSET, GEARING, DIAMONDS };
 
 typedef struct value {

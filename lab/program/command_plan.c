@@ -114,7 +114,7 @@ static void tell_bins(const bin bins[BINS], const char *came) {
   }
 }
 
-/* By what the log-odds of the values are to be stretched for the greatest likelihood of what came. */
+/* By what the log-odds of the values are to be stretched for the greatest likelihood. */
 static double stretch_of(const tally *t) {
   enum { STEPS = 20 };
   double stretch = 1.0;

@@ -29,7 +29,7 @@ static inline double carom_limited(double x) {
   return x < 0 ? (double)0 : x > 1 ? (double)1 : x;
 }
 
-/* x - x is 0 but where x is infinite or no number. Without isfinite(), which C++ has in std alone. */
+/* x - x is 0 unless x is infinite or no number. C++ has isfinite() in std alone. */
 static inline bool carom_is_finite(const double x[3]) {
   return (x[0] - x[0]) + (x[1] - x[1]) + (x[2] - x[2]) == 0.0;
 }
