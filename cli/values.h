@@ -22,9 +22,9 @@ enum measure {
   MEASURE_SIDE
 };
 
-/* What a spin is a multiple of: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m, which is what
- * a tip's offset gives; or the side spin of a ball that rolls on the other without slip. Of a place:
- * DIAMONDS. */
+/* What a number is a multiple of. Of a spin: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m,
+ * by the offset of a tip; or the side spin of a ball that rolls on the other without slip. Of a
+ * place: DIAMONDS. */
 enum spin_unit { FIXED, ROLLING, OFFSET, GEARING, DIAMONDS };
 
 typedef struct value {
