@@ -341,6 +341,29 @@ TEST(overflow) {
     ck_assert(isnan(ends[k]));
 }
 
+/* After the end of a shot that was stopped while balls moved, states are not known; at its end they
+ * are those of the end. */
+TEST(times_after_the_end) {
+  carom_shot_options options = closed;
+  options.time_most = 0.4;
+  const layout l = by_models(of_two(0.9, 0.2, 5.0, 80.0, 0.0, 0.5), options);
+  differentiate(&l, &by_phi, 1);
+  const double cue[CAROM_CUE_NUMBERS] = {0.0, 1.0}, within[] = {0.2, 0.4}, after[] = {0.2, 0.5};
+  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
+  double at[2 * LAYOUT_BALLS * NUMBERS];
+  carom_tangent t = {.final = ends, .at = at, .times = within, .times_count = 2};
+  ck_assert_int_eq(
+      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
+      CAROM_OK);
+  ck_assert_mem_eq(&at[NUMBERS * l.count], ends, (size_t)(NUMBERS * l.count) * sizeof *ends);
+  t.times = after;
+  ck_assert_int_eq(
+      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
+      CAROM_ERROR_TIME);
+  for (int k = 0; k < NUMBERS * l.count; k++)
+    ck_assert(isnan(ends[k]));
+}
+
 /* A cushion in steps, and one that the exact model refuses, so that its steps take its place. */
 TEST(euler) {
   const carom_shot_options steps = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
