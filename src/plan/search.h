@@ -171,7 +171,7 @@ void carom_search_pass(carom_search *of);
 void carom_search_add_up(carom_search *of);
 /* stick.c: the least elevation of a candidate's stick over cushions and balls, degrees; above
  * STICK_MOST nobody plays. */
-enum { STICK_MOST = 60 };
+static const double STICK_MOST = 60.0; /* degrees */
 double carom_least_elevation(const carom_search *of, const carom_candidate *c);
 
 /* kinds.c: the carom_plan_kind of a choice, by what happens. */
