@@ -147,8 +147,10 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
     snprintf(text, 200, c->kind == CAROM_PLAN_PUSH ? "a push-out" : "pass: the other plays");
   else if (c->kind == CAROM_PLAN_BREAK)
     snprintf(text, 200, "a break");
+  else if (line->table->table.pockets == 0 && c->ball < 0)
+    snprintf(text, 200, "no point");
   else if (line->table->table.pockets == 0)
-    snprintf(text, 200, c->ball < 0 ? "no point" : "a point, %sball %s first",
+    snprintf(text, 200, "a point, %sball %s first",
              c->kind == CAROM_PLAN_KICK ? "off a cushion, " : "", line->name[c->ball]);
   else if (c->ball < 0)
     snprintf(text, 200, "a safety: nothing is potted");

@@ -434,10 +434,15 @@ shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int mos
   FILE *lines = open_text(text, &size);
   const bool good = flags_write(lines, f, options, most);
   close_text(lines, text);
-  FILE *in = good ? fmemopen(*text, size, "r") : NULL;
-  if (good && in == NULL)
+  if (!good) {
+    free(*text);
+    *text = NULL;
+    return NULL;
+  }
+  FILE *in = fmemopen(*text, size, "r");
+  if (in == NULL)
     out_of_memory();
-  return good ? shot_file_of(in, "the shot given") : NULL;
+  return shot_file_of(in, "the shot given");
 }
 
 shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_options *options,

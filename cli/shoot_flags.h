@@ -50,7 +50,7 @@ double place_along(const value *v, double diamond);
  * by these options; false after a complaint. */
 bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most);
 
-/* The same lines as a file; NULL after a complaint. *text is to be freed afterwards. */
+/* The same lines as a file, whose *text is to be freed afterwards; NULL after a complaint. */
 shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most, char **text);
 
 /* Opens the file of a subcommand, or the shots that its options describe; complains and returns

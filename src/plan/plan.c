@@ -148,7 +148,6 @@ static uint64_t fingerprint_of(const carom_plan_job *job) {
 static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   if (!is_whole(job))
     return CAROM_ERROR_NULL;
-  of->of = 0;
   const carom_plan_options *options = job->options != NULL ? job->options : &no_options;
   const carom_plan_rules *rules = job->rules;
   const bool good = check_options(options) == CAROM_OK && good_player(job->player) &&
@@ -158,6 +157,9 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
                     CAROM_RESERVED_IS_ZERO(job);
   if (!good)
     return CAROM_ERROR_OPTIONS;
+
+  /* The memory is as long as good options ask; no plan is in it from here on. */
+  of->of = 0;
   if (job->count < 2 || job->count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
 
