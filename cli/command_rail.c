@@ -126,6 +126,22 @@ static const char *rebound_text(double angle, const double v[2], char text[64]) 
   return text;
 }
 
+/* What the cloth makes of the spin while the ball slips: the ball rolls with 5/7 of its velocity and
+ * 2/7 of that at which its spin would roll. Topspin that the cushion left turns it longer. */
+static void tell_cloth(FILE *out, const double v[2], const double d[MOST_DERIVED]) {
+  const double along = d[3] - 5.0 / 7.0 * v[0], into = d[4] - 5.0 / 7.0 * v[1];
+  const double longer = fabs(d[2]) - fabs(d[1]);
+  if (isnan(longer) || fmax(fabs(along), fabs(into)) < 0.0005)
+    return;
+  fprintf(out, "              by spin:     of it %.3f m/s %s the cushion, %.3f m/s to the %s; ",
+          fabs(into), into > 0.0 ? "into" : "off", fabs(along), along < 0.0 ? "left" : "right");
+  if (d[1] * d[2] < 0.0)
+    fputs("across the normal\n", out);
+  else
+    fprintf(out, "%.2f degrees %s than at once\n", fabs(longer),
+            longer > 0.0 ? "longer" : "shorter");
+}
+
 /* Where the ball sticks to nose and cloth, for models that follow the impact. */
 static void tell_sticking(FILE *out, const series *s, const one_case *c) {
   static const char *const what[2] = {"nose: ", "cloth:"};
@@ -163,6 +179,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
           in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&s->asked, 0));
   fprintf(out, "rebound       at once:     %s\n", rebound_text(d[1], v, text));
   fprintf(out, "              rolling:     %s\n", rebound_text(d[2], d + 3, text));
+  tell_cloth(out, v, d);
   tell_spin(out, v + 3);
   tell_sticking(out, s, c);
   fprintf(out, "energy        lost:        %.2f %%\n", 100.0 * d[5]);

@@ -56,24 +56,27 @@ OPTION(ways_job, option_rails, "rails", rails, 0, "0|1|2", set_choice, 0,
        "most rails of banks, kicks and caroms (default 2)");
 static OPTION_SET(set_leave) {
   leave *to = field;
-  char copy[128], *rest = NULL;
+  char copy[PLACE_TEXT], spelt[PLACE_TEXT], *rest = NULL;
   value *part[] = {&to->x, &to->y, &to->radius};
   int parts = 0;
   bool good = strlen(text) < sizeof copy;
-  snprintf(copy, sizeof copy, "%s", text);
+  snprintf(copy, sizeof copy, "%s", place_spelt(text, spelt));
   value_of(MEASURE_LENGTH, "0.15", &to->radius);
   for (char *one = strtok_r(copy, ",", &rest); one != NULL && good;
        one = strtok_r(NULL, ",", &rest), parts++)
     good = parts < 3 && value_of(parts == 2 ? MEASURE_LENGTH : MEASURE_PLACE, one, part[parts]);
   to->given = good && parts >= 2 && to->radius.x > 0.0;
   if (!to->given)
-    complain("--%s is X,Y or X,Y,R in m, or with units: 2d,4d,20cm; not '%.60s'", row->name, text);
+    complain("--%s is X,Y or X,Y,R in m, or with units: 2d,4d,20cm, or PLACE or PLACE,R: " PLACES
+             "; not '%.60s'",
+             row->name, text);
   return to->given;
 }
 
-OPTION(ways_job, option_leave, "leave", leave, 0, "X,Y[,R]", set_leave, 0,
-       "the cue ball shall end within R (default 0.15 m) of this place, m, or with units: "
-       "2d,4d,20cm. It counts for the chance, so that of several speeds and tips the one is told "
+OPTION(ways_job, option_leave, "leave", leave, 0, "X,Y[,R]|PLACE[,R]", set_leave, 0,
+       "the cue ball shall end within R (default 0.15 m) of this place, m, or with units, "
+       "2d,4d,20cm, or named as in --cue, foot-spot,20cm. It counts for the chance, so that of "
+       "several speeds and tips the one is told "
        "that brings it there. The cue ball alone is sent there without a pot");
 OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 0,
        "strokes in all directions that are searched for caroms (default 20000), or for points "

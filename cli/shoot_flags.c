@@ -15,18 +15,37 @@
 
 enum { MOST_TEXT = 1024 };
 
+/* In diamonds, as every table has them: corners and middles of the long rails lie at the noses. */
+static const struct {
+  const char *name, *place;
+} places[] = {{"head-spot", "2d,2d"},  {"centre", "2d,4d"},     {"foot-spot", "2d,6d"},
+              {"head-left", "0d,0d"},  {"head-right", "4d,0d"}, {"side-left", "0d,4d"},
+              {"side-right", "4d,4d"}, {"foot-left", "0d,8d"},  {"foot-right", "4d,8d"}};
+
+char *place_spelt(char *text, char to[PLACE_TEXT]) {
+  const size_t size = strcspn(text, ",");
+  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
+    if (strlen(places[k].name) == size && strncmp(text, places[k].name, size) == 0)
+      return snprintf(to, PLACE_TEXT, "%s%s", places[k].place, text + size) < PLACE_TEXT ? to
+                                                                                         : text;
+  return text;
+}
+
 static bool refuse(const option_row *row, const char *text) {
-  char hint[HINT_TEXT] = "", racks[MOST_WORDS] = "";
+  char hint[HINT_TEXT] = "", racks[MOST_WORDS] = "", known[2 * MOST_WORDS];
+  const bool tip = row->least == MEASURE_TIP;
   if (row->words != 0)
     words_of(row->words, true, racks);
+  snprintf(known, sizeof known, "%s", racks);
+  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
+    snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", places[k].name);
   complain("--%s is %s%s%s; not '%.60s'%s", row->name,
-           row->least == MEASURE_TIP
-               ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
+           tip ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
                  "several with colons: 0,0:0.2,0, or a range of either: 0,-0.4..0.4..0.2"
-               : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds; several with colons: "
-                 "0.6,1.5:0.9,2",
+               : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds, or a place: " PLACES
+                 "; several with colons: 0.6,1.5:foot-spot",
            row->words != 0 ? "; or a rack: " : "", racks, text,
-           row->words != 0 ? did_you_mean(text, racks, hint) : hint);
+           tip ? hint : did_you_mean(text, known, hint));
   return false;
 }
 
@@ -90,6 +109,9 @@ static OPTION_SET(set_places) {
        one = strtok_r(NULL, ":", &rest)) {
     char *equals = strchr(one, '='), *numbers = equals != NULL ? equals + 1 : one;
     const size_t name = equals != NULL ? (size_t)(equals - one) : 0;
+    char spelt[PLACE_TEXT];
+    if (row->least == MEASURE_PLACE)
+      numbers = place_spelt(numbers, spelt);
     if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row->words == 0) ||
         strspn(numbers, "+-.,0123456789 eEacdfhimnprtR\"") != strlen(numbers) ||
         strchr(numbers, ',') == NULL)
@@ -134,17 +156,17 @@ const option_row option_table = {
     .words = CAROM_WORDS_TABLE};
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
     "place of the cue ball, m, or with a unit: 2,3ft, or 2,3d in diamonds from the left and the "
-    "head (default: the middle of the table's first "
-    "quarter, or the place in the rack)");
-const option_row option_balls = {
-    .name = "balls",
-    .argument = "X,Y:...",
-    .help = "places of the other balls, with colons between them: 0.6,1.5:0.9,2. They are named 1, "
-            "2, ..., or as 8=0.6,1.5 says. Or a rack",
-    .set = set_places,
-    .field = offsetof(shoot_flags, balls),
-    .least = MEASURE_PLACE,
-    .words = CAROM_WORDS_RACK};
+    "head; or a place: " PLACES ", of which corners and sides lie at the noses (default: "
+    "head-spot, or the place in the rack)");
+const option_row option_balls = {.name = "balls",
+                                 .argument = "X,Y:...",
+                                 .help = "places of the other balls, as in --cue, with colons "
+                                         "between them: 0.6,1.5:foot-spot. They are named 1, "
+                                         "2, ..., or as 8=0.6,1.5 says. Or a rack",
+                                 .set = set_places,
+                                 .field = offsetof(shoot_flags, balls),
+                                 .least = MEASURE_PLACE,
+                                 .words = CAROM_WORDS_RACK};
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
     "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin "
     "turns the ball off it by squirt");

@@ -43,6 +43,16 @@ extern const option_row option_table, option_cue, option_balls, option_aim, opti
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);
 
+/* Places that have a name, as help and complaints list them. */
+#define PLACES                                                                              \
+  "head-spot, centre, foot-spot, head-left, head-right, side-left, side-right, foot-left, " \
+  "foot-right"
+
+/* A text that begins with the name of a place, up to a comma or its end, as X,Y in diamonds; other
+ * texts as they are. `to` has the room. */
+enum { PLACE_TEXT = 128 };
+char *place_spelt(char *text, char to[PLACE_TEXT]);
+
 /* A place, m: `diamond` is the distance of two diamonds. */
 double place_along(const value *v, double diamond);
 
