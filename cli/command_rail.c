@@ -126,8 +126,8 @@ static const char *rebound_text(double angle, const double v[2], char text[64]) 
   return text;
 }
 
-/* What the cloth makes of the spin while the ball slips: the ball rolls with 5/7 of its velocity and
- * 2/7 of that at which its spin would roll. Topspin that the cushion left turns it longer. */
+/* What the cloth makes of the spin while the ball slips: the ball rolls with 5/7 of its velocity
+ * and 2/7 of that at which its spin would roll. Topspin that the cushion left turns it longer. */
 static void tell_cloth(FILE *out, const double v[2], const double d[MOST_DERIVED]) {
   const double along = d[3] - 5.0 / 7.0 * v[0], into = d[4] - 5.0 / 7.0 * v[1];
   const double longer = fabs(d[2]) - fabs(d[1]);
