@@ -11,8 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { NAMES_TEXT = CAROM_BALLS_MOST * (PLACE_NAME + 1) + 128 };
-
 /* The ball other than that of the cue with this name, or -1; their names, with bars between. */
 static int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]) {
   int found = -1;
@@ -77,15 +75,12 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
 
 /* ---- Pockets */
 
-/* The pocket of a name or an id, or -1; their names, with bars between. */
-static int pocket_named(const layout *l, const named_table *t, const char *name,
-                        char names[NAMES_TEXT]) {
+int pocket_named(const carom_table *t, char *const id[], const char *name, char names[NAMES_TEXT]) {
   int found = -1;
-  names[0] = '\0';
-  for (int p = 0; p < l->table.pockets; p++) {
-    const char *own = carom_pocket_name(&l->table, p);
+  for (int p = 0; p < t->pockets; p++) {
+    const char *own = carom_pocket_name(t, p) != NULL ? carom_pocket_name(t, p) : id[p];
     snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", p > 0 ? "|" : "", own);
-    found = strcmp(own, name) == 0 || strcmp(t->pocket[p], name) == 0 ? p : found;
+    found = strcmp(own, name) == 0 || strcmp(id[p], name) == 0 ? p : found;
   }
   return found;
 }
@@ -176,9 +171,9 @@ static void complain_of(const char *pocket, const char *via, const layout *l,
 bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
                    const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]) {
   const char *colon = strchr(pocket, ':'), *name = colon != NULL ? colon + 1 : "";
-  char known[NAMES_TEXT], unused[NAMES_TEXT], by[AIMED_TEXT], hint[HINT_TEXT];
+  char known[NAMES_TEXT] = "", unused[NAMES_TEXT], by[AIMED_TEXT], hint[HINT_TEXT];
   named_table *t = built_in_table(l->table_name);
-  carom_pot pot = {.pocket = pocket_named(l, t, name, known),
+  carom_pot pot = {.pocket = pocket_named(&l->table, t->pocket, name, known),
                    .ball =
                        ball_named(l, pocket, colon != NULL ? (size_t)(colon - pocket) : 0, unused)};
   bool good = false;

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 
 enum { PLACE_NAME = 16, AIMED_TEXT = 400 };
+enum { NAMES_TEXT = CAROM_BALLS_MOST * (PLACE_NAME + 1) + 128 };
 
 /* The balls on the table, the cue ball first. */
 typedef struct layout {
@@ -26,5 +27,8 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
  * a complaint. */
 bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
                    const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]);
+
+/* The pocket of a name or an id, or -1; adds the names to a text, with bars between. */
+int pocket_named(const carom_table *t, char *const id[], const char *name, char names[NAMES_TEXT]);
 
 #endif

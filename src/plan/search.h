@@ -8,14 +8,7 @@
 #include "shot/shot.h"
 
 /* Stages of draws. */
-enum {
-  DRAW_STROKES = 1,
-  DRAW_SCAN,
-  DRAW_PLACES,
-  DRAW_BREAKS = 5,
-  DRAW_ROUND = 16,
-  DRAW_AHEAD = 32
-};
+enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_ROUND = 16 };
 enum { PLACES_PLANNED = 6 }; /* of a cue ball in hand */
 enum { ROWS_LEAST = 4 };     /* rows worth a thread */
 

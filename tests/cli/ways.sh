@@ -10,6 +10,8 @@ carom ways $layout --speed 1.5,2.5 --tip 0,0.2:0,-0.3 --rails 1 --scan 20000 --c
 carom ways --table threecushion --balls threecushion --speed 3.0,5.0 --scan 10000 --json > points.jsonl
 carom ways --table threecushion --balls threecushion --speed 3.0,5.0 --scan 10000 > points.txt
 }
+carom ways $layout --ball 1 --speed 1.5,2.5 --rails 1 -o none --plot figure.svg
+cmp figure.svg "$DATA/../docs/figures/ways.svg" && echo "as in the docs"
 # the cue ball ends where it shall: without errors the chance is 1 or 0
 carom ways --cue 0.6,0.8 --balls 0.3,1.9 --ball 1 --pocket foot-left --rails 0 --scan 0 --leave 2d,4d,20cm --errors 0 --json > leave.jsonl
 carom ways --cue 1d,2d --leave 0.2,0.3,0.2 --rails 1 --errors 0 --scan 8000 --json > place.jsonl
@@ -87,6 +89,7 @@ carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --json > a.jsonl
 carom shoot --cue 0.6,0.9 --balls 0.3,1.9 --json > b.jsonl
 cat a.jsonl b.jsonl > both.jsonl
 try carom ways both.jsonl
+carom ways --table threecushion --balls threecushion --speed 25 --scan 3000 2>&1 > none
 try carom ways --cue 0.6,0.8 --leave 3
 try carom shoot --cue 0.6,0.8 --tip 0,-0.4..0.4..0
 try carom ways --cue 0.6,0.8 a.jsonl

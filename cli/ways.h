@@ -1,0 +1,58 @@
+/* The ways to pot a ball of a layout, to score in three-cushion, or to bring the cue ball to a
+ * place. See ways.c. */
+#ifndef CAROM_CLI_WAYS_H
+#define CAROM_CLI_WAYS_H
+
+#include "carom_plan.h"
+#include "shot_file.h"
+
+enum { MOST_WAYS = 2000, MOST_PARTS = 12 };
+
+typedef enum way_kind { DIRECT, BANK, KICK, COMBINATION, CAROM, POINT, PLACE } way_kind;
+
+extern const char *const way_names[]; /* by kind */
+
+/* A way: the rails and balls that are met in their order, and its best stroke. NAN: not known. */
+typedef struct way {
+  way_kind kind;
+  int ball, pocket; /* -1 of a point and a place */
+  int parts;
+  carom_part part[MOST_PARTS];
+  carom_cue cue;
+  double cut, margin, phi[2], speed[2]; /* as in carom_pot */
+  double chance, error;                 /* of a player, and its standard error */
+  int64_t found;                        /* of the strokes in all directions */
+  /* of these: its run of neighbouring directions, and the longest one with its middle */
+  int64_t last, run, longest;
+  double middle;
+  int stroke;
+} way;
+
+/* What is searched, and what was found. */
+typedef struct ways_search {
+  const shot_line *line;
+  carom_shot_options options;
+  carom_player player;
+  const carom_cue *stroke; /* each is tried in all directions */
+  int strokes;
+  way_kind counted; /* what strokes in all directions are read for: CAROM, POINT or PLACE */
+  int ball, pocket; /* of pots; -1: any */
+  int rails;        /* at most, of banks, kicks, caroms and places */
+  int scan;  /* strokes in all directions, of all strokes together; less than strokes: none */
+  bool each; /* whether a pot is a way of its own by each stroke */
+
+  /* the cue ball shall end within `radius`, m, of a place, where it is above 0 */
+  double place[2], radius;
+
+  way *way; /* with room for MOST_WAYS */
+  int ways;
+  int64_t scanned, good;
+  int64_t left_out; /* good strokes for which there was no room */
+} ways_search;
+
+bool is_out_of_play(const shot_line *line, int ball);
+
+/* Finds the ways, those of pots first; false after a complaint. */
+bool ways_find(ways_search *s);
+
+#endif
