@@ -241,7 +241,13 @@ typedef struct carom_plan_options {
   int64_t slice;                /* shots, about, after which carom_plan() and carom_plan_hand()
                                    return with *found 0, for carom_plan_continue(). 0: they
                                    return at the end. Not read by carom_plan_try(). */
-  uint64_t reserved[3];         /* must be 0. */
+  double unsure;                /* how little the player knows of the table, 0 to 1. Above 0 its
+                                   restitution and friction of cushions, rolling resistance and
+                                   sliding friction are drawn with the errors of strokes, times
+                                   exp(unsure s z), z normal; s is 0.12, 0.17, 0.29 and 0.26, so
+                                   that 1 stands for all tables that there are. One of 32 tables
+                                   for a stroke, the same for all strokes that are compared. */
+  uint64_t reserved[2];         /* must be 0. */
 } carom_plan_options;
 
 /* What a choice is, by what happens. */
@@ -301,8 +307,8 @@ typedef struct carom_plan_job {
   uint64_t reserved[4];              /* must be 0. */
 } carom_plan_job;
 
-/* The bytes that a plan with these options needs; some 320,000 for the defaults. NULL: the
- * defaults. 0 for bad options. */
+/* The bytes that a plan with these options needs; some 320,000 for the defaults, and 450,000 more
+ * where `unsure` is above 0. NULL: the defaults. 0 for bad options. */
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
 /* The best shots of a layout, best first: up to `room` of them to choices[], the best of each ball,

@@ -13,13 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BINS = 10, STROKES_MOST = 200 };
+enum { BINS = 10, STROKES_MOST = 200, KINDS = CAROM_PLAN_SAFETY + 1 };
 
 typedef struct strength_job {
   shared_options shared;
   int rules, racks, shots, seed, left;
   bool games;
-  double errors;
+  double errors, unsure;
 } strength_job;
 
 OPTION(strength_job, option_rules, "rules", rules, 0, "eightball|nineball", set_choice, 0,
@@ -33,34 +33,47 @@ OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100,
        "shots of a plan (default 2000)");
 OPTION(strength_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
        "scale of the player's errors (default 1)");
+OPTION(strength_job, option_unsure, "unsure", unsure, 0, "SHARE", set_amount, 0,
+       "how little the player knows of the table, 0 to 1 (default 0)");
 OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0,
        "seed of racks, plans and strokes (default 0)");
 
 OPTION(strength_job, option_left, "left", left, 0, "N", set_count, 1,
        "end games: N balls of the player, one more of the other, and the eight, at random places");
 
-/* A row of the comparison of chances. */
+/* A row of the comparison of chances. `off` is what came of the strokes of one rack less what was
+ * predicted of them. They are not independent, so the variance adds up off^2 rack by rack. */
 typedef struct bin {
-  double predicted, variance;
+  double predicted, variance, off;
   long shots, kept;
 } bin;
 
 typedef struct tally {
   long racks, wins, strokes, pots, plans, fouls;
   double seconds;
-  bin bins[BINS], games[BINS];
+  bin bins[BINS], games[BINS], kinds[KINDS];
   double *odds; /* of the values of all strokes, logarithms, */
   bool *won;    /* and whether that player won */
   size_t values, odds_room, won_room;
 } tally;
 
-/* Puts a chance beside what came; `more`: its variance as a share of that of one stroke. */
-static void count(bin bins[BINS], double chance, double more, bool came) {
-  bin *b = &bins[chance < 1.0 ? (int)(BINS * chance) : BINS - 1];
+static int bin_of(double chance) {
+  return chance < 1.0 ? (int)(BINS * chance) : BINS - 1;
+}
+
+/* Puts a chance beside what came. */
+static void count(bin *b, double chance, bool came) {
   b->predicted += chance;
-  b->variance += chance * (1.0 - chance) * (1.0 + more);
+  b->off += (double)came - chance;
   b->shots++;
   b->kept += came;
+}
+
+static void end_rack(bin *bins, int count) {
+  for (int k = 0; k < count; k++) {
+    bins[k].variance += bins[k].off * bins[k].off;
+    bins[k].off = 0.0;
+  }
 }
 
 /* One rack: strokes until the turn is not kept, or until the game is won. */
@@ -84,7 +97,8 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
 
     /* what was predicted beside what came */
     const bool kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
-    count(to->bins, best.keep, 1.0 / (double)(best.seen > 0 ? best.seen : 1), kept);
+    count(&to->bins[bin_of(best.keep)], best.keep, kept);
+    count(&to->kinds[best.kind], best.keep, kept);
     by[n] = who;
     value[n++] = best.value;
     to->strokes++;
@@ -95,22 +109,28 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
   to->wins += winner == 0;
   for (int k = 0; k < n && winner >= 0; k++) {
     const double v = fmin(fmax(value[k], 1e-6), 1.0 - 1e-6);
-    count(to->games, value[k], 0.0, by[k] == winner);
+    count(&to->games[bin_of(value[k])], value[k], by[k] == winner);
     to->odds = grow(to->odds, &to->odds_room, to->values + 1, sizeof *to->odds);
     to->won = grow(to->won, &to->won_room, to->values + 1, sizeof *to->won);
     to->odds[to->values] = log(v / (1.0 - v));
     to->won[to->values++] = by[k] == winner;
   }
+  end_rack(to->bins, BINS);
+  end_rack(to->games, BINS);
+  end_rack(to->kinds, KINDS);
 }
 
-static void tell_bins(const bin bins[BINS], const char *came) {
-  printf("predicted,strokes,%s,standard_errors\n", came);
-  for (int k = 0; k < BINS; k++) {
+static void tell_bins(const bin *bins, int count, const char *const names[], const char *came) {
+  printf("%spredicted,strokes,%s,standard_error\n", names != NULL ? "kind," : "", came);
+  for (int k = 0; k < count; k++) {
     const bin *b = &bins[k];
-    if (b->shots > 0)
-      printf("%.3f,%ld,%.3f,%.1f\n", b->predicted / (double)b->shots, b->shots,
-             (double)b->kept / (double)b->shots,
-             ((double)b->kept - b->predicted) / sqrt(b->variance + 0.25));
+    const double n = (double)b->shots;
+    if (b->shots == 0)
+      continue;
+    if (names != NULL)
+      printf("%s,", names[k]);
+    printf("%.3f,%ld,%.3f,%.3f\n", b->predicted / n, b->shots, (double)b->kept / n,
+           sqrt(b->variance) / n);
   }
 }
 
@@ -131,6 +151,10 @@ static double stretch_of(const tally *t) {
 }
 
 static void report(const tally *t, const strength_job *job) {
+  /* as carom_plan_kind has them */
+  static const char *const kinds[KINDS] = {"pot",  "several ways", "foul",  "given",
+                                           "push", "pass",         "break", "bank",
+                                           "kick", "combination",  "carom", "safety"};
   /* Wilson's interval, 95 % */
   const double n = (double)t->racks, p = (double)t->wins / n, z = 1.96;
   const double wide = 1.0 + z * z / n, middle = (p + z * z / (2.0 * n)) / wide;
@@ -140,10 +164,11 @@ static void report(const tally *t, const strength_job *job) {
          job->shots, job->errors, job->games ? "won by the first" : "run out", t->wins, t->racks,
          100.0 * p, 100.0 * (middle - half), 100.0 * (middle + half),
          (double)t->pots / (double)t->strokes, 1e3 * t->seconds / (double)t->plans);
-  tell_bins(t->bins, "kept");
+  tell_bins(t->bins, BINS, NULL, "kept");
+  tell_bins(t->kinds, KINDS, kinds, "kept");
   if (job->games) {
     printf("planned to foul: %ld of %ld strokes\n", t->fouls, t->strokes);
-    tell_bins(t->games, "won");
+    tell_bins(t->games, BINS, NULL, "won");
     printf("log-odds to be stretched by %.2f\n", stretch_of(t));
   }
 }
@@ -157,7 +182,7 @@ static const command_form form = {
              "to the end, and chances to win stand beside how often they were won.\n",
     .options = (const option_row *const[]){&option_rules, &option_games, &option_left,
                                            &option_racks, &option_shots, &option_errors,
-                                           &option_seed, &option_threads, NULL},
+                                           &option_unsure, &option_seed, &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
     .example = "carom-lab plan --racks 100 --shots 1000",
     .files = NO_FILES,
@@ -177,14 +202,15 @@ int command_plan(int argc, char **argv) {
   const carom_player player = carom_player_of(job.errors);
   const carom_shot_options shot = {.space = CAROM_SPACE_FLAT};
   static lab_rack rack;
-  rack.options = (carom_plan_options){.shots = job.shots, .threads = job.shared.options.threads};
+  rack.options = (carom_plan_options){
+      .shots = job.shots, .threads = job.shared.options.threads, .unsure = job.unsure};
   rack.plan = (carom_plan_job){.table = &table,
                                .cue = &cue,
                                .player = &player,
                                .shot = &shot,
                                .memory_size = carom_plan_memory(&rack.options)};
   if (rack.plan.memory_size == 0) {
-    complain("--shots: it must be 100 to 1000000");
+    complain("--shots: it must be 100 to 1000000; --unsure: 0 to 1");
     return EXIT_USAGE;
   }
   rack.plan.memory = allocate(1, rack.plan.memory_size);

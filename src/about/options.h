@@ -104,7 +104,11 @@
   OPTION(chance_me, "", NUMBER(""), 0, 1, OPTIONS,                                               \
          "chance of each later pot of a visit, of the player; 0: by the layout")                 \
   OPTION(chance_opponent, "", NUMBER(""), 0, 1, OPTIONS,                                         \
-         "chance of each later pot of a visit, of the opponent; 0: by the layout")
+         "chance of each later pot of a visit, of the opponent; 0: by the layout")               \
+  OPTION(                                                                                        \
+      unsure, "unsure", NUMBER(""), 0, 1, OPTIONS,                                               \
+      "how little the player knows of the table; 0: he knows it; 1: as little as of any table. " \
+      "Its cushions and cloth are drawn, as his errors are")
 
 /* Whether the value x of an option is right. */
 #define CAROM_IN_FLAG(x, low, high) ((uint32_t)(x) <= (uint32_t)(high))

@@ -56,10 +56,12 @@ int32_t carom_search_kind(search *of, const carom_candidate *c, const carom_choi
   for (int64_t n = 0; n < TRIES; n++) {
     carom_facts facts;
     carom_shot shot = {.brief = of->event, .room = EVENTS, .facts = &facts};
-    carom_cue cue = carom_search_stroke(of, c, n == 0 ? 0 : DRAW_ROUND, n);
+    const uint32_t draws = n == 0 ? 0 : DRAW_ROUND;
+    carom_cue cue = carom_search_stroke(of, c, draws, n);
+    carom_layout layout;
+    const carom_table *table = carom_search_table(of, draws, n, &layout);
     cue.ball = of->cue_ball;
-    carom_shoot_prepared(of->job.table, &of->features, carom_layout_of(of->played), of->plays, &cue,
-                         &of->shot, &shot);
+    carom_shoot_prepared(table, &of->features, layout, of->plays, &cue, &of->shot, &shot);
     const int kind = of->view.pockets > 0
                          ? way_of(of->job.table, &shot, of->cue_ball, ball, choice->pocket)
                      : facts.first[0] != ball || facts.first[1] < 0 ? -1

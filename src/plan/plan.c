@@ -70,15 +70,16 @@ static int64_t most_rows(int64_t shots, double scan) {
   return shots + most_candidates(shots, scan);
 }
 
-static size_t bytes_of(int64_t shots, double scan) {
+static size_t bytes_of(int64_t shots, double scan, bool unsure) {
   const size_t rows = (size_t)most_rows(shots, scan);
   return sizeof(plan) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
-         rows * sizeof(outcome);
+         rows * sizeof(outcome) + (unsure ? TABLES * sizeof(carom_drawn_table) : 0);
 }
 
 size_t carom_plan_memory(const carom_plan_options *options) {
   const carom_plan_options *o = options != NULL ? options : &no_options;
-  return check_options(o) == CAROM_OK ? bytes_of(shots_of(o), carom_scan_of(o)) : 0;
+  return check_options(o) == CAROM_OK ? bytes_of(shots_of(o), carom_scan_of(o), o->unsure > 0.0)
+                                      : 0;
 }
 
 /* Where a plan is in the caller's memory; NULL where there is too little of it, or nothing to
@@ -182,12 +183,13 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   if (!is_at_rest(of, job->balls, in_hand ? (int)job->cue->ball : -1))
     return CAROM_ERROR_IN_MOTION;
 
-  /* Candidates and outcomes stand behind the plan in the caller's memory. */
+  /* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
   of->count = 0;
   of->most = most_candidates(shots_of(options), carom_scan_of(options));
   of->room = most_rows(shots_of(options), carom_scan_of(options));
   of->found = (candidate *)(of + 1);
   of->outcome = (outcome *)(of->found + of->most);
+  of->drawn = NULL;
 
   /* The layout by the rules. */
   carom_view_make(&of->view, &of->job, options);
@@ -224,6 +226,14 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   of->ended = false;
   of->slice = INT64_MAX;
   return CAROM_OK;
+}
+
+/* Begins a plan that plays shots, in its memory. */
+static carom_status begin_to_play(plan *of, const carom_plan_job *job, bool in_hand) {
+  const carom_status bad = begin(of, job, in_hand);
+  if (bad == CAROM_OK && of->options.unsure > 0.0)
+    carom_search_tables(of, (carom_drawn_table *)(of->outcome + of->room));
+  return bad;
 }
 
 /* ---- What callers have */
@@ -361,7 +371,7 @@ carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int ro
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   plan *of = place(job);
-  const carom_status bad = of == NULL ? CAROM_ERROR_NULL : begin(of, job, false);
+  const carom_status bad = of == NULL ? CAROM_ERROR_NULL : begin_to_play(of, job, false);
   if (bad != CAROM_OK)
     return bad;
   of->of = fingerprint_of(job);
@@ -387,7 +397,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   plan *of = place(job);
-  const carom_status bad = of == NULL ? CAROM_ERROR_NULL : begin(of, job, true);
+  const carom_status bad = of == NULL ? CAROM_ERROR_NULL : begin_to_play(of, job, true);
   if (bad != CAROM_OK)
     return bad;
 
@@ -457,7 +467,7 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
   plan *of = place(job);
   const carom_status bad = of == NULL          ? CAROM_ERROR_NULL
                            : n < 0 || n > MOST ? CAROM_ERROR_OPTIONS
-                                               : begin(of, job, false);
+                                               : begin_to_play(of, job, false);
   if (bad != CAROM_OK)
     return bad;
   for (int k = 0; k < n; k++) {

@@ -165,9 +165,10 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const candidate *c = &of->found[s->first + row / s->each];
     carom_cue cue = carom_search_stroke(of, c, s->draws, row % s->each);
     cue.ball = of->cue_ball;
-    const carom_status status =
-        carom_shoot_prepared(of->job.table, &of->features, carom_layout_of(of->played), of->plays,
-                             &cue, &of->shot, &shot); /* in error it is a foul */
+    carom_layout layout;
+    const carom_table *table = carom_search_table(of, s->draws, row % s->each, &layout);
+    const carom_status status = carom_shoot_prepared(table, &of->features, layout, of->plays, &cue,
+                                                     &of->shot, &shot); /* in error it is a foul */
     if (of->plays < of->view.count)
       spread(of, &what);
     const int met = status < 0 ? -1 : what.facts.first[0];

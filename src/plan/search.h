@@ -8,7 +8,7 @@
 #include "shot/shot.h"
 
 /* Stages of draws. */
-enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_ROUND = 16 };
+enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_TABLES, DRAW_ROUND = 16 };
 enum { PLACES_PLANNED = 6 }; /* of a cue ball in hand */
 enum { ROWS_LEAST = 4 };     /* rows worth a thread */
 
@@ -64,6 +64,14 @@ typedef struct carom_place_in_hand {
   double r[2], value;
 } carom_place_in_hand;
 
+/* A table as it may be, where the player does not know it; the kinds are those of the balls in
+ * play. */
+enum { TABLES = 32 };
+typedef struct carom_drawn_table {
+  carom_table table;
+  carom_ball_kind kind[CAROM_BALLS_MOST];
+} carom_drawn_table;
+
 /* All of a plan. It is in the caller's memory, since shots need most of a small stack. */
 typedef struct carom_search {
   carom_crew *crew;   /* the threads that play its shots */
@@ -80,6 +88,7 @@ typedef struct carom_search {
   int32_t left;                             /* balls before the shot */
   carom_candidate *found;                   /* all candidates, the best first after a round */
   carom_outcome *outcome;                   /* of the rows of a stage */
+  carom_drawn_table *drawn;                 /* TABLES of them; NULL: the table is known */
   int64_t count, most;                      /* of candidates */
   int64_t room;                             /* of outcomes */
   carom_ball_state state[CAROM_BALLS_MOST]; /* of the layout */
@@ -128,6 +137,11 @@ bool carom_search_play(carom_search *of);
 /* The stroke of a candidate, with the errors of a row; draws 0: without errors. */
 carom_cue carom_search_stroke(const carom_search *of, const carom_candidate *c, uint32_t draws,
                               int64_t row);
+/* unsure.c: draws the tables, into the caller's memory. */
+void carom_search_tables(carom_search *of, carom_drawn_table *room);
+/* The table of a row, and the layout of the balls in play on it. */
+const carom_table *carom_search_table(const carom_search *of, uint32_t draws, int64_t row,
+                                      carom_layout *layout);
 /* Whether a stroke of the scan met a ball first that is on. */
 bool carom_search_begins_well(const carom_search *of, int first);
 /* What a foul that is worth `worth` counts. Values of layouts are right to some hundredths, and a

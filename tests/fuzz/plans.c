@@ -73,6 +73,7 @@ static void make_inputs(void) {
   options.scan = choice(3) == 0 ? number(-0.5, 0.9) : 0;
   options.chance_me = choice(4) == 0 ? number(0, 1) : 0;
   options.chance_opponent = choice(4) == 0 ? number(0, 1) : 0;
+  options.unsure = choice(3) == 0 ? number(0, 1) : 0;
   static const volatile int32_t at_once = 1;
   options.stop = choice(8) == 0 ? &at_once : NULL;
   RESERVE(options);

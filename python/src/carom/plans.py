@@ -198,7 +198,7 @@ class _Job:
 
     def __init__(
         self, table: Table, balls: dtypes.Records, cue: dtypes.Records | None, game: Made, own: dtypes.Records | None, opponent: dtypes.Records | None,
-        shots: int, seed: int, threads: int, stop: threading.Event | None, options: Options,
+        shots: int, seed: int, threads: int, unsure: float, stop: threading.Event | None, options: Options,
     ) -> None:  # fmt: skip
         check_table(table)
         self.layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
@@ -212,6 +212,9 @@ class _Job:
             raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
         wanted = ffi.new("carom_plan_options *", {"shots": whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
         wanted.threads = whole(threads, "threads", least=-1)
+        wanted.unsure = number(unsure, "unsure")
+        if not 0.0 <= wanted.unsure <= 1.0:
+            raise ValueError(f"unsure: it must be 0 to 1, not {unsure}")
         other = None if opponent is None else _one_player(opponent, "opponent")
         wanted.opponent = ffi.NULL if other is None else other
         wanted.stop = game.stop
@@ -251,6 +254,7 @@ def plan(
     best: int = 5,
     seed: int = 0,
     threads: int = 0,
+    unsure: float = 0.0,
     stop: threading.Event | None = None,
     options: Options = _USUAL,
     **changes: Unpack[Changes],
@@ -289,6 +293,9 @@ def plan(
         Of the errors of strokes.
     threads : int
         Most threads to use; 0 is one alone, -1 all processors. No bit depends on it.
+    unsure : float
+        How little the player knows of the table, 0 to 1. Above 0 restitution and friction of its cushions, rolling resistance and sliding
+        friction are drawn with the errors of strokes; 1 stands for all tables that there are.
     stop : threading.Event, optional
         Ends the plan early when another thread, or a handler of a signal, sets it: the plan then has one choice, the best so far. Without a
         handler of yours Ctrl-C ends the plan, too, and raises KeyboardInterrupt.
@@ -309,7 +316,7 @@ def plan(
     in_hand = False if isinstance(in_hand, str) and in_hand == "no" else in_hand
     corners = None if in_hand is False else _corners(in_hand, table)
     game = Made(rules, state, group, opening)
-    job = _Job(table, balls, cue, game, player, opponent, shots, seed, threads, stop, chosen(options, changes))
+    job = _Job(table, balls, cue, game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes))
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
     rows = pointer("carom_choice[]", choices)
@@ -324,7 +331,7 @@ def plan(
 def chances(
     table: Table, balls: dtypes.Records, cues: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
     state: npt.ArrayLike | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, shots: int = 2000, seed: int = 0,
-    threads: int = 0, stop: threading.Event | None = None, options: Options = _USUAL, **changes: Unpack[Changes],
+    threads: int = 0, unsure: float = 0.0, stop: threading.Event | None = None, options: Options = _USUAL, **changes: Unpack[Changes],
 ) -> dtypes.Records:  # fmt: skip
     """How likely strokes of yours are to win: the chances of each, played with a player's errors.
 
@@ -334,7 +341,7 @@ def chances(
         As for `plan`.
     cues : ndarray of `carom.dtypes.cue`, of any shape
         Up to 1,000 strokes. Speed, direction, elevation and tip of each count; the rest is that of the first.
-    rules, group, opening, state, player, opponent, seed, threads, options, **changes
+    rules, group, opening, state, player, opponent, seed, threads, unsure, options, **changes
         As for `plan`.
     shots : int
         100 to 1,000,000, of which each stroke has an equal share, at least 10.
@@ -355,7 +362,7 @@ def chances(
     if not 1 <= strokes.size <= 1000:
         raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
     game = Made(rules, state, group, opening)
-    job = _Job(table, balls, strokes.reshape(-1)[0], game, player, opponent, shots, seed, threads, stop, chosen(options, changes))
+    job = _Job(table, balls, strokes.reshape(-1)[0], game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes))
     choices: Array = np.zeros(strokes.shape, dtypes.choice)
     job.call(lib.carom_plan_try, pointer("carom_cue[]", strokes), strokes.size, pointer("carom_choice[]", choices), field="cues")
     return choices
@@ -376,7 +383,7 @@ def value(
     CaromError
         The layout or an option is in error.
     """
-    job = _Job(table, balls, None, Made(rules, state, group, opening), player, opponent, 100, 0, 0, None, chosen(options, changes))
+    job = _Job(table, balls, None, Made(rules, state, group, opening), player, opponent, 100, 0, 0, 0.0, None, chosen(options, changes))
     found = ffi.new("double *")
     job.call(lib.carom_plan_value, bool(in_hand), found)
     return float(found[0])
