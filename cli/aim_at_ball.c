@@ -138,7 +138,7 @@ aim_result aim_at(const carom_table *table, const carom_shot_ball *balls, int co
   t.options = (carom_shot_options){.world = options->world,
                                    .space = options->space,
                                    .events_most = MOST_EVENTS,
-                                   .plain = options->plain};
+                                   .fast = options->fast};
   /* The path on an endless cloth, for phi = 0. */
   path p = {.ball = *own,
             .touch = own->kind.radius + other->kind.radius,

@@ -115,8 +115,8 @@ static const command_form record_form = {
     .name = "record",
     .usage = "[OPTIONS] IN.jsonl",
     .about = "Plays the shots of a file as `carom shoot` does and writes a recording: the table, "
-             "the balls, each stroke, and a hash of the bits in which its shot ended. The bits are "
-             "those of plain C, which all machines share. IN may be -.\n",
+             "the balls, each stroke, and a hash of the bits in which its shot ended. IN may "
+             "be -.\n",
     .options =
         (const option_row *const[]){&options_of_motion, &option_events, &option_output, NULL},
     .details = "exit code: 0 if all shots were recorded and came to rest; 1 if some have errors, "
@@ -139,7 +139,6 @@ int command_record(int argc, char **argv) {
   if (out != NULL) {
     player *p = allocate(1, sizeof *p);
     p->game.options = job.shared.shot;
-    p->game.options.plain = 1;
     put(out, &p->game, CAROM_RECORD_HEAD);
     put(out, &p->game, CAROM_RECORD_OPTIONS);
     shot_line line;

@@ -3,7 +3,7 @@
  * The core of a game, without pictures: the state between shots, and the record. The rules and
  * both players are those of carom_plan.h: a plan finds the stroke, and the player errs by his
  * rating. A record is the seed of the rack and a few doubles a shot: where the cue ball was put,
- * the cue, and the call. Played again with options.plain it gives the same bits on every machine
+ * the cue, and the call. Played again it gives the same bits on every machine
  * that has the same carom_physics_revision(). So two machines that send each other these doubles
  * play in lockstep; it is the doubles that count, not what is printed of them. */
 #include "carom_plan.h"
@@ -31,8 +31,7 @@ typedef struct move {
   carom_call call;
 } move;
 
-/* plain: the same bits on every machine. */
-static const carom_shot_options options = {.plain = 1};
+static const carom_shot_options options;
 
 static void begin(game *g, uint64_t seed) {
   memset(g, 0, sizeof *g);

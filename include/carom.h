@@ -57,10 +57,10 @@
  *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours
  *     and thread count.
  *   - Two runs on one processor with one instruction set.
- *   - All machines and compilers with options.plain = 1, with the environment variable
- *     CAROM_ISA=plain, or after carom_isa_limit(CAROM_ISA_PLAIN): for lockstep, replays and
- *     tests. This holds for every function, also under flags such as -mfma, -march=native and
- *     LTO.
+ *   - All machines and compilers: shots, unless options.fast is set; other calls with
+ *     options.plain = 1, with the environment variable CAROM_ISA=plain, or after
+ *     carom_isa_limit(CAROM_ISA_PLAIN): for lockstep, replays and tests. This holds for every
+ *     function, also under flags such as -mfma, -march=native and LTO.
  *     tests/platforms/bits.expected has hashes on which gcc and clang, Linux on x86-64 and
  *     arm64, Windows and WebAssembly agree.
  *   - All instruction sets, by Euler's method in double precision.
@@ -274,7 +274,7 @@ typedef enum carom_status {
   CAROM_ERROR_TIME_MOST = -96,          /* options.time_most is negative, not finite, or before the
                                        time of a shot that goes on. */
   CAROM_ERROR_STOP_AT = -97,            /* options.stop_at has a bit that stands for no event. */
-  CAROM_ERROR_PLAIN = -98,              /* options.plain is neither 0 nor 1. */
+  CAROM_ERROR_PLAIN = -98,              /* options.plain or fast is neither 0 nor 1. */
   CAROM_ERROR_SIMULTANEOUS = -99,       /* options.simultaneous is not one of carom_simultaneous. */
   CAROM_ERROR_CLUSTER_STEPS = -100,     /* options.cluster_steps is not 0 to 10000. */
   CAROM_ERROR_RECORD = -101,            /* carom_record.h: a recording is wrong; record.fault says
@@ -416,7 +416,8 @@ CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_
  * highest that the processor has is used. Results differ within the solver's errors from one to
  * another. The environment variable CAROM_ISA, set to one of the names ("plain", "sse2", "neon",
  * "avx2", "avx512") before the first call, limits it for the whole process; other values are
- * ignored. A single call computes with plain where options.plain is 1. */
+ * ignored. A single call computes with plain where options.plain is 1, a shot unless
+ * carom_shot_options.fast is 1. */
 typedef enum carom_isa {
   CAROM_ISA_ANY = -1, /* no limit: for carom_isa_limit(). */
   CAROM_ISA_PLAIN = 0,

@@ -299,7 +299,7 @@ typedef struct carom_plan_job {
                                    read. */
   const carom_player *player;
   const carom_plan_rules *rules;
-  const carom_shot_options *shot;    /* models, space, plain; NULL: the defaults. threads and
+  const carom_shot_options *shot;    /* models, space, fast; NULL: the defaults. threads and
                                         when to stop are not read. */
   const carom_plan_options *options; /* NULL: the defaults. */
   void *memory;                      /* room for the plan, aligned as by malloc(), */
@@ -319,7 +319,7 @@ CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
  * CAROM_ERROR_IN_MOTION for a ball that is not at rest; CAROM_ERROR_GAME_OVER where on() names
  * no ball that is in play; or an error of the layout, as carom_shot_check() has it. With an
  * error nothing is written. The choice depends on the arguments alone, also for any number of
- * threads; with shot->plain it is the same on all machines. */
+ * threads; unless shot->fast is set it is the same on all machines. */
 CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room,
                                   int *found);
 

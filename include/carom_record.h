@@ -70,7 +70,7 @@ typedef struct carom_record {
                                               carom_shot_at(); */
   carom_ball_state final[CAROM_BALLS_MOST]; /* and at its end. */
   carom_table table;
-  carom_shot_options options; /* plain and threads are not read. When to stop counts for the next
+  carom_shot_options options; /* fast and threads are not read. When to stop counts for the next
                                  shot or continuation only. */
   carom_cue cue;
   int64_t placed;            /* the last ball in hand, */
@@ -97,10 +97,10 @@ typedef struct carom_record {
 CAROM_API carom_status carom_record_read(carom_record *record, const char *line, size_t size);
 
 /* Plays the shot of record->cue, or with CAROM_RECORD_CONTINUE goes on with one that was stopped,
- * with the bits of options.plain. The balls begin where the shot before left them. `shot` may be
- * NULL; else events, brief and room in it are the caller's, and the rest is set. Returns the status
- * of carom_shoot(), or CAROM_ERROR_NULL or CAROM_ERROR_RECORD where there is nothing to play.
- * record->played says how it ended; after a line that was read it is to be compared with
+ * with the bits that all machines share. The balls begin where the shot before left them. `shot`
+ * may be NULL; else events, brief and room in it are the caller's, and the rest is set. Returns
+ * the status of carom_shoot(), or CAROM_ERROR_NULL or CAROM_ERROR_RECORD where there is nothing to
+ * play. record->played says how it ended; after a line that was read it is to be compared with
  * record->recorded. A shot with a wrong argument changes nothing. */
 CAROM_API carom_status carom_record_play(carom_record *record, carom_record_kind kind,
                                          carom_shot *shot);

@@ -221,12 +221,13 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
  * and the cloth at z = 0: a ball on it has its centre at z = R. docs/using/shots.md describes
  * the models, the rules and the bounds.
  *
- * Bits: those of a batch are those of single calls, for any number of threads and any cut; with
- * options.plain or CAROM_ISA=plain they are the same on every machine, by every model and in
- * both worlds. Cost: about 0.4 us an event with Han's cushions, the default, so 3 us for a shot
- * with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs some 7 to
- * 10 us an impact besides. Stack: 52 KiB; a batch 58, with threads 60. Nothing is allocated, but
- * for the threads of a batch. */
+ * Bits: they are the same on every machine, by every model and in both worlds, unless
+ * options.fast asks for the instruction set in use; those of a batch are those of single calls,
+ * for any number of threads and any cut. Cost: about 0.4 us an event with Han's cushions, the
+ * default, so 3 us for a shot with two balls and 40 us for a nine-ball break, of which
+ * options.fast saves 1 to 2 %. The exact limit of a cushion costs some 7 to 10 us an impact
+ * besides, of which options.fast saves two fifths. Stack: 52 KiB; a batch 58, with threads 60.
+ * Nothing is allocated, but for the threads of a batch. */
 
 /* ---- Balls ----------------------------------------------------------------------------------- */
 
@@ -609,8 +610,8 @@ typedef struct carom_shot_options {
   uint64_t stop_at; /* the shot is stopped right after an event of this set, or its cluster, with
                        CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)   of each carom_event_type,
                        CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
-  int32_t plain;    /* 1: with CAROM_ISA_PLAIN, as in carom_options: a shot with the bits that
-                       all machines share. 0: with the instruction set in use. */
+  int32_t fast;     /* 0: with the bits that all machines share (CAROM_ISA_PLAIN). 1: with the
+                       instruction set in use. */
   carom_simultaneous simultaneous;
   int32_t cluster_steps; /* of the integrator of clusters, for the duration of a contact, at most
                             10000; 0: 25. */

@@ -151,7 +151,7 @@
     "options.time_most must be 0 or more, finite, and not before the time of a shot that goes on") \
   X(ERROR_STOP_AT, -97, "bad_stop_at",                                                             \
     "options.stop_at must be a set of CAROM_STOP_AT() and CAROM_STOP_AT_CONTACT")                  \
-  X(ERROR_PLAIN, -98, "bad_plain", "options.plain must be 0 or 1")                                 \
+  X(ERROR_PLAIN, -98, "bad_plain", "options.plain and options.fast must be 0 or 1")                \
   X(ERROR_SIMULTANEOUS, -99, "bad_simultaneous",                                                   \
     "options.simultaneous must be one of carom_simultaneous")                                      \
   X(ERROR_CLUSTER_STEPS, -100, "bad_cluster_steps",                                                \
@@ -181,7 +181,7 @@ int carom_version_number(void) {
 /* Raised by the commit that changes the bits of any result; tests/platforms/revision says when
  * that is. */
 int carom_physics_revision(void) {
-  return 11;
+  return 12;
 }
 
 int carom_serves(int header) {

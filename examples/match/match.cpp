@@ -29,10 +29,8 @@ struct match {
   std::uint32_t put = 0; /* balls that may be put elsewhere: the cue ball in hand, spotted ones */
   carom::shot shown;     /* the last one, for the film */
   int frames = 0;
-  carom_shot_options plain{}; /* the same bits on all machines */
 
   match() {
-    plain.plain = 1;
     rules.user[1] = 1; /* before the break */
   }
   void begin() {
@@ -76,7 +74,7 @@ struct match {
     put = turn.spot | std::uint32_t{turn.leave != CAROM_LEAVE_AFTER};
     if (turn.is == CAROM_TURN_PASS || turn.is == CAROM_TURN_LOSE)
       player = 1 - player; /* who is at the table at the end has won */
-    shown.play(of.table, {of.balls, static_cast<std::size_t>(of.count)}, of.cue, plain);
+    shown.play(of.table, {of.balls, static_cast<std::size_t>(of.count)}, of.cue);
     return turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE;
   }
 
@@ -87,7 +85,6 @@ struct match {
     wanted.shots = 300;
     carom_plan_job job = carom::job(of.table, record.layout(), cue, rating[player], rules);
     job.options = &wanted;
-    job.shot = &plain;
     carom::film film;
     carom::thinking mind(job, 50, 1, put == 1);
     for (; !mind.ended(); frames++) {

@@ -91,7 +91,7 @@ static void play(const learn_job *job, int number, visit *to) {
   carom_table_make(CAROM_TABLE_POOLTOOL, &table);
   const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
   const carom_player player = carom_player_of(errors[(int)lab_uniform(&draw, 0.0, PLAYERS)]);
-  const carom_shot_options shot = {.space = CAROM_SPACE_FLAT, .plain = 1};
+  const carom_shot_options shot = {.space = CAROM_SPACE_FLAT};
   lab_rack rack = {.options = {.shots = job->shots}};
   rack.plan = (carom_plan_job){.table = &table,
                                .cue = &cue,

@@ -487,7 +487,7 @@ static break_counts break_as(const double *x) {
     carom_ball_state final[BALLS_OF_A_RACK];
     carom_facts facts;
     carom_shot shot = {.facts = &facts, .final = final, .events = events, .room = FEW};
-    carom_shoot(&table, balls, count, &cue, &(carom_shot_options){.plain = 1}, &shot);
+    carom_shoot(&table, balls, count, &cue, NULL, &shot);
     const int64_t kept = shot.count < FEW ? shot.count : FEW;
     count_break(&shot, &table, balls, count, k, &counts);
     counts.back[k] = thrown_back(&shot, kept);

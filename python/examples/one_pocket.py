@@ -49,13 +49,13 @@ players = carom.player(fargo=750), carom.player(fargo=450)
 for stroke in range(300):
     player = int(state[0])
     best = carom.plan(
-        table, layout, rules=OnePocket(), state=state, player=players[player], opponent=players[1 - player], shots=300, seed=stroke, plain=True,
+        table, layout, rules=OnePocket(), state=state, player=players[player], opponent=players[1 - player], shots=300, seed=stroke,
         in_hand=hand,
     )[0]  # fmt: skip
     if hand == "kitchen":
         layout = carom.place_ball(table, layout, 0, *best["place"])
     cue = carom.with_errors(best["cue"], players[player], seed=1, number=stroke)
-    ruling = carom.referee(table, layout, cue, rules=OnePocket(), state=state, plain=True)
+    ruling = carom.referee(table, layout, cue, rules=OnePocket(), state=state)
     layout, state, hand = ruling.balls, ruling.state, ruling.hand
     if ruling.turn in ("win", "lose"):
         break

@@ -79,7 +79,8 @@ VALUES = [
     (r"model: must be 'mathavan' or 'euler', .* not 'han'", lambda: carom.cushion_trace(WALL, model="han")),
     *((r"plain: it must be a whole number from 0 to 1", lambda plain=plain, call=call: call(plain=plain))
       for plain in (2, -1, "yes", None)
-      for call in (lambda **p: carom.collide(GOOD, **p), lambda **p: carom.cushion(WALL, **p), lambda **p: carom.simulate(TABLE, RACK, CUE, **p))),
+      for call in (lambda **p: carom.collide(GOOD, **p), lambda **p: carom.cushion(WALL, **p))),
+    *((r"fast: it must be a whole number from 0 to 1", lambda fast=fast: carom.simulate(TABLE, RACK, CUE, fast=fast)) for fast in (2, -1, "yes", None)),
     # tables, racks, cues
     (r"seed: it must be a whole number", lambda: carom.racks.nineball(TABLE, seed=-1)),
     (r"seed: it must be a whole number from 0", lambda: carom.racks.nineball(TABLE, seed=2**64)),

@@ -16,12 +16,12 @@ LAYOUT = carom.balls([[0.4, 0.9], [0.3, 1.9], [0.9, 1.7], [0.7, 0.5]])
 
 
 def test_plan():
-    best = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, plain=True)
-    again = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, plain=True, threads=2)
+    best = carom.plan(TABLE, LAYOUT, rules="potting", shots=300)
+    again = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, threads=2)
     assert best.dtype == carom.dtypes.choice and 1 <= len(best) <= 5 and best.tobytes() == again.tobytes()
     assert best["ball"][0] in (1, 2, 3) and 0.3 < best["value"][0] <= 1.0 and best["keep"][0] > 0.5
     # the stroke pots the ball that it says
-    shots = carom.simulate_batch(TABLE, LAYOUT, best["cue"][:1], plain=True, features=True)
+    shots = carom.simulate_batch(TABLE, LAYOUT, best["cue"][:1], features=True)
     assert shots.features.pocket[0, best["ball"][0]] == best["pocket"][0]
     weak = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, player=carom.player(6.0), best=1)
     assert len(weak) == 1 and weak["value"][0] < best["value"][0] - 0.1
@@ -48,10 +48,10 @@ def test_points_of_three_cushion():
     """The plan scores as often as it says, by the library's rules and by the same in Python."""
     table = carom.tables.threecushion()
     layout, cue = carom.racks.threecushion(table), carom.cue(game="billiard")
-    best = carom.plan(table, layout, cue, rules="threecushion", shots=600, plain=True)
+    best = carom.plan(table, layout, cue, rules="threecushion", shots=600)
     assert best["value"][0] == best["keep"][0] > 0.2 and set(best["pocket"]) == {-1} and best["ball"][0] in (1, 2)
     for rules in ("threecushion", Points()):
-        hit = [carom.referee(table, layout, carom.with_errors(best["cue"][0], carom.player(), 1, k), rules=rules, plain=True) for k in range(40)]
+        hit = [carom.referee(table, layout, carom.with_errors(best["cue"][0], carom.player(), 1, k), rules=rules) for k in range(40)]
         points = [ruling.points for ruling in hit]
         assert abs(np.mean(points) - best["keep"][0]) < 0.35 and [ruling.turn == "keep" for ruling in hit] == [point == 1.0 for point in points]
     with pytest.raises(ValueError, match="table: threecushion needs one without pockets"):
@@ -126,11 +126,11 @@ def test_no_such_aim(changes, match):
 
 
 def test_chances_of_strokes():
-    best = carom.plan(TABLE, LAYOUT, rules="potting", shots=1000, plain=True)
+    best = carom.plan(TABLE, LAYOUT, rules="potting", shots=1000)
     away = carom.cue(speed=1.0, phi=float(best["cue"]["phi"][0]) + 20.0)
     cues = np.array([best["cue"][0], away])
-    told = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, plain=True)
-    again = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, plain=True, threads=2)
+    told = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7)
+    again = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, threads=2)
     assert told.dtype == carom.dtypes.choice and told.shape == (2,) and told.tobytes() == again.tobytes() and told["seen"].tolist() == [1000, 1000]
     assert abs(told["keep"][0] - best["keep"][0]) < 0.1 and told["keep"][1] < told["keep"][0] - 0.3
     assert (told["ball"][0], told["pocket"][0]) == (best["ball"][0], best["pocket"][0])
@@ -315,9 +315,9 @@ class Corner(carom.Rules):
 
 def test_rules_of_ones_own():
     for pocket in range(6):
-        best = carom.plan(TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300, plain=True)
+        best = carom.plan(TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300)
         assert set(best["pocket"]) <= {pocket, -1}
-        again = carom.plan(TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300, plain=True, threads=2)
+        again = carom.plan(TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300, threads=2)
         assert best.tobytes() == again.tobytes()
     best = carom.plan(TABLE, ORDER, rules="nineball", shots=300)[0]
     corner, pot = int(best["pocket"]), best["cue"]

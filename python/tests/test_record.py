@@ -30,7 +30,7 @@ def test_a_game_is_replayed_with_the_same_bits(tmp_path):
     assert [shot.shot for shot in shots] == [1, 2, 3]
     assert shots[-1].final.tobytes() == game.balls["state"].tobytes()
     # As carom.simulate() plays it.
-    whole = carom.simulate(TABLE, carom.racks.nineball(TABLE), carom.cue(speed=8.0, phi=90.2), cushion_model="stronge", plain=True)
+    whole = carom.simulate(TABLE, carom.racks.nineball(TABLE), carom.cue(speed=8.0, phi=90.2), cushion_model="stronge")
     assert shots[1].final.tobytes() == whole.final.tobytes()
     assert (shots[1].played.events, shots[1].played.time) == (whole.count, whole.time)
     assert list(replay(text.splitlines())) != []

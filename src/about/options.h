@@ -56,20 +56,24 @@
          "largest number of events of a shot; 0: 10000")
 
 /* and how to compute. */
-#define CAROM_COMPUTE_OPTIONS(OPTION)                                                           \
-  OPTION(plain, "", FLAG, 0, 1, PLAIN,                                                          \
-         "1: with the instruction set plain, and so with the bits that all machines share")     \
+#define CAROM_THREAD_OPTIONS(OPTION)                                                            \
   OPTION(threads, "threads", COUNT, -1, INT32_MAX, THREADS,                                     \
          "most threads of a batch, the calling one among them; 0: that one alone; -1: one for " \
          "each processor")
+#define CAROM_COMPUTE_OPTIONS(OPTION)                                                    \
+  OPTION(fast, "", FLAG, 0, 1, PLAIN,                                                    \
+         "1: with the instruction set in use; 0: with the bits that all machines share") \
+  CAROM_THREAD_OPTIONS(OPTION)
 
 #define CAROM_SHOT_OPTIONS(OPTION) \
   CAROM_MOTION_OPTIONS(OPTION) CAROM_STOP_OPTIONS(OPTION) CAROM_COMPUTE_OPTIONS(OPTION)
 
 /* Of calls of single impacts, */
-#define CAROM_CALL_OPTIONS(OPTION)                                                       \
-  OPTION(steps, "steps", COUNT, 0, INT32_MAX, STEPS, "steps of Euler's method; 0: 1000") \
-  CAROM_COMPUTE_OPTIONS(OPTION)
+#define CAROM_CALL_OPTIONS(OPTION)                                                          \
+  OPTION(steps, "steps", COUNT, 0, INT32_MAX, STEPS, "steps of Euler's method; 0: 1000")    \
+  OPTION(plain, "", FLAG, 0, 1, PLAIN,                                                      \
+         "1: with the instruction set plain, and so with the bits that all machines share") \
+  CAROM_THREAD_OPTIONS(OPTION)
 
 /* of these carom_options of two balls, */
 #define CAROM_IMPACT_OPTIONS(OPTION)                                     \

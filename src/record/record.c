@@ -553,10 +553,10 @@ carom_status carom_record_play(carom_record *record, carom_record_kind kind, car
     return CAROM_ERROR_RECORD;
   }
 
-  /* recordings promise bits, so shots are played plain */
+  /* recordings promise the bits that all machines share */
   carom_shot local = none, *played = wanted != NULL ? wanted : &local;
   carom_shot_options options = record->options;
-  options.plain = 1;
+  options.fast = 0;
   options.threads = 0;
 
   /* the end that the shot before left; a copy of the state costs as much as a short shot */

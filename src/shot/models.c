@@ -157,7 +157,7 @@ carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const
   const carom_options options = {.solver = euler ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
                                  .slip = euler ? sim->rules->euler_slip : CAROM_SLIP_PAPER,
                                  .steps = sim->opt->steps,
-                                 .plain = sim->opt->plain};
+                                 .plain = !sim->opt->fast};
   const carom_status status = carom_collide(&in, &options, &out);
   if (status == CAROM_SEPARATING && euler && sim->rules->part_by_steps != NULL)
     sim->rules->part_by_steps(&in, &options, &out);
@@ -193,7 +193,7 @@ static carom_cushion_options cushion_options(const carom_sim *sim, const carom_b
   carom_cushion_options options = {.model = carom_cushion_model_of(sim->opt, kind),
                                    .convention = sim->rules->convention,
                                    .steps = sim->opt->steps,
-                                   .plain = sim->opt->plain,
+                                   .plain = !sim->opt->fast,
                                    .least_step = sim->rules->least_step};
 #define COPY(member, ...) options.member = kind->member;
   CAROM_NUMBERS(CAROM_NO_ROW, COPY)

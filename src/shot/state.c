@@ -33,7 +33,7 @@ static uint64_t of_table(const carom_table *t) {
 
 /* Of the options that decide the motion, and not only when the shot stops. */
 static uint64_t of_options(const carom_shot_options *o) {
-  uint64_t words[5] = {[3] = (uint32_t)o->plain};
+  uint64_t words[5] = {[3] = (uint32_t)o->fast};
 #define PACK(member, key, FORM, low, high, ERROR, text, place) \
   words[place / 2] |= (uint64_t)(uint32_t)o->member << place % 2 * 32;
   CAROM_MOTION_OPTIONS(PACK)

@@ -32,7 +32,7 @@ static class Program {
     var balls = Billiards.Rack(RackKind.Nineball, table);
     var cue = Billiards.Cue(Game.Pool);
     cue.speed = 8.0;
-    var shot = Billiards.Play(table, balls, cue, new ShotOptions { plain = 1 });
+    var shot = Billiards.Play(table, balls, cue);
     ulong hash = 0xcbf29ce484222325;
     foreach (var one in shot.Events) hash = Add(hash, one.time);
     // States after the end are those at the end.

@@ -45,7 +45,7 @@ int main(int count, char **arguments) {
   carom_shot_ball balls[10];
   carom_ball_state last[10];
   carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-  carom_shot_options options = {.plain = 1};
+  const carom_shot_options options = {0};
   carom_shot shot = {.events = events, .room = 1000, .final = last};
   cue.speed = 8.0;
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);

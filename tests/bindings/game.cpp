@@ -37,7 +37,6 @@ int main(int, char **arguments) {
   carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
   cue.speed = 8.0;
   carom_shot_options options{};
-  options.plain = 1;
   carom::shot shot;
   shot.play(table, balls, cue, options);
   uint64_t hash = 0xcbf29ce484222325u;

@@ -24,7 +24,7 @@ for shot in replay(sys.argv[1]):
 print(f"recording: {shots} shots, {game:016x}")
 
 table = carom.tables.pool_9ft()
-shot = carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=8.0), plain=True)
+shot = carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=8.0))
 hash_ = add(0xCBF29CE484222325, shot.events["time"])
 for state in shot.final:
     hash_ = add(add(add(hash_, state["r"]), state["v"]), state["w"])

@@ -32,11 +32,7 @@ fn main() -> Result<(), Error> {
         speed: 8.0,
         ..carom::cue(sys::CAROM_GAME_POOL)
     };
-    let options = carom::Options {
-        plain: 1,
-        ..Default::default()
-    };
-    let shot = carom::shoot(&table, &balls, &cue, &options)?;
+    let shot = carom::shoot(&table, &balls, &cue, &Default::default())?;
     let mut hash = 0xcbf29ce484222325;
     for event in shot.events() {
         hash = add(hash, &[event.time]);

@@ -62,7 +62,7 @@ static void make_inputs(void) {
   rules = carom_plan_rules_of((carom_rules_kind)choice(4));
   rules.user[choice(5)] = (uint64_t)choice(4);
   rules.race = choice(32) == 0 ? choice(5) - 1 : rules.race;
-  shot = (carom_shot_options){.plain = choice(2),
+  shot = (carom_shot_options){.fast = choice(2),
                               .space = (carom_space)(choice(16) == 0 ? 2 : choice(2))};
 
   /* budgets of one stage, so that an input takes milliseconds */

@@ -125,7 +125,7 @@ static void make_options(void) {
   options.steps = 1 + choice(100);
   options.events_most = 1 + choice(EVENTS);
   options.time_most = choice(3) == 0 ? number(0, 10) : 0;
-  options.plain = choice(2);
+  options.fast = choice(2);
   if (choice(3) == 0)
     options.stop_at = !tame && choice(4) == 0 ? (uint64_t)choice(256) << choice(64)
                                               : CAROM_STOP_AT(choice(CAROM_EVENT_LEFT_TABLE + 1));

@@ -41,7 +41,7 @@ static void make_layout(uint64_t seed, int in_play) {
   rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
   rules.user[0] = SOLIDS;
   options = (carom_plan_options){.shots = 300};
-  shot_options = (carom_shot_options){.plain = 1};
+  shot_options = (carom_shot_options){0};
   job = (carom_plan_job){.table = &table,
                          .balls = balls,
                          .count = BALLS,

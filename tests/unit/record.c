@@ -206,9 +206,8 @@ TEST(stops_change_no_bit) {
   cue.speed = 7.3;
   cue.phi = 90.2;
   carom_rack(CAROM_RACK_NINEBALL, &game.table, 1e-4, 5, balls, 10);
-  const carom_shot_options plain = {.plain = 1};
   carom_shot whole = {.final = final};
-  ck_assert_int_eq(carom_shoot(&game.table, balls, 10, &cue, &plain, &whole), CAROM_OK);
+  ck_assert_int_eq(carom_shoot(&game.table, balls, 10, &cue, NULL, &whole), CAROM_OK);
   memset(&again, 0, sizeof again);
   again.table = game.table;
   again.count = 10;

@@ -81,8 +81,8 @@ class ShotOptions(NamedTuple):
         Steps of Euler's models; 0: 1000
     events_most : int
         Largest number of events of a shot; 0: 10000
-    plain : bool
-        1: with the instruction set plain, and so with the bits that all machines share
+    fast : bool
+        1: with the instruction set in use; 0: with the bits that all machines share
     t_final : float | None
         The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that lasts
         longer than 1000 s is an error.
@@ -103,7 +103,7 @@ class ShotOptions(NamedTuple):
     cluster_steps: int = 0
     steps: int = 0
     events_most: int = 0
-    plain: bool = False
+    fast: bool = False
     t_final: float | None = None
     stop_at: StopAt | Iterable[StopAt] = ()
     first_of: int | Iterable[int] = ()
@@ -121,7 +121,7 @@ class Changes(TypedDict, total=False):
     cluster_steps: int
     steps: int
     events_most: int
-    plain: bool
+    fast: bool
     t_final: float | None
     stop_at: StopAt | Iterable[StopAt]
     first_of: int | Iterable[int]
@@ -132,7 +132,7 @@ WORDS = {
     "world": "WORLD", "ball_model": "BALL_MODEL", "cushion_model": "SHOT_CUSHION", "friction": "BALL_FRICTION", "space": "SPACE",
     "simultaneous": "SIMULTANEOUS",
 }  # fmt: skip
-COUNTS = {"cluster_steps": 10000, "steps": 2147483647, "events_most": 2147483647, "plain": 1}
+COUNTS = {"cluster_steps": 10000, "steps": 2147483647, "events_most": 2147483647, "fast": 1}
 
 
 class CushionNumbers(TypedDict, total=False):

@@ -44,7 +44,7 @@ class ExactBallBall(_ball_ball_core.CoreBallBallCollision):  # type: ignore[misc
         rows[14] = rows[2]
         rows[24] = self.friction.calculate_friction(ball1, ball2)
         rows[25] = (ball1.params.e_b + ball2.params.e_b) / 2
-        motion, _ = collide(rows)
+        motion, _ = collide(rows, plain=True)
         for ball, after in ((ball1, motion[:6]), (ball2, motion[6:])):
             _set_motion(ball, after)
         return ball1, ball2
@@ -64,7 +64,7 @@ def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> tuple[Any, A
         normal = -normal
     p = ball.params
     numbers = (*ball.state.rvw[1], *ball.state.rvw[2], *normal, cushion.height, p.R, p.m, p.u_s, p.f_c, p.e_c, jaw_radius)
-    motion, _ = resolve_cushion(np.array(numbers))
+    motion, _ = resolve_cushion(np.array(numbers), plain=True)
     _set_motion(ball, motion)
     return ball, cushion
 

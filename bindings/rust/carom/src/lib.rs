@@ -12,7 +12,7 @@
 //! # }
 //! ```
 //!
-//! Units are SI; directions of a cue are in degrees. With `Options { plain: 1, .. }` results have the same bits on all machines.
+//! Units are SI; directions of a cue are in degrees. A shot has the same bits on all machines, unless `fast` is set.
 pub use carom_sys as sys;
 pub use sys::{
     carom_ball_state as BallState, carom_cue as Cue, carom_event as Event,
