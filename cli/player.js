@@ -118,6 +118,10 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
   let [scale, upright] = [1, false];
   /** @type {[number, number]} */
   let offset = [0, 0];
+  /** How many times larger the table is than its place on the page, and what of it is in the middle, m; undefined: its own middle. */
+  let zoom = 1;
+  /** @type {Point | undefined} */
+  let middle;
   /** From the table, m, to the canvas. A table that lies has its length along the canvas' width.
    * @param {number} x @param {number} y @returns {[number, number]} */
   const place = (x, y) => (upright ? [offset[0] + x * scale, offset[1] - y * scale] : [offset[0] + y * scale, offset[1] + x * scale]);
@@ -142,7 +146,7 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
   /** @param {Table} table @param {number} width @param {number} height @param {number} dpr */
   function drawTable(table, width, height, dpr) {
     const [bed, wood] = ["--cloth", "--rail"].map((name) => getComputedStyle(canvas).getPropertyValue(name).trim());
-    const now = [width, height, dpr, bed, wood, table.width, table.length, table.pockets.length].join();
+    const now = [width, height, dpr, bed, wood, table.width, table.length, table.pockets.length, scale, ...offset].join();
     if (now === drawn) return;
     drawn = now;
     [cloth.width, cloth.height] = [canvas.width, canvas.height];
@@ -219,21 +223,46 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
       else {
         const up = axis(2, sign);
         cap(g, at, radius, up, NUMBER, IVORY);
-        if (up[2] < 0.5 || radius < 6) continue;
+        if (up[2] < 0.2 || radius < 6) continue;
+        // The number lies on the ball: its right and its lower side are axes of the ball, as they are seen.
+        const [right, down] = upright ? [axis(0, sign), axis(1, -1)] : [axis(1, sign), axis(0, 1)];
+        g.save();
+        g.translate(...onCanvas(at, radius * up[0], radius * up[1]));
+        g.transform(...onCanvas([0, 0], right[0], right[1]), ...onCanvas([0, 0], down[0], down[1]), 0, 0);
         g.fillStyle = "#16181b";
         g.font = `bold ${Math.round(radius * (number > 9 ? 0.7 : 0.85))}px sans-serif`;
         g.textAlign = "center";
         g.textBaseline = "middle";
-        const [x, y] = onCanvas(at, radius * up[0], radius * up[1]);
-        g.fillText(name, x, y + 0.5);
+        g.fillText(name, 0, 0.5);
+        g.restore();
       }
     }
+    // The light of a lamp above the table, and the rim.
+    if (radius >= 5) g.drawImage(light, at[0] - radius, at[1] - radius, 2 * radius, 2 * radius);
     g.strokeStyle = "#000a";
     g.lineWidth = 1;
     g.beginPath();
     g.arc(...at, radius, 0, 7);
     g.stroke();
     g.globalAlpha = 1;
+  }
+  /** A highlight and a darker rim, for any ball. */
+  const light = document.createElement("canvas");
+  light.width = light.height = 128;
+  {
+    const g = /** @type {CanvasRenderingContext2D} */ (light.getContext("2d"));
+    const rim = g.createRadialGradient(58, 56, 40, 64, 64, 64);
+    rim.addColorStop(0, "#0000");
+    rim.addColorStop(1, "#0004");
+    const spot = g.createRadialGradient(46, 42, 2, 46, 42, 20);
+    spot.addColorStop(0, "#fff8");
+    spot.addColorStop(1, "#fff0");
+    for (const fill of [rim, spot]) {
+      g.fillStyle = fill;
+      g.beginPath();
+      g.arc(64, 64, 64, 0, 7);
+      g.fill();
+    }
   }
 
   function draw() {
@@ -243,7 +272,8 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
     const [w, l] = [table.width + 2 * WOOD, table.length + 2 * WOOD];
     upright = document.documentElement.clientWidth < 480;
     const ratio = upright ? l / w : w / l;
-    canvas.style.maxWidth = `calc((100vh - var(--beside, 9rem)) * ${1 / ratio})`;
+    // A browser that does not know dvh keeps vh.
+    for (const unit of ["vh", "dvh"]) canvas.style.maxWidth = `calc((100${unit} - var(--beside, 9rem)) * ${1 / ratio})`;
     const width = Math.max(canvas.clientWidth, 50);
     const height = Math.round(width * ratio);
     const dpr = window.devicePixelRatio || 1;
@@ -253,6 +283,12 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
     }
     scale = width / (upright ? w : l);
     offset = [WOOD * scale, upright ? height - WOOD * scale : WOOD * scale];
+    if (zoom > 1 && middle) {
+      // No further than the wood.
+      const at = place(...middle);
+      scale *= zoom;
+      offset = /** @type {[number, number]} */ ([width, height].map((size, k) => size / 2 - Math.min(Math.max(zoom * at[k], size / 2), (zoom - 0.5) * size) + zoom * offset[k]));
+    }
     drawTable(table, width, height, dpr);
     const g = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
     g.setTransform(dpr, 0, 0, dpr, 0, 0);
@@ -325,6 +361,12 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
     playing = false;
     play.textContent = "Play";
   }
+  /** Shows the table so many times larger, with a point of it in the middle, m. 1: all of it. @param {number} times @param {Point} [at] */
+  function look(times, at) {
+    zoom = Math.min(Math.max(times, 1), 6);
+    if (at) middle = at;
+    draw();
+  }
   /** @param {number} to */
   function go(to) {
     if (still()) return tell();
@@ -369,12 +411,18 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
   }
 
   return {
-    ...{ canvas, controls, events, play, show, draw, go, start, stop, step, place, unplace, drawBall },
+    ...{ canvas, controls, events, play, pace, show, draw, go, look, start, stop, step, place, unplace, drawBall },
     get time() {
       return time;
     },
     get scale() {
       return scale;
+    },
+    get zoom() {
+      return zoom;
+    },
+    get end() {
+      return end;
     },
     get playing() {
       return playing;

@@ -5,13 +5,15 @@ import { chromium } from "playwright-core";
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
 const [out, width = 1300, height = 800] = process.argv.slice(2);
 const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) } });
-await page.goto(`file://${fileURLToPath(new URL("../explorer/dist/index.html", import.meta.url))}#view=shot&phi=89.4&right=-0.15&speed=8.5`);
+// A break of eight-ball, some time after it.
+await page.addInitScript(() => localStorage.setItem("carom-game", JSON.stringify({ game: "eightball", against: "500", own: "0", seed: 4, entries: [] })));
+await page.goto(`file://${fileURLToPath(new URL("../explorer/dist/index.html", import.meta.url))}`);
 await page.waitForSelector("main[aria-busy=false]");
-await page.waitForSelector(".events li");
-await page.locator("#time").evaluate((input) => {
-  input.value = "0.62";
-  input.dispatchEvent(new Event("input"));
-});
+await page.locator("#shoot").click();
+await page.locator("#skip").click();
+await page.waitForFunction(() => /Your turn/.test(document.querySelector("#turn").textContent), undefined, { timeout: 60000 });
+await page.locator("#hint").click();
+await page.waitForFunction(() => document.querySelector("#said").textContent.startsWith("Hint: "), undefined, { timeout: 60000 });
 await page.evaluate(() => document.activeElement?.blur());
 await page.waitForTimeout(300);
 await page.screenshot({ path: out });

@@ -1,11 +1,21 @@
 // The page: the library, the views, the theme.
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
+import "./play/style.css";
 import { load } from "carom";
-import { collisionView } from "./collision.js";
+import { simdAvailable } from "../../dist/memory.js";
 import { serve } from "./far.js";
-import { shotView } from "./shot.js";
+import { collisionView } from "./lab/collision.js";
+import { laboratory } from "./lab/view.js";
+import { playView } from "./play/view.js";
 import { el, parameters } from "./ui.js";
+
+interface View {
+  update(): void;
+  theme(): void;
+  close?(): void;
+}
+const VIEWS = ["play", "lab", "collision"] as const;
 
 async function begin(main: HTMLElement): Promise<void> {
   const solver = document.getElementById("solver") as HTMLSelectElement;
@@ -16,38 +26,43 @@ async function begin(main: HTMLElement): Promise<void> {
     theme.textContent = name === "dark" ? "Light" : "Dark";
   };
   dress(dark.matches ? "dark" : "light");
-  const carom = await load();
-  document.getElementById("about")!.append(` carom ${carom.version}, ${carom.build === "simd" ? "with" : "without"} vectors.`);
+  if (!simdAvailable()) throw new Error("this page needs WebAssembly with vectors: Chrome 91, Firefox 89, Safari 16.4, or newer");
+  const carom = await load({ build: "simd" });
+  document.getElementById("about")!.append(` carom ${carom.version}.`);
   solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
   const chosen = (): "exact" | "euler" => (solver.value === "euler" ? "euler" : "exact");
-  let view: { update(): void; theme(): void };
+  let view: View | undefined;
   const show = (): void => {
-    const name = parameters().get("view") === "collision" ? "collision" : "shot";
-    for (const one of ["shot", "collision"]) {
+    const given = parameters().get("view") ?? "play";
+    // "shot" is what links of version 0.3.0 call the laboratory.
+    const name = given === "shot" ? "lab" : (VIEWS.find((one) => one === given) ?? "play");
+    document.documentElement.dataset.view = name;
+    for (const one of VIEWS) {
       const link = document.getElementById(`to-${one}`)!;
       if (one === name) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
     }
-    view = (name === "shot" ? shotView : collisionView)(carom, chosen, main);
+    view?.close?.();
     main.setAttribute("aria-busy", "false");
+    view = name === "play" ? playView(carom, main) : (name === "lab" ? laboratory : collisionView)(carom, chosen, main);
   };
   show();
   window.addEventListener("hashchange", show);
-  solver.addEventListener("change", () => view.update());
+  solver.addEventListener("change", () => view?.update());
   const dressed = (name: "light" | "dark"): void => {
     dress(name);
-    view.theme();
+    view?.theme();
   };
   theme.addEventListener("click", () => dressed(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
   dark.addEventListener("change", () => dressed(dark.matches ? "dark" : "light"));
   let waiting = 0;
   window.addEventListener("resize", () => {
     window.clearTimeout(waiting);
-    waiting = window.setTimeout(() => view.theme(), 100);
+    waiting = window.setTimeout(() => view?.theme(), 100);
   });
 }
 
-// The same script runs in the worker (far.ts).
+// The same script runs in workers (far.ts).
 if (typeof document === "undefined") void serve();
 else {
   // A page that is served can be installed, and then needs no network.

@@ -50,7 +50,7 @@ export function pad(id: string, text: string, onInput: (right: number, up: numbe
   const root = el("div", { id, class: "pad", role: "img", "aria-label": text });
   root.innerHTML =
     '<svg viewBox="-1.05 -1.05 2.1 2.1"><circle r="1" fill="#fbfaf5" stroke="#000a" stroke-width="0.03"/><circle r="0.5" fill="none" stroke="#0006" stroke-width="0.02" stroke-dasharray="0.06 0.05"/>' +
-    '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle id="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
+    '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle class="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
   const move = (event: PointerEvent): void => {
     const box = root.getBoundingClientRect();
     const [x, y] = [(2.1 * (event.clientX - box.left)) / box.width - 1.05, 1.05 - (2.1 * (event.clientY - box.top)) / box.height];
@@ -60,9 +60,14 @@ export function pad(id: string, text: string, onInput: (right: number, up: numbe
   root.addEventListener("pointerdown", (event) => {
     root.setPointerCapture(event.pointerId);
     move(event);
+    // One that grows does so around the finger, which stays on the same place of the ball.
+    const box = root.getBoundingClientRect();
+    root.style.transformOrigin = `${event.clientX - box.left}px ${event.clientY - box.top}px`;
+    root.classList.add("held");
   });
   root.addEventListener("pointermove", (event) => root.hasPointerCapture(event.pointerId) && move(event));
-  return { root, set: (right, up) => root.querySelector("#tip")!.setAttribute("transform", `translate(${right} ${-up})`) };
+  for (const type of ["pointerup", "pointercancel"]) root.addEventListener(type, () => root.classList.remove("held"));
+  return { root, set: (right, up) => root.querySelector(".tip")!.setAttribute("transform", `translate(${right} ${-up})`) };
 }
 
 export function button(text: string, onClick: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
@@ -147,4 +152,10 @@ let writing: number | undefined;
 export function keep(state: Record<string, string>): void {
   window.clearTimeout(writing);
   writing = window.setTimeout(() => history.replaceState(null, "", `#${new URLSearchParams(state)}`), 150);
+}
+
+/** A dialog with a heading, which closes by its button or Escape. */
+export function dialog(id: string, title: string, ...children: Child[]): HTMLDialogElement {
+  const made = el("dialog", { id, "aria-label": title }, el("div", { class: "row head" }, el("h2", {}, title), button("Close", () => made.close(), { class: "close" })), ...children);
+  return made;
 }

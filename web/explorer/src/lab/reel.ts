@@ -1,6 +1,6 @@
 // A recording that was opened: its shots are played again, compared with what was recorded, and shown one after the other.
 import type { Carom, Replayed } from "carom";
-import { button, el } from "./ui.js";
+import { button, el } from "../ui.js";
 
 /** What a recording needs of the view. */
 export interface View {

@@ -1,5 +1,5 @@
 // The games of the page: their tables, racks and names of balls.
-import { byNumber, type Game, type Line, type RackName, type TableName, words } from "carom";
+import { byNumber, type Carom, type Cue, type Game, type GameState, type Line, type RackName, type TableName, words } from "carom";
 
 export interface GameOf {
   text: string;
@@ -49,4 +49,42 @@ export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
   if (name === undefined) return { name: "nineball", line, known: false, also: undefined };
   if (names.length > 1 && name !== asked && name !== whole) throw new TypeError(`balls: they fit ${names.map((one) => GAMES[one]!.text).join(" and ")}; choose one of these games, then import again`);
   return { name, line: fitting[name]!, known: true, also: name === whole ? undefined : names.find((one) => one !== name) };
+}
+
+/** A game that is played by the library's rules. */
+export interface Played {
+  text: string;
+  /** Its key in GAMES: table, rack, names. */
+  of: string;
+  rules: GameState["rules"];
+  /** Whether ball and pocket are called. */
+  calls: boolean;
+  /** Points that win, of games in which the rules count none. */
+  target?: number;
+  /** The stroke that a game begins with, as one finds it. */
+  begin: Partial<Cue>;
+}
+const BREAK = { speed: 8, phi: 90, a: 0, b: 0 };
+const ALL = {
+  eightball: { text: "Eight-ball", of: "eightball", rules: "eightball", calls: true, begin: BREAK },
+  nineball: { text: "Nine-ball", of: "nineball", rules: "nineball", calls: false, begin: BREAK },
+  straight: { text: "Straight pool", of: "eightball", rules: "straight", calls: true, begin: { ...BREAK, speed: 4 } },
+  onepocket: { text: "One-pocket", of: "eightball", rules: "onepocket", calls: false, begin: { ...BREAK, speed: 4 } },
+  snooker: { text: "Snooker", of: "snooker", rules: "snooker", calls: false, begin: { ...BREAK, speed: 4 } },
+  threecushion: { text: "Three-cushion, to 10 points", of: "threecushion", rules: "threecushion", calls: false, target: 10, begin: { speed: 4, phi: 62, a: 0, b: 0.2 } },
+} as const;
+
+/** The games whose rules the library has. */
+export function playedGames(carom: Carom): Record<string, Played> {
+  const has = ([, { of, rules }]: [string, Played]): boolean => {
+    const { table, rack } = GAMES[of]!;
+    try {
+      carom.ballsOn({ rules, group: "open", opening: true }, carom.rack(rack, carom.table(table)));
+      return true;
+    } catch (error) {
+      if (error instanceof TypeError) return false; // no such word
+      throw error;
+    }
+  };
+  return Object.fromEntries(Object.entries(ALL as unknown as Record<string, Played>).filter(has));
 }

@@ -1,7 +1,7 @@
 // The view Collision: the cue ball meets a ball at rest.
 import type { Carom, CollideOptions, Impact, Motion, Vec3 } from "carom";
 import uPlot from "uplot";
-import { arrow, check, color, eachFrame, el, fit, keep, parameters, slider, type Slider } from "./ui.js";
+import { arrow, check, color, eachFrame, el, fit, keep, parameters, slider, type Slider } from "../ui.js";
 
 declare const MEASURED: string;
 
@@ -26,7 +26,7 @@ function impactOf(s: Setting, over: Partial<Setting> = {}): Impact {
   const angle = cut / DEGREES;
   const kind = { radius: R, mass: MASS, muCloth };
   return {
-    a: { v: [speed, 0, 0], w: [0, (2.5 * speed * tip) / R, (-2.5 * speed * side) / R], ...kind },
+    a: { v: [speed, 0, 0], w: [0, (2.5 * speed * tip) / R, (2.5 * speed * side) / R], ...kind },
     b: { r: [2 * R * Math.cos(angle), 2 * R * Math.sin(angle), 0], ...kind },
     muBall,
     restitution,
@@ -65,7 +65,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
   const sliders: Record<string, Slider> = {
     speed: slider("speed", "Speed at the contact", 0.1, 8, 0.1, " m/s", update, (x) => x.toFixed(1)),
     cut: slider("cut", "Cut angle", -85, 85, 0.5, "°", update, (x) => x.toFixed(1)),
-    side: slider("side", "Tip to the left (+) or right", -0.7, 0.7, 0.01, " R", update, two),
+    side: slider("side", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", update, two),
     tip: slider("tip", "Tip above (+) or below; 0.4 rolls", -0.7, 0.7, 0.01, " R", update, two),
     mu: slider("mu", "Friction between the balls", 0, 0.2, 0.001, "", update, (x) => x.toFixed(3)),
     cloth: slider("cloth", "Friction with the cloth", 0, 0.5, 0.01, "", update, two),
@@ -209,7 +209,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
     { label: "throw", color: "accent" },
     { label: "reported at 45°", color: "quiet", points: true },
   ]);
-  const throwBySide = plot("plot-throw-side", "Throw against side spin", "Where the curve crosses 0 the balls roll on each other like gears.", ["tip to the left, R", -0.7, 0.7], "throw, ° (+ left)", [{ label: "throw", color: "accent" }]);
+  const throwBySide = plot("plot-throw-side", "Throw against side spin", "Where the curve crosses 0 the balls roll on each other like gears.", ["tip to the right, R", -0.7, 0.7], "throw, ° (+ left)", [{ label: "throw", color: "accent" }]);
   const deflection = plot("plot-deflection", "Deflection of the cue ball, once it rolls", "Band: the 30-degree rule, 27° to 34°. Points: five rolling shots measured by Mathavan and others (2014), on a snooker table.", ["cut angle, °", -85, 85], "deflection, ° (+ left)", [
     { label: "deflection", color: "accent" },
     { label: "measured", color: "quiet", points: true },
@@ -287,7 +287,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
     const before = energy({ v: impact.a.v!, w: impact.a.w! });
     const lost = before - energy(a) - energy(b);
     const thrown = turn(direction(b.v) - s.cut);
-    const gearing = -Math.sin(s.cut / DEGREES) / 2.5;
+    const gearing = Math.sin(s.cut / DEGREES) / 2.5;
     const rows: [string, string, string][] = [
       ["throw", "Throw", sided(thrown)],
       ["object", "Object ball", `${sided(direction(b.v))}, ${norm(b.v).toFixed(3)} m/s`],
@@ -296,7 +296,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
       ["rolling", "once it rolls", norm(rollsA) < 1e-9 ? "stops" : `${sided(direction(rollsA))}, ${norm(rollsA).toFixed(3)} m/s`],
       ["spin", "Side spin transferred", `${b.w[2].toFixed(2)} rad/s`],
       ["vertical", "Roll transferred", `${norm([b.w[0], b.w[1]]).toFixed(2)} rad/s`],
-      ["gearing", "No throw with the tip at", Math.abs(gearing) > 0.7 ? "beyond 0.7 R" : `${Math.abs(gearing).toFixed(3)} R ${gearing > 0 ? "left" : "right"}`],
+      ["gearing", "No throw with the tip at", Math.abs(gearing) > 0.7 ? "beyond 0.7 R" : `${Math.abs(gearing).toFixed(3)} R ${gearing > 0 ? "right" : "left"}`],
       ["energy", "Energy lost", `${(1000 * lost).toFixed(1)} mJ, ${((100 * lost) / before).toFixed(1)} %`],
       ["impulse", "Normal impulse", `${detail.normal.toFixed(4)} N s`],
       ["friction", "Impulse of friction", `${norm(detail.friction).toFixed(4)} N s`],

@@ -1,0 +1,47 @@
+// A game in this browser, in the address, and on its way to another page: as text, packed for links, and by a channel between pages of one machine.
+
+const KEY = "carom-game";
+/** What was kept; undefined where the browser keeps nothing. */
+export function kept(key = KEY): string | undefined {
+  try {
+    return localStorage.getItem(key) ?? undefined;
+  } catch {
+    return undefined; // the reader has forbidden it
+  }
+}
+export function keepText(text: string, key = KEY): void {
+  try {
+    localStorage.setItem(key, text);
+  } catch (error) {
+    console.info("This browser keeps no games:", error);
+  }
+}
+
+async function through(bytes: Uint8Array<ArrayBuffer>, by: ReadableWritablePair<Uint8Array, BufferSource>): Promise<Uint8Array> {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(by)).arrayBuffer());
+}
+/** A text for an address: deflated, in the letters of base 64 that addresses leave as they are. */
+export async function pack(text: string): Promise<string> {
+  const bytes = await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw"));
+  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+}
+export async function unpack(packed: string): Promise<string> {
+  let bytes: Uint8Array<ArrayBuffer>;
+  try {
+    bytes = Uint8Array.from(atob(packed.replaceAll("-", "+").replaceAll("_", "/")), (letter) => letter.charCodeAt(0));
+    return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw")));
+  } catch {
+    throw new TypeError("the link is cut off or damaged: ask for it again");
+  }
+}
+
+/** A game that others of this machine see: they send its text when it has changed, or ask for it. */
+export function channel(heard: (text: string) => void, asked: () => string | undefined): { send(text: string): void; ask(): void; close(): void } {
+  const one = new BroadcastChannel("carom-games");
+  one.addEventListener("message", ({ data }: MessageEvent<{ text?: string }>) => {
+    if (data.text !== undefined) return heard(data.text);
+    const text = asked();
+    if (text !== undefined) one.postMessage({ text });
+  });
+  return { send: (text) => one.postMessage({ text }), ask: () => one.postMessage({}), close: () => one.close() };
+}

@@ -1,0 +1,70 @@
+// How a game stands, in words: whose turn it is, on which balls, and the score.
+import { onTable } from "../table/filmed.js";
+import type { Play, Stroke } from "./game.js";
+
+/** The name of who is at the table: 0 breaks, 1 is the other one. */
+export function nameOf(play: Play, who: 0 | 1, seat: 0 | 1): string {
+  const { against } = play.setup;
+  if (against === "person") return `Player ${who + 1}`;
+  if (who === seat) return "You";
+  return against === "link" ? "The other one" : `The ${against}`;
+}
+const groupOf = (play: Play, who: 0 | 1): string => {
+  const { group } = play.state;
+  if (group === "open" || who === play.turn) return group;
+  return group === "solids" ? "stripes" : "solids";
+};
+const left = (play: Play, from: number, to: number): number => play.balls.filter(({ state }, k) => k >= from && k <= to && onTable(state)).length;
+
+/** carom_foul_string() of each, as far as a reader can do with it. */
+const WHY: Partial<Record<string, string>> = {
+  cue_ball: "the cue ball fell or left the table",
+  no_ball: "the cue ball met no ball",
+  first: "the cue ball met a wrong ball first",
+  off: "a ball left the table",
+  cushion: "no ball fell or met a cushion",
+  break: "the break drove fewer than four balls to cushions",
+};
+
+/** What has just happened, as far as it is not a plain change of turns. */
+function told(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
+  if (!ruling?.foul) return "";
+  const name = nameOf(play, who, seat);
+  return `${name} ${name === "You" ? "foul" : "fouls"}${WHY[ruling.reason] ? `: ${WHY[ruling.reason]}` : ""}. `;
+}
+
+export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean): string {
+  if (play.practice) return "Practice";
+  const before = play.last ? told(play, play.last, seat) : "";
+  if (play.winner !== undefined) {
+    const name = nameOf(play, play.winner, seat);
+    return `${before}${name} ${name === "You" ? "have" : "has"} won.`;
+  }
+  const name = nameOf(play, play.turn, seat);
+  const you = name === "You";
+  const group = play.setup.game === "eightball" && !play.state.opening ? (play.state.group === "open" ? ", open table" : `, ${play.state.group}`) : "";
+  if (thinks) return `${before}${name} thinks${group} …`;
+  if (!you && play.setup.against === "link") return `${before}${name} plays${group}: send the link.`;
+  const turn = play.state.opening && play.played?.rules !== "threecushion" && play.entries.length === 0 ? `${name} ${you ? "break" : "breaks"}` : you ? "Your turn" : `${name}'s turn`;
+  const hand = play.hand === "no" ? "" : ` Cue ball in hand${play.hand === "kitchen" ? " behind the line" : ""}: drag it.`;
+  return `${before}${turn}${group}.${hand}`;
+}
+
+/** The score: what is left of each, or points. */
+export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, number]): string {
+  if (play.practice) return `${left(play, 1, play.balls.length)} balls`;
+  const names = ([0, 1] as const).map((who) => nameOf(play, who, seat));
+  const of = (parts: readonly (string | number)[]): string => parts.map((part, k) => `${names[k]}: ${part}`).join(" · ");
+  if (play.setup.game === "threecushion") return of(play.points);
+  const won = racks[0] + racks[1] > 0 ? `racks ${racks[0]} : ${racks[1]}` : "";
+  if (play.setup.game === "eightball") {
+    if (play.state.group === "open") return won;
+    const balls = ([0, 1] as const).map((who) => (groupOf(play, who) === "solids" ? left(play, 1, 7) : left(play, 9, 15)));
+    return `${of(balls.map((count) => (count === 0 ? "on the 8" : `${count} left`)))}${won && ` · ${won}`}`;
+  }
+  if (play.setup.game === "nineball") {
+    const next = play.balls.findIndex(({ state }, k) => k > 0 && onTable(state));
+    return `${next > 0 ? `next ball ${next}` : ""}${won && ` · ${won}`}`;
+  }
+  return won;
+}

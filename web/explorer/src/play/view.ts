@@ -1,0 +1,457 @@
+// The view Play: a game on the table, one bar for all that a stroke needs, and its film where one looks.
+import { type Call, type Carom, CaromError, type Cue, type Player, type ShotBall } from "carom";
+import { player as filmPlayer, pocketName } from "../../../../cli/player.js";
+import { drop, far } from "../far.js";
+import { filmOf, lasts, onTable, type Path, pathsOf, product, type Quaternion } from "../table/filmed.js";
+import { GAMES } from "../table/games.js";
+import { button, eachFrame, el, parameters } from "../ui.js";
+import { aiming } from "./aim.js";
+import { type Asked, chance, costOf, hint, keepRow, logPage, review, why } from "./coach.js";
+import { controls } from "./controls.js";
+import { type Entry, OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
+import { guessOf, lookAlong } from "./look.js";
+import { channel, kept, keepText, pack, unpack } from "./keep.js";
+import { menu, type Settings } from "./menu.js";
+import { Sound } from "./sound.js";
+import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
+import { percent, wordsOfChoice } from "../table/words.js";
+
+const REPLY = 400;
+/** How long the stroke of the page's player is shown before it is played, ms. */
+const SHOWN = 700;
+const SETTINGS = "carom-settings";
+const FIRST: Setup = { game: "eightball", against: "500", own: "0", seed: 1 };
+
+export function playView(carom: Carom, main: HTMLElement): { update(): void; theme(): void; close(): void } {
+  const coarse = window.matchMedia("(pointer: coarse)").matches;
+  const settings: Settings = { sound: !coarse, coach: false, ...(JSON.parse(kept(SETTINGS) ?? "{}") as Partial<Settings>) };
+  const sound = new Sound(settings.sound);
+  let play: Play;
+  /** Which of both sits here; of two at this page, whoever is at the table. */
+  let seat: 0 | 1 = 0;
+  /** What was chosen to be called; -1: nothing. */
+  let chosen = { ball: -1, pocket: -1 };
+  let special: "push" | "pass" | undefined;
+  let first: ReturnType<typeof lookAlong>;
+  let paths: Path[] = [];
+  let turned: Quaternion[] = [];
+  let turnedBefore: Quaternion[] = [];
+  let thinks = false;
+  /** What follows the film that is shown. */
+  let then: (() => void) | undefined;
+  let shown: Stroke | undefined;
+  let sounded = 0;
+  /** Raised by what ends a search: another game, a stroke. */
+  let number = 0;
+
+  // ---- The page ------------------------------------------------------------------------------------------------------------
+
+  /** The aim, the layout or a setting has changed. */
+  const changed = eachFrame(() => {
+    if (!film.playing && then === undefined) rest();
+    if (settings.coach) void chances();
+  });
+  const turn = el("p", { id: "turn", role: "status" });
+  const score = el("p", { id: "score" });
+  const said = el("p", { id: "said", role: "status" });
+  const film = filmPlayer({ over: (g) => hand?.draw(g), moved: sounds, ended: () => finish() });
+  film.canvas.setAttribute("aria-label", "The table from above");
+  const stroke = controls({ changed, shoot, free });
+  const hand = aiming(film, {
+    ...{ play: () => play, free, cue, shoot, skip, changed, first: () => first },
+    set: (key, value) => stroke.set({ [key]: value }),
+    called: () => (free() && play.played?.calls && !play.state.opening ? called() : undefined),
+    tapped: (on) => {
+      chosen = "ball" in on ? { ball: on.ball, pocket: -1 } : { ...chosen, pocket: on.pocket };
+      changed();
+    },
+    undo: () => undo(),
+  });
+  const buttons = {
+    menu: button("New game", () => games.open(play.setup), { id: "new-game" }),
+    hint: button("Hint", () => void advise(), { id: "hint" }),
+    replay: button("Replay", () => replay(), { id: "replay" }),
+    undo: button("Undo", () => undo(), { id: "undo-stroke" }),
+    rack: button("Rack", () => begin({ ...play.setup, seed: play.setup.seed + 1, at: undefined as never }), { id: "rack-up" }),
+    push: button("Push out", () => choose("push"), { id: "push", "aria-pressed": "false" }),
+    pass: button("Pass", () => choose("pass"), { id: "pass" }),
+    skip: button("Skip", () => skip(), { id: "skip" }),
+    link: button("Send link", () => void send(), { id: "send" }),
+    log: button("Log", () => log.open(), { id: "open-log" }),
+  };
+  const log = logPage();
+  const games = menu(carom, settings, film.pace, { begin, changed: setSettings });
+  const bar = el(
+    "section",
+    { class: "play-bar", "aria-label": "Game" },
+    el("div", { class: "row state" }, turn, score),
+    said,
+    el("div", { class: "row" }, buttons.menu, buttons.hint, buttons.replay, buttons.undo, buttons.rack, buttons.push, buttons.pass, buttons.link, buttons.log, stroke.turns, buttons.skip, stroke.shoot),
+    stroke.numbers,
+  );
+  main.replaceChildren(el("div", { class: "play" }, el("section", { class: "felt", "aria-label": "Table" }, film.canvas), stroke.side, bar, games.root, log.root));
+
+  function setSettings(now: Settings): void {
+    Object.assign(settings, now);
+    sound.on = now.sound;
+    sound.wake();
+    keepText(JSON.stringify(settings), SETTINGS);
+    changed();
+  }
+  function sounds(): void {
+    if (shown?.shot && film.playing) sound.between(shown.shot.events, sounded, film.time);
+    sounded = film.time;
+  }
+
+  // ---- The stroke that is aimed ------------------------------------------------------------------------------------------------
+
+  function cue(): Cue {
+    const { speed, phi, right, up, theta } = stroke.value;
+    return { ...carom.cue({}, GAMES[play.played?.of ?? play.setup.game]!.game), speed, phi, a: -right || 0, b: up, theta };
+  }
+  function aim(of: Cue): void {
+    stroke.set({ speed: of.speed, phi: of.phi, right: -of.a || 0, up: of.b, theta: of.theta });
+  }
+  const mine = (): boolean => play.winner === undefined && (play.practice || play.setup.against === "person" || play.turn === seat);
+  function free(): boolean {
+    return !film.playing && !thinks && then === undefined && mine();
+  }
+  function called(): { ball: number; pocket: number } | undefined {
+    const guess = guessOf(play.table, first);
+    const ball = chosen.ball > 0 ? chosen.ball : guess.ball;
+    const pocket = chosen.pocket >= 0 ? chosen.pocket : ball === guess.ball ? guess.pocket : -1;
+    return ball > 0 && pocket >= 0 && onTable(play.balls[ball]!.state) ? { ball, pocket } : undefined;
+  }
+  /** The balls as they lie, with what may be seen of the stroke: in a game the line to the first contact. */
+  function rest(): void {
+    first = undefined;
+    paths = [];
+    if (free() && onTable(play.balls[0]!.state))
+      try {
+        if (play.practice) paths = pathsOf(carom.simulate(play.table, play.balls, cue(), OPTIONS));
+        first = lookAlong(carom, play.table, play.balls, cue(), OPTIONS);
+      } catch (error) {
+        if (!(error instanceof CaromError)) throw error;
+        said.textContent = `This stroke cannot be played: ${error.message}.`;
+      }
+    shown = undefined;
+    film.show(filmOf({ table: play.table, balls: play.balls, names: play.names, turned }, undefined, paths));
+    tell();
+  }
+  function tell(): void {
+    turn.textContent = wordsOfTurn(play, seat, thinks);
+    score.textContent = wordsOfScore(play, seat, racks());
+    const can = free();
+    const call = can && play.played?.calls && !play.state.opening ? called() : undefined;
+    if (call) turn.textContent += ` Call: ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.`;
+    stroke.shoot.disabled = !can;
+    const seen: [HTMLElement, boolean][] = [
+      [buttons.hint, can && play.played !== undefined],
+      [buttons.replay, play.last?.shot !== undefined && !film.playing && !thinks && then === undefined],
+      [buttons.undo, play.practice],
+      [buttons.rack, play.practice || play.winner !== undefined],
+      [buttons.push, can && play.state.may === "push"],
+      [buttons.pass, can && play.state.may === "pass"],
+      [buttons.skip, film.playing],
+      [stroke.shoot, !film.playing],
+      [buttons.link, play.setup.against === "link"],
+      [buttons.log, settings.coach],
+    ];
+    for (const [element, is] of seen) element.hidden = !is;
+    buttons.undo.disabled = play.past.length === 0;
+    buttons.push.setAttribute("aria-pressed", String(special === "push"));
+    film.canvas.setAttribute("aria-label", `${GAMES[play.played?.of ?? play.setup.game]!.text} table from above. ${turn.textContent}`);
+  }
+  function choose(what: "push" | "pass"): void {
+    if (what === "pass") return played(play.stroke(cue(), "pass"));
+    special = special === "push" ? undefined : "push";
+    tell();
+  }
+
+  // ---- Strokes -----------------------------------------------------------------------------------------------------------------
+
+  const player = (rating: string): Player => (rating === "0" ? carom.player({ errors: 0 }) : carom.player({ fargo: Number(rating) }));
+  function call(): Call | undefined {
+    if (special) return special;
+    return play.played?.calls && !play.state.opening ? called() : undefined;
+  }
+  function shoot(): void {
+    if (!free()) return;
+    number++; // a search for a hint ends here
+    sound.wake();
+    const meant = cue();
+    const { own, seed } = play.setup;
+    const made = own === "0" || play.practice ? meant : carom.withErrors(meant, player(own), seed, play.entries.length);
+    const of = asked();
+    const calls = call();
+    try {
+      const one = play.stroke(made, calls);
+      said.textContent = "";
+      if (settings.coach && play.played) void lookBack(of, made, calls);
+      played(one);
+    } catch (error) {
+      said.textContent = error instanceof Error ? error.message : String(error);
+    }
+  }
+  /** A stroke was played: its film, and whoever comes next. */
+  function played(one: Stroke): void {
+    // Nobody breaks twice: the next stroke begins as one of medium speed.
+    if (one.state.opening && !play.state.opening) stroke.set({ speed: 2.5, right: 0, up: 0, theta: 0 });
+    chosen = { ball: -1, pocket: -1 };
+    special = undefined;
+    if (play.winner !== undefined) count(play.winner);
+    save();
+    perform(one, next);
+  }
+  function perform(one: Stroke, after: () => void): void {
+    turnedBefore = turned;
+    then = after;
+    shown = one;
+    sounded = -1;
+    if (!one.shot) return finish();
+    film.show(filmOf({ table: play.table, balls: one.balls, names: play.names, turned }, one.shot, []));
+    film.start();
+    tell();
+  }
+  function finish(): void {
+    const after = then;
+    if (shown?.shot) {
+      const end = shown.shot.orientations(lasts(shown.shot));
+      turned = turned.map((q, k) => product(end.subarray(4 * k, 4 * k + 4), q));
+    }
+    then = undefined;
+    after?.();
+  }
+  function skip(): void {
+    if (!film.playing) return;
+    film.stop();
+    finish();
+  }
+  function replay(): void {
+    const one = play.last;
+    if (!one?.shot || film.playing || thinks || then !== undefined) return;
+    const now = turned;
+    turned = turnedBefore;
+    perform(one, () => {
+      turned = now;
+      rest();
+    });
+  }
+  function undo(): void {
+    if (!play.practice || !play.undo()) return;
+    save();
+    rest();
+  }
+  function next(): void {
+    if (play.winner === undefined && !mine() && /^\d/.test(play.setup.against)) void reply();
+    else rest();
+    if (settings.coach) void chances();
+  }
+  function place(): ReturnType<typeof rectangle> | boolean {
+    return play.hand === "kitchen" ? rectangle() : play.hand === "anywhere";
+  }
+  const rectangle = (): [[number, number], [number, number]] => [[0, 0], [play.table.width, play.table.length / 4]];
+
+  /** The page's player: he plans in a worker, puts the cue ball, and errs. */
+  async function reply(): Promise<void> {
+    const mine = ++number;
+    thinks = true;
+    rest();
+    const { against, own, seed } = play.setup;
+    try {
+      const options = { ...play.state, player: player(against), opponent: player(own === "0" ? "700" : own), shot: OPTIONS, seed: seed + play.entries.length, inHand: place(), best: 1, shots: REPLY };
+      const [one] = await far("plan", play.table, play.balls, options);
+      if (mine !== number) return;
+      if (play.hand !== "no") play.put(0, ...(one!.place as [number, number]));
+      aim(one!.cue);
+      rest();
+      said.textContent = `${nameOf(play, play.turn, seat)} plays ${wordsOfChoice(play.table, play.names, one!)}.`;
+      await new Promise((later) => window.setTimeout(later, film.pace.value === "1000" ? 0 : SHOWN));
+      if (mine !== number) return;
+      const pot = one!.ball > 0 && one!.pocket >= 0 ? { ball: one!.ball, pocket: one!.pocket } : undefined;
+      const given = one!.kind === "push" || one!.kind === "pass" ? one!.kind : pot;
+      thinks = false;
+      played(play.stroke(carom.withErrors(one!.cue, player(against), seed, play.entries.length), given));
+    } catch (error) {
+      if (mine !== number) return;
+      thinks = false;
+      said.textContent = error instanceof Error ? error.message : String(error);
+    }
+  }
+
+  // ---- Coach -------------------------------------------------------------------------------------------------------------------
+
+  /** What a plan for whoever sits here begins with. Who does not err is advised as a 600. */
+  function asked(): Asked {
+    const { own, against, game } = play.setup;
+    const rating = own === "0" ? "600" : own;
+    const rules = play.practice && !play.played ? "potting" : play.state.rules;
+    const opponent = player(/^\d/.test(against) ? against : rating);
+    return { game, table: play.table, balls: play.balls, names: play.names, options: { ...play.state, rules, player: player(rating), opponent, shot: OPTIONS, seed: play.setup.seed + play.entries.length } };
+  }
+  async function advise(): Promise<void> {
+    if (!free()) return;
+    const mine = ++number;
+    said.textContent = "Looking for the best stroke …";
+    try {
+      const of = asked();
+      const one = await hint(of, place());
+      if (mine !== number || !free()) return;
+      if (play.hand !== "no") play.put(0, ...(one.place as [number, number]));
+      aim(one.cue);
+      chosen = one.ball > 0 && one.pocket >= 0 ? { ball: one.ball, pocket: one.pocket } : { ball: -1, pocket: -1 };
+      special = one.kind === "push" ? "push" : undefined;
+      rest();
+      said.textContent = `Hint: ${why(of, one, play.setup.game === "threecushion")}`;
+    } catch (error) {
+      if (mine === number) said.textContent = error instanceof Error ? error.message : String(error);
+    }
+  }
+  let asking = 0;
+  async function chances(): Promise<void> {
+    const mine = ++asking;
+    if (!free() || !play.played || !onTable(play.balls[0]!.state)) return;
+    await new Promise((later) => window.setTimeout(later, 120));
+    if (mine !== asking || !free()) return;
+    try {
+      const one = await chance(asked(), cue());
+      if (mine === asking && free()) said.textContent = `This stroke plays on ${percent(one.keep)}, wins ${percent(one.value)}, is a foul ${percent(one.foul)}.`;
+    } catch (error) {
+      if (mine === asking) said.textContent = error instanceof Error ? error.message : String(error);
+    }
+  }
+  async function lookBack(of: Asked, made: Cue, calls: Call | undefined): Promise<void> {
+    const row = await review(carom, of, made, calls);
+    keepRow(row);
+    const cost = costOf(row);
+    said.textContent = `That stroke won ${percent(row.value)}; ${row.best} wins ${percent(row.bestValue)}: ${cost < 0.02 ? "well chosen" : `it cost ${percent(cost)}`}.`;
+  }
+
+  // ---- Games -------------------------------------------------------------------------------------------------------------------
+
+  const tally = (): Record<string, [number, number]> => JSON.parse(kept("carom-racks") ?? "{}") as Record<string, [number, number]>;
+  const key = (): string => `${play.setup.game}/${play.setup.against}`;
+  const racks = (): readonly [number, number] => tally()[key()] ?? [0, 0];
+  function count(winner: 0 | 1): void {
+    const all = tally();
+    const one = (all[key()] ??= [0, 0]);
+    one[winner]++;
+    keepText(JSON.stringify(all), "carom-racks");
+  }
+  function begin(setup: Setup): void {
+    seat = 0;
+    start(new Play(carom, JSON.parse(JSON.stringify(setup)) as Setup));
+    aim({ ...cue(), theta: 0, ...(play.played?.begin ?? { speed: 4, phi: 62, a: 0, b: 0 }) });
+    said.textContent = play.practice ? "Drag balls, aim by a drag on the cloth, then press Shoot." : "Drag to aim, hold Shoot to draw the stick, let go to play.";
+    save();
+    rest();
+  }
+  function start(with_: Play): void {
+    number++;
+    drop("plan");
+    then = undefined;
+    thinks = false;
+    play = with_;
+    turned = play.balls.map(() => [1, 0, 0, 0] as const);
+    turnedBefore = turned;
+    chosen = { ball: -1, pocket: -1 };
+    special = undefined;
+    film.stop();
+    film.look(1);
+  }
+
+  let writing = 0;
+  /** Keeps the game; one by link is in the address, and other pages of this machine hear of it. */
+  function save(): void {
+    const text = play.text();
+    if (play.setup.against !== "link") {
+      keepText(text);
+      if (location.hash !== "#view=play") history.replaceState(null, "", "#view=play");
+      return;
+    }
+    others.send(text);
+    const mine = ++writing;
+    void pack(text).then((packed) => mine === writing && history.replaceState(null, "", `#view=play&seat=${seat}&g=${packed}`));
+  }
+  async function send(): Promise<void> {
+    const url = `${location.href.split("#")[0]}#view=play&seat=${seat === 0 ? 1 : 0}&g=${await pack(play.text())}`;
+    try {
+      if (coarse && navigator.share) await navigator.share({ title: "A game of billiards", url });
+      else await navigator.clipboard.writeText(url);
+      said.textContent = coarse && "share" in navigator ? "Sent." : "The link for the other one is copied.";
+    } catch (error) {
+      said.textContent = `The browser does not let the page copy the link (${error instanceof Error ? error.message : String(error)}).`;
+    }
+  }
+
+  /** Strokes of the other one, of the same game, behind those that are known here. */
+  let queue: Entry[] = [];
+  function heard(text: string): void {
+    if (play.setup.against !== "link") return;
+    const { entries, ...setup } = JSON.parse(text) as Setup & { entries: Entry[] };
+    const known = play.entries.length + queue.length;
+    if (setup.game !== play.setup.game || setup.seed !== play.setup.seed || entries.length <= known) return;
+    if (JSON.stringify(entries.slice(0, play.entries.length)) !== JSON.stringify(play.entries)) return void (said.textContent = "The other page has another game of this name: send the link again.");
+    queue.push(...entries.slice(known));
+    if (!film.playing && then === undefined) onward();
+  }
+  function onward(): void {
+    const entry = queue.shift();
+    if (!entry) return next();
+    try {
+      const one = play.read(entry);
+      said.textContent = `Stroke ${play.entries.length} has every bit that was sent.`;
+      if (play.winner !== undefined) count(play.winner);
+      save();
+      perform(one, onward);
+    } catch (error) {
+      queue = [];
+      said.textContent = error instanceof Error ? error.message : String(error);
+      rest();
+    }
+  }
+  const others = channel(heard, () => (play.setup.against === "link" ? play.text() : undefined));
+
+  /** The game of the address, the one that was kept, or a new one. */
+  async function resume(): Promise<void> {
+    const given = parameters();
+    let wrong = "";
+    try {
+      const packed = given.get("g");
+      const text = packed ? await unpack(packed) : kept();
+      if (text !== undefined) {
+        const one = read(carom, text);
+        start(one);
+        seat = packed && given.get("seat") === "1" ? 1 : 0;
+        aim({ ...cue(), theta: 0, ...(one.last?.cue ?? play.played?.begin ?? {}) });
+        if (packed && one.entries.length > 0) wrong = `${one.entries.length} ${one.entries.length === 1 ? "stroke has" : "strokes have"} every bit that was sent.`;
+        save();
+        others.ask();
+        said.textContent = wrong;
+        if (packed && one.last?.shot && mine()) return perform(one.last, next);
+        return next();
+      }
+    } catch (error) {
+      wrong = `The game was not read: ${error instanceof Error ? error.message : String(error)}.`;
+    }
+    begin({ ...FIRST, seed: Math.floor(Math.random() * 2 ** 31) });
+    if (wrong) said.textContent = wrong;
+  }
+  play = new Play(carom, FIRST);
+  start(play);
+  rest();
+  const ready = resume();
+  main.setAttribute("aria-busy", "true");
+  void ready.then(() => main.setAttribute("aria-busy", "false"));
+
+  return {
+    update: () => undefined,
+    theme: film.draw,
+    close() {
+      number++;
+      drop("plan");
+      film.stop();
+      others.close();
+    },
+  };
+}

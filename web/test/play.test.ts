@@ -1,0 +1,249 @@
+// The view Play in a browser, at both sizes: strokes, whole games, what is kept, and what is heard.
+import { describe, expect, test } from "vitest";
+import type { Page } from "playwright-core";
+import { browserPath, pages, sizes } from "./page.js";
+
+describe.runIf(browserPath !== undefined)("a game", () => {
+  const { open, on, drag, click, pixel, bright, text, set } = pages();
+  const turn = (one: Page): Promise<string> => text(one, "turn");
+  const phi = async (one: Page): Promise<number> => Number(await one.locator("#phi").inputValue());
+
+  /** Begins a game by the menu, with the film at once. */
+  async function begin(one: Page, game: string, against: string, own = "0"): Promise<void> {
+    await one.locator("#new-game").click();
+    await one.locator("#new-which").selectOption(game);
+    await one.locator("#new-against").selectOption(against);
+    if (against !== "practice") await one.locator("#new-own").selectOption(own);
+    await one.locator("#rate").selectOption("1000");
+    await one.locator("#start").click();
+  }
+  /** Opens the page with a game that was kept. */
+  async function kept(game: object, how = {}): Promise<Page> {
+    const one = await open("", how);
+    await one.evaluate((text) => localStorage.setItem("carom-game", text), JSON.stringify(game));
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    return one;
+  }
+  const NINE = { game: "nineball", own: "0", seed: 7 };
+
+  test.each(sizes)("it opens on a game, soon, with all that a stroke needs within one screen: %s", async (_, how) => {
+    const one = await open("", how);
+    const paint = await one.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]!.startTime);
+    console.log(`first paint after ${paint.toFixed(0)} ms`);
+    expect(paint).toBeLessThan(1500);
+    expect(await turn(one)).toContain("You break");
+    for (const id of ["table-scene", "power", "tip-ball", "shoot", "hint", "turn", "said"]) {
+      const box = (await one.locator(`#${id}`).boundingBox())!;
+      expect(box.x, id).toBeGreaterThanOrEqual(0);
+      expect(box.x + box.width, id).toBeLessThanOrEqual(how.width);
+      expect(box.y + box.height, id).toBeLessThanOrEqual(how.height);
+    }
+    const box = (await one.locator("#table-scene").boundingBox())!;
+    expect((box.width * box.height) / (how.width * how.height)).toBeGreaterThan(0.48);
+    await one.close();
+  });
+
+  test("on a phone a drag aims and scrolls nothing, a tap aims at a ball, two fingers show a part larger, and the tip is touched", async () => {
+    const one = await open("", { width: 390, height: 844, touch: true });
+    const before = await phi(one);
+    expect(before).toBe(90);
+    await drag(one, [1.0, 1.4], [0.8, 1.4], true);
+    // The aim turns by as much as the finger goes around the cue ball.
+    const around = (Math.atan2(1.4 - 0.635, 0.8 - 0.635) - Math.atan2(1.4 - 0.635, 1.0 - 0.635)) * (180 / Math.PI);
+    expect(await phi(one)).toBeCloseTo(90 + around, 0);
+    expect(await one.evaluate(() => scrollY)).toBe(0);
+    await click(one, 0.3, 1.5, true);
+    expect(await phi(one)).toBeCloseTo((Math.atan2(1.5 - 0.635, 0.3 - 0.635) * 180) / Math.PI, 0);
+    const ball = (await one.locator("#tip-ball").boundingBox())!;
+    await one.touchscreen.tap(ball.x + ball.width * (0.5 + 0.3 / 2.1), ball.y + ball.height * (0.5 + 0.4 / 2.1));
+    expect(Number(await one.locator("#right").inputValue())).toBeCloseTo(0.3, 1);
+    expect(Number(await one.locator("#up").inputValue())).toBeCloseTo(-0.4, 1);
+    // Two fingers go apart: what was between them stays there, and the aim stays.
+    const aim = await phi(one);
+    const [x, y] = await on(one, 0.635, 0.635);
+    // Beside the cue ball is cloth, which a larger ball covers.
+    const beside = async (): Promise<number> => Math.min(...(await pixel(one, x + 10, y - 10)));
+    expect(await beside()).toBeLessThan(60);
+    const devtools = await one.context().newCDPSession(one);
+    const send = (type: "touchStart" | "touchMove" | "touchEnd", apart: number[]): Promise<unknown> =>
+      devtools.send("Input.dispatchTouchEvent", { type, touchPoints: apart.flatMap((d) => [{ x: x - d, y, id: 0 }, { x: x + d, y, id: 1 }]) });
+    await send("touchStart", [20]);
+    for (let d = 24; d <= 60; d += 4) await send("touchMove", [d]);
+    await send("touchEnd", []);
+    expect(await beside()).toBeGreaterThan(150);
+    expect(await phi(one)).toBe(aim);
+    await one.close();
+  });
+
+  test("Shoot by a press plays the power that is set, held it draws the stick, and keys do all", async () => {
+    const one = await open("");
+    await set(one, "power", 1.5);
+    const box = (await one.locator("#shoot").boundingBox())!;
+    await one.mouse.move(box.x + 20, box.y + 20);
+    await one.mouse.down();
+    await expect.poll(async () => Number(await one.locator("#power").inputValue()), { timeout: 5000 }).toBeGreaterThan(4);
+    // Let go beside it: nothing is played.
+    await one.mouse.move(box.x - 300, box.y);
+    await one.mouse.up();
+    expect(await one.locator("#skip").isVisible()).toBe(false);
+    await one.mouse.move(box.x + 20, box.y + 20);
+    await one.mouse.down();
+    await expect.poll(async () => Number(await one.locator("#power").inputValue()), { timeout: 5000 }).toBeGreaterThan(4);
+    await one.mouse.up();
+    await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    await begin(one, "nineball", "person");
+    const scene = one.locator("#table-scene");
+    await scene.press("Shift+ArrowLeft");
+    await scene.press("ArrowRight");
+    expect(await phi(one)).toBeCloseTo(90.9, 6);
+    await scene.press("ArrowUp");
+    expect(Number(await one.locator("#power").inputValue())).toBeCloseTo(8.1, 6);
+    await scene.press("Alt+ArrowUp");
+    await scene.press("Enter");
+    await expect.poll(() => turn(one)).toMatch(/^(Player 1 fouls.*)?Player [12]'s turn/);
+    await one.close();
+  });
+
+  test("a stroke is not swallowed while a hint is looked for", async () => {
+    const one = await open("");
+    await one.locator("#hint").click();
+    await one.locator("#shoot").click();
+    await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
+    await one.locator("#skip").click();
+    await expect.poll(() => turn(one), { timeout: 20_000 }).not.toContain("You break");
+    expect(await text(one, "said")).not.toContain("Hint");
+    await one.close();
+  });
+
+  test("after a scratch the other one has the cue ball in hand, and nothing internal is told", async () => {
+    const one = await kept({ ...NINE, against: "person", at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9", entries: [] });
+    await begin(one, "nineball", "person");
+    // The cue ball is put near a corner, and played into it.
+    await drag(one, [0.635, 0.635], [0.2, 0.2]);
+    await click(one, 0.05, 0.05);
+    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
+      input.value = "225";
+      input.dispatchEvent(new Event("input"));
+    });
+    await set(one, "power", 2);
+    await one.locator("#shoot").click();
+    await expect.poll(() => turn(one)).toMatch(/^Player 1 fouls: .*Player 2's turn.* Cue ball in hand/);
+    expect(await text(one, "said")).toBe("");
+    await one.close();
+  });
+
+  test("a game hides the way of the balls, practice shows it; undo is of practice", async () => {
+    const at = "0.635,0.6 in in in in in in in in 0.3,2.3";
+    const seen = async (against: string): Promise<number> => {
+      const one = await kept({ ...NINE, against, at, entries: [] });
+      await one.locator("#phi").evaluate((input: HTMLInputElement) => {
+        input.value = "45";
+        input.dispatchEvent(new Event("input"));
+      });
+      await set(one, "power", 3);
+      expect(await one.locator("#undo-stroke").isVisible()).toBe(against === "practice");
+      // Behind the first cushion there is only the way of practice.
+      await one.waitForTimeout(200);
+      const count = await bright(one, [0.2, 1.35], [1.1, 2.1]);
+      if (against === "practice") {
+        await one.locator("#shoot").click();
+        await one.locator("#skip").click();
+        await expect.poll(() => one.locator("#undo-stroke").isEnabled()).toBe(true);
+        await one.locator("#undo-stroke").click();
+        expect(await one.evaluate(() => (JSON.parse(localStorage.getItem("carom-game")!) as { at: string }).at)).toBe(at);
+      }
+      await one.close();
+      return count;
+    };
+    expect(await seen("person")).toBe(0);
+    expect(await seen("practice")).toBeGreaterThan(100);
+  });
+
+  test("a reload keeps the game, to the bit", async () => {
+    const one = await open("", { width: 390, height: 844, touch: true });
+    await begin(one, "eightball", "person", "500");
+    await set(one, "power", 9);
+    await one.locator("#shoot").click();
+    await expect.poll(() => turn(one)).toMatch(/'s turn/);
+    const game = await one.evaluate(() => localStorage.getItem("carom-game"));
+    expect((JSON.parse(game!) as { entries: unknown[] }).entries).toHaveLength(1);
+    const before = [await turn(one), await text(one, "score")];
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    expect((await turn(one)).split(" Call")[0]).toBe(before[0]!.split(" Call")[0]);
+    expect(await text(one, "score")).toBe(before[1]);
+    expect(await one.evaluate(() => localStorage.getItem("carom-game"))).toBe(game);
+    await one.close();
+  });
+
+  test.each([
+    ["eightball", "300", sizes[1]],
+    ["nineball", "700", sizes[0]],
+    ["threecushion", "500", sizes[1]],
+  ] as const)("a game of %s against a %s is played to its end", async (game, against, [, how]) => {
+    const one = await open("", how);
+    await begin(one, game, against);
+    for (let k = 0; k < 150; k++) {
+      await expect.poll(() => turn(one), { timeout: 60_000 }).toMatch(/Your turn|You break|has won|have won/);
+      if (/won/.test(await turn(one))) break;
+      await one.locator("#hint").click();
+      await expect.poll(() => text(one, "said"), { timeout: 60_000 }).toMatch(/^Hint: /);
+      await one.locator("#shoot").click();
+      await expect.poll(async () => /won/.test(await turn(one)) || !(await text(one, "said")).startsWith("Hint"), { timeout: 60_000 }).toBe(true);
+    }
+    expect(await turn(one)).toMatch(new RegExp(`(You have|The ${against} has) won\\.$`));
+    console.log(`${game} against a ${against}: ${await turn(one)} ${await text(one, "score")}`);
+    expect(await one.locator("#rack-up").isVisible()).toBe(true);
+    await one.close();
+  }, 300_000);
+
+  test("the script's part of a frame of a break", async () => {
+    const one = await open("");
+    await one.evaluate(() => {
+      const seen = window as unknown as { took: number[] };
+      seen.took = [];
+      const ask = window.requestAnimationFrame.bind(window);
+      window.requestAnimationFrame = (draw) =>
+        ask((now) => {
+          const begun = performance.now();
+          draw(now);
+          seen.took.push(performance.now() - begun);
+        });
+    });
+    await one.locator("#shoot").click();
+    await one.waitForTimeout(3000);
+    const took = (await one.evaluate(() => (window as unknown as { took: number[] }).took)).sort((a, b) => a - b);
+    const at = (share: number): number => took[Math.floor(share * (took.length - 1))]!;
+    console.log(`a frame of a break: median ${at(0.5).toFixed(2)} ms, 90 % below ${at(0.9).toFixed(2)} ms, of ${took.length}`);
+    expect(took.length).toBeGreaterThan(20);
+    expect(at(0.5)).toBeLessThan(4);
+    await one.close();
+  });
+
+  test.each(sizes)("a break sounds where sound is on, which it is not on a phone: %s", async (_, how) => {
+    const one = await open("", how);
+    await one.evaluate(() => {
+      const heard = window as unknown as { heard: number[] };
+      heard.heard = [];
+      const connect = AudioNode.prototype.connect as (this: AudioNode, to: AudioNode) => AudioNode;
+      AudioNode.prototype.connect = function (this: AudioNode, to: AudioNode) {
+        if (this instanceof GainNode) heard.heard.push(this.gain.value);
+        return connect.call(this, to);
+      } as typeof AudioNode.prototype.connect;
+    });
+    await one.locator("#shoot").click();
+    await one.waitForTimeout(2500);
+    const heard = await one.evaluate(() => (window as unknown as { heard: number[] }).heard);
+    if ("touch" in how) expect(heard).toEqual([]);
+    else {
+      // The break is louder than what comes after it.
+      expect(heard.length).toBeGreaterThan(15);
+      const sorted = heard.sort((a, b) => a - b);
+      expect(sorted.at(-1)).toBeGreaterThan(1.5 * sorted[sorted.length >> 2]!);
+    }
+    await one.close();
+  });
+});
