@@ -57,6 +57,7 @@ DRAWN = {
     "rule-30": "carom hit --cut 1:0.02ball --spin follow,stun --quantity rolling-deflection --plot {}",
     "throw": "carom hit --cut 0:80 --speed 1,3,7mph --plot {}",
     "rebound": "carom rail --model mathavan --angle 0:75 --side -50,0,50% --friction 0.3 --plot {}",
+    "wide": "carom ways --balls foot-spot --pocket foot-left --cut 0:70:5 --distance 0.4,0.8,1.2 --speed 2 --plot {} -o /dev/null",
     "cuts": "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 10,25,40 --tip 0.2,-0.3 --plot {} -o /dev/null",
 }
 # What the docs show, in docs/figures, with the CSV files beside them in docs/figures/data.
