@@ -3,6 +3,7 @@
  * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. */
 #include "shoot_flags.h"
 
+#include "derived.h"
 #include "doubts.h"
 #include "memory.h"
 #include "message.h"
@@ -170,6 +171,9 @@ const option_row option_balls = {.name = "balls",
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
     "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin "
     "turns the ball off it by squirt");
+ROW(option_to, "to", to, "X,Y", set_places, MEASURE_PLACE,
+    "the cue ball leaves towards this place instead, whatever squirt does: as in --cue, 4d,6d or "
+    "foot-right; several with colons, 4d,6d:4d,7d. Spin may bend its way after that");
 ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
     "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, "
     "swerve and hops do; an error where no direction does");
@@ -212,10 +216,10 @@ ROW(option_seed, "seed", seed, "N", set_count, 1,
 
 bool has_flags(const shoot_flags *f) {
   return f->table != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
-         f->cue.count > 0 || f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 ||
-         f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 ||
-         f->elevation.count > 0 || f->tip_time != 0.0 || f->tip_restitution != 0.0 ||
-         f->gap.count > 0 || f->seed != 0;
+         f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 || f->balls.rack > 0 ||
+         f->tip.count > 0 || f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 ||
+         f->cut.count > 0 || f->elevation.count > 0 || f->tip_time != 0.0 ||
+         f->tip_restitution != 0.0 || f->gap.count > 0 || f->seed != 0;
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -309,6 +313,22 @@ static bool strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue)
   return true;
 }
 
+/* Turns a cue so that its ball leaves towards a place; false after a complaint. */
+static bool aim_to(const value *x, const value *y, const layout *l, carom_cue *cue) {
+  const double *from = l->ball[0].state.r;
+  const double ahead[2] = {place_along(x, 0.25 * l->table.width) - from[0],
+                           place_along(y, 0.125 * l->table.length) - from[1]};
+  carom_motion after;
+  if (hypot(ahead[0], ahead[1]) < l->ball[0].kind.radius) {
+    complain("--to is a place away from the cue ball");
+    return false;
+  }
+  cue->phi = 0.0;
+  if (carom_strike(cue, &l->ball[0].kind, &after) == CAROM_OK)
+    cue->phi = (atan2(ahead[1], ahead[0]) - atan2(after.v[1], after.v[0])) / degree;
+  return true;
+}
+
 /* One of the combinations; false after a complaint. */
 static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
                        const carom_shot_options *options, int index) {
@@ -348,12 +368,17 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
       return false;
     if (index < MOST_SHOTS)
       memcpy(f->aimed[index], told, sizeof told);
+  } else if (f->to.count > 0) {
+    if (!aim_to(&f->to.at[way].x, &f->to.at[way].y, l, &cue))
+      return false;
   } else if (f->cut.count == 0)
     cue.phi = f->aim.at[way].x;
   else if (!aim_at_ball(f->at_ball != NULL ? f->at_ball : "1", l, options, f->cut.at[way].x, &cue))
     return false;
   name_value(id, "aim", &f->aim, way);
   name_value(id, "cut", &f->cut, way);
+  if (f->to.count > 1)
+    snprintf(id, sizeof id, "to %s,%s", f->to.at[way].x.name, f->to.at[way].y.name);
   name_value(id, "elevation", &f->elevation, rise);
   name_value(id, "speed", speeds, speed);
   if (f->tip.count > 1)
@@ -400,6 +425,12 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
     complain("--pocket says the direction, and so do --aim, --at-ball and --cut: give one of them");
     return false;
   }
+  if (f->to.count > 0 &&
+      (f->aim.count > 0 || f->cut.count > 0 || f->at_ball != NULL || f->pocket != NULL)) {
+    complain("--to says the direction, and so do --aim, --at-ball, --cut and --pocket: give one of "
+             "them");
+    return false;
+  }
   if (f->via != NULL && f->pocket == NULL) {
     complain("--via is the way of a ball to its pocket: give --pocket too");
     return false;
@@ -434,7 +465,7 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   if (f->shared.strict &&
       (f->aim.comma || f->cut.comma || f->speed.comma || f->ball_speed.comma || f->elevation.comma))
     return false;
-  const int ways = f->cut.count > 0 ? f->cut.count : f->aim.count;
+  const int ways = f->to.count > 0 ? f->to.count : f->cut.count > 0 ? f->cut.count : f->aim.count;
   const int speeds = f->ball_speed.count > 0 ? f->ball_speed.count : f->speed.count;
   const int count = speeds * f->tip.count * f->elevation.count * ways;
   const bool good_cue = f->cue.count <= 1;

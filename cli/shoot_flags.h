@@ -30,15 +30,16 @@ typedef struct shoot_flags {
   const char *at_ball, *pocket, *via;
   values speed, ball_speed, aim, cut, elevation, gap;
   int seed; /* of a rack; 0: 1 */
-  place_list cue, balls, tip;
+  place_list cue, balls, tip, to;
   double tip_time, tip_restitution; /* s, and 0 to 1 */
   bool json;
   char aimed[MOST_SHOTS][AIMED_TEXT]; /* what is told of the aim of each shot, or "" */
 } shoot_flags;
 
-extern const option_row option_table, option_cue, option_balls, option_aim, option_at_ball,
-    option_pocket, option_via, option_shot_cut, option_shot_speed, option_ball_speed, option_tip,
-    option_elevation, option_tip_time, option_tip_restitution, option_json, option_gap, option_seed;
+extern const option_row option_table, option_cue, option_balls, option_aim, option_to,
+    option_at_ball, option_pocket, option_via, option_shot_cut, option_shot_speed,
+    option_ball_speed, option_tip, option_elevation, option_tip_time, option_tip_restitution,
+    option_json, option_gap, option_seed;
 
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);

@@ -107,8 +107,8 @@ static bool set_value(value *v, double given, int unit) {
   v->x = isnan(units[unit].factor)
              ? asin(given >= 0.0 && given <= 1.0 ? 1.0 - given : (double)NAN) / degree
              : given * units[unit].factor;
-  snprintf(v->name, sizeof v->name, "%.6g%s%s", given, units[unit].name[0] >= 'a' ? " " : "",
-           units[unit].name);
+  const bool apart = units[unit].name[0] >= 'a' && units[unit].times != DIAMONDS; /* 2d, 2 m */
+  snprintf(v->name, sizeof v->name, "%.6g%s%s", given, apart ? " " : "", units[unit].name);
   return isfinite(v->x);
 }
 

@@ -1,9 +1,9 @@
 /* How wide a pot is.
  *
- * With u the direction from the ball to the middle of the pocket's mouth, the cue ball comes along u turned
- * by the cut to the right, and meets the ball with its centre 2 R before it. From there the
- * distance is counted back along its path. Throw, squirt and swerve are left to carom_aim(), so the
- * cut at which the ball falls differs a little from that of the place. */
+ * With u the direction from the ball to the middle of the pocket's mouth, the cue ball comes along
+ * u turned by the cut to the right, and meets the ball with its centre 2 R before it. From there
+ * the distance is counted back along its path. Throw, squirt and swerve are left to carom_aim(), so
+ * the cut at which the ball falls differs a little from that of the place. */
 #include "wide.h"
 
 #include "derived.h"

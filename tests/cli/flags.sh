@@ -55,6 +55,15 @@ for rack, count in (("nineball", 10), ("eightball", 16), ("tenball", 11)):
 [(given, _)] = shots("--balls", "snooker", "--table", "snooker", "--speed", 1)
 print([ball["id"] for ball in given["balls"]][::5], given["balls"][0]["params"])
 
+# Sent to a place, the ball leaves towards it, whatever its tip; in diamonds of the table.
+for x, y in ((4, 6), (0, 3)):
+    sent = ("--table", "threecushion", "--cue", "0.5,0.7", "--tip", "0.4,0.1", "--to", f"{x}d,{y}d")
+    leaves = next(csv.DictReader(io.StringIO(run(*sent, "--csv"))))
+    way = math.degrees(math.atan2(y * 2.84 / 8 - 0.7, x * 1.42 / 4 - 0.5))
+    ((given, _),) = shots(*sent)
+    assert leaves["what"] == "leaves" and abs(float(leaves["direction_deg"]) - way) < 1e-9 and abs(given["cue"]["phi"] - way) > 0.3, (leaves, way)
+print([line["id"] for line, _ in shots("--to", "4d,6d:foot-right")])
+
 # What balls do, as rows: contacts are those of the events, ends those of the shot; a ball that lies 5 mm beside a straight path is passed.
 rows = lambda *words: list(csv.DictReader(io.StringIO(run(*words, "--csv"))))
 told = rows(*balls, "--at-ball", 1, "--cut", "10,-20", "--ball-speed", 3)
@@ -166,7 +175,7 @@ cmp lines.svg words.svg && try carom shoot --cue 5,5 --events none
 echo "--- refused"
 for words in "--cue 0.6,0.8 --csv --events brief" "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--speed 1 --ball-speed 1" "--balls 0.4,1.7 --pocket 1:rb" "--balls 0.4,1.7:0.3,1.9 --pocket 1:lt" "--balls 0.4,1.7:0.503,1.25 --cue 0.6,0.8 --pocket 1:lt" "--balls 0.4,1.7 --pocket 1:lt --speed 0.6" "--balls 0.4,1.7 --pocket 1:fot-right" "--balls 0.4,1.7 --pocket 1:lt --via lft" "--balls 0.4,1.7:0.9,1.5 --pocket 1:lt --via left,2" "--balls 0.4,1.7 --pocket 1:lt --via 1,1" "--balls 0.4,1.7 --pocket 1:lt --via head" "--balls 0.4,1.7 --via left" "--balls 0.9,1.5:0.8,2.0 --cue 0.6,0.8 --speed 3 --pocket 1:lt --via right" "--balls 0.9,1.5 --cue 0.6,0.8 --tip 0.2,0.1 --speed 3 --cushion mathavan --pocket 1:lt --via right" "--balls 0.4,1.7 --pocket 1:lt --aim 90" "--table threecushion --balls 0.4,1.7 --pocket 1:lt" "--ball-speed 1 --elevation 5" "--table attic" \
   "--balls 0.5,1.6:8=0.55,1.2 --cue 0.6,0.8 --at-ball 1" "--balls 0.5,1.6 --cue 0.6,0.8 --at-ball 1 --speed 0.2" "--balls 0.6,1.1 --cue 0.6,0.8 --at-ball 1 --elevation 30 --speed 4 --tip-time 0.0006" \
-  "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
+  "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--to 4d" "--to foot-left --aim 20" "--cue 0.6,0.8 --to 0.6,0.81" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
   # shellcheck disable=SC2086
   try carom shoot -o refused.txt $words
 done
