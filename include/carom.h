@@ -274,7 +274,7 @@ typedef enum carom_status {
   CAROM_ERROR_TIME_MOST = -96,          /* options.time_most is negative, not finite, or before the
                                        time of a shot that goes on. */
   CAROM_ERROR_STOP_AT = -97,            /* options.stop_at has a bit that stands for no event. */
-  CAROM_ERROR_PLAIN = -98,              /* options.plain or fast is neither 0 nor 1. */
+  CAROM_ERROR_PLAIN = -98,              /* options.plain is neither 0 nor 1. */
   CAROM_ERROR_SIMULTANEOUS = -99,       /* options.simultaneous is not one of carom_simultaneous. */
   CAROM_ERROR_CLUSTER_STEPS = -100,     /* options.cluster_steps is not 0 to 10000. */
   CAROM_ERROR_RECORD = -101,            /* carom_record.h: a recording is wrong; record.fault says
@@ -283,6 +283,7 @@ typedef enum carom_status {
                                            physics. */
   CAROM_ERROR_IN_MOTION = -103,         /* carom_plan.h: a ball of the layout moves. */
   CAROM_ERROR_GAME_OVER = -104,         /* carom_plan.h: the rules have no ball to be played. */
+  CAROM_ERROR_FAST = -105,              /* options.fast is neither 0 nor 1. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value

@@ -151,7 +151,7 @@
     "options.time_most must be 0 or more, finite, and not before the time of a shot that goes on") \
   X(ERROR_STOP_AT, -97, "bad_stop_at",                                                             \
     "options.stop_at must be a set of CAROM_STOP_AT() and CAROM_STOP_AT_CONTACT")                  \
-  X(ERROR_PLAIN, -98, "bad_plain", "options.plain and options.fast must be 0 or 1")                \
+  X(ERROR_PLAIN, -98, "bad_plain", "options.plain must be 0 or 1")                                 \
   X(ERROR_SIMULTANEOUS, -99, "bad_simultaneous",                                                   \
     "options.simultaneous must be one of carom_simultaneous")                                      \
   X(ERROR_CLUSTER_STEPS, -100, "bad_cluster_steps",                                                \
@@ -162,7 +162,8 @@
   X(ERROR_IN_MOTION, -103, "in_motion",                                                            \
     "plans are made of layouts at rest, and a ball moves, turns or flies")                         \
   X(ERROR_GAME_OVER, -104, "game_over",                                                            \
-    "no ball is left to be played: all that count are down, or the eight is")
+    "no ball is left to be played: all that count are down, or the eight is")                      \
+  X(ERROR_FAST, -105, "bad_fast", "options.fast must be 0 or 1")
 
 #define AGREES(NAME, value, name, text) \
   _Static_assert(CAROM_##NAME == (value), "values are never renumbered");

@@ -61,7 +61,7 @@
          "most threads of a batch, the calling one among them; 0: that one alone; -1: one for " \
          "each processor")
 #define CAROM_COMPUTE_OPTIONS(OPTION)                                                    \
-  OPTION(fast, "", FLAG, 0, 1, PLAIN,                                                    \
+  OPTION(fast, "", FLAG, 0, 1, FAST,                                                     \
          "1: with the instruction set in use; 0: with the bits that all machines share") \
   CAROM_THREAD_OPTIONS(OPTION)
 
