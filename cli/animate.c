@@ -135,6 +135,7 @@ static const char head[] =
     "padding:0;list-style:none}\n"
     ".events button{width:100%;border:0;background:none;text-align:left;display:grid;"
     "grid-template-columns:5em 1fr}[aria-current] button{background:#0b5fa5;color:#fff}\n"
+    "@media print{canvas,.film,.events,h1{display:none}}\n"
     "</style>\n<main id=\"main\"><h1>carom shoot</h1></main>\n";
 
 void shots_animate(FILE *out, const played *shots, int count, const char *footer) {

@@ -51,7 +51,7 @@ void put_label(labels *l, double x, double y, const char *text) {
     return;
   keep_free(l, box[0], box[1], box[2], box[3]);
   svg_text(l->out, box[0], box[3] - 0.25 * height, text, MOST_CHARACTERS,
-           "font-size=\"%.1f\" fill=\"#0b2a22\" stroke=\"#6fc0a6\" stroke-width=\"3\" "
+           "font-size=\"%.1f\" fill=\"#fff\" stroke=\"#0b2a22\" stroke-width=\"3\" "
            "paint-order=\"stroke\"",
            l->size);
 }

@@ -8,7 +8,8 @@
  * @typedef {{ r: readonly number[], q: ArrayLike<number>, seen: boolean }} Pose */
 /** A shot: its poses at a time, s; x, y, z of the balls that move, point after point; what happens when.
  * @typedef {{ time: number, at(time: number): Pose[], paths: { ball: number, xyz: ArrayLike<number> }[], events: { time: number, text: string }[] }} Shot */
-/** @typedef {{ table: Table, balls: { name: string, radius: number }[], shots: Shot[] }} Film */
+/** Shots that are apart have a colour each: of trails, dashed but for the cue ball, and around balls. */
+/** @typedef {{ table: Table, balls: { name: string, radius: number }[], shots: Shot[], apart?: boolean }} Film */
 /** @typedef {{ under?(g: CanvasRenderingContext2D): boolean, over?(g: CanvasRenderingContext2D): void, ended?(): void, moved?(): void,
  *   still?(): boolean }} Hooks */
 
@@ -18,6 +19,8 @@ const POOL = ["#e3b505", "#1446a0", "#c8102e", "#5b2a86", "#e8702a", "#12664f", 
 const NAMED = { cue: IVORY, white: IVORY, yellow: POOL[0], green: POOL[5], brown: "#7b4a21", blue: POOL[1], pink: "#e58fa5", black: POOL[7], red: POOL[2] };
 /** Of trails, which have to be bright on the cloth. @type {Record<string, string>} */
 const BRIGHT = { [POOL[0]]: "#ffd84a", [POOL[1]]: "#8fc1ff", [POOL[2]]: "#ff8d80", [POOL[3]]: "#d3b3ff", [POOL[4]]: "#ffb466", [POOL[5]]: "#b6f09c", [POOL[6]]: "#f2a0bd", "#7b4a21": "#c9a27a" };
+/** Of shots over each other, as in the picture below the film. */
+const SHOTS = ["#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"];
 /** Wood around the noses of the cushions, m. */
 const WOOD = 0.1;
 /** Radii of what is drawn on a ball, as angles seen from its middle: a white end of a striped ball, a number, a dot. */
@@ -82,7 +85,7 @@ export function recorded({ table, balls, shots }) {
     paths: poses.flatMap((pose, ball) => (pose.length > 10 ? [{ ball, xyz: pose.filter((_, k) => k % 10 < 3) }] : [])),
     events: events.map(([time, type, a, b]) => ({ time, text: wordsOf(table, names, type, a, b) })),
   }));
-  return { table, balls: balls.map(([name, radius]) => ({ name, radius })), shots: filmed };
+  return { table, balls: balls.map(([name, radius]) => ({ name, radius })), shots: filmed, apart: filmed.length > 1 };
 }
 
 /** @template {keyof HTMLElementTagNameMap} K @param {K} tag @param {Record<string, string>} attributes @param {(Node | string)[]} children */
@@ -203,8 +206,8 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
   /** @param {Point} at @param {number} x @param {number} y @returns {[number, number]} */
   const onCanvas = ([px, py], x, y) => (upright ? [px + x, py - y] : [px + y, py + x]);
 
-  /** @param {CanvasRenderingContext2D} g @param {number} k @param {Pose} pose @param {number} alpha */
-  function drawBall(g, k, { r, q }, alpha) {
+  /** @param {CanvasRenderingContext2D} g @param {number} k @param {Pose} pose @param {number} alpha @param {string} [ring] */
+  function drawBall(g, k, { r, q }, alpha, ring) {
     const { name, radius: R } = /** @type {Film} */ (film).balls[k];
     const at = place(r[0], r[1]);
     // One that flies looks larger, one that falls in a pocket smaller.
@@ -239,11 +242,13 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
     }
     // The light of a lamp above the table, and the rim.
     if (radius >= 5) g.drawImage(light, at[0] - radius, at[1] - radius, 2 * radius, 2 * radius);
-    g.strokeStyle = "#000a";
-    g.lineWidth = 1;
-    g.beginPath();
-    g.arc(...at, radius, 0, 7);
-    g.stroke();
+    for (const [colour, beyond] of /** @type {[string, number][]} */ (ring ? [["#000a", 0], [ring, 1.5]] : [["#000a", 0]])) {
+      g.strokeStyle = colour;
+      g.lineWidth = beyond || 1;
+      g.beginPath();
+      g.arc(...at, radius + beyond, 0, 7);
+      g.stroke();
+    }
     g.globalAlpha = 1;
   }
   /** A highlight and a darker rim, for any ball. */
@@ -298,10 +303,12 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
     // Trails, to the pocket that takes the ball.
     g.lineWidth = 1.6;
     g.lineJoin = g.lineCap = "round";
-    for (const { paths } of shots)
+    const { apart = false } = film;
+    for (const [index, { paths }] of shots.entries())
       for (const { ball, xyz } of paths) {
         const colour = colourOf(film.balls[ball].name, ball);
-        g.strokeStyle = BRIGHT[colour] ?? colour;
+        g.strokeStyle = apart ? SHOTS[index % 8] : (BRIGHT[colour] ?? colour);
+        g.setLineDash(apart && colour !== IVORY ? [7, 4] : []);
         g.globalAlpha = dim ? 0.5 : 0.8;
         g.beginPath();
         for (let k = 0; k < xyz.length; k += 3) {
@@ -310,10 +317,11 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
         }
         g.stroke();
       }
+    g.setLineDash([]);
     g.globalAlpha = 1;
     // The balls at this time. Shots over each other: the first is plain, the others are seen through.
     shots.forEach((shot, index) => {
-      shot.at(Math.min(time, shot.time)).forEach((pose, k) => pose.seen && drawBall(g, k, pose, index === 0 ? 1 : 0.6));
+      shot.at(Math.min(time, shot.time)).forEach((pose, k) => pose.seen && drawBall(g, k, pose, index === 0 || apart ? 1 : 0.6, apart ? SHOTS[index % 8] : undefined));
     });
     over?.(g);
   }

@@ -205,11 +205,11 @@ static void draw_start(const view *v, const shot_line *line, int ball, double y)
       "fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"", colour_of(line->name[ball], ball));
 }
 
-/* A name of more than two letters stands beside the ball, unless the ball's colour says it. */
-static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball,
+/* A ball at a place of the picture. */
+static void draw_disc(const view *v, const shot_line *line, int ball, double x, double y,
                       const char *name) {
   const char *colour = colour_of(line->name[ball], ball);
-  const double x = across(v, s->r), y = down(v, s->r), r = v->scale * line->ball[ball].kind.radius;
+  const double r = v->scale * line->ball[ball].kind.radius;
   svg_circle(v->out, x, y, r, "fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"", colour);
   if (is_striped(line->name[ball]))
     svg_circle(v->out, x, y, r - 1.8, "fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"");
@@ -217,8 +217,42 @@ static void draw_ball(const view *v, const shot_line *line, const carom_ball_sta
     svg_text(v->out, x, y + 0.36 * v->labels->size, name, 2,
              "font-size=\"%.1f\" letter-spacing=\"-2\" fill=\"%s\" text-anchor=\"middle\"",
              v->labels->size, strcmp(colour, "#111111") == 0 ? "#fff" : "#111");
-  else if (named_colour(name) == NULL)
+}
+
+/* A name of more than two letters stands beside the ball, unless the ball's colour says it. */
+static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball,
+                      const char *name) {
+  const double x = across(v, s->r), y = down(v, s->r);
+  draw_disc(v, line, ball, x, y, name);
+  if (strlen(name) > 2 && named_colour(name) == NULL)
     put_label(v->labels, x, y, name);
+}
+
+/* ---- Balls that are down before the shot lie in a row under the table */
+
+static bool is_missing(const shot_line *line, int ball) {
+  return line->ball[ball].state.label == CAROM_BALL_POCKETED;
+}
+
+/* Draws them at a height of the picture, behind a word; returns the height of the row, 0 of none.
+ * Without `draws` it only tells that. */
+static double draw_missing(const view *v, const shot_line *line, double left, double top,
+                           bool draws) {
+  const double letters = v->labels->size;
+  double x = left + 4.0 * letters, high = 0.0;
+  for (int k = 0; k < line->count; k++) {
+    if (!is_missing(line, k))
+      continue;
+    const double r = v->scale * line->ball[k].kind.radius;
+    if (draws && high == 0.0)
+      svg_text(v->out, left, top + r + 0.36 * letters, "Down:", 5,
+               "font-size=\"%.1f\" fill=\"#fff\"", letters);
+    if (draws)
+      draw_disc(v, line, k, x, top + r, line->name[k]);
+    x += 2.3 * r;
+    high = fmax(high, 2.0 * r + 0.75 * letters);
+  }
+  return high;
 }
 
 /* Balls that fell lie beside each other in the pocket's place. */
@@ -306,7 +340,7 @@ static void draw_rails(const view *v, labels *l, const shot_line *line, const ca
   char text[40];
   for (int64_t k = 0, rails = 0; k < shot->count && k < shot->room && rails < MOST_MARKED; k++)
     if (counts_as_rail(line, shot, k, ball)) {
-      snprintf(text, sizeof text, "%d (%.2f s)", (int)++rails, shot->events[k].time);
+      snprintf(text, sizeof text, "rail %d, %.2f s", (int)++rails, shot->events[k].time);
       put_label(l, across(v, shot->events[k].before[0].r), down(v, shot->events[k].before[0].r),
                 text);
     }
@@ -371,14 +405,16 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   const double below = side > 0.0 ? side + side_margin : 0.0,
                said = svg_lines(NULL, left, 0.0, letters, columns, "", footer);
   const double legend = draw_legend(out, left, 0.0, letters, columns, shots, count, false);
-  draw_table(&v, t, below + legend + said + (legend + said > 0.0 ? 1.5 * letters : 0.0));
+  const double missing = draw_missing(&v, shots[0].line, left, 0.0, false);
+  draw_table(&v, t, below + missing + legend + said + (legend + said > 0.0 ? 1.5 * letters : 0.0));
   if (side > 0.0)
     fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", high,
             below + (legend + said > 0.0 ? 0.0 : 20.0));
   for (int shot = 0; shot < count && side > 0.0; shot++)
     draw_side(&v, shots[shot].line, shots[shot].shot, high + side, wide);
   for (int k = 0; k < shots[0].line->count; k++)
-    draw_start(&v, shots[0].line, k, down(&v, shots[0].line->ball[k].state.r));
+    if (!is_missing(shots[0].line, k))
+      draw_start(&v, shots[0].line, k, down(&v, shots[0].line->ball[k].state.r));
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0 && shots[shot].spread != NULL; k--)
       draw_band(&v, shots[shot].line, shots[shot].spread, k);
@@ -409,7 +445,7 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
         const double r = v.scale * line->ball[k].kind.radius, x = across(&v, final[k].r),
                      y = down(&v, final[k].r);
         char number[12];
-        if (shot > 0 && !ball_moved(shots[shot].shot, k))
+        if (is_missing(line, k) || (shot > 0 && !ball_moved(shots[shot].shot, k)))
           continue;
         if (drawn == 0) {
           keep_free(&l, x - r, y - r, x + r, y + r);
@@ -426,7 +462,8 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
     }
   if (count == 1)
     draw_rails(&v, &l, shots[0].line, shots[0].shot);
-  const double under = high + below + 1.25 * letters;
+  draw_missing(&v, shots[0].line, left, high + below + 0.25 * letters, true);
+  const double under = high + below + missing + 1.25 * letters;
   draw_legend(out, left, under, letters, columns, shots, count, true);
   svg_lines(out, left, under + legend, letters, columns, "fill=\"#fff\"", footer);
   fputs("</svg>\n", out);

@@ -112,7 +112,7 @@ def cushions(shot, table):
     for time, kind, names, *_ in shot["events"]:
         if kind == "ball_linear_cushion" and names[0] == shot["cue"].get("ball") and length[names[1]] > 0.2 * max(length.values()):
             if time - last.get(names[1], -1) >= 0.1:
-                found.append(f"{len(found) + 1} ({time:.2f} s)")
+                found.append(f"rail {len(found) + 1}, {time:.2f} s")
             last[names[1]] = time
     return found[:9]
 

@@ -147,6 +147,7 @@ print("legend:", len(set(legend)) == 3, {path.get("stroke") for path in ways} ==
 print([text.text for text in page.iter(SVG + "text") if text.get("class") == "pocket"])
 html = open("all.html", encoding="utf-8").read()
 print("needs nothing else:", set(re.findall(r"https?://[^\"' ]*", html)), "src=" in html, "href" in html)
+print("the film's colours:", json.loads(re.search(r"const SHOTS = (\[.*\]);", html)[1])[:3] == legend)
 film = json.loads(re.search(r"const film=recorded\((.*?)\);\n", html, re.S)[1])
 assert open(os.path.join(os.environ["DATA"], "../cli/player.js"), encoding="utf-8").read() in html, "the player is another one"
 checked = 0
