@@ -1,8 +1,18 @@
 import { readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
-import { defineConfig, type Plugin } from "vite";
+import { gzipSync } from "node:zlib";
+import { build, defineConfig, type Plugin, type Rollup, transformWithEsbuild } from "vite";
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+
+/** The view in three dimensions as a module by itself, and the modules in it. */
+async function sceneModule(): Promise<{ code: string; modules: string[] }> {
+  const lib = { entry: here("src/play/scene.ts"), formats: ["es" as const] };
+  const [made] = (await build({ configFile: false, logLevel: "warn", build: { lib, target: "es2022", write: false, minify: "esbuild", rollupOptions: { output: { inlineDynamicImports: true } } } })) as Rollup.RollupOutput[];
+  const [chunk] = made!.output;
+  // Vite leaves the space in modules of libraries.
+  return { code: (await transformWithEsbuild(chunk.code, "scene.js", { minify: true, target: "es2022" })).code, modules: Object.keys(chunk.modules) };
+}
 
 /** The page's licences: that of carom, of the libraries in its WebAssembly, and of every package that was bundled. */
 function licences(modules: string[]): string {
@@ -19,7 +29,7 @@ function oneFile(): Plugin {
     // After Vite's own plugins, which still change the code.
     generateBundle: {
       order: "post",
-      handler(_, bundle) {
+      async handler(_, bundle) {
         const html = bundle["index.html"];
         if (html?.type !== "asset") throw new Error("one-file: there is no index.html");
         let text = String(html.source);
@@ -35,7 +45,10 @@ function oneFile(): Plugin {
           delete bundle[name];
         }
         if (!text.includes("<!-- licences -->")) throw new Error("one-file: index.html has no place for the licences");
-        html.source = text.replace("<!-- licences -->", () => licences([...this.getModuleIds()]));
+        // It is text until it is asked for.
+        const scene = await sceneModule();
+        text = text.replace("<!-- scene -->", () => gzipSync(scene.code, { level: 9 }).toString("base64"));
+        html.source = text.replace("<!-- licences -->", () => licences([...this.getModuleIds(), ...scene.modules]));
       },
     },
   };

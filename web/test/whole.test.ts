@@ -101,7 +101,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     const one = await open("#view=lab");
     await one.locator("#licences summary").click();
     const words = await text(one, "licences");
-    for (const name of ["Apache License\n", "Copyright (c) 2005-2020 Rich Felker, et al.", "The Emscripten Authors", "uplot\n\nThe MIT License (MIT)\n\nCopyright (c) 2022 Leon Sorokin"]) expect(words).toContain(name);
+    for (const name of ["Apache License\n", "Copyright (c) 2005-2020 Rich Felker, et al.", "The Emscripten Authors", "uplot\n\nThe MIT License (MIT)\n\nCopyright (c) 2022 Leon Sorokin", "three\n\nThe MIT License\n\nCopyright © 2010-2025 three.js authors"]) expect(words).toContain(name);
     await one.close();
   });
 });

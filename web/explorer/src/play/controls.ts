@@ -38,7 +38,7 @@ export function controls(host: Host): { side: HTMLElement; shoot: HTMLButtonElem
     tip.set(sliders.right.value, sliders.up.value);
     host.changed();
   }
-  const value: Stroke = Object.defineProperties({} as Stroke, Object.fromEntries(Object.keys(sliders).map((key) => [key, { get: () => sliders[key as keyof Stroke].value }])));
+  const value: Stroke = Object.defineProperties({} as Stroke, Object.fromEntries(Object.keys(sliders).map((key) => [key, { enumerable: true, get: () => sliders[key as keyof Stroke].value }])));
   function set(values: Partial<Stroke>): void {
     for (const [key, x] of Object.entries(values)) sliders[key as keyof Stroke].value = x;
     tip.set(sliders.right.value, sliders.up.value);

@@ -1,20 +1,23 @@
 // The view Play: a game on the table, one bar for all that a stroke needs, and its film where one looks.
-import { type Call, type Carom, CaromError, type Cue, type Player, type ShotBall } from "carom";
+import { type Call, type Carom, CaromError, type Cue, type PlanOptions, type Player } from "carom";
 import { player as filmPlayer, pocketName } from "../../../../cli/player.js";
 import { drop, far } from "../far.js";
 import { filmOf, lasts, onTable, type Path, pathsOf, product, type Quaternion } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { button, eachFrame, el, parameters } from "../ui.js";
 import { aiming } from "./aim.js";
-import { type Asked, chance, costOf, hint, keepRow, logPage, review, why } from "./coach.js";
+import { logPage } from "./coach.js";
+import { coaching } from "./coaching.js";
 import { controls } from "./controls.js";
-import { type Entry, OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
+import { OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
 import { guessOf, lookAlong } from "./look.js";
-import { channel, kept, keepText, pack, unpack } from "./keep.js";
+import { kept, keepText, unpack } from "./keep.js";
+import { byLink } from "./link.js";
 import { menu, type Settings } from "./menu.js";
 import { Sound } from "./sound.js";
+import { Space } from "./space.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
-import { percent, wordsOfChoice } from "../table/words.js";
+import { wordsOfChoice } from "../table/words.js";
 
 const REPLY = 400;
 /** How long the stroke of the page's player is shown before it is played, ms. */
@@ -49,13 +52,19 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   /** The aim, the layout or a setting has changed. */
   const changed = eachFrame(() => {
     if (!film.playing && then === undefined) rest();
-    if (settings.coach) void chances();
+    if (settings.coach) void coach.chances();
   });
   const turn = el("p", { id: "turn", role: "status" });
   const score = el("p", { id: "score" });
   const said = el("p", { id: "said", role: "status" });
-  const film = filmPlayer({ over: (g) => hand?.draw(g), moved: sounds, ended: () => finish() });
-  film.canvas.setAttribute("aria-label", "The table from above");
+  const film = filmPlayer({ over: (g) => hand?.draw(g), moved, ended: () => finish() });
+  /** What the player shows. */
+  let filmed: ReturnType<typeof filmOf>;
+  function show(of: typeof filmed): void {
+    filmed = of;
+    film.show(of);
+    space.draw();
+  }
   const stroke = controls({ changed, shoot, free });
   const hand = aiming(film, {
     ...{ play: () => play, free, cue, shoot, skip, changed, first: () => first },
@@ -67,16 +76,38 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     },
     undo: () => undo(),
   });
+  const coach = coaching(carom, {
+    ...{ play: () => play, free, cue, player, place, told: (text) => (said.textContent = text) },
+    search: () => ++number,
+    searches: (mine) => mine === number && free(),
+    aim(one) {
+      if (play.hand !== "no") play.put(0, ...(one.place as [number, number]));
+      aim(one.cue);
+      chosen = one.ball > 0 && one.pocket >= 0 ? { ball: one.ball, pocket: one.pocket } : { ball: -1, pocket: -1 };
+      special = one.kind === "push" ? "push" : undefined;
+      rest();
+    },
+  });
+  const felt = el("section", { class: "felt", "aria-label": "Table" }, film.canvas);
+  const space = new Space(film, felt, {
+    ...{ play: () => play, poses: () => filmed.shots[0]!.at(film.time), aimed: () => (free() ? stroke.value : undefined), skip },
+    turn(degrees) {
+      if (!free()) return;
+      stroke.set({ phi: (stroke.value.phi + degrees + 360) % 360 });
+      changed();
+    },
+  });
   const buttons = {
     menu: button("New game", () => games.open(play.setup), { id: "new-game" }),
-    hint: button("Hint", () => void advise(), { id: "hint" }),
+    hint: button("Hint", () => void coach.advise(), { id: "hint" }),
     replay: button("Replay", () => replay(), { id: "replay" }),
     undo: button("Undo", () => undo(), { id: "undo-stroke" }),
     rack: button("Rack", () => begin({ ...play.setup, seed: play.setup.seed + 1, at: undefined as never }), { id: "rack-up" }),
     push: button("Push out", () => choose("push"), { id: "push", "aria-pressed": "false" }),
     pass: button("Pass", () => choose("pass"), { id: "pass" }),
     skip: button("Skip", () => skip(), { id: "skip" }),
-    link: button("Send link", () => void send(), { id: "send" }),
+    link: button("Send link", () => void link.send(coarse), { id: "send" }),
+    space: button("3D", () => void toggle(), { id: "space", "aria-pressed": "false", title: "The view from behind the cue" }),
     log: button("Log", () => log.open(), { id: "open-log" }),
   };
   const log = logPage();
@@ -86,10 +117,10 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     { class: "play-bar", "aria-label": "Game" },
     el("div", { class: "row state" }, turn, score),
     said,
-    el("div", { class: "row" }, buttons.menu, buttons.hint, buttons.replay, buttons.undo, buttons.rack, buttons.push, buttons.pass, buttons.link, buttons.log, stroke.turns, buttons.skip, stroke.shoot),
+    el("div", { class: "row" }, buttons.menu, buttons.hint, buttons.replay, buttons.undo, buttons.rack, buttons.push, buttons.pass, buttons.link, buttons.log, buttons.space, stroke.turns, buttons.skip, stroke.shoot),
     stroke.numbers,
   );
-  main.replaceChildren(el("div", { class: "play" }, el("section", { class: "felt", "aria-label": "Table" }, film.canvas), stroke.side, bar, games.root, log.root));
+  main.replaceChildren(el("div", { class: "play" }, felt, stroke.side, bar, games.root, log.root));
 
   function setSettings(now: Settings): void {
     Object.assign(settings, now);
@@ -98,7 +129,16 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     keepText(JSON.stringify(settings), SETTINGS);
     changed();
   }
-  function sounds(): void {
+  async function toggle(): Promise<void> {
+    try {
+      await space.toggle();
+    } catch (error) {
+      said.textContent = `This browser does not show three dimensions (${error instanceof Error ? error.message : String(error)}).`;
+    }
+    buttons.space.setAttribute("aria-pressed", String(space.on));
+  }
+  function moved(): void {
+    space.draw();
     if (shown?.shot && film.playing) sound.between(shown.shot.events, sounded, film.time);
     sounded = film.time;
   }
@@ -135,7 +175,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
         said.textContent = `This stroke cannot be played: ${error.message}.`;
       }
     shown = undefined;
-    film.show(filmOf({ table: play.table, balls: play.balls, names: play.names, turned }, undefined, paths));
+    show(filmOf({ table: play.table, balls: play.balls, names: play.names, turned }, undefined, paths));
     tell();
   }
   function tell(): void {
@@ -170,7 +210,9 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
 
   // ---- Strokes -----------------------------------------------------------------------------------------------------------------
 
-  const player = (rating: string): Player => (rating === "0" ? carom.player({ errors: 0 }) : carom.player({ fargo: Number(rating) }));
+  function player(rating: string): Player {
+    return rating === "0" ? carom.player({ errors: 0 }) : carom.player({ fargo: Number(rating) });
+  }
   function call(): Call | undefined {
     if (special) return special;
     return play.played?.calls && !play.state.opening ? called() : undefined;
@@ -182,12 +224,12 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     const meant = cue();
     const { own, seed } = play.setup;
     const made = own === "0" || play.practice ? meant : carom.withErrors(meant, player(own), seed, play.entries.length);
-    const of = asked();
+    const of = coach.asked();
     const calls = call();
     try {
       const one = play.stroke(made, calls);
       said.textContent = "";
-      if (settings.coach && play.played) void lookBack(of, made, calls);
+      if (settings.coach && play.played) void coach.lookBack(of, made, calls);
       played(one);
     } catch (error) {
       said.textContent = error instanceof Error ? error.message : String(error);
@@ -209,7 +251,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     shown = one;
     sounded = -1;
     if (!one.shot) return finish();
-    film.show(filmOf({ table: play.table, balls: one.balls, names: play.names, turned }, one.shot, []));
+    show(filmOf({ table: play.table, balls: one.balls, names: play.names, turned }, one.shot, []));
     film.start();
     tell();
   }
@@ -243,14 +285,15 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     rest();
   }
   function next(): void {
+    if (link.waiting()) return link.onward();
     if (play.winner === undefined && !mine() && /^\d/.test(play.setup.against)) void reply();
     else rest();
-    if (settings.coach) void chances();
+    if (settings.coach) void coach.chances();
   }
-  function place(): ReturnType<typeof rectangle> | boolean {
-    return play.hand === "kitchen" ? rectangle() : play.hand === "anywhere";
+  /** Where the cue ball may be put, for a plan. */
+  function place(): PlanOptions["inHand"] {
+    return play.hand === "kitchen" ? [[0, 0], [play.table.width, play.table.length / 4]] : play.hand === "anywhere";
   }
-  const rectangle = (): [[number, number], [number, number]] => [[0, 0], [play.table.width, play.table.length / 4]];
 
   /** The page's player: he plans in a worker, puts the cue ball, and errs. */
   async function reply(): Promise<void> {
@@ -259,7 +302,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     rest();
     const { against, own, seed } = play.setup;
     try {
-      const options = { ...play.state, player: player(against), opponent: player(own === "0" ? "700" : own), shot: OPTIONS, seed: seed + play.entries.length, inHand: place(), best: 1, shots: REPLY };
+      const options = { ...play.state, player: player(against), opponent: player(own === "0" ? "700" : own), shot: OPTIONS, seed: seed + play.entries.length, inHand: place()!, best: 1, shots: REPLY };
       const [one] = await far("plan", play.table, play.balls, options);
       if (mine !== number) return;
       if (play.hand !== "no") play.put(0, ...(one!.place as [number, number]));
@@ -277,54 +320,6 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
       thinks = false;
       said.textContent = error instanceof Error ? error.message : String(error);
     }
-  }
-
-  // ---- Coach -------------------------------------------------------------------------------------------------------------------
-
-  /** What a plan for whoever sits here begins with. Who does not err is advised as a 600. */
-  function asked(): Asked {
-    const { own, against, game } = play.setup;
-    const rating = own === "0" ? "600" : own;
-    const rules = play.practice && !play.played ? "potting" : play.state.rules;
-    const opponent = player(/^\d/.test(against) ? against : rating);
-    return { game, table: play.table, balls: play.balls, names: play.names, options: { ...play.state, rules, player: player(rating), opponent, shot: OPTIONS, seed: play.setup.seed + play.entries.length } };
-  }
-  async function advise(): Promise<void> {
-    if (!free()) return;
-    const mine = ++number;
-    said.textContent = "Looking for the best stroke …";
-    try {
-      const of = asked();
-      const one = await hint(of, place());
-      if (mine !== number || !free()) return;
-      if (play.hand !== "no") play.put(0, ...(one.place as [number, number]));
-      aim(one.cue);
-      chosen = one.ball > 0 && one.pocket >= 0 ? { ball: one.ball, pocket: one.pocket } : { ball: -1, pocket: -1 };
-      special = one.kind === "push" ? "push" : undefined;
-      rest();
-      said.textContent = `Hint: ${why(of, one, play.setup.game === "threecushion")}`;
-    } catch (error) {
-      if (mine === number) said.textContent = error instanceof Error ? error.message : String(error);
-    }
-  }
-  let asking = 0;
-  async function chances(): Promise<void> {
-    const mine = ++asking;
-    if (!free() || !play.played || !onTable(play.balls[0]!.state)) return;
-    await new Promise((later) => window.setTimeout(later, 120));
-    if (mine !== asking || !free()) return;
-    try {
-      const one = await chance(asked(), cue());
-      if (mine === asking && free()) said.textContent = `This stroke plays on ${percent(one.keep)}, wins ${percent(one.value)}, is a foul ${percent(one.foul)}.`;
-    } catch (error) {
-      if (mine === asking) said.textContent = error instanceof Error ? error.message : String(error);
-    }
-  }
-  async function lookBack(of: Asked, made: Cue, calls: Call | undefined): Promise<void> {
-    const row = await review(carom, of, made, calls);
-    keepRow(row);
-    const cost = costOf(row);
-    said.textContent = `That stroke won ${percent(row.value)}; ${row.best} wins ${percent(row.bestValue)}: ${cost < 0.02 ? "well chosen" : `it cost ${percent(cost)}`}.`;
   }
 
   // ---- Games -------------------------------------------------------------------------------------------------------------------
@@ -360,57 +355,20 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     film.look(1);
   }
 
-  let writing = 0;
-  /** Keeps the game; one by link is in the address, and other pages of this machine hear of it. */
+  /** Keeps the game: in the browser; one by link in the address and on other pages of this machine. */
   function save(): void {
-    const text = play.text();
-    if (play.setup.against !== "link") {
-      keepText(text);
-      if (location.hash !== "#view=play") history.replaceState(null, "", "#view=play");
-      return;
-    }
-    others.send(text);
-    const mine = ++writing;
-    void pack(text).then((packed) => mine === writing && history.replaceState(null, "", `#view=play&seat=${seat}&g=${packed}`));
+    if (play.setup.against === "link") return link.save();
+    keepText(play.text());
+    if (location.hash !== "#view=play") history.replaceState(null, "", "#view=play");
   }
-  async function send(): Promise<void> {
-    const url = `${location.href.split("#")[0]}#view=play&seat=${seat === 0 ? 1 : 0}&g=${await pack(play.text())}`;
-    try {
-      if (coarse && navigator.share) await navigator.share({ title: "A game of billiards", url });
-      else await navigator.clipboard.writeText(url);
-      said.textContent = coarse && "share" in navigator ? "Sent." : "The link for the other one is copied.";
-    } catch (error) {
-      said.textContent = `The browser does not let the page copy the link (${error instanceof Error ? error.message : String(error)}).`;
-    }
-  }
-
-  /** Strokes of the other one, of the same game, behind those that are known here. */
-  let queue: Entry[] = [];
-  function heard(text: string): void {
-    if (play.setup.against !== "link") return;
-    const { entries, ...setup } = JSON.parse(text) as Setup & { entries: Entry[] };
-    const known = play.entries.length + queue.length;
-    if (setup.game !== play.setup.game || setup.seed !== play.setup.seed || entries.length <= known) return;
-    if (JSON.stringify(entries.slice(0, play.entries.length)) !== JSON.stringify(play.entries)) return void (said.textContent = "The other page has another game of this name: send the link again.");
-    queue.push(...entries.slice(known));
-    if (!film.playing && then === undefined) onward();
-  }
-  function onward(): void {
-    const entry = queue.shift();
-    if (!entry) return next();
-    try {
-      const one = play.read(entry);
-      said.textContent = `Stroke ${play.entries.length} has every bit that was sent.`;
+  const link = byLink({
+    ...{ play: () => play, seat: () => seat, perform, next, rest, told: (text) => (said.textContent = text) },
+    busy: () => film.playing || then !== undefined,
+    keep() {
       if (play.winner !== undefined) count(play.winner);
       save();
-      perform(one, onward);
-    } catch (error) {
-      queue = [];
-      said.textContent = error instanceof Error ? error.message : String(error);
-      rest();
-    }
-  }
-  const others = channel(heard, () => (play.setup.against === "link" ? play.text() : undefined));
+    },
+  });
 
   /** The game of the address, the one that was kept, or a new one. */
   async function resume(): Promise<void> {
@@ -426,7 +384,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
         aim({ ...cue(), theta: 0, ...(one.last?.cue ?? play.played?.begin ?? {}) });
         if (packed && one.entries.length > 0) wrong = `${one.entries.length} ${one.entries.length === 1 ? "stroke has" : "strokes have"} every bit that was sent.`;
         save();
-        others.ask();
+        link.ask();
         said.textContent = wrong;
         if (packed && one.last?.shot && mine()) return perform(one.last, next);
         return next();
@@ -446,12 +404,16 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
 
   return {
     update: () => undefined,
-    theme: film.draw,
+    theme() {
+      film.draw();
+      space.draw();
+    },
     close() {
+      space.close();
       number++;
       drop("plan");
       film.stop();
-      others.close();
+      link.close();
     },
   };
 }

@@ -1,0 +1,112 @@
+// The view from behind the cue, over the flat one: its module is in the page as compressed text, and starts when it is asked for.
+import { colourOf, type player } from "../../../../cli/player.js";
+import { stickEnd } from "../table/drawing.js";
+import { color } from "../ui.js";
+import type { Stroke } from "./controls.js";
+import type { Play } from "./game.js";
+import type { Pose, Scene } from "./scene.js";
+
+export interface Host {
+  play(): Play;
+  /** Where the balls are now. */
+  poses(): readonly Pose[];
+  /** The stroke that is aimed, where one is. */
+  aimed(): Stroke | undefined;
+  turn(degrees: number): void;
+  skip(): void;
+}
+
+async function load(): Promise<typeof import("./scene.js")> {
+  const text = document.getElementById("scene-module")!.textContent!.trim();
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const source = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).blob();
+  const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+  try {
+    return (await import(/* @vite-ignore */ url)) as typeof import("./scene.js");
+  } finally {
+    URL.revokeObjectURL(url);
+  }
+}
+
+export class Space {
+  #module: Promise<typeof import("./scene.js")> | undefined;
+  #scene: Scene | undefined;
+  #of: Play | undefined;
+  on = false;
+
+  constructor(
+    readonly film: ReturnType<typeof player>,
+    readonly felt: HTMLElement,
+    readonly host: Host,
+  ) {}
+
+  /** Shows it, or the flat view again. Rejects where the browser has no WebGL: the flat view stays. */
+  async toggle(): Promise<void> {
+    if (this.on) return this.#hide();
+    if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it has no WebGL 2");
+    this.#module ??= load();
+    const { Scene } = await this.#module;
+    this.#make(Scene);
+    this.on = true;
+    this.film.canvas.classList.add("behind");
+    this.draw();
+  }
+
+  #make(make: typeof Scene): void {
+    const play = this.host.play();
+    this.#scene?.close();
+    this.#scene?.canvas.remove();
+    const balls = play.balls.map(({ kind }, k) => ({ name: play.names[k]!, radius: kind.radius, colour: colourOf(play.names[k]!, k) }));
+    const scene = new make({ table: play.table, balls, cloth: color("cloth"), wood: color("rail") });
+    this.#scene = scene;
+    this.#of = play;
+    const { canvas } = scene;
+    for (const [name, value] of Object.entries({ id: "scene", role: "img", tabindex: "0", "aria-label": "The table from behind the cue" })) canvas.setAttribute(name, value);
+    let last: number | undefined;
+    canvas.addEventListener("pointerdown", (event) => {
+      if (this.film.playing) return this.host.skip();
+      canvas.setPointerCapture(event.pointerId);
+      last = event.clientX;
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (last === undefined) return;
+      this.host.turn((last - event.clientX) * 0.08);
+      last = event.clientX;
+    });
+    for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => (last = undefined));
+    canvas.addEventListener("keydown", (event) => {
+      if (event.key === "Tab") return;
+      event.preventDefault();
+      const { key, altKey, shiftKey, ctrlKey, metaKey } = event;
+      this.film.canvas.dispatchEvent(new KeyboardEvent("keydown", { key, altKey, shiftKey, ctrlKey, metaKey }));
+    });
+    this.felt.append(canvas);
+  }
+
+  draw(): void {
+    if (!this.on || !this.#scene) return;
+    if (this.#of !== this.host.play()) void this.#module!.then(({ Scene }) => {
+      this.#make(Scene);
+      this.draw();
+    });
+    const { clientWidth, clientHeight } = this.film.canvas;
+    const { canvas } = this.#scene;
+    if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight) this.#scene.size(clientWidth, clientHeight);
+    const poses = this.host.poses();
+    const aimed = this.host.aimed();
+    // The camera stays where it was while the balls roll.
+    if (aimed) this.#scene.look(poses[0]!.r, aimed.phi);
+    this.#scene.draw(poses, aimed && { ...aimed, gap: stickEnd(this.#of!.balls[0]!.kind.radius, aimed.speed) });
+  }
+
+  #hide(): void {
+    this.on = false;
+    this.film.canvas.classList.remove("behind");
+    this.close();
+  }
+  close(): void {
+    this.#scene?.close();
+    this.#scene?.canvas.remove();
+    this.#scene = undefined;
+  }
+}

@@ -1,0 +1,123 @@
+// Games of two pages, in a browser: by a channel between two tabs, and by the link that one page makes and the other one verifies.
+import { readFileSync } from "node:fs";
+import { createServer, type Server } from "node:http";
+import type { AddressInfo } from "node:net";
+import { deflateRawSync, inflateRawSync } from "node:zlib";
+import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import type { BrowserContext, Page } from "playwright-core";
+import { browserPath, page, pages, sizes } from "./page.js";
+
+const packed = (text: string): string => deflateRawSync(text).toString("base64url");
+const unpacked = (url: string): string => inflateRawSync(Buffer.from(new URLSearchParams(new URL(url).hash.slice(1)).get("g")!, "base64url")).toString();
+
+describe.runIf(browserPath !== undefined)("a game by link", () => {
+  const { browser, text, said } = pages();
+  const turn = (one: Page): Promise<string> => text(one, "turn");
+  let server: Server;
+  let address = "";
+  // Pages of one origin hear each other, which files are not.
+  beforeAll(async () => {
+    server = createServer((request, response) => {
+      response.writeHead(request.url === "/" ? 200 : 404, { "content-type": "text/html" });
+      response.end(request.url === "/" ? readFileSync(page) : "");
+    });
+    await new Promise<void>((listens) => server.listen(0, "127.0.0.1", listens));
+    address = `http://127.0.0.1:${(server.address() as AddressInfo).port}/`;
+  });
+  afterAll(() => {
+    server.close();
+    server.closeAllConnections();
+  });
+  const contextOf = (how: { width: number; height: number; touch?: boolean }): Promise<BrowserContext> =>
+    browser().newContext({ viewport: { width: how.width, height: how.height }, hasTouch: how.touch ?? false, serviceWorkers: "block", permissions: ["clipboard-read", "clipboard-write"] });
+  async function open(context: BrowserContext, hash = ""): Promise<Page> {
+    const one = await context.newPage();
+    one.on("console", (message) => ["error", "warning"].includes(message.type()) && !/404|Service Worker registration blocked/.test(message.text()) && said.push(message.text()));
+    one.on("pageerror", (error) => said.push(error.message));
+    await one.goto(`${address}${hash}`);
+    await one.waitForSelector("main[aria-busy=false]");
+    return one;
+  }
+  async function begin(one: Page, game: string): Promise<void> {
+    await one.locator("#new-game").click();
+    await one.locator("#new-which").selectOption(game);
+    await one.locator("#new-against").selectOption("link");
+    await one.locator("#new-own").selectOption("500");
+    await one.locator("#rate").selectOption("1000");
+    await one.locator("#start").click();
+    await one.waitForURL(/g=/);
+  }
+  /** The link that a page makes. */
+  async function link(one: Page): Promise<string> {
+    await one.locator("#send").click();
+    await expect.poll(() => text(one, "said")).toMatch(/copied/);
+    return one.evaluate(() => navigator.clipboard.readText());
+  }
+
+  test.each(sizes)("two tabs play a whole game, each stroke compared bit by bit: %s", async (_, how) => {
+    const context = await contextOf(how);
+    const one = await open(context);
+    await begin(one, "eightball");
+    const other = await open(context, new URL(await link(one)).hash);
+    await other.locator("#new-game").click();
+    await other.locator("#rate").selectOption("1000");
+    await other.locator(".close").first().click();
+    expect(await turn(other)).toMatch(/^The other one/);
+    expect(await other.locator("#shoot").isEnabled()).toBe(false);
+    let [strokes, heard] = [0, 0];
+    for (; strokes < 150; strokes++) {
+      if (/won/.test(await turn(one))) break;
+      // Whoever may shoot does; the other one's page hears of it.
+      const [plays, hears] = (await one.locator("#shoot:enabled").count()) > 0 ? [one, other] : [other, one];
+      await plays.bringToFront();
+      if (strokes > 0) {
+        await plays.locator("#hint").click();
+        await expect.poll(() => text(plays, "said"), { timeout: 60_000 }).toMatch(/^Hint: /);
+      }
+      await plays.locator("#shoot").click();
+      await hears.bringToFront();
+      await expect.poll(() => text(hears, "said"), { timeout: 20_000 }).toBe(`Stroke ${strokes + 1} has every bit that was sent.`);
+      heard++;
+      // Then somebody may play, or has won.
+      await expect.poll(async () => /won/.test(await turn(one)) || (await one.locator("#shoot:enabled").count()) + (await other.locator("#shoot:enabled").count()) === 1, { timeout: 20_000 }).toBe(true);
+    }
+    expect(heard).toBe(strokes);
+    const [mine, yours] = [await turn(one), await turn(other)];
+    expect([mine, yours].map((told) => told.match(/(You have|The other one has) won/)![1]).sort()).toEqual(["The other one has", "You have"]);
+    // Both have the same game, which a reload keeps.
+    expect(unpacked(one.url())).toBe(unpacked(other.url()));
+    await other.reload();
+    await other.waitForSelector("main[aria-busy=false]");
+    await expect.poll(() => turn(other)).toBe(yours);
+    console.log(`two tabs: ${strokes} strokes; ${mine}; the link has ${one.url().length} letters`);
+    await context.close();
+  }, 300_000);
+
+  test("a link to another machine plays the strokes, and one that was changed is refused", async () => {
+    const [here, there] = [await contextOf(sizes[0][1]), await contextOf(sizes[1][1])];
+    const one = await open(here);
+    await begin(one, "eightball");
+    await one.locator("#shoot").click();
+    await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
+    const url = await link(one);
+    const other = await open(there, new URL(url).hash);
+    expect(await text(other, "said")).toBe("1 stroke has every bit that was sent.");
+    const game = JSON.parse(unpacked(url)) as { entries: { line: string }[] };
+    expect(game.entries).toHaveLength(1);
+    // The speed; a hash; a stroke out of turn; a link that was cut off.
+    const forged = (change: (line: string) => string): string => packed(JSON.stringify({ ...game, entries: [{ ...game.entries[0], line: change(game.entries[0]!.line) }] }));
+    for (const [g, why] of [
+      [forged((line) => line.replace(/"speed":("[^"]*"|[\d.]+)/, '"speed":7.5')), "stroke 1 ends otherwise than it was recorded"],
+      [forged((line) => line.replace(/"hash":"(.)/, (_, first: string) => `"hash":"${first === "a" ? "b" : "a"}`)), "stroke 1 ends otherwise than it was recorded"],
+      [packed(JSON.stringify({ ...game, entries: [{ line: game.entries[0]!.line }] })), "stroke 1: the place of the cue ball is missing"],
+      [packed(JSON.stringify(game)).slice(0, -40), "the link is cut off or damaged"],
+    ] as const) {
+      const bad = await open(there, `#view=play&seat=1&g=${g}`);
+      expect(await text(bad, "said")).toContain(`The game was not read: ${why}`);
+      expect(await turn(bad)).toContain("You break");
+      await bad.close();
+    }
+    await here.close();
+    await there.close();
+  });
+});
