@@ -2,12 +2,13 @@
 
 OUT/api.json    the description of the interface
 OUT/csharp      a package for Unity, whose Runtime/ any other program in C# compiles too
-OUT/rust        the crates carom-sys, generated, and carom, the safe layer
+OUT/rust        the crates carom-sys, generated, with the library as one file, and carom, the safe layer
 """
 
 import json
 import re
 import shutil
+import subprocess
 import sys
 from os.path import commonprefix
 from pathlib import Path
@@ -241,6 +242,7 @@ def main():
     for name, text in made.items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         (out / name).write_text(text, encoding="utf-8")
+    subprocess.run([sys.executable, HERE.parent / "tools/one_file.py", out / "rust/carom-sys/c"], check=True)
 
 
 if __name__ == "__main__":

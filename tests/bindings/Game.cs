@@ -1,6 +1,7 @@
 // As game.c, in C#.
 using System;
 using System.IO;
+using System.Collections.Generic;
 using Carom;
 
 static class Program {
@@ -60,6 +61,8 @@ static class Program {
     var facts = shot.Facts;
     if (facts.first[0] != 1 || shot.Drawn(table, 0.5).Length != 10) return 1;
 
+    Plans(table);
+
     cue.speed = -1;
     try {
       Billiards.Play(table, balls, cue);
@@ -83,5 +86,73 @@ static class Program {
       if (Billiards.Word(of, 1) == null || Billiards.Word(of, 99) != null) return 1;
     if (sizeof(BallKind) != rows.Length * sizeof(double) || Billiards.Word(Words.ShotCushion, (int)ShotCushion.Han) != "han") return 1;
     return 0;
+  }
+
+  /// A drill: any ball counts, until one misses.
+  sealed class Drill : GameRules {
+    protected override uint On(ulong[] user, uint inPlay) { return inPlay & ~1u; }
+    protected override Turn Judge(ulong[] user, uint inPlay, int cueBall, Facts facts, Call call) {
+      bool potted = facts.down != 0 && (facts.down & 1) == 0;
+      user[0] += potted ? 1u : 0u;
+      return new Turn { @is = potted ? TurnIs.Keep : TurnIs.Pass, points = potted ? 1 : 0 };
+    }
+    protected override int[] Left(ulong[] user, uint inPlay) { return inPlay > 3 ? new[] { 2, 2 } : new[] { 1, 1 }; }
+  }
+
+  static void Must(bool good, string what) {
+    if (!good) throw new Exception(what);
+  }
+
+  /// Plans in one call and in slices, an aimed pot, a shot in parts, and a recording that is written.
+  static void Plans(Table table) {
+    Part part;
+    var cue = Billiards.Cue(Game.Pool);
+    var balls = Billiards.Rack(RackKind.Nineball, table);
+    Array.Resize(ref balls, 3);
+    var places = new[,] { { 0.6, 0.9 }, { 0.3, 0.4 }, { 0.9, 2.0 } };
+    for (int k = 0; k < 3; k++) Must(Billiards.Place(table, balls, k, places[k, 0], places[k, 1], out part), "a place is not free");
+    var drill = new Drill();
+    foreach (var rules in new[] { Billiards.Rules(RulesKind.Potting), drill.Data() }) {
+      var of = new Position(table, balls, cue, rules, 600);
+      of.Rules.race = (int)Race.Alone;
+      of.Options.shots = 300;
+      var best = of.Plan(2);
+      Must(best[0].keep > 0.5, "a near ball is missed");
+      int slices = 1;
+      using (var mind = of.Think(20, 2)) {
+        for (; !mind.GoOn(); slices++) GC.Collect();
+        Must(slices > 5 && mind.Choices.Length == best.Length && mind.Choices[0].cue.phi == best[0].cue.phi, "slices choose otherwise");
+      }
+      var told = of.Chances(new[] { best[0].cue, cue });
+      Must(told[0].keep > told[1].keep && of.Value(true) >= of.Value() && of.Plan(1, true).Length == 1, "chances");
+      of.Options.shots = -1;
+      try {
+        of.Plan();
+        Must(false, "a bad option passed");
+      } catch (CaromException wrong) {
+        Must(wrong.Status == Status.ErrorOptions, wrong.Message);
+      }
+    }
+    GC.KeepAlive(drill);
+
+    cue.speed = 2;
+    var pot = new Pot { ball = 1, pocket = 0 };
+    Billiards.Aim(table, balls, ref pot, ref cue);
+    var whole = Billiards.Play(table, balls, cue);
+    Must(pot.@is == (int)PotIs.Falls && whole.Facts.down == 2, "the aimed ball stays up");
+    var options = new ShotOptions { timeMost = 0.1 };
+    var parts = Billiards.Play(table, balls, cue, options);
+    for (; parts.Status == Status.StoppedAtTime; parts.Resume(table, options)) options.timeMost += 0.2;
+    Must(parts.Events.Length == whole.Events.Length && parts.Final[0].r[0] == whole.Final[0].r[0], "parts have other bits");
+    Must(Billiards.Strike(Native.carom_player_fargo(400), 1, 0, cue).phi != cue.phi, "a 400 does not err");
+
+    var lines = "";
+    using (var game = new Recording())
+    using (var read = new Recording()) {
+      lines += game.Begin(table, balls) + game.Shoot(cue) + game.Place(0, 0.5, 0.3) + game.Shoot(cue) + game.End();
+      foreach (var line in lines.Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries)) Must(read.Read(line), line);
+      Must(read.Ended && read.Shots == 2 && read.Hash == game.Hash && read.Layout()[2].state.r[1] == game.Layout()[2].state.r[1], "a recording differs");
+      Must(read.Facts.moved == game.Facts.moved, "facts differ");
+    }
   }
 }

@@ -1,4 +1,4 @@
-// Tables, racks, shots and recordings without pointers. Native has every other function of the library.
+// Tables, racks, shots and recordings without pointers; plans are in Plans.cs. Native has every other function of the library.
 using System;
 using System.Collections.Generic;
 using System.Runtime.InteropServices;
@@ -30,6 +30,56 @@ namespace Carom {
     /// <summary>What rules ask about.</summary>
     public Facts Facts { get; internal set; }
     internal ShotBall[] balls;
+    ShotState[] state; // of a shot that its options may stop
+
+    internal PlayedShot(ShotBall[] layout, bool stops) {
+      balls = (ShotBall[])layout.Clone();
+      Final = new BallState[balls.Length];
+      Events = new Event[0];
+      state = stops ? new ShotState[1] : null;
+    }
+
+    /// <summary>Goes on with a shot that its options stopped, with the bits of the unbroken one; `options` say when to stop again. After an error
+    /// the shot is as before.</summary>
+    public Status Resume(Table table, ShotOptions options = default(ShotOptions)) {
+      if (state == null) throw new CaromException(Status.ErrorState);
+      var kept = (BallState[])Final.Clone();
+      var status = Follow(Events.Length + 64, &table, null, &options);
+      if (status < 0) Final = kept;
+      return Billiards.Check(status);
+    }
+
+    /// <summary>Plays from where the shot is, with room for so many events; once more from there where there were more. Without a cue it goes on.</summary>
+    internal Status Follow(long room, Table* table, Cue* cue, ShotOptions* options) {
+      for (;;) {
+        var events = new Event[room];
+        Events.CopyTo(events, 0);
+        var stopped = state == null ? null : (ShotState[])state.Clone();
+        var facts = Facts;
+        var data = new Shot { room = room, count = Events.Length, time = Time, facts = &facts };
+        Status status;
+        fixed (ShotBall* of = balls)
+        fixed (BallState* final = Final)
+        fixed (ShotState* at = stopped)
+        fixed (Event* to = events) {
+          data.events = to;
+          data.final = final;
+          data.state = at;
+          status = cue == null ? Native.carom_shot_continue(table, of, balls.Length, options, &data)
+                               : Native.carom_shoot(table, of, balls.Length, cue, options, &data);
+        }
+        if (status < 0) return status;
+        if (data.count <= room) {
+          Array.Resize(ref events, (int)data.count);
+          Events = events;
+          Time = data.time;
+          Facts = facts;
+          state = stopped;
+          return Status = status;
+        }
+        room = data.count;
+      }
+    }
 
     /// <summary>The layout that it leaves.</summary>
     public ShotBall[] Layout() {
@@ -126,29 +176,33 @@ namespace Carom {
 
     /// <summary>Plays a shot until nothing moves, or until the options stop it. The balls are not changed.</summary>
     public static PlayedShot Play(Table table, ShotBall[] balls, Cue cue, ShotOptions options = default(ShotOptions)) {
-      var shot = new PlayedShot { Final = new BallState[balls.Length], balls = (ShotBall[])balls.Clone() };
-      // Most shots have fewer events; one with more is played again with room for all of them.
-      for (long room = 256;;) {
-        var events = new Event[room];
-        Facts facts;
-        var data = new Shot { room = room, facts = &facts };
-        fixed (ShotBall* of = balls)
-        fixed (BallState* final = shot.Final)
-        fixed (Event* to = events) {
-          data.events = to;
-          data.final = final;
-          shot.Status = Native.carom_shoot(&table, of, balls.Length, &cue, &options, &data);
-          if (shot.Status < 0) throw Refused(shot.Status, &table, of, balls.Length, &cue, &options);
-        }
-        if (data.count <= room) {
-          Array.Resize(ref events, (int)data.count);
-          shot.Events = events;
-          shot.Time = data.time;
-          shot.Facts = facts;
-          return shot;
-        }
-        room = data.count;
+      var shot = new PlayedShot(balls, options.timeMost > 0 || options.stopAt != 0 || options.firstOf != 0);
+      // Most shots have fewer events.
+      var status = shot.Follow(256, &table, &cue, &options);
+      if (status < 0) fixed (ShotBall* of = balls) throw Refused(status, &table, of, balls.Length, &cue, &options);
+      return shot;
+    }
+
+    /// <summary>Aims a pot: `cue.phi` becomes the direction in which `pot.ball` goes to the middle of `pot.pocket`, by way of `pot.via`. `pot.is`
+    /// tells what the other balls and the jaws make of it.</summary>
+    public static void Aim(Table table, ShotBall[] balls, ref Pot pot, ref Cue cue, ShotOptions options = default(ShotOptions)) {
+      Pot of = pot;
+      Cue aimed = cue;
+      fixed (ShotBall* layout = balls) {
+        var status = Native.carom_aim(&table, layout, balls.Length, &options, &of, &aimed);
+        if (status < 0) throw Refused(status, &table, layout, balls.Length, &aimed, &options);
       }
+      pot = of;
+      cue = aimed;
+    }
+
+    /// <summary>Built-in rules, with the state after the break.</summary>
+    public static PlanRules Rules(RulesKind kind) { return Native.carom_plan_rules_of(kind); }
+
+    /// <summary>The stroke that a player makes who means `cue`: with errors drawn from `seed` and the number of the stroke.</summary>
+    public static Cue Strike(Player player, ulong seed, ulong number, Cue cue) {
+      Native.carom_player_strike(&player, seed, number, &cue);
+      return cue;
     }
 
     /// <summary>Ball in hand: puts a ball at rest at x, y (m). False where that place is not free; `inTheWay` is what is there, and the ball stays.</summary>
@@ -205,12 +259,57 @@ namespace Carom {
       for (int k = 0; k < sizeof(Record); k++) bytes[k] = 0;
     }
 
+    Record* Open { get { return record != null ? record : throw new ObjectDisposedException("Recording"); } }
+
+    /// <summary>Begins a game, and returns its lines up to that of the balls. All lines end with an end of line.</summary>
+    public string Begin(Table table, ShotBall[] balls, ShotOptions options = default(ShotOptions)) {
+      if (balls.Length > Native.CAROM_BALLS_MOST) Billiards.Check(Status.ErrorBalls);
+      *Open = new Record { table = table, options = options, count = balls.Length };
+      var to = (ShotBall*)&record->balls;
+      for (int k = 0; k < balls.Length; k++) to[k] = balls[k];
+      return Line(RecordKind.Head) + Line(RecordKind.Table) + Line(RecordKind.Options) + Line(RecordKind.Balls);
+    }
+
+    /// <summary>Plays a stroke from where the balls are, and returns its line.</summary>
+    public string Shoot(Cue cue) {
+      Open->cue = cue;
+      Billiards.Check(Native.carom_record_play(record, RecordKind.Shot, null));
+      return Line(RecordKind.Shot);
+    }
+
+    /// <summary>Puts a ball at x, y (m), at rest, and returns the line.</summary>
+    public string Place(int ball, double x, double y) {
+      Billiards.Check(Native.carom_record_place(Open, ball, x, y, null));
+      return Line(RecordKind.Place);
+    }
+
+    /// <summary>Ends the game, and returns its last line.</summary>
+    public string End() { return Line(RecordKind.End); }
+
+    /// <summary>The balls after the last shot.</summary>
+    public ShotBall[] Layout() {
+      Billiards.Check(Native.carom_record_settle(Open));
+      var layout = new ShotBall[record->count];
+      for (int k = 0; k < layout.Length; k++) layout[k] = ((ShotBall*)&record->balls)[k];
+      return layout;
+    }
+
+    /// <summary>What rules ask about, of the last shot.</summary>
+    public Facts Facts { get { return Open->facts; } }
+
+    string Line(RecordKind kind) {
+      var line = new byte[Native.CAROM_RECORD_TEXT];
+      int size;
+      fixed (byte* to = line) size = (int)Native.carom_record_write(Open, kind, to, (UIntPtr)line.Length);
+      if (size == 0) throw new CaromException(Status.ErrorRecord, "this line cannot stand here");
+      return Encoding.ASCII.GetString(line, 0, size);
+    }
+
     /// <summary>Reads a line, and plays its shot if it has one. Returns whether every bit is the recorded one.</summary>
     public bool Read(string line) {
-      if (record == null) throw new ObjectDisposedException("Recording");
       var bytes = Encoding.UTF8.GetBytes(line + "\n");
       Status status;
-      fixed (byte* text = bytes) status = Native.carom_record_read(record, text, (UIntPtr)bytes.Length);
+      fixed (byte* text = bytes) status = Native.carom_record_read(Open, text, (UIntPtr)bytes.Length);
       if (status < 0) throw new CaromException(status, Billiards.Text(record->fault));
       if (record->pending != 1) return true;
       status = Native.carom_record_play(record, (RecordKind)record->kind, null);

@@ -1,4 +1,4 @@
-//! Billiards by the C library carom: tables, racks, whole shots and recordings. `sys` has every other function of the library.
+//! Billiards by the C library carom: tables, racks, whole shots, plans and recordings. `sys` has every other function of the library.
 //!
 //! ```
 //! use carom::{sys, Error};
@@ -13,10 +13,18 @@
 //! ```
 //!
 //! Units are SI; directions of a cue are in degrees. A shot has the same bits on all machines, unless `fast` is set.
+mod plan;
+mod record;
+
 pub use carom_sys as sys;
+pub use plan::{built_in_rules, rules, strike, Game, Position, Thinking};
+pub use record::Recording;
 pub use sys::{
-    carom_ball_state as BallState, carom_cue as Cue, carom_event as Event,
+    carom_ball_state as BallState, carom_call as Call, carom_choice as Choice, carom_cue as Cue,
+    carom_event as Event, carom_facts as Facts, carom_plan_options as PlanOptions,
+    carom_plan_rules as Rules, carom_player as Player, carom_pot as Pot,
     carom_shot_ball as ShotBall, carom_shot_options as Options, carom_table as Table,
+    carom_turn as Turn,
 };
 
 use std::ffi::CStr;
@@ -187,15 +195,40 @@ pub fn place(
     Ok(Ok(()))
 }
 
+/// Aims a pot: `cue.phi` becomes the direction in which `pot.ball` goes to the middle of `pot.pocket`, by way of `pot.via`.
+/// `pot.is` tells what the other balls and the jaws make of it.
+pub fn aim(
+    table: &Table,
+    balls: &[ShotBall],
+    pot: &mut Pot,
+    cue: &mut Cue,
+    options: &Options,
+) -> Result<(), Error> {
+    let aimed = *cue;
+    let status =
+        unsafe { sys::carom_aim(table, balls.as_ptr(), count_of(balls), options, pot, cue) };
+    if status < 0 {
+        return Err(refused(status, table, balls, &aimed, options));
+    }
+    Ok(())
+}
+
+/// Number of balls, as the library takes it; it refuses numbers that are too large.
+fn count_of(balls: &[ShotBall]) -> i32 {
+    balls.len().min(i32::MAX as usize) as i32
+}
+
 /// A shot that was played.
 #[derive(Clone, Debug)]
 pub struct Shot {
-    facts: sys::carom_facts,
+    facts: Facts,
     status: sys::carom_status,
     events: Vec<Event>,
     last: Vec<BallState>,
     time: f64,
     balls: Vec<ShotBall>,
+    /// Where it was stopped, of a shot whose options may stop it.
+    state: Option<Box<sys::carom_shot_state>>,
 }
 
 /// Plays a shot until nothing moves, or until the options stop it.
@@ -205,39 +238,22 @@ pub fn shoot(
     cue: &Cue,
     options: &Options,
 ) -> Result<Shot, Error> {
-    let count = balls.len().min(i32::MAX as usize) as i32;
-    // Most shots have fewer events; one with more is played again with room for all of them.
-    let mut room = 256;
-    loop {
-        let mut events = vec![Event::default(); room];
-        let mut last = vec![BallState::default(); balls.len()];
-        let mut facts = sys::carom_facts::default();
-        let mut shot = sys::carom_shot {
-            facts: &mut facts,
-            events: events.as_mut_ptr(),
-            room: room as i64,
-            r#final: last.as_mut_ptr(),
-            ..Default::default()
-        };
-        let status =
-            unsafe { sys::carom_shoot(table, balls.as_ptr(), count, cue, options, &mut shot) };
-        if status < 0 {
-            return Err(refused(status, table, balls, cue, options));
-        }
-        let happened = shot.count as usize;
-        if happened <= room {
-            events.truncate(happened);
-            return Ok(Shot {
-                facts,
-                status,
-                events,
-                last,
-                time: shot.time,
-                balls: balls.to_vec(),
-            });
-        }
-        room = happened;
-    }
+    let stops = options.time_most > 0.0 || options.stop_at != 0 || options.first_of != 0;
+    let mut shot = Shot {
+        facts: Facts::default(),
+        status: sys::CAROM_OK,
+        events: Vec::new(),
+        last: vec![BallState::default(); balls.len()],
+        time: 0.0,
+        balls: balls.to_vec(),
+        state: stops.then(Box::default),
+    };
+    // Most shots have fewer events.
+    shot.follow(256, |of, count, to| unsafe {
+        sys::carom_shoot(table, of, count, cue, options, to)
+    })
+    .map_err(|status| refused(status, table, balls, cue, options))?;
+    Ok(shot)
 }
 
 impl Shot {
@@ -262,8 +278,66 @@ impl Shot {
     }
 
     /// What rules ask about.
-    pub fn facts(&self) -> &sys::carom_facts {
+    pub fn facts(&self) -> &Facts {
         &self.facts
+    }
+
+    /// Goes on with a shot that its options stopped, with the bits of the unbroken one; `options` say when to stop again. After
+    /// an error the shot is as before.
+    pub fn resume(&mut self, table: &Table, options: &Options) -> Result<sys::carom_status, Error> {
+        if self.state.is_none() {
+            return check(sys::CAROM_ERROR_STATE);
+        }
+        let before = self.clone();
+        let room = self.events.len() + 64;
+        self.follow(room, |of, count, to| unsafe {
+            sys::carom_shot_continue(table, of, count, options, to)
+        })
+        .map_err(|status| {
+            let cue = cue(sys::CAROM_GAME_POOL);
+            let error = refused(status, table, &before.balls, &cue, options);
+            *self = before;
+            error
+        })
+    }
+
+    /// Plays from where the shot is, with room for so many events; once more from there where there were more.
+    fn follow(
+        &mut self,
+        mut room: usize,
+        play: impl Fn(*const ShotBall, i32, *mut sys::carom_shot) -> sys::carom_status,
+    ) -> Result<sys::carom_status, sys::carom_status> {
+        let (happened, facts, state) = (self.events.len(), self.facts, self.state.clone());
+        loop {
+            self.events.resize(room, Event::default());
+            let mut shot = sys::carom_shot {
+                facts: &mut self.facts,
+                events: self.events.as_mut_ptr(),
+                room: room as i64,
+                count: happened as i64,
+                time: self.time,
+                r#final: self.last.as_mut_ptr(),
+                state: self
+                    .state
+                    .as_mut()
+                    .map_or(std::ptr::null_mut(), |state| &mut **state),
+                ..Default::default()
+            };
+            let status = play(self.balls.as_ptr(), count_of(&self.balls), &mut shot);
+            if status < 0 {
+                return Err(status);
+            }
+            if shot.count <= shot.room {
+                self.events.truncate(shot.count as usize);
+                self.time = shot.time;
+                self.status = status;
+                return Ok(status);
+            }
+            room = shot.count as usize;
+            self.events.truncate(happened);
+            self.facts = facts;
+            self.state = state.clone();
+        }
     }
 
     /// The layout that it leaves.
@@ -334,57 +408,6 @@ impl Film {
             )
         })?;
         Ok((&self.states, &self.turned))
-    }
-}
-
-/// A recording, read line by line and played: docs/using/games.md has the format.
-#[derive(Default)]
-pub struct Recording {
-    record: Box<sys::carom_record>,
-}
-
-impl Recording {
-    /// Reads a line, and plays its shot if it has one. Returns whether every bit is the recorded one.
-    pub fn read(&mut self, line: &str) -> Result<bool, Error> {
-        let record = &mut *self.record;
-        let status =
-            unsafe { sys::carom_record_read(record, line.as_ptr() as *const c_char, line.len()) };
-        if status < 0 {
-            return Err(Error {
-                status,
-                fault: text(record.fault.as_ptr()),
-            });
-        }
-        if record.pending != 1 {
-            return Ok(true);
-        }
-        let status = unsafe {
-            sys::carom_record_play(
-                record,
-                record.kind as sys::carom_record_kind,
-                std::ptr::null_mut(),
-            )
-        };
-        // A shot in error is recorded with its status, so its bits count as well.
-        let (is, was) = (&record.played, &record.recorded);
-        Ok(i64::from(status) == is.status
-            && (is.status, is.events, is.time.to_bits(), is.hash)
-                == (was.status, was.events, was.time.to_bits(), was.hash))
-    }
-
-    /// Shots so far.
-    pub fn shots(&self) -> i64 {
-        self.record.shots
-    }
-
-    /// Whether the last line was the end; without it a recording was cut off.
-    pub fn ended(&self) -> bool {
-        self.record.kind == i64::from(sys::CAROM_RECORD_END)
-    }
-
-    /// The hash of all lines so far.
-    pub fn hash(&self) -> u64 {
-        self.record.hash
     }
 }
 

@@ -1,0 +1,162 @@
+//! Recordings: games that verify themselves. docs/using/games.md has the format.
+use crate::{check, count_of, sys, text, Cue, Error, Facts, Options, ShotBall, Table};
+use std::os::raw::c_char;
+
+/// A recording: read line by line and played, or written. All lines end with an end of line.
+#[derive(Default)]
+pub struct Recording {
+    record: Box<sys::carom_record>,
+}
+
+impl Recording {
+    /// Begins a game, and returns its lines up to that of the balls.
+    pub fn begin(
+        &mut self,
+        table: &Table,
+        balls: &[ShotBall],
+        options: &Options,
+    ) -> Result<String, Error> {
+        if balls.len() > sys::CAROM_BALLS_MOST as usize {
+            check(sys::CAROM_ERROR_BALLS)?;
+        }
+        self.record = Box::default();
+        self.record.table = *table;
+        self.record.options = *options;
+        self.record.count = i64::from(count_of(balls));
+        self.record.balls[..balls.len()].copy_from_slice(balls);
+        [
+            sys::CAROM_RECORD_HEAD,
+            sys::CAROM_RECORD_TABLE,
+            sys::CAROM_RECORD_OPTIONS,
+            sys::CAROM_RECORD_BALLS,
+        ]
+        .into_iter()
+        .map(|kind| self.line(kind))
+        .collect()
+    }
+
+    /// Plays a stroke from where the balls are, and returns its line.
+    pub fn shoot(&mut self, cue: &Cue) -> Result<String, Error> {
+        self.record.cue = *cue;
+        self.play(sys::CAROM_RECORD_SHOT)?;
+        self.line(sys::CAROM_RECORD_SHOT)
+    }
+
+    /// Puts a ball at x, y (m), at rest, and returns the line.
+    pub fn place(&mut self, ball: usize, x: f64, y: f64) -> Result<String, Error> {
+        let ball = ball.min(i32::MAX as usize) as i32;
+        let nothing = std::ptr::null_mut();
+        check(unsafe { sys::carom_record_place(&mut *self.record, ball, x, y, nothing) })?;
+        self.line(sys::CAROM_RECORD_PLACE)
+    }
+
+    /// Ends the game, and returns its last line.
+    pub fn end(&mut self) -> Result<String, Error> {
+        self.line(sys::CAROM_RECORD_END)
+    }
+
+    /// The balls after the last shot.
+    pub fn layout(&mut self) -> Result<&[ShotBall], Error> {
+        check(unsafe { sys::carom_record_settle(&mut *self.record) })?;
+        Ok(&self.record.balls[..self.record.count as usize])
+    }
+
+    /// The facts of the last shot, which rules ask about.
+    pub fn facts(&self) -> &Facts {
+        &self.record.facts
+    }
+
+    fn play(&mut self, kind: sys::carom_record_kind) -> Result<sys::carom_status, Error> {
+        check(unsafe { sys::carom_record_play(&mut *self.record, kind, std::ptr::null_mut()) })
+    }
+
+    fn line(&mut self, kind: sys::carom_record_kind) -> Result<String, Error> {
+        let mut line = vec![0u8; sys::CAROM_RECORD_TEXT as usize];
+        let to = line.as_mut_ptr() as *mut c_char;
+        let size = unsafe { sys::carom_record_write(&mut *self.record, kind, to, line.len()) };
+        if size == 0 {
+            return Err(Error {
+                status: sys::CAROM_ERROR_RECORD,
+                fault: "this line cannot stand here".to_string(),
+            });
+        }
+        line.truncate(size);
+        Ok(String::from_utf8(line).expect("a recording is ASCII"))
+    }
+
+    /// Reads a line, and plays its shot if it has one. Returns whether every bit is the recorded one.
+    pub fn read(&mut self, line: &str) -> Result<bool, Error> {
+        let record = &mut *self.record;
+        let status =
+            unsafe { sys::carom_record_read(record, line.as_ptr() as *const c_char, line.len()) };
+        if status < 0 {
+            return Err(Error {
+                status,
+                fault: text(record.fault.as_ptr()),
+            });
+        }
+        if record.pending != 1 {
+            return Ok(true);
+        }
+        let status = unsafe {
+            sys::carom_record_play(
+                record,
+                record.kind as sys::carom_record_kind,
+                std::ptr::null_mut(),
+            )
+        };
+        // A shot in error is recorded with its status, so its bits count as well.
+        let (is, was) = (&record.played, &record.recorded);
+        Ok(i64::from(status) == is.status
+            && (is.status, is.events, is.time.to_bits(), is.hash)
+                == (was.status, was.events, was.time.to_bits(), was.hash))
+    }
+
+    /// Shots so far.
+    pub fn shots(&self) -> i64 {
+        self.record.shots
+    }
+
+    /// Whether the last line was the end; without it a recording was cut off.
+    pub fn ended(&self) -> bool {
+        self.record.kind == i64::from(sys::CAROM_RECORD_END)
+    }
+
+    /// The hash of all lines so far.
+    pub fn hash(&self) -> u64 {
+        self.record.hash
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{cue, rack, table};
+
+    #[test]
+    fn what_is_written_is_read_with_the_same_bits() {
+        let table = table(sys::CAROM_TABLE_POOL_9FT).unwrap();
+        let balls = rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1).unwrap();
+        let mut game = Recording::default();
+        assert!(game.end().is_err());
+        let mut lines = game.begin(&table, &balls, &Options::default()).unwrap();
+        for speed in [8.0, 3.0] {
+            let stroke = Cue {
+                speed,
+                ..cue(sys::CAROM_GAME_POOL)
+            };
+            lines += &game.place(0, 0.5, 0.3).unwrap();
+            lines += &game.shoot(&stroke).unwrap();
+        }
+        assert!(game.place(99, 0.5, 0.3).is_err());
+        lines += &game.end().unwrap();
+        let mut read = Recording::default();
+        for line in lines.lines() {
+            assert!(read.read(line).unwrap(), "{line}");
+        }
+        assert!(read.ended());
+        assert_eq!((read.shots(), read.hash()), (2, game.hash()));
+        let (one, other) = (game.layout().unwrap(), read.layout().unwrap());
+        assert!(one.iter().zip(other).all(|(a, b)| a.state.r == b.state.r));
+    }
+}
