@@ -193,6 +193,40 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, co
   }
 }
 
+/* Plays all choices as often once more, and sorts them by that: the chances of those that a plan
+ * gave few strokes are those of their luck. Which ball falls stays as the plan has it. */
+static void play_again(const carom_plan_job *asked, carom_choice *choices, int n) {
+  carom_shot_ball balls[CAROM_BALLS_MOST];
+  memcpy(balls, asked->balls, (size_t)asked->count * sizeof *balls);
+  carom_place_ball(asked->table, balls, (int)asked->count, (int)asked->cue->ball,
+                   choices[0].place[0], choices[0].place[1], NULL);
+  carom_plan_options options = *asked->options;
+  options.shots = WHY_STROKES;
+  options.seed++;
+  carom_plan_job job = *asked;
+  job.balls = balls;
+  job.options = &options;
+  job.memory_size = carom_plan_memory(&options);
+  job.memory = allocate(1, job.memory_size);
+  for (int k = 0; k < n; k++) {
+    carom_choice c = choices[k], told;
+    const bool strikes = c.kind != CAROM_PLAN_PASS && c.kind != CAROM_PLAN_PUSH;
+    if (strikes && carom_plan_try(&job, &c.cue, 1, &told) == CAROM_OK) {
+      c.value = told.value;
+      c.error = told.error;
+      c.keep = told.keep;
+      c.foul = told.foul;
+      c.lose = told.lose;
+      c.seen = told.seen;
+    }
+    int at = k;
+    for (; at > 0 && choices[at - 1].value < c.value; at--)
+      choices[at] = choices[at - 1];
+    choices[at] = c;
+  }
+  free(job.memory);
+}
+
 static void write_rows(FILE *out, const shot_line *line, const carom_choice *choices, int n) {
   fputs("rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n", out);
   for (int k = 0; k < n; k++) {
@@ -260,7 +294,8 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
       times[turn.foul != 0 ? turn.foul : turn.is == CAROM_TURN_LOSE ? LOSS : MISS]++;
   }
 
-  fprintf(out, "Of %d strokes with errors %d play on.", TRIED, good);
+  const bool points = line->table->table.pockets == 0;
+  fprintf(out, "Of %d strokes with errors %d %s.", TRIED, good, points ? "score" : "play on");
   for (int said = 0; said < 3; said++) {
     int most = 0;
     for (int k = 1; k < WAYS; k++)
@@ -268,7 +303,7 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
     if (times[most] > 0)
       fprintf(out, " %d %s%s.", times[most], most < FOULS ? "foul: " : "",
               most == LOSS   ? "lose the game"
-              : most == MISS ? "pot nothing that counts, without a foul"
+              : most == MISS ? points ? "score nothing" : "pot nothing that counts, without a foul"
                              : carom_foul_string(most));
     times[most] = 0;
   }
@@ -404,6 +439,8 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     complain("%s:%zu: %s", file, line->number, carom_status_string(status));
     return EXIT_USAGE;
   }
+  if (job->why && tried == 0)
+    play_again(&asked, choices, n);
   if (job->csv && !job->value)
     write_rows(out, line, choices, n);
   else

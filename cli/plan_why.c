@@ -1,11 +1,12 @@
-/* Why a shot of a plan: the stroke without errors, and some with, are played and told. */
+/* Why a shot of a plan: the stroke without errors is played and told; then some with errors, and
+ * the same without those of speed and without those of aim, which tells what these cost. */
 #include "plan_why.h"
 #include "shot_story.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MISSES = 300, EVENTS = 64 };
+enum { EVENTS = 64 };
 static const double degrees = 180.0 / 3.14159265358979323846;
 
 /* What a stroke leaves: the balls, the rules' state, and whether the cue ball is in hand. */
@@ -60,23 +61,48 @@ static const char *speed_words(double v) {
   return "as hard as a break";
 }
 
-/* The cut and how much of the ball is hit; the tip as the hand of a clock; the speed. */
-static void tell_aim(FILE *out, const carom_plan_job *job, const carom_cue *cue,
-                     const carom_shot *shot) {
+/* How much of the ball is hit. */
+static const char *part_words(double part) {
+  static const char *const eighths[] = {"a thin hit",
+                                        "1/8 of the ball",
+                                        "a quarter ball",
+                                        "3/8 of the ball",
+                                        "half a ball",
+                                        "5/8 of the ball",
+                                        "three quarters of the ball",
+                                        "7/8 of the ball",
+                                        "a full hit"};
+  return eighths[(int)round(8.0 * part)];
+}
+
+/* The cushions before the first ball, the cut and how much of the ball is hit; the tip as the hand
+ * of a clock; the speed. */
+static void tell_aim(FILE *out, const carom_plan_job *job, const shot_line *line,
+                     const carom_cue *cue, const carom_shot *shot) {
   const carom_event *meets = NULL;
-  for (int64_t k = 0; k < shot->count && k < shot->room && meets == NULL; k++)
-    if (shot->events[k].type == CAROM_EVENT_BALL_BALL &&
-        (shot->events[k].a == cue->ball || shot->events[k].b == cue->ball))
-      meets = &shot->events[k];
+  char rail[WHERE_TEXT];
+  bool before = false;
   fputs("   aim          ", out);
+  for (int64_t k = 0; k < shot->count && k < shot->room && meets == NULL; k++) {
+    const carom_event *e = &shot->events[k];
+    if (e->type == CAROM_EVENT_BALL_BALL && (e->a == cue->ball || e->b == cue->ball))
+      meets = e;
+    else if (counts_as_rail(line, shot, k, (int)cue->ball)) {
+      fprintf(out, "%s %s at diamond %.2f", before ? ", then" : "off",
+              rail_words(line->table, (int)e->b, rail),
+              diamonds_at(job->table, (int)e->b, e->after[0].r));
+      before = true;
+    }
+  }
+  fputs(before ? "; " : "", out);
   if (meets != NULL) {
     const int own = meets->a == cue->ball ? 0 : 1;
     const carom_ball_state *c = &meets->before[own], *o = &meets->before[1 - own];
     const double x = o->r[0] - c->r[0], y = o->r[1] - c->r[1];
     const double cross = c->v[0] * y - c->v[1] * x, dot = c->v[0] * x + c->v[1] * y;
     const double cut = atan2(cross, dot), part = 1.0 - fabs(sin(cut));
-    fprintf(out, "cut of %.0f degrees to the %s, %.0f/8 of the ball; ", fabs(cut) * degrees,
-            cut > 0.0 ? "left" : "right", fmax(1.0, round(8.0 * part)));
+    fprintf(out, "cut of %.0f degrees to the %s, %s; ", fabs(cut) * degrees,
+            cut > 0.0 ? "left" : "right", part_words(part));
   }
 
   /* how far the tip is from the centre, and where */
@@ -128,51 +154,87 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
             pocket_words(line->table, c.pocket, pocket), 100.0 * c.keep);
 }
 
-/* How often a stroke with errors misses, and what that leaves the other. */
-static void tell_misses(FILE *out, const carom_plan_job *job, const carom_cue *cue,
-                        carom_call call) {
-  int misses = 0, lost = 0;
-  double other = 0.0;
-  static left_layout left;
-  for (int n = 0; n < MISSES; n++) {
-    carom_cue stroke = *cue;
-    carom_shot shot = {.events = NULL};
-    carom_player_strike(job->player, job->options->seed, (uint64_t)n, &stroke);
-    play(job, &stroke, call, &shot, &left);
-    const carom_plan_job next = job_after(job, &left);
-    double value = 1.0;
-    misses += left.turn.is == CAROM_TURN_PASS;
-    lost += left.turn.is == CAROM_TURN_LOSE;
-    if (left.turn.is == CAROM_TURN_PASS &&
-        carom_plan_value(&next, left.turn.leave != CAROM_LEAVE_AFTER, &value) == CAROM_OK)
-      other += value;
-  }
-  fprintf(out, "   misses       %.0f %%", 100.0 * misses / MISSES);
-  if (misses > 0 && job->rules->race != CAROM_RACE_ALONE)
-    fprintf(out, ", which leave the other %.0f %%", 100.0 * other / misses);
-  if (lost > 0)
-    fprintf(out, "; %.0f %% lose", 100.0 * lost / MISSES);
-  fputc('\n', out);
+/* What came of strokes with errors. */
+typedef struct strokes {
+  int misses, lost;
+  double worth, other; /* sums: to the player; of the misses to the other */
+} strokes;
+
+static int left_of(const carom_plan_job *job, const carom_shot_ball *balls) {
+  uint32_t in_play = 0;
+  int32_t left[2];
+  for (int k = 0; k < job->count; k++)
+    in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED) << k;
+  job->rules->left(job->rules->user, in_play, left);
+  return left[0] > 1 ? left[0] : 1;
 }
 
-/* What the stroke is worth more without errors of speed, and without those of aim. */
-static void tell_errors(FILE *out, const carom_plan_job *job, const carom_cue *cue) {
-  double value[3] = {0.0};
-  for (int without = 0; without < 3; without++) {
-    carom_player player = *job->player;
-    carom_plan_job own = *job;
-    own.player = &player;
-    if (without == 1)
-      player.speed = player.speed_share = 0.0;
-    if (without == 2)
-      player.phi = player.theta = player.a = player.b = 0.0;
-    carom_choice c;
-    if (carom_plan_try(&own, cue, 1, &c) != CAROM_OK)
-      return;
-    value[without] = 100.0 * c.value;
+/* What a stroke is worth to the player, by the value of what it leaves: the chance to win, or the
+ * share of the balls before it. */
+static double worth_of(const carom_plan_job *job, const left_layout *left, double *other) {
+  const carom_turn *turn = &left->turn;
+  const bool alone = job->rules->race == CAROM_RACE_ALONE, passes = turn->is == CAROM_TURN_PASS;
+  if (turn->is == CAROM_TURN_WIN || turn->is == CAROM_TURN_LOSE)
+    return turn->is == CAROM_TURN_WIN;
+  const carom_plan_job next = job_after(job, left);
+  double value = 0.0;
+  if (!(alone && passes))
+    carom_plan_value(&next, turn->leave == CAROM_LEAVE_HAND || turn->leave == CAROM_LEAVE_KITCHEN,
+                     &value);
+  if (alone)
+    return fmin(1.0,
+                (turn->points + value * left_of(&next, left->balls)) / left_of(job, job->balls));
+  *other = passes ? value : 0.0;
+  return passes ? 1.0 - value : value;
+}
+
+/* Plays the stroke with the errors of a player. All players have the same luck. */
+static strokes play_with(const carom_plan_job *job, const carom_player *player,
+                         const carom_cue *cue, carom_call call) {
+  strokes s = {0};
+  static left_layout left;
+  for (int n = 0; n < WHY_STROKES; n++) {
+    carom_cue stroke = *cue;
+    carom_shot shot = {.events = NULL};
+    double other = 0.0;
+    carom_player_strike(player, job->options->seed, (uint64_t)n, &stroke);
+    play(job, &stroke, call, &shot, &left);
+    s.worth += worth_of(job, &left, &other);
+    s.other += other;
+    s.misses += left.turn.is == CAROM_TURN_PASS;
+    s.lost += left.turn.is == CAROM_TURN_LOSE;
   }
+  return s;
+}
+
+/* A share of the strokes, %. One that is not 0 is not told as 0. */
+static const char *percent(double share, char text[16]) {
+  const double of_hundred = 100.0 * share;
+  snprintf(text, 16, of_hundred > 0.0 && of_hundred < 0.5 ? "below 1 %%" : "%.0f %%", of_hundred);
+  return text;
+}
+
+/* How often a stroke with errors misses, and what that leaves the other; and what it is worth more
+ * without errors of speed, and without those of aim. */
+static void tell_misses(FILE *out, const carom_plan_job *job, const carom_cue *cue,
+                        carom_call call) {
+  const strokes all = play_with(job, job->player, cue, call);
+  char text[16];
+  fprintf(out, "   misses       %s", percent((double)all.misses / WHY_STROKES, text));
+  if (all.misses > 0 && job->rules->race != CAROM_RACE_ALONE)
+    fprintf(out, ", which leave the other %.0f %%", 100.0 * all.other / all.misses);
+  if (all.lost > 0)
+    fprintf(out, "; loses the game %s", percent((double)all.lost / WHY_STROKES, text));
+  fputc('\n', out);
+
+  carom_player aims = *job->player, times = *job->player;
+  aims.speed = aims.speed_share = 0.0;
+  times.phi = times.theta = times.a = times.b = 0.0;
+  const double without_speed = play_with(job, &aims, cue, call).worth,
+               without_aim = play_with(job, &times, cue, call).worth;
   fprintf(out, "   errors       those of speed cost %.1f %%, those of aim %.1f %%\n",
-          fmax(0.0, value[1] - value[0]), fmax(0.0, value[2] - value[0]));
+          fmax(0.0, 100.0 * (without_speed - all.worth) / WHY_STROKES),
+          fmax(0.0, 100.0 * (without_aim - all.worth) / WHY_STROKES));
 }
 
 void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
@@ -190,8 +252,7 @@ void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
   const carom_call call = {choice->ball, choice->pocket};
   carom_shot shot = {.events = events, .room = EVENTS};
   play(&own, &choice->cue, call, &shot, &left);
-  tell_aim(out, &own, &choice->cue, &shot);
+  tell_aim(out, &own, line, &choice->cue, &shot);
   tell_next(out, &own, line, &left, (int)choice->cue.ball);
   tell_misses(out, &own, &choice->cue, call);
-  tell_errors(out, &own, &choice->cue);
 }

@@ -89,8 +89,7 @@ static int nearest_pocket(const carom_table *t, const double r[2]) {
   return nearest;
 }
 
-/* A place along a rail in diamonds: 8 on a long side, 4 on a short one, from the head or left. */
-static double diamonds_at(const carom_table *t, int rail, const double r[2]) {
+double diamonds_at(const carom_table *t, int rail, const double r[2]) {
   const char *name = carom_rail_name(t, rail);
   return name == NULL                       ? (double)NAN
          : name[0] == 'l' || name[0] == 'r' ? 8.0 * r[1] / t->length

@@ -15,6 +15,9 @@ bool is_cushion(const carom_table *t, int rail);
  * cut of a pocket, and no further hop at the same cushion. */
 bool counts_as_rail(const shot_line *line, const carom_shot *shot, int64_t k, int ball);
 
+/* A place along a rail in diamonds: 8 on a long side, 4 on a short one, from the head or left. */
+double diamonds_at(const carom_table *t, int rail, const double r[2]);
+
 /* Whether the ball is in any event: the others lie where they lay. */
 bool ball_moved(const carom_shot *shot, int ball);
 

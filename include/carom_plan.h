@@ -273,7 +273,8 @@ typedef struct carom_choice {
   int32_t kind;         /* a carom_plan_kind. */
   int32_t ball;         /* the ball that falls and keeps the turn: by rules with calls the one that
                            falls first without errors, by others the one that does so most often
-                           with errors. -1 if none falls without errors, nor in half of the
+                           with errors, where half of the strokes with them pot one, else that
+                           without errors. -1 if none falls without errors, nor in half of the
                            strokes with them; of a foul -1; CAROM_CALL_PUSH and _PASS of those
                            kinds. So ball and pocket are the call. On a table without pockets it
                            is the ball that is met first. */

@@ -331,7 +331,8 @@ static void try_all(void *context, carom_crew *crew) {
   }
 }
 
-/* The best choice of each ball, pocket and kind, the best first. A plan that was stopped has not
+/* The best choice of each ball, pocket and kind, the best first. One without a ball is none to a
+ * player who is alone, if there is another. A plan that was stopped has not
  * sorted what it found: the first is the best. */
 static int give(plan *of, carom_choice *choices, int room) {
   const int most = carom_is_stopped(of) ? 1 : room;
@@ -339,7 +340,8 @@ static int give(plan *of, carom_choice *choices, int room) {
   for (int64_t k = 0; n < most && k < of->count; k++) {
     carom_choice c = carom_search_choice(of, &of->found[k]);
     const bool played = c.seen > 0 || c.kind == CAROM_PLAN_PASS;
-    if (n > 0 && (!played || c.value > choices[0].value))
+    const bool nothing = c.ball < 0 && of->job.rules->race == CAROM_RACE_ALONE && !of->breaks;
+    if (n > 0 && (!played || nothing || c.value > choices[0].value))
       continue;
     c.kind = carom_search_kind(of, &of->found[k], &c);
 

@@ -51,6 +51,9 @@ void carom_search_take(search *of, int64_t k, const outcome *o) {
   c->seen = 1;
   name(c, o);
   c->votes = c->pots = o->ball >= 0;
+  c->own_ball = c->ball;
+  c->own_pocket = c->pocket;
+  c->own_cushions = c->cushions;
   c->foul = o->foul;
   lead(of, k);
 }
@@ -138,16 +141,20 @@ carom_choice carom_search_choice(const search *of, const candidate *c) {
   CAROM_PROMISE(c->seen > 0 || carom_is_stopped(of));
   const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
   const double *place = of->job.balls[of->view.cue_ball].state.r;
-  /* luck alone names no pot, and a direct pot is that of the ball that was aimed at */
-  const bool named =
-      c->kind != CAROM_PLAN_BREAK && (c->ball < 0 || c->pots || 2 * c->keep >= c->seen);
-  const bool aimed = named && c->ball == c->aimed_ball && c->pocket == c->aimed_pocket;
+  /* Luck alone names no pot: where most strokes with errors pot nothing, it is that without. A
+   * direct pot is that of the ball that was aimed at. */
+  const bool often = 2 * c->keep >= c->seen, own = c->pots && !often;
+  const bool named = c->kind != CAROM_PLAN_BREAK && (c->ball < 0 || c->pots || often);
+  const int ball = own ? c->own_ball : c->ball, pocket = own ? c->own_pocket : c->pocket;
+  const bool aimed = named && ball == c->aimed_ball && pocket == c->aimed_pocket;
   carom_choice made = {.cue = *of->job.cue,
                        .place = {place[0], place[1]},
                        .kind = c->kind == CAROM_PLAN_POT && !aimed ? CAROM_PLAN_SCAN : c->kind,
-                       .ball = named ? c->ball : -1,
-                       .pocket = named ? c->pocket : -1,
-                       .cushions = named ? c->cushions : 0,
+                       .ball = named ? ball : -1,
+                       .pocket = named ? pocket : -1,
+                       .cushions = !named ? 0
+                                   : own  ? c->own_cushions
+                                          : c->cushions,
                        .value = mean,
                        .error = c->seen > 1 && variance > 0.0 ? sqrt(variance / (n - 1.0)) : 0.0,
                        .keep = (double)c->keep / n,

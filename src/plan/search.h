@@ -23,7 +23,8 @@ typedef struct carom_candidate {
   int16_t kind, round;
   int16_t aimed_ball, aimed_pocket; /* of a direct pot */
   int16_t ball, pocket, cushions;   /* of the pot that is named, */
-  int16_t pots;                     /* and whether there is one without errors */
+  int16_t pots;                     /* and whether there is one without errors: */
+  int16_t own_ball, own_pocket, own_cushions;
 } carom_candidate;
 
 /* Of a row. */

@@ -36,6 +36,15 @@ try carom plan --rules potting --try --value layout.jsonl
 try carom plan --rules potting --value --plot value.svg layout.jsonl
 echo "--- why"
 carom plan --rules potting --why --shots 300 layout.jsonl | sed -n 3,7p | sed 's/[0-9][0-9.]*/N/g'
+# the last ball, by a straight pot: errors cost little, whoever plays; a kick is aimed at cushions; a game of one has no other
+carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | sed -n 3,7p | sed 's/[0-9][0-9.]*/N/g'
+carom plan --rules nineball --why --cue 0.4,0.4 --balls 9=0.25,0.25 --shots 300 | sed -n 's/.*speed cost \([0-9.]*\) %, those of aim \([0-9.]*\) %/\1 \2/p' | sed -n 1p | awk '{ print ($1 < 2 && $2 < 2) }'
+carom plan --rules nineball --why --cue 0.4,0.4 --balls 1=0.9,2.4:2=0.45,0.47:3=0.5,0.43:9=0.37,0.5 --shots 300 | grep -c "aim          off the"
+echo "--- balls that are down are not on the table"
+carom plan --rules nineball --shots 300 --plot few.svg --cue 0.4,0.4 --balls 7=0.9,1.4:9=0.25,0.25 > few.txt
+grep -c 'class="ball"' few.svg
+carom plan --rules threecushion --shots 300 --plot three.svg --table threecushion --cue 0.4,0.9 --balls 0.3,1.9:1.1,2.2 > three.txt
+grep -o "Of 500 strokes with errors [0-9]* score" three.svg | sed 's/ [0-9]* score/ N score/'
 for options in "--why --csv" "--why --value"; do try carom plan --rules potting $options layout.jsonl; done
 echo "--- three-cushion"
 carom shoot --table threecushion --cue 0.4,0.9 --balls 0.3,1.9:1.1,2.2 --aim 90 --json > three.jsonl
