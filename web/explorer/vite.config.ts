@@ -66,7 +66,10 @@ export default defineConfig({
   root: here("."),
   base: "./",
   resolve: { alias: { carom: here("../dist/index.js") } },
-  define: { MEASURED: JSON.stringify(readFileSync(here("../../data/experiments.csv"), "utf8")) },
+  define: {
+    MEASURED: JSON.stringify(readFileSync(here("../../data/experiments.csv"), "utf8")),
+    DRILLS: JSON.stringify(readFileSync(here("../../data/drills.csv"), "utf8")),
+  },
   build: {
     target: "es2022",
     outDir: here("dist"),

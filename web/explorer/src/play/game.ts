@@ -17,6 +17,8 @@ export interface Setup {
   seed: number;
   /** Of practice: where balls lie, "x,y" or "in" of each. */
   at?: string;
+  /** The name of the drill that the layout is of. */
+  drill?: string;
 }
 /** A stroke: where the cue ball was put, what was called, and the line of the recording; of a pass there is none. */
 export interface Entry {
@@ -99,7 +101,7 @@ export class Play {
 
   /** The game as text. */
   text(): string {
-    return JSON.stringify({ ...this.setup, ...(this.practice ? { at: this.at() } : {}), entries: this.entries });
+    return JSON.stringify({ ...this.setup, ...(this.practice && !this.setup.drill ? { at: this.at() } : {}), entries: this.entries });
   }
 
   /** The cue ball in hand, put down; or a ball of practice. Throws where it is not free. */

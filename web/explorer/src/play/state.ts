@@ -34,7 +34,7 @@ function told(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
 }
 
 export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean): string {
-  if (play.practice) return "Practice";
+  if (play.practice) return play.setup.drill ?? "Practice";
   const before = play.last ? told(play, play.last, seat) : "";
   if (play.winner !== undefined) {
     const name = nameOf(play, play.winner, seat);

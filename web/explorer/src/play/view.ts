@@ -14,6 +14,7 @@ import { guessOf, lookAlong } from "./look.js";
 import { kept, keepText, unpack } from "./keep.js";
 import { byLink } from "./link.js";
 import { menu, type Settings } from "./menu.js";
+import { practice } from "./practice.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
@@ -111,7 +112,8 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     log: button("Log", () => log.open(), { id: "open-log" }),
   };
   const log = logPage();
-  const games = menu(carom, settings, film.pace, { begin, changed: setSettings });
+  const training = practice({ begin });
+  const games = menu(carom, settings, film.pace, { begin, changed: setSettings }, ...training.parts);
   const bar = el(
     "section",
     { class: "play-bar", "aria-label": "Game" },
@@ -120,7 +122,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     el("div", { class: "row" }, buttons.menu, buttons.hint, buttons.replay, buttons.undo, buttons.rack, buttons.push, buttons.pass, buttons.link, buttons.log, buttons.space, stroke.turns, buttons.skip, stroke.shoot),
     stroke.numbers,
   );
-  main.replaceChildren(el("div", { class: "play" }, felt, stroke.side, bar, games.root, log.root));
+  main.replaceChildren(el("div", { class: "play" }, felt, stroke.side, bar, games.root, log.root, training.photo));
 
   function setSettings(now: Settings): void {
     Object.assign(settings, now);
@@ -168,7 +170,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     paths = [];
     if (free() && onTable(play.balls[0]!.state))
       try {
-        if (play.practice) paths = pathsOf(carom.simulate(play.table, play.balls, cue(), OPTIONS));
+        if (play.practice && !play.setup.drill) paths = pathsOf(carom.simulate(play.table, play.balls, cue(), OPTIONS));
         first = lookAlong(carom, play.table, play.balls, cue(), OPTIONS);
       } catch (error) {
         if (!(error instanceof CaromError)) throw error;
@@ -188,8 +190,8 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     const seen: [HTMLElement, boolean][] = [
       [buttons.hint, can && play.played !== undefined],
       [buttons.replay, play.last?.shot !== undefined && !film.playing && !thinks && then === undefined],
-      [buttons.undo, play.practice],
-      [buttons.rack, play.practice || play.winner !== undefined],
+      [buttons.undo, play.practice && !play.setup.drill],
+      [buttons.rack, (play.practice && !play.setup.drill) || play.winner !== undefined],
       [buttons.push, can && play.state.may === "push"],
       [buttons.pass, can && play.state.may === "pass"],
       [buttons.skip, film.playing],
@@ -285,6 +287,13 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     rest();
   }
   function next(): void {
+    const { drill, at } = play.setup;
+    if (drill !== undefined && play.last) {
+      const { text, again } = training.played(drill, play.last);
+      said.textContent = text;
+      // The next try begins where this one began.
+      if (again) play.lay(new Play(carom, { ...play.setup, at }).balls);
+    }
     if (link.waiting()) return link.onward();
     if (play.winner === undefined && !mine() && /^\d/.test(play.setup.against)) void reply();
     else rest();
@@ -336,8 +345,8 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   function begin(setup: Setup): void {
     seat = 0;
     start(new Play(carom, JSON.parse(JSON.stringify(setup)) as Setup));
-    aim({ ...cue(), theta: 0, ...(play.played?.begin ?? { speed: 4, phi: 62, a: 0, b: 0 }) });
-    said.textContent = play.practice ? "Drag balls, aim by a drag on the cloth, then press Shoot." : "Drag to aim, hold Shoot to draw the stick, let go to play.";
+    aim({ ...cue(), theta: 0, ...(play.played?.begin ?? { speed: 4, phi: 62, a: 0, b: 0 }), ...(setup.at === undefined ? {} : { speed: 2, phi: 90 }) });
+    said.textContent = setup.drill !== undefined ? training.told(setup.drill) : play.practice ? "Drag balls, aim by a drag on the cloth, then press Shoot." : "Drag to aim, hold Shoot to draw the stick, let go to play.";
     save();
     rest();
   }
