@@ -5,6 +5,7 @@ import type { player } from "../../../../cli/player.js";
 import { beside } from "../lab/hand.js";
 import { drawStick, PULL, ring, stickEnd, stroke } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
+import { mayLie } from "../table/head.js";
 import type { Play } from "./game.js";
 
 const DEGREES = 180 / Math.PI;
@@ -108,7 +109,7 @@ export function aiming(film: ReturnType<typeof player>, host: Host): { draw(g: C
     const play = host.play();
     const kitchen = play.hand === "kitchen";
     const [x, y] = beside(play.table, play.balls, ball, to, kitchen ? play.table.length / 4 + play.balls[0]!.kind.radius + 1e-4 : play.table.length);
-    if (kitchen && y > play.table.length / 4 + 1e-9) return;
+    if (!play.practice && !mayLie(play.table, play.hand, [x, y])) return;
     try {
       play.put(ball, x, y);
     } catch (error) {

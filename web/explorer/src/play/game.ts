@@ -3,7 +3,7 @@
 import type { Call, Carom, Cue, GameState, Recording, Ruling, Shot, ShotBall, ShotOptions, Table, Vec2 } from "carom";
 import { onTable } from "../table/filmed.js";
 import { GAMES, type Played, playedGames } from "../table/games.js";
-import { atHead } from "../table/head.js";
+import { atHead, mayLie } from "../table/head.js";
 
 /** Whom one plays against: a Fargo rating, a person at this page, one by link, or nobody. */
 export type Against = "practice" | "person" | "link" | `${number}`;
@@ -71,11 +71,16 @@ export class Play {
     this.balls = carom.rack(of.rack, this.table, { seed: setup.seed }).map(({ state }) => ({ kind, state }));
     this.names = this.balls.map((_, k) => of.names(k));
     if (setup.at !== undefined) this.#lay(setup.at);
-    this.state = { rules: this.played?.rules ?? "potting", group: "open", opening: setup.at === undefined };
-    this.hand = this.practice || !this.hasPockets ? "no" : "kitchen";
+    this.state = { rules: this.played?.rules ?? "potting", group: "open", opening: setup.at === undefined, ...(this.played?.state && { state: this.played.state }) };
+    this.hand = this.practice || !this.hasPockets ? "no" : setup.game === "snooker" ? ("d" as Ruling["hand"]) : "kitchen";
     this.#recording = carom.record(this.table, this.balls, OPTIONS);
   }
 
+  /** Whether the rules let the player pass. */
+  get mayPass(): boolean {
+    const { state } = this.state as { state?: readonly number[] };
+    return this.state.may === "pass" || (state !== undefined && (state[4]! & 1) === 1);
+  }
   get hasPockets(): boolean {
     return this.table.pockets.length > 0;
   }
@@ -149,7 +154,7 @@ export class Play {
     if (entry.place) {
       if (this.hand === "no") throw new TypeError(`stroke ${this.entries.length + 1}: the cue ball is not in hand`);
       const [x, y] = entry.place;
-      if (this.hand === "kitchen" && !(y <= this.table.length / 4 + 1e-6)) throw new TypeError(`stroke ${this.entries.length + 1}: the cue ball lies beyond the head string`);
+      if (!mayLie(this.table, this.hand, [x, y])) throw new TypeError(`stroke ${this.entries.length + 1}: the cue ball lies beyond the line`);
       this.put(0, x, y);
       this.#recording.place(0, x, y);
     } else if (this.hand !== "no") throw new TypeError(`stroke ${this.entries.length + 1}: the place of the cue ball is missing`);
@@ -179,17 +184,20 @@ export class Play {
     this.entries.push(entry);
     this.state = ruling.game;
     this.hand = ruling.hand;
+    // Of points, as whoever plays next sees them.
+    const { score } = ruling as { score?: readonly [number, number] };
     const target = this.played!.target;
     if (target !== undefined && ruling.turn === "keep" && ++this.points[who] >= target) this.winner = who;
     if (ruling.turn === "win") this.winner = who;
     if (ruling.turn === "lose") this.winner = who === 0 ? 1 : 0;
     if (ruling.turn === "pass") this.turn = who === 0 ? 1 : 0;
+    if (score && this.played!.points && target === undefined) this.points = this.turn === 0 ? [score[0], score[1]] : [score[1], score[0]];
     this.balls = ruling.balls;
     // Balls that came back to a spot, or a cue ball that left the table, are another layout for the recording.
     if (this.winner === undefined) {
       const lie = this.#recording.balls;
       if (!same(lie, this.balls)) this.#recording.setBalls(this.balls);
-      if (this.hand !== "no") this.balls = this.hasPockets ? atHead(this.carom, this.table, this.balls) : this.balls;
+      if (this.hand !== "no" && this.hasPockets) this.balls = atHead(this.carom, this.table, this.balls, this.hand);
     }
     return (this.last = { who, balls, cue, call: entry.call, state, shot, ruling });
   }

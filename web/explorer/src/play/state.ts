@@ -33,6 +33,14 @@ function told(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
   return `${name} ${name === "You" ? "foul" : "fouls"}${WHY[ruling.reason] ? `: ${WHY[ruling.reason]}` : ""}. `;
 }
 
+/** Of snooker: what is to be met. */
+function onOf(play: Play): string {
+  const on = play.carom.ballsOn(play.state, play.balls);
+  if (on.length === 0) return "nothing";
+  if (on.every((ball) => ball < 16)) return "a red";
+  return on.length === 1 ? play.names[on[0]!]! : "a colour";
+}
+
 export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean): string {
   if (play.practice) return play.setup.drill ?? "Practice";
   const before = play.last ? told(play, play.last, seat) : "";
@@ -43,11 +51,12 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean): string {
   const name = nameOf(play, play.turn, seat);
   const you = name === "You";
   const group = play.setup.game === "eightball" && !play.state.opening ? (play.state.group === "open" ? ", open table" : `, ${play.state.group}`) : "";
-  if (thinks) return `${before}${name} thinks${group} …`;
-  if (!you && play.setup.against === "link") return `${before}${name} plays${group}: send the link.`;
-  const turn = play.state.opening && play.played?.rules !== "threecushion" && play.entries.length === 0 ? `${name} ${you ? "break" : "breaks"}` : you ? "Your turn" : `${name}'s turn`;
-  const hand = play.hand === "no" ? "" : ` Cue ball in hand${play.hand === "kitchen" ? " behind the line" : ""}: drag it.`;
-  return `${before}${turn}${group}.${hand}`;
+  const on = play.setup.game === "snooker" && play.winner === undefined ? `, on ${onOf(play)}` : group;
+  if (thinks) return `${before}${name} thinks${on} …`;
+  if (!you && play.setup.against === "link") return `${before}${name} plays${on}: send the link.`;
+  const turn = play.hasPockets && play.entries.length === 0 ? `${name} ${you ? "break" : "breaks"}` : you ? "Your turn" : `${name}'s turn`;
+  const hand = play.hand === "no" ? "" : ` Cue ball in hand${play.hand === "kitchen" ? " behind the line" : play.hand === "anywhere" ? "" : " in the D"}: drag it.`;
+  return `${before}${turn}${on}.${hand}`;
 }
 
 /** The score: what is left of each, or points. */
@@ -55,7 +64,7 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
   if (play.practice) return `${left(play, 1, play.balls.length)} balls`;
   const names = ([0, 1] as const).map((who) => nameOf(play, who, seat));
   const of = (parts: readonly (string | number)[]): string => parts.map((part, k) => `${names[k]}: ${part}`).join(" · ");
-  if (play.setup.game === "threecushion") return of(play.points);
+  if (play.played?.points) return of(play.points);
   const won = racks[0] + racks[1] > 0 ? `racks ${racks[0]} : ${racks[1]}` : "";
   if (play.setup.game === "eightball") {
     if (play.state.group === "open") return won;

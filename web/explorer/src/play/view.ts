@@ -193,7 +193,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
       [buttons.undo, play.practice && !play.setup.drill],
       [buttons.rack, (play.practice && !play.setup.drill) || play.winner !== undefined],
       [buttons.push, can && play.state.may === "push"],
-      [buttons.pass, can && play.state.may === "pass"],
+      [buttons.pass, can && play.mayPass],
       [buttons.skip, film.playing],
       [stroke.shoot, !film.playing],
       [buttons.link, play.setup.against === "link"],
@@ -301,7 +301,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   }
   /** Where the cue ball may be put, for a plan. */
   function place(): PlanOptions["inHand"] {
-    return play.hand === "kitchen" ? [[0, 0], [play.table.width, play.table.length / 4]] : play.hand === "anywhere";
+    return play.hand === "kitchen" ? [[0, 0], [play.table.width, play.table.length / 4]] : play.hand !== "no";
   }
 
   /** The page's player: he plans in a worker, puts the cue ball, and errs. */

@@ -61,6 +61,9 @@ export interface Played {
   calls: boolean;
   /** Points that win, of games in which the rules count none. */
   target?: number;
+  /** Whether the score is points, and the state that a game begins with where it is not that of the library. */
+  points?: boolean;
+  state?: readonly number[];
   /** The stroke that a game begins with, as one finds it. */
   begin: Partial<Cue>;
 }
@@ -68,10 +71,9 @@ const BREAK = { speed: 8, phi: 90, a: 0, b: 0 };
 const ALL = {
   eightball: { text: "Eight-ball", of: "eightball", rules: "eightball", calls: true, begin: BREAK },
   nineball: { text: "Nine-ball", of: "nineball", rules: "nineball", calls: false, begin: BREAK },
-  straight: { text: "Straight pool", of: "eightball", rules: "straight", calls: true, begin: { ...BREAK, speed: 4 } },
-  onepocket: { text: "One-pocket", of: "eightball", rules: "onepocket", calls: false, begin: { ...BREAK, speed: 4 } },
-  snooker: { text: "Snooker", of: "snooker", rules: "snooker", calls: false, begin: { ...BREAK, speed: 4 } },
-  threecushion: { text: "Three-cushion, to 10 points", of: "threecushion", rules: "threecushion", calls: false, target: 10, begin: { speed: 4, phi: 62, a: 0, b: 0.2 } },
+  straight: { text: "Straight pool, to 25 points", of: "eightball", rules: "straight", calls: true, points: true, state: [25, 1, 0, 0, 0, 0, 0, 0], begin: { ...BREAK, speed: 4 } },
+  snooker: { text: "Snooker", of: "snooker", rules: "snooker", calls: false, points: true, begin: { ...BREAK, speed: 4 } },
+  threecushion: { text: "Three-cushion, to 10 points", of: "threecushion", rules: "threecushion", calls: false, points: true, target: 10, begin: { speed: 4, phi: 62, a: 0, b: 0.2 } },
 } as const;
 
 /** The games whose rules the library has. */
