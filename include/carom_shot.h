@@ -451,9 +451,10 @@ typedef struct carom_corner {
  * either direction. nose_height, m, is that of all noses; jaw_radius, m, that of the rounded ends
  * of rails at pockets; ball_radius, m, that of the balls. Rails end where mouths begin. The pocket
  * is a circle as wide as the mouth, behind it, or a little in it where a ball could slip past.
- * The middle (width/2, length/2) of the table, where width and length are the greatest x and y,
- * must have room for a ball. The result is checked by carom_table_check(), whose status and
- * *fault are those of the call; *fault may be NULL. Further errors: CAROM_ERROR_TABLE with
+ * There must be room for a ball in the middle (width/2, length/2), where width and length are the
+ * greatest x and y, or, as in an L or a U, beside the longest rail. The result is checked by
+ * carom_table_check(), whose status and *fault are those of the call; *fault may be NULL. Further
+ * errors: CAROM_ERROR_TABLE with
  * CAROM_PART_NONE for a number below 0 or not finite, mouths that leave nothing of a rail, or more
  * than CAROM_POCKETS_MOST pockets or CAROM_JAWS_MOST jaws. */
 CAROM_API carom_status carom_table_polygon(const carom_corner *corner, int count,
@@ -834,6 +835,13 @@ CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int cou
 CAROM_API carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls,
                                         int count, const carom_shot *shot, const double *times,
                                         size_t n, carom_ball_state *states);
+
+/* How fast the surfaces of ball a and of what it meets pass each other as they meet, m/s: with
+ * event->impulse it says how a contact sounds. By the motion before the event, in a cluster before
+ * the cluster. 0 of the strike, of pockets and of events without a contact; NaN for a pointer that
+ * is NULL, or a ball or part that is not there. */
+CAROM_API double carom_event_slip(const carom_table *table, const carom_shot_ball *balls, int count,
+                                  const carom_event *event);
 
 /* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of
  * cues[k * cue_stride]. In place of `balls`, 328 bytes a ball, a job may have `kinds` for all shots

@@ -395,6 +395,13 @@ EVERY_BODY(shot_drawn) {
       carom_shot_drawn(&in->table, in->balls, EVERY_BALLS, &room->shot[0], times, 3, room->later));
   return HASH(room->later);
 }
+EVERY_BODY(event_slip) {
+  every_break(in, room, 0, 0.0);
+  for (int k = 0; k < 20; k++)
+    room->later[0].v[k % 3] =
+        carom_event_slip(&in->table, in->balls, EVERY_BALLS, &room->shot[0].events[k]);
+  return HASH(room->later[0]);
+}
 /* A plan for the rack, with few shots. */
 static inline carom_plan_job plan_of(const every_input *in, every_room *room,
                                      const carom_player *player, const carom_plan_rules *rules,
@@ -644,7 +651,7 @@ EVERY_BODY(record_settle) {
   F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) \
   F(record_settle) F(record_write) F(rolling_velocity) F(rules_name) F(serves) F(shoot) \
   F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) F(shot_continue) F(shot_drawn) \
-  F(shot_fault) F(shot_frames) \
+  F(shot_fault) F(shot_frames) F(event_slip) \
   F(shot_orientation) \
   F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(status_name) \
   F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(table_polygon) F(trace) \

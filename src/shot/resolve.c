@@ -183,22 +183,19 @@ void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_st
   carom_label_in_space(s, kind->radius);
 }
 
-/* The unit vector from the centre of a ball into a rail or a jaw; horizontal for a ball on the
- * cloth. */
-static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ball_state *s,
-                      double N[3]) {
-  const carom_ball_kind *kind = carom_kind_in(sim->ball, due->a);
+void carom_into_nose(const carom_table *table, const double line[3], double reference,
+                     const carom_ball_kind *kind, const carom_due *due, const carom_ball_state *s,
+                     double N[3]) {
   const double *r = s->r;
   double out[2], across, height; /* the horizontal direction from the nose to the centre; the
                                     distance from the wall */
   if (due->type == CAROM_EVENT_RAIL) {
-    const double *line = sim->features->line[due->b];
     out[0] = line[0];
     out[1] = line[1];
     across = line[0] * r[0] + line[1] * r[1] + line[2];
-    height = sim->table->rail[due->b].height;
+    height = table->rail[due->b].height;
   } else {
-    const carom_jaw *jaw = &sim->table->jaw[due->b];
+    const carom_jaw *jaw = &table->jaw[due->b];
     const double x = r[0] - jaw->centre[0], y = r[1] - jaw->centre[1], q = sqrt(x * x + y * y);
     out[0] = q > 0.0 ? x / q : 0.0;
     out[1] = q > 0.0 ? y / q : 0.0;
@@ -213,7 +210,7 @@ static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ba
   if (!carom_flies(s))
     return;
   const double h = carom_nose_height(kind, height), up = r[2] - h;
-  across -= carom_nose_shift(h, sim->features->reference);
+  across -= carom_nose_shift(h, reference);
   const double size = sqrt(across * across + up * up);
   N[0] = -across / size * out[0];
   N[1] = -across / size * out[1];
@@ -234,7 +231,8 @@ void carom_contact_normal(const carom_sim *sim, const carom_due *due, const caro
     carom_line_of_centres(carom_kind_in(sim->ball, due->a), a, carom_kind_in(sim->ball, due->b), b,
                           n);
   else
-    into_nose(sim, due, a, n);
+    carom_into_nose(sim->table, sim->features->line[due->type == CAROM_EVENT_RAIL ? due->b : 0],
+                    sim->features->reference, carom_kind_in(sim->ball, due->a), due, a, n);
 }
 
 double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]) {

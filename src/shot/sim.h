@@ -107,6 +107,11 @@ carom_due carom_next(const carom_sim *sim);
  * b is NULL then. Changes the states, labels too. */
 carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
                            carom_ball_state *b);
+/* The unit vector from the centre of a ball into the rail of a line, or into a jaw; horizontal for
+ * a ball on the cloth. reference: the radius that the table is meant for. */
+void carom_into_nose(const carom_table *table, const double line[3], double reference,
+                     const carom_ball_kind *kind, const carom_due *due, const carom_ball_state *s,
+                     double N[3]);
 /* The unit vector from ball a to ball b, or into the cushion; and how fast the two close along
  * it, m/s. */
 void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a,

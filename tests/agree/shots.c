@@ -680,6 +680,73 @@ TEST(stops_unless_the_first_is_of_a_set) {
   ck_assert(stopped > 10 && played > 10);
 }
 
+/* |u| of the surfaces of a ball that moves with v and w, as it meets what lies along n. */
+static double slip_of(const carom_ball_state *s, double R, double n_x, double n_y, double n_z) {
+  const double *v = s->v, *w = s->w, v_n = v[0] * n_x + v[1] * n_y + v[2] * n_z;
+  const double u_x = v[0] - v_n * n_x + R * (w[1] * n_z - w[2] * n_y),
+               u_y = v[1] - v_n * n_y + R * (w[2] * n_x - w[0] * n_z),
+               u_z = v[2] - v_n * n_z + R * (w[0] * n_y - w[1] * n_x);
+  return sqrt(u_x * u_x + u_y * u_y + u_z * u_z);
+}
+
+/* Slips of the events of jumps and breaks: on the slate and at long and short rails by their
+ * known normals, of a ball that meets one at rest by the line of centres. */
+TEST(slips) {
+  static carom_event events[ROOM];
+  make_breaks();
+  const double R = balls[0].kind.radius;
+  int slate = 0, rail = 0, two = 0;
+  for (int k = 0; k < 20; k++) {
+    carom_cue cue = cues[0];
+    cue.theta = k % 2 == 0 ? 30.0 : 0.0;
+    cue.phi = 90.0 + k;
+    cue.a = 0.3;
+    carom_shot shot = {.events = events, .room = ROOM};
+    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cue, NULL, &shot), CAROM_OK);
+    for (int i = 0; i < shot.count; i++) {
+      const carom_event *e = &events[i];
+      const carom_ball_state *s = &e->before[0], *o = &e->before[1];
+      const double slip = carom_event_slip(&table, balls, 16, e);
+      ck_assert(slip >= 0.0 && slip < 100.0);
+      if (e->impulse == 0.0 || e->type == CAROM_EVENT_STRIKE)
+        ck_assert(slip == 0.0 || e->cluster != 0);
+      if (e->type == CAROM_EVENT_SLATE) {
+        ck_assert_double_eq_tol(slip, slip_of(s, R, 0.0, 0.0, -1.0), 1e-12);
+        slate++;
+      }
+      if (e->type == CAROM_EVENT_RAIL && s->v[2] == 0.0 && s->r[2] == R) {
+        const carom_rail *of = &table.rail[e->b];
+        const bool along_x = of->p[1] == of->q[1], along_y = of->p[0] == of->q[0];
+        if (along_x || along_y) {
+          /* into the rail, as the ball moves */
+          ck_assert_double_eq_tol(slip,
+                                  slip_of(s, R, along_y ? copysign(1.0, s->v[0]) : 0.0,
+                                          along_x ? copysign(1.0, s->v[1]) : 0.0, 0.0),
+                                  1e-12);
+          rail++;
+        }
+      }
+      if (e->type == CAROM_EVENT_BALL_BALL && o->label == CAROM_BALL_STATIONARY) {
+        double n[3], size = 0.0;
+        for (int m = 0; m < 3; m++) {
+          n[m] = o->r[m] - s->r[m];
+          size += n[m] * n[m];
+        }
+        size = sqrt(size);
+        ck_assert_double_eq_tol(slip, slip_of(s, R, n[0] / size, n[1] / size, n[2] / size), 1e-9);
+        two++;
+      }
+    }
+  }
+  ck_assert(slate > 20 && rail > 50 && two > 50);
+  carom_event bad = events[1];
+  ck_assert_double_nan(carom_event_slip(NULL, balls, 16, &bad));
+  bad.b = 16;
+  ck_assert_double_nan(carom_event_slip(&table, balls, 16, &bad));
+  bad.a = -1;
+  ck_assert_double_nan(carom_event_slip(&table, balls, 16, &bad));
+}
+
 /* On every instruction set a shot ends well, and the first events, which nothing has amplified
  * yet, are the same but for rounding. */
 TEST(instruction_sets) {

@@ -1,0 +1,53 @@
+/* The slip of an event, for sounds: how fast the two surfaces pass each other as they meet. */
+#include "shot/sim.h"
+
+#include <math.h>
+#include <stdint.h>
+
+static carom_ball moving(const carom_ball_kind *kind, const carom_ball_state *s) {
+  return (carom_ball){
+      .v = {s->v[0], s->v[1], s->v[2]}, .w = {s->w[0], s->w[1], s->w[2]}, .radius = kind->radius};
+}
+
+/* How many parts an event's b may be one of; 0: it has no slip. */
+static int64_t parts_of(const carom_table *table, int count, int type) {
+  return type == CAROM_EVENT_BALL_BALL  ? count
+         : type == CAROM_EVENT_RAIL     ? table->rails
+         : type == CAROM_EVENT_JAW      ? table->jaws
+         : type == CAROM_EVENT_RAIL_TOP ? table->rails + table->jaws
+         : type == CAROM_EVENT_SLATE    ? INT32_MAX
+                                        : 0;
+}
+
+double carom_event_slip(const carom_table *table, const carom_shot_ball *balls, int count,
+                        const carom_event *event) {
+  if (table == NULL || balls == NULL || event == NULL || count < 1 || count > CAROM_BALLS_MOST ||
+      table->rails < 0 || table->rails > CAROM_RAILS_MOST || table->jaws < 0 ||
+      table->jaws > CAROM_JAWS_MOST || event->a < 0 || event->a >= count)
+    return NAN;
+  const int64_t parts = parts_of(table, count, event->type);
+  if (parts == 0)
+    return 0.0;
+  const bool slate = event->type == CAROM_EVENT_SLATE;
+  if (!slate && (event->b < 0 || event->b >= parts))
+    return NAN;
+
+  /* from the first ball's centre into what it meets */
+  const carom_ball_kind *kind = &balls[event->a].kind;
+  const carom_ball_state *s = &event->before[0];
+  double n[3] = {0.0, 0.0, -1.0}, line[3] = {0.0};
+  if (event->type == CAROM_EVENT_BALL_BALL) {
+    const carom_ball_kind *other = &balls[event->b].kind;
+    carom_line_of_centres(kind, s, other, &event->before[1], n);
+    const carom_impact in = {.a = moving(kind, s), .b = moving(other, &event->before[1])};
+    return carom_spheres_slip(&in, n);
+  }
+  if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW) {
+    const carom_due due = {.type = event->type, .a = event->a, .b = event->b};
+    if (event->type == CAROM_EVENT_RAIL)
+      carom_rail_line(&table->rail[event->b], line);
+    carom_into_nose(table, line, carom_reference_of(table, balls[count - 1].kind.radius), kind,
+                    &due, s, n);
+  }
+  return carom_touch_of(n, kind->radius, s).slip;
+}
