@@ -1,7 +1,7 @@
 // The view Play in a browser, at both sizes: strokes, whole games, what is kept, and what is heard.
 import { describe, expect, test } from "vitest";
 import type { Page } from "playwright-core";
-import { browserPath, pages, sizes } from "./page.js";
+import { browserPath, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("a game", () => {
   const { open, on, drag, click, pixel, bright, text, set } = pages();
@@ -197,8 +197,37 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     expect(await turn(one)).toMatch(new RegExp(`(You have|The ${against} has) won\\.$`));
     console.log(`${game} against a ${against}: ${await turn(one)} ${await text(one, "score")}`);
     expect(await one.locator("#rack-up").isVisible()).toBe(true);
+    expect(await violations(one)).toEqual([]);
     await one.close();
   }, 300_000);
+
+  test("every game whose rules the library has begins, is ruled and is kept, and every table can be practised on", async () => {
+    const one = await open("", { width: 390, height: 844, touch: true });
+    await one.locator("#new-game").click();
+    const games = await one.locator("#new-which option").evaluateAll((options) => options.map((option) => [(option as HTMLOptionElement).value, option.textContent!] as const));
+    await one.locator("#menu .close").click();
+    expect(games.map(([game]) => game)).toEqual(expect.arrayContaining(["eightball", "nineball", "threecushion", "snooker"]));
+    for (const [game, name] of games)
+      for (const against of name.includes("(practice)") ? ["practice"] : ["person", "practice"]) {
+        await begin(one, game, against);
+        let played = 0;
+        for (; played < 3; played++) {
+          // A ball that ends the game may fall.
+          await expect.poll(async () => (await one.locator("#shoot").isEnabled()) || /won\.$/.test(await turn(one)), { timeout: 20_000, message: `${game} ${await turn(one)} ${await text(one, "said")}` }).toBe(true);
+          if (!(await one.locator("#shoot").isEnabled())) break;
+          await one.locator("#shoot").click();
+        }
+        const saved = await one.evaluate(() => localStorage.getItem("carom-game"));
+        const { entries, game: which } = JSON.parse(saved!) as { entries: unknown[]; game: string };
+        expect(which).toBe(game);
+        expect(entries).toHaveLength(against === "practice" ? 0 : played);
+        expect(await one.locator("#said").textContent()).toMatch(/^$|Drag/);
+        await one.reload();
+        await one.waitForSelector("main[aria-busy=false]");
+        expect(await one.evaluate(() => localStorage.getItem("carom-game"))).toBe(saved);
+      }
+    await one.close();
+  }, 120_000);
 
   test("the script's part of a frame of a break", async () => {
     const one = await open("");
