@@ -9,7 +9,8 @@
  *    the value of the layout that it leaves, to whoever plays next.
  * 4. Sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013): four rounds with equal
  *    shares of the shots. In each, the candidates that are left are played with errors, the same
- *    errors for all; a quarter of them stays.
+ *    errors for all; a quarter of them stays. In the third round six strokes near the best one
+ *    join, with another speed or tip.
  *
  * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
  * threads and added up in their order, so no bit of a sum depends on threads. The rows of a stage

@@ -10,7 +10,8 @@ typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;
 
-enum { ROUNDS = 4 };
+/* In round NEAR_ROUND strokes near the best PARENTS ones join. */
+enum { ROUNDS = 4, NEAR_ROUND = 2, PARENTS = 1 };
 
 static bool is_better(const candidate *a, const candidate *b) {
   if (a->round != b->round)
@@ -213,15 +214,51 @@ static void look_again(search *of) {
   of->next = NEXT_LOOK;
 }
 
+/* The candidates of a round that were in the one before. */
+static int64_t in_round(search *of) {
+  const int64_t keep = of->shots / 25 > 6 ? of->shots / 25 : 6;
+  int64_t n = keep >> (2 * of->round);
+  n = n < 2 ? 2 : n;
+  return of->round == 0 ? first_round(of, n) : n < of->count ? n : of->count;
+}
+
+/* Strokes near the best are played once without errors. False where there are none. */
+static bool add_near(search *of) {
+  const int64_t first = of->count, n = in_round(of);
+  of->near = 0;
+  carom_search_near(of, n < PARENTS ? n : PARENTS);
+  if (of->count == first)
+    return false;
+  carom_search_stage(of, first, of->count - first, 1, 0);
+  of->next = NEXT_NEAR;
+  return true;
+}
+
+/* Those that meet a ball that is on come behind the candidates of the round, as if they had been in
+ * all before. */
+static void take_near(search *of) {
+  const int64_t first = of->stage.first, n = in_round(of);
+  for (int64_t k = 0; k < of->stage.done; k++) {
+    if (!carom_search_begins_well(of, of->outcome[k].first))
+      continue;
+    carom_search_take(of, first + k, &of->outcome[k]);
+    candidate c = of->found[first + k];
+    c.sum = c.squares = 0.0;
+    c.seen = c.keep = c.foul = c.lose = 0;
+    c.round = (int16_t)of->round;
+    of->found[first + k] = of->found[n + of->near];
+    of->found[n + of->near++] = c;
+  }
+}
+
 static void next_round(search *of) {
   if (of->round == ROUNDS || carom_is_stopped(of)) {
     look_again(of);
     return;
   }
-  const int64_t keep = of->shots / 25 > 6 ? of->shots / 25 : 6;
-  int64_t n = keep >> (2 * of->round);
-  n = n < 2 ? 2 : n;
-  n = of->round == 0 ? first_round(of, n) : n < of->count ? n : of->count;
+  if (of->round == NEAR_ROUND && of->near < 0 && add_near(of))
+    return;
+  const int64_t n = in_round(of) + (of->round == NEAR_ROUND ? of->near : 0);
   int64_t each = left_for_rounds(of) / ROUNDS / n;
   each = each < 2 ? 2 : each;
   if (each * n > of->room)
@@ -268,6 +305,10 @@ static void go_on(search *of) {
     sort(of, of->count);
     next_round(of);
     break;
+  case NEXT_NEAR:
+    take_near(of);
+    next_round(of);
+    break;
   case NEXT_LOOK:
     carom_search_add_up(of);
     lead(of, of->better);
@@ -290,6 +331,7 @@ void carom_search_begin(search *of, int64_t shots) {
   of->scan = (int64_t)(share * (double)shots);
   of->count = of->tried = 0;
   of->round = of->look = 0;
+  of->near = -1;
   if (of->breaks) {
     carom_search_breaks(of, most);
     carom_search_stage(of, 0, of->count, 1, 0);

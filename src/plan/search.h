@@ -49,7 +49,8 @@ typedef enum carom_search_next {
   NEXT_AIMED, /* those that can be aimed are played, */
   NEXT_TAKEN, /* and taken, and strokes in all directions tried, */
   NEXT_SCAN,  /* in blocks; */
-  NEXT_ROUND, /* rounds with errors; */
+  NEXT_ROUND, /* rounds with errors, */
+  NEXT_NEAR,  /* in one of which strokes near the best join; */
   NEXT_LOOK,  /* and a look at those that might be better */
   NEXT_GENTLE /* or the only stroke that is left */
 } carom_search_next;
@@ -114,6 +115,7 @@ typedef struct carom_search {
   int64_t shots;                  /* of all stages, about, */
   int64_t scan, scan_end, tried;  /* those of the scan; where its candidates end; tried so far */
   int64_t better;                 /* the candidate that is looked at again */
+  int64_t near;                   /* strokes near the best that are in the round; -1: none yet */
   int round, look, place, chosen; /* of places in hand: on its way, the best */
   carom_candidate best;           /* and the stroke from there */
 } carom_search;
@@ -162,6 +164,7 @@ void carom_search_aimed(carom_search *of);
  * those that were played, the ones that are candidates. */
 bool carom_search_scan(carom_search *of);
 void carom_search_scanned(carom_search *of);
+void carom_search_near(carom_search *of, int64_t parents);
 void carom_search_breaks(carom_search *of, int64_t most); /* in place of both */
 void carom_search_add(carom_search *of, carom_candidate c);
 
