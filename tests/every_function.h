@@ -396,11 +396,11 @@ EVERY_BODY(shot_drawn) {
   return HASH(room->later);
 }
 EVERY_BODY(event_slip) {
+  double slip[20];
   every_break(in, room, 0, 0.0);
   for (int k = 0; k < 20; k++)
-    room->later[0].v[k % 3] =
-        carom_event_slip(&in->table, in->balls, EVERY_BALLS, &room->shot[0].events[k]);
-  return HASH(room->later[0]);
+    slip[k] = carom_event_slip(&in->table, in->balls, EVERY_BALLS, &room->shot[0].events[k]);
+  return HASH(slip);
 }
 /* A plan for the rack, with few shots. */
 static inline carom_plan_job plan_of(const every_input *in, every_room *room,
