@@ -153,7 +153,7 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
     if (now === drawn) return;
     drawn = now;
     [cloth.width, cloth.height] = [canvas.width, canvas.height];
-    const g = /** @type {CanvasRenderingContext2D} */ (cloth.getContext("2d"));
+    const g = /** @type {CanvasRenderingContext2D} */ (cloth.getContext("2d", { alpha: false }));
     g.setTransform(dpr, 0, 0, dpr, 0, 0);
     g.fillStyle = wood || "#5b3a24";
     g.fillRect(0, 0, width, height);
@@ -295,7 +295,7 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
       offset = /** @type {[number, number]} */ ([width, height].map((size, k) => size / 2 - Math.min(Math.max(zoom * at[k], size / 2), (zoom - 0.5) * size) + zoom * offset[k]));
     }
     drawTable(table, width, height, dpr);
-    const g = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    const g = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
     g.setTransform(dpr, 0, 0, dpr, 0, 0);
     g.drawImage(cloth, 0, 0, width, height);
     const dim = under?.(g) ?? false;

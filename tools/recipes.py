@@ -33,6 +33,7 @@ sources = f'sources:\n  "{version}":\n    url: "{known["ARCHIVE"]}"\n    sha256:
 npm = json.loads((ROOT / "web/package.json").read_text(encoding="utf-8"))["devDependencies"]
 PARTS = [  # what is inside packages, and what packages ask for
     ("uplot", npm["uplot"], "MIT", "required", "in the page and in the site's explorer"),
+    ("three", npm["three"], "MIT", "required", "in the page and in the site's explorer: the view from behind the cue"),
     ("musl", None, "MIT", "required", "functions in the WebAssembly of the npm package, the page and the site"),
     ("emscripten", None, "MIT", "required", "functions in the WebAssembly of the npm package, the page and the site"),
     ("mkdocs-material", None, "MIT", "required", "style and search of the site"),

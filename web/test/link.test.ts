@@ -117,6 +117,21 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       expect(await turn(bad)).toContain("You break");
       await bad.close();
     }
+    // A game against the page goes on elsewhere, too.
+    const own = await open(here, "#view=play");
+    await own.locator("#new-game").click();
+    await own.locator("#new-which").selectOption("nineball");
+    await own.locator("#new-against").selectOption("person");
+    await own.locator("#rate").selectOption("1000");
+    await own.locator("#start").click();
+    await own.locator("#shoot").click();
+    await expect.poll(() => own.locator("#skip").isVisible()).toBe(false);
+    await own.locator("#new-game").click();
+    await own.locator("#copy-game").click();
+    await expect.poll(() => text(own, "said")).toBe("The link to this game is copied.");
+    const again = await open(there, new URL(await own.evaluate(() => navigator.clipboard.readText())).hash);
+    const kept = (page: Page): Promise<string | null> => page.evaluate(() => localStorage.getItem("carom-game"));
+    expect(await kept(again)).toBe(await kept(own));
     await here.close();
     await there.close();
   });

@@ -175,6 +175,7 @@ export class Play {
       return { kind, state: end.label === "off" && pocket ? { r: [...pocket.centre, -pocket.depth], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" } : end };
     });
     if (!onTable(this.balls[0]!.state)) this.balls = atHead(this.carom, this.table, this.balls);
+    this.state = { ...state, opening: false };
     return (this.last = { who: 0, balls, cue, call: undefined, state, shot, ruling: undefined });
   }
 

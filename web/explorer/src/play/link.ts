@@ -56,11 +56,14 @@ export function byLink(host: Host): { save(): void; send(share: boolean): Promis
       void pack(text).then((packed) => mine === writing && history.replaceState(null, "", `#view=play&seat=${host.seat()}&g=${packed}`));
     },
     async send(share) {
-      const url = `${location.href.split("#")[0]}#view=play&seat=${host.seat() === 0 ? 1 : 0}&g=${await pack(host.play().text())}`;
+      const play = host.play();
+      // The other one has the other seat; who goes on elsewhere with a game of his own keeps his.
+      const seat = play.setup.against === "link" && host.seat() === 0 ? 1 : 0;
+      const url = `${location.href.split("#")[0]}#view=play&seat=${seat}&g=${await pack(play.text())}`;
       try {
         if (share && "share" in navigator) await navigator.share({ title: "A game of billiards", url });
         else await navigator.clipboard.writeText(url);
-        host.told(share && "share" in navigator ? "Sent." : "The link for the other one is copied.");
+        host.told(share && "share" in navigator ? "Sent." : play.setup.against === "link" ? "The link for the other one is copied." : "The link to this game is copied.");
       } catch (error) {
         host.told(`The browser does not let the page send the link (${wrong(error)}).`);
       }

@@ -113,7 +113,11 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   };
   const log = logPage();
   const training = practice({ begin });
-  const games = menu(carom, settings, film.pace, { begin, changed: setSettings }, ...training.parts);
+  const copy = button("Link to this game", () => {
+    games.root.close();
+    void link.send(coarse);
+  }, { id: "copy-game" });
+  const games = menu(carom, settings, film.pace, { begin, changed: setSettings }, ...training.parts, el("div", { class: "row" }, copy));
   const bar = el(
     "section",
     { class: "play-bar", "aria-label": "Game" },
@@ -181,11 +185,12 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     tell();
   }
   function tell(): void {
-    turn.textContent = wordsOfTurn(play, seat, thinks);
-    score.textContent = wordsOfScore(play, seat, racks());
     const can = free();
     const call = can && play.played?.calls && !play.state.opening ? called() : undefined;
-    if (call) turn.textContent += ` Call: ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.`;
+    const told = `${wordsOfTurn(play, seat, thinks)}${call ? ` Call: ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : ""}`;
+    // What is read aloud changes only where the words do.
+    if (turn.textContent !== told) turn.textContent = told;
+    score.textContent = wordsOfScore(play, seat, racks());
     stroke.shoot.disabled = !can;
     const seen: [HTMLElement, boolean][] = [
       [buttons.hint, can && play.played !== undefined],
