@@ -187,10 +187,11 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   function tell(): void {
     const can = free();
     const call = can && play.played?.calls && !play.state.opening ? called() : undefined;
-    const told = `${wordsOfTurn(play, seat, thinks)}${call ? ` Call: ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : ""}`;
-    // What is read aloud changes only where the words do.
+    // What comes of a stroke is told after its film. What is read aloud changes only where the words do.
+    const plays = then !== undefined && shown && !play.practice ? nameOf(play, shown.who, seat) : undefined;
+    const told = plays ? `${plays} ${plays === "You" ? "play" : "plays"} …` : `${wordsOfTurn(play, seat, thinks)}${call ? ` Call: ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : ""}`;
     if (turn.textContent !== told) turn.textContent = told;
-    score.textContent = wordsOfScore(play, seat, racks());
+    if (!plays) score.textContent = wordsOfScore(play, seat, racks());
     stroke.shoot.disabled = !can;
     const seen: [HTMLElement, boolean][] = [
       [buttons.hint, can && play.played !== undefined],
