@@ -5,6 +5,7 @@
 #include "options.h"
 #include "output.h"
 #include "picture.h"
+#include "plan_game.h"
 #include "plan_why.h"
 #include "shoot_flags.h"
 #include "shot_file.h"
@@ -18,30 +19,37 @@
 #include <string.h>
 
 enum { BEST = 5, TRIED_MOST = 1000, SHOTS_OF_RATING = 300 };
-enum { NOT_GIVEN = -1 };
 
 typedef struct plan_job {
   shoot_flags from;        /* --threads, --output; and a layout from words */
   carom_plan_options plan; /* --shots, --seed */
-  int rules, group, may;
-  bool hand, opening, csv, tries, value, why;
+  plan_game game;
+  bool hand, csv, tries, value, why;
   const char *plot;
 } plan_job;
 
-OPTION(plan_job, option_rules, "rules", rules, 0, "eightball|nineball|potting|threecushion",
-       set_choice, 0,
-       "the game (default eightball). Balls are named cue and by their numbers; potting and "
-       "threecushion take any names");
-OPTION(plan_job, option_group, "group", group, 0, "open|solids|stripes", set_choice, 0,
+OPTION(
+    plan_job, option_rules, "rules", game.rules, 0,
+    "eightball|nineball|potting|threecushion|straight|snooker", set_choice, 0,
+    "the game (default eightball). Balls are named cue and by their numbers, those of snooker as "
+    "in its rack: red1, yellow; potting and threecushion take any names");
+OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
        "of eight-ball: the balls of the player (default open: any but the eight)");
 OPTION(
-    plan_job, option_may, "may", may, 0, "shoot|push-out|pass", set_choice, 0,
-    "of nine-ball: what the player may do besides a shot. After the break it is a push-out, after "
-    "a push-out to pass (default shoot: nothing)");
+    plan_job, option_may, "may", game.may, 0, "shoot|push-out|pass|free-ball", set_choice, 0,
+    "what the player may do besides a shot (default shoot: nothing). In nine-ball it is a push-out "
+    "after the break, to pass after a push-out; in straight pool to pass after a bad break; in "
+    "snooker to pass after a foul, free-ball: that, and to play any ball");
+OPTION(plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0,
+       "of straight pool and snooker: points of the player and of the other (default 0,0)");
+OPTION(plan_job, option_target, "target", game.target, 0, "N", set_count, 1,
+       "of straight pool: points that win (default 100)");
+OPTION(plan_job, option_colour, "colour", game.colour, 0, NULL, set_flag, 0,
+       "of snooker: a colour is on, after a red");
 OPTION(
-    plan_job, option_opening, "opening", opening, 0, NULL, set_flag, 0,
-    "of eight-ball and nine-ball: the stroke is the break. With --in-hand the cue ball is put on "
-    "the head string");
+    plan_job, option_opening, "opening", game.opening, 0, NULL, set_flag, 0,
+    "of eight-ball, nine-ball and straight pool: the stroke is the break. With --in-hand the cue "
+    "ball is put on the head string, in straight pool behind it");
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
        "the cue ball is in hand: where to put it, too");
 static const option_row options_of_plan = {
@@ -99,42 +107,6 @@ static int read_strokes(shot_file *file, const shot_line *line, carom_cue stroke
   return n;
 }
 
-/* Puts the balls where their numbers are, with those that are missing in a pocket: the line's
- * balls and names change. */
-static bool order_balls(shot_line *line, const char *file, int last) {
-  carom_shot_ball ball[CAROM_BALLS_MOST];
-  char *name[CAROM_BALLS_MOST] = {0};
-  bool good = true;
-  for (int k = 0; k < line->count && good; k++) {
-    char *end;
-    const bool cue = k == line->cue.ball;
-    const long number = cue ? 0 : strtol(line->name[k], &end, 10);
-    good = cue || (end != line->name[k] && *end == '\0' && number >= 1 && number <= last);
-    if (!good || name[number] != NULL) {
-      complain("%s:%zu: ball '%s': the balls of this game are the cue ball and 1 to %d, each once",
-               file, line->number, line->name[k], last);
-      return false;
-    }
-    ball[number] = line->ball[k];
-    name[number] = line->name[k];
-  }
-
-  /* missing balls are down */
-  for (int k = 0; k <= last; k++)
-    if (name[k] == NULL) {
-      char text[16];
-      snprintf(text, sizeof text, "%d", k);
-      name[k] = strdup(text);
-      ball[k] = line->ball[0];
-      ball[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
-    }
-  memcpy(line->ball, ball, sizeof ball);
-  memcpy(line->name, name, sizeof name);
-  line->count = last + 1;
-  line->cue.ball = 0;
-  return true;
-}
-
 static const char *const kinds[] = {"pot",   "scan", "foul", "given",       "push-out", "pass",
                                     "break", "bank", "kick", "combination", "carom",    "safety"};
 
@@ -164,9 +136,9 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
 }
 
 static const char *value_words(const plan_job *job) {
-  return job->rules == CAROM_RULES_POTTING        ? "share potted"
-         : job->rules == CAROM_RULES_THREECUSHION ? "scores"
-                                                  : "wins";
+  return job->game.rules == CAROM_RULES_POTTING        ? "share potted"
+         : job->game.rules == CAROM_RULES_THREECUSHION ? "scores"
+                                                       : "wins";
 }
 
 static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, const shot_line *line,
@@ -260,7 +232,7 @@ typedef struct planned {
 } planned;
 
 /* Strokes with errors, of which some are drawn. */
-enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_OTHER + 1, MISS = FOULS, LOSS, WAYS };
+enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_POT + 1, MISS = FOULS, LOSS, WAYS };
 
 /* Plays the best shot with the player's errors, and says how often which failure comes of it, the
  * most frequent first. The first of the shots are kept, with their events. */
@@ -346,15 +318,11 @@ static bool are_together(const plan_job *job) {
   carom_player player;
   if (!player_of(&job->from.shared.player, &player))
     return false;
-  if (job->group != NOT_GIVEN && job->rules != CAROM_RULES_EIGHTBALL)
-    complain("--group: it is of eight-ball, so --rules eightball is needed");
-  else if (job->may != NOT_GIVEN && job->rules != CAROM_RULES_NINEBALL)
-    complain("--may: it is of nine-ball, so --rules nineball is needed");
-  else if (job->opening && job->rules >= CAROM_RULES_POTTING)
-    complain("--opening: it is of eight-ball and nine-ball");
-  else if (job->tries && (job->value || job->hand))
+  if (!plan_game_fits(&job->game))
+    return false;
+  if (job->tries && (job->value || job->hand))
     complain("--try is of strokes from where the cue ball lies: without --value and --in-hand");
-  else if (job->value && job->rules == CAROM_RULES_THREECUSHION)
+  else if (job->value && job->game.rules == CAROM_RULES_THREECUSHION)
     complain("--value: no estimate of a layout of three-cushion is known; a plan tells chances");
   else if (job->why && (job->csv || job->value))
     complain("--why is told in words, of shots: without --csv and --value");
@@ -380,8 +348,7 @@ static carom_status tell_value(const plan_job *job, const carom_plan_job *asked,
  * code. */
 static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out,
                 const carom_cue *strokes, int tried, planned *p) {
-  static const int last[] = {15, 9};
-  if ((line->table->table.pockets == 0) != (job->rules == CAROM_RULES_THREECUSHION)) {
+  if ((line->table->table.pockets == 0) != (job->game.rules == CAROM_RULES_THREECUSHION)) {
     complain("%s:%zu: %s", file, line->number,
              line->table->table.pockets == 0
                  ? "the table has no pockets, which this game needs"
@@ -389,7 +356,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
                    "--table threecushion");
     return EXIT_USAGE;
   }
-  if (line->count < 3 && job->rules == CAROM_RULES_THREECUSHION) {
+  if (line->count < 3 && job->game.rules == CAROM_RULES_THREECUSHION) {
     complain("%s:%zu: threecushion needs three balls", file, line->number);
     return EXIT_USAGE;
   }
@@ -397,7 +364,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     complain("%s:%zu: a plan needs the cue ball and one more", file, line->number);
     return EXIT_USAGE;
   }
-  if (job->rules < CAROM_RULES_POTTING && !order_balls(line, file, last[job->rules]))
+  if (!plan_game_order(&job->game, line, file))
     return EXIT_USAGE;
   if (line->cue.ball != 0) { /* where names are any: the cue ball is ball 0 */
     const carom_shot_ball ball = line->ball[0];
@@ -409,11 +376,8 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     line->cue.ball = 0;
   }
   player_of(&job->from.shared.player, &p->player);
-  p->rules = carom_plan_rules_of((carom_rules_kind)job->rules);
-  p->rules.user[0] = (uint64_t)(job->group > 0 ? job->group : 0);
-  p->rules.user[1] = job->opening; /* as the rules of both games have it */
-  p->rules.user[4] =
-      (uint64_t)(job->may > 0 ? job->may : 0); /* 1, 2: as the rules of nine-ball have it */
+  p->rules = carom_plan_rules_of((carom_rules_kind)job->game.rules);
+  plan_game_state(&job->game, p->rules.user);
   carom_plan_options options = job->plan;
   options.threads = job->from.shared.options.threads;
   if (job->from.shared.player.rated && options.shots == 0)
@@ -430,10 +394,13 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   asked.memory = allocate(1, asked.memory_size);
   static carom_choice choices[TRIED_MOST];
   int n = tried;
-  const carom_status status = job->value  ? tell_value(job, &asked, out)
-                              : tried > 0 ? carom_plan_try(&asked, strokes, tried, choices)
-                              : job->hand ? carom_plan_hand(&asked, NULL, NULL, choices, BEST, &n)
-                                          : carom_plan(&asked, choices, BEST, &n);
+  const bool kitchen = job->game.opening && job->game.rules == CAROM_RULES_STRAIGHT;
+  const double high[2] = {line->table->table.width, 0.25 * line->table->table.length};
+  const carom_status status =
+      job->value  ? tell_value(job, &asked, out)
+      : tried > 0 ? carom_plan_try(&asked, strokes, tried, choices)
+      : job->hand ? carom_plan_hand(&asked, NULL, kitchen ? high : NULL, choices, BEST, &n)
+                  : carom_plan(&asked, choices, BEST, &n);
   if (status != CAROM_OK) {
     free(asked.memory);
     complain("%s:%zu: %s", file, line->number, carom_status_string(status));
@@ -461,13 +428,13 @@ static const command_form form = {
         "and cue; its stroke is read by --try alone. Balls that are missing are down. The five "
         "best shots are told in words: what they do, how to strike, and their chances.\n",
     .options =
-        (const option_row *const[]){&option_rules,         &option_table,    &option_cue,
-                                    &option_balls,         &option_gap,      &option_group,
-                                    &option_may,           &option_opening,  &option_hand,
-                                    &option_try,           &option_value,    &option_player,
-                                    &option_player_errors, &options_of_plan, &options_of_motion,
-                                    &option_csv,           &option_why,      &option_plan_plot,
-                                    &option_threads,       &option_output,   NULL},
+        (const option_row *const[]){
+            &option_rules,     &option_table,      &option_cue,     &option_balls,
+            &option_gap,       &option_group,      &option_may,     &option_score,
+            &option_target,    &option_colour,     &option_opening, &option_hand,
+            &option_try,       &option_value,      &option_player,  &option_player_errors,
+            &options_of_plan,  &options_of_motion, &option_csv,     &option_why,
+            &option_plan_plot, &option_threads,    &option_output,  NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"
@@ -486,8 +453,7 @@ int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
   job = (plan_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}},
-                   .group = NOT_GIVEN,
-                   .may = NOT_GIVEN};
+                   .game = {.group = NOT_GIVEN, .may = NOT_GIVEN}};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;

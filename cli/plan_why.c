@@ -32,9 +32,7 @@ static void play(const carom_plan_job *job, const carom_cue *cue, carom_call cal
     to->balls[k] = job->balls[k];
     to->balls[k].state = final[k];
   }
-  for (int k = 0; k < job->count; k++)
-    if (to->turn.spot >> k & 1)
-      carom_spot_ball(job->table, to->balls, (int)job->count, k);
+  carom_turn_settle(&to->rules, to->rules.user, job->table, to->balls, (int)job->count, &to->turn);
 }
 
 /* A job from what is left, for whoever plays next. */

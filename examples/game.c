@@ -61,11 +61,9 @@ static bool play(game *g, const move *m) {
   }
 
   /* whose turn it is, and with which layout */
-  const carom_turn turn = g->rules.judge(g->rules.user, in_play, 0, &facts, m->call);
+  carom_turn turn = g->rules.judge(g->rules.user, in_play, 0, &facts, m->call);
+  carom_turn_settle(&g->rules, g->rules.user, &g->table, g->balls, BALLS, &turn);
   g->in_hand = turn.leave != CAROM_LEAVE_AFTER;
-  for (int k = 1; k < BALLS; k++)
-    if (turn.spot >> k & 1)
-      carom_spot_ball(&g->table, g->balls, BALLS, k);
   if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE)
     g->winner = turn.is == CAROM_TURN_WIN ? g->player : 1 - g->player;
   else if (turn.is == CAROM_TURN_PASS)

@@ -407,11 +407,12 @@ public:
   carom_status place(int ball, double x, double y) {
     return checked(carom_record_place(game_.get(), ball, x, y, nullptr));
   }
-  /* Puts a ball back on the foot spot, or as near to it as there is room. */
-  carom_status spot(int ball) {
+  /* Puts a ball back on its spot by the rules of a rack's game, or as near to it as they say: on
+   * the foot spot in pool. */
+  carom_status spot(int ball, carom_rack_kind of = CAROM_RACK_EIGHTBALL) {
     carom_record_settle(game_.get());
-    const carom_status code =
-        checked(carom_spot_ball(&game_->table, game_->balls, static_cast<int>(game_->count), ball));
+    const carom_status code = checked(carom_spot_ball_of(of, &game_->table, game_->balls,
+                                                         static_cast<int>(game_->count), ball));
     const double *r = game_->balls[code < 0 ? 0 : ball].state.r;
     return code < 0 ? code : place(ball, r[0], r[1]);
   }

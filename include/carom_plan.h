@@ -77,10 +77,11 @@ typedef enum carom_turn_is {
 
 /* The layout of the next stroke. */
 typedef enum carom_leave {
-  CAROM_LEAVE_AFTER = 0,  /* as the balls lie */
-  CAROM_LEAVE_BEFORE = 1, /* as the balls lay: the shot is taken back */
-  CAROM_LEAVE_HAND = 2,   /* as the balls lie, but for the cue ball, which is in hand, anywhere */
-  CAROM_LEAVE_KITCHEN = 3 /* the same behind the head string; carom_plan() values it as HAND */
+  CAROM_LEAVE_AFTER = 0,   /* as the balls lie */
+  CAROM_LEAVE_BEFORE = 1,  /* as the balls lay: the shot is taken back */
+  CAROM_LEAVE_HAND = 2,    /* as the balls lie, but for the cue ball, which is in hand, anywhere */
+  CAROM_LEAVE_KITCHEN = 3, /* the same behind the head string; carom_plan() values it as HAND */
+  CAROM_LEAVE_D = 4        /* the same in the D of a snooker table */
 } carom_leave;
 
 /* Why a shot is a foul: the first of these that holds. */
@@ -91,8 +92,10 @@ typedef enum carom_foul {
   CAROM_FOUL_FIRST = 3,    /* it met a ball first that is not on */
   CAROM_FOUL_OFF = 4,      /* a ball left the table */
   CAROM_FOUL_CUSHION = 5,  /* nothing fell, and nothing met a cushion after the first contact */
-  CAROM_FOUL_BREAK = 6,    /* a break that potted nothing drove fewer than four balls to cushions */
-  CAROM_FOUL_OTHER = 7     /* by a rule of the caller's */
+  CAROM_FOUL_BREAK = 6,    /* a break that potted nothing drove too few balls to cushions: fewer
+                              than four; in straight pool the cue ball and two more */
+  CAROM_FOUL_OTHER = 7,    /* by another rule, such as one of the caller's */
+  CAROM_FOUL_POT = 8       /* a ball fell that was not on */
 } carom_foul;
 
 /* The foul of a shot by the rules that all games share, up to CAROM_FOUL_CUSHION; `on` are the
@@ -106,8 +109,8 @@ typedef struct carom_turn {
   carom_turn_is is;
   carom_leave leave;
   int32_t foul;  /* a carom_foul; 0 for a legal shot. */
-  uint32_t spot; /* balls that are put back on the foot spot, as a set. */
-  double points; /* of the shot; counts without an opponent only. */
+  uint32_t spot; /* balls that are put back, by carom_turn_settle(), as a set. */
+  double points; /* of the shot. A plan reads them without an opponent only. */
 } carom_turn;
 
 /* The ball and the pocket that were called. ball -1: none, a safety. Rules without calls read the
@@ -127,8 +130,9 @@ typedef enum carom_may { CAROM_MAY_PASS = 1, CAROM_MAY_PUSH = 2 } carom_may;
 typedef enum carom_race {
   CAROM_RACE_OWN = 0,    /* each player has his own */
   CAROM_RACE_SHARED = 1, /* both have the same */
-  CAROM_RACE_ALONE = 2   /* there is no opponent: the value is the share of the balls that are
+  CAROM_RACE_ALONE = 2,  /* there is no opponent: the value is the share of the balls that are
                             potted in a visit */
+  CAROM_RACE_POINTS = 3  /* both make points: left() tells how many each of both needs */
 } carom_race;
 
 /* The functions of rules. A set of balls has bit k for ball k; `in_play` are the balls on the
@@ -158,6 +162,15 @@ typedef void carom_rules_left(const uint64_t *user, uint32_t in_play, int32_t le
 typedef double carom_rules_value(const uint64_t *user, const carom_ball_state *layout, int count,
                                  int in_hand);
 
+/* carom_rules_points: of a race for points, the points of ball `ball` if it falls in the next
+ * stroke; with ball -1 those of a later pot, in the mean. */
+typedef double carom_rules_points(const uint64_t *user, uint32_t in_play, int ball);
+
+/* carom_rules_settle: what depends on where balls lie after a stroke that was judged. It puts back
+ * all of turn->spot, and may change the state and the turn. */
+typedef void carom_rules_settle(uint64_t *user, const carom_table *table, carom_shot_ball *balls,
+                                int count, carom_turn *turn);
+
 /* The rules of a game. The state `user` is always that of the player at the table: judge()
  * leaves it as the next player has it.
  */
@@ -180,6 +193,12 @@ typedef struct carom_plan_rules {
                                    strokes as players break: the nearest balls about full, hard.
                                    In hand the cue ball is on the upper edge of its bounds; NULL:
                                    on the head string. */
+  carom_rules_points *points;   /* NULL: each ball is worth one. */
+  carom_rules_settle *settle;   /* NULL: balls go back to their spots, and nothing else comes. */
+  int32_t rack;                 /* a carom_rack_kind, whose spots the balls have. 0: pool's. With
+                                   that of snooker a cue ball in hand is in the D. */
+  int32_t unused;               /* must be 0, as are */
+  uint64_t reserved[4];         /* these. */
 } carom_plan_rules;
 
 /* Rules that are built in. A ball's index is its number, and the cue ball is ball 0.
@@ -187,23 +206,41 @@ typedef struct carom_plan_rules {
  * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), but for a break of
  * eight-ball that is not legal: the opponent has ball in hand, and no choice of a new rack. */
 typedef enum carom_rules_kind {
-  CAROM_RULES_EIGHTBALL = 0,   /* 15 balls; the game is over without the eight. user[0]: 1 if the
+  CAROM_RULES_EIGHTBALL = 0,    /* 15 balls; the game is over without the eight. user[0]: 1 if the
                                 player at the table has the solids (1 to 7), 2 the stripes (9 to
                                 15), 0 while the table is open. user[1]: 1 before the break. Ball
                                 and pocket are called. */
-  CAROM_RULES_NINEBALL = 1,    /* 9 balls. user[1]: 1 before the break. user[2], user[3]: fouls of
+  CAROM_RULES_NINEBALL = 1,     /* 9 balls. user[1]: 1 before the break. user[2], user[3]: fouls of
                                 the player and of the other in their last successive strokes; three
                                 lose. user[4]: 1 just after a break without a foul, when the player
                                 may push out; 2 after a push-out, when he may pass. The nine wins;
                                 without it, the highest ball. */
-  CAROM_RULES_POTTING = 2,     /* a drill for one: any ball may be potted, until one misses or
+  CAROM_RULES_POTTING = 2,      /* a drill for one: any ball may be potted, until one misses or
                                 fouls. */
-  CAROM_RULES_THREECUSHION = 3 /* for one: a point where the cue ball meets three cushions before
-                                  the second ball. The value of a shot is the chance of its point,
-                                  and what follows is not estimated. No pockets are needed. */
+  CAROM_RULES_THREECUSHION = 3, /* for one: a point where the cue ball meets three cushions before
+                                   the second ball. The value of a shot is the chance of its point,
+                                   and what follows is not estimated. No pockets are needed. */
+  CAROM_RULES_STRAIGHT = 4,     /* straight pool, 14.1, WPA: 15 balls, any may be played; ball and
+                               pocket are called. Where one ball is left, the others are racked.
+                               user[0]: points that win, 1 to 1,000,000; 100 to begin with.
+                               user[1]: 1 before the opening break. user[2], user[3]: points of
+                               pots, of the player and of the other; user[5], user[6]: points lost
+                               by fouls. user[4]: 1 just after a break of the other that was not
+                               legal, when to pass lets him break again. user[7]: fouls in their
+                               last strokes, the player's and 4 times the other's; a third one
+                               costs 15 more, and a break. */
+  CAROM_RULES_SNOOKER = 5       /* snooker, WPBSA: white 0, reds 1 to 15, yellow 16, green 17, brown
+                               18, blue 19, pink 20, black 21, on any table. The call names a colour
+                               or a free ball; without one it is the ball that is met first.
+                               user[0]: 1 if a colour is on after a red. user[2], user[3]: the
+                               scores. user[4]: a sum of 1 after a foul of the other, when to pass
+                               lets him play again; 2 with a free ball, 4 with the cue ball in
+                               hand. user[5]: 1 + the free ball of the stroke before. A miss is left
+                               to the caller, who knows the better stroke. */
 } carom_rules_kind;
 
-/* Its name ("eightball", "nineball", "potting", "threecushion"), or NULL for a value not listed. */
+/* Its name ("eightball", "nineball", "potting", "threecushion", "straight", "snooker"), or NULL for
+ * a value not listed. */
 CAROM_API const char *carom_rules_name(carom_rules_kind kind);
 
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
@@ -214,6 +251,23 @@ CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
  * carom_place_ball(). */
 CAROM_API carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, int count,
                                        int ball);
+
+/* The same by the rules of a rack's game: a colour of snooker goes to its own spot; if that is
+ * taken, to the free spot of the highest value; else as near to its own as there is room, towards
+ * the top cushion, else away from it. Also CAROM_ERROR_RACK where the rack has no such ball. */
+CAROM_API carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
+                                          carom_shot_ball *balls, int count, int ball);
+
+/* Makes the layout of the next stroke of the balls that a shot left, after judge(): puts back the
+ * balls of turn->spot, and does what else depends on where balls lie. In straight pool 14 balls are
+ * racked, and the last one and the cue ball leave the rack: the cue ball may come to be in hand. In
+ * snooker a player who is snookered after a foul has a free ball; to leave the other so behind the
+ * free ball is a foul. `user` is the state that judge() left; it and *turn may change. A cue ball
+ * in hand that is in the way is down. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_BALLS where spot
+ * names a ball beyond count; or the first error of carom_spot_ball_of(). */
+CAROM_API carom_status carom_turn_settle(const carom_plan_rules *rules, uint64_t user[8],
+                                         const carom_table *table, carom_shot_ball *balls,
+                                         int count, carom_turn *turn);
 
 /* ---- Plans ----------------------------------------------------------------------------------- */
 

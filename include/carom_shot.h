@@ -488,6 +488,12 @@ CAROM_API int carom_rack_size(carom_rack_kind kind);
 CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap,
                                   uint64_t seed, carom_shot_ball *balls, int room);
 
+/* The spot of a ball of a rack, m, by the rules of its game: of a colour of snooker its own; of the
+ * balls of pool, and of the reds, the foot spot; of the cue ball the place where carom_rack() puts
+ * it. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_RACK where the rack has no such ball. */
+CAROM_API carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int ball,
+                                     double place[2]);
+
 /* ---- The cue --------------------------------------------------------------------------------- */
 
 typedef struct carom_cue {

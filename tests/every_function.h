@@ -473,6 +473,28 @@ EVERY_BODY(spot_ball) {
   STATUS(carom_spot_ball(&in->table, balls, EVERY_BALLS, 0));
   return HASH(balls);
 }
+EVERY_BODY(spot_ball_of) {
+  carom_shot_ball balls[EVERY_BALLS];
+  memcpy(balls, in->balls, sizeof balls);
+  STATUS(carom_spot_ball_of(CAROM_RACK_SNOOKER, &in->table, balls, EVERY_BALLS, 1));
+  return HASH(balls);
+}
+EVERY_BODY(spot_of) {
+  for (int ball = 0; ball < 22; ball++) {
+    double place[2] = {0.0, 0.0};
+    STATUS(carom_spot_of(CAROM_RACK_SNOOKER, &in->table, ball, place));
+    HASH(place);
+  }
+  return h;
+}
+EVERY_BODY(turn_settle) {
+  carom_shot_ball balls[EVERY_BALLS];
+  memcpy(balls, in->balls, sizeof balls);
+  carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  carom_turn turn = {.spot = 2};
+  STATUS(carom_turn_settle(&rules, rules.user, &in->table, balls, EVERY_BALLS, &turn));
+  return HASH(balls);
+}
 EVERY_OBJECT(player_of, carom_player, carom_player_of(2.0))
 EVERY_OBJECT(player_fargo, carom_player, carom_player_fargo(512.0))
 EVERY_BODY(player_strike) {
@@ -653,8 +675,10 @@ EVERY_BODY(record_settle) {
   F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) F(shot_continue) F(shot_drawn) \
   F(shot_fault) F(shot_frames) F(event_slip) \
   F(shot_orientation) \
-  F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(status_name) \
+  F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) F(spot_ball) F(spot_ball_of) \
+  F(spot_of) F(status_name) \
   F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(table_polygon) F(trace) \
+  F(turn_settle) \
   F(version) F(version_number) F(word) F(word_text)
 /* clang-format on */
 #define EVERY_ROW(name) {"carom_" #name, every_##name},

@@ -5,7 +5,8 @@
  * has x, as carom_plan_features() tells it, and what came of it. Three logistic regressions by
  * maximum likelihood follow, by Newton's method: of whether the turn was kept; of each later stroke
  * of the visit, by the mean of each layout before it; and of whether the other kept the turn that
- * was left to him.
+ * was left to him. In straight pool and snooker the break is as hard as in eight-ball, and in a
+ * quarter of the racks of snooker no red is left, in a quarter a colour is on after a red.
  */
 #include "command.h"
 #include "memory.h"
@@ -28,8 +29,8 @@ typedef struct learn_job {
   int rules, racks, shots, seed;
 } learn_job;
 
-OPTION(learn_job, learn_rules, "rules", rules, 0, "eightball|nineball", set_choice, 0,
-       "the game (default eightball)");
+OPTION(learn_job, learn_rules, "rules", rules, 0, "eightball|nineball|straight|snooker", set_choice,
+       0, "the game (default eightball)");
 
 OPTION(learn_job, learn_racks, "racks", racks, 0, "N", set_count, 10,
        "racks to be played (default 100000)");
@@ -60,6 +61,13 @@ typedef struct block {
 
 /* ---- Racks */
 
+static int objects_of(uint32_t in_play) {
+  int n = 0;
+  for (in_play &= ~UINT32_C(1); in_play != 0; in_play &= in_play - 1)
+    n++;
+  return n;
+}
+
 static sample look(const lab_rack *rack) {
   static const int who = 0;
   carom_view view;
@@ -74,22 +82,74 @@ static sample look(const lab_rack *rack) {
                       ~UINT32_C(0), who, rack->hand, s.x);
   int32_t left[2];
   rack->rules.left(rack->rules.user, in_play, left);
-  s.left = left[0];
+  s.left = rack->rules.race == CAROM_RACE_POINTS ? objects_of(in_play) : left[0];
   return s;
+}
+
+/* The games, in the order of the option. Balls are taken away of one group after the other. */
+static const struct {
+  carom_rules_kind rules, broken; /* the one that has its break */
+  carom_table_kind table;
+  carom_game balls_of;
+  int groups, first[2], balls;
+} games[] = {
+    {CAROM_RULES_EIGHTBALL,
+     CAROM_RULES_EIGHTBALL,
+     CAROM_TABLE_POOLTOOL,
+     CAROM_GAME_POOL,
+     2,
+     {1, 9},
+     7},
+    {CAROM_RULES_NINEBALL, CAROM_RULES_NINEBALL, CAROM_TABLE_POOLTOOL, CAROM_GAME_POOL, 1, {1}, 8},
+    {CAROM_RULES_STRAIGHT,
+     CAROM_RULES_EIGHTBALL,
+     CAROM_TABLE_POOL_9FT,
+     CAROM_GAME_POOL,
+     1,
+     {1},
+     13},
+    {CAROM_RULES_SNOOKER,
+     CAROM_RULES_SNOOKER,
+     CAROM_TABLE_SNOOKER,
+     CAROM_GAME_SNOOKER,
+     1,
+     {1},
+     15}};
+
+static void take_away(lab_rack *rack, int ball) {
+  rack->balls[ball].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+}
+
+/* Snooker: a hard stroke at the reds; and the colours in order, or a colour after a red. */
+static void open_snooker(lab_rack *rack, lab_random *draw) {
+  const int count = (int)rack->plan.count;
+  carom_ball_state final[RACK_BALLS];
+  carom_shot played = {.final = final};
+  carom_cue cue = *rack->plan.cue;
+  cue.speed = lab_uniform(draw, 3.0, 9.0);
+  cue.phi = lab_uniform(draw, 87.0, 91.0);
+  carom_shoot(rack->plan.table, rack->balls, count, &cue, rack->plan.shot, &played);
+  for (int k = 0; k < count; k++)
+    rack->balls[k].state = final[k];
+  for (int k = 16; k < count; k++)
+    if (final[k].label == CAROM_BALL_POCKETED || final[k].label == CAROM_BALL_OFF)
+      carom_spot_ball_of(CAROM_RACK_SNOOKER, rack->plan.table, rack->balls, count, k);
+  const int phase = (int)lab_uniform(draw, 0.0, 4.0);
+  rack->rules.user[0] = phase == 1;
+  for (int k = 1; k < 16 && phase == 0; k++)
+    take_away(rack, k);
+  const int gone = phase == 0 ? (int)lab_uniform(draw, 0.0, 6.0) : 0;
+  for (int k = 16; k < 16 + gone; k++)
+    take_away(rack, k);
 }
 
 static void play(const learn_job *job, int number, visit *to) {
   static const double errors[] = {0.25, 0.5, 1.0, 2.0, 3.0, 4.5};
   enum { PLAYERS = sizeof errors / sizeof errors[0], SOLIDS = 1 };
-  /* balls that are taken away, of one group after the other */
-  static const struct {
-    carom_rules_kind rules;
-    int groups, first[2], balls;
-  } games[] = {{CAROM_RULES_EIGHTBALL, 2, {1, 9}, 7}, {CAROM_RULES_NINEBALL, 1, {1}, 8}};
   lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
   carom_table table;
-  carom_table_make(CAROM_TABLE_POOLTOOL, &table);
-  const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  carom_table_make(games[job->rules].table, &table);
+  const carom_cue cue = carom_cue_of(games[job->rules].balls_of);
   const carom_player player = carom_player_of(errors[(int)lab_uniform(&draw, 0.0, PLAYERS)]);
   const carom_shot_options shot = {.space = CAROM_SPACE_FLAT};
   lab_rack rack = {.options = {.shots = job->shots}};
@@ -99,22 +159,28 @@ static void play(const learn_job *job, int number, visit *to) {
                                .shot = &shot,
                                .memory_size = carom_plan_memory(&rack.options)};
   rack.plan.memory = allocate(1, rack.plan.memory_size);
-  lab_rack_make(&rack, games[job->rules].rules, lab_bits(&draw));
+  lab_rack_make(&rack, games[job->rules].broken, lab_bits(&draw));
+  if (games[job->rules].broken != games[job->rules].rules)
+    rack.rules = carom_plan_rules_of(games[job->rules].rules);
+  const bool snooker = games[job->rules].rules == CAROM_RULES_SNOOKER;
+  if (snooker)
+    open_snooker(&rack, &draw);
 
   /* some balls are down; the cue ball is anywhere, or in hand once in eight */
   const int balls = games[job->rules].balls;
-  rack.rules.user[0] = job->rules == 0 ? SOLIDS : 0;
+  if (job->rules == 0)
+    rack.rules.user[0] = SOLIDS;
   for (int group = 0; group < games[job->rules].groups; group++)
     for (int left = (int)lab_uniform(&draw, 0.0, balls + 1); left > 0; left--) {
       const int k = games[job->rules].first[group] + (int)lab_uniform(&draw, 0.0, balls);
-      rack.balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+      take_away(&rack, k);
     }
   double x, y;
   do {
     x = lab_uniform(&draw, 0.0, table.width);
     y = lab_uniform(&draw, 0.0, table.length);
   } while (carom_place_ball(&table, rack.balls, (int)rack.plan.count, 0, x, y, NULL) != CAROM_OK);
-  rack.hand = lab_bits(&draw) % 8 == 0;
+  rack.hand = lab_bits(&draw) % 8 == 0 && !snooker;
 
   /* until the turn ends, and the other's first stroke */
   carom_turn turn = {.is = CAROM_TURN_KEEP};
@@ -233,7 +299,7 @@ static void print_numbers(const sample *s, size_t count, chance_of what, int n, 
 }
 
 static void print_row(const learn_job *job, const sample *s, size_t count) {
-  static const char *const games[] = {"eightball", "nineball"};
+  const char *game = carom_rules_name(games[job->rules].rules);
   double mean = 0.0;
   long strokes = 0;
   for (size_t k = 0; k < count; k++)
@@ -241,7 +307,7 @@ static void print_row(const learn_job *job, const sample *s, size_t count) {
   for (size_t k = 0; k < count; k++)
     mean += s[k].what == NEXT ? s[k].x[2] / (double)strokes : 0.0;
   printf("    {/* of %ld strokes: carom-lab learn --rules %s --racks %d --shots %d --seed %d */\n",
-         strokes, games[job->rules], job->racks, job->shots, job->seed);
+         strokes, game, job->racks, job->shots, job->seed);
   print_numbers(s, count, NEXT, NEXT_NUMBERS, "next");
   print_numbers(s, count, LATER, LATER_NUMBERS, "later");
   print_numbers(s, count, FIRST, FIRST_NUMBERS, "first");

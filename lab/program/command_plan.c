@@ -1,6 +1,7 @@
 /* `carom-lab plan`: how strong the planner is. Racks after a break that pots nothing, run out from
  * ball in hand by a player who errs, or played to the end by two; and how often shots come off
- * and games are won beside the chances that were predicted for them. */
+ * and games are won beside the chances that were predicted for them. Of games of points also how
+ * many a visit makes. */
 #include "command.h"
 #include "memory.h"
 #include "message.h"
@@ -13,17 +14,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BINS = 10, STROKES_MOST = 200, KINDS = CAROM_PLAN_SAFETY + 1 };
+enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_SAFETY + 1 };
 
 typedef struct strength_job {
   shared_options shared;
-  int rules, racks, shots, seed, left;
+  int rules, racks, shots, seed, left, target;
   bool games;
   double errors, unsure;
 } strength_job;
 
-OPTION(strength_job, option_rules, "rules", rules, 0, "eightball|nineball", set_choice, 0,
-       "the game (default eightball)");
+OPTION(strength_job, option_rules, "rules", rules, 0, "eightball|nineball|straight|snooker",
+       set_choice, 0,
+       "the game (default eightball). straight and snooker are played from their racks, by two "
+       "players");
 OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
        "play each rack to the end, by two players of the same errors; and tell the chances to win");
 
@@ -41,6 +44,9 @@ OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0,
 OPTION(strength_job, option_left, "left", left, 0, "N", set_count, 1,
        "end games: N balls of the player, one more of the other, and the eight, at random places");
 
+OPTION(strength_job, option_target, "target", target, 0, "N", set_count, 1,
+       "of straight: points that win (default 100)");
+
 /* A row of the comparison of chances. `off` is what came of the strokes of one rack less what was
  * predicted of them. They are not independent, so the variance adds up off^2 rack by rack. */
 typedef struct bin {
@@ -49,7 +55,8 @@ typedef struct bin {
 } bin;
 
 typedef struct tally {
-  long racks, wins, strokes, pots, plans, fouls;
+  long racks, wins, strokes, pots, plans, fouls, visits;
+  double points, best; /* of all visits, of one */
   double seconds;
   bin bins[BINS], games[BINS], kinds[KINDS];
   double *odds; /* of the values of all strokes, logarithms, */
@@ -76,15 +83,21 @@ static void end_rack(bin *bins, int count) {
   }
 }
 
+static const carom_rules_kind games_of[] = {CAROM_RULES_EIGHTBALL, CAROM_RULES_NINEBALL,
+                                            CAROM_RULES_STRAIGHT, CAROM_RULES_SNOOKER};
+
 /* One rack: strokes until the turn is not kept, or until the game is won. */
 static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
-  static const carom_rules_kind kinds[] = {CAROM_RULES_EIGHTBALL, CAROM_RULES_NINEBALL};
-  lab_rack_make(rack, kinds[job->rules], ((uint64_t)job->seed << 32) + 7919 * (number + 1));
+  lab_rack_make(rack, games_of[job->rules], ((uint64_t)job->seed << 32) + 7919 * (number + 1));
+  if (games_of[job->rules] == CAROM_RULES_STRAIGHT)
+    rack->rules.user[0] = (uint64_t)job->target;
   if (job->left > 0)
     lab_rack_end(rack, job->left);
   carom_turn turn = {.is = CAROM_TURN_KEEP};
-  int who = 0, n = 0, by[STROKES_MOST];
-  double value[STROKES_MOST];
+  int who = 0, n = 0;
+  static int by[STROKES_MOST];
+  static double value[STROKES_MOST];
+  double visit = 0.0;
   while (n < STROKES_MOST &&
          (turn.is == CAROM_TURN_KEEP || (job->games && turn.is == CAROM_TURN_PASS))) {
     carom_choice best;
@@ -96,6 +109,13 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
     to->plans++;
 
     /* what was predicted beside what came */
+    visit += turn.points;
+    if (turn.is != CAROM_TURN_KEEP) {
+      to->visits++;
+      to->points += visit;
+      to->best = fmax(to->best, visit);
+      visit = 0.0;
+    }
     const bool kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
     count(&to->bins[bin_of(best.keep)], best.keep, kept);
     count(&to->kinds[best.kind], best.keep, kept);
@@ -164,6 +184,9 @@ static void report(const tally *t, const strength_job *job) {
          job->shots, job->errors, job->games ? "won by the first" : "run out", t->wins, t->racks,
          100.0 * p, 100.0 * (middle - half), 100.0 * (middle + half),
          (double)t->pots / (double)t->strokes, 1e3 * t->seconds / (double)t->plans);
+  if (t->points > 0.0)
+    printf("%g points in %ld visits: %.2f a visit, at most %g\n", t->points, t->visits,
+           t->points / (double)t->visits, t->best);
   tell_bins(t->bins, BINS, NULL, "kept");
   tell_bins(t->kinds, KINDS, kinds, "kept");
   if (job->games) {
@@ -180,9 +203,10 @@ static const command_form form = {
              "nothing, by a player whose strokes err. Tells how many are run out, and how often "
              "shots keep the turn beside the chance that was predicted. With --games it is played "
              "to the end, and chances to win stand beside how often they were won.\n",
-    .options = (const option_row *const[]){&option_rules, &option_games, &option_left,
-                                           &option_racks, &option_shots, &option_errors,
-                                           &option_unsure, &option_seed, &option_threads, NULL},
+    .options =
+        (const option_row *const[]){&option_rules, &option_games, &option_left, &option_target,
+                                    &option_racks, &option_shots, &option_errors, &option_unsure,
+                                    &option_seed, &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
     .example = "carom-lab plan --racks 100 --shots 1000",
     .files = NO_FILES,
@@ -191,14 +215,27 @@ static const command_form form = {
 int command_plan(int argc, char **argv) {
   static strength_job job;
   const char *path;
-  job = (strength_job){
-      .shared = {.options = {.threads = 0}}, .racks = 100, .shots = 2000, .errors = 1.0};
+  job = (strength_job){.shared = {.options = {.threads = 0}},
+                       .racks = 100,
+                       .shots = 2000,
+                       .errors = 1.0,
+                       .target = 100};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
   carom_table table;
-  carom_table_make(CAROM_TABLE_POOLTOOL, &table);
-  const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  const bool snooker = games_of[job.rules] == CAROM_RULES_SNOOKER,
+             straight = games_of[job.rules] == CAROM_RULES_STRAIGHT;
+  if ((snooker || straight) && job.left > 0) {
+    complain("--left is of eight-ball");
+    return EXIT_USAGE;
+  }
+  job.games |= snooker || straight;
+  carom_table_make(snooker    ? CAROM_TABLE_SNOOKER
+                   : straight ? CAROM_TABLE_POOL_9FT
+                              : CAROM_TABLE_POOLTOOL,
+                   &table);
+  const carom_cue cue = carom_cue_of(snooker ? CAROM_GAME_SNOOKER : CAROM_GAME_POOL);
   const carom_player player = carom_player_of(job.errors);
   const carom_shot_options shot = {.space = CAROM_SPACE_FLAT};
   static lab_rack rack;

@@ -1,10 +1,11 @@
-/* Racks after a break that pots nothing, and strokes by plans. */
+/* Racks and breaks, and strokes by plans. */
 #include "rack_play.h"
 #include "message.h"
 
 void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
-  const carom_rack_kind kind =
-      game == CAROM_RULES_NINEBALL ? CAROM_RACK_NINEBALL : CAROM_RACK_EIGHTBALL;
+  const carom_rack_kind kind = game == CAROM_RULES_NINEBALL  ? CAROM_RACK_NINEBALL
+                               : game == CAROM_RULES_SNOOKER ? CAROM_RACK_SNOOKER
+                                                             : CAROM_RACK_EIGHTBALL;
   rack->state = (lab_random){seed};
   rack->rules = carom_plan_rules_of(game);
   rack->plan.rules = &rack->rules;
@@ -13,6 +14,12 @@ void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
   rack->plan.options = &rack->options;
   rack->hand = true;
   const int count = (int)rack->plan.count;
+  rack->kitchen = game == CAROM_RULES_STRAIGHT;
+  if (rack->rules.race == CAROM_RACE_POINTS) {
+    rack->rules.user[1] = rack->kitchen;
+    carom_rack(kind, rack->plan.table, 1e-4, lab_bits(&rack->state), rack->balls, count);
+    return;
+  }
   carom_facts facts = {.down = 1};
   carom_ball_state final[RACK_BALLS];
   while (facts.down != 0 || facts.off != 0) {
@@ -35,16 +42,16 @@ void lab_rack_end(lab_rack *rack, int left) {
   left = left < GROUP ? left : GROUP - 1;
   rack->rules.user[0] = SOLIDS;
   rack->hand = false;
-  for (int k = 0; k < RACK_BALLS; k++)
+  const int count = (int)rack->plan.count;
+  for (int k = 0; k < count; k++)
     rack->balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
-  for (int k = 0; k < RACK_BALLS; k++) {
+  for (int k = 0; k < count; k++) {
     double x, y;
     do {
       x = lab_uniform(&rack->state, 0.0, rack->plan.table->width);
       y = lab_uniform(&rack->state, 0.0, rack->plan.table->length);
     } while ((k <= left || (k >= EIGHT && k <= EIGHT + left + 1)) &&
-             carom_place_ball(rack->plan.table, rack->balls, RACK_BALLS, k, x, y, NULL) !=
-                 CAROM_OK);
+             carom_place_ball(rack->plan.table, rack->balls, count, k, x, y, NULL) != CAROM_OK);
   }
 }
 
@@ -53,8 +60,10 @@ bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
   const int count = (int)of->count;
   int found;
   rack->options.seed = rack->state.state;
-  const carom_status status = rack->hand ? carom_plan_hand(of, NULL, NULL, choice, 1, &found)
-                                         : carom_plan(of, choice, 1, &found);
+  const double high[2] = {of->table->width, 0.25 * of->table->length};
+  const carom_status status =
+      rack->hand ? carom_plan_hand(of, NULL, rack->kitchen ? high : NULL, choice, 1, &found)
+                 : carom_plan(of, choice, 1, &found);
   if (status < 0) {
     complain("a plan: %s", carom_status_string(status));
     return false;
@@ -63,16 +72,19 @@ bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
     carom_place_ball(of->table, rack->balls, count, 0, choice->place[0], choice->place[1], NULL);
 
   /* the stroke, with errors */
-  carom_facts facts;
+  carom_facts facts = {.first = {-1, -1}};
   carom_ball_state final[RACK_BALLS];
   carom_shot played = {.final = final, .facts = &facts};
   uint32_t in_play = 0;
-  for (int k = 0; k < count; k++)
-    in_play |= (uint32_t)(rack->balls[k].state.label != CAROM_BALL_POCKETED) << k;
+  for (int k = 0; k < count; k++) {
+    final[k] = rack->balls[k].state;
+    in_play |= (uint32_t)(final[k].label != CAROM_BALL_POCKETED) << k;
+  }
   carom_cue cue = choice->cue;
   carom_player_strike(of->player, rack->state.state, 0, &cue);
   lab_bits(&rack->state); /* the next stroke has other errors */
-  carom_shoot(of->table, rack->balls, count, &cue, of->shot, &played);
+  if (choice->kind != CAROM_PLAN_PASS)
+    carom_shoot(of->table, rack->balls, count, &cue, of->shot, &played);
   *turn = rack->rules.judge(rack->rules.user, in_play, 0, &facts,
                             (carom_call){choice->ball, choice->pocket});
 
@@ -82,9 +94,8 @@ bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
     if (final[k].label == CAROM_BALL_OFF)
       rack->balls[k].state.label = CAROM_BALL_POCKETED;
   }
-  for (int k = 1; k < count; k++)
-    if (turn->spot >> k & 1)
-      carom_spot_ball(of->table, rack->balls, count, k);
+  carom_turn_settle(&rack->rules, rack->rules.user, of->table, rack->balls, count, turn);
   rack->hand = turn->leave != CAROM_LEAVE_AFTER;
+  rack->kitchen = rack->rules.race == CAROM_RACE_POINTS && turn->leave == CAROM_LEAVE_KITCHEN;
   return true;
 }

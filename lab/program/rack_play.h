@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-enum { RACK_BALLS = 16 };
+enum { RACK_BALLS = 22 };
 
 typedef struct lab_rack {
   carom_plan_job plan; /* with memory; its balls, rules and options are those here */
@@ -15,10 +15,12 @@ typedef struct lab_rack {
   carom_plan_rules rules;
   carom_plan_options options;
   lab_random state;
-  bool hand; /* whether the cue ball is in hand */
+  bool hand;    /* whether the cue ball is in hand, */
+  bool kitchen; /* and behind the head string */
 } lab_rack;
 
-/* The layout after the first break of a seed that pots nothing, with the cue ball in hand. */
+/* The layout after the first break of a seed that pots nothing, with the cue ball in hand. Of
+ * straight pool and snooker the rack before it: it is a stroke of the game. */
 void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed);
 /* An end game of eight-ball in its place: so many solids, one stripe more, and the eight, at random
  * places; the cue ball is not in hand. */

@@ -402,3 +402,42 @@ def test_errors_of_rules():
         carom.plan(TABLE, LAYOUT, state=[1, 2])
     with pytest.raises(carom.CaromError):
         carom.referee(TABLE, LAYOUT, carom.cue(speed=-1.0))
+
+
+def test_straight_pool_and_snooker():
+    """A called ball counts; a foul costs, and gives the other the table; colours come back to their own spots; the D."""
+    table, pool = carom.tables.pool_9ft(), carom.racks.eightball(carom.tables.pool_9ft())
+    layout = carom.by_number(carom.balls([[0.4, 0.9], [0.3, 1.9], [0.9, 1.7]]), ["cue", 3, 9], "straight")
+    best = carom.plan(table, layout, rules="straight", shots=600)[0]
+    ruling = carom.referee(table, layout, best["cue"], rules="straight", call=(best["ball"], best["pocket"]))
+    assert ruling.facts.first == ruling.first == best["ball"] and ruling.facts.potted == {best["ball"]: best["pocket"]}
+    assert ruling.turn == "keep" and ruling.score == (1, 0) and ruling.points == 1.0 and ruling.hand == "no"
+    # one ball is left: the others are racked
+    assert np.count_nonzero(ruling.balls["state"]["label"] == carom.Label.STATIONARY) == 16 and ruling.state[0] == 100
+    missed = carom.referee(table, layout, carom.cue(speed=0.5, phi=180.0), rules="straight", state=ruling.state)
+    assert missed.turn == "pass" and missed.foul == carom.Foul.NO_BALL and missed.score == (0, 0) and missed.state[6] == 1
+    with pytest.raises(ValueError, match="balls: straight has the cue ball and 1 to 15"):
+        carom.plan(table, pool[:10], rules="straight")
+    opening = carom.plan(table, pool, rules="straight", opening=True, in_hand="kitchen", shots=200)
+    assert opening["place"][0][1] <= table.length / 4
+
+    table = carom.tables.snooker()
+    rack, cue = carom.racks.snooker(table), carom.cue(game="snooker")
+    first = carom.plan(table, rack, cue, rules="snooker", in_hand="d", shots=300)[0]
+    assert np.hypot(first["place"][0] - table.width / 2, first["place"][1] - 0.737) < 0.2921 and first["place"][1] < 0.7371
+    names = ["white", "red1", *("yellow", "green", "brown", "blue", "pink", "black")]
+    spots = rack["state"]["r"][16:, :2]
+    layout = carom.by_number(carom.balls([[1.4, 3.2], [0.3, 1.2], *spots], game="snooker"), names, "snooker", cue="white")
+    assert carom.value(table, layout, rules="snooker") < carom.value(table, layout, rules="snooker", state=[0, 0, 30, 0, 0, 0, 0, 0])
+    black = [1, 0, 0, 0, 0, 0, 0, 0]  # a colour is on
+    best = carom.plan(table, layout, cue, rules="snooker", state=black, shots=1000, player=carom.player(errors=0.2))[0]
+    assert best["ball"] == 21
+    ruling = carom.referee(table, layout, best["cue"], rules="snooker", state=black, call=(21, -1))
+    assert ruling.turn == "keep" and ruling.score == (7, 0) and ruling.potted == (21,) and ruling.balls["state"]["r"][21, :2].tolist() == spots[5].tolist()
+    # no ball is met: four points for the other, who may let the offender play again
+    scratch = carom.referee(table, layout, carom.cue(game="snooker", speed=1.0, phi=0.0), rules="snooker")
+    assert scratch.foul == carom.Foul.NO_BALL and scratch.score == (4, 0) and scratch.state[4] & 1
+    again = carom.referee(table, scratch.balls, cue, rules="snooker", state=scratch.state, call=(-3, -1))
+    assert again.turn == "pass" and again.foul == carom.Foul.NONE and again.score == (0, 4) and again.state[4] == 0
+    with pytest.raises(ValueError, match="balls: snooker has the cue ball and 1 to 21"):
+        carom.referee(table, layout[:5], cue, rules="snooker")

@@ -19,6 +19,7 @@
 #include "plan/search.h"
 #include "platform/fingerprint.h"
 #include "platform/ranges.h"
+#include "table/spots.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -155,8 +156,9 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   const bool good = check_options(options) == CAROM_OK && good_player(job->player) &&
                     (options->opponent == NULL || good_player(options->opponent)) &&
                     rules->on != NULL && rules->judge != NULL && rules->left != NULL &&
-                    (uint32_t)rules->breaks <= 1 && (uint32_t)rules->race <= CAROM_RACE_ALONE &&
-                    CAROM_RESERVED_IS_ZERO(job);
+                    (uint32_t)rules->breaks <= 1 && (uint32_t)rules->race <= CAROM_RACE_POINTS &&
+                    (uint32_t)rules->rack <= CAROM_RACK_THREECUSHION && rules->unused == 0 &&
+                    CAROM_RESERVED_IS_ZERO(rules) && CAROM_RESERVED_IS_ZERO(job);
   if (!good)
     return CAROM_ERROR_OPTIONS;
 
@@ -217,7 +219,7 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   memcpy(user, rules->user, sizeof user);
   const carom_turn turn =
       rules->judge(user, of->in_play, cue_ball, &carom_no_facts, (carom_call){-1, -1});
-  const bool hand = turn.leave == CAROM_LEAVE_HAND || turn.leave == CAROM_LEAVE_KITCHEN;
+  const bool hand = turn.leave >= CAROM_LEAVE_HAND;
   of->foul_value =
       turn.is == CAROM_TURN_LOSE        ? 0.0
       : rules->race == CAROM_RACE_ALONE ? 0.0
@@ -414,6 +416,9 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   const int cue_ball = of->view.cue_ball;
   const double R = of->view.radius[cue_ball], size[2] = {of->view.width, of->view.length};
   const double head = 0.25 * of->view.length; /* the line from which a game is opened */
+  const bool in_d = job->rules->rack == CAROM_RACK_SNOOKER;
+  const carom_d d = carom_d_of(size[0], size[1]);
+  const double d_low[2] = {d.x - d.radius, d.y - d.radius}, d_high[2] = {d.x + d.radius, d.y};
   static const double edge[PLACES_PLANNED] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
   int tried = 0;
   of->places = 0;
@@ -423,8 +428,12 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     double r[2];
     for (int x = 0; x < 2; x++) {
       /* an empty range, and one with NaN, has no place */
-      const double least = low == NULL || low[x] <= R ? R : low[x];
-      const double most = high == NULL || high[x] >= size[x] - R ? size[x] - R : high[x];
+      double least = low == NULL || low[x] <= R ? R : low[x];
+      double most = high == NULL || high[x] >= size[x] - R ? size[x] - R : high[x];
+      if (in_d) {
+        least = fmax(least, d_low[x]);
+        most = fmin(most, d_high[x]);
+      }
       if (!(least <= most))
         return CAROM_ERROR_OFF_TABLE;
       r[x] = least + (most - least) * carom_uniform(of->options.seed, DRAW_PLACES, k, (uint32_t)x);
@@ -433,8 +442,9 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
         r[x] = x == 1 ? (high == NULL && most > head ? head : most)
                       : least + (most - least) * edge[k % PLACES_PLANNED];
     }
-    if (carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) !=
-        CAROM_OK)
+    if ((in_d && !carom_is_in_d(job->table, r[0], r[1])) ||
+        carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) !=
+            CAROM_OK)
       continue;
 
     /* the best are sorted in by value */

@@ -50,6 +50,20 @@ double carom_search_share(const search *of, double points) {
   return carom_within(points / of->left, 0.0, 1.0);
 }
 
+/* The layout of the next stroke, by rules that ask where balls lie. */
+static void settle(const search *of, uint64_t *user, carom_ball_state *final, bool taken_back,
+                   carom_turn *turn) {
+  carom_shot_ball balls[CAROM_BALLS_MOST];
+  for (int k = 0; k < of->view.count; k++) {
+    balls[k] = of->job.balls[k];
+    if (!taken_back)
+      balls[k].state = final[k];
+  }
+  carom_turn_settle(of->job.rules, user, of->job.table, balls, of->view.count, turn);
+  for (int k = 0; k < of->view.count; k++)
+    final[k] = balls[k].state;
+}
+
 /* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
  * `final` is changed. */
 static outcome judge(const search *of, const carom_facts *facts, carom_ball_state *final,
@@ -61,7 +75,7 @@ static outcome judge(const search *of, const carom_facts *facts, carom_ball_stat
                                                      : call_of(of, facts);
   uint64_t user[8];
   memcpy(user, rules->user, sizeof user);
-  const carom_turn turn = rules->judge(user, of->in_play, of->view.cue_ball, facts, call);
+  carom_turn turn = rules->judge(user, of->in_play, of->view.cue_ball, facts, call);
   outcome o = {.is = (int8_t)turn.is,
                .foul = turn.foul != 0,
                .ball = -1,
@@ -92,15 +106,17 @@ static outcome judge(const search *of, const carom_facts *facts, carom_ball_stat
     return o;
   }
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
+  if (rules->settle != NULL && (taken_back || turn.spot != 0 || turn.is == CAROM_TURN_PASS))
+    settle(of, user, final, taken_back, &turn);
   for (int k = 0; k < of->view.count; k++) {
-    if (taken_back)
+    if (taken_back && rules->settle == NULL)
       final[k] = of->job.balls[k].state;
-    if (turn.spot >> k & 1)
+    if (rules->settle == NULL && (turn.spot >> k & 1))
       final[k] = (carom_ball_state){
           .r = {0.5 * of->view.width, 0.75 * of->view.length, of->view.radius[k]},
           .label = CAROM_BALL_STATIONARY};
   }
-  const bool in_hand = turn.leave == CAROM_LEAVE_HAND || turn.leave == CAROM_LEAVE_KITCHEN;
+  const bool in_hand = turn.leave >= CAROM_LEAVE_HAND;
   const bool passes = turn.is == CAROM_TURN_PASS;
   const double value = carom_value_of(&of->view, user, final, passes, in_hand);
   o.worth = passes && turn.foul != 0 ? carom_search_foul(1.0 - value)

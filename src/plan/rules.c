@@ -1,7 +1,7 @@
 /* Games as data: who may be met first, what a shot amounts to, how many balls are left. World
  * Standardized Rules of the WPA (2016), sections 2 and 3, with the simplifications that
- * carom_plan.h names. */
-#include "plan/view.h"
+ * carom_plan.h names. Games of points have files of their own. */
+#include "plan/rules.h"
 
 #include <stddef.h>
 
@@ -11,13 +11,6 @@ enum { MAY_PUSH = 1, PUSHED = 2 }; /* of PUSH */
 enum { FOULS_MOST = 3 };
 enum { OPEN = 0, SOLIDS = 1, STRIPES = 2 };
 static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100, nine = 0x200;
-
-static int count_of(uint32_t set) {
-  int n = 0;
-  for (; set != 0; set &= set - 1)
-    n++;
-  return n;
-}
 
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   const int first = facts->first[0];
@@ -37,8 +30,9 @@ const char *carom_foul_string(int foul) {
       "the cue ball met another ball first than one that is on",
       "a ball left the table",
       "nothing fell, and nothing met a cushion after the first contact",
-      "the break potted nothing, and drove fewer than four balls to cushions",
-      "another rule"};
+      "the break potted nothing, and drove too few balls to cushions",
+      "another rule",
+      "a ball fell that was not on"};
   return foul > 0 && foul < (int)(sizeof words / sizeof words[0]) ? words[foul] : "";
 }
 
@@ -50,8 +44,6 @@ static bool is_break(const carom_facts *facts, int cue_ball) {
   return facts->down != 0 || reached >= 4;
 }
 
-static const carom_turn keep = {CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0, 0, 0.0};
-static const carom_turn pass = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 static const carom_turn win = {CAROM_TURN_WIN, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 
 static carom_turn foul_for(int32_t why) {
@@ -71,8 +63,8 @@ static uint32_t eightball_on(const uint64_t *user, uint32_t in_play) {
 }
 
 static void eightball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
-  const int solids = count_of(in_play & balls_of[SOLIDS]),
-            stripes = count_of(in_play & balls_of[STRIPES]);
+  const int solids = carom_count_of(in_play & balls_of[SOLIDS]),
+            stripes = carom_count_of(in_play & balls_of[STRIPES]);
   const bool open = user[GROUP] == OPEN;
   left[0] = 1 + (open                    ? (solids < stripes ? solids : stripes)
                  : user[GROUP] == SOLIDS ? solids
@@ -99,16 +91,15 @@ static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball
     user[BREAK] = 0;
     carom_turn turn = bad != 0                      ? foul_for(bad)
                       : !is_break(facts, cue_ball)  ? foul_for(CAROM_FOUL_BREAK)
-                      : (facts->down & 0xfffe) != 0 ? keep
-                                                    : pass;
+                      : (facts->down & 0xfffe) != 0 ? carom_keep
+                                                    : carom_pass;
     turn.leave = bad != 0 ? CAROM_LEAVE_KITCHEN : turn.leave;
     turn.spot = (facts->down | facts->off) & eight;
     return turn;
   }
 
   /* The eight wins as the last ball, in the pocket that was called, without a foul. */
-  const bool called =
-      call.ball >= 0 && call.ball < CAROM_BALLS_MOST && facts->pocket[call.ball] == call.pocket;
+  const bool called = carom_is_called(facts, call);
   if (((facts->down | facts->off) & eight) != 0)
     return on == eight && !bad && called && call.ball == 8
                ? win
@@ -118,10 +109,10 @@ static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball
 
   /* The first ball that is called and falls decides the groups. */
   if (!called || !(on >> call.ball & 1))
-    return give(user, pass);
+    return give(user, carom_pass);
   if (user[GROUP] == OPEN)
     user[GROUP] = balls_of[SOLIDS] >> call.ball & 1 ? SOLIDS : STRIPES;
-  return keep;
+  return carom_keep;
 }
 
 /* ---- Nine-ball */
@@ -134,7 +125,7 @@ static uint32_t nineball_on(const uint64_t *user, uint32_t in_play) {
 
 static void nineball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
   (void)user;
-  left[0] = left[1] = count_of(in_play & 0x3fe);
+  left[0] = left[1] = carom_count_of(in_play & 0x3fe);
 }
 
 static uint32_t nineball_may(const uint64_t *user) {
@@ -143,9 +134,7 @@ static uint32_t nineball_may(const uint64_t *user) {
 
 /* The turn goes to the other, with his fouls. */
 static carom_turn give_nine(uint64_t *user, carom_turn turn) {
-  const uint64_t own = user[FOULS];
-  user[FOULS] = user[FOULS_OTHER];
-  user[FOULS_OTHER] = own;
+  carom_swap(&user[FOULS], &user[FOULS_OTHER]);
   return turn;
 }
 
@@ -156,7 +145,7 @@ static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
   const bool passes = user[PUSH] == PUSHED && call.ball == CAROM_CALL_PASS;
   user[BREAK] = user[PUSH] = 0;
   if (passes)
-    return give_nine(user, pass);
+    return give_nine(user, carom_pass);
 
   /* A push-out may meet any ball or none, and needs no cushion. */
   int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(user, in_play), cue_ball);
@@ -171,7 +160,7 @@ static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
     return give_nine(user, turn);
   }
   if (pushes) {
-    carom_turn turn = pass;
+    carom_turn turn = carom_pass;
     turn.spot = facts->down & nine;
     user[PUSH] = PUSHED;
     return give_nine(user, turn);
@@ -184,7 +173,7 @@ static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
   user[PUSH] = opening ? MAY_PUSH : 0;
   if ((facts->down & balls) > balls >> 1)
     return win;
-  return facts->down != 0 ? keep : give_nine(user, pass);
+  return facts->down != 0 ? carom_keep : give_nine(user, carom_pass);
 }
 
 /* ---- Potting */
@@ -195,7 +184,7 @@ static uint32_t potting_on(const uint64_t *user, uint32_t in_play) {
 }
 
 static void potting_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
-  left[0] = count_of(potting_on(user, in_play));
+  left[0] = carom_count_of(potting_on(user, in_play));
   left[1] = 1;
 }
 
@@ -206,10 +195,10 @@ static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball,
   int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
   bad = bad == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : bad;
   carom_turn turn = bad                        ? foul_for(bad)
-                    : facts->down == 0         ? pass
+                    : facts->down == 0         ? carom_pass
                     : (facts->down & on) == on ? win
-                                               : keep;
-  turn.points = bad ? 0.0 : count_of(facts->down & on);
+                                               : carom_keep;
+  turn.points = bad ? 0.0 : carom_count_of(facts->down & on);
   return turn;
 }
 
@@ -231,7 +220,7 @@ static carom_turn threecushion_judge(uint64_t *user, uint32_t in_play, int cue_b
   const bool off = facts->off != 0;
   if (off || facts->first[1] < 0 || facts->cushions_before[1] < 3)
     return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, off ? CAROM_FOUL_OFF : 0, 0, 0.0};
-  carom_turn turn = keep;
+  carom_turn turn = carom_keep;
   turn.points = 1.0;
   return turn;
 }
@@ -248,59 +237,102 @@ static double threecushion_value(const uint64_t *user, const carom_ball_state *l
 
 /* ---- The table of games */
 
-static const struct {
-  const char *name;
-  carom_plan_rules rules;
-} games[] = {
-    {"eightball",
-     {.on = eightball_on,
-      .judge = eightball_judge,
-      .left = eightball_left,
-      .race = CAROM_RACE_OWN,
-      .calls = 1,
-      .first_decides = 1,
-      .breaks = 1}},
-    {"nineball",
-     {.on = nineball_on,
-      .judge = nineball_judge,
-      .left = nineball_left,
-      .may = nineball_may,
-      .race = CAROM_RACE_SHARED,
-      .first_decides = 1,
-      .breaks = 1}},
-    {"potting",
-     {.on = potting_on, .judge = potting_judge, .left = potting_left, .race = CAROM_RACE_ALONE}},
-    {"threecushion",
-     {.on = potting_on,
-      .judge = threecushion_judge,
-      .left = threecushion_left,
-      .value = threecushion_value,
-      .race = CAROM_RACE_ALONE}},
-};
-enum { GAMES = sizeof games / sizeof games[0] };
+enum { OWN_TABLE = CAROM_RULES_THREECUSHION + 1, GAMES = CAROM_RULES_SNOOKER + 1 };
+static const char *const names[] = {"eightball",    "nineball", "potting",
+                                    "threecushion", "straight", "snooker"};
+static const carom_plan_rules games[] = {
+    {.on = eightball_on,
+     .judge = eightball_judge,
+     .left = eightball_left,
+     .race = CAROM_RACE_OWN,
+     .calls = 1,
+     .first_decides = 1,
+     .breaks = 1},
+    {.on = nineball_on,
+     .judge = nineball_judge,
+     .left = nineball_left,
+     .may = nineball_may,
+     .race = CAROM_RACE_SHARED,
+     .first_decides = 1,
+     .breaks = 1},
+    {.on = potting_on, .judge = potting_judge, .left = potting_left, .race = CAROM_RACE_ALONE},
+    {.on = potting_on,
+     .judge = threecushion_judge,
+     .left = threecushion_left,
+     .value = threecushion_value,
+     .race = CAROM_RACE_ALONE}};
 
 const char *carom_rules_name(carom_rules_kind kind) {
-  return (unsigned)kind < GAMES ? games[kind].name : NULL;
+  return (unsigned)kind < GAMES ? names[kind] : NULL;
 }
 
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
-  return games[(unsigned)kind < GAMES ? kind : 0].rules;
+  return kind == CAROM_RULES_STRAIGHT  ? carom_straight
+         : kind == CAROM_RULES_SNOOKER ? carom_snooker
+         : (unsigned)kind < OWN_TABLE  ? games[kind]
+                                       : games[CAROM_RULES_EIGHTBALL];
 }
 
 /* ---- Balls that are put back */
+
+/* As near to a place as there is room, towards y = length, else away from it. */
+static carom_status put_near(const carom_table *table, carom_shot_ball *balls, int count, int ball,
+                             const double at[2]) {
+  const double step = table->length > 10.0 ? 1e-4 * table->length : 1e-3;
+  carom_status status = CAROM_ERROR_OFF_TABLE;
+  for (int side = 1; side >= -1; side -= 2)
+    for (double y = at[1]; y > 0.0 && y < table->length; y += side * step) {
+      status = carom_place_ball(table, balls, count, ball, at[0], y, NULL);
+      if (status != CAROM_ERROR_OVERLAP && status != CAROM_ERROR_OFF_TABLE)
+        return status;
+    }
+  return status;
+}
 
 carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, int count,
                              int ball) {
   if (table == NULL)
     return CAROM_ERROR_NULL;
-  const double x = 0.5 * table->width, foot = 0.75 * table->length;
-  const double step = table->length > 10.0 ? 1e-4 * table->length : 1e-3;
-  carom_status status = CAROM_ERROR_OFF_TABLE;
-  for (int side = 1; side >= -1; side -= 2)
-    for (double y = foot; y > 0.0 && y < table->length; y += side * step) {
-      status = carom_place_ball(table, balls, count, ball, x, y, NULL);
-      if (status != CAROM_ERROR_OVERLAP && status != CAROM_ERROR_OFF_TABLE)
-        return status;
-    }
-  return status;
+  const double foot[2] = {0.5 * table->width, 0.75 * table->length};
+  return put_near(table, balls, count, ball, foot);
+}
+
+carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
+                                carom_shot_ball *balls, int count, int ball) {
+  double own[2], at[2];
+  const carom_status bad = carom_spot_of(kind, table, ball, own);
+  if (bad != CAROM_OK)
+    return bad;
+
+  /* a colour: its own spot, then the others, the highest first */
+  enum { YELLOW = 16, BLACK = 21 };
+  const bool colour = kind == CAROM_RACK_SNOOKER && ball >= YELLOW;
+  for (int k = BLACK + 1; k >= YELLOW && colour; k--) {
+    carom_spot_of(kind, table, k > BLACK ? ball : k, at);
+    const carom_status status = carom_place_ball(table, balls, count, ball, at[0], at[1], NULL);
+    if (status != CAROM_ERROR_OVERLAP)
+      return status;
+  }
+  return put_near(table, balls, count, ball, own);
+}
+
+carom_status carom_turn_settle(const carom_plan_rules *rules, uint64_t user[8],
+                               const carom_table *table, carom_shot_ball *balls, int count,
+                               carom_turn *turn) {
+  if (rules == NULL || user == NULL || table == NULL || balls == NULL || turn == NULL)
+    return CAROM_ERROR_NULL;
+  if (count < 0 || count > CAROM_BALLS_MOST || (uint64_t)turn->spot >> count != 0)
+    return CAROM_ERROR_BALLS;
+  if (rules->settle != NULL) {
+    rules->settle(user, table, balls, count, turn);
+    return CAROM_OK;
+  }
+  carom_status first = CAROM_OK;
+  for (int k = 0; turn->spot >> k != 0; k++) {
+    const bool back = turn->spot >> k & 1;
+    const carom_status status =
+        back ? carom_spot_ball_of((carom_rack_kind)rules->rack, table, balls, count, k) : CAROM_OK;
+    first = first == CAROM_OK ? status : first;
+  }
+  return first;
 }

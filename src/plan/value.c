@@ -111,15 +111,24 @@ static double chance(const double *w, const double *x, int n) {
   return 1.0 / (1.0 + carom_exp(-sum));
 }
 
-/* The numbers of the race of the game. */
+/* The numbers of the race of the game, or of the game. */
 static const learned *numbers_of(const carom_view *view) {
-  return &learned_of[view->rules->race == CAROM_RACE_SHARED];
+  enum { SHARED = 1, STRAIGHT = 2, SNOOKER = 3 };
+  const carom_plan_rules *rules = view->rules;
+  return &learned_of[rules->race == CAROM_RACE_SHARED    ? SHARED
+                     : rules->race != CAROM_RACE_POINTS  ? 0
+                     : rules->rack == CAROM_RACK_SNOOKER ? SNOOKER
+                                                         : STRAIGHT];
+}
+
+double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]) {
+  return chance(numbers_of(view)->next, x, NEXT_NUMBERS);
 }
 
 static const double least_chance = 1e-3; /* between two who never pot the chain has no end */
 
 /* a_n, of a layout with this mean over the balls. */
-static double later(const carom_view *view, int who, double mean, int n) {
+double carom_chance_later(const carom_view *view, int who, double mean, int n) {
   const double x[LATER_NUMBERS] = {1.0, view->log_error[who], 1.0 / n, mean};
   const double a =
       view->given[who] > 0.0 ? view->given[who] : chance(numbers_of(view)->later, x, LATER_NUMBERS);
@@ -127,7 +136,7 @@ static double later(const carom_view *view, int who, double mean, int n) {
 }
 
 /* e_n */
-static double first(const carom_view *view, int who, int n) {
+double carom_chance_first(const carom_view *view, int who, int n) {
   const double x[FIRST_NUMBERS] = {1.0, view->log_error[who], 1.0 / n};
   const double e = chance(numbers_of(view)->first, x, FIRST_NUMBERS);
   return e > least_chance ? e : least_chance;
@@ -160,8 +169,8 @@ void carom_view_make(carom_view *view, const carom_plan_job *job,
   double a[2][MOST_LEFT + 1] = {{0.0}}, e[2][MOST_LEFT + 1] = {{0.0}};
   for (int who = 0; who < 2; who++)
     for (int n = 1; n <= MOST_LEFT; n++) {
-      a[who][n] = later(view, who, mean, n);
-      e[who][n] = first(view, who, n);
+      a[who][n] = carom_chance_later(view, who, mean, n);
+      e[who][n] = carom_chance_first(view, who, n);
     }
   chain(view, a, e);
 }
@@ -324,7 +333,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   CAROM_PROMISE(who == 0 || who == 1);
   double x[NEXT_NUMBERS];
   carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, x);
-  const double p = chance(numbers_of(view)->next, x, NEXT_NUMBERS);
+  const double p = carom_chance_next(view, x);
 
   /* the visit, ball by ball: how likely it is to come so far, and what a miss there is worth */
   double worth = 0.0, so_far = 1.0, next = p;
@@ -334,7 +343,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
     else
       worth += so_far * (1.0 - next) * (1.0 - view->win[1 - who][shared ? n : left[1]][n]);
     so_far *= next;
-    next = n > 1 ? later(view, who, x[2], n - 1) : 0.0;
+    next = n > 1 ? carom_chance_later(view, who, x[2], n - 1) : 0.0;
   }
   CAROM_PROMISE(worth >= 0.0 && so_far >= 0.0 && so_far <= 1.0 && (alone || worth <= 1.0));
   return alone ? worth : stretched(view, worth + so_far);
@@ -347,6 +356,8 @@ static double value_of_playing(const carom_view *view, const uint64_t *user,
   const carom_plan_rules *rules = view->rules;
   if (rules->value != NULL)
     return rules->value(user, balls, view->count, in_hand);
+  if (rules->race == CAROM_RACE_POINTS)
+    return carom_points_value(view, user, balls, in_play, who, in_hand);
   const uint32_t pockets = rules->pockets != NULL ? rules->pockets(user) : ~UINT32_C(0);
   int32_t left[2];
   rules->left(user, in_play, left);

@@ -1,6 +1,7 @@
 /* Balls set up for the first shot of a game. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
+#include "table/spots.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -105,28 +106,68 @@ static void tenball(rack *k, double front) {
   triangle(k, number, 4, front);
 }
 
-/* Spots by the rules of the sport. */
+/* ---- Spots by the rules of the sports */
+
+carom_d carom_d_of(double width, double length) {
+  return (carom_d){.x = 0.5 * width, .y = 0.737 / 3.569 * length, .radius = 0.292 / 1.778 * width};
+}
+
+bool carom_is_in_d(const carom_table *table, double x, double y) {
+  const carom_d d = carom_d_of(table->width, table->length);
+  x -= d.x;
+  y -= d.y;
+  return y <= 0.0 && x * x + y * y <= d.radius * d.radius;
+}
+
+carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int ball,
+                           double place[2]) {
+  if (table == NULL || place == NULL)
+    return CAROM_ERROR_NULL;
+  /* pool has as many balls as there may be */
+  const bool pool = kind != CAROM_RACK_SNOOKER && kind != CAROM_RACK_THREECUSHION;
+  const int balls = carom_rack_size(kind);
+  if (balls == 0 || ball < 0 || ball >= (pool ? CAROM_BALLS_MOST : balls))
+    return CAROM_ERROR_RACK;
+  const double w = table->width, l = table->length;
+  const carom_d d = carom_d_of(table->width, table->length);
+  /* the foot spot, or the head spot of the cue ball */
+  double x = 0.5 * w, y = ball == 0 ? 0.25 * l : 0.75 * l;
+  if (kind == CAROM_RACK_THREECUSHION) {
+    x += ball == 0 ? 0.1825 / 1.42 * w : 0.0;
+    y = ball == 2 ? 0.75 * l : 0.25 * l;
+  } else if (kind == CAROM_RACK_SNOOKER && ball == 0) {
+    x += 0.4 * d.radius;
+    y = d.y - 0.3 * d.radius;
+  } else if (kind == CAROM_RACK_SNOOKER && ball >= 16) {
+    const double across[] = {d.radius, -d.radius, 0.0, 0.0, 0.0, 0.0};
+    const double along[] = {d.y, d.y, d.y, 0.5 * l, 0.75 * l, l - 0.324 / 3.569 * l};
+    x += across[ball - 16];
+    y = along[ball - 16];
+  }
+  place[0] = x;
+  place[1] = y;
+  return CAROM_OK;
+}
+
+static void put_on_spot(rack *k, carom_rack_kind kind, int ball) {
+  double at[2] = {0.0, 0.0};
+  carom_spot_of(kind, k->table, ball, at);
+  put(k, ball, at[0], at[1]);
+}
+
 static void snooker(rack *k) {
-  const double w = k->table->width, l = k->table->length, baulk = 0.737 / 3.569 * l,
-               d = 0.292 / 1.778 * w, R = k->kind.radius;
   int number[15];
   for (int n = 0; n < 15; n++)
     number[n] = n + 1;
-  put(k, 0, 0.5 * w + 0.4 * d, baulk - 0.3 * d);
-  triangle(k, number, 5, 0.75 * l + 2.0 * R + fmax(k->gap, 1e-3));
-  put(k, 16, 0.5 * w + d, baulk);
-  put(k, 17, 0.5 * w - d, baulk);
-  put(k, 18, 0.5 * w, baulk);
-  put(k, 19, 0.5 * w, 0.5 * l);
-  put(k, 20, 0.5 * w, 0.75 * l);
-  put(k, 21, 0.5 * w, l - 0.324 / 3.569 * l);
+  triangle(k, number, 5, 0.75 * k->table->length + 2.0 * k->kind.radius + fmax(k->gap, 1e-3));
+  put_on_spot(k, CAROM_RACK_SNOOKER, 0);
+  for (int ball = 16; ball < 22; ball++)
+    put_on_spot(k, CAROM_RACK_SNOOKER, ball);
 }
 
 static void threecushion(rack *k) {
-  const double w = k->table->width, l = k->table->length;
-  put(k, 0, 0.5 * w + 0.1825 / 1.42 * w, 0.25 * l);
-  put(k, 1, 0.5 * w, 0.25 * l);
-  put(k, 2, 0.5 * w, 0.75 * l);
+  for (int ball = 0; ball < 3; ball++)
+    put_on_spot(k, CAROM_RACK_THREECUSHION, ball);
 }
 
 carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap, uint64_t seed,
@@ -146,7 +187,7 @@ carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double g
   } else if (kind == CAROM_RACK_THREECUSHION) {
     threecushion(&k);
   } else {
-    put(&k, 0, 0.5 * table->width, 0.25 * table->length);
+    put_on_spot(&k, kind, 0);
     if (kind == CAROM_RACK_NINEBALL)
       nineball(&k, front);
     else if (kind == CAROM_RACK_EIGHTBALL)

@@ -52,6 +52,19 @@ carom plan --rules threecushion --shots 600 three.jsonl | sed 's/[0-9]*[.][0-9]*
 carom plan --rules threecushion --shots 600 --csv three.jsonl | awk -F , 'NR > 1 { print ($12 == $14), ($2 == "carom" || $2 == "kick" || $2 == "safety"), $4 == "" }' | sort | uniq
 try carom plan --rules threecushion layout.jsonl
 try carom plan --rules threecushion --value three.jsonl
+echo "--- straight pool and snooker"
+carom shoot --balls eightball --aim 90 --json > straight.jsonl
+carom plan --rules straight --opening --in-hand --shots 300 --csv straight.jsonl | awk -F , 'NR == 2 { print $6 <= 0.635 }'
+carom plan --rules straight --score 10,2 --target 12 --shots 300 --csv layout.jsonl | cut -d , -f 2-4 | sed -n 2p
+carom shoot --table snooker --balls snooker --aim 90 --json | carom plan --rules snooker --in-hand --shots 300 --csv - | awk -F , 'NR == 2 { print ($5 - 0.889) ^ 2 + ($6 - 0.737) ^ 2 < 0.0853, $6 < 0.7371 }'
+carom shoot --table snooker --cue 1.2,1.0 --balls red1=0.3,1.2:yellow=1.4,0.3:black=0.9,3.2 --aim 90 --json > snooker.jsonl
+carom plan --rules snooker --colour --shots 1000 snooker.jsonl | sed -n 1p
+chance() { carom plan --rules snooker --value --csv "$@" snooker.jsonl | sed -n 2p; }
+awk -v behind="$(chance --score 0,20)" -v ahead="$(chance --score 20,0)" 'BEGIN { print (ahead > behind + 0.2) }'
+for may in shoot pass free-ball; do carom plan --rules snooker --may $may --score 0,9 --csv snooker.jsonl | cut -d , -f 2 | grep -c pass || true; done
+for options in "--rules snooker --score 1" "--rules nineball --score 1,2" "--rules snooker --target 9" "--rules straight --colour" "--rules straight --may free-ball" "--rules snooker --opening"; do try carom plan $options snooker.jsonl; done
+sed 's/"id": "red1"/"id": "rot"/' snooker.jsonl > rot.jsonl
+try carom plan --rules snooker rot.jsonl
 echo "--- a layout by options"
 carom plan --rules potting --shots 300 --csv --cue 0.4,0.9 --balls 0.3,1.9:0.9,1.7:0.7,0.5 > options.csv
 carom plan --rules potting --shots 300 --csv layout.jsonl | cmp - options.csv && echo "as of a file"
@@ -76,7 +89,7 @@ carom shoot --table threecushion --cue 0.4,0.9 --balls 0.3,1.9 --aim 90 --json >
 for game in nineball threecushion; do try carom plan --rules $game carom.jsonl; done
 try carom plan
 try carom plan --shots 99 layout.jsonl
-try carom plan --rules snooker layout.jsonl
+try carom plan --rules billiards layout.jsonl
 try carom plan --shots 2000000 layout.jsonl
 sed 's/"id": "2"/"id": "red"/' layout.jsonl > names.jsonl
 try carom plan --rules eightball names.jsonl

@@ -59,9 +59,10 @@ static void make_inputs(void) {
   opponent = make_player();
   cue = carom_cue_of(CAROM_GAME_POOL);
   cue.ball = choice(16) == 0 ? choice(40) - 4 : 0;
-  rules = carom_plan_rules_of((carom_rules_kind)choice(4));
+  rules = carom_plan_rules_of((carom_rules_kind)choice(6));
   rules.user[choice(5)] = (uint64_t)choice(4);
-  rules.race = choice(32) == 0 ? choice(5) - 1 : rules.race;
+  rules.race = choice(32) == 0 ? choice(6) - 1 : rules.race;
+  rules.rack = choice(32) == 0 ? choice(7) - 1 : rules.rack;
   shot = (carom_shot_options){.fast = choice(2),
                               .space = (carom_space)(choice(16) == 0 ? 2 : choice(2))};
 
@@ -160,5 +161,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     expect(seen, sizeof seen / sizeof seen[0], true, "carom_aim");
   }
   carom_spot_ball(&table, balls, CAROM_BALLS_MOST, choice(CAROM_BALLS_MOST));
+  carom_spot_ball_of((carom_rack_kind)(choice(7) - 1), &table, balls, CAROM_BALLS_MOST,
+                     choice(CAROM_BALLS_MOST));
+  carom_turn turn = {.is = (carom_turn_is)choice(4),
+                     .leave = (carom_leave)choice(5),
+                     .foul = choice(9),
+                     .spot = (uint32_t)byte() << 8 | (uint32_t)byte() << 16};
+  carom_turn_settle(&rules, rules.user, &table, balls, choice(CAROM_BALLS_MOST + 1), &turn);
   return 0;
 }

@@ -8,6 +8,9 @@ echo "--- games that are played to the end, and end games"
 lab plan --rules nineball --games --racks 2 --shots 100 | numbers | cut -d' ' -f1-20
 lab plan --games --racks 1 --shots 100 | grep -c "^planned to foul"
 lab plan --left 2 --racks 2 --shots 100 | numbers | cut -d' ' -f1-20
+echo "--- games of points"
+lab plan --rules straight --target 8 --racks 1 --shots 100 | numbers | cut -d' ' -f1-33
+lab plan --rules snooker --racks 1 --shots 100 | grep -c "points in"
 echo "--- nor the rows that are fitted, whose form is that of the library's"
 lab learn --racks 40 --shots 100 > one.h
 lab learn --racks 40 --shots 100 --threads 3 > two.h
@@ -20,3 +23,4 @@ echo "--- usage"
 try lab learn --racks 3
 try lab learn --shots 99
 try lab plan --shots 99
+try lab plan --rules snooker --left 2

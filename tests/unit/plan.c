@@ -126,7 +126,7 @@ TEST(rulings) {
                   (int)turn.leave, (int)of.user[0]);
   }
   ck_assert_str_eq(carom_rules_name(CAROM_RULES_NINEBALL), "nineball");
-  ck_assert_ptr_null(carom_rules_name((carom_rules_kind)4));
+  ck_assert_ptr_null(carom_rules_name((carom_rules_kind)6));
 }
 
 /* A break of eight-ball: one is enough, the table is open whatever falls, and the eight comes
@@ -1308,7 +1308,9 @@ TEST(arguments_of_plans) {
   REFUSED(player.speed, 1001.0, CAROM_ERROR_OPTIONS);
   REFUSED(player.tip_most, 1.5, CAROM_ERROR_OPTIONS);
   REFUSED(rules.judge, NULL, CAROM_ERROR_OPTIONS);
-  REFUSED(rules.race, 3, CAROM_ERROR_OPTIONS);
+  REFUSED(rules.race, 4, CAROM_ERROR_OPTIONS);
+  REFUSED(rules.rack, 5, CAROM_ERROR_OPTIONS);
+  REFUSED(rules.reserved[3], 1, CAROM_ERROR_OPTIONS);
   REFUSED(shot_options.unused, 1, CAROM_ERROR_SHOT_OPTIONS);
   REFUSED(balls[1].state, balls[0].state, CAROM_ERROR_OVERLAP);
   REFUSED(cue.ball, BALLS, CAROM_ERROR_CUE_BALL);

@@ -100,7 +100,15 @@ export function fromLine(carom: Carom, text: string): Line {
 }
 
 /** The highest number of a ball of the games whose rules know balls by their numbers. */
-const LAST: Partial<Record<RulesKind, number>> = { eightball: 15, nineball: 9 };
+export const LAST: Partial<Record<RulesKind, number>> = { eightball: 15, nineball: 9, straight: 15, snooker: 21 };
+const COLOURS = ["yellow", "green", "brown", "blue", "pink", "black"] as const;
+
+/** The number of a ball by its name in a line; 0 for what has none. */
+function numberOf(name: string, rules: RulesKind): number {
+  const colour = rules === "snooker" ? (COLOURS as readonly string[]).indexOf(name) : -1;
+  const digits = rules === "snooker" ? name.replace(/^red/, "") : name;
+  return colour >= 0 ? 16 + colour : /^\d+$/.test(digits) ? Number(digits) : 0;
+}
 
 /**
  * The layout of a line as plans and rulings want it: ball k of the list is ball k of the game, and balls that are missing are down. Throws a
@@ -111,7 +119,7 @@ export function byNumber(line: Line, rules: RulesKind): Line {
   if (last === undefined) return line;
   const at = Array<number | undefined>(last + 1);
   for (const [k, name] of line.names.entries()) {
-    const number = k === line.cue.ball ? 0 : /^\d+$/.test(name) ? Number(name) : 0;
+    const number = k === line.cue.ball ? 0 : numberOf(name, rules);
     if ((number === 0 && k !== line.cue.ball) || number > last || at[number] !== undefined)
       return refuse(`balls[${k}].id`, `the balls of ${rules} are the cue ball and 1 to ${last}, each once, not ${JSON.stringify(name)}`);
     at[number] = k;
@@ -127,5 +135,5 @@ export function byNumber(line: Line, rules: RulesKind): Line {
 export function refuseOrder(balls: readonly ShotBall[], rules: RulesKind): void {
   if (LAST[rules] === undefined) return;
   for (const [k, { id }] of balls.entries())
-    if (k > 0 && id !== undefined && id !== String(k)) refuse(`balls[${k}].id`, `ball ${k} of ${rules} belongs here, not ${JSON.stringify(id)}; byNumber(line, "${rules}") puts the balls in order`);
+    if (k > 0 && id !== undefined && numberOf(id, rules) !== k) refuse(`balls[${k}].id`, `ball ${k} of ${rules} belongs here, not ${JSON.stringify(id)}; byNumber(line, "${rules}") puts the balls in order`);
 }

@@ -2,10 +2,10 @@
 import { layout, names, values } from "./generated/layout.js";
 import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
-import { refuseOrder } from "./lines.js";
+import { LAST, refuseOrder } from "./lines.js";
 import type { Memory, Pointer } from "./memory.js";
 import { indexOf, readBalls, readState, readStruct, refuseName, setStruct, value, whole, writeOptions, writeStruct } from "./structs.js";
-import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Ruling, ShotBall, ShotOptions, Table } from "./types.js";
+import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Ruling, ShotBall, ShotFacts, ShotOptions, Table } from "./types.js";
 
 const PLAYER = layout.carom_player;
 const RULES = layout.carom_plan_rules;
@@ -20,7 +20,10 @@ const PART = layout.carom_part;
 
 const GROUPS = ["open", "solids", "stripes"] as const;
 const MAY = ["nothing", "push", "pass"] as const;
-const HANDS = ["no", "no", "anywhere", "kitchen"] as const;
+const HANDS = ["no", "no", "anywhere", "kitchen", "d"] as const;
+/** Games whose state is told by its words. */
+const WORDS = ["straight", "snooker"] as const;
+const hasWords = (rules: string): boolean => (WORDS as readonly string[]).includes(rules);
 const BOUNDS = { speedShare: 0, speedLeast: 0, speedMost: 0, tipMost: 0, reserved: [0, 0, 0] };
 
 /** What the calls of this file need of the library. */
@@ -36,13 +39,19 @@ export interface Host {
 
 type Method = (...numbers: Pointer[]) => number;
 
+/** Points of the next player and of the other, by the words of carom_rules_kind. */
+function scoreOf({ rules, state = [] }: GameState): [number, number] {
+  const word = (k: number): number => state[k] ?? 0;
+  return rules === "straight" ? [word(2) - word(5), word(3) - word(6)] : [word(2), word(3)];
+}
+
 /** Refuses what is no layout of a game, for a plan. */
 function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: string): void {
   const pool = rules !== "threecushion";
   if (pool && pockets.length === 0) throw new TypeError(`table: it has no pockets, which ${rules} needs`);
   if (!pool && pockets.length > 0) throw new TypeError("table: threecushion needs one without pockets");
   if (!pool && balls.length < 3) throw new TypeError("balls: threecushion needs three");
-  const last = { eightball: 15, nineball: 9 }[rules] ?? balls.length;
+  const last = LAST[rules as C.RulesKind] ?? balls.length;
   const beyond = balls.findIndex(({ state }, k) => k > last && state.label !== "pocketed" && state.label !== "off");
   if (beyond >= 0) throw new TypeError(`balls: the balls of ${rules} are the cue ball and 1 to ${last}, not ${beyond}`);
 }
@@ -200,6 +209,7 @@ export class Plans {
     }
 
     // The rules.
+    const happened = this.#readFacts(facts, balls.length);
     this.#writeRules(game, balls);
     const called = call === "push" ? values.CAROM_CALL_PUSH : call === "pass" ? values.CAROM_CALL_PASS : (call?.ball ?? -1);
     memory.i32[callAt / 4] = called;
@@ -208,20 +218,27 @@ export class Plans {
     const i32 = memory.i32;
     const turn = names.carom_turn_is[i32[(turnAt + TURN.offset.is) / 4]!]!;
     const leave = i32[(turnAt + TURN.offset.leave) / 4]!;
-    const reason = names.carom_foul[i32[(turnAt + TURN.offset.foul) / 4]!]!;
     const spot = memory.u32[(turnAt + TURN.offset.spot) / 4]!;
     const word = (k: number): number => Number(memory.i64[rules / 8 + k]);
-    const after: GameState = { rules: game.rules, group: GROUPS[word(0)]!, opening: word(1) !== 0, fouls: [word(2), word(3)], may: MAY[word(4)]! };
-
     // The layout of the next stroke.
     let lie = balls.map((ball, k): ShotBall => {
       const taken = code < 0 || leave === values.CAROM_LEAVE_BEFORE;
       return taken ? ball : { ...ball, state: readState(memory, at.final + k * layout.carom_ball_state.size) };
     });
-    if (spot !== 0) this.#host.writeLayout(table, lie);
-    for (let k = 0; k < balls.length; k++) if ((spot >>> k) & 1) this.#host.refuse(memory.exports.carom_spot_ball(at.table, at.balls, balls.length, k), `balls[${k}]`);
-    if (spot !== 0) lie = readBalls(memory, at.balls, balls.length);
-    return { turn, foul: reason !== "none", reason, hand: HANDS[leave]!, balls: lie, game: after };
+    const settles = spot !== 0 || hasWords(game.rules);
+    if (settles) this.#host.writeLayout(table, lie);
+    if (settles) this.#host.refuse(memory.exports.carom_turn_settle(rules, rules, at.table, at.balls, balls.length, turnAt), "balls");
+    if (settles) lie = readBalls(memory, at.balls, balls.length);
+
+    // What may have changed by where balls lie.
+    const reason = names.carom_foul[memory.i32[(turnAt + TURN.offset.foul) / 4]!]!;
+    const hand = HANDS[memory.i32[(turnAt + TURN.offset.leave) / 4]!]!;
+    const points = memory.f64[(turnAt + TURN.offset.points) / 8]!;
+    const state = Array.from({ length: 8 }, (_, k) => word(k));
+    const after: GameState = hasWords(game.rules)
+      ? { rules: game.rules, group: "open", opening: word(1) !== 0, state }
+      : { rules: game.rules, group: GROUPS[word(0)]!, opening: word(1) !== 0, fouls: [word(2), word(3)], may: MAY[word(4)]! };
+    return { turn, foul: reason !== "none", reason, hand, points, score: scoreOf(after), facts: happened, balls: lie, game: after };
   }
 
   // ---- Structs ---------------------------------------------------------------------------------------------------------------
@@ -236,12 +253,21 @@ export class Plans {
     return at;
   }
 
-  #writeRules({ rules = "eightball", group = "open", opening = false, fouls = [0, 0], may = "nothing" }: Partial<GameState>, balls: readonly ShotBall[]): void {
+  #writeRules({ rules = "eightball", group = "open", opening = false, fouls = [0, 0], may = "nothing", state }: Partial<GameState>, balls: readonly ShotBall[]): void {
     refuseOrder(balls, rules);
+    const last = LAST[rules];
+    if (hasWords(rules) && last !== undefined && balls.length <= last) throw new TypeError(`balls: ${rules} has the cue ball and 1 to ${last}, of which some may be down`);
     const { rules: at } = this.#at;
     this.#memory.exports.carom_plan_rules_of(at, value("carom_rules_kind", rules, "rules"));
     if (group !== "open" && rules !== "eightball") throw new TypeError("group: it is of eight-ball");
     if (may !== "nothing" && rules !== "nineball") throw new TypeError("may: it is of nine-ball");
+    if (state !== undefined && !hasWords(rules)) throw new TypeError("state: it is of straight and snooker");
+    if (hasWords(rules)) {
+      if (state !== undefined && state.length !== 8) throw new TypeError("state: it has eight numbers");
+      for (const [k, one] of (state ?? []).entries()) this.#memory.i64[at / 8 + k] = BigInt(whole(one, `state[${k}]`));
+      if (opening) this.#memory.i64[at / 8 + 1] = 1n;
+      return;
+    }
     const words = [indexOf(GROUPS, group, "group"), Number(opening), ...fouls.map((count) => whole(count, "fouls")), indexOf(MAY, may, "may")];
     for (const [k, word] of words.entries()) this.#memory.i64[at / 8 + k] = BigInt(word);
   }
@@ -259,6 +285,16 @@ export class Plans {
     writeOptions(memory, optionsAt, "carom_plan_options", options);
     if (options.opponent) setStruct(memory, optionsAt, "carom_plan_options", { opponent: this.#writePlayer(opponent, options.opponent, "opponent") }, false);
     return setStruct(memory, job, "carom_plan_job", { table: at.table, balls: at.balls, cue: at.cue, player, rules, shot, options: optionsAt, count: balls.length });
+  }
+
+  #readFacts(at: Pointer, count: number): ShotFacts {
+    const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime } = readStruct<C.Facts>(this.#memory, at, "carom_facts");
+    const all = (field: "down" | "off"): number[] => {
+      const set = this.#memory.u32[(at + FACTS.offset[field]) / 4]!;
+      return Array.from({ length: count }, (_, k) => k).filter((k) => (set >>> k) & 1);
+    };
+    const potted = all("down").sort((a, b) => pocketTime[a]! - pocketTime[b]!);
+    return { first, cushionsBefore, cushionsAfter, cushions: cushions.slice(0, count), potted: potted.map((ball) => ({ ball, pocket: pocket[ball]! })), off: all("off") };
   }
 
   #readChoice(at: Pointer): Choice {

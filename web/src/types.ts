@@ -157,7 +157,7 @@ export type Player = Optional<C.Player, "speedShare" | "speedLeast" | "speedMost
 
 /** A game between two strokes, as the player at the table sees it. Ball k is ball k of the game, ball 0 the cue ball. */
 export interface GameState {
-  /** Eight-ball and nine-ball by the rules of the WPA; or a drill for one. Default "eightball". */
+  /** Eight-ball, nine-ball and straight pool by the rules of the WPA, snooker by those of the WPBSA; or a drill for one. Default "eightball". */
   rules: C.RulesKind;
   /** Of eight-ball: whose balls the player has. Default "open". */
   group: "open" | "solids" | "stripes";
@@ -167,6 +167,8 @@ export interface GameState {
   fouls?: readonly [number, number];
   /** Of nine-ball: whether the player may push out, just after the break, or pass, after a push-out. Default "nothing". */
   may?: "nothing" | "push" | "pass";
+  /** Of straight pool and snooker: eight whole numbers, with the scores, as `carom_rules_kind` of C has them. Default: that of a new game. */
+  state?: readonly number[];
 }
 
 /** What an aim is asked for: a ball, and its pocket by index or name, such as "foot-left". */
@@ -221,15 +223,37 @@ export interface Choice extends Omit<C.Choice, "kind"> {
 /** The ball and the pocket that are called; or a push-out; or that the player does not play, so that the stroke is not read. */
 export type Call = C.Call | "push" | "pass";
 
+/** What happened in a shot, by indices of balls; -1 where there is none. */
+export interface ShotFacts {
+  /** The first two different balls that the cue ball met. */
+  first: readonly [number, number];
+  /** Impacts of the cue ball on cushions before it met each of them. */
+  cushionsBefore: readonly [number, number];
+  /** Impacts of all balls on cushions after the first contact. */
+  cushionsAfter: number;
+  /** Impacts of each ball on cushions. */
+  cushions: readonly number[];
+  /** The balls that fell, in their order, and the pocket that took each. */
+  potted: readonly { ball: number; pocket: number }[];
+  /** The balls that left the table. */
+  off: readonly number[];
+}
+
 /** What a shot amounts to. */
 export interface Ruling {
+  /** Of the shot; of one that was not played, or ended in an error, no ball was met. */
+  facts: ShotFacts;
   /** Whether the player plays on, the other one plays, or the player has won or lost. */
   turn: C.TurnIs;
   foul: boolean;
   /** By which rule it is a foul: "none" of a legal shot. */
   reason: C.Foul;
   /** Where whoever plays next may put the cue ball. */
-  hand: "no" | "anywhere" | "kitchen";
+  hand: "no" | "anywhere" | "kitchen" | "d";
+  /** Of the shot, in games of points; of three-cushion and of the drill too. */
+  points: number;
+  /** Of straight pool and snooker: points of whoever plays next, and of the other. */
+  score: [number, number];
   /** The layout of the next stroke. */
   balls: ShotBall[];
   /** The game as whoever plays next sees it. */

@@ -178,7 +178,8 @@ test("points of three-cushion", () => {
   const best = carom.plan(table, balls, { rules: "threecushion", shots: 600 });
   expect(best[0]!.value).toBe(best[0]!.keep);
   expect(["carom", "kick"]).toContain(best[0]!.kind);
-  const { turn } = carom.referee(table, balls, best[0]!.cue, { rules: "threecushion", group: "open", opening: false });
+  const { turn, facts } = carom.referee(table, balls, best[0]!.cue, { rules: "threecushion", group: "open", opening: false });
+  expect(facts.first[1] > 0 && facts.cushionsBefore[1] >= 3).toBe(turn === "keep");
   expect(["keep", "pass"]).toContain(turn);
   expect(() => carom.plan(table, balls.slice(0, 2), { rules: "threecushion" })).toThrow("balls: threecushion needs three");
   expect(() => carom.plan(carom.table("9ft"), balls, { rules: "threecushion" })).toThrow("table: threecushion needs one without pockets");
@@ -202,4 +203,37 @@ test("arguments in error", () => {
   const down = balls.map((ball, k) => (k === 0 ? ball : { ...ball, state: { ...ball.state, label: "pocketed" as const } }));
   expect(() => carom.plan(table, down, { rules: "nineball" })).toThrow(/no ball is left to be played/);
   expect(() => carom.ballsOn({ rules: "nineball", group: "stripe" as "open", opening: false }, balls)).toThrow(/group/);
+});
+
+test("straight pool and snooker: points, colours on their own spots, a foul, the other who plays again", () => {
+  const pool = carom.table("9ft");
+  const down = (balls: ShotBall[], ...up: number[]): ShotBall[] => balls.map((ball, k) => (up.includes(k) ? ball : { ...ball, state: { ...ball.state, r: [0, 0, -0.1], label: "pocketed" as const } }));
+  let balls = down(carom.rack("eightball", pool), 0, 3, 9);
+  balls = carom.placeBall(pool, carom.placeBall(pool, carom.placeBall(pool, balls, 0, 0.4, 0.9), 3, 0.3, 1.9), 9, 0.9, 1.7);
+  const [best] = carom.plan(pool, balls, { rules: "straight", shots: 600 });
+  const made = carom.referee(pool, balls, best!.cue, { rules: "straight", group: "open", opening: false }, { ball: best!.ball, pocket: best!.pocket });
+  expect([made.turn, made.score, made.points, made.hand]).toEqual(["keep", [1, 0], 1, "no"]);
+  expect(made.balls.every(({ state }) => state.label === "stationary")).toBe(true); // racked again
+  expect([made.facts.first[0], made.facts.potted]).toEqual([best!.ball, [{ ball: best!.ball, pocket: best!.pocket }]]);
+  const missed = carom.referee(pool, balls, carom.cue({ speed: 0.5, phi: 180 }), made.game);
+  expect([missed.turn, missed.reason, missed.score]).toEqual(["pass", "no_ball", [0, 0]]);
+  expect(missed.game.state).toEqual([100, 0, 0, 1, 0, 0, 1, 4]);
+
+  const table = carom.table("snooker");
+  const rack = carom.rack("snooker", table);
+  const spot = rack[21]!.state.r;
+  const layout = carom.placeBall(table, carom.placeBall(table, down(rack, 0, 1, 16, 17, 18, 19, 20, 21), 1, 0.3, 1.2), 0, 1.4, 3.2);
+  const colour = [1, 0, 0, 0, 0, 0, 0, 0];
+  const [black] = carom.plan(table, layout, { rules: "snooker", state: colour, shots: 1000, player: carom.player({ errors: 0.2 }), cue: carom.cue({}, "snooker") });
+  expect(black!.ball).toBe(21);
+  const seven = carom.referee(table, layout, black!.cue, { rules: "snooker", group: "open", opening: false, state: colour }, { ball: 21, pocket: -1 });
+  expect([seven.turn, seven.score, seven.balls[21]!.state.r]).toEqual(["keep", [7, 0], spot]);
+  const foul = carom.referee(table, layout, carom.cue({ speed: 1, phi: 0 }, "snooker"), { rules: "snooker", group: "open", opening: false });
+  expect([foul.reason, foul.score]).toEqual(["no_ball", [4, 0]]);
+  const again = carom.referee(table, foul.balls, carom.cue({}, "snooker"), foul.game, "pass");
+  expect([again.turn, again.foul, again.score, again.game.state![4]]).toEqual(["pass", false, [0, 4], 0]);
+  expect(() => carom.plan(table, layout.slice(0, 5), { rules: "snooker" })).toThrow("balls: snooker has the cue ball and 1 to 21");
+  expect(() => carom.plan(pool, balls, { rules: "nineball", state: colour })).toThrow("state: it is of straight and snooker");
+  const [first] = carom.plan(table, rack, { rules: "snooker", inHand: true, shots: 300 });
+  expect(Math.hypot(first!.place[0] - table.width / 2, first!.place[1] - 0.737)).toBeLessThan(0.2921);
 });

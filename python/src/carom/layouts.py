@@ -203,23 +203,24 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     return placed
 
 
-_LAST = {"eightball": 15, "nineball": 9}
+_LAST = {"eightball": 15, "nineball": 9, "straight": 15, "snooker": 21}
+_COLOURS = {"yellow": "16", "green": "17", "brown": "18", "blue": "19", "pink": "20", "black": "21"}
 
 
-def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["eightball", "nineball"], *, cue: int | str = "cue") -> dtypes.Records:
+def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["eightball", "nineball", "straight", "snooker"], *, cue: int | str = "cue") -> dtypes.Records:
     """A layout as `plan` and `referee` want it, in which ball k is number k, from balls in any order; those that are missing are down.
 
     Parameters
     ----------
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
     ids : sequence of int or str
-        The number of each, as a line of `carom shoot` names its balls.
-    rules : {"eightball", "nineball"}
-        The game: numbers are 1 to 15, or 1 to 9.
+        The number of each, as a line of `carom shoot` names its balls; in snooker also "red1" to "red15", and the names of the colours.
+    rules : {"eightball", "nineball", "straight", "snooker"}
+        The game: numbers are 1 to 15, 1 to 9, or 1 to 21, from 16 on the colours.
     cue : int or str
         Which of the ids is the cue ball's.
 
-    Returns an ndarray of `carom.dtypes.shot_ball`, shape (16,) or (10,).
+    Returns an ndarray of `carom.dtypes.shot_ball`, shape (16,), (10,) or (22,).
     Raises ValueError: A ball is none of the game, or there twice, or there is no cue ball.
     """
     given = of_record(balls, dtypes.shot_ball, "balls", "balls()")
@@ -231,7 +232,8 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["e
         raise ValueError(f"cue: it must be one of the ids, once, not {cue!r}")
     at: dict[int, int] = {}
     for k, name in enumerate(names):
-        of_ball = 0 if name == str(cue) else int(name) if name.isdecimal() else -1
+        number = _COLOURS.get(name, name.removeprefix("red")) if rules == "snooker" else name
+        of_ball = 0 if name == str(cue) else int(number) if number.isdecimal() else -1
         if not 0 <= of_ball <= last or of_ball in at or (of_ball == 0 and name != str(cue)):
             raise ValueError(f"ids: ball {name!r}: the balls of {rules} are the cue ball and 1 to {last}, each once")
         at[of_ball] = k

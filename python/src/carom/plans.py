@@ -168,7 +168,7 @@ def _one_player(given: dtypes.Records, name: str = "player") -> Any:
 def _corners(in_hand: bool | Hand | npt.ArrayLike, table: Table) -> dtypes.Doubles | None:
     """The corners between which the cue ball is put; None: anywhere."""
     if isinstance(in_hand, str):
-        choice({"no": 0, "anywhere": 1, "kitchen": 2}, in_hand, "in_hand")
+        choice({"no": 0, "anywhere": 1, "kitchen": 2, "d": 3}, in_hand, "in_hand")
         in_hand = [[0.0, 0.0], [table.width, table.length / 4.0]] if in_hand == "kitchen" else True
     if in_hand is True:
         return None
@@ -269,13 +269,14 @@ def plan(
         2 to 32 of them at rest, with the cue ball first. For eight-ball and nine-ball a ball's index is its number.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
         Its masses, its tip and its miscue count; the stroke does not. Default: that of `carom.cue()`.
-    rules : {"eightball", "nineball", "potting", "threecushion"} or Rules
-        The game, by the rules of the WPA; or a drill, whose value is the share of the balls that one visit pots; or three-cushion, whose
-        value is the chance of the point, on a table without pockets with the balls of `racks.threecushion`; or a game of your own.
+    rules : {"eightball", "nineball", "potting", "threecushion", "straight", "snooker"} or Rules
+        The game, by the rules of the WPA or, snooker, of the WPBSA; or a drill, whose value is the share of the balls that one visit pots; or
+        three-cushion, whose value is the chance of the point, on a table without pockets with the balls of `racks.threecushion`; or a game of
+        your own. Straight pool has the balls of `racks.eightball`, snooker those of `racks.snooker`.
     group : {"open", "solids", "stripes"}
         Of eight-ball: the balls of the player. Default: "open".
     opening : bool
-        Whether the stroke is the break of eight-ball or nine-ball.
+        Whether the stroke is the break of eight-ball, nine-ball or straight pool.
     state : array_like of 8 whole numbers, optional
         Of the rules, instead of `group` and `opening`: that of a ruling of `referee`.
     player : ndarray of `carom.dtypes.player`, shape (), optional
@@ -284,7 +285,7 @@ def plan(
         Default: he errs as the player does.
     shots : int
         That the plan plays, about: 100 to 1,000,000.
-    in_hand : bool, {"no", "anywhere", "kitchen"} or array_like, shape (2, 2)
+    in_hand : bool, {"no", "anywhere", "kitchen", "d"} or array_like, shape (2, 2)
         Whether the cue ball is in hand, as `hand` of a ruling: `place` of the choices then says where to put it. Two corners (m) of a
         rectangle: there alone.
     best : int

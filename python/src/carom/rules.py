@@ -26,15 +26,16 @@ if TYPE_CHECKING:
 
 __all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "referee"]
 
-Game = Literal["eightball", "nineball", "potting", "threecushion"]
+Game = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker"]
 Group = Literal["open", "solids", "stripes"]
 State = npt.NDArray[np.uint64]
-Hand = Literal["no", "anywhere", "kitchen"]
-_GAMES = {"eightball": 0, "nineball": 1, "potting": 2, "threecushion": 3}
+Hand = Literal["no", "anywhere", "kitchen", "d"]
+_GAMES = {"eightball": 0, "nineball": 1, "potting": 2, "threecushion": 3, "straight": 4, "snooker": 5}
+_LAST = {"eightball": 15, "nineball": 9, "straight": 15, "snooker": 21}  # the highest number of a ball
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
-_LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3}
-_RACES = {"own": 0, "shared": 1, "alone": 2}
+_LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4}
+_RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3}
 _WORDS = 8
 _USUAL = Options()
 _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
@@ -51,6 +52,7 @@ class Foul(enum.IntEnum):
     CUSHION = 5
     BREAK = 6
     OTHER = 7
+    POT = 8
 
     @property
     def text(self) -> str:
@@ -97,12 +99,13 @@ class Turn:
     """What a shot amounts to, from `Rules.judge`: the fields are its arguments.
 
     `turn`: who plays, or how the game ends; "pass": the other plays. `leave`: his layout: as it is "after" the shot, as "before" it, or with
-    the cue ball in hand, "anywhere" or in the "kitchen" behind the head string. `foul`: a `Foul`. `spot`: balls that come back to the foot
-    spot: any that are down or off the table, but the cue ball. `points`: of the shot; they count without an opponent only.
+    the cue ball in hand, "anywhere", in the "kitchen" behind the head string or in the "d" of a snooker table. `foul`: a `Foul`. `spot`: balls
+    that come back to the foot spot: any that are down or off the table, but the cue ball. `points`: of the shot; a plan reads them without an
+    opponent only.
     """
 
     turn: Literal["keep", "pass", "win", "lose"]
-    leave: Literal["after", "before", "anywhere", "kitchen"] = "after"
+    leave: Literal["after", "before", "anywhere", "kitchen", "d"] = "after"
     foul: int = 0
     spot: Collection[int] = ()
     points: float = 0.0
@@ -115,8 +118,9 @@ class Rules:
     change them, and leaves them as the next player has them. Balls in play are a frozenset of their indices.
     """
 
-    race: Literal["own", "shared", "alone"] = "own"
-    """Whose balls are to be potted: each player has his own, both have the same, or there is no opponent."""
+    race: Literal["own", "shared", "alone", "points"] = "own"
+    """Whose balls are to be potted: each player has his own, both have the same, or there is no opponent. "points": both make points, and `left`
+    says how many each needs."""
     calls: bool = False
     """Whether ball and pocket are called."""
     first_decides: bool = False
@@ -156,12 +160,12 @@ class Made:
         else:
             self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules")))
         words = np.zeros(_WORDS, np.uint64)
-        self.last = None if isinstance(rules, Rules) else {"eightball": 15, "nineball": 9}.get(rules)
+        self.last = None if isinstance(rules, Rules) else _LAST.get(rules)
         """The highest number of a ball."""
         if group is not None and rules != "eightball":
             raise ValueError("group: it is of eight-ball")
-        if opening and self.last is None:
-            raise ValueError("opening: it is of eight-ball and nine-ball")
+        if opening and rules not in ("eightball", "nineball", "straight"):
+            raise ValueError("opening: it is of eight-ball, nine-ball and straight pool")
         if state is not None:
             for is_given, name in ((group is not None, "group"), (opening, "opening")):
                 if is_given:
@@ -173,7 +177,9 @@ class Made:
                 raise ValueError(f"state[0]: it must be 0 (open), 1 (solids) or 2 (stripes), not {given[0]}")
             words[:] = given
         elif not isinstance(rules, Rules):
-            words[:2] = choice(_GROUPS, group or "open", "group"), bool(opening)
+            words[:] = list(self.c.user)
+            words[0] += choice(_GROUPS, group or "open", "group")
+            words[1] = bool(opening)
         self.c.user = words.tolist()
 
     def _functions(self, rules: Rules) -> None:
@@ -227,11 +233,24 @@ class Made:
         for ball in range(len(layout) if self.last is None else self.last + 1, len(layout)):
             if label[ball] not in (_POCKETED, _OFF):
                 raise ValueError(f"balls: the balls of {self.rules} are the cue ball and 1 to {self.last}, not {ball}")
+        self.check_count(len(layout))
+
+    def check_count(self, count: int) -> None:
+        """Refuses a layout in which balls are missing that may come back."""
+        if self.rules in ("straight", "snooker") and count <= (self.last or 0):
+            raise ValueError(f"balls: {self.rules} has the cue ball and 1 to {self.last}, of which some may be down, not {count} balls")
 
     def check(self) -> None:
         """Raises what a method of the rules raised."""
         if self.raised is not None:
             raise self.raised
+
+
+def _score(rules: Game | Rules, state: State) -> tuple[int, int]:
+    """By the words of `carom_rules_kind`: points of both, and those that fouls cost in straight pool."""
+    own, other = (int(word) for word in state[2:4])
+    lost = [int(word) for word in state[5:7]]
+    return (own - lost[0], other - lost[1]) if rules == "straight" else (own, other) if rules == "snooker" else (0, 0)
 
 
 _bits: npt.NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
@@ -260,12 +279,14 @@ class Ruling(Arrays):
 
     turn: str  # "keep": the player plays on; "pass": the other plays; "win", "lose": the game has ended
     foul: Foul
-    hand: Hand  # Whether the next player has the cue ball in hand, anywhere or behind the head string
+    hand: Hand  # Whether the next player has the cue ball in hand: anywhere, behind the head string, or in the D of a snooker table
     potted: tuple[int, ...]  # Balls that fell, the cue ball among them, in their order
     first: int  # The ball that the cue ball met first, -1 for none
     points: float
     balls: dtypes.Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
     state: State  # (8,): Of the rules, as the next player has it
+    score: tuple[int, int]  # Of straight pool and snooker: points of the next player, and of the other
+    facts: Facts  # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was met in one that ended in an error
     shot: Shot
 
 
@@ -295,6 +316,7 @@ def referee(
     """
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
     made = Made(rules, state, group, opening)
+    made.check_count(layout.shape[-1])
     strike = one_cue(cue).copy()
     if call[0] == lib.CAROM_CALL_PASS:
         strike["speed"] = 0.0
@@ -304,22 +326,26 @@ def referee(
         raise CaromError(int(shots.status[0]), "balls, cue")
     states: Any = np.array([list(made.c.user)], np.uint64)
     called: Array = np.array([[whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]], np.int32)
-    turn = judge(made, layout[np.newaxis], shots, states, called)[0]
-    facts = shots._facts[0]  # type: ignore[index]
+    turns = judge(made, layout[np.newaxis], shots, states, called)
+    met = pointer("carom_facts[]", shots._facts)[0]
+    facts = _facts(ffi.new("carom_facts *", {"first": [-1, -1]} if failed else met))
 
     # The next layout.
     after = layout.copy()
-    if not failed and turn["leave"] != lib.CAROM_LEAVE_BEFORE:
+    if not failed and turns["leave"][0] != lib.CAROM_LEAVE_BEFORE:
         after["state"] = shots.final[0]
-    for ball in _of_set(int(turn["spot"])):
-        if ball >= len(after):
-            raise ValueError(f"Turn.spot: there are {len(after)} balls, none is {ball}")
-        code = lib.carom_spot_ball(pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", after), len(after), ball)
-        if code < 0:
-            raise CaromError(code, f"balls[{ball}]", text="there is no room for it on the long string")
-    hands: dict[int, Hand] = {lib.CAROM_LEAVE_HAND: "anywhere", lib.CAROM_LEAVE_KITCHEN: "kitchen"}
-    down = sorted(_of_set(int(facts["down"])), key=lambda ball: facts["pocket_time"][ball])
+    beyond = [ball for ball in _of_set(int(turns["spot"][0])) if ball >= len(after)]
+    if beyond:
+        raise ValueError(f"Turn.spot: there are {len(after)} balls, none is {beyond[0]}")
+    code = lib.carom_turn_settle(
+        made.c, pointer("uint64_t[]", states), pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", after), len(after),
+        pointer("carom_turn[]", turns),
+    )
+    if code < 0:
+        raise CaromError(code, "Turn.spot", text="there is no room for a ball that comes back")
+    turn = turns[0]
+    hands: dict[int, Hand] = {lib.CAROM_LEAVE_HAND: "anywhere", lib.CAROM_LEAVE_KITCHEN: "kitchen", lib.CAROM_LEAVE_D: "d"}
     return Ruling(
-        tuple(_TURNS)[turn["is"]], Foul(int(turn["foul"])), hands.get(int(turn["leave"]), "no"), tuple(down), -1 if failed else int(facts["first"][0]),
-        float(turn["points"]), after, states[0], shots[0],
+        tuple(_TURNS)[turn["is"]], Foul(int(turn["foul"])), hands.get(int(turn["leave"]), "no"), tuple(facts.potted), facts.first,
+        float(turn["points"]), after, states[0], _score(rules, states[0]), facts, shots[0],
     )  # fmt: skip

@@ -1,0 +1,30 @@
+/* The game of `carom plan`. */
+#ifndef CAROM_CLI_PLAN_GAME_H
+#define CAROM_CLI_PLAN_GAME_H
+
+#include "options.h"
+#include "shot_file.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { NOT_GIVEN = -1 };
+
+typedef struct plan_game {
+  int rules;            /* a carom_rules_kind */
+  int group, may;       /* or NOT_GIVEN */
+  int target, score[2]; /* 0: not given */
+  bool opening, colour;
+} plan_game;
+
+OPTION_SET(set_score); /* int[2]: OWN,OTHER */
+
+/* Whether the options are those of the game; complains where they are not. */
+bool plan_game_fits(const plan_game *game);
+/* The state of its rules, as carom_rules_kind has it; what is not given stays. */
+void plan_game_state(const plan_game *game, uint64_t user[8]);
+/* Puts the balls of a line where their numbers are, with those that are missing in a pocket; its
+ * balls and names change. Complains, with false, of a ball that the game does not have. */
+bool plan_game_order(const plan_game *game, shot_line *line, const char *file);
+
+#endif
