@@ -100,7 +100,7 @@ def test_the_break():
         _, turn = RULES.play(begun, action(RULES.base.actions(90.0, 9.0), place))
         assert 0.02 < turn.shot.balls["state"]["r"][0, 1] <= RULES.table.length / 4.0
     soft, turn = RULES.play(begun, action(RULES.base.actions(90.0, 1.2)))
-    assert turn.first == 1 and turn.foul == "the break potted nothing, and drove fewer than four balls to cushions" and soft.player == 1
+    assert turn.first == 1 and turn.foul == "the break potted nothing, and drove too few balls to cushions" and soft.player == 1
     hard, turn = RULES.play(begun, action(RULES.base.actions(90.0, 9.0)))
     assert not turn.foul.startswith("the break") and turn.shot.count > 40
 

@@ -75,7 +75,8 @@ def test_a_layout_is_planned_by_the_numbers_of_its_balls():
         (["cue", "5", "5", "9"], "nineball", "ball '5': the balls of nineball are the cue ball and 1 to 9, each once"),
         (["cue", "5", "10", "9"], "nineball", "ball '10'"), (["cue", "5", "red", "9"], "eightball", "'red': .* 1 to 15"),
         (["cue", "0", "1", "9"], "nineball", "ball '0'"), (["1", "2", "3", "9"], "nineball", "cue: it must be one of the ids"),
-        (["cue", "5"], "nineball", "ids: one for each ball"), (["cue", "5", "2", "9"], "snooker", "rules: must be one of"),
+        (["cue", "5"], "nineball", "ids: one for each ball"), (["cue", "5", "2", "9"], "tenball", "rules: must be one of"),
+        (["cue", "red5", "pink", "red20"], "snooker", "ball 'red20'"),
     ):  # fmt: skip
         with pytest.raises(ValueError, match=told):
             carom.by_number(LAYOUT, ids, rules)
@@ -202,7 +203,7 @@ def test_strokes_with_errors():
 
 def test_arguments_in_error():
     with pytest.raises(ValueError, match="rules"):
-        carom.plan(TABLE, LAYOUT, rules="snooker")
+        carom.plan(TABLE, LAYOUT, rules="tenball")
     with pytest.raises(ValueError, match="shots"):
         carom.plan(TABLE, LAYOUT, shots=10)
     with pytest.raises(ValueError, match="errors"):
@@ -240,7 +241,7 @@ RACK = carom.racks.eightball(TABLE)
         ({"state": [0] * 8, "opening": True}, "state, opening: the state says the opening, too"),
         ({"state": [9] + [0] * 7}, r"state\[0\]: it must be 0 \(open\), 1 \(solids\) or 2 \(stripes\), not 9"),
         ({"rules": "nineball", "group": "solids", "balls": RACK[:10]}, "group: it is of eight-ball"),
-        ({"rules": "potting", "opening": True}, "opening: it is of eight-ball and nine-ball"),
+        ({"rules": "potting", "opening": True}, "opening: it is of eight-ball, nine-ball and straight pool"),
         ({"rules": "nineball"}, "balls: the balls of nineball are the cue ball and 1 to 9, not 10"),
         ({"balls": _down(RACK, slice(1, None))}, "balls: no ball is left to be played: all that count are down, or the eight is"),
         ({"balls": _down(RACK, slice(1, None)), "rules": "potting"}, "no ball is left to be played"),
@@ -435,7 +436,7 @@ def test_straight_pool_and_snooker():
     ruling = carom.referee(table, layout, best["cue"], rules="snooker", state=black, call=(21, -1))
     assert ruling.turn == "keep" and ruling.score == (7, 0) and ruling.potted == (21,) and ruling.balls["state"]["r"][21, :2].tolist() == spots[5].tolist()
     # no ball is met: four points for the other, who may let the offender play again
-    scratch = carom.referee(table, layout, carom.cue(game="snooker", speed=1.0, phi=0.0), rules="snooker")
+    scratch = carom.referee(table, layout, carom.cue(game="snooker", speed=0.1, phi=0.0), rules="snooker")
     assert scratch.foul == carom.Foul.NO_BALL and scratch.score == (4, 0) and scratch.state[4] & 1
     again = carom.referee(table, scratch.balls, cue, rules="snooker", state=scratch.state, call=(-3, -1))
     assert again.turn == "pass" and again.foul == carom.Foul.NONE and again.score == (0, 4) and again.state[4] == 0

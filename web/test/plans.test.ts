@@ -228,7 +228,7 @@ test("straight pool and snooker: points, colours on their own spots, a foul, the
   expect(black!.ball).toBe(21);
   const seven = carom.referee(table, layout, black!.cue, { rules: "snooker", group: "open", opening: false, state: colour }, { ball: 21, pocket: -1 });
   expect([seven.turn, seven.score, seven.balls[21]!.state.r]).toEqual(["keep", [7, 0], spot]);
-  const foul = carom.referee(table, layout, carom.cue({ speed: 1, phi: 0 }, "snooker"), { rules: "snooker", group: "open", opening: false });
+  const foul = carom.referee(table, layout, carom.cue({ speed: 0.1, phi: 0 }, "snooker"), { rules: "snooker", group: "open", opening: false });
   expect([foul.reason, foul.score]).toEqual(["no_ball", [4, 0]]);
   const again = carom.referee(table, foul.balls, carom.cue({}, "snooker"), foul.game, "pass");
   expect([again.turn, again.foul, again.score, again.game.state![4]]).toEqual(["pass", false, [0, 4], 0]);
