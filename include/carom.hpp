@@ -411,8 +411,8 @@ public:
    * the foot spot in pool. */
   carom_status spot(int ball, carom_rack_kind of = CAROM_RACK_EIGHTBALL) {
     carom_record_settle(game_.get());
-    const carom_status code = checked(carom_spot_ball_of(of, &game_->table, game_->balls,
-                                                         static_cast<int>(game_->count), ball));
+    const carom_status code = checked(
+        carom_spot_ball_of(of, &game_->table, game_->balls, static_cast<int>(game_->count), ball));
     const double *r = game_->balls[code < 0 ? 0 : ball].state.r;
     return code < 0 ? code : place(ball, r[0], r[1]);
   }
