@@ -50,9 +50,11 @@ double carom_search_share(const search *of, double points) {
   return carom_within(points / of->left, 0.0, 1.0);
 }
 
-/* The layout of the next stroke, by rules that ask where balls lie. */
-static void settle(const search *of, uint64_t *user, carom_ball_state *final, bool taken_back,
-                   carom_turn *turn) {
+/* The layout of the next stroke, by rules that ask where balls lie. Apart, as its balls would take
+ * 10 KiB of the stack below a shot. */
+__attribute__((noinline)) static void settle(const search *of, uint64_t *user,
+                                             carom_ball_state *final, bool taken_back,
+                                             carom_turn *turn) {
   carom_shot_ball balls[CAROM_BALLS_MOST];
   for (int k = 0; k < of->view.count; k++) {
     balls[k] = of->job.balls[k];

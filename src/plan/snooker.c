@@ -84,7 +84,7 @@ static carom_turn give(uint64_t *user, carom_turn turn) {
 }
 
 /* The last black is gone: who has more has won; else it comes back. */
-static carom_turn end(uint64_t *user, carom_turn turn) {
+static carom_turn finish(uint64_t *user, carom_turn turn) {
   turn.spot = 0;
   turn.leave = CAROM_LEAVE_AFTER;
   turn.is = user[OWN] > user[OTHER] ? CAROM_TURN_WIN : CAROM_TURN_LOSE;
@@ -141,7 +141,7 @@ static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const ca
     user[OTHER] += (uint64_t)cost;
     turn.leave = off_cue ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER;
     if (balls == black)
-      turn = end(user, turn);
+      turn = finish(user, turn);
     if (turn.is != CAROM_TURN_PASS)
       return turn;
     /* a black that comes back is a new beginning */
@@ -164,7 +164,7 @@ static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const ca
   turn.is = CAROM_TURN_KEEP;
   turn.spot = !colour && !red ? fell & ~due : fell & colours;
   if (balls == black)
-    turn = end(user, turn);
+    turn = finish(user, turn);
   turn.points = made;
   return turn.is == CAROM_TURN_PASS ? give(user, turn) : turn;
 }

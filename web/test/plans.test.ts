@@ -188,7 +188,7 @@ test("points of three-cushion", () => {
 test("arguments in error", () => {
   const { carom } = builds[0]!;
   const { table, balls } = lay(carom, "nineball", PLACES);
-  expect(() => carom.plan(table, balls, { rules: "snooker" as "nineball" })).toThrow(/rules/);
+  expect(() => carom.plan(table, balls, { rules: "croquet" as "nineball" })).toThrow(/rules/);
   expect(() => carom.plan(table, balls, { shots: 10 })).toThrow(/shots/);
   expect(() => carom.plan(table, balls, { shot: { space: "wide" as "flat" } })).toThrow(/space/);
   expect(() => carom.plan(table, balls, { oponent: carom.player() } as object)).toThrow(/did you mean "opponent"/);
@@ -206,6 +206,7 @@ test("arguments in error", () => {
 });
 
 test("straight pool and snooker: points, colours on their own spots, a foul, the other who plays again", () => {
+  const { carom } = builds[0]!;
   const pool = carom.table("9ft");
   const down = (balls: ShotBall[], ...up: number[]): ShotBall[] => balls.map((ball, k) => (up.includes(k) ? ball : { ...ball, state: { ...ball.state, r: [0, 0, -0.1], label: "pocketed" as const } }));
   let balls = down(carom.rack("eightball", pool), 0, 3, 9);
