@@ -152,7 +152,7 @@ def test_models_of_cushions_are_those_of_the_library():
 @pytest.mark.parametrize(("module", "package"), [("gymnasium", "gymnasium"), ("pettingzoo", "pettingzoo"), ("jax", "jax")])
 def test_without_what_is_optional(module, package):
     """The import says what is needed."""
-    blocked = f"import sys; sys.modules['{package}'] = None; import carom.potting, carom.nineball; import carom.{module}"
+    blocked = f"import sys; sys.modules['{package}'] = None; import carom.potting, carom.pool; import carom.{module}"
     done = subprocess.run([sys.executable, "-c", blocked], capture_output=True, text=True)
     assert done.returncode == 1 and f"pip install {package}" in done.stderr and f"ImportError: carom.{module} needs" in done.stderr
 

@@ -1,4 +1,4 @@
-"""Nine-ball for two players: the rules on positions made by hand, and the environment by PettingZoo's own tests."""
+"""Pool for two players: the rules on positions made by hand, and the environment by PettingZoo's own tests."""
 
 from dataclasses import replace
 
@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import carom
-from carom.nineball import Hand, NineBall
+from carom.pool import Hand, Pool
 
-RULES = NineBall(cushion_model="han")
+RULES = Pool(cushion_model="han")
 POCKET = RULES.table.pockets["centre"][np.argmin(RULES.table.pockets["centre"].sum(axis=1))]
 WAY = np.array([1.0, 1.0]) / np.sqrt(2.0)
 # One after another towards a corner pocket: the cue ball, and what it is to drive in.
@@ -16,14 +16,15 @@ CUE, NEAR, NEARER = (POCKET + distance * WAY for distance in (0.5, 0.2, 0.2 - 2.
 AT_POCKET = RULES.base.actions(-135.0, 2.0, b=-0.3)
 
 
-def position_of(places, **changes):
-    """A position in play: where balls lie; the others are pocketed."""
-    begun = RULES.begin(1)
+def position_of(places, rules=RULES, fouls=(0, 0), group=0, player=0, **changes):
+    """A position in play: where balls lie, the others are pocketed; fouls of the players, and the group of the one at the table."""
+    begun = rules.begin(1)
+    state = np.array([group, 0, fouls[player], fouls[1 - player], 0, 0, 0, 0], np.uint64)
     balls = begun.balls.copy()
     balls["state"]["label"] = carom.Label.POCKETED
     for ball, place in places.items():
         balls["state"]["r"][ball, :2], balls["state"]["label"][ball] = place, carom.Label.STATIONARY
-    return replace(begun, **{"balls": balls, "hand": Hand.NOWHERE, **changes})
+    return replace(begun, **{"balls": balls, "hand": Hand.NOWHERE, "player": player, "state": state, **changes})
 
 
 def action(stroke, place=(0.0, 0.0)):
@@ -119,7 +120,7 @@ def test_ball_in_hand():
 
 
 def test_observations_are_within_bounds():
-    rules, generator = NineBall(cushion_model="han", noise=(0.5, 0.1, 0.02)), np.random.default_rng(4)
+    rules, generator = Pool(cushion_model="han", noise=(0.5, 0.1, 0.02)), np.random.default_rng(4)
     low, high = rules.bounds()
     for seed in range(4):
         position = rules.begin(seed)
@@ -131,15 +132,59 @@ def test_observations_are_within_bounds():
     assert rules.observe(position, 0)[31:].tolist() == rules.observe(position, 1)[31:].tolist()[::-1]
 
 
+# ---- Eight-ball -----------------------------------------------------------------------------------------------------------
+
+
+EIGHT = Pool("eightball", cushion_model="han")
+
+
+def test_eightball_by_hand():
+    """The stroke calls what it pots without noise; the first ball decides the groups; the eight wins as the last, and loses before."""
+    far = {5: (0.6, 2.0), 12: (0.7, 2.2), 8: (0.3, 2.3)}
+    after, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT), action(AT_POCKET))
+    assert (turn.foul, turn.potted, after.player, after.hand, after.state[0]) == ("", (3,), 0, Hand.NOWHERE, 1)
+    after, _ = EIGHT.play(position_of({0: CUE, 11: NEAR, **far}, EIGHT), action(AT_POCKET))
+    assert after.state[0] == 2 and after.player == 0
+    # A ball of the other group met first is a foul; the other then has his own group.
+    after, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2), action(AT_POCKET))
+    assert turn.code == carom.Foul.FIRST and (after.player, after.hand, after.state[0]) == (1, Hand.ANYWHERE, 1)
+    for group, places, winner in ((1, {8: NEAR, 12: (0.7, 2.2)}, 0), (1, {8: NEAR, 5: (0.6, 2.0)}, 1)):
+        after, _ = EIGHT.play(position_of({0: CUE, **places}, EIGHT, group=group), action(AT_POCKET))
+        assert after.winner == winner
+    assert EIGHT.on(position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2)) == (12,)
+    # What an observation tells is the position again, for whoever is at the table.
+    position = position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2, player=1)
+    again = EIGHT.seen(EIGHT.observe(position, 1))
+    assert again.balls[[0, 3, 5, 12, 8]].tobytes() == position.balls[[0, 3, 5, 12, 8]].tobytes() and (again.state == position.state).all()
+    assert EIGHT.observe(position, 0)[-1] == 1.0 and EIGHT.observe(position, 1)[-1] == 2.0
+    assert EIGHT.observe(EIGHT.begin(1), 0)[-3:].tolist() == [1.0, 1.0, 0.0]
+
+
+def test_what_strokes_are_worth():
+    """`tried` is what `play` gives without noise, of both games, also of a cue ball in hand."""
+    generator = np.random.default_rng(5)
+    for rules in (RULES, EIGHT):
+        seen = set()
+        for before in (position_of({0: CUE, 3: NEAR, 5: (0.6, 2.0), 8: (0.3, 2.3), 9: (0.9, 1.2)}, rules), rules.begin(2)):
+            actions = generator.uniform(-1.0, 1.0, (60, 6))
+            actions[:5, :4] = AT_POCKET
+            for worth, one in zip(rules.tried(before, actions), actions):
+                after, turn = rules.play(before, one)
+                expected = 1.0 if after.winner == 0 else -1.0 if after.winner == 1 else -0.5 if turn.foul else 0.5 if after.player == 0 else 0.0
+                assert worth == expected
+                seen.add(expected)
+        assert seen >= {-0.5, 0.0, 0.5}
+
+
 # ---- PettingZoo -----------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture
 def environment():
     pytest.importorskip("pettingzoo", reason="PettingZoo is not installed")
-    from carom.pettingzoo import NineBallEnv
+    from carom.pettingzoo import PoolEnv
 
-    return NineBallEnv
+    return PoolEnv
 
 
 def test_pettingzoo_finds_nothing_wrong(environment):
@@ -174,9 +219,9 @@ def test_a_game_of_the_environment(environment):
 
 def test_the_planner_is_an_opponent():
     """It wins against strokes at random, also in hand and at the break, and its actions are those of the space."""
-    from carom.pettingzoo import NineBallEnv
+    from carom.pettingzoo import PoolEnv
 
-    game = NineBallEnv(strokes=60, noise=(0.1, 0.1, 0.003))
+    game = PoolEnv(strokes=60, noise=(0.1, 0.1, 0.003))
     won = 0
     for seed in range(3):
         game.reset(seed=seed)

@@ -13,7 +13,7 @@ import carom
 from carom._draws import Draws
 from carom.potting import Potting
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "potting_agents.py"
+EXAMPLE = Path(__file__).parents[1] / "examples" / "game_agents.py"
 
 
 @pytest.fixture
@@ -217,7 +217,7 @@ def test_many_games_are_single_games(gymnasium, threads):
     arguments = {"balls": 3, "strokes": 4, "cushion_model": "han", "noise": (0.5, 0.1, 0.02), "parameters": {"mu_roll": (0.005, 0.015)}}
     envs = gymnasium.make_vec("carom/Potting-v0", num_envs=7, threads=threads, **arguments)
     singles = gymnasium.make_vec("carom/Potting-v0", num_envs=7, vectorization_mode="sync", **arguments)
-    assert type(envs.unwrapped).__name__ == "PottingVectorEnv" and type(singles).__name__ == "SyncVectorEnv"
+    assert type(envs.unwrapped).__name__ == "GameVectorEnv" and type(singles).__name__ == "SyncVectorEnv"
     assert envs.observation_space == singles.observation_space and envs.action_space == singles.action_space
     assert envs.metadata["autoreset_mode"] == singles.metadata["autoreset_mode"]
     generator = np.random.default_rng(seed)
@@ -241,7 +241,7 @@ def test_many_games_are_single_games(gymnasium, threads):
 
 
 def test_a_step_before_a_reset_says_what_is_needed(gymnasium):
-    for env, action in ((carom.gymnasium.PottingEnv(), np.zeros(4)), (carom.gymnasium.PottingVectorEnv(3), np.zeros((3, 4)))):
+    for env, action in ((carom.gymnasium.GameEnv(), np.zeros(4)), (carom.gymnasium.GameVectorEnv(3), np.zeros((3, 4)))):
         with pytest.raises(gymnasium.error.ResetNeeded, match=r"call reset\(\)"):
             env.step(action)
         env.reset(seed=1)
@@ -325,12 +325,12 @@ def test_pictures(gymnasium):
         # the cue ball is white where it lay, and elsewhere afterwards
         assert (before == 255).all(axis=-1).any() and (before != after).any(axis=-1).sum() > 200
     with pytest.raises(ValueError, match="render_mode: must be None, 'svg' or 'rgb_array', not 'human'"):
-        carom.gymnasium.PottingEnv(render_mode="human")
+        carom.gymnasium.GameEnv(render_mode="human")
 
 
 def test_the_greedy_agent_does_better_than_chance(gymnasium, tmp_path):
     """Paired over 40 games with the same layouts: the mean difference is above 0 by ten of its standard errors."""
-    spec = importlib.util.spec_from_file_location("potting_agents", EXAMPLE)
+    spec = importlib.util.spec_from_file_location("game_agents", EXAMPLE)
     example = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(example)
     picture = tmp_path / "potting.svg"
@@ -345,21 +345,98 @@ def test_the_greedy_agent_does_better_than_chance(gymnasium, tmp_path):
     np.testing.assert_array_equal(example.main([*line, "--plans", ""])["random"], by_chance)
 
 
-def test_games_with_fixed_rules(gymnasium):
-    """Each id is a game that both makers know, with the errors of a player of 600; one that is the vector's first is its own."""
+@pytest.mark.parametrize("name", ["PotOne", "RunOutSix", "ThreeCushion", "Break", "NineBall", "EightBall"])
+def test_games_with_fixed_rules(gymnasium, name):
+    """Each id is a game that both makers know, with the errors of a player of 600; one that is the vector's first is its own, to its end."""
     from gymnasium.utils.env_checker import check_env
 
+    name = f"carom/{name}-v0"
+    rules = carom.gymnasium.GAMES[name]
     player = carom.player(fargo=600)
-    np.testing.assert_allclose(carom.gymnasium._ERRORS, [float(player[name]) for name in ("phi", "speed", "a")], rtol=0.01)
-    for name, rules in carom.gymnasium.GAMES.items():
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            check_env(gymnasium.make(name).unwrapped, skip_render_check=True)
-        alone, many = gymnasium.make(name), gymnasium.make_vec(name, num_envs=3)
-        seen, _ = alone.reset(seed=5)
-        assert alone.unwrapped.rules.balls == rules.get("balls", 5) and alone.unwrapped.rules.noise == rules.get("noise", (0.0, 0.0, 0.0))
-        np.testing.assert_array_equal(seen, many.reset(seed=5)[0][0])
-        np.testing.assert_array_equal(alone.step([0.1, 0.2, 0.0, 0.0])[0], many.step(np.tile([0.1, 0.2, 0.0, 0.0], (3, 1)))[0][0])
+    np.testing.assert_allclose(rules["noise"], [float(player[field]) for field in ("phi", "speed", "a")], rtol=0.01)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(gymnasium.make(name, render_mode="rgb_array", disable_env_checker=False).unwrapped)
+        alone = gymnasium.make(name, render_mode="svg", disable_env_checker=False)
+    many = gymnasium.make_vec(name, num_envs=3)
+    seen, _ = alone.reset(seed=5)
+    np.testing.assert_array_equal(seen, many.reset(seed=5)[0][0])
+    own, generator, ended = alone.unwrapped.rules, np.random.default_rng(3), False
+    assert alone.observation_space.shape == seen.shape and own.noise == rules["noise"]
+    for k in range(4):
+        # A planner's stroke of few shots, and strokes at random.
+        action = own.best_seen(seen, shots=100) if k == 0 else generator.uniform(-1.0, 1.0, own.acts)
+        assert alone.action_space.contains(action) and own.tried(seen, action[np.newaxis]).shape == (1,)
+        seen, reward, ended, truncated, info = alone.step(action)
+        of_many = many.step(np.tile(action, (3, 1)))
+        np.testing.assert_array_equal(seen, of_many[0][0])
+        assert (reward, ended, truncated) == (of_many[1][0], of_many[2][0], False) and seen in alone.observation_space
+        assert {key: values[0] for key, values in of_many[4].items() if key[0] != "_"} == info
+        assert alone.render().startswith("<svg")
+        if ended:
+            break
+
+
+def test_points_of_three_cushion(gymnasium):
+    """Those of the rules, stroke by stroke; the balls stay."""
+    rules = carom.gymnasium.RULES["threecushion"](strokes=3)
+    layouts = rules.deal(Draws(range(200)), np.arange(200))
+    actions = np.random.default_rng(2).uniform(-1.0, 1.0, (200, 4))
+    strokes = rules.play(layouts, actions)
+    cues = rules.cues(actions)
+    for k in range(200):
+        ruling = carom.referee(rules.table, layouts[k], cues[k], rules="threecushion")
+        assert strokes.rewards[k] == ruling.points and (strokes.potted[k], strokes.scratch[k]) == (0, False)
+        assert strokes.layouts["state"]["r"][k].tobytes() == ruling.balls["state"]["r"].tobytes()
+    best = np.stack([rules.best(layout, shots=300) for layout in layouts[:20]])
+    assert rules.play(layouts[:20], best).rewards.sum() >= 10 > strokes.rewards[:20].sum()
+    with pytest.raises(ValueError, match="must have no pockets"):
+        carom.gymnasium.GameEnv("threecushion", table=carom.tables.pool_9ft())
+
+
+def test_the_break(gymnasium):
+    """The cue ball lies where the action says, behind the head string; rewards are those of the rules of nine-ball."""
+    rules = carom.gymnasium.RULES["break"]()
+    layouts = rules.deal(Draws(range(40)), np.arange(40))
+    assert np.unique(layouts["state"]["r"], axis=0).shape[0] == 40
+    actions = np.concatenate([np.tile(rules.actions(90.0, 9.0), (40, 1)), np.zeros((40, 2))], axis=1)
+    actions[:, 4] = np.linspace(-1.0, 1.0, 40)
+    actions[20:, 1] = -0.9
+    strokes = rules.play(layouts, actions)
+    laid = rules.placed(layouts, actions)
+    low, high = rules.corners()
+    np.testing.assert_allclose(laid["state"]["r"][[0, 39], 0, 0], [low[0], high[0]], rtol=1e-15)
+    assert (strokes.rewards[20:] == -1.0).all()
+    for k in range(40):
+        ruling = carom.referee(rules.table, laid[k], rules.cues(actions[k]), rules="nineball", opening=True)
+        assert strokes.rewards[k] == len([ball for ball in ruling.potted if ball]) - bool(ruling.foul)
+    assert rules.tried(rules.observe(layouts, 1)[0], rules.best(layouts[0], shots=100)) in range(-1, 10)
+
+
+def test_a_match(gymnasium):
+    """The agent plays until a foul or a miss; then the opponent does until the agent plays again, by the rules of pool, or has won."""
+    from carom.matches import Match
+
+    env = carom.gymnasium.GameEnv("nineball", strokes=30)
+    observation, _ = env.reset(seed=4)
+    ended = False
+    for _ in range(30):
+        position = env.rules.seen(observation)
+        assert position.player == 0 and position.winner is None
+        # a soft stroke away from the rack is always a foul: three of them lose, and the opponent plays between
+        observation, reward, ended, _, info = env.step([-0.5, -1.0, 0.0, 0.0, 0.0, 0.0])
+        assert info["foul"] != 0
+        if ended:
+            break
+        assert observation[30] == 2.0 or env.rules.seen(observation).fouls[0] > 0
+    assert ended and reward == -1.0 and observation[-1] >= 27
+    for options in ({"layout": np.zeros((10, 2))}, {"strokes": 31}):
+        with pytest.raises(ValueError, match="layout: a match begins|strokes: must be 1 to 30"):
+            env.reset(options=options)
+    with pytest.raises(ValueError, match="game: must be one of 'potting'"):
+        carom.gymnasium.GameEnv("snooker")
+    with pytest.raises(ValueError, match="opponent_shots"):
+        Match(opponent_shots=1)
 
 
 def test_the_planner_pots_more_than_chance():

@@ -33,6 +33,18 @@ class Draws:
         """Begins some games anew."""
         self._at[games] = np.asarray(keys, np.uint64)
 
+    def of(self, game: int) -> Draws:
+        """The numbers of one game, as those of a game alone."""
+        return Draws(self._at[game : game + 1])
+
+    def keep(self, game: int, drawn: Draws) -> None:
+        """Go on in one game where `drawn`, of a game alone, stands."""
+        self._at[game] = drawn._at[0]
+
+    def key(self, game: int) -> int:
+        """A seed for what draws its own numbers, from 0 to 2**53 - 1."""
+        return int(self.uniform(np.array([game]), 1)[0, 0] * 2.0**53)
+
     def copy(self) -> Draws:
         """The same numbers once more."""
         return Draws(self._at)

@@ -1,20 +1,21 @@
-"""The game of `carom.potting` as environments of gymnasium: one game, and many at once.
+"""Games for agents as environments of gymnasium: one game, and many at once.
 
     import gymnasium
     import carom.gymnasium
 
-    game = gymnasium.make("carom/Potting-v0", balls=5, strokes=5, render_mode="svg")
+    game = gymnasium.make("carom/RunOutSix-v0", render_mode="svg")
     games = gymnasium.make_vec("carom/Potting-v0", num_envs=64, cushion_model="han", threads=-1)
 
 `GAMES` has the ids. What an id with a version gives for an action and a seed changes only with `carom.physics_revision()`; other rules get another version.
 
-Actions, observations, rewards and ends are those of `carom.potting.Potting`, whose arguments both take; `rules` is that object. Game k
-of many with the seed s is the game alone with the seed s + k, to the bit. Needs gymnasium 1.1 or later.
+Actions, observations, rewards and ends are those of the rules, `RULES`, whose arguments both take; `rules` is that object. Game k of many with
+the seed s is the game alone with the seed s + k, to the bit. Needs gymnasium 1.1 or later.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import functools
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, cast
 
 import numpy as np
@@ -23,6 +24,8 @@ import numpy.typing as npt
 from carom import dtypes, pictures
 from carom._draws import Draws, Games
 from carom._rows import listing, raw
+from carom.drills import Break, ThreeCushion
+from carom.matches import Match
 from carom.potting import Potting, Strokes
 
 try:
@@ -35,10 +38,16 @@ except ImportError as missing:
     message = "carom.gymnasium needs gymnasium 1.1 or later, which is not installed here: pip install gymnasium"
     raise ImportError(message, name=missing.name) from missing
 
-__all__ = ["GAMES", "PottingEnv", "PottingVectorEnv"]
+__all__ = ["GAMES", "RULES", "GameEnv", "GameVectorEnv"]
 __dir__ = listing(__name__)
 
 RenderMode = Literal["svg", "rgb_array"]
+Rules = Potting | Match
+RULES: dict[str, Callable[..., Rules]] = {
+    "potting": Potting, "threecushion": ThreeCushion, "break": Break,
+    "nineball": functools.partial(Match, "nineball"), "eightball": functools.partial(Match, "eightball"),
+}  # fmt: skip
+"""The rules of an environment by the word `game`: classes, and `Match` of both games of pool."""
 _OPTIONS = {"layout", "strokes"}
 _Bools = npt.NDArray[np.bool_]
 _ONE: Games = np.zeros(1, np.int64)
@@ -47,10 +56,11 @@ _ONE: Games = np.zeros(1, np.int64)
 class _Games:
     """The state of games, and what both environments do with it. Each game has random numbers of its own."""
 
-    def __init__(self, rules: Potting, games: int, render_mode: str | None) -> None:
+    def __init__(self, rules: Rules, games: int, render_mode: str | None) -> None:
         pictures.check_render_mode(render_mode)
         self.rules = rules
         self.balls: dtypes.Records = np.zeros((games, rules.balls + 1), dtypes.shot_ball)
+        self.words: npt.NDArray[np.uint64] = np.tile(np.array(rules.words, np.uint64), (games, 1))
         self.left: npt.NDArray[np.int64] = np.zeros(games, np.int64)
         self.ended: _Bools = np.ones(games, np.bool_)
         self.begun = False
@@ -59,7 +69,7 @@ class _Games:
         self.render_mode = render_mode
         self.drawn = render_mode is not None
         self.before = self.balls.copy()
-        self.actions: dtypes.Doubles = np.zeros((games, 4))
+        self.actions: dtypes.Doubles = np.zeros((games, rules.acts))
         self.struck: _Bools = np.zeros(games, np.bool_)
 
     def begin(self, games: Games, layouts: Sequence[Any] | None = None, strokes: int | None = None) -> None:
@@ -71,6 +81,7 @@ class _Games:
         if given is not None:
             dealt["state"] = given["state"]
         raw(self.balls)[games] = raw(dealt)
+        self.words[games] = self.rules.words
         self.left[games] = self.rules.strokes if strokes is None else strokes
         self.ended[games] = False
         self.begun = True
@@ -84,26 +95,22 @@ class _Games:
         everyone = len(games) == len(self.balls)
         which: Any = slice(None) if everyone else games
         before = self.balls if everyone else raw(self.balls)[games].view(dtypes.shot_ball)
-        done = self.rules.disturbed(actions, self.draws, games)
-        strokes = self.rules.play(before, done)
+        words = self.words[which]
+        struck, done, strokes, ended = self.rules.turn(before, words, actions, self.draws, games)
         self.left[which] -= 1
-        self.ended[which] = self.rules.ended(strokes.layouts, self.left[which])
+        self.ended[which] = ended | (self.left[which] <= 0)
+        self.words[which] = words
         if self.drawn:
-            raw(self.before)[which] = raw(before)
+            raw(self.before)[which] = raw(struck)
             self.actions[which], self.struck[which] = done, True
         if everyone:
             self.balls = strokes.layouts
         else:
             raw(self.balls)[games] = raw(strokes.layouts)
-        back = games[strokes.scratch]
-        if len(back):
-            balls = self.balls[back]
-            self.rules.put_back(balls, self.draws, back)
-            self.balls[back] = balls
         return strokes
 
     def observe(self) -> dtypes.Doubles:
-        return self.rules.observe(self.balls, self.left)
+        return self.rules.observe(self.balls, self.left, self.words)
 
     def render(self, game: int) -> Any:
         """The picture of one game: its balls and the paths of its last stroke."""
@@ -112,10 +119,16 @@ class _Games:
         return pictures.rendered(self.rules.shot(self.before[game], self.actions[game] if self.struck[game] else None), self.render_mode)
 
 
-def _spaces(rules: Potting) -> tuple[Any, Any]:
+def _spaces(rules: Rules) -> tuple[Any, Any]:
     """Of one game: that of observations, that of actions. Versions of gymnasium differ in what type a Box has."""
     low, high = rules.bounds()
-    return spaces.Box(low, high, dtype=np.float64), spaces.Box(-1.0, 1.0, (4,), dtype=np.float64)
+    return spaces.Box(low, high, dtype=np.float64), spaces.Box(-1.0, 1.0, (rules.acts,), dtype=np.float64)
+
+
+def _rules(game: str, rules: dict[str, Any]) -> Rules:
+    if game not in RULES:
+        raise ValueError(f"game: must be one of {', '.join(map(repr, RULES))}, not {game!r}")
+    return RULES[game](**rules)
 
 
 def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
@@ -126,19 +139,19 @@ def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
     return given
 
 
-class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
-    """One game of `carom.potting.Potting`: `balls`, `strokes` and **rules are its arguments.
+class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
+    """One game: `game` names the rules, of `RULES`, and **rules are their arguments.
 
     `render` gives a picture of the last stroke, from where the balls lay (faint) to where they came to rest: with `render_mode="svg"` its
     text, with "rgb_array" an image of shape (height, width, 3), of which `gymnasium.wrappers.RecordVideo` makes a film. `info` after a stroke: potted (int), scratch (bool), foul (int, as `carom.Foul`), status (int, as `carom.Status`), time (s). Options of `reset`:
-    layout, the centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no
-    truncation: the observation contains the number of strokes left.
+    layout, the centres (m) of shape (balls + 1, 2), the cue ball first, which matches refuse; strokes, at most those of the environment. There
+    is no truncation: the observation contains the number of strokes left.
     """
 
     metadata: dict[str, Any] = {"render_modes": list(pictures.RENDER_MODES), "render_fps": 1}
 
-    def __init__(self, balls: int = 5, strokes: int = 5, *, render_mode: RenderMode | None = None, **rules: Any) -> None:
-        self.rules = Potting(balls, strokes, **rules)
+    def __init__(self, game: str = "potting", *, render_mode: RenderMode | None = None, **rules: Any) -> None:
+        self.rules = _rules(game, rules)
         self.render_mode = render_mode
         self.observation_space, self.action_space = _spaces(self.rules)
         self._games = _Games(self.rules, 1, render_mode)
@@ -167,24 +180,22 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         return self._games.render(0)
 
 
-class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]]):
-    """Many games of `carom.potting.Potting`, all strokes of a step in one `carom.simulate_batch`.
+class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]]):
+    """Many games, all strokes of a step in one `carom.simulate_batch`, but for matches, which are played one after another.
 
-    Arguments are those of `PottingEnv`, after the number of games; `threads` plays the strokes of a step side by side, and `render`
+    Arguments are those of `GameEnv`, after the number of games; `threads` plays the strokes of a step side by side, and `render`
     gives a tuple of pictures. A game that has ended begins anew with the next step, whose action for it is not played
     (AutoresetMode.NEXT_STEP, gymnasium's default). Seeds are as for gymnasium's SyncVectorEnv: s is s, s + 1, ...; a list has one for
-    each game. Options of `reset` are as for `PottingEnv`; layout may be of shape (num_envs, balls + 1, 2). `infos` has arrays, and
+    each game. Options of `reset` are as for `GameEnv`; layout may be of shape (num_envs, balls + 1, 2). `infos` has arrays, and
     under "_" + name where they are set.
     """
 
     metadata: dict[str, Any] = {"render_modes": list(pictures.RENDER_MODES), "render_fps": 1, "autoreset_mode": AutoresetMode.NEXT_STEP}
 
-    def __init__(
-        self, num_envs: int = 1, balls: int = 5, strokes: int = 5, *, render_mode: RenderMode | None = None, **rules: Any
-    ) -> None:
+    def __init__(self, num_envs: int = 1, game: str = "potting", *, render_mode: RenderMode | None = None, **rules: Any) -> None:
         if num_envs < 1:
             raise ValueError(f"num_envs: must be at least 1, not {num_envs}")
-        self.rules = Potting(balls, strokes, **rules)
+        self.rules = _rules(game, rules)
         self.num_envs = num_envs
         self.render_mode = render_mode
         observed, acted = _spaces(self.rules)
@@ -219,8 +230,8 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
     ) -> tuple[dtypes.Doubles, npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any], dict[str, Any]]:
         """Play a stroke of each game, or begin it anew: observations (num_envs, ...); rewards, terminated, truncated (num_envs,); infos."""
         given = np.asarray(actions, dtype=np.float64)
-        if given.shape != (self.num_envs, 4):
-            raise ValueError(f"actions: the shape must be ({self.num_envs}, 4), not {given.shape}")
+        if given.shape != (self.num_envs, self.rules.acts):
+            raise ValueError(f"actions: the shape must be ({self.num_envs}, {self.rules.acts}), not {given.shape}")
         if not self._games.begun:
             raise gymnasium.error.ResetNeeded("no game has begun: call reset() before the first step()")
         playing = ~self._games.ended
@@ -251,10 +262,15 @@ GAMES: dict[str, dict[str, Any]] = {
     "carom/Potting-v0": {},
     "carom/PotOne-v0": {"balls": 1, "strokes": 1, "noise": _ERRORS},
     "carom/RunOutSix-v0": {"balls": 6, "strokes": 6, "noise": _ERRORS},
+    "carom/ThreeCushion-v0": {"game": "threecushion", "strokes": 10, "noise": _ERRORS},
+    "carom/Break-v0": {"game": "break", "noise": _ERRORS},
+    "carom/NineBall-v0": {"game": "nineball", "strokes": 60, "noise": _ERRORS},
+    "carom/EightBall-v0": {"game": "eightball", "strokes": 60, "noise": _ERRORS},
 }
-"""The ids, and the arguments of `PottingEnv` that they have. Of the last two strokes err as those of a player with a Fargo rating of 600."""
+"""The ids, and the arguments of `GameEnv` that they have. But in the first, strokes err as those of a player with a Fargo rating of 600; the opponent
+of the last two is the planner with 300 shots and the errors of a 500."""
 _registry = cast("Any", gymnasium)
 for _id, _arguments in GAMES.items():
     if _id not in _registry.registry:
-        entry = {"entry_point": "carom.gymnasium:PottingEnv", "vector_entry_point": "carom.gymnasium:PottingVectorEnv"}
+        entry = {"entry_point": "carom.gymnasium:GameEnv", "vector_entry_point": "carom.gymnasium:GameVectorEnv"}
         _registry.register(_id, kwargs=_arguments, **entry)

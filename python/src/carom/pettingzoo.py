@@ -1,14 +1,14 @@
-"""Nine-ball (`carom.nineball`) as an environment of PettingZoo, in which two agents take turns. An experiment: names may change.
+"""Nine-ball and eight-ball (`carom.pool`) as an environment of PettingZoo, in which two agents take turns.
 
-    from carom.pettingzoo import NineBallEnv
+    from carom.pettingzoo import PoolEnv
 
-    game = NineBallEnv(cushion_model="han")
+    game = PoolEnv("nineball", cushion_model="han")
     game.reset(seed=1)
     for agent in game.agent_iter():
         observation, reward, terminated, truncated, info = game.last()
         game.step(None if terminated or truncated else game.action_space(agent).sample())
 
-Actions, observations and rules are those of `carom.nineball.NineBall`. The winner gets 1, the other -1. Needs PettingZoo.
+Actions, observations and rules are those of `carom.pool.Pool`. The winner gets 1, the other -1. Needs PettingZoo.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from carom import dtypes, pictures
 from carom._rows import listing
-from carom.nineball import NineBall, Turn
+from carom.pool import Pool, Turn
 
 try:
     from gymnasium import spaces
@@ -30,25 +30,25 @@ except ImportError as missing:
     message = "carom.pettingzoo needs PettingZoo, which is not installed here: pip install pettingzoo"
     raise ImportError(message, name=missing.name) from missing
 
-__all__ = ["NineBallEnv"]
+__all__ = ["PoolEnv"]
 __dir__ = listing(__name__)
 
 _PLAYERS = ("player_0", "player_1")
 
 
-class NineBallEnv(AECEnv):
-    """One game of nine-ball: **options are those of `NineBall`. After so many `strokes`, both players together, it is truncated.
+class PoolEnv(AECEnv):
+    """One game of pool, whose rules are `Pool(game, **options)`. After so many `strokes`, both players together, it is truncated.
 
-    `render_mode` is as for `carom.gymnasium.PottingEnv`. `infos` of both players, after a stroke: foul (why, or empty), first (the ball
+    `render_mode` is as for `carom.gymnasium.GameEnv`. `infos` of both players, after a stroke: foul (why, or empty), first (the ball
     touched first, 0 for none), potted (a list), hand.
     """
 
-    metadata: dict[str, Any] = {"name": "carom_nineball_v0", "render_modes": list(pictures.RENDER_MODES), "render_fps": 1, "is_parallelizable": False}
+    metadata: dict[str, Any] = {"name": "carom_pool_v1", "render_modes": list(pictures.RENDER_MODES), "render_fps": 1, "is_parallelizable": False}
 
-    def __init__(self, strokes: int = 200, *, render_mode: Literal["svg", "rgb_array"] | None = None, **options: Any) -> None:
+    def __init__(self, game: Literal["nineball", "eightball"] = "nineball", strokes: int = 200, *, render_mode: Literal["svg", "rgb_array"] | None = None, **options: Any) -> None:
         super().__init__()
         pictures.check_render_mode(render_mode)
-        self.rules = NineBall(**options)
+        self.rules = Pool(game, **options)
         self.strokes = strokes
         self.render_mode = render_mode
         self.possible_agents = list(_PLAYERS)
@@ -66,7 +66,7 @@ class NineBallEnv(AECEnv):
         return self._acted[agent]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
-        """Begin a game with the break of player_0; options: "position", a `carom.nineball.Position` to begin with."""
+        """Begin a game with the break of player_0; options: "position", a `carom.pool.Position` to begin with."""
         if seed is not None:
             self._generator = seeding.np_random(seed)[0]
         given = {} if options is None else options

@@ -1,5 +1,7 @@
 """A game for agents: pot as many balls of a random layout as you can within a number of strokes. `carom.gymnasium` plays it.
 
+`carom.drills` has others of the same form, `carom.matches` those against an opponent.
+
 This module does not need gymnasium. `Potting` has the rules, as functions of arrays over many games. An agent that plans can use them:
 it plays a thousand strokes from its observation, and then chooses one.
 """
@@ -8,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -15,10 +18,11 @@ import numpy.typing as npt
 from carom import dtypes, layouts, plans, tables
 from carom._draws import Draws as Draws
 from carom._draws import Games
-from carom._rows import Arrays, choice, copied, listing, number, repeated, several, whole
+from carom._rows import Arrays, choice, copied, listing, number, raw, repeated, several, whole
 from carom._shot_options import Options, ShotCushion, shot_options
 from carom.layouts import Game, Table
 from carom.results import Label, Shot
+from carom.rules import Game as RulesGame
 from carom.rules import Made, judge
 from carom.shots import simulate, simulate_batch
 
@@ -47,6 +51,15 @@ class Strokes(Arrays):
     # they were.
     status: npt.NDArray[np.int8]
     time: dtypes.Doubles  # (...): How long the balls moved, s
+
+
+class Turned(NamedTuple):
+    """What a stroke of each of some games was, for the environments."""
+
+    struck: dtypes.Records  # (..., balls + 1): The layouts as they were struck
+    actions: dtypes.Doubles  # (..., acts): What was struck: the actions with the noise
+    strokes: Strokes
+    ended: npt.NDArray[np.bool_]  # (...): Whether the game is over, whatever strokes are left
 
 
 class Potting:
@@ -84,6 +97,13 @@ class Potting:
         As for `carom.simulate_batch`.
     """
 
+    acts: ClassVar[int] = 4
+    """How many numbers an action has."""
+    words: ClassVar[tuple[int, ...]] = ()
+    """What the state of a game has besides its balls, as it begins."""
+    _game: ClassVar[RulesGame] = "potting"
+    _state: ClassVar[tuple[int, ...] | None] = None
+
     def __init__(
         self, balls: int = 5, strokes: int = 5, *, table: Table | None = None, ball_set: Game = "pool",
         noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
@@ -105,11 +125,12 @@ class Potting:
             raise TypeError(f"reward: a function of the layouts and what the strokes gave is needed, not {reward!r}")
         choice(layouts.GAMES, ball_set, "ball_set")
         shot_options(Options(cushion_model=cushion_model), threads)  # raises where one of them is wrong
-        usual = tables.snooker if "snooker" in ball_set else tables.pool_9ft
+        pockets = self._game != "threecushion"
+        usual = tables.snooker if "snooker" in ball_set else tables.pool_9ft if pockets else tables.threecushion
         self.table = usual() if table is None else table
         layouts.check_table(self.table)
-        if len(self.table.pockets) == 0:
-            raise ValueError("table: must have pockets")
+        if (len(self.table.pockets) > 0) != pockets:
+            raise ValueError(f"table: must have {'' if pockets else 'no '}pockets")
         size, p, q = np.array([self.table.width, self.table.length]), self.table.rails["p"], self.table.rails["q"]
         for place in np.concatenate([p, q, (p + q) / 2.0]):
             if (place > 1e-6).all() and (place < size - 1e-6).all():
@@ -126,7 +147,7 @@ class Potting:
         # Of an action, whose numbers are -1 to 1.
         self._noise = np.array([noise[0] / 180.0, 2.0 * noise[1] / max(speeds[1] - speeds[0], 1e-12), noise[2] / 0.35, noise[2] / 0.35])
         self.noise = noise
-        self._rules = Made("potting", None)
+        self._rules = Made(self._game, self._state)
         self._cue = layouts.cue().tobytes()
         ball = layouts.balls(np.zeros((1, 2)), game=ball_set)
         self._ball = ball.tobytes()
@@ -163,10 +184,10 @@ class Potting:
         return low, high
 
     def cues(self, actions: npt.ArrayLike) -> dtypes.Records:
-        """The strikes of actions, of shape (..., 4): `carom.dtypes.cue` of shape (...)."""
+        """The strikes of actions, of shape (..., acts): `carom.dtypes.cue` of shape (...)."""
         given = np.asarray(actions, dtype=np.float64)
-        if given.ndim == 0 or given.shape[-1] != 4 or not np.isfinite(given).all():
-            raise ValueError(f"actions: finite numbers of shape (..., 4) are needed, not of shape {given.shape}: {given}")
+        if given.ndim == 0 or given.shape[-1] != self.acts or not np.isfinite(given).all():
+            raise ValueError(f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {given.shape}: {given}")
         given = _within(given)
         least, most = self.speeds
         cues = repeated(self._cue, dtypes.cue, given.shape[:-1])
@@ -185,7 +206,7 @@ class Potting:
         parts = np.broadcast_arrays(turn, hard, np.asarray(a, dtype=np.float64) / 0.35, np.asarray(b, dtype=np.float64) / 0.35)
         return np.stack(parts, axis=-1)
 
-    def observe(self, balls: dtypes.Records, strokes_left: npt.ArrayLike) -> dtypes.Doubles:
+    def observe(self, balls: dtypes.Records, strokes_left: npt.ArrayLike, words: object = None) -> dtypes.Doubles:
         """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) + 1)."""
         seen = np.empty((*balls.shape[:-1], 3 * balls.shape[-1] + 1))
         state = balls["state"]
@@ -224,10 +245,18 @@ class Potting:
         It looks for the stroke that pots the largest share of the balls in one visit, by a plan of so many `shots`.
         """
         found = plans.plan(
-            self.table, balls, rules="potting", player=self.player(), shots=shots, seed=seed, best=1, threads=self.threads,
+            self.table, balls, rules=self._game, player=self.player(), shots=shots, seed=seed, best=1, threads=self.threads,
             cushion_model=self.cushion_model,
         )["cue"][0]  # fmt: skip
         return self.actions(found["phi"], found["speed"], found["a"], found["b"])
+
+    def best_seen(self, observation: npt.ArrayLike, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
+        """The action, of shape (acts,), of the library's planner for an observation."""
+        return self.best(self.layouts(observation), shots=shots, seed=seed)
+
+    def tried(self, observation: npt.ArrayLike, actions: npt.ArrayLike) -> dtypes.Doubles:
+        """What actions of shape (..., acts) are worth for the next stroke alone, without noise, of shape (...): here their rewards."""
+        return self.play(self.layouts(observation), actions).rewards
 
     # ---- The game -------------------------------------------------------------------------------------------------------
 
@@ -290,10 +319,10 @@ class Potting:
         return np.asarray(clear)
 
     def disturbed(self, actions: npt.ArrayLike, draws: Draws, games: Games) -> dtypes.Doubles:
-        """The actions of some games, of shape (len(games), 4), as they are carried out: with the noise."""
+        """The actions of some games, of shape (len(games), acts), as they are carried out: with the noise."""
         given = _within(np.asarray(actions, dtype=np.float64))
         if any(self.noise):
-            given += self._noise * draws.normal(games, 4)
+            given[..., :4] += self._noise * draws.normal(games, 4)
             given[..., 0] = (given[..., 0] + 1.0) % 2.0 - 1.0
         return given
 
@@ -315,17 +344,32 @@ class Potting:
         turns = judge(self._rules, before, shots)
         failed = (shots.status < 0) | (shots.final["label"] == _OFF).any(axis=-1)
         after = copied(before)
-        after["state"] = shots.final
+        raw(after["state"])[...] = raw(shots.final)
         if failed.any():
             after[failed] = before[failed]
         down = (after["state"]["label"] == _POCKETED) & (before["state"]["label"] != _POCKETED)
         potted, scratch = down[..., 1:].sum(axis=-1), down[..., 0]
-        rewards = potted - 1.0 * (turns["foul"] != 0)
+        rewards = self._rewards(potted, turns)
         strokes = Strokes(after, rewards, potted, scratch, turns["foul"], shots.status, shots.time)
         if self.reward is not None:
             own = np.asarray(self.reward(before, strokes), dtype=np.float64)
             strokes = replace(strokes, rewards=np.broadcast_to(own, rewards.shape).copy())
         return strokes
+
+    def _rewards(self, potted: npt.NDArray[np.int64], turns: dtypes.Records) -> dtypes.Doubles:
+        return np.asarray(potted - 1.0 * (turns["foul"] != 0))
+
+    def turn(self, balls: dtypes.Records, words: npt.NDArray[np.uint64], actions: npt.ArrayLike, draws: Draws, games: Games) -> Turned:
+        """One stroke of each of some games with their noise, of which a cue ball that fell lies on the table again. `words` is written to."""
+        done = self.disturbed(actions, draws, games)
+        strokes = self.play(balls, done)
+        ended = self.ended(strokes.layouts, 1)
+        back = np.flatnonzero(strokes.scratch)
+        if len(back):
+            again = strokes.layouts[back]
+            self.put_back(again, draws, games[back])
+            strokes.layouts[back] = again
+        return Turned(balls, done, strokes, ended)
 
     def ended(self, balls: dtypes.Records, strokes_left: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Whether games have ended: layouts of shape (..., balls + 1) to (...)."""

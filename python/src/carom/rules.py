@@ -273,6 +273,25 @@ def judge(made: Made, before: dtypes.Records, shots: Shots, states: State | None
     return turns
 
 
+def on_of(made: Made, layout: dtypes.Records) -> tuple[int, ...]:
+    """The balls of a layout, of shape (balls,), that may be met first."""
+    label = layout["state"]["label"]
+    return tuple(sorted(_of_set(int(made.c.on(made.c.user, int(((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]))))))
+
+
+def calls_of(made: Made, layout: dtypes.Records, shots: Shots) -> Array:
+    """The calls of shots with facts from a layout, int32 of shape (..., 2): the first ball on that falls, and its pocket; or -1, -1."""
+    facts: Any = shots._facts
+    falls = np.full(facts["pocket_time"].shape, np.inf)
+    on = [*on_of(made, layout)]
+    falls[..., on] = facts["pocket_time"][..., on]
+    ball = falls.argmin(axis=-1)
+    pocket = np.take_along_axis(facts["pocket"], ball[..., np.newaxis], axis=-1)[..., 0]
+    calls: Array = np.stack([np.where(pocket < 0, -1, ball), pocket], axis=-1).astype(np.int32)
+    calls[~np.isfinite(falls.min(axis=-1))] = -1
+    return calls
+
+
 @dataclass(frozen=True, repr=False)
 class Ruling(Arrays):
     """What a stroke was, and what comes next."""
