@@ -214,7 +214,7 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
   const carom_d d = carom_d_of(table->width, table->length);
   for (int i = -STEPS; i <= STEPS; i++)
     for (int j = 0; j <= STEPS; j++) {
-      const double c[2] = {d.x + d.radius * i / STEPS, d.y - d.radius * j / STEPS};
+      const double c[2] = {d.x + d.radius * i / (double)STEPS, d.y - d.radius * j / (double)STEPS};
       bool is_free = carom_is_in_d(table, c[0], c[1]);
       for (int k = 1; in_play >> k != 0 && is_free; k++) {
         const double x = balls[k].state.r[0] - c[0], y = balls[k].state.r[1] - c[1],
