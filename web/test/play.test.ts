@@ -107,6 +107,19 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.close();
   });
 
+  test("a finger that lets go of the drawn stick does not press Skip, which is there by then", async () => {
+    const one = await open("", { width: 390, height: 844, touch: true });
+    const box = (await one.locator("#shoot").boundingBox())!;
+    const devtools = await one.context().newCDPSession(one);
+    await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x: box.x + box.width / 2, y: box.y + box.height / 2 }] });
+    await expect.poll(async () => Number(await one.locator("#power").inputValue()), { timeout: 5000 }).toBeGreaterThan(4);
+    await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
+    await one.waitForTimeout(300);
+    expect(await one.locator("#skip").isVisible()).toBe(true);
+    await one.close();
+  });
+
   test("a stroke is not swallowed while a hint is looked for", async () => {
     const one = await open("");
     await one.locator("#hint").click();

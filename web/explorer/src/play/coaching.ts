@@ -51,7 +51,7 @@ export function coaching(carom: Carom, host: Host): { asked(): Asked; advise(): 
   async function chances(): Promise<void> {
     const mine = ++asking;
     const play = host.play();
-    if (!host.free() || !play.played || !onTable(play.balls[0]!.state)) return;
+    if (!host.free() || !play.played || play.setup.drill !== undefined || !onTable(play.balls[0]!.state)) return;
     await new Promise((later) => window.setTimeout(later, 120));
     if (mine !== asking || !host.free()) return;
     try {

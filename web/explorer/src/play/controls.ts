@@ -80,6 +80,12 @@ export function controls(host: Host): { side: HTMLElement; shoot: HTMLButtonElem
   };
   shoot.addEventListener("pointerup", (event) => letGo(event) && host.free() && host.shoot());
   shoot.addEventListener("pointercancel", letGo);
+  // A finger that let go of a drawn stick clicks nothing: Skip is there by now.
+  shoot.addEventListener("touchend", (event) => {
+    if (!drawing) return;
+    drawing = false;
+    event.preventDefault();
+  });
   shoot.addEventListener("contextmenu", (event) => event.preventDefault());
   shoot.addEventListener("click", () => {
     if (!drawing && host.free()) host.shoot();

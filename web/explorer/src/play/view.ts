@@ -237,7 +237,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     try {
       const one = play.stroke(made, calls);
       said.textContent = "";
-      if (settings.coach && play.played) void coach.lookBack(of, made, calls);
+      if (settings.coach && play.played && play.setup.drill === undefined) void coach.lookBack(of, made, calls);
       played(one);
     } catch (error) {
       said.textContent = error instanceof Error ? error.message : String(error);
