@@ -30,21 +30,15 @@ static const learned learned_of[4] = {
      .first = {1.032, -1.034, 1.755},
      .mean = 0.728,
      .stretch = 1.4},
-    {/* of 23101 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */
-     /* log-likelihood of a stroke -0.2798; of one number for all, -0.4112 */
+    {/* straight pool: the numbers of eight-ball; its own are not learned */
      .next = {-0.209, -0.768, 1.958, 1.979, -0.019, -0.171, 0.381},
-     /* log-likelihood of a stroke -0.3184; of one number for all, -0.3778 */
      .later = {1.904, -1.117, -0.509, 0.815},
-     /* log-likelihood of a stroke -0.5209; of one number for all, -0.5689 */
      .first = {2.661, -1.130, -2.505},
      .mean = 0.612,
      .stretch = 0.85},
-    {/* of 23101 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */
-     /* log-likelihood of a stroke -0.2798; of one number for all, -0.4112 */
+    {/* snooker: the numbers of eight-ball; its own are not learned */
      .next = {-0.209, -0.768, 1.958, 1.979, -0.019, -0.171, 0.381},
-     /* log-likelihood of a stroke -0.3184; of one number for all, -0.3778 */
      .later = {1.904, -1.117, -0.509, 0.815},
-     /* log-likelihood of a stroke -0.5209; of one number for all, -0.5689 */
      .first = {2.661, -1.130, -2.505},
      .mean = 0.612,
      .stretch = 0.85},
