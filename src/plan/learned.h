@@ -10,8 +10,9 @@ typedef struct learned {
   double stretch; /* of the log-odds of a value: carom-lab plan --games tells it */
 } learned;
 
-/* of eight-ball, and of games in which both have the same balls */
-static const learned learned_of[4] = {
+/* Of eight-ball, and of games in which both have the same balls. Games of points have the numbers
+ * of eight-ball: their own are not learned. */
+static const learned learned_of[2] = {
     {/* of 23101 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */
      /* log-likelihood of a stroke -0.2798; of one number for all, -0.4112 */
      .next = {-0.209, -0.768, 1.958, 1.979, -0.019, -0.171, 0.381},
@@ -30,18 +31,6 @@ static const learned learned_of[4] = {
      .first = {1.032, -1.034, 1.755},
      .mean = 0.728,
      .stretch = 1.4},
-    {/* straight pool: the numbers of eight-ball; its own are not learned */
-     .next = {-0.209, -0.768, 1.958, 1.979, -0.019, -0.171, 0.381},
-     .later = {1.904, -1.117, -0.509, 0.815},
-     .first = {2.661, -1.130, -2.505},
-     .mean = 0.612,
-     .stretch = 0.85},
-    {/* snooker: the numbers of eight-ball; its own are not learned */
-     .next = {-0.209, -0.768, 1.958, 1.979, -0.019, -0.171, 0.381},
-     .later = {1.904, -1.117, -0.509, 0.815},
-     .first = {2.661, -1.130, -2.505},
-     .mean = 0.612,
-     .stretch = 0.85},
 };
 
 #endif

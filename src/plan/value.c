@@ -111,14 +111,9 @@ static double chance(const double *w, const double *x, int n) {
   return 1.0 / (1.0 + carom_exp(-sum));
 }
 
-/* The numbers of the race of the game, or of the game. */
+/* The numbers of the race of the game. */
 static const learned *numbers_of(const carom_view *view) {
-  enum { SHARED = 1, STRAIGHT = 2, SNOOKER = 3 };
-  const carom_plan_rules *rules = view->rules;
-  return &learned_of[rules->race == CAROM_RACE_SHARED    ? SHARED
-                     : rules->race != CAROM_RACE_POINTS  ? 0
-                     : rules->rack == CAROM_RACK_SNOOKER ? SNOOKER
-                                                         : STRAIGHT];
+  return &learned_of[view->rules->race == CAROM_RACE_SHARED];
 }
 
 double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]) {

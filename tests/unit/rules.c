@@ -635,6 +635,21 @@ TEST(values_of_points) {
   }
 }
 
+/* A plan for the balls that lie here, with memory of its own. */
+static carom_plan_job job_of(int count, const carom_cue *cue, const carom_player *player,
+                             const carom_plan_rules *of, const carom_plan_options *options) {
+  const size_t size = carom_plan_memory(options);
+  return (carom_plan_job){.table = &table,
+                          .balls = balls,
+                          .count = count,
+                          .cue = cue,
+                          .player = player,
+                          .rules = of,
+                          .options = options,
+                          .memory = malloc(size),
+                          .memory_size = size};
+}
+
 /* Snooker: after a red a plan takes the black, where it is as easy as the yellow; and the yellow
  * where the black is out of reach. */
 TEST(colours_by_value_and_position) {
@@ -653,15 +668,7 @@ TEST(colours_by_value_and_position) {
     carom_cue cue = carom_cue_of(CAROM_GAME_SNOOKER);
     const carom_player player = carom_player_of(0.3);
     const carom_plan_options options = {.shots = 2000};
-    carom_plan_job job = {.table = &table,
-                          .balls = balls,
-                          .count = count,
-                          .cue = &cue,
-                          .player = &player,
-                          .rules = &of,
-                          .options = &options,
-                          .memory_size = carom_plan_memory(&options)};
-    job.memory = malloc(job.memory_size);
+    carom_plan_job job = job_of(count, &cue, &player, &of, &options);
     carom_choice best;
     int found;
     ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
@@ -693,18 +700,8 @@ static uint64_t play(carom_rules_kind kind, int target, int *strokes, int64_t ma
   }
   const carom_cue cue = carom_cue_of(straight_pool ? CAROM_GAME_POOL : CAROM_GAME_SNOOKER);
   const carom_player player = carom_player_of(straight_pool ? 1.0 : 0.5);
-  const carom_shot_options shot_options = {0};
   carom_plan_options options = {.shots = 100};
-  carom_plan_job job = {.table = &table,
-                        .balls = balls,
-                        .count = count,
-                        .cue = &cue,
-                        .player = &player,
-                        .rules = &of,
-                        .shot = &shot_options,
-                        .options = &options,
-                        .memory_size = carom_plan_memory(&options)};
-  job.memory = malloc(job.memory_size);
+  carom_plan_job job = job_of(count, &cue, &player, &of, &options);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
   carom_turn turn = {.is = CAROM_TURN_PASS,
                      .leave = straight_pool ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_D};
@@ -742,7 +739,7 @@ static uint64_t play(carom_rules_kind kind, int target, int *strokes, int64_t ma
           << k;
     }
     if (best.kind != CAROM_PLAN_PASS)
-      ck_assert_int_eq(carom_shoot(&table, balls, count, &stroke, &shot_options, &shot), CAROM_OK);
+      ck_assert_int_eq(carom_shoot(&table, balls, count, &stroke, NULL, &shot), CAROM_OK);
     for (int k = 0; k < count; k++)
       balls[k].state = final[k];
     turn = of.judge(of.user, in_play, 0, &facts, (carom_call){best.ball, best.pocket});

@@ -184,7 +184,7 @@ pub fn place(
     y: f64,
 ) -> Result<Result<(), sys::carom_part>, Error> {
     let mut part = sys::carom_part::default();
-    let (count, ball) = (balls.len() as i32, ball.min(i32::MAX as usize) as i32);
+    let (count, ball) = (count_of(balls), ball.min(i32::MAX as usize) as i32);
     let status = unsafe {
         sys::carom_place_ball(table, balls.as_mut_ptr(), count, ball, x, y, &mut part)
     };
