@@ -552,6 +552,22 @@ def test_ball_in_hand_of_the_agent():
         assert hand == "ANYWHERE" or place[1] <= system.table.l / 4
 
 
+def test_a_stroke_without_a_game():
+    """It is that of the agent in the same game; the System stays as it is."""
+    places = {"cue": (0.5, 1.0), "3": (0.06, 0.06), "11": (0.93, 0.06), "8": (0.5, 1.9)}
+    system, game = end_game("eightball", places, range(9, 16))
+    before = system.copy()
+    best = bridge.Agent(shots=200).stroke(system, ["11"])
+    assert system == before and best["ball"] == 11
+    # the same seed, so the same errors
+    action = bridge.Agent(shots=200).decide(system, game)
+    assert [best["cue"][name] for name in ("speed", "phi", "theta", "a", "b")] == [action.V0, action.phi, action.theta, action.a, action.b]
+    with pytest.raises(bridge.UnsupportedError, match="eightball and nineball, not 'snooker'"):
+        bridge.Agent().stroke(system, ["11"], rules="snooker")
+    with pytest.raises(bridge.UnsupportedError, match="hand: .* not 'kitchen'"):
+        bridge.Agent().stroke(system, ["11"], hand="kitchen")
+
+
 def test_what_the_agent_does_not_play():
     system = rack(pt.GameType.SNOOKER, np.random.default_rng(1))
     with pytest.raises(bridge.UnsupportedError, match="eight-ball and nine-ball, not _Snooker"):

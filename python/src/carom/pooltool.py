@@ -27,7 +27,7 @@ from carom.collisions import alciatore
 from carom.layouts import Table
 from carom.plans import plan, player as usual_player, with_errors
 from carom.results import Label
-from carom.rules import Game, Group
+from carom.rules import Group
 from carom._shot_options import BallModel, Friction, Options, ShotCushion
 from carom.shots import simulate as _play
 from carom.status import CaromError
@@ -272,11 +272,13 @@ def _tell(reason: UnsupportedError | CaromError) -> None:
 # ---- A player -----------------------------------------------------------------------------------------------------------
 
 
-_GAMES: dict[str, tuple[Game, int]] = {"_EightBall": ("eightball", 15), "_NineBall": ("nineball", 9)}
+PooltoolGame = Literal["eightball", "nineball"]
+_GAMES: dict[str, PooltoolGame] = {"_EightBall": "eightball", "_NineBall": "nineball"}
+_LAST: dict[str, int] = {"eightball": 15, "nineball": 9}
 
 
 class Agent:
-    """Plays eight-ball and nine-ball in pooltool, by pooltool's rules: an `ai` of pooltool's `Player`.
+    """Plays eight-ball and nine-ball in pooltool, by pooltool's rules: an `ai` of pooltool's `Player`, or a stroke for a System.
 
     Parameters
     ----------
@@ -311,14 +313,48 @@ class Agent:
         kind = next((its.__name__ for its in type(game).__mro__ if its.__name__ in _GAMES), None)
         if kind is None:
             raise UnsupportedError(f"game: the agent plays pooltool's eight-ball and nine-ball, not {type(game).__name__}")
-        rules, last = _GAMES[kind]
         constraints = game.shot_constraints
         hand = str(constraints.ball_in_hand)
+        best = self.stroke(system, constraints.hittable, rules=_GAMES[kind], opening=game.shot_number == 0, hand=hand)
+        if hand != "none":
+            ball = system.balls["cue"]
+            ball.state.rvw[:] = 0.0
+            ball.state.rvw[0] = (*best["place"], ball.params.R)
+            ball.state.s = int(Label.STATIONARY)
+        if constraints.call_shot:
+            on = [name for name in constraints.hittable if name in system.balls and system.balls[name].state.s != Label.POCKETED]
+            constraints.ball_call = str(best["ball"]) if best["ball"] > 0 else on[0]
+            constraints.pocket_call = list(system.table.pockets)[best["pocket"]]
+        action = _action.Action(*(float(best["cue"][name]) for name in ("speed", "phi", "theta", "a", "b")))
+        if callback is not None:
+            callback(action)
+        return action
+
+    def stroke(self, system: Any, targets: Collection[str], *, rules: PooltoolGame = "eightball", opening: bool = False, hand: str = "none") -> dtypes.Records:
+        """The stroke for a System without a game of pooltool's: the balls and the cue of the System stay as they are.
+
+        Parameters
+        ----------
+        system : pooltool.System
+            The ball "cue" and balls named by their numbers; those that are missing or pocketed are down.
+        targets : collection of str
+            The balls that the player may meet first. In eight-ball they tell his group; in nine-ball the lowest ball is on.
+        rules : {"eightball", "nineball"}
+        opening : bool
+            The stroke is the break.
+        hand : {"none", "anywhere", "behind_line"}
+            Where the cue ball is in hand.
+
+        Returns a row of `carom.plan`, shape (): its cue errs as the player does, unless `exact`.
+        Raises UnsupportedError: Another word, or an engine or a table that is pooltool's alone.
+        """
+        if rules not in _LAST:
+            raise UnsupportedError(f"rules: the agent plays {' and '.join(_LAST)}, not {rules!r}")
         if hand not in ("none", "anywhere", "behind_line"):
-            raise UnsupportedError(f"game: the agent knows a cue ball in hand anywhere or behind the line, not {hand!r}")
+            raise UnsupportedError(f"hand: the agent knows a cue ball in hand anywhere or behind_line, or none, not {hand!r}")
 
         # The layout by numbers; a cue ball in hand is nowhere yet.
-        table, names = table_of(system.table), ["cue", *map(str, range(1, last + 1))]
+        table, names = table_of(system.table), ["cue", *map(str, range(1, _LAST[rules] + 1))]
         given = dict(zip(system.balls, balls_of(system), strict=True))
         layout: Array = np.array([given.get(name, given["cue"]) for name in names], dtype=dtypes.shot_ball)
         down = [k for k, name in enumerate(names) if name not in given] + ([0] if hand != "none" else [])
@@ -330,26 +366,15 @@ class Agent:
         where: Any = hand == "anywhere"
         if hand == "behind_line":
             where = [[0.0, 0.0], [table.width, table.length / 4.0]]
-        best = plan(
-            table, layout, cue, rules=rules, group=_group(constraints.hittable, given) if rules == "eightball" else None,
-            opening=game.shot_number == 0, player=self.player, opponent=self.opponent, shots=self.shots, in_hand=where, best=1, seed=self.seed + self.strokes, threads=self.threads,
-            options=options,
-        )[0]  # fmt: skip
-        if hand != "none":
-            ball = system.balls["cue"]
-            ball.state.rvw[:] = 0.0
-            ball.state.rvw[0] = (*best["place"], ball.params.R)
-            ball.state.s = int(Label.STATIONARY)
-        if constraints.call_shot:
-            on = [name for name in constraints.hittable if name in given and given[name]["state"]["label"] != Label.POCKETED]
-            constraints.ball_call = names[best["ball"]] if best["ball"] > 0 else on[0]
-            constraints.pocket_call = list(system.table.pockets)[best["pocket"]]
-        stroke = best["cue"] if self.exact else with_errors(best["cue"], self.player, self.seed, self.strokes)
+        best: dtypes.Records = plan(
+            table, layout, cue, rules=rules, group=_group(targets, given) if rules == "eightball" else None, opening=opening,
+            player=self.player, opponent=self.opponent, shots=self.shots, in_hand=where, best=1, seed=self.seed + self.strokes,
+            threads=self.threads, options=options,
+        )[0].copy()  # fmt: skip
+        if not self.exact:
+            best["cue"] = with_errors(best["cue"], self.player, self.seed, self.strokes)
         self.strokes += 1
-        action = _action.Action(*(float(stroke[name]) for name in ("speed", "phi", "theta", "a", "b")))
-        if callback is not None:
-            callback(action)
-        return action
+        return best
 
     def apply(self, system: Any, action: Any) -> None:
         """Give the stroke to the cue of a System, for `simulate`."""
