@@ -281,7 +281,9 @@ typedef struct carom_plan_options {
                                    the row. */
   int32_t threads;              /* most threads, as in carom_shot_options. No bit of a result
                                    depends on it. */
-  int32_t unused;               /* must be 0. */
+  int32_t level;                /* 1: strokes are by a level cue, whose stick may be in cushions
+                                   and balls, as in programs that have no stick. 0: it is over
+                                   them. */
   const carom_player *opponent; /* NULL: he errs as the player does. */
   double chance_me;             /* of each later pot of a visit, 0 to 1, of the player; 0: by the
                                    layout and his error phi, as racks that were played told it.
@@ -322,7 +324,8 @@ typedef enum carom_plan_kind {
 } carom_plan_kind;
 
 typedef struct carom_choice {
-  carom_cue cue;        /* raised as little as its stick has to be over cushions and balls */
+  carom_cue cue;        /* raised as little as its stick has to be over cushions and balls,
+                           unless `level` */
   double place[2];      /* where the cue ball lies or is put, m. */
   int32_t kind;         /* a carom_plan_kind. */
   int32_t ball;         /* the ball that falls and keeps the turn: by rules with calls the one that

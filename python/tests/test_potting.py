@@ -439,6 +439,15 @@ def test_a_match(gymnasium):
         Match(opponent_shots=1)
 
 
+def test_the_planner_plays_the_level_cue_of_the_game():
+    """The stroke is that of the plan, whose cue would be raised over the cushion behind the ball."""
+    rules = Potting(1, 1)
+    layout = rules.layout([[0.04, 1.0], [0.3, 0.6]])
+    raised, level = (carom.plan(rules.table, layout, rules="potting", player=rules.player(), shots=200, best=1, level=k)[0]["cue"] for k in (False, True))
+    assert raised["theta"] > 5.0 and level["theta"] == 0.0
+    np.testing.assert_array_equal(rules.best(layout, shots=200), rules.actions(level["phi"], level["speed"], level["a"], level["b"]))
+
+
 def test_the_planner_pots_more_than_chance():
     rules = Potting(3, 3, cushion_model="han", noise=(0.1, 0.1, 0.003))
     draws = Draws(range(6))

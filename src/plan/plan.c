@@ -40,7 +40,7 @@ static const double player_most = 1000.0; /* of each number of a player */
 
 static carom_status check_options(const carom_plan_options *o) {
   CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
-  const bool good = o->slice >= 0 && o->unused == 0 && CAROM_RESERVED_IS_ZERO(o);
+  const bool good = o->slice >= 0 && CAROM_RESERVED_IS_ZERO(o);
   return good ? CAROM_OK : CAROM_ERROR_OPTIONS;
 }
 

@@ -43,6 +43,8 @@ static double over_rail(double R, double b, double D, const carom_rail *rail, co
 }
 
 double carom_least_elevation(const carom_search *of, const carom_candidate *c) {
+  if (of->options.level)
+    return 0.0;
   const carom_table *table = of->job.table;
   const carom_shot_ball *own = &of->played[of->cue_ball];
   const double R = own->kind.radius, *r = own->state.r;

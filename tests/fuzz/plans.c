@@ -71,6 +71,7 @@ static void make_inputs(void) {
                                  .seed = byte(),
                                  .threads = choice(16) == 0 ? choice(5) - 2 : choice(3),
                                  .opponent = choice(2) ? &opponent : NULL};
+  options.level = choice(32) == 0 ? choice(4) - 1 : choice(2);
   options.scan = choice(3) == 0 ? number(-0.5, 0.9) : 0;
   options.chance_me = choice(4) == 0 ? number(0, 1) : 0;
   options.chance_opponent = choice(4) == 0 ? number(0, 1) : 0;

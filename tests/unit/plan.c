@@ -600,6 +600,28 @@ TEST(kinds_and_sticks) {
             of_kind[CAROM_PLAN_SAFETY] > 0);
 }
 
+/* By a level cue each choice is level, where the stick had to be raised. */
+TEST(a_level_cue) {
+  int raised = 0;
+  for (int k = 0; k < 8; k++) {
+    carom_choice best[5];
+    int found;
+    make_layout((uint64_t)k + 1, 10);
+    carom_place_ball(&table, balls, BALLS, 0, 0.4, 0.03, NULL);
+    for (options.level = 0; options.level < 2; options.level++) {
+      make_memory();
+      ck_assert(carom_plan(&job, best, 5, &found) == CAROM_OK && found > 0);
+      for (int n = 0; n < found; n++) {
+        raised += best[n].cue.theta > 1.0;
+        ck_assert(best[n].cue.theta == 0.0 || !options.level);
+      }
+      edge_free(&memory);
+    }
+    options.level = 0;
+  }
+  ck_assert_int_gt(raised, 10);
+}
+
 /* Three-cushion: what is a point; and plans of it, whose chances are those of strokes with errors
  * of another seed, and whose ball is the one that is met first. */
 TEST(three_cushion) {
@@ -1296,6 +1318,7 @@ TEST(arguments_of_plans) {
   REFUSED(options.scan, 0.91, CAROM_ERROR_OPTIONS);
   REFUSED(options.scan, NAN, CAROM_ERROR_OPTIONS);
   REFUSED(options.threads, -2, CAROM_ERROR_OPTIONS);
+  REFUSED(options.level, 2, CAROM_ERROR_OPTIONS);
   REFUSED(options.chance_me, 1.1, CAROM_ERROR_OPTIONS);
   REFUSED(options.slice, -1, CAROM_ERROR_OPTIONS);
   REFUSED(options.unsure, -0.1, CAROM_ERROR_OPTIONS);

@@ -81,7 +81,7 @@ class Break(Potting):
         low, high = self.corners()
         found = plans.plan(
             self.table, balls, rules="nineball", opening=True, player=self.player(), shots=shots, seed=seed, best=1, in_hand=[low, high],
-            threads=self.threads, cushion_model=self.cushion_model,
+            threads=self.threads, level=True, cushion_model=self.cushion_model,
         )[0]  # fmt: skip
         cue, place = found["cue"], np.clip(2.0 * (found["place"] - low) / (high - low) - 1.0, -1.0, 1.0)
         return np.concatenate([self.actions(cue["phi"], cue["speed"], cue["a"], cue["b"]), place])

@@ -198,7 +198,7 @@ class _Job:
 
     def __init__(
         self, table: Table, balls: dtypes.Records, cue: dtypes.Records | None, game: Made, own: dtypes.Records | None, opponent: dtypes.Records | None,
-        shots: int, seed: int, threads: int, unsure: float, stop: threading.Event | None, options: Options,
+        shots: int, seed: int, threads: int, unsure: float, stop: threading.Event | None, options: Options, level: bool = False,
     ) -> None:  # fmt: skip
         check_table(table)
         self.layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
@@ -212,6 +212,7 @@ class _Job:
             raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
         wanted = ffi.new("carom_plan_options *", {"shots": whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
         wanted.threads = whole(threads, "threads", least=-1)
+        wanted.level = whole(level, "level", most=1)
         wanted.unsure = number(unsure, "unsure")
         if not 0.0 <= wanted.unsure <= 1.0:
             raise ValueError(f"unsure: it must be 0 to 1, not {unsure}")
@@ -255,6 +256,7 @@ def plan(
     seed: int = 0,
     threads: int = 0,
     unsure: float = 0.0,
+    level: bool = False,
     stop: threading.Event | None = None,
     options: Options = _USUAL,
     **changes: Unpack[Changes],
@@ -297,6 +299,8 @@ def plan(
     unsure : float
         How little the player knows of the table, 0 to 1. Above 0 restitution and friction of its cushions, rolling resistance and sliding
         friction are drawn with the errors of strokes; 1 stands for all tables that there are.
+    level : bool
+        Whether strokes are by a level cue, whose stick may be in cushions and balls. By default the cue is raised over them.
     stop : threading.Event, optional
         Ends the plan early when another thread, or a handler of a signal, sets it: the plan then has one choice, the best so far. Without a
         handler of yours Ctrl-C ends the plan, too, and raises KeyboardInterrupt.
@@ -317,7 +321,7 @@ def plan(
     in_hand = False if isinstance(in_hand, str) and in_hand == "no" else in_hand
     corners = None if in_hand is False else _corners(in_hand, table)
     game = Made(rules, state, group, opening)
-    job = _Job(table, balls, cue, game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes))
+    job = _Job(table, balls, cue, game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes), level)
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
     rows = pointer("carom_choice[]", choices)

@@ -124,16 +124,16 @@ class Pool:
         `opponent` is a `carom.player()`; by default he errs as the noise says. The plan has so many `shots`.
         """
         low, high = self.area(position.hand)
-        found = self.planned(position, self.base.player(), opponent, shots, seed)
+        found = self.planned(position, self.base.player(), opponent, shots, seed, level=True)
         cue = found["cue"]
         place = np.clip(2.0 * (found["place"] - low) / (high - low) - 1.0, -1.0, 1.0)
         return np.concatenate([self.base.actions(cue["phi"], cue["speed"], cue["a"], cue["b"]), place])
 
-    def planned(self, position: Position, player: dtypes.Records, opponent: dtypes.Records | None, shots: int, seed: int) -> dtypes.Records:
-        """The best choice of `carom.plan`, of shape (), for a player."""
+    def planned(self, position: Position, player: dtypes.Records, opponent: dtypes.Records | None, shots: int, seed: int, level: bool = False) -> dtypes.Records:
+        """The best choice of `carom.plan`, of shape (), for a player; actions are strokes of a level cue."""
         found: Array = plan(
             self.table, position.balls, rules=self.game, state=position.state, player=player, opponent=opponent, shots=shots, seed=seed,
-            in_hand=[*self.area(position.hand)] if position.hand else False, best=1, cushion_model=self.base.cushion_model,
+            in_hand=[*self.area(position.hand)] if position.hand else False, best=1, level=level, cushion_model=self.base.cushion_model,
         )[0]  # fmt: skip
         return found
 

@@ -67,7 +67,7 @@ class Potting:
 
     An **action** is four numbers from -1 to 1 (what is beyond is taken as the bound): the direction, 180 degrees times it, from +x
     towards +y; the speed of the cue, from the least to the most; and where the tip touches the ball, to the left and above the
-    centre, 0.35 radii times them, so that it never slips off. The cue is level.
+    centre, 0.35 radii times them, so that it never slips off. The cue is level: its stick may be in cushions and balls.
 
     An **observation** is 3 (balls + 1) + 1 numbers: x (m), y (m) and whether it is in play (1 or 0, with x = y = 0) of each ball, the
     cue ball first; then how many strokes are left. It is all that there is to know: `layouts()` makes the same balls of it, to the bit.
@@ -245,7 +245,7 @@ class Potting:
         It looks for the stroke that pots the largest share of the balls in one visit, by a plan of so many `shots`.
         """
         found = plans.plan(
-            self.table, balls, rules=self._game, player=self.player(), shots=shots, seed=seed, best=1, threads=self.threads,
+            self.table, balls, rules=self._game, player=self.player(), shots=shots, seed=seed, best=1, threads=self.threads, level=True,
             cushion_model=self.cushion_model,
         )["cue"][0]  # fmt: skip
         return self.actions(found["phi"], found["speed"], found["a"], found["b"])
