@@ -6,8 +6,8 @@ so it tries each aim at some speeds and a little to both sides, all in one `caro
 and of those the one whose neighbours do best. In three-cushion it tries directions all around. It does not think of the stroke after. The
 planner does, and knows how strokes err.
 
-All begin each game with the same layout. What is printed is the mean of the returns with its 95 % interval, and in how many games the agent did all
-that can be done: it potted all balls without a foul, scored with every stroke, or won. `--game all` prints a table of the suite.
+All begin each game with the same layout. What is printed is a table: the mean of the returns with its 95 % interval, and in how many games the agent
+did all that can be done: it potted all balls without a foul, scored with every stroke, or won. `--game all` plays the suite.
 
     python game_agents.py --game carom/RunOutSix-v0 --games 400 --plans 300,2000
 """
@@ -15,6 +15,7 @@ that can be done: it potted all balls without a foul, scored with every stroke, 
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, cast
@@ -126,6 +127,12 @@ def most_of(rules: Rules) -> int:
     return 1 if isinstance(rules, Match) else rules.strokes if isinstance(rules, ThreeCushion) else rules.balls
 
 
+def score(returns: Doubles, most: int) -> str:
+    """The mean of the returns, its 95 % interval, and the share of those that are the most."""
+    within = 1.96 * returns.std(ddof=1) / np.sqrt(len(returns)) if len(returns) > 1 else np.nan
+    return f"{returns.mean():.2f} ± {within:.2f} ({(returns == most).mean():.0%})"
+
+
 def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
     """Plays, prints, writes the picture; gives the returns of each agent in the last game, of shape (games,)."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -143,17 +150,18 @@ def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
     agents |= {f"plan of {shots} shots": planner(int(shots)) for shots in filter(None, given.plans.split(","))}
     games = [name for name in carom.gymnasium.GAMES if name != "carom/Potting-v0"] if given.game == "all" else [given.game]
     found: dict[str, Doubles] = {}
+    cells: dict[str, list[str]] = {name: [name] for name in agents}
     for game in games:
         rules = own | {"cushion_model": given.cushion}
         most = most_of(carom.gymnasium.GameEnv(**(carom.gymnasium.GAMES[game] | rules)).rules)
-        print(f"{given.games} games of {game}, most {most}, seed {given.seed}", flush=True)
         for name, agent in agents.items():
             found[name], picture = play(agent, game, given.games, given.seed, **rules)
-            within = 1.96 * found[name].std(ddof=1) / np.sqrt(given.games) if given.games > 1 else np.nan
-            print(f"{name}: {found[name].mean():.2f} +- {within:.2f} a game, {most} in {(found[name] == most).mean():.0%} of games", flush=True)
+            cells[name].append(score(found[name], most))
+            print(f"{game}, {name}: {cells[name][-1]}", file=sys.stderr)
             if name == "greedy":
                 Path(given.out).write_text(picture, encoding="utf-8")
-    print(f"wrote {given.out}")
+    print(f"Means of {given.games} games, seed {given.seed}; in brackets how many were perfect. {given.out} has a stroke of the greedy agent.\n")
+    print("\n".join(f"| {' | '.join(row)} |" for row in [["agent", *(game[6:-3] for game in games)], ["---"] * (len(games) + 1), *cells.values()]))
     return found
 
 
