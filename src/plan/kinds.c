@@ -1,22 +1,9 @@
 /* What a choice does, by what happens: the events of the first of its strokes, without errors and
  * then with some, in which the ball that is named falls. */
 #include "plan/search.h"
-
-#include <math.h>
+#include "table/table.h"
 
 typedef carom_search search;
-
-/* The cut of a pocket is a short rail, and no cushion. */
-static bool is_cushion(const carom_table *table, int rail) {
-  double longest = 0.0, own = 0.0;
-  for (int r = 0; r < table->rails; r++) {
-    const double x = table->rail[r].q[0] - table->rail[r].p[0],
-                 y = table->rail[r].q[1] - table->rail[r].p[1], square = x * x + y * y;
-    longest = square > longest ? square : longest;
-    own = r == rail ? square : own;
-  }
-  return own > 0.04 * longest;
-}
 
 /* The way by which a ball comes into a pocket, as a carom_plan_kind, or -1 where it does not. */
 static int way_of(const carom_table *table, const carom_shot *shot, int cue_ball, int ball,
@@ -33,7 +20,7 @@ static int way_of(const carom_table *table, const carom_shot *shot, int cue_ball
              : after > 0              ? CAROM_PLAN_BANK
                                       : CAROM_PLAN_POT;
     const bool meets = e->type == CAROM_EVENT_BALL_BALL;
-    const bool rail = e->type == CAROM_EVENT_RAIL && is_cushion(table, e->b);
+    const bool rail = e->type == CAROM_EVENT_RAIL && !carom_is_cut(table, e->b);
     if (meets && by < 0 && (e->a == ball || e->b == ball))
       by = e->a == ball ? e->b : e->a;
     else if (meets && by < 0)

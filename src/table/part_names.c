@@ -1,13 +1,10 @@
 /* Where rails and pockets are, in the words of a player at the head of the table. */
-#include "platform/arithmetic.h"
-
-#include "carom_shot.h"
+#include "table/table.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stddef.h>
 
-/* Rails shorter than this part of the longest one are cuts of pockets. */
+/* rails shorter than this part of the longest one are cuts of pockets */
 static const double cut_most = 0.2;
 
 static double square_of_length(const carom_rail *r) {
@@ -15,7 +12,7 @@ static double square_of_length(const carom_rail *r) {
   return x * x + y * y;
 }
 
-static bool is_cut(const carom_table *t, int rail) {
+bool carom_is_cut(const carom_table *t, int rail) {
   double longest = 0.0;
   for (int k = 0; k < t->rails; k++)
     longest = fmax(longest, square_of_length(&t->rail[k]));
@@ -40,13 +37,13 @@ static bool is_rectangle(const carom_table *t) {
   if (t->rails > CAROM_RAILS_MOST || t->pockets > CAROM_POCKETS_MOST)
     return false;
   for (int k = 0; k < t->rails; k++)
-    if (!is_cut(t, k) && side_of(t, k) == NULL)
+    if (!carom_is_cut(t, k) && side_of(t, k) == NULL)
       return false;
   return true;
 }
 
 const char *carom_rail_name(const carom_table *t, int rail) {
-  return t != NULL && rail >= 0 && rail < t->rails && is_rectangle(t) && !is_cut(t, rail)
+  return t != NULL && rail >= 0 && rail < t->rails && is_rectangle(t) && !carom_is_cut(t, rail)
              ? side_of(t, rail)
              : NULL;
 }

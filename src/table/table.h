@@ -43,6 +43,9 @@ void carom_rail_line(const carom_rail *rail, double line[3]);
 void carom_features_of(const carom_table *table, double radius, double reference,
                        carom_features *features);
 
+/* part_names.c: whether a rail is the cut of a pocket, and no cushion: those are short. */
+bool carom_is_cut(const carom_table *table, int rail);
+
 /* nose.c: the height of a nose for a ball, how far it is inside the wall that stands for it, and
  * the distance from the wall at which a ball on the cloth touches it. */
 double carom_nose_height(const carom_ball_kind *kind, double height);
