@@ -39,22 +39,27 @@ static const char *const quantity[] = {"throw of the object ball (degrees)",
                                        "side spin of the object ball over that of the cue ball (%)",
                                        "kinetic energy that is lost (%)"};
 
-OPTION(series, option_speed, "speed", in[SPEED], 0, "V", set_values, MEASURE_SPEED,
-       "speed of the cue ball at contact, m/s, or with a unit: mph, km/h (default 1.5)");
-OPTION(series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|DEGREES", set_values,
-       MEASURE_CUT,
-       "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
-       "ball goes to the left (default 30). Or the fullness of the hit: full, three-quarter, half, "
-       "quarter, 0.4ball");
+OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
+       "speed of the cue ball at contact, m/s, or with a unit: mph, km/h (default 1.5); or a "
+       "word: " SPEEDS);
+OPTION(
+    series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|thin|DEGREES",
+    set_values, MEASURE_CUT,
+    "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
+    "ball goes to the left (default 30). Or the fullness of the hit: full, three-quarter, half or "
+    "half-ball, quarter, thin (an eighth), 2/5ball, 0.4ball");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "stun|follow|draw|SPIN", set_values, MEASURE_SPIN,
        "stun: no spin (default); follow or roll: the ball rolls; draw: the same spin backwards. Or "
        "a number with a unit, above 0 for follow: rad/s, % of rolling, tip (height of the cue's "
        "tip above the centre; 1 tip is 13 mm)");
-OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values,
-       MEASURE_SIDE,
-       "side spin, above 0 for right english (counterclockwise seen from above). A number with a "
-       "unit: rad/s, % of english (100%: the tip half a radius off centre, 1.25 V/R) or tip; "
-       "right, left: 100%; gearing: the balls roll on each other without slip; none (default)");
+OPTION(
+    series, option_side, "side", in[SIDE], 0, "right|left|outside|inside|gearing|none|SPIN",
+    set_values, MEASURE_SIDE,
+    "side spin, above 0 for right english (counterclockwise seen from above). A number with a "
+    "unit: rad/s, % of english (100%: the tip half a radius off centre, 1.25 V/R) or tip; "
+    "right, left: 100%; outside: 100% on the side away from the way of the object ball, right of "
+    "a cut to the left; inside: on the other; gearing: the balls roll on each other without slip; "
+    "none (default)");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
        "of the balls, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,

@@ -21,7 +21,7 @@ static const scene_input inputs[] = {
     [SPIN] = {"spin", MEASURE_SPIN, "roll"},
     [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
     [ANGLE] = {"angle of incidence", MEASURE_ANGLE, "45"},
-    [SIDE] = {"side spin", MEASURE_SIDE, "none"},
+    [SIDE] = {"side spin", MEASURE_SIDE_RAIL, "none"},
     [HEIGHT] = {"height of the nose", MEASURE_LENGTH, "0.036576"},
     [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.85"},
     [FRICTION] = {"friction of the cushion", MEASURE_NUMBER, "0.2"},
@@ -37,19 +37,22 @@ static const char *const quantity[] = {
     "angle of rebound once the ball rolls (degrees)", "angle of rebound at once (degrees)",
     "speed at once (m/s)", "side spin after (rad/s)", "kinetic energy that is lost (%)"};
 
-OPTION(series, option_speed, "speed", in[SPEED], 0, "V", set_values, MEASURE_SPEED,
-       "speed of the ball, m/s, or with a unit: mph, km/h (default 1.5)");
+OPTION(series, option_speed, "speed", in[SPEED], 0, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
+       "speed of the ball, m/s, or with a unit: mph, km/h (default 1.5); or a word: " SPEEDS);
 OPTION(series, option_angle, "angle", in[ANGLE], 0, "DEGREES", set_values, MEASURE_ANGLE,
        "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to "
        "the right (default 45)");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "roll|stun|draw|SPIN", set_values, MEASURE_SPIN,
        "roll or follow: the ball rolls (default); stun: no spin; draw: the same spin backwards. Or "
        "a number with a unit: rad/s, % of rolling, tip");
-OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values,
-       MEASURE_SIDE,
-       "side spin, above 0 for right english, which is running english here; left is reverse. A "
-       "number with a unit: rad/s, % of english (100%: 1.25 V/R) or tip; right, left: 100%; "
-       "gearing: the ball rolls along the cushion; none (default)");
+OPTION(
+    series, option_side, "side", in[SIDE], 0, "right|left|running|reverse|gearing|none|SPIN",
+    set_values, MEASURE_SIDE_RAIL,
+    "side spin, above 0 for right english. Running english turns the ball as if it rolled along "
+    "the "
+    "cushion: right at an angle above 0; reverse is the other. A number with a unit: rad/s, % of "
+    "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
+    "gearing: the ball rolls along the cushion; none (default)");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
        "of the nose above the cloth, m, or with a unit: mm, in (default 0.036576, that of a pool "
        "table)");
@@ -142,6 +145,31 @@ static void tell_cloth(FILE *out, const double v[2], const double d[MOST_DERIVED
             longer > 0.0 ? "longer" : "shorter");
 }
 
+/* How much longer or shorter the rebound is than that of the same ball without side spin. */
+static void tell_english(FILE *out, const series *s, const one_case *c,
+                         const double d[MOST_DERIVED]) {
+  enum { SIDE_SPIN = offsetof(carom_cushion_impact, w) / sizeof(double) + 2 };
+  one_case none = *c;
+  double plain[MOST_DERIVED];
+  int8_t status;
+  none.row[SIDE_SPIN] = 0.0;
+  if (c->row[SIDE_SPIN] == 0.0)
+    return;
+  cushion_kind.solve(&s->asked, false, none.row, 1, none.result, &status);
+  derive_case(&none, plain);
+  const double way = c->given[ANGLE]->x < 0.0 ? 1.0 : -1.0; /* angles are to the left */
+  const double once = way * (d[1] - plain[1]), rolling = way * (d[2] - plain[2]);
+  if (status != CAROM_OK || isnan(once) || isnan(rolling))
+    return;
+  fprintf(out,
+          "              by english:  %.2f degrees %s than without at once, %.2f %s rolling%s\n",
+          fabs(once), once > 0.0 ? "longer" : "shorter", fabs(rolling),
+          rolling > 0.0 ? "longer" : "shorter",
+          rolling > 0.0 && d[4] - 5.0 / 7.0 * c->result[1] > plain[4] - 5.0 / 7.0 * none.result[1]
+              ? ", by more topspin that is left"
+              : "");
+}
+
 /* Where the ball sticks to nose and cloth, for models that follow the impact. */
 static void tell_sticking(FILE *out, const series *s, const one_case *c) {
   static const char *const what[2] = {"nose: ", "cloth:"};
@@ -180,6 +208,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   fprintf(out, "rebound       at once:     %s\n", rebound_text(d[1], v, text));
   fprintf(out, "              rolling:     %s\n", rebound_text(d[2], d + 3, text));
   tell_cloth(out, v, d);
+  tell_english(out, s, c, d);
   tell_spin(out, v + 3);
   tell_sticking(out, s, c);
   fprintf(out, "energy        lost:        %.2f %%\n", 100.0 * d[5]);

@@ -2,12 +2,15 @@
 #include "animate.h"
 #include "command.h"
 #include "doubts.h"
+#include "leave.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
 #include "output.h"
 #include "picture.h"
 #include "shoot_flags.h"
+#include "shot_drawings.h"
+#include "shot_fault.h"
 #include "shot_file.h"
 #include "shot_story.h"
 #include "shot_words.h"
@@ -23,7 +26,10 @@ enum { EVENTS_USUAL = -1, BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 };
 typedef struct shoot_job {
   shoot_flags from; /* --threads, --steps, --output; and a shot from words */
   int events;
-  const char *plot, *animation, *id;
+  const char *id;
+  drawings drawn; /* --plot, --animate, --lesson */
+  leave leave;
+  char left[LEFT_TEXT]; /* what is told of it */
   player_error error;
   bool together; /* the shots came from options: they are drawn over each other, */
   bool words;    /* and told in words, unless --events asks for lines */
@@ -55,7 +61,7 @@ OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_cho
 OPTION(shoot_job, option_story, "csv", csv, 0, NULL, set_flag, 0,
        "with a shot by options: write what the balls do as rows, instead of words: where each "
        "leaves, rolls from, meets a rail, passes another ball and rests");
-OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
+OPTION(shoot_job, option_plot, "plot", drawn.path[PICTURE], 0, "OUT", set_picture, 0,
        "draw the table and the paths of the balls in the first shot without an error, or in all "
        "that options describe; from the side too where a ball flies");
 OPTION(shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
@@ -63,7 +69,15 @@ OPTION(shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", se
        "1%,0.05,0.01,0.01. Tells the standard deviations of the places where balls end, to first "
        "order, and with --plot draws them as bands around the paths, up to 0.3 m, with how far "
        "this holds");
-OPTION(shoot_job, option_animate, "animate", animation, 0, "OUT.html", set_animation, 0,
+OPTION(shoot_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
+       "with a shot by options: the cue ball shall end within R (default 0.15 m) of this place, as "
+       "in `carom ways`. Of the speeds and tips that are given, or of 0.5 to 4 m/s and five tips "
+       "from draw to follow, the one is played by which most strokes of a player do so, and pot "
+       "the ball of --pocket; tells how many, and with which speeds it ends there");
+OPTION(shoot_job, option_lesson, "lesson", drawn.path[LESSON], 0, "OUT", set_picture, 0,
+       "draw a page to print: what --plot draws, how to aim, where the tip touches, how fast, what "
+       "the balls do, and room for notes; OUT.pdf, OUT.svg or OUT.png");
+OPTION(shoot_job, option_animate, "animate", drawn.path[FILM], 0, "OUT.html", set_animation, 0,
        "write a page that plays what --plot draws; it is one file and needs nothing else");
 OPTION(shoot_job, option_cite, "cite", cite, 0, NULL, set_flag, 0,
        "write the sources of these models as BibTeX, and play nothing; needs no IN");
@@ -119,95 +133,13 @@ static bool goes_with(const shot_line *a, const shot_line *b) {
   return b->error == NULL && a->table == b->table && a->count == b->count;
 }
 
-/* How far the tip is from the centre, R. */
-static double tip_of(const carom_cue *cue) {
-  return hypot(cue->a, cue->b);
-}
-
-/* What is wrong with the arguments of a shot, with the key. False if nothing is. */
-static bool argument_error(const shot_line *line, const carom_shot_options *options,
-                           char text[300]) {
-  static const char *const lists[] = {
-      [CAROM_PART_RAIL] = "linear", [CAROM_PART_JAW] = "circular", [CAROM_PART_POCKET] = "pockets"};
-  carom_fault f;
-  char must[100];
-  const carom_status bad = carom_shot_fault(&line->table->table, line->ball, line->count,
-                                            &line->cue, options, &f, must, sizeof must);
-  const carom_number *n = f.row;
-  const char *key = n == NULL ? "" : n->key[0] != '\0' ? n->key : n->name;
-  const int at = f.part.index;
-  if (bad == CAROM_OK)
-    return false;
-
-  /* where it is */
-  int size = 0;
-  if (bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT)
-    size = snprintf(text, 300, "table '%s': ", line->table->id);
-  else if (f.part.kind == CAROM_PART_BALL || f.part.kind == CAROM_PART_STATE)
-    size = snprintf(text, 300, "balls[%d] ('%s'): ", at, line->name[at]);
-  char *rest = text + size;
-  const size_t room = (size_t)(300 - size);
-
-  /* which number it is, and what would be right */
-  if (bad == CAROM_ERROR_MISCUE)
-    snprintf(rest, room,
-             "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on",
-             tip_of(&line->cue), line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
-  else if (bad == CAROM_ERROR_OFF_TABLE && at >= 0 && at < line->count) {
-    const double *r = line->ball[at].state.r, R = line->ball[at].kind.radius;
-    size = snprintf(rest, room, "%s", carom_status_string(bad));
-    if (fabs(r[2] - R) > 1e-6)
-      snprintf(rest + size, room - (size_t)size,
-               ": its centre must lie at z = R = %.6g m, not at z = %.6g", R, r[2]);
-    else
-      snprintf(rest + size, room - (size_t)size,
-               ": x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s", r[0], r[1],
-               fmax(r[0], r[1]) > 10.0 ? "; are places in m?" : "");
-  } else if (n == NULL || must[0] == '\0' || f.part.kind == CAROM_PART_STATE)
-    snprintf(rest, room, "%s", carom_status_string(bad));
-  else if (f.part.kind <= CAROM_PART_POCKET)
-    snprintf(rest, room, "%s[%d].%s must be %s, not %.6g", lists[f.part.kind], at, key, must,
-             f.value);
-  else
-    snprintf(rest, room, "%s%s must be %s, not %.6g",
-             f.part.kind == CAROM_PART_BALL  ? "params."
-             : f.part.kind == CAROM_PART_CUE ? "cue."
-                                             : "",
-             key, must, f.value);
-  return true;
-}
-
 /* Whether one more line in error is named. */
 static bool is_named(block *b) {
   return b->unnamed++ < 0;
 }
 
-/* The picture, kept in memory until the shots are written: one file at a time is written whole. */
-typedef struct drawing {
-  char *text; /* NULL: none was drawn */
-  size_t size;
-} drawing;
-
-enum { PICTURE, ANIMATION, DRAWINGS };
-
-static bool draws(const shoot_job *job) {
-  return job->plot != NULL || job->animation != NULL;
-}
-
-static void draw(const shoot_job *job, drawing to[DRAWINGS], const played *shots, int count,
-                 const char *footer) {
-  for (int k = 0; k < DRAWINGS; k++) {
-    if (to[k].text != NULL || (k == PICTURE ? job->plot : job->animation) == NULL)
-      continue;
-    FILE *out = open_text(&to[k].text, &to[k].size);
-    (k == PICTURE ? shots_draw : shots_animate)(out, shots, count, footer);
-    close_text(out, &to[k].text);
-  }
-}
-
 /* Tells the shots of a block in words, and draws them over each other. */
-static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], const played *shots,
-                       int count) {
+static void tell_block(shoot_job *job, FILE *out, const played *shots, int count) {
   char *words;
   size_t size;
   FILE *said = open_text(&words, &size);
@@ -218,6 +150,7 @@ static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], co
     const size_t number = shots[k].line->number;
     if (number <= MOST_SHOTS)
       fputs(job->from.aimed[number - 1], said);
+    fputs(job->left, said);
   }
   for (int k = 0; k < count && job->csv; k++) {
     const int number = (int)shots[k].line->number;
@@ -229,24 +162,19 @@ static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], co
   if (job->words && !job->csv)
     fputs(words, out);
   if (count > 0)
-    draw(job, to, shots, count, words);
+    drawings_draw(&job->drawn, shots, count, words);
   free(words);
 }
 
-static void write_drawing(FILE *out, const void *data) {
-  const drawing *picture = data;
-  fwrite(picture->text, 1, picture->size, out);
-}
-
 /* Draws one shot of a file; a spread tells below it what it shows. */
-static void draw_alone(const shoot_job *job, drawing to[DRAWINGS], const played *shot) {
+static void draw_alone(shoot_job *job, const played *shot) {
   char *words;
   size_t size;
   FILE *said = open_text(&words, &size);
   if (shot->spread != NULL)
     spread_tell(said, shot->spread, shot->line);
   close_text(said, &words);
-  draw(job, to, shot, 1, words);
+  drawings_draw(&job->drawn, shot, 1, words);
   free(words);
 }
 
@@ -256,7 +184,7 @@ static void find_spread(block *b, int k, const shoot_job *job, const carom_shot_
   *to = (spread){.status = b->status[k]};
   if (b->status[k] < 0)
     return;
-  spread_of(&job->error, &b->line[k], &b->shot[k], options, draws(job), to);
+  spread_of(&job->error, &b->line[k], &b->shot[k], options, drawings_asked(&job->drawn), to);
   if (to->status < 0 && is_named(b))
     complain("%s:%zu: --spread: %s", b->file, b->line[k].number, carom_status_string(to->status));
   if (to->status < 0)
@@ -264,7 +192,7 @@ static void find_spread(block *b, int k, const shoot_job *job, const carom_shot_
 }
 
 /* Plays what has been read and writes it; returns whether all was good. */
-static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *picture) {
+static bool finish_block(block *b, shoot_job *job, FILE *out) {
   played good_ones[BLOCK];
   spread spreads[BLOCK] = {0};
   int goods = 0;
@@ -280,14 +208,14 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *pic
   bool good = true;
   for (int k = 0; k < b->count; k++) {
     const shot_line *line = &b->line[k];
-    char text[300];
+    char text[FAULT_TEXT];
     if (line->error != NULL) {
       if (is_named(b))
         complain("%s:%zu: %s", b->file, line->number, line->error);
       if (!job->words)
         shot_write_error(out, line, "bad_line", line->error);
       good = false;
-    } else if (b->status[k] < 0 && argument_error(line, &options, text)) {
+    } else if (b->status[k] < 0 && shot_fault(line, &options, text)) {
       if (is_named(b))
         complain("%s:%zu: %s", b->file, line->number, text);
       if (!job->words)
@@ -306,14 +234,14 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *pic
         shot_write(out, line, &b->shot[k], b->status[k], job->events,
                    s != NULL ? spread_json(s, line) : NULL);
       if (!job->together && shot_has_id(line, job->id))
-        draw_alone(job, picture, &good_ones[goods]);
+        draw_alone(job, &good_ones[goods]);
       if (!job->together && s != NULL)
         spread_free(s);
       goods++;
     }
   }
   if (job->together)
-    tell_block(job, out, picture, good_ones, goods);
+    tell_block(job, out, good_ones, goods);
   for (int k = 0; k < goods; k++)
     spread_free(&spreads[k]);
   return good;
@@ -336,41 +264,8 @@ static void clear_block(block *b) {
   b->count = 0;
 }
 
-/* Gives the balls the numbers of --with, and says once for each which numbers of a file these
- * models do not read. --strict makes it an error. */
-static void report_unread(block *b, shot_line *line, const shoot_job *job) {
-  const carom_shot_options options = options_of(job);
-  const carom_number *n;
-  if (line->error != NULL)
-    return;
-  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
-    int i = 0;
-    while (i < line->count && !carom_number_is_read(n, &line->ball[i].kind, &options))
-      i++;
-    const uint64_t bit = (uint64_t)1 << k;
-    if ((line->given & bit) == 0 || i < line->count || (job->from.shared.with.which & bit) != 0)
-      continue;
-    char reader[160], text[300];
-    snprintf(text, sizeof text, "params.%s has no effect; %s reads it", n->key,
-             reader_of(n, "cushion", reader));
-    if (job->from.shared.strict) {
-      line->error = copy_text(text);
-      line->table = NULL;
-      return;
-    }
-    if ((b->unread & bit) == 0)
-      complain("%s:%zu: %s", b->file, line->number, text);
-    b->unread |= bit;
-  }
-  const given_numbers *with = &job->from.shared.with;
-  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
-    if ((with->which >> k & 1) != 0)
-      shot_line_give(line, n,
-                     *(const double *)(const void *)((const char *)&with->kind + n->offset));
-}
-
 /* All shots of a file; an exit code. */
-static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *picture) {
+static int shoot_all(shoot_job *job, shot_file *file, FILE *out) {
   block *b = allocate(1, sizeof *b);
   b->file = shot_file_name(file);
   b->unnamed = -MOST_NAMED;
@@ -381,32 +276,33 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
   while ((what = shot_file_next(file, &b->line[b->count], &text)) == SHOT_SHOT ||
          what == SHOT_TABLE) {
     if (what == SHOT_TABLE) { /* behind the shots before it */
-      good &= finish_block(b, job, out, picture);
+      good &= finish_block(b, job, out);
       clear_block(b);
       fputs(text, out);
       continue;
     }
     carom_cue *cue = &b->line[b->count].cue;
     const bool plays = b->line[b->count].error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 &&
-                       tip_of(cue) < 1.0;
-    if (plays && doubts_about_tip(&b->tips, tip_of(cue)) != NULL && job->from.shared.strict)
+                       tip_off_centre(cue) < 1.0;
+    if (plays && doubts_about_tip(&b->tips, tip_off_centre(cue)) != NULL && job->from.shared.strict)
       cue->miscue = TIP_LIMIT;
-    report_unread(b, &b->line[b->count], job);
-    begin_shot(b, job->events != EVENTS_NONE || job->together || draws(job) || job->error.given);
+    shot_numbers(&b->line[b->count], &job->from.shared, b->file, &b->unread);
+    begin_shot(b, job->events != EVENTS_NONE || job->together || drawings_asked(&job->drawn) ||
+                      job->error.given);
     if (++b->count == BLOCK) {
-      good &= finish_block(b, job, out, picture);
+      good &= finish_block(b, job, out);
       clear_block(b);
       progress_show("shots", done += (double)BLOCK, -1.0);
     }
   }
-  good &= finish_block(b, job, out, picture);
+  good &= finish_block(b, job, out);
   clear_block(b);
   if (b->unnamed > 0)
     complain("%s: %lld more lines in error", b->file, b->unnamed);
   doubts_report(&b->tips, "shot", b->file);
   free(b);
   progress_clear();
-  if (draws(job) && picture[PICTURE].text == NULL && picture[ANIMATION].text == NULL) {
+  if (drawings_asked(&job->drawn) && !drawings_made(&job->drawn)) {
     complain("nothing to draw: there is no shot without an error%s%s", job->id != NULL ? " " : "",
              job->id != NULL ? job->id : "");
     good = false;
@@ -431,6 +327,9 @@ static const command_form form = {
                                            &option_pocket,
                                            &option_via,
                                            &option_shot_cut,
+                                           &option_leave,
+                                           &option_player,
+                                           &option_player_errors,
                                            &option_shot_speed,
                                            &option_ball_speed,
                                            &option_tip,
@@ -448,6 +347,7 @@ static const command_form form = {
                                            &option_plot,
                                            &option_spread,
                                            &option_animate,
+                                           &option_lesson,
                                            &option_shot_id,
                                            &option_strict,
                                            &option_cite,
@@ -468,6 +368,23 @@ static int write_sources(const carom_shot_options *options) {
   fputs(text, stdout);
   free(text);
   return EXIT_GOOD;
+}
+
+/* Chooses the stroke of --leave; false after a complaint. */
+static bool chooses(shoot_job *job, const carom_shot_options *options) {
+  const given_player *given = &job->from.shared.player;
+  carom_player player;
+  if (!job->leave.given && (given->rated || given->errs))
+    complain("--player and --errors are of --leave; --spread tells what errors make of a shot");
+  else if (job->leave.given && !job->together)
+    complain("--leave is of a shot by options: --cue, --balls and the like");
+  else if (!job->leave.given)
+    return true;
+  else if (player_of(given, &player)) {
+    without_bounds(&player);
+    return leave_choose(&job->leave, &job->from, options, &player, job->left);
+  }
+  return false;
 }
 
 int command_shoot(int argc, char **argv) {
@@ -508,33 +425,29 @@ int command_shoot(int argc, char **argv) {
              "has them");
     return EXIT_USAGE;
   }
-  if (!svg_possible(job.plot) || !output_possible(job.animation))
+  if (!drawings_possible(&job.drawn))
     return EXIT_USAGE;
   const carom_shot_options options = options_of(&job);
+  if (!chooses(&job, &options))
+    return EXIT_USAGE;
   shot_file *file = job.together
                         ? flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS, &lines)
                         : shot_file_open(path);
   FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;
-  drawing picture[DRAWINGS] = {0};
   code = EXIT_USAGE;
   if (out != NULL && job.from.json) {
     fputs(lines, out);
     code = EXIT_GOOD;
   } else if (out != NULL)
-    code = shoot_all(&job, file, out, picture);
+    code = shoot_all(&job, file, out);
   if (file != NULL)
     shot_file_close(file);
   if (out != NULL && code == EXIT_USAGE)
     output_abandon();
   else if (out != NULL && !output_commit())
     code = EXIT_USAGE;
-  else if ((picture[PICTURE].text != NULL &&
-            !svg_draw(job.plot, write_drawing, &picture[PICTURE])) ||
-           (picture[ANIMATION].text != NULL &&
-            !file_draw(job.animation, write_drawing, &picture[ANIMATION])))
+  else if (!drawings_write(&job.drawn))
     code = EXIT_SOME;
-  free(picture[PICTURE].text);
-  free(picture[ANIMATION].text);
   free(lines);
   return code;
 }

@@ -1,6 +1,7 @@
 /* `carom ways`: the ways to pot a ball, to score on a table without pockets, or to bring the cue
  * ball to a place. ways.c finds them; here they are asked for and told. */
 #include "command.h"
+#include "leave.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
@@ -11,7 +12,7 @@
 #include "shot_file.h"
 #include "shot_picture.h"
 #include "subcommands.h"
-#include "ways.h"
+#include "way_words.h"
 #include "wide.h"
 #include "words.h"
 
@@ -19,15 +20,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_STROKES = 320, MOST_DRAWN = 8, PARTS_TEXT = 160, WAY_TEXT = 400 };
+enum { MOST_STROKES = 320, MOST_DRAWN = 8 };
 /* directions of all strokes together */
 enum { SCANNED = 20000, SCANNED_TO_SCORE = 100000 };
-
-/* Where the cue ball shall end: within a radius of a place. */
-typedef struct leave {
-  bool given;
-  value x, y, radius;
-} leave;
 
 typedef struct ways_job {
   shoot_flags from;
@@ -44,31 +39,12 @@ OPTION(ways_job, option_to_pocket, "pocket", pocket, 0, "NAME|any", set_text, 0,
        "the pocket that it shall fall into, such as foot-left (default any)");
 OPTION(ways_job, option_rails, "rails", rails, 0, "0|1|2", set_choice, 0,
        "most rails of banks, kicks and caroms (default 2)");
-static OPTION_SET(set_leave) {
-  leave *to = field;
-  char copy[PLACE_TEXT], spelt[PLACE_TEXT], *rest = NULL;
-  value *part[] = {&to->x, &to->y, &to->radius};
-  int parts = 0;
-  bool good = strlen(text) < sizeof copy;
-  snprintf(copy, sizeof copy, "%s", place_spelt(text, spelt));
-  value_of(MEASURE_LENGTH, "0.15", &to->radius);
-  for (char *one = strtok_r(copy, ",", &rest); one != NULL && good;
-       one = strtok_r(NULL, ",", &rest), parts++)
-    good = parts < 3 && value_of(parts == 2 ? MEASURE_LENGTH : MEASURE_PLACE, one, part[parts]);
-  to->given = good && parts >= 2 && to->radius.x > 0.0;
-  if (!to->given)
-    complain("--%s is X,Y or X,Y,R in m, or with units: 2d,4d,20cm, or PLACE or PLACE,R: " PLACES
-             "; not '%.60s'",
-             row->name, text);
-  return to->given;
-}
-
-OPTION(ways_job, option_leave, "leave", leave, 0, "X,Y[,R]|PLACE[,R]", set_leave, 0,
+OPTION(ways_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
        "the cue ball shall end within R (default 0.15 m) of this place, m, or with units, "
        "2d,4d,20cm, or named as in --cue, foot-spot,20cm. It counts for the chance, so that of "
        "several speeds and tips the one is told that brings it there. The cue ball alone is sent "
        "there without a pot");
-OPTION(ways_job, option_wide_cut, "cut", cut, 0, "full|three-quarter|half|quarter|DEGREES",
+OPTION(ways_job, option_wide_cut, "cut", cut, 0, "full|three-quarter|half|quarter|thin|DEGREES",
        set_values, MEASURE_CUT,
        "how wide is the direct pot of --ball into --pocket: the cue ball is put where the cut is "
        "this, as in `carom hit`, several with commas or a range, 0:70:5; each stroke is told "
@@ -91,8 +67,10 @@ OPTION(
 OPTION(ways_job, option_ways_csv, "csv", csv, 0, NULL, set_flag, 0, "write rows instead of words");
 OPTION(ways_job, option_ways_json, "json", json, 0, NULL, set_flag, 0,
        "write each way as the line of its stroke, for `carom shoot`, with an object `way`");
-OPTION(ways_job, option_ways_plot, "plot", plot, 0, "OUT", set_picture, 0,
-       "draw the eight best ways over each other; or with --cut or --distance curves, by gnuplot");
+OPTION(
+    ways_job, option_ways_plot, "plot", plot, 0, "OUT", set_picture, 0,
+    "draw the eight best ways over each other; or over a range of --cut, --distance, the speed or "
+    "the tip curves, by gnuplot");
 
 /* ---- What is told */
 
@@ -104,41 +82,6 @@ static int by_chance(const void *a, const void *b) {
   return wide < others ? 1 : wide > others ? -1 : 0;
 }
 
-/* "left, 2": the rails and balls of a way. */
-static const char *say_parts(const ways_search *s, const way *w, char text[PARTS_TEXT]) {
-  text[0] = '\0';
-  for (int k = 0; k < w->parts; k++) {
-    const bool rail = w->part[k].kind == CAROM_PART_RAIL;
-    const char *name = rail ? carom_rail_name(&s->line->table->table, w->part[k].index) : NULL;
-    snprintf(text + strlen(text), PARTS_TEXT - strlen(text), "%s%s", k > 0 ? ", " : "",
-             name != NULL ? name
-             : rail       ? s->line->table->rail[w->part[k].index]
-                          : s->line->name[w->part[k].index]);
-  }
-  return text;
-}
-
-/* "1 to foot-left, bank: left" */
-static const char *say_way(const ways_search *s, const way *w, char text[WAY_TEXT]) {
-  char parts[PARTS_TEXT];
-  const char *pocket = w->pocket >= 0 ? carom_pocket_name(&s->line->table->table, w->pocket) : NULL;
-  say_parts(s, w, parts);
-  if (w->ball < 0)
-    snprintf(text, WAY_TEXT, "%s", w->parts > 0 ? parts : "straight");
-  else
-    snprintf(text, WAY_TEXT, "%s to %s, %s%s%s", s->line->name[w->ball],
-             pocket != NULL ? pocket : s->line->table->pocket[w->pocket], way_names[w->kind],
-             w->parts > 0 ? ": " : "", parts);
-  if (!isnan(w->distance))
-    snprintf(text + strlen(text), WAY_TEXT - strlen(text), " from %.4g m", w->distance);
-  return text;
-}
-
-/* Whether the ways are those of wide.h. */
-static bool is_wide(const ways_search *s) {
-  return s->ways > 0 && !isnan(s->way[0].distance);
-}
-
 static void tell(FILE *out, const ways_search *s, int most) {
   const bool counted = s->counted != CAROM;
   char text[WAY_TEXT];
@@ -146,19 +89,19 @@ static void tell(FILE *out, const ways_search *s, int most) {
     fputs("There is no way.\n", out);
   else
     fprintf(out, "%s    chance   window  %s   speed   tip           aim  way\n",
-            is_wide(s) ? "     falls" : "", counted ? "    of all" : "       cut");
+            are_wide(s) ? "     falls" : "", counted ? "    of all" : "       cut");
   for (int k = 0; k < s->ways && k < most; k++) {
     const way *w = &s->way[k];
-    char middle[24] = "";
+    char middle[CUT_TEXT];
     if (counted)
       snprintf(middle, sizeof middle, "%.3f %%", 100.0 * (double)w->found / (double)s->scanned);
-    else if (!isnan(w->cut))
-      snprintf(middle, sizeof middle, "%.1f %s", fabs(w->cut), w->cut < 0.0 ? "right" : "left");
-    if (is_wide(s))
+    else
+      cut_text(w, middle);
+    if (are_wide(s))
       fprintf(out, "%8.1f %%", 100.0 * w->falls);
     fprintf(out, "%8.1f %% %8.2f  %10s %7.3g  %+.2f,%+.2f  %7.2f  %s\n", 100.0 * w->chance,
             w->phi[1] - w->phi[0], middle, w->cue.speed, 0.0 - w->cue.a, w->cue.b, w->cue.phi,
-            say_way(s, w, text));
+            way_text(s, w, text));
   }
   if (counted)
     fprintf(out, "%lld of %lld strokes %s, %.2f %%, by %d ways.\n", (long long)s->good,
@@ -171,60 +114,23 @@ static void write_rows(FILE *out, const ways_search *s) {
   fprintf(out,
           "rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,margin,phi_low,phi_high,speed_low,"
           "speed_high,chance,error,found,scanned%s\n",
-          is_wide(s) ? ",falls,at_cut,distance,x,y" : "");
+          are_wide(s) ? ",falls,at_cut,distance,x,y" : "");
   for (int k = 0; k < s->ways; k++) {
     const way *w = &s->way[k];
     fprintf(out, "%d,%s,%s,%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g,", k + 1, way_names[w->kind],
             w->ball >= 0 ? s->line->name[w->ball] : "",
-            w->pocket >= 0 ? s->line->table->pocket[w->pocket] : "", say_parts(s, w, parts),
+            w->pocket >= 0 ? s->line->table->pocket[w->pocket] : "", parts_text(s, w, parts),
             w->cue.speed, w->cue.phi, w->cue.theta, w->cue.a, w->cue.b);
     const double more[] = {w->cut, w->margin, w->phi[0], w->phi[1], w->speed[0], w->speed[1]};
     for (size_t n = 0; n < sizeof more / sizeof more[0]; n++)
       fprintf(out, isnan(more[n]) ? "," : "%.10g,", more[n]);
     fprintf(out, "%.6f,%.6f,%lld,%lld", w->chance, w->error, (long long)w->found,
             (long long)s->scanned);
-    if (is_wide(s))
+    if (are_wide(s))
       fprintf(out, ",%.6f,%.10g,%.10g,%.17g,%.17g", w->falls, w->at_cut, w->distance, w->place[0],
               w->place[1]);
     fputc('\n', out);
   }
-}
-
-/* The line of a way's stroke. */
-static json_t *line_of(const ways_search *s, const way *w) {
-  char text[WAY_TEXT], parts[PARTS_TEXT];
-  json_t *to = json_object(), *cue = json_object();
-  json_object_set_new(to, "kind", json_string("shot"));
-  json_object_set_new(to, "id", json_string(say_way(s, w, text)));
-  json_object_set_new(to, "table", json_string(s->line->table->id));
-  const json_t *given = json_object_get(s->line->json, "cue");
-  if (given != NULL)
-    json_object_update(cue, (json_t *)given);
-  const carom_number *n;
-  for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
-    double x = 0.0;
-    if (n->key[0] != '\0')
-      memcpy(&x, (const char *)&w->cue + n->offset, sizeof x);
-    if (n->offset <= (int32_t)offsetof(carom_cue, b))
-      json_object_set_new(cue, n->key, json_real(x + 0.0));
-  }
-  json_object_set_new(to, "cue", cue);
-  json_t *balls = json_deep_copy(json_object_get(s->line->json, "balls"));
-  json_object_set_new(to, "balls", balls);
-  for (int axis = 0; axis < 2 && !isnan(w->distance); axis++)
-    json_array_set_new(json_object_get(json_array_get(balls, (size_t)s->line->cue.ball), "state"),
-                       (size_t)(1 + axis), json_real(w->place[axis]));
-  json_t *about = json_pack("{s: s, s: s, s: f, s: f, s: [f, f]}", "kind", way_names[w->kind], "by",
-                            say_parts(s, w, parts), "chance", w->chance, "error", w->error,
-                            "window", w->phi[0], w->phi[1]);
-  if (w->ball < 0)
-    json_object_set_new(about, "share", json_real((double)w->found / (double)s->scanned));
-  else
-    json_object_set_new(about, "ball", json_string(s->line->name[w->ball]));
-  if (!isnan(w->cut))
-    json_object_set_new(about, "cut", json_real(w->cut));
-  json_object_set_new(to, "way", about);
-  return to;
 }
 
 typedef struct drawn_ways {
@@ -248,17 +154,20 @@ static bool plot(const ways_search *s, const char *path) {
     complain("nothing to draw: there is no way");
     return false;
   }
-  char *words;
+  char *words, text[CUT_TEXT];
   size_t size;
   FILE *said = open_text(&words, &size);
   for (int k = 0; k < count; k++)
-    fprintf(said, "%d: chance %.1f %%, window %.2f degrees, %.3g m/s\n", k + 1,
-            100.0 * s->way[k].chance, s->way[k].phi[1] - s->way[k].phi[0], s->way[k].cue.speed);
+    fprintf(said, "%d: chance %.1f %%, window %.2f degrees, %.3g m/s%s%s\n", k + 1,
+            100.0 * s->way[k].chance, s->way[k].phi[1] - s->way[k].phi[0], s->way[k].cue.speed,
+            are_wide(s) ? ", cut " : "", are_wide(s) ? cut_text(&s->way[k], text) : "");
   close_text(said, &words);
   for (int k = 0; k < count; k++) {
     line[k] = *s->line;
     line[k].cue = s->way[k].cue;
-    line[k].json = line_of(s, &s->way[k]);
+    for (int axis = 0; axis < 2 && !isnan(s->way[k].distance); axis++)
+      line[k].ball[line[k].cue.ball].state.r[axis] = s->way[k].place[axis];
+    line[k].json = way_line(s, &s->way[k]);
     shot[k] = (carom_shot){.final = final[k]};
     shot_line_play(&line[k], &s->options, &shot[k]);
     drawn[k] = (played){.line = &line[k], .shot = &shot[k]};
@@ -321,9 +230,7 @@ static bool find(const ways_job *job, const wide_job *wide, shot_line *line, way
     return false;
   }
   s->counted = job->leave.given && s->line->count == 1 ? PLACE : t->pockets == 0 ? POINT : CAROM;
-  s->radius = job->leave.given ? job->leave.radius.x : 0.0;
-  s->place[0] = place_along(&job->leave.x, 0.25 * t->width);
-  s->place[1] = place_along(&job->leave.y, 0.125 * t->length);
+  leave_into(&job->leave, s);
   if (s->counted != PLACE && s->line->count < (t->pockets == 0 ? 3 : 2)) {
     complain(t->pockets == 0 ? "to score, three balls are needed"
                              : "the cue ball and one more are needed, or --leave");
@@ -453,14 +360,15 @@ int command_ways(int argc, char **argv) {
       else if (!job.json)
         tell(out, &s, s.ways);
       for (int k = 0; k < s.ways && job.json; k++) {
-        json_t *way_line = line_of(&s, &s.way[k]);
-        json_dumpf(way_line, out, JSON_REAL_PRECISION(17));
+        json_t *shot = way_line(&s, &s.way[k]);
+        json_dumpf(shot, out, JSON_REAL_PRECISION(17));
         fputc('\n', out);
-        json_decref(way_line);
+        json_decref(shot);
       }
       if (!output_commit())
         code = EXIT_USAGE;
-      else if (job.plot != NULL && !(many ? wide_plot(&wide, &s, job.plot) : plot(&s, job.plot)))
+      else if (job.plot != NULL && !(many && wide_has_range(&wide) ? wide_plot(&wide, &s, job.plot)
+                                                                   : plot(&s, job.plot)))
         code = EXIT_SOME;
     } else
       output_abandon();

@@ -137,7 +137,10 @@ bool svg_possible(const char *path) {
 bool svg_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data) {
   char format[8];
   snprintf(format, sizeof format, "%s", ending_of(path) + 1);
-  char *const words[] = {converter, (char[]){"--format"}, format, (char[]){"--zoom=2"}, NULL};
+  /* a page keeps its size; dots are twice as many */
+  char zoom[] = "--zoom=1";
+  zoom[sizeof zoom - 2] = strcmp(format, "png") == 0 ? '2' : '1';
+  char *const words[] = {converter, (char[]){"--format"}, format, zoom, NULL};
   const bool is_svg = strcmp(format, "svg") == 0;
   return make(path, is_svg ? NULL : words, converter_package, in_memory("data"), write, data);
 }

@@ -1,6 +1,7 @@
 /* The game of `carom plan`: its options, the state of its rules, and balls by their numbers. */
 #include "plan_game.h"
 #include "message.h"
+#include "places.h"
 
 #include "carom_plan.h"
 
@@ -17,12 +18,13 @@ OPTION_SET(set_score) {
   return good;
 }
 
+enum { YELLOW = 16 }; /* of the balls of snooker: the first colour */
+
 /* The number of a ball by its name; 0 where it has none. */
 static int number_of(const char *name, bool snooker) {
-  enum { RED = 3, YELLOW = 16, COLOURS = 6 };
-  static const char *const colours[] = {"yellow", "green", "brown", "blue", "pink", "black"};
+  enum { RED = 3 };
   for (int k = 0; k < COLOURS && snooker; k++)
-    if (strcmp(name, colours[k]) == 0)
+    if (strcmp(name, colours_of_snooker[k]) == 0)
       return YELLOW + k;
   char *end;
   const char *digits = snooker && strncmp(name, "red", RED) == 0 ? name + RED : name;
@@ -63,7 +65,10 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
   for (int k = 0; k <= last; k++)
     if (name[k] == NULL) {
       char text[16];
-      snprintf(text, sizeof text, "%d", k);
+      if (snooker && k >= YELLOW)
+        snprintf(text, sizeof text, "%s", colours_of_snooker[k - YELLOW]);
+      else
+        snprintf(text, sizeof text, snooker ? "red%d" : "%d", k);
       name[k] = strdup(text);
       ball[k] = line->ball[0];
       ball[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};

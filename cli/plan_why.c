@@ -2,13 +2,12 @@
  * the same without those of speed and without those of aim, which tells what these cost. */
 #include "plan_why.h"
 #include "shot_story.h"
+#include "stroke_words.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { EVENTS = 64 };
-static const double degrees = 180.0 / 3.14159265358979323846;
-
 /* What a stroke leaves: the balls, the rules' state, and whether the cue ball is in hand. */
 typedef struct left_layout {
   carom_turn turn;
@@ -41,80 +40,6 @@ static carom_plan_job job_after(const carom_plan_job *job, const left_layout *le
   next.balls = left->balls;
   next.rules = &left->rules;
   return next;
-}
-
-/* Speeds of the ball in words: billiards.colostate.edu, "typical shot speeds". */
-static const char *speed_words(double v) {
-  static const struct {
-    double most;
-    const char *words;
-  } speeds[] = {{0.45, "a soft touch"},
-                {0.89, "slow"},
-                {1.9, "medium"},
-                {3.2, "fast"},
-                {4.5, "a power stroke"}};
-  for (size_t k = 0; k < sizeof speeds / sizeof speeds[0]; k++)
-    if (v < speeds[k].most)
-      return speeds[k].words;
-  return "as hard as a break";
-}
-
-/* How much of the ball is hit. */
-static const char *part_words(double part) {
-  static const char *const eighths[] = {"a thin hit",
-                                        "1/8 of the ball",
-                                        "a quarter ball",
-                                        "3/8 of the ball",
-                                        "half a ball",
-                                        "5/8 of the ball",
-                                        "three quarters of the ball",
-                                        "7/8 of the ball",
-                                        "a full hit"};
-  return eighths[(int)round(8.0 * part)];
-}
-
-/* The cushions before the first ball, the cut and how much of the ball is hit; the tip as the hand
- * of a clock; the speed. */
-static void tell_aim(FILE *out, const carom_plan_job *job, const shot_line *line,
-                     const carom_cue *cue, const carom_shot *shot) {
-  const carom_event *meets = NULL;
-  char rail[WHERE_TEXT];
-  bool before = false;
-  fputs("   aim          ", out);
-  for (int64_t k = 0; k < shot->count && k < shot->room && meets == NULL; k++) {
-    const carom_event *e = &shot->events[k];
-    if (e->type == CAROM_EVENT_BALL_BALL && (e->a == cue->ball || e->b == cue->ball))
-      meets = e;
-    else if (counts_as_rail(line, shot, k, (int)cue->ball)) {
-      fprintf(out, "%s %s at diamond %.2f", before ? ", then" : "off",
-              rail_words(line->table, (int)e->b, rail),
-              diamonds_at(job->table, (int)e->b, e->after[0].r));
-      before = true;
-    }
-  }
-  fputs(before ? "; " : "", out);
-  if (meets != NULL) {
-    const int own = meets->a == cue->ball ? 0 : 1;
-    const carom_ball_state *c = &meets->before[own], *o = &meets->before[1 - own];
-    const double x = o->r[0] - c->r[0], y = o->r[1] - c->r[1];
-    const double cross = c->v[0] * y - c->v[1] * x, dot = c->v[0] * x + c->v[1] * y;
-    const double cut = atan2(cross, dot), part = 1.0 - fabs(sin(cut));
-    fprintf(out, "cut of %.0f degrees to the %s, %s; ", fabs(cut) * degrees,
-            cut > 0.0 ? "left" : "right", part_words(part));
-  }
-
-  /* how far the tip is from the centre, and where */
-  const double right = 0.0 - cue->a, off = hypot(right, cue->b);
-  const double hour = fmod(atan2(right, cue->b) * degrees / 30.0 + 12.5, 12.0);
-  if (off < 0.02)
-    fputs("tip at the centre; ", out);
-  else
-    fprintf(out, "tip at %d o'clock, %.0f %% of the way to the edge; ",
-            (int)hour == 0 ? 12 : (int)hour, 100.0 * off);
-  carom_motion struck;
-  carom_strike(cue, &job->balls[cue->ball].kind, &struck);
-  const double v = hypot(struck.v[0], struck.v[1]);
-  fprintf(out, "%s, the ball at %.2g m/s\n", speed_words(v), v);
 }
 
 /* Where the cue ball stops, and the best shot from there. */
@@ -250,7 +175,12 @@ void plan_tell_why(FILE *out, const carom_plan_job *job, const shot_line *line,
   const carom_call call = {choice->ball, choice->pocket};
   carom_shot shot = {.events = events, .room = EVENTS};
   play(&own, &choice->cue, call, &shot, &left);
-  tell_aim(out, &own, line, &choice->cue, &shot);
+  fputs("   aim          ", out);
+  fputs(tell_aim(out, line, &choice->cue, &shot) ? "; tip " : "tip ", out);
+  tell_tip(out, &choice->cue);
+  fputs("; ", out);
+  tell_speed(out, &choice->cue, &job->balls[choice->cue.ball].kind);
+  fputc('\n', out);
   tell_next(out, &own, line, &left, (int)choice->cue.ball);
   tell_misses(out, &own, &choice->cue, call);
 }

@@ -52,10 +52,13 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
     complain("--cut is between -90 and 90 degrees");
   else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
     return true; /* which is told when it is played */
-  else
-    switch (aim_at(&l->table, l->ball, l->count, options, at, cut, cue, &met)) {
+  else {
+    const aim_result found = aim_at(&l->table, l->ball, l->count, options, at, cut, cue, &met);
+    if (l->missed != NULL && found != AIM_FOUND)
+      *l->missed = true;
+    switch (l->missed != NULL ? AIM_FOUND : found) {
     case AIM_FOUND:
-      return true;
+      return found == AIM_FOUND;
     case AIM_BARRED:
       complain("--at-ball %s: at a cut of %.4g degrees %s is in the way", name, cut,
                obstacle(l, met.type, met.a == 0 ? met.b : met.a, text));
@@ -70,6 +73,7 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
                "of %.4g degrees",
                name, cut);
     }
+  }
   return false;
 }
 
@@ -142,8 +146,8 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot) {
 }
 
 /* Says why there is no aim. */
-static void complain_of(const char *pocket, const char *via, const layout *l,
-                        const carom_pot *pot) {
+static void complain_of(const char *pocket, const char *via, const layout *l, const carom_pot *pot,
+                        double speed) {
   const carom_brief_event *met = &pot->met;
   char text[BALL_TEXT], more[BALL_TEXT], why[160] = "the jaws send the ball back at this speed";
   const char *what = pot->vias > 0 ? "by this way" : "there directly";
@@ -156,8 +160,9 @@ static void complain_of(const char *pocket, const char *via, const layout *l,
   if (pot->is == CAROM_POT_NO_WAY)
     snprintf(why, sizeof why, "no direction of the cue sends the ball %s", what);
   else if (pot->is == CAROM_POT_SHORT)
-    snprintf(why, sizeof why, "%s comes to rest on its way; give a higher --speed",
-             ball_words(l, met->a, text));
+    snprintf(why, sizeof why,
+             "%s comes to rest on its way, with the cue at %.3g m/s; give a higher --speed",
+             ball_words(l, met->a, text), speed);
   else if (pot->is == CAROM_POT_BARRED && met->type == CAROM_EVENT_BALL_BALL && twice)
     snprintf(why, sizeof why, "%s and %s meet twice", ball_words(l, own, text),
              ball_words(l, other, more));
@@ -171,11 +176,13 @@ static void complain_of(const char *pocket, const char *via, const layout *l,
 bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
                    const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]) {
   const char *colon = strchr(pocket, ':'), *name = colon != NULL ? colon + 1 : "";
-  char known[NAMES_TEXT] = "", unused[NAMES_TEXT], by[AIMED_TEXT], hint[HINT_TEXT];
+  char known[NAMES_TEXT] = "", balls[NAMES_TEXT], by[AIMED_TEXT], hint[HINT_TEXT];
+  char ball[PLACE_NAME];
   named_table *t = built_in_table(l->table_name);
   carom_pot pot = {.pocket = pocket_named(&l->table, t->pocket, name, known),
                    .ball =
-                       ball_named(l, pocket, colon != NULL ? (size_t)(colon - pocket) : 0, unused)};
+                       ball_named(l, pocket, colon != NULL ? (size_t)(colon - pocket) : 0, balls)};
+  snprintf(ball, sizeof ball, "%.*s", (int)strcspn(pocket, ":"), pocket);
   bool good = false;
   free_table(t);
   if (l->table.pockets == 0)
@@ -183,13 +190,16 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
   else if (pot.ball < 0 || pot.pocket < 0)
     complain("--pocket is BALL:POCKET, such as 1:foot-left, with a ball of --balls and one of %s "
              "or its id; not '%.60s'%s",
-             known, pocket, did_you_mean(name, known, hint));
+             known, pocket,
+             pot.ball < 0 ? did_you_mean(ball, balls, hint) : did_you_mean(name, known, hint));
   else if (!read_via(l, via, &pot))
     return false;
   else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK)
     good = true; /* which is told when it is played */
+  else if (pot.is != CAROM_POT_FALLS && l->missed != NULL)
+    *l->missed = true;
   else if (pot.is != CAROM_POT_FALLS)
-    complain_of(pocket, via, l, &pot);
+    complain_of(pocket, via, l, &pot, cue->speed);
   else {
     char margin[80] = "the ball touches a jaw";
     say_way(l, &pot, by);

@@ -8,131 +8,13 @@
 #include "memory.h"
 #include "message.h"
 #include "number.h"
+#include "places.h"
 #include "words.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
 enum { MOST_TEXT = 1024 };
-
-/* In diamonds, as every table has them: corners and middles of the long rails lie at the noses. */
-static const struct {
-  const char *name, *place;
-} places[] = {{"head-spot", "2d,2d"},  {"centre", "2d,4d"},     {"foot-spot", "2d,6d"},
-              {"head-left", "0d,0d"},  {"head-right", "4d,0d"}, {"side-left", "0d,4d"},
-              {"side-right", "4d,4d"}, {"foot-left", "0d,8d"},  {"foot-right", "4d,8d"}};
-
-char *place_spelt(char *text, char to[PLACE_TEXT]) {
-  const size_t size = strcspn(text, ",");
-  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
-    if (strlen(places[k].name) == size && strncmp(text, places[k].name, size) == 0)
-      return snprintf(to, PLACE_TEXT, "%s%s", places[k].place, text + size) < PLACE_TEXT ? to
-                                                                                         : text;
-  return text;
-}
-
-static bool refuse(const option_row *row, const char *text) {
-  char hint[HINT_TEXT] = "", racks[MOST_WORDS] = "", known[2 * MOST_WORDS];
-  const bool tip = row->least == MEASURE_TIP;
-  if (row->words != 0)
-    words_of(row->words, true, racks);
-  snprintf(known, sizeof known, "%s", racks);
-  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
-    snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", places[k].name);
-  complain("--%s is %s%s%s; not '%.60s'%s", row->name,
-           tip ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
-                 "several with colons: 0,0:0.2,0, or a range of either: 0,-0.4..0.4..0.2"
-               : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds, or a place: " PLACES
-                 "; several with colons: 0.6,1.5:foot-spot",
-           row->words != 0 ? "; or a rack: " : "", racks, text,
-           tip ? hint : did_you_mean(text, known, hint));
-  return false;
-}
-
-/* Reads "A", "A..B" or "A..B..STEP", at most MOST_PLACES values of a measure; how many, or 0. A
- * range without a step has five. */
-static int read_range(int measure, const char *text, value to[MOST_PLACES]) {
-  char copy[MOST_TEXT], *rest = copy;
-  value end[3];
-  int parts = 0;
-  snprintf(copy, sizeof copy, "%s", text);
-  for (char *next = rest; next != NULL; rest = next, parts++) {
-    next = strstr(rest, "..");
-    if (next != NULL) {
-      *next = '\0';
-      next += 2;
-    }
-    if (parts == 3 || !value_of(measure, rest, &end[parts]) || end[parts].times != end[0].times)
-      return 0;
-  }
-  to[0] = end[0];
-  if (parts == 1)
-    return 1;
-  const double steps = parts == 3 ? (end[1].x - end[0].x) / end[2].x : 4.0;
-  if (!(steps >= 0.0 && steps < MOST_PLACES))
-    return 0;
-  const int count = (int)(steps + 1e-9) + 1;
-  for (int k = 0; k < count; k++) {
-    to[k] = end[0];
-    to[k].x += (end[1].x - end[0].x) * (k / fmax(steps, 1e-9));
-    snprintf(to[k].name, sizeof to[k].name, "%.4g", to[k].x);
-  }
-  return count;
-}
-
-/* Adds all pairs of two ranges, A..B,C..D; false where they cannot be read or are too many. */
-static bool add_ranges(int measure, const char *text, place_list *list) {
-  static value x[MOST_PLACES], y[MOST_PLACES];
-  char first[MOST_TEXT];
-  const char *comma = strchr(text, ',');
-  snprintf(first, sizeof first, "%.*s", (int)(comma - text), text);
-  const int across = read_range(measure, first, x), along = read_range(measure, comma + 1, y);
-  if (across == 0 || along == 0 || list->count + across * along > MOST_PLACES)
-    return false;
-  for (int k = 0; k < across * along; k++) {
-    list->at[list->count].x = x[k / along];
-    list->at[list->count++].y = y[k % along];
-  }
-  return true;
-}
-
-/* X,Y:X,Y:..., each perhaps behind NAME=; or the name of a rack. */
-static OPTION_SET(set_places) {
-  place_list *list = field;
-  char copy[MOST_TEXT], racks[MOST_WORDS], *rest;
-  static values pair;
-  *list = (place_list){0};
-  list->rack =
-      row->words != 0 ? 1 + place_among(words_of(row->words, true, racks), text, strlen(text)) : 0;
-  snprintf(copy, sizeof copy, "%s", text);
-  for (char *one = strtok_r(copy, ":", &rest); one != NULL && list->rack == 0;
-       one = strtok_r(NULL, ":", &rest)) {
-    char *equals = strchr(one, '='), *numbers = equals != NULL ? equals + 1 : one;
-    const size_t name = equals != NULL ? (size_t)(equals - one) : 0;
-    char spelt[PLACE_TEXT];
-    if (row->least == MEASURE_PLACE)
-      numbers = place_spelt(numbers, spelt);
-    if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row->words == 0) ||
-        strspn(numbers, "+-.,0123456789 eEacdfhimnprtR\"") != strlen(numbers) ||
-        strchr(numbers, ',') == NULL)
-      return refuse(row, text);
-    for (size_t k = 0; k < name; k++)
-      if (!isalnum((unsigned char)one[k]) && one[k] != '-' && one[k] != '_')
-        return refuse(row, text);
-    if (row->least == MEASURE_TIP && strstr(numbers, "..") != NULL) {
-      if (!add_ranges(row->least, numbers, list))
-        return refuse(row, text);
-      continue;
-    }
-    if (!set_values(row, numbers, &pair) || pair.count != 2)
-      return refuse(row, text);
-    snprintf(list->at[list->count].name, PLACE_NAME, "%.*s", (int)name, one);
-    list->at[list->count].x = pair.at[0];
-    list->at[list->count++].y = pair.at[1];
-  }
-  return list->rack > 0 || list->count > 0 ? true : refuse(row, text);
-}
 
 /* 1 + the place of the word; 0: none was given. */
 static OPTION_SET(set_word) {
@@ -157,13 +39,14 @@ const option_row option_table = {
     .words = CAROM_WORDS_TABLE};
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
     "place of the cue ball, m, or with a unit: 2,3ft, or 2,3d in diamonds from the left and the "
-    "head; or a place: " PLACES ", of which corners and sides lie at the noses (default: "
-    "head-spot, or the place in the rack)");
+    "head; or a place: " PLACES ". Corners and sides lie at the noses (default: head-spot, or the "
+    "place in the rack)");
 const option_row option_balls = {.name = "balls",
                                  .argument = "X,Y:...",
                                  .help = "places of the other balls, as in --cue, with colons "
                                          "between them: 0.6,1.5:foot-spot. They are named 1, "
-                                         "2, ..., or as 8=0.6,1.5 says. Or a rack",
+                                         "2, ..., after their spot of snooker, or as 8=0.6,1.5 "
+                                         "says. Or a rack",
                                  .set = set_places,
                                  .field = offsetof(shoot_flags, balls),
                                  .least = MEASURE_PLACE,
@@ -185,10 +68,11 @@ ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
     "with --pocket: the way, in its order. left: a bank of the ball; 2: a combination by ball 2; "
     "2,left: both; head,1: a kick of the cue ball at ball 1, the one of --pocket. Rails are head, "
     "foot, left and right");
-ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
-    "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
-ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
-    "speed of the cue just before the strike, m/s, or with a unit: mph, km/h (default 2)");
+ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES", set_values,
+    MEASURE_CUT, "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
+ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
+    "speed of the cue just before the strike, m/s, or with a unit: mph, km/h (default 2). A word "
+    "is the speed of the ball after it: " SPEEDS);
 ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
     "speed of the cue ball just after the strike instead, which a level cue gives it");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
@@ -224,21 +108,16 @@ bool has_flags(const shoot_flags *f) {
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
 static void name_rack(layout *l, carom_rack_kind kind) {
-  static const char *const snooker[] = {"yellow", "green", "brown", "blue", "pink", "black"};
   static const char *const billiard[] = {"white", "yellow", "red"};
   for (int k = 0; k < l->count; k++)
     if (kind == CAROM_RACK_THREECUSHION)
       snprintf(l->name[k], PLACE_NAME, "%s", billiard[k]);
     else if (kind == CAROM_RACK_SNOOKER && k > 15)
-      snprintf(l->name[k], PLACE_NAME, "%s", snooker[k - 16]);
+      snprintf(l->name[k], PLACE_NAME, "%s", colours_of_snooker[k - 16]);
     else
       snprintf(l->name[k], PLACE_NAME, kind == CAROM_RACK_SNOOKER ? "red%d" : "%d", k);
   if (kind != CAROM_RACK_THREECUSHION)
     snprintf(l->name[0], PLACE_NAME, "%s", kind == CAROM_RACK_SNOOKER ? "white" : "cue");
-}
-
-double place_along(const value *v, double diamond) {
-  return v->times == DIAMONDS ? v->x * diamond : v->x;
 }
 
 /* The state of a ball at rest at a place. */
@@ -301,9 +180,8 @@ static void name_value(char *id, const char *what, const values *list, int k) {
 static bool strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue) {
   carom_motion after;
   if (cue->theta > 0.0) {
-    complain(
-        "--ball-speed is that which a level cue gives the ball; with --elevation give --speed, "
-        "the speed of the cue");
+    complain("--ball-speed, and a word as --speed, is the speed that a level cue gives the ball; "
+             "with --elevation give --speed as a number, the speed of the cue");
     return false;
   }
   cue->speed = 1.0;
@@ -360,7 +238,8 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
         hypot(cue.a, cue.b), TIP_LIMIT);
   else if (bad != CAROM_OK)
     complain("no such strike: %s", carom_status_string(bad));
-  if (bad != CAROM_OK || (f->ball_speed.count > 0 && !strike_to(cue.speed, &l->ball[0].kind, &cue)))
+  const bool of_ball = f->ball_speed.count > 0 || speeds->at[speed].times == OF_BALL;
+  if (bad != CAROM_OK || (of_ball && !strike_to(cue.speed, &l->ball[0].kind, &cue)))
     return false;
   char told[AIMED_TEXT] = "";
   if (f->pocket != NULL) {
@@ -477,8 +356,12 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
              MOST_SHOTS, MOST_ROWS);
   if (good)
     lay_out(f, &l);
-  for (int k = 0; k < count && good; k++)
-    good = write_shot(out, f, &l, options, k);
+  bool missed = false;
+  l.missed = f->tries ? &missed : NULL;
+  for (int k = 0; k < count && good; k++) {
+    missed = false;
+    good = write_shot(out, f, &l, options, k) || missed;
+  }
   return good;
 }
 

@@ -3,6 +3,7 @@
 #ifndef CAROM_CLI_SHOOT_FLAGS_H
 #define CAROM_CLI_SHOOT_FLAGS_H
 
+#include "places.h"
 #include "shoot_aim.h"
 #include "shot_file.h"
 #include "values.h"
@@ -11,17 +12,7 @@
 
 #define GAP_MOST 0.02 /* m: below the radius of every ball */
 
-enum { MOST_PLACES = 64, MOST_SHOTS = 16, MOST_ROWS = 1001 };
-
-/* Pairs of numbers, each with the name that stood before it. */
-typedef struct place_list {
-  int count;
-  int rack; /* 1 + the carom_rack_kind that stood there instead; or 0 */
-  struct {
-    char name[PLACE_NAME];
-    value x, y;
-  } at[MOST_PLACES];
-} place_list;
+enum { MOST_SHOTS = 16, MOST_ROWS = 1001 };
 
 /* The job of a subcommand that has these options begins with it. */
 typedef struct shoot_flags {
@@ -33,6 +24,7 @@ typedef struct shoot_flags {
   place_list cue, balls, tip, to;
   double tip_time, tip_restitution; /* s, and 0 to 1 */
   bool json;
+  bool tries; /* shots that cannot be aimed are left out, without a complaint */
   char aimed[MOST_SHOTS][AIMED_TEXT]; /* what is told of the aim of each shot, or "" */
 } shoot_flags;
 
@@ -43,19 +35,6 @@ extern const option_row option_table, option_cue, option_balls, option_aim, opti
 
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);
-
-/* Places that have a name, as help and complaints list them. */
-#define PLACES                                                                              \
-  "head-spot, centre, foot-spot, head-left, head-right, side-left, side-right, foot-left, " \
-  "foot-right"
-
-/* A text that begins with the name of a place, up to a comma or its end, as X,Y in diamonds; other
- * texts as they are. `to` has the room. */
-enum { PLACE_TEXT = 128 };
-char *place_spelt(char *text, char to[PLACE_TEXT]);
-
-/* A place, m: `diamond` is the distance of two diamonds. */
-double place_along(const value *v, double diamond);
 
 /* Writes the shots as lines of JSON, one for each combination and at most `most`, aimed for a play
  * by these options; false after a complaint. */

@@ -2,6 +2,7 @@
  * curve. */
 #include "shot_picture.h"
 
+#include "ball_colours.h"
 #include "derived.h"
 #include "memory.h"
 #include "picture.h"
@@ -28,39 +29,6 @@ bool shot_has_id(const shot_line *line, const char *id) {
 static const double side_margin = 30.0, least_arrow = 40.0; /* pixels */
 /* a usual one, over the size of letters */
 static const double letter_width = 0.53;
-
-/* Colours of pool balls by number, as bright as a path on green has to be; the first is for the
- * cue ball and others. */
-static const char *const colours[] = {
-    "#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd",
-    "#111111", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"};
-
-/* The colour that the name of a ball says, or NULL. */
-static const char *named_colour(const char *name) {
-  static const struct {
-    const char *name, *colour;
-  } named[] = {{"cue", "#ffffff"},   {"white", "#ffffff"}, {"yellow", "#ffd84a"},
-               {"green", "#b6f09c"}, {"brown", "#c9a27a"}, {"blue", "#8fc1ff"},
-               {"pink", "#f2a0bd"},  {"black", "#111111"}};
-  for (size_t k = 0; k < sizeof named / sizeof named[0]; k++)
-    if (strcmp(name, named[k].name) == 0)
-      return named[k].colour;
-  return strncmp(name, "red", 3) == 0 ? "#ff8d80" : NULL;
-}
-
-static const char *colour_of(const char *name, int index) {
-  char *end;
-  const long number = strtol(name, &end, 10);
-  return named_colour(name) != NULL                    ? named_colour(name)
-         : *end == '\0' && number >= 1 && number <= 15 ? colours[number]
-                                                       : colours[index % 16];
-}
-
-static bool is_striped(const char *name) {
-  char *end;
-  const long number = strtol(name, &end, 10);
-  return *end == '\0' && number >= 9 && number <= 15;
-}
 
 /* Goes on with a path from a place to another and a time: straight, or in short pieces where the
  * ball slides. */
@@ -219,12 +187,14 @@ static void draw_disc(const view *v, const shot_line *line, int ball, double x, 
              v->labels->size, strcmp(colour, "#111111") == 0 ? "#fff" : "#111");
 }
 
-/* A name of more than two letters stands beside the ball, unless the ball's colour says it. */
+/* A name of more than two letters stands beside the ball, unless the ball's colour says it: of the
+ * reds of snooker that of one that moved. */
 static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball,
-                      const char *name) {
+                      const char *name, bool moved) {
   const double x = across(v, s->r), y = down(v, s->r);
+  const bool one_of_many = strncmp(name, "red", 3) == 0 && name[3] != '\0' && moved;
   draw_disc(v, line, ball, x, y, name);
-  if (strlen(name) > 2 && named_colour(name) == NULL)
+  if (strlen(name) > 2 && (named_colour(name) == NULL || one_of_many))
     put_label(v->labels, x, y, name);
 }
 
@@ -351,7 +321,7 @@ static void draw_rails(const view *v, labels *l, const shot_line *line, const ca
 #define DASHES " stroke-dasharray=\"7 4\""
 
 static const char *shot_colour(int shot) {
-  return colours[shot % 8];
+  return ball_colours[shot % 8];
 }
 
 /* Which colour is which shot, in lines from y on; returns their height. Without `draws` it only
@@ -413,8 +383,11 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int shot = 0; shot < count && side > 0.0; shot++)
     draw_side(&v, shots[shot].line, shots[shot].shot, high + side, wide);
   for (int k = 0; k < shots[0].line->count; k++)
-    if (!is_missing(shots[0].line, k))
-      draw_start(&v, shots[0].line, k, down(&v, shots[0].line->ball[k].state.r));
+    for (int shot = 0; shot < count && !is_missing(shots[0].line, k); shot++) {
+      const double *r = shots[shot].line->ball[k].state.r, *first = shots[0].line->ball[k].state.r;
+      if (shot == 0 || r[0] != first[0] || r[1] != first[1])
+        draw_start(&v, shots[shot].line, k, down(&v, r));
+    }
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0 && shots[shot].spread != NULL; k--)
       draw_band(&v, shots[shot].line, shots[shot].spread, k);
@@ -453,8 +426,8 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
         }
         snprintf(number, sizeof number, "%d", shot + 1);
         fputs("<g class=\"ball\">\n", out);
-        draw_ball(&v, line, &final[k], k,
-                  count > 1 && k == line->cue.ball ? number : line->name[k]);
+        draw_ball(&v, line, &final[k], k, count > 1 && k == line->cue.ball ? number : line->name[k],
+                  ball_moved(shots[shot].shot, k));
         fputs("</g>\n", out);
         if (shots[shot].spread != NULL)
           draw_ellipse(&v, shots[shot].spread, &final[k], k);

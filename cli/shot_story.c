@@ -1,8 +1,9 @@
 /* A shot as moments of its balls, from its events.
  *
  * Contacts of one instant, as in a rack that breaks, change a ball at the first of them alone, so
- * the others are left out. A ball passes another where the gap between them has a minimum below a
- * radius and they never meet: found by samples and the golden section. */
+ * the others are left out; contacts with one ball within SAME_CONTACT are one. A ball passes
+ * another where the gap between them has a minimum below a radius and they never meet: found by
+ * samples and the golden section. */
 #include "shot_story.h"
 
 #include "derived.h"
@@ -215,7 +216,7 @@ static bool passes(const shot_line *line, const carom_shot *shot, int ball, int 
 
 int story_of(const shot_line *line, const carom_shot *shot, int ball, moment to[MOST_MOMENTS]) {
   int count = 0;
-  double last = 0.0;
+  double last = 0.0, met = -INFINITY; /* the last contact with a ball */
   for (int64_t k = 0; k < kept_events(shot) && count < MOST_MOMENTS - 2 * CAROM_BALLS_MOST; k++) {
     const carom_event *e = &shot->events[k];
     moment m;
@@ -228,6 +229,18 @@ int story_of(const shot_line *line, const carom_shot *shot, int ball, moment to[
     if (m.kind == MOMENT_MEETS && before != NULL && before->kind == MOMENT_MEETS &&
         before->time == m.time)
       continue;
+    /* a ball that is pushed along is met once, and left when it is met last */
+    const bool rolled = before != NULL && before->kind == MOMENT_ROLLS && count > 1;
+    moment *same = rolled ? &to[count - 2] : count > 0 ? &to[count - 1] : NULL;
+    const double since = m.time - met;
+    met = m.kind == MOMENT_MEETS ? m.time : met;
+    if (m.kind == MOMENT_MEETS && same != NULL && same->kind == MOMENT_MEETS &&
+        same->with == m.with && since < SAME_CONTACT) {
+      same->speed = m.speed;
+      same->direction = m.direction;
+      count -= rolled;
+      continue;
+    }
     to[count++] = m;
   }
   const carom_ball_state *final = &shot->final[ball];

@@ -8,7 +8,7 @@
 /* Whether a rail is no cut of a pocket: those are short. */
 bool is_cushion(const carom_table *t, int rail);
 
-/* s: contacts of a ball with one cushion that are nearer are one */
+/* s: contacts of a ball with one cushion, or with one ball, that are nearer are one */
 #define SAME_CONTACT 0.1
 
 /* Whether event k is a contact of the ball with a cushion that a player would count: no jaw, no

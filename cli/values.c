@@ -4,6 +4,9 @@
  * centre, without loss,
  * 5/2 (1/2) V/R. A tip is an offset of 13 mm, the width of a usual tip. Percent of follow and
  * draw are of the spin of a rolling ball, V/R.
+ *
+ * Words of speed are the middles of the ranges of a ball's speed at
+ * billiards.colostate.edu/faq/speed/typical.
  */
 #include "values.h"
 
@@ -21,7 +24,7 @@ enum { POINTS = 161, MOST_TEXT = 256 };
 #define BALL_FRACTION \
   ((double)NAN) /* an angle by the part x of the ball that is hit, 0 to 1:
                                        asin(1 - x) */
-static const double strike = 2.5, tip_width = 0.013;
+static const double strike = 2.5, tip_width = 0.013, mph = 0.44704;
 
 /* The first unit of a measure is that of a bare number; a spin has none. */
 static const struct {
@@ -32,7 +35,7 @@ static const struct {
 } units[] = {
     {MEASURE_NUMBER, "", "", 1.0, FIXED},
     {MEASURE_SPEED, "m/s", "m/s", 1.0, FIXED},
-    {MEASURE_SPEED, "mph", "mph", 0.44704, FIXED},
+    {MEASURE_SPEED, "mph", "mph", mph, FIXED},
     {MEASURE_SPEED, "km/h", "km/h", 1.0 / 3.6, FIXED},
     {MEASURE_CUT, "deg", "degrees", 1.0, FIXED},
     {MEASURE_CUT, "ball", "part of the ball that is hit", BALL_FRACTION, FIXED},
@@ -62,6 +65,9 @@ static const struct {
     {MEASURE_SIDE, "rad/s", "rad/s counterclockwise", 1.0, FIXED},
     {MEASURE_SIDE, "%", "% of right english", 0.01 * strike * 0.5, ROLLING},
     {MEASURE_SIDE, "tip", "tips to the right", strike *tip_width, OFFSET},
+    {MEASURE_SIDE_RAIL, "rad/s", "rad/s counterclockwise", 1.0, FIXED},
+    {MEASURE_SIDE_RAIL, "%", "% of right english", 0.01 * strike * 0.5, ROLLING},
+    {MEASURE_SIDE_RAIL, "tip", "tips to the right", strike *tip_width, OFFSET},
 };
 
 static const struct {
@@ -74,6 +80,13 @@ static const struct {
     {MEASURE_CUT, "three-quarter", 14.477512185929925, FIXED},
     {MEASURE_CUT, "half", 30.0, FIXED},
     {MEASURE_CUT, "quarter", 48.590377890729144, FIXED},
+    {MEASURE_CUT, "thin", 61.044975628140819, FIXED}, /* an eighth */
+    {MEASURE_SPEED, "soft", 0.5 * mph, OF_BALL},
+    {MEASURE_SPEED, "slow", 1.5 * mph, OF_BALL},
+    {MEASURE_SPEED, "medium", 3.0 * mph, OF_BALL},
+    {MEASURE_SPEED, "fast", 5.5 * mph, OF_BALL},
+    {MEASURE_SPEED, "power", 8.5 * mph, OF_BALL},
+    {MEASURE_SPEED, "break", 27.5 * mph, OF_BALL},
     {MEASURE_SPIN, "stun", 0.0, FIXED},
     {MEASURE_SPIN, "follow", 1.0, ROLLING},
     {MEASURE_SPIN, "roll", 1.0, ROLLING},
@@ -81,7 +94,15 @@ static const struct {
     {MEASURE_SIDE, "none", 0.0, FIXED},
     {MEASURE_SIDE, "right", 1.25, ROLLING},
     {MEASURE_SIDE, "left", -1.25, ROLLING},
+    {MEASURE_SIDE, "outside", 1.25, GEARED},
+    {MEASURE_SIDE, "inside", -1.25, GEARED},
     {MEASURE_SIDE, "gearing", 1.0, GEARING},
+    {MEASURE_SIDE_RAIL, "none", 0.0, FIXED},
+    {MEASURE_SIDE_RAIL, "right", 1.25, ROLLING},
+    {MEASURE_SIDE_RAIL, "left", -1.25, ROLLING},
+    {MEASURE_SIDE_RAIL, "running", 1.25, GEARED},
+    {MEASURE_SIDE_RAIL, "reverse", -1.25, GEARED},
+    {MEASURE_SIDE_RAIL, "gearing", 1.0, GEARING},
 };
 
 enum {
@@ -112,14 +133,26 @@ static bool set_value(value *v, double given, int unit) {
   return isfinite(v->x);
 }
 
-/* Splits "7mph" into number and unit; the unit of none is ""; false where it is no number. */
+/* Splits "7mph" or "1/4ball" into number and unit; the unit of none is ""; false where it is no
+ * number. */
 static bool split(const char *text, double *number, const char **unit) {
   char digits[64];
+  double over = 1.0;
   const size_t size = strspn(text, "+-.0123456789"), power = text[size] == 'e' || text[size] == 'E';
   const size_t more = power ? 1 + strspn(text + size + 1, "+-0123456789") : 0;
   snprintf(digits, sizeof digits, "%.*s", (int)(size + more), text);
   *unit = text + size + more + strspn(text + size + more, " ");
-  return size + more < sizeof digits && parse_number(digits, number) && isfinite(*number);
+  if (size + more >= sizeof digits || !parse_number(digits, number))
+    return false;
+  if (**unit == '/') {
+    const size_t below = strspn(*unit + 1, "0123456789");
+    snprintf(digits, sizeof digits, "%.*s", (int)below, *unit + 1);
+    *unit += 1 + below;
+    if (below == 0 || !parse_number(digits, &over))
+      return false;
+    *number /= over;
+  }
+  return isfinite(*number);
 }
 
 /* "m/s, mph or km/h", and the words. */
@@ -153,19 +186,43 @@ static bool refuse(const option_row *row, const char *text) {
   return false;
 }
 
-/* A range, whose ends are split at colons. */
+/* A word, of parts of a ball also as half-ball. */
+static bool set_word(const char *text, int measure, value *v) {
+  const char *end = measure == MEASURE_CUT ? strstr(text, "-ball") : NULL;
+  const size_t size = end != NULL && end[5] == '\0' ? (size_t)(end - text) : strlen(text);
+  for (int k = 0; k < WORDS; k++)
+    if (words[k].measure == measure && strlen(words[k].name) == size &&
+        strncmp(words[k].name, text, size) == 0) {
+      *v = (value){.x = words[k].x, .given = (double)NAN, .times = words[k].times};
+      snprintf(v->name, sizeof v->name, "%s", text);
+      return true;
+    }
+  return false;
+}
+
+/* A range, whose ends are split at colons; those of speeds and cuts may be words, in SI units. */
 static bool set_range(const option_row *row, const char *text, values *list) {
   char copy[MOST_TEXT], *rest = NULL;
   double end[3];
   const char *unit = "", *own;
-  int parts = 0;
+  int parts = 0, worded = 0;
+  value word = {.times = FIXED};
   snprintf(copy, sizeof copy, "%s", text);
   for (char *part = strtok_r(copy, ":", &rest); part != NULL;
        part = strtok_r(NULL, ":", &rest), parts++) {
+    const bool is_word =
+        parts < 3 && row->least < MEASURE_SPIN && set_word(part, row->least, &word);
+    worded += is_word;
+    if (is_word) {
+      end[parts] = word.x;
+      continue;
+    }
     if (parts == 3 || !split(part, &end[parts], &own))
       return refuse(row, text);
     unit = own[0] != '\0' ? own : unit;
   }
+  if (worded > 0 && unit[0] != '\0')
+    return refuse(row, text);
   const int found = find_unit(row->least, unit);
   const double steps = parts == 3 ? (end[1] - end[0]) / end[2] : POINTS - 1;
   if (parts < 2 || found == NO_UNIT || !(steps >= 1.0) || steps > MOST_VALUES - 1)
@@ -175,18 +232,9 @@ static bool set_range(const option_row *row, const char *text, values *list) {
     const double x = parts == 3 ? end[0] + k * end[2] : end[0] + (end[1] - end[0]) * k / steps;
     if (!set_value(&list->at[k], x, found))
       return refuse(row, text);
+    list->at[k].times = worded > 0 ? word.times : list->at[k].times;
   }
   return true;
-}
-
-static bool set_word(const char *text, int measure, value *v) {
-  for (int k = 0; k < WORDS; k++)
-    if (words[k].measure == measure && strcmp(words[k].name, text) == 0) {
-      *v = (value){.x = words[k].x, .given = (double)NAN, .times = words[k].times};
-      snprintf(v->name, sizeof v->name, "%s", text);
-      return true;
-    }
-  return false;
 }
 
 static bool read_values(const option_row *row, const char *text, values *list) {
@@ -286,6 +334,8 @@ double spin_of(const value *v, double speed, double radius, double gearing) {
     return v->x * speed / (radius * radius);
   case GEARING:
     return gearing;
+  case GEARED:
+    return copysign(v->x, v->x * gearing) * speed / radius;
   default:
     return v->x;
   }

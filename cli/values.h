@@ -19,13 +19,18 @@ enum measure {
   MEASURE_TIP,
   MEASURE_SHARE,
   MEASURE_SPIN,
-  MEASURE_SIDE
+  MEASURE_SIDE,     /* of the cue ball at a collision, */
+  MEASURE_SIDE_RAIL /* and at a cushion */
 };
 
+/* The words of a speed, as help lists them. */
+#define SPEED_WORDS "soft|slow|medium|fast|power|break"
+#define SPEEDS "soft 0.22, slow 0.67, medium 1.34, fast 2.46, power 3.8, break 12.3 m/s"
+
 /* What a number is a multiple of. Of a spin: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m,
- * by the offset of a tip; or the side spin of a ball that rolls on the other without slip. Of a
- * place: DIAMONDS. */
-enum spin_unit { FIXED, ROLLING, OFFSET, GEARING, DIAMONDS };
+ * by the offset of a tip; the side spin of a ball that rolls on the other without slip, or V/R to
+ * its side. Of a place: DIAMONDS. Of a speed: that of the ball, also where speeds are the cue's. */
+enum spin_unit { FIXED, ROLLING, OFFSET, GEARING, GEARED, DIAMONDS, OF_BALL };
 
 typedef struct value {
   double x;              /* SI units; angles in degrees */

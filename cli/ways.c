@@ -40,10 +40,8 @@ static bool play(const ways_search *s, const carom_cue *cues, int n, carom_shot 
   return bad >= 0;
 }
 
-/* Whether a shot pots the ball of a way without losing the cue ball, or scores: both balls met, the
- * second one after three cushions; and whether the cue ball ends where it shall. */
-static bool is_good(const ways_search *s, const carom_facts *f, const carom_ball_state *final,
-                    const way *w) {
+bool way_is_good(const ways_search *s, const carom_facts *f, const carom_ball_state *final,
+                 const way *w) {
   const uint32_t cue = (uint32_t)1 << s->line->cue.ball;
   if ((f->down | f->off) & cue)
     return false;
@@ -57,8 +55,7 @@ static bool is_good(const ways_search *s, const carom_facts *f, const carom_ball
              : w->ball >= 0 && (f->down >> w->ball & 1) && f->pocket[w->ball] == w->pocket;
 }
 
-/* The share of strokes with errors that are good, with its error; false after a complaint. */
-static bool find_chance(const ways_search *s, way *w) {
+bool ways_chance(const ways_search *s, way *w) {
   static carom_shot shot[TRIES];
   static carom_facts facts[TRIES];
   static carom_cue cue[TRIES];
@@ -72,7 +69,7 @@ static bool find_chance(const ways_search *s, way *w) {
   if (!play(s, cue, TRIES, shot))
     return false;
   for (int k = 0; k < TRIES; k++) {
-    good += is_good(s, &facts[k], final[k], w);
+    good += way_is_good(s, &facts[k], final[k], w);
     falls +=
         w->ball >= 0 && (facts[k].down >> w->ball & 1) && facts[k].pocket[w->ball] == w->pocket;
   }
@@ -118,7 +115,7 @@ static bool try_way(ways_search *s, way_kind kind, int ball, int pocket, const c
     for (int n = 0; n < vias; n++)
       if (via[n].kind != CAROM_PART_BALL || via[n].index != ball)
         w.part[w.parts++] = via[n];
-    if (!find_chance(s, &w))
+    if (!ways_chance(s, &w))
       return false;
     if (s->each)
       add_way(s, &w);
@@ -290,7 +287,7 @@ static bool holds(const ways_search *s, const way *w, double phi) {
   way seen = {.kind = w->kind, .ball = w->ball, .pocket = w->pocket};
   return carom_shoot(&s->line->table->table, s->line->ball, s->line->count, &cue, &s->options,
                      &shot) >= 0 &&
-         is_good(s, &facts, final, w) && read_way(s, &shot, &seen) && seen.parts == w->parts &&
+         way_is_good(s, &facts, final, w) && read_way(s, &shot, &seen) && seen.parts == w->parts &&
          memcmp(seen.part, w->part, (size_t)w->parts * sizeof *w->part) == 0;
 }
 
@@ -310,7 +307,7 @@ static bool finish_way(ways_search *s, way *w, double step) {
   const double middle = 0.5 * (w->phi[0] + w->phi[1]);
   w->cue.phi = holds(s, w, middle) ? middle : w->middle;
   w->cut = w->margin = w->speed[0] = w->speed[1] = w->at_cut = w->distance = NAN;
-  return find_chance(s, w);
+  return ways_chance(s, w);
 }
 
 /* Plays strokes in all directions; false after a complaint. */
@@ -339,7 +336,7 @@ static bool scan(ways_search *s) {
         s->scanned++;
         if (s->counted != CAROM) {
           way seen = {.kind = s->counted, .ball = -1, .pocket = -1};
-          if (is_good(s, f, final[k], &seen)) {
+          if (way_is_good(s, f, final[k], &seen)) {
             if (read_way(s, &shot[k], &seen)) {
               s->good++;
               count_way(s, &seen, stroke, from + k, cue[k].phi, step);
@@ -351,7 +348,7 @@ static bool scan(ways_search *s) {
           way seen = {.kind = CAROM, .ball = ball, .pocket = f->pocket[ball]};
           if (ball != s->line->cue.ball && (s->ball < 0 || ball == s->ball) &&
               (f->down >> ball & 1) && (s->pocket < 0 || f->pocket[ball] == s->pocket) &&
-              is_good(s, f, final[k], &seen)) {
+              way_is_good(s, f, final[k], &seen)) {
             if (read_way(s, &shot[k], &seen))
               count_way(s, &seen, stroke, from + k, cue[k].phi, step);
             else

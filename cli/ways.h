@@ -55,6 +55,14 @@ typedef struct ways_search {
 
 bool is_out_of_play(const shot_line *line, int ball);
 
+/* Whether a shot pots the ball of a way without losing the cue ball, or scores: both balls met, the
+ * second one after three cushions; and whether the cue ball ends where it shall. */
+bool way_is_good(const ways_search *s, const carom_facts *f, const carom_ball_state *final,
+                 const way *w);
+
+/* The share of the player's strokes that are good, with its error; false after a complaint. */
+bool ways_chance(const ways_search *s, way *w);
+
 /* Finds the ways, those of pots first; false after a complaint. */
 bool ways_find(ways_search *s);
 

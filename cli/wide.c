@@ -55,9 +55,24 @@ static bool put_cue_ball(shot_line *line, const ways_search *s, double cut, doub
          CAROM_OK;
 }
 
+/* Adds pots that are left out to a text, "cut 60 deg from 1.2 m (2), ...", up to its room. */
+enum { LEFT_TEXT = 240 };
+static void name_left_out(const wide_job *job, int cut, int distance, int strokes,
+                          char text[LEFT_TEXT]) {
+  char one[80];
+  snprintf(one, sizeof one, "%scut %s from %s", text[0] != '\0' ? ", " : "", job->cut->at[cut].name,
+           job->distance->at[distance].name);
+  if (strokes > 1)
+    snprintf(one + strlen(one), sizeof one - strlen(one), " (%d)", strokes);
+  const bool fits = strlen(text) + strlen(one) + 6 < LEFT_TEXT;
+  if (text[0] == '\0' || text[strlen(text) - 1] != '.') /* all before had room */
+    snprintf(text + strlen(text), LEFT_TEXT - strlen(text), "%s", fits ? one : ", ...");
+}
+
 bool wide_find(const wide_job *job, shot_line *line, ways_search *s) {
   const int pots = job->cut->count * job->distance->count * s->strokes;
   int found = 0, no_place = 0;
+  char outside[LEFT_TEXT] = "", fallen[LEFT_TEXT] = "";
   for (int k = 0; k < job->cut->count; k++)
     if (!(fabs(job->cut->at[k].x) < 90.0)) {
       complain("--cut is between -90 and 90 degrees");
@@ -77,10 +92,13 @@ bool wide_find(const wide_job *job, shot_line *line, ways_search *s) {
       const double at_cut = job->cut->at[cut].x, far = job->distance->at[distance].x;
       if (!put_cue_ball(line, s, at_cut, far)) {
         no_place += s->strokes;
+        name_left_out(job, cut, distance, s->strokes, outside);
         continue;
       }
       if (!ways_find_direct(s))
         return false;
+      if (s->ways - found < s->strokes)
+        name_left_out(job, cut, distance, s->strokes - (s->ways - found), fallen);
       for (; found < s->ways; found++) {
         s->way[found].at_cut = at_cut;
         s->way[found].distance = far;
@@ -91,13 +109,14 @@ bool wide_find(const wide_job *job, shot_line *line, ways_search *s) {
     }
   progress_clear();
   if (no_place > 0)
-    complain("%d of %d pots are left out: the cue ball would lie outside the table or in a ball",
-             no_place, pots);
+    complain(
+        "%d of %d pots are left out: the cue ball would lie outside the table or in a ball: %s",
+        no_place, pots, outside);
   if (found + no_place < pots)
     complain(
         "%d of %d pots are left out: no direction makes the ball fall, or a ball or cushion is "
-        "in the way",
-        pots - found - no_place, pots);
+        "in the way: %s",
+        pots - found - no_place, pots, fallen);
   return true;
 }
 
@@ -215,14 +234,17 @@ static void write_curves(FILE *out, const void *data) {
   }
 }
 
+bool wide_has_range(const wide_job *job) {
+  return grid_of(job).range >= 0;
+}
+
 bool wide_plot(const wide_job *job, const ways_search *s, const char *path) {
   const grid g = grid_of(job);
   int curves = 1;
   for (int axis = 0; axis < AXES; axis++)
     curves *= axis == g.range ? 1 : g.count[axis];
-  if (g.range < 0 || s->ways == 0)
-    complain(s->ways == 0 ? "nothing to draw: there is no pot"
-                          : "curves are over a range: give one, such as --cut 0:70:5");
+  if (s->ways == 0)
+    complain("nothing to draw: there is no pot");
   else if (curves > MOST_CURVES || job->from->elevation.count > 1)
     complain(curves > MOST_CURVES ? "%d curves are too many to draw: at most %d"
                                   : "curves have one --elevation",

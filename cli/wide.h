@@ -22,6 +22,8 @@ bool wide_find(const wide_job *job, shot_line *line, ways_search *s);
 
 /* Draws a quantity over the number that is a range, a curve for each combination of the others;
  * false after a complaint. */
+/* over a range, */
+bool wide_has_range(const wide_job *job);
 bool wide_plot(const wide_job *job, const ways_search *s, const char *path);
 
 #endif
