@@ -3,6 +3,7 @@
 #include "command.h"
 #include "doubts.h"
 #include "leave.h"
+#include "lesson.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
@@ -375,7 +376,9 @@ static bool chooses(shoot_job *job, const carom_shot_options *options) {
   const given_player *given = &job->from.shared.player;
   carom_player player;
   if (!job->leave.given && (given->rated || given->errs))
-    complain("--player and --errors are of --leave; --spread tells what errors make of a shot");
+    complain(
+        "--player and --errors are of --leave; `carom ways` tells how often a player pots a ball, "
+        "--spread what errors make of a shot");
   else if (job->leave.given && !job->together)
     complain("--leave is of a shot by options: --cue, --balls and the like");
   else if (!job->leave.given)
@@ -433,7 +436,10 @@ int command_shoot(int argc, char **argv) {
   shot_file *file = job.together
                         ? flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS, &lines)
                         : shot_file_open(path);
-  FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;
+  const bool fits = job.drawn.path[LESSON] == NULL || job.from.written <= LESSON_MOST;
+  if (!fits)
+    complain("--lesson has room for %d shots, and these are %d", LESSON_MOST, job.from.written);
+  FILE *out = file != NULL && fits ? output_open(job.from.shared.output) : NULL;
   code = EXIT_USAGE;
   if (out != NULL && job.from.json) {
     fputs(lines, out);
@@ -446,7 +452,7 @@ int command_shoot(int argc, char **argv) {
     output_abandon();
   else if (out != NULL && !output_commit())
     code = EXIT_USAGE;
-  else if (!drawings_write(&job.drawn))
+  else if (!drawings_write(&job.drawn) || (code == EXIT_GOOD && job.from.left_out > 0))
     code = EXIT_SOME;
   free(lines);
   return code;

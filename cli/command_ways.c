@@ -49,9 +49,9 @@ OPTION(ways_job, option_wide_cut, "cut", cut, 0, "full|three-quarter|half|quarte
        "how wide is the direct pot of --ball into --pocket: the cue ball is put where the cut is "
        "this, as in `carom hit`, several with commas or a range, 0:70:5; each stroke is told "
        "(default with --distance: 30)");
-OPTION(ways_job, option_distance, "distance", distance, 0, "D", set_values, MEASURE_LENGTH,
+OPTION(ways_job, option_distance, "distance", distance, 0, "D", set_values, MEASURE_PLACE,
        "the same from this distance: of the cue ball from where it meets the ball, m, or with a "
-       "unit (default with --cut: 1)");
+       "unit: 2ft, or 4d, diamonds of the long rail (default with --cut: 1)");
 OPTION(ways_job, option_wide_quantity, "quantity", quantity, 0, "falls|chance|window", set_choice,
        0,
        "with --cut or --distance and --plot: what is drawn over a range of the cut, the distance, "
@@ -346,6 +346,11 @@ int command_ways(int argc, char **argv) {
   if (file == NULL)
     return EXIT_USAGE;
   s.strokes = strokes_read(file, &line, stroke, MOST_STROKES);
+  for (int k = 0; k < job.distance.count && s.strokes > 0; k++) {
+    value *far = &job.distance.at[k];
+    far->x = place_along(far, 0.125 * line.table->table.length);
+    far->times = FIXED;
+  }
   int code = EXIT_USAGE;
   FILE *out = s.strokes > 0 ? output_open(job.from.shared.output) : NULL;
   if (out != NULL) {

@@ -20,7 +20,7 @@ OPTION_SET(set_leave) {
   value_of(MEASURE_LENGTH, "0.15", &to->radius);
   for (char *one = strtok_r(copy, ",", &rest); one != NULL && good;
        one = strtok_r(NULL, ",", &rest), parts++)
-    good = parts < 3 && value_of(parts == 2 ? MEASURE_LENGTH : MEASURE_PLACE, one, part[parts]);
+    good = parts < 3 && value_of(MEASURE_PLACE, one, part[parts]);
   to->given = good && parts >= 2 && to->radius.x > 0.0;
   if (!to->given)
     complain("--%s is X,Y or X,Y,R in m, or with units: 2d,4d,20cm, or PLACE or PLACE,R: " PLACES
@@ -31,7 +31,7 @@ OPTION_SET(set_leave) {
 
 void leave_into(const leave *to, ways_search *s) {
   const carom_table *t = &s->line->table->table;
-  s->radius = to->given ? to->radius.x : 0.0;
+  s->radius = to->given ? place_along(&to->radius, 0.125 * t->length) : 0.0;
   s->place[0] = place_along(&to->x, 0.25 * t->width);
   s->place[1] = place_along(&to->y, 0.125 * t->length);
 }

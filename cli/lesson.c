@@ -13,9 +13,8 @@
 static const double wide = 794.0, high = 1123.0, margin = 48.0, letters = 14.0, small = 10.5;
 static const double ball_radius = 62.0, note_line = 30.0;
 
-/* The ball as the player sees it from behind the cue, with the tip's place; the inner ring is the
- * limit of the miscue. */
-static void draw_tip(FILE *out, const carom_cue *cue, double x, double y) {
+/* The ball as the player sees it from behind the cue; the inner ring is the limit of the miscue. */
+static void draw_ball(FILE *out, double x, double y) {
   svg_circle(out, x, y, ball_radius, "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.5\"");
   svg_circle(out, x, y, 0.5 * ball_radius,
              "fill=\"none\" stroke=\"#999\" stroke-dasharray=\"3 3\"");
@@ -26,18 +25,25 @@ static void draw_tip(FILE *out, const carom_cue *cue, double x, double y) {
     svg_text(out, x + at * sin(angle), y - at * cos(angle) + 0.36 * small, text, 2,
              "font-size=\"%.1f\" text-anchor=\"middle\"", small);
   }
+}
+
+/* Where the tip touches it. */
+static void draw_tip(FILE *out, const carom_cue *cue, double x, double y) {
   svg_circle(out, x - ball_radius * cue->a, y - ball_radius * cue->b, 6.0, "fill=\"#1d6fb8\"");
 }
 
-/* "Aim: ...", "Tip: ...", "Speed: ..." */
-static void tell_stroke(FILE *said, const played *shot) {
+/* "Aim: ...", "Tip: ...", "Speed: ...", or in one line for one of several shots. */
+static void tell_stroke(FILE *said, const played *shot, int number) {
   const shot_line *line = shot->line;
-  fputs("Aim: ", said);
+  if (number > 0)
+    fprintf(said, "%d: ", number);
+  else
+    fputs("Aim: ", said);
   if (!tell_aim(said, line, &line->cue, shot->shot))
     fprintf(said, "%.1f degrees; nothing is met", line->cue.phi);
-  fputs("\nTip: ", said);
+  fputs(number > 0 ? "; tip " : "\nTip: ", said);
   tell_tip(said, &line->cue);
-  fputs("\nSpeed: ", said);
+  fputs(number > 0 ? "; " : "\nSpeed: ", said);
   tell_speed(said, &line->cue, &line->ball[line->cue.ball].kind);
   fputs("\n", said);
 }
@@ -66,12 +72,23 @@ void lesson_draw(FILE *out, const played *shots, int count, const char *footer) 
   /* the stroke, beside the ball with its tip; then what the balls do */
   const double ball_space = 2.0 * ball_radius + 44.0;
   const double ball_top = y;
-  draw_tip(out, &shots[0].line->cue, wide - margin - 0.5 * ball_space, y + ball_radius);
+  draw_ball(out, wide - margin - 0.5 * ball_space, y + ball_radius);
+  for (int k = 0; k < count; k++)
+    draw_tip(out, &shots[k].line->cue, wide - margin - 0.5 * ball_space, y + ball_radius);
   FILE *said = open_text(&words, &size);
-  tell_stroke(said, &shots[0]);
+  for (int k = 0; k < count; k++)
+    tell_stroke(said, &shots[k], count > 1 ? k + 1 : 0);
   close_text(said, &words);
   y = svg_lines(out, margin, y, letters, 58, "font-weight=\"bold\"", words) + 0.5 * letters;
-  y = svg_lines(out, margin, y, small, 84, "", footer);
+  /* smaller, where they are many */
+  double size_of = small;
+  int columns = 84;
+  while (size_of > 4.0 &&
+         svg_lines(NULL, margin, y, size_of, columns, "", footer) > high - margin) {
+    size_of -= 0.5;
+    columns = (int)(84.0 * small / size_of);
+  }
+  y = svg_lines(out, margin, y, size_of, columns, "", footer);
   free(words);
   free(picture);
 

@@ -4,8 +4,11 @@
 
 #include "shot_picture.h"
 
-/* Draws A4, upright, as SVG: the picture of the shots, the stroke of the first one in words and its
- * tip on the ball, `footer`, and lines for notes. */
+/* shots that have room on the page */
+enum { LESSON_MOST = 4 };
+
+/* Draws A4, upright, as SVG: the picture of the shots, their strokes in words and their tips on the
+ * ball, `footer`, and lines for notes. */
 void lesson_draw(FILE *out, const played *shots, int count, const char *footer);
 
 #endif

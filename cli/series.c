@@ -242,8 +242,8 @@ static bool is_possible(const series *s, int count) {
   else if (ranges > 0 && s->picture != NULL && count / s->in[range_of(s)].count > MOST_CASES)
     complain("%d curves are too many to draw: at most %d", count / s->in[range_of(s)].count,
              MOST_CASES);
-  else if (ranges == 0 && s->quantity != NO_QUANTITY && !s->csv)
-    complain("--quantity is for curves and tables: give a range, such as --speed 1:5, or --csv");
+  else if (ranges == 0 && s->quantity != NO_QUANTITY && !s->csv && s->picture != NULL)
+    complain("--quantity is for curves and tables: give a range, such as --speed 1:5");
   else
     return true;
   return false;
@@ -274,7 +274,7 @@ int series_command(series *s, const command_form *form, int argc, char **argv, i
     FILE *out = output_open(s->asked.output != NULL ? s->asked.output : "-");
     if (out == NULL)
       return EXIT_USAGE;
-    if (!curves && !s->csv)
+    if (!curves && !s->csv && s->quantity == NO_QUANTITY)
       write_words(out, s, count);
     else
       (table ? write_table : write_rows)(out, s, count);

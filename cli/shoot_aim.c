@@ -54,9 +54,8 @@ bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *op
     return true; /* which is told when it is played */
   else {
     const aim_result found = aim_at(&l->table, l->ball, l->count, options, at, cut, cue, &met);
-    if (l->missed != NULL && found != AIM_FOUND)
-      *l->missed = true;
-    switch (l->missed != NULL ? AIM_FOUND : found) {
+    *l->missed |= found != AIM_FOUND;
+    switch (l->quiet ? AIM_FOUND : found) {
     case AIM_FOUND:
       return found == AIM_FOUND;
     case AIM_BARRED:
@@ -196,11 +195,11 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
     return false;
   else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK)
     good = true; /* which is told when it is played */
-  else if (pot.is != CAROM_POT_FALLS && l->missed != NULL)
+  else if (pot.is != CAROM_POT_FALLS) {
     *l->missed = true;
-  else if (pot.is != CAROM_POT_FALLS)
-    complain_of(pocket, via, l, &pot, cue->speed);
-  else {
+    if (!l->quiet)
+      complain_of(pocket, via, l, &pot, cue->speed);
+  } else {
     char margin[80] = "the ball touches a jaw";
     say_way(l, &pot, by);
     if (pot.margin > 0.0)

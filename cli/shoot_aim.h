@@ -17,7 +17,8 @@ typedef struct layout {
   carom_shot_ball ball[CAROM_BALLS_MOST];
   char name[CAROM_BALLS_MOST][PLACE_NAME];
   int count;
-  bool *missed; /* becomes true where there is no aim, instead of a complaint; or NULL */
+  bool *missed; /* becomes true where there is no aim, */
+  bool quiet;   /* and nothing is told of it */
 } layout;
 
 /* Aims a cue at a ball, that of --at-ball, at a cut; false after a complaint. */

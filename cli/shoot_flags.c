@@ -245,8 +245,8 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
   if (f->pocket != NULL) {
     if (!aim_at_pocket(f->pocket, f->via, l, options, &cue, told))
       return false;
-    if (index < MOST_SHOTS)
-      memcpy(f->aimed[index], told, sizeof told);
+    if (f->written < MOST_SHOTS)
+      memcpy(f->aimed[f->written], told, sizeof told);
   } else if (f->to.count > 0) {
     if (!aim_to(&f->to.at[way].x, &f->to.at[way].y, l, &cue))
       return false;
@@ -356,12 +356,22 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
              MOST_SHOTS, MOST_ROWS);
   if (good)
     lay_out(f, &l);
+  /* of several shots those that cannot be aimed are left out, and the first of them told */
   bool missed = false;
-  l.missed = f->tries ? &missed : NULL;
+  l.missed = &missed;
+  f->written = 0;
   for (int k = 0; k < count && good; k++) {
     missed = false;
-    good = write_shot(out, f, &l, options, k) || missed;
+    l.quiet = f->tries || k > f->written;
+    const bool written = write_shot(out, f, &l, options, k);
+    f->written += written;
+    good = written || (missed && (f->tries || count > 1));
   }
+  f->left_out = good ? count - f->written : 0;
+  if (!f->tries && good && f->written == 0)
+    return false;
+  if (!f->tries && f->left_out > 0)
+    complain("%d of %d shots are left out: they cannot be aimed", f->left_out, count);
   return good;
 }
 

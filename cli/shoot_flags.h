@@ -24,7 +24,8 @@ typedef struct shoot_flags {
   place_list cue, balls, tip, to;
   double tip_time, tip_restitution; /* s, and 0 to 1 */
   bool json;
-  bool tries; /* shots that cannot be aimed are left out, without a complaint */
+  bool tries;            /* shots that cannot be aimed are left out, without a complaint */
+  int written, left_out; /* of the shots that were asked for */
   char aimed[MOST_SHOTS][AIMED_TEXT]; /* what is told of the aim of each shot, or "" */
 } shoot_flags;
 

@@ -86,3 +86,12 @@ try carom shoot --leave centre -
 try carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --pocket 1:foot-left --leave 3d,1d,5cm
 try carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --pocket 2:foot-left --leave centre
 try carom shoot --cue 0.6,0.8 --balls 0.6,1.9:0.6,1.2 --pocket 1:foot-left --leave centre
+try carom shoot --cue 2d,2d --aim 90 --speed 1,2,3,4.0,5 --lesson five.svg
+ls five.svg 2> /dev/null || echo "nothing drawn"
+echo "--- of several shots those that cannot be aimed are left out"
+try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,medium,soft,fast | grep -v '^[c1] '
+try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,soft
+echo "--- lengths in diamonds, a quantity of a list"
+carom ways --balls foot-spot --pocket foot-left --cut half --distance 4d --speed 2 | tail -n 1
+carom shoot --cue 2d,2d --balls 3d,4d --pocket 1:foot-right --leave head-left,1d | grep leave
+carom hit --cut half --side inside,outside --quantity throw
