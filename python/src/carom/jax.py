@@ -1,4 +1,4 @@
-"""Whole shots as functions that JAX differentiates. This module is an experiment: its names may change in any version.
+"""Whole shots as functions that JAX differentiates.
 
     import jax
     jax.config.update("jax_enable_x64", True)
