@@ -46,6 +46,63 @@ def test_tangents_are_differences():
         np.testing.assert_allclose(found.at["r"][..., j], difference, atol=1e-5 * np.abs(found.states_at[..., j]).max())
 
 
+WRT = ["cue.speed", "cue.phi", "cue.a", "cue.b"]
+
+
+def second_differences(balls, cue, h, models):
+    """Of the places at the end, from their values: (balls, 2, 4, 4)."""
+    fields = [name[4:] for name in WRT]
+    signs = [(i, j, s, t) for i in range(4) for j in range(4) for s in (1, -1) for t in (1, -1)]
+    cues = np.repeat(cue.reshape(1), len(signs))
+    for k, (i, j, s, t) in enumerate(signs):
+        cues[fields[i]][k] += s * h[i]
+        cues[fields[j]][k] += t * h[j]
+    ends = carom.simulate_batch(TABLE, balls, cues, **models).final["r"][..., :2].reshape(4, 4, 2, 2, -1, 2)
+    mixed = ends[:, :, 0, 0] - ends[:, :, 0, 1] - ends[:, :, 1, 0] + ends[:, :, 1, 1]
+    return np.moveaxis(mixed / (4.0 * h[:, np.newaxis] * h)[..., np.newaxis, np.newaxis], (0, 1), (-2, -1))
+
+
+def test_second_derivatives_are_differences_of_values():
+    """On 100 shots, compared for changes of a hundredth of the reach: those of values have errors of their own, in fourth derivatives."""
+    random, shots, met, errors, off = np.random.default_rng(5), 0, 0, [], []
+    while shots < 100:
+        balls = carom.balls(random.uniform([0.15, 0.3], [1.1, 2.2], (3, 2)))
+        at = np.degrees(np.arctan2(*(balls["state"]["r"][1] - balls["state"]["r"][0])[1::-1]))
+        cue = carom.cue(speed=random.uniform(1.0, 3.0), phi=at + random.uniform(-10.0, 10.0), a=random.uniform(-0.2, 0.2), b=random.uniform(-0.2, 0.3))
+        try:
+            shot = carom.simulate(TABLE, balls, cue, **CLOSED)
+        except carom.CaromError:
+            continue  # balls overlap
+        found = carom.hessian(shot, WRT)
+        if not found.states.any() or (found.first.flags & (carom.Flag.SIMULTANEOUS | carom.Flag.KINK)).any():
+            continue
+        shots += 1
+        met += (shot.events["type"] == carom.EventType.BALL_BALL).any()
+        assert found.final["r"].shape == (3, 2, 4, 4) and np.isfinite(found.states).all()
+        np.testing.assert_array_equal(found.states, found.states.swapaxes(-1, -2))
+        errors.append(found.error)
+        h = 1e-2 * np.minimum(found.first.reach, 0.1)
+        second, weight = second_differences(balls, cue, h, CLOSED), h[:, np.newaxis] * h
+        off.append(np.abs((found.final["r"] - second) * weight).max() / np.abs(second * weight).max())
+    assert met > 50 and np.median(errors) < 1e-6 and np.quantile(errors, 0.9) < 1e-4, np.quantile(errors, [0.5, 0.9, 1.0])
+    assert np.median(off) < 1e-4 and np.quantile(off, 0.9) < 1e-2, np.quantile(off, [0.5, 0.9, 1.0])
+
+
+def test_second_derivatives_of_a_ball_that_rolls():
+    """It rolls v^2/(2 mu g), v in proportion to the speed of the cue, so that d2/dv2 = 2 y/v^2, and y falls like 1/mu."""
+    balls = carom.balls([[0.6, 0.3]])
+    speed, mu = 0.5, float(balls["kind"]["mu_roll"][0])
+    shot = carom.simulate(TABLE, balls, carom.cue(speed=speed, b=0.4), **CLOSED)
+    found, far = carom.hessian(shot, ["cue.speed", "kind.mu_roll", "balls[0].r[1]"]), shot.final["r"][0, 1] - 0.3
+    expected = far * np.array([[2.0 / speed**2, -2.0 / speed / mu, 0.0], [-2.0 / speed / mu, 2.0 / mu**2, 0.0], [0.0, 0.0, 0.0]])
+    np.testing.assert_allclose(found.final["r"][0, 1], expected, rtol=1e-5, atol=1e-6)
+    for wrt, words in ((["table.nose_height"], "wrt: table.nose_height has no second"), (["kind.radius"], "wrt: kind.radius"), ([], "wrt: name at least one")):
+        with pytest.raises(ValueError, match=words):
+            carom.hessian(shot, wrt)
+    with pytest.raises(TypeError, match="^shot: "):
+        carom.hessian(TABLE, ["cue.phi"])
+
+
 def test_an_aim_that_follows_keeps_the_place_across_the_path():
     """Of what is moved by h, the place where the ball falls stays within h^2; without following it moves by h."""
     random, wrt, pots = np.random.default_rng(7), ["cue.speed", "cue.b", "balls[1].r[0]", "balls[0].r[1]"], 0

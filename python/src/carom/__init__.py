@@ -16,7 +16,7 @@ from carom._shot_options import Options
 from carom._impacts import Outcome
 from carom.collisions import ALL_THREADS, alciatore, collide, impacts, mu_ball, trace
 from carom.cushions import cushion, cushion_impacts, cushion_trace
-from carom.derivatives import Flag, Tangents, aim_slope, jacobian, tangents
+from carom.derivatives import Flag, Hessian, Tangents, aim_slope, hessian, jacobian, tangents
 from carom.layouts import Table, balls, by_number, cue, place_ball, struck
 from carom.plans import Pot, aim, chances, plan, player, value, with_errors
 from carom.rules import Facts, Foul, Rules, Ruling, Turn, referee
@@ -30,9 +30,9 @@ for _name in ("collisions", "cushions", "derivatives", "dtypes", "layouts", "pla
 __version__: str = _ffi.string(_lib.carom_version()).decode()
 
 __all__ = [
-    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Label", "Options", "Outcome", "Pot", "Rules", "Ruling",
+    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Hessian", "Label", "Options", "Outcome", "Pot", "Rules", "Ruling",
     "Shot", "Shots", "Status", "Table", "Tangents", "Turn", "aim", "aim_slope", "alciatore", "balls", "by_number", "chances", "cite", "collide", "cue", "cushion", "cushion_impacts",
-    "cushion_trace", "dtypes", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball",
+    "cushion_trace", "dtypes", "hessian", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball",
     "plan", "player", "racks", "referee", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
     "value", "with_errors",
 ]  # fmt: skip

@@ -12,7 +12,7 @@ import numpy as np
 from carom import dtypes
 from carom._rows import Array, broadcast
 from carom._shot_options import Options
-from carom.derivatives import CUE, ELEMENTS, KIND, PARTS, STATE, Direction, directions, play, seeds_of
+from carom.derivatives import ELEMENTS, PARTS, STATE, Direction, directions, numbers_of_direction, play, seeds_of
 from carom.layouts import Table, of_record
 from carom.shots import simulate, simulate_batch
 from carom.status import CaromError, Status
@@ -65,18 +65,11 @@ class Shots:
         if cues is not None and "cue" in arrays:
             cues = np.broadcast_to(cues, x.shape[:-1]).copy()
         for j, direction in enumerate(self.directions):
-            for place in direction.places:
-                if direction.array == "cue" and cues is not None:
-                    cues[CUE[place[0]]] = x[..., j]
-                elif direction.array == "kind":
-                    name = KIND[place[1]]
-                    if name == "radius":
-                        # a ball stays as high above the cloth as it is
-                        layouts["state"]["r"][..., place[0], 2] += x[..., j] - layouts["kind"]["radius"][..., place[0]]
-                    layouts["kind"][name][..., place[0]] = x[..., j]
-                elif direction.array == "state":
-                    name, elements = next(item for item in ELEMENTS.items() if place[1] in item[1])
-                    layouts["state"][name][..., place[0], elements.index(place[1])] = x[..., j]
+            if direction.name == "kind.radius":
+                # a ball stays as high above the cloth as it is
+                layouts["state"]["r"][..., 2] += x[..., j, np.newaxis] - layouts["kind"]["radius"]
+            for number in numbers_of_direction(direction, layouts, cues):
+                number[...] = x[..., j]
         return layouts, cues
 
     def states(self, x: Any) -> dtypes.Doubles:
