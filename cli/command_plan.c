@@ -29,7 +29,7 @@ typedef struct plan_job {
 } plan_job;
 
 OPTION(plan_job, option_rules, "rules", game.rules, 0,
-       "eightball|nineball|potting|threecushion|straight|snooker", set_choice, 0,
+       "eightball|nineball|potting|threecushion|straight|snooker|onepocket", set_choice, 0,
        "the game (default eightball; potting is none: all balls count). Balls are named cue and by "
        "their numbers, those of snooker as "
        "in its rack: red1, yellow; potting and threecushion take any names");
@@ -40,8 +40,12 @@ OPTION(
     "what the player may do besides a shot (default shoot: nothing). In nine-ball it is a push-out "
     "after the break, to pass after a push-out; in straight pool to pass after a bad break; in "
     "snooker to pass after a foul, free-ball: that, and to play any ball");
-OPTION(plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0,
-       "of straight pool and snooker: points of the player and of the other (default 0,0)");
+OPTION(
+    plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0,
+    "of straight pool, snooker and one-pocket: points, or balls, of the player and of the other; "
+    "below 0 those that he owes in one-pocket (default 0,0)");
+OPTION(plan_job, option_own_pocket, "own-pocket", game.pocket, 0, "foot-right|foot-left",
+       set_choice, 0, "of one-pocket: that of the player (default foot-right)");
 OPTION(plan_job, option_target, "target", game.target, 0, "N", set_count, 1,
        "of straight pool: points that win (default 100)");
 OPTION(plan_job, option_colour, "colour", game.colour, 0, NULL, set_flag, 0,
@@ -51,7 +55,7 @@ OPTION(
     "of eight-ball, nine-ball and straight pool: the stroke is the break. With --in-hand the cue "
     "ball is put on the head string, in straight pool behind it");
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
-       "the cue ball is in hand: where to put it, too");
+       "the cue ball is in hand: where to put it, too. In one-pocket it is behind the head string");
 static const option_row options_of_plan = {
     .set = set_option, .field = offsetof(plan_job, plan), .part = CAROM_PART_PLAN_OPTIONS};
 OPTION(plan_job, option_try, "try", tries, 0, NULL, set_flag, 0,
@@ -277,7 +281,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   }
   player_of(&job->from.shared.player, &p->player);
   p->rules = carom_plan_rules_of((carom_rules_kind)job->game.rules);
-  plan_game_state(&job->game, p->rules.user);
+  plan_game_state(&job->game, line, p->rules.user);
   carom_plan_options options = job->plan;
   options.threads = job->from.shared.options.threads;
   if (job->from.shared.player.rated && options.shots == 0)
@@ -294,7 +298,8 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   asked.memory = allocate(1, asked.memory_size);
   static carom_choice choices[TRIED_MOST];
   int n = tried;
-  const bool kitchen = job->game.opening && job->game.rules == CAROM_RULES_STRAIGHT;
+  const bool kitchen = (job->game.opening && job->game.rules == CAROM_RULES_STRAIGHT) ||
+                       job->game.rules == CAROM_RULES_ONEPOCKET;
   const double high[2] = {line->table->table.width, 0.25 * line->table->table.length};
   const carom_status status =
       job->value  ? tell_value(job, &asked, out)
@@ -328,14 +333,31 @@ static const command_form form = {
         "LAYOUT is a file as of carom shoot, of which the first shot counts: its table, balls "
         "and cue; its stroke is read by --try alone. Balls that are missing are down. The five "
         "best shots are told in words: what they do, how to strike, and their chances.\n",
-    .options =
-        (const option_row *const[]){
-            &option_rules,     &option_table,      &option_cue,     &option_balls,
-            &option_gap,       &option_group,      &option_may,     &option_score,
-            &option_target,    &option_colour,     &option_opening, &option_hand,
-            &option_try,       &option_value,      &option_player,  &option_player_errors,
-            &options_of_plan,  &options_of_motion, &option_csv,     &option_why,
-            &option_plan_plot, &option_threads,    &option_output,  NULL},
+    .options = (const option_row *const[]){&option_rules,
+                                           &option_table,
+                                           &option_cue,
+                                           &option_balls,
+                                           &option_gap,
+                                           &option_group,
+                                           &option_may,
+                                           &option_score,
+                                           &option_target,
+                                           &option_own_pocket,
+                                           &option_colour,
+                                           &option_opening,
+                                           &option_hand,
+                                           &option_try,
+                                           &option_value,
+                                           &option_player,
+                                           &option_player_errors,
+                                           &options_of_plan,
+                                           &options_of_motion,
+                                           &option_csv,
+                                           &option_why,
+                                           &option_plan_plot,
+                                           &option_threads,
+                                           &option_output,
+                                           NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"

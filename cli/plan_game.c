@@ -11,10 +11,9 @@
 
 OPTION_SET(set_score) {
   int *score = field, end = 0;
-  const bool good = sscanf(text, "%9d,%9d%n", &score[0], &score[1], &end) == 2 && text[end] == 0 &&
-                    score[0] >= 0 && score[1] >= 0;
+  const bool good = sscanf(text, "%9d,%9d%n", &score[0], &score[1], &end) == 2 && text[end] == 0;
   if (!good)
-    complain("--%s is OWN,OTHER, whole numbers of at least 0, not '%.60s'", row->name, text);
+    complain("--%s is OWN,OTHER, whole numbers, not '%.60s'", row->name, text);
   return good;
 }
 
@@ -33,14 +32,31 @@ static int number_of(const char *name, bool snooker) {
                                                                                     : 0;
 }
 
+/* The pocket at the foot of a table; -1 where it has none of that name. */
+static int foot_of(const shot_line *line, bool is_left) {
+  const carom_table *table = &line->table->table;
+  for (int k = 0; k < table->pockets; k++) {
+    const char *name = carom_pocket_name(table, k);
+    if (name != NULL && strcmp(name, is_left ? "foot-left" : "foot-right") == 0)
+      return k;
+  }
+  return -1;
+}
+
 /* Puts the balls where their numbers are, with those that are missing in a pocket: the line's
  * balls and names change. */
 bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
-  static const int lasts[] = {15, 9, 0, 0, 15, 21}; /* 0: balls have any names */
+  static const int lasts[] = {15, 9, 0, 0, 15, 21, 15}; /* 0: balls have any names */
   const int last = lasts[game->rules];
   const bool snooker = game->rules == CAROM_RULES_SNOOKER;
   if (last == 0)
     return true;
+  if (game->rules == CAROM_RULES_ONEPOCKET &&
+      (foot_of(line, true) < 0 || foot_of(line, false) < 0)) {
+    complain("%s:%zu: one-pocket needs a table with corner pockets at the foot", file,
+             line->number);
+    return false;
+  }
 
   carom_shot_ball ball[CAROM_BALLS_MOST];
   char *name[CAROM_BALLS_MOST] = {0};
@@ -59,6 +75,16 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
     }
     ball[number] = line->ball[k];
     name[number] = line->name[k];
+  }
+
+  /* in one-pocket those that count are down */
+  const int own = game->score[0] > 0 ? game->score[0] : 0,
+            other = game->score[1] > 0 ? game->score[1] : 0;
+  const int down = last + 1 - line->count;
+  if (game->rules == CAROM_RULES_ONEPOCKET && own + other > down) {
+    complain("%s:%zu: --score: %d balls count, but %d of 15 are down", file, line->number,
+             own + other, down);
+    return false;
   }
 
   /* missing balls are down */
@@ -98,10 +124,14 @@ bool plan_game_fits(const plan_game *game) {
   else if (game->opening && game->rules >= CAROM_RULES_POTTING &&
            game->rules != CAROM_RULES_STRAIGHT)
     complain("--opening: it is of eight-ball, nine-ball and straight pool");
-  else if (game->score[0] + game->score[1] > 0 && game->rules < CAROM_RULES_STRAIGHT)
-    complain("--score: it is of straight pool and snooker");
+  else if ((game->score[0] != 0 || game->score[1] != 0) && game->rules < CAROM_RULES_STRAIGHT)
+    complain("--score: it is of straight pool, snooker and one-pocket");
+  else if ((game->score[0] < 0 || game->score[1] < 0) && game->rules != CAROM_RULES_ONEPOCKET)
+    complain("--score: it must be at least 0; below it are balls that are owed in one-pocket");
   else if (game->target > 0 && game->rules != CAROM_RULES_STRAIGHT)
     complain("--target: it is of straight pool, so --rules straight is needed");
+  else if (game->pocket > 0 && game->rules != CAROM_RULES_ONEPOCKET)
+    complain("--own-pocket: it is of one-pocket, so --rules onepocket is needed");
   else if (game->colour && game->rules != CAROM_RULES_SNOOKER)
     complain("--colour: it is of snooker, so --rules snooker is needed");
   else
@@ -110,7 +140,7 @@ bool plan_game_fits(const plan_game *game) {
 }
 
 /* The state of a game, as carom_rules_kind has it. */
-void plan_game_state(const plan_game *game, uint64_t user[8]) {
+void plan_game_state(const plan_game *game, const shot_line *line, uint64_t user[8]) {
   const bool points = game->rules >= CAROM_RULES_STRAIGHT;
   if (game->group > 0)
     user[0] = (uint64_t)game->group;
@@ -120,7 +150,12 @@ void plan_game_state(const plan_game *game, uint64_t user[8]) {
     user[0] = 1;
   user[1] = game->opening;
   for (int who = 0; who < 2 && points; who++)
-    user[2 + who] = (uint64_t)game->score[who];
+    if (game->score[who] >= 0)
+      user[2 + who] = (uint64_t)game->score[who];
+    else
+      user[5 + who] = (uint64_t)-game->score[who];
+  if (game->rules == CAROM_RULES_ONEPOCKET)
+    user[0] = (uint64_t)(foot_of(line, game->pocket == 1) + 8 * foot_of(line, game->pocket == 0));
   /* of nine-ball 1 or 2; else 1 for a pass, and 2 more with a free ball */
   enum { PASS = 2 };
   if (game->may > 0)

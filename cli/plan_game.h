@@ -14,6 +14,7 @@ typedef struct plan_game {
   int rules;            /* a carom_rules_kind */
   int group, may;       /* or NOT_GIVEN */
   int target, score[2]; /* 0: not given */
+  int pocket;           /* of one-pocket, the player's: 0 foot-right, 1 foot-left */
   bool opening, colour;
 } plan_game;
 
@@ -22,9 +23,10 @@ OPTION_SET(set_score); /* int[2]: OWN,OTHER */
 /* Whether the options are those of the game; complains where they are not. */
 bool plan_game_fits(const plan_game *game);
 /* The state of its rules, as carom_rules_kind has it; what is not given stays. */
-void plan_game_state(const plan_game *game, uint64_t user[8]);
+void plan_game_state(const plan_game *game, const shot_line *line, uint64_t user[8]);
 /* Puts the balls of a line where their numbers are, with those that are missing in a pocket; its
- * balls and names change. Complains, with false, of a ball that the game does not have. */
+ * balls and names change. Complains, with false, of a ball that the game does not have, and of a
+ * table without the pockets of one-pocket. */
 bool plan_game_order(const plan_game *game, shot_line *line, const char *file);
 
 #endif

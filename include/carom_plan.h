@@ -229,7 +229,7 @@ typedef enum carom_rules_kind {
                                legal, when to pass lets him break again. user[7]: fouls in their
                                last strokes, the player's and 4 times the other's; a third one
                                costs 15 more, and a break. */
-  CAROM_RULES_SNOOKER = 5       /* snooker, WPBSA: white 0, reds 1 to 15, yellow 16, green 17, brown
+  CAROM_RULES_SNOOKER = 5,      /* snooker, WPBSA: white 0, reds 1 to 15, yellow 16, green 17, brown
                                18, blue 19, pink 20, black 21, on any table. The call names a colour
                                or a free ball; without one it is the ball that is met first.
                                user[0]: 1 if a colour is on after a red. user[2], user[3]: the
@@ -237,10 +237,19 @@ typedef enum carom_rules_kind {
                                lets him play again; 2 with a free ball, 4 with the cue ball in
                                hand. user[5]: 1 + the free ball of the stroke before. A miss is left
                                to the caller, who knows the better stroke. */
+  CAROM_RULES_ONEPOCKET = 6     /* one-pocket, BCA: 15 balls, any may be played, nothing is called.
+                                   user[0]: index of the player's pocket, and 8 times that of the
+                                   other's; 21 to begin with, the foot right and the foot left one
+                                   of carom_table_make(). Who breaks chooses. user[2], user[3]:
+                                   balls that count for the player and for the other; eight win.
+                                   user[5], user[6]: balls that they owe. user[7]: fouls in their
+                                   last strokes, the player's and 4 times the other's; three lose.
+                                   Balls that are down and count for no one come back at the end of
+                                   the visit. */
 } carom_rules_kind;
 
-/* Its name ("eightball", "nineball", "potting", "threecushion", "straight", "snooker"), or NULL for
- * a value not listed. */
+/* Its name ("eightball", "nineball", "potting", "threecushion", "straight", "snooker",
+ * "onepocket"), or NULL for a value not listed. */
 CAROM_API const char *carom_rules_name(carom_rules_kind kind);
 
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */

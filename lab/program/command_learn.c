@@ -6,7 +6,8 @@
  * maximum likelihood follow, by Newton's method: of whether the turn was kept; of each later stroke
  * of the visit, by the mean of each layout before it; and of whether the other kept the turn that
  * was left to him. In straight pool and snooker the break is as hard as in eight-ball, and in a
- * quarter of the racks of snooker no red is left, in a quarter a colour is on after a red.
+ * quarter of the racks of snooker no red is left, in a quarter a colour is on after a red. In
+ * one-pocket it is gentle or hard, and the balls that are down are shared out at random.
  */
 #include "command.h"
 #include "memory.h"
@@ -29,8 +30,8 @@ typedef struct learn_job {
   int rules, racks, shots, seed;
 } learn_job;
 
-OPTION(learn_job, learn_rules, "rules", rules, 0, "eightball|nineball|straight|snooker", set_choice,
-       0, "the game (default eightball)");
+OPTION(learn_job, learn_rules, "rules", rules, 0, "eightball|nineball|straight|snooker|onepocket",
+       set_choice, 0, "the game (default eightball)");
 
 OPTION(learn_job, learn_racks, "racks", racks, 0, "N", set_count, 10,
        "racks to be played (default 100000)");
@@ -79,7 +80,9 @@ static sample look(const lab_rack *rack) {
   const uint32_t in_play = carom_in_play(state, count) | 1;
   sample s = {.kept = 0};
   carom_plan_features(&view, state, in_play, rack->rules.on(rack->rules.user, in_play),
-                      ~UINT32_C(0), who, rack->hand, s.x);
+                      rack->rules.pockets != NULL ? rack->rules.pockets(rack->rules.user)
+                                                  : ~UINT32_C(0),
+                      who, rack->hand, s.x);
   int32_t left[2];
   rack->rules.left(rack->rules.user, in_play, left);
   s.left = rack->rules.race == CAROM_RACE_POINTS ? objects_of(in_play) : left[0];
@@ -108,31 +111,41 @@ static const struct {
      1,
      {1},
      13},
-    {CAROM_RULES_SNOOKER,
-     CAROM_RULES_SNOOKER,
-     CAROM_TABLE_SNOOKER,
-     CAROM_GAME_SNOOKER,
+    {CAROM_RULES_SNOOKER, CAROM_RULES_SNOOKER, CAROM_TABLE_SNOOKER, CAROM_GAME_SNOOKER, 1, {1}, 15},
+    {CAROM_RULES_ONEPOCKET,
+     CAROM_RULES_ONEPOCKET,
+     CAROM_TABLE_POOL_9FT,
+     CAROM_GAME_POOL,
      1,
      {1},
-     15}};
+     13}};
 
 static void take_away(lab_rack *rack, int ball) {
   rack->balls[ball].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
 }
 
-/* Snooker: a hard stroke at the reds; and the colours in order, or a colour after a red. */
-static void open_snooker(lab_rack *rack, lab_random *draw) {
+/* A stroke at the rack, of a speed in m/s. A ball that leaves the table is down. */
+static void open_rack(lab_rack *rack, lab_random *draw, double least, double most) {
   const int count = (int)rack->plan.count;
   carom_ball_state final[RACK_BALLS];
   carom_shot played = {.final = final};
   carom_cue cue = *rack->plan.cue;
-  cue.speed = lab_uniform(draw, 3.0, 9.0);
+  cue.speed = lab_uniform(draw, least, most);
   cue.phi = lab_uniform(draw, 87.0, 91.0);
   carom_shoot(rack->plan.table, rack->balls, count, &cue, rack->plan.shot, &played);
-  for (int k = 0; k < count; k++)
+  for (int k = 0; k < count; k++) {
     rack->balls[k].state = final[k];
+    if (final[k].label == CAROM_BALL_OFF)
+      take_away(rack, k);
+  }
+}
+
+/* Snooker: a hard stroke at the reds; and the colours in order, or a colour after a red. */
+static void open_snooker(lab_rack *rack, lab_random *draw) {
+  const int count = (int)rack->plan.count;
+  open_rack(rack, draw, 3.0, 9.0);
   for (int k = 16; k < count; k++)
-    if (final[k].label == CAROM_BALL_POCKETED || final[k].label == CAROM_BALL_OFF)
+    if (rack->balls[k].state.label == CAROM_BALL_POCKETED)
       carom_spot_ball_of(CAROM_RACK_SNOOKER, rack->plan.table, rack->balls, count, k);
   const int phase = (int)lab_uniform(draw, 0.0, 4.0);
   rack->rules.user[0] = phase == 1;
@@ -141,6 +154,18 @@ static void open_snooker(lab_rack *rack, lab_random *draw) {
   const int gone = phase == 0 ? (int)lab_uniform(draw, 0.0, 6.0) : 0;
   for (int k = 16; k < 16 + gone; k++)
     take_away(rack, k);
+}
+
+/* One-pocket: the balls that are down count for both players, at most seven each. */
+static void share_out(lab_rack *rack, lab_random *draw) {
+  enum { MOST = 7 };
+  int down = 0;
+  for (int k = 1; k < (int)rack->plan.count; k++)
+    down += rack->balls[k].state.label == CAROM_BALL_POCKETED;
+  const int least = down > MOST ? down - MOST : 0, most = down > MOST ? MOST : down;
+  const int own = least + (int)lab_uniform(draw, 0.0, most - least + 1);
+  rack->rules.user[2] = (uint64_t)own;
+  rack->rules.user[3] = (uint64_t)(down - own);
 }
 
 static void play(const learn_job *job, int number, visit *to) {
@@ -162,9 +187,12 @@ static void play(const learn_job *job, int number, visit *to) {
   lab_rack_make(&rack, games[job->rules].broken, lab_bits(&draw));
   if (games[job->rules].broken != games[job->rules].rules)
     rack.rules = carom_plan_rules_of(games[job->rules].rules);
-  const bool snooker = games[job->rules].rules == CAROM_RULES_SNOOKER;
+  const bool snooker = games[job->rules].rules == CAROM_RULES_SNOOKER,
+             onepocket = games[job->rules].rules == CAROM_RULES_ONEPOCKET;
   if (snooker)
     open_snooker(&rack, &draw);
+  if (onepocket)
+    open_rack(&rack, &draw, 1.0, 8.0);
 
   /* some balls are down; the cue ball is anywhere, or in hand once in eight */
   const int balls = games[job->rules].balls;
@@ -175,6 +203,8 @@ static void play(const learn_job *job, int number, visit *to) {
       const int k = games[job->rules].first[group] + (int)lab_uniform(&draw, 0.0, balls);
       take_away(&rack, k);
     }
+  if (onepocket)
+    share_out(&rack, &draw);
   double x, y;
   do {
     x = lab_uniform(&draw, 0.0, table.width);

@@ -23,10 +23,10 @@ typedef struct strength_job {
   double errors, unsure;
 } strength_job;
 
-OPTION(strength_job, option_rules, "rules", rules, 0, "eightball|nineball|straight|snooker",
-       set_choice, 0,
-       "the game (default eightball). straight and snooker are played from their racks, by two "
-       "players");
+OPTION(strength_job, option_rules, "rules", rules, 0,
+       "eightball|nineball|straight|snooker|onepocket", set_choice, 0,
+       "the game (default eightball). straight, snooker and onepocket are played from their racks, "
+       "by two players");
 OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
        "play each rack to the end, by two players of the same errors; and tell the chances to win");
 
@@ -84,7 +84,8 @@ static void end_rack(bin *bins, int count) {
 }
 
 static const carom_rules_kind games_of[] = {CAROM_RULES_EIGHTBALL, CAROM_RULES_NINEBALL,
-                                            CAROM_RULES_STRAIGHT, CAROM_RULES_SNOOKER};
+                                            CAROM_RULES_STRAIGHT, CAROM_RULES_SNOOKER,
+                                            CAROM_RULES_ONEPOCKET};
 
 /* One rack: strokes until the turn is not kept, or until the game is won. */
 static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
@@ -225,15 +226,15 @@ int command_plan(int argc, char **argv) {
     return parsed;
   carom_table table;
   const bool snooker = games_of[job.rules] == CAROM_RULES_SNOOKER,
-             straight = games_of[job.rules] == CAROM_RULES_STRAIGHT;
-  if ((snooker || straight) && job.left > 0) {
+             racked = games_of[job.rules] >= CAROM_RULES_STRAIGHT;
+  if (racked && job.left > 0) {
     complain("--left is of eight-ball");
     return EXIT_USAGE;
   }
-  job.games |= snooker || straight;
-  carom_table_make(snooker    ? CAROM_TABLE_SNOOKER
-                   : straight ? CAROM_TABLE_POOL_9FT
-                              : CAROM_TABLE_POOLTOOL,
+  job.games |= racked;
+  carom_table_make(snooker  ? CAROM_TABLE_SNOOKER
+                   : racked ? CAROM_TABLE_POOL_9FT
+                            : CAROM_TABLE_POOLTOOL,
                    &table);
   const carom_cue cue = carom_cue_of(snooker ? CAROM_GAME_SNOOKER : CAROM_GAME_POOL);
   const carom_player player = carom_player_of(job.errors);

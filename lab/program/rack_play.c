@@ -14,9 +14,9 @@ void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
   rack->plan.options = &rack->options;
   rack->hand = true;
   const int count = (int)rack->plan.count;
-  rack->kitchen = game == CAROM_RULES_STRAIGHT;
-  if (rack->rules.race == CAROM_RACE_POINTS) {
-    rack->rules.user[1] = rack->kitchen;
+  rack->kitchen = game == CAROM_RULES_STRAIGHT || game == CAROM_RULES_ONEPOCKET;
+  if (game >= CAROM_RULES_STRAIGHT) {
+    rack->rules.user[1] = game == CAROM_RULES_STRAIGHT;
     carom_rack(kind, rack->plan.table, 1e-4, lab_bits(&rack->state), rack->balls, count);
     return;
   }
@@ -96,6 +96,6 @@ bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
   }
   carom_turn_settle(&rack->rules, rack->rules.user, of->table, rack->balls, count, turn);
   rack->hand = turn->leave != CAROM_LEAVE_AFTER;
-  rack->kitchen = rack->rules.race == CAROM_RACE_POINTS && turn->leave == CAROM_LEAVE_KITCHEN;
+  rack->kitchen = turn->leave == CAROM_LEAVE_KITCHEN;
   return true;
 }

@@ -20,7 +20,7 @@ typedef struct lab_rack {
 } lab_rack;
 
 /* The layout after the first break of a seed that pots nothing, with the cue ball in hand. Of
- * straight pool and snooker the rack before it: it is a stroke of the game. */
+ * straight pool, snooker and one-pocket the rack before it: it is a stroke of the game. */
 void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed);
 /* An end game of eight-ball in its place: so many solids, one stripe more, and the eight, at random
  * places; the cue ball is not in hand. */

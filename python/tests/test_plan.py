@@ -372,8 +372,8 @@ def test_what_rules_cannot_say(method, gives, match):
             carom.plan(TABLE, layout, rules=wrong, shots=100)
 
 
-def test_the_bot_for_one_pocket(capsys):
-    runpy.run_path(str(Path(__file__).parents[1] / "examples" / "one_pocket.py"))
+def test_the_bot_for_bank_pool(capsys):
+    runpy.run_path(str(Path(__file__).parents[1] / "examples" / "bank_pool.py"))
     told = capsys.readouterr().out.splitlines()
     assert len(told) > 5 and told[-1] == f"after {len(told)} strokes: player 0 has won"  # the one with a rating of 750
 
@@ -403,6 +403,32 @@ def test_errors_of_rules():
         carom.plan(TABLE, LAYOUT, state=[1, 2])
     with pytest.raises(carom.CaromError):
         carom.referee(TABLE, LAYOUT, carom.cue(speed=-1.0))
+
+
+def test_one_pocket():
+    """Plans play into the pocket of the player; a ball there counts, one elsewhere comes back; a foul costs a ball, which may be owed."""
+    table = carom.tables.pool_9ft()
+    layout = carom.by_number(carom.balls([[0.6, 1.4], [0.95, 2.1], [0.3, 2.1]]), ["cue", 3, 9], "onepocket")
+    right, left = (table.pocket_names.index(name) for name in ("foot-right", "foot-left"))
+    for own, other, ball in ((right, left, 3), (left, right, 9)):
+        state = [own + 8 * other, 0, 5, 6, 0, 0, 0, 0]
+        best = carom.plan(table, layout, rules="onepocket", state=state, shots=600)
+        assert set(best["pocket"]) <= {own, -1} and (best["ball"][0], best["pocket"][0]) == (ball, own)
+        made = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
+        assert made.turn == "keep" and made.potted == (ball,) and made.score == (6, 6) and made.points == 1.0
+        # the same ball in the pocket of the other
+        state[0] = other + 8 * own
+        given = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
+        assert given.turn == "pass" and given.score == (7, 5) and given.state[0] == own + 8 * other
+    # no ball is met: one that counted comes back; who has none owes one
+    for balls in (5, 0):
+        missed = carom.referee(table, layout, carom.cue(speed=0.5, phi=180.0), rules="onepocket", state=[own + 8 * other, 0, balls, 0, 0, 0, 0, 0])
+        assert missed.turn == "pass" and missed.foul == carom.Foul.NO_BALL and missed.score == (0, balls - 1) and missed.hand == "no"
+        assert np.count_nonzero(missed.balls["state"]["label"] == carom.Label.STATIONARY) == (4 if balls else 3)
+    with pytest.raises(ValueError, match="balls: onepocket has the cue ball and 1 to 15"):
+        carom.plan(table, layout[:10], rules="onepocket")
+    with pytest.raises(ValueError, match="opening: it is of eight-ball, nine-ball and straight pool"):
+        carom.plan(table, layout, rules="onepocket", opening=True)
 
 
 def test_straight_pool_and_snooker():

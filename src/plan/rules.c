@@ -237,9 +237,9 @@ static double threecushion_value(const uint64_t *user, const carom_ball_state *l
 
 /* ---- The table of games */
 
-enum { OWN_TABLE = CAROM_RULES_THREECUSHION + 1, GAMES = CAROM_RULES_SNOOKER + 1 };
-static const char *const names[] = {"eightball",    "nineball", "potting",
-                                    "threecushion", "straight", "snooker"};
+enum { OWN_TABLE = CAROM_RULES_THREECUSHION + 1, GAMES = CAROM_RULES_ONEPOCKET + 1 };
+static const char *const names[] = {"eightball", "nineball", "potting",  "threecushion",
+                                    "straight",  "snooker",  "onepocket"};
 static const carom_plan_rules games[] = {
     {.on = eightball_on,
      .judge = eightball_judge,
@@ -267,10 +267,11 @@ const char *carom_rules_name(carom_rules_kind kind) {
 }
 
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
-  return kind == CAROM_RULES_STRAIGHT  ? carom_straight
-         : kind == CAROM_RULES_SNOOKER ? carom_snooker
-         : (unsigned)kind < OWN_TABLE  ? games[kind]
-                                       : games[CAROM_RULES_EIGHTBALL];
+  return kind == CAROM_RULES_STRAIGHT    ? carom_straight
+         : kind == CAROM_RULES_SNOOKER   ? carom_snooker
+         : kind == CAROM_RULES_ONEPOCKET ? carom_onepocket
+         : (unsigned)kind < OWN_TABLE    ? games[kind]
+                                         : games[CAROM_RULES_EIGHTBALL];
 }
 
 /* ---- Balls that are put back */
@@ -314,6 +315,12 @@ carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
       return status;
   }
   return put_near(table, balls, count, ball, own);
+}
+
+void carom_put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set) {
+  for (int k = 0; k < count; k++)
+    if (set >> k & 1)
+      carom_spot_ball(table, balls, count, k);
 }
 
 carom_status carom_turn_settle(const carom_plan_rules *rules, uint64_t user[8],

@@ -23,6 +23,9 @@ static inline void carom_swap(uint64_t *a, uint64_t *b) {
   *b = kept;
 }
 
-extern const carom_plan_rules carom_straight, carom_snooker;
+/* Puts balls on the foot spot, or behind it, in the order of their numbers. */
+void carom_put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set);
+
+extern const carom_plan_rules carom_straight, carom_snooker, carom_onepocket;
 
 #endif

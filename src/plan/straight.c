@@ -144,9 +144,7 @@ static void settle(uint64_t *user, const carom_table *table, carom_shot_ball *ba
   (void)user;
   uint32_t spot = turn->spot;
   if (carom_count_of(spot) < RACKED || count <= LAST_BALL) {
-    for (int k = 1; k < count; k++)
-      if (spot >> k & 1)
-        carom_spot_ball(table, balls, count, k);
+    carom_put_back(table, balls, count, spot);
     return;
   }
 

@@ -63,6 +63,14 @@ chance() { carom plan --rules snooker --value --csv "$@" snooker.jsonl | sed -n 
 awk -v behind="$(chance --score 0,20)" -v ahead="$(chance --score 20,0)" 'BEGIN { print (ahead > behind + 0.2) }'
 for may in shoot pass free-ball; do carom plan --rules snooker --may $may --score 0,9 --csv snooker.jsonl | cut -d , -f 2 | grep -c pass || true; done
 for options in "--rules snooker --score 1" "--rules nineball --score 1,2" "--rules snooker --target 9" "--rules straight --colour" "--rules straight --may free-ball" "--rules snooker --opening"; do try carom plan $options snooker.jsonl; done
+echo "--- one-pocket"
+carom plan --rules onepocket --in-hand --shots 300 --csv straight.jsonl | awk -F , 'NR == 2 { print $6 <= 0.635 }'
+for pocket in foot-left foot-right; do carom plan --rules onepocket --own-pocket $pocket --score 7,5 --shots 600 --csv layout.jsonl | awk -F , -v own=$pocket 'NR > 1 { print ($4 == own || $4 == "") }' | sort | uniq -c | awk '{ print ($1 > 0), $2 }'; done
+chance() { carom plan --rules onepocket --value --csv "$@" layout.jsonl | sed -n 2p; }
+awk -v ahead="$(chance --score 7,-1)" -v even="$(chance --score 7,0)" -v behind="$(chance --score -1,7)" 'BEGIN { print (ahead > even), (even > behind + 0.3) }'
+for options in "--score 7,6" "--own-pocket side-left" "--opening" "--score 3"; do try carom plan --rules onepocket $options layout.jsonl; done
+for options in "--rules straight --score -1,0" "--rules nineball --own-pocket foot-left"; do try carom plan $options layout.jsonl; done
+try carom plan --rules onepocket --table threecushion --cue 0.4,0.9 --balls 1=0.3,1.9
 sed 's/"id": "red1"/"id": "rot"/' snooker.jsonl > rot.jsonl
 try carom plan --rules snooker rot.jsonl
 echo "--- a layout by options"

@@ -59,7 +59,7 @@ static void make_inputs(void) {
   opponent = make_player();
   cue = carom_cue_of(CAROM_GAME_POOL);
   cue.ball = choice(16) == 0 ? choice(40) - 4 : 0;
-  rules = carom_plan_rules_of((carom_rules_kind)choice(6));
+  rules = carom_plan_rules_of((carom_rules_kind)choice(7));
   rules.user[choice(5)] = (uint64_t)choice(4);
   rules.race = choice(32) == 0 ? choice(6) - 1 : rules.race;
   rules.rack = choice(32) == 0 ? choice(7) - 1 : rules.rack;

@@ -1,4 +1,4 @@
-/* Straight pool and snooker: every branch of their rules beside rulings written down, places of
+/* Straight pool, snooker and one-pocket: every branch of their rules beside rulings written down, places of
  * balls that come back, free balls, and whole games that no machine changes. */
 #include "carom_plan.h"
 #include "support.h"
@@ -595,6 +595,124 @@ TEST(free_balls) {
   }
 }
 
+/* ---- One-pocket */
+
+/* The pockets of the player, of the other and of none. */
+enum { MINE = 5, HIS = 2, NEUTRAL = 0 };
+
+typedef struct onepocket_case {
+  const char *what;
+  uint32_t in_play; /* the others are down: those that do not count come back */
+  int first, cushions;
+  uint32_t mine, his, neutral, off; /* the cue ball is gone with bit 0 of neutral or off */
+  int balls[2], owed[2], fouls;     /* before, of the one who plays and of the other; his fouls */
+  int is, leave, foul;
+  uint32_t spot;
+  int balls_after[2], owed_after[2], fouls_after; /* of the same two */
+} onepocket_case;
+
+/* clang-format off */
+static const onepocket_case onepocket[] = {
+    {"a ball in his pocket", 0xffff, 3, 0, 8, 0, 0, 0, {0, 0}, {0, 0}, 2,
+     KEEP, AFTER, 0, 0, {1, 0}, {0, 0}, 0},
+    {"two of them, off another", 0xffff, 9, 0, 0x18, 0, 0, 0, {0, 0}, {0, 0}, 0,
+     KEEP, AFTER, 0, 0, {2, 0}, {0, 0}, 0},
+    {"one in the pocket of the other", 0xffff, 3, 0, 0, 8, 0, 0, {0, 0}, {0, 0}, 1,
+     PASS, AFTER, 0, 0, {0, 1}, {0, 0}, 0},
+    {"one in each", 0xffff, 3, 0, 8, 0x10, 0, 0, {0, 0}, {0, 0}, 0,
+     KEEP, AFTER, 0, 0, {1, 1}, {0, 0}, 0},
+    {"one in no one's", 0xfff9, 3, 0, 0, 0, 8, 0, {1, 1}, {0, 0}, 0,
+     PASS, AFTER, 0, 8, {1, 1}, {0, 0}, 0},
+    {"the same with one of his own", 0xffff, 3, 0, 0x10, 0, 8, 0, {0, 0}, {0, 0}, 0,
+     KEEP, AFTER, 0, 0, {1, 0}, {0, 0}, 0},
+    {"one of the two comes back after a miss", 0xffe7, 5, 1, 0, 0, 0, 0, {1, 0}, {0, 0}, 0,
+     PASS, AFTER, 0, 8, {1, 0}, {0, 0}, 0},
+    {"and with it one that falls then", 0xffe7, 5, 1, 0, 0, 0x20, 0, {1, 0}, {0, 0}, 0,
+     PASS, AFTER, 0, 0x28, {1, 0}, {0, 0}, 0},
+    {"a safety to a cushion", 0xffff, 3, 1, 0, 0, 0, 0, {0, 0}, {0, 0}, 2,
+     PASS, AFTER, 0, 0, {0, 0}, {0, 0}, 0},
+    {"no cushion, without a ball to pay", 0xfff1, 4, 0, 0, 0, 0, 0, {0, 3}, {0, 0}, 0,
+     PASS, AFTER, CUSHION, 0, {0, 3}, {1, 0}, 1},
+    {"no ball met, with three", 0xfff1, -1, 0, 0, 0, 0, 0, {3, 0}, {0, 0}, 1,
+     PASS, AFTER, NO_BALL, 2, {2, 0}, {0, 0}, 2},
+    {"the cue ball falls with one of his", 0xffff, 3, 0, 8, 0, 1, 0, {0, 0}, {0, 0}, 0,
+     PASS, KITCHEN, CUE_BALL, 8, {0, 0}, {1, 0}, 1},
+    {"and leaves the table with one of the other", 0xffff, 3, 0, 0, 8, 0, 1, {0, 0}, {0, 0}, 0,
+     PASS, KITCHEN, CUE_BALL, 8, {0, 0}, {1, 0}, 1},
+    {"a ball off the table, others fall", 0xffff, 3, 1, 8, 0x10, 0, 0x20, {0, 0}, {0, 0}, 0,
+     PASS, AFTER, OFF, 0x28, {0, 1}, {1, 0}, 1},
+    {"a foul in a visit: what fell before, too", 0xffe3, 5, 0, 0, 0, 0, 0, {1, 1}, {0, 0}, 0,
+     PASS, AFTER, CUSHION, 0xc, {0, 1}, {0, 0}, 1},
+    {"a ball that is owed", 0xffff, 3, 0, 8, 0, 0, 0, {0, 0}, {1, 0}, 0,
+     KEEP, AFTER, 0, 0, {0, 0}, {0, 0}, 0},
+    {"the next one counts", 0xfff7, 4, 0, 0x10, 0, 0, 0, {0, 0}, {0, 0}, 0,
+     KEEP, AFTER, 0, 0, {1, 0}, {0, 0}, 0},
+    {"one owed of three", 0xffff, 3, 0, 0x38, 0, 0, 0, {0, 0}, {1, 0}, 0,
+     KEEP, AFTER, 0, 0, {2, 0}, {0, 0}, 0},
+    {"the other owes one", 0xffff, 3, 0, 0, 0x18, 0, 0, {0, 0}, {0, 1}, 0,
+     PASS, AFTER, 0, 8, {0, 1}, {0, 0}, 0},
+    {"the eighth", 0xff01, 9, 0, 0x200, 0, 0, 0, {7, 0}, {0, 0}, 0,
+     WIN, AFTER, 0, 0, {8, 0}, {0, 0}, 0},
+    {"the eighth pays a debt", 0xff01, 9, 0, 0x200, 0, 0, 0, {7, 0}, {1, 0}, 0,
+     KEEP, AFTER, 0, 0, {7, 0}, {0, 0}, 0},
+    {"the eighth of both", 0xc001, 14, 0, 0x4000, 0x8000, 0, 0, {7, 7}, {0, 0}, 0,
+     WIN, AFTER, 0, 0, {8, 8}, {0, 0}, 0},
+    {"the eighth on a foul", 0xff01, 9, 0, 0x200, 0, 1, 0, {7, 0}, {0, 0}, 0,
+     PASS, KITCHEN, CUE_BALL, 0x202, {6, 0}, {0, 0}, 1},
+    {"the eighth of the other", 0xff01, 9, 0, 0, 0x200, 0, 0, {0, 7}, {0, 0}, 0,
+     LOSE, AFTER, 0, 0, {0, 8}, {0, 0}, 0},
+    {"the same, and one of his", 0xff01, 9, 0, 0x400, 0x200, 0, 0, {0, 7}, {0, 0}, 0,
+     LOSE, AFTER, 0, 0, {1, 8}, {0, 0}, 0},
+    {"the same, and the cue ball", 0xff01, 9, 0, 0, 0x200, 1, 0, {0, 7}, {0, 0}, 0,
+     PASS, KITCHEN, CUE_BALL, 0x200, {0, 7}, {1, 0}, 1},
+    {"the same, and a ball off the table", 0xff01, 9, 0, 0, 0x200, 0, 0x400, {0, 7}, {0, 0}, 0,
+     LOSE, AFTER, OFF, 0, {0, 8}, {1, 0}, 1},
+    {"a third foul", 0xfff1, -1, 0, 0, 0, 0, 0, {3, 0}, {0, 0}, 2,
+     LOSE, AFTER, NO_BALL, 0, {2, 0}, {0, 0}, 3},
+    {"the last ball: two that fell come back", 0x0009, 3, 0, 8, 0, 0, 0, {6, 6}, {0, 0}, 0,
+     KEEP, AFTER, 0, 0x6, {7, 6}, {0, 0}, 0},
+};
+/* clang-format on */
+
+TEST(onepocket_rulings) {
+  for (size_t k = 0; k < sizeof onepocket / sizeof onepocket[0]; k++) {
+    const onepocket_case *c = &onepocket[k];
+    carom_facts facts = facts_of(c->first, c->cushions, c->mine | c->his | c->neutral, c->off);
+    for (int ball = 0; ball < CAROM_BALLS_MOST; ball++)
+      if (facts.down >> ball & 1)
+        facts.pocket[ball] = c->mine >> ball & 1 ? MINE : c->his >> ball & 1 ? HIS : NEUTRAL;
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
+    ck_assert_uint_eq(of.user[0], MINE + 8 * HIS);
+    ck_assert_uint_eq(of.pockets(of.user), 1U << MINE);
+    for (int who = 0; who < 2; who++) {
+      of.user[2 + who] = (uint64_t)c->balls[who];
+      of.user[5 + who] = (uint64_t)c->owed[who];
+    }
+    of.user[7] = (uint64_t)c->fouls + 4 * 1;
+
+    /* what each needs; then the ruling, and the state of whoever plays next */
+    int32_t needs[2];
+    of.left(of.user, c->in_play, needs);
+    for (int who = 0; who < 2; who++)
+      ck_assert_msg(needs[who] == 8 - c->balls[who] + c->owed[who], "%s: left", c->what);
+    const carom_turn turn = of.judge(of.user, c->in_play, 0, &facts, (carom_call){NO_CALL, -1});
+    const int other = c->is == PASS ? 1 : 0;
+    ck_assert_msg((int)turn.is == c->is && (int)turn.leave == c->leave && turn.foul == c->foul &&
+                      turn.spot == c->spot,
+                  "%s: turn %d, leave %d, foul %d, spot %x", c->what, (int)turn.is, (int)turn.leave,
+                  turn.foul, turn.spot);
+    for (int who = 0; who < 2; who++)
+      ck_assert_msg(of.user[2 + (other ^ who)] == (uint64_t)c->balls_after[who] &&
+                        of.user[5 + (other ^ who)] == (uint64_t)c->owed_after[who],
+                    "%s: balls %d, owed %d", c->what, (int)of.user[2 + (other ^ who)],
+                    (int)of.user[5 + (other ^ who)]);
+    const uint64_t fouls = (uint64_t)c->fouls_after;
+    ck_assert_msg(of.user[7] == (other ? 1 + 4 * fouls : fouls + 4), "%s: fouls", c->what);
+    ck_assert_uint_eq(of.pockets(of.user), 1U << (other ? HIS : MINE));
+    ck_assert_uint_eq(of.on(of.user, c->in_play), c->in_play & 0xfffe);
+  }
+}
+
 /* Chances: more points are better, and so are fewer that the other has; those of both players add
  * up to about one where nothing can be potted. */
 TEST(values_of_points) {
@@ -690,21 +808,20 @@ static uint64_t hash_of(uint64_t h, const void *bytes, size_t size) {
  * the one that this test prints. All layouts are such that a shot can be played from, and the
  * points add up. */
 static uint64_t play(carom_rules_kind kind, int target, int *strokes, int64_t made[2]) {
-  const bool straight_pool = kind == CAROM_RULES_STRAIGHT;
-  const int count = lay_out(straight_pool ? CAROM_RACK_EIGHTBALL : CAROM_RACK_SNOOKER,
-                            straight_pool ? CAROM_TABLE_POOL_9FT : CAROM_TABLE_SNOOKER, ALL);
+  const bool in_d = kind == CAROM_RULES_SNOOKER;
+  const int count = lay_out(in_d ? CAROM_RACK_SNOOKER : CAROM_RACK_EIGHTBALL,
+                            in_d ? CAROM_TABLE_SNOOKER : CAROM_TABLE_POOL_9FT, ALL);
   carom_plan_rules of = carom_plan_rules_of(kind);
-  if (straight_pool) {
+  if (kind == CAROM_RULES_STRAIGHT) {
     of.user[0] = (uint64_t)target;
     of.user[1] = 1;
   }
-  const carom_cue cue = carom_cue_of(straight_pool ? CAROM_GAME_POOL : CAROM_GAME_SNOOKER);
-  const carom_player player = carom_player_of(straight_pool ? 1.0 : 0.5);
+  const carom_cue cue = carom_cue_of(in_d ? CAROM_GAME_SNOOKER : CAROM_GAME_POOL);
+  const carom_player player = carom_player_of(in_d ? 0.5 : 1.0);
   carom_plan_options options = {.shots = 100};
   carom_plan_job job = job_of(count, &cue, &player, &of, &options);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
-  carom_turn turn = {.is = CAROM_TURN_PASS,
-                     .leave = straight_pool ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_D};
+  carom_turn turn = {.is = CAROM_TURN_PASS, .leave = in_d ? CAROM_LEAVE_D : CAROM_LEAVE_KITCHEN};
   const double high[2] = {table.width, 0.25 * table.length};
   int who = 1;
   for (*strokes = 0; *strokes < 400 && turn.is != CAROM_TURN_WIN && turn.is != CAROM_TURN_LOSE;
@@ -754,9 +871,9 @@ static uint64_t play(carom_rules_kind kind, int target, int *strokes, int64_t ma
   }
   free(job.memory);
   ck_assert(turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE);
-  if (straight_pool)
+  if (kind == CAROM_RULES_STRAIGHT)
     ck_assert(of.user[2] == (uint64_t)made[who] && of.user[3] == (uint64_t)made[1 - who]);
-  else /* fouls come to the pots */
+  else if (in_d) /* fouls come to the pots */
     ck_assert(of.user[2] >= (uint64_t)made[who] && of.user[3] >= (uint64_t)made[1 - who]);
   return h;
 }
@@ -781,4 +898,14 @@ TEST(golden_snooker) {
   ck_assert(made[0] + made[1] >= 40);
   ck_assert_msg(h == UINT64_C(0x3c1c2fe9b347c8a5), "another game: 0x%016llx",
                 (unsigned long long)h);
+}
+
+TEST(golden_onepocket) {
+  int strokes;
+  int64_t made[2] = {0};
+  const uint64_t h = play(CAROM_RULES_ONEPOCKET, 0, &strokes, made);
+  printf("one-pocket: 0x%016llx; %d strokes, %d and %d balls\n", (unsigned long long)h, strokes,
+         (int)made[0], (int)made[1]);
+  ck_assert(strokes >= 8 && made[0] + made[1] >= 4);
+  ck_assert_msg(h == UINT64_C(0x0), "another game: 0x%016llx", (unsigned long long)h);
 }

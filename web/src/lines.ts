@@ -100,7 +100,7 @@ export function fromLine(carom: Carom, text: string): Line {
 }
 
 /** The highest number of a ball of the games whose rules know balls by their numbers. */
-export const LAST: Partial<Record<RulesKind, number>> = { eightball: 15, nineball: 9, straight: 15, snooker: 21 };
+export const LAST: Partial<Record<RulesKind, number>> = { eightball: 15, nineball: 9, straight: 15, snooker: 21, onepocket: 15 };
 const COLOURS = ["yellow", "green", "brown", "blue", "pink", "black"] as const;
 
 /** The number of a ball by its name in a line; 0 for what has none. */

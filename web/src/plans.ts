@@ -22,7 +22,7 @@ const GROUPS = ["open", "solids", "stripes"] as const;
 const MAY = ["nothing", "push", "pass"] as const;
 const HANDS = ["no", "no", "anywhere", "kitchen", "d"] as const;
 /** Games whose state is told by its words. */
-const WORDS = ["straight", "snooker"] as const;
+const WORDS = ["straight", "snooker", "onepocket"] as const;
 const hasWords = (rules: string): boolean => (WORDS as readonly string[]).includes(rules);
 const BOUNDS = { speedShare: 0, speedLeast: 0, speedMost: 0, tipMost: 0, reserved: [0, 0, 0] };
 
@@ -39,10 +39,10 @@ export interface Host {
 
 type Method = (...numbers: Pointer[]) => number;
 
-/** Points of the next player and of the other, by the words of carom_rules_kind. */
+/** Points, or balls, of the next player and of the other, by the words of carom_rules_kind. */
 function scoreOf({ rules, state = [] }: GameState): [number, number] {
   const word = (k: number): number => state[k] ?? 0;
-  return rules === "straight" ? [word(2) - word(5), word(3) - word(6)] : [word(2), word(3)];
+  return rules === "straight" || rules === "onepocket" ? [word(2) - word(5), word(3) - word(6)] : [word(2), word(3)];
 }
 
 /** Refuses what is no layout of a game, for a plan. */
@@ -261,7 +261,7 @@ export class Plans {
     this.#memory.exports.carom_plan_rules_of(at, value("carom_rules_kind", rules, "rules"));
     if (group !== "open" && rules !== "eightball") throw new TypeError("group: it is of eight-ball");
     if (may !== "nothing" && rules !== "nineball") throw new TypeError("may: it is of nine-ball");
-    if (state !== undefined && !hasWords(rules)) throw new TypeError("state: it is of straight and snooker");
+    if (state !== undefined && !hasWords(rules)) throw new TypeError("state: it is of straight, snooker and onepocket");
     if (hasWords(rules)) {
       if (state !== undefined && state.length !== 8) throw new TypeError("state: it has eight numbers");
       for (const [k, one] of (state ?? []).entries()) this.#memory.i64[at / 8 + k] = BigInt(whole(one, `state[${k}]`));

@@ -157,7 +157,7 @@ export type Player = Optional<C.Player, "speedShare" | "speedLeast" | "speedMost
 
 /** A game between two strokes, as the player at the table sees it. Ball k is ball k of the game, ball 0 the cue ball. */
 export interface GameState {
-  /** Eight-ball, nine-ball and straight pool by the rules of the WPA, snooker by those of the WPBSA; or a drill for one. Default "eightball". */
+  /** Eight-ball, nine-ball and straight pool by the rules of the WPA, snooker by those of the WPBSA, one-pocket by those of the BCA; or a drill for one. Default "eightball". */
   rules: C.RulesKind;
   /** Of eight-ball: whose balls the player has. Default "open". */
   group: "open" | "solids" | "stripes";
@@ -167,7 +167,7 @@ export interface GameState {
   fouls?: readonly [number, number];
   /** Of nine-ball: whether the player may push out, just after the break, or pass, after a push-out. Default "nothing". */
   may?: "nothing" | "push" | "pass";
-  /** Of straight pool and snooker: eight whole numbers, with the scores, as `carom_rules_kind` of C has them. Default: that of a new game. */
+  /** Of straight pool, snooker and one-pocket: eight whole numbers, with the scores, as `carom_rules_kind` of C has them. Default: that of a new game. */
   state?: readonly number[];
 }
 
@@ -252,7 +252,7 @@ export interface Ruling {
   hand: "no" | "anywhere" | "kitchen" | "d";
   /** Of the shot, in games of points; of three-cushion and of the drill too. */
   points: number;
-  /** Of straight pool and snooker: points of whoever plays next, and of the other. */
+  /** Of straight pool and snooker: points of whoever plays next, and of the other; of one-pocket their balls, below 0 those that they owe. */
   score: [number, number];
   /** The layout of the next stroke. */
   balls: ShotBall[];

@@ -205,6 +205,24 @@ test("arguments in error", () => {
   expect(() => carom.ballsOn({ rules: "nineball", group: "stripe" as "open", opening: false }, balls)).toThrow(/group/);
 });
 
+test("one-pocket: the pocket of the player, balls that come back, a ball that is owed", () => {
+  const { carom } = builds[0]!;
+  const pool = carom.table("9ft");
+  let balls = carom.rack("eightball", pool).map((ball, k) => (k < 2 ? ball : { ...ball, state: { ...ball.state, r: [0, 0, -0.1] as [number, number, number], label: "pocketed" as const } }));
+  balls = carom.placeBall(pool, carom.placeBall(pool, balls, 0, 0.6, 1.4), 1, 0.95, 2.1);
+  const own = carom.pocketNames(pool).indexOf("foot-right");
+  const [best] = carom.plan(pool, balls, { rules: "onepocket", shots: 600 });
+  expect([best!.ball, best!.pocket]).toEqual([1, own]);
+  const state = [own + 8 * 2, 0, 7, 6, 0, 0, 0, 0];
+  const game = { rules: "onepocket" as const, group: "open" as const, opening: false };
+  expect(carom.referee(pool, balls, best!.cue, { ...game, state }).turn).toBe("win");
+  const given = carom.referee(pool, balls, best!.cue, { ...game, state: [2 + 8 * own, 0, 3, 6, 0, 0, 0, 0] });
+  expect([given.turn, given.score]).toEqual(["pass", [7, 3]]);
+  const missed = carom.referee(pool, balls, carom.cue({ speed: 0.5, phi: 180 }), game);
+  expect([missed.turn, missed.reason, missed.score, missed.game.state!.slice(0, 7)]).toEqual(["pass", "no_ball", [0, -1], [2 + 8 * own, 0, 0, 0, 0, 0, 1]]);
+  expect(() => carom.plan(pool, balls.slice(0, 5), { rules: "onepocket" })).toThrow("balls: onepocket has the cue ball and 1 to 15");
+});
+
 test("straight pool and snooker: points, colours on their own spots, a foul, the other who plays again", () => {
   const { carom } = builds[0]!;
   const pool = carom.table("9ft");
@@ -234,7 +252,7 @@ test("straight pool and snooker: points, colours on their own spots, a foul, the
   const again = carom.referee(table, foul.balls, carom.cue({}, "snooker"), foul.game, "pass");
   expect([again.turn, again.foul, again.score, again.game.state![4]]).toEqual(["pass", false, [0, 4], 0]);
   expect(() => carom.plan(table, layout.slice(0, 5), { rules: "snooker" })).toThrow("balls: snooker has the cue ball and 1 to 21");
-  expect(() => carom.plan(pool, balls, { rules: "nineball", state: colour })).toThrow("state: it is of straight and snooker");
+  expect(() => carom.plan(pool, balls, { rules: "nineball", state: colour })).toThrow("state: it is of straight, snooker and onepocket");
   const [first] = carom.plan(table, rack, { rules: "snooker", inHand: true, shots: 300 });
   expect(Math.hypot(first!.place[0] - table.width / 2, first!.place[1] - 0.737)).toBeLessThan(0.2921);
 });

@@ -271,10 +271,10 @@ def plan(
         2 to 32 of them at rest, with the cue ball first. For eight-ball and nine-ball a ball's index is its number.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
         Its masses, its tip and its miscue count; the stroke does not. Default: that of `carom.cue()`.
-    rules : {"eightball", "nineball", "potting", "threecushion", "straight", "snooker"} or Rules
-        The game, by the rules of the WPA or, snooker, of the WPBSA; or a drill, whose value is the share of the balls that one visit pots; or
+    rules : {"eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket"} or Rules
+        The game, by the rules of the WPA or, snooker, of the WPBSA, one-pocket, of the BCA; or a drill, whose value is the share of the balls that one visit pots; or
         three-cushion, whose value is the chance of the point, on a table without pockets with the balls of `racks.threecushion`; or a game of
-        your own. Straight pool has the balls of `racks.eightball`, snooker those of `racks.snooker`.
+        your own. Straight pool and one-pocket have the balls of `racks.eightball`, snooker those of `racks.snooker`.
     group : {"open", "solids", "stripes"}
         Of eight-ball: the balls of the player. Default: "open".
     opening : bool

@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 
 __all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "referee"]
 
-Game = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker"]
+Game = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket"]
 Group = Literal["open", "solids", "stripes"]
 State = npt.NDArray[np.uint64]
 Hand = Literal["no", "anywhere", "kitchen", "d"]
-_GAMES = {"eightball": 0, "nineball": 1, "potting": 2, "threecushion": 3, "straight": 4, "snooker": 5}
-_LAST = {"eightball": 15, "nineball": 9, "straight": 15, "snooker": 21}  # the highest number of a ball
+_GAMES = {"eightball": 0, "nineball": 1, "potting": 2, "threecushion": 3, "straight": 4, "snooker": 5, "onepocket": 6}
+_LAST = {"eightball": 15, "nineball": 9, "straight": 15, "snooker": 21, "onepocket": 15}  # the highest number of a ball
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
 _LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4}
@@ -237,7 +237,7 @@ class Made:
 
     def check_count(self, count: int) -> None:
         """Refuses a layout in which balls are missing that may come back."""
-        if self.rules in ("straight", "snooker") and count <= (self.last or 0):
+        if self.rules in ("straight", "snooker", "onepocket") and count <= (self.last or 0):
             raise ValueError(f"balls: {self.rules} has the cue ball and 1 to {self.last}, of which some may be down, not {count} balls")
 
     def check(self) -> None:
@@ -247,10 +247,10 @@ class Made:
 
 
 def _score(rules: Game | Rules, state: State) -> tuple[int, int]:
-    """By the words of `carom_rules_kind`: points of both, and those that fouls cost in straight pool."""
+    """By the words of `carom_rules_kind`: points of both, less those that fouls cost in straight pool, and balls that are owed in one-pocket."""
     own, other = (int(word) for word in state[2:4])
     lost = [int(word) for word in state[5:7]]
-    return (own - lost[0], other - lost[1]) if rules == "straight" else (own, other) if rules == "snooker" else (0, 0)
+    return (own - lost[0], other - lost[1]) if rules in ("straight", "onepocket") else (own, other) if rules == "snooker" else (0, 0)
 
 
 _bits: npt.NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
@@ -304,7 +304,7 @@ class Ruling(Arrays):
     points: float
     balls: dtypes.Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
     state: State  # (8,): Of the rules, as the next player has it
-    score: tuple[int, int]  # Of straight pool and snooker: points of the next player, and of the other
+    score: tuple[int, int]  # Of straight pool and snooker: points of the next player, and of the other; of one-pocket their balls, below 0 those that they owe
     facts: Facts  # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was met in one that ended in an error
     shot: Shot
 

@@ -72,6 +72,7 @@ const ALL = {
   eightball: { text: "Eight-ball", of: "eightball", rules: "eightball", calls: true, begin: BREAK },
   nineball: { text: "Nine-ball", of: "nineball", rules: "nineball", calls: false, begin: BREAK },
   straight: { text: "Straight pool, to 25 points", of: "eightball", rules: "straight", calls: true, points: true, state: [25, 1, 0, 0, 0, 0, 0, 0], begin: { ...BREAK, speed: 4 } },
+  onepocket: { text: "One-pocket", of: "eightball", rules: "onepocket", calls: false, points: true, begin: { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } },
   snooker: { text: "Snooker", of: "snooker", rules: "snooker", calls: false, points: true, begin: { ...BREAK, speed: 4 } },
   threecushion: { text: "Three-cushion, to 10 points", of: "threecushion", rules: "threecushion", calls: false, points: true, target: 10, begin: { speed: 4, phi: 62, a: 0, b: 0.2 } },
 } as const;
