@@ -143,7 +143,9 @@ static void tell_misses(FILE *out, const carom_plan_job *job, const carom_cue *c
                         carom_call call) {
   const strokes all = play_with(job, job->player, cue, call);
   char text[16];
-  fprintf(out, "   misses       %s", percent((double)all.misses / WHY_STROKES, text));
+  /* a safety is meant to pass the turn */
+  fprintf(out, "   %s       %s", call.ball < 0 ? "passes" : "misses",
+          percent((double)all.misses / WHY_STROKES, text));
   if (all.misses > 0 && job->rules->race != CAROM_RACE_ALONE)
     fprintf(out, ", which leave the other %.0f %%", 100.0 * all.other / all.misses);
   if (all.lost > 0)

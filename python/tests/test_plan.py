@@ -372,8 +372,8 @@ def test_what_rules_cannot_say(method, gives, match):
             carom.plan(TABLE, layout, rules=wrong, shots=100)
 
 
-def test_the_bot_for_bank_pool(capsys):
-    runpy.run_path(str(Path(__file__).parents[1] / "examples" / "bank_pool.py"))
+def test_the_bot_for_ten_ball(capsys):
+    runpy.run_path(str(Path(__file__).parents[1] / "examples" / "ten_ball.py"))
     told = capsys.readouterr().out.splitlines()
     assert len(told) > 5 and told[-1] == f"after {len(told)} strokes: player 0 has won"  # the one with a rating of 750
 
@@ -424,7 +424,7 @@ def test_one_pocket():
     for balls in (5, 0):
         missed = carom.referee(table, layout, carom.cue(speed=0.5, phi=180.0), rules="onepocket", state=[own + 8 * other, 0, balls, 0, 0, 0, 0, 0])
         assert missed.turn == "pass" and missed.foul == carom.Foul.NO_BALL and missed.score == (0, balls - 1) and missed.hand == "no"
-        assert np.count_nonzero(missed.balls["state"]["label"] == carom.Label.STATIONARY) == (4 if balls else 3)
+        assert np.count_nonzero(missed.balls["state"]["label"] == carom.Label.STATIONARY) == (12 if balls else 16)
     with pytest.raises(ValueError, match="balls: onepocket has the cue ball and 1 to 15"):
         carom.plan(table, layout[:10], rules="onepocket")
     with pytest.raises(ValueError, match="opening: it is of eight-ball, nine-ball and straight pool"):

@@ -10,9 +10,9 @@ typedef struct learned {
   double stretch; /* of the log-odds of a value: carom-lab plan --games tells it */
 } learned;
 
-/* Of eight-ball, and of games in which both have the same balls. Games of points have the numbers
- * of eight-ball: their own are not learned. */
-static const learned learned_of[2] = {
+/* Of eight-ball; of games in which both have the same balls; and of those in which each has pockets
+ * of his own. Games of points have the numbers of eight-ball: their own are not learned. */
+static const learned learned_of[3] = {
     {/* of 23101 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */
      /* log-likelihood of a stroke -0.2798; of one number for all, -0.4112 */
      .next = {-0.209, -0.768, 1.958, 1.979, -0.019, -0.171, 0.381},
@@ -31,6 +31,15 @@ static const learned learned_of[2] = {
      .first = {1.032, -1.034, 1.755},
      .mean = 0.728,
      .stretch = 1.4},
+    {/* of 18373 strokes: carom-lab learn --rules onepocket --racks 6144 --shots 200 --seed 0 */
+     /* log-likelihood of a stroke -0.3250; of one number for all, -0.5352 */
+     .next = {-0.589, -0.696, 0.919, 3.921, -0.347, -0.588, -2.201},
+     /* log-likelihood of a stroke -0.3340; of one number for all, -0.3914 */
+     .later = {1.738, -1.182, -0.472, 0.742},
+     /* log-likelihood of a stroke -0.6681; of one number for all, -0.6927 */
+     .first = {0.455, -0.510, -0.767},
+     .mean = 0.165,
+     .stretch = 1.6},
 };
 
 #endif

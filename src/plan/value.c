@@ -12,7 +12,7 @@
  * three more: p that the player keeps his turn, by a pot of any kind, a_n that he pots a later ball
  * of this visit where n are left, and e_n that he keeps the turn that the other has left him. All
  * are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it. They are nine-ball's where both
- * have the same balls, else eight-ball's.
+ * have the same balls, one-pocket's where each has pockets of his own, else eight-ball's.
  *
  * What follows a miss is a chain over the balls left, n to the one who plays and m to the other:
  * of a visit he keeps the first turn with the chance e_n and each later one with a_n, both of a
@@ -111,9 +111,12 @@ static double chance(const double *w, const double *x, int n) {
   return 1.0 / (1.0 + carom_exp(-sum));
 }
 
-/* The numbers of the race of the game. */
+/* The numbers of the race of the game, and of its pockets. */
 static const learned *numbers_of(const carom_view *view) {
-  return &learned_of[view->rules->race == CAROM_RACE_SHARED];
+  const carom_plan_rules *rules = view->rules;
+  return &learned_of[rules->race == CAROM_RACE_SHARED                          ? 1
+                     : rules->race == CAROM_RACE_OWN && rules->pockets != NULL ? 2
+                                                                               : 0];
 }
 
 double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]) {

@@ -65,7 +65,7 @@ for may in shoot pass free-ball; do carom plan --rules snooker --may $may --scor
 for options in "--rules snooker --score 1" "--rules nineball --score 1,2" "--rules snooker --target 9" "--rules straight --colour" "--rules straight --may free-ball" "--rules snooker --opening"; do try carom plan $options snooker.jsonl; done
 echo "--- one-pocket"
 carom plan --rules onepocket --in-hand --shots 300 --csv straight.jsonl | awk -F , 'NR == 2 { print $6 <= 0.635 }'
-for pocket in foot-left foot-right; do carom plan --rules onepocket --own-pocket $pocket --score 7,5 --shots 600 --csv layout.jsonl | awk -F , -v own=$pocket 'NR > 1 { print ($4 == own || $4 == "") }' | sort | uniq -c | awk '{ print ($1 > 0), $2 }'; done
+for pocket in foot-left foot-right; do carom plan --rules onepocket --own-pocket $pocket --score 7,5 --shots 600 --csv layout.jsonl | cut -d , -f 4 | sed -n '1d; /./p' | sort -u; done
 chance() { carom plan --rules onepocket --value --csv "$@" layout.jsonl | sed -n 2p; }
 awk -v ahead="$(chance --score 7,-1)" -v even="$(chance --score 7,0)" -v behind="$(chance --score -1,7)" 'BEGIN { print (ahead > even), (even > behind + 0.3) }'
 for options in "--score 7,6" "--own-pocket side-left" "--opening" "--score 3"; do try carom plan --rules onepocket $options layout.jsonl; done

@@ -11,13 +11,14 @@ lab plan --left 2 --racks 2 --shots 100 | numbers | cut -d' ' -f1-20
 echo "--- games of points"
 lab plan --rules straight --target 8 --racks 1 --shots 100 | numbers | cut -d' ' -f1-33
 lab plan --rules snooker --racks 1 --shots 100 | grep -c "points in"
+lab plan --rules onepocket --racks 1 --shots 100 | grep -c "points in"
 echo "--- nor the rows that are fitted, whose form is that of the library's"
 lab learn --racks 40 --shots 100 > one.h
 lab learn --racks 40 --shots 100 --threads 3 > two.h
 cmp one.h two.h
 lab learn --racks 40 --shots 100 --seed 1 | cmp -s - one.h || echo "another seed gives other numbers"
 numbers < "$DATA/../src/plan/learned.h" > is.txt
-for game in eightball nineball; do grep -qF "$(lab learn --rules $game --racks 40 --shots 100 | numbers | sed 's/ $//')" is.txt && echo "$game: same"; done
+for game in eightball nineball onepocket; do grep -qF "$(lab learn --rules $game --racks 40 --shots 100 | numbers | sed 's/ $//')" is.txt && echo "$game: same"; done
 grep -o "racks [0-9]*" "$DATA/../src/plan/learned.h"
 echo "--- usage"
 try lab learn --racks 3

@@ -126,7 +126,7 @@ TEST(rulings) {
                   (int)turn.leave, (int)of.user[0]);
   }
   ck_assert_str_eq(carom_rules_name(CAROM_RULES_NINEBALL), "nineball");
-  ck_assert_ptr_null(carom_rules_name((carom_rules_kind)6));
+  ck_assert_ptr_null(carom_rules_name((carom_rules_kind)7));
 }
 
 /* A break of eight-ball: one is enough, the table is open whatever falls, and the eight comes
@@ -970,9 +970,9 @@ TEST(values) {
     ck_assert_int_eq(carom_plan_value(&job, 0, &corner), CAROM_OK);
     const double *centre = table.pocket[pocket].centre;
     if (centre[0] < 0.5 && centre[1] < 0.5)
-      ck_assert_double_eq(corner, easy);
+      ck_assert_double_gt(corner, 0.9);
     else
-      ck_assert_double_lt(corner, easy - 0.1);
+      ck_assert_double_lt(corner, 0.8);
   }
 
   /* players who pot next to nothing */
