@@ -23,7 +23,8 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 sys.path.insert(0, str(EXAMPLES))
 
 import refine_aim  # noqa: E402
-def test_the_notebook(capsys):
+@pytest.mark.parametrize(("name", "pictures"), [("first_look", (3, 3)), ("rack_gap", (1, 2))])
+def test_notebooks(capsys, name, pictures):
     """Every cell runs, prints the stored text (numbers within 2 %, as instruction sets differ by rounding) and gives its pictures.
 
     Pictures are not stored: they are long, and no reader of the file can read them.
@@ -32,19 +33,19 @@ def test_the_notebook(capsys):
 
     pyplot.switch_backend("agg")
     pyplot.close("all")
-    book = json.loads((EXAMPLES / "first_look.ipynb").read_text(encoding="utf-8"))
+    book = json.loads((EXAMPLES / f"{name}.ipynb").read_text(encoding="utf-8"))
     cells = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
-    assert [cell["execution_count"] for cell in cells] == list(range(1, len(cells) + 1)) and len(cells) >= 8
+    assert [cell["execution_count"] for cell in cells] == list(range(1, len(cells) + 1)) and len(cells) >= 6
     number = re.compile(r"\d+(?:\.\d+)?")
     names: dict = {}
     svgs = figures = 0
     for cell in cells:
         tree = ast.parse("".join(cell["source"]))
         last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
-        exec(compile(tree, "first_look.ipynb", "exec"), names)
+        exec(compile(tree, name, "exec"), names)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # that nothing is shown
-            shown = None if last is None else eval(compile(ast.Expression(last.value), "first_look.ipynb", "eval"), names)
+            shown = None if last is None else eval(compile(ast.Expression(last.value), name, "eval"), names)
         svgs += hasattr(shown, "_repr_svg_") and shown._repr_svg_().startswith("<svg")
         figures += len(pyplot.get_fignums())
         pyplot.close("all")
@@ -52,7 +53,7 @@ def test_the_notebook(capsys):
         printed = capsys.readouterr().out
         assert number.sub("#", printed) == number.sub("#", expected)
         np.testing.assert_allclose([*map(float, number.findall(printed))], [*map(float, number.findall(expected))], rtol=0.02)
-    assert (svgs, figures) == (3, 3)
+    assert (svgs, figures) == pictures
 
 
 def test_bank_with_position(capsys, monkeypatch):
