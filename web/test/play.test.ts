@@ -219,10 +219,11 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.locator("#new-game").click();
     const games = await one.locator("#new-which option").evaluateAll((options) => options.map((option) => [(option as HTMLOptionElement).value, option.textContent!] as const));
     await one.locator("#menu .close").click();
-    expect(games.map(([game]) => game)).toEqual(expect.arrayContaining(["eightball", "nineball", "threecushion", "snooker"]));
+    expect(games.map(([game]) => game)).toEqual(expect.arrayContaining(["eightball", "nineball", "threecushion", "snooker", "onepocket"]));
     for (const [game, name] of games)
       for (const against of name.includes("(practice)") ? ["practice"] : ["person", "practice"]) {
         await begin(one, game, against);
+        if (game === "onepocket" && against === "person") expect(await turn(one)).toBe("Player 1 breaks, into the foot-right pocket. Cue ball in hand behind the line: drag it.");
         let played = 0;
         for (; played < 3; played++) {
           // A ball that ends the game may fall.
