@@ -1,5 +1,6 @@
 """Each bad argument has its error: of the right kind, beginning with the argument's name, and saying what would be right."""
 
+import importlib.util
 import re
 import warnings
 from types import SimpleNamespace
@@ -239,7 +240,7 @@ CALLS = [
     (SHOT.positions, {"times": 0.1}, "times"),
     (SHOT.animate, {}, "speed"),
     (BATCH.positions, {"times": 0.1}, "times threads"),
-    (BATCH.to_dataframe, {}, "dims"),
+    *([(BATCH.to_dataframe, {}, "dims")] if importlib.util.find_spec("pandas") else []),
     (Potting, {}, "balls strokes table ball_set noise parameters reward speeds cushion_model threads"),
     (Recorder, {"table": TABLE, "balls": PAIR}, "table balls options world"),
     (tracks.synthetic, {"shots": 1}, "shots table radius cushion_model constants speeds noise rate thin seed"),

@@ -219,6 +219,7 @@ def test_a_game_of_the_environment(environment):
 
 def test_the_planner_is_an_opponent():
     """It wins against strokes at random, also in hand and at the break, and its actions are those of the space."""
+    pytest.importorskip("pettingzoo", reason="PettingZoo is not installed")
     from carom.pettingzoo import PoolEnv
 
     game = PoolEnv(strokes=60, noise=(0.1, 0.1, 0.003))

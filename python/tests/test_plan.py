@@ -463,7 +463,7 @@ def test_straight_pool_and_snooker():
     assert ruling.turn == "keep" and ruling.score == (7, 0) and ruling.potted == (21,) and ruling.balls["state"]["r"][21, :2].tolist() == spots[5].tolist()
     # no ball is met: four points for the other, who may let the offender play again
     scratch = carom.referee(table, layout, carom.cue(game="snooker", speed=0.1, phi=0.0), rules="snooker")
-    assert scratch.foul == carom.Foul.NO_BALL and scratch.score == (4, 0) and scratch.state[4] & 1
+    assert scratch.foul == carom.Foul.NO_BALL and scratch.score == (4, 0) and int(scratch.state[4]) & 1
     again = carom.referee(table, scratch.balls, cue, rules="snooker", state=scratch.state, call=(-3, -1))
     assert again.turn == "pass" and again.foul == carom.Foul.NONE and again.score == (0, 4) and again.state[4] == 0
     with pytest.raises(ValueError, match="balls: snooker has the cue ball and 1 to 21"):

@@ -460,7 +460,7 @@ def jacobian(
     Returns an ndarray of float64: (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of `tangents`.
     """
     group, _, field = str(of).partition(".")
-    if (group not in ("final", "at") or field not in PARTS) and of not in ("time", "reach"):
+    if (group not in ("final", "at") or field not in PARTS) and str(of) not in ("time", "reach"):
         raise ValueError(f"of: must be final.r, v, w, z or v_z, at.r and so on, time or reach, not {of!r}")
     layouts = of_record(layouts, dtypes.shot_ball, "layouts", "balls()")
     cues = None if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
