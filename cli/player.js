@@ -11,7 +11,7 @@
 /** Shots that are apart have a colour each: of trails, dashed but for the cue ball, and around balls. */
 /** @typedef {{ table: Table, balls: { name: string, radius: number }[], shots: Shot[], apart?: boolean }} Film */
 /** @typedef {{ under?(g: CanvasRenderingContext2D): boolean, over?(g: CanvasRenderingContext2D): void, ended?(): void, moved?(): void,
- *   still?(): boolean }} Hooks */
+ *   still?(): boolean, sharp?: number }} Hooks */
 
 const IVORY = "#fbfaf5";
 const POOL = ["#e3b505", "#1446a0", "#c8102e", "#5b2a86", "#e8702a", "#12664f", "#7a1f2b", "#16181b"];
@@ -96,8 +96,9 @@ function make(tag, attributes, ...children) {
   return made;
 }
 
-/** @param {Hooks} hooks `under` draws below the trails and tells whether they are dim; `still` tells that the clock is not the reader's now. */
-export function player({ under, over, ended, moved, still = () => false } = {}) {
+/** @param {Hooks} hooks `under` draws below the trails and tells whether they are dim; `still` tells that the clock is not the reader's now;
+ * `sharp` is how many pixels of the picture there are at least for one of the page. */
+export function player({ under, over, ended, moved, still = () => false, sharp = 1 } = {}) {
   const canvas = make("canvas", { class: "scene", id: "table-scene", role: "img", tabindex: "0", "aria-label": "A billiard table from above" });
   const play = make("button", { type: "button", id: "play" }, "Play");
   const back = make("button", { type: "button", id: "back", "aria-label": "Previous event" }, "◀");
@@ -281,7 +282,7 @@ export function player({ under, over, ended, moved, still = () => false } = {}) 
     for (const unit of ["vh", "dvh"]) canvas.style.maxWidth = `calc((100${unit} - var(--beside, 9rem)) * ${1 / ratio})`;
     const width = Math.max(canvas.clientWidth, 50);
     const height = Math.round(width * ratio);
-    const dpr = window.devicePixelRatio || 1;
+    const dpr = Math.max(window.devicePixelRatio || 1, sharp);
     if (canvas.width !== Math.round(width * dpr) || canvas.height !== Math.round(height * dpr)) {
       canvas.style.height = `${height}px`;
       [canvas.width, canvas.height] = [Math.round(width * dpr), Math.round(height * dpr)];

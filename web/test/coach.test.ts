@@ -16,16 +16,17 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await one.locator("#rate").selectOption("1000");
     await one.locator("#menu .close").click();
     await one.locator("#hint").click();
-    await expect.poll(() => text(one, "said"), { timeout: 30_000 }).toMatch(/^Hint: ball [19] into the .*: plays on \d+ %, wins \d+ %, foul \d+ %\.$/);
+    await expect.poll(() => text(one, "said"), { timeout: 30_000 }).toMatch(/^Hint: ball [19] into the .*\. It keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\.$/);
     // A stroke that meets nothing: a foul, which the chances and the review tell.
     await one.locator("#phi").evaluate((input: HTMLInputElement) => {
       input.value = "200";
       input.dispatchEvent(new Event("input"));
     });
     await set(one, "power", 0.6);
-    await expect.poll(() => text(one, "said"), { timeout: 30_000 }).toMatch(/^This stroke plays on 0 %, wins \d+ %, is a foul 100 %\.$/);
+    await expect.poll(() => text(one, "said"), { timeout: 30_000 }).toMatch(/^This stroke keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/);
     await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said"), { timeout: 30_000 }).toMatch(/^That stroke: wins \d+ %\. Best: .*, wins \d+ %\. It cost \d+ %\.$/);
+    await expect.poll(() => text(one, "said"), { timeout: 30_000 }).toMatch(/^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/);
+    await one.locator("#new-game").click();
     await one.locator("#open-log").click();
     expect(await one.locator("#log tbody tr").count()).toBe(1);
     expect(await text(one, "log-sum")).toMatch(/^1 stroke\. A stroke cost [1-9]\d* % of a game/);
@@ -60,6 +61,51 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await one.locator("#space").click();
     expect(await one.locator("#scene").count()).toBe(0);
     expect(await one.locator("#table-scene").isVisible()).toBe(true);
+    await one.close();
+  });
+
+  test("behind the cue the table fills the view of a phone, the aim is on the cloth, and balls have their numbers", async () => {
+    const one = await open("", { width: 390, height: 844, touch: true });
+    // The 1 lies before the camera, its number up.
+    await one.evaluate(() => localStorage.setItem("carom-game", JSON.stringify({ game: "nineball", against: "person", own: "0", seed: 7, at: "0.635,0.635 0.75,0.4 in in in in in in in in", entries: [] })));
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
+      input.value = "90";
+      input.dispatchEvent(new Event("input"));
+    });
+    await one.locator("#space").click();
+    await one.locator("#scene").waitFor({ timeout: 30_000 });
+    const png = (await one.locator("#scene").screenshot()).toString("base64");
+    const { width, height, letters } = await one.evaluate(async (png) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${png}`;
+      await image.decode();
+      const copy = document.createElement("canvas");
+      [copy.width, copy.height] = [image.width, image.height];
+      const g = copy.getContext("2d")!;
+      g.drawImage(image, 0, 0);
+      return { width: image.width, height: image.height, letters: Array.from(g.getImageData(0, 0, image.width, image.height).data, (byte) => String.fromCharCode(byte)).join("") };
+    }, png);
+    const bytes = Buffer.from(letters, "latin1");
+    /** The places in a rectangle whose colour is so. */
+    const where = ([x0, y0, x1, y1]: readonly number[], is: (r: number, g: number, b: number) => boolean): [number, number][] =>
+      Array.from({ length: (y1! - y0!) * (x1! - x0!) }, (_, k) => [x0! + (k % (x1! - x0!)), y0! + Math.floor(k / (x1! - x0!))] as [number, number]).filter(([x, y]) => is(...([...bytes.subarray(4 * (width * y + x), 4 * (width * y + x) + 3)] as [number, number, number])));
+    // Of the room around the table there is little.
+    const room = where([0, 0, width, height], (r, g, b) => Math.max(r, g, b) < 34).length / (width * height);
+    expect(room).toBeLessThan(0.3);
+    // The aim: a light line before the cue ball, which is in the middle, to the far cushion.
+    const [middle, far] = [Math.round(width / 2), Math.round(0.15 * height)];
+    const line = where([middle - 3, far, middle + 3, far + 100], (r, g, b) => Math.min(r, g, b) > 80);
+    expect(new Set(line.map(([, y]) => y)).size).toBeGreaterThan(60);
+    // The number: dark on white in the upper half of the yellow ball; its shadow is below.
+    const yellow = where([0, 0, width, height], (r, g, b) => r > 120 && g > 80 && b < 0.5 * g);
+    const [xs, ys] = [yellow.map(([x]) => x), yellow.map(([, y]) => y)];
+    const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+    console.log(`behind the cue: ${(100 * room).toFixed(0)} % of the view is room; the 1 has ${right - left + 1} x ${bottom - top + 1} pixels`);
+    const upper = [left + Math.round((right - left) / 4), top, right - Math.round((right - left) / 4), Math.round((top + bottom) / 2)];
+    expect(where(upper, (r, g, b) => Math.min(r, g, b) > 150).length).toBeGreaterThan(8);
+    expect(where(upper, (r, g, b) => Math.max(r, g, b) < 200 && Math.max(r, g, b) - Math.min(r, g, b) < 40).length).toBeGreaterThan(3);
     await one.close();
   });
 

@@ -128,7 +128,7 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     expect(rows("nineball", nine)).toContain("2");
     await one.locator("#best").click();
     await expect.poll(() => text(one, "advice"), { timeout: 20_000 }).toContain("Best of 1000 shots: ball 2 into");
-    await expect.poll(() => text(one, "chance")).toMatch(/^This shot pots ball 2, plays on/);
+    await expect.poll(() => text(one, "chance")).toMatch(/^This shot pots ball 2, keeps the turn in/);
     // Ball 12 is of eight-ball alone, and without ball 9 there is no nine-ball.
     for (const line of [of("cue", "5", "12", "8", "9"), of("cue", "8", "2")]) {
       await take("nineball", line);

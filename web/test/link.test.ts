@@ -62,7 +62,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     await other.locator("#new-game").click();
     await other.locator("#rate").selectOption("1000");
     await other.locator(".close").first().click();
-    expect(await turn(other)).toMatch(/^The other one/);
+    expect(await turn(other)).toMatch(/^The other player/);
     expect(await other.locator("#shoot").isEnabled()).toBe(false);
     let [strokes, heard] = [0, 0];
     for (; strokes < 150; strokes++) {
@@ -76,14 +76,14 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       }
       await plays.locator("#shoot").click();
       await hears.bringToFront();
-      await expect.poll(() => text(hears, "said"), { timeout: 20_000 }).toBe(`Stroke ${strokes + 1} has every bit that was sent.`);
+      await expect.poll(() => text(hears, "said"), { timeout: 20_000 }).toBe(`Stroke ${strokes + 1} was repeated; every bit agrees.`);
       heard++;
       // Then somebody may play, or has won.
       await expect.poll(async () => /won/.test(await turn(one)) || (await one.locator("#shoot:enabled").count()) + (await other.locator("#shoot:enabled").count()) === 1, { timeout: 20_000 }).toBe(true);
     }
     expect(heard).toBe(strokes);
     const [mine, yours] = [await turn(one), await turn(other)];
-    expect([mine, yours].map((told) => told.match(/(You have|The other one has) won/)![1]).sort()).toEqual(["The other one has", "You have"]);
+    expect([mine, yours].map((told) => told.match(/(You have|The other player has) won/)![1]).sort()).toEqual(["The other player has", "You have"]);
     // Both have the same game, which a reload keeps.
     expect(unpacked(one.url())).toBe(unpacked(other.url()));
     await other.reload();
@@ -101,7 +101,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
     const url = await link(one);
     const other = await open(there, new URL(url).hash);
-    expect(await text(other, "said")).toBe("1 stroke has every bit that was sent.");
+    expect(await text(other, "said")).toBe("1 stroke was repeated; every bit agrees.");
     const game = JSON.parse(unpacked(url)) as { entries: { line: string }[] };
     expect(game.entries).toHaveLength(1);
     // The speed; a hash; a stroke out of turn; a link that was cut off.

@@ -17,6 +17,11 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.locator("#rate").selectOption("1000");
     await one.locator("#start").click();
   }
+  async function pace(one: Page, rate: string): Promise<void> {
+    await one.locator("#new-game").click();
+    await one.locator("#rate").selectOption(rate);
+    await one.locator("#menu .close").click();
+  }
   /** Opens the page with a game that was kept. */
   async function kept(game: object, how = {}): Promise<Page> {
     const one = await open("", how);
@@ -104,6 +109,246 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await scene.press("Alt+ArrowUp");
     await scene.press("Enter");
     await expect.poll(() => turn(one)).toMatch(/^(Player 1 fouls.*)?Player [12]'s turn/);
+    await one.close();
+  });
+
+  test("a slow tap of Shoot plays nothing, and a drawn stick is called off by a second finger, Escape, or the field above", async () => {
+    const one = await open("", { width: 390, height: 844, touch: true });
+    await set(one, "power", 1.5);
+    const box = (await one.locator("#shoot").boundingBox())!;
+    const finger = { x: box.x + box.width / 2, y: box.y + box.height / 2, id: 0 };
+    const devtools = await one.context().newCDPSession(one);
+    const send = (type: "touchStart" | "touchMove" | "touchEnd", touchPoints: object[], timestamp = Date.now() / 1000): Promise<unknown> =>
+      devtools.send("Input.dispatchTouchEvent", { type, touchPoints: touchPoints as [], timestamp });
+    const nothing = async (told: RegExp): Promise<void> => {
+      await expect.poll(() => text(one, "said")).toMatch(told);
+      await one.waitForTimeout(100);
+      expect(await one.locator("#skip").isVisible()).toBe(false);
+      expect(await one.locator("#call-off").isVisible()).toBe(false);
+      expect(await text(one, "shoot")).toBe("Shoot");
+      expect(await one.locator("#power").inputValue()).toBe("1.5");
+    };
+    // The times of the events count, which a busy machine does not lengthen.
+    const now = Date.now() / 1000;
+    await send("touchStart", [finger], now);
+    await send("touchEnd", [], now + 0.3);
+    await nothing(/^Nothing was played/);
+    const drawn = async (press: () => Promise<unknown>): Promise<void> => {
+      await press();
+      await expect.poll(async () => Number(await one.locator("#power").inputValue()), { timeout: 5000 }).toBeGreaterThan(3);
+      expect(await text(one, "shoot")).toBe("Let go to play");
+    };
+    const called = async (off: () => Promise<unknown>): Promise<void> => {
+      await one.locator("#said").evaluate((said) => (said.textContent = ""));
+      await off();
+      await nothing(/called off/);
+    };
+    await drawn(() => send("touchStart", [finger]));
+    await called(() => send("touchStart", [finger, { x: 150, y: 300, id: 1 }]));
+    await send("touchEnd", []);
+    await drawn(() => send("touchStart", [finger]));
+    const zone = (await one.locator("#call-off").boundingBox())!;
+    expect(await text(one, "call-off")).toBe("Slide here to cancel");
+    expect(zone.y + zone.height).toBeLessThanOrEqual(box.y + 1);
+    await send("touchMove", [{ ...finger, y: zone.y + zone.height / 2 }]);
+    await called(() => send("touchEnd", []));
+    await one.mouse.move(finger.x, finger.y);
+    await drawn(() => one.mouse.down());
+    await called(() => one.keyboard.press("Escape"));
+    await one.mouse.up();
+    // A tap plays after all that, and so does a key.
+    expect(await phi(one)).toBe(90);
+    await one.touchscreen.tap(finger.x, finger.y);
+    await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
+    await one.close();
+  });
+
+  test.each(sizes)("no button moves while words change: %s", async (_, how) => {
+    const one = await open("", how);
+    const seen = async (): Promise<Record<string, unknown>> => ({
+      ...Object.fromEntries(await Promise.all(["#new-game", "#hint", "#replay", "#space", ".turn >> nth=0", ".turn >> nth=1"].map(async (id) => [id, await one.locator(id).boundingBox()] as const))),
+      strike: await one.locator("#shoot:visible, #skip:visible").boundingBox(),
+    });
+    await begin(one, "nineball", "300");
+    await pace(one, "4");
+    const first = await seen();
+    for (const id of ["turn", "said"]) {
+      await one.locator(`#${id}`).evaluate((words) => (words.textContent = words.id === "turn" ? "The 300 fouls: the break drove fewer than four balls to cushions. Your turn. Cue ball in hand: drag it." : "Words of two lines. ".repeat(5)));
+      expect(await seen(), id).toEqual(first);
+    }
+    const phases = new Set<string>();
+    await one.locator("#shoot").click();
+    for (let k = 0; k < 200 && phases.size < 3; k++) {
+      phases.add((await turn(one)).match(/play|thinks|Your turn/)?.[0] ?? "");
+      expect(await seen(), await turn(one)).toEqual(first);
+      await one.waitForTimeout(50);
+    }
+    expect([...phases]).toEqual(expect.arrayContaining(["play", "thinks"]));
+    await one.close();
+  });
+
+  test("whoever comes to the table has his own power, the tip in the middle, and the aim at the nearest ball that is on", async () => {
+    const one = await kept({ ...NINE, against: "person", at: "0.635,0.635 0.3,1.9 0.6,0.9 in in in in in in 0.9,1.9", entries: [] });
+    await pace(one, "1000");
+    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
+      input.value = "200";
+      input.dispatchEvent(new Event("input"));
+    });
+    await one.locator(".numbers-of summary").click();
+    await set(one, "right", 0.3);
+    await set(one, "power", 0.4);
+    await one.locator("#shoot").click();
+    await expect.poll(() => turn(one)).toMatch(/Player 2's turn/);
+    // The cue ball is in hand and lies on the head spot; the 1 is the only ball that may be met.
+    expect(await phi(one)).toBeCloseTo((Math.atan2(1.9 - 0.635, 0.3 - 0.635) * 180) / Math.PI, 1);
+    expect(await one.locator("#right").inputValue()).toBe("0");
+    expect(await one.locator("#power").inputValue()).toBe("0.4");
+    await one.close();
+  });
+
+  test("the stroke of the page's player is seen before it plays, and its aim is gone when it has played", async () => {
+    const one = await open("");
+    await begin(one, "eightball", "300");
+    // Pixels of the stick, as long as the page says what is played.
+    await one.evaluate(() => {
+      const seen = window as unknown as { sticks: number };
+      seen.sticks = 0;
+      const canvas = document.getElementById("table-scene") as HTMLCanvasElement;
+      const look = (): void => {
+        if (document.getElementById("said")!.textContent!.startsWith("The 300 plays")) {
+          const copy = document.createElement("canvas");
+          [copy.width, copy.height] = [canvas.width, canvas.height];
+          const g = copy.getContext("2d")!;
+          g.drawImage(canvas, 0, 0);
+          const { data } = g.getImageData(0, 0, copy.width, copy.height);
+          let count = 0;
+          for (let k = 0; k < data.length; k += 4) if (Math.abs(data[k]! - 0xd9) + Math.abs(data[k + 1]! - 0xb0) + Math.abs(data[k + 2]! - 0x77) < 12) count++;
+          seen.sticks = Math.max(seen.sticks, count);
+        }
+        requestAnimationFrame(look);
+      };
+      look();
+    });
+    await pace(one, "4");
+    await one.locator("#shoot").click();
+    // The break of full power may keep the turn: then nothing is hit, slowly.
+    await expect.poll(() => turn(one), { timeout: 60_000 }).toMatch(/^[^…]*Your turn|The 300 thinks/);
+    await set(one, "power", 1.7);
+    if (/Your turn/.test(await turn(one))) await one.locator("#shoot").click();
+    await expect.poll(() => one.evaluate(() => (window as unknown as { sticks: number }).sticks), { timeout: 60_000 }).toBeGreaterThan(100);
+    await expect.poll(() => turn(one), { timeout: 90_000 }).toMatch(/Your turn|won/);
+    expect(await one.locator("#power").inputValue()).toBe("1.7");
+    expect(await text(one, "said")).toMatch(/^The 300 pocketed (no ball|the \d+( and the \d+)*)\.$/);
+    await one.close();
+  }, 180_000);
+
+  test.each(sizes)("the call follows the aim to the eight, whatever was tapped before: %s", async (_, how) => {
+    const touch = "touch" in how;
+    // The 1, the last of the solids, lies before a corner, the eight before another one, the 9 of the other one beside.
+    const at = "0.3,0.3 0.1,0.1 in in in in in in 1.226,2.424 0.3,1.9 in in in in in in";
+    const one = await kept({ game: "eightball", own: "0", seed: 7, against: "person", at, entries: [] }, how);
+    await pace(one, "1000");
+    await click(one, 0.1, 0.1, touch);
+    await expect.poll(() => turn(one)).toContain("Call: the 1, head-left pocket.");
+    // The cue ball does not follow it.
+    await one.locator(".numbers-of summary").click();
+    await set(one, "up", -0.35);
+    await set(one, "power", 1.2);
+    await one.locator("#shoot").click();
+    await expect.poll(() => turn(one)).toMatch(/^Player 1's turn, solids/);
+    // The aim begins at the only ball that is on. A tap at another one aims there, and calls nothing that is not on.
+    const aims = phi(one);
+    await click(one, 0.3, 1.9, touch);
+    await expect.poll(() => turn(one)).toMatch(/Nothing is called: aim at a ball, or tap a pocket\.$/);
+    await click(one, -0.03, 1.27, touch);
+    await expect.poll(() => turn(one)).toMatch(/Call: the 8, side-left pocket\.$/);
+    await one.locator("#phi").evaluate((input: HTMLInputElement, phi) => {
+      input.value = String(phi);
+      input.dispatchEvent(new Event("input"));
+    }, await aims);
+    await expect.poll(() => turn(one)).toMatch(/Call: the 8, foot-right pocket\.$/);
+    await one.locator("#shoot").click();
+    const { entries } = JSON.parse((await one.evaluate(() => localStorage.getItem("carom-game")))!) as { entries: { call: { ball: number } }[] };
+    expect(entries.map(({ call }) => call.ball)).toEqual([1, 8]);
+    await one.close();
+  });
+
+  test("a pocket that was tapped is called as long as the aim is at its ball; the call is that of the aim at the stroke", async () => {
+    const one = await kept({ game: "eightball", own: "0", seed: 7, against: "person", at: "0.6,1.2 0.9,1.8 0.3,1.87 in in in in in 1.17,2.44 0.1,0.5 in in in in in in", entries: [] });
+    const to = (degrees: number): Promise<void> =>
+      one.locator("#phi").evaluate((input: HTMLInputElement, phi) => {
+        input.value = String(phi);
+        input.dispatchEvent(new Event("input"));
+      }, degrees);
+    await to(63.2);
+    await expect.poll(() => turn(one)).toContain("Call: the 1, foot-right pocket.");
+    await click(one, -0.03, 1.27);
+    await expect.poll(() => turn(one)).toContain("Call: the 1, side-left pocket.");
+    await to(63.6);
+    await one.waitForTimeout(100);
+    expect(await turn(one)).toContain("Call: the 1, side-left pocket.");
+    // At another ball it is another call.
+    await to(114.1);
+    await expect.poll(() => turn(one)).toContain("Call: the 2, foot-left pocket.");
+    await one.locator("#table-scene").press("c");
+    await expect.poll(() => turn(one)).toMatch(/Call: the 2, (?!foot-left)/);
+    // The aim changes, and the stroke is played before the next frame.
+    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
+      input.value = "63.45";
+      input.dispatchEvent(new Event("input"));
+      document.getElementById("table-scene")!.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
+    });
+    const { entries } = JSON.parse((await one.evaluate(() => localStorage.getItem("carom-game")))!) as { entries: { call: { ball: number } }[] };
+    expect(entries[0]!.call.ball).toBe(1);
+    await one.close();
+  });
+
+  test.each(sizes)("each ball has its number beside it, upright; a double tap shows the table larger, and aims at nothing: %s", async (_, how) => {
+    const one = await kept({ ...NINE, against: "person", at: "0.635,0.635 0.3,1.9 0.9,1.9 in in in in in in 0.6,1.4", entries: [] }, how);
+    for (const [x, y] of [[0.3, 1.9], [0.9, 1.9], [0.6, 1.4]] as const) {
+      const [px, py] = await on(one, x, y);
+      const upright = how.width < 480;
+      const reach = upright ? 6 : 11;
+      // Above the ball.
+      const box = await one.locator("#table-scene").evaluate(
+        (canvas, [x, y, far]) => {
+          const box = canvas.getBoundingClientRect();
+          const ratio = (canvas as HTMLCanvasElement).width / box.width;
+          const copy = document.createElement("canvas").getContext("2d")!;
+          copy.drawImage(canvas as HTMLCanvasElement, -Math.round((x - 4 - box.left) * ratio), -Math.round((y - far - 15 - box.top) * ratio));
+          const { data } = copy.getImageData(0, 0, 16, 14);
+          return [...data].filter((_, k) => k % 4 === 0 && Math.min(data[k]!, data[k + 1]!, data[k + 2]!) > 230).length;
+        },
+        [px, py, reach] as const,
+      );
+      expect(box, `${x}, ${y}`).toBeGreaterThan(10);
+    }
+    if ("touch" in how) {
+      const aim = await phi(one);
+      const [x, y] = await on(one, 0.635, 0.635);
+      const beside = async (): Promise<number> => Math.min(...(await pixel(one, x + 13, y - 6)));
+      expect(await beside()).toBeLessThan(120);
+      const twice = async (): Promise<void> => {
+        const devtools = await one.context().newCDPSession(one);
+        const now = Date.now() / 1000;
+        for (const after of [0, 0.2]) {
+          await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }], timestamp: now + after });
+          await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [], timestamp: now + after + 0.05 });
+        }
+      };
+      await twice();
+      await expect.poll(beside).toBeGreaterThan(150);
+      expect(await phi(one)).toBe(aim);
+      await twice();
+      await expect.poll(beside).toBeLessThan(120);
+    }
+    await one.close();
+  });
+
+  test("words: one ball is one ball, and a rack is new", async () => {
+    const one = await kept({ ...NINE, against: "practice", at: "0.635,0.635 0.3,1.9 in in in in in in in in", entries: [] });
+    expect(await text(one, "score")).toBe("1 ball");
+    expect(await text(one, "rack-up")).toBe("New rack");
     await one.close();
   });
 

@@ -2,7 +2,7 @@
 import type { Carom, Cue, GameState, PlanOptions, Player, ShotBall, ShotOptions, Table } from "carom";
 import { far } from "../far.js";
 import { onTable } from "../table/filmed.js";
-import { percent, RATINGS, wordsOfChoice } from "../table/words.js";
+import { RATINGS, wordsOfChances, wordsOfChoice } from "../table/words.js";
 import { button, choice, el } from "../ui.js";
 
 /** What the panel needs of the view, and does with it. */
@@ -74,8 +74,7 @@ export function advicePanel(carom: Carom, view: View): { root: HTMLElement; aime
     try {
       const [one] = await far("chances", view.table(), view.balls(), [view.cue()], { ...options(), shots: TRY });
       const call = one!.ball > 0 && view.table().pockets.length > 0 ? `pots ball ${view.names()[one!.ball]}, ` : "";
-      const wins = view.name() === "threecushion" ? "" : `wins the game ${percent(one!.value)}, `;
-      text = `This shot ${call}plays on ${percent(one!.keep)}, ${wins}is a foul ${percent(one!.foul)}.`;
+      text = `This shot ${call}${wordsOfChances(one!, view.name() === "threecushion")}.`;
     } catch (error) {
       text = error instanceof Error ? error.message : String(error);
     }

@@ -300,7 +300,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
       ["energy", "Energy lost", `${(1000 * lost).toFixed(1)} mJ, ${((100 * lost) / before).toFixed(1)} %`],
       ["impulse", "Normal impulse", `${detail.normal.toFixed(4)} N s`],
       ["friction", "Impulse of friction", `${norm(detail.friction).toFixed(4)} N s`],
-      ["stick", "The balls stick", solver() === "euler" ? "not told by steps" : detail.stick],
+      ["stick", "The balls stick", solver() === "euler" ? "unknown with Euler steps" : detail.stick],
       ["status", "Status", status],
     ];
     numbers.replaceChildren(...rows.map(([id, name, text]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `n-${id}` }, text))));

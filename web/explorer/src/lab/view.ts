@@ -325,7 +325,7 @@ export function laboratory(carom: Carom, solver: () => "exact" | "euler", main: 
     return fan(carom, of, () => mine === fanNumber && canvas.isConnected, (layer, shots, ms) => {
       fanLayer = layer;
       if (!film.playing) film.draw();
-      cost.textContent = `${shots} of ${FAN} shots of the fan; the library took ${ms.toFixed(0)} ms for them.`;
+      cost.textContent = `The fan shows ${shots} of ${FAN} shots, which the library computed in ${ms.toFixed(0)} ms.`;
     });
   }
 
@@ -340,7 +340,7 @@ export function laboratory(carom: Carom, solver: () => "exact" | "euler", main: 
       const { name, also, known } = take(line.value);
       aimed();
       if (also) message.textContent = `The balls are read as those of ${GAMES[name]!.text}. If they are of ${GAMES[also]!.text}, choose this game and import again.`;
-      else if (!known) message.textContent = "Best shot needs the balls of a game by their numbers, in nine-ball with ball 9, in eight-ball with ball 8.";
+      else if (!known) message.textContent = "Best shot needs balls that have the numbers of a game: in nine-ball with ball 9, in eight-ball with ball 8.";
     } catch (error) {
       message.textContent = error instanceof Error ? error.message : String(error);
     }
@@ -390,7 +390,7 @@ export function laboratory(carom: Carom, solver: () => "exact" | "euler", main: 
     const [low, high] = pot.speed.map((speed) => speed.toFixed(1));
     if (is === "no_way") message.textContent = `No such aim: no direction sends ${name}.`;
     else if (is !== "falls") message.textContent = `Aimed, but ${name} does not fall: ${why}.`;
-    else message.textContent = `Aimed: ${name}, a cut of ${Math.abs(pot.cut).toFixed(1)}°, ${pot.margin.toFixed(2)}° to either jaw, falls at ${low} to ${high} m/s.`;
+    else message.textContent = `Aimed: ${name}. The cut is ${Math.abs(pot.cut).toFixed(1)}°, its way may turn by ${pot.margin.toFixed(2)}° to either side, and it falls at ${low} to ${high} m/s.`;
   }
 
   // ---- Pointer and keys ----------------------------------------------------------------------------------------------------
@@ -432,8 +432,8 @@ export function laboratory(carom: Carom, solver: () => "exact" | "euler", main: 
 }
 
 const HELP = [
-  "Drag on the cloth to aim, a ball to move it, the stick to set the speed. A ball on the wood waits in a pocket: drag it back.",
+  "Drag on the cloth to aim, drag a ball to move it, and drag the stick to set the speed. A ball on the wood is in a pocket: drag it back onto the table.",
   "Click a ball, then a pocket: the page aims there. The yellow handle of a ball that is picked, or the wheel, turns it in place.",
   "Drop a recording of carom record on the page: it is played again and compared, shot by shot.",
-  "Keys on the table: ← → turn the aim (with Shift 1°), ↑ ↓ change the speed, Alt and arrows move the picked ball by 1 mm (with Shift 10), , and . turn it, Ctrl Z undoes, space plays.",
+  "Keys on the table: ← → turn the aim (with Shift 1°), ↑ ↓ change the speed, Alt and arrows move the picked ball by 1 mm (with Shift 10), comma and full stop turn it, Ctrl Z undoes, space plays.",
 ];

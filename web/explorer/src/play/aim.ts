@@ -1,9 +1,9 @@
 // The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball that may be moved; a tap aims at a place or a ball, or
-// calls a pocket; two fingers, or the wheel, show a part of the table larger.
+// calls a pocket; two fingers, a double tap, or the wheel show a part of the table larger.
 import { CaromError, type Cue } from "carom";
 import type { player } from "../../../../cli/player.js";
 import { beside } from "../lab/hand.js";
-import { drawStick, PULL, ring, stickEnd, stroke } from "../table/drawing.js";
+import { drawNumbers, drawStick, PULL, ring, stickEnd, stroke } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { mayLie } from "../table/head.js";
 import type { Play } from "./game.js";
@@ -16,6 +16,8 @@ export interface Host {
   /** Whether whoever is at this page may aim now. */
   free(): boolean;
   cue(): Cue;
+  /** The stroke that is shown: of whoever may aim, or of the page's player before it plays. */
+  aimed(): Cue | undefined;
   set(key: "speed" | "phi", value: number): void;
   /** Where the cue ball first meets something, m, and the ball that it meets, or -1. */
   first(): { at: readonly number[]; ball: number } | undefined;
@@ -46,13 +48,15 @@ export function aiming(film: ReturnType<typeof player>, host: Host): { draw(g: C
       ring(pen, centre, radius, 2);
       if (call.ball > 0) ring(pen, play.balls[call.ball]!.state.r, play.balls[call.ball]!.kind.radius, 2);
     }
-    if (!host.free() || !onTable(cueBall.state)) return;
+    if (!play.state.opening) drawNumbers(pen, play.balls, play.names);
+    const aimed = host.aimed();
+    if (!aimed || !onTable(cueBall.state)) return;
     const first = host.first();
     if (first) {
       stroke(pen, cueBall.state.r, first.at, 1.4, "#ffffffd0");
       ring(pen, first.at, cueBall.kind.radius, 0);
     }
-    if (play.hand !== "no") {
+    if (play.hand !== "no" && host.free()) {
       g.strokeStyle = "#ffe28a";
       g.lineWidth = 2;
       ring(pen, cueBall.state.r, cueBall.kind.radius, 5);
@@ -62,7 +66,7 @@ export function aiming(film: ReturnType<typeof player>, host: Host): { draw(g: C
         g.setLineDash([]);
       }
     }
-    drawStick(pen, cueBall, host.cue());
+    drawStick(pen, cueBall, aimed);
   }
 
   // ---- One pointer -----------------------------------------------------------------------------------------------------------
@@ -140,6 +144,7 @@ export function aiming(film: ReturnType<typeof player>, host: Host): { draw(g: C
 
   // ---- Two pointers ------------------------------------------------------------------------------------------------------------
 
+  let tapped: { when: number; at: Point; phi: number } | undefined;
   let pinch: { apart: number; zoom: number; middle: Point } | undefined;
   const middle = ([a, b]: Point[]): Point => [(a![0] + b![0]) / 2, (a![1] + b![1]) / 2];
   const apart = ([a, b]: Point[]): number => Math.hypot(a![0] - b![0], a![1] - b![1]);
@@ -193,7 +198,15 @@ export function aiming(film: ReturnType<typeof player>, host: Host): { draw(g: C
     held = undefined;
     if (!was) return;
     if (was.taps && was.grip.is === "ball" && host.play().practice) host.play().past.pop(); // nothing was moved
-    if (event.type === "pointerup" && was.taps && host.free()) tap(was.grip, was.at);
+    if (event.type !== "pointerup" || !was.taps || !host.free()) return;
+    // A second tap at the same place shows it larger, or all of the table; the first one has aimed at nothing.
+    const [at, before] = [pixels(event), tapped];
+    tapped = { when: event.timeStamp, at, phi: was.phi };
+    if (event.pointerType !== "touch" || !before || event.timeStamp - before.when > 350 || apart([at, before.at]) > 30) return tap(was.grip, was.at);
+    tapped = undefined;
+    turn(before.phi);
+    if (film.zoom > 1) film.look(1);
+    else look(3, was.at, at);
   };
   canvas.addEventListener("pointerup", up);
   canvas.addEventListener("pointercancel", up);
@@ -216,6 +229,7 @@ export function aiming(film: ReturnType<typeof player>, host: Host): { draw(g: C
     else if (!host.free()) return;
     else if (event.key === "Enter") host.shoot();
     else if ((event.ctrlKey || event.metaKey) && event.key === "z") host.undo();
+    else if (event.key === "c" && host.play().hasPockets) host.tapped({ pocket: ((host.called()?.pocket ?? -1) + 1) % host.play().table.pockets.length });
     else if (!arrow) return;
     else if (event.altKey) {
       if (!movable(0)) return;

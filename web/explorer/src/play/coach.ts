@@ -1,7 +1,7 @@
 // The coach: the best stroke and why, the chance of the one that is aimed, and after it what it cost. What was played is kept as a log of errors.
 import type { Call, Carom, Choice, Cue, PlanOptions, ShotBall, Table } from "carom";
 import { drop, far } from "../far.js";
-import { percent, wordsOfChoice } from "../table/words.js";
+import { percent, wordsOfChances, wordsOfChoice } from "../table/words.js";
 import { button, dialog, el } from "../ui.js";
 import { OPTIONS } from "./game.js";
 import { kept, keepText } from "./keep.js";
@@ -17,7 +17,7 @@ export interface Row {
   meant: string;
   phi?: number;
   speed?: number;
-  /** Chances that it plays on and wins, of this stroke and of the best one. */
+  /** Chances that it keeps the turn and wins, of this stroke and of the best one. */
   keep: number;
   value: number;
   best: string;
@@ -34,8 +34,7 @@ export interface Asked {
 /** Why a stroke is good: what happens, and its chances. */
 export function why({ table, names }: Asked, one: Choice, alone: boolean): string {
   const tip = [one.cue.b > 0.1 ? "follow" : one.cue.b < -0.1 ? "draw" : "", one.cue.a > 0.1 ? "left side" : one.cue.a < -0.1 ? "right side" : ""].filter((word) => word !== "").join(" and ");
-  const chances = `plays on ${percent(one.keep)}${alone ? "" : `, wins ${percent(one.value)}`}, foul ${percent(one.foul)}`;
-  return `${wordsOfChoice(table, names, one)}, at ${one.cue.speed.toFixed(1)} m/s${tip && ` with ${tip}`}: ${chances}.`;
+  return `${wordsOfChoice(table, names, one)}, at ${one.cue.speed.toFixed(1)} m/s${tip && ` with ${tip}`}. It ${wordsOfChances(one, alone)}.`;
 }
 
 /** The best stroke; dropped where another one is asked for. */
@@ -77,7 +76,7 @@ export const keepRow = (row: Row): void => keepText(JSON.stringify([...rows(), r
 export function logPage(): { root: HTMLDialogElement; open(): void } {
   const body = el("tbody");
   const sum = el("p", { id: "log-sum" });
-  const head = ["When", "Game", "Meant", "Aim, °", "Speed, m/s", "Plays on", "Wins", "Best stroke", "Wins", "Cost"];
+  const head = ["When", "Game", "Meant", "Aim off by, °", "Speed off by, m/s", "Keeps the turn", "Wins", "Best stroke", "Best wins", "Cost"];
   const table = el("table", { class: "numbers log" }, el("caption", {}, "Strokes, the last one first"), el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))), body);
   const clear = button("Delete all", () => {
     keepText("[]", LOG);

@@ -1,7 +1,7 @@
 // The coach at the table: the hint and the chances of the stroke that is aimed, and what a stroke cost once it was played.
 import type { Call, Carom, Choice, Cue, PlanOptions, Player } from "carom";
 import { onTable } from "../table/filmed.js";
-import { percent } from "../table/words.js";
+import { percent, wordsOfChances } from "../table/words.js";
 import { type Asked, chance, costOf, hint, keepRow, review, why } from "./coach.js";
 import { OPTIONS, type Play } from "./game.js";
 
@@ -56,7 +56,7 @@ export function coaching(carom: Carom, host: Host): { asked(): Asked; advise(): 
     if (mine !== asking || !host.free()) return;
     try {
       const one = await chance(asked(), host.cue());
-      if (mine === asking && host.free()) host.told(`This stroke plays on ${percent(one.keep)}${play.setup.game === "threecushion" ? "" : `, wins ${percent(one.value)}`}, is a foul ${percent(one.foul)}.`);
+      if (mine === asking && host.free()) host.told(`This stroke ${wordsOfChances(one, play.setup.game === "threecushion")}.`);
     } catch (error) {
       if (mine === asking) host.told(wrong(error));
     }
@@ -67,7 +67,7 @@ export function coaching(carom: Carom, host: Host): { asked(): Asked; advise(): 
       const row = await review(carom, of, made, calls);
       keepRow(row);
       const cost = costOf(row);
-      host.told(`That stroke: wins ${percent(row.value)}. Best: ${row.best}, wins ${percent(row.bestValue)}. ${cost < 0.02 ? "Well chosen." : `It cost ${percent(cost)}.`}`);
+      host.told(`That stroke wins in ${percent(row.value)} of tries; the best one, ${row.best}, in ${percent(row.bestValue)}. ${cost < 0.02 ? "You chose well." : `It cost ${percent(cost)}.`}`);
     } catch (error) {
       host.told(`The review of that stroke failed: ${wrong(error)}`);
     }

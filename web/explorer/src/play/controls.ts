@@ -1,4 +1,5 @@
-// What a stroke is set by, beside the table: the tip on a ball that one touches, the power, small turns, and Shoot, which draws the stick while it is held.
+// What a stroke is set by, beside the table: the tip on a ball that one touches, the power, small turns, and Shoot. A tap of Shoot plays; held, it draws the
+// stick, and plays when it is let go. A second finger, Escape, or the field that appears above it calls the stroke off.
 import { button, el, pad, slider, type Slider } from "../ui.js";
 
 export interface Stroke {
@@ -13,14 +14,15 @@ export interface Host {
   shoot(): void;
   /** Whether a stroke may be played now. */
   free(): boolean;
+  told(text: string): void;
 }
 
 const FASTEST = 10;
-/** How long Shoot is held before the stick is drawn, and how long it takes to its end, ms. */
-const [HELD, DRAWN] = [280, 1600];
+/** A tap of Shoot is shorter than TAP; the stick is drawn from HELD on, and takes DRAWN to its end, ms. Between TAP and HELD nothing is played. */
+const [TAP, HELD, DRAWN] = [280, 600, 1600];
 const two = (x: number): string => x.toFixed(2);
 
-export function controls(host: Host): { side: HTMLElement; shoot: HTMLButtonElement; turns: HTMLElement; numbers: HTMLElement; value: Stroke; set(values: Partial<Stroke>): void } {
+export function controls(host: Host): { side: HTMLElement; shoot: HTMLButtonElement; row: HTMLElement[]; numbers: HTMLElement; value: Stroke; set(values: Partial<Stroke>): void } {
   const sliders: Record<keyof Stroke, Slider> = {
     speed: slider("power", "Power", 0.1, FASTEST, 0.05, "", host.changed, (x) => `${x.toFixed(1)} m/s`),
     phi: slider("phi", "Direction", 0, 360, 0.05, "°", host.changed, two),
@@ -46,50 +48,84 @@ export function controls(host: Host): { side: HTMLElement; shoot: HTMLButtonElem
 
   // ---- Shoot -------------------------------------------------------------------------------------------------------------------
 
-  const shoot = button("Shoot", () => undefined, { id: "shoot", class: "main", title: "Press it: the power that is set. Hold it: the stick is drawn, and let go plays." });
-  let pressed = 0;
-  let drawing = false;
+  const shoot = button("Shoot", () => undefined, { id: "shoot", class: "main", title: "Tap: the stroke has the power that is set. Hold: the stick is drawn until you let go." });
+  const zone = el("span", { id: "call-off", hidden: "" }, "Slide here to cancel");
+  interface Hold {
+    id: number;
+    since: number;
+    /** The power that was set. */
+    speed: number;
+    drawn: boolean;
+    over: AbortController;
+  }
+  let hold: Hold | undefined;
+  /** Whether the click that follows a press plays nothing. */
+  let spent = false;
   /** The power of a stick that is drawn for a time: up, and down again. */
   const power = (ms: number): number => {
     const x = (ms / DRAWN) % 2;
     return Math.round(100 * (0.3 + (FASTEST - 0.3) * (x < 1 ? x : 2 - x) ** 1.5)) / 100;
   };
+  function release(): void {
+    hold!.over.abort();
+    hold = undefined;
+    zone.hidden = true;
+    shoot.textContent = "Shoot";
+  }
+  function callOff(): void {
+    spent = true;
+    if (hold!.drawn) sliders.speed.value = hold!.speed;
+    release();
+    host.changed();
+    host.told("The stroke was called off.");
+  }
   shoot.addEventListener("pointerdown", (event) => {
-    if (event.button > 0 || !host.free()) return;
-    const mine = (pressed = performance.now());
-    drawing = false;
+    if (event.button > 0 || hold || !host.free()) return;
+    const over = new AbortController();
+    const mine: Hold = (hold = { id: event.pointerId, since: event.timeStamp, speed: sliders.speed.value, drawn: false, over });
+    spent = false;
     shoot.setPointerCapture(event.pointerId);
     const grow = (): void => {
-      if (pressed !== mine) return;
-      const ms = performance.now() - mine - HELD;
+      if (hold !== mine) return;
+      const ms = performance.now() - mine.since - HELD;
       if (ms > 0) {
-        drawing = true;
+        mine.drawn = true;
+        zone.hidden = false;
+        shoot.textContent = "Let go to play";
         sliders.speed.value = power(ms);
         host.changed();
       }
       requestAnimationFrame(grow);
     };
     requestAnimationFrame(grow);
+    // A second finger, wherever it is, or Escape calls the stroke off and does nothing else.
+    const stop = (event: Event): void => {
+      if (event instanceof KeyboardEvent ? event.key !== "Escape" : (event as PointerEvent).pointerId === mine.id) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      callOff();
+    };
+    for (const type of ["pointerdown", "keydown"]) window.addEventListener(type, stop, { capture: true, signal: over.signal });
   });
-  const letGo = (event: PointerEvent): boolean => {
-    const was = pressed > 0;
-    pressed = 0;
-    const box = shoot.getBoundingClientRect();
-    // Off the button it is called off.
-    return was && drawing && event.type === "pointerup" && event.clientX > box.left - 30 && event.clientX < box.right + 30 && event.clientY > box.top - 30 && event.clientY < box.bottom + 30;
-  };
-  shoot.addEventListener("pointerup", (event) => letGo(event) && host.free() && host.shoot());
-  shoot.addEventListener("pointercancel", letGo);
-  // A finger that let go of a drawn stick clicks nothing: Skip is there by now.
-  shoot.addEventListener("touchend", (event) => {
-    if (!drawing) return;
-    drawing = false;
-    event.preventDefault();
+  shoot.addEventListener("pointerup", (event) => {
+    if (event.pointerId !== hold?.id) return;
+    const { drawn, since } = hold;
+    const { left, right, top, bottom } = shoot.getBoundingClientRect();
+    const { clientX: x, clientY: y } = event;
+    if (drawn && (x < left - 30 || x > right + 30 || y < top || y > bottom + 30)) return callOff();
+    release();
+    spent = drawn || event.timeStamp - since > TAP;
+    if (drawn && host.free()) host.shoot();
+    else if (spent) host.told("Nothing was played. Tap Shoot shortly, or hold it until the stick is drawn.");
   });
+  shoot.addEventListener("pointercancel", (event) => event.pointerId === hold?.id && callOff());
+  // Such a finger clicks nothing: Skip is there by now.
+  shoot.addEventListener("touchend", (event) => spent && event.cancelable && event.preventDefault());
   shoot.addEventListener("contextmenu", (event) => event.preventDefault());
-  shoot.addEventListener("click", () => {
-    if (!drawing && host.free()) host.shoot();
-    drawing = false;
+  // A click without a press is one of the keyboard.
+  shoot.addEventListener("click", (event) => {
+    if (!(spent && event.detail > 0) && host.free()) host.shoot();
+    spent = false;
   });
 
   /** Turns the aim by a little, and on while it is held. */
@@ -118,7 +154,7 @@ export function controls(host: Host): { side: HTMLElement; shoot: HTMLButtonElem
   return {
     side: el("section", { class: "side", "aria-label": "The stroke" }, sliders.speed.root, tip.root),
     shoot,
-    turns: el("span", { class: "turns" }, turns("↺", "Turn the aim to the left by 0.05 degrees", 0.05), turns("↻", "Turn the aim to the right by 0.05 degrees", -0.05)),
+    row: [turns("↺", "Turn the aim to the left by 0.05 degrees", 0.05), zone, shoot, turns("↻", "Turn the aim to the right by 0.05 degrees", -0.05)],
     numbers: el("details", { class: "numbers-of" }, el("summary", {}, "Stroke in numbers"), ...(["phi", "right", "up", "theta"] as const).map((key) => sliders[key].root)),
     value,
     set,

@@ -35,6 +35,17 @@ export async function unpack(packed: string): Promise<string> {
   }
 }
 
+/** Sends a link by what the machine has for that, or copies it. Returns what is to be told. */
+export async function send(url: string, title: string, share: boolean, copied: string): Promise<string> {
+  try {
+    if (share && "share" in navigator) await navigator.share({ title, url });
+    else await navigator.clipboard.writeText(url);
+    return share && "share" in navigator ? "Sent." : copied;
+  } catch (error) {
+    return `The browser does not let the page send the link (${error instanceof Error ? error.message : String(error)}).`;
+  }
+}
+
 /** A game that others of this machine see: they send its text when it has changed, or ask for it. */
 export function channel(heard: (text: string) => void, asked: () => string | undefined): { send(text: string): void; ask(): void; close(): void } {
   const one = new BroadcastChannel("carom-games");

@@ -1,6 +1,6 @@
 // A game by link: it is in the address, goes to the other one as a link, and pages of one machine hear of each stroke, which they compare bit by bit.
 import type { Entry, Play, Setup, Stroke } from "./game.js";
-import { channel, pack } from "./keep.js";
+import { channel, pack, send } from "./keep.js";
 
 export interface Host {
   play(): Play;
@@ -37,7 +37,7 @@ export function byLink(host: Host): { save(): void; send(share: boolean): Promis
     const play = host.play();
     try {
       const one = play.read(entry);
-      host.told(`Stroke ${play.entries.length} has every bit that was sent.`);
+      host.told(`Stroke ${play.entries.length} was repeated; every bit agrees.`);
       host.keep();
       host.perform(one, onward);
     } catch (error) {
@@ -60,13 +60,7 @@ export function byLink(host: Host): { save(): void; send(share: boolean): Promis
       // The other one has the other seat; who goes on elsewhere with a game of his own keeps his.
       const seat = play.setup.against === "link" && host.seat() === 0 ? 1 : 0;
       const url = `${location.href.split("#")[0]}#view=play&seat=${seat}&g=${await pack(play.text())}`;
-      try {
-        if (share && "share" in navigator) await navigator.share({ title: "A game of billiards", url });
-        else await navigator.clipboard.writeText(url);
-        host.told(share && "share" in navigator ? "Sent." : play.setup.against === "link" ? "The link for the other one is copied." : "The link to this game is copied.");
-      } catch (error) {
-        host.told(`The browser does not let the page send the link (${wrong(error)}).`);
-      }
+      host.told(await send(url, "A game of billiards", share, play.setup.against === "link" ? "The link for the other player is copied." : "The link to this game is copied."));
     },
     ask: others.ask,
     waiting: () => queue.length > 0,

@@ -22,9 +22,12 @@ export function lookAlong(carom: Carom, table: Table, balls: readonly ShotBall[]
   return { at: event.before[own]!.r, ball: own === 0 ? event.b : event.a, from: event.after[1 - own]!.r, way: event.after[1 - own]!.v };
 }
 
-/** The ball that is met, and the pocket that lies most in its way; -1: none. */
-export function guessOf({ pockets }: Table, look: Look | undefined): { ball: number; pocket: number } {
-  if (!look || look.ball < 0) return { ball: -1, pocket: -1 };
+/**
+ * The ball that is meant, of those that are on, and the pocket that lies most in its way; -1: none. It is the ball that is met, or the only one that is
+ * on, whatever is met.
+ */
+export function guessOf({ pockets }: Table, look: Look | undefined, on: readonly number[]): { ball: number; pocket: number } {
+  if (!look || !on.includes(look.ball)) return { ball: on.length === 1 ? on[0]! : -1, pocket: -1 };
   const { from, way } = look;
   let [pocket, most] = [-1, Math.cos((OFF * Math.PI) / 180)];
   pockets.forEach(({ centre }, k) => {

@@ -180,7 +180,7 @@ export function photoPage({ names, size, use }: Host): { root: HTMLDialogElement
         [canvas.width, canvas.height] = [made.width, made.height];
         [corners, balls, cross] = [[], [], [made.width / 2, made.height / 2]];
         draw();
-      }, () => (said.textContent = `${given.name} is no picture that this browser reads.`));
+      }, () => (said.textContent = `This browser cannot read ${given.name} as a picture.`));
   });
 
   return {

@@ -56,7 +56,7 @@ export function practice(host: Host): { parts: HTMLElement[]; photo: HTMLDialogE
     told: (name) => `${of(name).text}${made(name)}`,
     played(name, { shot }) {
       const is = judge(of(name), shot!);
-      if (is === "on") return { text: "Go on.", again: false };
+      if (is === "on") return { text: "Go on with the next ball.", again: false };
       const [good, tries] = count(name, is === "made");
       told();
       return { text: `${is === "made" ? "Made" : "Missed"}: ${good} of ${tries}.`, again: true };

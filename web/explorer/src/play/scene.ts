@@ -22,6 +22,8 @@ export interface Stick {
   gap: number;
   right: number;
   up: number;
+  /** Where the cue ball first meets something, m. */
+  first: readonly number[] | undefined;
 }
 
 const IVORY = "#fbfaf5";
@@ -78,6 +80,9 @@ export class Scene {
   readonly #camera = new THREE.PerspectiveCamera(40, 1, 0.02, 12);
   readonly #balls: THREE.Group[];
   readonly #stick: THREE.Mesh;
+  readonly #aim: THREE.Mesh;
+  readonly #ghost: THREE.Mesh;
+  readonly #within: readonly [number, number];
 
   constructor(of: SceneOf) {
     this.#renderer = new THREE.WebGLRenderer({ antialias: true });
@@ -147,7 +152,8 @@ export class Scene {
       group.add(sphere);
       if (Number(ball.name) > 0)
         for (const end of [1, -1]) {
-          const disc = new THREE.Mesh(new THREE.CircleGeometry(ball.radius * 0.4, 24), new THREE.MeshLambertMaterial({ map: label(ball.name) }));
+          // Rings within rings: a circle without them would be flat, and the ball in front of it.
+          const disc = new THREE.Mesh(new THREE.RingGeometry(0, ball.radius * 0.4, 24, 6), new THREE.MeshLambertMaterial({ map: label(ball.name) }));
           disc.position.z = end * ball.radius * 0.925;
           // The disc is bent onto the ball.
           const at = disc.geometry.getAttribute("position");
@@ -160,7 +166,13 @@ export class Scene {
     });
     this.#stick = new THREE.Mesh(new THREE.CylinderGeometry(0.0055, 0.014, 1.4, 16), new THREE.MeshLambertMaterial({ color: "#d9b077" }));
     this.#stick.castShadow = true;
-    scene.add(this.#stick);
+    // The aim on the cloth: a line to the place of the cue ball at its first contact, and a ring there.
+    const light = new THREE.MeshBasicMaterial({ color: "#ffffff", transparent: true, opacity: 0.7 });
+    const R = of.balls[0]!.radius;
+    this.#aim = new THREE.Mesh(new THREE.BoxGeometry(1, 0.007, 0.001), light);
+    this.#ghost = new THREE.Mesh(new THREE.RingGeometry(0.88 * R, R, 32), light);
+    this.#within = [width, length];
+    scene.add(this.#stick, this.#aim, this.#ghost);
   }
 
   size(width: number, height: number): void {
@@ -172,10 +184,20 @@ export class Scene {
   }
 
   /** Looks along the cue from behind a place, m. */
-  look([x, y]: readonly number[], phi: number, back = 1.15, high = 0.48): void {
-    const [dx, dy] = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)];
-    this.#camera.position.set(x! - back * dx, y! - back * dy, high);
-    this.#camera.lookAt(x! + 0.6 * dx, y! + 0.6 * dy, 0);
+  look(at: readonly number[], phi: number): void {
+    const along = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)] as const;
+    // A tall screen sees the table from higher, or it would show the room above it.
+    const high = this.#camera.aspect > 1 ? 0.48 : 0.95;
+    // How far off the outer wood is where the cue points, and behind the cue ball, where the camera stays near it.
+    const wood = (sign: number): number => Math.min(...along.map((d, c) => (Math.abs(d) < 1e-9 ? Infinity : ((sign * d > 0 ? this.#within[c]! + WOOD : -WOOD) - at[c]!) / (sign * d))));
+    const far = wood(1);
+    const back = Math.min(wood(-1) + 0.5, 1.15);
+    // That wood is seen below the upper edge, but the cue ball never near it.
+    const half = this.#camera.fov / 2;
+    const down = Math.min(half - 4 + Math.atan2(high, back + far) * DEGREES, 0.5 * half + Math.atan2(high, back) * DEGREES) / DEGREES;
+    const [x, y] = [at[0]! - back * along[0], at[1]! - back * along[1]];
+    this.#camera.position.set(x, y, high);
+    this.#camera.lookAt(x + along[0] * Math.cos(down), y + along[1] * Math.cos(down), high - Math.sin(down));
   }
 
   draw(poses: readonly Pose[], stick: Stick | undefined): void {
@@ -185,7 +207,18 @@ export class Scene {
       ball.position.set(r[0]!, r[1]!, r[2]!);
       ball.quaternion.set(q[1]!, q[2]!, q[3]!, q[0]!);
     });
+    const to = stick?.first;
     this.#stick.visible = stick !== undefined;
+    this.#aim.visible = this.#ghost.visible = to !== undefined;
+    if (to) {
+      const { r } = poses[0]!;
+      const [dx, dy] = [to[0]! - r[0]!, to[1]! - r[1]!];
+      const gone = Math.hypot(dx, dy);
+      this.#aim.scale.x = Math.max(gone, 1e-3);
+      this.#aim.rotation.z = Math.atan2(dy, dx);
+      this.#aim.position.set(r[0]! + dx / 2, r[1]! + dy / 2, 0.001);
+      this.#ghost.position.set(to[0]!, to[1]!, 0.002);
+    }
     if (stick) {
       const { r } = poses[0]!;
       const R = r[2]!;

@@ -2,16 +2,18 @@
 import { colourOf, type player } from "../../../../cli/player.js";
 import { stickEnd } from "../table/drawing.js";
 import { color } from "../ui.js";
-import type { Stroke } from "./controls.js";
+import type { Cue } from "carom";
 import type { Play } from "./game.js";
+import type { Look } from "./look.js";
 import type { Pose, Scene } from "./scene.js";
 
 export interface Host {
   play(): Play;
   /** Where the balls are now. */
   poses(): readonly Pose[];
-  /** The stroke that is aimed, where one is. */
-  aimed(): Stroke | undefined;
+  /** The stroke that is aimed, where one is, and what it meets first. */
+  aimed(): Cue | undefined;
+  first(): Look | undefined;
   turn(degrees: number): void;
   skip(): void;
 }
@@ -96,7 +98,8 @@ export class Space {
     const aimed = this.host.aimed();
     // The camera stays where it was while the balls roll.
     if (aimed) this.#scene.look(poses[0]!.r, aimed.phi);
-    this.#scene.draw(poses, aimed && { ...aimed, gap: stickEnd(this.#of!.balls[0]!.kind.radius, aimed.speed) });
+    const { a, b, phi, theta, speed } = aimed ?? ({} as Cue);
+    this.#scene.draw(poses, aimed && { phi, theta, right: -a, up: b, gap: stickEnd(this.#of!.balls[0]!.kind.radius, speed), first: this.host.first()?.at });
   }
 
   #hide(): void {

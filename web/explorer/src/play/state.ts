@@ -7,7 +7,7 @@ export function nameOf(play: Play, who: 0 | 1, seat: 0 | 1): string {
   const { against } = play.setup;
   if (against === "person") return `Player ${who + 1}`;
   if (who === seat) return "You";
-  return against === "link" ? "The other one" : `The ${against}`;
+  return against === "link" ? "The other player" : `The ${against}`;
 }
 const groupOf = (play: Play, who: 0 | 1): string => {
   const { group } = play.state;
@@ -19,10 +19,10 @@ const left = (play: Play, from: number, to: number): number => play.balls.filter
 /** carom_foul_string() of each, as far as a reader can do with it. */
 const WHY: Partial<Record<string, string>> = {
   cue_ball: "the cue ball fell or left the table",
-  no_ball: "the cue ball met no ball",
-  first: "the cue ball met a wrong ball first",
+  no_ball: "the cue ball hit no ball",
+  first: "the cue ball hit a wrong ball first",
   off: "a ball left the table",
-  cushion: "no ball fell or met a cushion",
+  cushion: "no ball fell or reached a cushion",
   break: "the break drove fewer than four balls to cushions",
 };
 
@@ -59,18 +59,27 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean): string {
   const on = play.setup.game === "snooker" && play.winner === undefined ? `, on ${onOf(play)}` : play.setup.game === "onepocket" ? `, into ${pocketOf(play)}` : group;
   if (thinks) return `${before}${name} thinks${on} …`;
   if (!you && play.setup.against === "link") return `${before}${name} plays${on}: send the link.`;
-  const turn = play.hasPockets && play.entries.length === 0 ? `${name} ${you ? "break" : "breaks"}` : you ? "Your turn" : `${name}'s turn`;
+  const turn = play.hasPockets && play.state.opening ? `${name} ${you ? "break" : "breaks"}` : you ? "Your turn" : `${name}'s turn`;
   const hand = play.hand === "no" ? "" : ` Cue ball in hand${play.hand === "kitchen" ? " behind the line" : play.hand === "anywhere" ? "" : " in the D"}: drag it.`;
   return `${before}${turn}${on}.${hand}`;
 }
 
+/** What fell in a stroke. */
+export function wordsOfStroke(play: Play, { who, shot }: Stroke, seat: 0 | 1): string {
+  const fell = (shot?.events ?? []).flatMap(({ type, a }) => (type === "ball_pocket" && a > 0 ? `the ${play.names[a]}` : []));
+  return `${nameOf(play, who, seat)} ${shot ? "pocketed" : "passed"}${!shot ? "" : fell.length > 0 ? ` ${fell.join(" and ")}` : " no ball"}.`;
+}
+
 /** The score: what is left of each, or points. */
 export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, number]): string {
-  if (play.practice) return `${left(play, 1, play.balls.length)} balls`;
+  if (play.practice) {
+    const count = left(play, 1, play.balls.length);
+    return `${count} ${count === 1 ? "ball" : "balls"}`;
+  }
   const names = ([0, 1] as const).map((who) => nameOf(play, who, seat));
   const of = (parts: readonly (string | number)[]): string => parts.map((part, k) => `${names[k]}: ${part}`).join(" · ");
   if (play.played?.points) return of(play.points);
-  const won = racks[0] + racks[1] > 0 ? `racks ${racks[0]} : ${racks[1]}` : "";
+  const won = racks[0] + racks[1] > 0 ? `racks won ${racks[0]} : ${racks[1]}` : "";
   if (play.setup.game === "eightball") {
     if (play.state.group === "open") return won;
     const balls = ([0, 1] as const).map((who) => (groupOf(play, who) === "solids" ? left(play, 1, 7) : left(play, 9, 15)));
@@ -78,7 +87,7 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
   }
   if (play.setup.game === "nineball") {
     const next = play.balls.findIndex(({ state }, k) => k > 0 && onTable(state));
-    return `${next > 0 ? `next ball ${next}` : ""}${won && ` · ${won}`}`;
+    return `${next > 0 ? `lowest ball ${next}` : ""}${won && ` · ${won}`}`;
   }
   return won;
 }

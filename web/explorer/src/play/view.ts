@@ -9,6 +9,7 @@ import { aiming } from "./aim.js";
 import { logPage } from "./coach.js";
 import { coaching } from "./coaching.js";
 import { controls } from "./controls.js";
+import { diagramPage, type Source } from "./diagram.js";
 import { OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
 import { guessOf, lookAlong } from "./look.js";
 import { kept, keepText, unpack } from "./keep.js";
@@ -17,12 +18,14 @@ import { menu, type Settings } from "./menu.js";
 import { practice } from "./practice.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
-import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
+import { nameOf, wordsOfScore, wordsOfStroke, wordsOfTurn } from "./state.js";
 import { wordsOfChoice } from "../table/words.js";
 
 const REPLY = 400;
 /** How long the stroke of the page's player is shown before it is played, ms. */
 const SHOWN = 700;
+/** The power after the break, m/s. */
+const SPEED = 2.5;
 const SETTINGS = "carom-settings";
 const FIRST: Setup = { game: "eightball", against: "500", own: "0", seed: 1 };
 
@@ -33,14 +36,26 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   let play: Play;
   /** Which of both sits here; of two at this page, whoever is at the table. */
   let seat: 0 | 1 = 0;
-  /** What was chosen to be called; -1: nothing. */
-  let chosen = { ball: -1, pocket: -1 };
+  /**
+   * What was chosen to be called, -1: nothing, and the ball that the aim met then: the choice does not hold where the aim meets another one. That of a hint,
+   * which has a direction, holds near it only.
+   */
+  interface Chosen {
+    ball: number;
+    pocket: number;
+    met: number;
+    phi?: number;
+  }
+  const NONE: Chosen = { ball: -1, pocket: -1, met: -1 };
+  let chosen = NONE;
   let special: "push" | "pass" | undefined;
   let first: ReturnType<typeof lookAlong>;
   let paths: Path[] = [];
   let turned: Quaternion[] = [];
   let turnedBefore: Quaternion[] = [];
   let thinks = false;
+  /** The stroke of the page's player that is shown before it plays. */
+  let theirs: Cue | undefined;
   /** What follows the film that is shown. */
   let then: (() => void) | undefined;
   let shown: Stroke | undefined;
@@ -66,13 +81,17 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     film.show(of);
     space.draw();
   }
-  const stroke = controls({ changed, shoot, free });
+  const stroke = controls({ changed, shoot, free, told: (text) => (said.textContent = text) });
   const hand = aiming(film, {
-    ...{ play: () => play, free, cue, shoot, skip, changed, first: () => first },
+    ...{ play: () => play, free, cue, aimed, shoot, skip, changed, first: () => first },
     set: (key, value) => stroke.set({ [key]: value }),
-    called: () => (free() && play.played?.calls && !play.state.opening ? called() : undefined),
+    called: () => (free() && calls() ? called() : undefined),
     tapped: (on) => {
-      chosen = "ball" in on ? { ball: on.ball, pocket: -1 } : { ...chosen, pocket: on.pocket };
+      look();
+      const met = first?.ball ?? -1;
+      if ("pocket" in on) chosen = { ...valid(), pocket: on.pocket, met };
+      else chosen = calls() && ballsOn().includes(on.ball) ? { ball: on.ball, pocket: -1, met } : NONE;
+      if ("pocket" in on && calls() && !called()) said.textContent = "Which ball? Tap it first, then the pocket.";
       changed();
     },
     undo: () => undo(),
@@ -84,14 +103,15 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     aim(one) {
       if (play.hand !== "no") play.put(0, ...(one.place as [number, number]));
       aim(one.cue);
-      chosen = one.ball > 0 && one.pocket >= 0 ? { ball: one.ball, pocket: one.pocket } : { ball: -1, pocket: -1 };
+      look();
+      chosen = one.ball > 0 && one.pocket >= 0 ? { ball: one.ball, pocket: one.pocket, met: first?.ball ?? -1, phi: one.cue.phi } : NONE;
       special = one.kind === "push" ? "push" : undefined;
       rest();
     },
   });
   const felt = el("section", { class: "felt", "aria-label": "Table" }, film.canvas);
   const space = new Space(film, felt, {
-    ...{ play: () => play, poses: () => filmed.shots[0]!.at(film.time), aimed: () => (free() ? stroke.value : undefined), skip },
+    ...{ play: () => play, poses: () => filmed.shots[0]!.at(film.time), aimed, first: () => first, skip },
     turn(degrees) {
       if (!free()) return;
       stroke.set({ phi: (stroke.value.phi + degrees + 360) % 360 });
@@ -103,13 +123,12 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     hint: button("Hint", () => void coach.advise(), { id: "hint" }),
     replay: button("Replay", () => replay(), { id: "replay" }),
     undo: button("Undo", () => undo(), { id: "undo-stroke" }),
-    rack: button("Rack", () => begin({ ...play.setup, seed: play.setup.seed + 1, at: undefined as never }), { id: "rack-up" }),
+    rack: button("New rack", () => begin({ ...play.setup, seed: play.setup.seed + 1, at: undefined as never }), { id: "rack-up" }),
     push: button("Push out", () => choose("push"), { id: "push", "aria-pressed": "false" }),
     pass: button("Pass", () => choose("pass"), { id: "pass" }),
     skip: button("Skip", () => skip(), { id: "skip" }),
     link: button("Send link", () => void link.send(coarse), { id: "send" }),
     space: button("3D", () => void toggle(), { id: "space", "aria-pressed": "false", title: "The view from behind the cue" }),
-    log: button("Log", () => log.open(), { id: "open-log" }),
   };
   const log = logPage();
   const training = practice({ begin });
@@ -117,16 +136,28 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     games.root.close();
     void link.send(coarse);
   }, { id: "copy-game" });
-  const games = menu(carom, settings, film.pace, { begin, changed: setSettings }, ...training.parts, el("div", { class: "row" }, copy));
+  const errors = button("Log of your strokes", () => {
+    games.root.close();
+    log.open();
+  }, { id: "open-log" });
+  const diagram = diagramPage(carom, coarse);
+  const draw = button("Diagram to print", () => {
+    games.root.close();
+    const { last } = play;
+    const sources: Source[] = last?.shot ? [["the last stroke", last.balls, last.cue]] : [];
+    // In a game nobody sees where the balls would go.
+    if (play.practice && !play.setup.drill) sources.unshift(["the stroke that is aimed", play.balls, cue()]);
+    diagram.open(play.setup.game, [...sources, ["the balls as they lie", play.balls, undefined]]);
+  }, { id: "open-diagram" });
+  const games = menu(carom, settings, film.pace, { begin, changed: setSettings }, ...training.parts, el("h3", {}, "This game"), el("div", { class: "row" }, copy, errors, draw));
   const bar = el(
     "section",
     { class: "play-bar", "aria-label": "Game" },
-    el("div", { class: "row state" }, turn, score),
-    said,
-    el("div", { class: "row" }, buttons.menu, buttons.hint, buttons.replay, buttons.undo, buttons.rack, buttons.push, buttons.pass, buttons.link, buttons.log, buttons.space, stroke.turns, buttons.skip, stroke.shoot),
-    stroke.numbers,
+    el("div", { class: "words" }, el("div", { class: "row state" }, turn, score), said),
+    el("div", { class: "row tools" }, buttons.menu, buttons.hint, buttons.replay, buttons.undo, buttons.rack, buttons.push, buttons.pass, buttons.link, buttons.space),
+    el("div", { class: "row strike" }, ...stroke.row.slice(0, -1), buttons.skip, ...stroke.row.slice(-1)),
   );
-  main.replaceChildren(el("div", { class: "play" }, felt, stroke.side, bar, games.root, log.root, training.photo));
+  main.replaceChildren(el("div", { class: "play" }, felt, stroke.side, bar, stroke.numbers, games.root, log.root, diagram.root, training.photo));
 
   function setSettings(now: Settings): void {
     Object.assign(settings, now);
@@ -162,20 +193,39 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   function free(): boolean {
     return !film.playing && !thinks && then === undefined && mine();
   }
+  function aimed(): Cue | undefined {
+    return free() ? cue() : theirs;
+  }
+  /** Whether a stroke needs a call. */
+  function calls(): boolean {
+    return play.played?.calls === true && !play.state.opening;
+  }
+  const ballsOn = (): number[] => carom.ballsOn(play.state, play.balls);
+  /** What was chosen, as far as it holds for the aim. */
+  function valid(): Chosen {
+    const met = first?.ball ?? -1;
+    const off = chosen.phi === undefined ? 0 : Math.abs(((stroke.value.phi - chosen.phi + 540) % 360) - 180);
+    return off < 2 && (met === -1 || met === chosen.met) ? chosen : NONE;
+  }
   function called(): { ball: number; pocket: number } | undefined {
-    const guess = guessOf(play.table, first);
-    const ball = chosen.ball > 0 ? chosen.ball : guess.ball;
-    const pocket = chosen.pocket >= 0 ? chosen.pocket : ball === guess.ball ? guess.pocket : -1;
+    const [guess, given] = [guessOf(play.table, first, ballsOn()), valid()];
+    const ball = given.ball > 0 ? given.ball : guess.ball;
+    const pocket = given.pocket >= 0 ? given.pocket : ball === guess.ball ? guess.pocket : -1;
     return ball > 0 && pocket >= 0 && onTable(play.balls[ball]!.state) ? { ball, pocket } : undefined;
+  }
+  /** What the stroke that is shown meets first. */
+  function look(): void {
+    const of = aimed();
+    first = of && onTable(play.balls[0]!.state) ? lookAlong(carom, play.table, play.balls, of, OPTIONS) : undefined;
   }
   /** The balls as they lie, with what may be seen of the stroke: in a game the line to the first contact. */
   function rest(): void {
     first = undefined;
     paths = [];
-    if (free() && onTable(play.balls[0]!.state))
+    if (aimed() && onTable(play.balls[0]!.state))
       try {
         if (play.practice && !play.setup.drill) paths = pathsOf(carom.simulate(play.table, play.balls, cue(), OPTIONS));
-        first = lookAlong(carom, play.table, play.balls, cue(), OPTIONS);
+        look();
       } catch (error) {
         if (!(error instanceof CaromError)) throw error;
         said.textContent = `This stroke cannot be played: ${error.message}.`;
@@ -186,16 +236,15 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   }
   function tell(): void {
     const can = free();
-    const call = can && play.played?.calls && !play.state.opening ? called() : undefined;
+    const call = can && calls() ? called() : undefined;
     // What comes of a stroke is told after its film. What is read aloud changes only where the words do.
     const plays = then !== undefined && shown && !play.practice ? nameOf(play, shown.who, seat) : undefined;
-    const told = plays ? `${plays} ${plays === "You" ? "play" : "plays"} …` : `${wordsOfTurn(play, seat, thinks)}${call ? ` Call: ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : ""}`;
+    const told = plays ? `${plays} ${plays === "You" ? "play" : "plays"} …` : `${wordsOfTurn(play, seat, thinks)}${call ? ` Call: the ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : can && calls() ? " Nothing is called: aim at a ball, or tap a pocket." : ""}`;
     if (turn.textContent !== told) turn.textContent = told;
     if (!plays) score.textContent = wordsOfScore(play, seat, racks());
     stroke.shoot.disabled = !can;
     const seen: [HTMLElement, boolean][] = [
-      [buttons.hint, can && play.played !== undefined],
-      [buttons.replay, play.last?.shot !== undefined && !film.playing && !thinks && then === undefined],
+      [buttons.hint, play.played !== undefined && play.winner === undefined],
       [buttons.undo, play.practice && !play.setup.drill],
       [buttons.rack, (play.practice && !play.setup.drill) || play.winner !== undefined],
       [buttons.push, can && play.state.may === "push"],
@@ -203,9 +252,11 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
       [buttons.skip, film.playing],
       [stroke.shoot, !film.playing],
       [buttons.link, play.setup.against === "link"],
-      [buttons.log, settings.coach],
     ];
     for (const [element, is] of seen) element.hidden = !is;
+    // What cannot be pressed now keeps its place, so that the others keep theirs.
+    buttons.hint.disabled = !can;
+    buttons.replay.disabled = !play.last?.shot || film.playing || thinks || then !== undefined;
     buttons.undo.disabled = play.past.length === 0;
     buttons.push.setAttribute("aria-pressed", String(special === "push"));
     film.canvas.setAttribute("aria-label", `${GAMES[play.played?.of ?? play.setup.game]!.text} table from above. ${turn.textContent}`);
@@ -223,7 +274,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   }
   function call(): Call | undefined {
     if (special) return special;
-    return play.played?.calls && !play.state.opening ? called() : undefined;
+    return calls() ? called() : undefined;
   }
   function shoot(): void {
     if (!free()) return;
@@ -233,11 +284,12 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     const { own, seed } = play.setup;
     const made = own === "0" || play.practice ? meant : carom.withErrors(meant, player(own), seed, play.entries.length);
     const of = coach.asked();
-    const calls = call();
     try {
-      const one = play.stroke(made, calls);
+      look(); // the aim may have changed since the last frame
+      const what = call();
+      const one = play.stroke(made, what);
       said.textContent = "";
-      if (settings.coach && play.played && play.setup.drill === undefined) void coach.lookBack(of, made, calls);
+      if (settings.coach && play.played && play.setup.drill === undefined) void coach.lookBack(of, made, what);
       played(one);
     } catch (error) {
       said.textContent = error instanceof Error ? error.message : String(error);
@@ -246,8 +298,9 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   /** A stroke was played: its film, and whoever comes next. */
   function played(one: Stroke): void {
     // Nobody breaks twice: the next stroke begins as one of medium speed.
-    if (one.state.opening && !play.state.opening) stroke.set({ speed: 2.5, right: 0, up: 0, theta: 0 });
-    chosen = { ball: -1, pocket: -1 };
+    if (one.state.opening && !play.state.opening) stroke.set({ speed: SPEED });
+    chosen = NONE;
+    theirs = undefined;
     special = undefined;
     if (play.winner !== undefined) count(play.winner);
     save();
@@ -259,6 +312,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     shown = one;
     sounded = -1;
     if (!one.shot) return finish();
+    film.look(1);
     show(filmOf({ table: play.table, balls: one.balls, names: play.names, turned }, one.shot, []));
     film.start();
     tell();
@@ -292,6 +346,14 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     save();
     rest();
   }
+  /** Whoever comes to the table finds the tip in the middle of the cue ball, and the aim at the nearest ball that is on. */
+  function address(): void {
+    const r = (ball: number): readonly number[] => play.balls[ball]!.state.r;
+    const far = (ball: number): number => Math.hypot(r(ball)[0]! - r(0)[0]!, r(ball)[1]! - r(0)[1]!);
+    const [near] = ballsOn().sort((a, b) => far(a) - far(b));
+    stroke.set({ right: 0, up: 0, theta: 0 });
+    if (near !== undefined) stroke.set({ phi: Math.round(((Math.atan2(r(near)[1]! - r(0)[1]!, r(near)[0]! - r(0)[0]!) * 180) / Math.PI + 360) * 100) / 100 % 360 });
+  }
   function next(): void {
     const { drill, at } = play.setup;
     if (drill !== undefined && play.last) {
@@ -301,8 +363,12 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
       if (again) play.lay(new Play(carom, { ...play.setup, at }).balls);
     }
     if (link.waiting()) return link.onward();
+    if (play.last && play.hasPockets && /^\d/.test(play.setup.against) && play.last.who !== seat) said.textContent = wordsOfStroke(play, play.last, seat);
     if (play.winner === undefined && !mine() && /^\d/.test(play.setup.against)) void reply();
-    else rest();
+    else {
+      if (!play.practice && !play.state.opening && play.winner === undefined && mine()) address();
+      rest();
+    }
     if (settings.coach) void coach.chances();
   }
   /** Where the cue ball may be put, for a plan. */
@@ -321,7 +387,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
       const [one] = await far("plan", play.table, play.balls, options);
       if (mine !== number) return;
       if (play.hand !== "no") play.put(0, ...(one!.place as [number, number]));
-      aim(one!.cue);
+      theirs = one!.cue;
       rest();
       said.textContent = `${nameOf(play, play.turn, seat)} plays ${wordsOfChoice(play.table, play.names, one!)}.`;
       await new Promise((later) => window.setTimeout(later, film.pace.value === "1000" ? 0 : SHOWN));
@@ -352,7 +418,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     seat = 0;
     start(new Play(carom, JSON.parse(JSON.stringify(setup)) as Setup));
     aim({ ...cue(), theta: 0, ...(play.played?.begin ?? { speed: 4, phi: 62, a: 0, b: 0 }), ...(setup.at === undefined ? {} : { speed: 2, phi: 90 }) });
-    said.textContent = setup.drill !== undefined ? training.told(setup.drill) : play.practice ? "Drag balls, aim by a drag on the cloth, then press Shoot." : "Drag to aim, hold Shoot to draw the stick, let go to play.";
+    said.textContent = setup.drill !== undefined ? training.told(setup.drill) : play.practice ? "Drag balls to lay them, drag on the cloth to aim, tap Shoot." : "Drag on the table to aim, then tap Shoot.";
     save();
     rest();
   }
@@ -360,11 +426,12 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     number++;
     drop("plan");
     then = undefined;
+    theirs = undefined;
     thinks = false;
     play = with_;
     turned = play.balls.map(() => [1, 0, 0, 0] as const);
     turnedBefore = turned;
-    chosen = { ball: -1, pocket: -1 };
+    chosen = NONE;
     special = undefined;
     film.stop();
     film.look(1);
@@ -374,7 +441,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   function save(): void {
     if (play.setup.against === "link") return link.save();
     keepText(play.text());
-    if (location.hash !== "#view=play") history.replaceState(null, "", "#view=play");
+    if (location.hash !== "#view=play" && !parameters().has("d")) history.replaceState(null, "", "#view=play");
   }
   const link = byLink({
     ...{ play: () => play, seat: () => seat, perform, next, rest, told: (text) => (said.textContent = text) },
@@ -396,8 +463,8 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
         const one = read(carom, text);
         start(one);
         seat = packed && given.get("seat") === "1" ? 1 : 0;
-        aim({ ...cue(), theta: 0, ...(one.last?.cue ?? play.played?.begin ?? {}) });
-        if (packed && one.entries.length > 0) wrong = `${one.entries.length} ${one.entries.length === 1 ? "stroke has" : "strokes have"} every bit that was sent.`;
+        aim({ ...cue(), theta: 0, ...(play.state.opening || play.practice ? play.played?.begin : { speed: SPEED }) });
+        if (packed && one.entries.length > 0) wrong = `${one.entries.length} ${one.entries.length === 1 ? "stroke was" : "strokes were"} repeated; every bit agrees.`;
         save();
         link.ask();
         said.textContent = wrong;
@@ -413,7 +480,15 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   play = new Play(carom, FIRST);
   start(play);
   rest();
-  const ready = resume();
+  const asked = parameters().get("d");
+  const ready = resume().then(async () => {
+    if (!asked) return;
+    try {
+      await diagram.read(asked);
+    } catch (error) {
+      said.textContent = `The diagram was not read: ${error instanceof Error ? error.message : String(error)}.`;
+    }
+  });
   main.setAttribute("aria-busy", "true");
   void ready.then(() => main.setAttribute("aria-busy", "false"));
 
@@ -421,6 +496,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     update: () => undefined,
     theme() {
       film.draw();
+      diagram.theme();
       space.draw();
     },
     close() {

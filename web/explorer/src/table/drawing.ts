@@ -1,5 +1,6 @@
 // What is drawn over the table while one aims: the stick, the ghost ball, lines, and rings around balls.
 import type { Contact, Cue, ShotBall } from "carom";
+import { onTable } from "./filmed.js";
 
 const DEGREES = 180 / Math.PI;
 /** How far the stick is drawn back for each m/s, m. */
@@ -55,4 +56,32 @@ export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cu
   pen.g.lineCap = "round";
   stroke(pen, at(gap), at(gap + 1.3 * Math.max(Math.cos(theta / DEGREES), 0.15)), thick, "#d9b077");
   stroke(pen, at(gap), at(gap + 0.017), 0.8 * thick, "#3f7fbf");
+}
+
+/** The number of each ball beside it, upright, so that one can name a ball however it has turned and however small it is drawn. */
+export function drawNumbers({ g, scale, place }: Pen, balls: readonly ShotBall[], names: readonly string[]): void {
+  g.save();
+  g.font = "bold 12px sans-serif";
+  g.textAlign = "center";
+  g.textBaseline = "middle";
+  g.lineJoin = "round";
+  // What a number should not cover: the middle and half the size of each ball, and of the numbers that are drawn already.
+  const taken = balls.flatMap(({ state, kind }) => (onTable(state) ? [[...place(state.r[0], state.r[1]), kind.radius * scale, kind.radius * scale]] : []));
+  balls.forEach(({ state, kind }, k) => {
+    if (!(Number(names[k]) > 0) || !onTable(state)) return;
+    const [x, y] = place(state.r[0], state.r[1]);
+    const [half, high, away] = [g.measureText(names[k]!).width / 2, 5, kind.radius * scale + 2];
+    // Of twelve places around the ball the one that covers least; the first is at the upper right.
+    const covers = ([px, py]: readonly [number, number]): number =>
+      taken.reduce((sum, [bx, by, bw, bh]) => sum + Math.max(half + bw! - Math.abs(px - bx!), 0) * Math.max(high + bh! - Math.abs(py - by!), 0), 0);
+    const around = Array.from({ length: 12 }, (_, k) => ((1.5 + k) * Math.PI) / 6).map((turn) => [x + (away + half) * Math.cos(turn), y - (away + high) * Math.sin(turn)] as const);
+    const best = around.reduce((one, other) => (covers(other) < covers(one) - 0.5 ? other : one));
+    taken.push([...best, half, high]);
+    g.strokeStyle = "#000c";
+    g.lineWidth = 3;
+    g.strokeText(names[k]!, ...best);
+    g.fillStyle = "#fff";
+    g.fillText(names[k]!, ...best);
+  });
+  g.restore();
 }
