@@ -51,7 +51,7 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     expect(await one.locator("#cut").inputValue()).toBe("45.5");
     const exact = await text(one, "n-throw");
     await one.locator("#solver").selectOption("euler");
-    expect(await text(one, "n-stick")).toContain("not told");
+    expect(await text(one, "n-stick")).toContain("unknown");
     expect(parseFloat(await text(one, "n-throw"))).toBeCloseTo(parseFloat(exact), 1);
     await one.waitForURL(/view=collision&speed=2&cut=45.5&solver=euler/);
     await one.close();
@@ -147,7 +147,7 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     expect(await text(one, "message")).toBe("balls: they fit Nine-ball and Eight-ball; choose one of these games, then import again");
     // Neither: it can be played, and is not planned.
     await take("nineball", of("cue", "5", "2"));
-    expect(await text(one, "message")).toContain("Best shot needs the balls of a game by their numbers");
+    expect(await text(one, "message")).toContain("Best shot needs balls that have the numbers of a game");
     expect(await one.locator("#best").isVisible()).toBe(false);
     await one.close();
   });

@@ -63,6 +63,7 @@ export function coaching(carom: Carom, host: Host): { asked(): Asked; advise(): 
   }
 
   async function lookBack(of: Asked, made: Cue, calls: Call | undefined): Promise<void> {
+    asking++; // chances of this stroke that come later do not hide its review
     try {
       const row = await review(carom, of, made, calls);
       keepRow(row);

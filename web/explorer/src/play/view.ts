@@ -154,7 +154,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     "section",
     { class: "play-bar", "aria-label": "Game" },
     el("div", { class: "words" }, el("div", { class: "row state" }, turn, score), said),
-    el("div", { class: "row tools" }, buttons.menu, buttons.hint, buttons.replay, buttons.undo, buttons.rack, buttons.push, buttons.pass, buttons.link, buttons.space),
+    el("div", { class: "row tools" }, buttons.menu, buttons.hint, buttons.replay, buttons.space, buttons.undo, buttons.rack, buttons.push, buttons.pass, buttons.link),
     el("div", { class: "row strike" }, ...stroke.row.slice(0, -1), buttons.skip, ...stroke.row.slice(-1)),
   );
   main.replaceChildren(el("div", { class: "play" }, felt, stroke.side, bar, stroke.numbers, games.root, log.root, diagram.root, training.photo));
@@ -198,7 +198,7 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
   }
   /** Whether a stroke needs a call. */
   function calls(): boolean {
-    return play.played?.calls === true && !play.state.opening;
+    return play.played?.calls === true && !play.state.opening && !play.practice;
   }
   const ballsOn = (): number[] => carom.ballsOn(play.state, play.balls);
   /** What was chosen, as far as it holds for the aim. */
@@ -244,9 +244,9 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
     if (!plays) score.textContent = wordsOfScore(play, seat, racks());
     stroke.shoot.disabled = !can;
     const seen: [HTMLElement, boolean][] = [
-      [buttons.hint, play.played !== undefined && play.winner === undefined],
+      [buttons.hint, play.played !== undefined],
       [buttons.undo, play.practice && !play.setup.drill],
-      [buttons.rack, (play.practice && !play.setup.drill) || play.winner !== undefined],
+      [buttons.rack, (play.practice && !play.setup.drill) || (play.winner !== undefined && then === undefined)],
       [buttons.push, can && play.state.may === "push"],
       [buttons.pass, can && play.mayPass],
       [buttons.skip, film.playing],
@@ -369,7 +369,8 @@ export function playView(carom: Carom, main: HTMLElement): { update(): void; the
       if (!play.practice && !play.state.opening && play.winner === undefined && mine()) address();
       rest();
     }
-    if (settings.coach) void coach.chances();
+    // After a stroke its review is read, until the aim changes.
+    if (settings.coach && !play.last) void coach.chances();
   }
   /** Where the cue ball may be put, for a plan. */
   function place(): PlanOptions["inHand"] {
