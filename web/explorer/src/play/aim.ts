@@ -3,7 +3,7 @@
 import { CaromError, type Cue } from "carom";
 import type { player } from "../../../../cli/player.js";
 import { beside } from "../lab/hand.js";
-import { drawNumbers, drawStick, PULL, ring, stickEnd, stroke } from "../table/drawing.js";
+import { drawNumbers, drawStick, type Pen, PULL, ring, stickEnd, stroke } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { mayLie } from "../table/head.js";
 import type { Play } from "./game.js";
@@ -37,8 +37,13 @@ export function aiming(film: ReturnType<typeof player>, host: Host): { draw(g: C
   function draw(g: CanvasRenderingContext2D): void {
     if (film.time > 0 || film.playing) return;
     const play = host.play();
-    const [cueBall] = play.balls as [(typeof play.balls)[number]];
     const pen = { g, scale: film.scale, place: film.place };
+    drawAim(pen, play);
+    if (!play.state.opening) drawNumbers(pen, play.balls, play.names);
+  }
+  function drawAim(pen: Pen, play: Play): void {
+    const { g } = pen;
+    const [cueBall] = play.balls as [(typeof play.balls)[number]];
     const call = host.called();
     g.setLineDash([]);
     if (call && call.pocket >= 0) {
@@ -48,7 +53,6 @@ export function aiming(film: ReturnType<typeof player>, host: Host): { draw(g: C
       ring(pen, centre, radius, 2);
       if (call.ball > 0) ring(pen, play.balls[call.ball]!.state.r, play.balls[call.ball]!.kind.radius, 2);
     }
-    if (!play.state.opening) drawNumbers(pen, play.balls, play.names);
     const aimed = host.aimed();
     if (!aimed || !onTable(cueBall.state)) return;
     const first = host.first();

@@ -87,7 +87,7 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
   }
   if (play.setup.game === "nineball") {
     const next = play.balls.findIndex(({ state }, k) => k > 0 && onTable(state));
-    return `${next > 0 ? `lowest ball ${next}` : ""}${won && ` · ${won}`}`;
+    return [next > 0 ? `lowest ball ${next}` : "", won].filter((part) => part !== "").join(" · ");
   }
   return won;
 }

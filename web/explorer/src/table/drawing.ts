@@ -76,7 +76,7 @@ export function drawNumbers({ g, scale, place }: Pen, balls: readonly ShotBall[]
       taken.reduce((sum, [bx, by, bw, bh]) => sum + Math.max(half + bw! - Math.abs(px - bx!), 0) * Math.max(high + bh! - Math.abs(py - by!), 0), 0);
     const around = Array.from({ length: 12 }, (_, k) => ((1.5 + k) * Math.PI) / 6).map((turn) => [x + (away + half) * Math.cos(turn), y - (away + high) * Math.sin(turn)] as const);
     const best = around.reduce((one, other) => (covers(other) < covers(one) - 0.5 ? other : one));
-    taken.push([...best, half, high]);
+    taken.push([...best, half + 6, high]); // two numbers are not read as one
     g.strokeStyle = "#000c";
     g.lineWidth = 3;
     g.strokeText(names[k]!, ...best);
