@@ -49,12 +49,11 @@ test.each(drills.map((drill) => [drill.name, drill] as const))("%s can be made, 
   const play = (cue: Partial<Cue>): Shot => carom.simulate(table, balls, cue, OPTIONS);
   expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toBe("missed");
   let tries = 0;
-  const until = performance.now() + 20_000;
   for (const cue of strokes(carom, drill)) {
     tries++;
     const is = judge(drill, play(cue));
     if (is === "made" || (is === "on" && drill.goal[0]![0] === "clear")) return;
-    if (performance.now() > until) break;
+    if (tries === 1000) break;
   }
   expect.fail(`${drill.name}: no stroke of ${tries} makes it`);
 });
