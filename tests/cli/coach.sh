@@ -94,4 +94,4 @@ try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,
 echo "--- lengths in diamonds, a quantity of a list"
 carom ways --balls foot-spot --pocket foot-left --cut half --distance 4d --speed 2 | tail -n 1
 carom shoot --cue 2d,2d --balls 3d,4d --pocket 1:foot-right --leave head-left,1d | grep leave
-carom hit --cut half --side inside,outside --quantity throw
+carom hit --cut half --side inside,outside --quantity throw | awk -F, 'NR == 1 { print; next } { printf "%s %.9f\n", $1, $2 }'
