@@ -4,13 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Colours of pool balls by number, as bright as a path on green has to be; the first is for the
- * cue ball and others. */
 const char *const ball_colours[16] = {
     "#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd",
     "#111111", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"};
 
-/* The colour that the name of a ball says, or NULL. */
 const char *named_colour(const char *name) {
   static const struct {
     const char *name, *colour;

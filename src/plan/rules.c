@@ -267,11 +267,10 @@ const char *carom_rules_name(carom_rules_kind kind) {
 }
 
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
-  return kind == CAROM_RULES_STRAIGHT    ? carom_straight
-         : kind == CAROM_RULES_SNOOKER   ? carom_snooker
-         : kind == CAROM_RULES_ONEPOCKET ? carom_onepocket
-         : (unsigned)kind < OWN_TABLE    ? games[kind]
-                                         : games[CAROM_RULES_EIGHTBALL];
+  static const carom_plan_rules *const own[] = {&carom_straight, &carom_snooker, &carom_onepocket};
+  return (unsigned)kind < OWN_TABLE ? games[kind]
+         : (unsigned)kind < GAMES   ? *own[kind - OWN_TABLE]
+                                    : games[CAROM_RULES_EIGHTBALL];
 }
 
 /* ---- Balls that are put back */

@@ -203,7 +203,7 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     return placed
 
 
-_LAST = {"eightball": 15, "nineball": 9, "straight": 15, "snooker": 21, "onepocket": 15}
+LAST = {"eightball": 15, "nineball": 9, "straight": 15, "snooker": 21, "onepocket": 15}  # the highest number of a ball
 _COLOURS = {"yellow": "16", "green": "17", "brown": "18", "blue": "19", "pink": "20", "black": "21"}
 
 
@@ -225,7 +225,7 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["e
     """
     given = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     names = list(map(str, several(ids, "ids", "the number of each ball is needed, and the cue ball's name")))
-    last = choice(_LAST, rules, "rules")
+    last = choice(LAST, rules, "rules")
     if given.shape != (len(names),):
         raise ValueError(f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {given.shape}")
     if names.count(str(cue)) != 1:

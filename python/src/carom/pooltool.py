@@ -24,7 +24,7 @@ from carom._rows import Array, listing
 from carom._pooltool_fill import fill
 from carom._pooltool_models import ExactBallBall, ExactCircularCushion, ExactLinearCushion
 from carom.collisions import alciatore
-from carom.layouts import Table
+from carom.layouts import LAST, Table
 from carom.plans import plan, player as usual_player, with_errors
 from carom.results import Label
 from carom.rules import Group
@@ -274,7 +274,6 @@ def _tell(reason: UnsupportedError | CaromError) -> None:
 
 PooltoolGame = Literal["eightball", "nineball"]
 _GAMES: dict[str, PooltoolGame] = {"_EightBall": "eightball", "_NineBall": "nineball"}
-_LAST: dict[str, int] = {"eightball": 15, "nineball": 9}
 
 
 class Agent:
@@ -348,13 +347,13 @@ class Agent:
         Returns a row of `carom.plan`, shape (): its cue errs as the player does, unless `exact`.
         Raises UnsupportedError: Another word, or an engine or a table that is pooltool's alone.
         """
-        if rules not in _LAST:
-            raise UnsupportedError(f"rules: the agent plays {' and '.join(_LAST)}, not {rules!r}")
+        if rules not in _GAMES.values():
+            raise UnsupportedError(f"rules: the agent plays {' and '.join(_GAMES.values())}, not {rules!r}")
         if hand not in ("none", "anywhere", "behind_line"):
             raise UnsupportedError(f"hand: the agent knows a cue ball in hand anywhere or behind_line, or none, not {hand!r}")
 
         # The layout by numbers; a cue ball in hand is nowhere yet.
-        table, names = table_of(system.table), ["cue", *map(str, range(1, _LAST[rules] + 1))]
+        table, names = table_of(system.table), ["cue", *map(str, range(1, LAST[rules] + 1))]
         given = dict(zip(system.balls, balls_of(system), strict=True))
         layout: Array = np.array([given.get(name, given["cue"]) for name in names], dtype=dtypes.shot_ball)
         down = [k for k, name in enumerate(names) if name not in given] + ([0] if hand != "none" else [])

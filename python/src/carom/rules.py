@@ -14,7 +14,7 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import Array, Arrays, as_array, choice, copied, pointer, whole
 from carom._shot_options import Options
-from carom.layouts import Table, of_record, one_cue
+from carom.layouts import LAST, Table, of_record, one_cue
 from carom.results import Label, Shot, Shots
 from carom.shots import simulate_batch
 from carom.status import CaromError, Status
@@ -31,7 +31,6 @@ Group = Literal["open", "solids", "stripes"]
 State = npt.NDArray[np.uint64]
 Hand = Literal["no", "anywhere", "kitchen", "d"]
 _GAMES = {"eightball": 0, "nineball": 1, "potting": 2, "threecushion": 3, "straight": 4, "snooker": 5, "onepocket": 6}
-_LAST = {"eightball": 15, "nineball": 9, "straight": 15, "snooker": 21, "onepocket": 15}  # the highest number of a ball
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
 _LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4}
@@ -160,7 +159,7 @@ class Made:
         else:
             self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules")))
         words = np.zeros(_WORDS, np.uint64)
-        self.last = None if isinstance(rules, Rules) else _LAST.get(rules)
+        self.last = None if isinstance(rules, Rules) else LAST.get(rules)
         """The highest number of a ball."""
         if group is not None and rules != "eightball":
             raise ValueError("group: it is of eight-ball")
