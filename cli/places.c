@@ -13,6 +13,7 @@
 #include <string.h>
 
 enum { MOST_TEXT = 1024 };
+static const char frozen[] = "frozen-";
 
 /* In diamonds, as every table has them: corners and middles of the long rails lie at the noses. */
 static const struct {
@@ -69,7 +70,8 @@ static bool refuse(const option_row *row, const char *text) {
            tip ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
                  "several with colons: 0,0:0.2,0, or a range of either: 0,-0.4..0.4..0.2"
                : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds, or a place: " PLACES
-                 "; several with colons: 0.6,1.5:foot-spot",
+                 "; or frozen-left,4d, frozen-1,90, which touches a rail or a ball; several with "
+                 "colons: 0.6,1.5:foot-spot",
            row->words != 0 ? "; or a rack: " : "", racks, text,
            tip ? hint : did_you_mean(text, known, hint));
   return false;
@@ -122,6 +124,17 @@ static bool add_ranges(int measure, const char *text, place_list *list) {
   return true;
 }
 
+/* Reads "frozen-NAME,X"; false where it cannot be read. */
+static bool read_touching(const char *text, given_place *to) {
+  const char *of = text + strlen(frozen), *comma = strchr(of, ',');
+  const size_t size = comma != NULL ? (size_t)(comma - of) : 0;
+  if (size == 0 || size >= PLACE_NAME)
+    return false;
+  snprintf(to->touches, PLACE_NAME, "%.*s", (int)size, of);
+  const bool rail = place_among(RAILS, to->touches, size) >= 0;
+  return value_of(rail ? MEASURE_PLACE : MEASURE_ANGLE, comma + 1, &to->x);
+}
+
 OPTION_SET(set_places) {
   place_list *list = field;
   char copy[MOST_TEXT], racks[MOST_WORDS], *rest;
@@ -138,9 +151,12 @@ OPTION_SET(set_places) {
     char spelt[PLACE_TEXT];
     if (row->least == MEASURE_PLACE)
       numbers = place_spelt(numbers, spelt);
-    if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row->words == 0) ||
-        strspn(numbers, "+-.,0123456789/ eEacdfhimnprtR\"") != strlen(numbers) ||
-        strchr(numbers, ',') == NULL)
+    const bool touches =
+        row->least == MEASURE_PLACE && strncmp(numbers, frozen, strlen(frozen)) == 0;
+    if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row->words == 0))
+      return refuse(row, text);
+    if (!touches && (strspn(numbers, "+-.,0123456789/ eEacdfhimnprtR\"") != strlen(numbers) ||
+                     strchr(numbers, ',') == NULL))
       return refuse(row, text);
     for (size_t k = 0; k < name; k++)
       if (!isalnum((unsigned char)one[k]) && one[k] != '-' && one[k] != '_')
@@ -150,14 +166,17 @@ OPTION_SET(set_places) {
         return refuse(row, text);
       continue;
     }
-    if (!set_values(row, numbers, &pair) || pair.count != 2)
+    given_place *to = &list->at[list->count++];
+    if (touches ? !read_touching(numbers, to) : !set_values(row, numbers, &pair) || pair.count != 2)
       return refuse(row, text);
     if (colour >= 0)
-      snprintf(list->at[list->count].name, PLACE_NAME, "%s", colours_of_snooker[colour]);
+      snprintf(to->name, PLACE_NAME, "%s", colours_of_snooker[colour]);
     else
-      snprintf(list->at[list->count].name, PLACE_NAME, "%.*s", (int)name, one);
-    list->at[list->count].x = pair.at[0];
-    list->at[list->count++].y = pair.at[1];
+      snprintf(to->name, PLACE_NAME, "%.*s", (int)name, one);
+    if (!touches) {
+      to->x = pair.at[0];
+      to->y = pair.at[1];
+    }
   }
   return list->rack > 0 || list->count > 0 ? true : refuse(row, text);
 }

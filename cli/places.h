@@ -7,18 +7,22 @@
 
 enum { MOST_PLACES = 64 };
 
-/* Pairs of numbers, each with the name that stood before it. */
+/* A pair of numbers, with the name that stood before it. Of a ball that touches a rail or another
+ * ball, x is how far along the rail, or the direction from that ball, degrees. */
+typedef struct given_place {
+  char name[PLACE_NAME], touches[PLACE_NAME];
+  value x, y;
+} given_place;
+
 typedef struct place_list {
   int count;
   int rack; /* 1 + the carom_rack_kind that stood there instead; or 0 */
-  struct {
-    char name[PLACE_NAME];
-    value x, y;
-  } at[MOST_PLACES];
+  given_place at[MOST_PLACES];
 } place_list;
 
 /* For a place_list: X,Y:X,Y:..., each perhaps behind NAME=, where balls are named, or the name of a
- * rack, by row->words. Of a ball on a spot of snooker that is its name. */
+ * rack, by row->words. Of a ball on a spot of snooker that is its name. frozen-NAME,X in place of
+ * X,Y touches a rail or a ball. */
 OPTION_SET(set_places);
 
 /* Places that have a name, as help and complaints list them. */

@@ -136,7 +136,7 @@ static bool read_via(const layout *l, const char *via, carom_pot *pot) {
     named |= part.kind == CAROM_PART_BALL && part.index == pot->ball;
     pot->via[pot->vias++] = part;
   }
-  snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "head|foot|left|right");
+  snprintf(names + strlen(names), NAMES_TEXT - strlen(names), RAILS);
   if (!good)
     complain("--via is up to %d of balls, the one of --pocket last, and rails (head, foot, left, "
              "right), such as 2,left, or head,%s for a kick; '%s' is none that can be there%s",

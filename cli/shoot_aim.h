@@ -7,6 +7,8 @@
 #include <stdbool.h>
 
 enum { PLACE_NAME = 16, AIMED_TEXT = 400 };
+/* The rails, with bars between them. */
+#define RAILS "head|foot|left|right"
 enum { NAMES_TEXT = CAROM_BALLS_MOST * (PLACE_NAME + 1) + 128 };
 
 /* The balls on the table, the cue ball first. */

@@ -39,8 +39,9 @@ const option_row option_table = {
     .words = CAROM_WORDS_TABLE};
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
     "place of the cue ball, m, or with a unit: 2,3ft, or 2,3d in diamonds from the left and the "
-    "head; or a place: " PLACES ". Corners and sides lie at the noses (default: head-spot, or the "
-    "place in the rack)");
+    "head; or a place: " PLACES ". Corners and sides lie at the noses. frozen-left,4d touches that "
+    "rail, frozen-1,90 ball 1 in that direction, degrees (default: head-spot, or the place in the "
+    "rack)");
 const option_row option_balls = {.name = "balls",
                                  .argument = "X,Y:...",
                                  .help = "places of the other balls, as in --cue, with colons "
@@ -120,13 +121,43 @@ static void name_rack(layout *l, carom_rack_kind kind) {
     snprintf(l->name[0], PLACE_NAME, "%s", kind == CAROM_RACK_SNOOKER ? "white" : "cue");
 }
 
-/* The state of a ball at rest at a place. */
-static carom_ball_state lies_at(const value *x, const value *y, const carom_table *t) {
-  return (carom_ball_state){
-      .r = {place_along(x, 0.25 * t->width), place_along(y, 0.125 * t->length)}};
+static bool is_rail(const char *name) {
+  return place_among(RAILS, name, strlen(name)) >= 0;
 }
 
-static void lay_out(const shoot_flags *f, layout *l) {
+/* Puts ball k at rest at a place, which may touch one of the first `laid` balls; false after a
+ * complaint. */
+static bool lay(layout *l, int k, const given_place *at, int laid) {
+  enum { HEAD, FOOT, LEFT, RIGHT };
+  const double width = l->table.width, length = l->table.length, R = l->ball[k].kind.radius;
+  const int rail = place_among(RAILS, at->touches, strlen(at->touches));
+  double x = place_along(&at->x, 0.25 * width), y = place_along(&at->y, 0.125 * length);
+  if (rail == HEAD || rail == FOOT) {
+    y = rail == HEAD ? R : length - R;
+  } else if (rail == LEFT || rail == RIGHT) {
+    y = place_along(&at->x, 0.125 * length);
+    x = rail == LEFT ? R : width - R;
+  } else if (at->touches[0] != '\0') {
+    int other = laid - 1;
+    while (other >= 0 && strcmp(l->name[other], at->touches) != 0)
+      other--;
+    if (other < 0 || other == k) {
+      complain("frozen-%s: it is a rail, " RAILS ", or a ball that lies already: cue, or one that "
+               "stands before it",
+               at->touches);
+      return false;
+    }
+    const carom_shot_ball *ball = &l->ball[other];
+    const double apart = R + ball->kind.radius;
+    x = ball->state.r[0] + apart * cos(at->x.x * degree);
+    y = ball->state.r[1] + apart * sin(at->x.x * degree);
+  }
+  l->ball[k].state = (carom_ball_state){.r = {x, y, R}};
+  return true;
+}
+
+/* False after a complaint. */
+static bool lay_out(const shoot_flags *f, layout *l) {
   const carom_table_kind kind =
       f->table != 0 ? (carom_table_kind)(f->table - 1) : CAROM_TABLE_POOL_9FT;
   l->table_name = carom_table_name(kind);
@@ -136,31 +167,36 @@ static void lay_out(const shoot_flags *f, layout *l) {
                                                : CAROM_GAME_POOL;
   carom_ball_kind ball = carom_ball_kind_of(l->game);
   give_ball(&f->shared.with, &ball);
-  /* A rack, or the places given. */
+  snprintf(l->name[0], PLACE_NAME, "cue");
+  l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
+  l->count = 1 + f->balls.count;
+  const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
   if (f->balls.rack > 0) {
-    const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
     l->count = carom_rack_size(rack);
     carom_rack(rack, &l->table, f->gap.at[0].x, (uint64_t)f->seed, l->ball, CAROM_BALLS_MOST);
     name_rack(l, rack);
-  } else {
-    l->count = 1 + f->balls.count;
-    snprintf(l->name[0], PLACE_NAME, "cue");
-    l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
-    for (int k = 1; k < l->count; k++) {
-      const char *own = f->balls.at[k - 1].name;
-      l->ball[k].state = lies_at(&f->balls.at[k - 1].x, &f->balls.at[k - 1].y, &l->table);
-      if (own[0] != '\0')
-        snprintf(l->name[k], PLACE_NAME, "%s", own);
-      else
-        snprintf(l->name[k], PLACE_NAME, "%d", k);
-    }
   }
-  if (f->cue.count > 0)
-    l->ball[0].state = lies_at(&f->cue.at[0].x, &f->cue.at[0].y, &l->table);
   for (int k = 0; k < l->count; k++) {
     l->ball[k].kind = ball;
     l->ball[k].state.r[2] = ball.radius;
   }
+
+  /* The places given. A cue ball that touches a ball is put there after it. */
+  const given_place *cue = f->cue.count > 0 ? &f->cue.at[0] : NULL;
+  const bool last = cue != NULL && cue->touches[0] != '\0' && !is_rail(cue->touches);
+  if (cue != NULL && !last && !lay(l, 0, cue, 0))
+    return false;
+  if (f->balls.rack == 0)
+    for (int k = 1; k < l->count; k++) {
+      const given_place *at = &f->balls.at[k - 1];
+      if (at->name[0] != '\0')
+        snprintf(l->name[k], PLACE_NAME, "%s", at->name);
+      else
+        snprintf(l->name[k], PLACE_NAME, "%d", k);
+      if (!lay(l, k, at, k))
+        return false;
+    }
+  return !last || lay(l, 0, cue, l->count);
 }
 
 static double tip_of(const value *v, double radius) {
@@ -192,13 +228,13 @@ static bool strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue)
 }
 
 /* Turns a cue so that its ball leaves towards a place; false after a complaint. */
-static bool aim_to(const value *x, const value *y, const layout *l, carom_cue *cue) {
+static bool aim_to(const given_place *to, const layout *l, carom_cue *cue) {
   const double *from = l->ball[0].state.r;
-  const double ahead[2] = {place_along(x, 0.25 * l->table.width) - from[0],
-                           place_along(y, 0.125 * l->table.length) - from[1]};
+  const double ahead[2] = {place_along(&to->x, 0.25 * l->table.width) - from[0],
+                           place_along(&to->y, 0.125 * l->table.length) - from[1]};
   carom_motion after;
-  if (hypot(ahead[0], ahead[1]) < l->ball[0].kind.radius) {
-    complain("--to is a place away from the cue ball");
+  if (to->touches[0] != '\0' || hypot(ahead[0], ahead[1]) < l->ball[0].kind.radius) {
+    complain("--to is a place away from the cue ball, X,Y or one that has a name");
     return false;
   }
   cue->phi = 0.0;
@@ -248,7 +284,7 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
     if (f->written < MOST_SHOTS)
       memcpy(f->aimed[f->written], told, sizeof told);
   } else if (f->to.count > 0) {
-    if (!aim_to(&f->to.at[way].x, &f->to.at[way].y, l, &cue))
+    if (!aim_to(&f->to.at[way], l, &cue))
       return false;
   } else if (f->cut.count == 0)
     cue.phi = f->aim.at[way].x;
@@ -354,8 +390,7 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   else if (!good)
     complain("these are %d shots; at most %d are told and drawn at once, and %d with --csv", count,
              MOST_SHOTS, MOST_ROWS);
-  if (good)
-    lay_out(f, &l);
+  good = good && lay_out(f, &l);
   /* of several shots those that cannot be aimed are left out, and the first of them told */
   bool missed = false;
   l.missed = &missed;

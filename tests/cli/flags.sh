@@ -64,6 +64,15 @@ for x, y in ((4, 6), (0, 3)):
     assert leaves["what"] == "leaves" and abs(float(leaves["direction_deg"]) - way) < 1e-9 and abs(given["cue"]["phi"] - way) > 0.3, (leaves, way)
 print([line["id"] for line, _ in shots("--to", "4d,6d:foot-right")])
 
+# Balls that touch: a rail, or the one before it in a direction; the cue ball also one that comes after it.
+(given, _), = shots("--cue", "frozen-9,20", "--balls", "frozen-left,4d:frozen-foot,1d:9=frozen-1,30:frozen-9,-90:frozen-right,1:frozen-head,2d", "--aim", 200)
+at = {ball["id"]: ball["state"][1:3] for ball in given["balls"]}
+for name, x, y in (("1", R, 1.27), ("2", 0.3175, 2.54 - R), ("5", 1.27 - R, 1), ("6", 0.635, R)):
+    assert math.dist(at[name], (x, y)) < 1e-15, (name, at)
+for name, other, degrees in (("9", "1", 30), ("4", "9", -90), ("cue", "9", 20)):
+    x, y = (a - b for a, b in zip(at[name], at[other], strict=True))
+    assert abs(math.hypot(x, y) - 2 * R) < 1e-15 and math.cos(math.atan2(y, x) - math.radians(degrees)) > 1 - 1e-15, (name, at)
+
 # What balls do, as rows: contacts are those of the events, ends those of the shot; a ball that lies 5 mm beside a straight path is passed.
 rows = lambda *words: list(csv.DictReader(io.StringIO(run(*words, "--csv"))))
 told = rows(*balls, "--at-ball", 1, "--cut", "10,-20", "--ball-speed", 3)
@@ -176,7 +185,7 @@ cmp lines.svg words.svg && try carom shoot --cue 5,5 --events none
 echo "--- refused"
 for words in "--cue 0.6,0.8 --csv --events brief" "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--speed 1 --ball-speed 1" "--balls 0.4,1.7 --pocket 1:rb" "--balls 0.4,1.7:0.3,1.9 --pocket 1:lt" "--balls 0.4,1.7:0.503,1.25 --cue 0.6,0.8 --pocket 1:lt" "--balls 0.4,1.7 --pocket 1:lt --speed 0.6" "--balls 0.4,1.7 --pocket 1:fot-right" "--balls 0.4,1.7 --pocket 1:lt --via lft" "--balls 0.4,1.7:0.9,1.5 --pocket 1:lt --via left,2" "--balls 0.4,1.7 --pocket 1:lt --via 1,1" "--balls 0.4,1.7 --pocket 1:lt --via head" "--balls 0.4,1.7 --via left" "--balls 0.9,1.5:0.8,2.0 --cue 0.6,0.8 --speed 3 --pocket 1:lt --via right" "--balls 0.9,1.5 --cue 0.6,0.8 --tip 0.2,0.1 --speed 3 --cushion mathavan --pocket 1:lt --via right" "--balls 0.4,1.7 --pocket 1:lt --aim 90" "--table threecushion --balls 0.4,1.7 --pocket 1:lt" "--ball-speed 1 --elevation 5" "--table attic" \
   "--balls 0.5,1.6:8=0.55,1.2 --cue 0.6,0.8 --at-ball 1" "--balls 0.5,1.6 --cue 0.6,0.8 --at-ball 1 --speed 0.2" "--balls 0.6,1.1 --cue 0.6,0.8 --at-ball 1 --elevation 30 --speed 4 --tip-time 0.0006" \
-  "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--to 4d" "--to foot-left --aim 20" "--cue 0.6,0.8 --to 0.6,0.81" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
+  "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--to 4d" "--to frozen-left,4d" "--balls frozen-1" "--balls frozen-2,0:2=0.6,1.2" "--balls frozen-left,40degrees" "--cue frozen-1,0" "--to foot-left --aim 20" "--cue 0.6,0.8 --to 0.6,0.81" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
   # shellcheck disable=SC2086
   try carom shoot -o refused.txt $words
 done
