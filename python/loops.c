@@ -148,6 +148,114 @@ void carom_python_judge(const carom_plan_rules *rules, size_t n, const int8_t *s
   }
 }
 
+/* ---- Games for agents ------------------------------------------------------------------------ */
+
+static double within(double x) {
+  return x < -1.0 ? -1.0 : x > 1.0 ? 1.0 : x;
+}
+
+bool carom_python_cues(const carom_python_game *game, size_t n, const double *actions, size_t acts,
+                       const uint64_t *seeds, carom_cue *cues) {
+  const carom_player *player = &game->player;
+  const double least = player->speed_least, most = player->speed_most;
+  for (size_t k = 0; k < n; k++) {
+    const double *action = &actions[k * acts];
+    for (size_t i = 0; i < acts; i++)
+      if (!isfinite(action[i]))
+        return false;
+
+    // the stroke that is meant, then the one that is made
+    cues[k] = game->cue;
+    cues[k].phi = 180.0 * within(action[0]);
+    cues[k].speed = least + (most - least) * (within(action[1]) + 1.0) / 2.0;
+    cues[k].a = player->tip_most * within(action[2]);
+    cues[k].b = player->tip_most * within(action[3]);
+    if (seeds != NULL)
+      carom_player_strike(player, seeds[k], 0, &cues[k]);
+  }
+  return true;
+}
+
+/* What a shot was by the rules, and the layout after it. */
+static void settle(const carom_python_game *game, const carom_shot_ball *before,
+                   const carom_shot *shot, int8_t status, carom_shot_ball *after,
+                   carom_python_stroke *stroke) {
+  const size_t count = (size_t)game->balls;
+  uint32_t in_play = 0;
+  bool failed = status < 0;
+  for (size_t i = 0; i < count; i++) {
+    const int64_t label = before[i].state.label;
+    in_play |= (uint32_t)(label != CAROM_BALL_POCKETED && label != CAROM_BALL_OFF) << i;
+    failed |= shot->final[i].label == CAROM_BALL_OFF;
+  }
+  carom_turn turn;
+  carom_python_judge(game->rules, 1, &status, shot->facts, &in_play, NULL, NULL, &turn);
+  *stroke = (carom_python_stroke){
+      .time = shot->time, .foul = turn.foul, .status = status, .cleared = true};
+
+  // A stroke that failed is taken back.
+  memcpy(after, before, count * sizeof *after);
+  for (size_t i = 0; i < count; i++) {
+    if (!failed)
+      after[i].state = shot->final[i];
+    const bool down = after[i].state.label == CAROM_BALL_POCKETED;
+    const bool falls = down && before[i].state.label != CAROM_BALL_POCKETED;
+    stroke->scratch |= i == 0 && falls;
+    stroke->potted += i > 0 && falls;
+    stroke->cleared &= i == 0 || down;
+  }
+  const bool points = game->table->pockets == 0;
+  stroke->reward = points ? turn.points : (double)stroke->potted - (turn.foul != 0);
+}
+
+carom_status carom_python_strokes(const carom_python_game *game, size_t begin, size_t n,
+                                  const carom_shot_ball *balls, size_t ball_stride,
+                                  const carom_cue *cues, size_t cue_stride, carom_shot_ball *after,
+                                  carom_python_stroke *strokes) {
+  const size_t count = (size_t)game->balls;
+  carom_shot *shots = calloc(n + 1, sizeof *shots);
+  carom_facts *facts = calloc(n + 1, sizeof *facts);
+  carom_ball_state *final = calloc(n * count + 1, sizeof *final);
+  int8_t *status = calloc(n + 1, sizeof *status);
+  carom_status code = CAROM_ERROR_NULL;
+  if (shots != NULL && facts != NULL && final != NULL && status != NULL) {
+    for (size_t k = 0; k < n; k++) {
+      shots[k].final = &final[k * count];
+      shots[k].facts = &facts[k];
+    }
+    balls += begin * ball_stride;
+    cues += begin * cue_stride;
+    code = carom_shoot_batch(&(carom_shot_job){.table = game->table,
+                                               .balls = balls,
+                                               .cues = cues,
+                                               .count = game->balls,
+                                               .ball_stride = ball_stride,
+                                               .cue_stride = cue_stride,
+                                               .n = n,
+                                               .options = game->options,
+                                               .shots = shots,
+                                               .status = status});
+    for (size_t k = 0; k < n; k++)
+      settle(game, &balls[k * ball_stride], &shots[k], status[k], &after[(begin + k) * count],
+             &strokes[begin + k]);
+  }
+  free(shots);
+  free(facts);
+  free(final);
+  free(status);
+  return code;
+}
+
+void carom_python_seen(const carom_shot_ball *balls, size_t n, size_t count, double *seen) {
+  for (size_t k = 0; k < n; k++, seen++)
+    for (size_t i = 0; i < count; i++, balls++, seen += 3) {
+      const bool down = balls->state.label == CAROM_BALL_POCKETED;
+      seen[0] = down ? 0.0 : balls->state.r[0];
+      seen[1] = down ? 0.0 : balls->state.r[1];
+      seen[2] = !down;
+    }
+}
+
 /* ---- Pieces of a track --------------------------------------------------------------------------
  *
  * Dynamic programming. For each end j the beginning i goes back from it, and sums over the

@@ -3,6 +3,7 @@
 #define CAROM_PYTHON_LOOPS_H
 
 #include <carom_plan.h>
+#include <stdbool.h>
 
 /* mu[k] = carom_mu_ball(&in[k], law), k = 0 ... n - 1. */
 void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law, double *mu);
@@ -20,6 +21,46 @@ carom_status carom_python_orientations(const carom_shot_ball *balls, int count,
 void carom_python_judge(const carom_plan_rules *rules, size_t n, const int8_t *status,
                         const carom_facts *facts, const uint32_t *in_play, const carom_call *calls,
                         uint64_t *users, carom_turn *turns);
+
+/* How the strokes of carom.potting are played, and by which rules of the library. */
+typedef struct carom_python_game {
+  const carom_table *table;
+  const carom_shot_options *options;
+  const carom_plan_rules *rules;
+  carom_cue cue; /* of all strokes, but for direction, speed and tip */
+  carom_player
+      player;    /* the errors, and the bounds of speed and tip that actions of -1 and 1 are */
+  int32_t balls; /* of a layout, the cue ball among them */
+} carom_python_game;
+
+/* What a stroke was: `potted` and `scratch` are the balls and the cue ball that fell in it. */
+typedef struct carom_python_stroke {
+  double reward; /* `potted`, less 1 for a foul; without pockets the points */
+  double time;   /* how long the balls moved, s */
+  int64_t potted;
+  int32_t foul;  /* a carom_foul */
+  int8_t status; /* a carom_status */
+  bool scratch;
+  bool cleared; /* whether all balls but the cue ball are down after it */
+} carom_python_stroke;
+
+/* The strokes of n actions of `acts` numbers each, at least 4, of which what is beyond -1 to 1 counts as
+ * the bound; with seeds each errs as the player does. Returns whether all numbers are finite. */
+bool carom_python_cues(const carom_python_game *game, size_t n, const double *actions, size_t acts,
+                       const uint64_t *seeds, carom_cue *cues);
+
+/* Plays the strokes `begin` up to, without it, begin + n, and judges them. Stroke k is of
+ * balls[k * ball_stride ...] and cues[k * cue_stride]. after[k * balls ...] becomes the layout after it:
+ * that before it, where it ended in an error or a ball left the table. Returns what
+ * carom_shoot_batch() does, or CAROM_ERROR_NULL without memory. */
+carom_status carom_python_strokes(const carom_python_game *game, size_t begin, size_t n,
+                                  const carom_shot_ball *balls, size_t ball_stride,
+                                  const carom_cue *cues, size_t cue_stride, carom_shot_ball *after,
+                                  carom_python_stroke *strokes);
+
+/* What agents see of n layouts of `count` balls: seen[(3 count + 1) k + 3 i ...] become x, y (m) and 1
+ * of ball i of layout k, or 0, 0, 0 of one that is down. The last number of a layout is not written. */
+void carom_python_seen(const carom_shot_ball *balls, size_t n, size_t count, double *seen);
 
 /* Looks at the shots of a job, each of which has been played. A shot of which not all events
  * were kept in full is played again, which has the same bits. `states`, (n, times, count), and

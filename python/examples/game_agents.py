@@ -9,7 +9,7 @@ planner does, and knows how strokes err.
 All begin each game with the same layout. What is printed is a table: the mean of the returns with its 95 % interval, and in how many games the agent
 did all that can be done: it potted all balls without a foul, scored with every stroke, or won. `--game all` plays the suite.
 
-    python game_agents.py --game carom/RunOutSix-v0 --games 400 --plans 300,2000
+    python game_agents.py --game carom/RunOutSix-v1 --games 400 --plans 300,2000
 """
 
 from __future__ import annotations
@@ -136,7 +136,7 @@ def score(returns: Doubles, most: int) -> str:
 def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
     """Plays, prints, writes the picture; gives the returns of each agent in the last game, of shape (games,)."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--game", default="carom/RunOutSix-v0", choices=["all", *carom.gymnasium.GAMES])
+    parser.add_argument("--game", default="carom/RunOutSix-v1", choices=["all", *carom.gymnasium.GAMES])
     parser.add_argument("--games", type=int, default=100)
     parser.add_argument("--balls", type=int, help="instead of the game's own")
     parser.add_argument("--strokes", type=int, help="instead of the game's own")
@@ -148,7 +148,7 @@ def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
     own = {name: getattr(given, name) for name in ("balls", "strokes") if getattr(given, name) is not None}
     agents = {"random": random_agent(given.seed), "greedy": greedy_agent}
     agents |= {f"plan of {shots} shots": planner(int(shots)) for shots in filter(None, given.plans.split(","))}
-    games = [name for name in carom.gymnasium.GAMES if name != "carom/Potting-v0"] if given.game == "all" else [given.game]
+    games = [name for name in carom.gymnasium.GAMES if name != "carom/Potting-v1"] if given.game == "all" else [given.game]
     found: dict[str, Doubles] = {}
     cells: dict[str, list[str]] = {name: [name] for name in agents}
     for game in games:

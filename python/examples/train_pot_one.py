@@ -1,4 +1,4 @@
-"""PPO of stable_baselines3 learns carom/PotOne-v0: to pot one ball with one stroke, which errs.
+"""PPO of stable_baselines3 learns carom/PotOne-v1: to pot one ball with one stroke, which errs.
 
 It sees the pot that is easiest by geometry. Its action corrects the aim at the ghost ball, by up to 10 degrees of the object ball's
 direction, and sets speed and tip: it learns throw, speed, and not to scratch. The curve is the mean return of 2,000 layouts that are not
@@ -23,7 +23,7 @@ from stable_baselines3.common.vec_env import VecEnv
 import carom.gymnasium
 
 Doubles = npt.NDArray[np.float64]
-GAME, SEED, MOST = "carom/PotOne-v0", 1, np.radians(10.0)
+GAME, SEED, MOST = "carom/PotOne-v1", 1, np.radians(10.0)
 RULES: Any = carom.gymnasium.GameEnv(**carom.gymnasium.GAMES[GAME]).rules
 POCKETS = RULES.table.pockets["centre"]
 SIDE = np.abs(POCKETS[:, 1] - RULES.table.length / 2.0) < 0.1
@@ -109,5 +109,5 @@ for name, agent in (agents | {"plan of 2000 shots": game_agents.planner(2000)}).
         plt.text(0.0, float(returns.mean()), name, verticalalignment="bottom")
 plt.plot(np.array(curve)[:, 0] / 1e6, np.array(curve)[:, 2])
 plt.xlabel("strokes of training, millions")
-plt.ylabel("mean return of carom/PotOne-v0")
+plt.ylabel("mean return of carom/PotOne-v1")
 plt.savefig(out)

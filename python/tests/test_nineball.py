@@ -231,7 +231,7 @@ def test_the_planner_is_an_opponent():
             ended = game.terminations[agent] or game.truncations[agent]
             if agent == "player_0" and not ended:
                 chosen = game.rules.best(game.position, shots=200, seed=game.position.strokes)
-                assert chosen.shape == (6,) and game.action_space(agent).contains(chosen)
+                assert chosen.shape == (6,) and game.action_space(agent).contains(chosen.astype(np.float32))
             else:
                 chosen = game.action_space(agent).sample()
             game.step(None if ended else chosen)

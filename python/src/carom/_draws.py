@@ -61,7 +61,8 @@ class Draws:
         numbers: dtypes.Doubles = np.multiply(z, 2.0**-53, dtype=np.float64)
         return numbers.reshape(len(games), *shape)
 
-    def normal(self, games: Games, many: int) -> dtypes.Doubles:
-        """Standard normal numbers, of shape (len(games), many), by Box and Muller's method."""
-        u = self.uniform(games, 2, many)
-        return np.asarray(np.sqrt(-2.0 * np.log1p(-u[:, 0])) * np.cos(2.0 * np.pi * u[:, 1]))
+    def seeds(self, games: Games) -> npt.NDArray[np.uint64]:
+        """A seed of each game, for what draws its own numbers."""
+        seeds: npt.NDArray[np.uint64] = self._at[games]
+        self._at[games] = seeds + _steps(1)
+        return seeds

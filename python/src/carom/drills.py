@@ -11,8 +11,7 @@ from carom import dtypes, plans, racks
 from carom._draws import Draws, Games
 from carom._rows import listing
 from carom.layouts import Game
-from carom.potting import Potting, Strokes
-from carom.results import Shot
+from carom.potting import Potting
 from carom.rules import Game as RulesGame
 
 __dir__ = listing(__name__)
@@ -30,9 +29,6 @@ class ThreeCushion(Potting):
 
     def __init__(self, strokes: int = 10, *, ball_set: Game = "billiard", **options: Any) -> None:
         super().__init__(2, strokes, ball_set=ball_set, **options)
-
-    def _rewards(self, potted: npt.NDArray[np.int64], turns: dtypes.Records) -> dtypes.Doubles:
-        return np.array(turns["points"], np.float64)
 
 
 class Break(Potting):
@@ -69,12 +65,6 @@ class Break(Potting):
         laid = np.broadcast_to(balls, (*np.broadcast_shapes(balls.shape[:-1], given.shape[:-1]), balls.shape[-1])).copy()
         laid["state"]["r"][..., 0, :2] = low + (high - low) * (np.clip(given[..., 4:], -1.0, 1.0) + 1.0) / 2.0
         return laid
-
-    def play(self, balls: dtypes.Records, actions: npt.ArrayLike) -> Strokes:
-        return super().play(self.placed(balls, actions), actions)
-
-    def shot(self, balls: dtypes.Records, action: npt.ArrayLike | None) -> Shot:
-        return super().shot(balls if action is None else self.placed(balls, action), action)
 
     def best(self, balls: dtypes.Records, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
         """The action, of shape (6,), of the planner, which wants to win the game of nine-ball against a player with the same errors."""

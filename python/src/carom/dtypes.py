@@ -38,6 +38,8 @@ def _dtype(ctype: Any) -> np.dtype[Any]:
         return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(ctype)})
     if ctype.kind == "pointer":
         return np.dtype(np.uintp)
+    if ctype.cname == "_Bool":
+        return np.dtype(np.bool_)
     letter = "f" if ctype.cname in ("double", "float") else "u" if ctype.cname.startswith("u") else "i"
     return np.dtype(f"{letter}{ffi.sizeof(ctype)}")
 

@@ -3,8 +3,8 @@
     import gymnasium
     import carom.gymnasium
 
-    game = gymnasium.make("carom/RunOutSix-v0", render_mode="svg")
-    games = gymnasium.make_vec("carom/Potting-v0", num_envs=64, cushion_model="han", threads=-1)
+    game = gymnasium.make("carom/RunOutSix-v1", render_mode="svg")
+    games = gymnasium.make_vec("carom/Potting-v1", num_envs=64, cushion_model="han", threads=-1)
 
 `GAMES` has the ids. What an id with a version gives for an action and a seed changes only with `carom.physics_revision()`; other rules get another version.
 
@@ -69,7 +69,7 @@ class _Games:
         self.render_mode = render_mode
         self.drawn = render_mode is not None
         self.before = self.balls.copy()
-        self.actions: dtypes.Doubles = np.zeros((games, rules.acts))
+        self.cues: dtypes.Records = np.zeros(games, dtypes.cue)
         self.struck: _Bools = np.zeros(games, np.bool_)
 
     def begin(self, games: Games, layouts: Sequence[Any] | None = None, strokes: int | None = None) -> None:
@@ -96,13 +96,13 @@ class _Games:
         which: Any = slice(None) if everyone else games
         before = self.balls if everyone else raw(self.balls)[games].view(dtypes.shot_ball)
         words = self.words[which]
-        struck, done, strokes, ended = self.rules.turn(before, words, actions, self.draws, games)
+        struck, cues, strokes, ended = self.rules.turn(before, words, actions, self.draws, games)
         self.left[which] -= 1
         self.ended[which] = ended | (self.left[which] <= 0)
         self.words[which] = words
         if self.drawn:
             raw(self.before)[which] = raw(struck)
-            self.actions[which], self.struck[which] = done, True
+            self.cues[which], self.struck[which] = cues, True
         if everyone:
             self.balls = strokes.layouts
         else:
@@ -116,13 +116,13 @@ class _Games:
         """The picture of one game: its balls and the paths of its last stroke."""
         if self.render_mode is None:
             return None
-        return pictures.rendered(self.rules.shot(self.before[game], self.actions[game] if self.struck[game] else None), self.render_mode)
+        return pictures.rendered(self.rules.shot(self.before[game], self.cues[game] if self.struck[game] else None), self.render_mode)
 
 
 def _spaces(rules: Rules) -> tuple[Any, Any]:
-    """Of one game: that of observations, that of actions. Versions of gymnasium differ in what type a Box has."""
+    """Of one game: that of observations, and that of actions in single precision, as libraries of policies want them."""
     low, high = rules.bounds()
-    return spaces.Box(low, high, dtype=np.float64), spaces.Box(-1.0, 1.0, (rules.acts,), dtype=np.float64)
+    return spaces.Box(low, high, dtype=np.float64), spaces.Box(-1.0, 1.0, (rules.acts,), dtype=np.float32)
 
 
 def _rules(game: str, rules: dict[str, Any]) -> Rules:
@@ -259,13 +259,13 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
 
 _ERRORS = (0.2, 0.2, 0.006)  # degrees, m/s and radii: those of carom.player(fargo=600)
 GAMES: dict[str, dict[str, Any]] = {
-    "carom/Potting-v0": {},
-    "carom/PotOne-v0": {"balls": 1, "strokes": 1, "noise": _ERRORS},
-    "carom/RunOutSix-v0": {"balls": 6, "strokes": 6, "noise": _ERRORS},
-    "carom/ThreeCushion-v0": {"game": "threecushion", "strokes": 10, "noise": _ERRORS},
-    "carom/Break-v0": {"game": "break", "noise": _ERRORS},
-    "carom/NineBall-v0": {"game": "nineball", "strokes": 60, "noise": _ERRORS},
-    "carom/EightBall-v0": {"game": "eightball", "strokes": 60, "noise": _ERRORS},
+    "carom/Potting-v1": {},
+    "carom/PotOne-v1": {"balls": 1, "strokes": 1, "noise": _ERRORS},
+    "carom/RunOutSix-v1": {"balls": 6, "strokes": 6, "noise": _ERRORS},
+    "carom/ThreeCushion-v1": {"game": "threecushion", "strokes": 10, "noise": _ERRORS},
+    "carom/Break-v1": {"game": "break", "noise": _ERRORS},
+    "carom/NineBall-v1": {"game": "nineball", "strokes": 60, "noise": _ERRORS},
+    "carom/EightBall-v1": {"game": "eightball", "strokes": 60, "noise": _ERRORS},
 }
 """The ids, and the arguments of `GameEnv` that they have. But in the first, strokes err as those of a player with a Fargo rating of 600; the opponent
 of the last two is the planner with 300 shots and the errors of a 500."""

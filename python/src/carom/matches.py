@@ -78,17 +78,16 @@ class Match:
     def turn(self, balls: dtypes.Records, words: npt.NDArray[np.uint64], actions: npt.ArrayLike, draws: Draws, games: Games) -> Turned:
         """A stroke of the agent and the visit of the opponent, in each of some games. `words` is written to."""
         given = np.asarray(actions, np.float64)
-        struck, after, done = balls.copy(), balls.copy(), given.copy()
         n = len(games)
+        struck, after, cues = balls.copy(), balls.copy(), np.zeros(n, dtypes.cue)
         strokes = Strokes(
-            after, np.zeros(n), np.zeros(n, np.int64), np.zeros(n, np.bool_), np.zeros(n, np.int32), np.zeros(n, np.int8), np.zeros(n)
+            after, np.zeros(n), np.zeros(n, np.int64), np.zeros(n, np.bool_), np.zeros(n, np.int32), np.zeros(n, np.int8), np.zeros(n), np.zeros(n, np.bool_)
         )  # fmt: skip
         ended = np.zeros(n, np.bool_)
         for k, game in enumerate(games.tolist()):
             before = Position(balls[k], 0, Hand(int(words[k, 8])), words[k, :8].copy(), 0, None, draws.of(game))
             position, turn = self.pool.play(before, given[k])
-            cue: Any = turn.shot.cue
-            struck[k], done[k, :4] = turn.shot.balls, self.pool.base.actions(cue["phi"], cue["speed"], cue["a"], cue["b"])
+            struck[k], cues[k] = turn.shot.balls, turn.shot.cue
             strokes.potted[k], strokes.scratch[k], strokes.foul[k] = len(turn.potted), turn.shot.final["label"][0] == Label.POCKETED, turn.code
             strokes.status[k], strokes.time[k] = int(turn.shot.status), turn.shot.time
             position = self._visit(position)
@@ -96,7 +95,7 @@ class Match:
             draws.keep(game, position.draws)
             ended[k] = position.winner is not None
             strokes.rewards[k] = {None: 0.0, 0: 1.0}.get(position.winner, -1.0)
-        return Turned(struck, done, strokes, ended)
+        return Turned(struck, cues, strokes, ended)
 
     def _visit(self, position: Position) -> Position:
         """The position when the agent plays again, or the game has ended."""
@@ -110,9 +109,9 @@ class Match:
             position, _ = self.pool.struck(replace(position, balls=laid), stroke, (int(found["ball"]), int(found["pocket"])))
         return position
 
-    def shot(self, balls: dtypes.Records, action: npt.ArrayLike | None) -> Shot:
-        """A stroke of the agent with its events, for looking at; without an action the balls lie still."""
-        return self.pool.base.shot(balls, None if action is None else np.asarray(action, np.float64)[:4])
+    def shot(self, balls: dtypes.Records, cue: dtypes.Records | None) -> Shot:
+        """A stroke of the agent with its events, for looking at; without a cue the balls lie still."""
+        return self.pool.base.shot(balls, cue)
 
     def best_seen(self, observation: npt.ArrayLike, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
         """The action, of shape (6,), of the library's planner for an observation."""

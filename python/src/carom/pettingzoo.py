@@ -43,7 +43,7 @@ class PoolEnv(AECEnv):
     touched first, 0 for none), potted (a list), hand.
     """
 
-    metadata: dict[str, Any] = {"name": "carom_pool_v1", "render_modes": list(pictures.RENDER_MODES), "render_fps": 1, "is_parallelizable": False}
+    metadata: dict[str, Any] = {"name": "carom_pool_v2", "render_modes": list(pictures.RENDER_MODES), "render_fps": 1, "is_parallelizable": False}
 
     def __init__(self, game: Literal["nineball", "eightball"] = "nineball", strokes: int = 200, *, render_mode: Literal["svg", "rgb_array"] | None = None, **options: Any) -> None:
         super().__init__()
@@ -54,7 +54,7 @@ class PoolEnv(AECEnv):
         self.possible_agents = list(_PLAYERS)
         low, high = self.rules.bounds()
         self._observed = {agent: spaces.Box(low, high, dtype=np.float64) for agent in _PLAYERS}
-        self._acted = {agent: spaces.Box(-1.0, 1.0, (6,), dtype=np.float64) for agent in _PLAYERS}
+        self._acted = {agent: spaces.Box(-1.0, 1.0, (6,), dtype=np.float32) for agent in _PLAYERS}
         self._generator = seeding.np_random()[0]
 
     def observation_space(self, agent: str) -> Any:

@@ -173,7 +173,7 @@ class Pool:
         if self.game == "eightball":
             meant = self._played(balls[np.newaxis], self.base.cues(given[np.newaxis, :4]))
             call = tuple(calls_of(Made(self.game, position.state), balls, meant)[0].tolist())
-        done = self.base.cues(self.base.disturbed(given[np.newaxis, :4], draws, _ONE)[0])
+        done = self.base.cues(given[:4], draws.seeds(_ONE) if any(self.base.noise) else None)
         return self.struck(replace(position, balls=balls, draws=draws), done, call)
 
     def struck(self, position: Position, cue: dtypes.Records, call: tuple[int, int] = (-1, -1)) -> tuple[Position, Turn]:

@@ -16,26 +16,24 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, layouts, plans, tables
+from carom._carom import ffi, lib
 from carom._draws import Draws as Draws
 from carom._draws import Games
-from carom._rows import Arrays, choice, copied, listing, number, raw, repeated, several, whole
+from carom._rows import Arrays, broadcast, choice, in_chunks, listing, number, one_or_all, pointer, raw, repeated, several, whole
 from carom._shot_options import Options, ShotCushion, shot_options
-from carom.layouts import Game, Table
+from carom.layouts import Game, Table, of_record
 from carom.results import Label, Shot
 from carom.rules import Game as RulesGame
-from carom.rules import Made, judge
-from carom.shots import simulate, simulate_batch
+from carom.rules import Made
+from carom.shots import simulate
+from carom.status import CaromError
 
 __dir__ = listing(__name__)
 
 _GAP = 1e-3  # m, the least distance between balls that are placed
 _TRIES = 10_000
-_STATIONARY, _POCKETED, _OFF = int(Label.STATIONARY), int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
-
-
-def _within(actions: dtypes.Doubles) -> dtypes.Doubles:
-    """Actions, with the bounds for what is beyond."""
-    return np.asarray(np.minimum(np.maximum(actions, -1.0), 1.0))
+_STATIONARY, _POCKETED = int(Label.STATIONARY), int(Label.POCKETED)  # with which NumPy compares in half the time
+_STROKE = dtypes._record("carom_python_stroke")
 
 
 @dataclass(frozen=True, repr=False)
@@ -51,13 +49,14 @@ class Strokes(Arrays):
     # they were.
     status: npt.NDArray[np.int8]
     time: dtypes.Doubles  # (...): How long the balls moved, s
+    cleared: npt.NDArray[np.bool_]  # (...): Whether all balls but the cue ball are down
 
 
 class Turned(NamedTuple):
     """What a stroke of each of some games was, for the environments."""
 
     struck: dtypes.Records  # (..., balls + 1): The layouts as they were struck
-    actions: dtypes.Doubles  # (..., acts): What was struck: the actions with the noise
+    cues: dtypes.Records  # (...): The strikes, with the noise
     strokes: Strokes
     ended: npt.NDArray[np.bool_]  # (...): Whether the game is over, whatever strokes are left
 
@@ -124,7 +123,6 @@ class Potting:
         if reward is not None and not callable(reward):
             raise TypeError(f"reward: a function of the layouts and what the strokes gave is needed, not {reward!r}")
         choice(layouts.GAMES, ball_set, "ball_set")
-        shot_options(Options(cushion_model=cushion_model), threads)  # raises where one of them is wrong
         pockets = self._game != "threecushion"
         usual = tables.snooker if "snooker" in ball_set else tables.pool_9ft if pockets else tables.threecushion
         self.table = usual() if table is None else table
@@ -144,11 +142,8 @@ class Potting:
         self.cushion_model: ShotCushion = cushion_model
         self.threads = threads
         self.reward = reward
-        # Of an action, whose numbers are -1 to 1.
-        self._noise = np.array([noise[0] / 180.0, 2.0 * noise[1] / max(speeds[1] - speeds[0], 1e-12), noise[2] / 0.35, noise[2] / 0.35])
         self.noise = noise
         self._rules = Made(self._game, self._state)
-        self._cue = layouts.cue().tobytes()
         ball = layouts.balls(np.zeros((1, 2)), game=ball_set)
         self._ball = ball.tobytes()
         self.radius = float(ball["kind"]["radius"][0])
@@ -158,6 +153,13 @@ class Potting:
         self._clear = (np.concatenate([self.table.pockets["radius"], self.table.jaws["radius"]]) + self.radius + _GAP) ** 2
         self._low = np.full(2, self.radius + _GAP)
         self._wide = (size - self._low) - self._low
+        # For C, with what it points to.
+        self._kept = (self.table.record, shot_options(Options(cushion_model=cushion_model), threads), layouts.cue(), self.player())
+        record, of_c, cue, player = self._kept
+        self._c = ffi.new("carom_python_game *", {
+            "table": pointer("carom_table[]", record), "options": of_c, "rules": self._rules.c, "cue": pointer("carom_cue[]", cue)[0],
+            "player": pointer("carom_player[]", player)[0], "balls": balls + 1,
+        })  # fmt: skip
         if not isinstance({} if parameters is None else parameters, Mapping):
             raise TypeError(f"parameters: bounds by the names of fields are needed, such as {{'mu_slide': (0.15, 0.25)}}, not {parameters!r}")
         self.parameters = dict({} if parameters is None else parameters)
@@ -183,18 +185,18 @@ class Potting:
         high = np.append(np.tile([self.table.width + beyond, self.table.length + beyond, 1.0], self.balls + 1), self.strokes)
         return low, high
 
-    def cues(self, actions: npt.ArrayLike) -> dtypes.Records:
-        """The strikes of actions, of shape (..., acts): `carom.dtypes.cue` of shape (...)."""
-        given = np.asarray(actions, dtype=np.float64)
-        if given.ndim == 0 or given.shape[-1] != self.acts or not np.isfinite(given).all():
-            raise ValueError(f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {given.shape}: {given}")
-        given = _within(given)
-        least, most = self.speeds
-        cues = repeated(self._cue, dtypes.cue, given.shape[:-1])
-        cues["phi"] = 180.0 * given[..., 0]
-        cues["speed"] = least + (most - least) * (given[..., 1] + 1.0) / 2.0
-        cues["a"], cues["b"] = 0.35 * given[..., 2], 0.35 * given[..., 3]
-        return cues
+    def cues(self, actions: npt.ArrayLike, seeds: npt.NDArray[np.uint64] | None = None) -> dtypes.Records:
+        """The strikes of actions, of shape (..., acts): `carom.dtypes.cue` of shape (...).
+
+        With seeds, of shape (...), they err by the noise, as `carom.with_errors` has it.
+        """
+        given = np.ascontiguousarray(actions, dtype=np.float64)
+        if given.shape[-1] == self.acts:
+            cues: dtypes.Records = np.empty(given.shape[:-1], dtypes.cue)
+            drawn = ffi.NULL if seeds is None else pointer("uint64_t[]", seeds)
+            if lib.carom_python_cues(self._c, cues.size, pointer("double[]", given), self.acts, drawn, pointer("carom_cue[]", cues)):
+                return cues
+        raise ValueError(f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {given.shape}: {given}")
 
     def actions(self, phi: npt.ArrayLike, speed: npt.ArrayLike, a: npt.ArrayLike = 0.0, b: npt.ArrayLike = 0.0) -> dtypes.Doubles:
         """The actions, of shape (..., 4), of directions (degrees), speeds (m/s) and places of the tip (radii), of shape (...)."""
@@ -208,12 +210,10 @@ class Potting:
 
     def observe(self, balls: dtypes.Records, strokes_left: npt.ArrayLike, words: object = None) -> dtypes.Doubles:
         """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) + 1)."""
-        seen = np.empty((*balls.shape[:-1], 3 * balls.shape[-1] + 1))
-        state = balls["state"]
-        down = state["label"] == _POCKETED
-        for k in range(2):
-            seen[..., k:-1:3] = np.where(down, 0.0, state["r"][..., k])
-        seen[..., 2:-1:3] = ~down
+        given = np.ascontiguousarray(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+        count = given.shape[-1]
+        seen = np.empty((*given.shape[:-1], 3 * count + 1))
+        lib.carom_python_seen(pointer("carom_shot_ball[]", given), given.size // count, count, pointer("double[]", seen))
         seen[..., -1] = strokes_left
         return seen
 
@@ -318,13 +318,9 @@ class Potting:
             clear &= (each > apart).all(axis=(-2, -1))
         return np.asarray(clear)
 
-    def disturbed(self, actions: npt.ArrayLike, draws: Draws, games: Games) -> dtypes.Doubles:
-        """The actions of some games, of shape (len(games), acts), as they are carried out: with the noise."""
-        given = _within(np.asarray(actions, dtype=np.float64))
-        if any(self.noise):
-            given[..., :4] += self._noise * draws.normal(games, 4)
-            given[..., 0] = (given[..., 0] + 1.0) % 2.0 - 1.0
-        return given
+    def placed(self, balls: dtypes.Records, actions: npt.ArrayLike) -> dtypes.Records:
+        """The layouts with what actions place: here nothing."""
+        return balls
 
     def play(self, balls: dtypes.Records, actions: npt.ArrayLike) -> Strokes:
         """Play strokes.
@@ -337,46 +333,40 @@ class Potting:
 
         Returns Strokes: Of the broadcast shape. Each stroke has the bits that it has alone.
         """
-        shots = simulate_batch(
-            self.table, balls, self.cues(actions), cushion_model=self.cushion_model, features=True, threads=self.threads
-        )
-        before = balls if balls.shape == shots.final.shape else np.broadcast_to(balls, shots.final.shape)
-        turns = judge(self._rules, before, shots)
-        failed = (shots.status < 0) | (shots.final["label"] == _OFF).any(axis=-1)
-        after = copied(before)
-        raw(after["state"])[...] = raw(shots.final)
-        if failed.any():
-            after[failed] = before[failed]
-        down = (after["state"]["label"] == _POCKETED) & (before["state"]["label"] != _POCKETED)
-        potted, scratch = down[..., 1:].sum(axis=-1), down[..., 0]
-        rewards = self._rewards(potted, turns)
-        strokes = Strokes(after, rewards, potted, scratch, turns["foul"], shots.status, shots.time)
-        if self.reward is not None:
-            own = np.asarray(self.reward(before, strokes), dtype=np.float64)
-            strokes = replace(strokes, rewards=np.broadcast_to(own, rewards.shape).copy())
-        return strokes
+        laid = of_record(balls, dtypes.shot_ball, "balls", "balls()")
+        return self._played(self.placed(laid, actions), self.cues(actions))
 
-    def _rewards(self, potted: npt.NDArray[np.int64], turns: dtypes.Records) -> dtypes.Doubles:
-        return np.asarray(potted - 1.0 * (turns["foul"] != 0))
+    def _played(self, balls: dtypes.Records, cues: dtypes.Records) -> Strokes:
+        """Strikes from layouts, which are broadcast against each other."""
+        shape = cues.shape if balls.shape[:-1] == cues.shape else broadcast({"balls": balls.shape[:-1], "actions": cues.shape})
+        lead, count = len(shape), balls.shape[-1]
+        if count != self.balls + 1:
+            raise ValueError(f"balls: the shape must be (..., {self.balls + 1}), not {balls.shape}")
+        before, one = one_or_all(balls, (*shape, count), lead)
+        strikes, one_cue = one_or_all(cues, shape, lead)
+        after, made = np.empty((*shape, count), dtypes.shot_ball), np.empty(shape, _STROKE)
+        given = (pointer("carom_shot_ball[]", before), 0 if one else count, pointer("carom_cue[]", strikes), 0 if one_cue else 1)
+        written = (pointer("carom_shot_ball[]", after), pointer("carom_python_stroke[]", made))
+        code = in_chunks(made.size, 5e-5, self.threads, lambda begin, many: int(lib.carom_python_strokes(self._c, begin, many, *given, *written)))
+        if code < 0 and not (made["status"] < 0).any():
+            raise CaromError(code, "table")
+        strokes = Strokes(after, made["reward"], made["potted"], made["scratch"], made["foul"], made["status"], made["time"], made["cleared"])
+        if self.reward is not None:
+            own = np.asarray(self.reward(np.broadcast_to(balls, after.shape), strokes), dtype=np.float64)
+            strokes = replace(strokes, rewards=np.broadcast_to(own, shape).copy())
+        return strokes
 
     def turn(self, balls: dtypes.Records, words: npt.NDArray[np.uint64], actions: npt.ArrayLike, draws: Draws, games: Games) -> Turned:
         """One stroke of each of some games with their noise, of which a cue ball that fell lies on the table again. `words` is written to."""
-        done = self.disturbed(actions, draws, games)
-        strokes = self.play(balls, done)
-        ended = self.ended(strokes.layouts, 1)
-        back = np.flatnonzero(strokes.scratch)
-        if len(back):
-            again = strokes.layouts[back]
+        struck, cues = self.placed(balls, actions), self.cues(actions, draws.seeds(games) if any(self.noise) else None)
+        strokes = self._played(struck, cues)
+        if np.count_nonzero(strokes.scratch):
+            back = np.flatnonzero(strokes.scratch)
+            again = raw(strokes.layouts)[back].view(dtypes.shot_ball)
             self.put_back(again, draws, games[back])
-            strokes.layouts[back] = again
-        return Turned(balls, done, strokes, ended)
+            raw(strokes.layouts)[back] = raw(again)
+        return Turned(struck, cues, strokes, strokes.cleared)
 
-    def ended(self, balls: dtypes.Records, strokes_left: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Whether games have ended: layouts of shape (..., balls + 1) to (...)."""
-        all_down = (balls["state"]["label"][..., 1:] == _POCKETED).all(axis=-1)
-        return np.asarray(all_down | (np.asarray(strokes_left) <= 0))
-
-    def shot(self, balls: dtypes.Records, action: npt.ArrayLike | None) -> Shot:
-        """One stroke with its events, for looking at; without an action the balls lie still."""
-        cue = None if action is None else self.cues(action)
+    def shot(self, balls: dtypes.Records, cue: dtypes.Records | None) -> Shot:
+        """One stroke with its events, for looking at; without a cue the balls lie still."""
         return simulate(self.table, balls, cue, cushion_model=self.cushion_model)
