@@ -3,6 +3,7 @@
 import concurrent.futures
 import functools
 import importlib
+import inspect
 import json
 import multiprocessing
 import os
@@ -121,6 +122,15 @@ def test_tab_completion_shows_what_a_module_offers():
         shown = {name for name in dir(module) if name[0] != "_"}
         assert shown and not shown & {"np", "npt", "ffi", "lib", "annotations", "Any", "Literal", "dataclass", "Array", "pointer"}, module
         assert set(getattr(module, "__all__", ())) <= shown | {"__version__"}, module
+
+
+def test_the_package_shows_what_it_offers_and_short_signatures():
+    """help() of a call has its options by name; those that are the usual ones are not spelt out."""
+    assert dir(carom) == sorted(carom.__all__)
+    assert "options: 'Options' = Options(), **changes" in str(inspect.signature(carom.simulate))
+    usual = carom.Options()
+    assert repr(usual) == "Options()" and repr(carom.Options("pooltool", stop_at=("contact",))) == "Options(world='pooltool', stop_at=('contact',))"
+    assert eval(repr(usual), {"Options": carom.Options}) == usual
 
 
 def test_racks_and_tables_are_those_of_the_library():

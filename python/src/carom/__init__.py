@@ -27,6 +27,7 @@ from carom.status import CaromError, Status
 for _name in ("collisions", "cushions", "derivatives", "dtypes", "layouts", "plans", "racks", "results", "rules", "shots", "status", "tables"):
     setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))
 
+__dir__ = _listing(__name__)
 __version__: str = _ffi.string(_lib.carom_version()).decode()
 
 __all__ = [

@@ -27,6 +27,11 @@ _STOPS = {"contact": 0, **numbered("carom_event_type")}
 class Options(ShotOptions):
     __slots__ = ()
 
+    def __repr__(self) -> str:
+        """What differs from the defaults, which keeps signatures short."""
+        others = [f"{name}={value!r}" for name, value in zip(self._fields, self, strict=True) if value != self._field_defaults[name]]
+        return f"Options({', '.join(others)})"
+
     def changed(self, changes: Any) -> Options:
         """These options but for some, by their names."""
         unknown = changes.keys() - set(self._fields)
