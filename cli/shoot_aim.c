@@ -156,7 +156,12 @@ static void complain_of(const char *pocket, const char *via, const layout *l, co
   bool twice = other == 0 || other == pot->ball;
   for (int k = 0; k < pot->vias; k++)
     twice |= pot->via[k].kind == CAROM_PART_BALL && pot->via[k].index == other;
-  if (pot->is == CAROM_POT_NO_WAY)
+  if (pot->is == CAROM_POT_STICK)
+    snprintf(why, sizeof why,
+             "the stick would be raised by %.4g degrees over what is behind the cue ball, and "
+             "nobody plays above 60; give a higher --tip",
+             pot->elevation);
+  else if (pot->is == CAROM_POT_NO_WAY)
     snprintf(why, sizeof why, "no direction of the cue sends the ball %s", what);
   else if (pot->is == CAROM_POT_SHORT)
     snprintf(why, sizeof why,
@@ -193,27 +198,32 @@ bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
              pot.ball < 0 ? did_you_mean(ball, balls, hint) : did_you_mean(name, known, hint));
   else if (!read_via(l, via, &pot))
     return false;
-  else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK)
+  else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK) {
+    cue->theta = isnan(cue->theta) ? 0.0 : cue->theta;
     good = true; /* which is told when it is played */
-  else if (pot.is != CAROM_POT_FALLS) {
+  } else if (pot.is != CAROM_POT_FALLS) {
     *l->missed = true;
     if (!l->quiet)
       complain_of(pocket, via, l, &pot, cue->speed);
   } else {
-    char margin[80] = "the ball touches a jaw";
+    char margin[80] = "the ball touches a jaw", raise[96] = "";
     say_way(l, &pot, by);
     if (pot.margin > 0.0)
       snprintf(margin, sizeof margin, "the ball's way may turn by %.2f degrees to either jaw",
                pot.margin);
+    if (cue->theta < pot.elevation)
+      snprintf(raise, sizeof raise,
+               "stick  meets a cushion or a ball: this needs %.1f degrees, --elevation least\n",
+               pot.elevation);
     good =
         snprintf(
             told, AIMED_TEXT,
             "aim    %s to the %s pocket%s: cut %.1f degrees to the %s; %s\n       falls with aims "
             "of %.2f to %.2f degrees at this speed, and with %.3g to %.3g m/s of the cue at this "
-            "aim\n",
+            "aim\n%s",
             l->name[pot.ball], carom_pocket_name(&l->table, pot.pocket), by, fabs(pot.cut),
             pot.cut < 0.0 ? "right" : "left", margin, pot.phi[0], pot.phi[1], pot.speed[0],
-            pot.speed[1]) > 0;
+            pot.speed[1], raise) > 0;
   }
   return good;
 }

@@ -82,8 +82,10 @@ ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "positive, as english is everywhere in this command (default 0,0.25). Beyond 0.5 R a chalked "
     "tip "
     "slips off the ball, of which carom warns");
-ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ANGLE,
-    "of the butt of the cue (default 0)");
+ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
+    "of the butt of the cue (default 0). With --pocket also least: as little as the stick needs "
+    "over "
+    "the cushions and balls behind the cue ball");
 ROW(option_tip_time, "tip-time", tip_time, "SECONDS", set_number, 0,
     "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.002, of "
     "leather; of hard resin, which lets balls jump: 0.0006). -1: no time");
@@ -256,7 +258,8 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
   carom_motion after;
   cue.speed = speeds->at[speed].x;
   cue.phi = 0.0;
-  cue.theta = f->elevation.at[rise].x;
+  const bool least = isnan(f->elevation.at[rise].x);
+  cue.theta = least ? 0.0 : f->elevation.at[rise].x;
   cue.tip_time = f->tip_time;
   if (f->tip_restitution != 0.0)
     cue.tip_restitution = f->tip_restitution;
@@ -264,6 +267,10 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
   cue.b = tip_of(&f->tip.at[tip].y, R);
   if (!(cue.speed > 0.0)) {
     complain("--%s is above 0", f->ball_speed.count > 0 ? "ball-speed" : "speed");
+    return false;
+  }
+  if (least && f->pocket == NULL) {
+    complain("--elevation least is of a pot that is aimed: give --pocket");
     return false;
   }
   /* Whether there is such a strike. */
@@ -279,6 +286,7 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
     return false;
   char told[AIMED_TEXT] = "";
   if (f->pocket != NULL) {
+    cue.theta = least ? (double)NAN : cue.theta;
     if (!aim_at_pocket(f->pocket, f->via, l, options, &cue, told))
       return false;
     if (f->written < MOST_SHOTS)
@@ -374,7 +382,7 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
     return false;
   }
   if (f->elevation.count == 0)
-    values_default(&f->elevation, MEASURE_ANGLE, "0");
+    values_default(&f->elevation, MEASURE_ELEVATION, "0");
   if (f->tip.count == 0)
     f->tip = (place_list){.count = 1, .at = {{.y = {.x = 0.25}}}};
   if (f->shared.strict &&

@@ -42,6 +42,8 @@ static const struct {
     {MEASURE_CUT, "\u00b0", "degrees", 1.0, FIXED},
     {MEASURE_ANGLE, "deg", "degrees", 1.0, FIXED},
     {MEASURE_ANGLE, "\u00b0", "degrees", 1.0, FIXED},
+    {MEASURE_ELEVATION, "deg", "degrees", 1.0, FIXED},
+    {MEASURE_ELEVATION, "\u00b0", "degrees", 1.0, FIXED},
     {MEASURE_LENGTH, "m", "m", 1.0, FIXED},
     {MEASURE_LENGTH, "mm", "mm", 1e-3, FIXED},
     {MEASURE_LENGTH, "cm", "cm", 1e-2, FIXED},
@@ -81,6 +83,7 @@ static const struct {
     {MEASURE_CUT, "half", 30.0, FIXED},
     {MEASURE_CUT, "quarter", 48.590377890729144, FIXED},
     {MEASURE_CUT, "thin", 61.044975628140819, FIXED}, /* an eighth */
+    {MEASURE_ELEVATION, "least", (double)NAN, FIXED},
     {MEASURE_SPEED, "soft", 0.5 * mph, OF_BALL},
     {MEASURE_SPEED, "slow", 1.5 * mph, OF_BALL},
     {MEASURE_SPEED, "medium", 3.0 * mph, OF_BALL},
@@ -282,7 +285,8 @@ static bool warn_of_comma(const option_row *row, const char *text) {
   const int whole = (int)strspn(text, digits),
             part = text[whole] == ',' ? (int)strspn(text + whole + 1, digits) : 0;
   const char *second = text + whole + 1, *unit = second + part;
-  const bool angle = row->least == MEASURE_CUT || row->least == MEASURE_ANGLE;
+  const bool angle =
+      row->least == MEASURE_CUT || row->least == MEASURE_ANGLE || row->least == MEASURE_ELEVATION;
   if (whole == 0 || part == 0 || strpbrk(unit, ",.:%") != NULL || unit[0] == 'e' ||
       unit[0] == 'E' || (angle && part > 1) ||
       (whole > 1 && text[0] != '0' && part > 1 && second[0] != '0' && second[part - 1] == '0'))

@@ -13,6 +13,7 @@ enum measure {
   MEASURE_SPEED,
   MEASURE_CUT,
   MEASURE_ANGLE,
+  MEASURE_ELEVATION, /* an angle, or the least one of the stick: NaN */
   MEASURE_LENGTH,
   MEASURE_PLACE, /* a length, or diamonds of a table */
   MEASURE_MASS,

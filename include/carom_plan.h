@@ -433,12 +433,14 @@ enum { CAROM_VIA_MOST = 4 };
 
 /* What comes of an aim: of the shot of the whole layout. */
 typedef enum carom_pot_is {
-  CAROM_POT_FALLS = 0,   /* the ball falls into the pocket */
-  CAROM_POT_NO_WAY = 1,  /* no direction of this cue sends the ball to the middle of the mouth by
+  CAROM_POT_FALLS = 0,    /* the ball falls into the pocket */
+  CAROM_POT_NO_WAY = 1,   /* no direction of this cue sends the ball to the middle of the mouth by
                             this way; a few may yet make it fall off its middle */
-  CAROM_POT_BARRED = 2,  /* a ball on the way meets something else first: `met` */
-  CAROM_POT_SHORT = 3,   /* a ball on the way comes to rest: met.a */
-  CAROM_POT_REJECTED = 4 /* the jaws send the ball back, at this speed */
+  CAROM_POT_BARRED = 2,   /* a ball on the way meets something else first: `met` */
+  CAROM_POT_SHORT = 3,    /* a ball on the way comes to rest: met.a */
+  CAROM_POT_REJECTED = 4, /* the jaws send the ball back, at this speed */
+  CAROM_POT_STICK = 5     /* theta was NaN, and a stick over cushions and balls is raised by more
+                             than 60 degrees, which nobody plays */
 } carom_pot_is;
 
 /* A ball and the pocket that it shall fall into. The caller sets the first block, and
@@ -454,6 +456,9 @@ typedef struct carom_pot {
                                      all rails on its line, such as both halves of a long one. */
 
   int32_t is;            /* a carom_pot_is. */
+  double elevation;      /* degrees: the least elevation in the direction cue->phi with which the
+                            stick is over the cushions and balls behind the cue ball. A stroke
+                            whose cue->theta is less cannot be played. 0 where cue->phi stays. */
   double cut;            /* degrees, of the cue ball on the first ball, which goes to the left of
                             its way where this is above 0. */
   double margin;         /* degrees by which the way of the ball into the pocket may turn, to
@@ -467,8 +472,10 @@ typedef struct carom_pot {
 
 /* Aims a pot: cue->phi becomes the direction in which the ball, by this way, goes to the middle
  * of the pocket's mouth, for the cue's speed, tip and elevation. It is found by shots of the
- * balls on the way, so squirt, swerve, throw and the model of the cushion count. pot->is tells
- * what the other balls and the jaws make of it; where that is CAROM_POT_NO_WAY, cue->phi stays.
+ * balls on the way, so squirt, swerve, throw and the model of the cushion count. A cue->theta of
+ * NaN is left to the stick: it becomes the least elevation with which that is over cushions and
+ * balls, and the aim is that of the raised cue. pot->is tells what the other balls and the jaws
+ * make of it; where that is CAROM_POT_NO_WAY, cue->phi and cue->theta stay.
  * CAROM_OK; CAROM_ERROR_BALLS for an index or an order of via[] that cannot be; or an error of
  * an argument, with nothing written. One to ten ms. */
 CAROM_API carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,

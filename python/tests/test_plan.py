@@ -126,6 +126,17 @@ def test_no_such_aim(changes, match):
         carom.aim(TABLE, carom.balls([[0.6, 0.8], [0.4, 1.7]]), carom.cue(speed=given.pop("speed")), **given)
 
 
+def test_elevation_of_an_aim():
+    layout = carom.balls([[0.62, 0.03], [0.4, 2.2]])
+    level = carom.aim(TABLE, layout, carom.cue(speed=3.0), ball=1, pocket="foot-left")
+    raised = carom.aim(TABLE, layout, carom.cue(speed=3.0, theta=np.nan), ball=1, pocket="foot-left")
+    assert level.cue["theta"] == 0.0 and 10.0 < level.elevation < 20.0
+    assert raised.cue["theta"] == raised.elevation == pytest.approx(level.elevation, abs=0.1)
+    behind = carom.balls([[0.62, 1.6], [0.4, 2.2], [0.6391, 1.546]])
+    with pytest.raises(ValueError, match="the stick would be raised by 6.* degrees over what is behind the cue ball"):
+        carom.aim(TABLE, behind, carom.cue(speed=3.0, theta=np.nan, b=-0.5), ball=1, pocket="foot-left")
+
+
 def test_chances_of_strokes():
     best = carom.plan(TABLE, LAYOUT, rules="potting", shots=1000)
     away = carom.cue(speed=1.0, phi=float(best["cue"]["phi"][0]) + 20.0)

@@ -14,7 +14,11 @@
  * Directions that do most links are few: the range of phi is sampled, and shrinks to those, as
  * long as links are gained. Then e is continuous but for jumps; its roots are bracketed by
  * neighbours and halved. The samples are those of a sine, under which the cut at the first ball
- * changes in equal steps. */
+ * changes in equal steps.
+ *
+ * A cue that the caller leaves to the stick has in each direction the least elevation of the stick,
+ * so a root is the direction of the stroke that is played. That elevation jumps where the butt
+ * comes over a cushion; where no other root is left, all directions have the greater elevation. */
 #include "plan/view.h"
 #include "platform/elementary.h"
 #include "table/table.h"
@@ -43,11 +47,14 @@ typedef struct way {
   carom_shot_options options;
   const carom_pocket *pocket;
   carom_mouth mouth;
-  int balls, links;
+  const carom_shot_ball *layout; /* the whole layout, of `count` balls */
+  int count, balls, links;
+  bool raised;                      /* the caller leaves the elevation to the stick */
   carom_part link[LINKS];           /* balls and rails, as they are met */
   int ball[LINKS + 1];              /* indices in the layout */
   carom_shot_ball alone[LINKS + 1]; /* the balls as a layout of their own */
   carom_brief_event *events;        /* room for those of one shot */
+  double *jump;                     /* the greatest elevation at a jump of e, degrees */
 } way;
 
 /* How far a shot came on its way. */
@@ -136,6 +143,17 @@ static progress alone(const way *w, const carom_cue *cue, double *time) {
   return follow(w, own, w->events, shot.count < EVENTS ? shot.count : EVENTS);
 }
 
+/* The least elevation of the stick of a cue of the way in its direction, degrees. */
+static double stick_of(const way *w, carom_cue cue) {
+  cue.ball = w->ball[0];
+  return carom_least_elevation(w->table, w->layout, w->count, &cue);
+}
+
+/* The elevation with which a cue is played: as given, or the least. */
+static double elevation_of(const way *w, const carom_cue *cue) {
+  return isnan(cue->theta) ? stick_of(w, *cue) : cue->theta;
+}
+
 /* e, and half the range of directions that pass the jaws; both NaN where the way is not done or
  * the ball goes nowhere, or away from the pocket. */
 static progress attempt(const way *w, double phi, carom_cue cue, double *e, double *half) {
@@ -143,6 +161,7 @@ static progress attempt(const way *w, double phi, carom_cue cue, double *e, doub
   double time;
   cue.ball = 0;
   cue.phi = phi;
+  cue.theta = elevation_of(w, &cue);
   const progress p = alone(w, &cue, &time);
   *e = *half = (double)NAN;
   if (p.links < w->links)
@@ -231,15 +250,22 @@ static double last_good(const way *w, const carom_shot_ball *balls, int count, c
 
 /* ---- The search */
 
-/* The direction and half width of a root of e between two directions, where it has the values e0
- * and e1; false for a jump. */
-static bool root_of(const way *w, const carom_cue *cue, double low, double high, double e0,
-                    double *phi, double *half) {
-  double e = e0;
+/* The stroke and half width of a root of e between two directions, in the first of which it has the
+ * value e0; false for a jump. */
+static bool root_of(const way *w, const carom_cue *cue, const double between[2], double e0,
+                    carom_cue *found, double *half) {
+  double e = e0, low = between[0], high = between[1];
+  *found = *cue;
   for (int k = 0; k < HALVINGS && !isnan(e); k++) {
-    *phi = 0.5 * (low + high);
-    attempt(w, *phi, *cue, &e, half);
-    *((e > 0.0) == (e0 > 0.0) ? &low : &high) = *phi;
+    found->phi = 0.5 * (low + high);
+    attempt(w, found->phi, *cue, &e, half);
+    *((e > 0.0) == (e0 > 0.0) ? &low : &high) = found->phi;
+  }
+  found->theta = elevation_of(w, found);
+  for (int side = 0; side < 2 && fabs(e) >= root_most; side++) {
+    carom_cue end = *cue;
+    end.phi = side == 0 ? low : high;
+    *w->jump = fmax(*w->jump, elevation_of(w, &end));
   }
   return fabs(e) < root_most;
 }
@@ -261,10 +287,15 @@ static double cut_of(const way *w, carom_cue cue) {
 }
 
 /* What comes of a root; where the ball falls, with how much may be erred. */
-static void judge(const way *w, const carom_shot_ball *balls, int count, double phi, double half,
-                  carom_pot *pot, carom_cue *cue) {
+static void judge(const way *w, const carom_shot_ball *balls, int count, const carom_cue *root,
+                  double half, carom_pot *pot, carom_cue *cue) {
+  const double phi = root->phi;
   cue->phi = phi < 0.0 ? phi + 360.0 : phi >= 360.0 ? phi - 360.0 : phi;
+  pot->elevation = stick_of(w, *cue);
+  cue->theta = w->raised ? fmax(root->theta, pot->elevation) : root->theta;
   pot->is = (int32_t)fate(w, balls, count, cue, &pot->met);
+  if (w->raised && pot->elevation > STICK_MOST)
+    pot->is = CAROM_POT_STICK;
   pot->cut = cut_of(w, *cue);
   pot->margin = fmax(half, 0.0) / degree;
   if (pot->is != CAROM_POT_FALLS)
@@ -318,10 +349,11 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
       }
 
       /* a root between this direction and the last one, where the ball may fall */
-      double root = 0.0, width = 0.0;
+      carom_cue root;
+      double width = 0.0;
       if (roots && (e > 0.0) != (before > 0.0) && fabs(e - before) < step_most &&
-          root_of(w, &given, last, phi, before, &root, &width)) {
-        judge(w, balls, count, root, width, pot, cue);
+          root_of(w, &given, (double[]){last, phi}, before, &root, &width)) {
+        judge(w, balls, count, &root, width, pot, cue);
         if (pot->is == CAROM_POT_FALLS)
           return;
       }
@@ -404,7 +436,9 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
     return CAROM_ERROR_NULL;
   const carom_shot_options *options = shot != NULL ? shot : &no_options;
   int where;
-  const carom_status bad = carom_shot_check(table, balls, count, cue, options, &where);
+  carom_cue along = *cue;
+  along.theta = isnan(cue->theta) ? 0.0 : cue->theta;
+  const carom_status bad = carom_shot_check(table, balls, count, &along, options, &where);
   if (bad != CAROM_OK)
     return bad;
   way w;
@@ -412,6 +446,11 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
     return CAROM_ERROR_BALLS;
   carom_brief_event events[EVENTS];
   w.events = events;
+  double jump = 0.0;
+  w.jump = &jump;
+  w.layout = balls;
+  w.count = count;
+  w.raised = isnan(cue->theta);
 
   /* The directions in which a straight path meets the first ball, or its image in the rails before
    * it. No rail reflects as a mirror does, and a raised cue's path curves. */
@@ -431,16 +470,38 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
   /* a direction to either side of the middle, by the size of the balls and the curve */
   const double x = to[0] - own->state.r[0], y = to[1] - own->state.r[1];
   const double sine = (own->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
-  carom_cue along = *cue;
   carom_motion struck = {.v = {1.0}};
+  double half = (sine < 1.0 ? carom_asin(sine) : 0.5 * pi) / degree;
+  for (int side = -1; side <= 1 && w.raised; side++) {
+    along.phi = carom_angle_of(x, y) / degree + half * side;
+    along.theta = fmax(along.theta, stick_of(&w, along));
+  }
   along.phi = 0.0;
   carom_strike(&along, &own->kind, &struck);
   const double mid = (carom_angle_of(x, y) - carom_angle_of(struck.v[0], struck.v[1])) / degree;
-  const double wide = (sine < 1.0 ? carom_asin(sine) : 0.5 * pi) / degree +
-                      (cue->theta > 0.0 ? 2.0 + cue->theta : 0.0) + kick_wide * rails;
+  half += (along.theta > 0.0 ? 2.0 + along.theta : 0.0) + kick_wide * rails;
 
-  pot->cut = pot->margin = pot->phi[0] = pot->phi[1] = pot->speed[0] = pot->speed[1] = 0.0;
+  pot->elevation = pot->cut = pot->margin = pot->phi[0] = pot->phi[1] = pot->speed[0] =
+      pot->speed[1] = 0.0;
   pot->met = (carom_brief_event){0};
-  search(&w, balls, count, mid, wide, pot, cue);
+  search(&w, balls, count, mid, half, pot, cue);
+  /* where the elevation jumps over the root, the greater one */
+  if (w.raised && pot->is == CAROM_POT_NO_WAY && jump > 0.0) {
+    carom_cue high = *cue;
+    high.theta = jump;
+    search(&w, balls, count, mid, half, pot, &high);
+    if (pot->elevation > jump)
+      pot->is = CAROM_POT_NO_WAY;
+    else if (pot->is != CAROM_POT_NO_WAY)
+      *cue = high;
+  }
+
+  /* whether the stick alone is in the way of all directions */
+  along.phi = mid;
+  const double least = w.raised && pot->is == CAROM_POT_NO_WAY ? stick_of(&w, along) : 0.0;
+  if (least > STICK_MOST) {
+    pot->is = CAROM_POT_STICK;
+    pot->elevation = least;
+  }
   return CAROM_OK;
 }

@@ -26,12 +26,19 @@ static double speed_of(const search *of, double lossless) {
                       of->player.speed_most);
 }
 
+/* The least elevation of a candidate's stick, or none by a level cue, degrees. */
+static double raised(const search *of, const candidate *c) {
+  const carom_cue cue = {.phi = c->phi, .a = c->a, .b = c->b, .ball = of->cue_ball};
+  return of->options.level ? 0.0
+                           : carom_least_elevation(of->job.table, of->played, (int)of->plays, &cue);
+}
+
 /* The elevation is the least of the stick, but where the caller gave it, or an aim did. A gentle
  * stroke is added whatever that is. */
 void carom_search_add(search *of, candidate c) {
   const bool given = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
   if (!given && c.kind != CAROM_PLAN_POT)
-    c.theta = carom_least_elevation(of, &c);
+    c.theta = raised(of, &c);
   const bool played = given || c.kind == CAROM_PLAN_FOUL || c.theta <= STICK_MOST;
   if (of->count < of->most && played) {
     c.order = (int32_t)of->count;
@@ -75,7 +82,7 @@ static bool aim(const search *of, candidate *c) {
     alone.phi =
         carom_angle_of(o[0] - both * cosine - r[0], o[1] - both * sine - r[1]) / degree - squirt;
     c->phi = alone.phi;
-    c->theta = alone.theta = carom_least_elevation(of, c);
+    c->theta = alone.theta = raised(of, c);
     if (c->theta > STICK_MOST)
       return false;
 

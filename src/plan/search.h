@@ -180,11 +180,6 @@ void carom_search_pass(carom_search *of);
 /* Adds up what the candidates of a round are worth. Of a round that was stopped, those count that
  * were played so often; or any rows of the only one. */
 void carom_search_add_up(carom_search *of);
-/* stick.c: the least elevation of a candidate's stick over cushions and balls, degrees; above
- * STICK_MOST nobody plays. */
-static const double STICK_MOST = 60.0; /* degrees */
-double carom_least_elevation(const carom_search *of, const carom_candidate *c);
-
 /* kinds.c: the carom_plan_kind of a choice, by what happens. */
 int32_t carom_search_kind(carom_search *of, const carom_candidate *c, const carom_choice *choice);
 

@@ -11,7 +11,7 @@
  *
  *     theta >= asin((q - b R) / A) - atan2(R - h, D).
  */
-#include "plan/search.h"
+#include "plan/view.h"
 #include "platform/elementary.h"
 
 #include <math.h>
@@ -42,16 +42,14 @@ static double over_rail(double R, double b, double D, const carom_rail *rail, co
   return theta;
 }
 
-double carom_least_elevation(const carom_search *of, const carom_candidate *c) {
-  if (of->options.level)
-    return 0.0;
-  const carom_table *table = of->job.table;
-  const carom_shot_ball *own = &of->played[of->cue_ball];
+double carom_least_elevation(const carom_table *table, const carom_shot_ball *balls, int count,
+                             const carom_cue *cue) {
+  const carom_shot_ball *own = &balls[cue->ball];
   const double R = own->kind.radius, *r = own->state.r;
   double u[2], most = 0.0;
-  carom_sincos(c->phi * degree, &u[1], &u[0]);
+  carom_sincos(cue->phi * degree, &u[1], &u[0]);
   /* a point of the axis in the plane of the table */
-  const double at[2] = {r[0] - c->a * R * u[1], r[1] + c->a * R * u[0]};
+  const double at[2] = {r[0] - cue->a * R * u[1], r[1] + cue->a * R * u[0]};
 
   for (int k = 0; k < table->rails; k++) {
     /* on which side of the axis both ends are, and how far behind the ball it crosses the rail */
@@ -64,18 +62,20 @@ double carom_least_elevation(const carom_search *of, const carom_candidate *c) {
     const double part = side_p / (side_p - side_q);
     const double D = -((p[0] + part * (q[0] - p[0])) * u[0] + (p[1] + part * (q[1] - p[1])) * u[1]);
     if (D > 0.0 && D < stick_length) {
-      const double least = over_rail(R, c->b, D, rail, u);
+      const double least = over_rail(R, cue->b, D, rail, u);
       most = least > most ? least : most;
     }
   }
-  for (int k = 0; k < of->plays; k++) {
-    const carom_shot_ball *ball = &of->played[k];
+  for (int k = 0; k < count; k++) {
+    const carom_shot_ball *ball = &balls[k];
     const double x = ball->state.r[0] - at[0], y = ball->state.r[1] - at[1];
     const double D = -(x * u[0] + y * u[1]), L = u[0] * y - u[1] * x;
     const double both = ball->kind.radius + tip_radius + radius_growth * D;
-    if (k == of->cue_ball || !(D > 0.0 && D < stick_length && L * L < both * both))
+    const bool gone =
+        ball->state.label == CAROM_BALL_POCKETED || ball->state.label == CAROM_BALL_OFF;
+    if (k == cue->ball || gone || !(D > 0.0 && D < stick_length && L * L < both * both))
       continue;
-    const double least = raised(R, c->b, D, ball->state.r[2], sqrt(both * both - L * L));
+    const double least = raised(R, cue->b, D, ball->state.r[2], sqrt(both * both - L * L));
     most = least > most ? least : most;
   }
   return most / degree;

@@ -97,6 +97,12 @@ double carom_erf(double x);
 double carom_uniform(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number);
 void carom_normals(uint64_t seed, uint32_t stage, uint64_t row, double z[6]);
 
+/* stick.c: the least elevation, degrees, with which the stick of a cue is over the cushions and the
+ * balls behind the ball that it strikes. Above STICK_MOST nobody plays. */
+static const double STICK_MOST = 60.0; /* degrees */
+double carom_least_elevation(const carom_table *table, const carom_shot_ball *balls, int count,
+                             const carom_cue *cue);
+
 /* player.c */
 /* The player with his bounds: 0 becomes the value it stands for. */
 carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);

@@ -95,3 +95,11 @@ echo "--- lengths in diamonds, a quantity of a list"
 carom ways --balls foot-spot --pocket foot-left --cut half --distance 4d --speed 2 | tail -n 1
 carom shoot --cue 2d,2d --balls 3d,4d --pocket 1:foot-right --leave head-left,1d | grep leave
 carom hit --cut half --side inside,outside --quantity throw | awk -F, 'NR == 1 { print; next } { printf "%s %.9f\n", $1, $2 }'
+echo "--- the stick over a cushion and a ball"
+for elevation in 0 least 20; do
+    carom shoot --cue 0.62,0.03 --balls 0.4,2.2 --pocket 1:foot-left --speed 3 --elevation $elevation | grep -E '^(9ft|stick)'
+done
+try carom shoot --cue 0.62,1.6 --balls 0.4,2.2:0.6391,1.546 --pocket 1:foot-left --speed 3 --tip 0,-0.5 --elevation least
+try carom shoot --cue 0.62,1.6 --balls 0.4,2.2:0.63,1.56:0.63,1.56 --pocket 1:foot-left --speed 3 --elevation least
+try carom shoot --cue 0.62,1.6 --balls 0.4,2.2 --at-ball 1 --elevation least
+try carom shoot --cue 0.62,1.6 --balls 0.4,2.2 --pocket 1:foot-left --elevation lest

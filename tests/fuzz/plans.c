@@ -6,6 +6,8 @@
 #include "carom_plan.h"
 #include "draws.h"
 
+#include <math.h>
+
 enum { ROOM = 4 };
 
 static carom_table table;
@@ -154,11 +156,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
 
   carom_pot pot = {.ball = choice(6), .pocket = choice(8) - 1, .vias = choice(4) ? 0 : choice(6)};
   aimed.speed = number(0.5, 8);
+  aimed.theta = choice(2) ? (double)NAN : aimed.theta;
   for (int k = 0; k < CAROM_VIA_MOST; k++)
     pot.via[k] = (carom_part){(carom_part_kind)choice(4), choice(20) - 1};
   if (carom_aim(&table, balls, (int)job.count, &shot, &pot, &aimed) == CAROM_OK) {
-    const double seen[] = {pot.cut,      pot.margin,   pot.phi[0], pot.phi[1],
-                           pot.speed[0], pot.speed[1], aimed.phi};
+    const double seen[] = {pot.elevation, pot.cut,      pot.margin,   pot.phi[0],
+                           pot.phi[1],    pot.speed[0], pot.speed[1], aimed.phi};
     expect(seen, sizeof seen / sizeof seen[0], true, "carom_aim");
   }
   carom_spot_ball(&table, balls, CAROM_BALLS_MOST, choice(CAROM_BALLS_MOST));

@@ -524,6 +524,27 @@ static double stick_at(double behind) {
   return 0.0063 + 0.0055 * behind;
 }
 
+/* Whether a stick is over all balls and noses: by points of the noses behind the ball. */
+static bool is_clear(const carom_cue *stick) {
+  bool clear = true;
+  double behind;
+  for (int i = 1; i < BALLS; i++)
+    if (balls[i].state.label != CAROM_BALL_POCKETED) {
+      const double off = off_axis(stick, balls[i].state.r, &behind);
+      clear &= behind < 0.0 || behind > 1.4 || off > balls[i].kind.radius + stick_at(behind);
+    }
+  for (int rail = 0; rail < table.rails; rail++)
+    for (int part = 0; part <= 2000; part++) {
+      const carom_rail *r = &table.rail[rail];
+      double nose[3] = {0.0, 0.0, r->height};
+      for (int x = 0; x < 2; x++)
+        nose[x] = r->p[x] + (r->q[x] - r->p[x]) * part / 2000.0;
+      const double off = off_axis(stick, nose, &behind);
+      clear &= behind < 0.0 || behind > 1.4 || off > stick_at(behind);
+    }
+  return clear;
+}
+
 /* The kind of a choice is that of the stroke without errors, where the ball falls in it: by its
  * facts. Where most strokes with errors pot nothing, the ball that is named falls in it. The stick
  * is over all balls and noses, also of balls before a cushion and another ball; and no choice is
@@ -562,30 +583,13 @@ TEST(kinds_and_sticks) {
         ck_assert(c->kind != CAROM_PLAN_CAROM || !first);
       }
 
-      /* points of the noses behind the ball, and the balls */
       ck_assert(c->cue.theta >= 0.0 && c->cue.theta <= 60.0);
       for (int lower = 0; lower < 2; lower++) {
         carom_cue stick = c->cue;
         stick.theta -= lower ? 1.0 : 0.0;
         if (stick.theta < 0.0)
           continue;
-        bool clear = true;
-        double behind;
-        for (int i = 1; i < BALLS; i++)
-          if (balls[i].state.label != CAROM_BALL_POCKETED) {
-            const double off = off_axis(&stick, balls[i].state.r, &behind);
-            clear &= behind < 0.0 || behind > 1.4 || off > balls[i].kind.radius + stick_at(behind);
-          }
-        for (int rail = 0; rail < table.rails; rail++)
-          for (int part = 0; part <= 2000; part++) {
-            const carom_rail *r = &table.rail[rail];
-            double nose[3] = {0.0, 0.0, r->height};
-            for (int x = 0; x < 2; x++)
-              nose[x] = r->p[x] + (r->q[x] - r->p[x]) * part / 2000.0;
-            const double off = off_axis(&stick, nose, &behind);
-            clear &= behind < 0.0 || behind > 1.4 || off > stick_at(behind);
-          }
-        ck_assert_msg(lower ? !clear : clear, "layout %d, choice %d: raised by %g, %d", k, n,
+        ck_assert_msg(lower != is_clear(&stick), "layout %d, choice %d: raised by %g, %d", k, n,
                       c->cue.theta, lower);
         raised += !lower && c->cue.theta > 5.0;
       }
@@ -842,6 +846,184 @@ TEST(aims) {
     /* one in ten, and two more by chance */
     ck_assert_int_le(n[1] + n[2] + n[3] + n[4], (n[0] + n[1] + n[2] + n[3] + n[4]) / 10 + 2);
     ck_assert_int_gt(n[0], FEWER(30));
+  }
+}
+
+/* ---- Aims of a cue that is left to the stick */
+
+/* The least elevation, degrees, of a stick in the cue's direction over the line of a nose or over a
+ * ball: by halving the distance of two lines, or of a point and a line, less the radii. */
+static double least_over(const carom_cue *c, const carom_rail *rail, const carom_shot_ball *ball) {
+  const double R = balls[0].kind.radius, f = c->phi * per_degree, *r = balls[0].state.r;
+  const double u[2] = {cos(f), sin(f)};
+  const double *o = rail != NULL ? rail->p : ball->state.r;
+  double x = o[0] - r[0] + c->a * R * u[1], y = o[1] - r[1] - c->a * R * u[0], e[2] = {0.0, 0.0};
+  if (rail != NULL) { /* where the axis crosses the nose */
+    for (int k = 0; k < 2; k++)
+      e[k] = (rail->q[k] - rail->p[k]) / hypot(rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]);
+    const double along = (u[1] * x - u[0] * y) / (u[0] * e[1] - u[1] * e[0]);
+    if (along < 0.0 || along > hypot(rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]))
+      return 0.0;
+    x += along * e[0];
+    y += along * e[1];
+  }
+  const double D = -x * u[0] - y * u[1], L = u[0] * y - u[1] * x;
+  const double stick = 0.0065 + 0.0055 * D, both = rail != NULL ? stick : ball->kind.radius + stick;
+  if (D <= 0.0 || D >= 1.47 || fabs(L) >= both)
+    return 0.0;
+  const double h = (rail != NULL ? rail->height : ball->state.r[2]) - R;
+  double low = 0.0, high = 90.0;
+  for (int k = 0; k < 60; k++) {
+    const double theta = 0.5 * (low + high), s = sin(theta * per_degree),
+                 t = cos(theta * per_degree);
+    /* how far the point is below the axis in the plane of both, and the distance of the lines */
+    const double below = c->b * R + D * s - h * t, cross = u[0] * e[1] - u[1] * e[0];
+    const double off = rail != NULL ? below * fabs(cross) / sqrt(s * s + t * t * cross * cross)
+                                    : copysign(sqrt(below * below + L * L), below);
+    *(off < both ? &low : &high) = theta;
+  }
+  return high < 1e-9 ? 0.0 : high;
+}
+
+static double least_of_all(const carom_cue *c) {
+  double most = 0.0;
+  for (int k = 1; k < BALLS; k++)
+    if (balls[k].state.label != CAROM_BALL_POCKETED)
+      most = fmax(most, least_over(c, NULL, &balls[k]));
+  for (int k = 0; k < table.rails; k++)
+    most = fmax(most, least_over(c, &table.rail[k], NULL));
+  return most;
+}
+
+/* Whether an elevation is that of the reference in the cue's direction, or beside it, where the
+ * reference jumps. */
+static bool is_least(double elevation, carom_cue c) {
+  bool good = false;
+  const double phi = c.phi;
+  for (int side = -1; side <= 1; side++) {
+    c.phi = phi + 1e-6 * side;
+    good |= fabs(elevation - least_of_all(&c)) < 1e-3;
+  }
+  return good;
+}
+
+/* Aims the eight at a pocket with a cue that is left to the stick. Where it falls, the cue is raised
+ * by the least elevation that the reference has, or by more where that jumps; a stick that crosses a
+ * nose or a ball is over all; and the stroke pots. A level cue and one that is raised as far by the caller keep their elevation,
+ * and are told the same. Returns whether the stroke falls. */
+static bool aims_raised(int pocket, carom_cue *c) {
+  carom_pot pot = {.ball = 8, .pocket = pocket}, given = pot;
+  carom_cue same;
+  carom_facts facts;
+  carom_shot shot = {.facts = &facts};
+  c->theta = (double)NAN;
+  ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, c), CAROM_OK);
+  if (pot.is != CAROM_POT_FALLS)
+    return false;
+  ck_assert(is_least(pot.elevation, *c));
+  ck_assert(c->theta >= pot.elevation && c->theta <= 60.0);
+  ck_assert(pot.elevation == 0.0 || is_clear(c));
+  carom_shoot(&table, balls, BALLS, c, &shot_options, &shot);
+  ck_assert_int_eq(facts.pocket[8], pocket);
+  for (int level = 0; level < 2; level++) {
+    same = *c;
+    same.theta = level ? 0.0 : c->theta;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &given, &same), CAROM_OK);
+    ck_assert(same.theta == (level ? 0.0 : c->theta));
+    ck_assert(level || (given.is == CAROM_POT_FALLS && fabs(same.phi - c->phi) < 1e-3));
+    if (given.is == CAROM_POT_FALLS)
+      ck_assert(is_least(given.elevation, same));
+  }
+  return true;
+}
+
+/* Cue balls anywhere, frozen to a rail, and before another ball, which may touch. */
+TEST(aims_of_the_stick) {
+  random_source r = {test_seed()};
+  int falls = 0, raised = 0;
+  for (int k = 0; k < FEWER(400); k++) {
+    make_stroke(&r, test_seed() + 3000 + (uint64_t)k);
+    if (k % 4 == 1)
+      carom_place_ball(&table, balls, BALLS, 0, random_between(&r, 0.2, 1.0), balls[0].kind.radius,
+                       NULL);
+    if (k % 4 > 1) {
+      const double far = k % 4 == 2 ? 2.0 * balls[0].kind.radius : random_between(&r, 0.06, 0.5),
+                   x = balls[8].state.r[0] - balls[0].state.r[0],
+                   y = balls[8].state.r[1] - balls[0].state.r[1];
+      carom_place_ball(&table, balls, BALLS, 2, balls[0].state.r[0] - far * x / hypot(x, y),
+                       balls[0].state.r[1] - far * y / hypot(x, y), NULL);
+    }
+    carom_cue one = cue;
+    const bool good = aims_raised(k / 4 % 6, &one);
+    falls += good;
+    raised += good && one.theta > 5.0;
+  }
+  printf("%d fall, %d of them raised by more than 5 degrees\n", falls, raised);
+  ck_assert(falls > FEWER(60) && raised > FEWER(20));
+}
+
+/* The elevation where it begins: balls beside a level stick, which they just touch or do not, and
+ * the end of the stick over the head cushion. Below the middle it jumps there. */
+TEST(where_the_stick_begins_to_touch) {
+  int jumps = 0, held = 0;
+  for (int k = 0; k < FEWER(120); k++) {
+    make_layout(1, 2);
+    carom_place_ball(&table, balls, BALLS, 8, 0.4, 2.2, NULL);
+    carom_place_ball(&table, balls, BALLS, 0, 0.62, k % 3 == 0 ? 1.6 : 1.79 + 1e-4 * k, NULL);
+    const double R = balls[0].kind.radius, D = 0.1 + 0.002 * k;
+    carom_cue one = cue;
+    one.speed = 2.5;
+    one.a = k % 3 == 0 ? 0.0 : 0.3;
+    one.b = k % 2 == 0 ? -0.2 : 0.1;
+    ck_assert(aims_raised(2, &one));
+    held += one.theta > least_of_all(&one) + 0.5;
+    if (k % 3 != 0)
+      continue;
+
+    /* the cue ball is too far from the head cushion; then a ball beside the stick */
+    ck_assert(one.theta == 0.0);
+    const carom_cue level = one;
+    for (int inside = 0; inside < 2; inside++) {
+      const double f = level.phi * per_degree,
+                   L = R + 0.0065 + 0.0055 * D + (inside ? -1e-9 : 1e-9);
+      carom_place_ball(&table, balls, BALLS, 2, balls[0].state.r[0] - D * cos(f) - L * sin(f),
+                       balls[0].state.r[1] - D * sin(f) + L * cos(f), NULL);
+      carom_pot pot = {.ball = 8, .pocket = 2};
+      one = level;
+      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+      ck_assert(pot.is == CAROM_POT_FALLS && one.phi == level.phi);
+      ck_assert(inside == (pot.elevation > 0.0) || (inside && one.b > 0.0));
+      jumps += pot.elevation > 0.5;
+      ck_assert(aims_raised(2, &one));
+    }
+  }
+  printf("%d jumps, held %d times\n", jumps, held);
+  ck_assert(jumps > 0 && held > 0);
+}
+
+/* A ball that touches the cue ball behind it: a tip far below the middle would need more than 60
+ * degrees, which is told with the elevation. */
+TEST(no_stick_reaches) {
+  make_layout(1, 2);
+  carom_place_ball(&table, balls, BALLS, 8, 0.4, 2.2, NULL);
+  carom_place_ball(&table, balls, BALLS, 0, 0.62, 1.6, NULL);
+  carom_pot pot = {.ball = 8, .pocket = 2};
+  const double R = balls[0].kind.radius;
+  for (int k = 0; k < 3; k++) {
+    carom_cue one = cue;
+    one.speed = k == 2 ? 8.0 : 2.5;
+    one.a = 0.0;
+    one.b = k == 0 ? 0.1 : -0.5;
+    ck_assert(aims_raised(2, &one));
+    carom_place_ball(&table, balls, BALLS, 2,
+                     balls[0].state.r[0] - 2.0 * R * cos(one.phi * per_degree),
+                     balls[0].state.r[1] - 2.0 * R * sin(one.phi * per_degree), NULL);
+    one.theta = (double)NAN;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+    const double least = asin((R + 0.0065 + 0.011 * R - one.b * R) / (2.0 * R)) / per_degree;
+    ck_assert_msg(pot.is == (k == 0 ? CAROM_POT_FALLS : CAROM_POT_STICK), "%d: %d", k, pot.is);
+    ck_assert_double_eq_tol(pot.elevation, least, 1.0);
+    carom_place_ball(&table, balls, BALLS, 2, 1.1, 0.2, NULL);
   }
 }
 

@@ -175,11 +175,11 @@ export class Plans {
     }
     this.#host.refuse(memory.exports.carom_aim(at.table, at.balls, balls.length, shot, pot, at.cue), "aim");
 
-    const { is: outcome, cut, margin, phi, speed, met } = readStruct<C.Pot>(memory, pot, "carom_pot");
+    const { is: outcome, elevation, cut, margin, phi, speed, met } = readStruct<C.Pot>(memory, pot, "carom_pot");
     const is = names.carom_pot_is[outcome]!;
     const { type, a, b } = met;
     return {
-      ...{ is, cue: readStruct<Cue>(memory, at.cue, "carom_cue"), cut, margin, phi, speed },
+      ...{ is, cue: readStruct<Cue>(memory, at.cue, "carom_cue"), elevation, cut, margin, phi, speed },
       ...(is === "barred" || is === "short" ? { met: { type: names.carom_event_type[type] as EventType, a, b } } : {}),
     };
   }

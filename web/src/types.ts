@@ -184,9 +184,12 @@ export interface AimOf {
 
 /** A stroke that pots a ball, or why there is none. */
 export interface Aim {
-  /** "no_way": no direction sends the ball there; "barred": something is met first; "short": a ball comes to rest; "rejected": by the jaws. */
-  is: "falls" | "no_way" | "barred" | "short" | "rejected";
+  /** "no_way": no direction sends the ball there; "barred": something is met first; "short": a ball comes to rest; "rejected": by the jaws;
+   * "stick": a stick over what is behind the cue ball is raised by more than 60 degrees. */
+  is: "falls" | "no_way" | "barred" | "short" | "rejected" | "stick";
   cue: Cue;
+  /** Degrees: the least elevation with which the stick is over the cushions and balls behind the cue ball; a stroke with less cannot be played. */
+  elevation: number;
   /** Degrees, of the cue ball on the first ball, which goes to the left of its way where this is above 0. */
   cut: number;
   /** Degrees by which the way of the ball into the pocket may turn, to either jaw. */

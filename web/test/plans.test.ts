@@ -102,6 +102,11 @@ test.runIf(thereIsACommand)("aims are those of the command, by a bank and a comb
       expect(told).toContain(`turn by ${aimed.margin.toFixed(2)} degrees to either jaw`);
       expect(told).toContain(`aims of ${aimed.phi[0].toFixed(2)} to ${aimed.phi[1].toFixed(2)} degrees`);
     }
+    const rail = [[0.62, 0.03], [0.4, 2.2]].map(([x, y]) => carom.ball(x!, y!));
+    const [level, raised] = [0, NaN].map((theta) => carom.aim(table, rail, { speed: 3, theta }, { ball: 1, pocket: "foot-left" }));
+    expect([level!.cue.theta, raised!.cue.theta]).toEqual([0, raised!.elevation]);
+    expect(raised!.elevation).toBeCloseTo(level!.elevation, 1);
+    expect(level!.elevation).toBeGreaterThan(10);
     const none = carom.aim(table, balls, { speed: 0.5 }, { ball: 1, pocket: "foot-right" });
     expect([none.is, none.met]).toEqual(["short", { type: "rolling_stationary", a: 1, b: -1 }]);
     expect(() => carom.aim(table, balls, {}, { ball: 1, pocket: "top-right" })).toThrow(/pocket: it must be one of head-left/);

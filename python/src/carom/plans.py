@@ -74,6 +74,9 @@ class Pot(NamedTuple):
     """Directions of the cue, degrees, between which the ball falls."""
     speed: tuple[float, float]
     """Speeds of the cue, m/s, between which it falls in the cue's direction."""
+    elevation: float
+    """Degrees: the least elevation with which the stick is over the cushions and balls behind the cue ball. A stroke with a lower
+    `cue["theta"]` cannot be played."""
 
 
 _WHY_NOT = {
@@ -81,6 +84,7 @@ _WHY_NOT = {
     lib.CAROM_POT_BARRED: "something is in the way: {met}",
     lib.CAROM_POT_SHORT: "ball {at_rest} comes to rest on its way",
     lib.CAROM_POT_REJECTED: "the jaws send ball {ball} back at this speed",
+    lib.CAROM_POT_STICK: "the stick would be raised by {elevation:.1f} degrees over what is behind the cue ball, and nobody plays above 60",
 }
 
 
@@ -93,7 +97,8 @@ def aim(
     Parameters
     ----------
     table, balls, cue, options, **changes
-        As for `simulate`. The speed, the tip and the elevation of the cue count.
+        As for `simulate`. The speed, the tip and the elevation of the cue count. A `theta` of nan becomes the least one with which the
+        stick is over the cushions and balls behind the cue ball.
     ball : int
         Index of the ball.
     pocket : int or str
@@ -145,9 +150,9 @@ def aim(
         raise argument_error(shot_arguments(table, layout, made, shot), layout, made) or CaromError(code, "balls")
     if reason := getattr(pot, "is"):
         part = f"ball {pot.met.b}" if pot.met.type == lib.CAROM_EVENT_BALL_BALL else "a part of the table"
-        why = _WHY_NOT[reason].format(ball=ball, at_rest=pot.met.a, met=f"ball {pot.met.a} meets {part}")
+        why = _WHY_NOT[reason].format(ball=ball, at_rest=pot.met.a, met=f"ball {pot.met.a} meets {part}", elevation=pot.elevation)
         raise ValueError(f"pocket: no such aim at {pocket}: {why}")
-    return Pot(made, pot.cut, pot.margin, (pot.phi[0], pot.phi[1]), (pot.speed[0], pot.speed[1]))
+    return Pot(made, pot.cut, pot.margin, (pot.phi[0], pot.phi[1]), (pot.speed[0], pot.speed[1]), pot.elevation)
 
 
 _usual_player = player
