@@ -154,7 +154,7 @@ typedef uint32_t carom_rules_may(const uint64_t *user);
 typedef uint32_t carom_rules_pockets(const uint64_t *user);
 
 /* carom_rules_left: how many balls the player at the table, left[0], and the other one, left[1],
- * have to pot to win. */
+ * have to pot to win; in a race for points how many points they need, 0 of one who has won. */
 typedef void carom_rules_left(const uint64_t *user, uint32_t in_play, int32_t left[2]);
 
 /* carom_rules_value: the chance that the player at the table wins from a layout, 0 to 1;
@@ -235,8 +235,9 @@ typedef enum carom_rules_kind {
                                user[0]: 1 if a colour is on after a red. user[2], user[3]: the
                                scores. user[4]: a sum of 1 after a foul of the other, when to pass
                                lets him play again; 2 with a free ball, 4 with the cue ball in
-                               hand. user[5]: 1 + the free ball of the stroke before. A miss is left
-                               to the caller, who knows the better stroke. */
+                               hand. user[5]: 1 + the free ball of the stroke before. A striker more
+                               than seven points ahead claims the frame when the black alone is
+                               left. A miss is left to the caller, who knows the better stroke. */
   CAROM_RULES_ONEPOCKET = 6     /* one-pocket, BCA: 15 balls, any may be played, nothing is called.
                                    user[0]: index of the player's pocket, and 8 times that of the
                                    other's; 21 to begin with, the foot right and the foot left one
@@ -348,8 +349,10 @@ typedef struct carom_choice {
   int32_t cushions;     /* impacts of that ball on cushions, of one such stroke. */
   double value;         /* chance to win; without an opponent, the share of the balls that are
                            potted; 0 to 1. A foul counts 0.03 less than what follows it, so that
-                           of strokes that are as good a legal one is chosen. */
-  double error;         /* its standard error. */
+                           of strokes that are as good a legal one is chosen. A stroke that the
+                           plan chose counts 0.75 standard errors less than the mean of the shots
+                           that chose it, as they were lucky; none counts more than the first. */
+  double error;         /* the standard error of that mean. */
   double keep;          /* chance that the player plays on, or wins, */
   double foul, lose;    /* that the shot is a foul, that it loses. */
   int64_t seen;         /* how often the shot was played with errors. 0 of a plan that was stopped

@@ -49,7 +49,8 @@ def test_points_of_three_cushion():
     table = carom.tables.threecushion()
     layout, cue = carom.racks.threecushion(table), carom.cue(game="billiard")
     best = carom.plan(table, layout, cue, rules="threecushion", shots=600)
-    assert best["value"][0] == best["keep"][0] > 0.2 and set(best["pocket"]) == {-1} and best["ball"][0] in (1, 2)
+    assert abs(best["value"][0] - best["keep"][0] + 0.75 * best["error"][0]) < 1e-12 and best["keep"][0] > 0.2
+    assert set(best["pocket"]) == {-1} and best["ball"][0] in (1, 2)
     for rules in ("threecushion", Points()):
         hit = [carom.referee(table, layout, carom.with_errors(best["cue"][0], carom.player(), 1, k), rules=rules) for k in range(40)]
         points = [ruling.points for ruling in hit]

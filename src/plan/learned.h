@@ -10,9 +10,10 @@ typedef struct learned {
   double stretch; /* of the log-odds of a value: carom-lab plan --games tells it */
 } learned;
 
-/* Of eight-ball; of games in which both have the same balls; and of those in which each has pockets
- * of his own. Games of points have the numbers of eight-ball: their own are not learned. */
-static const learned learned_of[3] = {
+/* Of eight-ball; of games in which both have the same balls; of those in which each has pockets of
+ * his own; and of races for points. */
+enum { OF_EIGHTBALL, OF_NINEBALL, OF_ONEPOCKET, OF_STRAIGHT, OF_SNOOKER, LEARNED };
+static const learned learned_of[LEARNED] = {
     {/* of 23101 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */
      /* log-likelihood of a stroke -0.2798; of one number for all, -0.4112 */
      .next = {-0.209, -0.768, 1.958, 1.979, -0.019, -0.171, 0.381},
@@ -40,6 +41,24 @@ static const learned learned_of[3] = {
      .first = {0.455, -0.510, -0.767},
      .mean = 0.165,
      .stretch = 1.6},
+    {/* of 4558 strokes: carom-lab learn --rules straight --racks 512 --shots 200 --seed 0 */
+     /* log-likelihood of a stroke -0.2221; of one number for all, -0.3014 */
+     .next = {0.141, -0.902, 0.969, 0.991, 1.607, 0.000, 6.455},
+     /* log-likelihood of a stroke -0.2187; of one number for all, -0.2435 */
+     .later = {2.118, -1.208, 1.049, -0.284},
+     /* log-likelihood of a stroke -0.4772; of one number for all, -0.5368 */
+     .first = {2.131, -1.152, -0.526},
+     .mean = 0.515,
+     .stretch = 1.0},
+    {/* of 5484 strokes: carom-lab learn --rules snooker --racks 1792 --shots 200 --seed 0 */
+     /* log-likelihood of a stroke -0.3135; of one number for all, -0.6076 */
+     .next = {-1.520, -1.009, 1.989, 4.098, -0.347, -0.115, 0.000},
+     /* log-likelihood of a stroke -0.3062; of one number for all, -0.3269 */
+     .later = {0.766, -1.312, -0.134, 0.389},
+     /* log-likelihood of a stroke -0.4624; of one number for all, -0.6190 */
+     .first = {-0.530, -1.434, -0.500},
+     .mean = 0.260,
+     .stretch = 1.0},
 };
 
 #endif

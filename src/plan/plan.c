@@ -335,18 +335,23 @@ static void try_all(void *context, carom_crew *crew) {
 }
 
 /* The best choice of each ball, pocket and kind, the best first. One without a ball is none to a
- * player who is alone, if there is another. A plan that was stopped has not
- * sorted what it found: the first is the best. */
+ * player who is alone, if there is another; one that looks better than the best was played too
+ * seldom. A plan that was stopped has not sorted what it found: the first is the best. */
 static int give(plan *of, carom_choice *choices, int room) {
   const int most = carom_is_stopped(of) ? 1 : room;
+  double best = 0.0;
   int n = 0;
   for (int64_t k = 0; n < most && k < of->count; k++) {
-    carom_choice c = carom_search_choice(of, &of->found[k]);
+    const candidate *from = &of->found[k];
+    const double mean = from->sum / (double)from->seen;
+    best = k == 0 ? mean : best;
+    carom_choice c = carom_search_choice(of, from);
     const bool played = c.seen > 0 || c.kind == CAROM_PLAN_PASS;
     const bool nothing = c.ball < 0 && of->job.rules->race == CAROM_RACE_ALONE && !of->breaks;
-    if (n > 0 && (!played || nothing || c.value > choices[0].value))
+    if (n > 0 && (!played || nothing || mean > best))
       continue;
-    c.kind = carom_search_kind(of, &of->found[k], &c);
+    c.kind = carom_search_kind(of, from, &c);
+    c.value = n > 0 ? fmin(c.value, choices[0].value) : c.value;
 
     /* where it is not there yet, it is sorted in */
     int same = 0;

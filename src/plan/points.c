@@ -58,7 +58,9 @@ static double value_from(const carom_view *view, const uint64_t *user,
   const double each = rules->points != NULL ? rules->points(user, in_play, -1) : 1.0;
   int32_t left[2];
   rules->left(user, in_play, left);
-  const double n = left[0] > 1 ? left[0] : 1, m = left[1] > 1 ? left[1] : 1;
+  if (left[0] < 1 || left[1] < 1)
+    return left[0] < 1; /* one of them has won already */
+  const double n = left[0], m = left[1];
 
   /* the pot of each ball; the most is made by the one of `chosen` */
   double x[NEXT_NUMBERS], best = 0.0, second = 0.0, sum = 0.0, chosen = 0.0, w = each, most = -1.0;

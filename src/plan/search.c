@@ -141,6 +141,10 @@ static candidate gentle(const search *of) {
 carom_choice carom_search_choice(const search *of, const candidate *c) {
   CAROM_PROMISE(c->seen > 0 || carom_is_stopped(of));
   const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
+  const double error = c->seen > 1 && variance > 0.0 ? sqrt(variance / (n - 1.0)) : 0.0;
+  /* The shots that chose a stroke were lucky for it, by about so much: the games of
+   * understanding/plan.md tell it. What is not a number stays none. */
+  const double luck = c->kind == CAROM_PLAN_GIVEN ? 0.0 : 0.75 * error, told = mean - luck;
   const double *place = of->job.balls[of->view.cue_ball].state.r;
   /* Luck alone names no pot: where most strokes with errors pot nothing, it is that without. A
    * direct pot is that of the ball that was aimed at. */
@@ -156,8 +160,8 @@ carom_choice carom_search_choice(const search *of, const candidate *c) {
                        .cushions = !named ? 0
                                    : own  ? c->own_cushions
                                           : c->cushions,
-                       .value = mean,
-                       .error = c->seen > 1 && variance > 0.0 ? sqrt(variance / (n - 1.0)) : 0.0,
+                       .value = told < 0.0 ? 0.0 : told,
+                       .error = error,
                        .keep = (double)c->keep / n,
                        .foul = (double)c->foul / n,
                        .lose = (double)c->lose / n,

@@ -4,8 +4,9 @@
  * of the ball on, or of the highest ball that it concerns, at least 4; he may let the offender play
  * on. A player who is snookered after a foul may name any ball for one on: a free ball. The first
  * pot or foul on the last black ends the frame, but for equal scores: then the black comes back,
- * and the other plays from the D; by the rules they draw lots. A ball that touches the cue ball has
- * to be met, as any. */
+ * and the other plays from the D; by the rules they draw lots. Who comes to the last black more
+ * than its seven points ahead claims the frame. A ball that touches the cue ball has to be met, as
+ * any. */
 #include "plan/rules.h"
 #include "table/spots.h"
 
@@ -58,14 +59,24 @@ static int remaining(const uint64_t *user, uint32_t in_play, int *pots) {
   return sum;
 }
 
-/* Points after which the other cannot draw level. */
+static int64_t lead_of(const uint64_t *user) {
+  return (int64_t)user[OWN] - (int64_t)user[OTHER];
+}
+
+/* Whether a striker with this lead claims the frame: the black alone is left, and its pot or a foul
+ * on it makes fewer points and ends the frame. */
+static bool is_claimed(int64_t lead, uint32_t balls) {
+  return balls == black && lead > MOST;
+}
+
+/* Points after which the other cannot draw level; 0 of a frame that is won. */
 static void left(const uint64_t *user, uint32_t in_play, int32_t needed[2]) {
   int pots;
-  const int64_t rest = remaining(user, in_play, &pots);
-  const int64_t lead = (int64_t)user[OWN] - (int64_t)user[OTHER];
+  const int64_t rest = remaining(user, in_play, &pots), lead = lead_of(user);
+  const uint32_t balls = in_play & (reds | colours);
   const int64_t own = rest - lead, other = rest + lead;
-  needed[0] = own < 2 ? 1 : (int32_t)(own / 2 + 1);
-  needed[1] = other < 2 ? 1 : (int32_t)(other / 2 + 1);
+  needed[0] = is_claimed(lead, balls) ? 0 : own < 2 ? 1 : (int32_t)(own / 2 + 1);
+  needed[1] = is_claimed(-lead, balls) ? 0 : other < 2 ? 1 : (int32_t)(other / 2 + 1);
 }
 
 static double points(const uint64_t *user, uint32_t in_play, int ball) {
@@ -152,6 +163,8 @@ static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const ca
   /* A stroke without a pot; the other must not be snookered behind a free ball. */
   const uint32_t fell = facts->down & balls;
   if (fell == 0) {
+    if (is_claimed(-lead_of(user), balls))
+      return finish(user, turn);
     user[NAMED] = free_ball ? (uint64_t)named + 1 : 0;
     return give(user, turn);
   }
@@ -163,7 +176,7 @@ static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const ca
   user[COLOUR] = red;
   turn.is = CAROM_TURN_KEEP;
   turn.spot = !colour && !red ? fell & ~due : fell & colours;
-  if (balls == black)
+  if (balls == black || is_claimed(lead_of(user), (balls & ~fell) | turn.spot))
     turn = finish(user, turn);
   turn.points = made;
   return turn.is == CAROM_TURN_PASS ? give(user, turn) : turn;

@@ -12,7 +12,8 @@
  * three more: p that the player keeps his turn, by a pot of any kind, a_n that he pots a later ball
  * of this visit where n are left, and e_n that he keeps the turn that the other has left him. All
  * are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it. They are nine-ball's where both
- * have the same balls, one-pocket's where each has pockets of his own, else eight-ball's.
+ * have the same balls, one-pocket's where each has pockets of his own, those of snooker or straight
+ * pool in races for points, else eight-ball's.
  *
  * What follows a miss is a chain over the balls left, n to the one who plays and m to the other:
  * of a visit he keeps the first turn with the chance e_n and each later one with a_n, both of a
@@ -111,12 +112,19 @@ static double chance(const double *w, const double *x, int n) {
   return 1.0 / (1.0 + carom_exp(-sum));
 }
 
-/* The numbers of the race of the game, and of its pockets. */
+/* The numbers of the race of the game, and of its pockets or its rack. */
 static const learned *numbers_of(const carom_view *view) {
   const carom_plan_rules *rules = view->rules;
-  return &learned_of[rules->race == CAROM_RACE_SHARED                          ? 1
-                     : rules->race == CAROM_RACE_OWN && rules->pockets != NULL ? 2
-                                                                               : 0];
+  switch (rules->race) {
+  case CAROM_RACE_SHARED:
+    return &learned_of[OF_NINEBALL];
+  case CAROM_RACE_POINTS:
+    return &learned_of[rules->rack == CAROM_RACK_SNOOKER ? OF_SNOOKER : OF_STRAIGHT];
+  case CAROM_RACE_OWN:
+    return &learned_of[rules->pockets != NULL ? OF_ONEPOCKET : OF_EIGHTBALL];
+  default:
+    return &learned_of[OF_EIGHTBALL];
+  }
 }
 
 double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]) {

@@ -251,7 +251,7 @@ static uint64_t hash_of(uint64_t h, const void *bytes, size_t size) {
  * two. Where a change of the method or of the physics is meant to change them, the new hash is
  * the one that this test prints. */
 TEST(golden_choices) {
-  static const uint64_t golden = UINT64_C(0xf0c7097372219af9);
+  static const uint64_t golden = UINT64_C(0x077f38e359e1188c);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
   int pots = 0;
   for (int k = 0; k < 20; k++) {
@@ -407,6 +407,28 @@ TEST(chances_are_kept) {
                   "%g after %lld, %g after 1000", best.keep, (long long)best.seen, p);
     edge_free(&memory);
   }
+}
+
+/* The chances that plans tell are those of the same strokes with other errors: in the mean of 60
+ * layouts within 0.02. The shots that chose them tell more. */
+TEST(luck_of_the_choice) {
+  enum { LAYOUTS = 60 };
+  double more = 0.0, luck = 0.0;
+  for (uint64_t k = 0; k < LAYOUTS; k++) {
+    make_layout(k + 1, 7);
+    player = carom_player_of(3.0);
+    make_memory();
+    carom_choice best, again;
+    int found;
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    options.seed = 77;
+    ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &again), CAROM_OK);
+    more += (best.value - again.value) / LAYOUTS;
+    luck += 0.75 * best.error / LAYOUTS;
+    edge_free(&memory);
+  }
+  ck_assert_msg(fabs(more) < 0.02 && more + luck > 0.02, "told %+.4f more, with luck %+.4f", more,
+                more + luck);
 }
 
 /* The pots of strokes without errors: the ball that falls first is named, in nine-ball whichever it
@@ -672,7 +694,9 @@ TEST(three_cushion) {
     options.seed = 77;
     ck_assert_int_eq(carom_plan_try(&job, &best[0].cue, 1, &again), CAROM_OK);
     const double p = again.keep, n = (double)best[0].seen;
-    ck_assert(best[0].value == best[0].keep && best[0].pocket == -1);
+    const double told = fmax(best[0].keep - 0.75 * best[0].error, 0.0);
+    ck_assert(fabs(best[0].value - told) < 1e-12 && best[0].pocket == -1);
+    ck_assert(again.value == again.keep);
     ck_assert(fabs(best[0].keep - p) < 0.05 + 4.0 * sqrt((p * (1.0 - p) + 0.5 / n) / n));
     for (int i = 0; i < found; i++) {
       carom_facts facts;

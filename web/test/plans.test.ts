@@ -181,7 +181,7 @@ test("points of three-cushion", () => {
   const table = carom.table("threecushion");
   const balls = carom.rack("threecushion", table);
   const best = carom.plan(table, balls, { rules: "threecushion", shots: 600 });
-  expect(best[0]!.value).toBe(best[0]!.keep);
+  expect(best[0]!.value).toBeCloseTo(best[0]!.keep - 0.75 * best[0]!.error, 12);
   expect(["carom", "kick"]).toContain(best[0]!.kind);
   const { turn, facts } = carom.referee(table, balls, best[0]!.cue, { rules: "threecushion", group: "open", opening: false });
   expect(facts.first[1] > 0 && facts.cushionsBefore[1] >= 3).toBe(turn === "keep");
