@@ -246,6 +246,64 @@ carom_status carom_python_strokes(const carom_python_game *game, size_t begin, s
   return code;
 }
 
+/* m, the least distance between balls that are placed, and to what is fixed. */
+static const double gap = 1e-3;
+
+/* Whether a place is farther than `least` from another one. */
+static bool beyond(const double r[], const double other[], double least) {
+  const double x = r[0] - other[0], y = r[1] - other[1];
+  return x * x + y * y > least * least;
+}
+
+bool carom_python_free(const carom_python_game *game, const carom_shot_ball *balls, int many) {
+  const carom_table *table = game->table;
+  const double radius = balls->kind.radius;
+  for (int i = 0; i < many; i++) {
+    const double *r = balls[i].state.r;
+    for (int64_t k = 0; k < table->pockets; k++)
+      if (!beyond(r, table->pocket[k].centre, table->pocket[k].radius + radius + gap))
+        return false;
+    for (int64_t k = 0; k < table->jaws; k++)
+      if (!beyond(r, table->jaw[k].centre, table->jaw[k].radius + radius + gap))
+        return false;
+    for (int j = i + 1; j < game->balls; j++)
+      if (balls[j].state.label != CAROM_BALL_POCKETED &&
+          !beyond(r, balls[j].state.r, 2.0 * radius + gap))
+        return false;
+  }
+  return true;
+}
+
+/* The next number of SplitMix64, from 0 to 1, without 1. */
+static double draw(uint64_t *at) {
+  uint64_t z = *at += 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  z ^= z >> 31;
+  return (double)(z >> 11) * 0x1p-53;
+}
+
+bool carom_python_place(const carom_python_game *game, size_t n, uint64_t *draws, int many,
+                        carom_shot_ball *balls) {
+  for (size_t k = 0; k < n; k++, balls += game->balls) {
+    const double low = balls->kind.radius + gap;
+    const double width = game->table->width - low - low, length = game->table->length - low - low;
+    int tries = 0;
+    do {
+      if (tries++ == 10000)
+        return false;
+      for (int i = 0; i < many; i++) {
+        carom_ball_state *state = &balls[i].state;
+        state->r[0] = low + width * draw(&draws[k]);
+        state->r[1] = low + length * draw(&draws[k]);
+        state->r[2] = balls->kind.radius;
+        state->label = CAROM_BALL_STATIONARY;
+      }
+    } while (!carom_python_free(game, balls, many));
+  }
+  return true;
+}
+
 void carom_python_seen(const carom_shot_ball *balls, size_t n, size_t count, double *seen) {
   for (size_t k = 0; k < n; k++, seen++)
     for (size_t i = 0; i < count; i++, balls++, seen += 3) {

@@ -58,6 +58,16 @@ carom_status carom_python_strokes(const carom_python_game *game, size_t begin, s
                                   const carom_cue *cues, size_t cue_stride, carom_shot_ball *after,
                                   carom_python_stroke *strokes);
 
+/* Whether the first `many` balls of a layout are clear of each other and of the others in play, by 1 mm,
+ * and of pockets and the rounded ends of cushions. */
+bool carom_python_free(const carom_python_game *game, const carom_shot_ball *balls, int many);
+
+/* Places the first `many` balls of n layouts at random, at rest, where they are free. draws[k] is where
+ * the numbers of game k stand, which go on: those of SplitMix64. Returns false where 10,000 draws
+ * found no places. */
+bool carom_python_place(const carom_python_game *game, size_t n, uint64_t *draws, int many,
+                        carom_shot_ball *balls);
+
 /* What agents see of n layouts of `count` balls: seen[(3 count + 1) k + 3 i ...] become x, y (m) and 1
  * of ball i of layout k, or 0, 0, 0 of one that is down. The last number of a layout is not written. */
 void carom_python_seen(const carom_shot_ball *balls, size_t n, size_t count, double *seen);

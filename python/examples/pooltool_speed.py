@@ -1,10 +1,10 @@
-"""How many times as fast as pooltool: nine-ball breaks, by pooltool and by carom in one process.
+"""How many times as fast as pooltool: breaks of nine-ball and eight-ball, and three-cushion, by pooltool and by carom in one process.
 
     python pooltool_speed.py [REPEATS]
 
 Both play the same Systems, and it is checked first that their events and histories agree. Every time is processor time after both are
-warm. The first row is the mean of 30 different breaks, each on a table of its own and played once. The others are of one break: the
-least of REPEATS plays (default 30; pooltool: a fifth as many), with the memory and the table of the last play at hand. Needs pooltool 0.6.
+warm. The first three rows are means of 30 different Systems, each on a table of its own and played once; the fourth is what a stroke
+that meets nothing costs. The others are of one break of nine-ball: the least of REPEATS plays (default 30; pooltool: a fifth as many), with the memory and the table of the last play at hand. Needs pooltool 0.6.
 """
 
 from __future__ import annotations
@@ -20,18 +20,22 @@ import pooltool
 import carom
 import carom.pooltool
 
+NINEBALL = pooltool.GameType.NINEBALL
 BATCH = 200
 BREAKS = 30
 
 
-def nineball_break(seed: int, speed: float) -> Any:
-    """A System: the rack of pooltool's nine-ball, struck hard at the ball in front."""
+def opening(game: Any, seed: int, speed: float) -> Any:
+    """A System: the rack of a game of pooltool's, the cue ball struck at the first other ball."""
     np.random.seed(seed)
-    table = pooltool.Table.from_game_type(pooltool.GameType.NINEBALL)
-    balls = pooltool.get_rack(pooltool.GameType.NINEBALL, table, spacing_factor=1e-3)
-    system = pooltool.System(cue=pooltool.Cue(cue_ball_id="cue"), table=table, balls=balls)
-    way = balls["1"].xyz - balls["cue"].xyz
-    system.strike(V0=speed, phi=float(np.degrees(np.arctan2(way[1], way[0]))), b=0.1)
+    table = pooltool.Table.from_game_type(game)
+    balls = pooltool.get_rack(game, table, spacing_factor=1e-3)
+    first, other = ("cue", "1") if "cue" in balls else ("white", "red")
+    system = pooltool.System(cue=pooltool.Cue(cue_ball_id=first), table=table, balls=balls)
+    way = balls[other].xyz - balls[first].xyz
+    # In three-cushion it passes the red ball or meets it on either side.
+    aside = 0.0 if first == "cue" else float(np.random.uniform(-3.0, 3.0))
+    system.strike(V0=speed, phi=float(np.degrees(np.arctan2(way[1], way[0]))) + aside, b=0.1)
     return system
 
 
@@ -70,9 +74,16 @@ def once(systems: list[Any], play: Callable[[Any], object]) -> float:
 def main() -> None:
     repeats = int(sys.argv[1]) if len(sys.argv) > 1 else 30
     few = max(repeats // 5, 1)
-    system = nineball_break(1, 8.0)
-    others = [nineball_break(2 + k, 6.0 + 4.0 * k / BREAKS) for k in range(BREAKS)]
+    system = opening(NINEBALL, 1, 8.0)
+    lone = pooltool.System(cue=pooltool.Cue(cue_ball_id="cue"), table=system.table.copy(), balls={"cue": system.balls["cue"].copy()})
+    lone.strike(V0=0.5, phi=90.0)
     theirs, ours = pooltool.simulate, carom.pooltool.simulate
+
+    def games(kind: Any) -> tuple[str, float, float]:
+        others = [opening(kind, 2 + k, 6.0 + 4.0 * k / BREAKS) for k in range(BREAKS)]
+        slow, fast = (once(others, lambda s, play=play: play(s, inplace=True)) for play in (theirs, ours))  # type: ignore[misc]
+        return f"drop-in, {BREAKS} different {kind}", slow, fast
+
     mine, right = ours(system, continuous=True), theirs(system, continuous=True)
     check(mine, right)
     table, balls, cue = carom.pooltool.table_of(system.table), carom.pooltool.balls_of(system), carom.pooltool.cue_of(system)
@@ -93,7 +104,8 @@ def main() -> None:
     alone = least(few, system, lambda s: theirs(s, inplace=True))
     continuous = least(few, system, lambda s: theirs(s, inplace=True, continuous=True))
     rows = (
-        (f"drop-in, {BREAKS} different breaks", once(others, lambda s: theirs(s, inplace=True)), once(others, lambda s: ours(s, inplace=True))),
+        *map(games, (NINEBALL, pooltool.GameType.EIGHTBALL, pooltool.GameType.THREECUSHION)),
+        ("drop-in, nothing is met", least(few, lone, lambda s: theirs(s, inplace=True)), least(repeats, lone, lambda s: ours(s, inplace=True))),
         ("drop-in", alone, least(repeats, system, lambda s: ours(s, inplace=True))),
         ("drop-in, all objects looked at", alone, least(repeats, system, lambda s: look(ours(s, inplace=True)))),
         ("continuous=True", continuous, least(repeats, system, lambda s: ours(s, inplace=True, continuous=True))),

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from carom import dtypes, plans, racks
 from carom._draws import Draws, Games
-from carom._rows import listing
+from carom._rows import copied, listing
 from carom.layouts import Game
 from carom.potting import Potting
 from carom.rules import Game as RulesGame
@@ -62,7 +62,7 @@ class Break(Potting):
         """The layouts, broadcast against the actions, with the cue balls where the actions put them."""
         given = np.asarray(actions, np.float64)
         low, high = self.corners()
-        laid = np.broadcast_to(balls, (*np.broadcast_shapes(balls.shape[:-1], given.shape[:-1]), balls.shape[-1])).copy()
+        laid = copied(np.broadcast_to(balls, (*np.broadcast_shapes(balls.shape[:-1], given.shape[:-1]), balls.shape[-1])))
         laid["state"]["r"][..., 0, :2] = low + (high - low) * (np.clip(given[..., 4:], -1.0, 1.0) + 1.0) / 2.0
         return laid
 

@@ -143,13 +143,11 @@ class Pool:
 
     def put(self, balls: dtypes.Records, hand: Hand, wanted: npt.ArrayLike, draws: Draws) -> None:
         """Put the cue ball of a layout where it is wanted, two numbers from -1 to 1, or where that is not free, at random."""
-        others = balls["state"][1:]
-        taken = others["r"][others["label"] != Label.POCKETED, :2]
         low, high = self.area(hand)
         part = (np.clip(wanted, -1.0, 1.0) + 1.0) / 2.0
-        while not self.base.free((low + (high - low) * part)[np.newaxis], taken):
-            part = draws.uniform(_ONE, 2)[0]
         self.lay(balls, low + (high - low) * part)
+        while not self.base.free(balls):
+            self.lay(balls, low + (high - low) * draws.uniform(_ONE, 2)[0])
 
     def lay(self, balls: dtypes.Records, place: npt.ArrayLike) -> None:
         """Lay the cue ball of a layout to a place, m, at rest."""

@@ -30,8 +30,6 @@ from carom.status import CaromError
 
 __dir__ = listing(__name__)
 
-_GAP = 1e-3  # m, the least distance between balls that are placed
-_TRIES = 10_000
 _STATIONARY, _POCKETED = int(Label.STATIONARY), int(Label.POCKETED)  # with which NumPy compares in half the time
 _STROKE = dtypes._record("carom_python_stroke")
 
@@ -147,12 +145,6 @@ class Potting:
         ball = layouts.balls(np.zeros((1, 2)), game=ball_set)
         self._ball = ball.tobytes()
         self.radius = float(ball["kind"]["radius"][0])
-        # What a ball that is placed has to be clear of: pockets and the rounded ends of cushions, each with the square of the least
-        # distance, m^2; and the bounds of its place.
-        self._fixed = np.concatenate([self.table.pockets["centre"], self.table.jaws["centre"]])
-        self._clear = (np.concatenate([self.table.pockets["radius"], self.table.jaws["radius"]]) + self.radius + _GAP) ** 2
-        self._low = np.full(2, self.radius + _GAP)
-        self._wide = (size - self._low) - self._low
         # For C, with what it points to.
         self._kept = (self.table.record, shot_options(Options(cushion_model=cushion_model), threads), layouts.cue(), self.player())
         record, of_c, cue, player = self._kept
@@ -262,7 +254,8 @@ class Potting:
 
     def deal(self, draws: Draws, games: Games) -> dtypes.Records:
         """Random layouts of some games, of shape (len(games), balls + 1), with random parameters."""
-        made = self._balls(self._places(draws, games, self.balls + 1), np.ones((len(games), self.balls + 1), np.bool_))
+        made = repeated(self._ball, dtypes.shot_ball, (len(games), self.balls + 1))
+        self._place(made, draws, games, self.balls + 1)
         for name, (low, high) in self.parameters.items():
             made["kind"][name] = low + (high - low) * draws.uniform(games, 1)
         return made
@@ -278,45 +271,18 @@ class Potting:
 
     def put_back(self, balls: dtypes.Records, draws: Draws, games: Games) -> None:
         """Put the cue balls of some games, layouts of shape (len(games), balls + 1), back on the table, at random."""
-        others = balls["state"][:, 1:]
-        in_play = (others["label"] != _POCKETED)[..., np.newaxis]
-        taken = np.where(in_play, others["r"][..., :2], np.inf)
-        balls["state"]["r"][:, 0, :2] = self._places(draws, games, 1, taken)[:, 0]
-        balls["state"]["r"][:, 0, 2] = self.radius
-        balls["state"]["label"][:, 0] = _STATIONARY
+        self._place(balls, draws, games, 1)
 
-    def _places(self, draws: Draws, games: Games, count: int, taken: dtypes.Doubles | None = None) -> dtypes.Doubles:
-        """Places for balls, of shape (len(games), count, 2).
+    def _place(self, balls: dtypes.Records, draws: Draws, games: Games, many: int) -> None:
+        """Place the first balls of layouts, drawn together until all are clear of each other, of what is fixed, and of the others in play."""
+        at = draws.at[games]
+        if not lib.carom_python_place(self._c, len(games), pointer("uint64_t[]", at), many, pointer("carom_shot_ball[]", balls)):
+            raise ValueError(f"table: no free places for {many} balls in 10,000 draws: it is too small for {self.balls}")
+        draws.at[games] = at
 
-        Those of a game are drawn together until all are clear of each other, of what is fixed, and of balls, (len(games), n, 2).
-        """
-        others = np.zeros((len(games), 0, 2)) if taken is None else taken
-        places = np.zeros((len(games), count, 2))
-        left = np.arange(len(games))
-        for _ in range(_TRIES):
-            if len(left) == 0:
-                return places
-            drawn = self._low + self._wide * draws.uniform(games[left], count, 2)
-            places[left] = drawn
-            left = left[~self.free(drawn, others[left])]
-        raise ValueError(f"table: no free places for {count} balls in {_TRIES} draws: it is too small for {self.balls}")
-
-    def free(self, places: dtypes.Doubles, taken: dtypes.Doubles) -> npt.NDArray[np.bool_]:
-        """Whether places of balls, (..., n, 2), are clear of each other, of pockets and jaws, and of balls, (..., m, 2)."""
-        x, y = places[..., 0, np.newaxis], places[..., 1, np.newaxis]
-
-        def squares(of: dtypes.Doubles) -> dtypes.Doubles:
-            return np.asarray((x - of[..., np.newaxis, :, 0]) ** 2 + (y - of[..., np.newaxis, :, 1]) ** 2)
-
-        apart = (2.0 * self.radius + _GAP) ** 2
-        clear = (squares(self._fixed) > self._clear).all(axis=(-2, -1))
-        if taken.shape[-2] > 0:
-            clear &= (squares(taken) > apart).all(axis=(-2, -1))
-        if places.shape[-2] > 1:
-            each, own = squares(places), np.arange(places.shape[-2])
-            each[..., own, own] = np.inf
-            clear &= (each > apart).all(axis=(-2, -1))
-        return np.asarray(clear)
+    def free(self, balls: dtypes.Records) -> bool:
+        """Whether the cue ball of a layout is clear of the others in play, of pockets and of jaws."""
+        return bool(lib.carom_python_free(self._c, pointer("carom_shot_ball[]", balls), 1))
 
     def placed(self, balls: dtypes.Records, actions: npt.ArrayLike) -> dtypes.Records:
         """The layouts with what actions place: here nothing."""
