@@ -89,14 +89,8 @@ static inline void every_input_make(every_input *in, int number, int threads) {
 
 /* ---- One number for what was computed */
 
-static inline uint64_t every_hash(uint64_t h, const void *bytes, size_t size) {
-  for (size_t k = 0; k < size; k++)
-    h = (h ^ ((const unsigned char *)bytes)[k]) * UINT64_C(0x100000001b3);
-  return h;
-}
-
 static inline uint64_t every_text(uint64_t h, const char *text) {
-  return text == NULL ? h * 3 : every_hash(h, text, strlen(text));
+  return text == NULL ? h * 3 : hash_of(h, text, strlen(text));
 }
 
 #define EVERY_BODY(name)                                                         \
@@ -112,7 +106,7 @@ static inline uint64_t every_text(uint64_t h, const char *text) {
     const type object = (call);        \
     return HASH(object);               \
   }
-#define HASH(object) h = every_hash(h, &(object), sizeof(object))
+#define HASH(object) h = hash_of(h, &(object), sizeof(object))
 #define STATUS(call)              \
   do {                            \
     const int code = (int)(call); \
@@ -235,7 +229,7 @@ EVERY_BODY(check) {
 EVERY_BODY(collide) {
   for (int k = 0; k < EVERY_FEW; k++)
     STATUS(carom_collide(&in->impact[k], NULL, &room->result[k]));
-  return every_hash(h, room->result, EVERY_FEW * sizeof room->result[0]);
+  return hash_of(h, room->result, EVERY_FEW * sizeof room->result[0]);
 }
 EVERY_BODY(collide_detail) {
   for (int k = 0; k < EVERY_FEW; k++) {
@@ -280,7 +274,7 @@ EVERY_BODY(cushion) {
     const carom_cushion_options options = {.model = (carom_cushion_model)(k % 5), .steps = 100};
     STATUS(carom_cushion(&in->cushion[k], &options, &room->motion[k]));
   }
-  return every_hash(h, room->motion, (size_t)5 * EVERY_FEW * sizeof room->motion[0]);
+  return hash_of(h, room->motion, (size_t)5 * EVERY_FEW * sizeof room->motion[0]);
 }
 EVERY_BODY(cushion_batch) {
   const carom_cushion_options options = {.threads = in->threads};
@@ -328,7 +322,7 @@ EVERY_BODY(table_polygon) {
 }
 EVERY_BODY(rack) {
   STATUS(carom_rack(CAROM_RACK_NINEBALL, &in->table, 1e-4, 3, room->balls, EVERY_BALLS));
-  return every_hash(h, room->balls, 10 * sizeof room->balls[0]);
+  return hash_of(h, room->balls, 10 * sizeof room->balls[0]);
 }
 EVERY_BODY(place_ball) {
   carom_part part;
@@ -360,7 +354,7 @@ static inline carom_status every_break(const every_input *in, every_room *room, 
 static inline uint64_t every_shot(uint64_t h, const every_room *room) {
   HASH(room->shot[0].count);
   HASH(room->final);
-  return every_hash(h, room->event, (size_t)room->shot[0].count * sizeof room->event[0]);
+  return hash_of(h, room->event, (size_t)room->shot[0].count * sizeof room->event[0]);
 }
 EVERY_BODY(shoot) {
   for (int world = 0; world < 2; world++) {
@@ -507,7 +501,7 @@ EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NI
 EVERY_BODY(impact3) {
   for (int k = 0; k < EVERY_FEW; k++)
     STATUS(carom_impact3(&in->impact[k], &room->result[k]));
-  return every_hash(h, room->result, EVERY_FEW * sizeof room->result[0]);
+  return hash_of(h, room->result, EVERY_FEW * sizeof room->result[0]);
 }
 EVERY_BODY(cluster) {
   carom_shot_ball balls[EVERY_BALLS];
@@ -515,7 +509,7 @@ EVERY_BODY(cluster) {
   balls[1].state.v[1] = 5.0; /* into the rack */
   STATUS(carom_cluster(balls, EVERY_BALLS, NULL, room->motion, room->cluster, EVERY_FEW, NULL));
   HASH(room->cluster);
-  return every_hash(h, room->motion, EVERY_BALLS * sizeof room->motion[0]);
+  return hash_of(h, room->motion, EVERY_BALLS * sizeof room->motion[0]);
 }
 EVERY_BODY(shot_orientation) {
   every_break(in, room, 0, 0.5);
@@ -546,7 +540,7 @@ EVERY_BODY(shoot_batch) {
                               .status = room->status};
   STATUS(carom_shoot_batch(&job));
   for (int k = 0; k < EVERY_SHOTS; k++)
-    h = every_hash(h, room->brief[k], (size_t)room->shot[k].count * sizeof room->brief[k][0]);
+    h = hash_of(h, room->brief[k], (size_t)room->shot[k].count * sizeof room->brief[k][0]);
   return h;
 }
 
@@ -562,7 +556,7 @@ EVERY_BODY(cushion_tangent) {
   for (int k = 0; k < EVERY_FEW; k++) {
     STATUS(carom_cushion_tangent(&in->cushion[k], NULL, CAROM_DIRECTIONS_MOST, in->seeds,
                                  room->contact, NULL));
-    h = every_hash(h, room->contact, sizeof room->contact / 2);
+    h = hash_of(h, room->contact, sizeof room->contact / 2);
   }
   return h;
 }
@@ -589,7 +583,7 @@ EVERY_BODY(shot_tangent) {
   const carom_tangent_seeds of_state = {.directions = CAROM_DIRECTIONS_MOST, .state = in->seeds};
   STATUS(carom_shot_tangent(&in->table, &ball, 1, NULL, &exact, &room->shot[0], &of_state,
                             &room->tangent[0]));
-  h = every_hash(h, room->ends[0], sizeof(double) * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST);
+  h = hash_of(h, room->ends[0], sizeof(double) * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST);
   return h;
 }
 EVERY_BODY(shot_tangent_batch) {
@@ -610,7 +604,7 @@ EVERY_BODY(shot_tangent_batch) {
   const carom_tangent_job own = {.played = &job, .seeds = &seeds, .tangents = room->tangent};
   STATUS(carom_shot_tangent_batch(&own));
   for (int k = 0; k < EVERY_SHOTS; k++)
-    h = every_hash(h, room->ends[k], sizeof(double) * EVERY_BALLS * CAROM_STATE_NUMBERS * 3);
+    h = hash_of(h, room->ends[k], sizeof(double) * EVERY_BALLS * CAROM_STATE_NUMBERS * 3);
   return h;
 }
 

@@ -165,6 +165,12 @@ static int run(const char *name, TCase *tcase, enum fork_status fork) {
   return failed == 0 ? 0 : 1;
 }
 
+uint64_t hash_of(uint64_t h, const void *bytes, size_t size) {
+  for (size_t k = 0; k < size; k++)
+    h = (h ^ ((const unsigned char *)bytes)[k]) * UINT64_C(0x100000001b3);
+  return h;
+}
+
 void put_number(void *to, const carom_number *n, int at, double x) {
   const size_t sizes[] = {sizeof(double), sizeof(int32_t), sizeof(int64_t), sizeof(uint64_t)};
   const int64_t whole = (int64_t)(n->type == CAROM_TYPE_DOUBLE ? 0 : x);

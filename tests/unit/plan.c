@@ -241,12 +241,6 @@ TEST(spots) {
 
 /* ---- Choices */
 
-static uint64_t hash_of(uint64_t h, const void *bytes, size_t size) {
-  for (size_t k = 0; k < size; k++)
-    h = (h ^ ((const unsigned char *)bytes)[k]) * UINT64_C(0x100000001b3);
-  return h;
-}
-
 /* The choices of 20 layouts, by plain: the same hash on all machines, with one thread and with
  * two. Where a change of the method or of the physics is meant to change them, the new hash is
  * the one that this test prints. */
@@ -932,9 +926,9 @@ static bool is_least(double elevation, carom_cue c) {
 }
 
 /* Aims the eight at a pocket with a cue that is left to the stick. Where it falls, the cue is raised
- * by the least elevation that the reference has, or by more where that jumps; a stick that crosses a
- * nose or a ball is over all; and the stroke pots. A level cue and one that is raised as far by the caller keep their elevation,
- * and are told the same. Returns whether the stroke falls. */
+ * by the least elevation that the reference has, or by more where that jumps; a stick that crosses
+ * a nose or a ball is over all; and the stroke pots. A level cue and one that is raised as far by
+ * the caller keep their elevation, and are told the same. Returns whether the stroke falls. */
 static bool aims_raised(int pocket, carom_cue *c) {
   carom_pot pot = {.ball = 8, .pocket = pocket}, given = pot;
   carom_cue same;

@@ -868,12 +868,6 @@ TEST(colours_by_value_and_position) {
 
 /* ---- Golden games */
 
-static uint64_t hash_of(uint64_t h, const void *bytes, size_t size) {
-  for (size_t k = 0; k < size; k++)
-    h = (h ^ ((const unsigned char *)bytes)[k]) * UINT64_C(0x100000001b3);
-  return h;
-}
-
 /* A whole game between two plans of few shots: the same strokes, scores and layouts on all
  * machines. Where a change of the method or of the physics is meant to change them, the new hash is
  * the one that this test prints. All layouts are such that a shot can be played from, and the
