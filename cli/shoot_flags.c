@@ -84,8 +84,7 @@ ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "slips off the ball, of which carom warns");
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
     "of the butt of the cue (default 0). With --pocket also least: as little as the stick needs "
-    "over "
-    "the cushions and balls behind the cue ball");
+    "over the cushions and balls behind the cue ball");
 ROW(option_tip_time, "tip-time", tip_time, "SECONDS", set_number, 0,
     "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.002, of "
     "leather; of hard resin, which lets balls jump: 0.0006). -1: no time");

@@ -27,10 +27,9 @@ typedef struct carom_python_game {
   const carom_table *table;
   const carom_shot_options *options;
   const carom_plan_rules *rules;
-  carom_cue cue; /* of all strokes, but for direction, speed and tip */
-  carom_player
-      player;    /* the errors, and the bounds of speed and tip that actions of -1 and 1 are */
-  int32_t balls; /* of a layout, the cue ball among them */
+  carom_cue cue;       /* of all strokes, but for direction, speed and tip */
+  carom_player player; /* the errors; and the bounds, which actions of -1 and 1 are */
+  int32_t balls;       /* of a layout, the cue ball among them */
 } carom_python_game;
 
 /* What a stroke was: `potted` and `scratch` are the balls and the cue ball that fell in it. */
@@ -44,32 +43,34 @@ typedef struct carom_python_stroke {
   bool cleared; /* whether all balls but the cue ball are down after it */
 } carom_python_stroke;
 
-/* The strokes of n actions of `acts` numbers each, at least 4, of which what is beyond -1 to 1 counts as
- * the bound; with seeds each errs as the player does. Returns whether all numbers are finite. */
+/* The strokes of n actions of `acts` numbers each, at least 4, of which what is beyond -1 to 1
+ * counts as the bound; with seeds each errs as the player does. Returns whether all numbers are
+ * finite. */
 bool carom_python_cues(const carom_python_game *game, size_t n, const double *actions, size_t acts,
                        const uint64_t *seeds, carom_cue *cues);
 
 /* Plays the strokes `begin` up to, without it, begin + n, and judges them. Stroke k is of
- * balls[k * ball_stride ...] and cues[k * cue_stride]. after[k * balls ...] becomes the layout after it:
- * that before it, where it ended in an error or a ball left the table. Returns what
+ * balls[k * ball_stride ...] and cues[k * cue_stride]. after[k * balls ...] becomes the layout
+ * after it: that before it, where it ended in an error or a ball left the table. Returns what
  * carom_shoot_batch() does, or CAROM_ERROR_NULL without memory. */
 carom_status carom_python_strokes(const carom_python_game *game, size_t begin, size_t n,
                                   const carom_shot_ball *balls, size_t ball_stride,
                                   const carom_cue *cues, size_t cue_stride, carom_shot_ball *after,
                                   carom_python_stroke *strokes);
 
-/* Whether the first `many` balls of a layout are clear of each other and of the others in play, by 1 mm,
- * and of pockets and the rounded ends of cushions. */
+/* Whether the first `many` balls of a layout are clear of each other and of the others in play, by
+ * 1 mm, and of pockets and the rounded ends of cushions. */
 bool carom_python_free(const carom_python_game *game, const carom_shot_ball *balls, int many);
 
-/* Places the first `many` balls of n layouts at random, at rest, where they are free. draws[k] is where
- * the numbers of game k stand, which go on: those of SplitMix64. Returns false where 10,000 draws
- * found no places. */
+/* Places the first `many` balls of n layouts at random, at rest, where they are free. draws[k] is
+ * where the numbers of game k stand, which go on: those of SplitMix64. Returns false where 10,000
+ * draws found no places. */
 bool carom_python_place(const carom_python_game *game, size_t n, uint64_t *draws, int many,
                         carom_shot_ball *balls);
 
-/* What agents see of n layouts of `count` balls: seen[(3 count + 1) k + 3 i ...] become x, y (m) and 1
- * of ball i of layout k, or 0, 0, 0 of one that is down. The last number of a layout is not written. */
+/* What agents see of n layouts of `count` balls: seen[(3 count + 1) k + 3 i ...] become x, y (m)
+ * and 1 of ball i of layout k, or 0, 0, 0 of one that is down. The last number of a layout is not
+ * written. */
 void carom_python_seen(const carom_shot_ball *balls, size_t n, size_t count, double *seen);
 
 /* Looks at the shots of a job, each of which has been played. A shot of which not all events

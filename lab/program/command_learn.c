@@ -352,7 +352,7 @@ static const command_form form = {
     .options = (const option_row *const[]){&learn_rules, &learn_racks, &learn_shots, &learn_seed,
                                            &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
-    .example = "carom-lab learn --threads all --rules nineball",
+    .example = "carom-lab learn --rules nineball",
     .files = NO_FILES,
 };
 

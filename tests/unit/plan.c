@@ -925,10 +925,11 @@ static bool is_least(double elevation, carom_cue c) {
   return good;
 }
 
-/* Aims the eight at a pocket with a cue that is left to the stick. Where it falls, the cue is raised
- * by the least elevation that the reference has, or by more where that jumps; a stick that crosses
- * a nose or a ball is over all; and the stroke pots. A level cue and one that is raised as far by
- * the caller keep their elevation, and are told the same. Returns whether the stroke falls. */
+/* Aims the eight at a pocket with a cue that is left to the stick. Where it falls, the cue is
+ * raised by the least elevation that the reference has, or by more where that jumps; a stick
+ * that crosses a nose or a ball is over all; and the stroke pots. A level cue and one that is
+ * raised as far by the caller keep their elevation, and are told the same. Returns whether the
+ * stroke falls. */
 static bool aims_raised(int pocket, carom_cue *c) {
   carom_pot pot = {.ball = 8, .pocket = pocket}, given = pot;
   carom_cue same;
