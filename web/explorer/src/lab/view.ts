@@ -386,7 +386,7 @@ export function laboratory(carom: Carom, solver: () => "exact" | "euler", main: 
       aimed();
     }
     const [of, other] = [names[met?.a ?? 0], met?.type === "ball_ball" ? names[met.b] : "a cushion"];
-    const why = { falls: "", no_way: "", rejected: "the jaws send it back", short: `ball ${of} comes to rest on its way`, barred: `ball ${of} meets ${other}` }[is];
+    const why = { falls: "", no_way: "", stick: "the stick would have to be raised too far", rejected: "the jaws send it back", short: `ball ${of} comes to rest on its way`, barred: `ball ${of} meets ${other}` }[is];
     const [low, high] = pot.speed.map((speed) => speed.toFixed(1));
     if (is === "no_way") message.textContent = `No such aim: no direction sends ${name}.`;
     else if (is !== "falls") message.textContent = `Aimed, but ${name} does not fall: ${why}.`;
