@@ -82,7 +82,7 @@ def main() -> None:
     def games(kind: Any) -> tuple[str, float, float]:
         others = [opening(kind, 2 + k, 6.0 + 4.0 * k / BREAKS) for k in range(BREAKS)]
         slow, fast = (once(others, lambda s, play=play: play(s, inplace=True)) for play in (theirs, ours))  # type: ignore[misc]
-        return f"drop-in, {BREAKS} different {kind}", slow, fast
+        return f"drop-in, {BREAKS} of {kind}", slow, fast
 
     mine, right = ours(system, continuous=True), theirs(system, continuous=True)
     check(mine, right)
