@@ -122,8 +122,9 @@ static void name_rack(layout *l, carom_rack_kind kind) {
     snprintf(l->name[0], PLACE_NAME, "%s", kind == CAROM_RACK_SNOOKER ? "white" : "cue");
 }
 
-static bool is_rail(const char *name) {
-  return place_among(RAILS, name, strlen(name)) >= 0;
+/* Of RAILS; -1: no rail. */
+static int rail_of(const char *name) {
+  return place_among(RAILS, name, strlen(name));
 }
 
 /* Puts ball k at rest at a place, which may touch one of the first `laid` balls; false after a
@@ -131,7 +132,7 @@ static bool is_rail(const char *name) {
 static bool lay(layout *l, int k, const given_place *at, int laid) {
   enum { HEAD, FOOT, LEFT, RIGHT };
   const double width = l->table.width, length = l->table.length, R = l->ball[k].kind.radius;
-  const int rail = place_among(RAILS, at->touches, strlen(at->touches));
+  const int rail = rail_of(at->touches);
   double x = place_along(&at->x, 0.25 * width), y = place_along(&at->y, 0.125 * length);
   if (rail == HEAD || rail == FOOT) {
     y = rail == HEAD ? R : length - R;
@@ -184,7 +185,7 @@ static bool lay_out(const shoot_flags *f, layout *l) {
 
   /* The places given. A cue ball that touches a ball is put there after it. */
   const given_place *cue = f->cue.count > 0 ? &f->cue.at[0] : NULL;
-  const bool last = cue != NULL && cue->touches[0] != '\0' && !is_rail(cue->touches);
+  const bool last = cue != NULL && cue->touches[0] != '\0' && rail_of(cue->touches) < 0;
   if (cue != NULL && !last && !lay(l, 0, cue, 0))
     return false;
   if (f->balls.rack == 0)
