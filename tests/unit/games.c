@@ -379,7 +379,7 @@ static void expect_place(const carom_table *t, double R, double x, double y, boo
 /* On the built-in tables a ball may stand at all places of a grid to which it can be rolled from
  * the middle, and nowhere else: not behind a cushion, not in a pocket. */
 TEST(places_on_built_in_tables) {
-  const double step = SANITIZED ? 0.016 : 0.008;
+  const double step = 0.016;
   for (int kind = 0; kind < TABLES; kind++) {
     carom_table t;
     const double R = radius_on(kind);
@@ -482,7 +482,8 @@ TEST(places_on_polygons) {
   random_source r = {test_seed()};
   const double R = 0.028575, step = 0.01;
   int tables = 0, drawn = 0, inside = 0, beyond = 0;
-  while (tables < FEWER(200)) {
+  const int most = draws_of_each(FEWER(48));
+  while (tables < most) {
     carom_table t;
     polygon shape;
     const carom_status made = make_polygon(&r, &t, &shape);

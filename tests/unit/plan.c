@@ -816,7 +816,7 @@ static void make_stroke(random_source *r, uint64_t seed) {
 TEST(aims) {
   random_source r = {test_seed()};
   int found[WAYS][CAROM_POT_REJECTED + 1] = {0};
-  const int most = FEWER(60);
+  const int most = draws_of_each(FEWER(24));
   int asked = 0, inside = 0;
   for (uint64_t seed = 1; seed < 200000; seed++) {
     carom_pot pot;
@@ -863,7 +863,7 @@ TEST(aims) {
            n[3], n[4]);
     /* one in ten, and two more by chance */
     ck_assert_int_le(n[1] + n[2] + n[3] + n[4], (n[0] + n[1] + n[2] + n[3] + n[4]) / 10 + 2);
-    ck_assert_int_gt(n[0], FEWER(30));
+    ck_assert_int_gt(n[0], most / 2);
   }
 }
 
@@ -960,7 +960,8 @@ static bool aims_raised(int pocket, carom_cue *c) {
 TEST(aims_of_the_stick) {
   random_source r = {test_seed()};
   int falls = 0, raised = 0;
-  for (int k = 0; k < FEWER(400); k++) {
+  const int draws = 4 * draws_of_each(FEWER(40));
+  for (int k = 0; k < draws; k++) {
     make_stroke(&r, test_seed() + 3000 + (uint64_t)k);
     if (k % 4 == 1)
       carom_place_ball(&table, balls, BALLS, 0, random_between(&r, 0.2, 1.0), balls[0].kind.radius,
@@ -978,14 +979,14 @@ TEST(aims_of_the_stick) {
     raised += good && one.theta > 5.0;
   }
   printf("%d fall, %d of them raised by more than 5 degrees\n", falls, raised);
-  ck_assert(falls > FEWER(60) && raised > FEWER(20));
+  ck_assert(falls > draws / 7 && raised > draws / 20);
 }
 
 /* The elevation where it begins: balls beside a level stick, which they just touch or do not, and
  * the end of the stick over the head cushion. Below the middle it jumps there. */
 TEST(where_the_stick_begins_to_touch) {
   int jumps = 0, held = 0;
-  for (int k = 0; k < FEWER(120); k++) {
+  for (int k = 0; k < FEWER(60); k++) {
     make_layout(1, 2);
     carom_place_ball(&table, balls, BALLS, 8, 0.4, 2.2, NULL);
     carom_place_ball(&table, balls, BALLS, 0, 0.62, k % 3 == 0 ? 1.6 : 1.79 + 1e-4 * k, NULL);
@@ -1051,7 +1052,8 @@ TEST(no_stick_reaches) {
 TEST(no_aims) {
   random_source r = {test_seed()};
   int refused = 0, off_middle = 0;
-  for (int k = 0; k < FEWER(120); k++) {
+  const int draws = draws_of_each(FEWER(48));
+  for (int k = 0; k < draws; k++) {
     make_stroke(&r, test_seed() + 1000 + (uint64_t)k);
     const int kind = k % WAYS, first = kind == 1 ? 2 : 8;
     carom_pot pot = {.ball = 8, .pocket = (int)random_between(&r, 0.0, 6.0)}, met;
@@ -1081,7 +1083,7 @@ TEST(no_aims) {
   }
   printf("%d ways are refused, by %d the ball falls off the middle\n", refused, off_middle);
   ck_assert_int_le(off_middle, 1 + refused / 50);
-  ck_assert_int_gt(refused, FEWER(60));
+  ck_assert_int_gt(refused, draws / 4);
 }
 
 /* Balls in a row before a pocket without jaws: the margin is the half angle at which its circle is
@@ -1260,7 +1262,7 @@ TEST(stopped_plans) {
     options.stop = &stop;
     make_memory();
     const carom_cue cues[2] = {{.speed = 2.0, .phi = 80.0}, {.speed = 3.0, .phi = 100.0}};
-    for (judged_most = 1; judged_most <= 2900; judged_most += judged_most < 3 ? 1 : 97) {
+    for (judged_most = 1; judged_most <= 2900; judged_most += judged_most < 3 ? 1 : 289) {
       judged = stop = 0;
       ck_assert_int_eq(which == PLAN   ? carom_plan(&job, best, 2, &found)
                        : which == HAND ? carom_plan_hand(&job, NULL, NULL, best, 2, &found)
