@@ -152,7 +152,10 @@ def after_each_event(shot: Shot) -> dtypes.Records:
 
 def _rvw(states: dtypes.Records) -> dtypes.Doubles:
     """Copies of r, v, w as pooltool has them, (..., 3, 3)."""
-    return np.stack([states["r"], states["v"], states["w"]], axis=-2)
+    rvw = np.empty((*states.shape, 3, 3))
+    for k, name in enumerate("rvw"):
+        rvw[..., k, :] = states[name]
+    return rvw
 
 
 def _states(rvws: dtypes.Doubles, labels: list[int], times: list[float]) -> list[Any]:
@@ -250,7 +253,6 @@ def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) ->
     `continuize` gives, a state each dt.
     """
     events = shot.events[:kept]
-    system.reset_history()
     filler = _Filler(system, events)
     happened = filler.happened()
     end: float = happened[-1].time if happened else 0.0
@@ -267,9 +269,10 @@ def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) ->
     for index, ball in enumerate(filler.balls):
         # The last state is the ball's own, and stands twice: after the last event and at the end.
         first, last = ball.state, lasts[index]
+        first.t = 0.0
         ball.history = _later_history(functools.partial(histories.of, index, [first], [last, last] if kept else [last]))
-        if continuous is not None:
-            ball.history_cts = _later_history(functools.partial(continuous.of, index, [first], [last]))
+        made = list if continuous is None else functools.partial(continuous.of, index, [first], [last])
+        ball.history_cts = _later_history(made)
         ball.state = last
     if stopped:
         system.stop_balls()

@@ -14,7 +14,7 @@ from carom._carom import ffi, lib
 from carom._described import BallNumbers
 from carom._described import Game as Game
 from carom._faults import strike_error
-from carom._rows import Array, as_array, choice, copied, fill, number, pointer, several, whole, with_numbers, worded
+from carom._rows import Array, as_array, choice, copied, fill, number, pointer, raw, several, whole, with_numbers, worded
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -60,10 +60,10 @@ class Table:
                 continue
             values = as_array(values, name)
             room = record[part].shape[0]
-            if values.dtype != record[part].dtype or values.ndim != 1 or len(values) > room:
+            if values.dtype != getattr(dtypes, part) or values.ndim != 1 or len(values) > room:
                 raise ValueError(f"{name}: an array of carom.dtypes.{part} of shape (up to {room},) is needed")
             record[name] = len(values)
-            record[part][: len(values)] = values
+            raw(record[part])[: len(values)] = raw(np.ascontiguousarray(values))
         self.record: dtypes.Records = record
 
     @classmethod

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import functools
 import importlib
+import struct
 import sys
 import types
 import warnings
@@ -77,14 +78,14 @@ def table_of(table: Any) -> Table:
     """The table of a System, for `carom.simulate`."""
     segments = table.cushion_segments
     linear, circular = tuple(segments.linear.values()), tuple(segments.circular.values())
-    pockets = tuple((*map(float, p.center[:2]), p.radius, p.depth) for p in table.pockets.values())
-    # Segments never change, and tables share them with their copies. A cached table keeps them, so an id stays theirs.
-    key = (*map(id, linear), None, *map(id, circular), *pockets)
+    pockets = tuple((p.center, p.radius, p.depth) for p in table.pockets.values())
+    # Segments and centres of pockets never change, and tables share them with their copies. A cached table keeps them, so an id stays theirs.
+    key = (*map(id, linear), None, *map(id, circular), *((id(centre), radius, depth) for centre, radius, depth in pockets))
     cached = _tables.get(key)
     if cached is None:
         if len(_tables) >= 16:
             _tables.clear()
-        cached = _tables[key] = (_table_of(linear, circular, pockets), (linear, circular))
+        cached = _tables[key] = (_table_of(linear, circular, pockets), (linear, circular, pockets))
     return Table.from_record(cached[0].record)
 
 
@@ -95,11 +96,17 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
     for segment in linear:
         if segment.direction not in (0, 1):
             raise UnsupportedError(f"cushion {segment.id!r} has balls on both sides: carom takes direction 0 or 1")
-    rails: Array = np.array(
-        [(c.p1[:2], c.p2[:2], c.height, (c.lx, c.ly, c.l0), c.direction, 0.0, 0.0) for c in linear], dtype=dtypes.rail
-    )
-    jaws: Array = np.array([(c.center[:2], c.radius, c.height, 0.0, 0.0) for c in circular], dtype=dtypes.jaw)
-    pockets: Array = np.array([((x, y), radius, depth) for x, y, radius, depth in holes], dtype=dtypes.pocket)
+    p, q = (np.array([getattr(c, end) for c in linear], np.float64).reshape(-1, 3) for end in ("p1", "p2"))
+    centres = np.array([c.center for c in circular], np.float64).reshape(-1, 3)
+    rails, jaws = np.zeros(len(linear), dtypes.rail), np.zeros(len(circular), dtypes.jaw)
+    pockets: Array = np.array([(centre[:2], radius, depth) for centre, radius, depth in holes], dtype=dtypes.pocket)
+    rails["p"], rails["q"], rails["height"], rails["side"] = p[:, :2], q[:, :2], p[:, 2], [c.direction for c in linear]
+    jaws["centre"], jaws["height"], jaws["radius"] = centres[:, :2], centres[:, 2], [c.radius for c in circular]
+    # The lines as pooltool has them, lx, ly and l0, whose signs say what `side` means.
+    (x, y), (dx, dy), line = p.T[:2], (q - p).T[:2], rails["line"]
+    across = dx == 0.0
+    slope = np.divide(dy, dx, out=np.zeros(len(linear)), where=~across)
+    line[:, 0], line[:, 1], line[:, 2] = np.where(across, 1.0, -slope), ~across, np.where(across, -x, slope * x - y)
     # The bed reaches from rail to rail, those in the mouths of pockets left out, which are oblique. (A System's own table.w and table.l
     # need segments with the names of pooltool's tables.)
     size = []
@@ -112,13 +119,15 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
 
 def balls_of(system: Any) -> dtypes.Records:
     """The balls of a System, in its order, for `carom.simulate`."""
-    numbers: list[Any] = []
-    own = (0.0,) * (len(dtypes.ball_kind.names or ()) - 10)  # drag and what follows it, which pooltool has not
+    kinds: dict[int, bytes] = {}
+    records = bytearray()
     for ball in system.balls.values():
-        p, rvw = ball.params, ball.state.rvw
-        kind = (p.m, p.R, p.u_s, p.u_r, p.u_sp, p.u_b, p.e_b, p.f_c, p.e_c, p.g, *own)
-        numbers.append((kind, (rvw[0], rvw[1], rvw[2], ball.state.s)))
-    return np.array(numbers, dtype=dtypes.shot_ball)
+        # Balls of a rack share their constants. What pooltool has not, drag and what follows it, stays 0.
+        p, state = ball.params, ball.state
+        if id(p) not in kinds:
+            kinds[id(p)] = struct.pack("10d", p.m, p.R, p.u_s, p.u_r, p.u_sp, p.u_b, p.e_b, p.f_c, p.e_c, p.g).ljust(dtypes.ball_kind.itemsize, b"\0")
+        records += kinds[id(p)] + np.asarray(state.rvw, np.float64).tobytes() + struct.pack("q", state.s)
+    return np.frombuffer(records, dtypes.shot_ball)
 
 
 def cue_of(system: Any) -> dtypes.Records:
