@@ -1,5 +1,9 @@
 """carom.jax: values are those of shots, derivatives those of carom.tangents and of differences; batches, compiled code, errors."""
 
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -225,3 +229,12 @@ def test_without_64_bits_the_error_says_what_to_do():
             ends(AIM)
     finally:
         jax.config.update("jax_enable_x64", True)
+
+
+def test_what_a_gradient_costs():
+    """The example finds the gradients of tangents, and prints its rows."""
+    script = Path(__file__).parents[1] / "examples" / "gradient_speed.py"
+    ran = subprocess.run([sys.executable, str(script), "1"], capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stderr
+    times = [[float(word) for word in line[20:].split()] for line in ran.stdout.splitlines()[1:]]
+    assert len(times) == 4 and all(min(row) > 0 for row in times) and times[1][1] == 1.0, ran.stdout

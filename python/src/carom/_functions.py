@@ -17,6 +17,9 @@ from carom.layouts import Table, of_record
 from carom.shots import simulate, simulate_batch
 from carom.status import CaromError, Status
 
+# The places of a state's numbers, x, y, v_x and so on, among those of r, v and w in `carom.dtypes.ball_state`.
+_ORDER = np.argsort([*ELEMENTS["r"], *ELEMENTS["v"], *ELEMENTS["w"]])
+
 
 class Final(NamedTuple):
     """Final states: arrays of float64, of the library that differentiates."""
@@ -28,7 +31,7 @@ class Final(NamedTuple):
     v_z: Any  # (..., balls): Heights of the centres, m, and velocities upward, m/s
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Shots:
     """Shots that differ by some numbers: on a table, of layouts (..., balls) and cues (...), as bytes with their shapes."""
 
@@ -50,6 +53,10 @@ class Shots:
     @functools.cached_property
     def directions(self) -> list[Direction]:
         return [direction for several in directions(self.names, self.count, "numbers") for direction in several]
+
+    @functools.cached_property
+    def seeds(self) -> dict[str, dtypes.Doubles]:
+        return seeds_of(self.directions, self.count)
 
     @functools.cached_property
     def played_on(self) -> Table:
@@ -83,8 +90,7 @@ class Shots:
         """The final states and their derivatives, of shape (..., balls, STATE, m)."""
         numbers = np.asarray(x)
         layouts, cues = self.records(numbers)
-        seeds, none = seeds_of(self.directions, self.count), np.zeros(0)
-        found, codes, final = play(self.played_on, layouts, cues, seeds, none, ("final",), self.room, self.threads, self.options)
+        found, codes, final = play(self.played_on, layouts, cues, self.seeds, np.zeros(0), ("final",), self.room, self.threads, self.options)
         played = np.where(np.isin(codes, (Status.ERROR_TANGENT, Status.ERROR_EVENTS_LOST)), 0, codes) if self.nan else codes
         return self.numbers(numbers, final, played), found["final"]
 
@@ -95,9 +101,7 @@ class Shots:
         if failed and not self.nan:
             first = tuple(int(k) for k in np.argwhere(bad)[0])
             self.refuse(x, first, Status(int(status[first])))
-        states: dtypes.Doubles = np.empty((*final.shape, STATE))
-        for name, elements in ELEMENTS.items():
-            states[..., elements] = final[name]
+        states: dtypes.Doubles = final.view(np.float64).reshape(*final.shape, -1)[..., _ORDER]
         if failed:
             states[bad] = np.nan
         return states

@@ -6,6 +6,7 @@ A derivative is exact for small changes and says nothing about larger ones: see 
 from __future__ import annotations
 
 import enum
+import math
 import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, addresses, as_array, in_chunks, pointer, several, whole, workers
+from carom._rows import Array, addresses, as_array, in_chunks, pointer, raw, several, whole, workers
 from carom._shot_options import Options, chosen, shot_options
 from carom.layouts import Table, of_record
 from carom.results import EventType, Shot, Shots
@@ -192,7 +193,8 @@ def _differentiate(
         record: Array = np.zeros(n, dtypes.tangent)
         for name, array in made.items():
             record[name] = addresses(array, 1)
-        record["times"], record["times_count"] = times.ctypes.data, len(times) if "at" in made else 0
+        if "at" in made and len(times):
+            record["times"], record["times_count"] = times.ctypes.data, len(times)
         results, statuses = pointer("carom_tangent[]", record), pointer("int8_t[]", codes)
 
         def differentiate(begin: int, many: int) -> int:
@@ -203,9 +205,10 @@ def _differentiate(
         made["error"] = record["error"]
         parts.append(made)
     whole = parts[0]
-    for name in set(whole) - {"flags", "error"} if len(parts) > 1 else ():
-        whole[name] = np.concatenate([part[name] for part in parts], axis=-1)
-    whole["error"] = np.max([part["error"] for part in parts], axis=0)
+    if len(parts) > 1:
+        for name in set(whole) - {"flags", "error"}:
+            whole[name] = np.concatenate([part[name] for part in parts], axis=-1)
+        whole["error"] = np.max([part["error"] for part in parts], axis=0)
     return whole, codes
 
 
@@ -406,11 +409,13 @@ def play(
     whole(threads, "threads", least=-1)
     room = whole(room, "room")
     balls, shape = layouts.shape[-1], np.broadcast_shapes(layouts.shape[:-1], () if cues is None else cues.shape)
-    n = int(np.prod(shape))
+    n = math.prod(shape)
     one_layout, one_cue = layouts.size == balls, cues is None or cues.size == 1
     rows = layouts.reshape(1, balls) if one_layout else np.broadcast_to(layouts, (*shape, balls)).reshape(n, balls)
     strikes = cues if cues is None else cues.reshape(()) if one_cue else np.broadcast_to(cues, shape).reshape(n)
-    parts: list[tuple[dict[str, Array], Array, Array]] = []
+    parts: list[dict[str, Array]] = []
+    codes: Array = np.empty(n, np.int8)
+    final: Array = np.empty((n, balls), dtypes.ball_state)
     shots: Shots | None = None
     at_once = _AT_ONCE * workers(threads)
     for begin in range(0, max(n, 1), at_once):
@@ -421,11 +426,12 @@ def play(
         shots = simulate_batch(table, rows if one_layout else rows[part], struck, room=room, threads=threads, out=again, options=options)
         events = int(np.minimum(shots.count, room).max(initial=0))
         job = shots._jobs(_options(shots.options, threads))
-        found, codes = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
-        parts.append((found, codes, shots.final.copy()))
+        found, codes[part] = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
+        raw(final)[part] = raw(shots.final)
+        parts.append(found)
     gathered: dict[str, Array] = {}
-    for name in parts[0][0]:
-        blocks = [part[0][name] for part in parts]
+    for name in parts[0]:
+        blocks = [found[name] for found in parts]
         if name == "time":
             # as many events as the longest shot has
             most = max(block.shape[1] for block in blocks)
@@ -435,8 +441,7 @@ def play(
             blocks = longer
         joined = np.concatenate(blocks) if len(blocks) > 1 else blocks[0]
         gathered[name] = joined.reshape((*shape, *joined.shape[1:]))
-    codes = np.concatenate([part[1] for part in parts]).reshape(shape)
-    return gathered, codes, np.concatenate([part[2] for part in parts]).reshape((*shape, balls))
+    return gathered, codes.reshape(shape), final.reshape((*shape, balls))
 
 
 def jacobian(
