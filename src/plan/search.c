@@ -228,9 +228,10 @@ static int64_t in_round(search *of) {
 
 /* Strokes near the best are played once without errors. False where there are none. */
 static bool add_near(search *of) {
-  const int64_t first = of->count, n = in_round(of);
+  const int64_t first = of->count;
   of->near = 0;
-  carom_search_near(of, n < PARENTS ? n : PARENTS);
+  of->entered = in_round(of);
+  carom_search_near(of, of->entered < PARENTS ? of->entered : PARENTS);
   if (of->count == first)
     return false;
   carom_search_stage(of, first, of->count - first, 1, 0);
@@ -239,9 +240,9 @@ static bool add_near(search *of) {
 }
 
 /* Those that meet a ball that is on come behind the candidates of the round, as if they had been in
- * all before. */
+ * all before; the others are left out. */
 static void take_near(search *of) {
-  const int64_t first = of->stage.first, n = in_round(of);
+  const int64_t first = of->stage.first;
   for (int64_t k = 0; k < of->stage.done; k++) {
     if (!carom_search_begins_well(of, of->outcome[k].first))
       continue;
@@ -250,8 +251,13 @@ static void take_near(search *of) {
     c.sum = c.squares = 0.0;
     c.seen = c.keep = c.foul = c.lose = 0;
     c.round = (int16_t)of->round;
-    of->found[first + k] = of->found[n + of->near];
-    of->found[n + of->near++] = c;
+    of->found[first + of->near++] = c;
+  }
+  of->count = first + of->near;
+  for (int64_t k = 0; k < of->near; k++) {
+    const candidate c = of->found[first + k];
+    of->found[first + k] = of->found[of->entered + k];
+    of->found[of->entered + k] = c;
   }
 }
 
@@ -262,7 +268,7 @@ static void next_round(search *of) {
   }
   if (of->round == NEAR_ROUND && of->near < 0 && add_near(of))
     return;
-  const int64_t n = in_round(of) + (of->round == NEAR_ROUND ? of->near : 0);
+  const int64_t n = of->round == NEAR_ROUND ? of->entered + of->near : in_round(of);
   int64_t each = left_for_rounds(of) / ROUNDS / n;
   each = each < 2 ? 2 : each;
   if (each * n > of->room)

@@ -115,7 +115,8 @@ typedef struct carom_search {
   int64_t shots;                  /* of all stages, about, */
   int64_t scan, scan_end, tried;  /* those of the scan; where its candidates end; tried so far */
   int64_t better;                 /* the candidate that is looked at again */
-  int64_t near;                   /* strokes near the best that are in the round; -1: none yet */
+  int64_t entered;                /* candidates of that round from the one before, */
+  int64_t near;                   /* and strokes near the best that join it; -1: none yet */
   int round, look, place, chosen; /* of places in hand: on its way, the best */
   carom_candidate best;           /* and the stroke from there */
 } carom_search;
