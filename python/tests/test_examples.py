@@ -90,18 +90,6 @@ def test_what_ppo_is_given():
         train_pot_one.main(["pot.svg", "many"])
 
 
-def test_ppo_is_trained(tmp_path, capsys):
-    """Two rounds, by which the policy changes; the curve, its table, and the agents at the end."""
-    pytest.importorskip("gymnasium", reason="gymnasium is not installed")
-    pytest.importorskip("stable_baselines3", reason="stable_baselines3, which needs PyTorch, is not installed: nothing was trained")
-    import train_pot_one
-
-    train_pot_one.main([str(tmp_path / "pot.svg"), "8192", "--games", "3"])
-    curve = np.loadtxt(tmp_path / "pot.csv", delimiter=",", skiprows=1)
-    assert curve[:, 0].tolist() == [4096, 8192] and curve[0, 2] != curve[1, 2]
-    assert "plan of 2000 shots: " in capsys.readouterr().out and (tmp_path / "pot.svg").stat().st_size > 10_000
-
-
 SHORT = ("aim_at_pocket", "all_cores", "ball_by_ball", "bot", "chaos", "custom_rule", "draw_distance", "drill", "frozen_kiss", "jump_over",
          "kick_by_diamonds", "masse", "own_table", "thirty_degrees", "throw_by_speed")  # fmt: skip
 

@@ -206,15 +206,6 @@ def test_gymnasiums_checkers(gymnasium, render_mode):
         env.close()
 
 
-def test_stable_baselines3s_checker(gymnasium):
-    """It does not warn, of any game."""
-    checker = pytest.importorskip("stable_baselines3.common.env_checker", reason="stable_baselines3, which needs PyTorch, is not installed")
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        for name in carom.gymnasium.GAMES:
-            checker.check_env(gymnasium.make(name).unwrapped)
-
-
 @pytest.mark.parametrize("threads", [0, 2])
 def test_many_games_are_single_games(gymnasium, threads):
     """Against gymnasium's own vector of single environments: observations, rewards, ends and infos to the bit, over many games."""
