@@ -1,18 +1,29 @@
 """How many times as fast as pooltool: breaks of nine-ball and eight-ball, and three-cushion, by pooltool and by carom in one process.
 
     python pooltool_speed.py [REPEATS]
+    python pooltool_speed.py NOTEBOOK.ipynb...
 
 Both play the same Systems, and it is checked first that their events and histories agree. Every time is processor time after both are
 warm. The first three rows are means of 30 different Systems, each on a table of its own and played once; the fourth is what a stroke
 that meets nothing costs. The others are of one break of nine-ball: the least of REPEATS plays (default 30; pooltool: a fifth as many), with the memory and the table of the last play at hand. Needs pooltool 0.6.
+
+Notebooks, such as those of docs/examples of pooltool's repository, are run by both, without pictures of plotly: pooltool.simulate is replaced. Told are its
+calls and the processor time of these and of all cells; cells that fail are told, and it is checked that both print the same.
 """
 
 from __future__ import annotations
 
+import contextlib
+import importlib.util
+import io
+import json
+import os
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 import pooltool
@@ -71,7 +82,49 @@ def once(systems: list[Any], play: Callable[[Any], object]) -> float:
     return float(np.mean([least(1, system, play) for system in systems]))
 
 
+def run_notebook(path: Path, play: Callable[..., Any]) -> tuple[str, int, float, float]:
+    """What the cells print, how often they call pooltool.simulate, and the processor time of that and of all, s."""
+    calls: list[float] = []
+
+    def simulate(*system: Any, **options: Any) -> Any:
+        begin = time.process_time()
+        played = play(*system, **options)
+        calls.append(time.process_time() - begin)
+        return played
+
+    cells = [cell for cell in json.loads(path.read_text(encoding="utf-8"))["cells"] if cell["cell_type"] == "code"]
+    names: dict[str, Any] = {}
+    # Nothing is shown; what is not installed takes all calls.
+    drawing = mock.MagicMock()
+    shown = {name: drawing for name in ("plotly", "plotly.graph_objects", "plotly.express", "plotly.io")}
+    missing = [name for name in ("matplotlib", "matplotlib.pyplot", "pandas") if importlib.util.find_spec(name.split(".")[0]) is None]
+    pictures = shown | {name: drawing for name in missing}
+    begin = time.process_time()
+    with contextlib.redirect_stdout(io.StringIO()) as told, mock.patch.dict(sys.modules, pictures), mock.patch.object(pooltool, "simulate", simulate):
+        for k, cell in enumerate(cells, 1):
+            try:
+                exec("".join(cell["source"]), names)
+            except Exception as error:
+                print(f"cell {k} failed: {type(error).__name__}: {error}")
+    return told.getvalue(), len(calls), sum(calls), time.process_time() - begin
+
+
+def notebooks(paths: list[str]) -> None:
+    os.environ["MPLBACKEND"] = "agg"
+    theirs, ours = pooltool.simulate, carom.pooltool.simulate
+    for play in (theirs, ours):
+        play(opening(NINEBALL, 1, 8.0))
+    for path in paths:
+        (told, calls, slow, all_slow), (ours_told, _, fast, all_fast) = (run_notebook(Path(path), play) for play in (theirs, ours))
+        failed = [line for line in told.splitlines() if line.startswith("cell ") and " failed: " in line]
+        print(f"{Path(path).stem}: {calls} calls, {slow:.3f} s by pooltool, {fast:.3f} s by carom, {slow / max(fast, 1e-9):.1f} times as fast")
+        print("\n".join([f"  all cells {all_slow:.2f} s and {all_fast:.2f} s, printed text {'the same' if told == ours_told else 'differs'}", *failed]))
+
+
 def main() -> None:
+    if sys.argv[1:] and sys.argv[1].endswith(".ipynb"):
+        notebooks(sys.argv[1:])
+        return
     repeats = int(sys.argv[1]) if len(sys.argv) > 1 else 30
     few = max(repeats // 5, 1)
     system = opening(NINEBALL, 1, 8.0)

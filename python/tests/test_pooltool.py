@@ -482,6 +482,21 @@ def test_speed():
     assert len(times) == 11 and all(min(row) > 0 for row in times), ran.stdout
 
 
+def test_notebooks(tmp_path):
+    """Both simulators are called, as often; a cell that fails is told, and so are texts that differ."""
+    shot = "import pooltool as pt\nsystem = pt.simulate(pt.System.example())\nprint(len(system.events))"
+    for name, last in (("same", "1 / 0"), ("other", "import os, carom.pooltool\nprint(pt.simulate.__closure__)")):
+        cells = [{"cell_type": "markdown", "source": ["-"]}, *({"cell_type": "code", "source": [text]} for text in (shot, last))]
+        (tmp_path / f"{name}.ipynb").write_text(json.dumps({"cells": cells}), encoding="utf-8")
+    script = Path(__file__).parents[1] / "examples" / "pooltool_speed.py"
+    paths = [str(tmp_path / f"{name}.ipynb") for name in ("same", "other")]
+    ran = subprocess.run([sys.executable, str(script), *paths], capture_output=True, text=True, env={**os.environ, "HOME": home})
+    assert ran.returncode == 0, ran.stderr
+    same, text, failed, other, differs = ran.stdout.splitlines()
+    assert same.startswith("same: 1 calls, ") and text.endswith("printed text the same") and "cell 2 failed: ZeroDivisionError" in failed
+    assert other.startswith("other: 1 calls, ") and differs.endswith("printed text differs")
+
+
 # ---- The agent ---------------------------------------------------------------------------------------------------------
 
 GAMES = {"eightball": pt.GameType.EIGHTBALL, "nineball": pt.GameType.NINEBALL}
