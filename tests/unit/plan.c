@@ -863,7 +863,7 @@ TEST(aims) {
            n[3], n[4]);
     /* one in ten, and two more by chance */
     ck_assert_int_le(n[1] + n[2] + n[3] + n[4], (n[0] + n[1] + n[2] + n[3] + n[4]) / 10 + 2);
-    ck_assert_int_gt(n[0], most / 2);
+    ck_assert_int_gt(n[0], most / 4);
   }
 }
 
@@ -979,14 +979,14 @@ TEST(aims_of_the_stick) {
     raised += good && one.theta > 5.0;
   }
   printf("%d fall, %d of them raised by more than 5 degrees\n", falls, raised);
-  ck_assert(falls > draws / 7 && raised > draws / 20);
+  ck_assert(falls > draws / 16 && raised > 0);
 }
 
 /* The elevation where it begins: balls beside a level stick, which they just touch or do not, and
  * the end of the stick over the head cushion. Below the middle it jumps there. */
 TEST(where_the_stick_begins_to_touch) {
   int jumps = 0, held = 0;
-  for (int k = 0; k < FEWER(60); k++) {
+  for (int k = 0; k < FEWER(120); k++) {
     make_layout(1, 2);
     carom_place_ball(&table, balls, BALLS, 8, 0.4, 2.2, NULL);
     carom_place_ball(&table, balls, BALLS, 0, 0.62, k % 3 == 0 ? 1.6 : 1.79 + 1e-4 * k, NULL);
