@@ -251,14 +251,10 @@ static void take_near(search *of) {
     c.sum = c.squares = 0.0;
     c.seen = c.keep = c.foul = c.lose = 0;
     c.round = (int16_t)of->round;
-    of->found[first + of->near++] = c;
+    of->found[first + of->near] = of->found[of->entered + of->near];
+    of->found[of->entered + of->near++] = c;
   }
   of->count = first + of->near;
-  for (int64_t k = 0; k < of->near; k++) {
-    const candidate c = of->found[first + k];
-    of->found[first + k] = of->found[of->entered + k];
-    of->found[of->entered + k] = c;
-  }
 }
 
 static void next_round(search *of) {
