@@ -22,12 +22,25 @@ export const sizes = [
   ["phone", { width: 390, height: 844, touch: true }],
 ] as const;
 
+const seed = Number(process.env.CAROM_TEST_SEED ?? 20141);
+/** Makes the random numbers of a page those of a seed (T. Ettinger's mulberry32), so that its racks are the same in each run. */
+function seeded(seed: number): void {
+  let state = seed;
+  Math.random = (): number => {
+    state = (state + 0x6d2b79f5) | 0;
+    let t = Math.imul(state ^ (state >>> 15), 1 | state);
+    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+
 /** A browser for the tests of a file: they fail where a page complains, or asks for anything elsewhere. */
 export function pages() {
   let browser: Browser;
   const said: string[] = [];
   const asked: string[] = [];
   beforeAll(async () => {
+    console.log(`seed ${seed} (replay with CAROM_TEST_SEED)`);
     browser = await chromium.launch({ executablePath: browserPath!, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
   });
   afterAll(async () => {
@@ -42,6 +55,7 @@ export function pages() {
     one.on("console", (message) => ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall due to ReadPixels") && said.push(`${hash}: ${message.text()}`));
     one.on("pageerror", (error) => said.push(`${hash}: ${error.message}`));
     one.on("request", (request) => asked.push(request.url()));
+    await one.addInitScript(seeded, seed);
     await one.goto(`file://${page}${hash}`);
     await one.waitForSelector("main[aria-busy=false]");
     return one;
