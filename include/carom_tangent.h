@@ -169,7 +169,8 @@ CAROM_API carom_status carom_collide_tangent(const carom_impact *in, const carom
 
 /* Derivatives of carom_cushion(): tangent[6][m] = J seeds[15][m], in the order of the doubles of
  * carom_motion and carom_cushion_impact; v[2] and jaw_radius are not read. As
- * carom_collide_tangent(); CAROM_ERROR_TANGENT for the convention of pooltool. */
+ * carom_collide_tangent(); CAROM_ERROR_TANGENT for the convention of pooltool, and where Euler's
+ * steps give up beside the input, where derivatives by differences look. */
 CAROM_API carom_status carom_cushion_tangent(const carom_cushion_impact *in,
                                              const carom_cushion_options *opt, int64_t directions,
                                              const double *seeds, double *tangent, int32_t *flags);
