@@ -21,7 +21,7 @@ Doubles = npt.NDArray[np.float64]
 
 __all__ = [
     "ball_kind", "ball_state", "brief_event", "choice", "columns", "cue", "cushion_impact", "cushion_point", "event", "facts", "impact", "jaw",
-    "motion", "plain", "player", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point", "turn",
+    "motion", "plain", "player", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point",
 ]  # fmt: skip
 
 _NOT_SHOWN = {"reserved", "unused"}

@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from carom import dtypes, pictures
 from carom._rows import listing
-from carom.pool import Pool, Turn
+from carom.pool import Pool, Stroke
 
 try:
     from gymnasium import spaces
@@ -71,7 +71,7 @@ class PoolEnv(AECEnv):
             self._generator = seeding.np_random(seed)[0]
         given = {} if options is None else options
         self.position = given.get("position") or self.rules.begin(int(self._generator.integers(2**63)))
-        self.turn: Turn | None = None
+        self.stroke: Stroke | None = None
         self.agents = list(_PLAYERS)
         self.agent_selection = _PLAYERS[self.position.player]
         self.rewards = dict.fromkeys(_PLAYERS, 0.0)
@@ -93,9 +93,9 @@ class PoolEnv(AECEnv):
         self._cumulative_rewards[agent] = 0.0
         if action is None:
             raise ValueError("action: six numbers are needed while the game goes on")
-        self.position, self.turn = self.rules.play(self.position, action)
+        self.position, self.stroke = self.rules.play(self.position, action)
         winner = self.position.winner
-        told = {"foul": self.turn.foul, "first": self.turn.first or 0, "potted": list(self.turn.potted), "hand": int(self.position.hand)}
+        told = {"foul": self.stroke.foul, "first": self.stroke.first or 0, "potted": list(self.stroke.potted), "hand": int(self.position.hand)}
         for k, name in enumerate(_PLAYERS):
             self.rewards[name] = 0.0 if winner is None else 1.0 if k == winner else -1.0
             self.terminations[name] = winner is not None
@@ -108,7 +108,7 @@ class PoolEnv(AECEnv):
         """The text of a picture: the balls and the paths of the last stroke."""
         if self.render_mode is None:
             return None
-        return pictures.rendered(self.rules.base.shot(self.position.balls, None) if self.turn is None else self.turn.shot, self.render_mode)
+        return pictures.rendered(self.rules.base.shot(self.position.balls, None) if self.stroke is None else self.stroke.shot, self.render_mode)
 
     def close(self) -> None:
         """Nothing is held open."""

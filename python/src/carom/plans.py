@@ -5,7 +5,8 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +14,7 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import Array, as_array, choice, copied, number, pointer, several, whole
+from carom._rows import Array, Arrays, as_array, choice, copied, number, pointer, several, whole
 from carom._shot_options import Options, chosen, shot_options
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
@@ -61,7 +62,8 @@ def with_errors(cue: dtypes.Records, player: dtypes.Records, seed: int, number: 
     return made
 
 
-class Pot(NamedTuple):
+@dataclass(frozen=True, repr=False)
+class Pot(Arrays):
     """A stroke that pots a ball, and what it may err."""
 
     cue: dtypes.Records

@@ -67,7 +67,7 @@ class Position(Arrays):
 
 
 @dataclass(frozen=True)
-class Turn:
+class Stroke:
     """What a stroke was."""
 
     foul: str  # Why it was a foul; empty for a legal stroke
@@ -157,7 +157,7 @@ class Pool:
 
     # ---- Strokes --------------------------------------------------------------------------------------------------------
 
-    def play(self, position: Position, action: npt.ArrayLike) -> tuple[Position, Turn]:
+    def play(self, position: Position, action: npt.ArrayLike) -> tuple[Position, Stroke]:
         """Play a stroke: the position after it, and what it was."""
         given = np.asarray(action, dtype=np.float64)
         if given.shape != (6,) or not np.isfinite(given).all():
@@ -174,7 +174,7 @@ class Pool:
         done = self.base.cues(given[:4], draws.seeds(_ONE) if any(self.base.noise) else None)
         return self.struck(replace(position, balls=balls, draws=draws), done, call)
 
-    def struck(self, position: Position, cue: dtypes.Records, call: tuple[int, int] = (-1, -1)) -> tuple[Position, Turn]:
+    def struck(self, position: Position, cue: dtypes.Records, call: tuple[int, int] = (-1, -1)) -> tuple[Position, Stroke]:
         """The position after a stroke of a cue, without noise, and what it was; the cue ball has been put on the table."""
         ruled = referee(self.table, position.balls, cue, rules=self.game, state=position.state, call=call, cushion_model=self.base.cushion_model)
 
@@ -189,7 +189,7 @@ class Pool:
         )  # fmt: skip
         failed = f"the stroke ended in an error: {ruled.shot.status.text}" if ruled.shot.status < 0 else ""
         potted = tuple(ball for ball in ruled.potted if ball != 0)
-        return after, Turn(failed or ruled.foul.text, int(ruled.foul), ruled.first if ruled.first >= 0 else None, potted, ruled.shot)
+        return after, Stroke(failed or ruled.foul.text, int(ruled.foul), ruled.first if ruled.first >= 0 else None, potted, ruled.shot)
 
     def _played(self, layouts: dtypes.Records, cues: dtypes.Records) -> Shots:
         return simulate_batch(self.table, layouts, cues, features=True, cushion_model=self.base.cushion_model)
