@@ -434,10 +434,11 @@ typedef struct carom_table_fault {
  * has a place beside it; and that a jaw, of radius 0 if need be, stands where a ball could come
  * in between the ends of two rails, at which there is nothing to be hit (gap then is how far
  * apart the centres of balls that touch the two rails are). The first fault is told in *fault,
- * which may be NULL. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE,
- * CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE, CAROM_ERROR_TABLE_OPEN (of all holes the one
- * that has to be closed last is told; CAROM_PART_NONE where there is no ring, or no place for a
- * ball in its middle), CAROM_ERROR_RAIL_SIDE. */
+ * which may be NULL. Balls of other radii beside these may find a hole between noses of different
+ * heights, which is not looked for. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_RADIUS,
+ * CAROM_ERROR_TABLE, CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE, CAROM_ERROR_TABLE_OPEN (of
+ * all holes the one that has to be closed last is told; CAROM_PART_NONE where there is no ring, or
+ * no place for a ball in its middle), CAROM_ERROR_RAIL_SIDE. */
 CAROM_API carom_status carom_table_check(const carom_table *table, double radius,
                                          carom_table_fault *fault);
 

@@ -233,10 +233,17 @@ static double overlap_of(const carom_ball_state *s) {
   return deepest;
 }
 
-/* Whether carom_table_check() finds no hole for any of the balls. */
+/* Whether carom_table_check() finds no hole for any of the balls. It knows of one radius: between
+ * noses of different heights there may be one for a ball that is larger than the last. */
 static bool is_closed(void) {
+  bool alike = true;
+  for (int k = 0; k < table.rails; k++)
+    alike &= table.rail[k].height == table.rail[0].height;
+  for (int k = 0; k < table.jaws; k++)
+    alike &= table.jaw[k].height == table.rail[0].height;
   for (int k = 0; k < count; k++)
-    if (carom_table_check(&table, balls[k].kind.radius, NULL) != CAROM_OK)
+    if (carom_table_check(&table, balls[k].kind.radius, NULL) != CAROM_OK ||
+        !(alike || balls[k].kind.radius == balls[count - 1].kind.radius))
       return false;
   return true;
 }
