@@ -213,7 +213,7 @@ static ::carom_status euler_at(const real in[EULER_INS], int steps, real least, 
 }
 
 /* Central differences of order 2 by each number that changes; by a constant that is 0, forward
- * ones. CAROM_ERROR_TANGENT where Euler's steps have no result beside one. */
+ * ones. */
 carom_status carom_cushion_euler(carom_contact *c, int steps, double least, int, int64_t most,
                                  carom_cushion_run *) {
   keep_rolling(c->v_x, c->v_y, &c->W_x, &c->W_y);
@@ -240,8 +240,6 @@ carom_status carom_cushion_euler(carom_contact *c, int steps, double least, int,
     at[k] = forward ? 0 : kept - h;
     if (status == ::CAROM_OK)
       status = euler_at(at, steps, least.x, most, less);
-    if (status != ::CAROM_OK)
-      return CAROM_ERROR_TANGENT;
     at[k] = kept;
     for (int r = 0; r < EULER_OUTS; r++)
       to[r]->d += (more[r] - less[r]) / (forward ? h : 2 * h) * in[k].d;

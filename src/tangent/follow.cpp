@@ -893,7 +893,7 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   const text::carom_status status = resolve(&s);
   watched.on = false;
   if (status < 0)
-    return (carom_status)status;
+    return CAROM_ERROR_TANGENT;
 
   const bool slow = s.sim.slow_last.d[CLOCK] == 1;
   w->slow_instants = s.sim.slow_instants;

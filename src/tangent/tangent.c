@@ -319,6 +319,12 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
 
 /* ---- Single contacts ---- */
 
+/* What following a contact that the call has solved gives: rounding, or Euler's steps beside it,
+ * may end in an error that the call has not. */
+static carom_status found(carom_status followed) {
+  return followed < 0 ? CAROM_ERROR_TANGENT : followed;
+}
+
 carom_status carom_collide_tangent(const carom_impact *in, const carom_options *opt,
                                    int64_t directions, const double *seeds, double *tangent,
                                    int32_t *flags) {
@@ -347,7 +353,7 @@ carom_status carom_collide_tangent(const carom_impact *in, const carom_options *
   }
   for (int first = 0; first < (int)m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
     const carom_tangent_pass pass = pass_of((int)m, first);
-    status = carom_tangent_of_balls(in, opt, &pass, seeds, tangent, &note);
+    status = found(carom_tangent_of_balls(in, opt, &pass, seeds, tangent, &note));
   }
   if (flags != NULL)
     *flags = note.flags;
@@ -376,7 +382,7 @@ carom_status carom_cushion_tangent(const carom_cushion_impact *in, const carom_c
     memcpy(tangent, seeds, 6 * m * sizeof *tangent);
   for (int first = 0; first < (int)m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
     const carom_tangent_pass pass = pass_of((int)m, first);
-    status = carom_tangent_of_cushion(in, opt, &pass, seeds, tangent, &note);
+    status = found(carom_tangent_of_cushion(in, opt, &pass, seeds, tangent, &note));
   }
   if (flags != NULL)
     *flags = note.flags;
