@@ -157,11 +157,11 @@ static carom_impact impact_of(const layout *l, bool space, double *closing) {
 
 /* One contact beside carom_collide(), and in space beside the closed form of carom_impact3().
  * Nearly all pairs are within 1e-4 at 40 steps. The others have a ball whose slip on the cloth
- * turns back within a step, which is of order 1. */
+ * turns back within a step, which is of order 1: the worst of a thousand depends on the seed. */
 TEST(one_contact_is_a_collision) {
   enum { EACH = 1000 };
   static const int steps[2][2] = {{40, 160}, {20, 80}};
-  static const double bound[2][2] = {{5e-4, 1e-4}, {5e-4, 5e-5}};
+  static const double bound[2][2] = {{2e-3, 5e-4}, {5e-4, 5e-5}};
   for (int space = 0; space < 2; space++) {
     double mean[2] = {0.0}, most[2] = {0.0};
     int large[2] = {0};
@@ -188,7 +188,7 @@ TEST(one_contact_is_a_collision) {
            space ? "carom_impact3()" : "carom_collide()", most[0], steps[space][0], most[1],
            steps[space][1], mean[0], mean[1]);
     ck_assert_double_lt(mean[1], mean[0] / 8.0);
-    ck_assert(space || large[0] <= EACH / 50);
+    ck_assert(space || (large[0] <= EACH / 50 && large[1] <= EACH / 250));
   }
 }
 
@@ -648,7 +648,7 @@ TEST(breaks) {
     }
     ck_assert_double_ge(to_a_rail[0], kinds[kind].least_to_a_rail);
     ck_assert_double_gt(to_a_rail[0], 1.4 * to_a_rail[1]);
-    ck_assert_double_gt(successes[0], successes[1]);
+    ck_assert_double_gt(made[0], made[1]);
   }
 }
 
@@ -700,7 +700,7 @@ TEST(default_steps) {
     printf("%s: 25 steps beside 400, v over the speed of the cue ball: mean %.1e, worst %.1e\n",
            name[kind], mean, worst);
     ck_assert_double_lt(mean, mean_most[kind]);
-    ck_assert_double_lt(worst, 5e-3);
+    ck_assert_double_lt(worst, 1e-2);
   }
 }
 
