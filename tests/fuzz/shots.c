@@ -234,7 +234,7 @@ static double overlap_of(const carom_ball_state *s) {
 }
 
 /* Whether carom_table_check() finds no hole for any of the balls. It knows of one radius: between
- * noses of different heights there may be one for a ball that is larger than the last. */
+ * noses of different heights there may be one for a ball of another radius than the last. */
 static bool is_closed(void) {
   bool alike = true;
   for (int k = 0; k < table.rails; k++)
