@@ -1,11 +1,23 @@
 /* The parts of a table that balls up to a radius can meet, prepared once for all shots that
- * share both: lines with unit normals, boxes for rejection, and the hull outside of which no
- * centre has a place. */
+ * share both: lines with unit normals, boxes for rejection, the hull outside of which no
+ * centre has a place, and a box in which every centre has one.
+ *
+ * That box is around the eye, a place to which a ball can be rolled. As a rule this is the middle
+ * of the table: it is on the table if it can be seen from a place beside the longest rail, on its
+ * played side. The box is free of the boxes of all parts, so a centre in it can be rolled to the
+ * eye. Each part limits its half width or its half length: that of which it leaves the larger
+ * share. */
 #include "platform/promise.h"
 #include "table/table.h"
 
 #include <math.h>
-#include <string.h>
+
+static inline float lesser(float a, float b) {
+  return a < b ? a : b;
+}
+static inline float greater(float a, float b) {
+  return a > b ? a : b;
+}
 
 /* The box of feature k: around two points, with a margin. The hull grows to hold it. */
 static inline void enclose(carom_features *f, int k, const double p[2], const double q[2],
@@ -49,6 +61,64 @@ static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
   f->along[k][2] = -(e_x * p[0] + e_y * p[1]) / size2;
 }
 
+/* Finds the box around the eye, in the hull, that meets no box of a part. */
+static void clear_around_eye(carom_features *f) {
+  const float x = (float)f->eye[0], y = (float)f->eye[1];
+  const float low_x = (float)f->hull[0], high_x = (float)f->hull[1], low_y = (float)f->hull[2],
+              high_y = (float)f->hull[3], width = high_x - low_x, length = high_y - low_y;
+  float room_x = lesser(x - low_x, high_x - x), room_y = lesser(y - low_y, high_y - y);
+
+  /* how far a part is to a side and along the table; it limits the one that is the larger share */
+  for (int k = 0; k < f->count; k++) {
+    const float across = greater(x - f->high_x[k], f->low_x[k] - x),
+                along = greater(y - f->high_y[k], f->low_y[k] - y);
+    const bool beside = across * length > along * width;
+    room_x = lesser(room_x, beside ? across : INFINITY);
+    room_y = lesser(room_y, beside ? INFINITY : along);
+  }
+
+  /* a trace less, for the rounding of the differences */
+  f->clear[0] = (double)room_x * (1.0 - 1e-5);
+  f->clear[1] = (double)room_y * (1.0 - 1e-5);
+}
+
+/* A place beside the middle of the longest rail, twice the radius from it; false without rails. */
+static bool beside_longest(const carom_table *t, const carom_features *f, double place[2]) {
+  double most = 0.0;
+  for (int k = 0; k < f->rails; k++) {
+    const double *p = t->rail[k].p, *q = t->rail[k].q, e_x = q[0] - p[0], e_y = q[1] - p[1];
+    if (e_x * e_x + e_y * e_y <= most)
+      continue;
+    most = e_x * e_x + e_y * e_y;
+    for (int c = 0; c < 2; c++)
+      place[c] = 0.5 * (p[c] + q[c]) + 2.0 * f->radius * f->line[k][c];
+  }
+  return most > 0.0;
+}
+
+/* Finds the eye: the middle of the table if it is seen from the place beside the longest rail;
+ * else that place, if it is on the table. */
+static void find_eye(const carom_table *table, carom_features *f) {
+  const carom_ball_kind ball = {.radius = f->radius};
+  double place[2];
+  f->eye[0] = 0.5 * table->width;
+  f->eye[1] = 0.5 * table->length;
+  clear_around_eye(f);
+  const bool there = beside_longest(table, f, place);
+  f->has_eye = there && carom_is_in_sight(table, f, &ball, place);
+  if (f->has_eye)
+    return;
+
+  if (there && !carom_is_cut_off(table, f, &ball, place)) {
+    f->has_eye = true;
+    f->eye[0] = place[0];
+    f->eye[1] = place[1];
+    clear_around_eye(f);
+  } else {
+    f->clear[0] = f->clear[1] = -1.0;
+  }
+}
+
 void carom_features_of(const carom_table *table, double radius, double reference,
                        carom_features *f) {
   /* how many parts of each kind, and an empty hull */
@@ -75,7 +145,6 @@ void carom_features_of(const carom_table *table, double radius, double reference
     high = carom_greater(high, table->rail[k].height);
     enclose(f, at, table->rail[k].p, table->rail[k].q, 0.0, radius);
   }
-  memcpy(f->ends, f->hull, sizeof f->ends);
   for (int k = 0; k < f->jaws; k++, at++) {
     enclose(f, at, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius);
     low = carom_lesser(low, table->jaw[k].height);
@@ -89,4 +158,6 @@ void carom_features_of(const carom_table *table, double radius, double reference
   f->nose_low = low;
   f->width = table->rail_width > 0.0 ? table->rail_width : 0.12;
   f->pocket_back = table->pocket_back > 0.0 ? table->pocket_back : high;
+
+  find_eye(table, f);
 }

@@ -1,6 +1,12 @@
 /* Where balls have a place on a table: the geometry of rails, jaws and pockets for the centre of
- * a ball. */
+ * a ball.
+ *
+ * The parts of a table are a closed ring to the centre of a ball: none gets out but across a
+ * part. So a place that is seen from the eye of the table, to which balls can be rolled, is on
+ * the table too. Other places are looked at more closely (ring.c), which takes longer. */
 #include "table/table.h"
+
+#include <math.h>
 
 static double distance_to(const carom_features *f, int rail, const double r[2]) {
   return f->line[rail][0] * r[0] + f->line[rail][1] * r[1] + f->line[rail][2];
@@ -13,70 +19,126 @@ static bool is_beside(const carom_features *f, int rail, const double r[2]) {
   const double place = place_along(f, rail, r);
   return place >= 0.0 && place <= 1.0;
 }
-/* Whether a place is behind a rail, or up to the rail's length farther: a place beyond a corner
- * is beside neither of its rails.
- */
-static bool is_behind(double place, double distance) {
-  return place >= -1.0 && place <= 2.0 && distance < 0.0;
-}
-
 static bool is_in_hull(const carom_features *f, const double r[2]) {
   return r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
 }
-static bool beyond_ends(const carom_features *f, const double r[2]) {
-  return f->rails > 0 &&
-         (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
+static bool is_clear(const carom_features *f, const double r[2]) {
+  return fabs(r[0] - f->eye[0]) <= f->clear[0] && fabs(r[1] - f->eye[1]) <= f->clear[1];
+}
+
+/* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
+static bool in_rail(const carom_features *f, int k, const double r[2], double reach) {
+  const double distance = distance_to(f, k, r);
+  return is_beside(f, k, r) && distance < reach - CAROM_MOST_OVERLAP && distance > -reach;
+}
+static bool in_circle(const double centre[2], double reach, const double r[2]) {
+  const double d_x = r[0] - centre[0], d_y = r[1] - centre[1];
+  return d_x * d_x + d_y * d_y < reach * reach;
+}
+static bool in_jaw(const carom_jaw *jaw, const double r[2], double reach) {
+  return in_circle(jaw->centre, jaw->radius + reach - CAROM_MOST_OVERLAP, r);
+}
+
+/* Whether the way from the eye to r leads across a rail, as the centre of a ball does that touches
+ * it at the distance `reach`. It crosses that line where the place along the rail is the mean of
+ * those of both ends, weighted by the distance of the other. */
+static bool crosses_rail(const carom_features *f, int k, const double r[2], double reach) {
+  const double before = distance_to(f, k, f->eye) - reach, after = distance_to(f, k, r) - reach;
+  if ((before < 0.0) == (after < 0.0))
+    return false;
+  const double place =
+      (before * place_along(f, k, r) - after * place_along(f, k, f->eye)) / (before - after);
+  return place >= 0.0 && place <= 1.0;
+}
+/* The same for a circle: whether the place of the way that is nearest to its centre is in it. */
+static bool crosses_circle(const carom_features *f, const double centre[2], double radius,
+                           const double r[2]) {
+  const double way[2] = {r[0] - f->eye[0], r[1] - f->eye[1]},
+               c[2] = {centre[0] - f->eye[0], centre[1] - f->eye[1]};
+  const double size2 = way[0] * way[0] + way[1] * way[1],
+               along = carom_lesser(carom_greater(way[0] * c[0] + way[1] * c[1], 0.0), size2),
+               share = size2 > 0.0 ? along / size2 : 0.0;
+  const double there[2] = {f->eye[0] + share * way[0], f->eye[1] + share * way[1]};
+  return in_circle(centre, radius, there);
+}
+
+bool carom_is_in_sight(const carom_table *table, const carom_features *f,
+                       const carom_ball_kind *kind, const double r[2]) {
+  if (is_clear(f, r))
+    return true;
+
+  for (int k = 0; k < f->rails; k++) {
+    const double reach = carom_reach_on_cloth(kind, table->rail[k].height, f->reference);
+    if (crosses_rail(f, k, r, reach - CAROM_RING_OVERLAP))
+      return false;
+  }
+  for (int k = 0; k < f->jaws; k++) {
+    const carom_jaw *jaw = &table->jaw[k];
+    const double reach = carom_reach_on_cloth(kind, jaw->height, f->reference);
+    if (crosses_circle(f, jaw->centre, jaw->radius + reach - CAROM_RING_OVERLAP, r))
+      return false;
+  }
+  for (int k = 0; k < f->pockets; k++)
+    if (crosses_circle(f, table->pocket[k].centre, table->pocket[k].radius, r))
+      return false;
+  return true;
 }
 
 bool carom_place_is_outside(const carom_table *table, const carom_features *f,
                             const carom_ball_kind *kind, const double r[2]) {
+  if (is_clear(f, r))
+    return false;
   if (!is_in_hull(f, r))
     return true;
-  /* only behind a rail, or beyond the ends of all rails, can it be outside */
-  bool behind = beyond_ends(f, r);
-  for (int k = 0; k < f->rails; k++)
-    behind |= is_behind(place_along(f, k, r), distance_to(f, k, r));
-  return behind && carom_is_cut_off(table, f, kind, r);
+  return !(f->has_eye && carom_is_in_sight(table, f, kind, r)) &&
+         carom_is_cut_off(table, f, kind, r);
 }
 
-/* How far from the wall of a cushion the centre is when a ball on the cloth touches its nose. */
-static inline double reach_of(const carom_features *f, const carom_ball_kind *kind, double height,
-                              bool usual) {
-  return usual ? kind->radius : carom_reach_on_cloth(kind, height, f->reference);
-}
-/* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
-static inline bool in_rail(const carom_features *f, int k, const double r[3], double reach,
-                           bool *behind) {
-  const double distance = distance_to(f, k, r), place = place_along(f, k, r);
-  const bool beside = place >= 0.0 && place <= 1.0;
-  *behind |= is_behind(place, distance);
-  return beside && distance < reach - CAROM_MOST_OVERLAP && distance > -reach;
-}
-static inline bool in_circle(const double centre[2], double reach, const double r[3]) {
-  const double d_x = r[0] - centre[0], d_y = r[1] - centre[1];
-  return d_x * d_x + d_y * d_y < reach * reach;
-}
-static inline bool in_jaw(const carom_jaw *jaw, const double r[3], double reach) {
-  return in_circle(jaw->centre, jaw->radius + reach - CAROM_MOST_OVERLAP, r);
-}
-
-/* Whether the ball, on the cloth, stands within the cushions, in no pocket. Inlined twice, so
- * that the loops for balls of the usual radius, `usual`, have no calls in them. */
-static inline bool stands_among(const carom_table *table, const carom_features *f,
-                                const carom_ball_kind *kind, const double r[3], bool usual) {
-  bool good = is_in_hull(f, r), behind = beyond_ends(f, r);
-  for (int k = 0; k < f->rails; k++)
-    good &= !in_rail(f, k, r, reach_of(f, kind, table->rail[k].height, usual), &behind);
-  for (int k = 0; k < f->jaws; k++)
-    good &= !in_jaw(&table->jaw[k], r, reach_of(f, kind, table->jaw[k].height, usual));
+carom_part carom_part_there(const carom_table *table, const carom_features *f,
+                            const carom_ball_kind *kind, const double r[3]) {
   for (int k = 0; k < f->pockets; k++)
-    good &= !in_circle(table->pocket[k].centre, table->pocket[k].radius, r);
-  return good && !(behind && carom_is_cut_off(table, f, kind, r));
+    if (in_circle(table->pocket[k].centre, table->pocket[k].radius, r))
+      return (carom_part){CAROM_PART_POCKET, k};
+  for (int k = 0; k < f->rails; k++)
+    if (in_rail(f, k, r, carom_reach_on_cloth(kind, table->rail[k].height, f->reference)))
+      return (carom_part){CAROM_PART_RAIL, k};
+  for (int k = 0; k < f->jaws; k++)
+    if (in_jaw(&table->jaw[k], r, carom_reach_on_cloth(kind, table->jaw[k].height, f->reference)))
+      return (carom_part){CAROM_PART_JAW, k};
+  return (carom_part){CAROM_PART_NONE, 0};
 }
+
 bool carom_stands_on_table(const carom_table *table, const carom_features *f,
                            const carom_ball_kind *kind, const double r[3]) {
-  return kind->radius == f->reference ? stands_among(table, f, kind, r, true)
-                                      : stands_among(table, f, kind, r, false);
+  return is_clear(f, r) || (carom_part_there(table, f, kind, r).kind == CAROM_PART_NONE &&
+                            !carom_place_is_outside(table, f, kind, r));
+}
+
+/* Where an airborne ball in front of noses would be, if it was moved off them until it could touch
+ * them while it lay on the cloth: above it, the centre can be nearer to a nose. */
+static void off_noses(const carom_table *table, const carom_features *f,
+                      const carom_ball_kind *kind, const double r[3], double there[2]) {
+  there[0] = r[0];
+  there[1] = r[1];
+  for (int k = 0; k < f->rails; k++) {
+    const double more =
+        carom_reach_on_cloth(kind, table->rail[k].height, f->reference) - distance_to(f, k, there);
+    if (!is_beside(f, k, there) || more < 0.0 || more > kind->radius)
+      continue;
+    for (int c = 0; c < 2; c++)
+      there[c] += more * f->line[k][c];
+  }
+  for (int k = 0; k < f->jaws; k++) {
+    const carom_jaw *jaw = &table->jaw[k];
+    const double d[2] = {there[0] - jaw->centre[0], there[1] - jaw->centre[1]};
+    const double distance = sqrt(d[0] * d[0] + d[1] * d[1]);
+    const double more =
+        jaw->radius + carom_reach_on_cloth(kind, jaw->height, f->reference) - distance;
+    if (more < 0.0 || more > kind->radius)
+      continue;
+    for (int c = 0; c < 2; c++)
+      there[c] += more * d[c] / distance;
+  }
 }
 
 /* Whether an airborne ball is clear of a nose that is `across` in front of it and `down` below
@@ -90,8 +152,10 @@ __attribute__((noinline, cold)) bool carom_is_above_table(const carom_table *tab
                                                           const carom_features *f,
                                                           const carom_ball_kind *kind,
                                                           const double r[3]) {
+  double there[2];
+  off_noses(table, f, kind, r, there);
   bool good = r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - CAROM_MOST_OVERLAP ||
-              !carom_place_is_outside(table, f, kind, r);
+              !carom_place_is_outside(table, f, kind, there);
   for (int axis = 0; axis < 2; axis++)
     good &= r[axis] >= f->hull[2 * axis] - f->width && r[axis] <= f->hull[2 * axis + 1] + f->width;
   for (int k = 0; k < f->rails; k++) {
@@ -108,19 +172,4 @@ __attribute__((noinline, cold)) bool carom_is_above_table(const carom_table *tab
     good &= clear_of_nose(across, r[2] - h, kind->radius);
   }
   return good;
-}
-
-carom_part carom_part_there(const carom_table *table, const carom_features *f,
-                            const carom_ball_kind *kind, const double r[3]) {
-  bool behind = false;
-  for (int k = 0; k < f->pockets; k++)
-    if (in_circle(table->pocket[k].centre, table->pocket[k].radius, r))
-      return (carom_part){CAROM_PART_POCKET, k};
-  for (int k = 0; k < f->rails; k++)
-    if (in_rail(f, k, r, reach_of(f, kind, table->rail[k].height, false), &behind))
-      return (carom_part){CAROM_PART_RAIL, k};
-  for (int k = 0; k < f->jaws; k++)
-    if (in_jaw(&table->jaw[k], r, reach_of(f, kind, table->jaw[k].height, false)))
-      return (carom_part){CAROM_PART_JAW, k};
-  return (carom_part){CAROM_PART_NONE, 0};
 }

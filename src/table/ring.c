@@ -348,17 +348,16 @@ __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_table *table,
                                                       const carom_features *features,
                                                       const carom_ball_kind *kind,
                                                       const double r[2]) {
-  static const double overlap = 2e-6; /* m: a ball that touches a cushion may be 1e-6 m in it */
-  const double closed = touching + 2.0 * overlap;
+  const double closed = touching + 2.0 * CAROM_RING_OVERLAP;
   ring g;
   hole unused;
-  double P[2];
-  shapes_of(table, features, kind, overlap, true, &g);
-  if (!find_place(&g, table, features, kind->radius, closed, P))
+  double P[2] = {features->eye[0], features->eye[1]};
+  shapes_of(table, features, kind, CAROM_RING_OVERLAP, true, &g);
+  if (!features->has_eye && !find_place(&g, table, features, kind->radius, closed, P))
     return false;
   /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken
    * to be closed */
-  shapes_of(table, features, kind, overlap, false, &g);
+  shapes_of(table, features, kind, CAROM_RING_OVERLAP, false, &g);
   const double grown = encloses(&g, closed, closed, P, NULL, &unused) ? closed : 2.0 * kind->radius;
   return encloses(&g, grown, grown, P, r, &unused);
 }

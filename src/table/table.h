@@ -11,6 +11,9 @@
 
 /* m: a ball that is deeper than this in another, or in the table, overlaps it. */
 #define CAROM_MOST_OVERLAP 1e-6
+/* m: by so much less the parts of a ring reach than a ball does, so that none that touches one is
+ * behind it. */
+#define CAROM_RING_OVERLAP 2e-6
 
 enum { MOST_FEATURES = CAROM_RAILS_MOST + CAROM_JAWS_MOST + CAROM_POCKETS_MOST };
 
@@ -30,7 +33,10 @@ typedef struct carom_features {
   double width, pocket_back; /* of the tops of rails; height of the pockets' backs: see
                                 carom_table */
   double hull[4];            /* low x, high x, low y, high y: centres stay inside */
-  double ends[4];            /* the same around the ends of the rails alone */
+  double eye[2];             /* a place on the table, from which one sees most others */
+  bool has_eye;
+  double clear[2]; /* half width and length of a box around the eye in which a ball meets nothing;
+                      below 0: none */
 } carom_features;
 
 /* pooltool.c */
@@ -77,6 +83,10 @@ carom_part carom_part_there(const carom_table *table, const carom_features *feat
  */
 bool carom_is_above_table(const carom_table *table, const carom_features *features,
                           const carom_ball_kind *kind, const double r[3]);
+/* Whether the way from the eye of the table straight to r is clear of all parts for the centre of
+ * a ball on the cloth. */
+bool carom_is_in_sight(const carom_table *table, const carom_features *features,
+                       const carom_ball_kind *kind, const double r[2]);
 /* Whether a place is outside the ring of cushions and pockets, for the centre of a ball that
  * touches none of them. */
 bool carom_place_is_outside(const carom_table *table, const carom_features *features,

@@ -342,14 +342,19 @@ enum { MOST_PLACES = 540 }; /* of a grid, along each side */
 static uint8_t reached[MOST_PLACES][MOST_PLACES];
 static const double margin = 0.3; /* m: of the grid, beyond the table */
 
-/* Finds the places of a grid to which a ball can be rolled from the middle, by flooding. */
-static void flood(const carom_table *t, double R, double step, const int n[2]) {
+/* Finds the places of a grid to which a ball can be rolled from one of them, by flooding; n
+ * becomes their numbers. The ball stays away from cushions and pockets by more than `off`. */
+static void flood(const carom_table *t, double R, double step, const double from[2], double off,
+                  int n[2]) {
   static int queue[MOST_PLACES * MOST_PLACES];
   int waiting = 0;
+  n[0] = (int)((t->width + 2.0 * margin) / step);
+  n[1] = (int)((t->length + 2.0 * margin) / step);
   ck_assert(n[0] < MOST_PLACES && n[1] < MOST_PLACES);
   memset(reached, 0, sizeof reached);
-  queue[waiting++] = n[0] / 2 * MOST_PLACES + n[1] / 2;
-  reached[n[0] / 2][n[1] / 2] = 1;
+  const int i0 = (int)((from[0] + margin) / step), j0 = (int)((from[1] + margin) / step);
+  queue[waiting++] = i0 * MOST_PLACES + j0;
+  reached[i0][j0] = 1;
   while (waiting > 0) {
     const int at = queue[--waiting];
     for (int way = 0; way < 4; way++) {
@@ -357,7 +362,7 @@ static void flood(const carom_table *t, double R, double step, const int n[2]) {
                 j = at % MOST_PLACES + (way == 2) - (way == 3);
       const double x = i * step - margin, y = j * step - margin;
       ck_assert_msg(i > 0 && i < n[0] && j > 0 && j < n[1], "the table has a hole");
-      if (!reached[i][j] && room_at(t, R, x, y) > 0.0 && off_pockets(t, x, y) >= 0.0) {
+      if (!reached[i][j] && room_at(t, R, x, y) > off && off_pockets(t, x, y) >= off) {
         reached[i][j] = 1;
         queue[waiting++] = i * MOST_PLACES + j;
       }
@@ -376,6 +381,18 @@ static void expect_place(const carom_table *t, double R, double x, double y, boo
   ck_assert_int_eq(carom_shot_check(t, &ball, 1, NULL, NULL, NULL), expected);
 }
 
+/* A ball may stand at all places of a grid to which it can be rolled, and nowhere else. */
+static void expect_flooded(const carom_table *t, double R, double step, const double from[2]) {
+  int n[2];
+  flood(t, R, step, from, 0.0, n);
+  for (int i = 0; i < n[0]; i++)
+    for (int j = 0; j < n[1]; j++) {
+      const double x = i * step - margin, y = j * step - margin;
+      if (fabs(room_at(t, R, x, y)) > 1.1e-6)
+        expect_place(t, R, x, y, reached[i][j]);
+    }
+}
+
 /* On the built-in tables a ball may stand at all places of a grid to which it can be rolled from
  * the middle, and nowhere else: not behind a cushion, not in a pocket. */
 TEST(places_on_built_in_tables) {
@@ -384,15 +401,8 @@ TEST(places_on_built_in_tables) {
     carom_table t;
     const double R = radius_on(kind);
     carom_table_make((carom_table_kind)kind, &t);
-    const int n[2] = {(int)((t.width + 2.0 * margin) / step),
-                      (int)((t.length + 2.0 * margin) / step)};
-    flood(&t, R, step, n);
-    for (int i = 0; i < n[0]; i++)
-      for (int j = 0; j < n[1]; j++) {
-        const double x = i * step - margin, y = j * step - margin;
-        if (fabs(room_at(&t, R, x, y)) > 1.1e-6)
-          expect_place(&t, R, x, y, reached[i][j]);
-      }
+    const double middle[2] = {0.5 * t.width, 0.5 * t.length};
+    expect_flooded(&t, R, step, middle);
     /* in line with a pocket, through which one sees the cushion beyond: in the directions that
      * the check looks in */
     static const double quarter[4][2] = {{5, 1}, {3, 2}, {2, 3}, {1, 5}};
@@ -475,9 +485,33 @@ TEST(polygon_tables) {
   }
 }
 
+/* The same on a table in the shape of a U, whose middle is outside of it, with pockets at the ends
+ * of its arms; and on one with a corner so sharp that there is room behind its pocket. */
+TEST(places_on_odd_shapes) {
+  static const carom_corner u[8] = {{0, 0, 0},     {1.8, 0, 0},   {1.8, 1.5, 0.1}, {1.2, 1.5, 0.1},
+                                    {1.2, 0.6, 0}, {0.6, 0.6, 0}, {0.6, 1.5, 0.1}, {0, 1.5, 0.1}};
+  static const carom_corner sharp[3] = {{0, 0, 0.13}, {2, 0.5, 0}, {2, 1.2, 0}};
+  /* behind the short rails of this one, places are beyond the ends of each rail by more than the
+   * rail's length */
+  static const carom_corner few[9] = {
+      {0, 0.939, 0.135},     {0.13, 0.61, 0.135},   {0.26, 0.281, 0.135},
+      {0.541, 0.141, 0.135}, {0.822, 0, 0.135},     {1.373, 0.445, 0.135},
+      {1.11, 1.166, 0.135},  {0.761, 1.419, 0.135}, {0.412, 1.672, 0}};
+  static const double in_u[2] = {0.9, 0.3}, in_sharp[2] = {1.6, 0.7}, in_few[2] = {0.7, 0.8};
+  const double R = 0.028575;
+  carom_table t;
+  ck_assert_int_eq(carom_table_polygon(u, 8, 0.0365, 0.01, R, &t, NULL), CAROM_OK);
+  expect_flooded(&t, R, 0.01, in_u);
+  ck_assert_int_eq(carom_table_polygon(sharp, 3, 0.0365, 0.01, R, &t, NULL), CAROM_OK);
+  expect_flooded(&t, R, 0.01, in_sharp);
+  ck_assert_int_eq(carom_table_polygon(few, 9, 0.0365, 0.0266, R, &t, NULL), CAROM_OK);
+  expect_flooded(&t, R, 0.01, in_few);
+}
+
 /* The same at some places on tables of all shapes that carom_table_check() accepts; but beyond
  * the rails only where no pocket is near, and not in parts to which nothing rolls. Rays through
- * slits that no ball passes once told otherwise. */
+ * slits that no ball passes once told otherwise, and so did places beyond the ends of short
+ * rails. Ways of less than 2 mm more than the ball may slip through the grid. */
 TEST(places_on_polygons) {
   random_source r = {test_seed()};
   const double R = 0.028575, step = 0.01;
@@ -493,9 +527,9 @@ TEST(places_on_polygons) {
         off_pockets(&t, 0.5 * t.width, 0.5 * t.length) < 0.1)
       continue;
     tables++;
-    const int n[2] = {(int)((t.width + 2.0 * margin) / step),
-                      (int)((t.length + 2.0 * margin) / step)};
-    flood(&t, R, step, n);
+    const double middle[2] = {0.5 * t.width, 0.5 * t.length};
+    int n[2];
+    flood(&t, R, step, middle, 0.002, n);
     for (int judged = 0; judged < 300;) {
       int i = (int)random_between(&r, 1.0, n[0] - 1.0),
           j = (int)random_between(&r, 1.0, n[1] - 1.0);
@@ -537,6 +571,23 @@ TEST(places_in_space) {
   }
   balls[1].state = (carom_ball_state){.r = {0.5, 0.5, R}, .label = CAROM_BALL_OFF};
   ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5, 0.5, &part), CAROM_OK);
+  /* in the air and below the tops of the rails, a ball can be nearer to a rail than on the cloth */
+  for (int k = 0; k < 6 * 9; k++) {
+    const carom_rail *rail = &t.rail[k / 9];
+    const double z = (1.6 + 0.2 * (k % 3)) * R, above = z - rail->height, h0 = rail->height;
+    const double along = k / 3 % 3 == 0 ? 0.003 : k / 3 % 3 == 1 ? 0.5 : 0.997;
+    const double clear = R - sqrt(h0 * (2.0 * R - h0)) + sqrt(R * R - above * above);
+    const int axis = rail->p[0] == rail->q[0] ? 0 : 1; /* that of the rail's normal */
+    const double inward = rail->p[axis] == 0.0 ? 1.0 : -1.0;
+    for (int off = -1; off <= 1; off += 2) {
+      balls[1].state = (carom_ball_state){.r = {0, 0, z}};
+      for (int c = 0; c < 2; c++)
+        balls[1].state.r[c] = rail->p[c] + along * (rail->q[c] - rail->p[c]);
+      balls[1].state.r[axis] += inward * (clear + 3e-6 * off);
+      ck_assert_int_eq(carom_shot_check(&t, &balls[1], 1, NULL, NULL, NULL),
+                       off < 0 ? CAROM_ERROR_OFF_TABLE : CAROM_OK);
+    }
+  }
   /* a large ball, on a table for small ones: as near to the nose and to the ball as
    * carom_shot_check() lets it */
   balls[0].kind.radius = 0.0302;
