@@ -30,8 +30,11 @@ static double cut_at(const problem *p, double phi) {
                     CAROM_STOP_AT(CAROM_EVENT_JAW) | CAROM_STOP_AT(CAROM_EVENT_POCKET) |
                     CAROM_STOP_AT(CAROM_EVENT_RAIL_TOP) | CAROM_STOP_AT(CAROM_EVENT_LEFT_TABLE);
   carom_shoot(&p->table, p->ball, p->count, &cue, &options, &shot);
-  const carom_event *e = &events[shot.count - 1];
-  if (shot.count == 0 || e->type != CAROM_EVENT_BALL_BALL || (e->a != p->at && e->b != p->at))
+  /* contacts of one instant come in their order, and may be between other balls */
+  const carom_event *e = events, *end = events + shot.count;
+  while (e < end && (e->type != CAROM_EVENT_BALL_BALL || (e->a != 0 && e->b != 0)))
+    e++;
+  if (e == end || (e->a != p->at && e->b != p->at))
     return (double)NAN;
   const carom_ball_state *own = &e->before[e->a == 0 ? 0 : 1],
                          *other = &e->before[e->a == 0 ? 1 : 0];
