@@ -477,8 +477,9 @@ typedef struct carom_pot {
  * of the pocket's mouth, for the cue's speed, tip and elevation. It is found by shots of the
  * balls on the way, so squirt, swerve, throw and the model of the cushion count. A cue->theta of
  * NaN is left to the stick: it becomes the least elevation with which that is over cushions and
- * balls, and the aim is that of the raised cue. pot->is tells what the other balls and the jaws
- * make of it; where that is CAROM_POT_NO_WAY, cue->phi and cue->theta stay.
+ * balls, and the aim is that of the raised cue. A cut above 80 degrees may be missed. pot->is
+ * tells what the other balls and the jaws make of it; where that is CAROM_POT_NO_WAY, cue->phi and
+ * cue->theta stay.
  * CAROM_OK; CAROM_ERROR_BALLS for an index or an order of via[] that cannot be; or an error of
  * an argument, with nothing written. One to ten ms. */
 CAROM_API carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,

@@ -12,6 +12,7 @@
  *
  * This program is run under emulators, so it needs nothing but the library. */
 #include <carom.h>
+#include <carom_plan.h>
 #include <carom_shot.h>
 
 #include <math.h>
@@ -33,6 +34,7 @@ enum {
   NUMBERS = 1500,
   LOOKS = 400,
   TRACES = 40,
+  AIMS = 60,
   POINTS = 9
 };
 
@@ -422,6 +424,52 @@ static void shots(void) {
   }
 }
 
+/* ---- Places and aims ------------------------------------------------------------------------- */
+
+/* Which places of a grid are on a table of one's own, whose rails are short. */
+static void places(void) {
+  static const carom_corner corner[9] = {
+      {0, 0.9375, 0.125},     {0.125, 0.625, 0.125}, {0.25, 0.28125, 0.125},
+      {0.5, 0.125, 0.125},    {0.8125, 0, 0.125},    {1.375, 0.4375, 0.125},
+      {1.125, 1.1875, 0.125}, {0.75, 1.4375, 0.125}, {0.4375, 1.6875, 0}};
+  static carom_table table;
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  uint64_t hash = add(START, (uint64_t)carom_table_polygon(corner, 9, 0.0365, 0.025,
+                                                           ball.kind.radius, &table, NULL));
+  for (int i = -8; i < 60; i++)
+    for (int j = -8; j < 70; j++)
+      hash = add(hash, (uint64_t)(int64_t)carom_place_ball(&table, &ball, 1, 0, i * 0.03125 + 0.001,
+                                                           j * 0.03125 + 0.001, NULL));
+  show("places: polygon", hash);
+}
+
+/* Aims of a cue that is left to the stick, beside the head cushion. */
+static void aims(void) {
+  static carom_table table;
+  carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)},
+                              {.kind = carom_ball_kind_of(CAROM_GAME_POOL)}};
+  uint64_t hash = START;
+  state = 5;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  for (int k = 0; k < AIMS; k++) {
+    carom_pot pot = {.ball = 1, .pocket = k % 6};
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    cue.speed = between(1.5, 4.0);
+    cue.theta = (double)NAN;
+    /* one draw a statement: arguments are computed in any order */
+    double at[4];
+    for (int c = 0; c < 4; c++)
+      at[c] = between(0.0, 1.0);
+    carom_place_ball(&table, balls, 1, 0, 0.1 + at[0], 0.03 + 0.25 * at[1], NULL);
+    carom_place_ball(&table, balls, 2, 1, 0.1 + at[2], 0.4 + 2.0 * at[3], NULL);
+    hash = add(hash, (uint64_t)(int64_t)carom_aim(&table, balls, 2, NULL, &pot, &cue));
+    hash = add_numbers(add(hash, (uint64_t)pot.is), &pot.elevation, 1);
+    if (pot.is == CAROM_POT_FALLS)
+      hash = add_numbers(add_numbers(hash, &cue.phi, 1), pot.phi, 2);
+  }
+  show("aims: least elevation", hash);
+}
+
 int main(int argc, char **argv) {
   if (argc > 1 && strcmp(argv[1], "revision") == 0)
     return printf("%d\n", carom_physics_revision()) < 0;
@@ -452,5 +500,7 @@ int main(int argc, char **argv) {
   slips_that_begin();
   cushion_traces();
   shots();
+  places();
+  aims();
   return 0;
 }
