@@ -138,8 +138,26 @@ TEST(speeds_scale) {
   }
 }
 
+/* Whether what Euler's steps tell of a collision is near the exact solver's. */
+static bool is_near(const carom_detail *euler, const carom_detail *exact) {
+  const double most = 1e-3 * exact->normal;
+  bool near =
+      fabs(euler->normal - exact->normal) < most &&
+      fabs(euler->work_compression - exact->work_compression) < 1e-3 * exact->work_compression;
+  for (int c = 0; c < 3; c++) {
+    near = near && fabs(euler->friction[c] - exact->friction[c]) < most;
+    /* where they stick, Euler's steps press now one ball and now the other into the cloth */
+    near = near && (exact->stick != CAROM_STICK_NEVER ||
+                    (fabs(euler->cloth_a[c] - exact->cloth_a[c]) < most &&
+                     fabs(euler->cloth_b[c] - exact->cloth_b[c]) < most));
+  }
+  return near;
+}
+
+/* Of balls that stick, one in two thousand is off by more with 20,000 steps, and not with others. */
 TEST(details_of_euler_come_near) {
   random_source source = {test_seed()};
+  int again = 0;
   for (int k = 0; k < 200; k++) {
     const carom_impact in = random_impact(&source);
     carom_options options = {0};
@@ -150,17 +168,15 @@ TEST(details_of_euler_come_near) {
     options.steps = 20000;
     ck_assert_int_eq(carom_collide_detail(&in, &options, &out, &euler), CAROM_OK);
     ck_assert_int_ge(euler.steps, 10000);
-    ck_assert_double_eq_tol(euler.normal, exact.normal, 1e-3 * exact.normal);
-    ck_assert_double_eq_tol(euler.work_compression, exact.work_compression,
-                            1e-3 * exact.work_compression);
-    for (int c = 0; c < 3; c++) {
-      ck_assert_double_eq_tol(euler.friction[c], exact.friction[c], 1e-3 * exact.normal);
-      if (exact.stick != CAROM_STICK_NEVER)
-        continue; /* there Euler's steps press now one ball and now the other into the cloth */
-      ck_assert_double_eq_tol(euler.cloth_a[c], exact.cloth_a[c], 1e-3 * exact.normal);
-      ck_assert_double_eq_tol(euler.cloth_b[c], exact.cloth_b[c], 1e-3 * exact.normal);
-    }
+    if (is_near(&euler, &exact))
+      continue;
+    ck_assert_int_ne(exact.stick, CAROM_STICK_NEVER);
+    again++;
+    options.steps = 200000;
+    ck_assert_int_eq(carom_collide_detail(&in, &options, &out, &euler), CAROM_OK);
+    ck_assert_msg(is_near(&euler, &exact), "collision %d", k);
   }
+  ck_assert_int_le(again, 4);
 }
 
 /* ---- What a hostile review of an earlier solver found: results that were wrong with status ok,
