@@ -140,13 +140,16 @@ static inline double slope_of_four(double f_2, double f_1, double f1, double f2,
   return (8.0 * (f1 - f_1) - (f2 - f_2)) / (12.0 * h);
 }
 
+static double least_error; /* of the last comparison, by any of its steps */
+
 /* Largest difference of the tangents in column j of m from the best plateau, and by how much
- * that itself disagrees; false if there is none. */
+ * that itself disagrees; false if there is none. Beside a kink there are two plateaus, of which
+ * the better one may be that of larger steps. */
 static inline bool compare(const layout *l, const direction *by, const double *tangent, int j,
                            int m, double *error, double *plateau) {
   double last[NUMBERS * LAYOUT_BALLS] = {0};
   bool had = false;
-  *plateau = *error = INFINITY;
+  *plateau = *error = least_error = INFINITY;
   for (int step = 0; step < 15; step++) {
     const double h = pow(10.0, -9.0 + 0.5 * step) * by->unit;
     static const double steps[4] = {-2, -1, 1, 2};
@@ -161,6 +164,7 @@ static inline bool compare(const layout *l, const direction *by, const double *t
       last[x] = d;
     }
     had = same;
+    least_error = same ? fmin(least_error, off) : least_error;
     if (same && apart < *plateau) {
       *plateau = apart;
       *error = off;
