@@ -77,13 +77,13 @@ static void clear_around_eye(carom_features *f) {
     room_y = lesser(room_y, beside ? INFINITY : along);
   }
 
-  /* a trace less, for the rounding of the differences */
-  f->clear[0] = (double)room_x * (1.0 - 1e-5);
-  f->clear[1] = (double)room_y * (1.0 - 1e-5);
+  /* a trace less, for rounding: 1e-6 of the places of a table, which may be far from 0 */
+  f->clear[0] = (double)room_x - 1e-6 * (fabs(f->hull[0]) + fabs(f->hull[1]));
+  f->clear[1] = (double)room_y - 1e-6 * (fabs(f->hull[2]) + fabs(f->hull[3]));
 }
 
-/* A place beside the middle of the longest rail, twice the radius from it; false without rails. */
-static bool beside_longest(const carom_table *t, const carom_features *f, double place[2]) {
+bool carom_beside_longest(const carom_table *t, const carom_features *f, double radius,
+                          double place[2]) {
   double most = 0.0;
   for (int k = 0; k < f->rails; k++) {
     const double *p = t->rail[k].p, *q = t->rail[k].q, e_x = q[0] - p[0], e_y = q[1] - p[1];
@@ -91,7 +91,7 @@ static bool beside_longest(const carom_table *t, const carom_features *f, double
       continue;
     most = e_x * e_x + e_y * e_y;
     for (int c = 0; c < 2; c++)
-      place[c] = 0.5 * (p[c] + q[c]) + 2.0 * f->radius * f->line[k][c];
+      place[c] = 0.5 * (p[c] + q[c]) + 2.0 * radius * f->line[k][c];
   }
   return most > 0.0;
 }
@@ -104,7 +104,7 @@ static void find_eye(const carom_table *table, carom_features *f) {
   f->eye[0] = 0.5 * table->width;
   f->eye[1] = 0.5 * table->length;
   clear_around_eye(f);
-  const bool there = beside_longest(table, f, place);
+  const bool there = carom_beside_longest(table, f, f->radius, place);
   f->has_eye = there && carom_is_in_sight(table, f, &ball, place);
   if (f->has_eye)
     return;

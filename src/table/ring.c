@@ -219,20 +219,9 @@ static bool find_place(ring *g, const carom_table *t, const carom_features *f, d
   const bool found = find_middle(g, t, P);
   if (found && encloses(g, grown, grown, P, NULL, &unused))
     return true;
-  int longest = 0;
-  double most = 0.0;
-  for (int k = 0; k < t->rails; k++) {
-    const double *p = t->rail[k].p, *q = t->rail[k].q;
-    const double size2 = (q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]);
-    if (size2 > most)
-      longest = k;
-    most = carom_greater(most, size2);
-  }
-  const carom_rail *rail = &t->rail[longest];
-  const double *n = f->line[longest];
-  const double Q[2] = {0.5 * (rail->p[0] + rail->q[0]) + 2.0 * R * n[0],
-                       0.5 * (rail->p[1] + rail->q[1]) + 2.0 * R * n[1]};
-  if (!(most > 0.0) || !is_free(g, Q) || !encloses(g, grown, grown, Q, NULL, &unused))
+  double Q[2];
+  if (!carom_beside_longest(t, f, R, Q) || !is_free(g, Q) ||
+      !encloses(g, grown, grown, Q, NULL, &unused))
     return found;
   P[0] = Q[0];
   P[1] = Q[1];

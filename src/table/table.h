@@ -45,6 +45,10 @@ extern const carom_table carom_table_pooltool;
 /* features.c: the unit normal of a rail towards its played side, and its offset: distance = line
  * . (x, y, 1). */
 void carom_rail_line(const carom_rail *rail, double line[3]);
+/* A place beside the middle of the longest rail, on its played side, at twice the radius from it;
+ * false without rails. */
+bool carom_beside_longest(const carom_table *table, const carom_features *features, double radius,
+                          double place[2]);
 /* Prepares a table for balls of a greatest radius; reference: the radius that it is meant for. */
 void carom_features_of(const carom_table *table, double radius, double reference,
                        carom_features *features);
