@@ -42,17 +42,20 @@ static void seen_from(const stick *s, const double place[2], double *L, double *
   *D = -(s->u[0] * x + s->u[1] * y);
 }
 
-/* The elevation that a point needs of which the axis must be r away, rad; below 0 none. A point
- * that is not below the stick gets less than any other, and the less, the farther it is from
- * there. */
-static double needed(const stick *s, double L, double D, double h, double r) {
-  const double off = carom_greater(carom_greater(-D, D - stick_end - 1e-12), fabs(L) - r);
-  if (off >= 0.0)
-    return -pi - off;
+/* The elevation that a point below the axis of an endless stick needs, of which the axis must be r
+ * away, rad; below 0 none. */
+static double raised(const stick *s, double L, double D, double h, double r) {
   const double up = s->R - h, sine = (sqrt(r * r - L * L) - s->b * s->R) / sqrt(D * D + up * up);
   if (sine >= 1.0)
     return 0.5 * pi;
   return (sine <= -1.0 ? -0.5 * pi : carom_asin(sine)) - carom_angle_of(D, up);
+}
+
+/* The same of any point. One that is not below the stick gets less than any other, and the less,
+ * the farther it is from there. */
+static double needed(const stick *s, double L, double D, double h, double r) {
+  const double off = carom_greater(carom_greater(-D, D - stick_end - 1e-12), fabs(L) - r);
+  return off >= 0.0 ? -pi - off : raised(s, L, D, h, r);
 }
 
 static double radius_at(double D) {
@@ -66,7 +69,7 @@ static double over_line(const stick *axis, double D, double h, double k, double 
   enum { STEPS = 8 };
   const double b = axis->b * axis->R, up = h - axis->R, r = radius_at(D), g = radius_growth,
                grown = 1.0 - g * g * k * k;
-  double theta = needed(axis, 0.0, D, h, r), more = INFINITY, s = 0.0, c = 1.0;
+  double theta = D > 0.0 ? raised(axis, 0.0, D, h, r) : 0.0, more = INFINITY, s = 0.0, c = 1.0;
   for (int step = 0; step < STEPS && theta > 0.0 && theta < 0.5 * pi && fabs(more) > 1e-9; step++) {
     carom_sincos(theta, &s, &c);
     const double root = sqrt(grown + k * k * s * s);

@@ -553,7 +553,7 @@ static bool is_clear(const carom_cue *stick) {
   for (int of = 0; of < table.rails + table.jaws; of++)
     for (int part = 0; part <= 2000; part++) {
       const carom_rail *r = &table.rail[of];
-      const carom_jaw *jaw = &table.jaw[of - table.rails];
+      const carom_jaw *jaw = &table.jaw[of < table.rails ? 0 : of - table.rails];
       const double turn = part * 0.18 * per_degree;
       double nose[3] = {0.0, 0.0, of < table.rails ? r->height : jaw->height};
       for (int x = 0; x < 2; x++)
