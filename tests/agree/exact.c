@@ -154,7 +154,7 @@ static bool is_near(const carom_detail *euler, const carom_detail *exact) {
   return near;
 }
 
-/* Of balls that stick, one in two thousand is off by more with 20,000 steps, and not with others. */
+/* Of balls that stick, one in two thousand is off by more with 20,000 steps, not with others. */
 TEST(details_of_euler_come_near) {
   random_source source = {test_seed()};
   int again = 0;
