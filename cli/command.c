@@ -109,6 +109,10 @@ int program_run(const program *p, int argc, char **argv) {
     argc = 3;
     argv = for_help;
   }
+  if (name[0] == '-' && strcmp(name, "--cite") != 0 && argc > 2) {
+    complain("%s stands alone, without '%s'", name, argv[2]);
+    return EXIT_USAGE;
+  }
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
     print_help(stdout, p);
     return finish(EXIT_GOOD);
