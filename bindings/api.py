@@ -151,7 +151,7 @@ class Api:
 
     def constants(self, header, values):
         for one in self.enumerators(header, values):
-            self.add("constants", one["name"], one["comment"] or header.above(values.enumerators[0].coord.line - 1), value=one["value"])
+            self.add("constants", one["name"], one["comment"] or header.above(values.enumerators[0].coord.line, over=1), value=one["value"])
 
     def macros(self, header):
         for name, text, line in header.macros:

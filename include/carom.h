@@ -87,6 +87,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* The version of this header. */
 #define CAROM_VERSION_MAJOR 0
 #define CAROM_VERSION_MINOR 3
 #define CAROM_VERSION_PATCH 0
@@ -317,8 +318,8 @@ CAROM_API const char *carom_solver_name(carom_solver solver);
 CAROM_API const char *carom_slip_name(carom_slip slip);
 
 enum {
-  CAROM_DEFAULT_STEPS = 1000,
-  CAROM_ALL_THREADS = -1, /* for options.threads */
+  CAROM_DEFAULT_STEPS = 1000, /* of Euler's method */
+  CAROM_ALL_THREADS = -1,     /* for options.threads */
 };
 
 /* Options of a call. All zero means the defaults: `carom_options options = {0};` in C, `{}` in
@@ -392,15 +393,18 @@ typedef struct carom_ball_f32 {
   float radius, mass, mu_cloth;
 } carom_ball_f32;
 
+/* Two balls that touch, in single precision. */
 typedef struct carom_impact_f32 {
   carom_ball_f32 a, b;
   float mu_ball, restitution;
 } carom_impact_f32;
 
+/* The motion of a ball, in single precision. */
 typedef struct carom_motion_f32 {
   float v[3], w[3];
 } carom_motion_f32;
 
+/* Both motions after a collision, in single precision. */
 typedef struct carom_result_f32 {
   carom_motion_f32 a, b;
 } carom_result_f32;

@@ -105,6 +105,7 @@ CAROM_API carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cu
 /* Why, in words, such as "the cue ball met no ball"; "" for NONE and for a value not listed. */
 CAROM_API const char *carom_foul_string(int foul);
 
+/* What a shot means by the rules: who plays next, the foul, the points. */
 typedef struct carom_turn {
   carom_turn_is is;
   carom_leave leave;
@@ -333,6 +334,7 @@ typedef enum carom_plan_kind {
   CAROM_PLAN_SAFETY = 11      /* no ball is named */
 } carom_plan_kind;
 
+/* A stroke that a plan proposes, and what comes of it. */
 typedef struct carom_choice {
   carom_cue cue;        /* raised as little as its stick has to be over cushions and balls,
                            unless `level` */
@@ -432,6 +434,7 @@ CAROM_API carom_status carom_plan_value(const carom_plan_job *job, int in_hand, 
 
 /* ---- Aims ------------------------------------------------------------------------------------ */
 
+/* How many balls and rails an aim may name on its way. */
 enum { CAROM_VIA_MOST = 4 };
 
 /* What comes of an aim: of the shot of the whole layout. */

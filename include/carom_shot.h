@@ -300,6 +300,7 @@ typedef struct carom_ball_state {
                     as 0. */
 } carom_ball_state;
 
+/* A ball of a layout: what it is, and where. */
 typedef struct carom_shot_ball {
   carom_ball_kind kind;
   carom_ball_state state;
@@ -326,6 +327,7 @@ CAROM_API carom_ball_kind carom_ball_kind_of(carom_game game);
 
 /* ---- Tables ---------------------------------------------------------------------------------- */
 
+/* How many rails, jaws and pockets a table may have, and balls a layout. */
 enum { CAROM_RAILS_MOST = 32, CAROM_JAWS_MOST = 32, CAROM_POCKETS_MOST = 8, CAROM_BALLS_MOST = 32 };
 
 /* A straight piece of cushion: a vertical wall above the segment from p to q. `line` is lx, ly,
@@ -370,6 +372,7 @@ typedef struct carom_table {
                          height of a nose. */
 } carom_table;
 
+/* Built-in tables, with their playing areas. */
 typedef enum carom_table_kind {
   CAROM_TABLE_POOL_7FT = 0,     /* 0.9906 x 1.9812 m */
   CAROM_TABLE_POOL_8FT = 1,     /* 1.1176 x 2.2352 m */
@@ -412,6 +415,7 @@ typedef enum carom_part_kind {
   CAROM_PART_STATE = 11           /* carom_ball_state */
 } carom_part_kind;
 
+/* A part of a table or of a layout. */
 typedef struct carom_part {
   carom_part_kind kind;
   int32_t index; /* in its array; 0 of CAROM_PART_NONE. */
@@ -497,6 +501,7 @@ CAROM_API carom_status carom_spot_of(carom_rack_kind kind, const carom_table *ta
 
 /* ---- The cue --------------------------------------------------------------------------------- */
 
+/* A stroke, and the cue with which it is played. */
 typedef struct carom_cue {
   double speed;    /* V0 of the cue before the strike, m/s, 0 to 1000. 0: no strike. */
   double phi;      /* direction in the plane, degrees from +x towards +y, -1e9 to 1e9. */
@@ -638,6 +643,7 @@ CAROM_API size_t carom_cite(const carom_shot_options *options, char *text, size_
 
 /* ---- What happened --------------------------------------------------------------------------- */
 
+/* What happened, and what `a` and `b` of the event are. */
 typedef enum carom_event_type {
   CAROM_EVENT_STRIKE = 1,          /* the cue and ball a */
   CAROM_EVENT_BALL_BALL = 2,       /* balls a and b */

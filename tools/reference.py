@@ -53,9 +53,34 @@ def of_c(source):
     return text + "## Constants\n\n" + rows(["name", "value", ""], constants)
 
 
+def of_name(source, name):
+    """The entry of a name that the package gives and that is neither a function nor a class of a public module."""
+
+    def defined(name):
+        for path in sorted((source / "python/src/carom").glob("*.py")):
+            text = path.read_text(encoding="utf-8")
+            for node in ast.walk(ast.parse(text)):
+                if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.Assign)) and name in (getattr(node, "name", ""), *(getattr(one, "id", "") for one in getattr(node, "targets", ()))):
+                    return text, node
+
+    text, node = defined(name) or ("", None)
+    if not node:  # a module
+        return ""
+    described = isinstance(node, (ast.ClassDef, ast.FunctionDef))
+    words = ast.get_docstring(node) if described else ""
+    if isinstance(node, ast.ClassDef) and not words:  # it has that of its base
+        text, node = defined(node.bases[0].id)
+        words = ast.get_docstring(node)
+    code = ast.get_source_segment(text, node)
+    code = code.replace('"""' + code.split('"""')[1] + '"""', "").rstrip() if described else code
+    code = re.sub(r"\n\s*\n", "\n", re.split(r"\n    (?:@|def )", code)[0]) if isinstance(node, ast.ClassDef) else code.split("\n")[0]
+    return f"### {name}\n\n```python\n{code}\n```\n\n" + (f"```text\n{words}\n```\n\n" if words else "")
+
+
 def of_python(source):
-    """A page: the public functions and classes of each module, with their docstrings."""
+    """A page: the names that the package gives, then the public functions and classes of each module, with their docstrings."""
     text = "# Reference: Python\n\nEvery public call of the package `carom`. [python.md](../docs/using/python.md) is the manual.\n\n"
+    listed = set()
     for path in sorted((source / "python/src/carom").glob("[a-z]*.py")):
         found = ""
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
@@ -67,24 +92,37 @@ def of_python(source):
                 if words and not name.rpartition(".")[2].startswith("_"):
                     returns = f" -> {ast.unparse(one.returns)}" if getattr(one, "returns", None) else ""
                     head = f"class {name}" if one in (node,) and inside else f"{name}({ast.unparse(one.args)}){returns}"
+                    listed.add(name)
                     # A docstring is text with columns of its own.
                     found += f"### {name}\n\n```python\n{head}\n```\n\n```text\n{words.replace('```', '')}\n```\n\n"
         text += f"## carom.{path.stem}\n\n{found}" if found else ""
-    return text
+    package = ast.parse((source / "python/src/carom/__init__.py").read_text(encoding="utf-8")).body
+    given = next(node.value for node in package if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
+    return text + "## Other names of carom\n\n" + "".join(of_name(source, name) for name in ast.literal_eval(given) if name not in listed)
 
 
 def documented(source, files, comment, kind, title, named):
     """A page: each declaration with a comment of that form above it, in the order of the files. A member has the name of its class too."""
     text, holder = f"# Reference: {title}\n\n", None
     for file in files:
-        for words, line in re.findall(comment, (source / file).read_text(encoding="utf-8"), flags=re.M | re.S):
-            name = "@internal" not in words and named(line.strip())
+        whole = (source / file).read_text(encoding="utf-8")
+        for found in re.finditer(comment, whole, flags=re.M | re.S):
+            words, line = found.groups()
+            # In Rust a member is in the block of its type; those of a trait are public.
+            blocks = re.findall(r"^(?:pub )?(impl|trait)(?:<[^>]*>)? (?:\w+ for )?(\w+)[^\n]*\{$|^\}$", whole[: found.start()], flags=re.M)
+            block, inside = blocks[-1] if kind == "rust" and blocks else ("", "")
+            name = "@internal" not in words and named(("pub " if block == "trait" else "") + line.strip())
             outer = not line.startswith(" ") or re.search(r"\bclass\b", line)
             if outer:
                 holder = name
-            if name and holder:
+            if name and (holder or inside):
                 words = re.sub(r"</?summary>|^\s*(?:\*|///) ?", " ", words, flags=re.M)
-                text += entry(name if outer or kind == "rust" else f"{holder}.{name}", re.sub(r"\s*\{.*$", "", line.strip(), flags=re.S), kind, words)
+                # The fields of a struct, some of which have no words of their own.
+                body = whole[found.start(2) :]
+                body = body[: re.search(rf"^{re.match(' *', line)[0]}\}}|\Z", body, flags=re.M).start()] if re.search(r"\b(?:class|struct)\b", line) else ""
+                fields = "".join(f"\n{field}" for field in re.findall(r"^ *pub(?:lic)? [^({\n]*[;,]$", body, flags=re.M))
+                called = f"{inside}::{name}" if inside else name if outer else f"{holder}.{name}"
+                text += entry(called, re.sub(r"\s*\{.*$", "", line.strip(), flags=re.S) + fields, kind, words)
     return text
 
 
@@ -96,25 +134,28 @@ def of_npm(line, public):
 
 
 def of_csharp(line):
-    found = re.match(r"public (?:static |sealed |unsafe |readonly )*(?:class )?(?:[\w\[\]<>.]+ )?(\w+)", line)
+    found = re.match(r"(?:public|protected) (?:static |sealed |unsafe |readonly |abstract |virtual )*(?:class )?(?:[\w\[\]<>.]+ )?(\w+)", line)
     return found and found[1]
 
 
 def of_rust(line):
-    found = re.match(r"pub (?:fn|struct|type|const|use) (\w+)", line)
+    found = re.match(r"pub (?:fn|struct|trait|type|const|use) (\w+)", line)
     return found and found[1]
 
 
 def pages(source):
     source = Path(source)
     block, slashes = r"/\*\*((?:(?!\*/).)*)\*/\n([^\n]+)", r"((?:^ *///[^\n]*\n)+)(?: *#\[[^\n]*\n)*([^\n]+(?:\([^)]*\)[^\n]*)?)"
-    npm = [str(path.relative_to(source)) for path in sorted((source / "web/src").glob("*.ts"))]
+
+    def files(pattern):
+        return [str(path.relative_to(source)) for path in sorted(source.glob(pattern))]
+
     index = (source / "web/src/index.ts").read_text(encoding="utf-8")
     public = set(re.findall(r"\w+", " ".join(re.findall(r"export (?:type )?\{([^}]*)\}", index)))) | set(re.findall(r"^export \w+ (?:function )?(\w+)", index, flags=re.M))
     types = (source / "web/src/types.ts").read_text(encoding="utf-8")
     public |= set(re.findall(r"^export (?:interface|type) (\w+)", types, flags=re.M))
     yield "C", "reference/c.md", of_c(source)
     yield "Python", "reference/python.md", of_python(source)
-    yield "npm", "reference/npm.md", documented(source, npm, block, "ts", "npm", lambda line: of_npm(line, public))
-    yield "C#", "reference/csharp.md", documented(source, ["bindings/csharp/Runtime/Billiards.cs"], slashes, "csharp", "C#", of_csharp)
-    yield "Rust", "reference/rust.md", documented(source, ["bindings/rust/carom/src/lib.rs"], slashes, "rust", "Rust", of_rust)
+    yield "npm", "reference/npm.md", documented(source, files("web/src/*.ts"), block, "ts", "npm", lambda line: of_npm(line, public))
+    yield "C#", "reference/csharp.md", documented(source, files("bindings/csharp/Runtime/*.cs"), slashes, "csharp", "C#", of_csharp)
+    yield "Rust", "reference/rust.md", documented(source, files("bindings/rust/carom/src/*.rs"), slashes, "rust", "Rust", of_rust)

@@ -319,8 +319,9 @@ namespace Carom {
              BitConverter.DoubleToInt64Bits(played.time) == BitConverter.DoubleToInt64Bits(recorded.time) && played.hash == recorded.hash;
     }
 
-    /// <summary>Shots so far, and the hash of all lines so far.</summary>
+    /// <summary>Shots so far.</summary>
     public long Shots { get { return record->shots; } }
+    /// <summary>The hash of all lines so far.</summary>
     public ulong Hash { get { return record->hash; } }
 
     /// <summary>Whether the last line was the end; without it a recording was cut off.</summary>

@@ -27,8 +27,7 @@ if TYPE_CHECKING:
     class _Named(enum.EnumMeta):
         def __getattr__(cls, name: str) -> Status: ...
 
-    class Status(_Status, metaclass=_Named):
-        """See `_Status`."""
+    class Status(_Status, metaclass=_Named): ...
 
 else:
     _values = sorted(ffi.typeof("carom_status").relements.items(), key=lambda item: (abs(item[1]), -item[1]))
