@@ -1,4 +1,4 @@
-vcpkg_download_distfile(archive URLS "@ARCHIVE@" FILENAME "carom-@VERSION@.tar.gz" SHA512 @SHA512@)
+vcpkg_download_distfile(archive URLS "@ARCHIVE@" FILENAME "carom-@VERSION@-source.tar.gz" SHA512 @SHA512@)
 vcpkg_extract_source_archive(source ARCHIVE "${archive}")
 vcpkg_cmake_configure(SOURCE_PATH "${source}" OPTIONS -DCAROM_CLI=OFF)
 vcpkg_cmake_install()

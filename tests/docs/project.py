@@ -33,7 +33,7 @@ with tempfile.TemporaryDirectory() as work:
     work = Path(work)
     for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "SECURITY.md", "CITATION.cff", "cmake", "include", "src", "cli", "data", "packaging", "tools"):
         (shutil.copytree if (SOURCE / part).is_dir() else shutil.copy)(SOURCE / part, work / part)
-    for part in ("python/pyproject.toml", "web/package.json", "web/package-lock.json", "docs/using/building.md", "docs/using/abi.md", "tests/install/plain", "tests/install/consumer-cmake/CMakeLists.txt", "bindings/csharp/package.json", "bindings/rust/carom/Cargo.toml", "bindings/rust/carom-sys/Cargo.toml"):
+    for part in ("python/pyproject.toml", "web/package.json", "web/package-lock.json", "docs/using/building.md", "docs/using/abi.md", "tests/install/plain", "tests/install/consumer-cmake/CMakeLists.txt", "tests/install/consumer-cmake/consumer.c", "bindings/csharp/package.json", "bindings/rust/carom/Cargo.toml", "bindings/rust/carom-sys/Cargo.toml"):
         (work / part).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(SOURCE / part, work / part)
     tool = [sys.executable, work / "tools/project.py"]
@@ -70,6 +70,27 @@ with tempfile.TemporaryDirectory() as work:
     conan = (work / "packaging/conan/conanfile.py").read_text(encoding="utf-8")
     assert '    author = "Zoë Kö, Jo Doe"\n    url = "https://example.org/carom.git"\n' in conan
 
+    # The recipes of a release: filled, and without what is empty.
+    def recipes(name):
+        dist, out = work / name, work / name / "recipes"
+        dist.mkdir()
+        (dist / f"carom-{toml_version}-source.tar.gz").write_bytes(b"an archive")
+        run(sys.executable, work / "tools/recipes.py", dist, out)
+        texts = {str(path.relative_to(out)): path.read_text(encoding="utf-8") for path in out.rglob("*") if path.is_file()}
+        assert not any(re.search(r"@[A-Z0-9]+@", text) for text in texts.values())
+        return texts, json.loads(texts["vcpkg/vcpkg.json"]), json.loads((dist / f"carom-{toml_version}.cdx.json").read_text(encoding="utf-8"))
+
+    toml_version = run(*tool, "--get", "version").strip()
+    texts, manifest, bill = recipes("filled")
+    assert manifest["homepage"] == "https://example.org/carom" and len(bill["components"]) >= 8
+    # vcpkg takes & and | together between parentheses only.
+    assert all(not ({"&", "|"} <= set(part)) for part in re.split(r"[()]", manifest["supports"])), manifest["supports"]
+    for name, words in {"nuget/Carom.Billiards.nuspec": '<repository type="git" url="https://example.org/carom.git" />', "homebrew/carom.rb": 'homepage "https://example.org/carom"',
+                        "conan/carom/all/conandata.yml": f"/releases/download/{toml_version}/carom-{toml_version}-source.tar.gz", "conan/carom/config.yml": "folder: all",
+                        "conan/carom/all/test_package/CMakeLists.txt": "find_package(carom", "conan/carom/all/conanfile.py": 'author = "Zoë Kö, Jo Doe"'}.items():  # fmt: skip
+        assert words in texts[name], f"{name}: no {words}"
+    assert "<authors>Zoë Kö, Jo Doe</authors>\n    <copyright>2031 The Example Society</copyright>" in texts["nuget/Carom.Billiards.nuspec"]
+
     # The command, and the citation that is made of what it says.
     run(CC, "-std=c17", "-Iinclude", "-Isrc", "-c", "src/shot/cite.c", "-o", "cite.o", cwd=work)
     (work / "b").mkdir()
@@ -96,6 +117,8 @@ with tempfile.TemporaryDirectory() as work:
     # With the fields of the tree again, the files are those of before.
     fill({})
     run(*tool)
+    texts, manifest, _ = recipes("empty")
+    assert "homepage" not in manifest and not re.search("repository|copyright|projectUrl", texts["nuget/Carom.Billiards.nuspec"])
     changed = [str(path.relative_to(work)) for path, text in before.items() if path.read_bytes() != text]
     assert changed == ["CITATION.cff"], changed
 print("every field is in packages, citation and pages")

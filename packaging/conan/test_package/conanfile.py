@@ -15,6 +15,8 @@ class Consumer(ConanFile):
         self.requires(self.tested_reference_str)
 
     def layout(self):
+        if Path(self.recipe_folder, "CMakeLists.txt").exists():  # a recipe of a release
+            return cmake_layout(self)
         # In the tree's build/, which git ignores.
         self.folders.root = "../../.."
         cmake_layout(self, src_folder="tests/install/consumer-cmake", build_folder="build/conan-consumer")
