@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from importlib.metadata import distribution
 from pathlib import Path
 
 from reference import pages
@@ -115,8 +116,9 @@ if EXPLORER.is_file():
 
 project = tomllib.loads((SOURCE / "packaging/project.toml").read_text(encoding="utf-8"))
 settings = {"INHERIT": str(SOURCE / "tools/site.yml"), "docs_dir": str(PAGES), "site_dir": str(WORK / "site"), "nav": navigation}
-settings |= {"repo_url": project["address"].removesuffix(".git")} if project["address"] else {}
-settings |= {"copyright": f"{project['year']} {project['copyright']}".strip()} if project["copyright"] else {}
+# Not as repo_url, by which each page would ask that server for stars and versions.
+link = f'<a href="{project["address"].removesuffix(".git")}">Sources</a>' if project["address"] else ""
+settings |= {"copyright": " ".join(f"{project['year']} {project['copyright']} {link}".split())} if project["copyright"] or link else {}
 (WORK / "mkdocs.yml").write_text(json.dumps(settings, indent=1), encoding="utf-8")
 # Not --quiet, by which mkdocs counts no warnings.
 done = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "--config-file", WORK / "mkdocs.yml"], text=True,
@@ -125,6 +127,11 @@ if done.returncode:
     sys.exit("\n".join(line for line in done.stdout.splitlines() if not line.startswith("INFO")))
 built = sorted((WORK / "site").rglob("*.html"))
 assert len(made) >= 4 and len(built) >= 30 and (WORK / "site/search/search_index.json").is_file(), (len(made), len(built))
+# The licences of what the site contains; the explorer has the others in itself.
+(WORK / "site/licenses").mkdir()
+theme = next(file for file in distribution("mkdocs-material").files if file.name == "LICENSE")
+for name, file in {"carom": "LICENSE", "carom-NOTICE": "NOTICE", "webassembly": "web/NOTICES", "mkdocs-material": theme.locate()}.items():
+    shutil.copy(SOURCE / file, WORK / f"site/licenses/{name}.txt")
 # A page asks no other server for a part of itself: mkdocs-material would get the search of a page that no server has from unpkg.com.
 asks = []
 for page in built:

@@ -26,7 +26,7 @@ async function begin(main: HTMLElement): Promise<void> {
     theme.textContent = name === "dark" ? "Light" : "Dark";
   };
   dress(dark.matches ? "dark" : "light");
-  if (!simdAvailable()) throw new Error("this page needs WebAssembly with vectors: Chrome 91, Firefox 89, Safari 16.4, or newer");
+  if (!simdAvailable()) throw new Error("this page needs WebAssembly with vectors: Chrome 91, Firefox 113, Safari 16.4, or newer");
   const carom = await load({ build: "simd" });
   document.getElementById("about")!.append(` carom ${carom.version}.`);
   solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
