@@ -541,6 +541,16 @@ static double stick_at(double behind) {
   return 0.0063 + 0.0055 * behind;
 }
 
+/* The point of a rail, or of the circle of a jaw, at a share of it. */
+static void point_of_nose(const carom_rail *rail, const carom_jaw *jaw, double share,
+                          double point[3]) {
+  const double turn = share * 360.0 * per_degree;
+  for (int k = 0; k < 2; k++)
+    point[k] = rail != NULL ? rail->p[k] + share * (rail->q[k] - rail->p[k])
+                            : jaw->centre[k] + jaw->radius * (k == 0 ? cos(turn) : sin(turn));
+  point[2] = rail != NULL ? rail->height : jaw->height;
+}
+
 /* Whether a stick is over all balls and noses: by points of the noses behind the ball. */
 static bool is_clear(const carom_cue *stick) {
   bool clear = true;
@@ -552,14 +562,9 @@ static bool is_clear(const carom_cue *stick) {
     }
   for (int of = 0; of < table.rails + table.jaws; of++)
     for (int part = 0; part <= 2000; part++) {
-      const carom_rail *r = &table.rail[of];
-      const carom_jaw *jaw = &table.jaw[of < table.rails ? 0 : of - table.rails];
-      const double turn = part * 0.18 * per_degree;
-      double nose[3] = {0.0, 0.0, of < table.rails ? r->height : jaw->height};
-      for (int x = 0; x < 2; x++)
-        nose[x] = of < table.rails
-                      ? r->p[x] + (r->q[x] - r->p[x]) * part / 2000.0
-                      : jaw->centre[x] + jaw->radius * (x == 0 ? cos(turn) : sin(turn));
+      const carom_rail *rail = of < table.rails ? &table.rail[of] : NULL;
+      double nose[3];
+      point_of_nose(rail, rail == NULL ? &table.jaw[of - table.rails] : NULL, part / 2000.0, nose);
       const double off = off_axis(stick, nose, &behind);
       clear &= behind < 0.0 || behind > 1.4 || off > stick_at(behind);
     }
@@ -898,14 +903,11 @@ static double least_over(const carom_cue *c, const double point[3], double radiu
   return high < 1e-9 ? 0.0 : high;
 }
 
-/* A point of a rail, or of the circle of a jaw, at a share of it. */
+/* The same over a point of a nose. */
 static double over_nose(const carom_cue *c, const carom_rail *rail, const carom_jaw *jaw,
                         double share) {
-  const double turn = share * 360.0 * per_degree;
-  double point[3] = {0.0, 0.0, rail != NULL ? rail->height : jaw->height};
-  for (int k = 0; k < 2; k++)
-    point[k] = rail != NULL ? rail->p[k] + share * (rail->q[k] - rail->p[k])
-                            : jaw->centre[k] + jaw->radius * (k == 0 ? cos(turn) : sin(turn));
+  double point[3];
+  point_of_nose(rail, jaw, share, point);
   return least_over(c, point, 0.0);
 }
 
