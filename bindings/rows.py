@@ -2,7 +2,6 @@
 
 rows.py json      numbers of a ball, options and words, as carom_number_of() and carom_word() tell them
 rows.py python    python/src/carom/_described.py
-rows.py markdown  the tables of pages between <!-- rows: NAME --> and <!-- rows: end -->
 """
 
 import json
@@ -223,64 +222,9 @@ def python():
     return "\n".join([*lines, ""])
 
 
-def reader_of(number):
-    """What reads a number, where not every shot does: as it stands behind an option of `carom shoot`."""
-    reader = re.match(r"(BY_CUSHION|WITH|BY_FRICTION)\((\w+)", number["reader"])
-    if reader is None or reader[1] != "BY_FRICTION":
-        return "" if reader is None else f"cushion `{reader[2].lower()}`"
-    return "friction " + " or ".join(f"`{text_of(law[1])}`" for _, law in rows("friction/laws.h", "CAROM_FRICTION_LAWS") if law[2] == reader[2])
-
-
-def tables():
-    """The tables of pages, by name."""
-
-    def table(*lines):
-        head, *rest = ("| " + " | ".join(line) + " |" for line in lines)
-        return "\n".join([re.sub(r" \| $", " |", head), "|" + "---|" * len(lines[0]), *rest])
-
-    def code(name):
-        return f"`{name}`" if name else ""
-
-    def told(one):
-        return one["range"], one["text"]
-
-    def camel(name):
-        return re.sub("_(.)", lambda letter: letter[1].upper(), name)
-
-    python = {one: f"{one}=" for one, *_ in shot_options()} | {"time_most": "t_final=", "threads": "threads="}
-    shots = [
-        (code(f"--{one['key']}" if one["key"] else ""), code(python[one["name"]]), code(f"options.{one['name']}"), code("" if one["group"] == "compute" else camel(one["name"])), *told(one))
-        for one in options()["carom_shot_options"]
-    ]
-    plans = [(code(f"--{one['key']}" if one["key"] else ""), code(one["name"]), code("" if one["name"] == "threads" else camel(one["name"])), *told(one)) for one in options()["carom_plan_options"]]
-    objects = {"carom_table": "table", "carom_rail": "linear", "carom_jaw": "circular", "carom_pocket": "pockets"}
-    own = [(one["name"], re.match(r"(?:BY_CUSHION|WITH)\((\w+)", one["reader"])) for one in numbers()]
-    cushions = [
-        (code(word), code(f"CAROM_SHOT_CUSHION_{row[0]}"), "yes" if row[5] != "CAROM_NO_START" else "no", ", ".join(code(name) for name, of in own if of and of[1] == row[0]), text)
-        for (_, row), (word, text) in zip(rows("cushion/list.h", "CAROM_CUSHION_MODELS"), words()["CUSHION_MODEL"])
-    ]
-    return {
-        "cushions": table(("command", "C", "can be fitted", "numbers of its own", "what it is"), *cushions),
-        "numbers": table(("key", "field of `carom_ball_kind`", "range", "read by", "what it is"),
-                         *((code(one["key"]), code(one["name"]), one["range"], reader_of(one) or "all", one["text"]) for one in numbers())),
-        "options": table(("command", "Python", "C", "npm", "may be", "what it is"), *shots),
-        "plans": table(("command", "field of `carom_plan_options`", "npm", "may be", "what it is"), *plans),
-        "cue": table(("key", "field of `carom_cue`", "range", "what it is"), *((code(one["key"] or "ball"), code(one["name"]), *told(one)) for one in parts()["carom_cue"])),
-        "table": table(("object", "key", "range", "what it is"),
-                       *((code(name), code(one["key"]), *told(one)) for struct, name in objects.items() for one in parts()[struct] if one["key"])),
-    }  # fmt: skip
-
-
-def with_tables(page):
-    """The text of a page with the tables that its marks name."""
-    made = tables()
-    return re.sub(r"(<!-- rows: (?!end)(\w+) -->\n).*?(?=<!-- rows: end -->)", lambda mark: f"{mark[1]}{made[mark[2]]}\n", page, flags=re.S)
-
-
 if __name__ == "__main__":
     made = {
         "json": lambda: json.dumps({"numbers": numbers(), "options": options(), "parts": parts(), "words": words()}, indent=1) + "\n",
         "python": python,
-        "markdown": lambda: "\n\n".join(tables().values()) + "\n",
     }
     sys.stdout.write(made[sys.argv[1]]())

@@ -23,7 +23,7 @@ PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
 FOLDERS = {"Using": "docs/using", "Understanding": "docs/understanding", "Study": "docs/study"}
 OTHERS = ["CHANGELOG.md", "CONTRIBUTING.md", *sorted(str(page.relative_to(SOURCE)) for room in ("cli", "data", "lab", "python", "src", "tests", "web")
                                                      for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md")))]  # fmt: skip
-FIRST = ["command", "python", "web", "games", "examples", "shots", "physics", "accuracy"]  # what a newcomer asks for, before the other pages
+FIRST = ["command", "questions", "python", "web", "games", "examples", "shots", "physics", "accuracy"]  # what a newcomer asks for, before the other pages
 EXPLORER = SOURCE / "web/explorer/dist/index.html"
 PACKAGE, ESBUILD = SOURCE / "web/dist/index.js", SOURCE / "web/node_modules/.bin/esbuild"
 LIVE = PACKAGE.is_file() and ESBUILD.is_file()

@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(sys.argv[1])
 sys.path.insert(0, str(ROOT / "bindings"))
 from api import describe  # noqa: E402
-from rows import digits, numbers, options, parts, python, with_tables, words  # noqa: E402
+from rows import digits, numbers, options, parts, python, words  # noqa: E402
 
 api = describe(ROOT / "include")
 structs = {one["name"]: one["fields"] for one in api["structs"]}
@@ -101,13 +101,11 @@ for of in enums["carom_words"]:
         faults.append(f"{of['name']}: the library tells {seen}, bindings/rows.py {expected}")
 
 # What is made of the rows, and kept.
-made = {ROOT / "python/src/carom/_described.py": python()}
-made |= {page: with_tables(text) for page in (ROOT / "docs").rglob("*.md") if "<!-- rows:" in (text := page.read_text(encoding="utf-8"))}
-for kept, text in made.items():
-    if os.environ.get("UPDATE"):
-        kept.write_text(text, encoding="utf-8")
-    if kept.read_text(encoding="utf-8") != text:
-        faults.append(f"{kept.relative_to(ROOT)} is not that of the rows; UPDATE=1 writes it")
+kept, text = ROOT / "python/src/carom/_described.py", python()
+if os.environ.get("UPDATE"):
+    kept.write_text(text, encoding="utf-8")
+if kept.read_text(encoding="utf-8") != text:
+    faults.append(f"{kept.relative_to(ROOT)} is not that of the rows; UPDATE=1 writes it")
 
 print("\n".join(faults) or f"{len(every)} numbers and options have the unit, range and default of their comments")
 sys.exit(bool(faults))
