@@ -130,7 +130,7 @@ static void print_summary(const run *r) {
           r->ok + r->separating + r->errors, r->ok, r->separating, r->errors);
   if (r->solving >= least_timed)
     fprintf(stderr, "; %s took %.3g s, %.3g us per %s",
-            r->job->solve != NULL ? r->job->solver : r->kind->name(r->asked, 0), 1e-9 * r->solving,
+            r->job->solve != NULL ? r->job->solver : r->kind->name(r->asked), 1e-9 * r->solving,
             1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1), r->kind->noun);
   fputc('\n', stderr);
 }

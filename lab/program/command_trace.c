@@ -1,131 +1,113 @@
-/* `carom trace`: one row against normal impulse, as a CSV file and as a picture. */
+/* `carom-lab trace`: a reference collision over normal impulse, by the exact solver and by Euler's
+ * method, as the CSV file that lab/figures/trace.gp draws. */
+#include "cases.h"
 #include "command.h"
+#include "kind.h"
 #include "memory.h"
 #include "message.h"
 #include "number.h"
 #include "output.h"
-#include "pick.h"
-#include "picture.h"
+#include "place.h"
 #include "subcommands.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-typedef struct trace {
-  shared_options asked;
-  const row_kind *kind;
-  double row[MOST_NUMBERS];
+typedef struct trace_job {
+  shared_options shared;
+  const char *id;
   int points;
-  const char *picture;
-  trace_point *point; /* of the first variant, then of the next */
-  bool separating;
-} trace;
+} trace_job;
 
-static void print_point(FILE *out, const trace *t, int variant, const trace_point *p) {
-  fputs(t->kind->name(&t->asked, variant), out);
-  write_numbers(out, (const double[]){p->impulse, p->work}, 2);
-  fprintf(out, ",%s", p->restitution ? "restitution" : "compression");
-  for (int k = 0; k < 2 && t->kind->contacts[k] != NULL; k++)
-    fprintf(out, ",%d", p->sticks[k]);
-  write_numbers(out, p->number, (size_t)t->kind->trace_numbers);
+/* The horizontal part of a velocity in the axes of the collision: y from ball 1 to ball 2. */
+static void write_in_axes(FILE *out, const carom_impact *in, const double v[3]) {
+  const double x = in->b.r[0] - in->a.r[0], y = in->b.r[1] - in->a.r[1], length = hypot(x, y);
+  write_numbers(out, (double[]){(v[0] * y - v[1] * x) / length, (v[0] * x + v[1] * y) / length}, 2);
+}
+
+static void write_point(FILE *out, const carom_impact *in, const char *solver,
+                        const carom_trace_point *p) {
+  fputs(solver, out);
+  write_numbers(out, (double[]){p->normal, p->work}, 2);
+  fprintf(out, ",%s,%d", p->phase == CAROM_PHASE_RESTITUTION ? "restitution" : "compression",
+          p->sticks != 0);
+  write_numbers(out, (double[]){p->v_n, p->u_x, p->u_z, p->d_x, p->d_y, p->b_x, p->b_y}, 7);
+  write_in_axes(out, in, p->state.a.v);
+  write_in_axes(out, in, p->state.b.v);
+  write_numbers(out, (const double *)(const void *)&p->state, sizeof p->state / sizeof(double));
   fputc('\n', out);
 }
 
-/* Where compression ends: the normal velocity is all but linear between two points. NAN where
- * nothing meets. */
-static double end_of_compression(const trace *t) {
-  for (int k = 1; k < t->points; k++) {
-    const trace_point *a = &t->point[k - 1], *b = &t->point[k];
-    const double v = a->number[0], change = b->number[0] - v;
-    if (!a->restitution && b->restitution)
-      return fmin(a->impulse - v * (b->impulse - a->impulse) / change, b->impulse);
+/* Where compression ends: the normal velocity is nearly linear between two points. */
+static double end_of_compression(const carom_trace_point *point, int points) {
+  for (int k = 1; k < points; k++) {
+    const carom_trace_point *a = &point[k - 1], *b = &point[k];
+    if (a->phase != b->phase)
+      return fmin(a->normal - a->v_n * (b->normal - a->normal) / (b->v_n - a->v_n), b->normal);
   }
   return (double)NAN;
 }
 
-/* What it is, as notes before the header. */
-static void print_notes(FILE *out, const trace *t) {
-  double stuck[2];
-  t->kind->describe(out, &t->asked, t->row);
-  t->kind->stuck(&t->asked, t->row, t->points, t->point, stuck);
-  fprintf(out, "# compression ends: %.6g\n", end_of_compression(t));
-  for (int k = 0; k < 2 && t->kind->contacts[k] != NULL; k++)
-    fprintf(out, "# %s: %.6g\n", t->kind->contacts[k], stuck[k]);
+/* The notes that the figure is drawn by. */
+static void write_notes(FILE *out, const trace_job *job, const carom_impact *in,
+                        const carom_trace_point *exact) {
+  carom_detail detail;
+  carom_result unused;
+  carom_collide_detail(in, &job->shared.options, &unused, &detail);
+  fprintf(out,
+          "# collision: %s\n# slip: %s\n# steps: %d\n# friction between the balls: %.3g\n"
+          "# friction of the cloth: %.3g and %.3g\n# restitution: %.3g\n"
+          "# compression ends: %.6g\n# the balls stick: %.6g\n",
+          job->id, carom_slip_name(job->shared.options.slip), job->shared.options.steps,
+          in->mu_ball, in->a.mu_cloth, in->b.mu_cloth, in->restitution,
+          end_of_compression(exact, job->points), detail.stick_normal);
 }
 
-static void print_trace(FILE *out, const void *data) {
-  const trace *t = data;
-  if (!t->asked.bare)
-    print_notes(out, t);
-  /* The points of each variant. */
-  fprintf(out, "%s,impulse_N_s,work_J,phase,%s,%s\n", t->kind->which, t->kind->trace_columns,
-          t->kind->result_columns);
-  for (int variant = 0; variant < variants_of(&t->asked); variant++)
-    for (int k = 0; k < t->points; k++)
-      print_point(out, t, variant, &t->point[variant * t->points + k]);
-}
-
-/* False after a complaint. */
-static bool compute(trace *t) {
-  const int variants = variants_of(&t->asked);
-  t->point = allocate((size_t)t->points * (size_t)variants, sizeof *t->point);
-  for (int variant = 0; variant < variants; variant++) {
-    const carom_status status =
-        t->kind->trace(&t->asked, variant, t->row, t->points, &t->point[variant * t->points]);
-    const char *name = t->kind->name(&t->asked, variant);
-    if (status == CAROM_ERROR_CUSHION_MODEL)
-      complain("%s is a closed form and has no course; --model mathavan and euler have", name);
-    else if (status < 0)
-      complain("id '%s', %s: %s (%s)", t->asked.id, name, carom_status_string(status),
-               carom_status_name(status));
-    if (status < 0)
-      return false;
-    t->separating |= status == CAROM_SEPARATING;
+/* Writes the traces; an exit code. */
+static int write_traces(const trace_job *job, const carom_impact *in) {
+  const size_t n = (size_t)job->points;
+  carom_trace_point *point = allocate(2 * n, sizeof *point);
+  carom_options options = job->shared.options;
+  int code = EXIT_GOOD;
+  for (int k = 0; k < 2 && code == EXIT_GOOD; k++) {
+    options.solver = k == 0 ? CAROM_SOLVER_EXACT : CAROM_SOLVER_EULER;
+    const carom_status status = carom_trace(in, &options, n, &point[(size_t)k * n]);
+    if (status == CAROM_OK)
+      continue;
+    complain("id '%s', %s: %s (%s)", job->id, carom_solver_name(options.solver),
+             carom_status_string(status), carom_status_name(status));
+    code = EXIT_USAGE;
   }
-  if (t->separating)
-    complain("id '%s': %s", t->asked.id, carom_status_string(CAROM_SEPARATING));
-  return true;
-}
 
-/* Returns an exit code. */
-static int write_trace(const trace *t) {
-  const char *path = t->asked.output == NULL && t->picture == NULL ? "-" : t->asked.output;
-  if (path != NULL && !file_draw(path, print_trace, t))
-    return EXIT_USAGE;
-  if (t->picture == NULL)
-    return EXIT_GOOD;
-  if (t->separating) {
-    complain("cannot draw %s: there is no %s to draw", t->picture, t->kind->noun);
-    return EXIT_SOME;
+  const char *path = job->shared.output != NULL ? job->shared.output : "-";
+  FILE *out = code == EXIT_GOOD ? output_open(path) : NULL;
+  if (out != NULL) {
+    write_notes(out, job, in, point);
+    fputs("solver,impulse_N_s,work_J,phase,sticks,v_n_m_s,u_x_m_s,u_z_m_s,d_x_m_s,d_y_m_s,b_x_m_s,"
+          "b_y_m_s,v1_x_m_s,v1_y_m_s,v2_x_m_s,v2_y_m_s," RESULT_COLUMNS "\n",
+          out);
+    for (size_t k = 0; k < 2 * n; k++)
+      write_point(out, in, carom_solver_name(k < n ? CAROM_SOLVER_EXACT : CAROM_SOLVER_EULER),
+                  &point[k]);
   }
-  trace noted = *t;
-  noted.asked.bare = false; /* the picture is drawn by them */
-  char title[256];
-  snprintf(title, sizeof title, "%s %.200s", t->asked.cushion ? "Impact" : "Collision",
-           t->asked.id);
-  return picture_draw(t->picture, "trace", title, print_trace, &noted) ? EXIT_GOOD : EXIT_SOME;
+  free(point);
+  return out != NULL && output_commit() ? EXIT_GOOD : EXIT_USAGE;
 }
 
-OPTION(trace, option_points, "points", points, 0, "N", set_count, 2,
+OPTION(trace_job, option_trace_id, "id", id, 0, "X", set_text, 0,
+       "the collision of data/collisions-204.csv with this id");
+OPTION(trace_job, option_points, "points", points, 0, "N", set_count, 2,
        "points, 2 or more (default 201)");
-OPTION(trace, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the quantities, by gnuplot: OUT.svg, OUT.png or OUT.pdf. The CSV is then written only "
-       "with -o");
 
 static const command_form form = {
     .name = "trace",
-    .usage = "--id X [OPTIONS] [FILE]",
-    .about = "Writes the state during one collision, from contact to separation, in equal steps of "
-             "normal impulse; with --cushion that during one impact on a cushion, by the model "
-             "mathavan or euler. FILE has the format that `carom resolve` reads; - is CSV on "
-             "standard input; without FILE, the 204 reference collisions.\n",
-    .options =
-        (const option_row *const[]){&option_id, &option_cushion, &option_points, &option_steps,
-                                    &option_plot, &option_bare, &option_strict, &option_output,
-                                    &option_solvers, &option_slip, &option_friction, &option_data,
-                                    &option_model, &option_with, &option_convention, &option_law,
-                                    &option_least_step, NULL},
+    .usage = "--id X [OPTIONS]",
+    .about = "Writes the state during one of the 204 reference collisions, from contact to "
+             "separation, in equal steps of normal impulse, by the exact solver and by Euler's "
+             "method.\n",
+    .options = (const option_row *const[]){&option_trace_id, &option_points, &option_steps,
+                                           &option_slip, &option_data, &option_output, NULL},
     .details =
         "columns written:\n"
         "  solver, impulse_N_s  the solver; the normal impulse so far\n"
@@ -141,42 +123,35 @@ static const command_form form = {
         "the same axes\n"
         "  v1_x_m_s v1_y_m_s    velocity of ball 1, and v2_x_m_s v2_y_m_s of ball 2, in the same "
         "axes\n"
-        "  v1x ... w2z          the state as `carom resolve` writes it, m/s and rad/s, along the "
-        "axes of the table\n"
+        "  v1x ... w2z          the state, m/s and rad/s, along the axes of the table\n"
         "\n"
-        "columns written with --cushion:\n"
-        "  model, impulse_N_s   the model; the normal impulse so far\n"
-        "  work_J, phase        as above; compression while the ball moves into the cushion\n"
-        "  nose_sticks          1 while the ball does not slip on the nose, else 0, and "
-        "cloth_sticks on the cloth; always 0 with Euler's method\n"
-        "  v_n_m_s              speed into the nose, along its normal; negative while ball and "
-        "cushion separate\n"
-        "  s_x_m_s s_t_m_s      slip on the nose, along the cushion and upwards across it\n"
-        "  c_x_m_s c_y_m_s      slip on the cloth; y points into the cushion, x along it, z up\n"
-        "  v_x_m_s v_y_m_s      velocity in the same axes\n"
-        "  vx ... wz            the motion, m/s and rad/s, along the axes of the table\n"
-        "\n"
-        "exit code: 0; 1 if the picture could not be drawn; 2 for bad usage, unreadable input or a "
-        "row with an error\n",
-    .example = "carom trace --id pooltool-135 --solver exact,euler --plot trace.svg",
-    .files = FILE_OR_NONE,
+        "exit code: 0; 2 for bad usage, unreadable input or a collision that cannot be traced\n",
+    .example = "carom-lab trace --id pooltool-135 -o trace.csv",
+    .files = NO_FILES,
 };
 
 int command_trace(int argc, char **argv) {
-  trace t = {.asked = {.options = COMMAND_OPTIONS}, .points = 201};
-  const char *file;
-  int code = parse_arguments(&form, argc, argv, &t, &file);
+  trace_job job = {.shared = {.options = COMMAND_OPTIONS}, .points = 201};
+  int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
-  if (t.asked.id == NULL) {
-    complain("trace needs --id: which row to follow");
+  if (job.id == NULL) {
+    complain("trace needs --id: which collision to follow");
     return usage_hint(&form);
   }
-  t.kind = kind_of(&t.asked);
-  code =
-      output_possible(t.picture) && pick_rows(&t.asked, file, &t.asked.id, 1, &t.row) && compute(&t)
-          ? write_trace(&t)
-          : EXIT_USAGE;
-  free(t.point);
+
+  case_set cases;
+  if (!cases_load(data_folder(job.shared.folder), "collisions-204.csv", &cases))
+    return EXIT_USAGE;
+  size_t k = 0;
+  while (k < cases.count && strcmp(cases.id[k], job.id) != 0)
+    k++;
+  code = EXIT_USAGE;
+  if (k == cases.count)
+    complain("the reference collisions have no id '%s'; they have %s to %s", job.id, cases.id[0],
+             cases.id[cases.count - 1]);
+  else
+    code = write_traces(&job, &cases.impact[k]);
+  cases_free(&cases);
   return code;
 }

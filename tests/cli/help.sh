@@ -1,8 +1,8 @@
 # Help, version and the lists, as a user sees them: one sample whole, and of the others how they are wrapped.
-commands="resolve hit rail shoot plan ways break models record replay verify trace sweep"
+commands="resolve hit rail shoot plan ways break models record replay verify"
 try carom --help
 carom --version | sed 's/[0-9][0-9]*/N/g'
-try carom sweep --help
+try carom resolve --help
 # shellcheck disable=SC2086
 python -m wrapped "$CAROM" $commands
 echo "--- pages of the manual: their sections, and what man and roff say of them"
@@ -16,7 +16,7 @@ done | sort | uniq -c
 rm ./*.1
 echo "--- the examples do what they show"
 cp "$DATA/collisions-204.csv" before.csv
-for command in "" resolve trace sweep; do
+for command in "" resolve; do
   example=$(carom $command --help | tail -n 1)
   [ "${example#  carom }" != "$example" ] && eval "$example" || echo "the example of '$command' fails"
 done

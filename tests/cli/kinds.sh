@@ -49,8 +49,6 @@ try carom shoot pretty.json
 head -c 400 "$DATA/break-nineball.jsonl" > cut.jsonl; try carom shoot -o cut.out cut.jsonl
 try carom shoot .
 echo "what is mistyped:"
-try carom trace --id pooltool002 "$DATA/collisions-204.csv" 2>&1 | sed 's/^.*\/coll/coll/'
-try carom trace --id a plain.csv
 sed '1s/v1y/V1Y/' plain.csv > case.csv; try carom resolve case.csv
 sed '1s/u_b/mu_b/; 1s/e_b/eb/' plain.csv > near.csv; try carom resolve near.csv
 sed '1s/u_b/friction/' plain.csv > far.csv; try carom resolve far.csv
