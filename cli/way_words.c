@@ -29,8 +29,6 @@ const char *way_text(const ways_search *s, const way *w, char text[WAY_TEXT]) {
     snprintf(text, WAY_TEXT, "%s to %s, %s%s%s", s->line->name[w->ball],
              pocket != NULL ? pocket : s->line->table->pocket[w->pocket], way_names[w->kind],
              w->parts > 0 ? ": " : "", parts);
-  if (!isnan(w->distance))
-    snprintf(text + strlen(text), WAY_TEXT - strlen(text), " from %.4g m", w->distance);
   return text;
 }
 
@@ -40,11 +38,6 @@ const char *cut_text(const way *w, char text[CUT_TEXT]) {
   if (!isnan(w->cut))
     snprintf(text, CUT_TEXT, "%.1f %s", fabs(w->cut), w->cut < 0.0 ? "right" : "left");
   return text;
-}
-
-/* Whether the ways are those of wide.h. */
-bool are_wide(const ways_search *s) {
-  return s->ways > 0 && !isnan(s->way[0].distance);
 }
 
 /* The line of a way's stroke. */
@@ -66,11 +59,7 @@ json_t *way_line(const ways_search *s, const way *w) {
       json_object_set_new(cue, n->key, json_real(x + 0.0));
   }
   json_object_set_new(to, "cue", cue);
-  json_t *balls = json_deep_copy(json_object_get(s->line->json, "balls"));
-  json_object_set_new(to, "balls", balls);
-  for (int axis = 0; axis < 2 && !isnan(w->distance); axis++)
-    json_array_set_new(json_object_get(json_array_get(balls, (size_t)s->line->cue.ball), "state"),
-                       (size_t)(1 + axis), json_real(w->place[axis]));
+  json_object_set_new(to, "balls", json_deep_copy(json_object_get(s->line->json, "balls")));
   json_t *about = json_pack("{s: s, s: s, s: f, s: f, s: [f, f]}", "kind", way_names[w->kind], "by",
                             parts_text(s, w, parts), "chance", w->chance, "error", w->error,
                             "window", w->phi[0], w->phi[1]);

@@ -15,9 +15,6 @@ const char *way_text(const ways_search *s, const way *w, char text[WAY_TEXT]);
 /* "30.6 left"; nothing where the cut is not known. */
 const char *cut_text(const way *w, char text[CUT_TEXT]);
 
-/* Whether the ways are those of wide.h. */
-bool are_wide(const ways_search *s);
-
 /* The line of a way's stroke, for `carom shoot`; to be released. */
 json_t *way_line(const ways_search *s, const way *w);
 

@@ -60,7 +60,7 @@ bool ways_chance(const ways_search *s, way *w) {
   static carom_facts facts[TRIES];
   static carom_cue cue[TRIES];
   static carom_ball_state final[TRIES][CAROM_BALLS_MOST];
-  int good = 0, falls = 0;
+  int good = 0;
   for (int k = 0; k < TRIES; k++) {
     cue[k] = w->cue;
     carom_player_strike(&s->player, 0, (uint64_t)k, &cue[k]);
@@ -68,12 +68,8 @@ bool ways_chance(const ways_search *s, way *w) {
   }
   if (!play(s, cue, TRIES, shot))
     return false;
-  for (int k = 0; k < TRIES; k++) {
+  for (int k = 0; k < TRIES; k++)
     good += way_is_good(s, &facts[k], final[k], w);
-    falls +=
-        w->ball >= 0 && (facts[k].down >> w->ball & 1) && facts[k].pocket[w->ball] == w->pocket;
-  }
-  w->falls = (double)falls / TRIES;
   w->chance = (double)good / TRIES;
   w->error = sqrt(w->chance * (1.0 - w->chance) / TRIES);
   return true;
@@ -108,7 +104,6 @@ static bool try_way(ways_search *s, way_kind kind, int ball, int pocket, const c
     if (pot.is != CAROM_POT_FALLS)
       continue;
     way w = {.kind = kind, .ball = ball, .pocket = pocket, .cue = cue, .cut = pot.cut, .stroke = k};
-    w.at_cut = w.distance = NAN;
     w.margin = pot.margin;
     memcpy(w.phi, pot.phi, sizeof w.phi);
     memcpy(w.speed, pot.speed, sizeof w.speed);
@@ -306,7 +301,7 @@ static bool finish_way(ways_search *s, way *w, double step) {
   }
   const double middle = 0.5 * (w->phi[0] + w->phi[1]);
   w->cue.phi = holds(s, w, middle) ? middle : w->middle;
-  w->cut = w->margin = w->speed[0] = w->speed[1] = w->at_cut = w->distance = NAN;
+  w->cut = w->margin = w->speed[0] = w->speed[1] = NAN;
   return ways_chance(s, w);
 }
 
@@ -366,10 +361,6 @@ static bool scan(ways_search *s) {
 }
 
 /* ---- All of it */
-
-bool ways_find_direct(ways_search *s) {
-  return try_way(s, DIRECT, s->ball, s->pocket, NULL, 0);
-}
 
 bool ways_find(ways_search *s) {
   const int pockets = (int)s->line->table->table.pockets;

@@ -57,7 +57,6 @@ DRAWN = {
     "rule-30": "carom hit --cut 1:0.02ball --spin follow,stun --quantity rolling-deflection --plot {}",
     "throw": "carom hit --cut 0:80 --speed 1,3,7mph --plot {}",
     "rebound": "carom rail --model mathavan --angle 0:75 --side -50,0,50% --friction 0.3 --plot {}",
-    "wide": "carom ways --balls foot-spot --pocket foot-left --cut 0:70:5 --distance 0.4,0.8,1.2 --speed 2 --plot {} -o /dev/null",
     "corner-five": "carom shoot --table threecushion --cue 0.1,0.1 --to 4d,7d:4d,6d:4d,5d:4d,4d --tip=-0.3,0.2 --speed 3.5 --time-most 2.2 --plot {} -o /dev/null",
     "english": "carom rail --model mathavan --angle 30,45,60 --side -100:100% --quantity rolling-rebound --plot {}",
     "cuts": "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 10,25,40 --tip 0.2,-0.3 --plot {} -o /dev/null",
