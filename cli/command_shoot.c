@@ -1,19 +1,18 @@
 /* `carom shoot`: whole shots from a file or from words, from the strike to rest. */
-#include "animate.h"
+#include "animation.h"
 #include "command.h"
 #include "doubts.h"
-#include "leave.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
 #include "output.h"
 #include "picture.h"
+#include "position.h"
 #include "shoot_flags.h"
 #include "shot_drawings.h"
 #include "shot_fault.h"
 #include "shot_file.h"
 #include "shot_story.h"
-#include "shot_words.h"
 #include "subcommands.h"
 
 #include <math.h>

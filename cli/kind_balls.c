@@ -1,7 +1,7 @@
 /* The kind of row that is a collision of two balls: 26 numbers, those of a carom_impact, and 12
  * results. */
-#include "derived.h"
 #include "kind.h"
+#include "quantities.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* The kind of row that is an impact of a ball on a cushion: 15 numbers, those of a
  * carom_cushion_impact, and 6 results. */
-#include "derived.h"
 #include "kind.h"
+#include "quantities.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,12 +3,12 @@
  * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. */
 #include "shoot_flags.h"
 
-#include "derived.h"
 #include "doubts.h"
 #include "memory.h"
 #include "message.h"
 #include "number.h"
 #include "places.h"
+#include "quantities.h"
 #include "words.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* What `carom shoot` draws. */
 #include "shot_drawings.h"
 
-#include "animate.h"
+#include "animation.h"
 #include "memory.h"
 #include "output.h"
 #include "picture.h"

@@ -3,9 +3,9 @@
 #include "shot_picture.h"
 
 #include "ball_colours.h"
-#include "derived.h"
 #include "memory.h"
 #include "picture.h"
+#include "quantities.h"
 #include "shot_story.h"
 #include "table_picture.h"
 

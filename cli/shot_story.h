@@ -3,7 +3,7 @@
 #ifndef CAROM_CLI_SHOT_STORY_H
 #define CAROM_CLI_SHOT_STORY_H
 
-#include "shot_file.h"
+#include "spread.h"
 
 /* Whether a rail is no cut of a pocket: those are short. */
 bool is_cushion(const carom_table *t, int rail);
@@ -59,5 +59,10 @@ const char *side_words(const named_table *t, double x, double y);
 #define STORY_COLUMNS \
   "shot,id,ball,what,with,time_s,x_m,y_m,speed_m_s,direction_deg,cut_deg,diamonds,gap_mm"
 void story_rows(FILE *out, int number, const shot_line *line, const carom_shot *shot);
+
+/* Tells what each ball does that moved: its moments, or in a line where `shortly` is set; with the
+ * spread of a player where `s` is not NULL. */
+void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s,
+               bool shortly);
 
 #endif

@@ -240,8 +240,7 @@ static bool has_no_room(const carom_shot *shot, const way *w) {
 }
 
 /* Counts a way of direction k of a stroke. */
-static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double phi,
-                      double step) {
+static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double step) {
   int at = 0;
   while (at < s->ways) {
     const way *w = &s->way[at];
@@ -266,8 +265,26 @@ static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, do
   w->last = k;
   if (w->run > w->longest) {
     w->longest = w->run;
-    w->middle = phi - step * (double)((w->run - 1) / 2); /* of these directions */
+    /* of these directions */
+    w->middle = step * (double)k - step * (double)((w->run - 1) / 2);
     w->stroke = stroke;
+  }
+}
+
+/* Counts the way of the ball, -1 of points and places, by the shot of direction k of a stroke where
+ * the shot is good, or that there was no room for it. */
+static void read_shot(ways_search *s, const carom_shot *shot, int ball, int stroke, int64_t k,
+                      double step) {
+  way seen = {.kind = s->counted, .ball = ball, .pocket = -1};
+  if (ball >= 0)
+    seen.pocket = shot->facts->pocket[ball];
+  if (!way_is_good(s, shot->facts, shot->final, &seen))
+    return;
+  if (!read_way(s, shot, &seen))
+    s->left_out += has_no_room(shot, &seen);
+  else {
+    s->good++;
+    count_way(s, &seen, stroke, k, step);
   }
 }
 
@@ -327,29 +344,13 @@ static bool scan(ways_search *s) {
       }
       fine = play(s, cue, n, shot);
       for (int k = 0; k < n && fine; k++) {
-        const carom_facts *f = &facts[k];
         s->scanned++;
-        if (s->counted != CAROM) {
-          way seen = {.kind = s->counted, .ball = -1, .pocket = -1};
-          if (way_is_good(s, f, final[k], &seen)) {
-            if (read_way(s, &shot[k], &seen)) {
-              s->good++;
-              count_way(s, &seen, stroke, from + k, cue[k].phi, step);
-            } else
-              s->left_out += has_no_room(&shot[k], &seen);
-          }
-        }
-        for (int ball = 0; ball < s->line->count && s->counted == CAROM; ball++) {
-          way seen = {.kind = CAROM, .ball = ball, .pocket = f->pocket[ball]};
+        if (s->counted != CAROM)
+          read_shot(s, &shot[k], -1, stroke, from + k, step);
+        for (int ball = 0; ball < s->line->count && s->counted == CAROM; ball++)
           if (ball != s->line->cue.ball && (s->ball < 0 || ball == s->ball) &&
-              (f->down >> ball & 1) && (s->pocket < 0 || f->pocket[ball] == s->pocket) &&
-              way_is_good(s, f, final[k], &seen)) {
-            if (read_way(s, &shot[k], &seen))
-              count_way(s, &seen, stroke, from + k, cue[k].phi, step);
-            else
-              s->left_out += has_no_room(&shot[k], &seen);
-          }
-        }
+              (s->pocket < 0 || facts[k].pocket[ball] == s->pocket))
+            read_shot(s, &shot[k], ball, stroke, from + k, step);
       }
       progress_show("strokes", (double)s->scanned, (double)(each * s->strokes));
     }

@@ -1,7 +1,7 @@
 /* What people ask of a collision beyond its twelve numbers: throw, deflection, motion once both
  * balls roll, spin, energy. */
-#ifndef CAROM_CLI_DERIVED_H
-#define CAROM_CLI_DERIVED_H
+#ifndef CAROM_CLI_QUANTITIES_H
+#define CAROM_CLI_QUANTITIES_H
 
 #include "carom.h"
 

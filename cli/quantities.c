@@ -1,5 +1,5 @@
 /* What people ask of a collision beyond its twelve numbers. */
-#include "derived.h"
+#include "quantities.h"
 
 #include <math.h>
 

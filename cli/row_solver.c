@@ -3,7 +3,7 @@
  * While one block of rows is solved and written, in the order of the file, another thread reads
  * the next.
  */
-#include "resolving.h"
+#include "row_solver.h"
 
 #include "command.h"
 #include "doubts.h"
@@ -30,7 +30,7 @@ typedef struct reading {
 } reading;
 
 typedef struct run {
-  const resolving *job;
+  const row_job *job;
   const shared_options *asked;
   const row_kind *kind;
   bool single;
@@ -135,7 +135,7 @@ static void print_summary(const run *r) {
   fputc('\n', stderr);
 }
 
-int resolve_file(const resolving *job, const char *file) {
+int resolve_file(const row_job *job, const char *file) {
   run r = {.job = job,
            .asked = &job->shared,
            .kind = kind_of(&job->shared),
