@@ -152,14 +152,9 @@ python textbooks.py
 echo "several speeds, and each spin at each speed:"
 carom hit --spin stun,draw --speed 1,2,4.5 --cut 0 --csv > six.csv
 cut -d, -f1,5,9 six.csv
-python - <<'PYTHON'
-import os, subprocess
-# One by one the same.
-for spin, speed in (("stun", "2"), ("draw", "4.5")):
-    one = subprocess.run([os.environ["CAROM"], "hit", "--spin", spin, "--speed", speed, "--cut", "0", "--csv"], capture_output=True, text=True).stdout
-    rows = {line.split(",")[0]: line.split(",", 1)[1] for line in open("six.csv")}
-    print(rows[f"{spin}-{speed}m/s"] == one.splitlines(True)[1].split(",", 1)[1])
-PYTHON
+for one in "stun 2" "draw 4.5"; do
+  carom hit --spin "${one% *}" --speed "${one#* }" --cut 0 --csv | sed -n "2s/^[a-z]*,/${one% *}-${one#* }m\\/s,/p" | grep -cxFf - six.csv
+done
 echo "every hit is drawn:"
 carom hit --spin stun,draw,follow --plot all.svg -o /dev/null && grep -c "^A cue ball\|>A cue ball" all.svg
 echo "refused:"

@@ -48,8 +48,6 @@ ls kept.jsonl 2> /dev/null || echo "nothing was played"
 head -c 4 break.png | tail -c 3 && echo
 try carom shoot --events none --plot usual.png -o /dev/null "$DATA/break-nineball.jsonl"
 head -c 4 usual.png | tail -c 3 && echo
-try carom rail --plot rail.pdf -o /dev/null
-head -c 5 rail.pdf && echo
 ln -s /dev/full full.svg
 try carom shoot --events none --plot full.svg -o /dev/null "$DATA/break-nineball.jsonl"
 try carom shoot --events none --plot nowhere/break.svg -o /dev/null "$DATA/break-nineball.jsonl"

@@ -1,30 +1,14 @@
 # Bad usage and unreadable input: exit 2, a message that says what would be right, and nothing written.
 header=id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R,M,u_s1,u_s2,u_b,e_b
 try carom > said 2>&1; sed -n '1p;$p' said; rm said
-try carom frobnicate
-try carom resolve
-try carom resolve a b
-try carom resolve --frobnicate x.csv
-try carom resolve --outptu x.csv
-try carom hit --sp 3
-try carom hit --csv=3
-try carom resolve -o
-try carom resolve --steps
-try carom resolve -x x.csv
+for words in frobnicate resolve "resolve a b" "resolve --frobnicate x.csv" "resolve --outptu x.csv" "hit --sp 3" "hit --csv=3" "resolve -o" "resolve --steps" \
+  "resolve -x x.csv" --verison "help nosuch" "resolve --solver fast x.csv" "resolve --precision half x.csv" "resolve --threads -1 x.csv" "resolve --kernel exact x.csv" \
+  bench "resolve --slip none x.csv" "resolve --steps 0 x.csv" "resolve --steps 1e3 x.csv" "resolve missing.csv" "resolve ."; do
+  # shellcheck disable=SC2086
+  try carom $words
+done
 try carom resolve ""
-try carom --verison
-try carom help nosuch
 carom help hit | head -n 1
-try carom resolve --solver fast x.csv
-try carom resolve --precision half x.csv
-try carom resolve --threads -1 x.csv
-try carom resolve --kernel exact x.csv
-try carom bench
-try carom resolve --slip none x.csv
-try carom resolve --steps 0 x.csv
-try carom resolve --steps 1e3 x.csv
-try carom resolve missing.csv
-try carom resolve .
 : > empty.csv
 try carom resolve -o out.csv empty.csv
 echo "$header" | sed 's/,R,/,/; s/,v1y,/,/' > lacking.csv
