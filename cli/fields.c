@@ -328,9 +328,8 @@ void without_bounds(carom_player *player) {
 
 /* ---- The rows */
 
-#define ROW(row, name, member, letter, argument, set, least, only, help)                        \
-  const option_row row = {name,  letter, argument, help, set, offsetof(shared_options, member), \
-                          least, only,   0,        0}
+#define ROW(row, name, member, letter, argument, set, least, only, help) \
+  OPTION_ROW(shared_options, only, row, name, member, letter, argument, set, least, help)
 
 ROW(option_solver, "solver", options.solver, 0, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
     "exact: the limit of infinitely many steps (default); euler: N steps of equal impulse, as in "

@@ -144,12 +144,12 @@ extern const option_row option_solver, option_slip, option_steps, option_threads
     option_cushion, option_model, option_convention, option_law, option_least_step, option_with,
     options_of_shots, options_of_motion, option_with_of_shots, option_player, option_player_errors;
 
-/* A row of one table alone: OPTION(job, option_NAME, name, field, letter, argument, set, least,
- * help). */
+/* A row: of a job, with the kind of rows that it is for, the name of the row, that of the option, and
+ * what stands in an option_row. OPTION() is one of a single table, for every kind. */
+#define OPTION_ROW(job, only, row, name, member, letter, argument, set, least, help) \
+  const option_row row = {name,  letter, argument, help, set, offsetof(job, member), \
+                          least, only,   0,        0}
 #define OPTION(job, row, name, member, letter, argument, set, least, help) \
-  OPTION_FOR(ANY_KIND, job, row, name, member, letter, argument, set, least, help)
-#define OPTION_FOR(only, job, row, name, member, letter, argument, set, least, help)        \
-  static const option_row row = {name,  letter, argument, help, set, offsetof(job, member), \
-                                 least, only,   0,        0}
+  static OPTION_ROW(job, ANY_KIND, row, name, member, letter, argument, set, least, help)
 
 #endif

@@ -26,9 +26,8 @@ static OPTION_SET(set_word) {
   return true;
 }
 
-#define ROW(row, name, member, argument, set, least, help)                                     \
-  const option_row row = {name,  0,        argument, help, set, offsetof(shoot_flags, member), \
-                          least, ANY_KIND, 0,        0}
+#define ROW(row, name, member, argument, set, least, help) \
+  OPTION_ROW(shoot_flags, ANY_KIND, row, name, member, 0, argument, set, least, help)
 
 const option_row option_table = {
     .name = "table",
