@@ -193,7 +193,8 @@ static int number_named(const option_row *row, const char *name) {
   return -1;
 }
 
-OPTION_SET(set_numbers) {
+/* given_numbers: NAME=X,... of the library's numbers of balls */
+static OPTION_SET(set_numbers) {
   given_numbers *given = field;
   char *rest = NULL;
   for (char *one = strtok_r(text, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {

@@ -62,7 +62,6 @@ OPTION_SET(set_choice); /* int, or an enumeration from 0: the place of the text 
 
 OPTION_SET(
     set_named); /* an enumeration by the words of the library; its default has none in help */
-OPTION_SET(set_numbers); /* given_numbers: NAME=X,... of the library's numbers of balls */
 
 OPTION_SET(set_option); /* an option of the library, by its row */
 

@@ -15,6 +15,27 @@
 enum { SAMPLES = 1024, REFINEMENTS = 40 };
 /* where more balls move, all but that of the cue are told shortly */
 enum { MOST_TOLD = 4 };
+enum { MOST_MOMENTS = 512 };
+
+typedef enum moment_kind {
+  MOMENT_LEAVES, /* the ball of the cue, struck */
+  MOMENT_MEETS,  /* another ball; value: the cut, degrees, NaN where that ball moves */
+  MOMENT_RAIL,   /* a cushion; value: where, in diamonds */
+  MOMENT_JAW,    /* the cut of a pocket, or its jaw */
+  MOMENT_ROLLS,  /* it rolls from here on */
+  MOMENT_PASSES, /* another ball, without contact; value: the gap, m */
+  MOMENT_FALLS,  /* into a pocket */
+  MOMENT_OFF,    /* it leaves the table */
+  MOMENT_RESTS,
+  MOMENT_MOVES /* still, at the end */
+} moment_kind;
+
+typedef struct moment {
+  moment_kind kind;
+  int with; /* a ball, a rail or a pocket; -1 */
+  double time, x, y, value;
+  double speed, direction; /* just after, m/s and degrees counterclockwise from +x; NaN at rest */
+} moment;
 
 static bool has_ball(const carom_event *e, int ball) {
   return e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
@@ -71,7 +92,8 @@ const char *pocket_words(const named_table *t, int pocket, char text[WHERE_TEXT]
   return text;
 }
 
-const char *side_words(const named_table *t, double x, double y) {
+/* "the left rail": the rail beyond which a place lies. */
+static const char *side_words(const named_table *t, double x, double y) {
   static const char *const sides[] = {"the left rail", "the right rail", "the head rail",
                                       "the foot rail"};
   const double beyond[4] = {-x, x - t->table.width, -y, y - t->table.length};
@@ -216,7 +238,9 @@ static bool passes(const shot_line *line, const carom_shot *shot, int ball, int 
   return own > its || (own == its && ball < other);
 }
 
-int story_of(const shot_line *line, const carom_shot *shot, int ball, moment to[MOST_MOMENTS]) {
+/* The moments of a ball in their order, at most MOST_MOMENTS; how many. */
+static int story_of(const shot_line *line, const carom_shot *shot, int ball,
+                    moment to[MOST_MOMENTS]) {
   int count = 0;
   double last = 0.0, met = -INFINITY; /* the last contact with a ball */
   for (int64_t k = 0; k < kept_events(shot) && count < MOST_MOMENTS - 2 * CAROM_BALLS_MOST; k++) {

@@ -43,7 +43,7 @@ print("mirrored:", all(a[-1] == -b[-1] for a, b in zip(angles, mirrored)))
 print("reverse, none, running:", *("{:.1f}".format(x) for *_, x in angles))
 # Units: the same said otherwise.
 same = lambda a, b: run("hit", "--csv", *a.split()).splitlines()[1].split(",")[1:] == run("hit", "--csv", *b.split()).splitlines()[1].split(",")[1:]
-print("units:", same("--cut half", "--cut 30"), same("--radius 28.575mm", "--radius 0.028575"), same("--side 50%", "--side 32.808398950131235rad/s"),
+print("units:", same("--cut half", "--cut 30°"), same("--radius 28.575mm", "--radius 0.028575"), same("--side 50%", "--side 32.808398950131235rad/s"),
       same("--spin 100%", "--spin roll"), same("--mass 170g", "--mass 0.17"), same("--speed 3.6km/h", "--speed 1"), same("--side 1tip", f"--side {2.5 * 0.013 / R ** 2 * 1.5}rad/s"))
 # Rows are what resolve reads, and say what the table says; curves show it.
 rows = run("hit", "--cut", "0:60:20", "--spin", "stun,draw", "--csv")
