@@ -101,7 +101,7 @@ static void print_manual(FILE *out, const command_form *form) {
 }
 
 int usage_hint(const command_form *form) {
-  fprintf(stderr, "`%s %s --help` tells the arguments\n", program_name, form->name);
+  fprintf(stderr, "`%s %s --help` lists the arguments\n", program_name, form->name);
   return EXIT_USAGE;
 }
 
