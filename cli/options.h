@@ -143,8 +143,8 @@ extern const option_row option_solver, option_slip, option_steps, option_threads
     option_cushion, option_model, option_convention, option_law, option_least_step, option_with,
     options_of_shots, options_of_motion, option_with_of_shots, option_player, option_player_errors;
 
-/* A row of a job: the kind of rows that it is for, its own name, that of the option, and what stands
- * in an option_row. OPTION() is one of a single table, for every kind. */
+/* A row of a job: the kind of rows that it is for, its own name, and what stands in an option_row.
+ * OPTION() is one of a single table, for every kind. */
 #define OPTION_ROW(job, only, row, name, member, letter, argument, set, least, help) \
   const option_row row = {name,  letter, argument, help, set, offsetof(job, member), \
                           least, only,   0,        0}
