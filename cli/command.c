@@ -50,8 +50,6 @@ static void print_manual(FILE *to, const program *p) {
   manual_item(to, "CAROM_ISA", NULL,
               "the largest instruction set to use: plain, sse2, avx2 or avx512; on arm64 plain or "
               "neon. With plain, results have the same bits on every machine");
-  manual_item(to, "CAROM_DATA", NULL,
-              "the folder of the reference collisions, if it is not where carom was installed");
   manual_end(
       to,
       "0 if all went well; 1 if some rows or shots are in error, or a picture could not be drawn, "

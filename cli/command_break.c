@@ -1,11 +1,11 @@
 /* `carom break`: what comes of many breaks of a rack, with a player's errors. */
 #include "command.h"
-#include "derived.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
 #include "output.h"
 #include "picture.h"
+#include "quantities.h"
 #include "shoot_flags.h"
 #include "shot_file.h"
 #include "shot_picture.h"

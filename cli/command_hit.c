@@ -6,12 +6,11 @@
  */
 #include "command.h"
 #include "contact_picture.h"
-#include "derived.h"
 #include "message.h"
 #include "picture.h"
+#include "quantities.h"
 #include "series.h"
 #include "subcommands.h"
-#include "telling.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,12 +6,11 @@
  */
 #include "command.h"
 #include "contact_picture.h"
-#include "derived.h"
 #include "message.h"
 #include "picture.h"
+#include "quantities.h"
 #include "series.h"
 #include "subcommands.h"
-#include "telling.h"
 
 #include <math.h>
 #include <string.h>
@@ -170,24 +169,27 @@ static void tell_english(FILE *out, const series *s, const one_case *c,
               : "");
 }
 
-/* Where the ball sticks to nose and cloth, for models that follow the impact. */
+/* Where the ball sticks to nose and cloth, for models that follow the impact: the first point from
+ * which it sticks to the end. */
 static void tell_sticking(FILE *out, const series *s, const one_case *c) {
   static const char *const what[2] = {"nose: ", "cloth:"};
   enum { POINTS = 401 };
-  trace_point points[POINTS];
-  double at[2];
-  if (cushion_kind.trace(&s->asked, 0, c->row, POINTS, points) != CAROM_OK)
+  carom_cushion_point point[POINTS];
+  const carom_cushion_options options = cushion_options_of(&s->asked);
+  if (carom_cushion_trace((const void *)c->row, &options, POINTS, point) != CAROM_OK)
     return;
-  cushion_kind.stuck(&s->asked, c->row, POINTS, points, at);
-  for (int k = 0; k < 2; k++) {
-    fprintf(out, "%s%s       ", k == 0 ? "contacts      " : "              ", what[k]);
-    if (isnan(at[k]))
+  for (int contact = 0; contact < 2; contact++) {
+    int k = POINTS;
+    while (k > 0 && (contact == 0 ? point[k - 1].nose_sticks : point[k - 1].cloth_sticks))
+      k--;
+    fprintf(out, "%s%s       ", contact == 0 ? "contacts      " : "              ", what[contact]);
+    if (k == POINTS)
       fputs("the ball slips on it throughout\n", out);
-    else if (at[k] <= 0.0)
+    else if (k == 0)
       fputs("the ball sticks to it throughout\n", out);
     else
       fprintf(out, "the ball slips on it, and sticks after %.0f %% of the impulse\n",
-              100.0 * at[k] / points[POINTS - 1].impulse);
+              100.0 * point[k].normal / point[POINTS - 1].normal);
   }
 }
 
@@ -204,7 +206,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
       hypot(in->v[0], in->v[1]), c->given[ANGLE]->x, c->given[SPIN]->name,
       share_of_rolling(c->given[SPIN]), hypot(in->w[0], in->w[1]), in->w[2]);
   fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
-          in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&s->asked, 0));
+          in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&s->asked));
   fprintf(out, "rebound       at once:     %s\n", rebound_text(d[1], v, text));
   fprintf(out, "              rolling:     %s\n", rebound_text(d[2], d + 3, text));
   tell_cloth(out, v, d);
@@ -243,7 +245,7 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
 }
 
 static const char *law(const series *s, char text[80]) {
-  snprintf(text, 80, "model %s%s", cushion_kind.name(&s->asked, 0),
+  snprintf(text, 80, "model %s%s", cushion_kind.name(&s->asked),
            s->asked.rail.law == CAROM_CUSHION_LAW_HAN ? " with Han's restitution and friction"
                                                       : "");
   return text;

@@ -1,6 +1,6 @@
 /* `carom resolve`: rows from a file, by the library's solvers. */
 #include "help.h"
-#include "resolving.h"
+#include "row_solver.h"
 #include "subcommands.h"
 
 static const command_form form = {
@@ -40,7 +40,7 @@ static const command_form form = {
 };
 
 int command_resolve(int argc, char **argv) {
-  resolving job = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION}};
+  row_job job = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION}};
   const char *file;
   const int code = parse_arguments(&form, argc, argv, &job, &file);
   return code >= 0 ? code : resolve_file(&job, file);

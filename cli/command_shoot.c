@@ -1,20 +1,18 @@
 /* `carom shoot`: whole shots from a file or from words, from the strike to rest. */
-#include "animate.h"
+#include "animation.h"
 #include "command.h"
 #include "doubts.h"
-#include "leave.h"
-#include "lesson.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
 #include "output.h"
 #include "picture.h"
+#include "position.h"
 #include "shoot_flags.h"
 #include "shot_drawings.h"
 #include "shot_fault.h"
 #include "shot_file.h"
 #include "shot_story.h"
-#include "shot_words.h"
 #include "subcommands.h"
 
 #include <math.h>
@@ -28,7 +26,7 @@ typedef struct shoot_job {
   shoot_flags from; /* --threads, --steps, --output; and a shot from words */
   int events;
   const char *id;
-  drawings drawn; /* --plot, --animate, --lesson */
+  drawings drawn; /* --plot, --animate */
   leave leave;
   char left[LEFT_TEXT]; /* what is told of it */
   player_error error;
@@ -75,9 +73,6 @@ OPTION(shoot_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
        "in `carom ways`. Of the speeds and tips that are given, or of 0.5 to 4 m/s and five tips "
        "from draw to follow, the one is played by which most strokes of a player do so, and pot "
        "the ball of --pocket; tells how many, and with which speeds it ends there");
-OPTION(shoot_job, option_lesson, "lesson", drawn.path[LESSON], 0, "OUT", set_picture, 0,
-       "draw a page to print: what --plot draws, how to aim, where the tip touches, how fast, what "
-       "the balls do, and room for notes; OUT.pdf, OUT.svg or OUT.png");
 OPTION(shoot_job, option_animate, "animate", drawn.path[FILM], 0, "OUT.html", set_animation, 0,
        "write a page that plays what --plot draws; it is one file and needs nothing else");
 OPTION(shoot_job, option_cite, "cite", cite, 0, NULL, set_flag, 0,
@@ -319,41 +314,23 @@ static const command_form form = {
              "are ignored) and writes each table and each shot with its events and final states. "
              "IN may be -. Or plays a shot that options describe, and tells it in words; several "
              "values with commas give several shots, drawn over each other.\n",
-    .options = (const option_row *const[]){&option_table,
-                                           &option_cue,
-                                           &option_balls,
-                                           &option_aim,
-                                           &option_to,
-                                           &option_at_ball,
-                                           &option_pocket,
-                                           &option_via,
-                                           &option_shot_cut,
-                                           &option_leave,
-                                           &option_player,
-                                           &option_player_errors,
-                                           &option_shot_speed,
-                                           &option_ball_speed,
-                                           &option_tip,
-                                           &option_elevation,
-                                           &option_tip_time,
-                                           &option_tip_restitution,
-                                           &option_gap,
-                                           &option_seed,
-                                           &option_json,
-                                           &option_story,
-                                           &options_of_shots,
-                                           &option_with_of_shots,
-                                           &option_events,
-                                           &option_threads,
-                                           &option_plot,
-                                           &option_spread,
-                                           &option_animate,
-                                           &option_lesson,
-                                           &option_shot_id,
-                                           &option_strict,
-                                           &option_cite,
-                                           &option_output,
-                                           NULL},
+    .options = (const option_row *const[]){&option_table,      &option_cue,
+                                           &option_balls,      &option_aim,
+                                           &option_to,         &option_at_ball,
+                                           &option_pocket,     &option_via,
+                                           &option_shot_cut,   &option_leave,
+                                           &option_player,     &option_player_errors,
+                                           &option_shot_speed, &option_ball_speed,
+                                           &option_tip,        &option_elevation,
+                                           &option_tip_time,   &option_tip_restitution,
+                                           &option_gap,        &option_seed,
+                                           &option_json,       &option_story,
+                                           &options_of_shots,  &option_with_of_shots,
+                                           &option_events,     &option_threads,
+                                           &option_plot,       &option_spread,
+                                           &option_animate,    &option_shot_id,
+                                           &option_strict,     &option_cite,
+                                           &option_output,     NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
         "the error; the others are played); 2 for bad usage or unreadable input\n",
@@ -436,10 +413,7 @@ int command_shoot(int argc, char **argv) {
   shot_file *file = job.together
                         ? flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS, &lines)
                         : shot_file_open(path);
-  const bool fits = job.drawn.path[LESSON] == NULL || job.from.written <= LESSON_MOST;
-  if (!fits)
-    complain("--lesson has room for %d shots, and these are %d", LESSON_MOST, job.from.written);
-  FILE *out = file != NULL && fits ? output_open(job.from.shared.output) : NULL;
+  FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;
   code = EXIT_USAGE;
   if (out != NULL && job.from.json) {
     fputs(lines, out);

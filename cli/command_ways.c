@@ -1,19 +1,18 @@
 /* `carom ways`: the ways to pot a ball, to score on a table without pockets, or to bring the cue
  * ball to a place. ways.c finds them; here they are asked for and told. */
 #include "command.h"
-#include "leave.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
 #include "output.h"
 #include "picture.h"
+#include "position.h"
 #include "shoot_aim.h"
 #include "shoot_flags.h"
 #include "shot_file.h"
 #include "shot_picture.h"
 #include "subcommands.h"
-#include "way_words.h"
-#include "wide.h"
+#include "ways.h"
 #include "words.h"
 
 #include <math.h>
@@ -28,9 +27,8 @@ typedef struct ways_job {
   shoot_flags from;
   leave leave;
   const char *ball, *pocket, *plot;
-  int rails, scanned, quantity;
+  int rails, scanned;
   bool csv, json, each;
-  values cut, distance; /* where the cue ball lies instead */
 } ways_job;
 
 OPTION(ways_job, option_ball, "ball", ball, 0, "NAME|any", set_text, 0,
@@ -44,19 +42,6 @@ OPTION(ways_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
        "2d,4d,20cm, or named as in --cue, foot-spot,20cm. It counts for the chance, so that of "
        "several speeds and tips the one is told that brings it there. The cue ball alone is sent "
        "there without a pot");
-OPTION(ways_job, option_wide_cut, "cut", cut, 0, "full|three-quarter|half|quarter|thin|DEGREES",
-       set_values, MEASURE_CUT,
-       "how wide is the direct pot of --ball into --pocket: the cue ball is put where the cut is "
-       "this, as in `carom hit`, several with commas or a range, 0:70:5; each stroke is told "
-       "(default with --distance: 30)");
-OPTION(ways_job, option_distance, "distance", distance, 0, "D", set_values, MEASURE_PLACE,
-       "the same from this distance: of the cue ball from where it meets the ball, m, or with a "
-       "unit: 2ft, or 4d, diamonds of the long rail (default with --cut: 1)");
-OPTION(ways_job, option_wide_quantity, "quantity", quantity, 0, "falls|chance|window", set_choice,
-       0,
-       "with --cut or --distance and --plot: what is drawn over a range of the cut, the distance, "
-       "the speed or the tip: how often the ball falls for the player (default), that and the cue "
-       "ball does not, or the window");
 OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 0,
        "strokes in all directions that are searched for caroms (default 20000), or for points "
        "(default 100000); 0: none");
@@ -67,12 +52,81 @@ OPTION(
 OPTION(ways_job, option_ways_csv, "csv", csv, 0, NULL, set_flag, 0, "write rows instead of words");
 OPTION(ways_job, option_ways_json, "json", json, 0, NULL, set_flag, 0,
        "write each way as the line of its stroke, for `carom shoot`, with an object `way`");
-OPTION(
-    ways_job, option_ways_plot, "plot", plot, 0, "OUT", set_picture, 0,
-    "draw the eight best ways over each other; or over a range of --cut, --distance, the speed or "
-    "the tip curves, by gnuplot");
+OPTION(ways_job, option_ways_plot, "plot", plot, 0, "OUT", set_picture, 0,
+       "draw the eight best ways over each other");
 
 /* ---- What is told */
+
+enum { PARTS_TEXT = 160, WAY_TEXT = 400, CUT_TEXT = 24 };
+
+/* "left, 2": the rails and balls of a way. */
+static const char *parts_text(const ways_search *s, const way *w, char text[PARTS_TEXT]) {
+  text[0] = '\0';
+  for (int k = 0; k < w->parts; k++) {
+    const bool rail = w->part[k].kind == CAROM_PART_RAIL;
+    const char *name = rail ? carom_rail_name(&s->line->table->table, w->part[k].index) : NULL;
+    snprintf(text + strlen(text), PARTS_TEXT - strlen(text), "%s%s", k > 0 ? ", " : "",
+             name != NULL ? name
+             : rail       ? s->line->table->rail[w->part[k].index]
+                          : s->line->name[w->part[k].index]);
+  }
+  return text;
+}
+
+/* "1 to foot-left, bank: left" */
+static const char *way_text(const ways_search *s, const way *w, char text[WAY_TEXT]) {
+  char parts[PARTS_TEXT];
+  const char *pocket = w->pocket >= 0 ? carom_pocket_name(&s->line->table->table, w->pocket) : NULL;
+  parts_text(s, w, parts);
+  if (w->ball < 0)
+    snprintf(text, WAY_TEXT, "%s", w->parts > 0 ? parts : "straight");
+  else
+    snprintf(text, WAY_TEXT, "%s to %s, %s%s%s", s->line->name[w->ball],
+             pocket != NULL ? pocket : s->line->table->pocket[w->pocket], way_names[w->kind],
+             w->parts > 0 ? ": " : "", parts);
+  return text;
+}
+
+/* "30.6 left"; nothing where the cut is not known. */
+static const char *cut_text(const way *w, char text[CUT_TEXT]) {
+  text[0] = '\0';
+  if (!isnan(w->cut))
+    snprintf(text, CUT_TEXT, "%.1f %s", fabs(w->cut), w->cut < 0.0 ? "right" : "left");
+  return text;
+}
+
+/* The line of a way's stroke. */
+static json_t *way_line(const ways_search *s, const way *w) {
+  char text[WAY_TEXT], parts[PARTS_TEXT];
+  json_t *to = json_object(), *cue = json_object();
+  json_object_set_new(to, "kind", json_string("shot"));
+  json_object_set_new(to, "id", json_string(way_text(s, w, text)));
+  json_object_set_new(to, "table", json_string(s->line->table->id));
+  const json_t *given = json_object_get(s->line->json, "cue");
+  if (given != NULL)
+    json_object_update(cue, (json_t *)given);
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
+    double x = 0.0;
+    if (n->key[0] != '\0')
+      memcpy(&x, (const char *)&w->cue + n->offset, sizeof x);
+    if (n->offset <= (int32_t)offsetof(carom_cue, b))
+      json_object_set_new(cue, n->key, json_real(x + 0.0));
+  }
+  json_object_set_new(to, "cue", cue);
+  json_object_set_new(to, "balls", json_deep_copy(json_object_get(s->line->json, "balls")));
+  json_t *about = json_pack("{s: s, s: s, s: f, s: f, s: [f, f]}", "kind", way_names[w->kind], "by",
+                            parts_text(s, w, parts), "chance", w->chance, "error", w->error,
+                            "window", w->phi[0], w->phi[1]);
+  if (w->ball < 0)
+    json_object_set_new(about, "share", json_real((double)w->found / (double)s->scanned));
+  else
+    json_object_set_new(about, "ball", json_string(s->line->name[w->ball]));
+  if (!isnan(w->cut))
+    json_object_set_new(about, "cut", json_real(w->cut));
+  json_object_set_new(to, "way", about);
+  return to;
+}
 
 static int by_chance(const void *a, const void *b) {
   const way *one = a, *other = b;
@@ -88,8 +142,8 @@ static void tell(FILE *out, const ways_search *s, int most) {
   if (s->ways == 0)
     fputs("There is no way.\n", out);
   else
-    fprintf(out, "%s    chance   window  %s   speed   tip           aim  way\n",
-            are_wide(s) ? "     falls" : "", counted ? "    of all" : "       cut");
+    fprintf(out, "    chance   window  %s   speed   tip           aim  way\n",
+            counted ? "    of all" : "       cut");
   for (int k = 0; k < s->ways && k < most; k++) {
     const way *w = &s->way[k];
     char middle[CUT_TEXT];
@@ -97,8 +151,6 @@ static void tell(FILE *out, const ways_search *s, int most) {
       snprintf(middle, sizeof middle, "%.3f %%", 100.0 * (double)w->found / (double)s->scanned);
     else
       cut_text(w, middle);
-    if (are_wide(s))
-      fprintf(out, "%8.1f %%", 100.0 * w->falls);
     fprintf(out, "%8.1f %% %8.2f  %10s %7.3g  %+.2f,%+.2f  %7.2f  %s\n", 100.0 * w->chance,
             w->phi[1] - w->phi[0], middle, w->cue.speed, 0.0 - w->cue.a, w->cue.b, w->cue.phi,
             way_text(s, w, text));
@@ -111,10 +163,9 @@ static void tell(FILE *out, const ways_search *s, int most) {
 
 static void write_rows(FILE *out, const ways_search *s) {
   char parts[PARTS_TEXT];
-  fprintf(out,
-          "rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,margin,phi_low,phi_high,speed_low,"
-          "speed_high,chance,error,found,scanned%s\n",
-          are_wide(s) ? ",falls,at_cut,distance,x,y" : "");
+  fputs("rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,margin,phi_low,phi_high,speed_low,"
+        "speed_high,chance,error,found,scanned\n",
+        out);
   for (int k = 0; k < s->ways; k++) {
     const way *w = &s->way[k];
     fprintf(out, "%d,%s,%s,%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g,", k + 1, way_names[w->kind],
@@ -124,12 +175,8 @@ static void write_rows(FILE *out, const ways_search *s) {
     const double more[] = {w->cut, w->margin, w->phi[0], w->phi[1], w->speed[0], w->speed[1]};
     for (size_t n = 0; n < sizeof more / sizeof more[0]; n++)
       fprintf(out, isnan(more[n]) ? "," : "%.10g,", more[n]);
-    fprintf(out, "%.6f,%.6f,%lld,%lld", w->chance, w->error, (long long)w->found,
+    fprintf(out, "%.6f,%.6f,%lld,%lld\n", w->chance, w->error, (long long)w->found,
             (long long)s->scanned);
-    if (are_wide(s))
-      fprintf(out, ",%.6f,%.10g,%.10g,%.17g,%.17g", w->falls, w->at_cut, w->distance, w->place[0],
-              w->place[1]);
-    fputc('\n', out);
   }
 }
 
@@ -154,19 +201,16 @@ static bool plot(const ways_search *s, const char *path) {
     complain("nothing to draw: there is no way");
     return false;
   }
-  char *words, text[CUT_TEXT];
+  char *words;
   size_t size;
   FILE *said = open_text(&words, &size);
   for (int k = 0; k < count; k++)
-    fprintf(said, "%d: chance %.1f %%, window %.2f degrees, %.3g m/s%s%s\n", k + 1,
-            100.0 * s->way[k].chance, s->way[k].phi[1] - s->way[k].phi[0], s->way[k].cue.speed,
-            are_wide(s) ? ", cut " : "", are_wide(s) ? cut_text(&s->way[k], text) : "");
+    fprintf(said, "%d: chance %.1f %%, window %.2f degrees, %.3g m/s\n", k + 1,
+            100.0 * s->way[k].chance, s->way[k].phi[1] - s->way[k].phi[0], s->way[k].cue.speed);
   close_text(said, &words);
   for (int k = 0; k < count; k++) {
     line[k] = *s->line;
     line[k].cue = s->way[k].cue;
-    for (int axis = 0; axis < 2 && !isnan(s->way[k].distance); axis++)
-      line[k].ball[line[k].cue.ball].state.r[axis] = s->way[k].place[axis];
     line[k].json = way_line(s, &s->way[k]);
     shot[k] = (carom_shot){.final = final[k]};
     shot_line_play(&line[k], &s->options, &shot[k]);
@@ -214,21 +258,13 @@ static int pocket_asked(const ways_search *s, const char *name) {
 }
 
 /* Asks for the ways of a job, and sorts them; false after a complaint. */
-static bool find(const ways_job *job, const wide_job *wide, shot_line *line, ways_search *s) {
+static bool find(const ways_job *job, ways_search *s) {
   const carom_table *t = &s->line->table->table;
   int where;
   s->ball = ball_asked(s, job->ball);
   s->pocket = s->ball == -2 ? -2 : pocket_asked(s, job->pocket);
   if (s->ball == -2 || s->pocket == -2)
     return false;
-  if (wide != NULL && s->ball < 0 && line->count == 2)
-    s->ball = line->cue.ball == 0 ? 1 : 0;
-  if (wide != NULL && (s->ball < 0 || s->pocket < 0)) {
-    complain(t->pockets == 0 ? "--cut and --distance are of a pot, and the table has no pockets"
-                             : "--cut and --distance are of one ball and pocket: give --ball and "
-                               "--pocket");
-    return false;
-  }
   s->counted = job->leave.given && s->line->count == 1 ? PLACE : t->pockets == 0 ? POINT : CAROM;
   leave_into(&job->leave, s);
   if (s->counted != PLACE && s->line->count < (t->pockets == 0 ? 3 : 2)) {
@@ -236,8 +272,6 @@ static bool find(const ways_job *job, const wide_job *wide, shot_line *line, way
                              : "the cue ball and one more are needed, or --leave");
     return false;
   }
-  if (wide != NULL)
-    return wide_find(wide, line, s);
   const carom_status bad =
       carom_shot_check(t, s->line->ball, s->line->count, &s->stroke[0], &s->options, &where);
   if (bad != CAROM_OK) {
@@ -260,20 +294,36 @@ static const command_form form = {
              "player among those that are given: how often it comes off with errors, and between "
              "which directions it does so without. LAYOUT has shots of one layout, of which each "
              "stroke is tried, but for its direction.\n",
-    .options =
-        (const option_row *const[]){
-            &option_ball,       &option_to_pocket,     &option_rails,      &option_leave,
-            &option_each,       &option_wide_cut,      &option_distance,   &option_wide_quantity,
-            &option_scan,       &option_table,         &option_cue,        &option_balls,
-            &option_gap,        &option_seed,          &option_shot_speed, &option_ball_speed,
-            &option_tip,        &option_elevation,     &option_player,     &option_player_errors,
-            &options_of_motion, &option_with_of_shots, &option_ways_csv,   &option_ways_json,
-            &option_ways_plot,  &option_threads,       &option_output,     NULL},
+    .options = (const option_row *const[]){&option_ball,
+                                           &option_to_pocket,
+                                           &option_rails,
+                                           &option_leave,
+                                           &option_each,
+                                           &option_scan,
+                                           &option_table,
+                                           &option_cue,
+                                           &option_balls,
+                                           &option_gap,
+                                           &option_seed,
+                                           &option_shot_speed,
+                                           &option_ball_speed,
+                                           &option_tip,
+                                           &option_elevation,
+                                           &option_player,
+                                           &option_player_errors,
+                                           &options_of_motion,
+                                           &option_with_of_shots,
+                                           &option_ways_csv,
+                                           &option_ways_json,
+                                           &option_ways_plot,
+                                           &option_threads,
+                                           &option_output,
+                                           NULL},
     .details =
         "strokes where none are given: 1.5, 2.5 and 4 m/s; with --leave 1 to 4 m/s, each with five "
         "tips from draw to follow; of points 3, 4.5 and 6 m/s, each with the tip on either side "
         "and in the middle; of the cue ball alone 0.5 to 5 m/s\n"
-        "columns: with --cut or --distance falls, how often the ball falls; chance, of 400 strokes "
+        "columns: chance, of 400 strokes "
         "with errors: the ball falls and the cue ball does not, or "
         "it scores, and ends where --leave says; window, degrees of the cue's direction; cut of "
         "the cue ball on its first ball, degrees, or of points the share of all strokes; speed of "
@@ -281,8 +331,7 @@ static const command_form form = {
         "above, R; aim, degrees from +x; and the way, with what is met in its order\n"
         "columns of --csv: "
         "rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,margin,phi_low,phi_high,speed_low,"
-        "speed_high,chance,error,found,scanned; with --cut or --distance falls,at_cut,distance and "
-        "the place of the cue ball, x,y\n"
+        "speed_high,chance,error,found,scanned\n"
         "Combinations are direct; caroms and points are those of --scan.\n\n"
         "exit code: 0; 1 if there is no way; 2 for bad usage or unreadable input\n",
     .example = "carom ways --cue 0.6,0.8 --balls 0.3,1.9:0.9,1.7 --ball 1 --plot ways.svg",
@@ -300,21 +349,11 @@ int command_ways(int argc, char **argv) {
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
-  const bool many = job.cut.count > 0 || job.distance.count > 0;
-  if (many && job.from.cue.count > 0) {
-    complain("--cut and --distance say where the cue ball lies, and so does --cue: give one");
-    return EXIT_USAGE;
-  }
-  if (job.cut.count == 0)
-    values_default(&job.cut, MEASURE_CUT, "30");
-  if (job.distance.count == 0)
-    values_default(&job.distance, MEASURE_LENGTH, "1");
-  const wide_job wide = {&job.cut, &job.distance, &job.from, job.quantity};
   ways_search s = {.line = &line,
                    .stroke = stroke,
                    .options = job.from.shared.shot,
                    .rails = job.rails,
-                   .each = job.each || many};
+                   .each = job.each};
   s.options.threads = job.from.shared.options.threads;
   if (!player_of(&job.from.shared.player, &s.player) || !svg_possible(job.plot))
     return EXIT_USAGE;
@@ -346,11 +385,6 @@ int command_ways(int argc, char **argv) {
   if (file == NULL)
     return EXIT_USAGE;
   s.strokes = strokes_read(file, &line, stroke, MOST_STROKES);
-  for (int k = 0; k < job.distance.count && s.strokes > 0; k++) {
-    value *far = &job.distance.at[k];
-    far->x = place_along(far, 0.125 * line.table->table.length);
-    far->times = FIXED;
-  }
   int code = EXIT_USAGE;
   FILE *out = s.strokes > 0 ? output_open(job.from.shared.output) : NULL;
   if (out != NULL) {
@@ -358,7 +392,7 @@ int command_ways(int argc, char **argv) {
              : line.table->table.pockets == 0 || line.count == 1 ? SCANNED_TO_SCORE
                                                                  : SCANNED;
     s.way = allocate(MOST_WAYS, sizeof *s.way);
-    if (find(&job, many ? &wide : NULL, &line, &s)) {
+    if (find(&job, &s)) {
       code = s.ways > 0 ? EXIT_GOOD : EXIT_SOME;
       if (job.csv)
         write_rows(out, &s);
@@ -372,8 +406,7 @@ int command_ways(int argc, char **argv) {
       }
       if (!output_commit())
         code = EXIT_USAGE;
-      else if (job.plot != NULL && !(many && wide_has_range(&wide) ? wide_plot(&wide, &s, job.plot)
-                                                                   : plot(&s, job.plot)))
+      else if (job.plot != NULL && !plot(&s, job.plot))
         code = EXIT_SOME;
     } else
       output_abandon();

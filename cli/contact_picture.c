@@ -2,10 +2,10 @@
  * cloth whose cushions are out of sight. */
 #include "contact_picture.h"
 
-#include "aim_at_ball.h"
-#include "derived.h"
+#include "ball_aim.h"
 #include "labels.h"
 #include "picture.h"
+#include "quantities.h"
 
 #include <math.h>
 #include <string.h>

@@ -193,7 +193,8 @@ static int number_named(const option_row *row, const char *name) {
   return -1;
 }
 
-OPTION_SET(set_numbers) {
+/* given_numbers: NAME=X,... of the library's numbers of balls */
+static OPTION_SET(set_numbers) {
   given_numbers *given = field;
   char *rest = NULL;
   for (char *one = strtok_r(text, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
@@ -273,21 +274,6 @@ bool numbers_are_read(shared_options *shared) {
   return n == NULL;
 }
 
-static OPTION_SET(set_solvers) {
-  static const solver_list lists[] = {{{CAROM_SOLVER_EXACT}, 1},
-                                      {{CAROM_SOLVER_EULER}, 1},
-                                      {{CAROM_SOLVER_EXACT, CAROM_SOLVER_EULER}, 2}};
-  static const char words[] = "exact|euler|exact,euler";
-  char hint[HINT_TEXT];
-  const int place = place_among(words, text, strlen(text));
-  if (place >= 0)
-    *(solver_list *)field = lists[place];
-  else
-    complain("--%s is exact, euler, or both as exact,euler, not '%s'%s", row->name, text,
-             did_you_mean(text, words, hint));
-  return place >= 0;
-}
-
 static OPTION_SET(set_law) {
   friction_law *law = field;
   static const char name[] = "alciatore";
@@ -343,15 +329,12 @@ void without_bounds(carom_player *player) {
 
 /* ---- The rows */
 
-#define ROW(row, name, member, letter, argument, set, least, only, help)                        \
-  const option_row row = {name,  letter, argument, help, set, offsetof(shared_options, member), \
-                          least, only,   0,        0}
+#define ROW(row, name, member, letter, argument, set, least, only, help) \
+  OPTION_ROW(shared_options, only, row, name, member, letter, argument, set, least, help)
 
 ROW(option_solver, "solver", options.solver, 0, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
     "exact: the limit of infinitely many steps (default); euler: N steps of equal impulse, as in "
     "the 2014 paper");
-ROW(option_solvers, "solver", solvers, 0, "exact|euler|exact,euler", set_solvers, 0, BALLS_ONLY,
-    "exact (default), euler, or exact,euler");
 ROW(option_slip, "slip", options.slip, 0, NULL, set_named, CAROM_WORDS_SLIP, BALLS_ONLY,
     "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
 ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,
@@ -367,8 +350,6 @@ ROW(option_threads, "threads", options.threads, 0, "N", set_threads, 0, ANY_KIND
 ROW(option_precision, "precision", precision, 0, "double|single", set_choice, 0, ANY_KIND,
     "precision of the results, and of the solver for two balls (default: single for a float32 "
     "array, else double)");
-ROW(option_id, "id", id, 0, "X", set_text, 0, ANY_KIND,
-    "the row with this id; its number, from 1, if there is no column id");
 ROW(option_output, "output", output, 'o', "OUT", set_text, 0, ANY_KIND,
     "file to write; - is standard output (default). OUT is never incomplete: carom writes a file "
     "beside it, and renames it at the end. If the folder cannot be written, carom overwrites OUT "
@@ -379,8 +360,6 @@ ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0, ANY_KIND,
     "treat warnings as errors: centres whose distance is not R1 + R2 to 1 %, more than 50 m/s or "
     "2,000 rad/s, a radius above 0.5 m, a mass above 10 kg, a tip more than 0.5 R from the centre, "
     "two values that look like one with a decimal comma");
-ROW(option_bare, "no-comments", bare, 0, NULL, set_flag, 0, ANY_KIND,
-    "leave out the lines that begin with #");
 ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
     "print counts and the time on standard error at the end");
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,

@@ -2,8 +2,8 @@
  * ever farther away, until its box is free; a line ties it to its place from afar. */
 #include "labels.h"
 
-#include "derived.h"
 #include "picture.h"
+#include "quantities.h"
 
 #include <math.h>
 #include <stdbool.h>

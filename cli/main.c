@@ -15,8 +15,6 @@ int main(int argc, char **argv) {
       {"record", "play shots and record them, with a hash of their bits", command_record},
       {"replay", "play a recording again", command_replay},
       {"verify", "compare every bit of a recording", command_verify},
-      {"trace", "write the slips and velocities during one collision", command_trace},
-      {"sweep", "resolve one row of a file, with one input varied in small steps", command_sweep},
   };
   static const program carom = {
       .name = "carom",

@@ -101,7 +101,7 @@ static void print_manual(FILE *out, const command_form *form) {
 }
 
 int usage_hint(const command_form *form) {
-  fprintf(stderr, "`%s %s --help` tells the arguments\n", program_name, form->name);
+  fprintf(stderr, "`%s %s --help` lists the arguments\n", program_name, form->name);
   return EXIT_USAGE;
 }
 
@@ -112,22 +112,22 @@ static const command_form *with_all_rows(const command_form *form) {
   static const option_row *rows[MOST_ROWS];
   static command_form whole;
   int count = 0;
-  option_row *of = of_library;
+  option_row *next = of_library;
   for (int k = 0; form->options[k] != NULL; k++) {
     if (form->options[k]->name != NULL) {
       rows[count++] = form->options[k];
       continue;
     }
-    const int more = rows_of(form->options[k], of);
+    const int more = rows_of(form->options[k], next);
     for (int j = 0; j < more; j++) {
       int own = 0;
       while (form->options[own] != NULL && (form->options[own]->name == NULL ||
-                                            strcmp(form->options[own]->name, of[j].name) != 0))
+                                            strcmp(form->options[own]->name, next[j].name) != 0))
         own++;
       if (form->options[own] == NULL)
-        rows[count++] = &of[j];
+        rows[count++] = &next[j];
     }
-    of += more;
+    next += more;
   }
   whole = *form;
   whole.options = rows;

@@ -62,7 +62,6 @@ OPTION_SET(set_choice); /* int, or an enumeration from 0: the place of the text 
 
 OPTION_SET(
     set_named); /* an enumeration by the words of the library; its default has none in help */
-OPTION_SET(set_numbers); /* given_numbers: NAME=X,... of the library's numbers of balls */
 
 OPTION_SET(set_option); /* an option of the library, by its row */
 
@@ -101,12 +100,6 @@ typedef struct friction_law {
   carom_speed_law law;
 } friction_law;
 
-/* Solvers of the library, one or both; none stands for options.solver. */
-typedef struct solver_list {
-  carom_solver solver[2];
-  int count;
-} solver_list;
-
 /* A player that --player or --errors gives. */
 typedef struct given_player {
   bool rated, errs;
@@ -129,12 +122,11 @@ typedef struct shared_options {
   carom_shot_options shot;    /* of whole shots: --models, --ball-ball, ... */
   given_numbers with;         /* --with */
   carom_options options;      /* --solver of one, --slip, --steps, --threads */
-  solver_list solvers;        /* --solver of several */
   friction_law friction;
   given_player player;
-  int precision;                       /* enum precision */
-  const char *id, *folder, *output;    /* --id, --data, --output */
-  bool summary, strict, derived, bare; /* bare: --no-comments */
+  int precision;               /* enum precision */
+  const char *folder, *output; /* --data, --output */
+  bool summary, strict, derived;
 } shared_options;
 
 /* Puts the numbers of --with into those of cushions, where the rows are impacts. Complains and
@@ -146,18 +138,17 @@ bool numbers_are_read(shared_options *shared);
 #define COMMAND_OPTIONS \
   { .steps = CAROM_DEFAULT_STEPS, .threads = CAROM_ALL_THREADS }
 
-extern const option_row option_solver, option_solvers, option_slip, option_steps, option_threads,
-    option_friction, option_precision, option_id, option_data, option_output, option_summary,
-    option_bare, option_strict, option_derived, option_cushion, option_model, option_convention,
-    option_law, option_least_step, option_with, options_of_shots, options_of_motion,
-    option_with_of_shots, option_player, option_player_errors;
+extern const option_row option_solver, option_slip, option_steps, option_threads, option_friction,
+    option_precision, option_data, option_output, option_summary, option_strict, option_derived,
+    option_cushion, option_model, option_convention, option_law, option_least_step, option_with,
+    options_of_shots, options_of_motion, option_with_of_shots, option_player, option_player_errors;
 
-/* A row of one table alone: OPTION(job, option_NAME, name, field, letter, argument, set, least,
- * help). */
+/* A row of a job: the kind of rows that it is for, its own name, and what stands in an option_row.
+ * OPTION() is one of a single table, for every kind. */
+#define OPTION_ROW(job, only, row, name, member, letter, argument, set, least, help) \
+  const option_row row = {name,  letter, argument, help, set, offsetof(job, member), \
+                          least, only,   0,        0}
 #define OPTION(job, row, name, member, letter, argument, set, least, help) \
-  OPTION_FOR(ANY_KIND, job, row, name, member, letter, argument, set, least, help)
-#define OPTION_FOR(only, job, row, name, member, letter, argument, set, least, help)        \
-  static const option_row row = {name,  letter, argument, help, set, offsetof(job, member), \
-                                 least, only,   0,        0}
+  static OPTION_ROW(job, ANY_KIND, row, name, member, letter, argument, set, least, help)
 
 #endif

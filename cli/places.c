@@ -126,11 +126,11 @@ static bool add_ranges(int measure, const char *text, place_list *list) {
 
 /* Reads "frozen-NAME,X"; false where it cannot be read. */
 static bool read_touching(const char *text, given_place *to) {
-  const char *of = text + strlen(frozen), *comma = strchr(of, ',');
-  const size_t size = comma != NULL ? (size_t)(comma - of) : 0;
+  const char *name = text + strlen(frozen), *comma = strchr(name, ',');
+  const size_t size = comma != NULL ? (size_t)(comma - name) : 0;
   if (size == 0 || size >= PLACE_NAME)
     return false;
-  snprintf(to->touches, PLACE_NAME, "%.*s", (int)size, of);
+  snprintf(to->touches, PLACE_NAME, "%.*s", (int)size, name);
   const bool rail = place_among(RAILS, to->touches, size) >= 0;
   return value_of(rail ? MEASURE_PLACE : MEASURE_ANGLE, comma + 1, &to->x);
 }

@@ -31,7 +31,7 @@ int print_report(const char *name) {
   printf("; in force: %s\n", carom_isa_name(carom_isa_in_force()));
 
   /* what changes results or messages */
-  static const char *const variables[] = {"CAROM_ISA", "CAROM_DATA", "LC_ALL", "LANG"};
+  static const char *const variables[] = {"CAROM_ISA", "LC_ALL", "LANG"};
   for (size_t k = 0; k < sizeof variables / sizeof variables[0]; k++)
     if (getenv(variables[k]) != NULL)
       printf("%s=%s\n", variables[k], getenv(variables[k]));

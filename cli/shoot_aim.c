@@ -1,8 +1,8 @@
-/* Aims of shots from words: the library's at pockets, aim_at_ball.h's at balls; why there is
+/* Aims of shots from words: the library's at pockets, ball_aim.h's at balls; why there is
  * none. */
 #include "shoot_aim.h"
 
-#include "aim_at_ball.h"
+#include "ball_aim.h"
 #include "carom_plan.h"
 #include "message.h"
 #include "shot_story.h"

@@ -3,12 +3,12 @@
  * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. */
 #include "shoot_flags.h"
 
-#include "derived.h"
 #include "doubts.h"
 #include "memory.h"
 #include "message.h"
 #include "number.h"
 #include "places.h"
+#include "quantities.h"
 #include "words.h"
 
 #include <math.h>
@@ -26,9 +26,8 @@ static OPTION_SET(set_word) {
   return true;
 }
 
-#define ROW(row, name, member, argument, set, least, help)                                     \
-  const option_row row = {name,  0,        argument, help, set, offsetof(shoot_flags, member), \
-                          least, ANY_KIND, 0,        0}
+#define ROW(row, name, member, argument, set, least, help) \
+  OPTION_ROW(shoot_flags, ANY_KIND, row, name, member, 0, argument, set, least, help)
 
 const option_row option_table = {
     .name = "table",
@@ -245,27 +244,36 @@ static bool aim_to(const given_place *to, const layout *l, carom_cue *cue) {
   return true;
 }
 
-/* One of the combinations; false after a complaint. */
-static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
-                       const carom_shot_options *options, int index) {
-  const values *const speeds = f->ball_speed.count > 0 ? &f->ball_speed : &f->speed;
-  const int speed = index % speeds->count, tip = index / speeds->count % f->tip.count;
-  const int rise = index / speeds->count / f->tip.count % f->elevation.count;
-  const int way = index / speeds->count / f->tip.count / f->elevation.count;
+/* Which value of each number a combination has: the speed changes fastest. */
+typedef struct combination {
+  const values *speeds;
+  int speed, tip, rise, way;
+} combination;
+
+static combination combination_at(const shoot_flags *f, int index) {
+  combination c = {.speeds = f->ball_speed.count > 0 ? &f->ball_speed : &f->speed};
+  c.speed = index % c.speeds->count;
+  c.tip = index / c.speeds->count % f->tip.count;
+  c.rise = index / c.speeds->count / f->tip.count % f->elevation.count;
+  c.way = index / c.speeds->count / f->tip.count / f->elevation.count;
+  return c;
+}
+
+/* The strike of a combination, towards +x; false after a complaint where there is no such one. */
+static bool strike_of(const shoot_flags *f, const layout *l, const combination *c, carom_cue *cue) {
   const double R = l->ball[0].kind.radius;
-  char id[MOST_TEXT] = "", number[NUMBER_TEXT];
-  carom_cue cue = carom_cue_of(l->game);
+  const bool least = isnan(f->elevation.at[c->rise].x);
   carom_motion after;
-  cue.speed = speeds->at[speed].x;
-  cue.phi = 0.0;
-  const bool least = isnan(f->elevation.at[rise].x);
-  cue.theta = least ? 0.0 : f->elevation.at[rise].x;
-  cue.tip_time = f->tip_time;
+  *cue = carom_cue_of(l->game);
+  cue->speed = c->speeds->at[c->speed].x;
+  cue->phi = 0.0;
+  cue->theta = least ? 0.0 : f->elevation.at[c->rise].x;
+  cue->tip_time = f->tip_time;
   if (f->tip_restitution != 0.0)
-    cue.tip_restitution = f->tip_restitution;
-  cue.a = -tip_of(&f->tip.at[tip].x, R);
-  cue.b = tip_of(&f->tip.at[tip].y, R);
-  if (!(cue.speed > 0.0)) {
+    cue->tip_restitution = f->tip_restitution;
+  cue->a = -tip_of(&f->tip.at[c->tip].x, R);
+  cue->b = tip_of(&f->tip.at[c->tip].y, R);
+  if (!(cue->speed > 0.0)) {
     complain("--%s is above 0", f->ball_speed.count > 0 ? "ball-speed" : "speed");
     return false;
   }
@@ -273,47 +281,62 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
     complain("--elevation least is of a pot that is aimed: give --pocket");
     return false;
   }
-  /* Whether there is such a strike. */
-  const carom_status bad = carom_strike(&cue, &l->ball[0].kind, &after);
+  const carom_status bad = carom_strike(cue, &l->ball[0].kind, &after);
   if (bad == CAROM_ERROR_MISCUE)
     complain(
         "--tip: it is %.4g R from the centre, beside the ball; a chalked tip slips off beyond %g R",
-        hypot(cue.a, cue.b), TIP_LIMIT);
+        hypot(cue->a, cue->b), TIP_LIMIT);
   else if (bad != CAROM_OK)
     complain("no such strike: %s", carom_status_string(bad));
-  const bool of_ball = f->ball_speed.count > 0 || speeds->at[speed].times == OF_BALL;
-  if (bad != CAROM_OK || (of_ball && !strike_to(cue.speed, &l->ball[0].kind, &cue)))
-    return false;
+  const bool of_ball = f->ball_speed.count > 0 || c->speeds->at[c->speed].times == OF_BALL;
+  return bad == CAROM_OK && (!of_ball || strike_to(cue->speed, &l->ball[0].kind, cue));
+}
+
+/* Turns the cue as the combination says; false after a complaint. */
+static bool aim_of(shoot_flags *f, const layout *l, const carom_shot_options *options,
+                   const combination *c, carom_cue *cue) {
   char told[AIMED_TEXT] = "";
   if (f->pocket != NULL) {
-    cue.theta = least ? (double)NAN : cue.theta;
-    if (!aim_at_pocket(f->pocket, f->via, l, options, &cue, told))
+    if (isnan(f->elevation.at[c->rise].x))
+      cue->theta = (double)NAN;
+    if (!aim_at_pocket(f->pocket, f->via, l, options, cue, told))
       return false;
     if (f->written < MOST_SHOTS)
       memcpy(f->aimed[f->written], told, sizeof told);
-  } else if (f->to.count > 0) {
-    if (!aim_to(&f->to.at[way], l, &cue))
-      return false;
-  } else if (f->cut.count == 0)
-    cue.phi = f->aim.at[way].x;
-  else if (!aim_at_ball(f->at_ball != NULL ? f->at_ball : "1", l, options, f->cut.at[way].x, &cue))
-    return false;
-  name_value(id, "aim", &f->aim, way);
-  name_value(id, "cut", &f->cut, way);
+    return true;
+  }
+  if (f->to.count > 0)
+    return aim_to(&f->to.at[c->way], l, cue);
+  if (f->cut.count > 0)
+    return aim_at_ball(f->at_ball != NULL ? f->at_ball : "1", l, options, f->cut.at[c->way].x, cue);
+  cue->phi = f->aim.at[c->way].x;
+  return true;
+}
+
+/* What differs between the shots. */
+static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_TEXT]) {
+  id[0] = '\0';
+  name_value(id, "aim", &f->aim, c->way);
+  name_value(id, "cut", &f->cut, c->way);
   if (f->to.count > 1)
-    snprintf(id, sizeof id, "to %s,%s", f->to.at[way].x.name, f->to.at[way].y.name);
-  name_value(id, "elevation", &f->elevation, rise);
-  name_value(id, "speed", speeds, speed);
+    snprintf(id, MOST_TEXT, "to %s,%s", f->to.at[c->way].x.name, f->to.at[c->way].y.name);
+  name_value(id, "elevation", &f->elevation, c->rise);
+  name_value(id, "speed", c->speeds, c->speed);
   if (f->tip.count > 1)
-    snprintf(id + strlen(id), sizeof id - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "",
-             f->tip.at[tip].x.name, f->tip.at[tip].y.name);
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "",
+             f->tip.at[c->tip].x.name, f->tip.at[c->tip].y.name);
+}
+
+static void write_line(FILE *out, const layout *l, uint64_t given, const char *id,
+                       const carom_cue *cue) {
+  char number[NUMBER_TEXT];
+  const carom_number *n;
   fprintf(out, "{\"kind\": \"shot\", \"id\": \"%s\", \"table\": \"%s\", \"cue\": {",
           id[0] != '\0' ? id : "shot", l->table_name);
-  const carom_number *n;
   for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
     double x = 0.0;
     if (n->key[0] != '\0')
-      memcpy(&x, (const char *)&cue + n->offset, sizeof x);
+      memcpy(&x, (const char *)cue + n->offset, sizeof x);
     /* the stroke is always said */
     if (x != 0.0 || n->offset <= (int32_t)offsetof(carom_cue, b))
       fprintf(out, "\"%s\": %s, ", n->key, number_text(x + 0.0, number));
@@ -326,15 +349,27 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
     for (int j = 0; (n = carom_number_of(CAROM_PART_BALL, j)) != NULL; j++) {
       double x;
       memcpy(&x, (const char *)&l->ball[k].kind + n->offset, sizeof x);
-      if ((f->shared.with.which >> j & 1) != 0)
+      if ((given >> j & 1) != 0)
         fprintf(out, ", \"%s\": %s", n->key, number_text(x, number));
     }
     fputs("}, \"state\": [0", out);
     for (int axis = 0; axis < 2; axis++)
       fprintf(out, ", %s", number_text(l->ball[k].state.r[axis], number));
-    fprintf(out, ", %s, 0, 0, 0, 0, 0, 0]}", number_text(R, number));
+    fprintf(out, ", %s, 0, 0, 0, 0, 0, 0]}", number_text(l->ball[0].kind.radius, number));
   }
   fputs("]}\n", out);
+}
+
+/* One of the combinations; false after a complaint. */
+static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
+                       const carom_shot_options *options, int index) {
+  const combination c = combination_at(f, index);
+  carom_cue cue;
+  char id[MOST_TEXT];
+  if (!strike_of(f, l, &c, &cue) || !aim_of(f, l, options, &c, &cue))
+    return false;
+  name_shot(f, &c, id);
+  write_line(out, l, f->shared.with.which, id, &cue);
   return true;
 }
 

@@ -1,8 +1,7 @@
 /* What `carom shoot` draws. */
 #include "shot_drawings.h"
 
-#include "animate.h"
-#include "lesson.h"
+#include "animation.h"
 #include "memory.h"
 #include "output.h"
 #include "picture.h"
@@ -10,21 +9,20 @@
 #include <stdlib.h>
 
 bool drawings_asked(const drawings *d) {
-  return d->path[PICTURE] != NULL || d->path[FILM] != NULL || d->path[LESSON] != NULL;
+  return d->path[PICTURE] != NULL || d->path[FILM] != NULL;
 }
 
 bool drawings_made(const drawings *d) {
-  return d->text[PICTURE] != NULL || d->text[FILM] != NULL || d->text[LESSON] != NULL;
+  return d->text[PICTURE] != NULL || d->text[FILM] != NULL;
 }
 
 bool drawings_possible(const drawings *d) {
-  return svg_possible(d->path[PICTURE]) && svg_possible(d->path[LESSON]) &&
-         output_possible(d->path[FILM]);
+  return svg_possible(d->path[PICTURE]) && output_possible(d->path[FILM]);
 }
 
 void drawings_draw(drawings *d, const played *shots, int count, const char *footer) {
   static void (*const how[DRAWINGS])(FILE *, const played *, int, const char *) = {
-      [PICTURE] = shots_draw, [FILM] = shots_animate, [LESSON] = lesson_draw};
+      [PICTURE] = shots_draw, [FILM] = shots_animate};
   for (int k = 0; k < DRAWINGS; k++) {
     if (d->text[k] != NULL || d->path[k] == NULL)
       continue;

@@ -1,11 +1,11 @@
-/* What `carom shoot` draws: a picture, a page with the film, a page to print. They are kept in
+/* What `carom shoot` draws: a picture, a page with the film. They are kept in
  * memory until the shots are written: one file at a time is written whole. */
 #ifndef CAROM_CLI_SHOT_DRAWINGS_H
 #define CAROM_CLI_SHOT_DRAWINGS_H
 
 #include "shot_picture.h"
 
-enum { PICTURE, FILM, LESSON, DRAWINGS };
+enum { PICTURE, FILM, DRAWINGS };
 
 typedef struct drawings {
   const char *path[DRAWINGS]; /* NULL: not asked for */

@@ -3,9 +3,9 @@
 #include "shot_picture.h"
 
 #include "ball_colours.h"
-#include "derived.h"
 #include "memory.h"
 #include "picture.h"
+#include "quantities.h"
 #include "shot_story.h"
 #include "table_picture.h"
 
@@ -356,6 +356,54 @@ static double draw_legend(FILE *out, double left, double y, double letters, int 
   return height > 0.0 ? height + line : 0.0;
 }
 
+static void draw_paths(const view *v, const played *shots, int count) {
+  static labels nowhere; /* labels need not keep clear of thin paths */
+  view thin = *v;
+  thin.labels = &nowhere;
+  for (int shot = 0; shot < count; shot++) {
+    fputs(shots[shot].others_count > 0 ? "<g class=\"others\" opacity=\"0.4\">\n" : "", v->out);
+    for (int n = 0; n < shots[shot].others_count; n++)
+      for (int k = shots[shot].line->count - 1; k >= 0; k--)
+        draw_path(&thin, shots[shot].line, &shots[shot].others[n], k,
+                  colour_of(shots[shot].line->name[k], k), "", true);
+    fputs(shots[shot].others_count > 0 ? "</g>\n" : "", v->out);
+  }
+  for (int shot = count - 1; shot >= 0; shot--)
+    for (int k = shots[shot].line->count - 1; k >= 0; k--)
+      draw_path(v, shots[shot].line, shots[shot].shot, k,
+                count > 1 ? shot_colour(shot) : colour_of(shots[shot].line->name[k], k),
+                count > 1 && k != shots[shot].line->cue.ball ? DASHES : "", false);
+}
+
+/* Where they end, kept free of labels and then drawn; what does not move, once. */
+static void draw_ends(const view *v, const played *shots, int count) {
+  for (int drawn = 0; drawn < 2; drawn++)
+    for (int shot = 0; shot < count; shot++) {
+      const shot_line *line = shots[shot].line;
+      carom_ball_state final[CAROM_BALLS_MOST];
+      memcpy(final, shots[shot].shot->final, (size_t)line->count * sizeof *final);
+      spread_pocketed(line, final);
+      for (int k = 0; k < line->count; k++) {
+        const double r = v->scale * line->ball[k].kind.radius, x = across(v, final[k].r),
+                     y = down(v, final[k].r);
+        char number[12];
+        if (is_missing(line, k) || (shot > 0 && !ball_moved(shots[shot].shot, k)))
+          continue;
+        if (drawn == 0) {
+          keep_free(v->labels, x - r, y - r, x + r, y + r);
+          continue;
+        }
+        snprintf(number, sizeof number, "%d", shot + 1);
+        fputs("<g class=\"ball\">\n", v->out);
+        draw_ball(v, line, &final[k], k, count > 1 && k == line->cue.ball ? number : line->name[k],
+                  ball_moved(shots[shot].shot, k));
+        fputs("</g>\n", v->out);
+        if (shots[shot].spread != NULL)
+          draw_ellipse(v, shots[shot].spread, &final[k], k);
+      }
+    }
+}
+
 void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   const carom_table *t = &shots[0].line->table->table;
   view v = view_of(out, t);
@@ -391,48 +439,8 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0 && shots[shot].spread != NULL; k--)
       draw_band(&v, shots[shot].line, shots[shot].spread, k);
-  static labels nowhere; /* labels need not keep clear of thin paths */
-  view thin = v;
-  thin.labels = &nowhere;
-  for (int shot = 0; shot < count; shot++) {
-    fputs(shots[shot].others_count > 0 ? "<g class=\"others\" opacity=\"0.4\">\n" : "", out);
-    for (int n = 0; n < shots[shot].others_count; n++)
-      for (int k = shots[shot].line->count - 1; k >= 0; k--)
-        draw_path(&thin, shots[shot].line, &shots[shot].others[n], k,
-                  colour_of(shots[shot].line->name[k], k), "", true);
-    fputs(shots[shot].others_count > 0 ? "</g>\n" : "", out);
-  }
-  for (int shot = count - 1; shot >= 0; shot--)
-    for (int k = shots[shot].line->count - 1; k >= 0; k--)
-      draw_path(&v, shots[shot].line, shots[shot].shot, k,
-                count > 1 ? shot_colour(shot) : colour_of(shots[shot].line->name[k], k),
-                count > 1 && k != shots[shot].line->cue.ball ? DASHES : "", false);
-  /* Where they end, kept free of labels and then drawn; what does not move, once. */
-  for (int drawn = 0; drawn < 2; drawn++)
-    for (int shot = 0; shot < count; shot++) {
-      const shot_line *line = shots[shot].line;
-      carom_ball_state final[CAROM_BALLS_MOST];
-      memcpy(final, shots[shot].shot->final, (size_t)line->count * sizeof *final);
-      spread_pocketed(line, final);
-      for (int k = 0; k < line->count; k++) {
-        const double r = v.scale * line->ball[k].kind.radius, x = across(&v, final[k].r),
-                     y = down(&v, final[k].r);
-        char number[12];
-        if (is_missing(line, k) || (shot > 0 && !ball_moved(shots[shot].shot, k)))
-          continue;
-        if (drawn == 0) {
-          keep_free(&l, x - r, y - r, x + r, y + r);
-          continue;
-        }
-        snprintf(number, sizeof number, "%d", shot + 1);
-        fputs("<g class=\"ball\">\n", out);
-        draw_ball(&v, line, &final[k], k, count > 1 && k == line->cue.ball ? number : line->name[k],
-                  ball_moved(shots[shot].shot, k));
-        fputs("</g>\n", out);
-        if (shots[shot].spread != NULL)
-          draw_ellipse(&v, shots[shot].spread, &final[k], k);
-      }
-    }
+  draw_paths(&v, shots, count);
+  draw_ends(&v, shots, count);
   if (count == 1)
     draw_rails(&v, &l, shots[0].line, shots[0].shot);
   draw_missing(&v, shots[0].line, left, high + below + 0.25 * letters, true);

@@ -3,7 +3,7 @@
 #ifndef CAROM_CLI_SHOT_STORY_H
 #define CAROM_CLI_SHOT_STORY_H
 
-#include "shot_file.h"
+#include "spread.h"
 
 /* Whether a rail is no cut of a pocket: those are short. */
 bool is_cushion(const carom_table *t, int rail);
@@ -21,30 +21,7 @@ double diamonds_at(const carom_table *t, int rail, const double r[2]);
 /* Whether the ball is in any event: the others lie where they lay. */
 bool ball_moved(const carom_shot *shot, int ball);
 
-typedef enum moment_kind {
-  MOMENT_LEAVES, /* the ball of the cue, struck */
-  MOMENT_MEETS,  /* another ball; value: the cut, degrees, NaN where that ball moves */
-  MOMENT_RAIL,   /* a cushion; value: where, in diamonds */
-  MOMENT_JAW,    /* the cut of a pocket, or its jaw */
-  MOMENT_ROLLS,  /* it rolls from here on */
-  MOMENT_PASSES, /* another ball, without contact; value: the gap, m */
-  MOMENT_FALLS,  /* into a pocket */
-  MOMENT_OFF,    /* it leaves the table */
-  MOMENT_RESTS,
-  MOMENT_MOVES /* still, at the end */
-} moment_kind;
-
-typedef struct moment {
-  moment_kind kind;
-  int with; /* a ball, a rail or a pocket; -1 */
-  double time, x, y, value;
-  double speed, direction; /* just after, m/s and degrees counterclockwise from +x; NaN at rest */
-} moment;
-
-enum { MOST_MOMENTS = 512, WHERE_TEXT = 64 };
-
-/* The moments of a ball in their order, at most MOST_MOMENTS; how many. */
-int story_of(const shot_line *line, const carom_shot *shot, int ball, moment to[MOST_MOMENTS]);
+enum { WHERE_TEXT = 64 };
 
 /* "the left rail", by carom_rail_name(); by its id where it has no name. */
 const char *rail_words(const named_table *t, int rail, char text[WHERE_TEXT]);
@@ -52,12 +29,14 @@ const char *rail_words(const named_table *t, int rail, char text[WHERE_TEXT]);
 /* "the foot-left pocket" */
 const char *pocket_words(const named_table *t, int pocket, char text[WHERE_TEXT]);
 
-/* "the left rail": the rail beyond which a place lies. */
-const char *side_words(const named_table *t, double x, double y);
-
 /* Writes the rows of all moments of the balls that moved; `number` is that of the shot. */
 #define STORY_COLUMNS \
   "shot,id,ball,what,with,time_s,x_m,y_m,speed_m_s,direction_deg,cut_deg,diamonds,gap_mm"
 void story_rows(FILE *out, int number, const shot_line *line, const carom_shot *shot);
+
+/* Tells what each ball does that moved: its moments, or in a line where `shortly` is set; with the
+ * spread of a player where `s` is not NULL. */
+void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s,
+               bool shortly);
 
 #endif

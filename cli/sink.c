@@ -49,7 +49,8 @@ result_sink *sink_open(const shared_options *asked, bool single) {
   return s;
 }
 
-void write_id(FILE *out, const char *id) {
+/* Writes an id as a field of CSV, in quotes where it needs them. */
+static void write_id(FILE *out, const char *id) {
   if (strpbrk(id, ",\"\r\n") != NULL)
     csv_fwrite(out, id, strlen(id));
   else

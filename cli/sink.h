@@ -8,9 +8,6 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Writes an id as a field of CSV, in quotes where it needs them. */
-void write_id(FILE *out, const char *id);
-
 /* Writes rows as source.h reads them: a header, and an id with the numbers of a row. */
 void write_row_header(FILE *out, const row_kind *kind);
 void write_row(FILE *out, const row_kind *kind, const char *id, const double *row);

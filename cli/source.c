@@ -95,13 +95,6 @@ static bool find_columns(row_source *s, const record *header) {
       strcat(strcat(missing, s->column[number]), " ");
   if (missing[1] == '\0')
     return true;
-  size_t jump;
-  if (find_once(header, s->name, "jump", &jump) && jump != SIZE_MAX) {
-    complain("%s:%lld: these are the results of `carom sweep`; with --rows it writes the rows that "
-             "are read here",
-             s->name, header->line);
-    return false;
-  }
   const bool other = !find_once(header, s->name, s->kind->clue, &unused) || unused != SIZE_MAX;
   complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", s->name,
            header->line, missing, other ? s->kind->meant : "",

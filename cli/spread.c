@@ -9,9 +9,9 @@
 
 #include "carom_tangent.h"
 
-#include "derived.h"
 #include "memory.h"
 #include "message.h"
+#include "quantities.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -13,7 +13,5 @@ int command_verify(int argc, char **argv);
 int command_plan(int argc, char **argv);
 int command_ways(int argc, char **argv);
 int command_break(int argc, char **argv);
-int command_trace(int argc, char **argv);
-int command_sweep(int argc, char **argv);
 
 #endif

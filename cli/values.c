@@ -10,9 +10,9 @@
  */
 #include "values.h"
 
-#include "derived.h"
 #include "message.h"
 #include "number.h"
+#include "quantities.h"
 #include "words.h"
 
 #include <math.h>

@@ -60,7 +60,7 @@ bool ways_chance(const ways_search *s, way *w) {
   static carom_facts facts[TRIES];
   static carom_cue cue[TRIES];
   static carom_ball_state final[TRIES][CAROM_BALLS_MOST];
-  int good = 0, falls = 0;
+  int good = 0;
   for (int k = 0; k < TRIES; k++) {
     cue[k] = w->cue;
     carom_player_strike(&s->player, 0, (uint64_t)k, &cue[k]);
@@ -68,12 +68,8 @@ bool ways_chance(const ways_search *s, way *w) {
   }
   if (!play(s, cue, TRIES, shot))
     return false;
-  for (int k = 0; k < TRIES; k++) {
+  for (int k = 0; k < TRIES; k++)
     good += way_is_good(s, &facts[k], final[k], w);
-    falls +=
-        w->ball >= 0 && (facts[k].down >> w->ball & 1) && facts[k].pocket[w->ball] == w->pocket;
-  }
-  w->falls = (double)falls / TRIES;
   w->chance = (double)good / TRIES;
   w->error = sqrt(w->chance * (1.0 - w->chance) / TRIES);
   return true;
@@ -108,7 +104,6 @@ static bool try_way(ways_search *s, way_kind kind, int ball, int pocket, const c
     if (pot.is != CAROM_POT_FALLS)
       continue;
     way w = {.kind = kind, .ball = ball, .pocket = pocket, .cue = cue, .cut = pot.cut, .stroke = k};
-    w.at_cut = w.distance = NAN;
     w.margin = pot.margin;
     memcpy(w.phi, pot.phi, sizeof w.phi);
     memcpy(w.speed, pot.speed, sizeof w.speed);
@@ -245,8 +240,7 @@ static bool has_no_room(const carom_shot *shot, const way *w) {
 }
 
 /* Counts a way of direction k of a stroke. */
-static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double phi,
-                      double step) {
+static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double step) {
   int at = 0;
   while (at < s->ways) {
     const way *w = &s->way[at];
@@ -271,8 +265,26 @@ static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, do
   w->last = k;
   if (w->run > w->longest) {
     w->longest = w->run;
-    w->middle = phi - step * (double)((w->run - 1) / 2); /* of these directions */
+    /* of these directions */
+    w->middle = step * (double)k - step * (double)((w->run - 1) / 2);
     w->stroke = stroke;
+  }
+}
+
+/* Counts the way of the ball, -1 of points and places, by the shot of direction k of a stroke where
+ * the shot is good, or that there was no room for it. */
+static void read_shot(ways_search *s, const carom_shot *shot, int ball, int stroke, int64_t k,
+                      double step) {
+  way seen = {.kind = s->counted, .ball = ball, .pocket = -1};
+  if (ball >= 0)
+    seen.pocket = shot->facts->pocket[ball];
+  if (!way_is_good(s, shot->facts, shot->final, &seen))
+    return;
+  if (!read_way(s, shot, &seen))
+    s->left_out += has_no_room(shot, &seen);
+  else {
+    s->good++;
+    count_way(s, &seen, stroke, k, step);
   }
 }
 
@@ -306,7 +318,7 @@ static bool finish_way(ways_search *s, way *w, double step) {
   }
   const double middle = 0.5 * (w->phi[0] + w->phi[1]);
   w->cue.phi = holds(s, w, middle) ? middle : w->middle;
-  w->cut = w->margin = w->speed[0] = w->speed[1] = w->at_cut = w->distance = NAN;
+  w->cut = w->margin = w->speed[0] = w->speed[1] = NAN;
   return ways_chance(s, w);
 }
 
@@ -332,29 +344,13 @@ static bool scan(ways_search *s) {
       }
       fine = play(s, cue, n, shot);
       for (int k = 0; k < n && fine; k++) {
-        const carom_facts *f = &facts[k];
         s->scanned++;
-        if (s->counted != CAROM) {
-          way seen = {.kind = s->counted, .ball = -1, .pocket = -1};
-          if (way_is_good(s, f, final[k], &seen)) {
-            if (read_way(s, &shot[k], &seen)) {
-              s->good++;
-              count_way(s, &seen, stroke, from + k, cue[k].phi, step);
-            } else
-              s->left_out += has_no_room(&shot[k], &seen);
-          }
-        }
-        for (int ball = 0; ball < s->line->count && s->counted == CAROM; ball++) {
-          way seen = {.kind = CAROM, .ball = ball, .pocket = f->pocket[ball]};
+        if (s->counted != CAROM)
+          read_shot(s, &shot[k], -1, stroke, from + k, step);
+        for (int ball = 0; ball < s->line->count && s->counted == CAROM; ball++)
           if (ball != s->line->cue.ball && (s->ball < 0 || ball == s->ball) &&
-              (f->down >> ball & 1) && (s->pocket < 0 || f->pocket[ball] == s->pocket) &&
-              way_is_good(s, f, final[k], &seen)) {
-            if (read_way(s, &shot[k], &seen))
-              count_way(s, &seen, stroke, from + k, cue[k].phi, step);
-            else
-              s->left_out += has_no_room(&shot[k], &seen);
-          }
-        }
+              (s->pocket < 0 || facts[k].pocket[ball] == s->pocket))
+            read_shot(s, &shot[k], ball, stroke, from + k, step);
       }
       progress_show("strokes", (double)s->scanned, (double)(each * s->strokes));
     }
@@ -366,10 +362,6 @@ static bool scan(ways_search *s) {
 }
 
 /* ---- All of it */
-
-bool ways_find_direct(ways_search *s) {
-  return try_way(s, DIRECT, s->ball, s->pocket, NULL, 0);
-}
 
 bool ways_find(ways_search *s) {
   const int pockets = (int)s->line->table->table.pockets;

@@ -21,14 +21,11 @@ typedef struct way {
   carom_cue cue;
   double cut, margin, phi[2], speed[2]; /* as in carom_pot */
   double chance, error;                 /* of a player, and its standard error */
-  double falls;                         /* the same of the ball alone, whatever the cue ball does */
   int64_t found;                        /* of the strokes in all directions */
   /* of these: its run of neighbouring directions, and the longest one with its middle */
   int64_t last, run, longest;
   double middle;
   int stroke; /* of the search's */
-  /* of places of the cue ball, wide.h: at which cut and distance, and where; else NAN */
-  double at_cut, distance, place[2];
 } way;
 
 /* What is searched, and what was found. */
@@ -65,9 +62,5 @@ bool ways_chance(const ways_search *s, way *w);
 
 /* Finds the ways, those of pots first; false after a complaint. */
 bool ways_find(ways_search *s);
-
-/* Adds the direct pot of the search's ball into its pocket, a way by each stroke with `each`; false
- * after a complaint. */
-bool ways_find_direct(ways_search *s);
 
 #endif

@@ -1,4 +1,4 @@
-# Curves: x, y and the number of each point's curve, and what they are in notes. From `carom hit`, `carom rail` and `carom sweep`.
+# Curves: x, y and the number of each point's curve, and what they are in notes. From `carom hit`, `carom rail` and `carom ways`.
 width = 760; height = 560; tall = 640
 call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/style.gp" ARG1 ARG2 ARG3 ARG4
 

@@ -4,11 +4,11 @@
 #include "help.h"
 #include "kernel.h"
 #include "message.h"
-#include "resolving.h"
+#include "row_solver.h"
 #include "subcommands.h"
 
 typedef struct resolve_job {
-  resolving resolving; /* begins with the shared options */
+  row_job rows; /* begins with the shared options */
   const kernel *kernel;
   const char *config;
   const ladder_module *module;
@@ -42,24 +42,23 @@ static const command_form form = {
 };
 
 int command_resolve(int argc, char **argv) {
-  resolve_job job = {
-      .resolving = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION},
-                    .solve = by_kernel},
-      .kernel = kernel_at(0)};
+  resolve_job job = {.rows = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION},
+                              .solve = by_kernel},
+                     .kernel = kernel_at(0)};
   const char *file;
   const int code = parse_arguments(&form, argc, argv, &job, &file);
   if (code >= 0)
     return code;
   if (!kernel_module(job.kernel, job.config, &job.module))
     return EXIT_USAGE;
-  if (job.kernel->is_rung && job.resolving.shared.precision == SINGLE_PRECISION) {
+  if (job.kernel->is_rung && job.rows.shared.precision == SINGLE_PRECISION) {
     complain("the kernels of the ladder have a precision of their own; --precision is for the "
              "library's solvers");
     return EXIT_USAGE;
   }
   if (job.kernel->is_rung)
-    job.resolving.shared.precision = DOUBLE_PRECISION;
-  job.resolving.context = &job;
-  job.resolving.solver = job.kernel->name;
-  return resolve_file(&job.resolving, file);
+    job.rows.shared.precision = DOUBLE_PRECISION;
+  job.rows.context = &job;
+  job.rows.solver = job.kernel->name;
+  return resolve_file(&job.rows, file);
 }

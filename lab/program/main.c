@@ -14,6 +14,7 @@ int main(int argc, char **argv) {
       {"parity", "compare whole shots with those that pooltool recorded", command_parity},
       {"plan", "play racks of eight-ball by plans", command_plan},
       {"learn", "fit the planner's values of layouts to racks that are played", command_learn},
+      {"trace", "follow one reference collision over normal impulse", command_trace},
       {"experiments", "compare with the 2014 paper's measured shots", command_experiments},
       {"published", "compare with values that others published", command_published},
   };

@@ -29,7 +29,7 @@ SIZES = "1,2,4,8,16,32,64,256,1024,4096,16384,65536,262144"
 DATA = {
     "kernels": (0, "carom-lab kernels --csv"),
     "experiments": (0, "carom-lab experiments --csv"),
-    "trace": (0, "carom trace --id pooltool-135 --solver exact,euler"),
+    "trace": (0, "carom-lab trace --id pooltool-135"),
     "verify": (0, "carom-lab verify --csv"),
     "ladder": (20, "carom-lab bench --csv --spread"),
     "steps": (17, f"carom-lab bench --kernel {FIVE} --steps {STEPS} --csv --spread"),
@@ -57,7 +57,6 @@ DRAWN = {
     "rule-30": "carom hit --cut 1:0.02ball --spin follow,stun --quantity rolling-deflection --plot {}",
     "throw": "carom hit --cut 0:80 --speed 1,3,7mph --plot {}",
     "rebound": "carom rail --model mathavan --angle 0:75 --side -50,0,50% --friction 0.3 --plot {}",
-    "wide": "carom ways --balls foot-spot --pocket foot-left --cut 0:70:5 --distance 0.4,0.8,1.2 --speed 2 --plot {} -o /dev/null",
     "corner-five": "carom shoot --table threecushion --cue 0.1,0.1 --to 4d,7d:4d,6d:4d,5d:4d,4d --tip=-0.3,0.2 --speed 3.5 --time-most 2.2 --plot {} -o /dev/null",
     "english": "carom rail --model mathavan --angle 30,45,60 --side -100:100% --quantity rolling-rebound --plot {}",
     "cuts": "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 10,25,40 --tip 0.2,-0.3 --plot {} -o /dev/null",
@@ -211,16 +210,26 @@ def derive_cushion(options, measured):
 
     rolling = "".join(f"{v:.2f},0,{v:.2f},0,{-v / 0.02625:.9g},0,0,0.02625,0.1406,0.03675,0.212,0.14,0.98\n" for v in speeds)
     rows = [["rebound", row["id"], f"{-float(row['vy']):.6g}"] for row in rows_of("resolve --cushion", rolling)]
-    one, euler = "one,0.5,1.2,0,0,0,30,0.028575,0.17,0.036576,0.2,0.2,0.85\n", "--model euler --convention pooltool --least-step 0.001"
-    for low, high, column, what in ((46, 50, "vy", "fine"), (-60, 60, "jump", "jump")):
+    radius, euler = 0.028575, "--model euler --convention pooltool --least-step 0.001"
+    for low, high, what in ((46, 50, "fine"), (-60, 60, "jump")):
+        spins = [f"{low + (high - low) * (k / 800):.17g}" for k in range(801)]
+        sweep = "".join(f"{float(w)!r},0.5,1.2,0,0,0,{w},{radius},0.17,0.036576,0.2,0.2,0.85\n".replace(".0,", ",", 1) for w in spins)
         for model, words in (("exact", ""), ("euler", euler)):
-            for row in rows_of(f"sweep --cushion --id one --over wz --from {low} --to {high} --points 801 {words}", one):
-                y = -float(row[column]) if column == "vy" else max(number(row[column]), 1e-12)
-                if y == y:
-                    rows.append([f"{what}-{model}", row["value"], f"{y:.6g}"])
+            after = rows_of(f"resolve --cushion {words}", sweep)
+            values = [-float(row["vy"]) for row in after] if what == "fine" else jumps(after, radius)
+            rows += [[f"{what}-{model}", row["id"], f"{y:.6g}"] for row, y in zip(after, values) if y == y]
     work.unlink()
     notes = {what: measured[what] for what in ("processor", "compiler", "commit", "date") if what in measured}
     write(options, "cushion", {**notes, "solver": solver_bits(options)}, [dict(zip(("what", "x", "y"), row)) for row in rows])
+
+
+def jumps(rows, radius):
+    """How far the results (radius times spin), over the largest of them, leave a smooth curve between a row and the next: the distance of
+    their step from both neighbouring steps and all between. A corner is no jump; nan at the ends; at least 1e-12."""
+    points = [[float(row[name]) * (radius if name[0] == "w" else 1.0) for name in ("vx", "vy", "vz", "wx", "wy", "wz")] for row in rows]
+    steps = [[b - a for a, b in zip(*pair)] for pair in zip(points, points[1:])]
+    most = [max(max(y - max(x, z), min(x, z) - y) for x, y, z in zip(*three)) for three in zip(steps, steps[1:], steps[2:])]
+    return [math.nan, *(max(jump / max(map(abs, at)), 1e-12) for jump, at in zip(most, points[1:])), math.nan, math.nan]
 
 
 def solver_bits(options):
@@ -243,7 +252,6 @@ def draw(name, options):
     if not Sheet(options.folder / f"{source}.csv").rows:
         return
     script = HERE.parent / "figures" / f"{name}.gp"
-    script = script if script.is_file() else ROOT / "cli" / "figures" / f"{name}.gp"
     done = subprocess.run(["gnuplot", "-c", script, f"{source}.csv", target.name, title], cwd=options.folder, capture_output=True, text=True)
     svg = target.read_text(encoding="utf-8") if target.is_file() else ""
     if done.returncode or "</svg>" not in svg:

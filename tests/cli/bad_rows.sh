@@ -1,26 +1,14 @@
 # Each bad row costs itself only: its own status, line and field; the good rows have their results.
 header=id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R,M,u_s1,u_s2,u_b,e_b
 good="0,0,0.03,0.3,1,0,-33,10,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95"
+usual=0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95
 {
-  echo "$header"
-  echo "good1,$good"
-  echo "nan,0,0,0.03,nan,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95"
-  echo "inf,0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,-Infinity,0,0.03,0.17,0.2,0.2,0.05,0.95"
-  echo "coincident,0,0,0.03,0,1,0,0,0,0,0,0,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95"
-  echo "equal velocities,0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,1,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95"
-  echo "radius,0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,-1,0.17,0.2,0.2,0.05,0.95"
-  echo "good2,$good"
-  echo "mass,0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0,0.2,0.2,0.05,0.95"
-  echo "cloth,0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,-0.2,0.05,0.95"
-  echo "friction,0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,-0.05,0.95"
-  echo "restitution,0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,1.5"
-  echo "heights,0,0,0.03,0,1,0,0,0,0,0,0.06,0.04,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95"
-  echo "slow,0,0,0.03,0,1.0000000000000002,0,0,0,0,0,0.06,0.03,0,1,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95"
-  echo "short,0,0,0.03,0,1"
-  echo "empty,,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95"
-  echo "word,0,0,0.03,fast,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95"
-  echo "comma,0,0,0.03,\"0,3\",1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0.95"
-  echo "long,$good,7"
+  printf '%s\n' "$header" "good1,$good" "long,$good,7" "short,0,0,0.03,0,1" "good2,$good"
+  # the name of a row, and what stands in which of its columns instead
+  for row in nan:4=nan inf:17=-Infinity coincident:11=0 equal_velocities:14=1 radius:19=-1 mass:20=0 cloth:22=-0.2 friction:23=-0.05 restitution:24=1.5 \
+    heights:12=0.04 slow:14=0.9999999999999998 empty:1= word:4=fast 'comma:4="0,3"'; do
+    echo "$usual" | awk -F, -v OFS=, -v row="$row" '{ split(row, part, /[:=]/); $part[2] = part[3]; print part[1], $0 }'
+  done
   echo "good3,$good"
 } > in.csv
 try carom resolve --solver euler -o out.csv in.csv

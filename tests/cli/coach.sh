@@ -1,7 +1,6 @@
-# The words of players: speeds, parts of a ball, english, spots of snooker; the stroke that leaves the cue ball at a place; the page for a lesson.
+# The words of players: speeds, parts of a ball, english, spots of snooker; the stroke that leaves the cue ball at a place.
 cat > words.py <<'PYTHON'
 import csv, io, json, math, os, re, subprocess
-import xml.etree.ElementTree as tree
 carom = os.environ["CAROM"]
 
 def run(*words):
@@ -57,16 +56,7 @@ for way in (("--pocket", "1:foot-left"), ("--at-ball", "1", "--cut", "half"), ("
     assert there(low) and there(high) and not there(float(low) - 0.1) and not there(float(high) + 0.1), (way, low, high)
     print(way[0], "falls into" in words)
 
-# The page for a lesson.
-page = tree.parse("lesson.svg").getroot()
-texts = [text.text for text in page.iter("{http://www.w3.org/2000/svg}text")]
-print(page.get("width"), page.get("height"), [text for text in texts if text.startswith(("Aim", "Tip", "Speed", "Notes"))], [str(hour) in texts for hour in range(1, 13)].count(True))
-# The tip is where the stroke has it: 2 tips of 0.1 R to the right are at three o'clock.
-circle = [(float(c.get("cx")), float(c.get("cy")), float(c.get("r"))) for c in page.iter("{http://www.w3.org/2000/svg}circle")][-3:]
-print([round((circle[2][k] - circle[0][k]) / circle[0][2], 3) for k in range(2)])
 PYTHON
-carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --at-ball 1 --cut half --tip 0.3,0 --speed medium --lesson lesson.svg > lesson.txt
-carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --lesson lesson.pdf > lesson.txt && head -c 5 lesson.pdf && echo
 python words.py
 echo "--- a red that moved is named in a picture, and one that is pushed along is met once"
 carom shoot --table snooker --balls snooker --pocket black:foot-left --cue 1.2,2.9 --plot reds.svg | grep -c 'meets red12'
@@ -86,13 +76,10 @@ try carom shoot --leave centre -
 try carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --pocket 1:foot-left --leave 3d,1d,5cm
 try carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --pocket 2:foot-left --leave centre
 try carom shoot --cue 0.6,0.8 --balls 0.6,1.9:0.6,1.2 --pocket 1:foot-left --leave centre
-try carom shoot --cue 2d,2d --aim 90 --speed 1,2,3,4.0,5 --lesson five.svg
-ls five.svg 2> /dev/null || echo "nothing drawn"
 echo "--- of several shots those that cannot be aimed are left out"
 try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,medium,soft,fast | grep -v '^[c1] '
 try carom shoot --cue 2d,4d --balls foot-spot --pocket 1:foot-left --speed slow,soft
 echo "--- lengths in diamonds, a quantity of a list"
-carom ways --balls foot-spot --pocket foot-left --cut half --distance 4d --speed 2 | tail -n 1
 carom shoot --cue 2d,2d --balls 3d,4d --pocket 1:foot-right --leave head-left,1d | grep leave
 carom hit --cut half --side inside,outside --quantity throw | awk -F, 'NR == 1 { print; next } { printf "%s %.9f\n", $1, $2 }'
 echo "--- the stick over a cushion and a ball"

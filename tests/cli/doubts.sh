@@ -31,11 +31,6 @@ sed -n 3p out.csv
 sed 3d out.csv | cmp - good.csv && echo "the others are as they were"
 try carom resolve --strict fast.csv | cut -d, -f14
 try carom resolve --strict --precision single spin.csv | cut -d, -f2,14
-id=$(sed -n 3p few.csv | cut -d, -f1)
-try carom sweep --id "$id" --over u_b --from 0 --to 1 --points 2 --brief -o /dev/null one.csv
-try carom sweep --strict --id "$id" --over u_b --from 0 --to 1 --points 2 --brief one.csv
-try carom trace --id "$id" --points 2 -o /dev/null one.csv
-try carom trace --strict --id "$id" --points 2 one.csv
 echo "tips so far from the centre that they slip off the ball:"
 for words in "hit --side 1tip --spin -0.4tip" "hit --side 1tip --spin -0.5tip" "rail --side 0,1,2tip --csv" "shoot --tip 0.3,0.4" "shoot --tip 0,0.51" "shoot --tip 0.2,0.4:0.9,0.1"; do
   # shellcheck disable=SC2086

@@ -193,5 +193,5 @@ echo '{"kind": "shot", "cue": {"V0": 2, "b": 0}, "balls": [{"id": "cue", "state"
 echo "--- what the shells ask for"
 carom hit --complete --side ""
 carom shoot --complete --cushion "" | tr '\n' ' '
-carom sweep --complete x -- | head -n 3
+carom resolve --complete x -- | head -n 3
 echo "files: $(carom resolve --complete --derived "")"

@@ -7,6 +7,15 @@ tr , '\t' < plain.csv > tabs.csv; same tabs.csv
 { echo "# collision: 1"; echo "#"; cat plain.csv; } > notes.csv; same notes.csv
 { cat plain.csv; echo ",,,,"; sed -n 2p plain.csv | sed 's/[^,]//g'; } > empty_rows.csv; same empty_rows.csv
 sed 's/\r*$/\r/' semicolons.csv > crlf.csv; same crlf.csv
+# Columns in any order, unknown ones, an empty one behind the last, M1 and M2.
+awk -F, '{for (i = NF; i > 0; i--) printf("%s%s", $i, (i > 1) ? "," : "\n")}' plain.csv > reversed.csv; same reversed.csv
+sed 's/^/7,/; 1s/^7/note/' plain.csv > unknown.csv; same unknown.csv
+sed 's/$/,/' plain.csv > trailing.csv; same trailing.csv
+awk -F, 'NR == 1 { for (m = 1; $m != "M"; m++); $m = "M1"; print $0 ",M2"; next } { print $0 "," $m }' OFS=, plain.csv > masses.csv; same masses.csv
+echo "without id, with an id that needs quotes, a header alone:"
+cut -d, -f2- plain.csv | carom resolve - | cut -d, -f1
+sed '2s/^[^,]*/"a ""1"", b"/' plain.csv | carom resolve - | sed -n 2p | cut -c1-20
+head -n 1 plain.csv | carom resolve -
 # Decimal commas are read between semicolons only: elsewhere a comma may part thousands.
 tr , ';' < plain.csv | tr . , > commas.csv; same commas.csv
 tr , ';' < plain.csv | tr . , | sed '1s/$/;note (m, m)/; 2,3s/$/;a, b/' > noted.csv; same noted.csv
@@ -49,8 +58,6 @@ try carom shoot pretty.json
 head -c 400 "$DATA/break-nineball.jsonl" > cut.jsonl; try carom shoot -o cut.out cut.jsonl
 try carom shoot .
 echo "what is mistyped:"
-try carom trace --id pooltool002 "$DATA/collisions-204.csv" 2>&1 | sed 's/^.*\/coll/coll/'
-try carom trace --id a plain.csv
 sed '1s/v1y/V1Y/' plain.csv > case.csv; try carom resolve case.csv
 sed '1s/u_b/mu_b/; 1s/e_b/eb/' plain.csv > near.csv; try carom resolve near.csv
 sed '1s/u_b/friction/' plain.csv > far.csv; try carom resolve far.csv

@@ -20,8 +20,7 @@ runs = [
     "shoot --speed 1 --spread 1%,0.05,0.01 --plot out.svg",
     "hit --speed 2m/s --cut 30 --plot out.svg",
     "rail --speed 2m/s --angle 30",
-    "trace --id pooltool-001 -o out.csv five.csv",
-    "sweep --id pooltool-001 --over cut --from 0 --to 60 --points 5 -o out.csv five.csv",
+    "hit --cut 0:60 -o out.csv",
 ]
 inputs = {"five.csv", "shot.jsonl", "ball.jsonl"}
 for run in runs:

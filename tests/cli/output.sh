@@ -10,8 +10,8 @@ try carom resolve -o /dev/null "$in"
 try carom resolve -o /dev/full "$in"
 carom resolve "$in" > /dev/full || echo "exit $?"
 carom --help > /dev/full || echo "exit $?"
-for words in "hit --csv" "hit --help" "trace --id pooltool-135" "sweep --id pooltool-135 --over cut --from 0 --to 1 --points 3" \
-  "shoot $DATA/break-nineball.jsonl" "resolve --cushion $DATA/cushion-stronge.csv" "trace --cushion --id public-004:22 $DATA/cushion-stronge.csv"; do
+for words in "hit --csv" "hit --help" "hit --cut 0:60" \
+  "shoot $DATA/break-nineball.jsonl" "resolve --cushion $DATA/cushion-stronge.csv"; do
   # shellcheck disable=SC2086
   carom $words > /dev/full || echo "exit $?"
   # shellcheck disable=SC2086

@@ -10,27 +10,24 @@ echo > begun
 cat go_on
 END
 chmod +x bin/gnuplot
-carom hit --csv > hit.csv
-tail -n 1 "$DATA/cushion-stronge.csv" | cut -d, -f1 > rail_id
 nothing_else() { ls temporary; ls ./*.svg* | tr '\n' ' '; cat kept.svg; }
 for signal in TERM KILL; do
-  for words in "trace --id stun --plot kept.svg hit.csv" "sweep --id stun --over cut --from 0 --to 60 --plot kept.svg hit.csv" \
-    "trace --cushion --id $(cat rail_id) --plot kept.svg $DATA/cushion-stronge.csv"; do
+  for words in "hit --cut 0:60 --plot kept.svg" "rail --angle 0:60 --plot kept.svg"; do
     echo old > kept.svg
     # shellcheck disable=SC2086
     PATH="$PWD/bin:$PATH" "$CAROM" $words &
     read -r _ < begun
     kill -$signal $!
-    wait $! 2> /dev/null || echo "ended: ${words%% --id*}"
+    wait $! 2> /dev/null || echo "ended: ${words%% *}"
     : > go_on
     nothing_else
   done
 done
 # A gnuplot that fails, one that draws nothing, and none: the old picture stays.
 printf '#!/bin/sh\necho half\necho "no such terminal" >&2\nexit 1\n' > bin/gnuplot
-PATH="$PWD/bin:$PATH" try "$CAROM" trace --id stun --plot kept.svg hit.csv 2>&1 | sed 's/on .*\/trace.gp/on trace.gp/'
+PATH="$PWD/bin:$PATH" try "$CAROM" hit --cut 0:60 --plot kept.svg 2>&1 | sed 's/on .*\/curves.gp/on curves.gp/'
 printf '#!/bin/sh\nexit 0\n' > bin/gnuplot
-PATH="$PWD/bin:$PATH" try "$CAROM" trace --id stun --plot kept.svg hit.csv
+PATH="$PWD/bin:$PATH" try "$CAROM" hit --cut 0:60 --plot kept.svg
 nothing_else
 # shoot: ended while it plays; a picture that cannot be written; one that is no file is written in place.
 mkfifo shots
@@ -55,19 +52,17 @@ ln -s /dev/full full.svg
 try carom shoot --events none --plot full.svg -o /dev/null "$DATA/break-nineball.jsonl"
 try carom shoot --events none --plot nowhere/break.svg -o /dev/null "$DATA/break-nineball.jsonl"
 try carom hit --plot full.svg -o /dev/null
-try carom trace --id stun --plot full.svg hit.csv
+try carom hit --cut 0:60 --plot full.svg
 ln -sf link_to.svg linked.svg
 try carom shoot --events none --plot linked.svg -o /dev/null "$DATA/break-nineball.jsonl"
 test -L linked.svg && tail -n 1 link_to.svg
 # With the standard places closed files take none of them.
 for closed in "<&-" ">&-" "2>&-" "<&- >&- 2>&-"; do
   rm -f closed.svg closed.csv
-  eval "timeout 60 \"\$CAROM\" trace --id stun --plot closed.svg -o closed.csv hit.csv $closed" || echo "exit $?"
-  echo "closed $closed: $(grep -c '</svg>' closed.svg) $(grep -c ^exact closed.csv)"
+  eval "timeout 60 \"\$CAROM\" hit --cut 0:60 --plot closed.svg -o closed.csv $closed" || echo "exit $?"
+  echo "closed $closed: $(grep -c '</svg>' closed.svg) $(wc -l < closed.csv)"
 done
 # Letters have 9 pixels in a picture that is 500 wide, and no label lies over a rail.
-carom sweep --id stun --over cut --from 0 --to 60 --points 11 --plot swept.svg hit.csv
-carom trace --id stun --solver exact,euler --plot traced.svg hit.csv
 carom hit --cut 0:80 --speed 1,3,7mph --plot curves.svg
 python - <<'PYTHON'
 import os, random, subprocess
@@ -77,7 +72,7 @@ def plot(*words):
     subprocess.run([os.environ["CAROM"], *words, "--plot", "drawn.svg", "-o", "/dev/null"], check=True)
     return small_letters("drawn.svg"), labels_on_rails("drawn.svg")
 
-print([small_letters(f"{name}.svg") for name in ("swept", "traced", "curves")])
+print(small_letters("curves.svg"))
 print({str(plot("rail", "--angle", angle, "--side", side)) for angle in ("1", "30", "75", "89") for side in ("left", "none", "right")})
 random.seed(1)
 sizes = {"7ft": (0.9906, 1.9812), "8ft": (1.1176, 2.2352), "9ft": (1.27, 2.54), "snooker": (1.7785, 3.569), "threecushion": (1.42, 2.84)}

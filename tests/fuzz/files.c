@@ -32,7 +32,6 @@ static const struct {
     {command_shoot,
      "jsonl",
      {"shoot", "--events-most", "20", "--models", "pooltool", "--events", "brief"}},
-    {command_trace, "csv", {"trace", "--samples", "5"}},
 };
 
 static char folder[20];                  /* in the working folder */
@@ -60,10 +59,8 @@ static char *output_of(size_t k, const char *file, const char *threads, int *cod
   int count = 0;
   for (; commands[k].arguments[count] != NULL; count++)
     given[count] = commands[k].arguments[count];
-  if (commands[k].run != command_trace) {
-    given[count++] = "--threads";
-    given[count++] = threads;
-  }
+  given[count++] = "--threads";
+  given[count++] = threads;
   given[count++] = file;
   for (int n = 0; n < count; n++) {
     snprintf(text_of[n], sizeof text_of[n], "%s", given[n]);

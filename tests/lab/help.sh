@@ -2,14 +2,14 @@
 try lab --help
 lab --version | sed 's/[0-9][0-9]*/N/g'
 try lab kernels --help
-python -m wrapped "$LAB" kernels resolve verify bench stress parity plan learn experiments published
+python -m wrapped "$LAB" kernels resolve verify bench stress parity plan learn trace experiments published
 echo "--- the table"
 try lab kernels | sed 's/  */ /g; /^configurations/s/:.*/:/; /rsqrt14/d' # what depends on the machine, as the widths of columns do
 lab kernels --csv -o kernels.csv
 python -c 'import csv; rows = list(csv.DictReader(open("kernels.csv"))); print(len(rows), [k for k in rows[1]], [r["kernel"] for r in rows if not r["parent"]])'
 echo "--- the examples do what they show"
 cp "$DATA/collisions-204.csv" before.csv
-for command in "" kernels resolve verify bench experiments; do
+for command in "" kernels resolve verify bench trace experiments; do
   example=$(lab $command --help | tail -n 1 | sed -n 's/^  carom-lab //p' | sed 's/--budget [0-9]*/--budget 0.1/')
   [ -n "$example" ] && eval "lab $example" > said 2>&1 || { echo "the example of '$command' fails:"; cat said; }
 done

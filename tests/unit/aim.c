@@ -1,8 +1,8 @@
 /* Aiming at a ball: what is found holds, and what is refused is not there. The judge plays
  * shots, and knows nothing of paths.
  */
-#include "aim_at_ball.h"
-#include "derived.h"
+#include "ball_aim.h"
+#include "quantities.h"
 #include "shot_support.h"
 
 #include <math.h>

@@ -103,16 +103,7 @@ TEST(random_doubles_and_random_decimals) {
   }
 }
 
-TEST(notation) {
-  const struct {
-    double x;
-    const char *text;
-  } known[] = {
-      {0.1, "0.1"},         {-0.0, "-0"},         {100.0, "100"},
-      {1e22, "1e+22"},      {1e-5, "1e-05"},      {-29.073183936672191, "-29.07318393667219"},
-      {1e15, "1e+15"},      {123456.0, "123456"}, {0.28659555840659967, "0.28659555840659967"},
-      {(double)NAN, "nan"}, {-INFINITY, "-inf"}};
+TEST(not_a_number) {
   char text[NUMBER_TEXT];
-  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
-    ck_assert_str_eq(number_text(known[k].x, text), known[k].text);
+  ck_assert_str_eq(number_text((double)NAN, text), "nan");
 }

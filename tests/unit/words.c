@@ -58,18 +58,16 @@ TEST(options_of_plans_are_those_of_the_library) {
 TEST(every_table_and_rack_has_its_word) {
   static shoot_flags flags;
   const char *word;
-  for (int k = 0; (word = carom_word(CAROM_WORDS_TABLE, k)) != NULL; k++) {
-    char text[40];
-    strcpy(text, word);
-    ck_assert(option_table.set(&option_table, text, &flags.table) && flags.table == 1 + k);
-    ck_assert_ptr_nonnull(strstr(argument_of(&option_table), word));
-  }
-  for (int k = 0; (word = carom_word(CAROM_WORDS_RACK, k)) != NULL; k++) {
-    char text[40];
-    strcpy(text, word);
-    ck_assert(option_balls.set(&option_balls, text, &flags.balls) && flags.balls.rack == 1 + k);
-    ck_assert_ptr_nonnull(strstr(argument_of(&option_balls), word));
-  }
+  for (int rack = 0; rack < 2; rack++)
+    for (int k = 0; (word = carom_word(rack ? CAROM_WORDS_RACK : CAROM_WORDS_TABLE, k)) != NULL;
+         k++) {
+      const option_row *row = rack ? &option_balls : &option_table;
+      char text[40];
+      strcpy(text, word);
+      ck_assert(row->set(row, text, rack ? (void *)&flags.balls : &flags.table));
+      ck_assert_int_eq(rack ? flags.balls.rack : flags.table, 1 + k);
+      ck_assert_ptr_nonnull(strstr(argument_of(row), word));
+    }
 }
 
 TEST(numbers_by_name_and_key) {

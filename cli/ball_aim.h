@@ -1,7 +1,7 @@
 /* The direction of a cue that makes its ball meet another one at a cut, whatever spin, elevation
  * and speed do to the path. */
-#ifndef CAROM_CLI_AIM_AT_BALL_H
-#define CAROM_CLI_AIM_AT_BALL_H
+#ifndef CAROM_CLI_BALL_AIM_H
+#define CAROM_CLI_BALL_AIM_H
 
 #include "carom_shot.h"
 

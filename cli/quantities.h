@@ -1,7 +1,7 @@
 /* What people ask of a collision beyond its twelve numbers: throw, deflection, motion once both
  * balls roll, spin, energy. */
-#ifndef CAROM_CLI_DERIVED_H
-#define CAROM_CLI_DERIVED_H
+#ifndef CAROM_CLI_QUANTITIES_H
+#define CAROM_CLI_QUANTITIES_H
 
 #include "carom.h"
 
@@ -30,9 +30,6 @@ derived derive(const carom_impact *in, const carom_result *out);
 
 /* The angle from a to b, degrees, -180 to 180, to the left as seen from above. */
 double angle_between(const double a[2], const double b[2]);
-
-/* A velocity by its parts to the right of the direction y and along it. */
-void into_frame(const double y[2], const double v[2], double to[2]);
 
 /* Kinetic energy of a solid ball in motion, J. */
 double energy_of(double mass, double radius, const double v[3], const double w[3]);

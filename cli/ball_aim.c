@@ -13,9 +13,9 @@
  * of q(t). q is continuous between events, and its roots there are bracketed by samples and
  * halved. Something else may be met before, or the same ball at another cut: each root is played
  * up to the first contact, in their order, and the first that holds is taken. */
-#include "aim_at_ball.h"
+#include "ball_aim.h"
 
-#include "derived.h"
+#include "quantities.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 /* Where the cue ball shall end: --leave of `carom ways` and of `carom shoot`. */
-#ifndef CAROM_CLI_LEAVE_H
-#define CAROM_CLI_LEAVE_H
+#ifndef CAROM_CLI_POSITION_H
+#define CAROM_CLI_POSITION_H
 
 #include "shoot_flags.h"
 #include "ways.h"

@@ -1,5 +1,5 @@
 /* What people ask of a collision beyond its twelve numbers. */
-#include "derived.h"
+#include "quantities.h"
 
 #include <math.h>
 
@@ -14,12 +14,6 @@ double energy_of(double mass, double radius, const double v[3], const double w[3
     spins += w[k] * w[k];
   }
   return 0.5 * mass * (speeds + 0.4 * radius * radius * spins);
-}
-
-void into_frame(const double y[2], const double v[2], double to[2]) {
-  const double size = hypot(y[0], y[1]);
-  to[0] = (v[0] * y[1] - v[1] * y[0]) / size;
-  to[1] = (v[0] * y[0] + v[1] * y[1]) / size;
 }
 
 static double length(const double a[2]) {

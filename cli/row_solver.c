@@ -3,7 +3,7 @@
  * While one block of rows is solved and written, in the order of the file, another thread reads
  * the next.
  */
-#include "resolving.h"
+#include "row_solver.h"
 
 #include "command.h"
 #include "doubts.h"
@@ -30,7 +30,7 @@ typedef struct reading {
 } reading;
 
 typedef struct run {
-  const resolving *job;
+  const row_job *job;
   const shared_options *asked;
   const row_kind *kind;
   bool single;
@@ -130,12 +130,12 @@ static void print_summary(const run *r) {
           r->ok + r->separating + r->errors, r->ok, r->separating, r->errors);
   if (r->solving >= least_timed)
     fprintf(stderr, "; %s took %.3g s, %.3g us per %s",
-            r->job->solve != NULL ? r->job->solver : r->kind->name(r->asked, 0), 1e-9 * r->solving,
+            r->job->solve != NULL ? r->job->solver : r->kind->name(r->asked), 1e-9 * r->solving,
             1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1), r->kind->noun);
   fputc('\n', stderr);
 }
 
-int resolve_file(const resolving *job, const char *file) {
+int resolve_file(const row_job *job, const char *file) {
   run r = {.job = job,
            .asked = &job->shared,
            .kind = kind_of(&job->shared),

@@ -1,7 +1,7 @@
 /* Shots that play: one HTML file with the balls' poses, the player of player.js, and the
  * picture. */
-#ifndef CAROM_CLI_ANIMATE_H
-#define CAROM_CLI_ANIMATE_H
+#ifndef CAROM_CLI_ANIMATION_H
+#define CAROM_CLI_ANIMATION_H
 
 #include "shot_picture.h"
 

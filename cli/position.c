@@ -1,7 +1,7 @@
 /* Where the cue ball shall end. `carom ways` counts it for the chance of a way; here it chooses the
  * speed and the tip of a shot: each stroke is played without errors, and of those by which the cue
  * ball ends there the one with the best chance is taken. */
-#include "leave.h"
+#include "position.h"
 
 #include "memory.h"
 #include "message.h"
