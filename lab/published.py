@@ -11,6 +11,7 @@ import sys
 from functools import cache
 from math import atan2, cos, degrees, exp, hypot, inf, isnan, nan, radians, sin, sqrt, tan
 from pathlib import Path
+from random import Random
 from statistics import median
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -214,37 +215,22 @@ def bounce(height):
 BREAKS = 1600
 
 
-def normals():
-    """Sums of 12 uniform numbers by splitmix64."""
-    state, most = 1, 2**64 - 1
-    while True:
-        total = -6.0
-        for _ in range(12):
-            state = (state + 0x9E3779B97F4A7C15) & most
-            z = ((state ^ state >> 30) * 0xBF58476D1CE4E5B9) & most
-            z = ((z ^ z >> 27) * 0x94D049BB133111EB) & most
-            total += ((z ^ z >> 31) >> 11) / 2**53
-        yield total
-
-
 def back_of(events):
     """The velocity of the cue ball along the table once it has met the rack, over that before: contacts within a millisecond are one."""
-    before, after, when = nan, nan, inf
-    for e in events:
-        if e.time > when + 1e-3:
-            break
-        if e.type == EVENT_BALL_BALL and 0 in (e.a, e.b):
-            own = (e.a, e.b).index(0)
-            before, when = (e.before[own].v[1], e.time) if when == inf else (before, when)
-            after = e.after[own].v[1]
-    return after / before
+    met = [(e, (e.a, e.b).index(0)) for e in events if e.type == EVENT_BALL_BALL and 0 in (e.a, e.b)]
+    last, own = [one for one in met if one[0].time <= met[0][0].time + 1e-3][-1]
+    return last.after[own].v[1] / met[0][0].before[met[0][1]].v[1]
 
 
 @cache
 def breaks(rack, kind, gap, beside, speed, above=0):
     """Of each break: the places of the balls that fell, in rows from the cue ball and from the left; what is counted; the cue ball's velocity back, and how
     far from the middle of the table it stops, m. The errors are those of a good player: 0.2 degrees, 3 % of the speed, 0.03 R."""
-    count, made, normal, all_of_them = LIBRARY.carom_rack_size(rack), table(kind), normals(), []
+    count, made, draw, all_of_them = LIBRARY.carom_rack_size(rack), table(kind), Random(1), []
+
+    def normal(deviation):
+        return deviation * (sum(draw.random() for _ in range(12)) - 6)
+
     for k in range(BREAKS):
         balls = (OF["carom_shot_ball"] * count)()
         LIBRARY.carom_rack(rack, by(made), ctypes.c_double(1e-3 * gap), ctypes.c_uint64(k), balls, count)
@@ -253,9 +239,9 @@ def breaks(rack, kind, gap, beside, speed, above=0):
         order = [sum(b[0] < a[0] if abs(b[1] - a[1]) < R else b[1] < a[1] for b in at[1:]) for a in at]
         front = at[1 + order[1:].index(0)]
         stroke = LIBRARY.carom_cue_of(GAME_POOL)
-        stroke.b, stroke.a = above + 0.03 * next(normal), 0.03 * next(normal)
-        stroke.phi = degrees(atan2(front[1] - at[0][1], front[0] - at[0][0])) + 0.2 * next(normal)
-        stroke.speed = speed * cue().speed / struck(0, above).v[1] * (1 + 0.03 * next(normal))
+        stroke.b, stroke.a = above + normal(0.03), normal(0.03)
+        stroke.phi = degrees(atan2(front[1] - at[0][1], front[0] - at[0][0])) + normal(0.2)
+        stroke.speed = speed * cue().speed / struck(0, above).v[1] * (1 + normal(0.03))
         events, facts, end = shoot(kind, balls, stroke, 64)
         fell = [b for b in range(1, count) if facts.down >> b & 1]
         side = [b for b in fell if abs(made.pocket[facts.pocket[b]].centre[1] - 0.5 * made.length) < 0.25 * made.length]
