@@ -12,7 +12,6 @@
 #include "number.h"
 #include "options.h"
 #include "output.h"
-#include "precisely.h"
 #include "precision.h"
 #include "reference.h"
 #include "subcommands.h"
@@ -171,7 +170,7 @@ static void compare(stress *s, int group, uint64_t k, const drawn *c) {
   const bool known = precisely(c, &precise);
   double error = known ? apart(c, &own, &precise) : INFINITY;
   if (error > REFERENCE_FROM || k % 1000 == 0) {
-    if (REFERENCE_OK == (c->cushion ? reference_cushion(&c->rail, &exact.rail, NULL)
+    if (REFERENCE_OK == (c->cushion ? reference_cushion(&c->rail, &exact.rail)
                                     : reference_collide(&c->balls, c->slip, &exact.balls, NULL))) {
       const double precise_error = known ? apart(c, &precise, &exact) : 0;
       error = apart(c, &own, &exact);
