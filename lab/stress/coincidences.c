@@ -68,7 +68,7 @@ static void planar(carom_local *c, double *sine, lab_random *r) {
 /* The slip on the cloth or at the nose passes zero, or nearly. */
 static void planar_turn(carom_local *c, double *sine, lab_random *r) {
   (void)sine;
-  c->w_ix = sign(r) * U(0.3, 2) * c->v_iy / c->R;
+  c->w_ix = (below(r, 4) == 0 ? U(-0.3, 0.3) : sign(r) * U(0.3, 2)) * c->v_iy / c->R;
   c->v_ix = tiny(r) * c->v_iy;
   c->w_iy = below(r, 2) == 0 ? 0 : tiny(r) * c->v_iy / c->R;
 }
