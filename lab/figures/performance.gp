@@ -17,10 +17,10 @@ set label 1003 "operations: lab/report/bounds.csv; a core cycle: ".note("core cy
 set label 1002 at screen 0.012, screen 0.050
 set label 1001 at screen 0.012, screen 0.078
 share(name) = system("awk -F, '/^#/ { next } $1 == \"".name."\" { s = $8 } END { print s }' '".data."'")
-entry(name) = sprintf("%s, %.0f %% of the bound", name, 100 * real(share(name)))
+entry(name) = sprintf("%s, %.0f %% of bound", name, 100 * real(share(name)))
 set offsets 0, 0, graph 0.08, 0
 plot for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("flops_per_cycle"))) \
        with linespoints lt line_of(word(kernels, k), k) dt 1 title entry(word(kernels, k)), \
      for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("bound_flops_per_cycle"))) \
        with lines lc rgb colour_of(word(kernels, k), k) lw 2 dt (8,5) notitle, \
-     keyentry with lines lc rgb grey lw 2 dt (8,5) title "bound on Zen 2, each in its colour"
+     keyentry with lines lc rgb grey lw 2 dt (8,5) title "bounds of Zen 2"
