@@ -1,1 +1,1 @@
-"""The study's Python parts, run from the root of the tree: `python3 -m lab.bound`, `tools/python -m lab.report`."""
+"""The study's Python part, run from the root of the tree: `tools/python -m lab.report`."""

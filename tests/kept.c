@@ -93,17 +93,14 @@ static void find(solution *s, void solve(solution *s, const void *in, carom_slip
 
 static void solve_balls(solution *s, const void *in, carom_slip slip) {
   carom_result out;
-  reference_story story;
-  s->status = reference_collide(in, slip, &out, &story);
+  s->status = reference_collide(in, slip, &out, s->number + 12);
   memcpy(s->number, &out, sizeof out);
-  s->number[12] = story.P;
-  s->number[13] = story.W_c;
 }
 
 static void solve_cushion(solution *s, const void *in, carom_slip slip) {
   carom_motion out;
   (void)slip;
-  s->status = reference_cushion(in, &out, NULL);
+  s->status = reference_cushion(in, &out);
   memcpy(s->number, &out, sizeof out);
 }
 

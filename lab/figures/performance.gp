@@ -1,4 +1,4 @@
-# Operations per cycle over N, and for each kernel the bound by its longest chain.
+# Operations per cycle over N, and for each kernel the bound by its longest chain with the latencies of Zen 2.
 width = 1000; height = 560
 build = system("awk -F, '/^#/ { next } n++ { print $2; exit }' '".ARG1."'")
 call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
@@ -13,15 +13,14 @@ set ylabel "floating point operations per core cycle" offset 0.5,0
 set lmargin at screen 0.085; set rmargin at screen 0.715
 set bmargin at screen 0.24
 set key at screen 0.735, graph 1 left top vertical maxrows 12 noenhanced Left reverse
-set label 1003 "operations counted under callgrind; a core cycle: ".note("core cycle") at screen 0.012, screen 0.022 font ",10" textcolor rgb grey
+set label 1003 "operations: lab/report/bounds.csv; a core cycle: ".note("core cycle") at screen 0.012, screen 0.022 font ",10" textcolor rgb grey
 set label 1002 at screen 0.012, screen 0.050
 set label 1001 at screen 0.012, screen 0.078
 share(name) = system("awk -F, '/^#/ { next } $1 == \"".name."\" { s = $8 } END { print s }' '".data."'")
-entry(name) = share(name) eq "NA" ? name : sprintf("%s, %.0f %% of bound", name, 100 * real(share(name)))
-bounded = system("awk -F, '/^#/ { next } n++ && $7 != \"NA\" { print $7 }' '".data."' | wc -l") > 0
+entry(name) = sprintf("%s, %.0f %% of bound", name, 100 * real(share(name)))
 set offsets 0, 0, graph 0.08, 0
 plot for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("flops_per_cycle"))) \
        with linespoints lt line_of(word(kernels, k), k) dt 1 title entry(word(kernels, k)), \
-     for [k=1:bounded*words(kernels)] data using "steps":(of(word(kernels, k), column("bound_flops_per_cycle"))) \
+     for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("bound_flops_per_cycle"))) \
        with lines lc rgb colour_of(word(kernels, k), k) lw 2 dt (8,5) notitle, \
-     for [k=1:bounded] keyentry with lines lc rgb grey lw 2 dt (8,5) title "bound, each in its colour"
+     keyentry with lines lc rgb grey lw 2 dt (8,5) title "bounds of Zen 2"

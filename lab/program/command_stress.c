@@ -5,7 +5,6 @@
  * solved by single calls. The precise solver behind the calls, whose own error is about 1e-9 at
  * most, is what they are compared with. The reference of lab/stress decides where it and a call
  * differ by more than REFERENCE_FROM, and for 1 row in 1000 of each group. */
-#include "accuracy.h"
 #include "command.h"
 #include "draws.h"
 #include "memory.h"
@@ -13,7 +12,6 @@
 #include "number.h"
 #include "options.h"
 #include "output.h"
-#include "precisely.h"
 #include "precision.h"
 #include "reference.h"
 #include "subcommands.h"
@@ -45,18 +43,16 @@ typedef struct stress_job {
   int cushions, coincidences; /* or these impacts */
 } stress_job;
 
+/* Rows of one group that are counted, with an error above 1e-6, 1e-5, 2e-5, by status, without a
+ * reference, and those left to the precise solver. */
+enum { ROWS, OVER_1E6, OVER_1E5, OVER_2E5, UNRESOLVED, NOT_TAKEN, LEFT_OUT, SLOW, COUNTS };
+
 /* Rows of one group, solved in one way. Errors are those of rows with status ok that could be
  * compared. */
 typedef struct tally {
-  long rows, over_1e6, over_1e5, over_2e5;  /* compared; with an error larger than 1e-6, 1e-5,
-                                               2e-5 */
-  long unresolved, refused, left_out, slow; /* by status; without a reference; left to the
-                                               precise solver */
-  double largest, largest_of_play;
-  uint64_t worst; /* number of the draw that has the largest error, over the bound that it may
-                     have */
-  double worst_share;
-  long histogram[DECADES * PER_DECADE];
+  long count[COUNTS], histogram[DECADES * PER_DECADE];
+  double largest, largest_of_play, worst_share;
+  uint64_t worst; /* number of the draw whose error is the largest share of its bound */
 } tally;
 
 /* One run, or a thread's part of it. */
@@ -79,17 +75,15 @@ typedef union outcome {
 
 static void count(tally *t, double error, bool of_play, uint64_t k) {
   const double share = error / (of_play ? MOST_OF_PLAY : MOST);
-  t->rows++;
-  t->over_1e6 += error > 1e-6;
-  t->over_1e5 += error > 1e-5;
-  t->over_2e5 += error > 2e-5;
+  t->count[ROWS]++;
+  t->count[OVER_1E6] += error > 1e-6;
+  t->count[OVER_1E5] += error > 1e-5;
+  t->count[OVER_2E5] += error > 2e-5;
   t->largest = fmax(t->largest, error);
   if (of_play)
     t->largest_of_play = fmax(t->largest_of_play, error);
-  if (share > t->worst_share) {
-    t->worst_share = share;
-    t->worst = k;
-  }
+  if (share > t->worst_share)
+    t->worst_share = share, t->worst = k;
   const double place = PER_DECADE * log10(fmax(error, LEAST_ERROR) / LEAST_ERROR);
   const int last = DECADES * PER_DECADE - 1;
   t->histogram[place < last ? (int)place : last]++;
@@ -99,28 +93,20 @@ static void count(tally *t, double error, bool of_play, uint64_t k) {
 static double quantile(const tally *t, double share) {
   long below = 0;
   for (int k = 0; k < DECADES * PER_DECADE; k++)
-    if ((double)(below += t->histogram[k]) >= share * (double)t->rows)
+    if ((double)(below += t->histogram[k]) >= share * (double)t->count[ROWS])
       return fmin(LEAST_ERROR * pow(10, (k + 1.0) / PER_DECADE), t->largest);
   return t->largest;
 }
 
 static void add_tally(tally *to, const tally *from) {
-  to->rows += from->rows;
-  to->over_1e6 += from->over_1e6;
-  to->over_1e5 += from->over_1e5;
-  to->over_2e5 += from->over_2e5;
-  to->unresolved += from->unresolved;
-  to->refused += from->refused;
-  to->left_out += from->left_out;
-  to->slow += from->slow;
-  to->largest = fmax(to->largest, from->largest);
-  to->largest_of_play = fmax(to->largest_of_play, from->largest_of_play);
-  if (from->worst_share > to->worst_share) {
-    to->worst_share = from->worst_share;
-    to->worst = from->worst;
-  }
+  for (int k = 0; k < COUNTS; k++)
+    to->count[k] += from->count[k];
   for (int k = 0; k < DECADES * PER_DECADE; k++)
     to->histogram[k] += from->histogram[k];
+  to->largest = fmax(to->largest, from->largest);
+  to->largest_of_play = fmax(to->largest_of_play, from->largest_of_play);
+  if (from->worst_share > to->worst_share)
+    to->worst_share = from->worst_share, to->worst = from->worst;
 }
 
 static void add(stress *to, const stress *from) {
@@ -135,29 +121,23 @@ static void add(stress *to, const stress *from) {
 
 /* ---- One impact */
 
-/* The largest speed of two balls, of their centres or surfaces. */
-static double fastest(const double v_a[3], const double w_a[3], const double v_b[3],
-                      const double w_b[3], double radius) {
-  double most = 0;
-  for (int k = 0; k < 3; k++) {
-    most = fmax(most, fmax(fabs(v_a[k]), fabs(v_b[k])));
-    most = fmax(most, radius * fmax(fabs(w_a[k]), fabs(w_b[k])));
-  }
-  return most;
-}
-
+/* Largest difference, over the largest speed of centres and surfaces: that after the impact, or
+ * 1e-9 of that before, where balls come to rest but for rounding. */
 static double apart(const drawn *c, const outcome *a, const outcome *b) {
   if (c->cushion)
     return cushion_distance(&c->rail, &a->rail, &b->rail);
-  /* where the balls come to rest but for rounding, errors are those over 1e-9 of the speed
-   * before */
   const carom_impact *in = &c->balls;
-  const carom_motion *to_a = &b->balls.a, *to_b = &b->balls.b;
-  const double radius = in->a.radius,
-               least = 1e-9 * fastest(in->a.v, in->a.w, in->b.v, in->b.w, radius);
-  const double pair = accuracy_of(&a->balls, &b->balls, radius).pair,
-               after = fastest(to_a->v, to_a->w, to_b->v, to_b->w, radius);
-  return pair > 0 && after < least ? pair * (after / least) : pair;
+  const double *x = (const double *)&a->balls, *y = (const double *)&b->balls,
+               *before[] = {in->a.v, in->b.v};
+  double most = 0, scale = 0;
+  for (int k = 0; k < 12; k++) {
+    const double weight = k / 3 % 2 == 1 ? in->a.radius : 1;
+    if (isnan(x[k]))
+      return INFINITY;
+    most = fmax(most, weight * fabs(x[k] - y[k]));
+    scale = fmax(scale, weight * fmax(fabs(y[k]), 1e-9 * fabs(before[k / 6][k % 6])));
+  }
+  return most > 0 ? most / scale : 0;
 }
 
 static carom_status call(const drawn *c, outcome *out) {
@@ -173,8 +153,8 @@ static bool precisely(const drawn *c, outcome *out) {
 
 /* Whether a result is not there to be compared, which is counted. */
 static bool is_error(tally *t, carom_status status) {
-  t->unresolved += status == CAROM_ERROR_UNRESOLVED;
-  t->refused += status < 0 && status != CAROM_ERROR_UNRESOLVED;
+  t->count[UNRESOLVED] += status == CAROM_ERROR_UNRESOLVED;
+  t->count[NOT_TAKEN] += status < 0 && status != CAROM_ERROR_UNRESOLVED;
   return status != CAROM_OK;
 }
 
@@ -183,14 +163,14 @@ static void compare(stress *s, int group, uint64_t k, const drawn *c) {
   outcome own, precise, exact;
   const carom_status status = call(c, &own);
   if (!c->cushion && status != CAROM_SEPARATING)
-    t->slow += carom_kernels_of_call(0)->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip),
-                                                         &exact, NULL) <= 0;
+    t->count[SLOW] += carom_kernels_of_call(0)->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip),
+                                                                &exact, NULL) <= 0;
   if (is_error(t, status))
     return;
   const bool known = precisely(c, &precise);
   double error = known ? apart(c, &own, &precise) : INFINITY;
   if (error > REFERENCE_FROM || k % 1000 == 0) {
-    if (REFERENCE_OK == (c->cushion ? reference_cushion(&c->rail, &exact.rail, NULL)
+    if (REFERENCE_OK == (c->cushion ? reference_cushion(&c->rail, &exact.rail)
                                     : reference_collide(&c->balls, c->slip, &exact.balls, NULL))) {
       const double precise_error = known ? apart(c, &precise, &exact) : 0;
       error = apart(c, &own, &exact);
@@ -198,7 +178,7 @@ static void compare(stress *s, int group, uint64_t k, const drawn *c) {
       s->precise_wrong += precise_error > (c->cushion ? 1e-8 : 1e-9);
       s->precise_largest = fmax(s->precise_largest, precise_error);
     } else if (error > REFERENCE_FROM) {
-      t->left_out++;
+      t->count[LEFT_OUT]++;
       return;
     }
   }
@@ -216,14 +196,14 @@ static void compare_single(stress *s, int group, const drawn *c, const carom_imp
     return;
   to_double(in, &wide.balls, 26);
   to_double(out, &result.balls, 12);
-  t->slow +=
+  t->count[SLOW] +=
       carom_kernels_of_call(0)->call[CAROM_F32](in, carom_spin_sign(c->slip), &unused, NULL) == 0;
   if (is_error(t, status))
     return;
   if (precisely(&wide, &exact))
     count(t, apart(&wide, &result, &exact), is_of_play(&wide.balls), 0);
   else
-    t->left_out++;
+    t->count[LEFT_OUT]++;
 }
 
 /* ---- Blocks of impacts, in threads */
@@ -288,14 +268,15 @@ static size_t run_blocks(const void *of, size_t from, size_t end) {
 /* ---- Tables */
 
 static void print_row(FILE *out, const char *first, const char *second, const tally *t) {
+  const long *n = t->count;
   fprintf(out,
           "%-9s %-20s %9ld  %7.1e   %7.1e   %7.1e   %7.1e  %7.1e  %7.1e  %7ld  %7ld  %7ld  %6.2f "
           "%%  %10ld  %7ld  %8ld\n",
-          first, second, t->rows, quantile(t, 0.5), quantile(t, 0.99), quantile(t, 0.999),
-          quantile(t, 0.9999), t->largest, t->largest_of_play, t->over_1e6, t->over_1e5,
-          t->over_2e5,
-          100.0 * (double)t->slow / fmax(1, (double)(t->rows + t->unresolved + t->left_out)),
-          t->unresolved, t->refused, t->left_out);
+          first, second, n[ROWS], quantile(t, 0.5), quantile(t, 0.99), quantile(t, 0.999),
+          quantile(t, 0.9999), t->largest, t->largest_of_play, n[OVER_1E6], n[OVER_1E5],
+          n[OVER_2E5],
+          100.0 * (double)n[SLOW] / fmax(1, (double)(n[ROWS] + n[UNRESOLVED] + n[LEFT_OUT])),
+          n[UNRESOLVED], n[NOT_TAKEN], n[LEFT_OUT]);
 }
 
 /* The numbers of an impact, in the order of its struct. */
@@ -330,7 +311,7 @@ static void print_table(const stress *s, FILE *out) {
           "1e-9, on a cushion 1e-8");
   for (int group = 0; group < draw_groups(s->kind); group++) {
     const tally *const t = &s->tally[group][0];
-    if (t->rows > 0) {
+    if (t->count[ROWS] > 0) {
       const drawn c = draw(s->kind, group, s->seed, t->worst);
       fprintf(out,
               "%s, %s %llu, %.2g of its bound: ", c.cushion ? "cushion" : carom_slip_name(c.slip),
@@ -351,7 +332,8 @@ static bool holds(const stress *s) {
     good &= t[0].largest_of_play <= MOST_OF_PLAY && t[0].largest <= MOST;
     good &= t[1].largest_of_play <= MOST_SINGLE;
     good &= s->kind != DRAW_REALISTIC || quantile(t, 0.5) <= 3e-9;
-    good &= s->kind == DRAW_EXTREME || s->kind == DRAW_COINCIDENCES || 2 * t[0].slow <= t[0].rows;
+    good &= s->kind == DRAW_EXTREME || s->kind == DRAW_COINCIDENCES ||
+            2 * t[0].count[SLOW] <= t[0].count[ROWS];
   }
   return good;
 }

@@ -38,7 +38,6 @@ DATA = {
     "cycles": (11, f"carom-lab bench --kernel {FIVE} --config zen2 --steps {STEPS} --csv --spread"),
     "isas": (9, "carom-lab bench --batch --threads 1 --pairs 4080 --csv --spread"),
     "batch": (8, f"carom-lab bench --kernel exact --isa scalar,best --threads all --pairs {SIZES} --csv --spread"),
-    "bounds": (0, "lab.bound"),
 }
 # NAME.svg: its CSV and its title. Captions are in page.html.
 FIGURES = {
@@ -104,10 +103,9 @@ def shown(text):
 
 
 def run(command, options, *more, environment=None):
-    """Runs a program of the build, or a module of the lab."""
+    """Runs a program of the build."""
     program, *words = shlex.split(command)
-    start = [sys.executable, "-m", program, "--build", options.build] if program.startswith("lab.") else [options.build / program]
-    return subprocess.run([*start, *words, *more], cwd=ROOT, stdout=subprocess.DEVNULL, env=environment).returncode in (0, 1)
+    return subprocess.run([options.build / program, *words, *more], cwd=ROOT, stdout=subprocess.DEVNULL, env=environment).returncode in (0, 1)
 
 
 def measure(options, names):
@@ -150,18 +148,14 @@ def derive_speedup(options, data):
 
 def derive_performance(options, data):
     """Operations at N are those at N = 1000 and, for every step more or less, those of a step; the bound is a step's operations
-    over the cycles of its longest chain. Times and counts must be of the same code; a cycle is a core cycle as bench measures it."""
-    cycles, bounds, rows = data["cycles"], data["bounds"], []
-    config = bounds.rows[0]["config"] if bounds.rows else ""
-    if cycles.notes.get(config) != bounds.notes.get(config):
-        complain(f"{config} was timed as another build than its operations were counted in")
-        return Sheet(options.folder / "performance.csv")
+    over the cycles of its longest chain. A cycle is a core cycle as bench measures it."""
+    cycles, rows = data["cycles"], []
     cycle = number(cycles.notes.get("core cycle", "").split(" ")[0])
     for row in cycles.rows:
-        count = bounds.first(kernel=row["kernel"], config=row["config"])
+        count = data["bounds"].first(kernel=row["kernel"], config=row["config"])
         steps, a_step = number(row["steps"]), number(count.get("per_step_flops_amd"))
         flops, taken = number(count.get("flops_amd")) + (steps - 1000) * a_step, number(row["ns_median"]) / cycle
-        bound = 1000 * a_step / number(count.get("chain_cycles_native"))
+        bound = 1000 * a_step / number(count.get("chain_cycles_zen2"))
         named = {"flops": flops, "cycles": taken, "flops_per_cycle": flops / taken, "bound_flops_per_cycle": bound, "share_of_bound": flops / taken / bound}
         if flops == flops:
             rows.append({name: row[name] for name in ("kernel", "config", "steps")} | {name: f"{x:.5g}" for name, x in named.items()})
@@ -169,13 +163,13 @@ def derive_performance(options, data):
 
 
 def operations(data):
-    """The counts, beside the paper's and the share of the bound at N = 1000, in per cent."""
+    """The counts in the configuration that was timed, beside the paper's and the share of the bound at N = 1000, in per cent."""
     rows = []
     for row in data["bounds"].rows:
         flops, bound, taken = PAPER_BOUNDS.get(row["kernel"], (math.nan,) * 3)
-        share = number(data["performance"].first(kernel=row["kernel"], steps="1000").get("share_of_bound"))
-        rows.append({**row, "paper_flops": flops, "paper_bound": bound, "share": 100 * share, "paper_share": 100 * bound / taken})
-    return [row for row in rows if row["flops_amd"] != "NA"]
+        timed = data["performance"].first(kernel=row["kernel"], config=row["config"], steps="1000")
+        rows.append({**row, "paper_flops": flops, "paper_bound": bound, "share": 100 * number(timed.get("share_of_bound")), "paper_share": 100 * bound / taken})
+    return [row for row in rows if row["config"] in {timed["config"] for timed in data["performance"].rows}]
 
 
 def worst_of_builds(rows):
@@ -350,7 +344,7 @@ def main(words):
         derive_cushion(options, Sheet(options.folder / "accuracy.csv").notes)
         for name, command in DRAWN.items():
             run(command.format(shlex.quote(str(options.folder / f"{name}.svg"))), options, environment=PLAIN)
-    data = {name: Sheet(options.folder / f"{name}.csv") for name in DATA}
+    data = {name: Sheet(options.folder / f"{name}.csv") for name in DATA} | {"bounds": Sheet(HERE / "bounds.csv")}
     data["speedup"], data["performance"] = derive_speedup(options, data), derive_performance(options, data)
     for name in wanted:
         draw(name, options)

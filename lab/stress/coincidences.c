@@ -40,40 +40,80 @@ static double few(lab_random *r) {
   return list[below(r, COUNT(list))];
 }
 
-/* ---- Two balls: in the frame of ball_ball/frame.h ---- */
+/* ---- Of two balls, in the frame of ball_ball/frame.h, or of the first of them and a cushion: x
+ * along it, y into it; mu_b is then the friction of the nose, which lies `sine` R above the
+ * centre, and s = -1. ---- */
 
-static carom_local two_balls(lab_random *r, carom_slip slip) {
+static carom_local at_contact(lab_random *r, bool cushion, carom_slip slip) {
   carom_local c = {.R = 0.028575,
                    .M_i = 0.17,
                    .v_iy = below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.05, 8),
-                   .s = carom_spin_sign(slip)};
+                   .s = cushion ? -1 : carom_spin_sign(slip)};
   c.M_j = c.M_i * (below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.5, 2));
-  c.mu_b = below(r, 2) == 0 ? share(r) : U(0, 0.2);
+  c.mu_b = cushion ? friction(r) : below(r, 2) == 0 ? share(r) : U(0, 0.2);
   c.mu_i = friction(r);
   c.mu_j = below(r, 2) == 0 ? c.mu_i : friction(r);
   c.e = restitution(r);
   return c;
 }
 
-static void planar(carom_local *c, lab_random *r) {
+static void planar(carom_local *c, double *sine, lab_random *r) {
   static const double others[] = {0, 0, -1, 0.5};
   c->v_jy = c->v_iy * others[below(r, COUNT(others))];
-  const double rolling = -c->v_iy / c->R, spins[] = {0, rolling, -rolling, rolling * U(-3, 3)};
-  c->w_ix = spins[below(r, 4)];
-  c->w_jx = below(r, 2) == 0 ? spins[below(r, 4)] : below(r, 2) == 0 ? -c->w_ix : 0;
+  const double v = c->v_iy / c->R, spins[] = {0, -v, v, *sine * v, v * U(-3, 3)};
+  c->w_ix = spins[below(r, 5)];
+  c->w_jx = below(r, 2) == 0 ? spins[below(r, 5)] : below(r, 2) == 0 ? -c->w_ix : 0;
 }
 
-/* The slip on the cloth passes zero, or nearly. */
-static void planar_turn(carom_local *c, lab_random *r) {
-  c->w_ix = -U(0.3, 2) * c->v_iy / c->R;
+/* The slip on the cloth or at the nose passes zero, or nearly. */
+static void planar_turn(carom_local *c, double *sine, lab_random *r) {
+  (void)sine;
+  c->w_ix = (below(r, 4) == 0 ? U(-0.3, 0.3) : sign(r) * U(0.3, 2)) * c->v_iy / c->R;
   c->v_ix = tiny(r) * c->v_iy;
-  if (below(r, 2) == 0)
-    c->w_ix = -c->w_ix;
+  c->w_iy = below(r, 2) == 0 ? 0 : tiny(r) * c->v_iy / c->R;
 }
+
+static void roll(carom_local *c, double *sine, lab_random *r) {
+  (void)sine;
+  c->v_ix = few(r) * c->v_iy;
+  c->v_jx = few(r) * c->v_iy;
+  c->v_jy = below(r, 2) == 0 ? 0 : -fabs(few(r)) * c->v_iy;
+  c->w_ix = c->s * c->v_iy / c->R, c->w_iy = -c->s * c->v_ix / c->R;
+  c->w_jx = c->s * c->v_jy / c->R, c->w_jy = -c->s * c->v_jx / c->R;
+  c->w_iz = few(r) * c->v_iy / c->R;
+}
+
+static void equal(carom_local *c, double *sine, lab_random *r) {
+  const double mu = share(r), w = c->v_iy / c->R;
+  c->mu_b = c->mu_i = c->mu_j = mu;
+  if (below(r, 2) == 0)
+    c->e = mu;
+  if (below(r, 3) == 0)
+    *sine = mu < 1 ? mu : 0;
+  c->v_ix = few(r) * c->v_iy, c->v_jx = few(r) * c->v_iy, c->v_jy = -fabs(few(r)) * c->v_iy;
+  c->w_ix = few(r) * w, c->w_iy = few(r) * w, c->w_iz = few(r) * w;
+  c->w_jx = few(r) * w, c->w_jy = few(r) * w, c->w_jz = few(r) * w;
+}
+
+static void grazing(carom_local *c, double *sine, lab_random *r) {
+  const double v = lab_log_uniform(r, 0.05, 8);
+  (void)sine;
+  c->v_ix = sign(r) * v;
+  c->v_iy = v * lab_log_uniform(r, 1e-9, 1e-3);
+  if (below(r, 3) == 0)
+    c->w_ix = c->s * c->v_iy / c->R, c->w_iy = -c->s * c->v_ix / c->R;
+  else if (below(r, 2) == 0)
+    c->w_ix = U(-1, 1) * v / c->R, c->w_iy = U(-1, 1) * v / c->R, c->w_iz = U(-1, 1) * v / c->R;
+  if (below(r, 3) == 0)
+    c->w_iz = c->v_ix / c->R + tiny(r) * v / c->R;
+}
+
+/* ---- Of two balls alone ---- */
 
 /* The slip of the balls vanishes at the end of a phase, or nearly: all rates are constant. The
  * pressed ball is the second, which rests, or the first, whose slip on the cloth is large. */
-static void planar_stick(carom_local *c, lab_random *r) {
+static void planar_stick(carom_local *c, double *unused, lab_random *r) {
+  (void)unused;
   const bool second = below(r, 2) == 0;
   const double kappa = 1 + (second ? c->M_j / c->M_i : c->M_i / c->M_j), t = second ? -1 : 1;
   const double F = -t * (second ? c->mu_j : c->mu_i) * c->mu_b;
@@ -84,16 +124,8 @@ static void planar_stick(carom_local *c, lab_random *r) {
     c->v_ix = tiny(r) * c->v_iy;
 }
 
-static void roll(carom_local *c, lab_random *r) {
-  c->v_ix = few(r) * c->v_iy;
-  c->v_jx = few(r) * c->v_iy;
-  c->v_jy = below(r, 2) == 0 ? 0 : -fabs(few(r)) * c->v_iy;
-  c->w_ix = c->s * c->v_iy / c->R, c->w_iy = -c->s * c->v_ix / c->R;
-  c->w_jx = c->s * c->v_jy / c->R, c->w_jy = -c->s * c->v_jx / c->R;
-  c->w_iz = few(r) * c->v_iy / c->R;
-}
-
-static void rounding(carom_local *c, lab_random *r) {
+static void rounding(carom_local *c, double *unused, lab_random *r) {
+  (void)unused;
   const double v = c->v_iy;
   c->v_ix = few(r) * v;
   c->w_jz = below(r, 2) == 0 ? 0 : few(r) * v / c->R;
@@ -103,19 +135,10 @@ static void rounding(carom_local *c, lab_random *r) {
   c->w_jx = tiny(r) * v / c->R - (below(r, 2) == 0 ? c->w_ix : 0);
 }
 
-static void equal(carom_local *c, lab_random *r) {
-  const double mu = share(r), w = c->v_iy / c->R;
-  c->mu_b = c->mu_i = c->mu_j = mu;
-  if (below(r, 2) == 0)
-    c->e = mu;
-  c->v_ix = few(r) * c->v_iy, c->v_jx = few(r) * c->v_iy, c->v_jy = -fabs(few(r)) * c->v_iy;
-  c->w_ix = few(r) * w, c->w_iy = few(r) * w, c->w_iz = few(r) * w;
-  c->w_jx = few(r) * w, c->w_jy = few(r) * w, c->w_jz = few(r) * w;
-}
-
 /* Without slip along x and with the slip of pooltool nothing drives the slip on the cloth at
  * mu_b = 2/5. */
-static void no_drive(carom_local *c, lab_random *r) {
+static void no_drive(carom_local *c, double *unused, lab_random *r) {
+  (void)unused;
   const double v = c->v_iy;
   c->mu_b = 0.4 * (1 + tiny(r));
   c->v_ix = c->v_jx = (below(r, 2) == 0 ? 0 : tiny(r)) * v;
@@ -123,18 +146,6 @@ static void no_drive(carom_local *c, lab_random *r) {
   c->w_iy = tiny(r) * v / c->R;
   c->w_ix = (c->s * v + (below(r, 2) == 0 ? tiny(r) : U(-1, 1)) * v) / c->R;
   c->w_jx = below(r, 2) == 0 ? 0 : U(-2, 2) * v / c->R;
-}
-
-static void grazing(carom_local *c, lab_random *r) {
-  const double v = lab_log_uniform(r, 0.05, 8);
-  c->v_ix = sign(r) * v;
-  c->v_iy = v * lab_log_uniform(r, 1e-9, 1e-3);
-  if (below(r, 3) == 0)
-    c->w_ix = c->s * c->v_iy / c->R, c->w_iy = -c->s * c->v_ix / c->R;
-  else if (below(r, 2) == 0)
-    c->w_ix = U(-1, 1) * v / c->R, c->w_iy = U(-1, 1) * v / c->R, c->w_iz = U(-1, 1) * v / c->R;
-  if (below(r, 3) == 0)
-    c->w_iz = c->v_ix / c->R + tiny(r) * v / c->R;
 }
 
 /* Stick exactly at the end of a phase, or exact zeros: those regimes of regimes.c. */
@@ -148,127 +159,66 @@ static carom_impact corner(lab_random *r, carom_slip slip) {
   return regimes_draw(regime, carom_spin_sign(slip), r);
 }
 
-/* ---- A ball and a cushion: x along it, y into it ---- */
+/* ---- Of a ball and a cushion alone ---- */
 
-typedef struct local {
-  double v_x, v_y, w_x, w_y, w_z, R, sine, mu_c, mu_w, e;
-} local;
-
-static local at_rail(lab_random *r) {
-  static const double noses[] = {0.2, 0.25, 0.27, 0.4, 0.5, 0, -0.1};
-  return (local){.v_y = below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.05, 8),
-                 .R = 0.028575,
-                 .sine = below(r, 2) == 0 ? noses[below(r, COUNT(noses))] : U(0.2, 0.45),
-                 .mu_c = friction(r),
-                 .mu_w = friction(r),
-                 .e = restitution(r)};
-}
-
-static void planar_rail(local *c, lab_random *r) {
-  const double rolling = -c->v_y / c->R,
-               spins[] = {0, rolling, -rolling, c->sine * c->v_y / c->R, rolling * U(-3, 3)};
-  c->w_x = spins[below(r, COUNT(spins))];
-}
-
-/* The slip at the nose or on the cloth passes zero, or nearly. */
-static void planar_turn_rail(local *c, lab_random *r) {
-  c->w_x = U(-2, 2) * c->v_y / c->R;
-  c->v_x = tiny(r) * c->v_y;
-  c->w_y = below(r, 2) == 0 ? 0 : tiny(r) * c->v_y / c->R;
-}
-
-static void roll_rail(local *c, lab_random *r) {
-  c->v_x = few(r) * c->v_y;
-  c->w_x = -c->v_y / c->R, c->w_y = c->v_x / c->R;
-  c->w_z = few(r) * c->v_y / c->R;
-}
-
-static void rounding_rail(local *c, lab_random *r) {
-  const double v = c->v_y, cosine = sqrt(1 - c->sine * c->sine);
-  c->v_x = few(r) * v;
-  c->w_y = (c->v_x - tiny(r) * v) / c->R;
-  c->w_x = ((below(r, 2) == 0 ? -1 : c->sine) * v + tiny(r) * v) / c->R;
-  c->w_z = below(r, 2) == 0 ? few(r) * v / c->R
-                            : (c->v_x / c->R + c->w_y * c->sine + tiny(r) * v / c->R) / cosine;
-}
-
-static void equal_rail(local *c, lab_random *r) {
-  const double w = c->v_y / c->R;
-  c->mu_c = c->mu_w = share(r);
-  if (below(r, 2) == 0)
-    c->e = c->mu_c;
-  if (below(r, 3) == 0)
-    c->sine = c->mu_w < 1 ? c->mu_w : 0;
-  c->v_x = few(r) * c->v_y;
-  c->w_x = few(r) * w, c->w_y = few(r) * w, c->w_z = few(r) * w;
+static void rounding_rail(carom_local *c, double *sine, lab_random *r) {
+  const double v = c->v_iy, cosine = sqrt(1 - *sine * *sine);
+  c->v_ix = few(r) * v;
+  c->w_iy = (c->v_ix - tiny(r) * v) / c->R;
+  c->w_ix = ((below(r, 2) == 0 ? -1 : *sine) * v + tiny(r) * v) / c->R;
+  c->w_iz = below(r, 2) == 0 ? few(r) * v / c->R
+                             : (c->v_ix / c->R + c->w_iy * *sine + tiny(r) * v / c->R) / cosine;
 }
 
 /* The nose at the height of the centre, or nearly. */
-static void centre_rail(local *c, lab_random *r) {
-  equal_rail(c, r);
-  c->mu_c = friction(r), c->mu_w = friction(r);
-  c->sine = below(r, 2) == 0 ? 0 : tiny(r);
+static void centre(carom_local *c, double *sine, lab_random *r) {
+  equal(c, sine, r);
+  c->mu_i = friction(r), c->mu_b = friction(r);
+  *sine = below(r, 2) == 0 ? 0 : tiny(r);
   if (below(r, 2) == 0)
-    c->w_x = tiny(r) * c->v_y / c->R;
+    c->w_ix = tiny(r) * c->v_iy / c->R;
 }
 
 /* The friction of the nose is exactly what unloads the cloth, or holds the nose while the cloth
  * slips to either side or bears nothing, or what holds both; or that of the cloth is what holds
  * both. The formulas: impact/law.h and contact.c. */
-static void cone_rail(local *c, lab_random *r) {
-  if (below(r, 2) == 0)
-    planar_turn_rail(c, r);
-  else
-    equal_rail(c, r);
-  const double sine = c->sine, cosine = sqrt(1 - sine * sine), A = sine * cosine,
-               K = 2.5 + sine * sine, C = 2.5 - sine;
-  const double det = 3.5 * K - C * C, f = (-C * cosine - 3.5 * A) / det,
+static void cones(carom_local *c, double *sine, lab_random *r) {
+  (below(r, 2) == 0 ? planar_turn : equal)(c, sine, r);
+  const double s = *sine, cosine = sqrt(1 - s * s), A = s * cosine, K = 2.5 + s * s, C = 2.5 - s,
+               det = 3.5 * K - C * C, f = (-C * cosine - 3.5 * A) / det,
                F = (C * A + K * cosine) / det, t = sign(r);
-  const double w = c->mu_c * (sine + cosine * A / K) / (1 + c->mu_c * cosine * C / K * t);
-  const double edges[] = {sine / cosine, A / K, (C * w * t - A) / K, f, f};
+  const double w = c->mu_i * (s + cosine * A / K) / (1 + c->mu_i * cosine * C / K * t);
+  const double edges[] = {s / cosine, A / K, (C * w * t - A) / K, f, f};
   const int edge = below(r, COUNT(edges));
   if (edge == 4) /* the cloth's */
-    c->mu_c = fmin(1, fabs(F / (sine - cosine * f)) * (1 + tiny(r)));
+    c->mu_i = fmin(1, fabs(F / (s - cosine * f)) * (1 + tiny(r)));
   if (edge != 4 || below(r, 2) == 0)
-    c->mu_w = fmin(1, fabs(edges[edge]) * (1 + tiny(r)));
-}
-
-static void grazing_rail(local *c, lab_random *r) {
-  const double v = lab_log_uniform(r, 0.05, 8);
-  c->v_x = sign(r) * v;
-  c->v_y = v * lab_log_uniform(r, 1e-9, 1e-3);
-  if (below(r, 3) == 0)
-    c->w_x = -c->v_y / c->R, c->w_y = c->v_x / c->R;
-  else if (below(r, 2) == 0)
-    c->w_x = U(-1, 1) * v / c->R, c->w_y = U(-1, 1) * v / c->R, c->w_z = U(-1, 1) * v / c->R;
+    c->mu_b = fmin(1, fabs(edges[edge]) * (1 + tiny(r)));
 }
 
 /* ---- All kinds ---- */
 
-typedef void change_balls(carom_local *c, lab_random *r);
-typedef void change_rail(local *c, lab_random *r);
-
 static const struct {
   const char *name;
-  change_balls *balls;
-  change_rail *rail;
-} kinds[] = {{"planar", planar, NULL},
-             {"planar turn", planar_turn, NULL},
-             {"planar stick", planar_stick, NULL},
-             {"rolling", roll, NULL},
-             {"rounding", rounding, NULL},
-             {"equal", equal, NULL},
-             {"corners", NULL, NULL},
-             {"no drive", no_drive, NULL},
-             {"grazing", grazing, NULL},
-             {"planar, cushion", NULL, planar_rail},
-             {"planar turn, cushion", NULL, planar_turn_rail},
-             {"rolling, cushion", NULL, roll_rail},
-             {"rounding, cushion", NULL, rounding_rail},
-             {"equal, cushion", NULL, equal_rail},
-             {"centre, cushion", NULL, centre_rail},
-             {"cones, cushion", NULL, cone_rail},
-             {"grazing, cushion", NULL, grazing_rail}};
+  void (*change)(carom_local *c, double *sine, lab_random *r);
+  bool cushion;
+} kinds[] = {{"planar", planar, false},
+             {"planar turn", planar_turn, false},
+             {"planar stick", planar_stick, false},
+             {"rolling", roll, false},
+             {"rounding", rounding, false},
+             {"equal", equal, false},
+             {"corners", NULL, false},
+             {"no drive", no_drive, false},
+             {"grazing", grazing, false},
+             {"planar, cushion", planar, true},
+             {"planar turn, cushion", planar_turn, true},
+             {"rolling, cushion", roll, true},
+             {"rounding, cushion", rounding_rail, true},
+             {"equal, cushion", equal, true},
+             {"centre, cushion", centre, true},
+             {"cones, cushion", cones, true},
+             {"grazing, cushion", grazing, true}};
 
 int coincidence_kinds(void) {
   return (int)COUNT(kinds);
@@ -278,39 +228,45 @@ const char *coincidence_name(int kind) {
   return kinds[kind].name;
 }
 
+/* Impact `c` at a cushion that runs in any direction, or along x. */
+static carom_cushion_impact at_rail(const carom_local *c, double sine, lab_random *r) {
+  const double turn = below(r, 4) == 0 ? U(-3.2, 3.2) : 0, x = cos(turn), y = sin(turn);
+  return (carom_cushion_impact){
+      .v = {c->v_ix * x + c->v_iy * y, c->v_iy * x - c->v_ix * y, 0},
+      .w = {c->w_ix * x + c->w_iy * y, c->w_iy * x - c->w_ix * y, c->w_iz},
+      .normal = {y, x},
+      .height = c->R * (1 + sine),
+      .radius = c->R,
+      .mass = c->M_i,
+      .mu_cloth = c->mu_i,
+      .mu_cushion = c->mu_b,
+      .restitution = c->e};
+}
+
 drawn coincidence_draw(int kind, uint64_t seed, uint64_t k) {
+  static const double noses[] = {0.2, 0.25, 0.27, 0.4, 0.5, 0, -0.1};
   lab_random state = {(seed * 0x9E3779B97F4A7C15u) ^
                       (k * 0xD1B54A32D192ED03u + (uint64_t)kind * 0x2545f4914f6cdd1du)},
              *r = &state;
-  drawn d = {.cushion = kinds[kind].rail != NULL,
-             .slip = k % 2 == 0 ? CAROM_SLIP_PAPER : CAROM_SLIP_POOLTOOL};
+  drawn d = {.cushion = kinds[kind].cushion,
+             .slip = k % 2 == 0 && kinds[kind].change != no_drive ? CAROM_SLIP_PAPER
+                                                                  : CAROM_SLIP_POOLTOOL};
   U(0, 1);
-  if (d.cushion) {
-    local c = at_rail(r);
-    kinds[kind].rail(&c, r);
-    const double turn = below(r, 4) == 0 ? U(-3.2, 3.2) : 0, x = cos(turn), y = sin(turn);
-    d.rail = (carom_cushion_impact){.v = {c.v_x * x + c.v_y * y, c.v_y * x - c.v_x * y, 0},
-                                    .w = {c.w_x * x + c.w_y * y, c.w_y * x - c.w_x * y, c.w_z},
-                                    .normal = {y, x},
-                                    .height = c.R * (1 + c.sine),
-                                    .radius = c.R,
-                                    .mass = 0.17,
-                                    .mu_cloth = c.mu_c,
-                                    .mu_cushion = c.mu_w,
-                                    .restitution = c.e};
-    /* for cushions nose 1.2 to 1.45 R, mu to 0.4, e from 0.5 */
-    d.of_play = c.sine >= 0.2 && c.sine <= 0.45 && c.mu_c <= 0.4 && c.mu_w <= 0.4 && c.e >= 0.5;
+  if (kinds[kind].change == NULL) {
+    d.balls = corner(r, d.slip);
+    d.of_play = is_of_play(&d.balls);
     return d;
   }
-  if (kinds[kind].balls == no_drive)
-    d.slip = CAROM_SLIP_POOLTOOL;
-  if (kinds[kind].balls == NULL)
-    d.balls = corner(r, d.slip);
-  else {
-    carom_local c = two_balls(r, d.slip);
-    kinds[kind].balls(&c, r);
+  carom_local c = at_contact(r, d.cushion, d.slip);
+  double sine = !d.cushion ? 0 : below(r, 2) == 0 ? noses[below(r, COUNT(noses))] : U(0.2, 0.45);
+  kinds[kind].change(&c, &sine, r);
+  if (d.cushion) {
+    d.rail = at_rail(&c, sine, r);
+    /* for cushions nose 1.2 to 1.45 R, mu to 0.4, e from 0.5 */
+    d.of_play = sine >= 0.2 && sine <= 0.45 && c.mu_i <= 0.4 && c.mu_b <= 0.4 && c.e >= 0.5;
+  } else {
     d.balls = draw_turned(&c, below(r, 2) == 0 ? 0 : U(-3.2, 3.2));
+    d.of_play = is_of_play(&d.balls);
   }
-  d.of_play = is_of_play(&d.balls);
   return d;
 }

@@ -1,4 +1,5 @@
-#include "precisely.h"
+/* Whole impacts by the precise solver alone. */
+#include "reference.h"
 
 #include "ball_ball/reduced.h"
 #include "cushion/models.h"

@@ -275,7 +275,6 @@ typedef struct integration {
   tolerances t;
   bool loaded, restitution;
   real target; /* W at the end of restitution */
-  long steps;
 } integration;
 
 /* The matrix of Newton's method, factored with pivots. It need not be exact, so it is in double
@@ -458,14 +457,14 @@ static real locate(const integration *g, int which, const state *from, real h, s
 
 /* From contact to parting. */
 static bool integrate(const rule *r, const equations *q, const tolerances *t, impulses *all,
-                      real *W_c, long *steps) {
+                      real *W_c) {
   integration g = {.q = q, .r = r, .t = *t};
   state at = {.v = 1};
   memcpy(at.s, q->s, sizeof at.s);
   real h = -0.05L / q->v_p, f[SLIPS], by_s[SLIPS][SLIPS];
   g.loaded = frictions(q, at.s, t->eps, false, f, by_s) > 0 && q->mu_cloth > 0;
   const real small = 1e4L * t->eps;
-  for (g.steps = 0; g.steps < STEPS_MOST; g.steps++) {
+  for (int n = 0; n < STEPS_MOST; n++) {
     state next;
     const real error = try_step(&g, &at, h, &next);
     if (!(error <= 1)) {
@@ -492,7 +491,6 @@ static bool integrate(const rule *r, const equations *q, const tolerances *t, im
     else if (first == END_OF_PHASE && (g.restitution || q->e == 0)) {
       *all = at.so_far;
       *W_c = g.restitution ? *W_c : at.W;
-      *steps += g.steps;
       return true;
     } else if (first == END_OF_PHASE) {
       g.restitution = true;
@@ -504,13 +502,11 @@ static bool integrate(const rule *r, const equations *q, const tolerances *t, im
     if (first < 0 && h > 0.1L &&
         fabsl(at.v) + fabsl(at.s[0]) + fabsl(at.s[1]) + fabsl(at.s[2]) + fabsl(at.s[3]) < small) {
       *all = at.so_far;
-      *steps += g.steps;
       return true;
     }
     if (first < 0)
       h *= longer;
   }
-  *steps += g.steps;
   return false;
 }
 
@@ -536,11 +532,11 @@ static real apart(meeting a, const meeting *b) {
 /* Integrates the impact from *k, which it leaves as it is after it. W_c: in units of mass and
  * speed. */
 static bool pass(meeting *k, const rule *r, const equations *parameters, const tolerances *t,
-                 real *P, real *W_c, long *steps) {
+                 real *P, real *W_c) {
   equations q = *parameters;
   impulses all = {0};
   derive(k, &q);
-  if (!integrate(r, &q, t, &all, W_c, steps))
+  if (!integrate(r, &q, t, &all, W_c))
     return false;
   *P = all.p *= q.v;
   *W_c *= q.v * q.v;
@@ -560,12 +556,12 @@ static double nudged(double x, int n, int c) {
 typedef bool set_up(const void *in, int slip, int n, meeting *k, equations *q);
 
 static reference_status solve_checked(set_up *prepare, const void *in, int slip, meeting *out,
-                                      reference_story *story) {
+                                      double unit, double normal[2]) {
   enum { VARIANTS = 3 };
   const rule r = make_rule();
   meeting start;
   equations q = {0};
-  reference_story s = {.error = INFINITY};
+  double error = INFINITY, rounding = 0;
   real P = 0, W_c = 0;
   if (!prepare(in, slip, 0, &start, &q)) {
     *out = start;
@@ -573,30 +569,29 @@ static reference_status solve_checked(set_up *prepare, const void *in, int slip,
   }
   const real scale = fastest(&start);
   meeting rough = start, last;
-  bool solved = pass(&rough, &r, &q, &level_of[0], &P, &W_c, &s.steps);
+  bool solved = pass(&rough, &r, &q, &level_of[0], &P, &W_c);
   *out = rough;
-  for (int level = 1; level < LEVELS && solved && s.error > (double)AGREED; level++) {
+  for (int level = 1; level < LEVELS && solved && error > (double)AGREED; level++) {
     last = *out;
     *out = start;
-    solved = pass(out, &r, &q, &level_of[level], &P, &W_c, &s.steps);
-    s.error = (double)(apart(*out, &last) / scale);
+    solved = pass(out, &r, &q, &level_of[level], &P, &W_c);
+    error = (double)(apart(*out, &last) / scale);
   }
-  s.P = (double)P;
-  s.W_c = (double)W_c;
+  if (normal != NULL) {
+    normal[0] = unit * (double)P;
+    normal[1] = unit * (double)W_c;
+  }
   for (int n = 1; n < VARIANTS && solved; n++) {
     meeting other;
-    if (!prepare(in, slip, n, &other, &q) ||
-        !pass(&other, &r, &q, &level_of[0], &P, &W_c, &s.steps))
-      s.rounding = INFINITY;
+    if (!prepare(in, slip, n, &other, &q) || !pass(&other, &r, &q, &level_of[0], &P, &W_c))
+      rounding = INFINITY;
     else
-      s.rounding = fmax(s.rounding, (double)(apart(other, &rough) / scale));
+      rounding = fmax(rounding, (double)(apart(other, &rough) / scale));
   }
-  if (story != NULL)
-    *story = s;
-  return !solved || !(s.error < (double)TOO_FAR)
-             ? s.rounding > (double)TOO_SHAKY ? REFERENCE_ROUNDING : REFERENCE_FAILED
-         : s.rounding > (double)TOO_SHAKY ? REFERENCE_ROUNDING
-                                          : REFERENCE_OK;
+  return !solved || !(error < (double)TOO_FAR)
+             ? rounding > (double)TOO_SHAKY ? REFERENCE_ROUNDING : REFERENCE_FAILED
+         : rounding > (double)TOO_SHAKY ? REFERENCE_ROUNDING
+                                        : REFERENCE_OK;
 }
 
 /* A ball in the axes x = (y_y, -y_x), y. */
@@ -673,30 +668,22 @@ static bool set_up_cushion(const void *subject, int slip, int n, meeting *k, equ
 }
 
 reference_status reference_collide(const carom_impact *in, carom_slip slip, carom_result *out,
-                                   reference_story *story) {
+                                   double normal[2]) {
   pair_of_balls pair = {.in = in};
   const real R = in->a.radius, unit = 1 / (1 / (real)in->a.mass + 1 / (real)in->b.mass);
   meeting end;
   direction(in->b.r[0] - in->a.r[0], in->b.r[1] - in->a.r[1], pair.y);
-  const reference_status status = solve_checked(set_up_balls, &pair, (int)slip, &end, story);
+  const reference_status status =
+      solve_checked(set_up_balls, &pair, (int)slip, &end, (double)unit, normal);
   *out = (carom_result){as_seen(&end.ball[0], R, pair.y), as_seen(&end.ball[1], R, pair.y)};
-  if (story != NULL) {
-    story->P *= (double)unit;
-    story->W_c *= (double)unit;
-  }
   return status;
 }
 
-reference_status reference_cushion(const carom_cushion_impact *in, carom_motion *out,
-                                   reference_story *story) {
+reference_status reference_cushion(const carom_cushion_impact *in, carom_motion *out) {
   meeting end;
   real y[2];
   direction(in->normal[0], in->normal[1], y);
-  const reference_status status = solve_checked(set_up_cushion, in, 0, &end, story);
+  const reference_status status = solve_checked(set_up_cushion, in, 0, &end, in->mass, NULL);
   *out = as_seen(&end.ball[0], in->radius, y);
-  if (story != NULL) {
-    story->P *= in->mass;
-    story->W_c *= in->mass;
-  }
   return status;
 }

@@ -1,5 +1,5 @@
-/* A reference solution of one impact, for the study and for tests: slow, plain, and independent
- * of src/. See reference.c. */
+/* Reference solutions of one impact, for the study and for tests: slow, plain, and independent of
+ * src/ (reference.c); and those of the precise solver (precisely.c). */
 #ifndef CAROM_LAB_REFERENCE_H
 #define CAROM_LAB_REFERENCE_H
 
@@ -16,20 +16,18 @@ typedef enum reference_status {
   REFERENCE_FAILED,     /* the integration did not end, or its tolerances disagree */
 } reference_status;
 
-/* What is told besides the result. Errors are of velocities and R times spins, over the largest
- * of them before the impact. */
-typedef struct reference_story {
-  double P, W_c;   /* normal impulse; work of the normal force over compression */
-  double error;    /* difference of the solutions with the two tightest tolerances */
-  double rounding; /* largest difference that errors of one rounding in the slips and the
-                      approach make */
-  long steps;      /* of all integrations together */
-} reference_story;
-
-/* One impact that is known to be valid. story may be NULL. */
+/* One impact that is known to be valid. normal, unless it is NULL: the normal impulse, and the work
+ * of the normal force over compression. */
 reference_status reference_collide(const carom_impact *in, carom_slip slip, carom_result *out,
-                                   reference_story *story);
-reference_status reference_cushion(const carom_cushion_impact *in, carom_motion *out,
-                                   reference_story *story);
+                                   double normal[2]);
+reference_status reference_cushion(const carom_cushion_impact *in, carom_motion *out);
+
+/* The same impacts by the precise solver of src/impact alone, for comparison with calls. They
+ * approach. tolerance: see impact/impact.h, PRECISELY being that which calls leave collisions of two
+ * balls to. An error: that of the solver. */
+#define PRECISELY 1e-3
+carom_status collide_precisely(const carom_impact *in, carom_slip slip, double tolerance,
+                               carom_result *out);
+carom_status cushion_precisely(const carom_cushion_impact *in, double tolerance, carom_motion *out);
 
 #endif

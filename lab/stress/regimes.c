@@ -2,31 +2,21 @@
  * then turned by a random angle (in half of the draws by none, so that zeros stay exactly zero). */
 #include "draws.h"
 
+#include <string.h>
+
 /* clang-format off */
-#define REGIMES(X) \
-  X(real_shot) X(slow) X(fast) X(grazing) X(head_on) X(draw) X(follow) X(stun) X(sidespin) \
-  X(both_moving) X(both_rolling) X(pressed_rolling) X(stick_early) X(stick_compression) \
-  X(stick_restitution) X(stick_at_v0) X(stick_at_end) X(stick_marginal) X(turn) X(turn_exact) \
-  X(turn_stick) X(near_rest) X(friction_corners) X(friction_any) X(restitution_corners) \
-  X(u_z_zero) X(u_x_zero) X(u_zero) X(u_z_tiny) X(tiny_approach) X(unequal) X(very_unequal) \
-  X(wild)
+static const char *const names[] = {
+    "real_shot", "slow", "fast", "grazing", "head_on", "draw", "follow", "stun", "sidespin",
+    "both_moving", "both_rolling", "pressed_rolling", "stick_early", "stick_compression",
+    "stick_restitution", "stick_at_v0", "stick_at_end", "stick_marginal", "turn", "turn_exact",
+    "turn_stick", "near_rest", "friction_corners", "friction_any", "restitution_corners",
+    "u_z_zero", "u_x_zero", "u_zero", "u_z_tiny", "tiny_approach", "unequal", "very_unequal",
+    "wild",
+};
 /* clang-format on */
 
-typedef enum {
-#define X(name) R_##name,
-  REGIMES(X)
-#undef X
-      R_COUNT
-} regime_id;
-
-static const char *const names[] = {
-#define X(name) #name,
-    REGIMES(X)
-#undef X
-};
-
 int regimes_count(void) {
-  return R_COUNT;
+  return (int)(sizeof names / sizeof names[0]);
 }
 const char *regimes_name(int regime) {
   return names[regime];
@@ -100,190 +90,175 @@ static void set_cloth_slip(carom_local *c, double d_x, double d_y) {
   }
 }
 
+static void set_slip_at(carom_local *c, double angle, double u) {
+  set_slip(c, u * cos(angle), u * sin(angle));
+}
+
+/* The second ball moves any way but with the first. */
+static void move_other(carom_local *c, lab_random *r, double v) {
+  move(c, 1, U(0, 1) * v, U(1.6, 4.6), U(-1.5, 1.2), U(-1, 1) * v);
+}
+
+static void any_friction(carom_local *c, lab_random *r) {
+  c->mu_b = U(0, 1);
+  c->mu_i = U(0, 1);
+  c->mu_j = U(0, 1);
+}
+
+static double end_or_any(lab_random *r) {
+  return one_in(r, 2) ? 1 : one_in(r, 2) ? 0 : U(0, 1);
+}
+
+/* What a draw begins with: the regime, the first ball's speed, direction, share of rolling and
+ * surface speed of side spin; impulses about at the end of compression and of the impact. */
+typedef struct first_shot {
+  const char *regime;
+  double v, cut, roll, side, p_c, p_f;
+} first_shot;
+
+#define IS(name) (strcmp(first->regime, #name) == 0)
+
+/* Regimes of how balls move, and of masses, friction and restitution. */
+static void draw_motion(carom_local *c, lab_random *r, const first_shot *first) {
+  const double v = first->v, cut = first->cut, roll = first->roll, side = first->side,
+               v_y = c->v_iy;
+  if (IS(slow))
+    move(c, 0, lab_log_uniform(r, 1e-4, 0.05), cut, roll, 0.01 * side);
+  else if (IS(fast))
+    move(c, 0, U(8, 30), cut, roll, U(-40, 40));
+  else if (IS(grazing))
+    move(c, 0, v, sign(r) * (1.5707963267948966 - lab_log_uniform(r, 1e-6, 0.15)), roll, side);
+  else if (IS(head_on))
+    move(c, 0, v, one_in(r, 2) ? 0 : U(-0.02, 0.02), roll, one_in(r, 2) ? 0 : U(-0.1, 0.1) * v);
+  else if (IS(draw))
+    move(c, 0, v, cut, U(-3, -0.2), side);
+  else if (IS(follow))
+    move(c, 0, v, cut, U(0.2, 1.5), side);
+  else if (IS(stun))
+    move(c, 0, v, cut, one_in(r, 2) ? 0 : U(-0.1, 0.1), side * U(0, 1));
+  else if (IS(sidespin))
+    move(c, 0, v, cut, roll, sign(r) * U(3, 60) * v);
+  else if (IS(both_moving))
+    move_other(c, r, v);
+  else if (IS(both_rolling)) {
+    move(c, 0, v, cut, 1, side);
+    move(c, 1, U(0, 1) * v, U(1.6, 4.6), 1, U(-1, 1) * v);
+  } else if (IS(pressed_rolling)) {
+    move(c, 0, v, cut, 1, side);
+    move(c, 1, U(0.05, 0.5) * v_y, U(-3, 3), -c->s, 0.3 * side);
+  } else if (IS(friction_corners)) {
+    c->mu_b = end_or_any(r), c->mu_i = end_or_any(r), c->mu_j = end_or_any(r);
+    if (one_in(r, 2))
+      move_other(c, r, v);
+  } else if (IS(friction_any)) {
+    any_friction(c, r);
+    if (one_in(r, 2))
+      move_other(c, r, v);
+  } else if (IS(restitution_corners))
+    c->e = one_in(r, 3)   ? 0
+           : one_in(r, 2) ? 1
+           : one_in(r, 2) ? lab_log_uniform(r, 1e-9, 0.1)
+                          : U(0, 1);
+  else if (IS(tiny_approach)) {
+    c->v_jx = c->v_ix * U(0.9, 1.1);
+    c->v_jy = c->v_iy * (1 - lab_log_uniform(r, 1e-12, 1e-2));
+    if (one_in(r, 2))
+      c->w_jx = -c->v_jy / c->R;
+  } else if (IS(unequal)) {
+    c->M_j = c->M_i * lab_log_uniform(r, 0.1, 10);
+    if (one_in(r, 2))
+      move_other(c, r, v);
+  } else if (IS(very_unequal)) {
+    c->M_j = c->M_i * lab_log_uniform(r, 1e-3, 1e3);
+    if (one_in(r, 2))
+      any_friction(c, r);
+  } else if (IS(wild)) {
+    any_friction(c, r);
+    c->mu_b *= U(0, 1);
+    c->e = U(0, 1);
+    c->M_j = c->M_i * lab_log_uniform(r, 0.3, 3);
+    move(c, 0, v, U(-1.5, 1.5), U(-3, 3), U(-3, 3) * v);
+    move(c, 1, U(0, 1) * v, U(1.6, 4.6), U(-3, 3), U(-3, 3) * v);
+  }
+}
+
+/* Regimes of slips: of the balls, which vanish at a moment of the impact or are zero, */
+static void draw_slip(carom_local *c, lab_random *r, const first_shot *first) {
+  const double v = first->v, p_c = first->p_c, p_f = first->p_f, angle = U(0, 6.3);
+  if (IS(stick_early))
+    set_slip(c, U(-1, 1) * c->mu_b * p_f * 0.5, U(-1, 1) * c->mu_b * p_f * 0.5);
+  else if (IS(stick_compression))
+    set_slip_at(c, angle, U(4, 7) * c->mu_b * p_c * U(0.3, 1));
+  else if (IS(stick_restitution))
+    set_slip_at(c, angle, U(5, 7) * c->mu_b * U(p_c, p_f));
+  else if (IS(stick_marginal))
+    set_slip_at(c, angle, U(5, 7) * c->mu_b * p_f * U(0.95, 1.05));
+  else if (IS(stick_at_v0) || IS(stick_at_end)) {
+    /* exact without cloth friction for pure x or z */
+    const double p = (IS(stick_at_v0) ? p_c : p_f) *
+                     (one_in(r, 3) ? 1 : 1 + sign(r) * lab_log_uniform(r, 1e-15, 1e-3));
+    const int z = one_in(r, 2);
+    if (z && one_in(r, 2))
+      c->mu_i = c->mu_j = 0;
+    const double aside = one_in(r, 3) ? 0 : 1e-3 * v * U(-1, 1) * c->mu_b,
+                 along = sign(r) * (z ? 5 : 7) * c->mu_b * p;
+    set_slip(c, z ? aside : along, z ? along : aside);
+  } else if (IS(u_z_zero)) {
+    set_slip(c, one_in(r, 2) ? U(-1, 1) * v : U(-1, 1) * 14 * c->mu_b * p_f, 0);
+    if (one_in(r, 2))
+      c->w_ix = c->w_jx = 0;
+  } else if (IS(u_x_zero)) {
+    c->v_ix = c->w_iz = c->w_iy = 0;
+    if (one_in(r, 2))
+      c->w_jx = -c->w_ix + U(-1, 1) * 10 * c->mu_b * p_f / c->R;
+  } else if (IS(u_zero)) {
+    c->v_ix = c->w_iz = 0;
+    c->w_jx = -c->w_ix;
+  } else if (IS(u_z_tiny))
+    set_slip(c, U(-1, 1) * v, sign(r) * v * lab_log_uniform(r, 1e-16, 1e-2));
+}
+
+/* and on the cloth, which passes zero or begins near it. */
+static void draw_turn(carom_local *c, lab_random *r, const first_shot *first) {
+  const double v = first->v, p_f = first->p_f, angle = U(0, 6.3);
+  if (IS(near_rest)) {
+    const double d = p_f * lab_log_uniform(r, 1e-12, 0.3);
+    set_cloth_slip(c, d * cos(angle), d * sin(angle));
+  }
+  if (!IS(turn) && !IS(turn_exact) && !IS(turn_stick))
+    return;
+  const double along = U(0.02, 1) * p_f,
+               aside = IS(turn_exact) ? 0 : sign(r) * p_f * lab_log_uniform(r, 1e-12, 1e-1);
+  if (IS(turn_stick))
+    set_slip_at(c, angle, U(4, 8) * c->mu_b * p_f * U(0.3, 1));
+  else {
+    if (one_in(r, 3))
+      c->mu_b = U(0.05, 0.3);
+    set_slip(c, one_in(r, 2) ? 0 : U(-1, 1) * v, sign(r) * U(0.05, 1.5) * v);
+  }
+  /* the slip runs along (-mu_b c, -1): start so as to pass by */
+  const double u_x = c->v_ix - c->v_jx - c->R * (c->w_iz + c->w_jz),
+               u_z = c->R * (c->w_ix + c->w_jx), u = hypot(u_x, u_z), t = u_z >= 0 ? 1 : -1;
+  const double side_drift = u > 0 ? c->mu_b * u_x / u : 0;
+  set_cloth_slip(c, t * (aside + side_drift * along), t * along);
+}
+
 carom_impact regimes_draw(int regime, double s, lab_random *r) {
-  carom_local c = {0};
-  c.R = one_in(r, 2) ? 0.028575 : 0.02619375;
+  carom_local c = {.R = one_in(r, 2) ? 0.028575 : 0.02619375, .s = s};
   c.M_i = c.M_j = U(0.1, 0.25);
   c.mu_b = U(0.01, 0.12);
   c.mu_i = U(0.1, 0.5);
   c.mu_j = one_in(r, 2) ? c.mu_i : U(0.1, 0.5);
   c.e = U(0.85, 0.98);
-  c.s = s;
-  const double v = lab_log_uniform(r, 0.05, 8);
-  const double cut = U(-1.4, 1.4), roll = U(-1.5, 1.2), side = U(-1.2, 1.2) * v;
-  move(&c, 0, v, cut, roll, side);
-  const double v_y = c.v_iy; /* approach speed so far */
-  const double p_c = 0.5 * v_y, p_f = p_c * (1 + c.e);
-  switch ((regime_id)regime) {
-  case R_real_shot:
-    break;
-  case R_slow:
-    move(&c, 0, lab_log_uniform(r, 1e-4, 0.05), cut, roll, 0.01 * side);
-    break;
-  case R_fast:
-    move(&c, 0, U(8, 30), cut, roll, U(-40, 40));
-    break;
-  case R_grazing:
-    move(&c, 0, v, sign(r) * (1.5707963267948966 - lab_log_uniform(r, 1e-6, 0.15)), roll, side);
-    break;
-  case R_head_on:
-    move(&c, 0, v, one_in(r, 2) ? 0 : U(-0.02, 0.02), roll, one_in(r, 2) ? 0 : U(-0.1, 0.1) * v);
-    break;
-  case R_draw:
-    move(&c, 0, v, cut, U(-3, -0.2), side);
-    break;
-  case R_follow:
-    move(&c, 0, v, cut, U(0.2, 1.5), side);
-    break;
-  case R_stun:
-    move(&c, 0, v, cut, one_in(r, 2) ? 0 : U(-0.1, 0.1), side * U(0, 1));
-    break;
-  case R_sidespin:
-    move(&c, 0, v, cut, roll, sign(r) * U(3, 60) * v);
-    break;
-  case R_both_moving:
-    move(&c, 1, U(0, 1) * v, U(1.6, 4.6), U(-1.5, 1.2), U(-1, 1) * v);
-    break;
-  case R_both_rolling:
-    move(&c, 0, v, cut, 1, side);
-    move(&c, 1, U(0, 1) * v, U(1.6, 4.6), 1, U(-1, 1) * v);
-    break;
-  case R_pressed_rolling:
-    move(&c, 0, v, cut, 1, side);
-    move(&c, 1, U(0.05, 0.5) * v_y, U(-3, 3), -s, 0.3 * side);
-    break;
-  case R_stick_early:
-    set_slip(&c, U(-1, 1) * c.mu_b * p_f * 0.5, U(-1, 1) * c.mu_b * p_f * 0.5);
-    break;
-  case R_stick_compression: {
-    const double a = U(0, 6.3), u = U(4, 7) * c.mu_b * p_c * U(0.3, 1);
-    set_slip(&c, u * cos(a), u * sin(a));
-    break;
-  }
-  case R_stick_restitution: {
-    const double a = U(0, 6.3), u = U(5, 7) * c.mu_b * U(p_c, p_f);
-    set_slip(&c, u * cos(a), u * sin(a));
-    break;
-  }
-  case R_stick_at_v0:
-  case R_stick_at_end: { /* exact without cloth friction for pure x or z */
-    const double p = (regime == R_stick_at_v0 ? p_c : p_f) *
-                     (one_in(r, 3) ? 1 : 1 + sign(r) * lab_log_uniform(r, 1e-15, 1e-3));
-    const int z = one_in(r, 2);
-    if (z && one_in(r, 2))
-      c.mu_i = c.mu_j = 0;
-    set_slip(&c, z ? 0 : sign(r) * 7 * c.mu_b * p, z ? sign(r) * 5 * c.mu_b * p : 0);
-    if (!one_in(r, 3))
-      set_slip(&c, z ? 1e-3 * v * U(-1, 1) * c.mu_b : sign(r) * 7 * c.mu_b * p,
-               z ? sign(r) * 5 * c.mu_b * p : 1e-3 * c.mu_b * v * U(-1, 1));
-    break;
-  }
-  case R_stick_marginal: {
-    const double a = U(0, 6.3), u = U(5, 7) * c.mu_b * p_f * U(0.95, 1.05);
-    set_slip(&c, u * cos(a), u * sin(a));
-    break;
-  }
-  case R_turn:
-  case R_turn_exact:
-  case R_turn_stick: {
-    const double along = U(0.02, 1) * p_f,
-                 aside =
-                     regime == R_turn_exact ? 0 : sign(r) * p_f * lab_log_uniform(r, 1e-12, 1e-1),
-                 on_i = sign(r);
-    if (regime == R_turn_stick) {
-      const double a = U(0, 6.3), u = U(4, 8) * c.mu_b * p_f * U(0.3, 1);
-      set_slip(&c, u * cos(a), u * sin(a));
-    } else {
-      if (one_in(r, 3))
-        c.mu_b = U(0.05, 0.3);
-      set_slip(&c, one_in(r, 2) ? 0 : U(-1, 1) * v, on_i * U(0.05, 1.5) * v);
-    }
-    const double u_x = c.v_ix - c.v_jx - c.R * (c.w_iz + c.w_jz), u_z = c.R * (c.w_ix + c.w_jx),
-                 u = hypot(u_x, u_z);
-    /* the slip runs along (-mu_b c, -1): start so as to pass by */
-    const double side_drift = u > 0 ? c.mu_b * u_x / u : 0;
-    if (u_z >= 0)
-      set_cloth_slip(&c, aside + side_drift * along, along);
-    else
-      set_cloth_slip(&c, -aside - side_drift * along, -along);
-    break;
-  }
-  case R_near_rest: {
-    const double a = U(0, 6.3), d = p_f * lab_log_uniform(r, 1e-12, 0.3);
-    set_cloth_slip(&c, d * cos(a), d * sin(a));
-    break;
-  }
-  case R_friction_corners:
-    c.mu_b = one_in(r, 2) ? 1 : one_in(r, 2) ? 0 : U(0, 1);
-    c.mu_i = one_in(r, 2) ? 1 : one_in(r, 2) ? 0 : U(0, 1);
-    c.mu_j = one_in(r, 2) ? 1 : one_in(r, 2) ? 0 : U(0, 1);
-    if (one_in(r, 2))
-      move(&c, 1, U(0, 1) * v, U(1.6, 4.6), U(-1.5, 1.2), U(-1, 1) * v);
-    break;
-  case R_friction_any:
-    c.mu_b = U(0, 1);
-    c.mu_i = U(0, 1);
-    c.mu_j = U(0, 1);
-    if (one_in(r, 2))
-      move(&c, 1, U(0, 1) * v, U(1.6, 4.6), U(-1.5, 1.2), U(-1, 1) * v);
-    break;
-  case R_restitution_corners:
-    c.e = one_in(r, 3)   ? 0
-          : one_in(r, 2) ? 1
-          : one_in(r, 2) ? lab_log_uniform(r, 1e-9, 0.1)
-                         : U(0, 1);
-    break;
-  case R_u_z_zero:
-    set_slip(&c, one_in(r, 2) ? U(-1, 1) * v : U(-1, 1) * 14 * c.mu_b * p_f, 0);
-    if (one_in(r, 2))
-      c.w_ix = c.w_jx = 0;
-    break;
-  case R_u_x_zero:
-    c.v_ix = c.w_iz = c.w_iy = 0;
-    if (one_in(r, 2))
-      c.w_jx = -c.w_ix + U(-1, 1) * 10 * c.mu_b * p_f / c.R;
-    break;
-  case R_u_zero:
-    c.v_ix = c.w_iz = 0;
-    c.w_jx = -c.w_ix;
-    break;
-  case R_u_z_tiny:
-    set_slip(&c, U(-1, 1) * v, sign(r) * v * lab_log_uniform(r, 1e-16, 1e-2));
-    break;
-  case R_tiny_approach: {
-    c.v_jx = c.v_ix * U(0.9, 1.1);
-    c.v_jy = c.v_iy * (1 - lab_log_uniform(r, 1e-12, 1e-2));
-    if (one_in(r, 2))
-      c.w_jx = -c.v_jy / c.R;
-    break;
-  }
-  case R_unequal:
-    c.M_j = c.M_i * lab_log_uniform(r, 0.1, 10);
-    if (one_in(r, 2))
-      move(&c, 1, U(0, 1) * v, U(1.6, 4.6), U(-1.5, 1.2), U(-1, 1) * v);
-    break;
-  case R_very_unequal:
-    c.M_j = c.M_i * lab_log_uniform(r, 1e-3, 1e3);
-    if (one_in(r, 2)) {
-      c.mu_b = U(0, 1);
-      c.mu_i = U(0, 1);
-      c.mu_j = U(0, 1);
-    }
-    break;
-  case R_wild:
-  default:
-    c.mu_b = U(0, 1) * U(0, 1);
-    c.mu_i = U(0, 1);
-    c.mu_j = U(0, 1);
-    c.e = U(0, 1);
-    c.M_j = c.M_i * lab_log_uniform(r, 0.3, 3);
-    move(&c, 0, v, U(-1.5, 1.5), U(-3, 3), U(-3, 3) * v);
-    move(&c, 1, U(0, 1) * v, U(1.6, 4.6), U(-3, 3), U(-3, 3) * v);
-    break;
-  }
-  if (!(c.v_jy < c.v_iy)) {
+  first_shot begun = {.regime = names[regime], .v = lab_log_uniform(r, 0.05, 8)};
+  begun.cut = U(-1.4, 1.4), begun.roll = U(-1.5, 1.2), begun.side = U(-1.2, 1.2) * begun.v;
+  move(&c, 0, begun.v, begun.cut, begun.roll, begun.side);
+  begun.p_c = 0.5 * c.v_iy, begun.p_f = begun.p_c * (1 + c.e);
+  draw_motion(&c, r, &begun);
+  draw_slip(&c, r, &begun);
+  draw_turn(&c, r, &begun);
+  if (!(c.v_jy < c.v_iy))
     c.v_jy = c.v_iy - U(0.01, 1) * (fabs(c.v_iy) + 0.01);
-  }
   if (one_in(r, 2)) /* let the first ball be the one that is struck */
     c = draw_exchanged(&c);
   return draw_turned(&c, one_in(r, 2) ? 0 : U(-3.2, 3.2));

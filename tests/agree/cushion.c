@@ -2,7 +2,6 @@
  * recorded impacts, Euler's steps, and the perpendicular rebounds that the 2010 paper fitted. */
 #include "draws.h"
 #include "kept.h"
-#include "precisely.h"
 #include "support.h"
 
 #include <math.h>

@@ -11,7 +11,6 @@
 #include "cases.h"
 #include "draws.h"
 #include "kept.h"
-#include "precisely.h"
 #include "support.h"
 
 #include "ball_ball/frame.h"
