@@ -167,7 +167,7 @@ def test_the_lock_of_the_interpreter_is_released(impacts):
 def test_statuses_and_labels_are_those_of_c():
     from carom._carom import ffi
 
-    header = (Path(__file__).parents[2] / "include" / "carom.h").read_text(encoding="utf-8")
+    header = (Path(__file__).parents[3] / "include" / "carom.h").read_text(encoding="utf-8")
     enumerators = header[header.index("enum carom_status") :].partition("}")[0]
     names = {int(value): name for name, value in re.findall(r"^  CAROM_(\w+) = (-?\d+),?", enumerators, re.M)}
     assert {status.value: status.name for status in carom.Status} == names and len(names) > 50

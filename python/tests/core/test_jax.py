@@ -233,7 +233,7 @@ def test_without_64_bits_the_error_says_what_to_do():
 
 def test_what_a_gradient_costs():
     """The example finds the gradients of tangents, and prints its rows."""
-    script = Path(__file__).parents[1] / "examples" / "gradient_speed.py"
+    script = Path(__file__).parents[2] / "examples" / "gradient_speed.py"
     ran = subprocess.run([sys.executable, str(script), "1"], capture_output=True, text=True)
     assert ran.returncode == 0, ran.stderr
     times = [[float(word) for word in line[20:].split()] for line in ran.stdout.splitlines()[1:]]

@@ -7,27 +7,20 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from conftest import refused_by_name
 
 import carom
-from carom import tracks
 from carom._carom import ffi, lib
-from carom._rows import numbered
-from carom.potting import Potting
 from carom.record import Recorder
 
 TABLE = carom.tables.pool_9ft()
-RACK, CUE, RULES = carom.racks.nineball(TABLE), carom.cue(), Potting()
+RACK, CUE = carom.racks.nineball(TABLE), carom.cue()
 GOOD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0))
 WALL = carom.cushion_impacts(v=(0.0, 1.0, 0.0))
 ROWS = np.tile(carom.dtypes.plain(GOOD), (4, 1))
 POCKETED = RACK.copy()
 POCKETED["state"]["label"][3] = carom.Label.POCKETED
 MASKED = np.ma.masked_array(ROWS, mask=np.zeros_like(ROWS, bool))
-
-
-def test_names_of_events_and_labels_are_those_of_c():
-    for members, enum in ((carom.Label, "carom_label"), (carom.EventType, "carom_event_type")):
-        assert {member.name.lower(): member.value for member in members} == numbered(enum)
 
 
 def shot(**cue):
@@ -102,7 +95,6 @@ VALUES = [
     (r"r: the shape must be", lambda: carom.balls([1.0, 2.0])),
     (r"leading dimensions .* but are speed \(2,\), phi \(3,\)", lambda: carom.cue(speed=[1, 2], phi=[1, 2, 3])),
     (r"leading dimensions .* but are radius \(3,\), r \(2,\)", lambda: carom.balls([[0.5, 0.5]] * 2, radius=[0.03] * 3)),
-    (r"phi, speed, a, b: finite numbers", lambda: RULES.actions(np.inf, 1.0)),
     # shots
     (r"balls: the shape must be \(balls,\)", lambda: carom.simulate(TABLE, np.stack([RACK] * 2))),
     (r"layouts: the shape", lambda: carom.simulate_batch(TABLE, RACK[0])),
@@ -219,11 +211,6 @@ CALLS = [
     (carom.cite, {}, "options world"),
     (carom.tangents, {"shot": SHOT, "wrt": ["cue.phi"]}, "shot wrt times threads"),
     (carom.jacobian, {"table": TABLE, "layouts": PAIR, "cues": CUE, "wrt": ["cue.phi"]}, "table layouts wrt of times room threads options"),
-    (carom.plan, {"table": TABLE, "balls": PAIR, "rules": "potting", "shots": 100},
-     "table balls rules group state player opponent shots in_hand best seed threads stop options"),
-    (carom.aim, {"table": TABLE, "balls": PAIR, "cue": CUE, "ball": 1, "pocket": 0}, "table balls cue ball pocket options"),
-    (carom.player, {}, "errors fargo"),
-    (carom.with_errors, {"cue": CUE, "player": carom.player(), "seed": 1}, "cue player seed number"),
     (carom.place_ball, {"table": TABLE, "balls": PAIR, "ball": 0, "x": 0.5, "y": 0.5}, "table balls ball x y"),
     (carom.by_number, {"balls": PAIR, "ids": ["cue", 1], "rules": "nineball"}, "balls ids rules cue"),
     (carom.struck, {"cue": CUE, "kind": PAIR[0]["kind"]}, "cue kind"),
@@ -241,30 +228,13 @@ CALLS = [
     (SHOT.animate, {}, "speed"),
     (BATCH.positions, {"times": 0.1}, "times threads"),
     *([(BATCH.to_dataframe, {}, "dims")] if importlib.util.find_spec("pandas") else []),
-    (Potting, {}, "balls strokes table ball_set noise parameters reward speeds cushion_model threads"),
     (Recorder, {"table": TABLE, "balls": PAIR}, "table balls options world"),
-    (tracks.synthetic, {"shots": 1}, "shots table radius cushion_model constants speeds noise rate thin seed"),
 ]  # fmt: skip
-WRONG = [
-    "1", "x", b"1", {}, {"world": "pooltool"}, [], [None, 1.0], [[1, 2], [3]], (1, 2, 3), np.array(["a"]), np.zeros((0, 3)), object(), 1j,
-    np.nan, np.inf, -1, None, True, np.datetime64(0, "s"), len,
-]  # fmt: skip
-TEXT = "game world ball_model cushion_model friction space simultaneous stop_at records rules group ball_set solver slip model convention law"
 
 
 @pytest.mark.parametrize(("call", "good", "names"), CALLS, ids=[case[0].__qualname__ for case in CALLS])
 def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(call, good, names):
-    for name in names.split():
-        for wrong in WRONG:
-            try:
-                call(**{**good, name: wrong})
-            except carom.CaromError as error:
-                assert error.field, (name, wrong)  # whose numbers C refused
-            except (TypeError, ValueError) as error:
-                assert re.search(rf"\b{name}\b", str(error)), (name, wrong, error)
-            else:
-                # of text and bytes none is read as a number
-                assert not isinstance(wrong, (str, bytes)) or (name in TEXT.split() and wrong == "x"), (name, wrong)
+    refused_by_name(call, good, names)
 
 
 def test_what_looks_like_a_number_and_is_none():
@@ -272,7 +242,6 @@ def test_what_looks_like_a_number_and_is_none():
         (lambda: carom.cue(phi="90"), "phi: real numbers are needed, not '90'"),
         (lambda: carom.cue(speed=[None, 1.0]), "speed: real numbers are needed, not [None, 1.0]"),
         (lambda: carom.simulate(TABLE, PAIR, CUE, t_final="1"), "t_final: a time in s is needed, or None, not '1'"),
-        (lambda: Potting(noise=True), "noise: three standard deviations are needed, of degrees, m/s and radii, not True"),
         (lambda: carom.simulate(TABLE, PAIR, CUE, options={}), "options: a carom.Options is needed, such as"),
     ):
         with pytest.raises(TypeError, match="^" + re.escape(said)):
@@ -287,7 +256,7 @@ def test_features_that_were_not_asked_for_are_told():
 def test_completion_has_no_internals():
     """What dir() lists, which completion shows, is told in the docs or in the text of its class."""
     private = {"look_at", "jobs", "facts", "batch", "index", "directions", "seeds_of", "play", "check_table", "of_record", "Made", "judge", "colour"}
-    for shown in (BATCH, BATCH[0], carom.derivatives, carom.layouts, carom.rules, carom.pictures, carom.shots):
+    for shown in (BATCH, BATCH[0], carom.derivatives, carom.layouts, carom.pictures, carom.shots):
         assert not private & set(dir(shown)), shown
 
 

@@ -10,7 +10,7 @@ import pytest
 
 import carom
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "on_a_cluster.py"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "on_a_cluster.py"
 
 
 def test_dask_and_xarray(impacts):

@@ -8,30 +8,11 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
-from conftest import DATA
 
 import carom
 
 TABLE = carom.tables.pool_9ft()
 RACK = carom.racks.nineball(TABLE)
-
-
-def test_the_command_gives_the_same_bits():
-    """carom shoot, on the recorded break, where the build is known."""
-    command = os.path.join(os.environ.get("CAROM_BUILD", ""), "carom")
-    if not os.access(command, os.X_OK) or os.path.isdir(command):
-        pytest.skip("CAROM_BUILD names no build with the command carom")
-    given = [json.loads(text) for text in open(DATA / "break-nineball.jsonl", encoding="utf-8")]
-    out = subprocess.run(
-        [command, "shoot", "--events", "brief", str(DATA / "break-nineball.jsonl")], capture_output=True, text=True, check=True
-    )
-    theirs = json.loads(out.stdout.splitlines()[-1])
-    line = given[-1]
-    balls = carom.balls([ball["state"][1:4] for ball in line["balls"]])
-    cue = carom.cue(speed=line["cue"]["V0"], phi=line["cue"]["phi"], b=line["cue"]["b"], tip_restitution=1.0)
-    shot = carom.simulate(carom.tables.pool_9ft(), balls, cue)
-    # The command begins and ends with an event of the type none, as pooltool does.
-    assert [event[0] for event in theirs["events"] if event[1] != "none"] == shot.events["time"].tolist()
 
 
 @pytest.mark.parametrize(

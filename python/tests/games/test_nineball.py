@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.pool import Hand, Pool
+from carom.games.pool import Hand, Pool
 
 RULES = Pool(cushion_model="han")
 POCKET = RULES.table.pockets["centre"][np.argmin(RULES.table.pockets["centre"].sum(axis=1))]
@@ -84,7 +84,7 @@ def test_a_ball_that_leaves_the_table_is_a_foul_and_stays_down(monkeypatch):
         shots.final["label"][0, 3], shots._facts["off"][0] = carom.Label.OFF, 1 << 3
         return shots
 
-    monkeypatch.setattr("carom.rules.simulate_batch", off)
+    monkeypatch.setattr("carom.games.rules.simulate_batch", off)
     before = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)})
     after, turn = RULES.play(before, action(AT_POCKET))
     assert turn.foul == "a ball left the table" and (after.player, after.hand) == (1, Hand.ANYWHERE)
@@ -182,7 +182,7 @@ def test_what_strokes_are_worth():
 @pytest.fixture
 def environment():
     pytest.importorskip("pettingzoo", reason="PettingZoo is not installed")
-    from carom.pettingzoo import PoolEnv
+    from carom.games.pettingzoo import PoolEnv
 
     return PoolEnv
 
@@ -220,7 +220,7 @@ def test_a_game_of_the_environment(environment):
 def test_the_planner_is_an_opponent():
     """It wins against strokes at random, also in hand and at the break, and its actions are those of the space."""
     pytest.importorskip("pettingzoo", reason="PettingZoo is not installed")
-    from carom.pettingzoo import PoolEnv
+    from carom.games.pettingzoo import PoolEnv
 
     game = PoolEnv(strokes=60, noise=(0.1, 0.1, 0.003))
     won = 0

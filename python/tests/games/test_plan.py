@@ -8,8 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import refused_by_name
 
 import carom
+from carom.games.potting import Potting
 
 TABLE = carom.tables.pool_9ft()
 LAYOUT = carom.balls([[0.4, 0.9], [0.3, 1.9], [0.9, 1.7], [0.7, 0.5]])
@@ -385,7 +387,7 @@ def test_what_rules_cannot_say(method, gives, match):
 
 
 def test_the_bot_for_ten_ball(capsys):
-    runpy.run_path(str(Path(__file__).parents[1] / "examples" / "ten_ball.py"))
+    runpy.run_path(str(Path(__file__).parents[2] / "examples" / "ten_ball.py"))
     told = capsys.readouterr().out.splitlines()
     assert len(told) > 5 and told[-1] == f"after {len(told)} strokes: player 0 has won"  # the one with a rating of 750
 
@@ -480,3 +482,61 @@ def test_straight_pool_and_snooker():
     assert again.turn == "pass" and again.foul == carom.Foul.NONE and again.score == (0, 4) and again.state[4] == 0
     with pytest.raises(ValueError, match="balls: snooker has the cue ball and 1 to 21"):
         carom.referee(table, layout[:5], cue, rules="snooker")
+
+
+def test_an_aim_that_follows_keeps_the_place_across_the_path():
+    """Of what is moved by h, the place where the ball falls stays within h^2; without following it moves by h."""
+    random, wrt, pots = np.random.default_rng(7), ["cue.speed", "cue.b", "balls[1].r[0]", "balls[0].r[1]"], 0
+    closed = {"cushion_model": "han", "ball_model": "inelastic"}
+    while pots < 8:
+        layout = carom.balls(random.uniform([0.2, 0.4], [1.07, 2.1], (2, 2)))
+        try:
+            wanted = carom.cue(speed=random.uniform(1.5, 3.0), b=random.uniform(-0.2, 0.3))
+            cue = carom.aim(TABLE, layout, wanted, ball=1, pocket=int(random.integers(6)), **closed).cue
+            shot = carom.simulate(TABLE, layout, cue, **closed)
+            slope = carom.aim_slope(shot, 1, wrt)
+        except ValueError:
+            continue
+        if not (np.abs(carom.tangents(shot, wrt).reach) > 1e-4).all():
+            continue
+        pots += 1
+        fell = shot.events[shot.events["type"] == carom.EventType.POCKET][0]["before"][0]
+        across = np.array([-fell["v"][1], fell["v"][0]]) / np.hypot(*fell["v"][:2])
+
+        def moved(j, h, follow):
+            balls, stroke = layout.copy(), cue.copy()
+            stroke["phi"] += follow * h
+            if j < 2:
+                stroke[("speed", "b")[j]] += h
+            else:
+                balls["state"]["r"][1 - (j - 2), j - 2] += h
+            other = carom.simulate(TABLE, balls, stroke, **closed)
+            return across @ (other.events[other.events["type"] == carom.EventType.POCKET][0]["before"][0]["r"] - fell["r"])[:2]
+
+        for j in range(4):
+            # central differences of the place, whose error is of the order of h^2
+            h = 1e-5
+            still, off = ((moved(j, h, follow) - moved(j, -h, follow)) / (2 * h) for follow in (slope[j], slope[j] + 1.0))
+            assert abs(still) < 1e-4 * abs(off) + 1e-7 and abs(off) > 1e-4, (j, still, off)
+    with pytest.raises(ValueError, match="ball 0 does not fall"):
+        carom.aim_slope(shot, 0, wrt)
+    with pytest.raises(ValueError, match=r"by: balls\[0\].v\[2\] does not turn the path of ball 1"):
+        carom.aim_slope(shot, 1, wrt, by="balls[0].v[2]")
+    with pytest.raises(TypeError, match="^shot: "):
+        carom.aim_slope(TABLE, 1, wrt)
+
+
+CALLS = [
+    (carom.plan, {"table": TABLE, "balls": LAYOUT, "rules": "potting", "shots": 100},
+     "table balls rules group state player opponent shots in_hand best seed threads stop options"),
+    (carom.aim, {"table": TABLE, "balls": LAYOUT, "cue": carom.cue(), "ball": 1, "pocket": 0},
+     "table balls cue ball pocket options"),
+    (carom.player, {}, "errors fargo"),
+    (carom.with_errors, {"cue": carom.cue(), "player": carom.player(), "seed": 1}, "cue player seed number"),
+    (Potting, {}, "balls strokes table ball_set noise parameters reward speeds cushion_model threads"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("call", "good", "names"), CALLS, ids=[case[0].__qualname__ for case in CALLS])
+def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(call, good, names):
+    refused_by_name(call, good, names)

@@ -15,7 +15,7 @@ from stable_baselines3.common.env_checker import check_env  # noqa: E402
 
 import carom.gymnasium  # noqa: E402
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "examples"))
 import train_pot_one  # noqa: E402
 
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import carom
-from carom._draws import Draws
-from carom.potting import Potting
+from carom.games._draws import Draws
+from carom.games.potting import Potting
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "game_agents.py"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "game_agents.py"
 
 
 @pytest.fixture
@@ -151,9 +151,12 @@ def test_what_the_rules_refuse():
     for call, words in (
         (lambda: rules.layout([[0.5, 0.5]]), r"layout: the shape must be \(2, 2\)"), (lambda: rules.layout([[0.5, 0.5], [0.5, 0.51]]), "overlap"),
         (lambda: rules.cues([0.0, np.nan, 0.0, 0.0]), "actions: finite numbers"),
+        (lambda: rules.actions(np.inf, 1.0), "phi, speed, a, b: finite numbers"),
     ):  # fmt: skip
         with pytest.raises(ValueError, match=words):
             call()
+    with pytest.raises(TypeError, match="^noise: three standard deviations are needed, of degrees, m/s and radii, not True"):
+        Potting(noise=True)
 
 
 def test_noise_of_execution():
@@ -412,7 +415,7 @@ def test_the_break(gymnasium):
 
 def test_a_match(gymnasium):
     """The agent plays until a foul or a miss; then the opponent does until the agent plays again, by the rules of pool, or has won."""
-    from carom.matches import Match
+    from carom.games.matches import Match
 
     env = carom.gymnasium.GameEnv("nineball", strokes=30)
     observation, _ = env.reset(seed=4)

@@ -34,8 +34,8 @@ with pytest.MonkeyPatch.context() as patch:
 import attrs
 
 import carom
-from carom._draws import Draws
-from carom.potting import Potting
+from carom.games._draws import Draws
+from carom.games.potting import Potting
 
 SEED = int(os.environ.get("CAROM_TEST_SEED", "1"))
 SHOTS = int(os.environ.get("CAROM_TEST_SHOTS", "12"))
@@ -474,7 +474,7 @@ def test_what_pooltool_plays_is_told_once(installed, played):
 
 def test_speed():
     """The example that compares the times finds the same events and histories, and prints its rows."""
-    script = Path(__file__).parents[1] / "examples" / "pooltool_speed.py"
+    script = Path(__file__).parents[2] / "examples" / "pooltool_speed.py"
     ran = subprocess.run([sys.executable, str(script), "10"], capture_output=True, text=True, env={**os.environ, "HOME": home})
     assert ran.returncode == 0, ran.stderr
     print(ran.stdout)
@@ -488,7 +488,7 @@ def test_notebooks(tmp_path):
     for name, last in (("same", "1 / 0"), ("other", "import os, carom.pooltool\nprint(pt.simulate.__closure__)")):
         cells = [{"cell_type": "markdown", "source": ["-"]}, *({"cell_type": "code", "source": [text]} for text in (shot, last))]
         (tmp_path / f"{name}.ipynb").write_text(json.dumps({"cells": cells}), encoding="utf-8")
-    script = Path(__file__).parents[1] / "examples" / "pooltool_speed.py"
+    script = Path(__file__).parents[2] / "examples" / "pooltool_speed.py"
     paths = [str(tmp_path / f"{name}.ipynb") for name in ("same", "other")]
     ran = subprocess.run([sys.executable, str(script), *paths], capture_output=True, text=True, env={**os.environ, "HOME": home})
     assert ran.returncode == 0, ran.stderr
@@ -505,7 +505,7 @@ GAMES = {"eightball": pt.GameType.EIGHTBALL, "nineball": pt.GameType.NINEBALL}
 @pytest.mark.parametrize("name", GAMES)
 def test_games_against_pooltools_easiest_pot(name):
     """pooltool's own rules find a winner, and the agent wins; its calls are those that the rules ask for."""
-    sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
+    sys.path.insert(0, str(Path(__file__).parents[2] / "examples"))
     game = importlib.import_module("pooltool_game")
     print(f"CAROM_TEST_SEED={SEED}")
     won = 0

@@ -17,10 +17,11 @@ from spoil import spoiled
 from test_tracks import RADIUS, TABLE, csv_of
 
 import carom
-from carom import _constants, _covariance, _described, _from_events, _joint, _kicks, _recordings, _strikes, _summary, fit, tracks
+from carom import _described, tracks
 from carom._carom import ffi, lib
 from carom._rows import numbered, numbers_of
 from carom.cushions import NUMBERS
+from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks, _recordings, _strikes, _summary, fit
 
 HAN = {"mu_slide": 0.21, "mu_roll": 0.005, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "law_a": 0.05}
 
@@ -593,7 +594,7 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
 
 
 def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatch):
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[1] / "examples"))
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "examples"))
     reality = importlib.import_module("reality")
     made = tracks.synthetic(16, seed=5)
     (tmp_path / "tracks.csv").write_text(csv_of(made.recordings))

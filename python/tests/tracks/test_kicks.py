@@ -9,8 +9,9 @@ from test_fit import HAN
 from test_tracks import RADIUS, TABLE, csv_of
 
 import carom
-from carom import _kicks, _strikes, fit, tracks
+from carom import tracks
 from carom.results import EventType
+from carom.tracks import _kicks, _strikes, fit
 
 
 

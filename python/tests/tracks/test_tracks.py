@@ -6,9 +6,11 @@ import lzma
 
 import numpy as np
 import pytest
+from conftest import refused_by_name
 from spoil import spoiled
 
-from carom import _constants, simulate, tracks
+from carom import simulate, tracks
+from carom.tracks import _constants
 
 TABLE, RADIUS = (2.84, 1.42), 0.03075
 
@@ -180,3 +182,8 @@ def test_no_motion_has_no_events():
     none = tracks.events([tracks.Recording(7, (1,), (still,))], TABLE, RADIUS)
     assert len(none.pieces) == len(none.impacts) == len(none.hits) == 0 and np.isnan(none.slide[0]) and np.isnan(none.roll[1][0])
     assert len(tracks.events([], TABLE, RADIUS).pieces) == 0
+
+
+def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument():
+    names = "shots table radius cushion_model constants speeds noise rate thin seed"
+    refused_by_name(tracks.synthetic, {"shots": 1}, names)

@@ -7,12 +7,13 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from carom import dtypes, plans, racks
-from carom._draws import Draws, Games
+from carom import dtypes, racks
 from carom._rows import copied, listing
+from carom.games import plans
+from carom.games._draws import Draws, Games
+from carom.games.potting import Potting
+from carom.games.rules import Game as RulesGame
 from carom.layouts import Game
-from carom.potting import Potting
-from carom.rules import Game as RulesGame
 
 __dir__ = listing(__name__)
 

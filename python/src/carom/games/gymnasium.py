@@ -22,11 +22,11 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, pictures
-from carom._draws import Draws, Games
 from carom._rows import listing, raw
-from carom.drills import Break, ThreeCushion
-from carom.matches import Match
-from carom.potting import Potting, Strokes
+from carom.games._draws import Draws, Games
+from carom.games.drills import Break, ThreeCushion
+from carom.games.matches import Match
+from carom.games.potting import Potting, Strokes
 
 try:
     import gymnasium

@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
-from carom._draws import Draws, Games
 from carom._rows import Array, listing, whole
-from carom.plans import player, with_errors
-from carom.pool import Hand, Pool, Position
-from carom.potting import Strokes, Turned
+from carom.games._draws import Draws, Games
+from carom.games.plans import player, with_errors
+from carom.games.pool import Hand, Pool, Position
+from carom.games.potting import Strokes, Turned
 from carom.results import Label, Shot
 
 __dir__ = listing(__name__)

@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from carom import dtypes, pictures
 from carom._rows import listing
-from carom.pool import Pool, Stroke
+from carom.games.pool import Pool, Stroke
 
 try:
     from gymnasium import spaces

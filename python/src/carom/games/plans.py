@@ -14,17 +14,19 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import Array, Arrays, as_array, choice, copied, number, pointer, several, whole
+from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer, several, whole
 from carom._shot_options import Options, chosen, shot_options
+from carom.games.rules import Game, Group, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
-from carom.rules import Game, Group, Hand, Made, Rules
 from carom.status import CaromError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from carom._shot_options import Changes
+
+__dir__ = listing(__name__)
 
 _USUAL = Options()
 

@@ -20,14 +20,14 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, racks
-from carom._draws import Draws
 from carom._rows import Array, Arrays, choice, listing
 from carom._shot_options import ShotCushion
+from carom.games._draws import Draws
+from carom.games.plans import plan
+from carom.games.potting import Potting
+from carom.games.rules import Made, State, calls_of, judge, on_of, referee
 from carom.layouts import Table
-from carom.plans import plan
-from carom.potting import Potting
 from carom.results import Label, Shot, Shots
-from carom.rules import Made, State, calls_of, judge, on_of, referee
 from carom.shots import simulate_batch
 
 __dir__ = listing(__name__)

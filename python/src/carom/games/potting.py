@@ -15,16 +15,16 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from carom import dtypes, layouts, plans, tables
+from carom import dtypes, layouts, tables
 from carom._carom import ffi, lib
-from carom._draws import Draws as Draws
-from carom._draws import Games
 from carom._rows import Arrays, broadcast, choice, in_chunks, listing, number, one_or_all, pointer, raw, repeated, several, whole
 from carom._shot_options import Options, ShotCushion, shot_options
+from carom.games import plans
+from carom.games._draws import Draws, Games
+from carom.games.rules import Game as RulesGame
+from carom.games.rules import Made
 from carom.layouts import Game, Table, of_record
 from carom.results import Label, Shot
-from carom.rules import Game as RulesGame
-from carom.rules import Made
 from carom.shots import simulate
 from carom.status import CaromError
 

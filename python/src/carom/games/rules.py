@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, Arrays, as_array, choice, copied, pointer, whole
+from carom._rows import Array, Arrays, as_array, choice, copied, listing, pointer, whole
 from carom._shot_options import Options
 from carom.layouts import LAST, Table, of_record, one_cue
 from carom.results import Label, Shot, Shots
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from carom._shot_options import Changes
 
 __all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "referee"]
+__dir__ = listing(__name__)
 
 Game = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket"]
 Group = Literal["open", "solids", "stripes"]

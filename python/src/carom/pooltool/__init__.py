@@ -22,14 +22,14 @@ import numpy as np
 
 from carom import dtypes
 from carom._rows import Array, listing
-from carom._pooltool_fill import fill
-from carom._pooltool_models import ExactBallBall, ExactCircularCushion, ExactLinearCushion
-from carom.collisions import alciatore
-from carom.layouts import LAST, Table
-from carom.plans import plan, player as usual_player, with_errors
-from carom.results import Label
-from carom.rules import Group
 from carom._shot_options import BallModel, Friction, Options, ShotCushion
+from carom.collisions import alciatore
+from carom.games.plans import plan, player as usual_player, with_errors
+from carom.games.rules import Group
+from carom.layouts import LAST, Table
+from carom.pooltool._fill import fill
+from carom.pooltool._models import ExactBallBall, ExactCircularCushion, ExactLinearCushion
+from carom.results import Label
 from carom.shots import simulate as _play
 from carom.status import CaromError
 

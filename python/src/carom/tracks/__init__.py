@@ -28,14 +28,14 @@ from typing import Any, cast
 
 import numpy as np
 
-from carom import _constants
-from carom._events import Events, events, hit, impact, piece
-from carom._recordings import MOVED, NOISE, Recording, TrackError
 from carom._rows import as_array, listing, number, whole
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
 from carom.results import Shot
 from carom.shots import simulate
+from carom.tracks import _constants
+from carom.tracks._events import Events, events, hit, impact, piece
+from carom.tracks._recordings import MOVED, NOISE, Recording, TrackError
 
 __all__ = [
     "MOVED", "NOISE", "Events", "Recording", "Synthetic", "TrackError", "events", "hit", "impact", "piece", "read", "synthetic",

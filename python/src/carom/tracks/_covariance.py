@@ -30,12 +30,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from carom import _joint
-from carom._strikes import HUBER, Plays
 from carom.derivatives import tangents
 from carom.dtypes import Doubles
 from carom.shots import simulate
 from carom.status import CaromError
+from carom.tracks import _joint
+from carom.tracks._strikes import HUBER, Plays
 
 _FARTHEST = 0.3  # m: what one deviation of the priors moves farther counts less
 # What bounds a strike: speeds (m/s), spins over the speed, and the time (s).

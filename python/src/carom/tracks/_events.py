@@ -24,9 +24,9 @@ import numpy as np
 import numpy.typing as npt
 
 from carom._carom import lib
-from carom._recordings import Recording
 from carom._rows import Arrays, pointer
 from carom.dtypes import Doubles, Records
+from carom.tracks._recordings import Recording
 
 _NOISE, _JITTER = 1.3, 0.25e-3  # s_0 over the noise of the recording, and s_t (s)
 # Penalty of a piece, in chi^2; 18 is the log of how many cuts there could be, doubled, for its 7 numbers. Half of it cuts noise, twice

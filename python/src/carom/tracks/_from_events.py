@@ -20,14 +20,15 @@ from typing import Any, cast
 
 import numpy as np
 
-from carom import _events, dtypes
-from carom._constants import usual
+from carom import dtypes
 from carom._described import CushionNumbers
-from carom._events import Events
 from carom._rows import Array
 from carom._shot_options import ShotCushion
 from carom.cushions import NUMBERS, cushion
 from carom.dtypes import Doubles, Records
+from carom.tracks import _events
+from carom.tracks._constants import usual
+from carom.tracks._events import Events
 
 _GRAVITY = 9.81
 _SPINS = np.linspace(-3.0, 3.0, 101)  # R w_z over v, that are tried

@@ -23,11 +23,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from carom import _events, dtypes
+from carom import dtypes
 from carom._carom import lib
-from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
 from carom.layouts import balls
+from carom.tracks import _events
+from carom.tracks._strikes import Plays, descend, find, normal
 
 MOST = 1.4e-3  # m^2: a shot whose cost a sample is more does not count; that of samples that are 8 cm off
 # What one deviation of a prior costs, m^2: the variance of the noise, and so many times what a sample is off by beyond the noise, as
@@ -54,7 +55,7 @@ _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search a
 _ELSEWHERE = 4  # the stage before which a search may begin again
 _AT_NOISE = 4.0  # variances of a coordinate: twice the cost a sample that noise alone gives
 _STEPS = 12  # at most, of each
-# On matches that are synthetic, as python/tests/test_fit.py makes them: how much the common size of the errors of halves counts, beside
+# On matches that are synthetic, as python/tests/tracks/test_fit.py makes them: how much the common size of the errors of halves counts, beside
 # each one's own; and what the search leaves, over _SHAPE and the misfit over that of the noise: above _CLEAR times the noise it stopped
 # early, as do those of halves, and so much more for each time.
 _COMMON, _LEFT, _CLEAR, _STOPPED = 0.8, 0.1, 1.2, 1.0

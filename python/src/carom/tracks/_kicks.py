@@ -29,12 +29,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from carom import _events, _from_events, _joint, _strikes, dtypes
+from carom import dtypes
 from carom._carom import lib
 from carom._rows import Array, Arrays
-from carom._strikes import KICKS, Plays
 from carom.dtypes import Doubles, Records
 from carom.status import CaromError
+from carom.tracks import _events, _from_events, _joint, _strikes
+from carom.tracks._strikes import KICKS, Plays
 
 CONTACTS = 16  # of a shot, at most, that have kicks
 PRICE = 1e-4  # m^2

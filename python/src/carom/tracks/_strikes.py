@@ -21,13 +21,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from carom import _constants, dtypes
+from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import Array, pointer, workers
 from carom._shot_options import Options, ShotCushion, shot_options
 from carom.dtypes import Doubles, Records
 from carom.status import CaromError
-from carom.tracks import Recording
+from carom.tracks import _constants
+from carom.tracks._recordings import Recording
 
 Integers = npt.NDArray[np.int32]
 

@@ -12,14 +12,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from carom import _constants, _covariance, _kicks, _strikes, pictures
-from carom._events import events
-from carom._kicks import Kicks
-from carom._recordings import Recording
+from carom import pictures
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
 from carom.results import Shot
 from carom.shots import simulate
+from carom.tracks import _constants, _covariance, _kicks, _strikes
+from carom.tracks._events import events
+from carom.tracks._kicks import Kicks
+from carom.tracks._recordings import Recording
 
 _ROUGH_MOST = 8  # so many are told one by one
 _WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels

@@ -22,13 +22,13 @@ from typing import Any, cast
 
 import numpy as np
 
-from carom import _constants, _covariance, _from_events, _joint, _kicks, _recordings, _strikes, _summary
-from carom._kicks import Kicks, contact
 from carom._rows import listing
 from carom._shot_options import ShotCushion
-from carom._summary import Fit
 from carom.dtypes import Doubles
+from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks, _recordings, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, read
+from carom.tracks._kicks import Kicks, contact
+from carom.tracks._summary import Fit
 
 __all__ = ["Fit", "Kicks", "contact", "fit", "main"]
 __dir__ = listing(__name__)
