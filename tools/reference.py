@@ -82,9 +82,11 @@ def of_python(source):
     text = "# Reference: Python\n\nEvery public call of the package `carom`. [python.md](../docs/using/python.md) is the manual.\n\n"
     listed = set()
     folder = source / "python/src"
-    modules = {".".join(path.relative_to(folder).with_suffix("").parts).removesuffix(".__init__"): path for path in folder.rglob("*.py")}
-    for module in sorted(name for name in modules if name != "carom" and "._" not in name):
-        path, found = modules[module], ""
+    for path in sorted(folder.rglob("*.py")):
+        module, found = ".".join(path.relative_to(folder).with_suffix("").parts), ""
+        module = module.removesuffix(".__init__")
+        if module == "carom" or "._" in module:
+            continue
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
                 continue

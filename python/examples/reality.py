@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 import carom.tracks.fit
-from carom import _events, _from_events, _summary
+from carom.tracks import _events, _from_events, _summary
 
 Doubles = npt.NDArray[np.float64]
 Recordings = list[carom.tracks.Recording]
@@ -51,7 +51,8 @@ def held_out(
     for model in models:
         once, twice, spent = [], [], 0.0
         for fold in (0, 1):
-            found = carom.tracks.fit.fit(recordings[fold::2], table, radius, cushion_model=model, free=free, seed=seed)
+            half = recordings[fold::2]
+            found = carom.tracks.fit.fit(half, table, radius, cushion_model=model, free=free, seed=seed)
             begin = time.process_time()
             one, two = (
                 carom.tracks.fit.fit(

@@ -2,8 +2,9 @@
 
 `impacts` and `cushion_impacts` build arrays of impacts; `collide` and `cushion` solve them. `mu_ball` computes the friction between
 balls from their slip speed. `trace` and `cushion_trace` follow one impact. `simulate` plays a shot and `simulate_batch` many: on
-`tables`, from `racks` or `balls`, with a `cue`. `resume` goes on with a shot that was stopped; `place_ball` is ball in hand. `plan` finds the best shots of a `player`. Units are SI;
-vectors are right-handed with z up. `dtypes` has the structured dtypes. Every call that computes releases the GIL.
+`tables`, from `racks` or `balls`, with a `cue`. `resume` goes on with a shot that was stopped; `place_ball`
+is ball in hand. `plan` finds the best shots of a `player`. Units are SI; vectors are right-handed with z up.
+`dtypes` has the structured dtypes. Every call that computes releases the GIL.
 """
 
 import importlib as _importlib
@@ -27,26 +28,29 @@ from carom.shots import cite, resume, simulate, simulate_batch
 from carom.status import CaromError, Status
 
 _sys.meta_path.append(_Finder())
-for _name in ("collisions", "cushions", "derivatives", "dtypes", "layouts", "racks", "results", "shots", "status", "tables"):
+for _name in "collisions cushions derivatives dtypes layouts racks results shots status tables".split():
     setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))
 
 __dir__ = _listing(__name__)
 __version__: str = _ffi.string(_lib.carom_version()).decode()
 
 __all__ = [
-    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Hessian", "Label", "Options", "Outcome", "Pot", "Rules", "Ruling",
-    "Shot", "Shots", "Status", "Table", "Tangents", "Turn", "aim", "aim_slope", "alciatore", "balls", "by_number", "chances", "cite", "collide", "cue", "cushion", "cushion_impacts",
-    "cushion_trace", "dtypes", "hessian", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball",
-    "plan", "player", "racks", "referee", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
-    "value", "with_errors",
+    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Hessian",
+    "Label", "Options", "Outcome", "Pot", "Rules", "Ruling", "Shot", "Shots", "Status", "Table",
+    "Tangents", "Turn", "aim", "aim_slope", "alciatore", "balls", "by_number", "chances",
+    "cite", "collide", "cue", "cushion", "cushion_impacts", "cushion_trace", "dtypes",
+    "hessian", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision",
+    "place_ball", "plan", "player", "racks", "referee", "resume", "simulate", "simulate_batch",
+    "struck", "tables", "tangents", "trace", "value", "with_errors",
 ]  # fmt: skip
 
 if _TYPE_CHECKING:
-    from carom.games import Facts, Foul, Pot, Rules, Ruling, Turn, aim, chances, plan, player, referee, value, with_errors
+    from carom.games import Facts, Foul, Pot, Rules, Ruling, Turn
+    from carom.games import aim, chances, plan, player, referee, value, with_errors
 else:
 
     def __getattr__(name: str) -> object:
-        """What lies in a folder, loaded when it is first asked for: a module by its short name, or what `carom.games` gives."""
+        """What lies in a folder: a module by its short name, or what `carom.games` gives."""
         try:
             if f"carom.{name}" in _MODULES:
                 return _importlib.import_module(f"carom.{name}")

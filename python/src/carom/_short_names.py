@@ -1,17 +1,20 @@
-"""Short names of the modules in folders: `carom.fit` is the module `carom.tracks.fit`, loaded once, and `python -m carom.fit` runs it."""
+"""Short names of the modules in folders: `carom.fit` is the module `carom.tracks.fit`, loaded once.
+
+`python -m carom.fit` runs it. Type checkers know the long names alone.
+"""
 
 from __future__ import annotations
 
 import importlib
 import importlib.util
-from collections.abc import Sequence
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
-_GAMES = ("drills", "gymnasium", "matches", "pettingzoo", "plans", "pool", "potting", "rules")
-MODULES = {"carom.fit": "carom.tracks.fit"} | {f"carom.{name}": f"carom.games.{name}" for name in _GAMES}
+MODULES = {"carom.fit": "carom.tracks.fit"}
+for _name in ("drills", "gymnasium", "matches", "pettingzoo", "plans", "pool", "potting", "rules"):
+    MODULES[f"carom.{_name}"] = f"carom.games.{_name}"
 
 
 class _Loader(Loader):
@@ -33,6 +36,6 @@ class _Loader(Loader):
 class Finder(MetaPathFinder):
     """For `sys.meta_path`, behind the finder of files."""
 
-    def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> ModuleSpec | None:
+    def find_spec(self, name: str, path: Any, target: Any = None) -> ModuleSpec | None:
         spec = importlib.util.find_spec(MODULES[name]) if name in MODULES else None
         return None if spec is None else ModuleSpec(name, _Loader(spec), origin=spec.origin)

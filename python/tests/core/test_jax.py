@@ -199,27 +199,23 @@ def test_shots_that_are_refused_say_why():
         jax.hessian(miss)(AIM)
 
 
-@pytest.mark.parametrize(
-    ("numbers", "match"),
-    [
-        ({}, "numbers: name at least one"),
-        ({"cue.mu": 1.0}, "numbers: 'cue.mu' is no number of a shot"),
-        ({"cue.phi": jnp.ones(3), "cue.a": jnp.ones(2)}, r"leading dimensions .* but are cue\.phi \(3,\), cue\.a \(2,\)"),
-        ({"balls[1].r": jnp.ones(3)}, r"numbers: balls\[1\]\.r: the shape must be \(\.\.\., 2\), not \(3,\)"),
-        ({"table.nose_height": 0.036}, r"numbers: table\.nose_height: a batch has one table"),
-    ],
-)
-def test_arguments_that_are_wrong(numbers, match):
-    with pytest.raises(ValueError, match=match):
-        carom.jax.final(TABLE, BALLS, CUE, numbers)
-    with pytest.raises(ValueError, match=r"numbers: cue\.phi: there is no cue"):
-        carom.jax.final(TABLE, BALLS, None, {"cue.phi": 1.0})
-    with pytest.raises(TypeError, match="^balls: an array of the dtype of carom"):
-        carom.jax.final(TABLE, CUE, CUE, {"cue.phi": 1.0})
-    with pytest.raises(TypeError, match="^cue: an array of the dtype of carom"):
-        carom.jax.final(TABLE, BALLS, BALLS, {"cue.phi": 1.0})
+def test_arguments_that_are_wrong():
+    phi, shape = {"cue.phi": 1.0}, "the shape must be"
+    for error, match, balls, cue, numbers in (
+        (ValueError, "numbers: name at least one", BALLS, CUE, {}),
+        (ValueError, "numbers: 'cue.mu' is no number of a shot", BALLS, CUE, {"cue.mu": 1.0}),
+        (ValueError, r"leading dimensions .* but are cue\.phi \(3,\), cue\.a \(2,\)", BALLS, CUE,
+         {"cue.phi": jnp.ones(3), "cue.a": jnp.ones(2)}),
+        (ValueError, rf"numbers: balls\[1\]\.r: {shape} \(\.\.\., 2\), not \(3,\)", BALLS, CUE, {"balls[1].r": jnp.ones(3)}),
+        (ValueError, r"numbers: table\.nose_height: a batch has one table", BALLS, CUE, {"table.nose_height": 0.036}),
+        (ValueError, r"numbers: cue\.phi: there is no cue", BALLS, None, phi),
+        (TypeError, "^balls: an array of the dtype of carom", CUE, CUE, phi),
+        (TypeError, "^cue: an array of the dtype of carom", BALLS, BALLS, phi),
+    ):  # fmt: skip
+        with pytest.raises(error, match=match):
+            carom.jax.final(TABLE, balls, cue, numbers)
     with pytest.raises(ValueError, match="errors: must be"):
-        carom.jax.final(TABLE, BALLS, CUE, {"cue.phi": 1.0}, errors="ignore")
+        carom.jax.final(TABLE, BALLS, CUE, phi, errors="ignore")
 
 
 def test_without_64_bits_the_error_says_what_to_do():

@@ -14,8 +14,6 @@ from carom.results import EventType
 from carom.tracks import _kicks, _strikes, fit
 
 
-
-
 @pytest.fixture(scope="module")
 def made():
     return tracks.synthetic(24, constants=HAN, seed=2)

@@ -14,7 +14,8 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer, several, whole
+from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer
+from carom._rows import several, whole
 from carom._shot_options import Options, chosen, shot_options
 from carom.games.rules import Game, Group, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue

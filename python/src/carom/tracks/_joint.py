@@ -55,7 +55,8 @@ _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search a
 _ELSEWHERE = 4  # the stage before which a search may begin again
 _AT_NOISE = 4.0  # variances of a coordinate: twice the cost a sample that noise alone gives
 _STEPS = 12  # at most, of each
-# On matches that are synthetic, as python/tests/tracks/test_fit.py makes them: how much the common size of the errors of halves counts, beside
+# On matches that are synthetic, as python/tests/tracks/test_fit.py makes them: how much the common size of the errors of
+# halves counts, beside
 # each one's own; and what the search leaves, over _SHAPE and the misfit over that of the noise: above _CLEAR times the noise it stopped
 # early, as do those of halves, and so much more for each time.
 _COMMON, _LEFT, _CLEAR, _STOPPED = 0.8, 0.1, 1.2, 1.0

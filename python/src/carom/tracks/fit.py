@@ -25,7 +25,8 @@ import numpy as np
 from carom._rows import listing
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
-from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks, _recordings, _strikes, _summary
+from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
+from carom.tracks import _recordings, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, read
 from carom.tracks._kicks import Kicks, contact
 from carom.tracks._summary import Fit
