@@ -57,7 +57,7 @@ def of_name(source, name):
     """The entry of a name that the package gives and that is neither a function nor a class of a public module."""
 
     def defined(name):
-        for path in sorted((source / "python/src/carom").glob("*.py")):
+        for path in sorted((source / "python/src/carom").rglob("*.py")):
             text = path.read_text(encoding="utf-8")
             for node in ast.walk(ast.parse(text)):
                 if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.Assign)) and name in (getattr(node, "name", ""), *(getattr(one, "id", "") for one in getattr(node, "targets", ()))):
@@ -81,8 +81,12 @@ def of_python(source):
     """A page: the names that the package gives, then the public functions and classes of each module, with their docstrings."""
     text = "# Reference: Python\n\nEvery public call of the package `carom`. [python.md](../docs/using/python.md) is the manual.\n\n"
     listed = set()
-    for path in sorted((source / "python/src/carom").glob("[a-z]*.py")):
-        found = ""
+    folder = source / "python/src"
+    for path in sorted(folder.rglob("*.py")):
+        module, found = ".".join(path.relative_to(folder).with_suffix("").parts), ""
+        module = module.removesuffix(".__init__")
+        if module == "carom" or "._" in module:
+            continue
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
                 continue
@@ -95,7 +99,7 @@ def of_python(source):
                     listed.add(name)
                     # A docstring is text with columns of its own.
                     found += f"### {name}\n\n```python\n{head}\n```\n\n```text\n{words.replace('```', '')}\n```\n\n"
-        text += f"## carom.{path.stem}\n\n{found}" if found else ""
+        text += f"## {module}\n\n{found}" if found else ""
     package = ast.parse((source / "python/src/carom/__init__.py").read_text(encoding="utf-8")).body
     given = next(node.value for node in package if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
     return text + "## Other names of carom\n\n" + "".join(of_name(source, name) for name in ast.literal_eval(given) if name not in listed)

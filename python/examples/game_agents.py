@@ -25,11 +25,10 @@ import numpy as np
 import numpy.typing as npt
 
 import carom
-import carom.gymnasium
-from carom.drills import Break, ThreeCushion
-from carom.gymnasium import Rules
-from carom.matches import Match
-from carom.pool import Hand
+from carom.games.drills import Break, ThreeCushion
+from carom.games.gymnasium import GAMES, GameEnv, Rules
+from carom.games.matches import Match
+from carom.games.pool import Hand
 
 Doubles = npt.NDArray[np.float64]
 Agent = Callable[[Rules, Doubles], Doubles]
@@ -136,7 +135,7 @@ def score(returns: Doubles, most: int) -> str:
 def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
     """Plays, prints, writes the picture; gives the returns of each agent in the last game, of shape (games,)."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--game", default="carom/RunOutSix-v1", choices=["all", *carom.gymnasium.GAMES])
+    parser.add_argument("--game", default="carom/RunOutSix-v1", choices=["all", *GAMES])
     parser.add_argument("--games", type=int, default=100)
     parser.add_argument("--balls", type=int, help="instead of the game's own")
     parser.add_argument("--strokes", type=int, help="instead of the game's own")
@@ -148,12 +147,13 @@ def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
     own = {name: getattr(given, name) for name in ("balls", "strokes") if getattr(given, name) is not None}
     agents = {"random": random_agent(given.seed), "greedy": greedy_agent}
     agents |= {f"plan of {shots} shots": planner(int(shots)) for shots in filter(None, given.plans.split(","))}
-    games = [name for name in carom.gymnasium.GAMES if name != "carom/Potting-v1"] if given.game == "all" else [given.game]
+    every = [name for name in GAMES if name != "carom/Potting-v1"]
+    games = every if given.game == "all" else [given.game]
     found: dict[str, Doubles] = {}
     cells: dict[str, list[str]] = {name: [name] for name in agents}
     for game in games:
         rules = own | {"cushion_model": given.cushion}
-        most = most_of(carom.gymnasium.GameEnv(**(carom.gymnasium.GAMES[game] | rules)).rules)
+        most = most_of(GameEnv(**(GAMES[game] | rules)).rules)
         for name, agent in agents.items():
             found[name], picture = play(agent, game, given.games, given.seed, **rules)
             cells[name].append(score(found[name], most))

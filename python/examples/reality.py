@@ -20,9 +20,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-import carom.fit
-import carom.tracks
-from carom import _events, _from_events, _summary
+import carom.tracks.fit
+from carom.tracks import _events, _from_events, _summary
 
 Doubles = npt.NDArray[np.float64]
 Recordings = list[carom.tracks.Recording]
@@ -42,20 +41,21 @@ def law(values: Doubles, by: Doubles, edges: Sequence[float]) -> list[str]:
 
 def held_out(
     recordings: Recordings, table: tuple[float, float], radius: float, models: Sequence[Any], free: Sequence[str], seed: int
-) -> carom.fit.Fit:
+) -> carom.tracks.fit.Fit:
     """The RMSE of unseen shots by each model; the fit of the first half by the best."""
     print(
         "| cushion | one search of strikes: RMSE, median, cm | 9 in 10 below, cm | mean, cm | better of two: median, cm | 9 in 10 below, cm | "
         "mean, cm | shots | processor time of a search, ms a shot |\n|---|" + "--:|" * 8
     )
-    best: tuple[float, carom.fit.Fit] | None = None
+    best: tuple[float, carom.tracks.fit.Fit] | None = None
     for model in models:
         once, twice, spent = [], [], 0.0
         for fold in (0, 1):
-            found = carom.fit.fit(recordings[fold::2], table, radius, cushion_model=model, free=free, seed=seed)
+            half = recordings[fold::2]
+            found = carom.tracks.fit.fit(half, table, radius, cushion_model=model, free=free, seed=seed)
             begin = time.process_time()
             one, two = (
-                carom.fit.fit(
+                carom.tracks.fit.fit(
                     recordings[1 - fold :: 2], table, radius, cushion_model=model, constants=found.constants, free="none", seed=own
                 )
                 for own in (seed, seed + SECOND)
@@ -76,13 +76,13 @@ def held_out(
     return best[1]
 
 
-def floor(fit: carom.fit.Fit, shots: int, seed: int) -> None:
+def floor(fit: carom.tracks.fit.Fit, shots: int, seed: int) -> None:
     """The RMSE that is left where the model is perfect: recordings of plays, with the noise of these."""
     made = carom.tracks.synthetic(
         shots, table=fit.table, radius=fit.radius, cushion_model=fit.cushion_model, constants=fit.constants, noise=fit.recordings[0].noise,
         seed=seed,
     )  # fmt: skip
-    found = carom.fit.fit(
+    found = carom.tracks.fit.fit(
         made.recordings, fit.table, fit.radius, cushion_model=fit.cushion_model, constants=made.constants, free="none", seed=seed
     )
     print(f"\nThe floor: {100 * found.median_rmse:.2f} cm in the median, 9 in 10 below {100 * found.p90_rmse:.2f} cm, {shots} shots.")
@@ -107,7 +107,7 @@ def outputs(seen: carom.tracks.Events, radius: float, models: Sequence[Any], see
         print(f"| {model} | {sizes} | {chi2:.0f} | {len(good)} |")
 
 
-def growth(fit: carom.fit.Fit, seed: int) -> None:
+def growth(fit: carom.tracks.fit.Fit, seed: int) -> None:
     """The RMSE of strikes that are fitted to the first seconds alone."""
     print("\n| strike fitted to the first | RMSE of these, median, cm |\n|---|--:|")
     for until in (0.5, 1.0, 2.0, 3.0, 5.0, 8.0):
@@ -115,7 +115,7 @@ def growth(fit: carom.fit.Fit, seed: int) -> None:
             replace(shot, tracks=tuple(track[(track[:, 0] <= shot.moves.min() + until) | (np.arange(len(track)) == 0)] for track in shot.tracks))
             for shot in fit.recordings
         ]  # fmt: skip
-        found = carom.fit.fit(
+        found = carom.tracks.fit.fit(
             parts, fit.table, fit.radius, cushion_model=fit.cushion_model, constants=fit.constants, free="none", seed=seed
         )
         print(f"| {until:g} s | {100 * found.median_rmse:.2f} |")
@@ -138,7 +138,7 @@ def single_events(seen: carom.tracks.Events) -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("tracks", type=Path)
-    parser.add_argument("--table", type=carom.fit._extents, required=True, metavar="W,L")
+    parser.add_argument("--table", type=carom.tracks.fit._extents, required=True, metavar="W,L")
     parser.add_argument("--radius", type=float, required=True, metavar="R")
     parser.add_argument("--models", default="smooth,han,stronge,mathavan")
     parser.add_argument("--free", default="default", help="constants that are fitted, as in carom.fit")

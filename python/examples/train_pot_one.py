@@ -21,12 +21,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 import numpy.typing as npt
 
-import carom.gymnasium
+import carom.games.gymnasium
 
 Doubles = npt.NDArray[np.float64]
 Policy = Callable[[Doubles], Doubles]
 GAME, SEED, MOST = "carom/PotOne-v1", 1, np.radians(10.0)
-RULES: Any = carom.gymnasium.GameEnv(**carom.gymnasium.GAMES[GAME]).rules
+RULES: Any = carom.games.gymnasium.GameEnv(**carom.games.gymnasium.GAMES[GAME]).rules
 POCKETS = RULES.table.pockets["centre"]
 SIDE = np.abs(POCKETS[:, 1] - RULES.table.length / 2.0) < 0.1
 

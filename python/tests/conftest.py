@@ -1,11 +1,14 @@
-"""The recorded references of the repository's data/, as arrays, and a count of calls."""
+"""The recorded references of the repository's data/, as arrays, a count of calls, and values of the wrong kind."""
 
 import csv
+import re
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+import carom
 
 DATA = Path(__file__).parents[2] / "data"
 
@@ -46,3 +49,25 @@ def calls():
         return kinds.count("call") + kinds.count("c_call")
 
     return count
+
+
+WRONG = [
+    "1", "x", b"1", {}, {"world": "pooltool"}, [], [None, 1.0], [[1, 2], [3]], (1, 2, 3), np.array(["a"]), np.zeros((0, 3)), object(), 1j,
+    np.nan, np.inf, -1, None, True, np.datetime64(0, "s"), len,
+]  # fmt: skip
+TEXT = "game world ball_model cushion_model friction space simultaneous stop_at records rules group ball_set solver slip model convention law"
+
+
+def refused_by_name(call, good, names):
+    """A value of another kind in place of each argument in turn is refused, by the name of the argument."""
+    for name in names.split():
+        for wrong in WRONG:
+            try:
+                call(**{**good, name: wrong})
+            except carom.CaromError as error:
+                assert error.field, (name, wrong)  # whose numbers C refused
+            except (TypeError, ValueError) as error:
+                assert re.search(rf"\b{name}\b", str(error)), (name, wrong, error)
+            else:
+                # of text and bytes none is read as a number
+                assert not isinstance(wrong, (str, bytes)) or (name in TEXT.split() and wrong == "x"), (name, wrong)

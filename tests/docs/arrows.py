@@ -96,6 +96,19 @@ def find_imports(module, node):
 for module, path in modules.items():
     find_imports(module, ast.parse(path.read_text(encoding="utf-8")))
 no_circle("modules of python", imports)
+# What a folder of the package may import of the others. The core may none, but carom names those
+# of games for type checkers.
+FOLDERS = {"carom.tracks": (), "carom.games": (), "carom.pooltool": ("carom.games",)}
+
+
+def folder_of(module):
+    return next((folder for folder in FOLDERS if f"{module}.".startswith(f"{folder}.")), "the core")
+
+
+for module, names in imports.items():
+    may = ("carom.games",) if module == "carom" else FOLDERS.get(folder_of(module), ())
+    there = {folder_of(name) for name in names} - {folder_of(module), "the core", *may}
+    faults += [f"{module} imports {folder}, which {folder_of(module)} must not know" for folder in sorted(there)]
 assert len(files) > 100 and len(imports) > 10, f"only {len(files)} files, {len(imports)} modules found in {ROOT}"
 print("\n".join(faults))
 sys.exit(bool(faults))

@@ -5,7 +5,7 @@
     sh started    takes minutes: pages.py starts each line, sees that it is not refused, and ends it
     sh conan, sh wheel   docs/using/building.md's and python.md's: run by the tests install/conan and python/sdist
     console       commands and what they print: run and compared by shown.py
-    sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the test python/package, cmake by every
+    sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the test python/installed, cmake by every
                   build, the scripts of python/examples by the test of that name; a cluster of many machines by who has one
     sh program    README's and docs/using/building.md's: compile README's block of C in readme.py, against what has been installed
     c             README's, a program: built by readme.py, and by samples.py
@@ -15,7 +15,7 @@
     cmake windows    docs/using/building.md's: built and run by the test platforms/windows
     js            a page is a session, run in Node by the test web/package
     csharp, rust  docs/using/languages.md's: built and run by tests/bindings/game
-    python        a page is a session, in the environment of the test python/package; its kinds pooltool, jax, torch, gymnasium, pettingzoo and scale need those packages
+    python        a page is a session, in the environment of the test python/installed; its kinds pooltool, jax, torch, gymnasium, pettingzoo and scale need those packages
 """
 
 import re

@@ -1,0 +1,404 @@
+"""Which shot to play: the shots that win most often from a layout, for a player whose strokes err."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes
+from carom._carom import ffi, lib
+from carom._faults import argument_error, shot_arguments
+from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer
+from carom._rows import several, whole
+from carom._shot_options import Options, chosen, shot_options
+from carom.games.rules import Game, Group, Hand, Made, Rules
+from carom.layouts import Table, check_table, of_record, one_cue
+from carom.layouts import cue as usual_cue
+from carom.status import CaromError
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from carom._shot_options import Changes
+
+__dir__ = listing(__name__)
+
+_USUAL = Options()
+
+
+def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes.Records:
+    """A player whose strokes err, as an array of `carom.dtypes.player`, shape (). Its fields may be changed.
+
+    Parameters
+    ----------
+    errors : float
+        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each way, times errors. Default: 1.
+        The speed is that of a cue whose tip loses nothing; others err by 2/(1 + tip_restitution) times as much.
+    fargo : float, optional
+        A Fargo rating, 300 to 850, instead: the errors with which plans of 300 shots run out eight-ball as often as players of this rating
+        are said to (docs/understanding/plan.md). More shots make him stronger.
+    """
+    if errors is not None and fargo is not None:
+        raise ValueError("errors, fargo: a player has errors or a rating, not both")
+    if not 0.0 <= (errors := 1.0 if errors is None else number(errors, "errors")) < np.inf:
+        raise ValueError(f"errors: it must be finite and at least 0, not {errors}")
+    if fargo is not None and not 300.0 <= (fargo := number(fargo, "fargo", "a rating of 300 to 850 is needed")) <= 850.0:
+        raise ValueError(f"fargo: it must be 300 to 850, not {fargo}")
+    made: Array = np.zeros((), dtypes.player)
+    pointer("carom_player[]", made)[0] = lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
+    return made
+
+
+def with_errors(cue: dtypes.Records, player: dtypes.Records, seed: int, number: int = 0) -> dtypes.Records:
+    """The stroke that a player makes of the one that he means, with errors drawn from a seed and the number of the stroke.
+
+    Returns an array of `carom.dtypes.cue`, shape (): the same for the same arguments, on every machine.
+    """
+    made = copied(one_cue(cue))
+    lib.carom_player_strike(_one_player(player), whole(seed, "seed", most=2**63 - 1), whole(number, "number"), pointer("carom_cue[]", made))
+    return made
+
+
+@dataclass(frozen=True, repr=False)
+class Pot(Arrays):
+    """A stroke that pots a ball, and what it may err."""
+
+    cue: dtypes.Records
+    """An array of `carom.dtypes.cue`, shape ()."""
+    cut: float
+    """Degrees, of the cue ball on the first ball, which goes to the left of its way where this is above 0."""
+    margin: float
+    """Degrees by which the way of the ball into the pocket may turn, to either jaw."""
+    phi: tuple[float, float]
+    """Directions of the cue, degrees, between which the ball falls."""
+    speed: tuple[float, float]
+    """Speeds of the cue, m/s, between which it falls in the cue's direction."""
+    elevation: float
+    """Degrees: the least elevation with which the stick is over the cushions and balls behind the cue ball. A stroke with a lower
+    `cue["theta"]` cannot be played."""
+
+
+_WHY_NOT = {
+    lib.CAROM_POT_NO_WAY: "no direction of the cue sends ball {ball} there by this way",
+    lib.CAROM_POT_BARRED: "something is in the way: {met}",
+    lib.CAROM_POT_SHORT: "ball {at_rest} comes to rest on its way",
+    lib.CAROM_POT_REJECTED: "the jaws send ball {ball} back at this speed",
+    lib.CAROM_POT_STICK: "the stick would be raised by {elevation:.1f} degrees over what is behind the cue ball, and nobody plays above 60",
+}
+
+
+def aim(
+    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, ball: int, pocket: int | str, via: Sequence[int | str] = (),
+    options: Options = _USUAL, **changes: Unpack[Changes],
+) -> Pot:  # fmt: skip
+    """Aim a pot: the direction in which `ball` goes to the middle of a pocket's mouth, with squirt, swerve, throw and the cushion's model.
+
+    Parameters
+    ----------
+    table, balls, cue, options, **changes
+        As for `simulate`. The speed, the tip and the elevation of the cue count. A `theta` of nan becomes the least one with which the
+        stick is over the cushions and balls behind the cue ball.
+    ball : int
+        Index of the ball.
+    pocket : int or str
+        Index of the table's pocket, or its name: "foot-left"; `table.pocket_names` has all.
+    via : sequence of int or str
+        The way there, up to four contacts: indices of balls and names of rails, "head", "foot", "left" or "right", that the ball before
+        them meets. `["left"]` is a bank of `ball`, `[2]` a combination by ball 2, `["head", ball]` a kick: where `ball` is not named, it
+        comes after the last other ball.
+
+    Raises
+    ------
+    ValueError
+        There is no such aim, and why; or an argument is in error.
+    CaromError
+        The layout, the cue or an option is in error.
+    """
+    check_table(table)
+    layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+    if layout.ndim != 1:
+        raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
+    made = copied(one_cue(cue))
+
+    # The ball, the pocket and the way as C knows them.
+    def index(one: int | str, name: str, names: list[str | None], most: int) -> int:
+        if isinstance(one, str):
+            if one not in names:
+                raise ValueError(f"{name}: it must be one of {', '.join(sorted({known for known in names if known}))}, not {one!r}")
+            return names.index(one)
+        if whole(one, name, least=0) >= most:
+            raise ValueError(f"{name}: there are {most}, not {one + 1}")
+        return one
+
+    rails, pockets = table.rail_names, table.pocket_names
+    via = several(via, "via", "names of rails and indices of balls are needed")
+    way = [(lib.CAROM_PART_RAIL if isinstance(one, str) else lib.CAROM_PART_BALL, index(one, "via", rails, len(layout))) for one in via]
+    met = [one for one in via if not isinstance(one, str)]
+    if len(way) > lib.CAROM_VIA_MOST or len({0, *met}) <= len(met) or ball in met[:-1]:
+        raise ValueError(
+            f"via: it must be up to {lib.CAROM_VIA_MOST} names of rails and indices of balls, each once, not the cue ball, and {ball} last, not {list(via)}"
+        )
+    pot = ffi.new("carom_pot *", {
+        "ball": index(ball, "ball", [], len(layout)), "pocket": index(pocket, "pocket", pockets, len(pockets)), "vias": len(way), "via": way,
+    })  # fmt: skip
+    shot = shot_options(chosen(options, changes))
+    code = lib.carom_aim(
+        pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), shot, pot, pointer("carom_cue[]", made)
+    )
+    if code < 0:
+        raise argument_error(shot_arguments(table, layout, made, shot), layout, made) or CaromError(code, "balls")
+    if reason := getattr(pot, "is"):
+        part = f"ball {pot.met.b}" if pot.met.type == lib.CAROM_EVENT_BALL_BALL else "a part of the table"
+        why = _WHY_NOT[reason].format(ball=ball, at_rest=pot.met.a, met=f"ball {pot.met.a} meets {part}", elevation=pot.elevation)
+        raise ValueError(f"pocket: no such aim at {pocket}: {why}")
+    return Pot(made, pot.cut, pot.margin, (pot.phi[0], pot.phi[1]), (pot.speed[0], pot.speed[1]), pot.elevation)
+
+
+_usual_player = player
+
+
+def _one_player(given: dtypes.Records, name: str = "player") -> Any:
+    """A player for C. It keeps the array that it is made of."""
+    record = copied(of_record(given, dtypes.player, name, "player()"))
+    if record.ndim != 0:
+        raise ValueError(f"{name}: one is needed, of shape (), not {record.shape}")
+    for field in dtypes.player.names or ():
+        most = {"tip_most": 1.0, "reserved": 0.0}.get(field, 1000.0)
+        if not ((record[field] >= 0.0) & (record[field] <= most)).all():
+            raise ValueError(f"{name}: {field}: it must be 0 to {most:g}, not {record[field]}")
+    return pointer("carom_player[]", record)
+
+
+def _corners(in_hand: bool | Hand | npt.ArrayLike, table: Table) -> dtypes.Doubles | None:
+    """The corners between which the cue ball is put; None: anywhere."""
+    if isinstance(in_hand, str):
+        choice({"no": 0, "anywhere": 1, "kitchen": 2, "d": 3}, in_hand, "in_hand")
+        in_hand = [[0.0, 0.0], [table.width, table.length / 4.0]] if in_hand == "kitchen" else True
+    if in_hand is True:
+        return None
+    corners: dtypes.Doubles = np.ascontiguousarray(as_array(in_hand, "in_hand", np.float64))
+    if corners.shape != (2, 2) or not (corners[0] <= corners[1]).all():
+        raise ValueError(f"in_hand: True, False, the hand of a ruling or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}")
+    return corners
+
+
+def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None) -> int:
+    """What C gives, which a thread of its own calls, so that Python handles signals meanwhile and looks at `stop`."""
+    if stop is None and threading.current_thread() is not threading.main_thread():
+        return call()
+    with ThreadPoolExecutor(1) as pool:
+        called = pool.submit(call)
+        try:
+            while not wait([called], 0.02).done:
+                flag[0] |= stop is not None and stop.is_set()
+        except BaseException:  # of Ctrl-C
+            flag[0] = 1
+            raise
+    return called.result()
+
+
+class _Job:
+    """What a plan is made for, checked, as C has it; and what has to live as long."""
+
+    def __init__(
+        self, table: Table, balls: dtypes.Records, cue: dtypes.Records | None, game: Made, own: dtypes.Records | None, opponent: dtypes.Records | None,
+        shots: int, seed: int, threads: int, unsure: float, stop: threading.Event | None, options: Options, level: bool = False,
+    ) -> None:  # fmt: skip
+        check_table(table)
+        self.layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+        if self.layout.ndim != 1:
+            raise ValueError(f"balls: the shape must be (balls,), not {self.layout.shape}")
+        if len(self.layout) < 2:
+            raise ValueError("balls: a plan needs the cue ball and one more")
+        self.strike = copied(one_cue(usual_cue() if cue is None else cue))
+        self.shot = shot_options(options)
+        if stop is not None and not hasattr(stop, "is_set"):
+            raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
+        wanted = ffi.new("carom_plan_options *", {"shots": whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
+        wanted.threads = whole(threads, "threads", least=-1)
+        wanted.level = whole(level, "level", most=1)
+        wanted.unsure = number(unsure, "unsure")
+        if not 0.0 <= wanted.unsure <= 1.0:
+            raise ValueError(f"unsure: it must be 0 to 1, not {unsure}")
+        other = None if opponent is None else _one_player(opponent, "opponent")
+        wanted.opponent = ffi.NULL if other is None else other
+        wanted.stop = game.stop
+        player = _one_player(_usual_player() if own is None else own)
+        game.check_layout(table, self.layout)
+        memory: Array = np.empty(lib.carom_plan_memory(wanted) // 8 + 1, np.float64)
+        record = table.record
+        self.c = ffi.new("carom_plan_job *", {
+            "table": pointer("carom_table[]", record), "balls": pointer("carom_shot_ball[]", self.layout), "count": len(self.layout),
+            "cue": pointer("carom_cue[]", self.strike), "player": player, "rules": game.c, "shot": self.shot, "options": wanted,
+            "memory": pointer("double[]", memory), "memory_size": memory.nbytes,
+        })  # fmt: skip
+        self.table, self.game, self.stop, self.kept = table, game, stop, (wanted, other, player, memory, record)
+
+    def call(self, function: Callable[..., int], *arguments: Any, field: str = "balls") -> None:
+        """Calls a function of C with the job; raises what it refuses, by its argument."""
+        code = _stoppable(lambda: function(self.c, *arguments), self.game.stop, self.stop)
+        self.game.check()
+        if code < 0:
+            wrong = argument_error(shot_arguments(self.table, self.layout, self.strike, self.shot), self.layout, self.strike)
+            raise wrong or CaromError(code, field)
+
+
+def plan(
+    table: Table,
+    balls: dtypes.Records,
+    cue: dtypes.Records | None = None,
+    *,
+    rules: Game | Rules = "eightball",
+    group: Group | None = None,
+    opening: bool = False,
+    state: npt.ArrayLike | None = None,
+    player: dtypes.Records | None = None,
+    opponent: dtypes.Records | None = None,
+    shots: int = 2000,
+    in_hand: bool | Hand | npt.ArrayLike = False,
+    best: int = 5,
+    seed: int = 0,
+    threads: int = 0,
+    unsure: float = 0.0,
+    level: bool = False,
+    stop: threading.Event | None = None,
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
+) -> dtypes.Records:
+    """Find the best shots of a layout.
+
+    Parameters
+    ----------
+    table : Table
+        With pockets.
+    balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
+        2 to 32 of them at rest, with the cue ball first. For eight-ball and nine-ball a ball's index is its number.
+    cue : ndarray of `carom.dtypes.cue`, shape (), optional
+        Its masses, its tip and its miscue count; the stroke does not. Default: that of `carom.cue()`.
+    rules : {"eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket"} or Rules
+        The game, by the rules of the WPA or, snooker, of the WPBSA, one-pocket, of the BCA; or a drill, whose value is the share of the balls that one visit pots; or
+        three-cushion, whose value is the chance of the point, on a table without pockets with the balls of `racks.threecushion`; or a game of
+        your own. Straight pool and one-pocket have the balls of `racks.eightball`, snooker those of `racks.snooker`.
+    group : {"open", "solids", "stripes"}
+        Of eight-ball: the balls of the player. Default: "open".
+    opening : bool
+        Whether the stroke is the break of eight-ball, nine-ball or straight pool.
+    state : array_like of 8 whole numbers, optional
+        Of the rules, instead of `group` and `opening`: that of a ruling of `referee`.
+    player : ndarray of `carom.dtypes.player`, shape (), optional
+        Default: `carom.player()`.
+    opponent : ndarray of `carom.dtypes.player`, shape (), optional
+        Default: he errs as the player does.
+    shots : int
+        That the plan plays, about: 100 to 1,000,000.
+    in_hand : bool, {"no", "anywhere", "kitchen", "d"} or array_like, shape (2, 2)
+        Whether the cue ball is in hand, as `hand` of a ruling: `place` of the choices then says where to put it. Two corners (m) of a
+        rectangle: there alone.
+    best : int
+        How many choices at most.
+    seed : int
+        Of the errors of strokes.
+    threads : int
+        Most threads to use; 0 is one alone, -1 all processors. No bit depends on it.
+    unsure : float
+        How little the player knows of the table, 0 to 1. Above 0 restitution and friction of its cushions, rolling resistance and sliding
+        friction are drawn with the errors of strokes; 1 stands for all tables that there are.
+    level : bool
+        Whether strokes are by a level cue, whose stick may be in cushions and balls. By default the cue is raised over them.
+    stop : threading.Event, optional
+        Ends the plan early when another thread, or a handler of a signal, sets it: the plan then has one choice, the best so far. Without a
+        handler of yours Ctrl-C ends the plan, too, and raises KeyboardInterrupt.
+    options, **changes
+        As for `simulate`; t_final, stop_at and first_of are not read.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.choice`, shape (up to best,)
+        The best first: `cue` is the stroke, `value` the chance to win.
+
+    Raises
+    ------
+    CaromError
+        The layout, the cue or an option is in error.
+    """
+    check_table(table)
+    in_hand = False if isinstance(in_hand, str) and in_hand == "no" else in_hand
+    corners = None if in_hand is False else _corners(in_hand, table)
+    game = Made(rules, state, group, opening)
+    job = _Job(table, balls, cue, game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes), level)
+    choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
+    found = ffi.new("int *")
+    rows = pointer("carom_choice[]", choices)
+    if in_hand is not False:
+        low, high = (ffi.NULL, ffi.NULL) if corners is None else (pointer("double[]", corners[0]), pointer("double[]", corners[1]))
+        job.call(lib.carom_plan_hand, low, high, rows, len(choices), found)
+    else:
+        job.call(lib.carom_plan, rows, len(choices), found)
+    return choices[: found[0]]
+
+
+def chances(
+    table: Table, balls: dtypes.Records, cues: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
+    state: npt.ArrayLike | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, shots: int = 2000, seed: int = 0,
+    threads: int = 0, unsure: float = 0.0, stop: threading.Event | None = None, options: Options = _USUAL, **changes: Unpack[Changes],
+) -> dtypes.Records:  # fmt: skip
+    """How likely strokes of yours are to win: the chances of each, played with a player's errors.
+
+    Parameters
+    ----------
+    table, balls
+        As for `plan`.
+    cues : ndarray of `carom.dtypes.cue`, of any shape
+        Up to 1,000 strokes. Speed, direction, elevation and tip of each count; the rest is that of the first.
+    rules, group, opening, state, player, opponent, seed, threads, unsure, options, **changes
+        As for `plan`.
+    shots : int
+        100 to 1,000,000, of which each stroke has an equal share, at least 10.
+    stop : threading.Event, optional
+        As for `plan`: strokes that were not played before have `seen` 0 and the value NaN.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.choice`, of the shape of `cues`
+        In their order. `value` is the chance to win, `keep` that to play on; `ball` and `pocket` are what falls without errors.
+
+    Raises
+    ------
+    CaromError
+        The layout, a stroke or an option is in error.
+    """
+    strokes = copied(of_record(cues, dtypes.cue, "cues", "cue()"))
+    if not 1 <= strokes.size <= 1000:
+        raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
+    game = Made(rules, state, group, opening)
+    job = _Job(table, balls, strokes.reshape(-1)[0], game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes))
+    choices: Array = np.zeros(strokes.shape, dtypes.choice)
+    job.call(lib.carom_plan_try, pointer("carom_cue[]", strokes), strokes.size, pointer("carom_choice[]", choices), field="cues")
+    return choices
+
+
+def value(
+    table: Table, balls: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
+    state: npt.ArrayLike | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, in_hand: bool = False,
+    options: Options = _USUAL, **changes: Unpack[Changes],
+) -> float:  # fmt: skip
+    """The chance that the player at the table wins from a layout, 0 to 1: an estimate that plays no shot, in some 20 us.
+
+    Without an opponent it is the share of the balls that one visit pots. The arguments are those of `plan`; `in_hand` says whether the cue
+    ball may be put anywhere.
+
+    Raises
+    ------
+    CaromError
+        The layout or an option is in error.
+    """
+    job = _Job(table, balls, None, Made(rules, state, group, opening), player, opponent, 100, 0, 0, 0.0, None, chosen(options, changes))
+    found = ffi.new("double *")
+    job.call(lib.carom_plan_value, bool(in_hand), found)
+    return float(found[0])

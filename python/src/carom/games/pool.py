@@ -1,0 +1,241 @@
+"""Eight-ball and nine-ball for two players: the rules, over whole shots. `carom.pettingzoo` and `carom.gymnasium` are environments for agents.
+
+    rules = Pool("nineball")
+    position = rules.begin(seed=1)
+    position, stroke = rules.play(position, [0.5, 0.9, 0, 0.2, 0, 0])
+
+The rules are those of `carom.referee`, the World Pool-Billiard Association's (wpapool.com, 2016, sections 2, 3 and 6), with the following left
+out: there is no push out and no lag, player 0 breaks; and a ball that is frozen to a cushion at first counts as driven to it. In eight-ball
+the call of a stroke is the ball and the pocket that it would pot without noise: the first ball that the player may pot.
+"""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes, racks
+from carom._rows import Array, Arrays, choice, listing
+from carom._shot_options import ShotCushion
+from carom.games._draws import Draws
+from carom.games.plans import plan
+from carom.games.potting import Potting
+from carom.games.rules import Made, State, calls_of, judge, on_of, referee
+from carom.layouts import Table
+from carom.results import Label, Shot, Shots
+from carom.shots import simulate_batch
+
+__dir__ = listing(__name__)
+
+_ONE = np.zeros(1, np.int64)
+_GAMES = {"nineball": 9, "eightball": 15}
+_GROUP, _BREAK, _OWN, _OTHER, _PUSH = range(5)  # the words of the state that the rules have
+_WORTH = np.array([0.5, 0.0, 1.0, -1.0])  # of a stroke that keeps the turn, passes it, wins and loses
+
+
+class Hand(enum.IntEnum):
+    """Where the player may put the cue ball."""
+
+    NOWHERE = 0
+    BEHIND = 1
+    """Behind the head string, for the break, and after a foul on the break of eight-ball."""
+    ANYWHERE = 2
+
+
+@dataclass(frozen=True, repr=False)
+class Position(Arrays):
+    """A game between two strokes."""
+
+    balls: dtypes.Records  # (10,) or (16,): The cue ball, then 1 to 9 or 1 to 15
+    player: int  # Whose turn it is, 0 or 1
+    hand: Hand  # Whether that player has the cue ball in hand
+    state: State  # (8,): Of the rules, as that player has it, for `carom.plan` and `carom.referee`
+    strokes: int  # Played until now
+    winner: int | None
+    draws: Draws  # The random numbers of the game: noise, and places that a player chose but that were not free
+
+    @property
+    def fouls(self) -> tuple[int, int]:
+        """Of player 0 and of player 1 in nine-ball, in consecutive strokes of that player; three lose the game."""
+        own, other = int(self.state[_OWN]), int(self.state[_OTHER])
+        return (own, other) if self.player == 0 else (other, own)
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """What a stroke was."""
+
+    foul: str  # Why it was a foul; empty for a legal stroke
+    code: int  # The same as a `carom.Foul`
+    first: int | None  # The ball that the cue ball touched first
+    potted: tuple[int, ...]  # Without the cue ball, in their order
+    shot: Shot
+
+
+class Pool:
+    """The rules of a game.
+
+    An **action** is six numbers from -1 to 1: direction, speed and place of the tip as in `carom.potting.Potting`, then where the cue ball
+    is put, if it is in hand: along the width and the length of the table, or of the part behind the head string. A place that is
+    not free becomes a random one that is.
+
+    Parameters
+    ----------
+    game : {"nineball", "eightball"}
+    table, noise, parameters, speeds, cushion_model
+        As for `Potting`. The balls are those of pool.
+    """
+
+    def __init__(
+        self, game: Literal["nineball", "eightball"] = "nineball", *, table: Table | None = None, noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        parameters: Mapping[str, tuple[float, float]] | None = None, speeds: tuple[float, float] = (0.5, 10.5),
+        cushion_model: ShotCushion = "default"
+    ) -> None:  # fmt: skip
+        choice(_GAMES, game, "game")
+        self.game = game
+        self.base = Potting(_GAMES[game], 1, table=table, noise=noise, parameters=parameters, speeds=speeds, cushion_model=cushion_model)
+        self.table = self.base.table
+
+    def begin(self, seed: int) -> Position:
+        """The position before the break: the rack drawn from a seed, the cue ball in hand behind the head string."""
+        draws = Draws([seed])
+        rack = getattr(racks, self.game)(self.table, seed=seed)
+        balls = self.base.deal(draws, _ONE)[0]
+        balls["state"]["r"] = rack["state"]["r"]
+        balls["state"]["r"][:, 2] = self.base.radius
+        return Position(balls, 0, Hand.BEHIND, np.array([0, 1, 0, 0, 0, 0, 0, 0], np.uint64), 0, None, draws)
+
+    # ---- The cue ball in hand -------------------------------------------------------------------------------------------
+
+    def area(self, hand: Hand) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+        """The lower and the upper corner, m, of the rectangle in which a cue ball in hand is put."""
+        low = np.full(2, self.base.radius + 1e-3)
+        length = self.table.length / 4.0 if hand is Hand.BEHIND else self.table.length - low[1]
+        return low, np.array([self.table.width - low[0], length])
+
+    def best(self, position: Position, *, opponent: dtypes.Records | None = None, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
+        """The action, of shape (6,), of the library's planner: a baseline and an opponent for agents. It allows for the noise.
+
+        `opponent` is a `carom.player()`; by default he errs as the noise says. The plan has so many `shots`.
+        """
+        low, high = self.area(position.hand)
+        found = self.planned(position, self.base.player(), opponent, shots, seed, level=True)
+        cue = found["cue"]
+        place = np.clip(2.0 * (found["place"] - low) / (high - low) - 1.0, -1.0, 1.0)
+        return np.concatenate([self.base.actions(cue["phi"], cue["speed"], cue["a"], cue["b"]), place])
+
+    def planned(self, position: Position, player: dtypes.Records, opponent: dtypes.Records | None, shots: int, seed: int, level: bool = False) -> dtypes.Records:
+        """The best choice of `carom.plan`, of shape (), for a player; actions are strokes of a level cue."""
+        found: Array = plan(
+            self.table, position.balls, rules=self.game, state=position.state, player=player, opponent=opponent, shots=shots, seed=seed,
+            in_hand=[*self.area(position.hand)] if position.hand else False, best=1, level=level, cushion_model=self.base.cushion_model,
+        )[0]  # fmt: skip
+        return found
+
+    def on(self, position: Position) -> tuple[int, ...]:
+        """The balls that the player may meet first."""
+        return on_of(Made(self.game, position.state), position.balls)
+
+    def put(self, balls: dtypes.Records, hand: Hand, wanted: npt.ArrayLike, draws: Draws) -> None:
+        """Put the cue ball of a layout where it is wanted, two numbers from -1 to 1, or where that is not free, at random."""
+        low, high = self.area(hand)
+        part = (np.clip(wanted, -1.0, 1.0) + 1.0) / 2.0
+        self.lay(balls, low + (high - low) * part)
+        while not self.base.free(balls):
+            self.lay(balls, low + (high - low) * draws.uniform(_ONE, 2)[0])
+
+    def lay(self, balls: dtypes.Records, place: npt.ArrayLike) -> None:
+        """Lay the cue ball of a layout to a place, m, at rest."""
+        state = balls["state"][0]
+        state["r"][:2], state["r"][2], state["v"], state["w"] = place, self.base.radius, 0.0, 0.0
+        balls["state"]["label"][0] = Label.STATIONARY
+
+    # ---- Strokes --------------------------------------------------------------------------------------------------------
+
+    def play(self, position: Position, action: npt.ArrayLike) -> tuple[Position, Stroke]:
+        """Play a stroke: the position after it, and what it was."""
+        given = np.asarray(action, dtype=np.float64)
+        if given.shape != (6,) or not np.isfinite(given).all():
+            raise ValueError(f"action: six finite numbers are needed, not {given}")
+        if position.winner is not None:
+            raise ValueError("position: the game has ended")
+        balls, draws = position.balls.copy(), position.draws.copy()
+        if position.hand:
+            self.put(balls, position.hand, given[4:], draws)
+        call = (-1, -1)
+        if self.game == "eightball":
+            meant = self._played(balls[np.newaxis], self.base.cues(given[np.newaxis, :4]))
+            call = tuple(calls_of(Made(self.game, position.state), balls, meant)[0].tolist())
+        done = self.base.cues(given[:4], draws.seeds(_ONE) if any(self.base.noise) else None)
+        return self.struck(replace(position, balls=balls, draws=draws), done, call)
+
+    def struck(self, position: Position, cue: dtypes.Records, call: tuple[int, int] = (-1, -1)) -> tuple[Position, Stroke]:
+        """The position after a stroke of a cue, without noise, and what it was; the cue ball has been put on the table."""
+        ruled = referee(self.table, position.balls, cue, rules=self.game, state=position.state, call=call, cushion_model=self.base.cushion_model)
+
+        # Balls that left the table are out of play as those that were potted; nobody pushes out.
+        ruled.balls["state"]["label"][ruled.balls["state"]["label"] == Label.OFF] = Label.POCKETED
+        ruled.state[_PUSH] = 0
+        keeps = ruled.turn in ("keep", "win")
+        player = position.player if keeps else 1 - position.player
+        after = replace(
+            position, balls=ruled.balls, player=player, hand={"no": Hand.NOWHERE, "kitchen": Hand.BEHIND, "anywhere": Hand.ANYWHERE}[ruled.hand],
+            state=ruled.state, strokes=position.strokes + 1, winner=player if ruled.turn in ("win", "lose") else None,
+        )  # fmt: skip
+        failed = f"the stroke ended in an error: {ruled.shot.status.text}" if ruled.shot.status < 0 else ""
+        potted = tuple(ball for ball in ruled.potted if ball != 0)
+        return after, Stroke(failed or ruled.foul.text, int(ruled.foul), ruled.first if ruled.first >= 0 else None, potted, ruled.shot)
+
+    def _played(self, layouts: dtypes.Records, cues: dtypes.Records) -> Shots:
+        return simulate_batch(self.table, layouts, cues, features=True, cushion_model=self.base.cushion_model)
+
+    def tried(self, position: Position, actions: npt.ArrayLike) -> dtypes.Doubles:
+        """What actions of shape (n, 6) give without noise, of shape (n,): 1 for a win, 0.5 where the player goes on, 0 where the other
+        plays, -0.5 for a foul, -1 for a loss."""
+        given = np.asarray(actions, dtype=np.float64)
+        layouts = np.repeat(position.balls[np.newaxis], len(given), axis=0)
+        if position.hand:
+            draws = position.draws.copy()
+            for layout, wanted in zip(layouts, given[:, 4:]):
+                self.put(layout, position.hand, wanted, draws)
+        made = Made(self.game, position.state)
+        shots = self._played(layouts, self.base.cues(given[:, :4]))
+        turns = judge(made, layouts, shots, calls=calls_of(made, position.balls, shots) if self.game == "eightball" else None)
+        return np.where((turns["foul"] != 0) & (turns["is"] != 3), -0.5, _WORTH[turns["is"]])
+
+    # ---- Observations ---------------------------------------------------------------------------------------------------
+
+    def observe(self, position: Position, player: int) -> dtypes.Doubles:
+        """What a player sees: x, y (m) and 1 in play of each ball, the cue ball first, 30 or 48 numbers; then three more.
+
+        They are the hand, and in nine-ball fouls of his and of the other; in eight-ball 1 before the break, and the group: 0 open, 1 he has
+        the solids, 2 the stripes.
+        """
+        seen = self.base.observe(position.balls, 0.0)[:-1]
+        if self.game == "nineball":
+            return np.concatenate([seen, np.array([position.hand, position.fouls[player], position.fouls[1 - player]], np.float64)])
+        group = int(position.state[_GROUP])
+        own = group if player == position.player or group == 0 else 3 - group
+        return np.concatenate([seen, np.array([position.hand, position.state[_BREAK], own], np.float64)])
+
+    def seen(self, observation: npt.ArrayLike) -> Position:
+        """The position, with player 0 at the table, of an observation of the player at the table."""
+        given = np.asarray(observation, np.float64)
+        hand, second, third = (int(number) for number in given[-3:])
+        state = np.zeros(8, np.uint64)
+        if self.game == "nineball":
+            state[[_BREAK, _OWN, _OTHER]] = hand == Hand.BEHIND, second, third
+        else:
+            state[[_BREAK, _GROUP]] = second, third
+        return Position(self.base.layouts(np.append(given[:-3], 0.0)), 0, Hand(hand), state, 0, None, Draws([0]))
+
+    def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+        """The least and the most of each number of an observation."""
+        low, high = self.base.bounds()
+        most = [2.0, 3.0, 3.0] if self.game == "nineball" else [2.0, 1.0, 2.0]
+        return np.concatenate([low[:-1], np.zeros(3)]), np.concatenate([high[:-1], np.array(most)])

@@ -1,0 +1,370 @@
+"""Rules of games: what a shot amounts to, by the library's rules of eight-ball, nine-ball and a drill, or by those of a game of one's own."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes
+from carom._carom import ffi, lib
+from carom._rows import Array, Arrays, as_array, choice, copied, listing, pointer, whole
+from carom._shot_options import Options
+from carom.layouts import LAST, Table, of_record, one_cue
+from carom.results import Label, Shot, Shots
+from carom.shots import simulate_batch
+from carom.status import CaromError, Status
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from carom._shot_options import Changes
+
+__all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "referee"]
+__dir__ = listing(__name__)
+
+Game = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket"]
+Group = Literal["open", "solids", "stripes"]
+State = npt.NDArray[np.uint64]
+Hand = Literal["no", "anywhere", "kitchen", "d"]
+_GAMES = {"eightball": 0, "nineball": 1, "potting": 2, "threecushion": 3, "straight": 4, "snooker": 5, "onepocket": 6}
+_GROUPS = {"open": 0, "solids": 1, "stripes": 2}
+_TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
+_LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4}
+_RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3}
+_WORDS = 8
+_USUAL = Options()
+_POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
+
+
+class Foul(enum.IntEnum):
+    """Why a shot is a foul: the first of these that holds."""
+
+    NONE = 0
+    CUE_BALL = 1
+    NO_BALL = 2
+    FIRST = 3
+    OFF = 4
+    CUSHION = 5
+    BREAK = 6
+    OTHER = 7
+    POT = 8
+
+    @property
+    def text(self) -> str:
+        """Why, in words."""
+        return str(ffi.string(lib.carom_foul_string(self)).decode())
+
+
+def _set_of(balls: Collection[int], name: str = "on", most: int = 31) -> int:
+    return sum(1 << whole(ball, name, most=most) for ball in set(balls))
+
+
+def _of_set(bits: int) -> frozenset[int]:
+    return frozenset(k for k in range(32) if bits >> k & 1)
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What happened in a shot, for `Rules.judge`."""
+
+    first: int  # The ball that the cue ball met first, -1 for none, also after an error
+    second: int  # The next other ball that it met, or -1
+    cushions_before: tuple[int, int]  # Impacts of the cue ball on cushions before it met each of both
+    potted: Mapping[int, int]  # The pocket that took each ball that fell, the cue ball 0 among them, in their order
+    off: frozenset[int]  # Balls that left the table
+    cushions: tuple[int, ...]  # Impacts of each ball on cushions
+    cushions_after: int  # Those of all balls after the first contact
+    _record: Any = field(repr=False)
+
+    def foul(self, on: Collection[int]) -> Foul:
+        """The foul that it is in any game whose balls `on` may be met first: up to `Foul.CUSHION`, or `Foul.NONE`."""
+        return Foul(lib.carom_foul_of(self._record, _set_of(on), 0))
+
+
+def _facts(record: Any) -> Facts:
+    down = sorted(_of_set(record.down), key=lambda ball: record.pocket_time[ball])
+    potted = {ball: int(record.pocket[ball]) for ball in down}
+    first, second = record.first
+    before = (record.cushions_before[0], record.cushions_before[1])
+    return Facts(first, second, before, potted, _of_set(record.off), tuple(record.cushions), record.cushions_after, record)
+
+
+@dataclass(frozen=True)
+class Turn:
+    """What a shot amounts to, from `Rules.judge`: the fields are its arguments.
+
+    `turn`: who plays, or how the game ends; "pass": the other plays. `leave`: his layout: as it is "after" the shot, as "before" it, or with
+    the cue ball in hand, "anywhere", in the "kitchen" behind the head string or in the "d" of a snooker table. `foul`: a `Foul`. `spot`: balls
+    that come back to the foot spot: any that are down or off the table, but the cue ball. `points`: of the shot; a plan reads them without an
+    opponent only.
+    """
+
+    turn: Literal["keep", "pass", "win", "lose"]
+    leave: Literal["after", "before", "anywhere", "kitchen", "d"] = "after"
+    foul: int = 0
+    spot: Collection[int] = ()
+    points: float = 0.0
+
+
+class Rules:
+    """A game of one's own, for `plan` and `referee`: a subclass says its rules. The cue ball is ball 0.
+
+    `state` are eight numbers, as a list, for whatever the rules have to know: always as the player at the table has them. `judge` may
+    change them, and leaves them as the next player has them. Balls in play are a frozenset of their indices.
+    """
+
+    race: Literal["own", "shared", "alone", "points"] = "own"
+    """Whose balls are to be potted: each player has his own, both have the same, or there is no opponent. "points": both make points, and `left`
+    says how many each needs."""
+    calls: bool = False
+    """Whether ball and pocket are called."""
+    first_decides: bool = False
+    """Whether a shot that first meets a ball that is not on is a foul, whatever else happens: it is not played to its end."""
+
+    def on(self, state: list[int], in_play: frozenset[int]) -> Collection[int]:
+        """The balls that may be met first, and potted."""
+        raise NotImplementedError(f"{type(self).__name__} needs the method on(state, in_play)")
+
+    def judge(self, state: list[int], in_play: frozenset[int], facts: Facts, call: tuple[int, int]) -> Turn:
+        """What a shot amounts to; `in_play` were the balls before it, `call` is a ball and its pocket, or (-1, -1)."""
+        raise NotImplementedError(f"{type(self).__name__} needs the method judge(state, in_play, facts, call)")
+
+    def left(self, state: list[int], in_play: frozenset[int]) -> tuple[int, int]:
+        """How many balls the player at the table, and the other, have to pot to win."""
+        raise NotImplementedError(f"{type(self).__name__} needs the method left(state, in_play)")
+
+    def pockets(self, state: list[int]) -> Collection[int]:
+        """The pockets in which balls count, by their indices in `table.pocket_names`. Default: all."""
+        return range(8)
+
+
+class Made:
+    """The rules for C, with what has to live as long; and the first exception of a method of Rules."""
+
+    def __init__(self, rules: Game | Rules, state: npt.ArrayLike | None, group: Group | None = None, opening: bool = False) -> None:
+        self.raised: BaseException | None = None
+        self.rules = rules
+        self.stop = ffi.new("int32_t *")
+        """Of plans; set by an exception."""
+        if isinstance(rules, type) and issubclass(rules, Rules):
+            raise ValueError(f"rules: give a game, {rules.__name__}(), not the class {rules.__name__}")
+        if isinstance(rules, Rules):
+            self.c = ffi.new("carom_plan_rules *")
+            self._functions(rules)
+            self.c.race, self.c.calls, self.c.first_decides = choice(_RACES, rules.race, "rules.race"), bool(rules.calls), bool(rules.first_decides)
+        else:
+            self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules")))
+        words = np.zeros(_WORDS, np.uint64)
+        self.last = None if isinstance(rules, Rules) else LAST.get(rules)
+        """The highest number of a ball."""
+        if group is not None and rules != "eightball":
+            raise ValueError("group: it is of eight-ball")
+        if opening and rules not in ("eightball", "nineball", "straight"):
+            raise ValueError("opening: it is of eight-ball, nine-ball and straight pool")
+        if state is not None:
+            for is_given, name in ((group is not None, "group"), (opening, "opening")):
+                if is_given:
+                    raise ValueError(f"state, {name}: the state says the {name}, too: give one of both")
+            given = as_array(state, "state")
+            if given.shape != (_WORDS,) or given.dtype.kind not in "iu" or (given < 0).any():
+                raise ValueError(f"state: {_WORDS} whole numbers, at least 0, are needed, not {state!r}")
+            if rules == "eightball" and given[0] > 2:
+                raise ValueError(f"state[0]: it must be 0 (open), 1 (solids) or 2 (stripes), not {given[0]}")
+            words[:] = given
+        elif not isinstance(rules, Rules):
+            words[:] = list(self.c.user)
+            words[0] += choice(_GROUPS, group or "open", "group")
+            words[1] = bool(opening)
+        self.c.user = words.tolist()
+
+    def _functions(self, rules: Rules) -> None:
+        """The methods as functions for C."""
+
+        def guarded(kind: str, call: Callable[..., Any], otherwise: Any) -> Any:
+            def failed(kind: Any, value: BaseException, trace: Any) -> None:
+                self.raised = self.raised or value
+                self.stop[0] = 1
+
+            return ffi.callback(kind, call, error=otherwise, onerror=failed)
+
+        def judge(user: Any, in_play: int, cue_ball: int, facts: Any, call: Any) -> Any:
+            state = list(user[0:_WORDS])
+            turn = rules.judge(state, _of_set(in_play), _facts(facts), (call.ball, call.pocket))
+            if not isinstance(turn, Turn):
+                raise TypeError(f"judge: it must return a carom.Turn, not {turn!r}")
+            user[0:_WORDS] = [whole(word, f"judge: state[{k}]", most=2**64 - 1) for k, word in enumerate(state)]
+            made = ffi.new("carom_turn *", {"is": choice(_TURNS, turn.turn, "Turn.turn"), "leave": choice(_LEAVES, turn.leave, "Turn.leave")})
+            made.foul, made.spot, made.points = int(turn.foul), _set_of(turn.spot, "Turn.spot"), turn.points
+            there = _of_set(made.spot & (in_play & ~(facts.down | facts.off) | 1))
+            if there:
+                raise ValueError(f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(there)}")
+            return made[0]
+
+        def left(user: Any, in_play: int, out: Any) -> None:
+            own, other = rules.left(list(user[0:_WORDS]), _of_set(in_play))
+            out[0:2] = whole(own, "left"), whole(other, "left")
+
+        def on(user: Any, in_play: int) -> int:
+            return _set_of(rules.on(list(user[0:_WORDS]), _of_set(in_play)))
+
+        def pockets(user: Any) -> int:
+            return _set_of(rules.pockets(list(user[0:_WORDS])), "pockets", lib.CAROM_POCKETS_MOST - 1)
+
+        lost = ffi.new("carom_turn *", {"is": lib.CAROM_TURN_LOSE})[0]
+        self.kept = (
+            guarded("carom_rules_judge *", judge, lost), guarded("carom_rules_left *", left, None),
+            guarded("carom_rules_on *", on, 0), guarded("carom_rules_pockets *", pockets, 0),
+        )  # fmt: skip
+        self.c.judge, self.c.left, self.c.on, self.c.pockets = self.kept
+
+    def check_layout(self, table: Table, layout: dtypes.Records) -> None:
+        """Refuses what is no layout of the game, for a plan."""
+        pockets = len(table.pocket_names)
+        if self.rules == "threecushion" and (pockets or len(layout) < 3):
+            raise ValueError("table: threecushion needs one without pockets" if pockets else "balls: threecushion needs three")
+        if isinstance(self.rules, str) and self.rules != "threecushion" and not pockets:
+            raise ValueError(f"table: it has no pockets, which {self.rules} needs")
+        label = layout["state"]["label"]
+        for ball in range(len(layout) if self.last is None else self.last + 1, len(layout)):
+            if label[ball] not in (_POCKETED, _OFF):
+                raise ValueError(f"balls: the balls of {self.rules} are the cue ball and 1 to {self.last}, not {ball}")
+        self.check_count(len(layout))
+
+    def check_count(self, count: int) -> None:
+        """Refuses a layout in which balls are missing that may come back."""
+        if self.rules in ("straight", "snooker", "onepocket") and count <= (self.last or 0):
+            raise ValueError(f"balls: {self.rules} has the cue ball and 1 to {self.last}, of which some may be down, not {count} balls")
+
+    def check(self) -> None:
+        """Raises what a method of the rules raised."""
+        if self.raised is not None:
+            raise self.raised
+
+
+def _score(rules: Game | Rules, state: State) -> tuple[int, int]:
+    """By the words of `carom_rules_kind`: points of both, less those that fouls cost in straight pool, and balls that are owed in one-pocket."""
+    own, other = (int(word) for word in state[2:4])
+    lost = [int(word) for word in state[5:7]]
+    return (own - lost[0], other - lost[1]) if rules in ("straight", "onepocket") else (own, other) if rules == "snooker" else (0, 0)
+
+
+_bits: npt.NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
+
+
+def judge(made: Made, before: dtypes.Records, shots: Shots, states: State | None = None, calls: Array | None = None) -> Array:
+    """What shots with facts amount to, as `carom.dtypes.turn`, from the layouts before them, of shape (..., balls).
+
+    `states`, (..., 8), are changed; by default each shot has that of the rules. `calls` are int32 of shape (..., 2); by default none.
+    """
+    label = before["state"]["label"]
+    in_play = ((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]
+    turns: Array = np.zeros(shots.shape, dtypes.turn)
+    lib.carom_python_judge(
+        made.c, turns.size, pointer("int8_t[]", shots.status), pointer("carom_facts[]", shots._facts), pointer("uint32_t[]", in_play),
+        ffi.NULL if calls is None else pointer("carom_call[]", calls), ffi.NULL if states is None else pointer("uint64_t[]", states),
+        pointer("carom_turn[]", turns),
+    )  # fmt: skip
+    made.check()
+    return turns
+
+
+def on_of(made: Made, layout: dtypes.Records) -> tuple[int, ...]:
+    """The balls of a layout, of shape (balls,), that may be met first."""
+    label = layout["state"]["label"]
+    return tuple(sorted(_of_set(int(made.c.on(made.c.user, int(((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]))))))
+
+
+def calls_of(made: Made, layout: dtypes.Records, shots: Shots) -> Array:
+    """The calls of shots with facts from a layout, int32 of shape (..., 2): the first ball on that falls, and its pocket; or -1, -1."""
+    facts: Any = shots._facts
+    falls = np.full(facts["pocket_time"].shape, np.inf)
+    on = [*on_of(made, layout)]
+    falls[..., on] = facts["pocket_time"][..., on]
+    ball = falls.argmin(axis=-1)
+    pocket = np.take_along_axis(facts["pocket"], ball[..., np.newaxis], axis=-1)[..., 0]
+    calls: Array = np.stack([np.where(pocket < 0, -1, ball), pocket], axis=-1).astype(np.int32)
+    calls[~np.isfinite(falls.min(axis=-1))] = -1
+    return calls
+
+
+@dataclass(frozen=True, repr=False)
+class Ruling(Arrays):
+    """What a stroke was, and what comes next."""
+
+    turn: str  # "keep": the player plays on; "pass": the other plays; "win", "lose": the game has ended
+    foul: Foul
+    hand: Hand  # Whether the next player has the cue ball in hand: anywhere, behind the head string, or in the D of a snooker table
+    potted: tuple[int, ...]  # Balls that fell, the cue ball among them, in their order
+    first: int  # The ball that the cue ball met first, -1 for none
+    points: float
+    balls: dtypes.Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
+    state: State  # (8,): Of the rules, as the next player has it
+    score: tuple[int, int]  # Of straight pool and snooker: points of the next player, and of the other; of one-pocket their balls, below 0 those that they owe
+    facts: Facts  # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was met in one that ended in an error
+    shot: Shot
+
+
+def referee(
+    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
+    state: npt.ArrayLike | None = None, call: tuple[int, int] = (-1, -1), options: Options = _USUAL, **changes: Unpack[Changes]
+) -> Ruling:  # fmt: skip
+    """Play a stroke and judge it by the rules of a game.
+
+    Parameters
+    ----------
+    table : Table
+    balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
+        As for `plan`; the cue ball is ball 0.
+    cue : ndarray of `carom.dtypes.cue`, shape ()
+    rules, group, opening, state
+        As for `plan`. The `state` of a ruling is that for the next stroke.
+    call : tuple of two ints
+        The ball and the pocket that are called: `ball` and `pocket` of a choice of `plan`, which say a push-out and a pass, too.
+    options, **changes
+        As for `simulate`.
+
+    Raises
+    ------
+    CaromError
+        The layout or the cue is in error. A shot that ends in an error is a foul, whose layout is taken back.
+    """
+    layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+    made = Made(rules, state, group, opening)
+    made.check_count(layout.shape[-1])
+    strike = one_cue(cue).copy()
+    if call[0] == lib.CAROM_CALL_PASS:
+        strike["speed"] = 0.0
+    shots = simulate_batch(table, layout[np.newaxis], strike[np.newaxis], room=512, features=True, options=options, **changes)
+    failed = shots.status[0] < 0
+    if shots.refused[0]:
+        raise CaromError(int(shots.status[0]), "balls, cue")
+    states: Any = np.array([list(made.c.user)], np.uint64)
+    called: Array = np.array([[whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]], np.int32)
+    turns = judge(made, layout[np.newaxis], shots, states, called)
+    met = pointer("carom_facts[]", shots._facts)[0]
+    facts = _facts(ffi.new("carom_facts *", {"first": [-1, -1]} if failed else met))
+
+    # The next layout.
+    after = layout.copy()
+    if not failed and turns["leave"][0] != lib.CAROM_LEAVE_BEFORE:
+        after["state"] = shots.final[0]
+    beyond = [ball for ball in _of_set(int(turns["spot"][0])) if ball >= len(after)]
+    if beyond:
+        raise ValueError(f"Turn.spot: there are {len(after)} balls, none is {beyond[0]}")
+    code = lib.carom_turn_settle(
+        made.c, pointer("uint64_t[]", states), pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", after), len(after),
+        pointer("carom_turn[]", turns),
+    )
+    if code < 0:
+        raise CaromError(code, "Turn.spot", text="there is no room for a ball that comes back")
+    turn = turns[0]
+    hands: dict[int, Hand] = {lib.CAROM_LEAVE_HAND: "anywhere", lib.CAROM_LEAVE_KITCHEN: "kitchen", lib.CAROM_LEAVE_D: "d"}
+    return Ruling(
+        tuple(_TURNS)[turn["is"]], Foul(int(turn["foul"])), hands.get(int(turn["leave"]), "no"), tuple(facts.potted), facts.first,
+        float(turn["points"]), after, states[0], _score(rules, states[0]), facts, shots[0],
+    )  # fmt: skip

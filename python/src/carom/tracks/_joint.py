@@ -1,0 +1,246 @@
+"""Constants from whole shots, all of them together.
+
+The cost of a set of constants is the sum over shots of n m log(1 + c/(n m)), where c is the least cost that a strike gives (`_strikes`), n
+the number of its samples and m twice the median of c/n, so that shots whose events are missed do not decide; and the constants' priors,
+((c - c_0)/s)^2 each. As the fit comes nearer to the noise, m falls and the priors count less. With J_c and J_p the derivatives of the
+distances by the constants and by one shot's strike, the strike follows a step dc of the constants by -(J_p^T W J_p)^-1 J_p^T W J_c dc,
+which is put into the normal equations of dc and leaves (variable projection)
+
+    sum over shots of (J_c^T W J_c - J_c^T W J_p (J_p^T W J_p)^-1 J_p^T W J_c) dc = - sum of (J_c^T W d - J_c^T W J_p (...)^-1 J_p^T W d).
+
+A step of Levenberg and Marquardt's method is taken where the cost falls after every strike has descended. The first seconds come first:
+later samples follow from earlier events, and small errors of the constants have grown there beyond what a descent brings back. As a
+shot's cost jumps where events appear and vanish, all strikes are searched anew now and then.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes
+from carom._carom import lib
+from carom.dtypes import Doubles
+from carom.layouts import balls
+from carom.tracks import _events
+from carom.tracks._strikes import Plays, descend, find, normal
+
+MOST = 1.4e-3  # m^2: a shot whose cost a sample is more does not count; that of samples that are 8 cm off
+# What one deviation of a prior costs, m^2: the variance of the noise, and so many times what a sample is off by beyond the noise, as
+# the misfits of a shot that follow from one error are no independent evidence; at most that of samples that are 2 cm off.
+ALIKE, PRIOR_MOST = 300.0, 0.1
+# Of each constant: the deviation of its prior, about the value that single events gave, and its bounds.
+PRIORS = {
+    "mu_slide": (0.02, 0.01, 1.0), "mu_roll": (5e-4, 1e-4, 0.1), "drag": (4e-3, 0.0, 0.2), "mu_spin": (3e-3, 1e-4, 0.5),
+    "law_a": (0.03, 0.0, 0.4), "law_b": (0.2, 0.0, 0.6), "restitution": (0.03, 0.3, 1.0), "restitution_cushion": (0.03, 0.2, 1.0),
+    "mu_cushion": (0.06, 0.0, 1.0), "roll_loss": (0.06, 0.0, 0.5), "nose_height": (1.8e-3, 0.0, np.inf),
+    "restitution_log": (0.01, -0.2, 0.2), "mu_log": (0.01, -0.2, 0.2),
+}  # fmt: skip
+# How large errors are beside each other on synthetic recordings, whose truth is known.
+_SHAPE = {
+    "mu_slide": 1.2e-3, "mu_roll": 1.5e-5, "drag": 6e-4, "mu_spin": 6e-5, "law_a": 4e-3, "law_b": 0.03, "restitution": 3e-3,
+    "restitution_cushion": 9e-4, "mu_cushion": 9e-4, "roll_loss": 3e-3, "nose_height": 8e-5,
+    "restitution_log": 2e-3, "mu_log": 2e-3,
+}  # fmt: skip
+_WIDE = 10.0  # a range that is wider says nothing of the deviation of a constant
+_OTHER = 0.1  # the deviation of a prior of other constants over the width of their range, and _SHAPE over the deviation
+_ABOUT = 0.5  # and over the value that a constant begins with, where its range is wide
+_STEP = 1e-3  # of the differences, in deviations
+_HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
+_ELSEWHERE = 4  # the stage before which a search may begin again
+_AT_NOISE = 4.0  # variances of a coordinate: twice the cost a sample that noise alone gives
+_STEPS = 12  # at most, of each
+# On matches that are synthetic, as python/tests/tracks/test_fit.py makes them: how much the common size of the errors of
+# halves counts, beside
+# each one's own; and what the search leaves, over _SHAPE and the misfit over that of the noise: above _CLEAR times the noise it stopped
+# early, as do those of halves, and so much more for each time.
+_COMMON, _LEFT, _CLEAR, _STOPPED = 0.8, 0.1, 1.2, 1.0
+_SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
+
+
+def prior(name: str, begin: float = 0.0) -> tuple[float | None, float, float]:
+    """The deviation of the prior of a constant that begins with a value, None where it has to be given, and its bounds."""
+    if name in PRIORS:
+        return PRIORS[name]
+    row = lib.carom_number_of(lib.CAROM_PART_BALL, list(dtypes.ball_kind.names or ()).index(name))
+    width = row.high - row.low
+    return (_OTHER * width if width <= _WIDE else _ABOUT * abs(begin) or None), row.low, row.high
+
+
+def _shape(search: Search) -> Doubles:
+    """How large errors of the constants are beside each other."""
+    return np.array([_SHAPE.get(name, _OTHER * scale) for name, scale in zip(search.names, search.scale.tolist())])
+
+
+def damped(square: Doubles) -> Doubles:
+    """J_p^T W J_p, (..., 6, 6), made so much larger that it can be inverted where no sample tells a number of the strike.
+
+    More would hold the strikes back, whose numbers depend on each other: constants then creep along a valley, and stop in it.
+    """
+    diagonal, larger = np.arange(6), square.copy()
+    larger[..., diagonal, diagonal] = square[..., diagonal, diagonal] * (1.0 + 1e-8) + 1e-12
+    return larger
+
+
+class Search:
+    """The search for constants by some shots, `rows`, that begin with `strikes`, (shots, 6).
+
+    `priors` has the mean and the deviation of each constant to find.
+    """
+
+    def __init__(self, plays: Plays, strikes: Doubles, rows: Sequence[int], priors: Mapping[str, tuple[float, float]]) -> None:
+        self.rows = np.array([row for row in rows if np.isfinite(strikes[row]).all()], np.int32)
+        self.plays, self.names = plays, list(priors)
+        self.values = np.array([plays.constants[name] for name in priors])
+        self.start = self.values.copy()
+        self.first, self.scale = np.array(list(priors.values())).T
+        self.low, self.high = np.array([prior(name)[1:] for name in priors]).T
+        self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
+        self.counts = plays.counts[self.rows].astype(float)
+        self.again = True  # whether a search that stops early begins again elsewhere
+        self.noise, self.prior_cost, self.middle = plays.recordings[0].noise, PRIOR_MOST, MOST
+
+    def constants(self, values: Doubles) -> dict[str, float]:
+        return {**self.plays.constants, **dict(zip(self.names, values.tolist()))}
+
+    def cost(self, values: Doubles, strikes: Doubles, iterations: int) -> tuple[float, Doubles]:
+        """Of constants, after the strikes have descended; and these."""
+        self.plays.set(self.constants(values))
+        strikes, sums = descend(self.plays, self.rows, strikes, self.until, iterations)
+        prior = self.prior_cost * float((((values - self.first) / self.scale) ** 2).sum())
+        return float(self.counts @ (self.middle * np.log1p(sums[:, 0] / self.counts / self.middle))) + prior, strikes
+
+    def step(self, damping: float, cost: float) -> tuple[float, float]:
+        """A step; the cost after it, which is that before where none was found, and the damping for the next."""
+        self.plays.set(self.constants(self.values), dict(zip(self.names, _STEP * self.scale)))
+        most = MOST * self.counts
+        sums = self.plays.misfit(self.rows, self.strikes, self.until, most)
+        counted = sums[:, 0] < most
+        # in deviations of the constants
+        square, gradient = normal(sums)
+        size = np.concatenate([np.ones(6), self.scale])
+        square, gradient = square * np.outer(size, size), gradient * size
+        weight = 1.0 / (1.0 + sums[:, 0] / self.counts / self.middle)
+        square, gradient = square * weight[:, None, None], gradient * weight[:, None]
+        # the strikes put in; what no sample depends on stays where it is
+        square[~counted] = np.eye(square.shape[1])
+        P, X, C = damped(square[:, :6, :6]), square[:, :6, 6:], square[:, 6:, 6:]
+        follow = np.linalg.solve(P, np.concatenate([X, gradient[:, :6, None]], axis=2))
+        whole = (C - np.swapaxes(X, 1, 2) @ follow[..., :-1])[counted].sum(axis=0)
+        slope = (gradient[:, 6:] - (np.swapaxes(X, 1, 2) @ follow[..., -1:])[..., 0])[counted].sum(axis=0)
+        whole[np.diag_indices(len(whole))] += self.prior_cost
+        slope = slope + self.prior_cost * (self.values - self.first) / self.scale
+        for _ in range(6):
+            shorter = whole + damping * np.diag(whole.diagonal())
+            values = np.clip(self.values - self.scale * np.linalg.solve(shorter, slope), self.low, self.high)
+            moved = (values - self.values) / self.scale
+            strikes = self.strikes - np.where(counted[:, None], follow[..., :-1] @ moved + follow[..., -1], 0.0)
+            # a strike follows, or stays where that is better
+            self.plays.set(self.constants(values))
+            both = np.stack([strikes, self.strikes])
+            costs = [self.plays.misfit(self.rows, of, self.until, -np.inf)[:, 0] for of in both]
+            best = np.where((costs[0] < costs[1])[:, None], both[0], both[1])
+            new, best = self.cost(values, best, 4)
+            if new < cost:
+                self.values, self.strikes = values, best
+                return new, max(0.2 * damping, 1e-8)
+            damping *= 6.0
+        return cost, damping
+
+    def anew(self, seed: int) -> None:
+        """Searches all strikes anew, and takes those that are better."""
+        self.plays.set(self.constants(self.values))
+        now = self.plays.misfit(self.rows, self.strikes, self.plays.ends[self.rows], -np.inf)[:, 0]
+        found, costs = find(self.plays.some(self.rows), seed)
+        better = costs < now
+        self.strikes[better] = found[better]
+
+    def stage(self, number: int, seed: int) -> list[Any]:
+        """One of STAGES searches: the constants and the strikes, as `resume` takes them."""
+        if number >= len(_HORIZONS) and self.middle < 1.1 * _AT_NOISE * self.noise**2:
+            return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]  # nothing is left to find
+        if number == _ELSEWHERE and self.again and self.middle > 2.5 * _AT_NOISE * self.noise**2:
+            # a search that stopped early begins again elsewhere
+            other = copy.copy(self)
+            moved = self.values + 0.5 * self.scale * np.random.default_rng(seed).normal(size=len(self.values))
+            other.values, other.strikes = np.clip(moved, self.low, self.high), self.strikes.copy()
+            for earlier in range(1, len(_HORIZONS)):
+                other.stage(earlier, seed + _ELSEWHERE)
+            if other.middle < self.middle:
+                self.resume([other.values, other.strikes, other.middle, other.prior_cost])
+        if number:
+            self.anew(seed + number)
+        self.until = np.minimum(_HORIZONS[min(number, len(_HORIZONS) - 1)], self.plays.ends[self.rows])
+        _, self.strikes = self.cost(self.values, self.strikes, 4)
+        # what the samples are off by says how much a shot and a prior count
+        sums = self.plays.misfit(self.rows, self.strikes, self.until, -np.inf)
+        self.counts = np.maximum(sums[:, 2], 1.0)
+        middle = float(np.median(sums[:, 0] / self.counts)) if len(sums) else MOST
+        self.middle = min(max(2.0 * middle, _AT_NOISE * self.noise**2), MOST)
+        self.prior_cost = min(self.noise**2 + ALIKE * max(middle - 2.5 * self.noise**2, 0.0), PRIOR_MOST)
+        cost, _ = self.cost(self.values, self.strikes, 0)
+        damping = 1e-2
+        for _ in range(_STEPS):
+            before = cost
+            cost, damping = self.step(damping, cost)
+            if cost > before * (1.0 - 1e-3) and (cost == before or damping < 1e-5):
+                break
+        return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]
+
+    def resume(self, found: Sequence[Any]) -> None:
+        """Goes on from what a stage found."""
+        self.values, self.strikes = np.array(found[0]), np.array(found[1])
+        self.middle, self.prior_cost = found[2:]
+
+
+def without_slip(search: Search) -> Search:
+    """The same search before its first stage, for a friction between balls that does not change with the slip: law_a alone.
+
+    From a law with slip a search may stop at several times the noise where the friction has none, since law_a and law_b follow each other.
+    """
+    priors = {name: (mean, scale) for name, mean, scale in zip(search.names, search.first.tolist(), search.scale.tolist()) if name != "law_b"}
+    kind = balls([[0.0, 0.0]], game="billiard")["kind"][0]
+    priors["law_a"] = (float(kind["mu_ball"]), PRIORS["law_a"][0])
+    plays = search.plays.some(range(len(search.plays.recordings)))
+    plays.set({**plays.constants, "law_a": priors["law_a"][0], "law_b": 0.0, "law_c": 0.0})
+    strikes = np.full((len(plays.recordings), 6), np.nan)
+    strikes[search.rows] = search.strikes
+    return Search(plays, strikes, range(len(strikes)), priors)
+
+
+STAGES = 5  # the last horizon is searched again and again
+
+
+def spread(search: Search, seed: int) -> dict[str, float]:
+    """The errors of the constants of a search that is done, from halves of its shots."""
+    if len(search.rows) < 2 * _HALF_LEAST:
+        return {}
+    strikes = np.full((len(search.plays.recordings), 6), np.nan)
+    strikes[search.rows] = search.strikes
+    priors = dict(zip(search.names, zip(search.first.tolist(), search.scale.tolist())))
+
+    def find(half: npt.NDArray[np.intp]) -> Doubles:
+        rows = search.rows[np.sort(half)]
+        part = Search(search.plays.some(rows), strikes[rows], range(len(rows)), priors)
+        part.values, part.again = search.start.copy(), False
+        for number in range(STAGES):
+            part.stage(number, seed)
+        return part.values
+
+    error = _events.halves(len(search.rows), _SPLITS, np.random.default_rng(seed), find)
+    # few halves tell each error roughly, and all of them together the size of all errors
+    shape = _shape(search)
+    common = float(np.median(error / shape)) * shape
+    found = np.sqrt((1.0 - _COMMON) * error**2 + _COMMON * common**2 + left(search) ** 2)
+    return dict(zip(search.names, found.tolist()))
+
+
+def left(search: Search) -> Doubles:
+    """What a search leaves of each constant: the more the farther the misfit is above that of the noise."""
+    above = min(math.sqrt(0.25 * search.middle) / search.noise, 6.0)
+    return (_LEFT * above + _STOPPED * max(above - _CLEAR, 0.0)) * _shape(search)

@@ -1,0 +1,306 @@
+"""What a fit gives: its numbers, and a page of them, one HTML file with its pictures in it."""
+
+from __future__ import annotations
+
+import copy
+import html
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import pictures
+from carom._shot_options import ShotCushion
+from carom.dtypes import Doubles
+from carom.results import Shot
+from carom.shots import simulate
+from carom.tracks import _constants, _covariance, _kicks, _strikes
+from carom.tracks._events import events
+from carom.tracks._kicks import Kicks
+from carom.tracks._recordings import Recording
+
+_ROUGH_MOST = 8  # so many are told one by one
+_WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels
+_INK, _MARK, _LINE = "#333333", "#1f5fae", "#c0392b"
+_STYLE = (
+    "body{font:16px/1.4 sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;color:#222}table{border-collapse:collapse}"
+    "td,th{padding:.15em .8em;border-bottom:1px solid #ccc;text-align:right}td:first-child,th:first-child{text-align:left}"
+    "figure{display:inline-block;margin:.5em;vertical-align:top}figcaption{font-size:14px;max-width:460px}svg{max-width:100%;height:auto}"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """Recorded shots, and what they were fitted by."""
+
+    recordings: list[Recording]
+    table: tuple[float, float]  # Extents of x and y, m
+    radius: float  # m
+    cushion_model: ShotCushion
+    constants: dict[str, float]  # What the shots are played with: fields of `carom.dtypes.ball_kind`, and nose_height (m)
+    spread: dict[str, float]  # Of each constant that was fitted, how far it is off by the evidence itself: a standard deviation
+    # (shots, 6): v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and its time (s). NaN where
+    # there is none.
+    strikes: Doubles
+    # "ok"; "mended: ...", "rough: ..." or "doubtful: ...", with what was mended, is above the noise or is in doubt; else why the shot does
+    # not count
+    status: list[str]
+    # (shots,): Root of the mean squared distance between recorded and played places over all samples of all balls, m; NaN
+    # without a play
+    rmse: Doubles
+    train: list[bool] | None = None  # Which shots the constants were fitted to, if not all
+    fitted: tuple[str, ...] = ()  # The constants that whole shots told
+    # (fitted, fitted): Of these; the roots of its diagonal are their `spread`. None where fewer than 8 shots tell.
+    covariance: Doubles | None = None
+    warnings: Sequence[str] = ()  # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the noise
+
+    @property
+    def counts(self) -> list[bool]:
+        """Which shots count."""
+        return [status.partition(":")[0] in ("ok", "mended", "rough", "doubtful") for status in self.status]
+
+    def counted(self, train: bool | None = None) -> Doubles:
+        """The RMSE of the shots that count, m: of all, of those that constants were fitted to, or of the others."""
+        part = [train is None or self.train is None or one == train for one in self.train or [True] * len(self.status)]
+        rmse: Doubles = self.rmse[np.array(self.counts) & np.array(part)]
+        return rmse
+
+    @property
+    def median_rmse(self) -> float:
+        """m, over the shots that count."""
+        return float(np.median(self.counted())) if len(self.counted()) else float("nan")
+
+    @property
+    def p90_rmse(self) -> float:
+        """m: 9 in 10 of the shots that count are better."""
+        return float(np.percentile(self.counted(), 90)) if len(self.counted()) else float("nan")
+
+    def shot(self, i: int) -> Shot:
+        """Shot i played; its clock begins at the strike, `strikes[i, 5]`.
+
+        Raises ValueError: No strike was found.
+        """
+        strike, recording = self.strikes[i], self.recordings[i]
+        if not np.isfinite(strike).all():
+            raise ValueError(f"shot {recording.id}: no strike was found: {self.status[i]}")
+        centres = _strikes.apart(recording.rest, self.table, self.radius)
+        balls = _constants.layout(centres, self.radius, self.constants)
+        balls["state"]["v"][recording.cue, :2] = strike[:2]
+        balls["state"]["w"][recording.cue] = strike[2:5] / self.radius
+        table = _constants.rectangle(self.table, self.constants["nose_height"])
+        return simulate(table, balls, cushion_model=self.cushion_model)
+
+    def strike_covariance(self, i: int) -> Doubles:
+        """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being right: by derivatives of the shot.
+
+        It has the noise of the samples, by what they leave over, and that of the places of rest, which contacts magnify.
+
+        Raises ValueError: No strike was found.
+        """
+        self.shot(i)
+        plays = self._plays([i])
+        return _covariance.of_strike(plays, 0, self.strikes[i] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]])
+
+    def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
+        """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2)."""
+        at = np.asarray(times, np.float64)
+        return self.shot(i).positions(at - self.strikes[i, 5])[..., :2]
+
+    def kicks(self) -> Kicks:
+        """What the models get wrong at each contact of the shots that count: the small changes of the motion just after it, kicks, with
+        which the shots go as they were recorded.
+        """
+        rows = [k for k, counts in enumerate(self.counts) if counts]
+        plays = self._plays(rows)
+        strikes = self.strikes[rows].copy()
+        strikes[:, 5] -= plays.origins
+        return _kicks.report(plays, strikes, rows, len(self.recordings))
+
+    def _plays(self, rows: Sequence[int]) -> _strikes.Plays:
+        return _strikes.Plays([self.recordings[k] for k in rows], self.table, self.radius, self.constants, self.cushion_model)
+
+    def plot(self, i: int, kicks: Kicks | None = None) -> pictures.Picture:
+        """Shot i: lines as played, dots as recorded. Its `svg` is the text of a file. With kicks, as played with them: each contact has a
+        circle, the larger the more of the RMSE it has, and those of more than 3 mm the kick that stands out.
+        """
+        shot: Any = self.shot(i)
+        marks = []
+        if kicks is not None:
+            plays, numbers = self._plays([i]), kicks.numbers[i]
+            shot = copy.copy(shot)
+            shot.events = plays.played(0, numbers)[0]
+            shot.time, shot.count = float(plays.ends[0] - numbers[5]), len(shot.events)
+            shot.positions = lambda times: plays.played(0, numbers, np.asarray(times) + numbers[5])[1].transpose(1, 0, 2)
+            shot.final = shot.final.copy()
+            shot.final["r"][:, :2] = shot.positions([shot.time])[0]
+            marks = [(r, min(0.015 + 3.0 * size, 0.1), long, short if size > 3e-3 else "") for r, size, long, short in kicks.marks(i)]
+        return pictures.Picture(pictures.picture(shot.table, shot, [track[:, 1:] for track in self.recordings[i].tracks], marks))
+
+    def to_dict(self, kicks: Kicks | None = None) -> dict[str, Any]:
+        """What the command writes, of numbers that JSON has."""
+        shots: list[dict[str, Any]] = []
+        for recording, strike, status, rmse in zip(self.recordings, self.strikes, self.status, self.rmse):
+            found = bool(np.isfinite(strike).all())
+            v_x, v_y, w_x, w_y, w_z, start = strike.tolist()
+            cue = {
+                "ball": recording.balls[recording.cue], "v_x": v_x, "v_y": v_y,
+                "w_x": w_x / self.radius, "w_y": w_y / self.radius, "w_z": w_z / self.radius, "start": start,
+            } if found else None  # fmt: skip
+            part = {} if self.train is None else {"train": self.train[len(shots)]}
+            shots.append({**part, "id": recording.id, "status": status, "rmse": float(rmse) if found else None, "cue": cue})
+        return {
+            "constants": self.constants,
+            "spread": self.spread,
+            "covariance": None if self.covariance is None else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},
+            "cushion_model": self.cushion_model,
+            "table": list(self.table),
+            "radius": self.radius,
+            "shots": shots,
+            "median_rmse": self.median_rmse if len(self.counted()) else None,
+            "p90_rmse": self.p90_rmse if len(self.counted()) else None,
+            "noise": self.recordings[0].noise,
+            "warnings": list(self.warnings),
+            **({} if kicks is None else {"kicks": kicks.to_list()}),
+        }
+
+
+def _ticks(low: float, high: float) -> list[float]:
+    """Round numbers between two."""
+    size = (high - low) / 4.0
+    unit = 10.0 ** math.floor(math.log10(size))
+    step = next(unit * k for k in (1.0, 2.0, 2.5, 5.0, 10.0) if unit * k >= size)
+    return [step * k for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+
+
+class _Chart:
+    """A chart with axes, as SVG."""
+
+    def __init__(self, x: tuple[float, float], y: tuple[float, float], x_name: str, y_name: str) -> None:
+        self.ends = x, y
+        bottom, right = _HEIGHT - _BELOW, _WIDTH - 10.0
+        self.parts = [f'<path d="M{_LEFT},{_ABOVE}V{bottom}H{right}" stroke="{_INK}" fill="none"/>']
+        self._text(0.5 * (_LEFT + right), _HEIGHT - 8.0, x_name)
+        self._text(14.0, 0.5 * (_ABOVE + bottom), y_name, f' transform="rotate(-90 14 {0.5 * (_ABOVE + bottom):.1f})"')
+        for value in _ticks(*x):
+            self._text(self._at(value, y[0])[0], bottom + 16.0, f"{value:g}")
+        for value in _ticks(*y):
+            self._text(_LEFT - 6.0, self._at(x[0], value)[1] + 4.0, f"{value:g}", ' style="text-anchor:end"')
+
+    def _text(self, x: float, y: float, text: str, rest: str = "") -> None:
+        self.parts.append(f'<text x="{x:.1f}" y="{y:.1f}"{rest}>{html.escape(text)}</text>')
+
+    def _at(self, x: float, y: float) -> tuple[float, float]:
+        (x_0, x_1), (y_0, y_1) = self.ends
+        return (
+            _LEFT + (x - x_0) / (x_1 - x_0) * (_WIDTH - 10.0 - _LEFT),
+            _HEIGHT - _BELOW - (y - y_0) / (y_1 - y_0) * (_HEIGHT - _BELOW - _ABOVE),
+        )
+
+    def dots(self, x: Doubles, y: Doubles) -> None:
+        (x_0, x_1), (y_0, y_1) = self.ends
+        for a, b in zip(x.tolist(), y.tolist()):
+            if x_0 <= a <= x_1 and y_0 <= b <= y_1:
+                at = self._at(a, b)
+                self.parts.append(f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="2" fill="{_MARK}" fill-opacity="0.45"/>')
+
+    def line(self, x: Doubles, y: Doubles) -> None:
+        points = " ".join("{:.1f},{:.1f}".format(*self._at(a, b)) for a, b in zip(x.tolist(), y.tolist()))
+        self.parts.append(f'<polyline points="{points}" stroke="{_LINE}" stroke-width="2" fill="none"/>')
+
+    def bars(self, edges: Doubles, heights: Sequence[int]) -> None:
+        for left, right, height in zip(edges[:-1].tolist(), edges[1:].tolist(), heights):
+            (x, y), (end, bottom) = self._at(left, height), self._at(right, 0.0)
+            size = f'width="{max(end - x - 1.0, 0.5):.1f}" height="{bottom - y:.1f}"'
+            self.parts.append(f'<rect x="{x:.1f}" y="{y:.1f}" {size} fill="{_MARK}"/>')
+
+    def svg(self) -> str:
+        head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="{_WIDTH:g}" height="{_HEIGHT:g}"'
+        return head + ' font-family="sans-serif" font-size="12" text-anchor="middle">' + "".join(self.parts) + "</svg>"
+
+
+def histogram(fit: Fit) -> str:
+    """How many shots have which RMSE."""
+    rmse = 100.0 * fit.counted()
+    end = float(_ticks(0.0, 1.05 * float(rmse.max()))[-1] or 1.0) if len(rmse) else 1.0
+    end = max(end, float(rmse.max(initial=0.0)) * 1.001)
+    edges: Doubles = np.linspace(0.0, end, 31)
+    heights = np.histogram(rmse, edges)[0].tolist()
+    chart = _Chart((0.0, end), (0.0, max([*heights, 1]) * 1.05), "RMSE of a shot, cm", "shots")
+    chart.bars(edges, heights)
+    return chart.svg()
+
+
+def laws(fit: Fit) -> list[tuple[str, str]]:
+    """Pictures of what single events say, over what the fit plays with; each with its text."""
+    seen, constants = events(fit.recordings, fit.table, fit.radius), fit.constants
+    gravity = constants["gravity"]
+    rolls = seen.pieces[seen.pieces["rolling"] & (seen.pieces["a_error"] < 0.03)]
+    speed = np.hypot(*rolls["v"].T)
+    chart = _Chart((0.0, 3.0), (0.0, 0.2), "speed, m/s", "deceleration of rolling, m/s²")
+    chart.dots(speed, -(rolls["a"] * rolls["v"]).sum(axis=1) / np.maximum(speed, 1e-9))
+    x: Doubles = np.linspace(0.0, 3.0, 61)
+    chart.line(x, constants["mu_roll"] * gravity + constants["drag"] * x**2)
+    found = [("Rolling: one dot for each piece of a track. Line: mu_roll g + drag v² of the fit.", chart.svg())]
+
+    slides = seen.pieces[seen.pieces["sliding"] & (seen.pieces["a_error"] < 0.15)]
+    chart = _Chart((0.0, 6.0), (0.0, 4.0), "speed, m/s", "deceleration of sliding, m/s²")
+    chart.dots(np.hypot(*slides["v"].T), np.hypot(*slides["a"].T))
+    chart.line(np.array([0.0, 6.0]), np.full(2, constants["mu_slide"] * gravity))
+    found.append(("Sliding: one dot for each piece. Line: mu_slide g of the fit.", chart.svg()))
+
+    good = seen.impacts[(seen.impacts["chi2"] < 3) & (seen.impacts["w_error"] < 0.05) & (seen.impacts["v_error"] < 0.05)]
+    chart = _Chart((0.0, 4.0), (0.5, 1.1), "speed into the cushion, m/s", "speed out / speed in")
+    chart.dots(good["v_n"], -good["w_n"] / np.maximum(good["v_n"], 1e-9))
+    found.append(("Cushions: the speed across the cushion after an impact over that before.", chart.svg()))
+
+    hits = seen.hits[(seen.hits["chi2"] < 3) & (seen.hits["w_error"] < 0.1) & (seen.hits["z_error"] < 0.1)]
+    chart = _Chart((0.0, 5.0), (0.7, 1.1), "closing speed, m/s", "restitution")
+    chart.dots(hits["v_n"], (hits["z_n"] - hits["w_n"]) / np.maximum(hits["v_n"], 1e-9))
+    chart.line(np.array([0.0, 5.0]), np.full(2, constants["restitution"]))
+    found.append(("Hits on a ball at rest: speed of parting over closing speed. Line: restitution of the fit.", chart.svg()))
+    return found
+
+
+def told(fit: Fit) -> list[str]:
+    """What a reader of the result should know: the noise, what holds of all shots, and the shots that are not ok."""
+    lines = [f"noise of a coordinate: {1e3 * fit.recordings[0].noise:.2f} mm", *(f"warning: {text}" for text in fit.warnings)]
+    rough = [float(rmse) for rmse, status in zip(fit.rmse, fit.status) if status.startswith("rough")]
+    if len(rough) > _ROUGH_MOST:
+        noise = math.sqrt(2.0) * fit.recordings[0].noise
+        lines.append(f"{len(rough)} of {len(fit.status)} shots are rough: RMSE {min(rough) / noise:.2g} to {max(rough) / noise:.2g} times that of the noise")
+    silent = ("ok", "rough") if len(rough) > _ROUGH_MOST else ("ok",)
+    return lines + [f"shot {shot.id}: {status}" for shot, status in zip(fit.recordings, fit.status) if not status.startswith(silent)]
+
+
+def page(fit: Fit, name: str, kicks: Kicks | None = None) -> str:
+    """The page, of tracks of that name; with kicks, their tables too, and pictures of the shots as played with them."""
+    ok = [k for k, counts in enumerate(fit.counts) if counts]
+    order = sorted(ok, key=lambda k: float(fit.rmse[k]))
+    parts = [f"<h1>{html.escape(name)}</h1>"]
+    if order:
+        parts.append(
+            f"<p>{len(ok)} of {len(fit.status)} shots, cushion model {fit.cushion_model}: RMSE median {100 * fit.median_rmse:.2f} cm, "
+            f"9 in 10 below {100 * fit.p90_rmse:.2f} cm.</p>"
+        )
+    parts.append(f"<ul>{''.join(f'<li>{html.escape(line)}</li>' for line in told(fit))}</ul>")
+    figures = [("RMSE over all samples of all balls of a shot.", histogram(fit))] if order else []
+    for what, k in [("best", order[0]), ("median", order[len(order) // 2]), ("worst", order[-1])] if order else []:
+        text = f"The {what} shot, {fit.recordings[k].id}: {100 * fit.rmse[k]:.2f} cm. Lines as played, dots as recorded."
+        if kicks is not None:
+            text += f" Played with kicks: {100 * kicks.rmse[k]:.2f} cm. Circles: contacts, the larger the more of the RMSE they have."
+        figures.append((text, fit.plot(k, kicks).svg))
+    figures += laws(fit)
+    rows = [
+        f"<tr><td>{constant}</td><td>{value:.5g}</td><td>{f'{fit.spread[constant]:.2g}' if constant in fit.spread else 'given'}</td></tr>"
+        for constant, value in fit.constants.items()
+    ]
+    parts += [f"<figure>{svg}<figcaption>{html.escape(text)}</figcaption></figure>" for text, svg in figures]
+    parts.append(f"<table><tr><th>constant</th><th>value</th><th>spread</th></tr>{''.join(rows)}</table>")
+    for table in kicks.tables if kicks is not None else ():
+        cells = ["".join(f"<td>{html.escape(cell)}</td>" for cell in row) for row in table]
+        parts.append(f"<h2>Kicks</h2><table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>")
+    head = f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(name)}</title><style>{_STYLE}</style></head>'
+    return f"{head}<body>{''.join(parts)}</body></html>\n"

@@ -1,0 +1,215 @@
+"""Derivatives of shots against differences, and what is refused."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import carom
+
+TABLE = carom.tables.pool_9ft()
+CLOSED = {"ball_model": "inelastic", "cushion_model": "han"}
+
+
+def layout():
+    return carom.balls(np.array([[0.4, 0.5], [0.6, 1.5], [0.9, 2.0]])), carom.cue(speed=1.5, phi=79.0, a=0.1, b=0.1)
+
+
+def test_tangents_are_differences():
+    balls, cue = layout()
+    shot = carom.simulate(TABLE, balls, cue, **CLOSED)
+    found = carom.tangents(shot, ["cue.speed", "cue.phi", "balls[1].r", "kind.mu_slide"], times=[0.5, 1.0])
+    assert found.names == ("cue.speed", "cue.phi", "balls[1].r[0]", "balls[1].r[1]", "kind.mu_slide")
+    assert found.units == ("m/s", "deg", "m", "m", "1")
+    assert found.final["r"].shape == (3, 2, 5) and found.final["w"].shape == (3, 3, 5)
+    assert found.at["v"].shape == (2, 3, 2, 5) and found.time.shape == (shot.count, 5)
+    assert (found.reach > 0).all() and not (found.flags & carom.Flag.KINK).any()
+
+    def moved(h, j):
+        other, stroke = balls.copy(), cue.copy()
+        if j < 2:
+            stroke["speed" if j == 0 else "phi"] += h
+        elif j < 4:
+            other["state"]["r"][1, j - 2] += h
+        else:
+            other["kind"]["mu_slide"] += h
+        return carom.simulate(TABLE, other, stroke, **CLOSED)
+
+    for j in range(5):
+        h = 1e-7
+        more, less = moved(h, j), moved(-h, j)
+        for name in "rvw":
+            wide = 3 if name == "w" else 2
+            difference = (more.final[name] - less.final[name])[:, :wide] / (2 * h)
+            np.testing.assert_allclose(found.final[name][..., j], difference, atol=1e-5 * np.abs(found.states[..., j]).max())
+        difference = (more.positions([0.5, 1.0]) - less.positions([0.5, 1.0]))[..., :2] / (2 * h)
+        np.testing.assert_allclose(found.at["r"][..., j], difference, atol=1e-5 * np.abs(found.states_at[..., j]).max())
+
+
+WRT = ["cue.speed", "cue.phi", "cue.a", "cue.b"]
+
+
+def second_differences(balls, cue, h, models):
+    """Of the places at the end, from their values: (balls, 2, 4, 4)."""
+    fields = [name[4:] for name in WRT]
+    signs = [(i, j, s, t) for i in range(4) for j in range(4) for s in (1, -1) for t in (1, -1)]
+    cues = np.repeat(cue.reshape(1), len(signs))
+    for k, (i, j, s, t) in enumerate(signs):
+        cues[fields[i]][k] += s * h[i]
+        cues[fields[j]][k] += t * h[j]
+    ends = carom.simulate_batch(TABLE, balls, cues, **models).final["r"][..., :2].reshape(4, 4, 2, 2, -1, 2)
+    mixed = ends[:, :, 0, 0] - ends[:, :, 0, 1] - ends[:, :, 1, 0] + ends[:, :, 1, 1]
+    return np.moveaxis(mixed / (4.0 * h[:, np.newaxis] * h)[..., np.newaxis, np.newaxis], (0, 1), (-2, -1))
+
+
+def test_second_derivatives_are_differences_of_values():
+    """On 100 shots, compared for changes of a hundredth of the reach: those of values have errors of their own, in fourth derivatives."""
+    random, shots, met, errors, off = np.random.default_rng(5), 0, 0, [], []
+    while shots < 100:
+        balls = carom.balls(random.uniform([0.15, 0.3], [1.1, 2.2], (3, 2)))
+        at = np.degrees(np.arctan2(*(balls["state"]["r"][1] - balls["state"]["r"][0])[1::-1]))
+        cue = carom.cue(speed=random.uniform(1.0, 3.0), phi=at + random.uniform(-10.0, 10.0), a=random.uniform(-0.2, 0.2), b=random.uniform(-0.2, 0.3))
+        try:
+            shot = carom.simulate(TABLE, balls, cue, **CLOSED)
+        except carom.CaromError:
+            continue  # balls overlap
+        found = carom.hessian(shot, WRT)
+        if not found.states.any() or (found.first.flags & (carom.Flag.SIMULTANEOUS | carom.Flag.KINK)).any():
+            continue
+        shots += 1
+        met += (shot.events["type"] == carom.EventType.BALL_BALL).any()
+        assert found.final["r"].shape == (3, 2, 4, 4) and np.isfinite(found.states).all()
+        np.testing.assert_array_equal(found.states, found.states.swapaxes(-1, -2))
+        errors.append(found.error)
+        h = 1e-2 * np.minimum(found.first.reach, 0.1)
+        second, weight = second_differences(balls, cue, h, CLOSED), h[:, np.newaxis] * h
+        off.append(np.abs((found.final["r"] - second) * weight).max() / np.abs(second * weight).max())
+    assert met > 50 and np.median(errors) < 1e-6 and np.quantile(errors, 0.9) < 1e-4, np.quantile(errors, [0.5, 0.9, 1.0])
+    assert np.median(off) < 1e-4 and np.quantile(off, 0.9) < 1e-2, np.quantile(off, [0.5, 0.9, 1.0])
+
+
+def test_second_derivatives_of_a_ball_that_rolls():
+    """It rolls v^2/(2 mu g), v in proportion to the speed of the cue, so that d2/dv2 = 2 y/v^2, and y falls like 1/mu."""
+    balls = carom.balls([[0.6, 0.3]])
+    speed, mu = 0.5, float(balls["kind"]["mu_roll"][0])
+    shot = carom.simulate(TABLE, balls, carom.cue(speed=speed, b=0.4), **CLOSED)
+    found, far = carom.hessian(shot, ["cue.speed", "kind.mu_roll", "balls[0].r[1]"]), shot.final["r"][0, 1] - 0.3
+    expected = far * np.array([[2.0 / speed**2, -2.0 / speed / mu, 0.0], [-2.0 / speed / mu, 2.0 / mu**2, 0.0], [0.0, 0.0, 0.0]])
+    np.testing.assert_allclose(found.final["r"][0, 1], expected, rtol=1e-5, atol=1e-6)
+    for wrt, words in ((["table.nose_height"], "wrt: table.nose_height has no second"), (["kind.radius"], "wrt: kind.radius"), ([], "wrt: name at least one")):
+        with pytest.raises(ValueError, match=words):
+            carom.hessian(shot, wrt)
+    with pytest.raises(TypeError, match="^shot: "):
+        carom.hessian(TABLE, ["cue.phi"])
+
+
+def test_jacobian_has_the_batch_in_front():
+    balls, cue = layout()
+    cues = np.repeat(cue.reshape(1), 6).reshape(2, 3)
+    cues["phi"] += np.linspace(0.0, 0.5, 6).reshape(2, 3)
+    cues["b"][1, 2] = 2.0
+    found = carom.jacobian(TABLE, balls, cues, ["cue.speed", "kind.mu_roll"], **CLOSED)
+    assert found.shape == (2, 3, 3, 2, 2)
+    assert np.isnan(found[1, 2]).all() and np.isfinite(found[:, :2]).all()
+    one = carom.tangents(carom.simulate(TABLE, balls, cues[0, 1], **CLOSED), ["cue.speed", "kind.mu_roll"])
+    np.testing.assert_array_equal(found[0, 1], one.final["r"])
+
+
+@pytest.mark.parametrize("models", [CLOSED, {}, {"cushion_model": "mathavan"}, {"t_final": 0.7, **CLOSED}])
+@pytest.mark.parametrize("threads", [0, 3])
+def test_batches_have_the_bits_of_single_shots(models, threads):
+    table, random = carom.tables.pool_9ft(), np.random.default_rng(11)
+    layouts = carom.balls(random.uniform([0.1, 0.2], [0.5, 0.8], (9, 1, 2)) + np.array([[0.0, 0.0], [0.2, 0.9], [0.5, 1.4]]))
+    cues = carom.cue(speed=random.uniform(0.8, 3.0, 9), phi=random.uniform(60.0, 85.0, 9), a=0.1)
+    cues["b"][4] = 2.0
+    names = ["cue.speed", "cue.phi", "balls[1].r", "kind.restitution", "table.nose_height"]
+    shots = carom.simulate_batch(table, layouts, cues, room=200, **models)
+    found = carom.tangents(shots, names, times=[0.1, 0.4], threads=threads)
+    assert found.status[4] == carom.Status.ERROR_MISCUE and (found.status != 0).sum() == 1
+    assert found.states.shape == (9, 3, carom.derivatives.STATE, 6) and found.reach.shape == (9, 6)
+    ofs = {of: carom.jacobian(table, layouts, cues, names, of=of, times=[0.1, 0.4], room=200, threads=threads, **models)
+           for of in ("final.r", "at.w", "time", "reach")}  # fmt: skip
+    for k in range(9):
+        if k == 4:
+            assert np.isnan(found.states[k]).all() and np.isnan(found.reach[k]).all() and (found.flags[k] == -1).all()
+            assert all(np.isnan(array[k]).all() for array in ofs.values())
+            continue
+        one = carom.tangents(carom.simulate(table, layouts[k], cues[k], **models), names, times=[0.1, 0.4])
+        events = len(one.time)
+        for batch, single in (
+            (found.states[k], one.states), (found.states_at[k], one.states_at), (found.time[k, :events], one.time),
+            (found.flags[k, :events], one.flags), (found.reach[k], one.reach), (found.error[k], one.error),
+            (ofs["final.r"][k], one.final["r"]), (ofs["at.w"][k], one.at["w"]), (ofs["time"][k, :events], one.time), (ofs["reach"][k], one.reach),
+        ):  # fmt: skip
+            assert np.isfinite(single).any() and batch.tobytes() == np.ascontiguousarray(single).tobytes()
+        assert np.isnan(found.time[k, events:]).all() and (found.flags[k, events:] == -1).all()
+        # a shot that is taken out of the batch knows how it was played
+        again = carom.tangents(shots[k], names)
+        assert again.states.tobytes() == one.states.tobytes()
+
+
+def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
+    balls, _ = layout()
+    cues = carom.cue(speed=1.5, phi=np.linspace(76.0, 81.0, 23))
+    names = ["cue.phi", *(f"balls[{i}].kind.{field}" for i in range(3) for field in carom.dtypes.ball_kind.names if field != "radius")]
+    names = names[: carom.derivatives.MOST - 1]
+    whole = {of: carom.jacobian(TABLE, balls, cues, names, of=of, **CLOSED) for of in ("final.v", "final.r", "time", "reach")}
+    monkeypatch.setattr(carom.derivatives, "_AT_ONCE", 5)
+    monkeypatch.setattr(carom.derivatives, "MOST", 20)
+    for of, array in whole.items():
+        part = carom.jacobian(TABLE, np.broadcast_to(balls, (23, 3)), cues, names, of=of, **CLOSED)
+        np.testing.assert_allclose(part, array, rtol=1e-9, atol=1e-9 * np.nanmax(np.abs(array[np.isfinite(array)])))
+        assert part.shape == array.shape and np.isfinite(part).sum() == np.isfinite(array).sum() > 0
+    # none, one, and one of too many events for its room
+    assert carom.jacobian(TABLE, balls, cues[:0], names, **CLOSED).shape == (0, 3, 2, len(names))
+    assert carom.jacobian(TABLE, balls, cues[3], names, **CLOSED).shape == (3, 2, len(names))
+    assert np.isnan(carom.jacobian(TABLE, balls, cues, names, room=2, **CLOSED)).all()
+    with pytest.raises(ValueError, match="layouts"):
+        carom.jacobian(TABLE, balls[0], cues, names)
+
+
+def test_a_shot_knows_what_it_was_played_with():
+    """Its cue, its table and its models, also in a pickle; what is changed afterwards is not the shot's."""
+    table = carom.tables.pool_9ft()
+    balls, cue = layout()
+    shot, names = carom.simulate(table, balls, cue, t_final=2.0, **CLOSED), ["cue.phi", "kind.mu_slide"]
+    expected = carom.tangents(shot, names).states.tobytes()
+    assert shot.options.cushion_model == "han" and shot.options.t_final == 2.0 and shot.cue == cue
+    again = carom.resume(shot, t_final=3.0)
+    assert again.options == shot.options._replace(t_final=3.0) and again.cue == cue
+    assert carom.tangents(pickle.loads(pickle.dumps(shot)), names).states.tobytes() == expected
+    cues = np.repeat(cue.reshape(1), 3)
+    cues["speed"][1] = 1.7
+    shots = carom.simulate_batch(table, balls, cues, room=99, **CLOSED)
+    assert shots[1].cue == cues[1] and pickle.loads(pickle.dumps(shots[1])).cue == cues[1]
+    cue["phi"], balls["kind"]["mu_slide"] = 12.0, 0.3
+    table.rails["restitution"] = 0.5
+    assert carom.tangents(shot, names).states.tobytes() == expected
+    with pytest.raises(ValueError, match="wrt: name at least one number"):
+        carom.tangents(shot, [])
+
+
+def test_events_that_were_not_kept():
+    """The error says which room keeps them, and in that room there are derivatives."""
+    balls, cue = layout()
+    cues = carom.cue(speed=[1.5, 1.5, 3.0], phi=79.0, b=[0.1, 2.0, 0.1])
+    for room in (0, 4):
+        shots = carom.simulate_batch(TABLE, balls, cues, room=room)
+        most = shots.count.max()
+        with pytest.raises(ValueError, match=f"^shot: room={room} does not keep all events of 2 of 3 shots; room={most} does"):
+            carom.tangents(shots, ["cue.phi"])
+        with pytest.raises(ValueError, match=f"^shot: room={room} does not keep all events of 1 of 1 shots; room={most} does"):
+            carom.tangents(shots[2], ["cue.phi"])
+    found = carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=most), ["cue.phi"])
+    assert np.isfinite(found.states[[0, 2]]).all() and np.isnan(found.states[1]).all()
+    with pytest.raises(ValueError, match='records="full"'):
+        carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=99, records="brief"), ["cue.phi"])
+
+
+def test_what_is_not_known():
+    balls, cue = layout()
+    with pytest.raises(carom.CaromError) as error:
+        carom.tangents(carom.simulate(TABLE, balls, cue, world="pooltool"), ["cue.phi"])
+    assert error.value.status is carom.Status.ERROR_TANGENT
+    with pytest.raises(ValueError, match="times"):
+        carom.tangents(carom.simulate(TABLE, balls, cue), ["cue.phi"], times=[1.0, 0.5])

@@ -1,0 +1,236 @@
+"""carom.jax: values are those of shots, derivatives those of carom.tangents and of differences; batches, compiled code, errors."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom import _functions, derivatives
+
+jax = pytest.importorskip("jax", reason="JAX is not installed")
+jax.config.update("jax_enable_x64", True)
+import jax.numpy as jnp  # noqa: E402
+
+import carom.jax  # noqa: E402
+
+TABLE = carom.tables.pool_9ft()
+CLOSED = {"ball_model": "inelastic", "cushion_model": "han"}
+BALLS = carom.balls([[0.4, 0.5], [0.6, 1.5], [0.9, 2.0]])
+CUE = carom.cue(speed=1.5, phi=79.0, a=0.1, b=0.1)
+AIM = jnp.array([1.5, 79.0, 0.1, 0.1])
+GOAL = jnp.array([0.6, 1.0])
+NAMES = ("cue.speed", "cue.phi", "cue.a", "cue.b")
+
+
+def ends(aim, **models):
+    return carom.jax.final(TABLE, BALLS, CUE, dict(zip(NAMES, aim)), **{**CLOSED, **models})
+
+
+def miss(aim, **models):
+    return ((ends(aim, **models).r[1] - GOAL) ** 2).sum()
+
+
+def played(aim, **models):
+    return carom.simulate(TABLE, BALLS, carom.cue(**dict(zip(("speed", "phi", "a", "b"), map(float, aim)))), **{**CLOSED, **models})
+
+
+def test_a_ball_in_the_air():
+    jump, numbers = {"t_final": 0.1, **CLOSED}, {"cue.speed": 4.0, "cue.theta": 35.0}
+    cue = carom.cue(phi=80.0, speed=4.0, theta=35.0, tip_time=0.0006)
+    shot = carom.simulate(TABLE, BALLS, cue, **jump)
+    found = carom.jax.final(TABLE, BALLS, cue, numbers, **jump)
+    assert found.z[0] > 0.03 and np.array_equal(found.z, shot.final["r"][:, 2]) and np.array_equal(found.v_z, shot.final["v"][:, 2])
+    slopes = jax.jacrev(lambda given: carom.jax.final(TABLE, BALLS, cue, given, **jump).z)(numbers)
+    tangents = carom.tangents(shot, list(numbers)).final["z"]
+    assert (tangents[0] != 0.0).all() and np.array_equal(np.stack(list(slopes.values()), axis=-1), tangents)
+
+
+@pytest.mark.parametrize("models", [{}, {"ball_model": "exact"}, {"t_final": 0.9}])
+def test_values_are_those_of_shots_and_derivatives_those_of_tangents(models):
+    shot, found = played(AIM, **models), ends(AIM, **models)
+    tangents = carom.tangents(shot, NAMES)
+    forward, reverse = jax.jacfwd(lambda aim: ends(aim, **models))(AIM), jax.jacrev(lambda aim: ends(aim, **models))(AIM)
+    for name, numbers in (("r", 2), ("v", 2), ("w", 3)):
+        assert np.array_equal(getattr(found, name), shot.final[name][:, :numbers])
+        expected = tangents.final[name]
+        scale = 1e-14 * np.abs(expected).max()
+        assert np.abs(expected).max() > 0.0 or "t_final" not in models or name != "w"
+        np.testing.assert_allclose(getattr(forward, name), expected, rtol=1e-14, atol=scale)
+        np.testing.assert_allclose(getattr(reverse, name), expected, rtol=1e-14, atol=scale)
+    value, slope = jax.value_and_grad(miss)(AIM, **models)
+    off = shot.final["r"][1, :2] - np.asarray(GOAL)
+    assert float(value) == pytest.approx((off**2).sum(), rel=1e-14)
+    np.testing.assert_allclose(slope, 2.0 * off @ tangents.final["r"][1], rtol=1e-12)
+
+
+def test_gradients_are_differences_of_shots():
+    slope, h = jax.jit(jax.grad(miss))(AIM), 1e-6
+    for k in range(4):
+        more, less = (miss(AIM.at[k].add(sign * h)) for sign in (1, -1))
+        assert float(slope[k]) == pytest.approx(float(more - less) / (2 * h), rel=1e-5)
+    # places, constants of all balls and of one, the radius with the heights of the balls, spin: each against a layout of its own
+    start = carom.balls([[0.4, 0.5], [0.6, 1.5]], v=[[0.3, 1.4, 0.0], [0.0, 0.0, 0.0]])
+    numbers = {
+        "balls[1].r": jnp.array([0.6, 1.5]), "balls[0].r[1]": 0.5, "balls[0].v": jnp.array([0.3, 1.4]), "balls[0].w": jnp.array([2.0, 1.0, 9.0]),
+        "kind.mu_slide": 0.2, "balls[1].kind.restitution": 0.94, "kind.radius": 0.0286, "kind.restitution_cushion": 0.85,
+    }  # fmt: skip
+
+    def layout(given):
+        made = carom.balls([[0.4, given["balls[0].r[1]"]], given["balls[1].r"]], radius=given["kind.radius"], mu_slide=given["kind.mu_slide"],
+                           restitution_cushion=given["kind.restitution_cushion"], restitution=[0.95, given["balls[1].kind.restitution"]])  # fmt: skip
+        made["state"]["v"][0, :2], made["state"]["w"][0] = given["balls[0].v"], given["balls[0].w"]
+        return carom.simulate(TABLE, made, **CLOSED)
+
+    found = carom.jax.final(TABLE, start, None, numbers, **CLOSED)
+    expected = layout(numbers)
+    assert expected.count > 5 and (expected.events["type"] == carom.EventType.BALL_BALL).any()
+    assert np.array_equal(found.r, expected.final["r"][:, :2])
+    slopes = jax.jacrev(lambda given: carom.jax.final(TABLE, start, None, given, **CLOSED).r)(numbers)
+    tangents = carom.tangents(expected, list(numbers)).final["r"]
+    flat = np.concatenate([np.asarray(slopes[name]).reshape(2, 2, -1) for name in numbers], axis=-1)
+    np.testing.assert_allclose(flat, tangents, rtol=1e-13, atol=1e-13 * np.abs(tangents).max())
+
+
+def test_vmap_is_one_batch_and_jit_changes_no_bit(monkeypatch):
+    aims = AIM + jnp.linspace(0.0, 0.2, 6)[:, None] * jnp.array([1.0, 1.0, 0.1, 0.1])
+    singly = np.array([jax.grad(miss)(aim) for aim in aims])
+    assert np.isfinite(singly).all() and (np.ptp(singly, axis=0) > 0).all()
+    batches = []
+
+    def counted(*given, **more):
+        shots = derivatives_simulate(*given, **more)
+        batches.append(shots.shape)
+        return shots
+
+    derivatives_simulate = derivatives.simulate_batch
+    monkeypatch.setattr(derivatives, "simulate_batch", counted)
+    monkeypatch.setattr(_functions, "simulate_batch", counted)
+    many = jax.jit(jax.vmap(jax.grad(miss)))
+    np.testing.assert_allclose(many(aims), singly, rtol=1e-13)
+    assert batches == [(6,)]
+    # of a function of two batches: all pairs of speeds and directions; and without derivatives
+    speeds, directions = aims[:, 0], aims[:4, 1]
+    grid = jax.vmap(jax.vmap(lambda speed, phi: ends(jnp.stack([speed, phi, 0.1, 0.1])).r, (None, 0)), (0, None))(speeds, directions)
+    assert batches[1:] == [(6, 4)]
+    for i, j in np.ndindex(6, 4):
+        assert np.array_equal(grid[i, j], played([speeds[i], directions[j], 0.1, 0.1]).final["r"][:, :2])
+    # a batch of derivatives in many directions plays once
+    jax.block_until_ready(jax.vmap(jax.jacfwd(lambda aim: ends(aim).r))(aims))
+    assert batches[2:] == [(6,)]
+
+
+def test_batches_of_layouts_cues_and_numbers():
+    """Broadcast against each other, compiled and mapped, with the bits of single shots and the derivatives of tangents."""
+    layouts = carom.balls([[[0.4, 0.5], [0.6, 1.5]], [[0.4, 0.6], [0.62, 1.4]], [[0.45, 0.5], [0.63, 1.45]]])
+    cues = carom.cue(speed=[[1.5], [1.9]], phi=79.0, b=0.1)
+    places = layouts["state"]["r"][:, 1, :2]
+    numbers = {"cue.phi": jnp.linspace(78.5, 79.5, 6).reshape(2, 3), "balls[1].r": jnp.asarray(places), "kind.mu_slide": 0.21}
+    layouts["kind"]["mu_slide"] = 0.21
+
+    def play(given):
+        return carom.jax.final(TABLE, layouts, cues, given, **CLOSED).r
+
+    found, compiled, slopes = play(numbers), jax.jit(play)(numbers), jax.jacrev(lambda given: play(given).sum(axis=(0, 1)))(numbers)
+    assert found.shape == (2, 3, 2, 2) and np.array_equal(found, compiled)
+    expected = {name: [] for name in numbers}
+    for i, j in np.ndindex(2, 3):
+        cue = cues[i, 0].copy()
+        cue["phi"] = numbers["cue.phi"][i, j]
+        shot = carom.simulate(TABLE, layouts[j], cue, **CLOSED)
+        assert np.array_equal(found[i, j], shot.final["r"][:, :2])
+        tangents = carom.tangents(shot, list(numbers)).final["r"]
+        for name, part in zip(numbers, (tangents[..., 0], tangents[..., 1:3], tangents[..., 3])):
+            expected[name].append(part)
+    # of a sum over the batch, each shot has its own slope by its own number, and all of them one by a number for all
+    own = {"kind.mu_slide": np.sum(expected["kind.mu_slide"], axis=0)}
+    own["cue.phi"] = np.moveaxis(np.reshape(expected["cue.phi"], (2, 3, 2, 2)), (0, 1), (2, 3))
+    own["balls[1].r"] = np.moveaxis(np.reshape(expected["balls[1].r"], (2, 3, 2, 2, 2)).sum(axis=0), 0, 2)
+    for name, slope in slopes.items():
+        assert np.abs(slope).max() > 0.0
+        np.testing.assert_allclose(slope, own[name], rtol=1e-12, atol=1e-12 * np.abs(own[name]).max(), err_msg=name)
+    # a batch that is mapped is a batch of batches
+    more = jax.vmap(lambda phi: play({**numbers, "cue.phi": phi}))(jnp.stack([numbers["cue.phi"], numbers["cue.phi"] + 0.1]))
+    assert np.array_equal(more[0], found) and not np.array_equal(more[1], found)
+    with pytest.raises((ValueError, RuntimeError), match=r"shot \[1, 2\] of the batch, cue\.b = 2: .*cue"):
+        carom.jax.final(TABLE, layouts, cues, {"cue.b": jnp.zeros((2, 3)).at[1, 2].set(2.0)}, **CLOSED)
+
+
+def test_a_search_in_compiled_code_improves_an_aim():
+    goal = jnp.asarray(played(AIM).final["r"][1, :2])
+
+    def off(x):
+        return ends([x[0], x[1], 0.1, 0.1]).r[1] - goal
+
+    @jax.jit
+    def search(aim):
+        return jax.lax.fori_loop(0, 6, lambda _, x: x - jnp.linalg.solve(jax.jacfwd(off)(x), off(x)), aim)
+
+    start = AIM[:2] + jnp.array([2e-3, 1e-2])
+    assert jnp.abs(off(start)).max() > 1e-3
+    found = search(start)
+    assert jnp.abs(off(found)).max() < 1e-12
+    np.testing.assert_allclose(found, AIM[:2], atol=1e-9)
+
+
+def test_shots_that_are_refused_say_why():
+    bad = AIM.at[3].set(2.0)
+    for call in (ends, jax.jit(ends), jax.grad(miss), jax.jit(jax.grad(miss))):
+        with pytest.raises((ValueError, RuntimeError), match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1"):
+            jax.block_until_ready(call(bad))
+    both = jnp.stack([AIM, AIM, bad])
+    with pytest.raises((ValueError, RuntimeError), match=r"shot \[2\] of the batch, cue\.speed = 1\.5"):
+        jax.block_until_ready(jax.vmap(ends)(both))
+    found = jax.vmap(lambda aim: ends(aim, errors="nan").r)(both)
+    slopes = jax.vmap(jax.grad(lambda aim: miss(aim, errors="nan")))(both)
+    for numbers in (found, slopes):
+        assert np.isfinite(numbers[:2]).all() and np.isnan(numbers[2]).all()
+    # what can be played, but not differentiated
+    with pytest.raises((ValueError, RuntimeError), match="derivative"):
+        jax.block_until_ready(jax.grad(lambda aim: miss(aim, world="pooltool", ball_model="default", cushion_model="default"))(AIM))
+    pooltool = {"world": "pooltool", "ball_model": "default", "cushion_model": "default", "errors": "nan"}
+    value, slope = jax.value_and_grad(lambda aim: miss(aim, **pooltool))(AIM)
+    assert np.isfinite(value) and np.isnan(slope).all()
+    with pytest.raises((ValueError, RuntimeError), match="more events"):
+        jax.block_until_ready(jax.grad(lambda aim: miss(aim, room=2))(AIM))
+    with pytest.raises(NotImplementedError, match="second derivatives of shots are not known"):
+        jax.hessian(miss)(AIM)
+
+
+def test_arguments_that_are_wrong():
+    phi, shape = {"cue.phi": 1.0}, "the shape must be"
+    for error, match, balls, cue, numbers in (
+        (ValueError, "numbers: name at least one", BALLS, CUE, {}),
+        (ValueError, "numbers: 'cue.mu' is no number of a shot", BALLS, CUE, {"cue.mu": 1.0}),
+        (ValueError, r"leading dimensions .* but are cue\.phi \(3,\), cue\.a \(2,\)", BALLS, CUE,
+         {"cue.phi": jnp.ones(3), "cue.a": jnp.ones(2)}),
+        (ValueError, rf"numbers: balls\[1\]\.r: {shape} \(\.\.\., 2\), not \(3,\)", BALLS, CUE, {"balls[1].r": jnp.ones(3)}),
+        (ValueError, r"numbers: table\.nose_height: a batch has one table", BALLS, CUE, {"table.nose_height": 0.036}),
+        (ValueError, r"numbers: cue\.phi: there is no cue", BALLS, None, phi),
+        (TypeError, "^balls: an array of the dtype of carom", CUE, CUE, phi),
+        (TypeError, "^cue: an array of the dtype of carom", BALLS, BALLS, phi),
+    ):  # fmt: skip
+        with pytest.raises(error, match=match):
+            carom.jax.final(TABLE, balls, cue, numbers)
+    with pytest.raises(ValueError, match="errors: must be"):
+        carom.jax.final(TABLE, BALLS, CUE, phi, errors="ignore")
+
+
+def test_without_64_bits_the_error_says_what_to_do():
+    jax.config.update("jax_enable_x64", False)
+    try:
+        with pytest.raises(TypeError, match='jax.config.update\\("jax_enable_x64", True\\)'):
+            ends(AIM)
+    finally:
+        jax.config.update("jax_enable_x64", True)
+
+
+def test_what_a_gradient_costs():
+    """The example finds the gradients of tangents, and prints its rows."""
+    script = Path(__file__).parents[2] / "examples" / "gradient_speed.py"
+    ran = subprocess.run([sys.executable, str(script), "1"], capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stderr
+    times = [[float(word) for word in line[20:].split()] for line in ran.stdout.splitlines()[1:]]
+    assert len(times) == 4 and all(min(row) > 0 for row in times) and times[1][1] == 1.0, ran.stdout

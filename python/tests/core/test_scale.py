@@ -1,0 +1,47 @@
+"""The recipes of docs/using/scale.md: Dask and xarray over collide, and a batch of shots over clusters of two worker processes."""
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "on_a_cluster.py"
+
+
+def test_dask_and_xarray(impacts):
+    array = pytest.importorskip("dask.array", reason="Dask is not installed")
+    xarray = pytest.importorskip("xarray", reason="xarray is not installed")
+    expected, chunked = carom.collide(impacts), array.from_array(impacts, chunks=(50, 26))
+    motion, status = array.apply_gufunc(carom.collide, "(i)->(j),()", chunked, output_sizes={"j": 12}, output_dtypes=[float, np.int8])
+    np.testing.assert_array_equal(motion.compute(), expected.motion)
+    np.testing.assert_array_equal(status.compute(), expected.status)
+    given = xarray.DataArray(impacts.reshape(4, 51, 26), dims=("speed", "angle", "field"))
+    motion, status = xarray.apply_ufunc(carom.collide, given, input_core_dims=[["field"]], output_core_dims=[["motion"], []])
+    assert motion.dims == ("speed", "angle", "motion") and status.dims == ("speed", "angle")
+    np.testing.assert_array_equal(motion.values.reshape(204, 12), expected.motion)
+
+
+def digest_of(*arguments):
+    """What examples/on_a_cluster.py prints as the digest of the same small batch."""
+    command = [sys.executable, str(EXAMPLE), "--shots", "300", "--parts", "6", *arguments]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    name, digest = done.stdout.splitlines()[-1].split()
+    assert name == "digest:" and len(digest) == 64
+    return digest
+
+
+@pytest.mark.parametrize("by", ["dask", "ray"])
+def test_two_worker_processes(by):
+    """A batch over a cluster of two worker processes has the bits that it has in one process."""
+    package = {"dask": "distributed", "ray": "ray"}[by]
+    if importlib.util.find_spec(package) is None:
+        pytest.skip(f"{package} is not installed")
+    here = digest_of("--by", "local")
+    assert digest_of("--by", by, "--workers", "2") == here
+    assert digest_of("--by", "local", "--seed", "2") != here

@@ -1,0 +1,81 @@
+"""The core loads none of the folders, and the short names of their modules are these modules."""
+
+import importlib
+import importlib.util
+import pickle
+import subprocess
+import sys
+
+import pytest
+
+import carom
+from carom._short_names import MODULES
+
+ABSENT = [name for name in ("gymnasium", "pettingzoo") if not importlib.util.find_spec(name)]
+SHORT = [name for name in MODULES if name[6:] not in ABSENT]
+
+
+def run(*arguments):
+    return subprocess.run([sys.executable, *arguments], capture_output=True, text=True)
+
+
+def test_the_core_loads_no_folder():
+    loaded = "print({'carom.tracks', 'carom.games', 'carom.pooltool'} & sys.modules.keys())"
+    assert run("-c", f"import carom, sys; {loaded}").stdout == "set()\n"
+    assert run("-c", f"import carom, sys; carom.plan; {loaded}").stdout == "{'carom.games'}\n"
+
+
+@pytest.mark.parametrize("first", ["import {short}", "from carom import {name}", "import carom"])
+def test_a_short_name_is_the_module(first):
+    """In a process where nothing is loaded yet; its spec is that of the long name."""
+    lines = ["import importlib"]
+    for short in SHORT:
+        lines.append(first.format(short=short, name=short[6:]))
+        module = short[6:] if first.startswith("from") else short
+        lines.append(f"assert {module} is importlib.import_module('{MODULES[short]}')")
+        lines.append(f"assert {module}.__spec__.name == {module}.__name__ == '{MODULES[short]}'")
+        lines.append(f"assert importlib.reload({module}) is {module}")
+    done = run("-c", "\n".join(lines))
+    assert done.returncode == 0, done.stderr
+
+
+def test_short_names_run_and_have_help():
+    done = run("-m", "carom.fit", "--help")
+    assert done.returncode == 0 and "--cushion-model" in done.stdout, done.stderr
+    assert "fit(recordings" in run("-m", "pydoc", "carom.fit").stdout
+    shown = run("-m", "pydoc", "carom").stdout
+    assert "simulate_batch(" in shown and "referee(" in shown
+
+
+def test_pickles_have_short_names_and_long_ones():
+    foul = carom.Foul(0)
+    assert pickle.loads(b"ccarom.rules\nFoul\n(I0\ntR.") is foul is pickle.loads(pickle.dumps(foul))
+
+
+def test_a_name_that_is_not_there():
+    assert not hasattr(carom, "plans_of") and not hasattr(carom, "_plans")
+    with pytest.raises(ModuleNotFoundError, match="carom.fits"):
+        importlib.import_module("carom.fits")
+
+
+def test_gymnasium_knows_the_short_name():
+    gymnasium = pytest.importorskip("gymnasium", reason="gymnasium is not installed")
+    made = gymnasium.make("carom.gymnasium:carom/PotOne-v1")
+    assert made.spec.entry_point == "carom.gymnasium:GameEnv"
+    assert type(made.unwrapped) is importlib.import_module("carom.games.gymnasium").GameEnv
+
+
+@pytest.mark.parametrize("package", ["gymnasium", "pettingzoo"])
+def test_without_what_is_optional(package):
+    """The import says what is needed."""
+    absent = f"import sys; sys.modules['{package}'] = None; import carom.potting, carom.pool"
+    said = run("-c", f"{absent}; import carom.{package}").stderr
+    assert f"ImportError: carom.{package} needs" in said and f"pip install {package}" in said
+
+
+def test_tab_completion_shows_what_a_module_of_a_folder_offers():
+    private = {"Made", "judge", "of_record", "check_table", "np", "ffi", "lib", "Any", "pointer"}
+    for module in map(importlib.import_module, ["carom.tracks", *SHORT]):
+        shown = set(dir(module))
+        assert shown and not private & shown, module
+        assert set(getattr(module, "__all__", ())) <= shown, module

@@ -1,0 +1,189 @@
+"""Recorded tracks: files read, with their errors; synthetic recordings with the traps of real ones."""
+
+import gzip
+import json
+import lzma
+
+import numpy as np
+import pytest
+from conftest import refused_by_name
+from spoil import spoiled
+
+from carom import simulate, tracks
+from carom.tracks import _constants
+
+TABLE, RADIUS = (2.84, 1.42), 0.03075
+
+
+def csv_of(recordings):
+    rows = [
+        f"{shot.id},{ball},{t!r},{x!r},{y!r}\n"
+        for shot in recordings
+        for ball, track in zip(shot.balls, shot.tracks)
+        for t, x, y in track.tolist()
+    ]
+    return "shot,ball,t,x,y\n" + "".join(rows)
+
+
+def jsonl_of(recordings):
+    lines = [{"id": s.id, "tracks": {str(b): t.tolist() for b, t in zip(s.balls, s.tracks)}} for s in recordings]
+    return "".join(json.dumps(line) + "\n" for line in lines)
+
+
+@pytest.fixture(scope="module")
+def made():
+    return tracks.synthetic(20, seed=5)
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.csv.xz", "a.csv.gz", "a.jsonl", "a.jsonl.xz"])
+def test_every_format_gives_the_recordings_back(made, tmp_path, name):
+    text = jsonl_of(made.recordings) if "jsonl" in name else csv_of(made.recordings)
+    opened = {"xz": lzma.open, "gz": gzip.open}.get(name.rpartition(".")[2], open)
+    with opened(tmp_path / name, "wt", encoding="utf-8") as file:
+        file.write(text)
+    read = tracks.read(tmp_path / name, table=TABLE, radius=RADIUS)
+    assert [(shot.id, shot.balls) for shot in read] == [(shot.id, shot.balls) for shot in made.recordings]
+    for one, other in zip(read, made.recordings):
+        assert all(np.array_equal(a, b) for a, b in zip(one.tracks, other.tracks))
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("a.csv", "", "line 1: no column shot, ball, t, x, y"),
+        ("a.csv", "shot,ball,t,x\n", "line 1: no column y; the first line must name"),
+        ("a.csv", "shot,ball,t,x,y\n", "no samples"),
+        ("a.csv", "shot,ball,t,x,y\n1,1,0,1\n", "line 2: 4 fields, but the first line names 5"),
+        ("a.csv", "shot,ball,t,x,y\n1,1,0,1,?\n", "line 2: y is '[?]'; a finite number is needed, in m"),
+        ("a.csv", "shot,ball,t,x,y\n1,1,nan,1,1\n", "line 2: t is 'nan'; a finite number is needed, in s"),
+        ("a.csv", "shot,ball,t,x,y\n1,1,0,1,1\n1,1,0,1,1\n", "line 3: shot 1, ball 1: t = 0 s comes after t = 0 s"),
+        ("a.csv", "shot,ball,t,x,y\n1,1,0,1000,700\n", "line 2: x = 1000 m; centres .* 0.03075 to 2.80925 m"),
+        ("a.csv", "shot,ball,t,x,y\n1,1,0,0.7,2\n", "line 2: y = 2 m; .* in the order of x and y"),
+        ("a.csv.xz", "shot,ball,t,x,y\n1,1,0,1,1\n", "compressed only if its name ends in"),
+        ("a.jsonl", '{"id": 1}\n', "line 1: each line must be"),
+        ("a.jsonl", '{"id": 1, "tracks": {"1": [[0, 1]]}}\n', r"tracks.1\[0\]: \[0, 1\] must be \[t, x, y\]"),
+        ("a.jsonl", '{"id": 1, "tracks": {"1": [[0, 1, true]]}}\n', "y is True; a finite number"),
+        ("a.jsonl", "{\n", "line 1, column 1: no JSON"),
+    ],
+)
+def test_a_bad_file_is_told_with_what_and_where(tmp_path, name, text, message):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(tracks.TrackError, match=message):
+        tracks.read(tmp_path / name, table=TABLE, radius=RADIUS)
+
+
+def test_synthetic_tracks_have_the_traps_of_real_ones(made):
+    for shot, strike in zip(made.recordings, made.strikes):
+        assert shot.cue == 0
+        # the struck ball is first seen under way, no more than a picture after the start
+        assert strike[5] < shot.moves[0] < strike[5] + 0.05
+        for track in shot.tracks:
+            # thinned by displacement, but for the last row, and clamped to the cushions
+            assert (np.hypot(*np.diff(track[:-1, 1:], axis=0).T) >= 0.016).all()
+            assert (track[:, 1:] >= RADIUS).all() and (track[:, 1:] <= np.array(TABLE) - RADIUS).all()
+    places = np.concatenate([track[:, 1:] for shot in made.recordings for track in shot.tracks])
+    assert ((places == RADIUS) | (places == np.array(TABLE) - RADIUS)).any()
+    again, other = tracks.synthetic(20, seed=5), tracks.synthetic(20, seed=6)
+    assert np.array_equal(again.recordings[0].tracks[0], made.recordings[0].tracks[0])
+    assert not np.array_equal(other.strikes, made.strikes)
+
+
+def test_a_recording_without_motion_has_no_strike():
+    still = np.array([[0.0, 1.0, 0.5], [2.0, 1.001, 0.5]])
+    with pytest.raises(tracks.TrackError, match="shot 7: no ball moves by more than 3 mm"):
+        _ = tracks.Recording(7, (1,), (still,)).cue
+    with pytest.raises(ValueError, match="there is no constant 'mu'; known are"):
+        tracks.synthetic(1, constants={"mu": 0.2})
+
+
+def test_the_struck_ball_is_told_from_one_that_it_touches_at_once():
+    """Whatever the noise, and however near the other ball lies: it goes on farther, but away from the struck one."""
+    random, wrong = np.random.default_rng(5), 0
+    values = _constants.complete({}, "han")
+    world = _constants.rectangle(TABLE, values["nose_height"])
+    for gap, rate, noise in ((0.002, 50.0, 0.35e-3), (0.01, 50.0, 1e-3), (0.03, 25.0, 1e-3), (0.1, 240.0, 3e-3)):
+        shots = []
+        for _ in range(20):
+            angle, speed = random.uniform(0.0, 6.28), random.uniform(0.7, 4.0)
+            centres = np.array([[1.4, 0.7], [1.4, 0.7], [0.3, 0.3]])
+            centres[1] += (2 * RADIUS + gap) * np.array([np.cos(angle), np.sin(angle)])
+            balls = _constants.layout(centres, RADIUS, values)
+            angle += random.normal(0.0, 0.4)
+            balls["state"]["v"][0, :2] = speed * np.cos(angle), speed * np.sin(angle)
+            shot = simulate(world, balls, cushion_model="han")
+            start = random.uniform(0.0, 1.0 / rate)
+            seen = tracks._record(lambda t: shot.positions(t - start)[..., :2], 2.0, rate, 0.0, RADIUS, np.array(TABLE) - RADIUS, noise, random)
+            shots.append(tracks.Recording(1, (1, 2, 3), seen, noise))
+        wrong += sum(shot.cue != 0 for shot in spoiled(shots, lead_in=0.5, rate=rate, noise=noise))
+    assert wrong <= 6
+
+
+@pytest.fixture(scope="module")
+def seen(made):
+    return tracks.events(made.recordings, TABLE, RADIUS)
+
+
+def test_pieces_tell_the_friction_of_the_cloth(made, seen):
+    gravity = 9.81
+    slide, error = seen.slide
+    assert abs(slide - made.constants["mu_slide"] * gravity) < 0.03 and error < 0.03
+    (a, a_error), (b, b_error) = seen.roll
+    assert abs(a - made.constants["mu_roll"] * gravity) < max(3 * a_error, 1e-3) and a_error < 2e-3
+    assert abs(b - made.constants["drag"]) < max(3 * b_error, 2e-3) and b_error < 3e-3
+    pieces = seen.pieces
+    assert not (pieces["sliding"] & pieces["rolling"]).any() and pieces["sliding"].sum() > 20 and pieces["rolling"].sum() > 60
+    # the misfit is the noise of both coordinates, where a piece is long
+    long = pieces["samples"] >= 20
+    assert np.median(pieces["rms"][long]) == pytest.approx(tracks.NOISE * np.sqrt(2), rel=0.1)
+    # velocities are those of the play, at the middle of the pieces
+    for piece in pieces[long][::7]:
+        at = piece["time"] - made.strikes[piece["shot"], 5]
+        state = made.shots[piece["shot"]].states(at)[piece["ball"]]
+        assert np.hypot(*(state["v"][:2] - piece["v"])) < 0.05
+
+
+def test_impacts_have_the_numbers_of_the_play(made, seen):
+    truth, errors, missed = [], [], 0
+    for k, shot in enumerate(made.shots):
+        rails = shot.events[(shot.events["type"] == 3) & (np.hypot(*shot.events["before"][:, 0]["v"][:, :2].T) > 0.5)]
+        truth.append(len(rails))
+        for event in rails:
+            # rails of the play: y = 0, x = W, y = L, x = 0
+            own = seen.impacts
+            own = own[(own["shot"] == k) & (own["ball"] == event["a"]) & (own["rail"] == (2, 1, 3, 0)[event["b"]])]
+            late = np.abs(own["time"] - event["time"] - made.strikes[k, 5])
+            own = own[np.argsort(late)][: (late < 0.03).sum()]
+            if len(own) == 0 or own["chi2"][0] > 2.5 or own["w_error"][0] > 0.05 or own["v_error"][0] > 0.05:
+                missed += 1
+                continue
+            found = own[0]
+            n = np.array([[-1, 0], [1, 0], [0, -1], [0, 1]])[found["rail"]]
+            t = np.array([n[1], -n[0]])
+            before, after = event["before"][0]["v"][:2], event["after"][0]["v"][:2]
+            size = np.hypot(*before)
+            parts = [before @ n - found["v_n"], before @ t - found["v_t"], after @ n - found["w_n"], after @ t - found["w_t"]]
+            errors.append(np.abs(parts) / size)
+    # half of the fast impacts are well known, and their velocities right to a per cent
+    assert missed < 0.5 * sum(truth)
+    assert np.median(errors, axis=0).max() < 0.01
+
+
+def test_hits_have_the_restitution_of_the_play(made, seen):
+    good = seen.hits[(seen.hits["chi2"] < 3) & (seen.hits["v_n"] > 0.5) & (seen.hits["w_error"] < 0.1)]
+    assert len(good) >= 5
+    e = (good["z_n"] - good["w_n"]) / good["v_n"]
+    assert np.median(e) == pytest.approx(made.constants["restitution"], abs=0.02)
+    # with equal masses and the other ball at rest, the velocities along the line of centres add up
+    assert np.median(np.abs(good["w_n"] + good["z_n"] - good["v_n"]) / good["v_n"]) < 0.02
+
+
+def test_no_motion_has_no_events():
+    still = np.array([[0.0, 1.0, 0.5], [2.0, 1.001, 0.5]])
+    none = tracks.events([tracks.Recording(7, (1,), (still,))], TABLE, RADIUS)
+    assert len(none.pieces) == len(none.impacts) == len(none.hits) == 0 and np.isnan(none.slide[0]) and np.isnan(none.roll[1][0])
+    assert len(tracks.events([], TABLE, RADIUS).pieces) == 0
+
+
+def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument():
+    names = "shots table radius cushion_model constants speeds noise rate thin seed"
+    refused_by_name(tracks.synthetic, {"shots": 1}, names)
