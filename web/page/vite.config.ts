@@ -17,7 +17,7 @@ async function sceneModule(): Promise<{ code: string; modules: string[] }> {
 /** The page's licences: that of carom, of the libraries in its WebAssembly, and of every package that was bundled. */
 function licences(modules: string[]): string {
   const packages = new Set(modules.flatMap((name) => name.match(/^.*\/node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []));
-  const texts = [here("../../LICENSE"), here("../NOTICES"), ...[...packages].map((folder) => `${folder}/LICENSE`)].map((file) => readFileSync(file, "utf8").trim());
+  const texts = [here("../../LICENSE"), here("../npm/NOTICES"), ...[...packages].map((folder) => `${folder}/LICENSE`)].map((file) => readFileSync(file, "utf8").trim());
   const named = ["carom", "In its WebAssembly", ...[...packages].map((folder) => folder.replace(/^.*\/node_modules\//, ""))];
   return texts.map((text, k) => `${named[k]}\n\n${text}`).join("\n\n\n").replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 }
@@ -65,7 +65,6 @@ function vectorsOnly(): Plugin {
 export default defineConfig({
   root: here("."),
   base: "./",
-  resolve: { alias: { carom: here("../dist/index.js") } },
   define: {
     MEASURED: JSON.stringify(readFileSync(here("../../data/experiments.csv"), "utf8")),
     DRILLS: JSON.stringify(readFileSync(here("../../data/drills.csv"), "utf8")),

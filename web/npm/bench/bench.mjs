@@ -1,5 +1,5 @@
 // npm run bench: the package beside the native library and beside a plain JavaScript port of the ladder's `base`. Ratios within one run are
-// what counts; each figure is the median of interleaved rounds, with the least. Native figures need ../build/libcarom.a and cc.
+// what counts; each figure is the median of interleaved rounds, with the least. Native figures need build/libcarom.a and cc.
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import { load } from "../dist/index.js";
 import { base } from "./base.mjs";
 
-const root = fileURLToPath(new URL("../../", import.meta.url));
+const root = fileURLToPath(new URL("../../../", import.meta.url));
 const [head, ...lines] = readFileSync(`${root}data/collisions-204.csv`, "utf8").trim().split("\n");
 const names = head.split(",");
 const columns = "r1x r1y r1z v1x v1y v1z w1x w1y w1z R M u_s1 r2x r2y r2z v2x v2y v2z w2x w2y w2z R M u_s2 u_b e_b".split(" ");
@@ -41,12 +41,12 @@ for (const build of ["simd", "plain"]) {
     tasks.push({ what: `WebAssembly ${build}: nine-ball break, ${cushionModel}`, count: 100, go: () => carom.simulateBatch(shots, { cushionModel }) });
 }
 
-// Native: native.c with the library of ../build, by `plain`.
+// Native: native.c with the library of build/, by `plain`.
 const folder = mkdtempSync(`${tmpdir()}/carom-bench-`);
 const native = {};
 const library = `${root}build/libcarom.a`;
 if (existsSync(library)) {
-  execFileSync("cc", ["-std=c17", "-O2", `-I${root}include`, `${root}web/bench/native.c`, library, "-lm", "-pthread", "-o", `${folder}/native`]);
+  execFileSync("cc", ["-std=c17", "-O2", `-I${root}include`, `${root}web/npm/bench/native.c`, library, "-lm", "-pthread", "-o", `${folder}/native`]);
   for (const name of ["batch", "calls", "euler", "han", "mathavan"]) tasks.push({ what: `native plain: ${name}`, times: (native[name] = []) });
 } else {
   console.log(`# without native figures: there is no ${library}`);

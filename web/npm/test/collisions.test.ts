@@ -92,7 +92,7 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
     const table = csv("cushion-stronge.csv");
     const number = (row: Record<string, string>, key: string): number => Number(row[key]);
     for (const model of ["mathavan", "stronge", "han", "mirror"] as const) {
-      const [head, ...lines] = run(["resolve", "--cushion", "--model", model, `${new URL("../../data/cushion-stronge.csv", import.meta.url).pathname}`]).trim().split("\n");
+      const [head, ...lines] = run(["resolve", "--cushion", "--model", model, `${new URL("../../../data/cushion-stronge.csv", import.meta.url).pathname}`]).trim().split("\n");
       const columns = head!.split(",");
       expect(lines).toHaveLength(table.length);
       lines.forEach((line, k) => {

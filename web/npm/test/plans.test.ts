@@ -1,7 +1,7 @@
 // Plans, players and rules beside the command, between both builds, and by shots whose ruling is known.
 import { expect, test } from "vitest";
 import type { Carom, GameState, ShotBall, Vec2 } from "../dist/index.js";
-import { pocketName } from "../../cli/player.js";
+import { pocketName } from "../../player/words.js";
 import { byNumber, fromLine, toLine } from "../dist/index.js";
 import { builds, run, thereIsACommand } from "./support.js";
 

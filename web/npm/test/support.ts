@@ -1,55 +1,14 @@
-// What tests share: both builds, the tree's data, the command `carom`, and the draws and hashes of tests/platforms/bits.c.
-import { execFileSync } from "node:child_process";
-import { existsSync, readFileSync } from "node:fs";
-import { fileURLToPath } from "node:url";
-import { type Carom, load } from "../dist/index.js";
+// What tests of the package share besides: the tree's data, and the hashes of tests/platforms/bits.c.
+import { readFileSync } from "node:fs";
+import { root } from "../../test/support.js";
 
-export const root = fileURLToPath(new URL("../../", import.meta.url));
-export const builds: { name: string; carom: Carom }[] = [
-  { name: "simd", carom: await load({ build: "simd" }) },
-  { name: "plain", carom: await load({ build: "plain" }) },
-];
-
-/** The command of the native build; CAROM in the environment names another. */
-export const command = process.env.CAROM ?? `${root}build/carom`;
-export const thereIsACommand = existsSync(command);
-if (!thereIsACommand) console.log(`without the tests against the command: there is no ${command} (./run builds it)`);
-
-export function run(args: string[], input = ""): string {
-  return execFileSync(command, args, { input, encoding: "utf8", maxBuffer: 1 << 28, env: { ...process.env, CAROM_ISA: "plain" } });
-}
+export * from "../../test/support.js";
 
 /** A CSV file of data/ as rows by column. */
 export function csv(name: string): Record<string, string>[] {
   const [head, ...lines] = readFileSync(`${root}data/${name}`, "utf8").trim().split("\n");
   const columns = head!.split(",");
   return lines.map((line) => Object.fromEntries(line.split(",").map((cell, k) => [columns[k]!, cell])));
-}
-
-// ---- As in tests/platforms/bits.c ----------------------------------------------------------------------------------------------
-
-const MASK = (1n << 64n) - 1n;
-
-/** splitmix64 */
-export class Draws {
-  constructor(private state: bigint) {}
-
-  between(low: number, high: number): number {
-    let z = (this.state = (this.state + 0x9e3779b97f4a7c15n) & MASK);
-    z = ((z ^ (z >> 30n)) * 0xbf58476d1ce4e5b9n) & MASK;
-    z = ((z ^ (z >> 27n)) * 0x94d049bb133111ebn) & MASK;
-    z ^= z >> 31n;
-    return low + (high - low) * Number(z >> 11n) * 2 ** -53;
-  }
-
-  /** A power of two between 2^low and 2^high. */
-  powerOfTwo(low: number, high: number): number {
-    let x = 1;
-    const exponent = this.between(low, high);
-    for (let k = 1; k <= exponent; k++) x *= 2;
-    for (let k = -1; k >= exponent; k--) x *= 0.5;
-    return x;
-  }
 }
 
 /** FNV-1a over 8 bytes for each number; every NaN counts as 1. */

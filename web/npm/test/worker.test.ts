@@ -7,7 +7,7 @@ import { builds, root } from "./support.js";
 test("a worker computes the same bits", async () => {
   const source = `
     import { parentPort } from "node:worker_threads";
-    import { load } from ${JSON.stringify(`file://${root}web/dist/index.js`)};
+    import { load } from ${JSON.stringify(`file://${root}web/npm/dist/index.js`)};
     const carom = await load();
     const table = carom.table("9ft");
     const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
@@ -34,8 +34,8 @@ test("the package has the library's version, and no dependency at run time", () 
 test("the compressed size is at most 300 kB", async () => {
   const { gzipSync } = await import("node:zlib");
   const { readdirSync } = await import("node:fs");
-  const size = (names: string[]): number => gzipSync(Buffer.concat(names.map((name) => readFileSync(`${root}web/dist/${name}`))), { level: 9 }).length;
-  const common = [...readdirSync(`${root}web/dist`).filter((name) => name.endsWith(".js")), "generated/layout.js"];
+  const size = (names: string[]): number => gzipSync(Buffer.concat(names.map((name) => readFileSync(`${root}web/npm/dist/${name}`))), { level: 9 }).length;
+  const common = [...readdirSync(`${root}web/npm/dist`).filter((name) => name.endsWith(".js")), "generated/layout.js"];
   for (const build of ["simd", "plain"]) {
     const bytes = size([...common, `generated/${build}.js`]);
     console.log(`what a user of the build ${build} loads: ${bytes} bytes compressed`);

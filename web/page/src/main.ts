@@ -3,7 +3,6 @@ import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import "./play/style.css";
 import { load } from "carom";
-import { simdAvailable } from "../../dist/memory.js";
 import { serve } from "./far.js";
 import { collisionView } from "./lab/collision.js";
 import { laboratory } from "./lab/view.js";
@@ -26,8 +25,9 @@ async function begin(main: HTMLElement): Promise<void> {
     theme.textContent = name === "dark" ? "Light" : "Dark";
   };
   dress(dark.matches ? "dark" : "light");
-  if (!simdAvailable()) throw new Error("this page needs WebAssembly with vectors: Chrome 91, Firefox 113, Safari 16.4, or newer");
-  const carom = await load({ build: "simd" });
+  const carom = await load({ build: "simd" }).catch((error: unknown) => {
+    throw error instanceof WebAssembly.CompileError ? new Error("this page needs WebAssembly with vectors: Chrome 91, Firefox 113, Safari 16.4, or newer") : error;
+  });
   document.getElementById("about")!.append(` carom ${carom.version}.`);
   solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
   const chosen = (): "exact" | "euler" => (solver.value === "euler" ? "euler" : "exact");

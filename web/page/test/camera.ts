@@ -1,5 +1,5 @@
 // A pinhole camera, for pictures whose camera is known.
-import type { Pixel } from "../explorer/src/play/photo.js";
+import type { Pixel } from "../src/play/photo.js";
 
 /** A camera at a place that looks at another, with a focal length in pixels: where a point of space is seen. */
 export function pinhole(size: Pixel, from: number[], to: number[], focal: number): (x: number, y: number, z: number) => Pixel {

@@ -1,9 +1,9 @@
 // Drills of the page: each can be made, by a stroke that a search finds, and a stroke that does nothing makes none.
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import type { Carom, Cue, ShotBall, Shot } from "../dist/index.js";
-import { type Drill, drillsOf, judge } from "../explorer/src/play/drills.js";
-import { builds, Draws, root } from "./support.js";
+import type { Carom, Cue, ShotBall, Shot } from "carom";
+import { type Drill, drillsOf, judge } from "../src/play/drills.js";
+import { builds, Draws, root } from "../../test/support.js";
 
 const drills = drillsOf(readFileSync(`${root}data/drills.csv`, "utf8"));
 const OPTIONS = { cushionModel: "han" } as const;

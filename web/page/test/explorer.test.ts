@@ -1,9 +1,9 @@
 // The laboratory and the view of collisions, in a browser. Numbers are compared with the command `carom`.
 import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
-import { toLine } from "../dist/index.js";
+import { toLine } from "carom";
 import { browserPath, pages, sizes } from "./page.js";
-import { builds, root, run, thereIsACommand } from "./support.js";
+import { builds, root, run, thereIsACommand } from "../../test/support.js";
 
 describe.runIf(browserPath !== undefined)("the laboratory", () => {
   const { open, on, drag, click, lies, colour, text, set } = pages();

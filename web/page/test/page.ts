@@ -3,10 +3,10 @@ import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { afterAll, beforeAll, expect } from "vitest";
 import { type Browser, chromium, type Page } from "playwright-core";
-import { root } from "./support.js";
+import { root } from "../../test/support.js";
 
 export const browserPath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
-export const page = `${root}web/explorer/dist/index.html`;
+export const page = `${root}web/page/dist/index.html`;
 if (browserPath === undefined) console.log("without the tests of the page: there is no Chromium (Debian: chromium); CHROMIUM may name one");
 export const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 /** What axe finds wrong with a page. */

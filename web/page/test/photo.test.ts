@@ -1,8 +1,8 @@
 // Places of balls from a photo, beside cameras that are known: pinhole pictures of the table, with corners and balls marked to a pixel.
 import { expect, test } from "vitest";
-import { cameraOf, type Pixel, suggest } from "../explorer/src/play/photo.js";
+import { cameraOf, type Pixel, suggest } from "../src/play/photo.js";
 import { pinhole as camera } from "./camera.js";
-import { Draws } from "./support.js";
+import { Draws } from "../../test/support.js";
 
 const [W, L, NOSE, R] = [1.27, 2.54, 0.0366, 0.028575];
 const SIZE: Pixel = [4032, 3024];

@@ -5,7 +5,7 @@ import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { describe, expect, test } from "vitest";
 import { browserPath, page, pages, violations } from "./page.js";
-import { root, run, thereIsACommand } from "./support.js";
+import { root, run, thereIsACommand } from "../../test/support.js";
 
 describe.runIf(browserPath !== undefined)("the page", () => {
   const { open, colour, text, set, said, browser } = pages();
@@ -44,7 +44,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     const server = createServer((request, response) => {
       const name = request.url === "/" ? "index.html" : request.url!.slice(1);
       response.writeHead(200, { "content-type": types[name.split(".").at(-1)!] ?? "text/plain" });
-      response.end(readFileSync(`${root}web/explorer/dist/${name}`));
+      response.end(readFileSync(`${root}web/page/dist/${name}`));
     });
     await new Promise<void>((listens) => server.listen(0, "127.0.0.1", listens));
     const context = await browser().newContext({ viewport: { width: 390, height: 844 } });

@@ -7,7 +7,7 @@ const [out, width = 1300, height = 800] = process.argv.slice(2);
 const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) } });
 // A break of eight-ball, some time after it.
 await page.addInitScript(() => localStorage.setItem("carom-game", JSON.stringify({ game: "eightball", against: "500", own: "0", seed: 4, entries: [] })));
-await page.goto(`file://${fileURLToPath(new URL("../explorer/dist/index.html", import.meta.url))}`);
+await page.goto(`file://${fileURLToPath(new URL("../dist/index.html", import.meta.url))}`);
 await page.waitForSelector("main[aria-busy=false]");
 await page.locator("#shoot").click();
 await page.locator("#skip").click();

@@ -16,8 +16,8 @@ if (!existsSync(`${site}/live/carom.js`) || !executablePath || !chromium) {
 const check = (holds, what) => {
   if (!holds) throw new Error(what);
 };
-const PAGES = ["index.html", "docs/using/python.html", "docs/using/shots.html", "docs/understanding/method.html", "docs/using/command.html", "web/examples/break_paths.mjs.html"];
-const programs = readdirSync(`${site}/web/examples`).filter((name) => name.endsWith(".mjs.html"));
+const PAGES = ["index.html", "docs/using/python.html", "docs/using/shots.html", "docs/understanding/method.html", "docs/using/command.html", "web/npm/examples/break_paths.mjs.html"];
+const programs = readdirSync(`${site}/web/npm/examples`).filter((name) => name.endsWith(".mjs.html"));
 check(programs.length >= 6, `${programs.length} programs`);
 
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
@@ -43,7 +43,7 @@ for (const width of [1300, 390]) {
 
 const page = await open(1300);
 for (const name of programs) {
-  await page.goto(`file://${site}/web/examples/${name}`);
+  await page.goto(`file://${site}/web/npm/examples/${name}`);
   await page.click("#live-run");
   const output = page.locator("#live-output:is([data-state=done], [data-state=failed])");
   await output.waitFor({ timeout: 60000 });

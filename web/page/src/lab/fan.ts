@@ -1,6 +1,6 @@
 // The fan of the laboratory: many shots with a player's errors, drawn under the trails as their paths and places of rest.
 import type { Carom, Cue, ShotBall, ShotOptions, Table } from "carom";
-import { colourOf } from "../../../../cli/player.js";
+import { colourOf } from "../../../player/words.js";
 import { onTable, pathsOf } from "../table/filmed.js";
 
 export const FAN = 500;

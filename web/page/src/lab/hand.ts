@@ -1,6 +1,6 @@
 // The laboratory by pointer and keys: what lies under a pointer, balls that are moved and turned, the aim, and what is drawn for it.
 import { type BallState, type Carom, CaromError, type Contact, type Cue, type ShotBall, type Table } from "carom";
-import type { player } from "../../../../cli/player.js";
+import type { player } from "../../../player/player.js";
 import { drawContact, drawStick, PULL, ring, stickEnd } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 

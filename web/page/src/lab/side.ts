@@ -1,6 +1,6 @@
 // The table of the laboratory from the side: height over length, of paths of balls that leave the cloth, and of the balls now.
 import type { Shot, ShotBall, Table } from "carom";
-import { colourOf } from "../../../../cli/player.js";
+import { colourOf } from "../../../player/words.js";
 import { onTable, type Path } from "../table/filmed.js";
 import { color, fit } from "../ui.js";
 

@@ -1,6 +1,7 @@
 // The view Laboratory: shots are aimed on it and played while one aims; their film, their events, and a fan of shots with a player's error.
 import { type Carom, CaromError, type Cue, fromLine, type Line, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, toLine, words } from "carom";
-import { player, pocketName } from "../../../../cli/player.js";
+import { player } from "../../../player/player.js";
+import { pocketName } from "../../../player/words.js";
 import { facing, filmOf, onTable, type Path, pathsOf } from "../table/filmed.js";
 import { GAMES, gameOf, type GameOf, type Read, TABLES } from "../table/games.js";
 import { atHead } from "../table/head.js";

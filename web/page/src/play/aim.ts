@@ -1,7 +1,7 @@
 // The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball that may be moved; a tap aims at a place or a ball, or
 // calls a pocket; two fingers, a double tap, or the wheel show a part of the table larger.
 import { CaromError, type Cue } from "carom";
-import type { player } from "../../../../cli/player.js";
+import type { player } from "../../../player/player.js";
 import { beside } from "../lab/hand.js";
 import { drawNumbers, drawStick, type Pen, PULL, ring, stickEnd, stroke } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";

@@ -1,6 +1,6 @@
 // A diagram to print and to send: balls before a stroke or after it, its path, diamonds, and notes. Its link has all of that, and needs no game.
 import { type Carom, CaromError, type Cue, type Shot, type ShotBall } from "carom";
-import { player } from "../../../../cli/player.js";
+import { player } from "../../../player/player.js";
 import { drawNumbers, drawStick } from "../table/drawing.js";
 import { filmOf, onTable, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";

@@ -6,7 +6,7 @@
 //     clear            a ball falls in each stroke, until none is left
 // The cue ball never falls, and no ball leaves the table.
 import type { Shot } from "carom";
-import { pocketName } from "../../../../cli/player.js";
+import { pocketName } from "../../../player/words.js";
 import { onTable } from "../table/filmed.js";
 import { kept, keepText } from "./keep.js";
 

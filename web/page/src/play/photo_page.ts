@@ -1,5 +1,5 @@
 // The dialog of a table from a photo: a picture, four corners, and the balls by taps; the layout lies on the table for practice.
-import { colourOf } from "../../../../cli/player.js";
+import { colourOf } from "../../../player/words.js";
 import { button, choice, dialog, el } from "../ui.js";
 import { type Camera, cameraOf, type Pixel, suggest } from "./photo.js";
 

@@ -1,5 +1,6 @@
 // The view from behind the cue, over the flat one: its module is in the page as compressed text, and starts when it is asked for.
-import { colourOf, type player } from "../../../../cli/player.js";
+import { type player } from "../../../player/player.js";
+import { colourOf } from "../../../player/words.js";
 import { stickEnd } from "../table/drawing.js";
 import { color } from "../ui.js";
 import type { Cue } from "carom";

@@ -1,6 +1,7 @@
 // The view Play: a game on the table, one bar for all that a stroke needs, and its film where one looks.
 import { type Call, type Carom, CaromError, type Cue, type PlanOptions, type Player } from "carom";
-import { player as filmPlayer, pocketName } from "../../../../cli/player.js";
+import { player as filmPlayer } from "../../../player/player.js";
+import { pocketName } from "../../../player/words.js";
 import { drop, far } from "../far.js";
 import { filmOf, lasts, onTable, type Path, pathsOf, product, type Quaternion } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";

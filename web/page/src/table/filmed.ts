@@ -1,6 +1,6 @@
 // What the player shows of a shot: where its balls are and how they have turned at a time, and the paths that they take.
 import type { BallState, Shot, ShotBall, Table } from "carom";
-import { wordsOf } from "../../../../cli/player.js";
+import { wordsOf } from "../../../player/words.js";
 
 /** How long a ball falls in a pocket, about, s. */
 const FALL = 0.16;

@@ -1,6 +1,6 @@
 // Plans in words: what a choice is, and chances.
 import type { Choice, Table } from "carom";
-import { pocketName } from "../../../../cli/player.js";
+import { pocketName } from "../../../player/words.js";
 
 /** Fargo ratings that one can choose. */
 export const RATINGS = ["300", "400", "500", "600", "700", "800"];
