@@ -138,7 +138,29 @@ export class Carom {
       writeImpact: (at, impact) => this.#writeImpact(at, impact),
       shotOf: (shots, k) => this.#shotOf(shots, k),
     };
-    this.#reader = {
+    this.#reader = this.#readerOf();
+    this.#plans = new Plans({
+      memory,
+      at: this.#at,
+      cue: (fields) => this.#cue(fields),
+      writeLayout: (table, balls) => this.#writeLayout(table, balls),
+      writeShotOptions: (options) => this.#writeShotOptions(options),
+      writeShot: () => this.#writeShot(0),
+      refuse: (code, field) => this.#refuse(code, field),
+    });
+    this.#recordings = {
+      memory,
+      statusName: (code) => this.statusName(code),
+      cue: (fields) => this.cue(fields),
+      writeShotOptions: (options) => this.#writeShotOptions(options),
+      played: (...of) => this.#played(...of),
+      refuse: (code, field) => this.#refuse(code, field),
+    };
+  }
+
+  /** What shots read of the module's memory. */
+  #readerOf(): Reader {
+    return {
       events: (shot) => {
         this.#reside(shot);
         return Array.from({ length: shot.count }, (_, k) => readEvent(this.#memory, this.#events + k * EVENT.size));
@@ -189,23 +211,6 @@ export class Carom {
           };
         return this.#frame;
       },
-    };
-    this.#plans = new Plans({
-      memory,
-      at: this.#at,
-      cue: (fields) => this.#cue(fields),
-      writeLayout: (table, balls) => this.#writeLayout(table, balls),
-      writeShotOptions: (options) => this.#writeShotOptions(options),
-      writeShot: () => this.#writeShot(0),
-      refuse: (code, field) => this.#refuse(code, field),
-    });
-    this.#recordings = {
-      memory,
-      statusName: (code) => this.statusName(code),
-      cue: (fields) => this.cue(fields),
-      writeShotOptions: (options) => this.#writeShotOptions(options),
-      played: (...of) => this.#played(...of),
-      refuse: (code, field) => this.#refuse(code, field),
     };
   }
 

@@ -1,6 +1,7 @@
 // The library in workers, for calls that take longer than a frame. The page is one file, so a worker runs the page's own script, which serves where
 // there is no document. Each kind of call has a worker: the chance of a stroke does not wait for a plan.
 import { type Carom, load } from "carom";
+import { wrong } from "./ui.js";
 
 type Calls = Pick<Carom, "plan" | "chances">;
 type Name = keyof Calls;
@@ -12,7 +13,7 @@ export async function serve(): Promise<void> {
     try {
       self.postMessage([number, ((await library)[name] as (...args: never) => unknown)(...args)]);
     } catch (error) {
-      self.postMessage([number, undefined, error instanceof Error ? error.message : String(error)]);
+      self.postMessage([number, undefined, wrong(error)]);
     }
   });
 }

@@ -7,7 +7,7 @@ import { serve } from "./far.js";
 import { collisionView } from "./lab/collision.js";
 import { laboratory } from "./lab/view.js";
 import { playView } from "./play/view.js";
-import { el, parameters } from "./ui.js";
+import { el, parameters, wrong } from "./ui.js";
 
 interface View {
   update(): void;
@@ -72,6 +72,6 @@ else {
   }
   const main = document.getElementById("main")!;
   begin(main).catch((error: unknown) => {
-    main.textContent = `The library did not start: ${error instanceof Error ? error.message : String(error)}`;
+    main.textContent = `The library did not start: ${wrong(error)}`;
   });
 }

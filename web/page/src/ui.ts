@@ -2,6 +2,9 @@
 
 type Child = Node | string | undefined;
 
+/** What went wrong, in words. */
+export const wrong = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
 export function el<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Record<string, string> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);

@@ -1,6 +1,6 @@
 // A recording that was opened: its shots are played again, compared with what was recorded, and shown one after the other.
 import type { Carom, Replayed } from "carom";
-import { button, el } from "../ui.js";
+import { button, el, wrong } from "../ui.js";
 
 /** What a recording needs of the view. */
 export interface View {
@@ -24,6 +24,25 @@ export interface Reel {
   close(): void;
 }
 
+/** Plays the recording of a file again while it is `wanted`. The page lives meanwhile. */
+async function replayed(carom: Carom, given: File, view: View, wanted: () => boolean): Promise<{ found: Replayed[]; refused: string }> {
+  const found: Replayed[] = [];
+  try {
+    let pause = performance.now() + 30;
+    for (const shot of carom.replay(await given.text())) {
+      found.push(shot);
+      if (performance.now() < pause) continue;
+      view.tell(`${given.name}: ${found.length} shots so far …`);
+      await new Promise(requestAnimationFrame);
+      if (!wanted()) break;
+      pause = performance.now() + 30;
+    }
+    return { found, refused: "" };
+  } catch (error) {
+    return { found, refused: wrong(error) };
+  }
+}
+
 export function reel(carom: Carom, view: View): Reel {
   let shots: Replayed[] = [];
   let shown = -1;
@@ -40,29 +59,14 @@ export function reel(carom: Carom, view: View): Reel {
     if (given) void read(given);
   });
 
-  /** Plays the recording again. The page lives meanwhile; a recording that is opened later takes its place. */
   async function read(given: File): Promise<void> {
     const mine = ++opened;
-    const found: Replayed[] = [];
-    let wrong = "";
-    try {
-      let pause = performance.now() + 30;
-      for (const shot of carom.replay(await given.text())) {
-        found.push(shot);
-        if (performance.now() < pause) continue;
-        view.tell(`${given.name}: ${found.length} shots so far …`);
-        await new Promise(requestAnimationFrame);
-        if (mine !== opened) return;
-        pause = performance.now() + 30;
-      }
-    } catch (error) {
-      wrong = error instanceof Error ? error.message : String(error);
-    }
+    const { found, refused } = await replayed(carom, given, view, () => mine === opened);
     if (mine !== opened) return;
-    if (found.length === 0) return view.tell(`${given.name}: ${wrong || "it has no shot"}`);
+    if (found.length === 0) return view.tell(`${given.name}: ${refused || "it has no shot"}`);
     const differ = found.filter(({ same }) => !same);
     const agrees = differ.length === 0 ? "every bit agrees" : `${differ.length} ${differ.length === 1 ? "ends" : "end"} otherwise than recorded, first shot ${differ[0]!.shot} (line ${differ[0]!.line})`;
-    file.value = `${given.name}: ${found.length} ${found.length === 1 ? "shot" : "shots"}, ${agrees}.${wrong && ` The rest is refused: ${wrong}`}`;
+    file.value = `${given.name}: ${found.length} ${found.length === 1 ? "shot" : "shots"}, ${agrees}.${refused && ` The rest is refused: ${refused}`}`;
     shots = found;
     bar.hidden = false;
     go(Math.max(found.indexOf(differ[0]!), 0));

@@ -4,6 +4,7 @@ import type { Call, Carom, Cue, GameState, Recording, Ruling, Shot, ShotBall, Sh
 import { onTable } from "../table/filmed.js";
 import { GAMES, type Played, playedGames } from "../table/games.js";
 import { atHead, mayLie } from "../table/head.js";
+import { placesOf, placesText, pocketed } from "../table/places.js";
 
 /** Whom one plays against: a Fargo rating, a person at this page, one by link, or nobody. */
 export type Against = "practice" | "person" | "link" | `${number}`;
@@ -70,7 +71,7 @@ export class Play {
     const kind = carom.kind(of.game);
     this.balls = carom.rack(of.rack, this.table, { seed: setup.seed }).map(({ state }) => ({ kind, state }));
     this.names = this.balls.map((_, k) => of.names(k));
-    if (setup.at !== undefined) this.#lay(setup.at);
+    if (setup.at !== undefined) this.balls = placesOf(setup.at, this.table, this.balls).balls;
     this.state = { rules: this.played?.rules ?? "potting", group: "open", opening: setup.at === undefined, ...(this.played?.state && { state: this.played.state }) };
     this.hand = this.practice || !this.hasPockets ? "no" : setup.game === "snooker" ? ("d" as Ruling["hand"]) : "kitchen";
     this.#recording = carom.record(this.table, this.balls, OPTIONS);
@@ -89,19 +90,9 @@ export class Play {
     return this.#recording.end();
   }
 
-  #lay(text: string): void {
-    const places = text.split(" ").map((place) => (place === "in" ? undefined : place.split(",").map(Number)));
-    if (places.length !== this.balls.length || !places.every((place) => place === undefined || (place.length >= 2 && place.every(Number.isFinite)))) throw new TypeError(`at: ${this.balls.length} places x,y are needed, with "in" for a ball in a pocket`);
-    this.balls = this.balls.map(({ kind, state }, k) => {
-      const place = places[k];
-      if (place) return { kind, state: { ...state, r: [place[0]!, place[1]!, kind.radius] } };
-      const { centre, depth } = this.table.pockets[0]!;
-      return { kind, state: { r: [...centre, -depth], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" } };
-    });
-  }
   /** The text of `at` for the layout. */
   at(): string {
-    return this.balls.map(({ state }) => (onTable(state) ? `${Number(state.r[0].toFixed(5))},${Number(state.r[1].toFixed(5))}` : "in")).join(" ");
+    return placesText(this.balls, (x) => Number(x.toFixed(5)));
   }
 
   /** The game as text. */
@@ -171,8 +162,7 @@ export class Play {
     const shot = this.carom.simulate(this.table, balls, cue, OPTIONS);
     this.balls = balls.map(({ kind }, k) => {
       const end = shot.final[k]!;
-      const [pocket] = this.table.pockets;
-      return { kind, state: end.label === "off" && pocket ? { r: [...pocket.centre, -pocket.depth], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" } : end };
+      return { kind, state: end.label === "off" ? pocketed(this.table, end) : end };
     });
     if (!onTable(this.balls[0]!.state)) this.balls = atHead(this.carom, this.table, this.balls);
     this.state = { ...state, opening: false };

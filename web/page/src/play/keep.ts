@@ -1,5 +1,8 @@
 // A game in this browser, in the address, and on its way to another page: as text, packed for links, and by a channel between pages of one machine.
 
+import type { Setup } from "./game.js";
+import { wrong } from "../ui.js";
+
 const KEY = "carom-game";
 /** What was kept; undefined where the browser keeps nothing. */
 export function kept(key = KEY): string | undefined {
@@ -15,6 +18,15 @@ export function keepText(text: string, key = KEY): void {
   } catch (error) {
     console.info("This browser keeps no games:", error);
   }
+}
+
+const tally = (): Record<string, [number, number]> => JSON.parse(kept("carom-racks") ?? "{}") as Record<string, [number, number]>;
+/** The racks that each has won of a game against the same one. */
+export const racksOf = ({ game, against }: Setup): readonly [number, number] => tally()[`${game}/${against}`] ?? [0, 0];
+export function countRack({ game, against }: Setup, winner: 0 | 1): void {
+  const all = tally();
+  (all[`${game}/${against}`] ??= [0, 0])[winner]++;
+  keepText(JSON.stringify(all), "carom-racks");
 }
 
 async function through(bytes: Uint8Array<ArrayBuffer>, by: ReadableWritablePair<Uint8Array, BufferSource>): Promise<Uint8Array> {
@@ -42,7 +54,7 @@ export async function send(url: string, title: string, share: boolean, copied: s
     else await navigator.clipboard.writeText(url);
     return share && "share" in navigator ? "Sent." : copied;
   } catch (error) {
-    return `The browser does not let the page send the link (${error instanceof Error ? error.message : String(error)}).`;
+    return `The browser does not let the page send the link (${wrong(error)}).`;
   }
 }
 

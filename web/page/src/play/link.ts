@@ -1,6 +1,7 @@
 // A game by link: it is in the address, goes to the other one as a link, and pages of one machine hear of each stroke, which they compare bit by bit.
 import type { Entry, Play, Setup, Stroke } from "./game.js";
 import { channel, pack, send } from "./keep.js";
+import { wrong } from "../ui.js";
 
 export interface Host {
   play(): Play;
@@ -14,7 +15,6 @@ export interface Host {
   rest(): void;
   told(text: string): void;
 }
-const wrong = (error: unknown): string => (error instanceof Error ? error.message : String(error));
 
 export function byLink(host: Host): { save(): void; send(share: boolean): Promise<void>; ask(): void; waiting(): boolean; onward(): void; close(): void } {
   let queue: Entry[] = [];

@@ -9,7 +9,7 @@ export interface SceneOf {
   cloth: string;
   wood: string;
 }
-/** As of the player in cli/player.js: place, m, and rotation, w, x, y, z. */
+/** As of the player in web/player: place, m, and rotation, w, x, y, z. */
 export interface Pose {
   r: readonly number[];
   q: ArrayLike<number>;
@@ -73,6 +73,78 @@ function label(name: string): THREE.CanvasTexture {
   return texture;
 }
 
+/** A lamp above the table. */
+function lampOver(scene: THREE.Scene, width: number, length: number): void {
+  scene.add(new THREE.HemisphereLight("#ffffff", "#445544", 1.3));
+  const lamp = new THREE.DirectionalLight("#fff6e0", 2.2);
+  lamp.position.set(width * 0.2, length * 0.35, 2.2);
+  lamp.target.position.set(width / 2, length / 2, 0);
+  lamp.castShadow = true;
+  lamp.shadow.mapSize.set(2048, 2048);
+  const half = 0.6 * length;
+  Object.assign(lamp.shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 0.5, far: 5 });
+  lamp.shadow.bias = -5e-4;
+  scene.add(lamp, lamp.target);
+}
+/** Slate with cloth up to the middle of the pockets, wood around it, the faces of cushions, and dark pockets. */
+function furnish(scene: THREE.Scene, of: SceneOf): void {
+  const { width, length } = of.table;
+  const cloth = new THREE.MeshLambertMaterial({ color: of.cloth });
+  const wood = new THREE.MeshLambertMaterial({ color: of.wood });
+  const box = (x: number, y: number, w: number, l: number, low: number, high: number, material: THREE.Material): void => {
+    const mesh = new THREE.Mesh(new THREE.BoxGeometry(w, l, high - low), material);
+    mesh.position.set(x, y, (low + high) / 2);
+    mesh.receiveShadow = true;
+    scene.add(mesh);
+  };
+  box(width / 2, length / 2, width + WOOD, length + WOOD, -0.03, 0, cloth);
+  const nose = 0.0365;
+  for (const side of [-1, 1]) {
+    box(width / 2 + side * (width / 2 + WOOD), length / 2, WOOD, length + 3 * WOOD, -0.06, 1.2 * nose, wood);
+    box(width / 2, length / 2 + side * (length / 2 + WOOD), width + WOOD, WOOD, -0.06, 1.2 * nose, wood);
+  }
+  for (const { p, q, height = nose } of of.table.rails) {
+    // A strip from the nose outwards, over the cloth.
+    const along = Math.hypot(q[0] - p[0], q[1] - p[1]);
+    if (along < 1e-6) continue;
+    const [ux, uy] = [(q[0] - p[0]) / along, (q[1] - p[1]) / along];
+    const middle = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2] as const;
+    const outward = Math.sign(-uy * (middle[0] - width / 2) + ux * (middle[1] - length / 2)) || 1;
+    const thick = 0.045;
+    const mesh = new THREE.Mesh(new THREE.BoxGeometry(along, thick, 0.012), cloth);
+    mesh.position.set(middle[0] - (outward * uy * thick) / 2, middle[1] + (outward * ux * thick) / 2, height);
+    mesh.rotation.z = Math.atan2(uy, ux);
+    mesh.castShadow = mesh.receiveShadow = true;
+    scene.add(mesh);
+  }
+  for (const { centre, radius } of of.table.pockets) {
+    const hole = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, 0.09, 32), new THREE.MeshBasicMaterial({ color: "#050606" }));
+    hole.rotation.x = Math.PI / 2;
+    hole.position.set(centre[0], centre[1], 0.002);
+    scene.add(hole);
+  }
+}
+/** A ball: a sphere whose y is the ball's z, with numbers on both ends. */
+function ballOf(ball: SceneOf["balls"][number]): THREE.Group {
+  const group = new THREE.Group();
+  const sphere = new THREE.Mesh(new THREE.SphereGeometry(ball.radius, 40, 28), new THREE.MeshPhongMaterial({ map: surface(ball), shininess: 90, specular: "#666666" }));
+  sphere.rotation.x = Math.PI / 2;
+  sphere.castShadow = true;
+  group.add(sphere);
+  if (Number(ball.name) > 0)
+    for (const end of [1, -1]) {
+      // Rings within rings: a circle without them would be flat, and the ball in front of it.
+      const disc = new THREE.Mesh(new THREE.RingGeometry(0, ball.radius * 0.4, 24, 6), new THREE.MeshLambertMaterial({ map: label(ball.name) }));
+      disc.position.z = end * ball.radius * 0.925;
+      // The disc is bent onto the ball.
+      const at = disc.geometry.getAttribute("position");
+      for (let k = 0; k < at.count; k++) at.setZ(k, Math.sqrt(ball.radius ** 2 - at.getX(k) ** 2 - at.getY(k) ** 2) * 1.004 - ball.radius * 0.925);
+      if (end < 0) disc.rotation.y = Math.PI;
+      group.add(disc);
+    }
+  return group;
+}
+
 export class Scene {
   readonly canvas: HTMLCanvasElement;
   readonly #renderer: THREE.WebGLRenderer;
@@ -95,75 +167,10 @@ export class Scene {
     this.#camera.up.set(0, 0, 1);
     scene.background = new THREE.Color("#15181b");
 
-    // A lamp above the table.
-    scene.add(new THREE.HemisphereLight("#ffffff", "#445544", 1.3));
-    const lamp = new THREE.DirectionalLight("#fff6e0", 2.2);
-    lamp.position.set(width * 0.2, length * 0.35, 2.2);
-    lamp.target.position.set(width / 2, length / 2, 0);
-    lamp.castShadow = true;
-    lamp.shadow.mapSize.set(2048, 2048);
-    const half = 0.6 * length;
-    Object.assign(lamp.shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 0.5, far: 5 });
-    lamp.shadow.bias = -5e-4;
-    scene.add(lamp, lamp.target);
-
-    // Slate with cloth up to the middle of the pockets, wood around it, the faces of cushions, and dark pockets.
-    const cloth = new THREE.MeshLambertMaterial({ color: of.cloth });
-    const wood = new THREE.MeshLambertMaterial({ color: of.wood });
-    const box = (x: number, y: number, w: number, l: number, low: number, high: number, material: THREE.Material): void => {
-      const mesh = new THREE.Mesh(new THREE.BoxGeometry(w, l, high - low), material);
-      mesh.position.set(x, y, (low + high) / 2);
-      mesh.receiveShadow = true;
-      scene.add(mesh);
-    };
-    box(width / 2, length / 2, width + WOOD, length + WOOD, -0.03, 0, cloth);
-    const nose = 0.0365;
-    for (const side of [-1, 1]) {
-      box(width / 2 + side * (width / 2 + WOOD), length / 2, WOOD, length + 3 * WOOD, -0.06, 1.2 * nose, wood);
-      box(width / 2, length / 2 + side * (length / 2 + WOOD), width + WOOD, WOOD, -0.06, 1.2 * nose, wood);
-    }
-    for (const { p, q, height = nose } of of.table.rails) {
-      // A strip from the nose outwards, over the cloth.
-      const along = Math.hypot(q[0] - p[0], q[1] - p[1]);
-      if (along < 1e-6) continue;
-      const [ux, uy] = [(q[0] - p[0]) / along, (q[1] - p[1]) / along];
-      const middle = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2] as const;
-      const outward = Math.sign(-uy * (middle[0] - width / 2) + ux * (middle[1] - length / 2)) || 1;
-      const thick = 0.045;
-      const mesh = new THREE.Mesh(new THREE.BoxGeometry(along, thick, 0.012), cloth);
-      mesh.position.set(middle[0] - (outward * uy * thick) / 2, middle[1] + (outward * ux * thick) / 2, height);
-      mesh.rotation.z = Math.atan2(uy, ux);
-      mesh.castShadow = mesh.receiveShadow = true;
-      scene.add(mesh);
-    }
-    for (const { centre, radius } of of.table.pockets) {
-      const hole = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, 0.09, 32), new THREE.MeshBasicMaterial({ color: "#050606" }));
-      hole.rotation.x = Math.PI / 2;
-      hole.position.set(centre[0], centre[1], 0.002);
-      scene.add(hole);
-    }
-
-    // Balls: a sphere whose y is the ball's z, with numbers on both ends.
-    this.#balls = of.balls.map((ball) => {
-      const group = new THREE.Group();
-      const sphere = new THREE.Mesh(new THREE.SphereGeometry(ball.radius, 40, 28), new THREE.MeshPhongMaterial({ map: surface(ball), shininess: 90, specular: "#666666" }));
-      sphere.rotation.x = Math.PI / 2;
-      sphere.castShadow = true;
-      group.add(sphere);
-      if (Number(ball.name) > 0)
-        for (const end of [1, -1]) {
-          // Rings within rings: a circle without them would be flat, and the ball in front of it.
-          const disc = new THREE.Mesh(new THREE.RingGeometry(0, ball.radius * 0.4, 24, 6), new THREE.MeshLambertMaterial({ map: label(ball.name) }));
-          disc.position.z = end * ball.radius * 0.925;
-          // The disc is bent onto the ball.
-          const at = disc.geometry.getAttribute("position");
-          for (let k = 0; k < at.count; k++) at.setZ(k, Math.sqrt(ball.radius ** 2 - at.getX(k) ** 2 - at.getY(k) ** 2) * 1.004 - ball.radius * 0.925);
-          if (end < 0) disc.rotation.y = Math.PI;
-          group.add(disc);
-        }
-      scene.add(group);
-      return group;
-    });
+    lampOver(scene, width, length);
+    furnish(scene, of);
+    this.#balls = of.balls.map(ballOf);
+    scene.add(...this.#balls);
     this.#stick = new THREE.Mesh(new THREE.CylinderGeometry(0.0055, 0.014, 1.4, 16), new THREE.MeshLambertMaterial({ color: "#d9b077" }));
     this.#stick.castShadow = true;
     // The aim on the cloth: a line to the place of the cue ball at its first contact, and a ring there.

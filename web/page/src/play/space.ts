@@ -1,23 +1,10 @@
 // The view from behind the cue, over the flat one: its module is in the page as compressed text, and starts when it is asked for.
-import { type player } from "../../../player/player.js";
 import { colourOf } from "../../../player/words.js";
 import { stickEnd } from "../table/drawing.js";
 import { color } from "../ui.js";
-import type { Cue } from "carom";
 import type { Play } from "./game.js";
-import type { Look } from "./look.js";
-import type { Pose, Scene } from "./scene.js";
-
-export interface Host {
-  play(): Play;
-  /** Where the balls are now. */
-  poses(): readonly Pose[];
-  /** The stroke that is aimed, where one is, and what it meets first. */
-  aimed(): Cue | undefined;
-  first(): Look | undefined;
-  turn(degrees: number): void;
-  skip(): void;
-}
+import type { Scene } from "./scene.js";
+import { aimed, free, type Session } from "./session.js";
 
 async function load(): Promise<typeof import("./scene.js")> {
   const text = document.getElementById("scene-module")!.textContent!.trim();
@@ -38,9 +25,9 @@ export class Space {
   on = false;
 
   constructor(
-    readonly film: ReturnType<typeof player>,
+    readonly s: Session,
     readonly felt: HTMLElement,
-    readonly host: Host,
+    readonly skip: () => void,
   ) {}
 
   /** Shows it, or the flat view again. Rejects where the browser has no WebGL: the flat view stays. */
@@ -51,12 +38,12 @@ export class Space {
     const { Scene } = await this.#module;
     this.#make(Scene);
     this.on = true;
-    this.film.canvas.classList.add("behind");
+    this.s.film.canvas.classList.add("behind");
     this.draw();
   }
 
   #make(make: typeof Scene): void {
-    const play = this.host.play();
+    const play = this.s.play;
     this.#scene?.close();
     this.#scene?.canvas.remove();
     const balls = play.balls.map(({ kind }, k) => ({ name: play.names[k]!, radius: kind.radius, colour: colourOf(play.names[k]!, k) }));
@@ -67,13 +54,16 @@ export class Space {
     for (const [name, value] of Object.entries({ id: "scene", role: "img", tabindex: "0", "aria-label": "The table from behind the cue" })) canvas.setAttribute(name, value);
     let last: number | undefined;
     canvas.addEventListener("pointerdown", (event) => {
-      if (this.film.playing) return this.host.skip();
+      if (this.s.film.playing) return this.skip();
       canvas.setPointerCapture(event.pointerId);
       last = event.clientX;
     });
     canvas.addEventListener("pointermove", (event) => {
       if (last === undefined) return;
-      this.host.turn((last - event.clientX) * 0.08);
+      if (free(this.s)) {
+        this.s.stroke.set({ phi: (this.s.stroke.value.phi + (last - event.clientX) * 0.08 + 360) % 360 });
+        this.s.changed();
+      }
       last = event.clientX;
     });
     for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => (last = undefined));
@@ -81,31 +71,30 @@ export class Space {
       if (event.key === "Tab") return;
       event.preventDefault();
       const { key, altKey, shiftKey, ctrlKey, metaKey } = event;
-      this.film.canvas.dispatchEvent(new KeyboardEvent("keydown", { key, altKey, shiftKey, ctrlKey, metaKey }));
+      this.s.film.canvas.dispatchEvent(new KeyboardEvent("keydown", { key, altKey, shiftKey, ctrlKey, metaKey }));
     });
     this.felt.append(canvas);
   }
 
   draw(): void {
     if (!this.on || !this.#scene) return;
-    if (this.#of !== this.host.play()) void this.#module!.then(({ Scene }) => {
+    if (this.#of !== this.s.play) void this.#module!.then(({ Scene }) => {
       this.#make(Scene);
       this.draw();
     });
-    const { clientWidth, clientHeight } = this.film.canvas;
+    const { clientWidth, clientHeight } = this.s.film.canvas;
     const { canvas } = this.#scene;
     if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight) this.#scene.size(clientWidth, clientHeight);
-    const poses = this.host.poses();
-    const aimed = this.host.aimed();
+    const poses = this.s.filmed!.shots[0]!.at(this.s.film.time);
+    const of = aimed(this.s);
     // The camera stays where it was while the balls roll.
-    if (aimed) this.#scene.look(poses[0]!.r, aimed.phi);
-    const { a, b, phi, theta, speed } = aimed ?? ({} as Cue);
-    this.#scene.draw(poses, aimed && { phi, theta, right: -a, up: b, gap: stickEnd(this.#of!.balls[0]!.kind.radius, speed), first: this.host.first()?.at });
+    if (of) this.#scene.look(poses[0]!.r, of.phi);
+    this.#scene.draw(poses, of && { phi: of.phi, theta: of.theta, right: -of.a, up: of.b, gap: stickEnd(this.#of!.balls[0]!.kind.radius, of.speed), first: this.s.first?.at });
   }
 
   #hide(): void {
     this.on = false;
-    this.film.canvas.classList.remove("behind");
+    this.s.film.canvas.classList.remove("behind");
     this.close();
   }
   close(): void {
