@@ -1,11 +1,10 @@
-// npm run bench: the package beside the native library and beside a plain JavaScript port of the ladder's `base`. Ratios within one run are
-// what counts; each figure is the median of interleaved rounds, with the least. Native figures need build/libcarom.a and cc.
+// npm run bench: the package beside the native library. Ratios within one run are what counts; each figure is the median of interleaved rounds,
+// with the least. Native figures need build/libcarom.a and cc.
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
 import { load } from "../dist/index.js";
-import { base } from "./base.mjs";
 
 const root = fileURLToPath(new URL("../../../", import.meta.url));
 const [head, ...lines] = readFileSync(`${root}data/collisions-204.csv`, "utf8").trim().split("\n");
@@ -17,9 +16,6 @@ const TIMES = 20;
 const n = N * TIMES;
 
 const tasks = [];
-const out = new Float64Array(12 * N);
-const rows = Float64Array.from(one);
-tasks.push({ what: "JavaScript: base, 1000 Euler steps", count: N, go: () => { for (let k = 0; k < N; k++) base(rows, 26 * k, 1000, -1, out, 12 * k); } });
 for (const build of ["simd", "plain"]) {
   const carom = await load({ build });
   const batch = carom.collisions(n);

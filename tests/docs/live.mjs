@@ -1,13 +1,19 @@
-// site.mjs SITE [PICTURES]: opens the site of `./run --docs` in Chromium, wide and as a phone, and prints it. Every example in JavaScript runs
+// live.mjs SITE [PICTURES]: opens the site of `./run --docs` in Chromium, wide and as a phone, and prints it. Every example in JavaScript runs
 // in its page, the search finds, and no page is wider than the screen. PICTURES is a folder for screenshots and a printed page. Ends with 77
 // where it cannot run.
 import { createReadStream, existsSync, readdirSync } from "node:fs";
 import { createServer } from "node:http";
+import { createRequire } from "node:module";
 import { extname, resolve } from "node:path";
 
 const [site, pictures] = process.argv.slice(2).map((path) => resolve(path));
 const executablePath = process.env.CHROMIUM ?? ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
-const { chromium } = await import("playwright-core").catch(() => ({}));
+let chromium;
+try {
+  ({ chromium } = createRequire(new URL("../../web/package.json", import.meta.url))("playwright-core"));
+} catch {
+  // told below
+}
 if (!existsSync(`${site}/live/carom.js`) || !executablePath || !chromium) {
   console.log("skipped: this needs a site with the package of web/ in it, playwright-core in web/node_modules, and Chromium");
   process.exit(77);
