@@ -12,11 +12,11 @@ import { clothFor, fitTable, viewOf } from "./table.js";
  * @typedef {{ film: Film | undefined, time: number, end: number, playing: boolean, before: number, listing: number,
  *   all: { time: number, text: string }[] }} Clock */
 
-/** @template {keyof HTMLElementTagNameMap} K @param {K} tag @param {Record<string, string>} attributes @param {(Node | string)[]} children */
-function make(tag, attributes, ...children) {
+/** @template {keyof HTMLElementTagNameMap} K @param {K} tag @param {Record<string, string>} attributes @param {(Node | string | undefined)[]} children */
+export function make(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children);
+  made.append(...children.filter((child) => child !== undefined));
   return made;
 }
 

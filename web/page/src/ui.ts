@@ -1,16 +1,11 @@
 // Small helpers for the page: elements, sliders, canvases, the state in the address.
 
-type Child = Node | string | undefined;
+import { make as el } from "../../player/player.js";
+
+export { el };
 
 /** What went wrong, in words. */
 export const wrong = (error: unknown): string => (error instanceof Error ? error.message : String(error));
-
-export function el<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Record<string, string> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children.filter((child) => child !== undefined));
-  return made;
-}
 
 export interface Slider {
   root: HTMLElement;
@@ -158,7 +153,7 @@ export function keep(state: Record<string, string>): void {
 }
 
 /** A dialog with a heading, which closes by its button or Escape. */
-export function dialog(id: string, title: string, ...children: Child[]): HTMLDialogElement {
+export function dialog(id: string, title: string, ...children: (Node | string)[]): HTMLDialogElement {
   const made = el("dialog", { id, "aria-label": title }, el("div", { class: "row head" }, el("h2", {}, title), button("Close", () => made.close(), { class: "close" })), ...children);
   return made;
 }
