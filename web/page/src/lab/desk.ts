@@ -1,13 +1,13 @@
 // The desk of the laboratory: the balls as they lie, the controls of a stroke, and the shot that is shown.
 import { type Carom, type Cue, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, words } from "carom";
 import type { player } from "../../../player/player.js";
-import type { Path } from "../table/filmed.js";
 import { GAMES, type GameOf } from "../table/games.js";
 import { check, choice, el, pad, slider, type Slider } from "../ui.js";
 import type { advicePanel } from "./advice.js";
-import { FAN } from "./fan.js";
 import type { reel } from "./reel.js";
 
+/** Shots of a fan. */
+export const FAN = 500;
 export const DEFAULTS: Record<string, number> = { speed: 8, phi: 90, right: 0, up: 0.25, theta: 0, error: 0.3 };
 /** Models of the cushion, the page's own choice first. */
 const about: ReadonlyMap<string, string> = new Map(words.cushionModel);
@@ -43,7 +43,6 @@ export interface Desk {
   shot: Shot | undefined;
   /** The shot of a recording that is shown. */
   recorded: Replayed | undefined;
-  paths: Path[];
   /** What was drawn of the fan, whose number is raised by what ends it. */
   fan: HTMLCanvasElement | undefined;
   fanNumber: number;
@@ -67,13 +66,11 @@ export function controlsOf(aimed: () => void, racked: () => void) {
     set("up", up);
     aimed();
   });
-  const side = el("canvas", { class: "scene", id: "side-scene", role: "img", "aria-label": "The table from the side: heights of the balls" });
   return {
-    ...{ sliders, set, spin, side, value: (key: string): number => sliders[key]!.value },
+    ...{ sliders, set, spin, value: (key: string): number => sliders[key]!.value },
     games: choice("game", "Game", Object.entries(GAMES).map(([key, { text }]) => [key, text] as const), racked),
     cushion: choice("cushion", "Cushions", CUSHIONS.map((word) => [word, `${word}: ${about.get(word)}`] as const), aimed),
     fanned: check("fan", `Fan: ${FAN} shots with a player's error`, aimed),
-    sidePanel: el("div", { id: "side-view", hidden: "" }, el("p", { class: "note" }, "From the side; heights are enlarged."), side),
     summary: el("tbody"),
     message: el("p", { class: "error", role: "status", id: "message" }),
     line: el("textarea", { id: "line", spellcheck: "false" }),

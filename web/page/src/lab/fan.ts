@@ -1,23 +1,10 @@
 // The fan of the laboratory: many shots with a player's errors, drawn under the trails as their paths and places of rest.
-import type { Carom, Cue, ShotBall, ShotOptions, Table } from "carom";
 import { colourOf } from "../../../player/words.js";
 import { onTable, pathsOf } from "../table/filmed.js";
+import { cueOf, type Desk, FAN, optionsOf } from "./desk.js";
 
-export const FAN = 500;
 const CHUNK = 20;
 const ROOM = 400;
-
-export interface Fanned {
-  table: Table;
-  balls: readonly ShotBall[];
-  names: readonly string[];
-  cue: Cue;
-  options: ShotOptions;
-  /** Standard deviation of the direction, degrees. */
-  sigma: number;
-  canvas: HTMLCanvasElement;
-  place(x: number, y: number): [number, number];
-}
 
 /** Two draws from a normal distribution, by Box and Muller. */
 function normal(): [number, number] {
@@ -27,8 +14,9 @@ function normal(): [number, number] {
 }
 
 /** Draws a fan in chunks, one a frame, while `goes` holds; `drawn` gets the layer after each, with the shots so far and the library's time, ms. */
-export async function fan(carom: Carom, of: Fanned, goes: () => boolean, drawn: (layer: HTMLCanvasElement, shots: number, ms: number) => void): Promise<void> {
-  const { table, balls, names, cue, canvas, place } = of;
+export async function fan(d: Desk, goes: () => boolean, drawn: (layer: HTMLCanvasElement, shots: number, ms: number) => void): Promise<void> {
+  const { carom, table, balls, names, film: { canvas, place } } = d;
+  const [cue, options, sigma] = [cueOf(d), optionsOf(d), d.controls.value("error")];
   const layer = document.createElement("canvas");
   layer.width = canvas.width;
   layer.height = canvas.height;
@@ -42,9 +30,9 @@ export async function fan(carom: Carom, of: Fanned, goes: () => boolean, drawn: 
     const begun = performance.now();
     for (let k = 0; k < CHUNK; k++) {
       const [turned, faster] = normal();
-      shots.setCue(k, { ...cue, phi: cue.phi + of.sigma * turned, speed: cue.speed * Math.max(0.1, 1 + 0.03 * faster) });
+      shots.setCue(k, { ...cue, phi: cue.phi + sigma * turned, speed: cue.speed * Math.max(0.1, 1 + 0.03 * faster) });
     }
-    carom.simulateBatch(shots, of.options);
+    carom.simulateBatch(shots, options);
     computed += performance.now() - begun;
     for (let k = 0; k < CHUNK; k++) {
       if (shots.status[k]! < 0 || shots.events(k) > ROOM) continue;

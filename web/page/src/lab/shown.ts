@@ -1,10 +1,9 @@
-// What the laboratory shows of a shot: its film, its numbers, heights where a ball flies, and a fan of shots with a player's error.
+// What the laboratory shows of a shot: its film, its numbers, and a fan of shots with a player's error.
 import { CaromError, type Cue, type Replayed } from "carom";
 import { facing, filmOf, pathsOf } from "../table/filmed.js";
 import { el, wrong } from "../ui.js";
-import { cueOf, type Desk, optionsOf, says } from "./desk.js";
-import { FAN, fan } from "./fan.js";
-import { drawSide, flies } from "./side.js";
+import { type Desk, FAN, optionsOf, says } from "./desk.js";
+import { fan } from "./fan.js";
 
 /** Shows a stroke, which is played, or the shot of a recording. */
 export function present(d: Desk, stroke: Cue, played?: Replayed): void {
@@ -23,19 +22,18 @@ export function present(d: Desk, stroke: Cue, played?: Replayed): void {
   }
   const computed = performance.now() - begun;
   // Flights are short: their paths need more points.
-  d.paths = d.shot ? pathsOf(d.shot, d.shot.events.some((event) => event.type === "slate") ? 150 : 25, 900) : [];
+  const paths = d.shot ? pathsOf(d.shot, d.shot.events.some((event) => event.type === "slate") ? 150 : 25, 900) : [];
   d.fan = undefined;
   d.fanNumber++;
   tell(d);
-  d.film.show(filmOf({ table, balls, names, turned: d.faces.map(facing) }, d.shot, d.paths));
-  heights(d);
+  d.film.show(filmOf({ table, balls, names, turned: d.faces.map(facing) }, d.shot, paths));
   controls.cost.textContent = `The shot was computed in ${computed.toFixed(1)} ms, and drawn with its paths in ${(performance.now() - begun).toFixed(1)} ms.`;
   if (controls.fanned.input.checked) void drawFan(d);
   window.clearTimeout(d.writing);
   d.writing = window.setTimeout(d.settled, 150);
 }
 
-function tell({ controls, shot, balls, names, paths, game, film }: Desk): void {
+function tell({ controls, shot, balls, names, game, film }: Desk): void {
   const rows: [string, string, string][] = [];
   const contact = shot?.firstContact;
   if (shot) {
@@ -49,18 +47,12 @@ function tell({ controls, shot, balls, names, paths, game, film }: Desk): void {
   }
   controls.summary.replaceChildren(...rows.map(([id, name, text]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `s-${id}` }, text))));
   film.canvas.setAttribute("aria-label", `${game.text} table from above. The shot lasts ${shot?.time.toFixed(1) ?? 0} seconds; ${contact ? `ball ${names[contact.ball]} is hit first` : "no ball is hit"}.`);
-  controls.sidePanel.hidden = !flies(paths, balls);
-}
-/** The table from the side, where a ball leaves the cloth. */
-export function heights({ controls, table, balls, names, paths, shot, film }: Desk): void {
-  if (!controls.sidePanel.hidden) drawSide(controls.side, { table, balls, names }, paths, shot, film.time);
 }
 
 function drawFan(d: Desk): Promise<void> {
   const mine = d.fanNumber;
-  const { table, balls, names, controls, film } = d;
-  const of = { table, balls, names, cue: cueOf(d), options: optionsOf(d), sigma: controls.value("error"), canvas: film.canvas, place: film.place };
-  return fan(d.carom, of, () => mine === d.fanNumber && film.canvas.isConnected, (layer, shots, ms) => {
+  const { controls, film } = d;
+  return fan(d, () => mine === d.fanNumber && film.canvas.isConnected, (layer, shots, ms) => {
     d.fan = layer;
     if (!film.playing) film.draw();
     controls.cost.textContent = `The fan shows ${shots} of ${FAN} shots, which the library computed in ${ms.toFixed(0)} ms.`;

@@ -8,7 +8,7 @@ import { controlsOf, cueOf, type Desk, lay } from "./desk.js";
 import { drawHand, handle } from "./hand.js";
 import { importLine, lineOf, showRecorded } from "./lines.js";
 import { reel } from "./reel.js";
-import { heights, present } from "./shown.js";
+import { present } from "./shown.js";
 
 function deskOf(carom: Carom, solver: Desk["solver"]): Desk {
   const controls = controlsOf(() => d.aimed(), () => {
@@ -24,11 +24,10 @@ function deskOf(carom: Carom, solver: Desk["solver"]): Desk {
       return d.fan !== undefined;
     },
     over: (g) => drawHand(d, g),
-    moved: () => heights(d),
     ended: () => d.recorded && d.recording.advance(),
   });
   const d = {
-    ...{ carom, solver, controls, film, recorded: undefined, imported: undefined, shot: undefined, paths: [], fan: undefined, fanNumber: 0, writing: undefined },
+    ...{ carom, solver, controls, film, recorded: undefined, imported: undefined, shot: undefined, fan: undefined, fanNumber: 0, writing: undefined },
     recording: reel(carom, { show: (shot, from) => showRecorded(d, shot, from), start: film.start, tell: (text) => (controls.message.textContent = text) }),
     aimed() {
       present(d, cueOf(d));
@@ -64,7 +63,7 @@ function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
     el(
       "div",
       { class: "below" },
-      el("div", { class: "stack" }, d.advice.root, el("section", { class: "panel", "aria-label": "How" }, controls.sidePanel, ...HELP.map((text) => el("p", { class: "note" }, text)), controls.cost)),
+      el("div", { class: "stack" }, d.advice.root, el("section", { class: "panel", "aria-label": "How" }, ...HELP.map((text) => el("p", { class: "note" }, text)), controls.cost)),
       el("section", { class: "panel", "aria-label": "The shot in numbers" }, numbers),
       el("section", { class: "panel", "aria-label": "What happens" }, el("h2", {}, "Events"), film.events),
     ),

@@ -2,14 +2,14 @@
 // reads, plays and compares bit by bit. A game is kept and sent as text: what it begins with, and its strokes.
 import type { Call, Carom, Cue, GameState, Recording, Ruling, Shot, ShotBall, ShotOptions, Table, Vec2 } from "carom";
 import { onTable } from "../table/filmed.js";
-import { GAMES, type Played, playedGames } from "../table/games.js";
+import { GAMES, PLAYED, type Played } from "../table/games.js";
 import { atHead, mayLie } from "../table/head.js";
 import { placesOf, placesText, pocketed } from "../table/places.js";
 
 /** Whom one plays against: a Fargo rating, a person at this page, one by link, or nobody. */
 export type Against = "practice" | "person" | "link" | `${number}`;
 export interface Setup {
-  /** A key of playedGames(); of practice also one of GAMES. */
+  /** A key of PLAYED; of practice also one of GAMES. */
   game: string;
   against: Against;
   /** The rating whose errors my strokes have; "0": none. */
@@ -64,7 +64,7 @@ export class Play {
     readonly setup: Setup,
   ) {
     this.practice = setup.against === "practice";
-    this.played = playedGames(carom)[setup.game];
+    this.played = PLAYED[setup.game];
     const of = GAMES[this.played?.of ?? setup.game];
     if (!of || (!this.practice && !this.played)) throw new TypeError(`game: there is no game "${setup.game}"`);
     this.table = carom.table(of.table);

@@ -1,6 +1,5 @@
 // The dialog of a new game: which one, against whom, and how the page plays it.
-import type { Carom } from "carom";
-import { GAMES, playedGames } from "../table/games.js";
+import { GAMES, PLAYED } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import type { Against, Setup } from "./game.js";
@@ -14,11 +13,10 @@ export interface Host {
   changed(settings: Settings): void;
 }
 
-export function menu(carom: Carom, settings: Settings, pace: HTMLElement, host: Host, ...more: HTMLElement[]): { root: HTMLDialogElement; open(setup: Setup): void } {
-  const played = playedGames(carom);
+export function menu(settings: Settings, pace: HTMLElement, host: Host, ...more: HTMLElement[]): { root: HTMLDialogElement; open(setup: Setup): void } {
   // Practice has every table.
-  const others = Object.entries(GAMES).filter(([key]) => !(key in played));
-  const game = choice("new-which", "Game", [...Object.entries(played), ...others].map(([key, { text }]) => [key, key in played ? text : `${text} (practice)`] as const), told);
+  const others = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
+  const game = choice("new-which", "Game", [...Object.entries(PLAYED), ...others].map(([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const), told);
   const against = choice("new-against", "Against", [["practice", "nobody: practice"], ["person", "a person at this page"], ["link", "a person by link"], ...RATINGS.map((r) => [r, `the computer, rated ${r}`] as const)], told);
   const own = choice("new-own", "Your strokes", [["0", "go where you aim"], ...RATINGS.map((r) => [r, `err like those of a ${r}`] as const)], () => undefined);
   const note = el("p", { class: "note", id: "new-note" });
@@ -29,7 +27,7 @@ export function menu(carom: Carom, settings: Settings, pace: HTMLElement, host: 
   coach.input.checked = settings.coach;
 
   function told(): void {
-    if (!(game.select.value in played)) against.select.value = "practice";
+    if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";
     const notes: Record<string, string> = {
       practice: "There are no rules. You move any ball, see every path, and undo strokes.",
