@@ -1,4 +1,4 @@
-/* Shots that play, by the player of the explorer: player.js is in this program. Poses are written
+/* Shots that play, by the player of the page: web/player is in this program. Poses are written
  * at equal steps and at every event, so that between two of them a straight line does, and no
  * contact is cut short. */
 #include "animation.h"

@@ -46,7 +46,7 @@ def lines(project):
             ("authors = ", p["authors"] and text(p["people"], ensure_ascii=False)),
             ("repository = ", p["address"] and text(p["address"])),
         ]
-    yield "web/package.json", '  "license": ', [
+    yield "web/npm/package.json", '  "license": ', [
         ('  "author": ', p["authors"] and f"{author},"),
         ('  "repository": ', p["address"] and f'{{ "type": "git", "url": {text("git+" + p["address"])} }},'),
         ('  "bugs": ', p["tracker"] and f"{text(p['tracker'])},"),
@@ -77,7 +77,7 @@ def places(p):
     minor = p["version"].rpartition(".")[0]
     yield "README.md", r"(?m)^(In a clone of this repository \().*(it takes a minute\))", f"`git clone {p['address']} carom`; " if p["address"] else ""
     yield "SECURITY.md", r"(?m)^(Report a weakness to ).*(, not in public)", p["contact"] or "the owner of the repository"
-    yield "web/package.json", r'(?m)^(  "version": ")[^"]*(")', p["version"]
+    yield "web/npm/package.json", r'(?m)^(  "version": ")[^"]*(")', p["version"]
     yield "web/package-lock.json", r'("name": "carom",\s+"version": ")[^"]*(")', p["version"]
     yield "docs/using/building.md", r"(`carom/)[\d.]+(`)", p["version"]
     yield "docs/using/building.md", r"(find_package\(carom |`libcarom)[\d.]+( REQUIRED|`)", minor

@@ -39,7 +39,7 @@ for path in OUT.rglob("*"):
                 if path.suffix == ".rb" or not any(f"@{key}@" in line and not value for key, value in known.items())]  # fmt: skip
         path.write_text(re.sub(r"@([A-Z0-9]+)@", lambda match: safe(known[match[1]] or "https://carom.invalid"), "".join(kept)), encoding="utf-8")
 
-npm = json.loads((ROOT / "web/package.json").read_text(encoding="utf-8"))["devDependencies"]
+npm = json.loads((ROOT / "web/page/package.json").read_text(encoding="utf-8"))["devDependencies"]
 PARTS = [  # what is inside packages, and what packages ask for
     ("uplot", npm["uplot"], "MIT", "required", "in the page and in the site's explorer"),
     ("three", npm["three"], "MIT", "required", "in the page and in the site's explorer: the view from behind the cue"),

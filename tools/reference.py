@@ -154,12 +154,12 @@ def pages(source):
     def files(pattern):
         return [str(path.relative_to(source)) for path in sorted(source.glob(pattern))]
 
-    index = (source / "web/src/index.ts").read_text(encoding="utf-8")
+    index = (source / "web/npm/src/index.ts").read_text(encoding="utf-8")
     public = set(re.findall(r"\w+", " ".join(re.findall(r"export (?:type )?\{([^}]*)\}", index)))) | set(re.findall(r"^export \w+ (?:function )?(\w+)", index, flags=re.M))
-    types = (source / "web/src/types.ts").read_text(encoding="utf-8")
+    types = (source / "web/npm/src/types.ts").read_text(encoding="utf-8")
     public |= set(re.findall(r"^export (?:interface|type) (\w+)", types, flags=re.M))
     yield "C", "reference/c.md", of_c(source)
     yield "Python", "reference/python.md", of_python(source)
-    yield "npm", "reference/npm.md", documented(source, files("web/src/*.ts"), block, "ts", "npm", lambda line: of_npm(line, public))
+    yield "npm", "reference/npm.md", documented(source, files("web/npm/src/*.ts"), block, "ts", "npm", lambda line: of_npm(line, public))
     yield "C#", "reference/csharp.md", documented(source, files("bindings/csharp/Runtime/*.cs"), slashes, "csharp", "C#", of_csharp)
     yield "Rust", "reference/rust.md", documented(source, files("bindings/rust/carom/src/*.rs"), slashes, "rust", "Rust", of_rust)

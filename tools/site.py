@@ -2,7 +2,7 @@
 
 Pages keep their places in the tree, so their links lead where they lead in the repository. Files that they link to are copied. Each
 example becomes a page: its head comment, its picture, its text. Those in JavaScript run in their pages, and the explorer is a part of the
-site, where `web/build` and `npm run page` have built them.
+site, where `web/npm/build` and `npm run page` have built them.
 """
 
 import ast
@@ -24,8 +24,8 @@ FOLDERS = {"Using": "docs/using", "Understanding": "docs/understanding", "Study"
 OTHERS = ["CHANGELOG.md", "CONTRIBUTING.md", *sorted(str(page.relative_to(SOURCE)) for room in ("cli", "data", "lab", "python", "src", "tests", "web")
                                                      for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md")))]  # fmt: skip
 FIRST = ["command", "questions", "python", "web", "games", "examples", "shots", "physics", "accuracy"]  # what a newcomer asks for, before the other pages
-EXPLORER = SOURCE / "web/explorer/dist/index.html"
-PACKAGE, ESBUILD = SOURCE / "web/dist/index.js", SOURCE / "web/node_modules/.bin/esbuild"
+EXPLORER = SOURCE / "web/page/dist/index.html"
+PACKAGE, ESBUILD = SOURCE / "web/npm/dist/index.js", SOURCE / "web/node_modules/.bin/esbuild"
 LIVE = PACKAGE.is_file() and ESBUILD.is_file()
 
 
@@ -101,7 +101,7 @@ for name, folder in FOLDERS.items():
     for page in sheets:
         add(page)
     navigation.append({name: [{title(page): page} for page in sheets]})
-programs = [*sorted((SOURCE / "examples").glob("*.c*")), *sorted((SOURCE / "python/examples").glob("*.py")), *sorted((SOURCE / "web/examples").glob("*.mjs"))]
+programs = [*sorted((SOURCE / "examples").glob("*.c*")), *sorted((SOURCE / "python/examples").glob("*.py")), *sorted((SOURCE / "web/npm/examples").glob("*.mjs"))]
 add("examples/README.md")
 made = [page for page in map(example, programs) if page]
 navigation.append({"Examples": [{"Programs": "examples/README.md"}, *({Path(page).stem: page} for page in made)]})
@@ -130,7 +130,7 @@ assert len(made) >= 4 and len(built) >= 30 and (WORK / "site/search/search_index
 # The licences of what the site contains; the explorer has the others in itself.
 (WORK / "site/licenses").mkdir()
 theme = next(file for file in distribution("mkdocs-material").files if file.name == "LICENSE")
-for name, file in {"carom": "LICENSE", "carom-NOTICE": "NOTICE", "webassembly": "web/NOTICES", "mkdocs-material": theme.locate()}.items():
+for name, file in {"carom": "LICENSE", "carom-NOTICE": "NOTICE", "webassembly": "web/npm/NOTICES", "mkdocs-material": theme.locate()}.items():
     shutil.copy(SOURCE / file, WORK / f"site/licenses/{name}.txt")
 # A page asks no other server for a part of itself: mkdocs-material would get the search of a page that no server has from unpkg.com.
 asks = []

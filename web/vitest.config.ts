@@ -2,10 +2,11 @@ import { defineConfig } from "vitest/config";
 
 export default defineConfig({
   test: {
-    include: ["test/**/*.test.ts"],
+    include: ["{npm,page}/test/**/*.test.ts"],
     testTimeout: 60000,
     hookTimeout: 60000,
-    // One at a time: the browser and the million calls would slow each other.
-    fileParallelism: false,
+    // Two at a time: tests of the page mostly wait for films.
+    maxWorkers: 2,
+    minWorkers: 1,
   },
 });

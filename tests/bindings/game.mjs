@@ -1,6 +1,6 @@
 // As game.c, in JavaScript: the recording is read here, by its page (docs/using/games.md), and played by the npm package.
 import { readFileSync } from "node:fs";
-import { load } from "../../web/dist/index.js";
+import { load } from "../../web/npm/dist/index.js";
 
 const carom = await load();
 const kindKeys = Object.keys(carom.kind("pool"));

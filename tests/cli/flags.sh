@@ -158,7 +158,9 @@ html = open("all.html", encoding="utf-8").read()
 print("needs nothing else:", set(re.findall(r"https?://[^\"' ]*", html)), "src=" in html, "href" in html)
 print("the film's colours:", json.loads(re.search(r"const SHOTS = (\[.*\]);", html)[1])[:3] == legend)
 film = json.loads(re.search(r"const film=recorded\((.*?)\);\n", html, re.S)[1])
-assert open(os.path.join(os.environ["DATA"], "../cli/player.js"), encoding="utf-8").read() in html, "the player is another one"
+for part in ("words", "ball", "table", "film", "player"):
+    text = open(os.path.join(os.environ["DATA"], f"../web/player/{part}.js"), encoding="utf-8").read()
+    assert re.sub(r"\nimport .*", "", text) in html, f"{part}.js of the player is another one"
 checked = 0
 for result, shot in zip(played, film["shots"], strict=True):
     times = shot["times"]

@@ -33,7 +33,7 @@ PASTED = re.compile(r" {4}(\./|build/|tools/|pip3? |cmake |ctest |gnuplot |carom
 
 def pages(source):
     """The names of all pages."""
-    return ["README.md", *sorted(str(page.relative_to(source)) for page in Path(source, "docs").glob("*/*.md")), "examples/README.md", "python/README.md", "web/README.md"]
+    return ["README.md", *sorted(str(page.relative_to(source)) for page in Path(source, "docs").glob("*/*.md")), "examples/README.md", "python/README.md", "web/README.md", "web/npm/README.md"]
 
 
 def blocks(source, page):

@@ -33,9 +33,10 @@ with tempfile.TemporaryDirectory() as work:
     work = Path(work)
     for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "SECURITY.md", "CITATION.cff", "cmake", "include", "src", "cli", "data", "packaging", "tools"):
         (shutil.copytree if (SOURCE / part).is_dir() else shutil.copy)(SOURCE / part, work / part)
-    for part in ("python/pyproject.toml", "web/package.json", "web/package-lock.json", "docs/using/building.md", "docs/using/abi.md", "tests/install/plain", "tests/install/consumer-cmake/CMakeLists.txt", "tests/install/consumer-cmake/consumer.c", "bindings/csharp/package.json", "bindings/rust/carom/Cargo.toml", "bindings/rust/carom-sys/Cargo.toml"):
+    for part in ("python/pyproject.toml", "web/npm/package.json", "web/page/package.json", "web/package-lock.json", "docs/using/building.md", "docs/using/abi.md", "tests/install/plain", "tests/install/consumer-cmake/CMakeLists.txt", "tests/install/consumer-cmake/consumer.c", "bindings/csharp/package.json", "bindings/rust/carom/Cargo.toml", "bindings/rust/carom-sys/Cargo.toml"):
         (work / part).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(SOURCE / part, work / part)
+    shutil.copytree(SOURCE / "web/player", work / "web/player")
     tool = [sys.executable, work / "tools/project.py"]
     before = {path: path.read_bytes() for path in work.rglob("*") if path.is_file()}
 
@@ -61,7 +62,7 @@ with tempfile.TemporaryDirectory() as work:
     for crate in ("carom", "carom-sys"):
         rust = toml(work / f"bindings/rust/{crate}/Cargo.toml")["package"]
         assert rust["authors"] == ["Zoë Kö", "Jo Doe"] and rust["repository"] == FIELDS["address"]
-    npm, csharp = (json.loads((work / part).read_text(encoding="utf-8")) for part in ("web/package.json", "bindings/csharp/package.json"))
+    npm, csharp = (json.loads((work / part).read_text(encoding="utf-8")) for part in ("web/npm/package.json", "bindings/csharp/package.json"))
     assert npm["author"] == csharp["author"]["name"] == "Zoë Kö, Jo Doe" and npm["bugs"] == FIELDS["tracker"]
     assert npm["repository"]["url"] == "git+" + FIELDS["address"] and csharp["documentationUrl"] == FIELDS["address"]
     assert "Copyright 2031 The Example Society\n" in (work / "NOTICE").read_text(encoding="utf-8")
@@ -110,7 +111,7 @@ with tempfile.TemporaryDirectory() as work:
     header = work / "include/carom.h"
     header.write_text(re.sub(r"(VERSION_MINOR) \d+", r"\1 77", header.read_text(encoding="utf-8")), encoding="utf-8")
     run(*tool)
-    for part, text in (("web/package.json", '"0.77.0"'), ("web/package-lock.json", '"0.77.0"'), ("docs/using/building.md", "carom/0.77.0`"),
+    for part, text in (("web/npm/package.json", '"0.77.0"'), ("web/package-lock.json", '"0.77.0"'), ("docs/using/building.md", "carom/0.77.0`"),
                        ("docs/using/building.md", "`libcarom0.77`"), ("docs/using/abi.md", "libcarom.so.0.77`"), ("tests/install/plain", "(carom 0.77 ")):  # fmt: skip
         assert text in (work / part).read_text(encoding="utf-8"), part
     header.write_bytes(before[header])

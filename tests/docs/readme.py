@@ -63,6 +63,7 @@ with tempfile.TemporaryDirectory() as work:
     # Installing, from a copy of what a clone has.
     for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "cmake", "cli", "data", "docs", "examples", "include", "src"):
         (clone / part).symlink_to(SOURCE / part)
+    (clone / "web").symlink_to(SOURCE / "web")
     kept = {name: (SOURCE / name).read_bytes() for name in ("README.md", "CHANGELOG.md")}
     # Then the program, in the same shell, and in a new one; and by CMake, which finds what is beside a folder of the path.
     assert "cmake -B b " in of["sh install"]

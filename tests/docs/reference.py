@@ -17,7 +17,7 @@ headers = "".join(path.read_text(encoding="utf-8") for path in (SOURCE / "includ
 package = ast.parse((SOURCE / "python/src/carom/__init__.py").read_text(encoding="utf-8"))
 names = next(node.value for node in package.body if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
 modules = {path.stem for path in (SOURCE / "python/src/carom").glob("[a-z]*.py")}
-methods = re.findall(r"^  (?:get )?([a-z]\w*)\([^;]*\{$", (SOURCE / "web/src/carom.ts").read_text(encoding="utf-8").split("export class Carom {")[1], flags=re.M)
+methods = re.findall(r"^  (?:get )?([a-z]\w*)\([^;]*\{$", (SOURCE / "web/npm/src/carom.ts").read_text(encoding="utf-8").split("export class Carom {")[1], flags=re.M)
 
 
 def calls(pattern, wanted):

@@ -74,10 +74,10 @@ def web(source):
     def compressed(*files):
         return len(gzip.compress(b"".join(file.read_bytes() for file in files), 9))
 
-    dist, page = Path(source, "web/dist"), Path(source, "web/explorer/dist/index.html")
+    dist, page = Path(source, "web/npm/dist"), Path(source, "web/page/dist/index.html")
     common = [*sorted(dist.glob("*.js")), dist / "generated/layout.js"]
     packages = {f"package {build}": compressed(*common, dist / f"generated/{build}.js") for build in ("simd", "plain")}
-    packed = subprocess.run(["npm", "pack", "--dry-run", "--json"], cwd=Path(source, "web"), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True).stdout
+    packed = subprocess.run(["npm", "pack", "--dry-run", "--json"], cwd=Path(source, "web/npm"), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True).stdout
     packages["tarball"] = json.loads(packed)[0]["size"]
     return {**packages, "page": page.stat().st_size, "page compressed": compressed(page)}
 

@@ -1,0 +1,76 @@
+// npm run bench: the package beside the native library. Ratios within one run are what counts; each figure is the median of interleaved rounds,
+// with the least. Native figures need build/libcarom.a and cc.
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { fileURLToPath } from "node:url";
+import { load } from "../dist/index.js";
+
+const root = fileURLToPath(new URL("../../../", import.meta.url));
+const [head, ...lines] = readFileSync(`${root}data/collisions-204.csv`, "utf8").trim().split("\n");
+const names = head.split(",");
+const columns = "r1x r1y r1z v1x v1y v1z w1x w1y w1z R M u_s1 r2x r2y r2z v2x v2y v2z w2x w2y w2z R M u_s2 u_b e_b".split(" ");
+const one = lines.flatMap((line) => columns.map((column) => Number(line.split(",")[names.indexOf(column)])));
+const N = lines.length;
+const TIMES = 20;
+const n = N * TIMES;
+
+const tasks = [];
+for (const build of ["simd", "plain"]) {
+  const carom = await load({ build });
+  const batch = carom.collisions(n);
+  for (let k = 0; k < TIMES; k++) batch.in.set(one, k * one.length);
+  tasks.push({ what: `WebAssembly ${build}: exact, batch`, count: n, go: () => carom.collideBatch(batch) });
+  if (build === "simd") {
+    const few = carom.collisions(N);
+    few.in.set(one);
+    tasks.push({ what: "WebAssembly: 1000 Euler steps", count: N, go: () => carom.collideBatch(few, { solver: "euler" }) });
+    const at = (k) => [one[k], one[k + 1], one[k + 2]];
+    const ball = (k) => ({ r: at(k), v: at(k + 3), w: at(k + 6), radius: one[k + 9], mass: one[k + 10], muCloth: one[k + 11] });
+    const impacts = lines.map((_, k) => ({ a: ball(26 * k), b: ball(26 * k + 12), muBall: one[26 * k + 24], restitution: one[26 * k + 25] }));
+    tasks.push({ what: "WebAssembly: exact, single calls with objects", count: N, go: () => impacts.forEach((impact) => carom.collide(impact)) });
+  }
+  const table = carom.table("9ft");
+  const shots = carom.shots(table, carom.rack("nineball", table), 100);
+  for (let k = 0; k < 100; k++) shots.setCue(k, carom.cue({ speed: 8, phi: 85 + k / 10 }));
+  for (const cushionModel of ["han", "mathavan"])
+    tasks.push({ what: `WebAssembly ${build}: nine-ball break, ${cushionModel}`, count: 100, go: () => carom.simulateBatch(shots, { cushionModel }) });
+}
+
+// Native: native.c with the library of build/, by `plain`.
+const folder = mkdtempSync(`${tmpdir()}/carom-bench-`);
+const native = {};
+const library = `${root}build/libcarom.a`;
+if (existsSync(library)) {
+  execFileSync("cc", ["-std=c17", "-O2", `-I${root}include`, `${root}web/npm/bench/native.c`, library, "-lm", "-pthread", "-o", `${folder}/native`]);
+  for (const name of ["batch", "calls", "euler", "han", "mathavan"]) tasks.push({ what: `native plain: ${name}`, times: (native[name] = []) });
+} else {
+  console.log(`# without native figures: there is no ${library}`);
+}
+const all = new Float64Array(TIMES * one.length);
+for (let k = 0; k < TIMES; k++) all.set(one, k * one.length);
+
+for (const task of tasks) task.times ??= [];
+for (let round = 0; round < 9; round++) {
+  for (const task of tasks) {
+    if (!task.go) continue;
+    const begun = performance.now();
+    let turns = 0;
+    do {
+      task.go();
+      turns++;
+    } while (performance.now() - begun < 30);
+    task.times.push((performance.now() - begun) / turns / task.count);
+  }
+  if (existsSync(`${folder}/native`))
+    for (const line of execFileSync(`${folder}/native`, [String(N)], { input: Buffer.from(all.buffer), encoding: "utf8" }).trim().split("\n")) {
+      const [name, ns] = line.split(" ");
+      native[name].push(Number(ns) / 1e6);
+    }
+}
+rmSync(folder, { recursive: true });
+console.log(`# Node ${process.version}, ${process.arch}; 204 reference collisions; ns each, median of 9 rounds (least)`);
+for (const { what, times } of tasks) {
+  times.sort((a, b) => a - b);
+  console.log(`${what.padEnd(48)} ${(times[4] * 1e6).toFixed(0).padStart(9)} (${(times[0] * 1e6).toFixed(0)})`);
+}

@@ -1,0 +1,224 @@
+// The 204 reference collisions, cushions, and what is refused.
+import { describe, expect, test } from "vitest";
+import { CaromError, type CushionImpact, type Impact, load, toLine, type Vec3 } from "../dist/index.js";
+import { builds, cases, csv, references, run, thereIsACommand } from "./support.js";
+
+const { ids, rows } = cases();
+const R = (k: number): number => rows[26 * k + 9]!;
+
+/** The largest deviation over the fastest of the twelve numbers, spins times the radius. */
+function deviation(out: Float64Array, reference: Float64Array, k: number): number {
+  let fastest = 0;
+  let apart = 0;
+  for (let c = 0; c < 12; c++) {
+    const unit = c % 6 < 3 ? 1 : R(k);
+    fastest = Math.max(fastest, Math.abs(reference[12 * k + c]!) * unit);
+    apart = Math.max(apart, Math.abs(out[12 * k + c]! - reference[12 * k + c]!) * unit);
+  }
+  return apart / fastest;
+}
+
+function impactOf(row: Float64Array): Impact {
+  const at = (k: number): Vec3 => [row[k]!, row[k + 1]!, row[k + 2]!];
+  const ball = (k: number): Impact["a"] => ({ r: at(k), v: at(k + 3), w: at(k + 6), radius: row[k + 9]!, mass: row[k + 10]!, muCloth: row[k + 11]! });
+  return { a: ball(0), b: ball(12), muBall: row[24]!, restitution: row[25]! };
+}
+
+describe.each(builds)("collisions by $name", ({ carom }) => {
+  test.each([
+    ["paper", "reference-exact-paper.csv"],
+    ["pooltool", "reference-exact-pooltool.csv"],
+  ] as const)("the exact limit of 204 cases, slip %s", (slip, file) => {
+    const reference = references(file);
+    const batch = carom.collisions(ids.length);
+    batch.in.set(rows);
+    expect(carom.collideBatch(batch, { slip })).toBe("ok");
+    const out = batch.out.slice();
+    const errors = ids.map((_, k) => deviation(out, reference, k)).sort((a, b) => a - b);
+    expect(errors.at(-1)).toBeLessThan(1e-6);
+    expect(errors[102]).toBeLessThan(5e-9);
+    // A row of a batch has the bits of a single call.
+    ids.forEach((_, k) => {
+      const single = carom.collide(impactOf(rows.subarray(26 * k, 26 * k + 26)), { slip });
+      expect([...single.a.v, ...single.a.w, ...single.b.v, ...single.b.w]).toEqual([...out.subarray(12 * k, 12 * k + 12)]);
+    });
+    batch.free();
+  });
+
+  test("pooltool's bits by 1000 Euler steps, and those of the JavaScript port of base", () => {
+    const reference = references("reference-pooltool-n1000.csv");
+    const batch = carom.collisions(ids.length);
+    batch.in.set(rows);
+    expect(carom.collideBatch(batch, { solver: "euler", slip: "pooltool" })).toBe("ok");
+    expect([...batch.out]).toEqual([...reference]);
+    batch.free();
+  });
+
+  test("details and traces agree with the result", () => {
+    const impact = impactOf(rows.subarray(0, 26));
+    const { detail, a } = carom.collideDetail(impact);
+    expect(detail.work).toBeCloseTo((1 + 0.95 ** 2) * detail.workCompression, 9);
+    const points = carom.trace(impact, 21);
+    expect(points).toHaveLength(21);
+    expect(points[0]!.normal).toBe(0);
+    expect(points[20]!.normal).toBeCloseTo(detail.normal, 6);
+    expect(points[20]!.state.a.v[0]).toBeCloseTo(a.v[0], 5);
+    expect(points[0]!.vN).toBeLessThan(0);
+    expect(points[20]!.vN).toBeGreaterThan(0);
+    expect(points.map((point) => point.phase)).toEqual(points.map((point) => point.phase).sort());
+  });
+
+  test("defaults: Alciatore's friction, a pool ball", () => {
+    const rolls: Impact = { a: { v: [1.5, 0, 0], w: [0, 1.5 / 0.028575, 0] }, b: { r: [0.866 * 0.05715, 0.5 * 0.05715, 0] } };
+    const mu = carom.muBall(rolls);
+    const slip = Math.hypot(1.5 * 0.5, 1.5 * Math.hypot(0.866, 0.5) * 0.866);
+    expect(mu).toBeCloseTo(0.009951 + 0.108 * Math.exp(-1.088 * slip), 3);
+    expect(carom.collide(rolls)).toEqual(carom.collide({ ...rolls, muBall: mu }));
+    const after = carom.rollingVelocity(carom.collide(rolls).a, 0.028575);
+    expect((Math.atan2(-after[1], after[0]) * 180) / Math.PI).toBeCloseTo(33.49, 1);
+  });
+
+  test("balls that part keep their motion", () => {
+    const out = carom.collide({ a: { v: [-1, 0, 0] }, b: { r: [0.05715, 0, 0] } });
+    expect(out.status).toBe("separating");
+    expect(out.a.v).toEqual([-1, 0, 0]);
+  });
+
+  test.runIf(thereIsACommand)("cushions: the command's doubles, by four models", () => {
+    const table = csv("cushion-stronge.csv");
+    const number = (row: Record<string, string>, key: string): number => Number(row[key]);
+    for (const model of ["mathavan", "stronge", "han", "mirror"] as const) {
+      const [head, ...lines] = run(["resolve", "--cushion", "--model", model, `${new URL("../../../data/cushion-stronge.csv", import.meta.url).pathname}`]).trim().split("\n");
+      const columns = head!.split(",");
+      expect(lines).toHaveLength(table.length);
+      lines.forEach((line, k) => {
+        const row = table[k]!;
+        const impact: CushionImpact = {
+          v: [number(row, "vx"), number(row, "vy"), number(row, "vz")],
+          w: [number(row, "wx"), number(row, "wy"), number(row, "wz")],
+          normal: [number(row, "nx"), number(row, "ny")],
+          height: number(row, "h"),
+          radius: number(row, "R"),
+          mass: number(row, "M"),
+          muCloth: number(row, "mu_s"),
+          muCushion: number(row, "mu_w"),
+          restitution: number(row, "e"),
+          jawRadius: number(row, "rho"),
+        };
+        const out = carom.cushion(impact, { model });
+        const cells = line.split(",");
+        const expected = ["vx", "vy", "vz", "wx", "wy", "wz"].map((column) => Number(cells[columns.indexOf(column)]));
+        expect([...out.v, ...out.w]).toEqual(expected);
+      });
+    }
+  });
+});
+
+describe("what is refused", () => {
+  const { carom } = builds[0]!;
+  const good: Impact = { a: { v: [1, 0, 0] }, b: { r: [0.05715, 0, 0] } };
+  const refusal = (call: () => unknown): unknown => {
+    try {
+      call();
+    } catch (error) {
+      return error;
+    }
+    throw new Error("nothing was refused");
+  };
+
+  test.each([
+    [{ ...good, a: { v: [NaN, 0, 0] } }, "bad_velocity", "a.v[0]"],
+    [{ ...good, a: { v: [1, 0, 0], radius: 0 } }, "bad_radius", "a.radius"],
+    [{ ...good, b: { ...good.b, mass: -1 } }, "bad_mass", "b.mass"],
+    [{ ...good, restitution: 1.5 }, "bad_restitution", "restitution"],
+    [{ ...good, muBall: 2 }, "bad_mu_ball", "mu_ball"],
+  ] as [Impact, string, string][])("a collision: %#", (impact, status, field) => {
+    const error = refusal(() => carom.collide(impact)) as CaromError;
+    expect(error).toBeInstanceOf(CaromError);
+    expect([error.status, error.field]).toEqual([status, field]);
+    expect(error.message).toMatch(new RegExp(`^${field.replace(/[[\].]/g, "\\$&")}: .{10,}`));
+  });
+
+  test("a bad row of a batch costs itself", () => {
+    const batch = carom.collisions(100);
+    for (let k = 0; k < 100; k++) batch.set(k, good);
+    batch.in[26 * 50 + 9] = -1;
+    expect(carom.collideBatch(batch)).toBe("bad_radius");
+    expect([...batch.status].filter((status) => status !== 0)).toEqual([-8]);
+    expect(batch.get(50).a.v).toEqual([NaN, NaN, NaN]);
+    expect(batch.get(51)).toEqual(carom.collide(good));
+    batch.free();
+    expect(() => batch.in).toThrow("freed");
+    expect(() => carom.collideBatch(batch)).toThrow("freed");
+  });
+
+  test("words, shapes, fields and sizes that are not there", () => {
+    expect(() => carom.collide(good, { solver: "magic" as never })).toThrow("solver: it must be one of exact, euler");
+    expect(() => carom.collide(good, { steps: -1 })).toThrow("steps: it must be a whole number");
+    expect(() => carom.collide({ ...good, a: { v: [1, 0] as never } })).toThrow("a.v: it must be 3 numbers, not [1,0]");
+    expect(() => carom.cushion({ v: [1, 0, 0], normal: [0, 0] })).toThrow("normal");
+    expect(() => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { model: "wood" as never })).toThrow("model: it must be one of mathavan, stronge, han, mirror, euler, smooth");
+    expect(() => carom.trace(good, 1)).toThrow("at least 2");
+    expect(() => carom.collisions(-1)).toThrow("0 or more");
+    expect(() => carom.collisions(2).set(2, good)).toThrow("k: it must be 0 to 1");
+    expect(() => carom.table("10ft" as never)).toThrow("7ft, 8ft, 9ft");
+    expect(() => carom.rack("pyramid" as never, carom.table("9ft"))).toThrow("nineball");
+    expect(() => carom.kind("golf" as never)).toThrow("game: it must be one of");
+    expect(() => carom.rack("nineball", carom.table("9ft"), { gap: -1 })).toThrow(CaromError);
+    expect(() => carom.rack("nineball", carom.table("9ft"), { seed: 0.5 })).toThrow("seed");
+  });
+
+  // Every object that a call takes, with one key that it does not have.
+  const table = carom.table("9ft");
+  const ball = carom.ball(0.6, 0.6);
+  const cue = carom.cue();
+  test.each([
+    [() => carom.collide({ ...good, mu_ball: 0.1 } as never), "impact.mu_ball", "muBall"],
+    [() => carom.collide({ ...good, b: { ...good.b, raduis: 0.03 } } as never), "b.raduis", "radius"],
+    [() => carom.collide({ ...good, a: { speed: 3 } } as never), "a.speed", undefined],
+    [() => carom.collide(good, { step: 10 } as never), "step", "steps"],
+    [() => carom.collideDetail(good, { solvr: "exact" } as never), "solvr", "solver"],
+    [() => carom.trace(good, 3, { Slip: "paper" } as never), "Slip", "slip"],
+    [() => carom.collideBatch(carom.collisions(1), { threads: 2 } as never), "threads", undefined],
+    [() => carom.collisions(1).set(0, { ...good, restitutoin: 0.9 } as never), "impact.restitutoin", "restitution"],
+    [() => carom.muBall({ ...good, c: 1 } as never), "impact.c", undefined],
+    [() => carom.rollingVelocity({ v: [1, 0, 0], w: [0, 0, 0], r: [0, 0, 0] } as never, 0.03), "motion.r", undefined],
+    [() => carom.cushion({ v: [1, 0, 0], normal: [1, 0], mu_cushion: 0.2 } as never), "impact.mu_cushion", "muCushion"],
+    [() => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { modle: "han" } as never), "modle", "model"],
+    [() => carom.rack("nineball", table, { sed: 3 } as never), "sed", "seed"],
+    [() => carom.rack("nineball", { ...table, ball_radius: 0.03 } as never), "table.ball_radius", "ballRadius"],
+    [() => carom.checkTable({ ...table, rails: [{ ...table.rails[0]!, heigth: 0.03 }] } as never), "table.rails[0].heigth", "height"],
+    [() => carom.checkTable({ ...table, jaws: [{ ...table.jaws[0]!, center: [0, 0] }] } as never), "table.jaws[0].center", "centre"],
+    [() => carom.checkTable({ ...table, pockets: [{ ...table.pockets[0]!, side: 1 }] } as never), "table.pockets[0].side", undefined],
+    [() => carom.ball(0.5, 0.5, { ...ball.kind, muRol: 0.01 } as never), "kind.muRol", "muRoll"],
+    [() => carom.cue({ spead: 3 } as never), "cue.spead", "speed"],
+    [() => carom.strike({ tipradius: 3 } as never, ball.kind), "cue.tipradius", "tipRadius"],
+    [() => carom.strike({}, { ...ball.kind, gravty: 9.81 } as never), "kind.gravty", "gravity"],
+    [() => carom.simulate(table, [ball], { V0: 3 } as never), "cue.V0", undefined],
+    [() => carom.simulate(table, [ball], {}, { cushion: "han" } as never), "cushion", "cushionModel"],
+    [() => carom.simulate(table, [ball], {}, { stopAtContact: true } as never), "stopAtContact", "stopAt"],
+    [() => carom.simulate(table, [{ ...ball, name: "eight" }] as never), "balls[0].name", undefined],
+    [() => carom.simulate(table, [ball, { ...ball, state: { ...ball.state, lable: "off" } }] as never), "balls[1].state.lable", "label"],
+    [() => carom.simulate(table, [{ ...ball, kind: { ...ball.kind, mu_slide: 0.2 } }] as never), "balls[0].kind.mu_slide", "muSlide"],
+    [() => carom.firstContact(table, [ball], {}, { timemost: 1 } as never), "timemost", "timeMost"],
+    [() => carom.continue(carom.simulate(table, [ball]), { tiemMost: 1 } as never), "tiemMost", "timeMost"],
+    [() => carom.placeBall(table, [{ ...ball, stat: 1 }] as never, 0, 0.5, 0.5), "balls[0].stat", "state"],
+    [() => carom.shots(table, [ball], 1, { events: 5 } as never), "events", undefined],
+    [() => carom.shots(table, [ball], 1).setCue(0, { ...cue, endmass: 0.005 } as never), "cue.endmass", "endMass"],
+    [() => carom.simulateBatch(carom.shots(table, [ball], 1), { eventMost: 5 } as never), "eventMost", "eventsMost"],
+    [() => toLine({ table: "9ft", balls: [ball], cue, tablename: "9ft" } as never), "shot.tablename", "tableName"],
+  ] as [() => unknown, string, string | undefined][])("an unknown key: %#", (call, key, better) => {
+    const { message } = refusal(call) as Error;
+    expect(message.startsWith(`${key}: there is no such key${better === undefined ? "; there are " : `; did you mean "${better}"?`}`), message).toBe(true);
+  });
+
+  test("an unknown key of load(), and keys that are missing", async () => {
+    await expect(load({ bild: "plain" } as never)).rejects.toThrow('bild: there is no such key; did you mean "build"?');
+    // What is missing is neither that of the call before, nor undefined.
+    expect(carom.cue({ speed: undefined })).toEqual(cue);
+    const { mass: _, ...kind } = ball.kind;
+    expect(() => carom.simulate(table, [{ ...ball, kind }] as never)).toThrow("balls[0].kind.mass: it must be a number, not undefined");
+    expect(() => carom.cushion({ normal: [1, 0] } as never)).toThrow("impact.v: it must be 3 numbers, not undefined");
+    expect(() => carom.collide({ a: { v: [1, 0, 0] } } as never)).toThrow("b: an object is needed, not undefined");
+  });
+});

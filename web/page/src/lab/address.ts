@@ -1,0 +1,99 @@
+// The laboratory in the address: what differs from the defaults, strokes that are undone, the next shot, and a link.
+import { GAMES } from "../table/games.js";
+import { atHead } from "../table/head.js";
+import { wrong } from "../ui.js";
+import { CUSHIONS, DEFAULTS, type Desk, lay, says } from "./desk.js";
+import { placesOf, pocketed } from "../table/places.js";
+import { lineOf, take } from "./lines.js";
+
+/** All that differs from the defaults. */
+function stateOf(d: Desk): Record<string, string> {
+  const { controls } = d;
+  const kept: Record<string, string> = {};
+  if (d.gameName !== "nineball") kept.game = d.gameName;
+  if (d.seed !== 1) kept.seed = String(d.seed);
+  for (const [key, s] of Object.entries(controls.sliders)) if (s.value !== DEFAULTS[key]) kept[key] = String(s.value);
+  if (controls.cushion.select.value !== "han") kept.cushion = controls.cushion.select.value;
+  if (controls.fanned.input.checked) kept.fan = "1";
+  if (d.solver() === "euler") kept.solver = "euler";
+  if (d.imported) kept.line = lineOf(d);
+  else if (d.moved || d.faces.some((face) => face !== 0)) kept.at = d.balls.map(({ state: { r, label } }, k) => (label === "pocketed" ? "in" : `${r[0]},${r[1]}${d.faces[k] ? `,${d.faces[k]}` : ""}`)).join(" ");
+  return kept;
+}
+
+/** Sets the desk to what an address says. */
+export function restore(d: Desk, given: URLSearchParams): void {
+  const { controls } = d;
+  const known = (key: string, among: readonly string[]): string => (among.includes(given.get(key) ?? "") ? given.get(key)! : among[0]!);
+  d.gameName = known("game", Object.keys(GAMES));
+  d.seed = Number(given.get("seed") ?? 1);
+  if (!Number.isSafeInteger(d.seed) || d.seed < 0) d.seed = 1;
+  for (const [key, s] of Object.entries(controls.sliders)) {
+    const x = given.has(key) ? Number(given.get(key)) : NaN;
+    s.value = Number.isFinite(x) ? x : DEFAULTS[key]!;
+  }
+  controls.cushion.select.value = known("cushion", CUSHIONS);
+  controls.fanned.input.checked = given.get("fan") === "1";
+  lay(d);
+  let refused = "";
+  try {
+    if (given.has("line")) take(d, given.get("line")!);
+    else if (given.has("at")) {
+      const places = placesOf(given.get("at")!, d.table, d.balls);
+      Object.assign(d, { balls: places.balls, faces: places.faces, moved: true });
+    }
+  } catch (error) {
+    refused = wrong(error);
+  }
+  controls.line.value = given.get("line") ?? "";
+  d.aimed();
+  if (refused) says(d, refused);
+}
+
+/** The addresses of before, by which shots are undone; `changed` tells whether there are some. */
+export function undoing(d: Desk, changed: (past: boolean) => void) {
+  let committed = "";
+  const past: string[] = [];
+  /** Writes the address, and remembers the one before. */
+  function commit(): void {
+    window.clearTimeout(d.writing);
+    if (!d.builtIn) return;
+    const now = String(new URLSearchParams({ view: "lab", ...stateOf(d) }));
+    if (now !== committed) {
+      if (committed !== "") past.push(committed);
+      history.replaceState(null, "", `#${now}`);
+    }
+    committed = now;
+    changed(past.length > 0);
+  }
+  function back(): void {
+    commit();
+    const to = past.pop();
+    if (to === undefined) return;
+    committed = "";
+    restore(d, new URLSearchParams(to));
+    commit();
+  }
+  /** Balls lie where this shot ends. A cue ball that fell comes back to the head string. */
+  function nextShot(): void {
+    const { shot, table, carom } = d;
+    if (!shot) return;
+    commit();
+    d.balls = d.balls.map(({ kind }, k) => ({ kind, state: shot.final[k]!.label === "off" ? pocketed(table, shot.final[k]!) : shot.final[k]! }));
+    if (d.balls[0]!.state.label === "pocketed") d.balls = atHead(carom, table, d.balls);
+    d.moved = true;
+    d.aimed();
+    commit();
+  }
+  async function copyLink(): Promise<void> {
+    commit();
+    if (!d.builtIn) return says(d, "A link names a built-in table; the recording has another one.");
+    try {
+      await navigator.clipboard.writeText(location.href);
+      says(d, "The link to this shot is copied.");
+    } catch (error) {
+      says(d, `The browser does not let the page copy (${wrong(error)}). The address of the page is the link.`);
+    }
+  }
+  return { commit, back, nextShot, copyLink };
+}

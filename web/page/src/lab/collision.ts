@@ -1,0 +1,305 @@
+// The view Collision: the cue ball meets a ball at rest.
+import type { Carom, CollideOptions, Impact, Motion, Vec3 } from "carom";
+import { arrow, check, color, eachFrame, el, fit, keep, parameters, slider, type Slider } from "../ui.js";
+import { type Column, merged, plot } from "./plots.js";
+
+declare const MEASURED: string;
+
+const R = 0.028575;
+const MASS = 0.170097;
+const DEGREES = 180 / Math.PI;
+const CURVE = 121;
+
+interface Setting {
+  speed: number;
+  cut: number;
+  side: number;
+  tip: number;
+  muBall: number | undefined;
+  muCloth: number;
+  restitution: number;
+}
+
+/** The cue ball moves along x; the object ball is to the left at cut angles above 0. Spins are those of a level strike at the tip. */
+function impactOf(s: Setting, over: Partial<Setting> = {}): Impact {
+  const { speed, cut, side, tip, muBall, muCloth, restitution } = { ...s, ...over };
+  const angle = cut / DEGREES;
+  const kind = { radius: R, mass: MASS, muCloth };
+  return {
+    a: { v: [speed, 0, 0], w: [0, (2.5 * speed * tip) / R, (2.5 * speed * side) / R], ...kind },
+    b: { r: [2 * R * Math.cos(angle), 2 * R * Math.sin(angle), 0], ...kind },
+    muBall,
+    restitution,
+  };
+}
+
+const norm = (v: readonly number[]): number => Math.hypot(...v);
+const direction = (v: Vec3): number => Math.atan2(v[1], v[0]) * DEGREES;
+const energy = (m: Motion): number => 0.5 * MASS * norm(m.v) ** 2 + 0.2 * MASS * R * R * norm(m.w) ** 2;
+const turn = (degrees: number): number => ((((degrees + 180) % 360) + 360) % 360) - 180;
+const sided = (degrees: number): string => (Math.abs(degrees) < 0.005 ? "0.00°" : `${Math.abs(degrees).toFixed(2)}° ${degrees > 0 ? "left" : "right"}`);
+
+/** Measured by Mathavan and others, 2014: rolling cue balls of snooker. Directions are those after the balls roll. */
+const experiments = MEASURED.trim()
+  .split("\n")
+  .slice(1)
+  .map((line) => line.split(",").map(Number))
+  .map((row) => ({ cut: row[3]!, deflection: row[8]! }));
+/** Throw of a stun shot at 45 degrees, as D. Alciatore reports it for four surfaces of balls (data/measured.csv). */
+const throws = [3.6, 4.9, 11, 11.6];
+
+/** The setting, the canvas and what is written; how large a ball is on the canvas, pixels, and where the object ball is. */
+interface View {
+  readonly carom: Carom;
+  readonly solver: () => "exact" | "euler";
+  readonly controls: ReturnType<typeof controlsOf>;
+  readonly canvas: HTMLCanvasElement;
+  readonly numbers: HTMLElement;
+  readonly plots: ReturnType<typeof plotsOf>;
+  readonly curve: ReturnType<Carom["collisions"]>;
+  scale: number;
+  origin: readonly [number, number];
+}
+const DEFAULTS: Record<string, number> = { speed: 1.5, cut: 30, side: 0, tip: 0.4, mu: 0.06, cloth: 0.2, e: 0.95 };
+
+function controlsOf(update: () => void) {
+  const given = parameters();
+  const two = (x: number): string => x.toFixed(2);
+  const sliders: Record<string, Slider> = {
+    speed: slider("speed", "Speed at the contact", 0.1, 8, 0.1, " m/s", update, (x) => x.toFixed(1)),
+    cut: slider("cut", "Cut angle", -85, 85, 0.5, "°", update, (x) => x.toFixed(1)),
+    side: slider("side", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", update, two),
+    tip: slider("tip", "Tip above (+) or below; 0.4 rolls", -0.7, 0.7, 0.01, " R", update, two),
+    mu: slider("mu", "Friction between the balls", 0, 0.2, 0.001, "", update, (x) => x.toFixed(3)),
+    cloth: slider("cloth", "Friction with the cloth", 0, 0.5, 0.01, "", update, two),
+    e: slider("e", "Restitution", 0.5, 1, 0.01, "", update, two),
+  };
+  for (const [key, one] of Object.entries(sliders)) {
+    const x = given.has(key) ? Number(given.get(key)) : NaN;
+    one.value = Number.isFinite(x) ? x : DEFAULTS[key]!;
+  }
+  const law = check("law", "By Alciatore's law from the slip", update);
+  law.input.checked = given.get("law") !== "0";
+  return { sliders, law };
+}
+function settingOf({ sliders, law }: View["controls"]): Setting {
+  const v = (key: string): number => sliders[key]!.value;
+  return { speed: v("speed"), cut: v("cut"), side: v("side"), tip: v("tip"), muBall: law.input.checked ? undefined : v("mu"), muCloth: v("cloth"), restitution: v("e") };
+}
+
+// ---- Curves ----------------------------------------------------------------------------------------------------------------------
+
+function plotsOf(into: HTMLElement) {
+  const cut = ["cut angle, °", -85, 85] as const;
+  return {
+    throwByCut: plot(into, {
+      ...{ id: "plot-throw-cut", title: "Throw against cut angle", x: cut, y: "throw, ° (+ left)" },
+      note: "Orange: this collision. Grey: throw at 45° without spin, as D. Alciatore reports it for balls cleaned with Aramith (3.6°), used (4.9°), cleaned with alcohol (11°) and chalked at the contact (11.6°).",
+      series: [{ label: "throw", color: "accent" }, { label: "reported at 45°", color: "quiet", points: true }],
+    }),
+    throwBySide: plot(into, {
+      ...{ id: "plot-throw-side", title: "Throw against side spin", x: ["tip to the right, R", -0.7, 0.7], y: "throw, ° (+ left)" },
+      note: "Where the curve crosses 0 the balls roll on each other like gears.",
+      series: [{ label: "throw", color: "accent" }],
+    }),
+    deflection: plot(into, {
+      ...{ id: "plot-deflection", title: "Deflection of the cue ball, once it rolls", x: cut, y: "deflection, ° (+ left)", band: [27, 34] },
+      note: "Band: the 30-degree rule, 27° to 34°. Points: five rolling shots measured by Mathavan and others (2014), on a snooker table.",
+      series: [{ label: "deflection", color: "accent" }, { label: "measured", color: "quiet", points: true }],
+    }),
+    inside: plot(into, {
+      ...{ id: "plot-inside", title: "Inside the contact", x: ["normal impulse so far, N s", 0, 0], y: "m/s" },
+      note: "The balls press on each other for about 0.2 ms. Slips are speeds of one surface over the other; approach ends where compression turns into restitution.",
+      series: [
+        { label: "slip of the balls", color: "accent" },
+        { label: "of the cue ball on the cloth", color: "quiet", dash: [6, 4] },
+        { label: "of the object ball on the cloth", color: "cloth", dash: [2, 3] },
+        { label: "parting", color: "warm" },
+      ],
+    }),
+  };
+}
+
+/** Throw, and the deflection of the cue ball once it rolls, degrees, along a range of one setting. */
+function along({ carom, curve, solver }: View, s: Setting, key: "cut" | "side", from: number, to: number): { x: number[]; thrown: Column; deflected: Column } {
+  const x = Array.from({ length: CURVE }, (_, k) => from + ((to - from) * k) / (CURVE - 1));
+  x.forEach((value, k) => curve.set(k, impactOf(s, { [key]: value })));
+  carom.collideBatch(curve, { solver: solver() });
+  const thrown: Column = [];
+  const deflected: Column = [];
+  x.forEach((value, k) => {
+    const ok = curve.status[k] === 0;
+    const { a, b } = curve.get(k);
+    thrown.push(ok ? turn(direction(b.v) - (key === "cut" ? value : s.cut)) : null);
+    const rolls = carom.rollingVelocity(a, R);
+    deflected.push(ok && norm(rolls) > 1e-6 ? direction(rolls) : null);
+  });
+  return { x, thrown, deflected };
+}
+
+function drawCurves(view: View, s: Setting, impact: Impact, thrown: number, rolls: Vec3): void {
+  const { carom, plots, solver } = view;
+  const byCut = along(view, s, "cut", -85, 85);
+  plots.throwByCut.set(merged(byCut.x, byCut.thrown, throws.map((y, k) => ({ x: 45 + 1e-6 * k, y: -y }))), [{ x: s.cut, y: thrown }]);
+  const bySide = along(view, s, "side", -0.7, 0.7);
+  plots.throwBySide.set([bySide.x, bySide.thrown], [{ x: s.side, y: thrown }]);
+  plots.deflection.set(merged(byCut.x, byCut.deflected, experiments.map((one) => ({ x: one.cut, y: -one.deflection }))), norm(rolls) > 1e-6 ? [{ x: s.cut, y: direction(rolls) }] : []);
+  const trace = carom.trace(impact, 61, { solver: solver() });
+  plots.inside.set([trace.map((p) => p.normal), trace.map((p) => Math.hypot(p.uX, p.uZ)), trace.map((p) => norm(p.d)), trace.map((p) => norm(p.b)), trace.map((p) => p.vN)], []);
+}
+
+// ---- Numbers and drawing -----------------------------------------------------------------------------------------------------------
+
+/** The rows of numbers: their ids, names and texts. */
+function rowsOf(s: Setting, impact: Impact, { a, b, status, detail }: ReturnType<Carom["collideDetail"]>, [rollsA, rollsB]: readonly Vec3[], euler: boolean): [string, string, string][] {
+  const before = energy({ v: impact.a.v!, w: impact.a.w! });
+  const lost = before - energy(a) - energy(b);
+  const gearing = Math.sin(s.cut / DEGREES) / 2.5;
+  const way = (v: Vec3, stops = false): string => (stops && norm(v) < 1e-9 ? "stops" : `${sided(direction(v))}, ${norm(v).toFixed(3)} m/s`);
+  return [
+    ["throw", "Throw", sided(turn(direction(b.v) - s.cut))],
+    ["object", "Object ball", way(b.v)],
+    ["object-rolling", "once it rolls", way(rollsB!)],
+    ["deflection", "Cue ball", way(a.v, true)],
+    ["rolling", "once it rolls", way(rollsA!, true)],
+    ["spin", "Side spin transferred", `${b.w[2].toFixed(2)} rad/s`],
+    ["vertical", "Roll transferred", `${norm([b.w[0], b.w[1]]).toFixed(2)} rad/s`],
+    ["gearing", "No throw with the tip at", Math.abs(gearing) > 0.7 ? "beyond 0.7 R" : `${Math.abs(gearing).toFixed(3)} R ${gearing > 0 ? "right" : "left"}`],
+    ["energy", "Energy lost", `${(1000 * lost).toFixed(1)} mJ, ${((100 * lost) / before).toFixed(1)} %`],
+    ["impulse", "Normal impulse", `${detail.normal.toFixed(4)} N s`],
+    ["friction", "Impulse of friction", `${norm(detail.friction).toFixed(4)} N s`],
+    ["stick", "The balls stick", euler ? "unknown with Euler steps" : detail.stick],
+    ["status", "Status", status],
+  ];
+}
+
+function draw(view: View, s: Setting, a: Motion, b: Motion): void {
+  const { g, width, height } = fit(view.canvas, 0.66);
+  g.fillStyle = color("cloth");
+  g.fillRect(0, 0, width, height);
+  // The object ball is in the middle; the cue ball comes from the left.
+  const radius = Math.min(width, height) / 7;
+  view.scale = radius;
+  view.origin = [width * 0.5, height * 0.5];
+  const angle = s.cut / DEGREES;
+  const [ox, oy] = view.origin;
+  const [cx, cy] = [ox - 2 * radius * Math.cos(angle), oy + 2 * radius * Math.sin(angle)];
+  const ball = (x: number, y: number, fill: string): void => {
+    g.beginPath();
+    g.arc(x, y, radius, 0, 7);
+    g.fillStyle = fill;
+    g.fill();
+    g.strokeStyle = "#0008";
+    g.lineWidth = 1;
+    g.stroke();
+  };
+  g.strokeStyle = "#ffffff70";
+  g.lineWidth = 1.5;
+  g.setLineDash([4, 6]);
+  g.beginPath();
+  g.moveTo(cx - 3 * radius, cy);
+  g.lineTo(cx + 6 * radius, cy);
+  g.moveTo(cx, cy);
+  g.lineTo(cx + 7 * radius * Math.cos(angle), cy - 7 * radius * Math.sin(angle));
+  g.stroke();
+  g.setLineDash([]);
+  ball(cx, cy, "#fbfaf5");
+  ball(ox, oy, "#d8a400");
+  const longest = Math.min(width * 0.36, 3.2 * radius);
+  const to = (v: readonly number[]): [number, number] => [(v[0]! / s.speed) * longest, (-v[1]! / s.speed) * longest];
+  arrow(g, cx - longest - radius, cy, longest, 0, "#ffffff");
+  arrow(g, cx, cy, ...to(view.carom.rollingVelocity(a, R)), "#0b2f4f", true);
+  arrow(g, cx, cy, ...to(a.v), "#0b2f4f");
+  arrow(g, ox, oy, ...to(view.carom.rollingVelocity(b, R)), "#4a2a00", true);
+  arrow(g, ox, oy, ...to(b.v), "#4a2a00");
+  // Side spin: an arc around the ball, in the sense in which it turns.
+  for (const [x, y, w] of [[cx, cy, a.w[2]], [ox, oy, b.w[2]]] as const) {
+    const size = Math.min(Math.abs(w) / 40, 1) * Math.PI * 1.5;
+    if (size < 0.2) continue;
+    g.strokeStyle = "#b3261e";
+    g.lineWidth = 3;
+    g.beginPath();
+    g.arc(x, y, radius * 0.72, -Math.PI / 2, -Math.PI / 2 - Math.sign(w) * size, w > 0);
+    g.stroke();
+  }
+}
+
+/** Computes what is set, and shows it; the address keeps it. */
+function show(view: View): void {
+  const { carom, solver, controls, canvas, numbers } = view;
+  const { sliders, law } = controls;
+  const s = settingOf(controls);
+  const impact = impactOf(s);
+  const euler = solver() === "euler";
+  sliders.mu!.input.disabled = law.input.checked;
+  if (law.input.checked) sliders.mu!.value = carom.muBall(impact);
+  const after = carom.collideDetail(impact, { solver: solver() });
+  const { a, b } = after;
+  const rolls = [carom.rollingVelocity(a, R), carom.rollingVelocity(b, R)];
+  numbers.replaceChildren(...rowsOf(s, impact, after, rolls, euler).map(([id, name, text]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `n-${id}` }, text))));
+  canvas.setAttribute("aria-label", `Two balls from above. Cut ${s.cut.toFixed(1)} degrees; the object ball goes ${sided(direction(b.v))} at ${norm(b.v).toFixed(2)} m/s, the cue ball ${sided(direction(a.v))} at ${norm(a.v).toFixed(2)} m/s.`);
+  draw(view, s, a, b);
+  drawCurves(view, s, impact, turn(direction(b.v) - s.cut), rolls[0]!);
+
+  const kept: Record<string, string> = { view: "collision" };
+  for (const [key, one] of Object.entries(sliders)) if ((key !== "mu" || !law.input.checked) && one.value !== DEFAULTS[key]) kept[key] = String(one.value);
+  if (!law.input.checked) kept.law = "0";
+  if (euler) kept.solver = "euler";
+  keep(kept);
+}
+
+/** Lets the cue ball be dragged around the other one, or turned by keys. */
+function handle(view: View, update: () => void): void {
+  const { canvas, controls: { sliders } } = view;
+  const soon = eachFrame(update);
+  const cutTo = (cut: number): void => void (sliders.cut!.value = Math.max(-85, Math.min(85, cut)));
+  const aim = (event: PointerEvent): void => {
+    const box = canvas.getBoundingClientRect();
+    const [x, y] = [event.clientX - box.left - view.origin[0], event.clientY - box.top - view.origin[1]];
+    if (Math.hypot(x, y) < view.scale / 2) return;
+    cutTo(Math.round(2 * Math.atan2(y, -x) * DEGREES) / 2);
+    soon();
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    aim(event);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (canvas.hasPointerCapture(event.pointerId)) aim(event);
+  });
+  canvas.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: -0.5, ArrowRight: 0.5, ArrowUp: 5, ArrowDown: -5 }[event.key];
+    if (step === undefined) return;
+    event.preventDefault();
+    cutTo(sliders.cut!.value + step);
+    update();
+  });
+}
+
+export function collisionView(carom: Carom, solver: View["solver"], main: HTMLElement): { update(): void; theme(): void } {
+  const update = (): void => show(view);
+  const controls = controlsOf(update);
+  const canvas = el("canvas", { class: "scene", id: "collision-scene", role: "img", tabindex: "0" });
+  const [numbers, curves] = [el("tbody"), el("div", { class: "plots" })];
+  const roots = (...keys: string[]): HTMLElement[] => keys.map((key) => controls.sliders[key]!.root);
+  main.replaceChildren(
+    el(
+      "div",
+      { class: "columns" },
+      el("section", { class: "panel first", "aria-label": "Settings" }, el("h2", {}, "Two balls meet"), ...roots("speed", "cut", "side", "tip"), controls.law.root, ...roots("mu", "cloth", "e")),
+      el("section", { class: "panel scene-panel", "aria-label": "Seen from above" }, canvas, el("p", { class: "note" }, "Drag the white ball around the other one, or use the arrow keys, to set the cut. Solid arrows: just after the contact. Dashed: once the ball rolls. Red arcs: side spin.")),
+      el("section", { class: "panel", "aria-label": "Numbers" }, el("table", { class: "numbers", id: "collision-numbers" }, el("caption", {}, "Just after, and once the balls roll"), numbers)),
+    ),
+    curves,
+  );
+  const view: View = { carom, solver, controls, canvas, numbers, plots: plotsOf(curves), curve: carom.collisions(CURVE), scale: 1, origin: [0, 0] };
+  handle(view, update);
+  update();
+  return {
+    update,
+    theme() {
+      for (const one of Object.values(view.plots)) one.theme();
+      update();
+    },
+  };
+}

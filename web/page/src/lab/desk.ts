@@ -1,0 +1,105 @@
+// The desk of the laboratory: the balls as they lie, the controls of a stroke, and the shot that is shown.
+import { type Carom, type Cue, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, words } from "carom";
+import type { player } from "../../../player/player.js";
+import { GAMES, type GameOf } from "../table/games.js";
+import { check, choice, el, pad, slider, type Slider } from "../ui.js";
+import type { advicePanel } from "./advice.js";
+import type { reel } from "./reel.js";
+
+/** Shots of a fan. */
+export const FAN = 500;
+export const DEFAULTS: Record<string, number> = { speed: 8, phi: 90, right: 0, up: 0.25, theta: 0, error: 0.3 };
+/** Models of the cushion, the page's own choice first. */
+const about: ReadonlyMap<string, string> = new Map(words.cushionModel);
+export const CUSHIONS = ["han", ...[...about.keys()].filter((word) => word !== "han")];
+
+export interface Desk {
+  readonly carom: Carom;
+  readonly solver: () => "exact" | "euler";
+  readonly controls: ReturnType<typeof controlsOf>;
+  readonly film: ReturnType<typeof player>;
+  readonly advice: ReturnType<typeof advicePanel>;
+  readonly recording: ReturnType<typeof reel>;
+  /** Plays the shot as it is aimed now, from its start. */
+  aimed(): void;
+  /** Nothing has changed for a moment: the address is written. */
+  settled(): void;
+  gameName: string;
+  seed: number;
+  game: GameOf;
+  table: Table;
+  balls: ShotBall[];
+  names: string[];
+  /** How each ball is turned, degrees. */
+  faces: number[];
+  /** Whether balls lie elsewhere than in the rack, and the cue of a line that was read. */
+  moved: boolean;
+  imported: Cue | undefined;
+  /** Whether the balls are those of the game by their numbers, so that its rules hold, and whether the address can name the table. */
+  known: boolean;
+  builtIn: boolean;
+  /** The object ball that was picked, for pockets; -1: none. */
+  chosen: number;
+  shot: Shot | undefined;
+  /** The shot of a recording that is shown. */
+  recorded: Replayed | undefined;
+  /** What was drawn of the fan, whose number is raised by what ends it. */
+  fan: HTMLCanvasElement | undefined;
+  fanNumber: number;
+  writing: number | undefined;
+}
+
+/** The controls of a stroke, and where its words stand; `aimed` follows a change, `racked` another game. */
+export function controlsOf(aimed: () => void, racked: () => void) {
+  const two = (x: number): string => x.toFixed(2);
+  const sliders: Record<string, Slider> = {
+    speed: slider("speed", "Speed of the cue", 0.1, 10, 0.05, " m/s", aimed, two),
+    phi: slider("phi", "Direction", 0, 360, 0.05, "°", aimed, two),
+    right: slider("right", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", aimed, two),
+    up: slider("up", "Tip above (+) or below", -0.7, 0.7, 0.01, " R", aimed, two),
+    theta: slider("theta", "Butt raised by", 0, 80, 1, "°", aimed, (x) => x.toFixed(0)),
+    error: slider("error", "Player's error of direction", 0.05, 2, 0.05, "°", aimed, two),
+  };
+  const set = (key: string, value: number): void => void (sliders[key]!.value = value);
+  const spin = pad("spin", "Where the tip touches the cue ball", (right, up) => {
+    set("right", right);
+    set("up", up);
+    aimed();
+  });
+  return {
+    ...{ sliders, set, spin, value: (key: string): number => sliders[key]!.value },
+    games: choice("game", "Game", Object.entries(GAMES).map(([key, { text }]) => [key, text] as const), racked),
+    cushion: choice("cushion", "Cushions", CUSHIONS.map((word) => [word, `${word}: ${about.get(word)}`] as const), aimed),
+    fanned: check("fan", `Fan: ${FAN} shots with a player's error`, aimed),
+    summary: el("tbody"),
+    message: el("p", { class: "error", role: "status", id: "message" }),
+    line: el("textarea", { id: "line", spellcheck: "false" }),
+    cost: el("p", { class: "note", id: "cost" }),
+  };
+}
+
+export const says = ({ controls }: Desk, text: string): void => void (controls.message.textContent = text);
+export function cueOf({ carom, controls: { value }, imported, game }: Desk): Cue {
+  return { ...(imported ?? carom.cue({}, game.game)), speed: value("speed"), phi: value("phi"), a: -value("right") || 0, b: value("up"), theta: value("theta") };
+}
+/** Sets the sliders to a stroke. */
+export function aim({ controls: { set } }: Desk, stroke: Cue): void {
+  for (const key of ["speed", "phi", "theta"] as const) set(key, stroke[key]);
+  set("right", -stroke.a || 0);
+  set("up", stroke.b);
+}
+export function optionsOf({ solver, controls }: Desk): ShotOptions {
+  const euler = solver() === "euler";
+  const model = controls.cushion.select.value as NonNullable<ShotOptions["cushionModel"]>;
+  return { ballModel: euler ? "euler" : "exact", cushionModel: euler && model === "mathavan" ? "euler" : model };
+}
+
+/** Lays the balls of the game as they begin. */
+export function lay(d: Desk): void {
+  const { carom, gameName, seed } = d;
+  const game = GAMES[gameName]!;
+  d.controls.games.select.value = gameName;
+  const [table, kind] = [carom.table(game.table), carom.kind(game.game)];
+  const balls = carom.rack(game.rack, table, { seed }).map(({ state }) => ({ kind, state }));
+  Object.assign(d, { game, table, balls, names: balls.map((_, k) => game.names(k)), faces: balls.map(() => 0), chosen: -1, moved: false, imported: undefined, known: true, builtIn: true });
+}

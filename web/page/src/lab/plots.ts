@@ -1,0 +1,91 @@
+// Curves beside each other, by uPlot: with marks for what is shown now, and a band.
+import uPlot from "uplot";
+import { color, el } from "../ui.js";
+
+export interface Mark {
+  x: number;
+  y: number;
+}
+export type Column = (number | null)[];
+export interface Plot {
+  set(data: Column[], marks: Mark[]): void;
+  /** Draws it in the colours of the theme. */
+  theme(): void;
+}
+/** What a plot shows: its words, the label and the range of x, the label of y, its curves, and a band of |y|. */
+export interface Shows {
+  id: string;
+  title: string;
+  note: string;
+  x: readonly [string, number, number];
+  y: string;
+  series: readonly { label: string; color: string; dash?: number[]; points?: boolean }[];
+  band?: readonly [number, number];
+}
+
+function drawBand(u: uPlot, [low, high]: readonly [number, number]): void {
+  const at = (y: number): number => u.valToPos(y, "y", true);
+  u.ctx.fillStyle = color("band");
+  for (const top of [high, -low]) u.ctx.fillRect(u.bbox.left, at(top), u.bbox.width, Math.abs(at(low) - at(high)));
+}
+function drawMarks(u: uPlot, marks: readonly Mark[]): void {
+  for (const mark of marks) {
+    u.ctx.fillStyle = color("warm");
+    u.ctx.beginPath();
+    u.ctx.arc(u.valToPos(mark.x, "x", true), u.valToPos(mark.y, "y", true), 5 * devicePixelRatio, 0, 7);
+    u.ctx.fill();
+  }
+}
+
+export function plot(into: HTMLElement, { id, title, note, x, y, series, band }: Shows): Plot {
+  const place = el("div");
+  into.append(el("section", { class: "panel plot", id, "aria-label": title }, el("h2", {}, title), place, el("p", {}, note)));
+  const wide = (): number => Math.max(place.clientWidth, 240);
+  let marks: Mark[] = [];
+  let last: Column[] = [[], ...series.map(() => [])];
+  const build = (): uPlot => {
+    const axis = { stroke: color("quiet"), grid: { stroke: color("line"), width: 1 }, ticks: { stroke: color("line") } };
+    const curves = series.map(({ label, color: name, dash, points }) => ({ label, stroke: color(name), width: points ? 0 : 2, dash, points: { show: points === true, size: 8, fill: color(name) } }));
+    const options: uPlot.Options = {
+      width: wide(),
+      height: 230,
+      legend: { live: false },
+      cursor: { drag: { x: false, y: false } },
+      scales: { x: { time: false, ...(x[2] > x[1] ? { range: [x[1], x[2]] as [number, number] } : {}) } },
+      axes: [{ ...axis, label: x[0], labelSize: 20 }, { ...axis, label: y, labelSize: 20, size: 48 }],
+      series: [{ label: x[0] }, ...curves],
+      hooks: { drawClear: [(u) => band && drawBand(u, band)], draw: [(u) => drawMarks(u, marks)] },
+    };
+    return new uPlot(options, last as uPlot.AlignedData, place);
+  };
+  let made = build();
+  return {
+    set(data, at) {
+      last = data;
+      marks = at;
+      made.setData(data as uPlot.AlignedData);
+      if (Math.abs(made.width - wide()) > 2) made.setSize({ width: wide(), height: 230 });
+    },
+    theme() {
+      made.destroy();
+      made = build();
+    },
+  };
+}
+
+const points = (at: readonly Mark[], x: number[]): Column => {
+  const y: Column = x.map(() => null);
+  for (const point of at) y[x.findIndex((value) => value === point.x)] = point.y;
+  return y;
+};
+/** A curve and points at x of their own, on one ascending axis. */
+export const merged = (x: number[], y: Column, at: readonly Mark[]): Column[] => {
+  const all = [...new Set([...x, ...at.map((point) => point.x)])].sort((a, b) => a - b);
+  const line = all.map((value) => {
+    const k = x.findIndex((one) => one >= value);
+    if (k <= 0 || x[k] === value) return y[Math.max(k, 0)] ?? null;
+    const [before, after] = [y[k - 1], y[k]];
+    return before == null || after == null ? null : before + ((after - before) * (value - x[k - 1]!)) / (x[k]! - x[k - 1]!);
+  });
+  return [all, line, points(at, all)];
+};

@@ -1,0 +1,98 @@
+// The view Laboratory: shots are aimed on it and played while one aims; their film, their events, and a fan of shots with a player's error.
+import type { Carom } from "carom";
+import { player } from "../../../player/player.js";
+import { button, el, parameters } from "../ui.js";
+import { restore, undoing } from "./address.js";
+import { advicePanel } from "./advice.js";
+import { controlsOf, cueOf, type Desk, lay } from "./desk.js";
+import { drawHand, handle } from "./hand.js";
+import { importLine, lineOf, showRecorded } from "./lines.js";
+import { reel } from "./reel.js";
+import { present } from "./shown.js";
+
+function deskOf(carom: Carom, solver: Desk["solver"]): Desk {
+  const controls = controlsOf(() => d.aimed(), () => {
+    d.gameName = controls.games.select.value;
+    // Three-cushion has no rack to break: a shot of medium speed at an angle shows more.
+    controls.set("speed", d.gameName === "threecushion" ? 4 : 8);
+    controls.set("phi", d.gameName === "threecushion" ? 62 : 90);
+    rackUp(d);
+  });
+  const film = player({
+    under(g) {
+      if (d.fan) g.drawImage(d.fan, 0, 0, film.canvas.clientWidth, film.canvas.clientHeight);
+      return d.fan !== undefined;
+    },
+    over: (g) => drawHand(d, g),
+    ended: () => d.recorded && d.recording.advance(),
+  });
+  const d = {
+    ...{ carom, solver, controls, film, recorded: undefined, imported: undefined, shot: undefined, fan: undefined, fanNumber: 0, writing: undefined },
+    recording: reel(carom, { show: (shot, from) => showRecorded(d, shot, from), start: film.start, tell: (text) => (controls.message.textContent = text) }),
+    aimed() {
+      present(d, cueOf(d));
+      d.advice.aimed();
+    },
+  } as unknown as Desk;
+  return Object.assign(d, { advice: advicePanel(d) });
+}
+/** The balls of the game as they begin. */
+function rackUp(d: Desk): void {
+  lay(d);
+  d.recording.close();
+  d.aimed();
+}
+
+/** The page of the laboratory around its desk. */
+function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
+  const { controls, film, recording } = d;
+  const roots = (...keys: string[]): HTMLElement[] => keys.map((key) => controls.sliders[key]!.root);
+  const row = (...parts: HTMLElement[]): HTMLElement => el("div", { class: "row" }, ...parts);
+  const out = button("Export", () => {
+    controls.line.value = lineOf(d, d.gameName);
+    controls.line.select();
+  }, { id: "export" });
+  const lines = el("details", {}, el("summary", {}, "Export and import"), el("label", { for: "line" }, "The shot as the line that carom shoot reads"), controls.line, row(out, button("Import", () => importLine(d), { id: "import" }), recording.open));
+  const numbers = el("table", { class: "numbers", id: "shot-numbers" }, el("caption", {}, "The shot"), controls.summary);
+  return el(
+    "div",
+    { class: "table-view" },
+    el("section", { class: "stage", "aria-label": "Table" }, film.canvas, ...roots("speed"), controls.spin.root),
+    el("section", { class: "bar", "aria-label": "Film" }, film.controls, recording.bar, tools),
+    el("section", { class: "panel aim", "aria-label": "The shot" }, ...roots("right", "up", "phi", "theta"), row(controls.games.root, controls.cushion.root), controls.fanned.root, ...roots("error"), lines),
+    el(
+      "div",
+      { class: "below" },
+      el("div", { class: "stack" }, d.advice.root, el("section", { class: "panel", "aria-label": "How" }, ...HELP.map((text) => el("p", { class: "note" }, text)), controls.cost)),
+      el("section", { class: "panel", "aria-label": "The shot in numbers" }, numbers),
+      el("section", { class: "panel", "aria-label": "What happens" }, el("h2", {}, "Events"), film.events),
+    ),
+  );
+}
+
+export function laboratory(carom: Carom, solver: Desk["solver"], main: HTMLElement): { update(): void; theme(): void } {
+  const d = deskOf(carom, solver);
+  const { commit, back, nextShot, copyLink } = undoing(d, (past) => (undo.disabled = !past));
+  d.settled = commit;
+  const undo = button("Undo", back, { id: "undo" });
+  const rack = button("New rack", () => {
+    d.seed += 1;
+    rackUp(d);
+  }, { id: "rack" });
+  const next = button("Next shot", nextShot, { id: "next", title: "The next shot, from where the balls of this one end" });
+  const page = pageOf(d, el("div", { class: "row" }, undo, next, button("Copy link", () => void copyLink(), { id: "copy" }), rack, d.controls.message));
+  main.replaceChildren(page);
+  d.recording.accept(page);
+  handle(d, back);
+
+  restore(d, parameters());
+  commit();
+  return { update: d.aimed, theme: d.film.draw };
+}
+
+const HELP = [
+  "Drag on the cloth to aim, drag a ball to move it, and drag the stick to set the speed. A ball on the wood is in a pocket: drag it back onto the table.",
+  "Click a ball, then a pocket: the page aims there. The yellow handle of a ball that is picked, or the wheel, turns it in place.",
+  "Drop a recording of carom record on the page: it is played again and compared, shot by shot.",
+  "Keys on the table: ← → turn the aim (with Shift 1°), ↑ ↓ change the speed, Alt and arrows move the picked ball by 1 mm (with Shift 10), comma and full stop turn it, Ctrl Z undoes, space plays.",
+];

@@ -1,0 +1,77 @@
+// The page: the library, the views, the theme.
+import "uplot/dist/uPlot.min.css";
+import "./style.css";
+import "./play/style.css";
+import { load } from "carom";
+import { serve } from "./far.js";
+import { collisionView } from "./lab/collision.js";
+import { laboratory } from "./lab/view.js";
+import { playView } from "./play/view.js";
+import { el, parameters, wrong } from "./ui.js";
+
+interface View {
+  update(): void;
+  theme(): void;
+  close?(): void;
+}
+const VIEWS = ["play", "lab", "collision"] as const;
+
+async function begin(main: HTMLElement): Promise<void> {
+  const solver = document.getElementById("solver") as HTMLSelectElement;
+  const theme = document.getElementById("theme") as HTMLButtonElement;
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  const dress = (name: "light" | "dark"): void => {
+    document.documentElement.dataset.theme = name;
+    theme.textContent = name === "dark" ? "Light" : "Dark";
+  };
+  dress(dark.matches ? "dark" : "light");
+  const carom = await load({ build: "simd" }).catch((error: unknown) => {
+    throw error instanceof WebAssembly.CompileError ? new Error("this page needs WebAssembly with vectors: Chrome 91, Firefox 113, Safari 16.4, or newer") : error;
+  });
+  document.getElementById("about")!.append(` carom ${carom.version}.`);
+  solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
+  const chosen = (): "exact" | "euler" => (solver.value === "euler" ? "euler" : "exact");
+  let view: View | undefined;
+  const show = (): void => {
+    const given = parameters().get("view") ?? "play";
+    // "shot" is what links of version 0.3.0 call the laboratory.
+    const name = given === "shot" ? "lab" : (VIEWS.find((one) => one === given) ?? "play");
+    document.documentElement.dataset.view = name;
+    for (const one of VIEWS) {
+      const link = document.getElementById(`to-${one}`)!;
+      if (one === name) link.setAttribute("aria-current", "page");
+      else link.removeAttribute("aria-current");
+    }
+    view?.close?.();
+    main.setAttribute("aria-busy", "false");
+    view = name === "play" ? playView(carom, main) : (name === "lab" ? laboratory : collisionView)(carom, chosen, main);
+  };
+  show();
+  window.addEventListener("hashchange", show);
+  solver.addEventListener("change", () => view?.update());
+  const dressed = (name: "light" | "dark"): void => {
+    dress(name);
+    view?.theme();
+  };
+  theme.addEventListener("click", () => dressed(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+  dark.addEventListener("change", () => dressed(dark.matches ? "dark" : "light"));
+  let waiting = 0;
+  window.addEventListener("resize", () => {
+    window.clearTimeout(waiting);
+    waiting = window.setTimeout(() => view?.theme(), 100);
+  });
+}
+
+// The same script runs in workers (far.ts).
+if (typeof document === "undefined") void serve();
+else {
+  // A page that is served can be installed, and then needs no network.
+  if (location.protocol !== "file:") {
+    document.head.append(el("link", { rel: "manifest", href: "manifest.webmanifest" }));
+    navigator.serviceWorker?.register("sw.js").catch((error: unknown) => console.error("sw.js, which keeps the page for use without a network:", error));
+  }
+  const main = document.getElementById("main")!;
+  begin(main).catch((error: unknown) => {
+    main.textContent = `The library did not start: ${wrong(error)}`;
+  });
+}

@@ -1,0 +1,216 @@
+// The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball that may be moved; a tap aims at a place or a ball, or
+// calls a pocket; two fingers, a double tap, or the wheel show a part of the table larger.
+import { CaromError } from "carom";
+import { drawNumbers, drawStick, ring, stroke } from "../table/drawing.js";
+import { onTable } from "../table/filmed.js";
+import { angleFrom, ARROWS, beside, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, within } from "../table/grip.js";
+import { mayLie } from "../table/head.js";
+import { skip } from "./filming.js";
+import { aimed, ballsOn, called, calls, cueOf, free, look, NONE, says, type Session, valid } from "./session.js";
+import { shoot, undo } from "./turns.js";
+
+/** What the pointers hold: one of them a grip, since it went down; two of them the table; and the tap before. */
+interface Held {
+  grip: Grip;
+  from: Point;
+  at: Point;
+  phi: number;
+  speed: number;
+  taps: boolean;
+}
+interface Hand {
+  held: Held | undefined;
+  readonly pointers: Map<number, Point>;
+  pinch: { apart: number; zoom: number; middle: Point } | undefined;
+  tapped: { when: number; at: Point; phi: number } | undefined;
+}
+
+/** Draws what is aimed, called and in hand over the table. */
+export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
+  const { film, play } = s;
+  if (film.time > 0 || film.playing) return;
+  const pen = { g, scale: film.scale, place: film.place };
+  const [cueBall] = play.balls as [(typeof play.balls)[number]];
+  const [call, of] = [free(s) && calls(s) ? called(s) : undefined, aimed(s)];
+  g.setLineDash([]);
+  if (call) {
+    g.strokeStyle = "#ffe28a";
+    g.lineWidth = 3;
+    const { centre, radius } = play.table.pockets[call.pocket]!;
+    ring(pen, centre, radius, 2);
+    ring(pen, play.balls[call.ball]!.state.r, play.balls[call.ball]!.kind.radius, 2);
+  }
+  if (of && onTable(cueBall.state)) {
+    if (s.first) {
+      stroke(pen, cueBall.state.r, s.first.at, 1.4, "#ffffffd0");
+      ring(pen, s.first.at, cueBall.kind.radius, 0);
+    }
+    if (play.hand !== "no" && free(s)) {
+      g.strokeStyle = "#ffe28a";
+      g.lineWidth = 2;
+      ring(pen, cueBall.state.r, cueBall.kind.radius, 5);
+      g.setLineDash([6, 6]);
+      if (play.hand === "kitchen") stroke(pen, [0, play.table.length / 4], [play.table.width, play.table.length / 4], 1, "#ffe28a");
+      g.setLineDash([]);
+    }
+    drawStick(pen, cueBall, of);
+  }
+  if (!play.state.opening) drawNumbers(pen, play.balls, play.names);
+}
+
+// ---- One pointer -----------------------------------------------------------------------------------------------------------------
+
+/** What lies under a pointer. A finger reaches farther. */
+function under(s: Session, at: Point, finger: boolean): Grip {
+  const { balls, table } = s.play;
+  const reach = (finger ? 20 : 10) / s.film.scale;
+  const grip = gripAt(at, reach, table, balls, balls.map(({ state }) => (onTable(state) ? state.r : undefined)), cueOf(s), reach);
+  return grip.is === "line" ? { is: "cloth" } : grip;
+}
+function turn(s: Session, phi: number): void {
+  s.stroke.set({ phi: direction(phi) });
+  s.changed();
+}
+function hasten(s: Session, speed: number): void {
+  s.stroke.set({ speed });
+  s.changed();
+}
+/** Whether a ball may be moved. */
+const movable = ({ play }: Session, ball: number): boolean => play.practice || (ball === 0 && play.hand !== "no");
+function move(s: Session, ball: number, to: Point): void {
+  const { play } = s;
+  const { table, balls } = play;
+  const [x, y] = beside(table, balls, ball, to, play.hand === "kitchen" ? table.length / 4 + balls[0]!.kind.radius + 1e-4 : table.length);
+  if (!play.practice && !mayLie(table, play.hand, [x, y])) return;
+  try {
+    play.put(ball, x, y);
+  } catch (error) {
+    if (error instanceof CaromError) return; // no room there: it stays
+    throw error;
+  }
+  s.changed();
+}
+function drag(s: Session, { grip, from, phi, speed }: Held, at: Point): void {
+  const [cueBall] = s.play.balls as [(typeof s.play.balls)[number]];
+  if (grip.is === "ball" && movable(s, grip.ball)) move(s, grip.ball, at);
+  else if (grip.is === "stick") hasten(s, drawnTo(cueBall, speed, from, at));
+  else turn(s, phi + angleFrom(cueBall, at) - angleFrom(cueBall, from));
+}
+/** A ball or a pocket was tapped: it is called. */
+function choose(s: Session, on: { ball: number } | { pocket: number }): void {
+  look(s);
+  const met = s.first?.ball ?? -1;
+  if ("pocket" in on) s.chosen = { ...valid(s), pocket: on.pocket, met };
+  else s.chosen = calls(s) && ballsOn(s).includes(on.ball) ? { ball: on.ball, pocket: -1, met } : NONE;
+  if ("pocket" in on && calls(s) && !called(s)) says(s, "Which ball? Tap it first, then the pocket.");
+  s.changed();
+}
+function tap(s: Session, grip: Grip, at: Point): void {
+  const [cueBall] = s.play.balls as [(typeof s.play.balls)[number]];
+  if (grip.is === "pocket") return choose(s, { pocket: grip.pocket });
+  if (grip.is === "ball" && grip.ball > 0) {
+    const { r } = s.play.balls[grip.ball]!.state;
+    turn(s, angleFrom(cueBall, [r[0], r[1]]));
+    choose(s, { ball: grip.ball });
+  } else if (grip.is === "cloth") turn(s, angleFrom(cueBall, at));
+}
+
+// ---- Two pointers ----------------------------------------------------------------------------------------------------------------
+
+const middle = ([a, b]: Point[]): Point => [(a![0] + b![0]) / 2, (a![1] + b![1]) / 2];
+const apart = ([a, b]: Point[]): number => Math.hypot(a![0] - b![0], a![1] - b![1]);
+/** Shows the table so many times larger, with a place of it under a pixel. */
+function enlarge(film: Film, times: number, place: Point, under: Point): void {
+  film.look(times, place);
+  const centre = film.unplace(film.canvas.clientWidth / 2, film.canvas.clientHeight / 2);
+  const now = film.unplace(...under);
+  film.look(times, [centre[0] + place[0] - now[0], centre[1] + place[1] - now[1]]);
+}
+/** A second finger is there: the first one has begun to aim, and has not. */
+function pinch(s: Session, hand: Hand): void {
+  if (hand.held && free(s)) {
+    s.stroke.set({ phi: hand.held.phi, speed: hand.held.speed });
+    s.changed();
+  }
+  hand.held = undefined;
+  const both = [...hand.pointers.values()];
+  hand.pinch = { apart: apart(both), zoom: s.film.zoom, middle: s.film.unplace(...middle(both)) };
+}
+
+// ---- Events ----------------------------------------------------------------------------------------------------------------------
+
+function down(s: Session, hand: Hand, event: PointerEvent): void {
+  const { film, play } = s;
+  if (event.button > 0) return;
+  if (film.playing) return skip(s);
+  hand.pointers.set(event.pointerId, pixelsOf(film.canvas, event));
+  film.canvas.setPointerCapture(event.pointerId);
+  if (hand.pointers.size === 2) return pinch(s, hand);
+  if (!free(s) || hand.pointers.size > 1) return;
+  const at = film.unplace(...pixelsOf(film.canvas, event));
+  const { phi, speed } = cueOf(s);
+  hand.held = { grip: under(s, at, event.pointerType === "touch"), from: at, at, phi, speed, taps: true };
+  if (hand.held.grip.is === "ball" && play.practice) play.keep();
+}
+function over(s: Session, { pointers, pinch, held }: Hand, event: PointerEvent): void {
+  if (!pointers.has(event.pointerId)) return;
+  const pixels = pixelsOf(s.film.canvas, event);
+  pointers.set(event.pointerId, pixels);
+  if (pinch && pointers.size === 2) {
+    const both = [...pointers.values()];
+    return enlarge(s.film, (pinch.zoom * apart(both)) / pinch.apart, pinch.middle, middle(both));
+  }
+  if (!held || !free(s)) return;
+  held.at = s.film.unplace(...pixels);
+  if (apart([held.at, held.from]) * s.film.scale > 5) held.taps = false;
+  if (!held.taps) drag(s, held, held.at);
+}
+function up(s: Session, hand: Hand, event: PointerEvent): void {
+  hand.pointers.delete(event.pointerId);
+  if (hand.pointers.size < 2) hand.pinch = undefined;
+  const was = hand.held;
+  hand.held = undefined;
+  if (!was) return;
+  if (was.taps && was.grip.is === "ball" && s.play.practice) s.play.past.pop(); // nothing was moved
+  if (event.type !== "pointerup" || !was.taps || !free(s)) return;
+  // A second tap at the same place shows it larger, or all of the table; the first one has aimed at nothing.
+  const [at, before] = [pixelsOf(s.film.canvas, event), hand.tapped];
+  hand.tapped = { when: event.timeStamp, at, phi: was.phi };
+  if (event.pointerType !== "touch" || !before || event.timeStamp - before.when > 350 || apart([at, before.at]) > 30) return tap(s, was.grip, was.at);
+  hand.tapped = undefined;
+  turn(s, before.phi);
+  if (s.film.zoom > 1) s.film.look(1);
+  else enlarge(s.film, 3, was.at, at);
+}
+function key(s: Session, event: KeyboardEvent): void {
+  const { film, play } = s;
+  const [arrow, { phi, speed }] = [ARROWS[event.key], cueOf(s)];
+  if (film.playing && (event.key === "Enter" || event.key === "Escape")) skip(s);
+  else if (!free(s)) return;
+  else if (event.key === "Enter") shoot(s);
+  else if ((event.ctrlKey || event.metaKey) && event.key === "z") undo(s);
+  else if (event.key === "c" && play.hasPockets) choose(s, { pocket: (((calls(s) ? called(s) : undefined)?.pocket ?? -1) + 1) % play.table.pockets.length });
+  else if (!arrow) return;
+  else if (event.altKey) {
+    if (!movable(s, 0)) return;
+    move(s, 0, movedBy(film, play.balls[0]!, arrow, (event.shiftKey ? 0.05 : 0.005) * film.scale));
+  } else if (arrow[0] !== 0) turn(s, phi - arrow[0] * (event.shiftKey ? 1 : 0.1));
+  else hasten(s, within(speed - arrow[1] * (event.shiftKey ? 0.5 : 0.1)));
+  event.preventDefault();
+}
+
+/** Lets pointers and keys handle the table. */
+export function aiming(s: Session): void {
+  const { canvas } = s.film;
+  const hand: Hand = { held: undefined, pointers: new Map(), pinch: undefined, tapped: undefined };
+  canvas.addEventListener("pointerdown", (event) => down(s, hand, event));
+  canvas.addEventListener("pointermove", (event) => over(s, hand, event));
+  for (const type of ["pointerup", "pointercancel"] as const) canvas.addEventListener(type, (event) => up(s, hand, event));
+  canvas.addEventListener("keydown", (event) => key(s, event));
+  const wheel = (event: WheelEvent): void => {
+    event.preventDefault();
+    const at = pixelsOf(canvas, event);
+    enlarge(s.film, s.film.zoom * Math.exp(-event.deltaY / 400), s.film.unplace(...at), at);
+  };
+  canvas.addEventListener("wheel", wheel, { passive: false });
+}

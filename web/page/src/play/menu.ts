@@ -1,0 +1,54 @@
+// The dialog of a new game: which one, against whom, and how the page plays it.
+import { GAMES, PLAYED } from "../table/games.js";
+import { RATINGS } from "../table/words.js";
+import { button, check, choice, dialog, el } from "../ui.js";
+import type { Against, Setup } from "./game.js";
+
+export interface Settings {
+  sound: boolean;
+  coach: boolean;
+}
+export interface Host {
+  begin(setup: Setup): void;
+  changed(settings: Settings): void;
+}
+
+export function menu(settings: Settings, pace: HTMLElement, host: Host, ...more: HTMLElement[]): { root: HTMLDialogElement; open(setup: Setup): void } {
+  // Practice has every table.
+  const others = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
+  const game = choice("new-which", "Game", [...Object.entries(PLAYED), ...others].map(([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const), told);
+  const against = choice("new-against", "Against", [["practice", "nobody: practice"], ["person", "a person at this page"], ["link", "a person by link"], ...RATINGS.map((r) => [r, `the computer, rated ${r}`] as const)], told);
+  const own = choice("new-own", "Your strokes", [["0", "go where you aim"], ...RATINGS.map((r) => [r, `err like those of a ${r}`] as const)], () => undefined);
+  const note = el("p", { class: "note", id: "new-note" });
+  const set = (): void => host.changed({ sound: sound.input.checked, coach: coach.input.checked });
+  const sound = check("sound", "Sound", set);
+  const coach = check("coach", "Coach: tells the chances of a stroke, and then its cost", set);
+  sound.input.checked = settings.sound;
+  coach.input.checked = settings.coach;
+
+  function told(): void {
+    if (!(game.select.value in PLAYED)) against.select.value = "practice";
+    own.root.hidden = against.select.value === "practice";
+    const notes: Record<string, string> = {
+      practice: "There are no rules. You move any ball, see every path, and undo strokes.",
+      person: "Both of you play at this page, in turns.",
+      link: "You break. Send the link after your turn. The page of the other player repeats your strokes, checks that every bit agrees, and goes on.",
+    };
+    note.textContent = notes[against.select.value] ?? `The computer errs like a ${against.select.value} on the scale of Fargo ratings. A 300 is a beginner, a 500 plays in a league, a 700 is a strong amateur.`;
+  }
+  const start = button("Start", () => {
+    root.close();
+    host.begin({ game: game.select.value, against: against.select.value as Against, own: against.select.value === "practice" ? "0" : own.select.value, seed: Math.floor(Math.random() * 2 ** 31) });
+  }, { id: "start", class: "main" });
+  const root = dialog("menu", "New game", el("div", { class: "fields" }, game.root, against.root, own.root), note, start, el("h3", {}, "Settings"), sound.root, coach.root, el("div", { class: "row" }, el("span", {}, "Speed of the film"), pace), ...more);
+  return {
+    root,
+    open(setup) {
+      game.select.value = setup.game;
+      against.select.value = setup.against;
+      own.select.value = setup.own;
+      told();
+      root.showModal();
+    },
+  };
+}

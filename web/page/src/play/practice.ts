@@ -1,0 +1,47 @@
+// What practice has besides a table: drills with counts, a part of the dialog of a new game.
+import type { Setup, Stroke } from "./game.js";
+import { button, choice, el } from "../ui.js";
+import { atOf, count, counts, drillsOf, judge } from "./drills.js";
+
+declare const DRILLS: string;
+
+export interface Host {
+  begin(setup: Setup): void;
+}
+const BALLS = 16;
+/** Practice with the balls of eight-ball. */
+const setupOf = (at: string, drill: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, drill });
+
+export function practice(host: Host): { parts: HTMLElement[]; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean } } {
+  const drills = drillsOf(DRILLS);
+  const of = (name: string): (typeof drills)[number] => {
+    const drill = drills.find((one) => one.name === name);
+    if (!drill) throw new TypeError(`drill: there is no drill "${name}"`);
+    return drill;
+  };
+  const note = el("p", { class: "note", id: "drill-note" });
+  const which = choice("drill", "Drill", drills.map(({ name }) => [name, name] as const), told);
+  function made(name: string): string {
+    const [good, tries] = counts()[name] ?? [0, 0];
+    return tries === 0 ? "" : ` Made ${good} of ${tries}.`;
+  }
+  function told(): void {
+    note.textContent = `${of(which.select.value).text}${made(which.select.value)}`;
+  }
+  const start: HTMLButtonElement = button("Start drill", () => {
+    start.closest("dialog")!.close();
+    host.begin(setupOf(atOf(of(which.select.value), BALLS), which.select.value));
+  }, { id: "start-drill" });
+  told();
+  return {
+    parts: [el("h3", {}, "Practice"), el("div", { class: "fields" }, which.root), note, el("div", { class: "row" }, start)],
+    told: (name) => `${of(name).text}${made(name)}`,
+    played(name, { shot }) {
+      const is = judge(of(name), shot!);
+      if (is === "on") return { text: "Go on with the next ball.", again: false };
+      const [good, tries] = count(name, is === "made");
+      told();
+      return { text: `${is === "made" ? "Made" : "Missed"}: ${good} of ${tries}.`, again: true };
+    },
+  };
+}

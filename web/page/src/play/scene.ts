@@ -1,0 +1,248 @@
+// The table from behind the cue, by three.js: cloth, cushions and pockets, balls with stripes and numbers that turn as the library computed, and shadows.
+// A module by itself: the page has it compressed and starts it when it is asked for.
+import * as THREE from "three";
+
+type Point = readonly [number, number];
+export interface SceneOf {
+  table: { width: number; length: number; rails: { p: Point; q: Point; height?: number }[]; pockets: { centre: Point; radius: number }[] };
+  balls: { name: string; radius: number; colour: string }[];
+  cloth: string;
+  wood: string;
+}
+/** As of the player in web/player: place, m, and rotation, w, x, y, z. */
+export interface Pose {
+  r: readonly number[];
+  q: ArrayLike<number>;
+  seen: boolean;
+}
+/** The cue: direction and height of its butt, degrees, how far its tip is from the cue ball's middle, m, and where on the ball, radii. */
+export interface Stick {
+  phi: number;
+  theta: number;
+  gap: number;
+  right: number;
+  up: number;
+  /** Where the cue ball first meets something, m. */
+  first: readonly number[] | undefined;
+}
+
+const IVORY = "#fbfaf5";
+const DEGREES = 180 / Math.PI;
+const WOOD = 0.1;
+
+/** The surface of a ball, around its z: white caps at both ends of x of a stripe, numbers at both ends of z, or six dots of a cue ball. */
+function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTexture {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [512, 256];
+  const g = canvas.getContext("2d")!;
+  const number = Number(name);
+  const pixels = g.createImageData(512, 256);
+  const rgb = (hex: string): number[] => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
+  const [base, ivory, dot] = [rgb(colour), rgb(IVORY), colour === IVORY ? [200, 16, 46] : [255, 255, 255]];
+  for (let row = 0; row < 256; row++)
+    for (let column = 0; column < 512; column++) {
+      // three's sphere: u around its y, v from the top; z of the ball is y of the sphere.
+      const [around, down] = [(2 * Math.PI * (column + 0.5)) / 512, (Math.PI * (row + 0.5)) / 256];
+      const [x, y, z] = [-Math.cos(around) * Math.sin(down), -Math.sin(around) * Math.sin(down), Math.cos(down)];
+      let of = base;
+      if (number > 8 && Math.abs(x) > Math.cos(0.9)) of = ivory;
+      if (number > 0 && Math.abs(z) > Math.cos(0.52)) of = ivory;
+      if (!(number > 0) && Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > Math.cos(0.2)) of = dot;
+      pixels.data.set([...of, 255], 4 * (512 * row + column));
+    }
+  g.putImageData(pixels, 0, 0);
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.anisotropy = 4;
+  return texture;
+}
+/** A number as a disc that lies on the ball's ends. */
+function label(name: string): THREE.CanvasTexture {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 128;
+  const g = canvas.getContext("2d")!;
+  g.fillStyle = IVORY;
+  g.fillRect(0, 0, 128, 128);
+  g.fillStyle = "#16181b";
+  g.font = `bold ${name.length > 1 ? 72 : 88}px sans-serif`;
+  g.textAlign = "center";
+  g.textBaseline = "middle";
+  g.fillText(name, 64, 68);
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  return texture;
+}
+
+/** A lamp above the table. */
+function lampOver(scene: THREE.Scene, width: number, length: number): void {
+  scene.add(new THREE.HemisphereLight("#ffffff", "#445544", 1.3));
+  const lamp = new THREE.DirectionalLight("#fff6e0", 2.2);
+  lamp.position.set(width * 0.2, length * 0.35, 2.2);
+  lamp.target.position.set(width / 2, length / 2, 0);
+  lamp.castShadow = true;
+  lamp.shadow.mapSize.set(2048, 2048);
+  const half = 0.6 * length;
+  Object.assign(lamp.shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 0.5, far: 5 });
+  lamp.shadow.bias = -5e-4;
+  scene.add(lamp, lamp.target);
+}
+/** Slate with cloth up to the middle of the pockets, wood around it, the faces of cushions, and dark pockets. */
+function furnish(scene: THREE.Scene, of: SceneOf): void {
+  const { width, length } = of.table;
+  const cloth = new THREE.MeshLambertMaterial({ color: of.cloth });
+  const wood = new THREE.MeshLambertMaterial({ color: of.wood });
+  const box = (x: number, y: number, w: number, l: number, low: number, high: number, material: THREE.Material): void => {
+    const mesh = new THREE.Mesh(new THREE.BoxGeometry(w, l, high - low), material);
+    mesh.position.set(x, y, (low + high) / 2);
+    mesh.receiveShadow = true;
+    scene.add(mesh);
+  };
+  box(width / 2, length / 2, width + WOOD, length + WOOD, -0.03, 0, cloth);
+  const nose = 0.0365;
+  for (const side of [-1, 1]) {
+    box(width / 2 + side * (width / 2 + WOOD), length / 2, WOOD, length + 3 * WOOD, -0.06, 1.2 * nose, wood);
+    box(width / 2, length / 2 + side * (length / 2 + WOOD), width + WOOD, WOOD, -0.06, 1.2 * nose, wood);
+  }
+  for (const { p, q, height = nose } of of.table.rails) {
+    // A strip from the nose outwards, over the cloth.
+    const along = Math.hypot(q[0] - p[0], q[1] - p[1]);
+    if (along < 1e-6) continue;
+    const [ux, uy] = [(q[0] - p[0]) / along, (q[1] - p[1]) / along];
+    const middle = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2] as const;
+    const outward = Math.sign(-uy * (middle[0] - width / 2) + ux * (middle[1] - length / 2)) || 1;
+    const thick = 0.045;
+    const mesh = new THREE.Mesh(new THREE.BoxGeometry(along, thick, 0.012), cloth);
+    mesh.position.set(middle[0] - (outward * uy * thick) / 2, middle[1] + (outward * ux * thick) / 2, height);
+    mesh.rotation.z = Math.atan2(uy, ux);
+    mesh.castShadow = mesh.receiveShadow = true;
+    scene.add(mesh);
+  }
+  for (const { centre, radius } of of.table.pockets) {
+    const hole = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, 0.09, 32), new THREE.MeshBasicMaterial({ color: "#050606" }));
+    hole.rotation.x = Math.PI / 2;
+    hole.position.set(centre[0], centre[1], 0.002);
+    scene.add(hole);
+  }
+}
+/** A ball: a sphere whose y is the ball's z, with numbers on both ends. */
+function ballOf(ball: SceneOf["balls"][number]): THREE.Group {
+  const group = new THREE.Group();
+  const sphere = new THREE.Mesh(new THREE.SphereGeometry(ball.radius, 40, 28), new THREE.MeshPhongMaterial({ map: surface(ball), shininess: 90, specular: "#666666" }));
+  sphere.rotation.x = Math.PI / 2;
+  sphere.castShadow = true;
+  group.add(sphere);
+  if (Number(ball.name) > 0)
+    for (const end of [1, -1]) {
+      // Rings within rings: a circle without them would be flat, and the ball in front of it.
+      const disc = new THREE.Mesh(new THREE.RingGeometry(0, ball.radius * 0.4, 24, 6), new THREE.MeshLambertMaterial({ map: label(ball.name) }));
+      disc.position.z = end * ball.radius * 0.925;
+      // The disc is bent onto the ball.
+      const at = disc.geometry.getAttribute("position");
+      for (let k = 0; k < at.count; k++) at.setZ(k, Math.sqrt(ball.radius ** 2 - at.getX(k) ** 2 - at.getY(k) ** 2) * 1.004 - ball.radius * 0.925);
+      if (end < 0) disc.rotation.y = Math.PI;
+      group.add(disc);
+    }
+  return group;
+}
+
+export class Scene {
+  readonly canvas: HTMLCanvasElement;
+  readonly #renderer: THREE.WebGLRenderer;
+  readonly #scene = new THREE.Scene();
+  readonly #camera = new THREE.PerspectiveCamera(40, 1, 0.02, 12);
+  readonly #balls: THREE.Group[];
+  readonly #stick: THREE.Mesh;
+  readonly #aim: THREE.Mesh;
+  readonly #ghost: THREE.Mesh;
+  readonly #within: readonly [number, number];
+
+  constructor(of: SceneOf) {
+    this.#renderer = new THREE.WebGLRenderer({ antialias: true });
+    this.canvas = this.#renderer.domElement;
+    this.#renderer.shadowMap.enabled = true;
+    this.#renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.#renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    const { width, length } = of.table;
+    const scene = this.#scene;
+    this.#camera.up.set(0, 0, 1);
+    scene.background = new THREE.Color("#15181b");
+
+    lampOver(scene, width, length);
+    furnish(scene, of);
+    this.#balls = of.balls.map(ballOf);
+    scene.add(...this.#balls);
+    this.#stick = new THREE.Mesh(new THREE.CylinderGeometry(0.0055, 0.014, 1.4, 16), new THREE.MeshLambertMaterial({ color: "#d9b077" }));
+    this.#stick.castShadow = true;
+    // The aim on the cloth: a line to the place of the cue ball at its first contact, and a ring there.
+    const light = new THREE.MeshBasicMaterial({ color: "#ffffff", transparent: true, opacity: 0.7 });
+    const R = of.balls[0]!.radius;
+    this.#aim = new THREE.Mesh(new THREE.BoxGeometry(1, 0.007, 0.001), light);
+    this.#ghost = new THREE.Mesh(new THREE.RingGeometry(0.88 * R, R, 32), light);
+    this.#within = [width, length];
+    scene.add(this.#stick, this.#aim, this.#ghost);
+  }
+
+  size(width: number, height: number): void {
+    this.#renderer.setSize(width, height);
+    this.#camera.aspect = width / height;
+    // On a tall screen the table stays as wide as it is on a wide one.
+    this.#camera.fov = width > height ? 38 : 58;
+    this.#camera.updateProjectionMatrix();
+  }
+
+  /** Looks along the cue from behind a place, m. */
+  look(at: readonly number[], phi: number): void {
+    const along = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)] as const;
+    // A tall screen sees the table from higher, or it would show the room above it.
+    const high = this.#camera.aspect > 1 ? 0.48 : 0.95;
+    // How far off the outer wood is where the cue points, and behind the cue ball, where the camera stays near it.
+    const wood = (sign: number): number => Math.min(...along.map((d, c) => (Math.abs(d) < 1e-9 ? Infinity : ((sign * d > 0 ? this.#within[c]! + WOOD : -WOOD) - at[c]!) / (sign * d))));
+    const far = wood(1);
+    const back = Math.min(wood(-1) + 0.5, 1.15);
+    // That wood is seen below the upper edge, but the cue ball never near it.
+    const half = this.#camera.fov / 2;
+    const down = Math.min(half - 4 + Math.atan2(high, back + far) * DEGREES, 0.5 * half + Math.atan2(high, back) * DEGREES) / DEGREES;
+    const [x, y] = [at[0]! - back * along[0], at[1]! - back * along[1]];
+    this.#camera.position.set(x, y, high);
+    this.#camera.lookAt(x + along[0] * Math.cos(down), y + along[1] * Math.cos(down), high - Math.sin(down));
+  }
+
+  draw(poses: readonly Pose[], stick: Stick | undefined): void {
+    poses.forEach(({ r, q, seen }, k) => {
+      const ball = this.#balls[k]!;
+      ball.visible = seen;
+      ball.position.set(r[0]!, r[1]!, r[2]!);
+      ball.quaternion.set(q[1]!, q[2]!, q[3]!, q[0]!);
+    });
+    const to = stick?.first;
+    this.#stick.visible = stick !== undefined;
+    this.#aim.visible = this.#ghost.visible = to !== undefined;
+    if (to) {
+      const { r } = poses[0]!;
+      const [dx, dy] = [to[0]! - r[0]!, to[1]! - r[1]!];
+      const gone = Math.hypot(dx, dy);
+      this.#aim.scale.x = Math.max(gone, 1e-3);
+      this.#aim.rotation.z = Math.atan2(dy, dx);
+      this.#aim.position.set(r[0]! + dx / 2, r[1]! + dy / 2, 0.001);
+      this.#ghost.position.set(to[0]!, to[1]!, 0.002);
+    }
+    if (stick) {
+      const { r } = poses[0]!;
+      const R = r[2]!;
+      const [phi, theta] = [stick.phi / DEGREES, Math.max(stick.theta, 3) / DEGREES];
+      // From the butt to the tip, and what is to the right of it and above.
+      const along = new THREE.Vector3(Math.cos(phi) * Math.cos(theta), Math.sin(phi) * Math.cos(theta), -Math.sin(theta));
+      const right = new THREE.Vector3(Math.sin(phi), -Math.cos(phi), 0);
+      const up = new THREE.Vector3().crossVectors(right, along);
+      const middle = new THREE.Vector3(r[0]!, r[1]!, r[2]!).addScaledVector(right, stick.right * R).addScaledVector(up, stick.up * R).addScaledVector(along, -(stick.gap + 0.7));
+      this.#stick.position.copy(middle);
+      this.#stick.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along);
+    }
+    this.#renderer.render(this.#scene, this.#camera);
+  }
+
+  close(): void {
+    this.#renderer.dispose();
+    this.#renderer.forceContextLoss();
+  }
+}

@@ -1,0 +1,105 @@
+// The view from behind the cue, over the flat one: its module is in the page as compressed text, and starts when it is asked for.
+import { colourOf } from "../../../player/words.js";
+import { stickEnd } from "../table/drawing.js";
+import { color } from "../ui.js";
+import type { Play } from "./game.js";
+import type { Scene } from "./scene.js";
+import { aimed, free, type Session } from "./session.js";
+
+async function load(): Promise<typeof import("./scene.js")> {
+  const text = document.getElementById("scene-module")!.textContent!.trim();
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const source = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).blob();
+  const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+  try {
+    return (await import(/* @vite-ignore */ url)) as typeof import("./scene.js");
+  } finally {
+    URL.revokeObjectURL(url);
+  }
+}
+
+export class Space {
+  #module: Promise<typeof import("./scene.js")> | undefined;
+  #scene: Scene | undefined;
+  #of: Play | undefined;
+  on = false;
+
+  constructor(
+    readonly s: Session,
+    readonly felt: HTMLElement,
+    readonly skip: () => void,
+  ) {}
+
+  /** Shows it, or the flat view again. Rejects where the browser has no WebGL: the flat view stays. */
+  async toggle(): Promise<void> {
+    if (this.on) return this.#hide();
+    if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it has no WebGL 2");
+    this.#module ??= load();
+    const { Scene } = await this.#module;
+    this.#make(Scene);
+    this.on = true;
+    this.s.film.canvas.classList.add("behind");
+    this.draw();
+  }
+
+  #make(make: typeof Scene): void {
+    const play = this.s.play;
+    this.#scene?.close();
+    this.#scene?.canvas.remove();
+    const balls = play.balls.map(({ kind }, k) => ({ name: play.names[k]!, radius: kind.radius, colour: colourOf(play.names[k]!, k) }));
+    const scene = new make({ table: play.table, balls, cloth: color("cloth"), wood: color("rail") });
+    this.#scene = scene;
+    this.#of = play;
+    const { canvas } = scene;
+    for (const [name, value] of Object.entries({ id: "scene", role: "img", tabindex: "0", "aria-label": "The table from behind the cue" })) canvas.setAttribute(name, value);
+    let last: number | undefined;
+    canvas.addEventListener("pointerdown", (event) => {
+      if (this.s.film.playing) return this.skip();
+      canvas.setPointerCapture(event.pointerId);
+      last = event.clientX;
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (last === undefined) return;
+      if (free(this.s)) {
+        this.s.stroke.set({ phi: (this.s.stroke.value.phi + (last - event.clientX) * 0.08 + 360) % 360 });
+        this.s.changed();
+      }
+      last = event.clientX;
+    });
+    for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => (last = undefined));
+    canvas.addEventListener("keydown", (event) => {
+      if (event.key === "Tab") return;
+      event.preventDefault();
+      const { key, altKey, shiftKey, ctrlKey, metaKey } = event;
+      this.s.film.canvas.dispatchEvent(new KeyboardEvent("keydown", { key, altKey, shiftKey, ctrlKey, metaKey }));
+    });
+    this.felt.append(canvas);
+  }
+
+  draw(): void {
+    if (!this.on || !this.#scene) return;
+    if (this.#of !== this.s.play) void this.#module!.then(({ Scene }) => {
+      this.#make(Scene);
+      this.draw();
+    });
+    const { clientWidth, clientHeight } = this.s.film.canvas;
+    const { canvas } = this.#scene;
+    if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight) this.#scene.size(clientWidth, clientHeight);
+    const poses = this.s.filmed!.shots[0]!.at(this.s.film.time);
+    const of = aimed(this.s);
+    // The camera stays where it was while the balls roll.
+    if (of) this.#scene.look(poses[0]!.r, of.phi);
+    this.#scene.draw(poses, of && { phi: of.phi, theta: of.theta, right: -of.a, up: of.b, gap: stickEnd(this.#of!.balls[0]!.kind.radius, of.speed), first: this.s.first?.at });
+  }
+
+  #hide(): void {
+    this.on = false;
+    this.s.film.canvas.classList.remove("behind");
+    this.close();
+  }
+  close(): void {
+    this.#scene?.close();
+    this.#scene?.canvas.remove();
+    this.#scene = undefined;
+  }
+}

@@ -1,0 +1,78 @@
+// What the player shows of a shot: where its balls are and how they have turned at a time, and the paths that they take.
+import type { BallState, Shot, ShotBall, Table } from "carom";
+import { wordsOf } from "../../../player/words.js";
+
+/** How long a ball falls in a pocket, about, s. */
+const FALL = 0.16;
+
+/** x, y, z of a ball, m, point after point. */
+export interface Path {
+  ball: number;
+  xyz: Float64Array;
+}
+
+export const onTable = ({ label }: Pick<BallState, "label">): boolean => label !== "pocketed" && label !== "off";
+/** How long the film of a shot is: a ball that was pocketed at the end falls after it. */
+export const lasts = ({ time, status, events }: Shot): number => (status === "ok" && events.at(-1)?.type === "ball_pocket" ? time + FALL : time);
+
+/** The path of each ball that moves: at every event, and so often a second between. */
+export function pathsOf(shot: Shot, often = 25, most = 500): Path[] {
+  const times = shot.events.map((event) => event.time);
+  const count = Math.min(Math.ceil(shot.time * often), most);
+  for (let k = 0; k <= count; k++) times.push((shot.time * k) / Math.max(count, 1));
+  for (const event of shot.events) if (event.type === "ball_pocket") for (let k = 1; k <= 8; k++) times.push(event.time + (FALL * k) / 8);
+  times.sort((a, b) => a - b);
+  const moving = new Set(shot.events.flatMap((event) => (event.type === "ball_ball" ? [event.a, event.b] : [event.a])));
+  const found = [...moving].map((ball) => ({ ball, xyz: new Float64Array(3 * times.length) }));
+  const end = lasts(shot);
+  const all = shot.positionsAt(times.map((t) => Math.min(t, end)), true);
+  times.forEach((_, k) => {
+    for (const path of found) for (let c = 0; c < 3; c++) path.xyz[3 * k + c] = all[3 * (k * shot.balls.length + path.ball) + c]!;
+  });
+  return found;
+}
+
+export interface Layout {
+  table: Table;
+  balls: readonly ShotBall[];
+  names: readonly string[];
+  /** How each ball is turned at the start. */
+  turned: readonly Quaternion[];
+}
+/** w, x, y, z of a rotation. */
+export type Quaternion = readonly [number, number, number, number];
+/** The rotation about the vertical by an angle, degrees. */
+export const facing = (degrees: number): Quaternion => [Math.cos((degrees * Math.PI) / 360), 0, 0, Math.sin((degrees * Math.PI) / 360)];
+/** First b, then a, of which the first four numbers are read. */
+export const product = ([w, i, j, n]: ArrayLike<number> & Iterable<number>, [c, x, y, z]: Quaternion): Quaternion => [
+  w! * c - i! * x - j! * y - n! * z,
+  w! * x + i! * c + j! * z - n! * y,
+  w! * y - i! * z + j! * c + n! * x,
+  w! * z + i! * y - j! * x + n! * c,
+];
+
+/** The film of a shot, or the balls as they lie. */
+export function filmOf({ table, balls, names, turned }: Layout, shot: Shot | undefined, paths: Path[]) {
+  return {
+    table,
+    balls: balls.map(({ kind }, k) => ({ name: names[k]!, radius: kind.radius })),
+    shots: [
+      {
+        time: shot ? lasts(shot) : 0,
+        at(time: number) {
+          // Balls that fall in their pockets lie elsewhere than in the frame.
+          const places = shot?.positionsAt([time], true);
+          const frame = shot?.frame(time);
+          return balls.map(({ state }, k) => {
+            const r = places ? [...places.subarray(3 * k, 3 * k + 3)] : state.r;
+            const label = frame?.label(k) ?? state.label;
+            const seen = onTable({ label }) || (shot !== undefined && r[2]! > shot.final[k]!.r[2] && label === "pocketed");
+            return { r, q: frame ? product(frame.turned.subarray(4 * k, 4 * k + 4), turned[k]!) : turned[k]!, seen };
+          });
+        },
+        paths,
+        events: (shot?.events ?? []).map(({ time, type, a, b }) => ({ time, text: wordsOf(table, names as string[], type, a, b) })),
+      },
+    ],
+  };
+}

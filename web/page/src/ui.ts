@@ -1,0 +1,159 @@
+// Small helpers for the page: elements, sliders, canvases, the state in the address.
+
+import { make as el } from "../../player/player.js";
+
+export { el };
+
+/** What went wrong, in words. */
+export const wrong = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
+export interface Slider {
+  root: HTMLElement;
+  input: HTMLInputElement;
+  get value(): number;
+  set value(x: number);
+}
+
+/** A labelled slider with its value and unit. */
+export function slider(id: string, text: string, min: number, max: number, step: number, unit: string, onInput: () => void, show = (x: number) => String(x)): Slider {
+  const input = el("input", { type: "range", id, min: String(min), max: String(max), step: String(step) });
+  const output = el("output", { for: id, id: `${id}-value` });
+  // A value that was set is kept as it is; the slider itself rounds to its steps.
+  let exact: number | undefined;
+  const tell = (): void => {
+    output.textContent = `${show(exact ?? input.valueAsNumber)}${unit}`;
+    input.setAttribute("aria-valuetext", output.textContent);
+  };
+  input.addEventListener("input", () => {
+    exact = undefined;
+    tell();
+    onInput();
+  });
+  return {
+    root: el("div", { class: "field" }, el("label", { for: id }, text), output, input),
+    input,
+    get value() {
+      return exact ?? input.valueAsNumber;
+    },
+    set value(x: number) {
+      exact = x;
+      input.value = String(x);
+      tell();
+    },
+  };
+}
+
+/** A ball as whoever strikes sees it, with the tip on it: right and up in radii, at most 0.7 from the middle. The sliders do the same by keys. */
+export function pad(id: string, text: string, onInput: (right: number, up: number) => void): { root: HTMLElement; set(right: number, up: number): void } {
+  const root = el("div", { id, class: "pad", role: "img", "aria-label": text });
+  root.innerHTML =
+    '<svg viewBox="-1.05 -1.05 2.1 2.1"><circle r="1" fill="#fbfaf5" stroke="#000a" stroke-width="0.03"/><circle r="0.5" fill="none" stroke="#0006" stroke-width="0.02" stroke-dasharray="0.06 0.05"/>' +
+    '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle class="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
+  const move = (event: PointerEvent): void => {
+    const box = root.getBoundingClientRect();
+    const [x, y] = [(2.1 * (event.clientX - box.left)) / box.width - 1.05, 1.05 - (2.1 * (event.clientY - box.top)) / box.height];
+    const most = Math.min(1, 0.7 / Math.hypot(x, y));
+    onInput(Math.round(100 * most * x) / 100, Math.round(100 * most * y) / 100);
+  };
+  root.addEventListener("pointerdown", (event) => {
+    root.setPointerCapture(event.pointerId);
+    move(event);
+    // One that grows does so around the finger, which stays on the same place of the ball.
+    const box = root.getBoundingClientRect();
+    root.style.transformOrigin = `${event.clientX - box.left}px ${event.clientY - box.top}px`;
+    root.classList.add("held");
+  });
+  root.addEventListener("pointermove", (event) => root.hasPointerCapture(event.pointerId) && move(event));
+  for (const type of ["pointerup", "pointercancel"]) root.addEventListener(type, () => root.classList.remove("held"));
+  return { root, set: (right, up) => root.querySelector(".tip")!.setAttribute("transform", `translate(${right} ${-up})`) };
+}
+
+export function button(text: string, onClick: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
+  const made = el("button", { type: "button", ...attributes }, text);
+  made.addEventListener("click", onClick);
+  return made;
+}
+
+export function choice(id: string, text: string, options: readonly (readonly [string, string])[], onChange: () => void): { root: HTMLElement; select: HTMLSelectElement } {
+  const select = el("select", { id }, ...options.map(([value, label]) => el("option", { value }, label)));
+  select.addEventListener("change", onChange);
+  return { root: el("label", { class: "inline" }, text, select), select };
+}
+
+export function check(id: string, text: string, onChange: () => void): { root: HTMLElement; input: HTMLInputElement } {
+  const input = el("input", { type: "checkbox", id });
+  input.addEventListener("change", onChange);
+  return { root: el("label", { class: "check" }, input, text), input };
+}
+
+/** Calls `draw` once before the next frame, however often it is asked for. */
+export function eachFrame(draw: () => void): () => void {
+  let asked = false;
+  return () => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => {
+      asked = false;
+      draw();
+    });
+  };
+}
+
+/** A color of the page's theme. */
+export function color(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+/** Fits a canvas to its place at the device's resolution; returns its context in CSS pixels and its size. */
+export function fit(canvas: HTMLCanvasElement, ratio: number): { g: CanvasRenderingContext2D; width: number; height: number } {
+  const width = Math.max(canvas.clientWidth, 50);
+  const height = Math.round(width * ratio);
+  const dpr = window.devicePixelRatio || 1;
+  if (canvas.width !== Math.round(width * dpr) || canvas.height !== Math.round(height * dpr)) {
+    canvas.style.height = `${height}px`;
+    canvas.width = Math.round(width * dpr);
+    canvas.height = Math.round(height * dpr);
+  }
+  const g = canvas.getContext("2d")!;
+  g.setTransform(dpr, 0, 0, dpr, 0, 0);
+  g.clearRect(0, 0, width, height);
+  return { g, width, height };
+}
+
+export function arrow(g: CanvasRenderingContext2D, x: number, y: number, dx: number, dy: number, stroke: string, dashed = false): void {
+  const length = Math.hypot(dx, dy);
+  if (length < 2) return;
+  const head = Math.min(10, length);
+  const [ux, uy] = [dx / length, dy / length];
+  g.strokeStyle = g.fillStyle = stroke;
+  g.lineWidth = 3;
+  g.setLineDash(dashed ? [6, 5] : []);
+  g.beginPath();
+  g.moveTo(x, y);
+  g.lineTo(x + dx - ux * head, y + dy - uy * head);
+  g.stroke();
+  g.setLineDash([]);
+  g.beginPath();
+  g.moveTo(x + dx, y + dy);
+  g.lineTo(x + dx - head * ux - (head / 2) * uy, y + dy - head * uy + (head / 2) * ux);
+  g.lineTo(x + dx - head * ux + (head / 2) * uy, y + dy - head * uy - (head / 2) * ux);
+  g.fill();
+}
+
+/** The state in the address: what differs from the defaults. */
+export function parameters(): URLSearchParams {
+  return new URLSearchParams(location.hash.slice(1));
+}
+
+let writing: number | undefined;
+/** Writes the state behind the # a little later, so that dragging does not flood the history. */
+export function keep(state: Record<string, string>): void {
+  window.clearTimeout(writing);
+  writing = window.setTimeout(() => history.replaceState(null, "", `#${new URLSearchParams(state)}`), 150);
+}
+
+/** A dialog with a heading, which closes by its button or Escape. */
+export function dialog(id: string, title: string, ...children: (Node | string)[]): HTMLDialogElement {
+  const made = el("dialog", { id, "aria-label": title }, el("div", { class: "row head" }, el("h2", {}, title), button("Close", () => made.close(), { class: "close" })), ...children);
+  return made;
+}

@@ -1,0 +1,110 @@
+// The page as a whole, in a browser: accessibility of every state, the page as it is served, its licences, its size, and the film that it shares.
+import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { createServer } from "node:http";
+import type { AddressInfo } from "node:net";
+import { tmpdir } from "node:os";
+import { describe, expect, test } from "vitest";
+import { browserPath, page, pages, violations } from "./page.js";
+import { root, run, thereIsACommand } from "../../test/support.js";
+
+describe.runIf(browserPath !== undefined)("the page", () => {
+  const { open, colour, text, set, said, browser } = pages();
+
+  test("its size is below 800 kB", () => {
+    const { size } = statSync(page);
+    console.log(`the page has ${size} bytes`);
+    expect(size).toBeLessThan(800_000);
+  });
+
+  test.each([
+    ["play", "", {}, ""],
+    ["play, dark, phone", "", { dark: true, width: 390, height: 844, touch: true }, ""],
+    ["play, phone on its side", "", { width: 844, height: 390, touch: true }, ""],
+    ["new game", "", {}, "#new-game"],
+    ["new game, dark, phone", "", { dark: true, width: 390, height: 844, touch: true }, "#new-game"],
+    ["film", "", {}, "#shoot"],
+    ["film, dark, phone", "", { dark: true, width: 390, height: 844, touch: true }, "#shoot"],
+    ["stroke in numbers, phone", "", { width: 390, height: 844, touch: true }, ".numbers-of summary"],
+    ["collision", "#view=collision", {}, ""],
+    ["collision, dark, phone", "#view=collision", { dark: true, width: 390, height: 800 }, ""],
+    ["laboratory", "#view=lab", {}, "main summary"],
+    ["laboratory, dark, phone", "#view=lab&game=snooker", { dark: true, width: 390, height: 800 }, "main summary"],
+    ["laboratory, phone on its side", "#view=lab", { width: 844, height: 390, touch: true }, "main summary"],
+  ] as const)("axe finds nothing: %s", async (_, hash, how, press) => {
+    const one = await open(hash, how);
+    if (press) await one.locator(press).click();
+    expect(await violations(one)).toEqual([]);
+    // Nothing is wider than the screen.
+    expect(await one.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0);
+    await one.close();
+  });
+
+  test("a page that is served can be installed, and works without a network", async () => {
+    const types: Record<string, string> = { html: "text/html", js: "text/javascript", svg: "image/svg+xml", webmanifest: "application/manifest+json" };
+    const server = createServer((request, response) => {
+      const name = request.url === "/" ? "index.html" : request.url!.slice(1);
+      response.writeHead(200, { "content-type": types[name.split(".").at(-1)!] ?? "text/plain" });
+      response.end(readFileSync(`${root}web/page/dist/${name}`));
+    });
+    await new Promise<void>((listens) => server.listen(0, "127.0.0.1", listens));
+    const context = await browser().newContext({ viewport: { width: 390, height: 844 } });
+    const one = await context.newPage();
+    one.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(`served: ${message.text()}`));
+    await one.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/`);
+    await one.waitForSelector("main[aria-busy=false]");
+    await one.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
+    const devtools = await context.newCDPSession(one);
+    const manifest = await devtools.send("Page.getAppManifest");
+    expect(manifest.errors).toEqual([]);
+    expect(JSON.parse(manifest.data!)).toMatchObject({ name: "carom explorer", display: "standalone" });
+    expect((await devtools.send("Page.getInstallabilityErrors")).installabilityErrors.filter(({ errorId }) => errorId !== "in-incognito")).toEqual([]);
+    // No network, and no server either.
+    await context.setOffline(true);
+    await new Promise((closed) => {
+      server.close(closed);
+      server.closeAllConnections();
+    });
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    expect(await text(one, "turn")).toContain("You break");
+    await context.close();
+  });
+
+  test.runIf(thereIsACommand)("a page of carom shoot --animate shows the same player", async () => {
+    const folder = mkdtempSync(`${tmpdir()}/carom-`);
+    const told = JSON.parse(run(["shoot", "--animate", `${folder}/break.html`, `${root}data/break-nineball.jsonl`])) as { final: { t: number; balls: Record<string, number[]> }; events: unknown[][] };
+    const one = await open("#view=lab");
+    await one.locator("main summary").click();
+    await one.locator("#line").fill(readFileSync(`${root}data/break-nineball.jsonl`, "utf8"));
+    await one.locator("#import").click();
+    const other = await browser().newPage({ viewport: { width: 1300, height: 800 } });
+    other.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(`animate: ${message.text()}`));
+    other.on("pageerror", (error) => said.push(`animate: ${error.message}`));
+    await other.goto(`file://${folder}/break.html`);
+    expect(await text(other, "play")).toBe("Pause");
+    await other.locator("#play").click();
+    for (const page of [one, other]) await expect.poll(() => page.locator(".events li").count()).toBe(told.events.filter(([, type]) => type !== "none").length);
+    expect(await other.locator(".events li").allTextContents()).toEqual(await one.locator(".events li").allTextContents());
+    // At the end ball 8 lies at the command's place, on both tables, which differ in size.
+    const end = Number(await other.locator("#time").getAttribute("max"));
+    expect(end).toBeCloseTo(told.final.t, 3);
+    for (const page of [one, other]) await set(page, "time", Math.floor(1000 * end) / 1000);
+    const [, x, y] = told.final.balls["8"]!;
+    for (const page of [one, other]) {
+      await page.evaluate(() => scrollTo(0, 0));
+      expect(Math.max(...(await colour(page, x!, y! + 0.0245)))).toBeLessThan(60); // the cloth is brighter, and the number
+    }
+    expect(await violations(other)).toEqual([]);
+    await one.close();
+    await other.close();
+    rmSync(folder, { recursive: true });
+  });
+
+  test("the page has the licence of all that is in it", async () => {
+    const one = await open("#view=lab");
+    await one.locator("#licences summary").click();
+    const words = await text(one, "licences");
+    for (const name of ["Apache License\n", "Copyright (c) 2005-2020 Rich Felker, et al.", "The Emscripten Authors", "uplot\n\nThe MIT License (MIT)\n\nCopyright (c) 2022 Leon Sorokin", "three\n\nThe MIT License\n\nCopyright © 2010-2025 three.js authors"]) expect(words).toContain(name);
+    await one.close();
+  });
+});

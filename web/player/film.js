@@ -1,0 +1,73 @@
+// The pictures of a film: its trails and its balls at a time; and the film of a page that the command wrote.
+import { drawBall } from "./ball.js";
+import { colourOf, IVORY, POOL, wordsOf } from "./words.js";
+
+/** @typedef {import("./words.js").Table} Table */
+/** @typedef {import("./words.js").Film} Film */
+/** @typedef {import("./table.js").View} View */
+
+/** Of trails, which have to be bright on the cloth. @type {Record<string, string>} */
+const BRIGHT = { [POOL[0]]: "#ffd84a", [POOL[1]]: "#8fc1ff", [POOL[2]]: "#ff8d80", [POOL[3]]: "#d3b3ff", [POOL[4]]: "#ffb466", [POOL[5]]: "#b6f09c", [POOL[6]]: "#f2a0bd", "#7b4a21": "#c9a27a" };
+/** Of shots over each other, as in the picture below the film. */
+const SHOTS = ["#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"];
+
+/** The trails, to the pocket that takes the ball. @param {CanvasRenderingContext2D} g @param {View} view @param {Film} film @param {boolean} dim */
+export function drawTrails(g, view, { balls, shots, apart = false }, dim) {
+  g.lineWidth = 1.6;
+  g.lineJoin = g.lineCap = "round";
+  for (const [index, { paths }] of shots.entries())
+    for (const { ball, xyz } of paths) {
+      const colour = colourOf(balls[ball].name, ball);
+      g.strokeStyle = apart ? SHOTS[index % 8] : (BRIGHT[colour] ?? colour);
+      g.setLineDash(apart && colour !== IVORY ? [7, 4] : []);
+      g.globalAlpha = dim ? 0.5 : 0.8;
+      g.beginPath();
+      for (let k = 0; k < xyz.length; k += 3) {
+        g[k === 0 ? "moveTo" : "lineTo"](...view.place(xyz[k], xyz[k + 1]));
+        if (xyz[k + 2] < 0 && xyz[k + 2] === xyz[xyz.length - 1]) break; // where it lies
+      }
+      g.stroke();
+    }
+  g.setLineDash([]);
+  g.globalAlpha = 1;
+}
+
+/** The balls at a time. Shots over each other: the first is plain, the others are seen through.
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Film} film @param {number} time */
+export function drawBalls(g, view, { balls, shots, apart = false }, time) {
+  shots.forEach((shot, index) => {
+    shot.at(Math.min(time, shot.time)).forEach((pose, k) => pose.seen && drawBall(g, view, balls[k], k, pose, index === 0 || apart ? 1 : 0.6, apart ? SHOTS[index % 8] : undefined));
+  });
+}
+
+/** The film of a page that `carom shoot --animate` wrote. Of each ball it has 10 numbers at each time: its place, how it has turned, its spin, rad/s;
+ * of one that lies still, once.
+ * @param {{ table: Table, balls: [string, number][], shots: { times: number[], poses: number[][], events: [number, string, number, number][] }[] }} page
+ * @returns {Film} */
+export function recorded({ table, balls, shots }) {
+  const names = balls.map(([name]) => name);
+  const filmed = shots.map(({ times, poses, events }, index) => ({
+    time: times[times.length - 1],
+    /** @param {number} time */
+    at(time) {
+      const k = times.findLastIndex((t) => t <= time);
+      const since = time - times[k];
+      return poses.map((pose) => {
+        const moves = pose.length > 10;
+        const [from, to] = moves ? [10 * k, 10 * Math.min(k + 1, times.length - 1)] : [0, 0];
+        const share = to > from ? since / (times[k + 1] - times[k]) : 0;
+        const r = [0, 1, 2].map((c) => pose[from + c] + share * (pose[to + c] - pose[from + c]));
+        // It turns on by its spin.
+        const [w, i, j, n, ...spin] = pose.slice(from + 3, from + 10);
+        const rate = Math.hypot(...spin);
+        const [c, s] = [Math.cos((rate * since) / 2), rate > 0 ? Math.sin((rate * since) / 2) / rate : 0];
+        const [x, y, z] = spin.map((part) => part * s);
+        const q = [c * w - x * i - y * j - z * n, c * i + x * w + y * n - z * j, c * j + y * w + z * i - x * n, c * n + z * w + x * j - y * i];
+        return { r, q, seen: pose[from + 2] >= 0 && (moves || index === 0) };
+      });
+    },
+    paths: poses.flatMap((pose, ball) => (pose.length > 10 ? [{ ball, xyz: pose.filter((_, k) => k % 10 < 3) }] : [])),
+    events: events.map(([time, type, a, b]) => ({ time, text: wordsOf(table, names, type, a, b) })),
+  }));
+  return { table, balls: balls.map(([name, radius]) => ({ name, radius })), shots: filmed, apart: filmed.length > 1 };
+}
