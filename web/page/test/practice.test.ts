@@ -1,6 +1,9 @@
-// Practice in a browser: drills with their counts.
+// Practice in a browser: drills with their counts, and a table from a photo whose camera is known.
 import { describe, expect, test } from "vitest";
-import { browserPath, pages } from "./page.js";
+import { pinhole } from "./camera.js";
+import { browserPath, pages, sizes, violations } from "./page.js";
+
+const [W, L, NOSE, R] = [1.27, 2.54, 0.0366, 0.028575];
 
 describe.runIf(browserPath !== undefined)("practice", () => {
   const { open, text, set } = pages();
@@ -32,6 +35,66 @@ describe.runIf(browserPath !== undefined)("practice", () => {
     await one.locator("#drill").selectOption("Stop shot");
     await one.locator("#drill").selectOption("Short straight pot");
     expect(await text(one, "drill-note")).toContain("Made 1 of 2.");
+    await one.close();
+  });
+
+  test.each(sizes)("four corners and taps on a photo lay the balls within 1 cm: %s", async (_, how) => {
+    const one = await open("", how);
+    const size = [1600, 1200] as const;
+    const see = pinhole(size, [0.5, -1.0, 1.3], [0.635, 1.1, 0], 1200);
+    const balls: [number, number, number, string][] = [[0, 0.4, 0.7, "#f4f2ea"], [1, 0.9, 1.6, "#d8aa08"], [3, 0.3, 2.1, "#bb1330"], [8, 1.1, 1.0, "#191b1e"]];
+    // The photo: cloth and balls as that camera sees them.
+    const picture = await one.evaluate(
+      ({ size, cloth, balls }) => {
+        const canvas = document.createElement("canvas");
+        [canvas.width, canvas.height] = size;
+        const g = canvas.getContext("2d")!;
+        g.fillStyle = "#443322";
+        g.fillRect(0, 0, ...size);
+        g.fillStyle = "#1f6f5c";
+        g.beginPath();
+        for (const at of cloth) g.lineTo(...at);
+        g.fill();
+        for (const { at, radius, hex } of balls) {
+          g.fillStyle = hex;
+          g.beginPath();
+          g.arc(...at, radius, 0, 7);
+          g.fill();
+        }
+        return canvas.toDataURL("image/png").split(",")[1]!;
+      },
+      {
+        size: [...size] as [number, number],
+        cloth: [see(0, 0, NOSE), see(W, 0, NOSE), see(W, L, NOSE), see(0, L, NOSE)].map(([u, v]) => [u, v] as [number, number]),
+        balls: balls.map(([, x, y, hex]) => ({ at: [...see(x, y, R)] as [number, number], radius: Math.hypot(see(x, y, R)[0] - see(x + R, y, R)[0], 1), hex })),
+      },
+    );
+    await one.locator("#new-game").click();
+    await one.locator("#open-photo").click();
+    expect(await violations(one)).toEqual([]);
+    await one.locator("#photo-file").setInputFiles({ name: "table.png", mimeType: "image/png", buffer: Buffer.from(picture, "base64") });
+    await expect.poll(() => text(one, "photo-said")).toContain("Mark the corner head left");
+    const box = (await one.locator("#photo").boundingBox())!;
+    const tap = async (x: number, y: number, z: number): Promise<void> => {
+      const [u, v] = see(x, y, z);
+      const at = [box.x + (u * box.width) / size[0], box.y + (v * box.height) / size[1]] as const;
+      await ("touch" in how ? one.touchscreen.tap(...at) : one.mouse.click(...at));
+    };
+    for (const [x, y] of [[0, 0], [W, 0], [W, L], [0, L]] as const) await tap(x, y, NOSE);
+    await expect.poll(() => text(one, "photo-said")).toContain("Tap the middle of each ball");
+    for (const [, x, y] of balls) await tap(x, y, R);
+    expect(await text(one, "photo-said")).toContain("4 balls");
+    await one.locator("#photo-use").click();
+    const { at } = await one.evaluate(() => JSON.parse(localStorage.getItem("carom-game")!) as { at: string });
+    const places = at.split(" ");
+    let worst = 0;
+    for (const [ball, x, y] of balls) {
+      const [px, py] = places[ball]!.split(",").map(Number) as [number, number];
+      worst = Math.max(worst, Math.hypot(px - x, py - y));
+    }
+    console.log(`a photo of ${Math.round(box.width)} pixels on the page: balls off by at most ${(1000 * worst).toFixed(1)} mm`);
+    expect(places.filter((place) => place !== "in")).toHaveLength(4);
+    expect(worst).toBeLessThan(0.01);
     await one.close();
   });
 });

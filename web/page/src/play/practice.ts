@@ -1,7 +1,9 @@
-// What practice has besides a table: drills with counts, a part of the dialog of a new game.
-import type { Setup, Stroke } from "./game.js";
+// What practice has besides a table: drills with counts, and a table from a photo. Both are parts of the dialog of a new game.
+import type { Stroke } from "./game.js";
+import type { Setup } from "./game.js";
 import { button, choice, el } from "../ui.js";
 import { atOf, count, counts, drillsOf, judge } from "./drills.js";
+import { photoPage } from "./photo_page.js";
 
 declare const DRILLS: string;
 
@@ -9,10 +11,11 @@ export interface Host {
   begin(setup: Setup): void;
 }
 const BALLS = 16;
+const SIZE = [1.27, 2.54] as const;
 /** Practice with the balls of eight-ball. */
-const setupOf = (at: string, drill: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, drill });
+const setupOf = (at: string, drill?: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, ...(drill === undefined ? {} : { drill }) });
 
-export function practice(host: Host): { parts: HTMLElement[]; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean } } {
+export function practice(host: Host): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean } } {
   const drills = drillsOf(DRILLS);
   const of = (name: string): (typeof drills)[number] => {
     const drill = drills.find((one) => one.name === name);
@@ -28,13 +31,28 @@ export function practice(host: Host): { parts: HTMLElement[]; told(name: string)
   function told(): void {
     note.textContent = `${of(which.select.value).text}${made(which.select.value)}`;
   }
+  const close = (): void => start.closest("dialog")!.close();
   const start: HTMLButtonElement = button("Start drill", () => {
-    start.closest("dialog")!.close();
+    close();
     host.begin(setupOf(atOf(of(which.select.value), BALLS), which.select.value));
   }, { id: "start-drill" });
+  const photo = photoPage({
+    names: Array.from({ length: BALLS }, (_, k) => (k === 0 ? "cue" : String(k))),
+    size: SIZE,
+    use: (balls) => host.begin(setupOf(Array.from({ length: BALLS }, (_, k) => balls.get(k)?.map((x) => x.toFixed(4)).join(",") ?? (k === 0 ? "0.635,0.635" : "in")).join(" "))),
+  });
   told();
   return {
-    parts: [el("h3", {}, "Practice"), el("div", { class: "fields" }, which.root), note, el("div", { class: "row" }, start)],
+    parts: [
+      el("h3", {}, "Practice"),
+      el("div", { class: "fields" }, which.root),
+      note,
+      el("div", { class: "row" }, start, button("A table from a photo", () => {
+        close();
+        photo.open();
+      }, { id: "open-photo" })),
+    ],
+    photo: photo.root,
     told: (name) => `${of(name).text}${made(name)}`,
     played(name, { shot }) {
       const is = judge(of(name), shot!);

@@ -92,7 +92,7 @@ function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof d
   const rows = [shut("Link to this game", "copy-game", () => void s.link.send(coarse)), shut("Log of your strokes", "open-log", log.open), shut("Diagram to print", "open-diagram", draw)];
   const games = menu(settings, s.film.pace, { begin: (setup: Setup) => begin(s, setup), changed }, ...s.training.parts, el("h3", {}, "This game"), el("div", { class: "row" }, ...rows));
   s.buttons.menu.addEventListener("click", () => games.open(s.play.setup));
-  return { all: [games.root, log.root, diagram.root], diagram };
+  return { all: [games.root, log.root, diagram.root, s.training.photo], diagram };
 }
 
 export function playView(carom: Carom, main: HTMLElement): { update(): void; theme(): void; close(): void } {

@@ -1,0 +1,129 @@
+// Places on a table from a photo. Four corners of the playing surface, marked where the noses of the cushions would meet, give the homography from the
+// plane of the noses to the picture:
+//     s (u, v, 1) = H (x, y, 1),   H = K (r1, r2, t) up to a factor,
+// with columns r1, r2 of the camera's rotation and its place t. The picture's middle is taken for the principal point and pixels for square, so that
+// K = diag(f, f, 1), and that r1 and r2 are orthogonal and of one length are two equations, linear in 1 / f^2, for one unknown: least squares. Balls have
+// their middles below the noses, by `lower`: the homography of that plane has the third column h3 - lower K r3, r3 = r1 x r2. Seen from right above, f
+// stays unknown, and the plane of the noses is taken: the error is then at most lower / height of the camera, of the distance from the middle.
+
+export type Pixel = readonly [number, number];
+/** Row by row. */
+type Matrix = readonly [number, number, number, number, number, number, number, number, number];
+
+/** The solution of a square system by Gauss, with the largest pivots; undefined where there is none. */
+function solve(rows: number[][]): number[] | undefined {
+  const n = rows.length;
+  for (let k = 0; k < n; k++) {
+    let best = k;
+    for (let i = k + 1; i < n; i++) if (Math.abs(rows[i]![k]!) > Math.abs(rows[best]![k]!)) best = i;
+    [rows[k], rows[best]] = [rows[best]!, rows[k]!];
+    if (Math.abs(rows[k]![k]!) < 1e-12) return undefined;
+    for (let i = 0; i < n; i++) {
+      if (i === k) continue;
+      const factor = rows[i]![k]! / rows[k]![k]!;
+      for (let j = k; j <= n; j++) rows[i]![j]! -= factor * rows[k]![j]!;
+    }
+  }
+  return rows.map((row, k) => row[n]! / row[k]!);
+}
+
+/** The homography that takes four points to four others. */
+function homography(from: readonly Pixel[], to: readonly Pixel[]): Matrix | undefined {
+  const rows = from.flatMap(([x, y], k) => {
+    const [u, v] = to[k]!;
+    return [
+      [x, y, 1, 0, 0, 0, -u * x, -u * y, u],
+      [0, 0, 0, x, y, 1, -v * x, -v * y, v],
+    ];
+  });
+  const found = solve(rows);
+  return found && ([...found, 1] as unknown as Matrix);
+}
+
+function inverse([a, b, c, d, e, f, g, h, i]: Matrix): Matrix {
+  return [e * i - f * h, c * h - b * i, b * f - c * e, f * g - d * i, a * i - c * g, c * d - a * f, d * h - e * g, b * g - a * h, a * e - b * d];
+}
+function apply(m: Matrix, [x, y]: Pixel): Pixel {
+  const w = m[6] * x + m[7] * y + m[8];
+  return [(m[0] * x + m[1] * y + m[2]) / w, (m[3] * x + m[4] * y + m[5]) / w];
+}
+
+export interface Camera {
+  /** Where a ball lies whose middle is seen at a pixel, m. */
+  place(at: Pixel): Pixel;
+  /** Where the middle of a ball at a place is seen. */
+  pixel(place: Pixel): Pixel;
+  /** The focal length, pixels; undefined where the picture does not tell it. */
+  focal: number | undefined;
+}
+
+/**
+ * The camera of a photo with a size, pixels, from the corners of a table in the order 0,0; width,0; width,length; 0,length. `lower`: how far the middles of
+ * balls are below the noses, m. Throws a TypeError where the corners are no table.
+ */
+export function cameraOf([wide, high]: Pixel, corners: readonly Pixel[], [width, length]: Pixel, lower = 0.008): Camera {
+  // Pixels from the middle of the picture, in units of its width: numbers of about 1.
+  const unit = ([u, v]: Pixel): Pixel => [(u - wide / 2) / wide, (v - high / 2) / wide];
+  const seen = corners.map(unit);
+  const turns = seen.map((p, k) => {
+    const [q, r] = [seen[(k + 1) % 4]!, seen[(k + 2) % 4]!];
+    return Math.sign((q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]));
+  });
+  // On a picture, whose v points down, a table that is not mirrored is walked around against the clock.
+  if (!turns.every((turn) => turn === -1)) throw new TypeError("corners: mark them in their order, around the table: head left, head right, foot right, foot left");
+  const H = homography([[0, 0], [width, 0], [width, length], [0, length]], seen);
+  if (!H) throw new TypeError("corners: three of them lie on a line");
+
+  // 1 / f^2 from both equations.
+  const [a1, b1] = [H[0] * H[1] + H[3] * H[4], H[6] * H[7]];
+  const [a2, b2] = [H[0] ** 2 + H[3] ** 2 - H[1] ** 2 - H[4] ** 2, H[6] ** 2 - H[7] ** 2];
+  const inverseSquare = -(a1 * b1 + a2 * b2) / (a1 * a1 + a2 * a2);
+  const focal = inverseSquare > 0.01 && inverseSquare < 25 ? 1 / Math.sqrt(inverseSquare) : undefined;
+
+  // The third axis, and the plane of the middles of balls.
+  let M = H;
+  if (focal !== undefined) {
+    const [r1, r2] = [0, 1].map((k) => [H[k]! / focal, H[3 + k]! / focal, H[6 + k]!]) as [number[], number[]];
+    const size = Math.hypot(...r1);
+    const r3 = [r1[1]! * r2[2]! - r1[2]! * r2[1]!, r1[2]! * r2[0]! - r1[0]! * r2[2]!, r1[0]! * r2[1]! - r1[1]! * r2[0]!].map((x) => x / size);
+    M = [H[0], H[1], H[2] - lower * focal * r3[0]!, H[3], H[4], H[5] - lower * focal * r3[1]!, H[6], H[7], H[8] - lower * r3[2]!];
+  }
+  const back = inverse(M);
+  return {
+    place: (at) => apply(back, unit(at)),
+    pixel(place) {
+      const [u, v] = apply(M, place);
+      return [u * wide + wide / 2, v * wide + high / 2];
+    },
+    focal: focal && focal * wide,
+  };
+}
+
+/** Which ball a patch of a picture looks like, of those that are named: red, green, blue and alpha of its pixels, row by row. */
+export function suggest(patch: ArrayLike<number>, colours: readonly string[]): number {
+  // White pixels make a stripe or the cue ball; the others have the colour, whose hue counts more than its light.
+  let [white, count] = [0, 0];
+  const sum = [0, 0, 0];
+  for (let k = 0; k < patch.length; k += 4) {
+    const rgb = [patch[k]!, patch[k + 1]!, patch[k + 2]!];
+    count++;
+    if (Math.min(...rgb) > 165 && Math.max(...rgb) - Math.min(...rgb) < 45) white++;
+    else rgb.forEach((x, c) => (sum[c]! += x));
+  }
+  const share = white / Math.max(count, 1);
+  if (share > 0.8) return 0;
+  const mean = sum.map((x) => x / Math.max(count - white, 1));
+  const chroma = ([r, g, b]: number[]): number[] => {
+    const light = r! + g! + b! + 60;
+    return [r! / light, g! / light, b! / light, light / 1500];
+  };
+  const of = chroma(mean);
+  let [best, least] = [1, Infinity];
+  colours.forEach((hex, k) => {
+    // Ball k + 1 and ball k + 9 have one colour; ball 8 has no stripe.
+    const other = chroma([1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16)));
+    const far = Math.hypot(...of.map((x, c) => x - other[c]!));
+    if (far < least) [best, least] = [k + 1, far];
+  });
+  return share > 0.3 && best < 8 ? best + 8 : best;
+}
