@@ -1,4 +1,4 @@
-/* `carom-lab learn`: a row of src/plan/learned.h, fitted to racks that are played.
+/* `carom-lab learn`: a row of plan/src/learned.h, fitted to racks that are played.
  *
  * A rack begins after a break, with some balls taken away, and is played until the turn ends and
  * once more by the other, by players whose errors are drawn. Of each layout on the way the sample
@@ -16,8 +16,8 @@
 #include "rack_play.h"
 #include "subcommands.h"
 
-#include "plan/view.h"
 #include "platform/threads.h"
+#include "view.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -348,7 +348,7 @@ static const command_form form = {
     .name = "learn",
     .usage = "[OPTIONS]",
     .about = "Plays racks of a game by plans and fits the chances of value.c to what came of them. "
-             "Prints the row of the game in src/plan/learned.h.\n",
+             "Prints the row of the game in plan/src/learned.h.\n",
     .options = (const option_row *const[]){&learn_rules, &learn_racks, &learn_shots, &learn_seed,
                                            &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",

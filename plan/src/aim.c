@@ -19,9 +19,9 @@
  * A cue that the caller leaves to the stick has in each direction the least elevation of the stick,
  * so a root is the direction of the stroke that is played. That elevation jumps where the butt
  * comes over a cushion; where no other root is left, all directions have the greater elevation. */
-#include "plan/view.h"
 #include "platform/elementary.h"
 #include "table/table.h"
+#include "view.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* What a choice does, by what happens: the events of the first of its strokes, without errors and
  * then with some, in which the ball that is named falls. */
-#include "plan/search.h"
+#include "search.h"
 #include "table/table.h"
 
 typedef carom_search search;

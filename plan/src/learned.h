@@ -1,8 +1,8 @@
 /* Numbers of value.c, fitted to racks that were played: rows of `carom-lab learn`. */
-#ifndef CAROM_SRC_PLAN_LEARNED_H
-#define CAROM_SRC_PLAN_LEARNED_H
+#ifndef CAROM_PLAN_LEARNED_H
+#define CAROM_PLAN_LEARNED_H
 
-#include "plan/view.h"
+#include "view.h"
 
 typedef struct learned {
   double next[NEXT_NUMBERS], later[LATER_NUMBERS], first[FIRST_NUMBERS];

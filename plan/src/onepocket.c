@@ -7,7 +7,7 @@
  * one, and his next ball does not count. On a foul the own pocket does not count, nor any pocket
  * where the cue ball is gone. A third foul in a row loses; of two eighth balls that of the shooter
  * wins. */
-#include "plan/rules.h"
+#include "rules.h"
 
 /* Words of the state. */
 enum { POCKETS = 0, OWN = 2, OTHER = 3, OWED = 5, OWED_OTHER = 6, FOULS = 7 };

@@ -1,6 +1,6 @@
 /* Players: how their strokes differ from those that they mean. */
-#include "plan/view.h"
 #include "shot/shot.h"
+#include "view.h"
 
 #include <math.h>
 

@@ -17,9 +17,9 @@
  *
  * Phi being the normal distribution. All of it is an estimate: a, e and w' are those of a usual
  * layout, and the number of pots K supposes w' each. */
-#include "plan/rules.h"
 #include "platform/elementary.h"
 #include "platform/promise.h"
+#include "rules.h"
 #include "table/spots.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Games as data: who may be met first, what a shot amounts to, how many balls are left. World
  * Standardized Rules of the WPA (2016), sections 2 and 3, with the simplifications that
  * carom_plan.h names. Games of points have files of their own. */
-#include "plan/rules.h"
+#include "rules.h"
 
 #include <stddef.h>
 

@@ -1,9 +1,9 @@
 /* What the games share: turns, sets of balls, and the games that have files of their own. A shot is
  * judged by its facts alone; what depends on places comes after, by settle(). */
-#ifndef CAROM_SRC_PLAN_RULES_H
-#define CAROM_SRC_PLAN_RULES_H
+#ifndef CAROM_PLAN_RULES_H
+#define CAROM_PLAN_RULES_H
 
-#include "plan/view.h"
+#include "view.h"
 
 static const carom_turn carom_keep = {CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 static const carom_turn carom_pass = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0, 0, 0.0};

@@ -1,6 +1,6 @@
 /* The choice: sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013) of the candidates. All
  * of a round have the same errors, so that luck counts less than what they are worth. */
-#include "plan/search.h"
+#include "search.h"
 #include "platform/promise.h"
 
 #include <math.h>

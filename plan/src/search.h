@@ -1,11 +1,11 @@
 /* A search for the best shot on its way, which the parts of a plan share: rows.c plays shots,
  * candidates.c makes strokes, search.c chooses. */
-#ifndef CAROM_SRC_PLAN_SEARCH_H
-#define CAROM_SRC_PLAN_SEARCH_H
+#ifndef CAROM_PLAN_SEARCH_H
+#define CAROM_PLAN_SEARCH_H
 
-#include "plan/view.h"
 #include "platform/threads.h"
 #include "shot/shot.h"
+#include "view.h"
 
 /* Stages of draws. */
 enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_TABLES, DRAW_ROUND = 16 };

@@ -7,7 +7,7 @@
  * and the other plays from the D; by the rules they draw lots. Who comes to the last black more
  * than its seven points ahead claims the frame. A ball that touches the cue ball has to be met, as
  * any. */
-#include "plan/rules.h"
+#include "rules.h"
 #include "table/spots.h"
 
 #include <math.h>

@@ -20,9 +20,9 @@
  * grows; that is
  *
  *     f >= r (sqrt(1 + k^2 sin(theta)^2 - g^2 k^2) - g k^2 sin(theta)) / (1 - g^2 k^2). */
-#include "plan/view.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "view.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
  * each. What falls otherwise comes back. A foul costs one point, the third in a row 15 more and a
  * new break. An opening break pots a called ball, or drives the cue ball and two others to
  * cushions; else it costs two points, and the other may have it played again. */
-#include "plan/rules.h"
+#include "rules.h"
 
 /* Words of the state. */
 enum {

@@ -30,10 +30,10 @@
  * U' being U with the a_n of the mean of this layout. Of games that were played to the end, the
  * log-odds of these values were to be stretched by a number for each game.
  */
-#include "plan/learned.h"
-#include "plan/view.h"
+#include "learned.h"
 #include "platform/elementary.h"
 #include "platform/promise.h"
+#include "view.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* What the parts of this room share: the table as a player sees it, values of layouts, and
  * draws. */
-#ifndef CAROM_SRC_PLAN_VIEW_H
-#define CAROM_SRC_PLAN_VIEW_H
+#ifndef CAROM_PLAN_VIEW_H
+#define CAROM_PLAN_VIEW_H
 
 #include "carom_plan.h"
 #include "platform/arithmetic.h"

@@ -1,8 +1,8 @@
 /* Plans: rules beside shots written down, choices that no thread and no machine changes, chances
  * beside shots that are played, arguments in error. */
 #include "carom_plan.h"
-#include "plan/view.h"
 #include "support.h"
+#include "view.h"
 
 #include <math.h>
 #include <stdio.h>

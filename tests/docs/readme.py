@@ -61,7 +61,7 @@ with tempfile.TemporaryDirectory() as work:
         assert (reader / f"{picture}.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>"), picture
 
     # Installing, from a copy of what a clone has.
-    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "cmake", "cli", "data", "docs", "examples", "include", "src"):
+    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "cmake", "cli", "data", "docs", "examples", "include", "plan", "src"):
         (clone / part).symlink_to(SOURCE / part)
     kept = {name: (SOURCE / name).read_bytes() for name in ("README.md", "CHANGELOG.md")}
     # Then the program, in the same shell, and in a new one; and by CMake, which finds what is beside a folder of the path.
