@@ -1,4 +1,4 @@
-/* `carom-lab learn`: a row of plan/src/learned.h, fitted to racks that are played.
+/* `carom-lab learn`: a row of plan/src/learned_numbers.h, fitted to racks that are played.
  *
  * A rack begins after a break, with some balls taken away, and is played until the turn ends and
  * once more by the other, by players whose errors are drawn. Of each layout on the way the sample
@@ -51,7 +51,7 @@ typedef struct sample {
 /* The layouts of a rack. */
 typedef struct visit {
   int count;
-  sample of[STROKES_MOST + STROKES_MOST * (STROKES_MOST - 1) / 2 + 1];
+  sample samples[STROKES_MOST + STROKES_MOST * (STROKES_MOST - 1) / 2 + 1];
 } visit;
 
 typedef struct block {
@@ -221,17 +221,17 @@ static void play(const learn_job *job, int number, visit *to) {
     if (!lab_rack_stroke(&rack, &choice, &turn))
       break;
     s.kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
-    to->of[to->count++] = s;
+    to->samples[to->count++] = s;
   }
   /* of each pair of strokes the later one, by the mean before the first one */
   const int strokes = to->count;
   for (int k = 0; k < strokes; k++)
     for (int j = k + 1; j < strokes; j++) {
-      sample s = to->of[j];
+      sample s = to->samples[j];
       s.what = LATER;
       s.x[2] = 1.0 / s.left;
-      s.x[3] = to->of[k].x[2];
-      to->of[to->count++] = s;
+      s.x[3] = to->samples[k].x[2];
+      to->samples[to->count++] = s;
     }
   if (turn.is == CAROM_TURN_PASS) {
     carom_choice choice;
@@ -240,7 +240,7 @@ static void play(const learn_job *job, int number, visit *to) {
     s.x[2] = 1.0 / s.left;
     if (lab_rack_stroke(&rack, &choice, &turn)) {
       s.kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
-      to->of[to->count++] = s;
+      to->samples[to->count++] = s;
     }
   }
   free(rack.plan.memory);
@@ -348,7 +348,7 @@ static const command_form form = {
     .name = "learn",
     .usage = "[OPTIONS]",
     .about = "Plays racks of a game by plans and fits the chances of value.c to what came of them. "
-             "Prints the row of the game in plan/src/learned.h.\n",
+             "Prints the row of the game in plan/src/learned_numbers.h.\n",
     .options = (const option_row *const[]){&learn_rules, &learn_racks, &learn_shots, &learn_seed,
                                            &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
@@ -376,7 +376,7 @@ int command_learn(int argc, char **argv) {
     carom_in_threads(play_some, &b, (size_t)many, job.shared.options.threads, 1);
     for (int k = 0; k < many; k++) {
       all = grow(all, &room, count + (size_t)b.visit[k].count, sizeof *all);
-      memcpy(all + count, b.visit[k].of, (size_t)b.visit[k].count * sizeof *all);
+      memcpy(all + count, b.visit[k].samples, (size_t)b.visit[k].count * sizeof *all);
       count += (size_t)b.visit[k].count;
     }
     progress_show("racks", (double)(b.first + many), job.racks);

@@ -56,20 +56,20 @@ void lab_rack_end(lab_rack *rack, int left) {
 }
 
 bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
-  const carom_plan_job *of = &rack->plan;
-  const int count = (int)of->count;
+  const carom_plan_job *job = &rack->plan;
+  const int count = (int)job->count;
   int found;
   rack->options.seed = rack->state.state;
-  const double high[2] = {of->table->width, 0.25 * of->table->length};
+  const double high[2] = {job->table->width, 0.25 * job->table->length};
   const carom_status status =
-      rack->hand ? carom_plan_hand(of, NULL, rack->kitchen ? high : NULL, choice, 1, &found)
-                 : carom_plan(of, choice, 1, &found);
+      rack->hand ? carom_plan_hand(job, NULL, rack->kitchen ? high : NULL, choice, 1, &found)
+                 : carom_plan(job, choice, 1, &found);
   if (status < 0) {
     complain("a plan: %s", carom_status_string(status));
     return false;
   }
   if (rack->hand)
-    carom_place_ball(of->table, rack->balls, count, 0, choice->place[0], choice->place[1], NULL);
+    carom_place_ball(job->table, rack->balls, count, 0, choice->place[0], choice->place[1], NULL);
 
   /* the stroke, with errors */
   carom_facts facts = {.first = {-1, -1}};
@@ -81,10 +81,10 @@ bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
     in_play |= (uint32_t)(final[k].label != CAROM_BALL_POCKETED) << k;
   }
   carom_cue cue = choice->cue;
-  carom_player_strike(of->player, rack->state.state, 0, &cue);
+  carom_player_strike(job->player, rack->state.state, 0, &cue);
   lab_bits(&rack->state); /* the next stroke has other errors */
   if (choice->kind != CAROM_PLAN_PASS)
-    carom_shoot(of->table, rack->balls, count, &cue, of->shot, &played);
+    carom_shoot(job->table, rack->balls, count, &cue, job->shot, &played);
   *turn = rack->rules.judge(rack->rules.user, in_play, 0, &facts,
                             (carom_call){choice->ball, choice->pocket});
 
@@ -94,7 +94,7 @@ bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
     if (final[k].label == CAROM_BALL_OFF)
       rack->balls[k].state.label = CAROM_BALL_POCKETED;
   }
-  carom_turn_settle(&rack->rules, rack->rules.user, of->table, rack->balls, count, turn);
+  carom_turn_settle(&rack->rules, rack->rules.user, job->table, rack->balls, count, turn);
   rack->hand = turn->leave != CAROM_LEAVE_AFTER;
   rack->kitchen = turn->leave == CAROM_LEAVE_KITCHEN;
   return true;

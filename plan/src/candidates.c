@@ -21,28 +21,29 @@ static const double scan_tip[TIPS][2] = {
     {0.0, 0.0}, {0.0, 0.3}, {0.0, -0.3}, {0.25, 0.0}, {-0.25, 0.0}};
 
 /* The speed of the cue that stands for `lossless`, within what the player can do. */
-static double speed_of(const search *of, double lossless) {
-  return carom_within(carom_tip_gain(of->job.cue) * lossless, of->player.speed_least,
-                      of->player.speed_most);
+static double speed_of(const search *plan, double lossless) {
+  return carom_within(carom_tip_gain(plan->job.cue) * lossless, plan->player.speed_least,
+                      plan->player.speed_most);
 }
 
 /* The least elevation of a candidate's stick, or none by a level cue, degrees. */
-static double raised(const search *of, const candidate *c) {
-  const carom_cue cue = {.phi = c->phi, .a = c->a, .b = c->b, .ball = of->cue_ball};
-  return of->options.level ? 0.0
-                           : carom_least_elevation(of->job.table, of->played, (int)of->plays, &cue);
+static double raised(const search *plan, const candidate *c) {
+  const carom_cue cue = {.phi = c->phi, .a = c->a, .b = c->b, .ball = plan->cue_ball};
+  return plan->options.level
+             ? 0.0
+             : carom_least_elevation(plan->job.table, plan->played, (int)plan->plays, &cue);
 }
 
 /* The elevation is the least of the stick, but where the caller gave it, or an aim did. A gentle
  * stroke is added whatever that is. */
-void carom_search_add(search *of, candidate c) {
+void carom_search_add(search *plan, candidate c) {
   const bool given = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
   if (!given && c.kind != CAROM_PLAN_POT)
-    c.theta = raised(of, &c);
+    c.theta = raised(plan, &c);
   const bool played = given || c.kind == CAROM_PLAN_FOUL || c.theta <= STICK_MOST;
-  if (of->count < of->most && played) {
-    c.order = (int32_t)of->count;
-    of->found[of->count++] = c;
+  if (plan->count < plan->most && played) {
+    c.order = (int32_t)plan->count;
+    plan->found[plan->count++] = c;
   }
 }
 
@@ -58,15 +59,15 @@ static double squirt_of(const carom_cue *cue, const carom_ball_kind *kind) {
 
 /* Turns a candidate until the ball that it aims at, hit by the cue ball, goes in its direction phi,
  * degrees, with the cue raised as it has to be. False where it cannot be hit. */
-static bool aim(const search *of, candidate *c) {
+static bool aim(const search *plan, candidate *c) {
   enum { STEPS = 3 };
-  const carom_shot_ball *balls = of->job.balls;
-  carom_shot_ball pair[2] = {balls[of->view.cue_ball], balls[c->aimed_ball]};
+  const carom_shot_ball *balls = plan->job.balls;
+  carom_shot_ball pair[2] = {balls[plan->view.cue_ball], balls[c->aimed_ball]};
   carom_ball_state final[2];
-  carom_shot_options options = of->shot;
+  carom_shot_options options = plan->shot;
   options.stop_at = CAROM_STOP_AT_CONTACT;
   options.first_of = 0;
-  carom_cue alone = *of->job.cue;
+  carom_cue alone = *plan->job.cue;
   alone.ball = 0;
   alone.theta = 0.0;
   alone.speed = c->speed;
@@ -82,13 +83,13 @@ static bool aim(const search *of, candidate *c) {
     alone.phi =
         carom_angle_of(o[0] - both * cosine - r[0], o[1] - both * sine - r[1]) / degree - squirt;
     c->phi = alone.phi;
-    c->theta = alone.theta = raised(of, c);
+    c->theta = alone.theta = raised(plan, c);
     if (c->theta > STICK_MOST)
       return false;
 
     /* throw turns the ball away from the line of centres */
     carom_shot played = {.final = final};
-    if (carom_shoot(of->job.table, pair, 2, &alone, &options, &played) != CAROM_STOPPED_AT_EVENT)
+    if (carom_shoot(plan->job.table, pair, 2, &alone, &options, &played) != CAROM_STOPPED_AT_EVENT)
       return false;
     const double *v = final[1].v;
     if (!(v[0] * v[0] + v[1] * v[1] > 4e-4))
@@ -103,12 +104,12 @@ static bool aim(const search *of, candidate *c) {
 
 /* Aims the candidates; whether that can be done is their outcome. */
 static size_t aim_rows(const void *context, size_t first, size_t end) {
-  const search *of = context;
+  const search *plan = context;
   for (size_t k = first; k < end; k++) {
-    const int64_t row = of->stage.done + (int64_t)k;
-    if (row > 0 && carom_is_stopped(of))
+    const int64_t row = plan->stage.done + (int64_t)k;
+    if (row > 0 && carom_is_stopped(plan))
       return k;
-    of->outcome[row] = (outcome){.is = aim(of, &of->found[row])};
+    plan->outcome[row] = (outcome){.is = aim(plan, &plan->found[row])};
   }
   return end;
 }
@@ -117,12 +118,12 @@ static size_t aim_rows(const void *context, size_t first, size_t end) {
  * the tip changed at a time, and aimed anew. carom-lab plan --racks 1000 --shots 1000 runs out 761
  * racks with them, 740 without; half of these steps, and half as much again, could not be told from
  * them. */
-void carom_search_near(search *of, int64_t parents) {
+void carom_search_near(search *plan, int64_t parents) {
   enum { WAYS = 6 };
   static const double faster = 1.2, farther = 0.15; /* radii */
   for (int64_t k = 0; k < parents; k++)
     for (int way = 0; way < WAYS; way++) {
-      candidate c = of->found[k];
+      candidate c = plan->found[k];
       if (c.kind != CAROM_PLAN_POT && c.kind != CAROM_PLAN_SCAN)
         continue;
       const bool more = way % 2 == 1;
@@ -130,39 +131,40 @@ void carom_search_near(search *of, int64_t parents) {
       c.speed = way > 1 ? c.speed : more ? c.speed * faster : c.speed / faster;
       c.a += way / 2 != 1 ? 0.0 : more ? farther : -farther;
       c.b += way / 2 != 2 ? 0.0 : more ? farther : -farther;
-      c.speed = carom_within(c.speed, of->player.speed_least, of->player.speed_most);
-      c.a = carom_within(c.a, -of->player.tip_most, of->player.tip_most);
-      c.b = carom_within(c.b, -of->player.tip_most, of->player.tip_most);
+      c.speed = carom_within(c.speed, plan->player.speed_least, plan->player.speed_most);
+      c.a = carom_within(c.a, -plan->player.tip_most, plan->player.tip_most);
+      c.b = carom_within(c.b, -plan->player.tip_most, plan->player.tip_most);
       if (c.kind == CAROM_PLAN_POT) {
-        c.phi = of->view.window[c.aimed_ball][c.aimed_pocket].psi / degree;
-        if (!aim(of, &c))
+        c.phi = plan->view.window[c.aimed_ball][c.aimed_pocket].psi / degree;
+        if (!aim(plan, &c))
           continue;
       }
-      carom_search_add(of, c);
+      carom_search_add(plan, c);
     }
 }
 
 /* The numbers below `count` in an order that is drawn. */
-static void draw_order(const search *of, uint32_t stage, int *order, int count) {
+static void draw_order(const search *plan, uint32_t stage, int *order, int count) {
   for (int n = 0; n < count; n++) {
-    const int other = (int)(carom_uniform(of->options.seed, stage, (uint64_t)n, 0) * (n + 1));
+    const int other = (int)(carom_uniform(plan->options.seed, stage, (uint64_t)n, 0) * (n + 1));
     order[n] = order[other];
     order[other] = n;
   }
 }
 
 /* Direct pots, the likeliest first, each with all strokes, or as many as there is room for. */
-void carom_search_pots(search *of, int64_t most) {
-  carom_pot_found *way = of->pot;
+void carom_search_pots(search *plan, int64_t most) {
+  carom_pot_found *way = plan->pot;
   int ways = 0;
-  for (int k = 0; k < of->view.count; k++)
-    of->state[k] = of->job.balls[k].state;
-  for (int k = 0; k < of->view.count; k++)
-    for (int p = 0; p < of->view.pockets && (of->on >> k & 1); p++) {
+  for (int k = 0; k < plan->view.count; k++)
+    plan->state[k] = plan->job.balls[k].state;
+  for (int k = 0; k < plan->view.count; k++)
+    for (int p = 0; p < plan->view.pockets && (plan->on >> k & 1); p++) {
       /* ball k into pocket p, if that is likely at all */
-      if (!(of->pockets >> p & 1))
+      if (!(plan->pockets >> p & 1))
         continue;
-      const carom_way w = carom_way_of(&of->view, of->state, of->in_play, k, p, 0, false, 0.03);
+      const carom_way w =
+          carom_way_of(&plan->view, plan->state, plan->in_play, k, p, 0, false, 0.03);
       if (w.chance == 0.0)
         continue;
       int at = ways++; /* sorted in */
@@ -173,7 +175,7 @@ void carom_search_pots(search *of, int64_t most) {
 
   /* The strokes in an order that is drawn, so that few of them are of all kinds. */
   int order[STROKES];
-  draw_order(of, DRAW_STROKES, order, STROKES);
+  draw_order(plan, DRAW_STROKES, order, STROKES);
   CAROM_PROMISE(ways <= CAROM_BALLS_MOST * CAROM_POCKETS_MOST);
   const int64_t fit = most / STROKES > 4 ? most / STROKES : 4;
   ways = ways > fit ? (int)fit : ways;
@@ -186,39 +188,40 @@ void carom_search_pots(search *of, int64_t most) {
     for (int n = 0; n < strokes; n++) {
       const double *tip = pot_tip[order[n] % TIPS];
       carom_search_add(
-          of, (candidate){.speed = speed_of(of, pot_speed[order[n] / TIPS]),
-                          .phi = way[w].way.psi / degree,
-                          .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
-                          .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
-                          .kind = CAROM_PLAN_POT,
-                          .aimed_ball = (int16_t)way[w].ball,
-                          .aimed_pocket = (int16_t)way[w].pocket});
+          plan,
+          (candidate){.speed = speed_of(plan, pot_speed[order[n] / TIPS]),
+                      .phi = way[w].way.psi / degree,
+                      .a = carom_within(tip[0], -plan->player.tip_most, plan->player.tip_most),
+                      .b = carom_within(tip[1], -plan->player.tip_most, plan->player.tip_most),
+                      .kind = CAROM_PLAN_POT,
+                      .aimed_ball = (int16_t)way[w].ball,
+                      .aimed_pocket = (int16_t)way[w].pocket});
     }
-  of->stage = (carom_stage){.work = aim_rows, .rows = of->count};
+  plan->stage = (carom_stage){.work = aim_rows, .rows = plan->count};
 }
 
 /* Those that cannot be aimed are dropped. */
-void carom_search_aimed(search *of) {
-  of->count = 0;
-  for (int64_t k = 0; k < of->stage.done; k++)
-    if (of->outcome[k].is)
-      carom_search_add(of, of->found[k]);
+void carom_search_aimed(search *plan) {
+  plan->count = 0;
+  for (int64_t k = 0; k < plan->stage.done; k++)
+    if (plan->outcome[k].is)
+      carom_search_add(plan, plan->found[k]);
 }
 
 /* Breaks: the nearest balls that are on, full and a little beside their middle, at three speeds
  * with three tips; up to `most` of these strokes, in an order that is drawn. */
-void carom_search_breaks(search *of, int64_t most) {
+void carom_search_breaks(search *plan, int64_t most) {
   enum { TARGETS = 3, SIDES = 5, SPEEDS = 3, HEIGHTS = 3 };
   static const double side[SIDES] = {0.0, 0.05, -0.05, 0.15, -0.15}; /* radii of both balls */
   static const double share[SPEEDS] = {1.0, 0.85, 0.7}, above[HEIGHTS] = {0.0, 0.2, -0.2};
-  const double *c = of->job.balls[of->view.cue_ball].state.r;
+  const double *c = plan->job.balls[plan->view.cue_ball].state.r;
 
   /* the nearest balls, sorted in */
   double distance[TARGETS + 1];
   int ball[TARGETS + 1], balls = 0;
-  for (int k = 0; k < of->view.count; k++) {
-    const double *r = of->job.balls[k].state.r, x = r[0] - c[0], y = r[1] - c[1];
-    if (!(of->on >> k & 1))
+  for (int k = 0; k < plan->view.count; k++) {
+    const double *r = plan->job.balls[k].state.r, x = r[0] - c[0], y = r[1] - c[1];
+    if (!(plan->on >> k & 1))
       continue;
     const double d = sqrt(x * x + y * y);
     int at = balls < TARGETS ? balls++ : TARGETS;
@@ -233,80 +236,81 @@ void carom_search_breaks(search *of, int64_t most) {
   /* strokes in an order that is drawn: a number stands for ball, side, speed and tip */
   int order[TARGETS * SIDES * SPEEDS * HEIGHTS];
   const int strokes = balls * SIDES * SPEEDS * HEIGHTS;
-  draw_order(of, DRAW_BREAKS, order, strokes);
+  draw_order(plan, DRAW_BREAKS, order, strokes);
   for (int n = 0; n < strokes && n < most; n++) {
     const int target = order[n] % balls, stroke = order[n] / balls;
-    const double *r = of->job.balls[ball[target]].state.r;
+    const double *r = plan->job.balls[ball[target]].state.r;
 
     /* aimed beside the middle of the ball, by a part of both radii */
-    const double both = of->view.radius[of->view.cue_ball] + of->view.radius[ball[target]];
+    const double both = plan->view.radius[plan->view.cue_ball] + plan->view.radius[ball[target]];
     const double beside = both * side[stroke % SIDES] / distance[target];
     const double phi =
         (carom_angle_of(r[0] - c[0], r[1] - c[1]) + carom_asin(carom_within(beside, -1.0, 1.0))) /
         degree;
 
     /* as hard as the player can, or somewhat less */
-    const double speed = share[stroke / SIDES % SPEEDS] * of->player.speed_most;
+    const double speed = share[stroke / SIDES % SPEEDS] * plan->player.speed_most;
     const double tip = above[stroke / SIDES / SPEEDS];
     carom_search_add(
-        of, (candidate){.speed = carom_within(speed, of->player.speed_least, of->player.speed_most),
-                        .phi = phi < 0.0 ? phi + 360.0 : phi,
-                        .b = carom_within(tip, -of->player.tip_most, of->player.tip_most),
-                        .kind = CAROM_PLAN_BREAK});
+        plan,
+        (candidate){.speed = carom_within(speed, plan->player.speed_least, plan->player.speed_most),
+                    .phi = phi < 0.0 ? phi + 360.0 : phi,
+                    .b = carom_within(tip, -plan->player.tip_most, plan->player.tip_most),
+                    .kind = CAROM_PLAN_BREAK});
   }
 }
 
 /* Strokes in all directions, of which those stay that meet a ball first that is on. The directions
  * follow the golden ratio, so that however many are tried, they are spread evenly. */
-bool carom_search_scan(search *of) {
+bool carom_search_scan(search *plan) {
   /* in blocks that are sooner made than a plan has to stop */
   enum { LEAST = 16, MOST = 4096 };
-  const int64_t block = (int64_t)carom_within((double)of->scan / 2.0, LEAST, MOST);
-  if (of->tried >= 4 * of->scan || of->count >= of->scan_end || carom_is_stopped(of))
+  const int64_t block = (int64_t)carom_within((double)plan->scan / 2.0, LEAST, MOST);
+  if (plan->tried >= 4 * plan->scan || plan->count >= plan->scan_end || carom_is_stopped(plan))
     return false;
-  const double begin = carom_uniform(of->options.seed, DRAW_SCAN, 0, 0);
-  const int64_t first = of->count, end = of->tried + block;
-  for (; of->tried < end && of->count < of->most; of->tried++) {
+  const double begin = carom_uniform(plan->options.seed, DRAW_SCAN, 0, 0);
+  const int64_t first = plan->count, end = plan->tried + block;
+  for (; plan->tried < end && plan->count < plan->most; plan->tried++) {
     /* a direction, and a speed and a tip that are drawn */
-    const uint64_t row = (uint64_t)of->tried + 1;
-    double turn = begin + 0.61803398874989485 * (double)of->tried;
+    const uint64_t row = (uint64_t)plan->tried + 1;
+    double turn = begin + 0.61803398874989485 * (double)plan->tried;
     turn -= floor(turn);
     const int speed =
-        (int)((double)SCAN_SPEEDS * carom_uniform(of->options.seed, DRAW_SCAN, row, 0));
+        (int)((double)SCAN_SPEEDS * carom_uniform(plan->options.seed, DRAW_SCAN, row, 0));
     const double *tip =
-        scan_tip[(int)((double)TIPS * carom_uniform(of->options.seed, DRAW_SCAN, row, 1))];
+        scan_tip[(int)((double)TIPS * carom_uniform(plan->options.seed, DRAW_SCAN, row, 1))];
     double drawn[2];
-    if (of->view.pockets == 0) { /* any place, since its side decides where cushions send it */
-      const double turned = 2.0 * pi * carom_uniform(of->options.seed, DRAW_SCAN, row, 2);
+    if (plan->view.pockets == 0) { /* any place, since its side decides where cushions send it */
+      const double turned = 2.0 * pi * carom_uniform(plan->options.seed, DRAW_SCAN, row, 2);
       const double far =
-          of->player.tip_most * sqrt(carom_uniform(of->options.seed, DRAW_SCAN, row, 1));
+          plan->player.tip_most * sqrt(carom_uniform(plan->options.seed, DRAW_SCAN, row, 1));
       carom_sincos(turned, &drawn[0], &drawn[1]);
       drawn[0] *= far;
       drawn[1] *= far;
       tip = drawn;
     }
-    const bool pushes = (of->may & CAROM_MAY_PUSH) && of->tried % 2 == 1;
+    const bool pushes = (plan->may & CAROM_MAY_PUSH) && plan->tried % 2 == 1;
     carom_search_add(
-        of, (candidate){.speed = speed_of(of, scan_speed[speed]),
-                        .phi = 360.0 * turn,
-                        .a = carom_within(tip[0], -of->player.tip_most, of->player.tip_most),
-                        .b = carom_within(tip[1], -of->player.tip_most, of->player.tip_most),
-                        .kind = pushes ? CAROM_PLAN_PUSH : CAROM_PLAN_SCAN});
+        plan, (candidate){.speed = speed_of(plan, scan_speed[speed]),
+                          .phi = 360.0 * turn,
+                          .a = carom_within(tip[0], -plan->player.tip_most, plan->player.tip_most),
+                          .b = carom_within(tip[1], -plan->player.tip_most, plan->player.tip_most),
+                          .kind = pushes ? CAROM_PLAN_PUSH : CAROM_PLAN_SCAN});
   }
-  of->tried = end;
-  carom_search_stage(of, first, of->count - first, 1, 0);
+  plan->tried = end;
+  carom_search_stage(plan, first, plan->count - first, 1, 0);
   return true;
 }
 
 /* Those that begin with a foul are dropped, and those that are more than the scan has. */
-void carom_search_scanned(search *of) {
-  const int64_t first = of->stage.first, added = of->stage.done;
-  CAROM_PROMISE(added <= of->count - first);
-  of->count = first;
-  for (int64_t k = 0; k < added && of->count < of->scan_end; k++)
-    if (of->found[first + k].kind == CAROM_PLAN_PUSH ||
-        carom_search_begins_well(of, of->outcome[k].first)) {
-      carom_search_add(of, of->found[first + k]);
-      carom_search_take(of, of->count - 1, &of->outcome[k]);
+void carom_search_scanned(search *plan) {
+  const int64_t first = plan->stage.first, added = plan->stage.done;
+  CAROM_PROMISE(added <= plan->count - first);
+  plan->count = first;
+  for (int64_t k = 0; k < added && plan->count < plan->scan_end; k++)
+    if (plan->found[first + k].kind == CAROM_PLAN_PUSH ||
+        carom_search_begins_well(plan, plan->outcome[k].first)) {
+      carom_search_add(plan, plan->found[first + k]);
+      carom_search_take(plan, plan->count - 1, &plan->outcome[k]);
     }
 }

@@ -31,26 +31,26 @@ static int way_of(const carom_table *table, const carom_shot *shot, int cue_ball
   return -1;
 }
 
-int32_t carom_search_kind(search *of, const carom_candidate *c, const carom_choice *choice) {
-  enum { TRIES = 8, EVENTS = sizeof of->event / sizeof of->event[0] };
+int32_t carom_search_kind(search *plan, const carom_candidate *c, const carom_choice *choice) {
+  enum { TRIES = 8, EVENTS = sizeof plan->event / sizeof plan->event[0] };
   if (choice->kind != CAROM_PLAN_SCAN)
     return choice->kind;
   if (choice->ball < 0)
     return CAROM_PLAN_SAFETY;
   int ball = 0;
-  while (of->which[ball] != choice->ball)
+  while (plan->which[ball] != choice->ball)
     ball++;
   for (int64_t n = 0; n < TRIES; n++) {
     carom_facts facts;
-    carom_shot shot = {.brief = of->event, .room = EVENTS, .facts = &facts};
+    carom_shot shot = {.brief = plan->event, .room = EVENTS, .facts = &facts};
     const uint32_t draws = n == 0 ? 0 : DRAW_ROUND;
-    carom_cue cue = carom_search_stroke(of, c, draws, n);
+    carom_cue cue = carom_search_stroke(plan, c, draws, n);
     carom_layout layout;
-    const carom_table *table = carom_search_table(of, draws, n, &layout);
-    cue.ball = of->cue_ball;
-    carom_shoot_prepared(table, &of->features, layout, of->plays, &cue, &of->shot, &shot);
-    const int kind = of->view.pockets > 0
-                         ? way_of(of->job.table, &shot, of->cue_ball, ball, choice->pocket)
+    const carom_table *table = carom_search_table(plan, draws, n, &layout);
+    cue.ball = plan->cue_ball;
+    carom_shoot_prepared(table, &plan->features, layout, plan->plays, &cue, &plan->shot, &shot);
+    const int kind = plan->view.pockets > 0
+                         ? way_of(plan->job.table, &shot, plan->cue_ball, ball, choice->pocket)
                      : facts.first[0] != ball || facts.first[1] < 0 ? -1
                      : facts.cushions_before[0] > 0                 ? CAROM_PLAN_KICK
                                                                     : CAROM_PLAN_CAROM;

@@ -53,9 +53,7 @@ typedef struct carom_way {
 /* Of a shot in error, and of none: no ball was met. */
 extern const carom_facts carom_no_facts;
 
-/* value.c */
-void carom_view_make(carom_view *view, const carom_plan_job *job,
-                     const carom_plan_options *options);
+/* pots.c */
 carom_mouth carom_mouth_of(const carom_table *table, int pocket);
 /* Of a ball of radius R at o. */
 carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double R);
@@ -63,7 +61,8 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
  * anywhere. A chance of at most `least` is told as 0. */
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                        int k, int pocket, int who, bool in_hand, double least);
-/* What a chance to pot is made of, the numbers of learned.h: 1; view->log_error; the mean of the
+/* chances.c */
+/* What a chance to pot is made of, the numbers of learned_numbers.h: 1; view->log_error; the mean of the
  * best pots of the balls of `targets`; the best pot; that of the next best ball; whether one ball
  * is left; whether the cue ball is in hand. For later pots of a visit they are 1, view->log_error,
  * 1 / the balls that are left then, and the mean; for the first after a turn of the other those but
@@ -72,21 +71,28 @@ enum { NEXT_NUMBERS = 7, LATER_NUMBERS = 4, FIRST_NUMBERS = 3 };
 void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                          uint32_t targets, uint32_t pockets, int who, bool in_hand,
                          double x[NEXT_NUMBERS]);
-/* The chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
-double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
-                      int who, bool in_hand);
-uint32_t carom_in_play(const carom_ball_state *balls, int count);
 /* Chances of the next pot, by carom_plan_features(); of a later one with n balls left, in a layout
  * with this mean; of the first of a visit. */
 double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]);
 double carom_chance_later(const carom_view *view, int who, double mean, int n);
 double carom_chance_first(const carom_view *view, int who, int n);
+/* The mean over the balls of a usual layout. */
+double carom_chance_usual(const carom_view *view);
+/* A value with its log-odds stretched. */
+double carom_stretched(const carom_view *view, double value);
 
+/* value.c */
+void carom_view_make(carom_view *view, const carom_plan_job *job,
+                     const carom_plan_options *options);
+/* The chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
+double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
+                      int who, bool in_hand);
+uint32_t carom_in_play(const carom_ball_state *balls, int count);
 /* points.c: the chance that player `who` wins a race for points. */
 double carom_points_value(const carom_view *view, const uint64_t *user,
                           const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand);
 
-/* uniform.c: elementary functions beyond platform/elementary.h, and random numbers that are a
+/* draws.c: elementary functions beyond platform/elementary.h, and random numbers that are a
  * function of where they stand. */
 /* of a vector, -pi to pi, rad */
 double carom_angle_of(double x, double y);

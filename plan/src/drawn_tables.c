@@ -26,26 +26,26 @@ static double times(double number, double factor) {
   return product < 1.0 ? product : number < 1.0 ? 1.0 : number;
 }
 
-void carom_search_tables(carom_search *of, carom_drawn_table *room) {
-  of->drawn = room;
+void carom_search_tables(carom_search *plan, carom_drawn_table *room) {
+  plan->drawn = room;
   for (int k = 0; k < TABLES; k++) {
     double z[6], factor[NUMBERS];
-    carom_normals(of->options.seed, DRAW_TABLES, (uint64_t)k / 2, z);
+    carom_normals(plan->options.seed, DRAW_TABLES, (uint64_t)k / 2, z);
     for (int n = 0; n < NUMBERS; n++)
-      factor[n] = carom_exp(of->options.unsure * spread[n] * (k % 2 == 0 ? z[n] : -z[n]));
+      factor[n] = carom_exp(plan->options.unsure * spread[n] * (k % 2 == 0 ? z[n] : -z[n]));
 
     /* the numbers of the balls; and those that a rail or a jaw has of its own, which are 0 where it
      * has none */
     carom_drawn_table *to = &room[k];
-    for (int ball = 0; ball < of->plays; ball++) {
+    for (int ball = 0; ball < plan->plays; ball++) {
       carom_ball_kind *kind = &to->kind[ball];
-      *kind = of->played[ball].kind;
+      *kind = plan->played[ball].kind;
       kind->restitution_cushion = times(kind->restitution_cushion, factor[RESTITUTION]);
       kind->mu_cushion = times(kind->mu_cushion, factor[FRICTION]);
       kind->mu_roll = times(kind->mu_roll, factor[ROLLING]);
       kind->mu_slide = times(kind->mu_slide, factor[SLIDING]);
     }
-    to->table = *of->job.table;
+    to->table = *plan->job.table;
     for (int r = 0; r < to->table.rails; r++) {
       carom_rail *rail = &to->table.rail[r];
       rail->restitution = times(rail->restitution, factor[RESTITUTION]);
@@ -59,12 +59,12 @@ void carom_search_tables(carom_search *of, carom_drawn_table *room) {
   }
 }
 
-const carom_table *carom_search_table(const carom_search *of, uint32_t draws, int64_t row,
+const carom_table *carom_search_table(const carom_search *plan, uint32_t draws, int64_t row,
                                       carom_layout *layout) {
-  *layout = carom_layout_of(of->played);
-  if (draws == 0 || of->drawn == NULL)
-    return of->job.table;
-  const carom_drawn_table *drawn = &of->drawn[(row + 8 * (int64_t)draws) % TABLES];
+  *layout = carom_layout_of(plan->played);
+  if (draws == 0 || plan->drawn == NULL)
+    return plan->job.table;
+  const carom_drawn_table *drawn = &plan->drawn[(row + 8 * (int64_t)draws) % TABLES];
   layout->kind = drawn->kind;
   layout->kind_step = sizeof drawn->kind[0];
   return &drawn->table;

@@ -1,6 +1,6 @@
 /* Numbers of value.c, fitted to racks that were played: rows of `carom-lab learn`. */
-#ifndef CAROM_PLAN_LEARNED_H
-#define CAROM_PLAN_LEARNED_H
+#ifndef CAROM_PLAN_LEARNED_NUMBERS_H
+#define CAROM_PLAN_LEARNED_NUMBERS_H
 
 #include "view.h"
 
