@@ -1,9 +1,9 @@
-/* Chances that a player keeps his turn, by the numbers of learned_numbers.h, which were fitted to racks that
- * were played: p that he does so now, by a pot of any kind, a_n that he pots a later ball of this
- * visit where n are left, and e_n that he keeps the turn that the other has left him. All are
- * 1 / (1 + exp(-w x)), with x as carom_plan_features() has it. The numbers are nine-ball's where
- * both have the same balls, one-pocket's where each has pockets of his own, those of snooker or
- * straight pool in races for points, else eight-ball's. */
+/* Chances that a player keeps his turn, by the numbers of learned_numbers.h, which were fitted to
+ * racks that were played: p that he does so now, by a pot of any kind, a_n that he pots a later
+ * ball of this visit where n are left, and e_n that he keeps the turn that the other has left him.
+ * All are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it. The numbers are nine-ball's
+ * where both have the same balls, one-pocket's where each has pockets of his own, those of snooker
+ * or straight pool in races for points, else eight-ball's. */
 #include "learned_numbers.h"
 #include "platform/elementary.h"
 #include "view.h"

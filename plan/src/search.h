@@ -13,8 +13,8 @@ enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_TABLES, D
 enum { PLACES_PLANNED = 6 }; /* of a cue ball in hand */
 enum { ROWS_LEAST = 4 };     /* rows worth a thread */
 
-/* A stroke that may be chosen, and what its shots have told. `sum`, `squares`, `keep`, `foul`, `lose`
- * and `seen` count the shots with errors. Until there is one, they hold the shot without errors. */
+/* A stroke that may be chosen, and what its shots have told. `sum`, `squares`, `keep`, `foul`,
+ * `lose` and `seen` count the shots with errors. Until there is one, they hold the shot without. */
 typedef struct carom_candidate {
   double speed, phi, theta, a, b; /* as in carom_cue */
   double sum, squares;            /* of the worths of its shots, and of their squares */
