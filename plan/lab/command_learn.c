@@ -82,7 +82,7 @@ static sample look(const lab_rack *rack) {
   carom_plan_features(&view, state, in_play, rack->rules.on(rack->rules.user, in_play),
                       rack->rules.pockets != NULL ? rack->rules.pockets(rack->rules.user)
                                                   : ~UINT32_C(0),
-                      who, rack->hand, s.x);
+                      who, rack->hand, NULL, s.x);
   int32_t left[2];
   rack->rules.left(rack->rules.user, in_play, left);
   s.left = rack->rules.race == CAROM_RACE_POINTS ? objects_of(in_play) : left[0];

@@ -20,10 +20,12 @@ static const double scan_speed[SCAN_SPEEDS] = {1.0, 1.8, 3.0, 5.0, 7.5};
 static const double scan_tip[TIPS][2] = {
     {0.0, 0.0}, {0.0, 0.3}, {0.0, -0.3}, {0.25, 0.0}, {-0.25, 0.0}};
 
-/* The speed of the cue that stands for `lossless`, within what the player can do. */
-static double speed_of(const search *plan, double lossless) {
-  return carom_within(carom_tip_gain(plan->job.cue) * lossless, plan->player.speed_least,
-                      plan->player.speed_most);
+/* Keeps a stroke within what the player can do. */
+static void bound(const search *plan, candidate *c) {
+  const carom_player *player = &plan->player;
+  c->speed = carom_within(c->speed, player->speed_least, player->speed_most);
+  c->a = carom_within(c->a, -player->tip_most, player->tip_most);
+  c->b = carom_within(c->b, -player->tip_most, player->tip_most);
 }
 
 /* The least elevation of a candidate's stick, or none by a level cue, degrees. */
@@ -38,6 +40,8 @@ static double raised(const search *plan, const candidate *c) {
  * stroke is added whatever that is. */
 void carom_search_add(search *plan, candidate c) {
   const bool given = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
+  if (!given)
+    bound(plan, &c);
   if (!given && c.kind != CAROM_PLAN_POT)
     c.theta = raised(plan, &c);
   const bool played = given || c.kind == CAROM_PLAN_FOUL || c.theta <= STICK_MOST;
@@ -131,9 +135,7 @@ void carom_search_near(search *plan, int64_t parents) {
       c.speed = way > 1 ? c.speed : more ? c.speed * faster : c.speed / faster;
       c.a += way / 2 != 1 ? 0.0 : more ? farther : -farther;
       c.b += way / 2 != 2 ? 0.0 : more ? farther : -farther;
-      c.speed = carom_within(c.speed, plan->player.speed_least, plan->player.speed_most);
-      c.a = carom_within(c.a, -plan->player.tip_most, plan->player.tip_most);
-      c.b = carom_within(c.b, -plan->player.tip_most, plan->player.tip_most);
+      bound(plan, &c);
       if (c.kind == CAROM_PLAN_POT) {
         c.phi = plan->view.window[c.aimed_ball][c.aimed_pocket].psi / degree;
         if (!aim(plan, &c))
@@ -183,19 +185,17 @@ void carom_search_pots(search *plan, int64_t most) {
                                                               : share < 3     ? 3
                                                                               : share;
 
-  /* each stroke within what the player can do */
   for (int w = 0; w < ways; w++)
     for (int n = 0; n < strokes; n++) {
       const double *tip = pot_tip[order[n] % TIPS];
       carom_search_add(
-          plan,
-          (candidate){.speed = speed_of(plan, pot_speed[order[n] / TIPS]),
-                      .phi = way[w].way.psi / degree,
-                      .a = carom_within(tip[0], -plan->player.tip_most, plan->player.tip_most),
-                      .b = carom_within(tip[1], -plan->player.tip_most, plan->player.tip_most),
-                      .kind = CAROM_PLAN_POT,
-                      .aimed_ball = (int16_t)way[w].ball,
-                      .aimed_pocket = (int16_t)way[w].pocket});
+          plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * pot_speed[order[n] / TIPS],
+                            .phi = way[w].way.psi / degree,
+                            .a = tip[0],
+                            .b = tip[1],
+                            .kind = CAROM_PLAN_POT,
+                            .aimed_ball = (int16_t)way[w].ball,
+                            .aimed_pocket = (int16_t)way[w].pocket});
     }
   plan->stage = (carom_stage){.work = aim_rows, .rows = plan->count};
 }
@@ -251,12 +251,10 @@ void carom_search_breaks(search *plan, int64_t most) {
     /* as hard as the player can, or somewhat less */
     const double speed = share[stroke / SIDES % SPEEDS] * plan->player.speed_most;
     const double tip = above[stroke / SIDES / SPEEDS];
-    carom_search_add(
-        plan,
-        (candidate){.speed = carom_within(speed, plan->player.speed_least, plan->player.speed_most),
-                    .phi = phi < 0.0 ? phi + 360.0 : phi,
-                    .b = carom_within(tip, -plan->player.tip_most, plan->player.tip_most),
-                    .kind = CAROM_PLAN_BREAK});
+    carom_search_add(plan, (candidate){.speed = speed,
+                                       .phi = phi < 0.0 ? phi + 360.0 : phi,
+                                       .b = tip,
+                                       .kind = CAROM_PLAN_BREAK});
   }
 }
 
@@ -290,12 +288,11 @@ bool carom_search_scan(search *plan) {
       tip = drawn;
     }
     const bool pushes = (plan->may & CAROM_MAY_PUSH) && plan->tried % 2 == 1;
-    carom_search_add(
-        plan, (candidate){.speed = speed_of(plan, scan_speed[speed]),
-                          .phi = 360.0 * turn,
-                          .a = carom_within(tip[0], -plan->player.tip_most, plan->player.tip_most),
-                          .b = carom_within(tip[1], -plan->player.tip_most, plan->player.tip_most),
-                          .kind = pushes ? CAROM_PLAN_PUSH : CAROM_PLAN_SCAN});
+    carom_search_add(plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * scan_speed[speed],
+                                       .phi = 360.0 * turn,
+                                       .a = tip[0],
+                                       .b = tip[1],
+                                       .kind = pushes ? CAROM_PLAN_PUSH : CAROM_PLAN_SCAN});
   }
   plan->tried = end;
   carom_search_stage(plan, first, plan->count - first, 1, 0);

@@ -59,7 +59,7 @@ double carom_chance_first(const carom_view *view, int who, int n) {
 
 void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                          uint32_t targets, uint32_t pockets, int who, bool in_hand,
-                         double x[NEXT_NUMBERS]) {
+                         double each[CAROM_BALLS_MOST], double x[NEXT_NUMBERS]) {
   /* the best pot of each ball */
   double best = 0.0, second = 0.0, sum = 0.0;
   int count = 0;
@@ -79,12 +79,10 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
     /* the two best of all balls */
     count++;
     sum += likeliest;
-    if (likeliest > best) {
-      second = best;
-      best = likeliest;
-    } else if (likeliest > second) {
-      second = likeliest;
-    }
+    second = likeliest > best ? best : likeliest > second ? likeliest : second;
+    best = likeliest > best ? likeliest : best;
+    if (each != NULL)
+      each[k] = likeliest;
   }
 
   const double is[NEXT_NUMBERS] = {1.0,

@@ -40,18 +40,14 @@ carom_player carom_player_bounded(const carom_player *player, const carom_cue *c
   return bounded;
 }
 
-static double within(double x, double least, double most) {
-  return x < least ? least : x > most ? most : x;
-}
-
 void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue) {
   const double share = player->speed_share * cue->speed;
   const double speed = sqrt(player->speed * player->speed + share * share);
-  cue->speed = within(cue->speed + z[0] * speed, player->speed_least, player->speed_most);
+  cue->speed = carom_within(cue->speed + z[0] * speed, player->speed_least, player->speed_most);
   cue->phi += z[1] * player->phi;
-  cue->theta = within(cue->theta + z[2] * player->theta, 0.0, 90.0);
-  cue->a = within(cue->a + z[3] * player->a, -player->tip_most, player->tip_most);
-  cue->b = within(cue->b + z[4] * player->b, -player->tip_most, player->tip_most);
+  cue->theta = carom_within(cue->theta + z[2] * player->theta, 0.0, 90.0);
+  cue->a = carom_within(cue->a + z[3] * player->a, -player->tip_most, player->tip_most);
+  cue->b = carom_within(cue->b + z[4] * player->b, -player->tip_most, player->tip_most);
 }
 
 void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t number,

@@ -63,29 +63,20 @@ static double value_from(const carom_view *view, const uint64_t *user,
   const double n = left[0], m = left[1];
 
   /* the pot of each ball; the most is made by the one of `chosen` */
-  double x[NEXT_NUMBERS], best = 0.0, second = 0.0, sum = 0.0, chosen = 0.0, w = each, most = -1.0;
-  int count = 0;
+  double x[NEXT_NUMBERS], pot[CAROM_BALLS_MOST], chosen = 0.0, w = each, most = -1.0;
+  carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, pot, x);
   for (int k = 0; targets >> k != 0; k++) {
-    if (!(targets >> k & 1))
-      continue;
-    carom_plan_features(view, balls, in_play, UINT32_C(1) << k, pockets, who, in_hand, x);
-    const double chance = x[3],
-                 points = rules->points != NULL ? rules->points(user, in_play, k) : 1.0;
-    count++;
-    sum += chance;
-    second = chance > best ? best : chance > second ? chance : second;
-    best = chance > best ? chance : best;
-    if (chance * (points + each) > most) {
-      most = chance * (points + each);
-      chosen = chance;
+    const bool on = targets >> k & 1;
+    const double points = on && rules->points != NULL ? rules->points(user, in_play, k) : 1.0;
+    if (on && pot[k] * (points + each) > most) {
+      most = pot[k] * (points + each);
+      chosen = pot[k];
       w = points;
     }
   }
-  const double mean = count > 0 ? sum / count : 0.0;
+  const double mean = x[2], best = x[3];
   const int objects = carom_count_of(in_play & ~(UINT32_C(1) << view->cue_ball));
-  const double is[NEXT_NUMBERS] = {
-      1.0, view->log_error[who], mean, best, second, count == 1 ? 1.0 : 0.0, in_hand ? 1.0 : 0.0};
-  const double p = carom_chance_next(view, is) * (best > 0.0 ? chosen / best : 1.0);
+  const double p = carom_chance_next(view, x) * (best > 0.0 ? chosen / best : 1.0);
 
   /* this visit */
   const visits own = visits_of(view, who, mean, objects, each),

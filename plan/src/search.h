@@ -125,9 +125,6 @@ typedef struct carom_search {
   carom_candidate best;           /* and the stroke from there */
 } carom_search;
 
-static inline double carom_within(double x, double least, double most) {
-  return x < least ? least : x > most ? most : x;
-}
 static inline bool carom_is_stopped(const carom_search *plan) {
   return plan->options.stop != NULL && *plan->options.stop != 0;
 }

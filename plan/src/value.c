@@ -98,7 +98,7 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
     left[k] = given[k] < 1 ? 1 : given[k] > most ? most : given[k];
   CAROM_PROMISE(who == 0 || who == 1);
   double x[NEXT_NUMBERS];
-  carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, x);
+  carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, NULL, x);
   const double p = carom_chance_next(view, x);
 
   /* the visit, ball by ball: how likely it is to come so far, and what a miss there is worth */

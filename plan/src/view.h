@@ -10,6 +10,10 @@
 
 static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
 
+static inline double carom_within(double x, double least, double most) {
+  return x < least ? least : x > most ? most : x;
+}
+
 enum { MOST_LEFT = 15 }; /* balls of a player that a chain counts */
 
 /* Two jaws, between which the way into a pocket is. */
@@ -66,11 +70,11 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
  * of the best pots of the balls of `targets`; the best pot; that of the next best ball; whether one
  * ball is left; whether the cue ball is in hand. For later pots of a visit they are 1,
  * view->log_error, 1 / the balls that are left then, and the mean; for the first after a turn of
- * the other those but the mean. */
+ * the other those but the mean. each[k] becomes the best pot of ball k, where it is not NULL. */
 enum { NEXT_NUMBERS = 7, LATER_NUMBERS = 4, FIRST_NUMBERS = 3 };
 void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                          uint32_t targets, uint32_t pockets, int who, bool in_hand,
-                         double x[NEXT_NUMBERS]);
+                         double each[CAROM_BALLS_MOST], double x[NEXT_NUMBERS]);
 /* Chances of the next pot, by carom_plan_features(); of a later one with n balls left, in a layout
  * with this mean; of the first of a visit. */
 double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]);
