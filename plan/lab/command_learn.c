@@ -30,8 +30,8 @@ typedef struct learn_job {
   int rules, racks, shots, seed;
 } learn_job;
 
-OPTION(learn_job, learn_rules, "rules", rules, 0, "eightball|nineball|straight|snooker|onepocket",
-       set_choice, 0, "the game (default eightball)");
+OPTION(learn_job, learn_rules, "rules", rules, 0, LAB_GAMES, set_choice, 0,
+       "the game (default eightball)");
 
 OPTION(learn_job, learn_racks, "racks", racks, 0, "N", set_count, 10,
        "racks to be played (default 100000)");
@@ -89,37 +89,6 @@ static sample look(const lab_rack *rack) {
   return s;
 }
 
-/* The games, in the order of the option. Balls are taken away of one group after the other. */
-static const struct {
-  carom_rules_kind rules, broken; /* the one that has its break */
-  carom_table_kind table;
-  carom_game balls_of;
-  int groups, first[2], balls;
-} games[] = {
-    {CAROM_RULES_EIGHTBALL,
-     CAROM_RULES_EIGHTBALL,
-     CAROM_TABLE_POOLTOOL,
-     CAROM_GAME_POOL,
-     2,
-     {1, 9},
-     7},
-    {CAROM_RULES_NINEBALL, CAROM_RULES_NINEBALL, CAROM_TABLE_POOLTOOL, CAROM_GAME_POOL, 1, {1}, 8},
-    {CAROM_RULES_STRAIGHT,
-     CAROM_RULES_EIGHTBALL,
-     CAROM_TABLE_POOL_9FT,
-     CAROM_GAME_POOL,
-     1,
-     {1},
-     13},
-    {CAROM_RULES_SNOOKER, CAROM_RULES_SNOOKER, CAROM_TABLE_SNOOKER, CAROM_GAME_SNOOKER, 1, {1}, 15},
-    {CAROM_RULES_ONEPOCKET,
-     CAROM_RULES_ONEPOCKET,
-     CAROM_TABLE_POOL_9FT,
-     CAROM_GAME_POOL,
-     1,
-     {1},
-     13}};
-
 static void take_away(lab_rack *rack, int ball) {
   rack->balls[ball].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
 }
@@ -172,44 +141,37 @@ static void play(const learn_job *job, int number, visit *to) {
   static const double errors[] = {0.25, 0.5, 1.0, 2.0, 3.0, 4.5};
   enum { PLAYERS = sizeof errors / sizeof errors[0], SOLIDS = 1 };
   lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
-  carom_table table;
-  carom_table_make(games[job->rules].table, &table);
-  const carom_cue cue = carom_cue_of(games[job->rules].balls_of);
-  const carom_player player = carom_player_of(errors[(int)lab_uniform(&draw, 0.0, PLAYERS)]);
-  const carom_shot_options shot = {.space = CAROM_SPACE_FLAT};
+  const lab_game *game = &lab_games[job->rules];
+  const double scale = errors[(int)lab_uniform(&draw, 0.0, PLAYERS)];
   lab_rack rack = {.options = {.shots = job->shots}};
-  rack.plan = (carom_plan_job){.table = &table,
-                               .cue = &cue,
-                               .player = &player,
-                               .shot = &shot,
-                               .memory_size = carom_plan_memory(&rack.options)};
-  rack.plan.memory = allocate(1, rack.plan.memory_size);
-  lab_rack_make(&rack, games[job->rules].broken, lab_bits(&draw));
-  if (games[job->rules].broken != games[job->rules].rules)
-    rack.rules = carom_plan_rules_of(games[job->rules].rules);
-  const bool snooker = games[job->rules].rules == CAROM_RULES_SNOOKER,
-             onepocket = games[job->rules].rules == CAROM_RULES_ONEPOCKET;
+  lab_rack_begin(&rack, game, scale);
+  const bool snooker = game->rules == CAROM_RULES_SNOOKER,
+             onepocket = game->rules == CAROM_RULES_ONEPOCKET,
+             straight = game->rules == CAROM_RULES_STRAIGHT;
+  lab_rack_make(&rack, straight ? CAROM_RULES_EIGHTBALL : game->rules, lab_bits(&draw));
+  rack.rules = straight ? carom_plan_rules_of(CAROM_RULES_STRAIGHT) : rack.rules;
   if (snooker)
     open_snooker(&rack, &draw);
   if (onepocket)
     open_rack(&rack, &draw, 1.0, 8.0);
 
   /* some balls are down; the cue ball is anywhere, or in hand once in eight */
-  const int balls = games[job->rules].balls;
+  const int balls = game->balls;
   if (job->rules == 0)
     rack.rules.user[0] = SOLIDS;
-  for (int group = 0; group < games[job->rules].groups; group++)
+  for (int group = 0; group < (job->rules == 0 ? 2 : 1); group++)
     for (int left = (int)lab_uniform(&draw, 0.0, balls + 1); left > 0; left--) {
-      const int k = games[job->rules].first[group] + (int)lab_uniform(&draw, 0.0, balls);
+      const int k = 1 + 8 * group + (int)lab_uniform(&draw, 0.0, balls);
       take_away(&rack, k);
     }
   if (onepocket)
     share_out(&rack, &draw);
   double x, y;
   do {
-    x = lab_uniform(&draw, 0.0, table.width);
-    y = lab_uniform(&draw, 0.0, table.length);
-  } while (carom_place_ball(&table, rack.balls, (int)rack.plan.count, 0, x, y, NULL) != CAROM_OK);
+    x = lab_uniform(&draw, 0.0, rack.table.width);
+    y = lab_uniform(&draw, 0.0, rack.table.length);
+  } while (carom_place_ball(&rack.table, rack.balls, (int)rack.plan.count, 0, x, y, NULL) !=
+           CAROM_OK);
   rack.hand = lab_bits(&draw) % 8 == 0 && !snooker;
 
   /* until the turn ends, and the other's first stroke */
@@ -329,7 +291,7 @@ static void print_numbers(const sample *s, size_t count, chance_of what, int n, 
 }
 
 static void print_row(const learn_job *job, const sample *s, size_t count) {
-  const char *game = carom_rules_name(games[job->rules].rules);
+  const char *game = carom_rules_name(lab_games[job->rules].rules);
   double mean = 0.0;
   long strokes = 0;
   for (size_t k = 0; k < count; k++)

@@ -23,8 +23,7 @@ typedef struct strength_job {
   double errors, unsure;
 } strength_job;
 
-OPTION(strength_job, option_rules, "rules", rules, 0,
-       "eightball|nineball|straight|snooker|onepocket", set_choice, 0,
+OPTION(strength_job, option_rules, "rules", rules, 0, LAB_GAMES, set_choice, 0,
        "the game (default eightball). straight, snooker and onepocket are played from their racks, "
        "by two players");
 OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
@@ -83,14 +82,11 @@ static void end_rack(bin *bins, int count) {
   }
 }
 
-static const carom_rules_kind games_of[] = {CAROM_RULES_EIGHTBALL, CAROM_RULES_NINEBALL,
-                                            CAROM_RULES_STRAIGHT, CAROM_RULES_SNOOKER,
-                                            CAROM_RULES_ONEPOCKET};
-
 /* One rack: strokes until the turn is not kept, or until the game is won. */
 static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
-  lab_rack_make(rack, games_of[job->rules], ((uint64_t)job->seed << 32) + 7919 * (number + 1));
-  if (games_of[job->rules] == CAROM_RULES_STRAIGHT)
+  const carom_rules_kind rules = lab_games[job->rules].rules;
+  lab_rack_make(rack, rules, ((uint64_t)job->seed << 32) + 7919 * (number + 1));
+  if (rules == CAROM_RULES_STRAIGHT)
     rack->rules.user[0] = (uint64_t)job->target;
   if (job->left > 0)
     lab_rack_end(rack, job->left);
@@ -224,34 +220,20 @@ int command_plan(int argc, char **argv) {
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
-  carom_table table;
-  const bool snooker = games_of[job.rules] == CAROM_RULES_SNOOKER,
-             racked = games_of[job.rules] >= CAROM_RULES_STRAIGHT;
+  const bool racked = lab_games[job.rules].rules >= CAROM_RULES_STRAIGHT;
   if (racked && job.left > 0) {
     complain("--left is of eight-ball");
     return EXIT_USAGE;
   }
   job.games |= racked;
-  carom_table_make(snooker  ? CAROM_TABLE_SNOOKER
-                   : racked ? CAROM_TABLE_POOL_9FT
-                            : CAROM_TABLE_POOLTOOL,
-                   &table);
-  const carom_cue cue = carom_cue_of(snooker ? CAROM_GAME_SNOOKER : CAROM_GAME_POOL);
-  const carom_player player = carom_player_of(job.errors);
-  const carom_shot_options shot = {.space = CAROM_SPACE_FLAT};
   static lab_rack rack;
   rack.options = (carom_plan_options){
       .shots = job.shots, .threads = job.shared.options.threads, .unsure = job.unsure};
-  rack.plan = (carom_plan_job){.table = &table,
-                               .cue = &cue,
-                               .player = &player,
-                               .shot = &shot,
-                               .memory_size = carom_plan_memory(&rack.options)};
-  if (rack.plan.memory_size == 0) {
+  if (carom_plan_memory(&rack.options) == 0) {
     complain("--shots: it must be 100 to 1000000; --unsure: 0 to 1");
     return EXIT_USAGE;
   }
-  rack.plan.memory = allocate(1, rack.plan.memory_size);
+  lab_rack_begin(&rack, &lab_games[job.rules], job.errors);
   static tally t;
   for (; t.racks < job.racks; t.racks++) {
     play(&job, (uint64_t)t.racks, &rack, &t);

@@ -1,6 +1,26 @@
 /* Racks and breaks, and strokes by plans. */
 #include "rack_play.h"
+#include "memory.h"
 #include "message.h"
+
+const lab_game lab_games[] = {{CAROM_RULES_EIGHTBALL, CAROM_TABLE_POOLTOOL, CAROM_GAME_POOL, 7},
+                              {CAROM_RULES_NINEBALL, CAROM_TABLE_POOLTOOL, CAROM_GAME_POOL, 8},
+                              {CAROM_RULES_STRAIGHT, CAROM_TABLE_POOL_9FT, CAROM_GAME_POOL, 13},
+                              {CAROM_RULES_SNOOKER, CAROM_TABLE_SNOOKER, CAROM_GAME_SNOOKER, 15},
+                              {CAROM_RULES_ONEPOCKET, CAROM_TABLE_POOL_9FT, CAROM_GAME_POOL, 13}};
+
+void lab_rack_begin(lab_rack *rack, const lab_game *game, double errors) {
+  carom_table_make(game->table, &rack->table);
+  rack->cue = carom_cue_of(game->balls_of);
+  rack->player = carom_player_of(errors);
+  rack->shot = (carom_shot_options){.space = CAROM_SPACE_FLAT};
+  rack->plan = (carom_plan_job){.table = &rack->table,
+                                .cue = &rack->cue,
+                                .player = &rack->player,
+                                .shot = &rack->shot,
+                                .memory_size = carom_plan_memory(&rack->options)};
+  rack->plan.memory = allocate(1, rack->plan.memory_size);
+}
 
 void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
   const carom_rack_kind kind = game == CAROM_RULES_NINEBALL  ? CAROM_RACK_NINEBALL
