@@ -309,7 +309,7 @@ static void print_row(const learn_job *job, const sample *s, size_t count) {
 static const command_form form = {
     .name = "learn",
     .usage = "[OPTIONS]",
-    .about = "Plays racks of a game by plans and fits the chances of value.c to what came of them. "
+    .about = "Plays racks of a game by plans and fits the chances of pots to what came of them. "
              "Prints the row of the game in plan/src/learned_numbers.h.\n",
     .options = (const option_row *const[]){&learn_rules, &learn_racks, &learn_shots, &learn_seed,
                                            &option_threads, NULL},

@@ -33,7 +33,8 @@ typedef struct lab_rack {
   bool kitchen; /* and behind the head string */
 } lab_rack;
 
-/* The job for a game, by the rack's options and the errors of a player; its memory is to be freed. */
+/* The job for a game, by the options of the rack and the errors of a player; its memory is to be
+ * freed. */
 void lab_rack_begin(lab_rack *rack, const lab_game *game, double errors);
 /* The layout after the first break of a seed that pots nothing, with the cue ball in hand. Of
  * straight pool, snooker and one-pocket the rack before it: it is a stroke of the game. */

@@ -8,7 +8,7 @@
  *
  * v being its velocity just before anything ends this last piece: a jaw, a cushion, the pocket,
  * or rest. o is the place on the line of v that is as far from the pocket as the place of the
- * last link. psi, of value.c, is the middle of the directions from there that pass the jaws. So
+ * last link. psi, of pots.c, is the middle of the directions from there that pass the jaws. So
  * a path may curve on its way.
  *
  * Directions that do most links are few: the range of phi is sampled, and shrinks to those, as

@@ -1,4 +1,4 @@
-/* Numbers of value.c, fitted to racks that were played: rows of `carom-lab learn`. */
+/* Numbers of chances.c, fitted to racks that were played: rows of `carom-lab learn`. */
 #ifndef CAROM_PLAN_LEARNED_NUMBERS_H
 #define CAROM_PLAN_LEARNED_NUMBERS_H
 

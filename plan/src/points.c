@@ -1,7 +1,7 @@
 /* Values of layouts in games of points.
  *
  * The player at the table needs n points, the other one m. Of the balls that are on the one whose
- * pot is worth most is taken: with the chance p, as value.c has it, it makes w points, and each
+ * pot is worth most is taken: with the chance p, as chances.c has it, it makes w points, and each
  * later pot w' with the chance a. A visit that goes on to the end, K pots, wins with the chance
  * q = p a^(K - 1); in the mean a visit makes
  *
@@ -49,7 +49,7 @@ static double normal(double x) {
   return x < 0.0 ? 0.5 - e : 0.5 + e;
 }
 
-/* From where the cue ball lies, or as value.c has a cue ball in hand. */
+/* From where the cue ball lies, or as pots.c has a cue ball in hand. */
 static double value_from(const carom_view *view, const uint64_t *user,
                          const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
   const carom_plan_rules *rules = view->rules;

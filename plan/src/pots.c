@@ -57,13 +57,8 @@ static bool is_clear(const carom_view *view, const carom_ball_state *balls, uint
   d[1] /= length;
   in_play &= ~(UINT32_C(1) << i | UINT32_C(1) << j);
   for (int k = 0; in_play >> k != 0; k++) {
-    if (!(in_play >> k & 1))
-      continue;
-    const double x = balls[k].r[0] - p[0], y = balls[k].r[1] - p[1], least = R + view->radius[k];
-    double along = x * d[0] + y * d[1];
-    along = along < 0.0 ? 0.0 : along > length ? length : along;
-    const double off[2] = {x - along * d[0], y - along * d[1]};
-    if (off[0] * off[0] + off[1] * off[1] < least * least)
+    const double to[2] = {balls[k].r[0] - p[0], balls[k].r[1] - p[1]};
+    if ((in_play >> k & 1) && carom_is_near_way(to, d, length, R + view->radius[k]))
       return false;
   }
   return true;

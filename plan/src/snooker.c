@@ -196,14 +196,9 @@ static bool is_barred(const carom_shot_ball *balls, uint32_t by, const double c[
   const double length = sqrt(d * d - both * both), cosine = length / d, sine = side * both / d;
   const double u[2] = {(x * cosine - y * sine) / d, (x * sine + y * cosine) / d};
   for (int n = 1; by >> n != 0; n++) {
-    if (!(by >> n & 1) || n == k)
-      continue;
-    const double p = balls[n].state.r[0] - c[0], q = balls[n].state.r[1] - c[1];
-    double along = p * u[0] + q * u[1];
-    along = along < 0.0 ? 0.0 : along > length ? length : along;
-    const double off[2] = {p - along * u[0], q - along * u[1]},
-                 least = balls[0].kind.radius + balls[n].kind.radius;
-    if (off[0] * off[0] + off[1] * off[1] < least * least)
+    const double to[2] = {balls[n].state.r[0] - c[0], balls[n].state.r[1] - c[1]};
+    if ((by >> n & 1) && n != k &&
+        carom_is_near_way(to, u, length, balls[0].kind.radius + balls[n].kind.radius))
       return true;
   }
   return false;

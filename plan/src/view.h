@@ -14,6 +14,15 @@ static inline double carom_within(double x, double least, double most) {
   return x < least ? least : x > most ? most : x;
 }
 
+/* Whether a point, `to` from where a way begins, is nearer than `least` to the way: so long, in the
+ * direction u. */
+static inline bool carom_is_near_way(const double to[2], const double u[2], double length,
+                                     double least) {
+  const double along = carom_within(to[0] * u[0] + to[1] * u[1], 0.0, length);
+  const double off[2] = {to[0] - along * u[0], to[1] - along * u[1]};
+  return off[0] * off[0] + off[1] * off[1] < least * least;
+}
+
 enum { MOST_LEFT = 15 }; /* balls of a player that a chain counts */
 
 /* Two jaws, between which the way into a pocket is. */
