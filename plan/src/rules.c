@@ -181,18 +181,14 @@ static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball,
 /* ---- Three-cushion */
 
 static void threecushion_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
-  (void)user;
-  (void)in_play;
+  (void)user, (void)in_play;
   left[0] = left[1] = 1;
 }
 
 /* A point: before the cue ball meets the second ball, it meets three cushions. */
 static carom_turn threecushion_judge(uint64_t *user, uint32_t in_play, int cue_ball,
                                      const carom_facts *facts, carom_call call) {
-  (void)user;
-  (void)in_play;
-  (void)cue_ball;
-  (void)call;
+  (void)user, (void)in_play, (void)cue_ball, (void)call;
   const bool off = facts->off != 0;
   if (off || facts->first[1] < 0 || facts->cushions_before[1] < 3)
     return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, off ? CAROM_FOUL_OFF : 0, 0, 0.0};
@@ -204,10 +200,7 @@ static carom_turn threecushion_judge(uint64_t *user, uint32_t in_play, int cue_b
 /* What follows is not estimated. */
 static double threecushion_value(const uint64_t *user, const carom_ball_state *layout, int count,
                                  int in_hand) {
-  (void)user;
-  (void)layout;
-  (void)count;
-  (void)in_hand;
+  (void)user, (void)layout, (void)count, (void)in_hand;
   return 0.0;
 }
 

@@ -7,16 +7,7 @@
 #include "rules.h"
 
 /* Words of the state. */
-enum {
-  TARGET = 0,
-  BREAK = 1,
-  POTS = 2,
-  POTS_OTHER = 3,
-  MAY = 4,
-  LOST = 5,
-  LOST_OTHER = 6,
-  FOULS = 7
-};
+enum { TARGET, BREAK, POTS, POTS_OTHER, MAY, LOST, LOST_OTHER, FOULS };
 enum { FOULS_MOST = 3, MANY_FOULS = 15, BAD_BREAK = 2, RACKED = 14, LAST_BALL = 15 };
 static const uint32_t all = 0xfffe;
 

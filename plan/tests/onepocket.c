@@ -96,7 +96,7 @@ TEST(onepocket_rulings) {
     of.left(of.user, c->in_play, needs);
     for (int who = 0; who < 2; who++)
       ck_assert_msg(needs[who] == 8 - c->balls[who] + c->owed[who], "%s: left", c->what);
-    const carom_turn turn = of.judge(of.user, c->in_play, 0, &facts, (carom_call){NO_CALL, -1});
+    const carom_turn turn = of.judge(of.user, c->in_play, 0, &facts, (carom_call){NONE, -1});
     const int other = c->is == PASS ? 1 : 0;
     ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
     for (int who = 0; who < 2; who++)

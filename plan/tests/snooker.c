@@ -14,76 +14,71 @@ typedef struct snooker_case {
 
 static const snooker_case snooker[] = {
     {"a red", ALL, 0, 0, 1, R1, 0, 1, KEEP, AFTER, 0, 1, 0, 0, 1, 0},
-    {"two reds", ALL, 0, 0, 3, R1 | R2, 0, NO_CALL, KEEP, AFTER, 0, 2, 0, 0, 1, 0},
+    {"two reds", ALL, 0, 0, 3, R1 | R2, 0, NONE, KEEP, AFTER, 0, 2, 0, 0, 1, 0},
     {"a miss at the reds", ALL, 0, 0, 1, 0, 0, 1, PASS, AFTER, 0, 0, 0, 0, 0, 0},
-    {"a red without a cushion is none", ALL, 0, 0, 2, 0, 0, NO_CALL, PASS, AFTER, 0, 0, 0, 0, 0, 0},
-    {"no ball, on reds", ALL, 0, 0, -1, 0, 0, NO_CALL, PASS, AFTER, NO_BALL, 0, 4, 0, 0, MAY_PASS},
-    {"the yellow first, on reds", ALL, 0, 0, YELLOW, 0, 0, 1, PASS, AFTER, FIRST, 0, 4, 0, 0,
-     MAY_PASS},
-    {"the black first, on reds", ALL, 0, 0, BLACK, 0, 0, 1, PASS, AFTER, FIRST, 0, 7, 0, 0,
-     MAY_PASS},
-    {"the black falls, on reds", ALL, 0, 0, 1, BK, 0, 1, PASS, AFTER, POT, 0, 7, BK, 0, MAY_PASS},
-    {"a red and the blue", ALL, 0, 0, 1, R1 | BL, 0, 1, PASS, AFTER, POT, 0, 5, BL, 0, MAY_PASS},
+    {"a red without a cushion is none", ALL, 0, 0, 2, 0, 0, NONE, PASS, AFTER, 0, 0, 0, 0, 0, 0},
+    {"no ball, on reds", ALL, 0, 0, -1, 0, 0, NONE, PASS, AFTER, NO_BALL, 0, 4, 0, 0, MAY},
+    {"the yellow first, on reds", ALL, 0, 0, YELLOW, 0, 0, 1, PASS, AFTER, FIRST, 0, 4, 0, 0, MAY},
+    {"the black first, on reds", ALL, 0, 0, BLACK, 0, 0, 1, PASS, AFTER, FIRST, 0, 7, 0, 0, MAY},
+    {"the black falls, on reds", ALL, 0, 0, 1, BK, 0, 1, PASS, AFTER, POT, 0, 7, BK, 0, MAY},
+    {"a red and the blue", ALL, 0, 0, 1, R1 | BL, 0, 1, PASS, AFTER, POT, 0, 5, BL, 0, MAY},
     {"a red and the cue ball", ALL, 0, 0, 1, R1 | 1, 0, 1, PASS, D, CUE_BALL, 0, 4, 0, 0,
-     MAY_PASS | HAND},
+     MAY | HAND},
     {"the cue ball leaves the table", ALL, 0, 0, 1, 0, 1, 1, PASS, D, CUE_BALL, 0, 4, 0, 0,
-     MAY_PASS | HAND},
-    {"a red leaves the table", ALL, 0, 0, 1, 0, R2, 1, PASS, AFTER, OFF, 0, 4, 0, 0, MAY_PASS},
-    {"the pink leaves the table", ALL, 0, 0, 1, 0, PI, 1, PASS, AFTER, OFF, 0, 6, PI, 0, MAY_PASS},
+     MAY | HAND},
+    {"a red leaves the table", ALL, 0, 0, 1, 0, R2, 1, PASS, AFTER, OFF, 0, 4, 0, 0, MAY},
+    {"the pink leaves the table", ALL, 0, 0, 1, 0, PI, 1, PASS, AFTER, OFF, 0, 6, PI, 0, MAY},
 
     {"the black after a red", ALL & ~R1, 1, 0, BLACK, BK, 0, BLACK, KEEP, AFTER, 0, 7, 0, BK, 0, 0},
-    {"a colour without a call", ALL & ~R1, 1, 0, BLUE, BL, 0, NO_CALL, KEEP, AFTER, 0, 5, 0, BL, 0,
-     0},
+    {"a colour without a call", ALL & ~R1, 1, 0, BLUE, BL, 0, NONE, KEEP, AFTER, 0, 5, 0, BL, 0, 0},
     {"another colour than named", ALL & ~R1, 1, 0, BLUE, BL, 0, BLACK, PASS, AFTER, FIRST, 0, 7, BL,
-     0, MAY_PASS},
+     0, MAY},
     {"the black first, the yellow named", ALL & ~R1, 1, 0, BLACK, 0, 0, YELLOW, PASS, AFTER, FIRST,
-     0, 7, 0, 0, MAY_PASS},
+     0, 7, 0, 0, MAY},
     {"a red first, the yellow named", ALL & ~R1, 1, 0, 2, 0, 0, YELLOW, PASS, AFTER, FIRST, 0, 4, 0,
-     0, MAY_PASS},
+     0, MAY},
     {"two colours", ALL & ~R1, 1, 0, GREEN, G | PI, 0, GREEN, PASS, AFTER, POT, 0, 6, G | PI, 0,
-     MAY_PASS},
+     MAY},
     {"a red with the colour", ALL & ~R1, 1, 0, GREEN, G | R2, 0, GREEN, PASS, AFTER, POT, 0, 4, G,
-     0, MAY_PASS},
+     0, MAY},
     {"the cue ball with the black", ALL & ~R1, 1, 0, BLACK, BK | 1, 0, BLACK, PASS, D, CUE_BALL, 0,
-     7, BK, 0, MAY_PASS | HAND},
+     7, BK, 0, MAY | HAND},
     {"a miss at the colour", ALL & ~R1, 1, 0, PINK, 0, 0, PINK, PASS, AFTER, 0, 0, 0, 0, 0, 0},
     {"no ball, the brown named", ALL & ~R1, 1, 0, -1, 0, 0, BROWN, PASS, AFTER, NO_BALL, 0, 4, 0, 0,
-     MAY_PASS},
-    {"no ball, none named", ALL & ~R1, 1, 0, -1, 0, 0, NO_CALL, PASS, AFTER, NO_BALL, 0, 7, 0, 0,
-     MAY_PASS},
+     MAY},
+    {"no ball, none named", ALL & ~R1, 1, 0, -1, 0, 0, NONE, PASS, AFTER, NO_BALL, 0, 7, 0, 0, MAY},
     {"a colour after the last red", COLOURS | 1, 1, 0, YELLOW, Y, 0, YELLOW, KEEP, AFTER, 0, 2, 0,
      Y, 0, 0},
 
     {"the yellow in order", COLOURS | 1, 0, 0, YELLOW, Y, 0, YELLOW, KEEP, AFTER, 0, 2, 0, 0, 0, 0},
     {"the green too early", COLOURS | 1, 0, 0, GREEN, G, 0, GREEN, PASS, AFTER, FIRST, 0, 4, G, 0,
-     MAY_PASS},
-    {"the green in order", (COLOURS & ~Y) | 1, 0, 0, GREEN, G, 0, NO_CALL, KEEP, AFTER, 0, 3, 0, 0,
-     0, 0},
+     MAY},
+    {"the green in order", (COLOURS & ~Y) | 1, 0, 0, GREEN, G, 0, NONE, KEEP, AFTER, 0, 3, 0, 0, 0,
+     0},
     {"the brown with the green", (COLOURS & ~Y) | 1, 0, 0, GREEN, G | BR, 0, GREEN, PASS, AFTER,
-     POT, 0, 4, G | BR, 0, MAY_PASS},
-    {"no ball, the pink on", PI | BK | 1, 0, 0, -1, 0, 0, NO_CALL, PASS, AFTER, NO_BALL, 0, 6, 0, 0,
-     MAY_PASS},
+     POT, 0, 4, G | BR, 0, MAY},
+    {"no ball, the pink on", PI | BK | 1, 0, 0, -1, 0, 0, NONE, PASS, AFTER, NO_BALL, 0, 6, 0, 0,
+     MAY},
 
-    {"a free ball, potted", ALL, 0, MAY_PASS | FREE, BROWN, BR, 0, BROWN, KEEP, AFTER, 0, 1, 0, BR,
-     1, 0},
+    {"a free ball, potted", ALL, 0, MAY | FREE, BROWN, BR, 0, BROWN, KEEP, AFTER, 0, 1, 0, BR, 1,
+     0},
     {"a free ball and a red", ALL, 0, FREE, BROWN, BR | R1, 0, BROWN, KEEP, AFTER, 0, 2, 0, BR, 1,
      0},
     {"a red by a free ball", ALL, 0, FREE, BROWN, R1, 0, BROWN, KEEP, AFTER, 0, 1, 0, 0, 1, 0},
     {"the red, with a free ball", ALL, 0, FREE, 1, R1, 0, 1, KEEP, AFTER, 0, 1, 0, 0, 1, 0},
     {"a red first, the brown named", ALL, 0, FREE, 1, R1, 0, BROWN, PASS, AFTER, FIRST, 0, 4, 0, 0,
-     MAY_PASS},
+     MAY},
     {"the black as a free ball, missed", ALL, 0, FREE, -1, 0, 0, BLACK, PASS, AFTER, NO_BALL, 0, 4,
-     0, 0, MAY_PASS},
+     0, 0, MAY},
     {"another colour with the free ball", ALL, 0, FREE, BROWN, BR | PI, 0, BROWN, PASS, AFTER, POT,
-     0, 6, BR | PI, 0, MAY_PASS},
+     0, 6, BR | PI, 0, MAY},
     {"a free ball for the yellow", COLOURS | 1, 0, FREE, BLACK, BK, 0, BLACK, KEEP, AFTER, 0, 2, 0,
      BK, 0, 0},
     {"both, of colours", COLOURS | 1, 0, FREE, BLACK, BK | Y, 0, BLACK, KEEP, AFTER, 0, 2, 0, BK, 0,
      0},
     {"the yellow by a free ball", COLOURS | 1, 0, FREE, BLACK, Y, 0, BLACK, KEEP, AFTER, 0, 2, 0, 0,
      0, 0},
-    {"a free ball without a call", ALL, 0, FREE, BLUE, BL, 0, NO_CALL, KEEP, AFTER, 0, 1, 0, BL, 1,
-     0},
+    {"a free ball without a call", ALL, 0, FREE, BLUE, BL, 0, NONE, KEEP, AFTER, 0, 1, 0, BL, 1, 0},
 };
 
 TEST(snooker_rulings) {
@@ -116,7 +111,7 @@ TEST(snooker_on) {
     uint32_t on;
   } given[] = {
       {ALL, 0, 0, 0xfffe},          {ALL & ~R1, 1, 0, COLOURS},      {ALL, 0, FREE, ALL & ~1},
-      {COLOURS | 1, 1, 0, COLOURS}, {COLOURS | 1, 0, 0, Y},          {PI | BK | 1, 0, MAY_PASS, PI},
+      {COLOURS | 1, 1, 0, COLOURS}, {COLOURS | 1, 0, 0, Y},          {PI | BK | 1, 0, MAY, PI},
       {BK | 1, 0, 0, BK},           {COLOURS | 1, 0, FREE, COLOURS}, {COLOURS | R2 | 1, 0, 0, R2}};
   for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
@@ -179,7 +174,7 @@ TEST(snooker_again) {
     const carom_facts none = {.first = {-1, -1}};
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
     of.user[2] = 9;
-    of.user[4] = (uint64_t)(MAY_PASS | FREE | (hand ? HAND : 0));
+    of.user[4] = (uint64_t)(MAY | FREE | (hand ? HAND : 0));
     ck_assert_uint_eq(of.may(of.user), CAROM_MAY_PASS);
     const carom_turn turn = of.judge(of.user, ALL, 0, &none, (carom_call){CAROM_CALL_PASS, -1});
     ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.spot == 0);
@@ -272,7 +267,7 @@ TEST(free_balls) {
     put(BLACK, given[k].blocker[0], given[k].blocker[1]);
     for (int foul = 0; foul < 2; foul++) {
       carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-      of.user[4] = foul ? MAY_PASS : 0;
+      of.user[4] = foul ? MAY : 0;
       carom_turn turn = {.is = CAROM_TURN_PASS,
                          .leave = given[k].hand ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER,
                          .foul = foul ? CAROM_FOUL_NO_BALL : 0};
@@ -285,21 +280,21 @@ TEST(free_balls) {
   /* in hand, with a wall of colours close to the D */
   int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, R1 | COLOURS);
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-  of.user[4] = MAY_PASS | HAND;
+  of.user[4] = MAY | HAND;
   carom_turn turn = {.is = CAROM_TURN_PASS, .leave = CAROM_LEAVE_D, .foul = CAROM_FOUL_CUE_BALL};
   put(1, 1.3, 3.4);
   carom_turn_settle(&of, of.user, &table, balls, count, &turn);
   ck_assert(!(of.user[4] & FREE));
   for (int k = YELLOW; k <= BLACK; k++)
     put(k, 1.3 + 2.0 * R * (k - 18.5), 3.2);
-  of.user[4] = MAY_PASS | HAND;
+  of.user[4] = MAY | HAND;
   carom_turn_settle(&of, of.user, &table, balls, count, &turn);
   ck_assert(of.user[4] & FREE);
 
   /* a second red that is free ends it */
   balls[2] = balls[1];
   put(2, 0.2, 2.0);
-  of.user[4] = MAY_PASS | HAND;
+  of.user[4] = MAY | HAND;
   carom_turn_settle(&of, of.user, &table, balls, count, &turn);
   ck_assert(!(of.user[4] & FREE));
 
@@ -325,7 +320,7 @@ TEST(free_balls) {
     const bool foul = k == 0 || k == 3;
     ck_assert_msg((turn.foul != 0) == foul, "%d: foul %d", k, turn.foul);
     ck_assert_uint_eq(of.user[2], k == 0 ? 9 : k == 3 ? 10 : 5);
-    ck_assert_uint_eq(of.user[4], foul ? MAY_PASS | FREE : 0);
+    ck_assert_uint_eq(of.user[4], foul ? MAY | FREE : 0);
     ck_assert_uint_eq(of.user[5], 0);
   }
 }
