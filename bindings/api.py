@@ -78,6 +78,11 @@ def type_of(node):
     return {**found, "const": True} if "const" in node.quals else found
 
 
+def header_of(include, name):
+    """The planner's header is in a folder of its own."""
+    return next(path for path in (include / name, include.parent / "plan" / "include" / name) if path.exists())
+
+
 class Api:
     """What the headers declare; `values` has all constants by their names."""
 
@@ -86,7 +91,7 @@ class Api:
         self.about = {kind: [] for kind in ("constants", "enums", "structs", "callbacks", "functions")}
         parser, earlier = c_parser.CParser(), BUILT_IN
         for name in HEADERS:
-            header = Header(Path(include, name))
+            header = Header(header_of(Path(include), name))
             # Earlier headers stand on one line before it, so that lines keep their numbers.
             tree = parser.parse(earlier + "\n# 1 \"" + name + "\"\n" + "\n".join(header.code), "before")
             for node in tree.ext:

@@ -129,7 +129,7 @@ def options():
     the name in words() of an enumeration or a set; `group` motion, stop or compute."""
     found = {}
     for group, struct in STRUCTS.items():
-        for _, (name, key, form, low, high, error, text, *_place) in rows("about/options.h", f"CAROM_{group}_OPTIONS"):
+        for _, (name, key, form, low, high, error, text, *_place) in rows("../plan/src/plan_options.h" if group == "PLAN" else "about/options.h", f"CAROM_{group}_OPTIONS"):
             kind, of = re.fullmatch(r"(\w+)(?:\((.*)\))?", form).groups()
             words_of, unit = (of if kind in ("WORDS", "SET") and of != "BALLS" else None), text_of(of or "")
             if kind == "WORDS":

@@ -10,6 +10,7 @@
 #include "shot_file.h"
 #include "shot_picture.h"
 #include "subcommands.h"
+#include "ways.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -12,6 +12,7 @@
 #include "shot_file.h"
 #include "shot_story.h"
 #include "subcommands.h"
+#include "ways.h"
 
 #include "carom_plan.h"
 

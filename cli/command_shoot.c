@@ -351,7 +351,6 @@ static int write_sources(const carom_shot_options *options) {
 /* Chooses the stroke of --leave; false after a complaint. */
 static bool chooses(shoot_job *job, const carom_shot_options *options) {
   const given_player *given = &job->from.shared.player;
-  carom_player player;
   if (!job->leave.given && (given->rated || given->errs))
     complain(
         "--player and --errors are of --leave; `carom ways` tells how often a player pots a ball, "
@@ -360,10 +359,8 @@ static bool chooses(shoot_job *job, const carom_shot_options *options) {
     complain("--leave is of a shot by options: --cue, --balls and the like");
   else if (!job->leave.given)
     return true;
-  else if (player_of(given, &player)) {
-    without_bounds(&player);
-    return leave_choose(&job->leave, &job->from, options, &player, job->left);
-  }
+  else
+    return leave_choose(&job->leave, &job->from, options, job->left);
   return false;
 }
 

@@ -313,20 +313,6 @@ static OPTION_SET(set_errors) {
   return set_amount(row, text, &given->scale);
 }
 
-bool player_of(const given_player *given, carom_player *player) {
-  *player = given->rated ? carom_player_fargo(given->rating)
-                         : carom_player_of(given->errs ? given->scale : 1.0);
-  if (given->rated && given->errs)
-    complain("--player is a rating, --errors are errors: give one of both");
-  return !(given->rated && given->errs);
-}
-
-void without_bounds(carom_player *player) {
-  player->speed_least = 0.01;
-  player->speed_most = 1000.0;
-  player->tip_most = 1.0;
-}
-
 /* ---- The rows */
 
 #define ROW(row, name, member, letter, argument, set, least, only, help) \

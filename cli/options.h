@@ -7,7 +7,7 @@
 #ifndef CAROM_CLI_OPTIONS_H
 #define CAROM_CLI_OPTIONS_H
 
-#include "carom_plan.h"
+#include "carom_shot.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -105,13 +105,6 @@ typedef struct given_player {
   bool rated, errs;
   double rating, scale;
 } given_player;
-
-/* Makes the player; complains and returns false where both are given. Without either, errors of
- * scale 1. */
-bool player_of(const given_player *given, carom_player *player);
-
-/* Lets a player strike as slowly, as hard and as far from the centre as he is asked to. */
-void without_bounds(carom_player *player);
 
 enum precision { ANY_PRECISION = -1, DOUBLE_PRECISION, SINGLE_PRECISION };
 

@@ -5,6 +5,7 @@
 
 #include "memory.h"
 #include "message.h"
+#include "ways.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -162,13 +163,17 @@ static bool choose(const leave *to, shoot_flags *f, const carom_shot_options *op
 }
 
 bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
-                  const carom_player *player, char told[LEFT_TEXT]) {
+                  char told[LEFT_TEXT]) {
   static carom_cue cue[MOST_ROWS];
   static shot_line line;
   char *text;
+  carom_player player;
+  if (!player_of(&f->shared.player, &player))
+    return false;
+  without_bounds(&player);
   shot_file *file = strokes_of(f, options, &text);
   const int count = file != NULL ? strokes_read(file, &line, cue, MOST_ROWS) : 0;
-  const bool found = count > 0 && choose(to, f, options, player, &line, cue, count, told);
+  const bool found = count > 0 && choose(to, f, options, &player, &line, cue, count, told);
   if (count > 0)
     shot_line_free(&line);
   if (file != NULL)

@@ -3,7 +3,8 @@
 #define CAROM_CLI_POSITION_H
 
 #include "shoot_flags.h"
-#include "ways.h"
+
+struct ways_search;
 
 /* Where the cue ball shall end: within a radius of a place. */
 typedef struct leave {
@@ -16,13 +17,13 @@ typedef struct leave {
 OPTION_SET(set_leave);
 
 /* Puts the place and the radius, or none, into a search. */
-void leave_into(const leave *to, ways_search *s);
+void leave_into(const leave *to, struct ways_search *s);
 
 /* Leaves the flags the one speed, tip, elevation and direction, of those given or of the usual
  * ones, with which most strokes of the player bring the cue ball there, and pot the ball of
  * --pocket; and what is to be told of it. False after a complaint. */
 enum { LEFT_TEXT = 400 };
 bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
-                  const carom_player *player, char told[LEFT_TEXT]);
+                  char told[LEFT_TEXT]);
 
 #endif

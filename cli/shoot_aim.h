@@ -23,6 +23,16 @@ typedef struct layout {
   bool quiet;   /* and nothing is told of it */
 } layout;
 
+/* The ball other than that of the cue with this name, or -1; their names, with bars between. */
+int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]);
+
+/* "the cue ball" or "ball 1" */
+enum { BALL_TEXT = PLACE_NAME + 8 };
+const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]);
+
+/* What stands in the way of a ball that met `other` or a part of the table. */
+const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT]);
+
 /* Aims a cue at a ball, that of --at-ball, at a cut; false after a complaint. */
 bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
                  carom_cue *cue);

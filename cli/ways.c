@@ -19,6 +19,20 @@ enum { TRIES = 400, BLOCK = 256, ROOM = 300, HALVINGS = 10 };
 const char *const way_names[] = {"direct", "bank",  "kick", "combination",
                                  "carom",  "point", "place"};
 
+bool player_of(const given_player *given, carom_player *player) {
+  *player = given->rated ? carom_player_fargo(given->rating)
+                         : carom_player_of(given->errs ? given->scale : 1.0);
+  if (given->rated && given->errs)
+    complain("--player is a rating, --errors are errors: give one of both");
+  return !(given->rated && given->errs);
+}
+
+void without_bounds(carom_player *player) {
+  player->speed_least = 0.01;
+  player->speed_most = 1000.0;
+  player->tip_most = 1.0;
+}
+
 bool is_out_of_play(const shot_line *line, int ball) {
   const int64_t label = line->ball[ball].state.label;
   return label == CAROM_BALL_POCKETED || label == CAROM_BALL_OFF;

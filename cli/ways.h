@@ -4,6 +4,7 @@
 #define CAROM_CLI_WAYS_H
 
 #include "carom_plan.h"
+#include "options.h"
 #include "shot_file.h"
 
 enum { MOST_WAYS = 2000, MOST_PARTS = 12 };
@@ -49,6 +50,13 @@ typedef struct ways_search {
   int64_t scanned, good;
   int64_t left_out; /* good strokes for which there was no room */
 } ways_search;
+
+/* Makes the player; complains and returns false where both are given. Without either, errors of
+ * scale 1. */
+bool player_of(const given_player *given, carom_player *player);
+
+/* Lets a player strike as slowly, as hard and as far from the centre as he is asked to. */
+void without_bounds(carom_player *player);
 
 bool is_out_of_play(const shot_line *line, int ball);
 

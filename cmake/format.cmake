@@ -2,7 +2,7 @@
 # formula sheets as they are, so that the test of columns looks at every line.
 find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
 file(GLOB_RECURSE formatted CONFIGURE_DEPENDS include/*.h src/*.[ch] src/*.cpp cli/*.[ch] lab/*.[ch] tests/*.[ch] examples/*.[ch]
-     python/*.[ch])
+     plan/*.[ch] python/*.[ch])
 list(FILTER formatted EXCLUDE REGEX /about/project\\.h$) # names and addresses may be long
 if(CLANG_FORMAT)
   add_custom_target(format COMMAND ${CLANG_FORMAT} -i ${formatted} VERBATIM)

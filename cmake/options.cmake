@@ -23,7 +23,7 @@ set(checked $<$<CONFIG:Debug>:CAROM_CHECKED>)
 if(CAROM_SANITIZE) # its commas would part the expression
   set(checked CAROM_CHECKED)
 endif()
-target_compile_definitions(carom_options INTERFACE ${checked})
+target_compile_definitions(carom_options INTERFACE ${checked} $<$<NOT:$<BOOL:${CAROM_PLAN}>>:CAROM_WITHOUT_PLAN>)
 # -g1: lines for the reports; more would double the time that gcc takes.
 if(CAROM_SANITIZE)
   target_compile_options(carom_options INTERFACE -fsanitize=${CAROM_SANITIZE} -fno-omit-frame-pointer

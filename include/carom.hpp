@@ -16,7 +16,9 @@
 #ifndef CAROM_HPP
 #define CAROM_HPP
 
+#if __has_include("carom_plan.h") /* a build without the planner has none */
 #include "carom_plan.h"
+#endif
 #include "carom_record.h"
 
 #include <algorithm>
@@ -114,13 +116,6 @@ inline placed place(const carom_table &on, std::span<carom_shot_ball> balls, int
   if (made.status != CAROM_ERROR_OVERLAP && made.status != CAROM_ERROR_OFF_TABLE)
     checked(made.status);
   return made;
-}
-
-/* Aims a pot, as carom_aim() does. */
-inline carom_status aim(const carom_table &on, std::span<const carom_shot_ball> balls,
-                        carom_pot &pot, carom_cue &cue, const carom_shot_options &options = {}) {
-  return checked(
-      carom_aim(&on, balls.data(), static_cast<int>(balls.size()), &options, &pot, &cue));
 }
 
 /* ---- Shots */
@@ -283,7 +278,15 @@ private:
   std::vector<std::array<double, 4>> turned_;
 };
 
+#ifdef CAROM_PLAN_H
 /* ---- Plans */
+
+/* Aims a pot, as carom_aim() does. */
+inline carom_status aim(const carom_table &on, std::span<const carom_shot_ball> balls,
+                        carom_pot &pot, carom_cue &cue, const carom_shot_options &options = {}) {
+  return checked(
+      carom_aim(&on, balls.data(), static_cast<int>(balls.size()), &options, &pot, &cue));
+}
 
 /* A plan for the player at the table; options, models and memory are not set. */
 inline carom_plan_job job(const carom_table &on, std::span<const carom_shot_ball> balls,
@@ -353,6 +356,7 @@ inline std::vector<carom_choice> plan(const carom_plan_job &job, int most = 1,
   all.go_on();
   return {all.choices().begin(), all.choices().end()};
 }
+#endif
 
 /* ---- Recordings */
 
@@ -407,6 +411,7 @@ public:
   carom_status place(int ball, double x, double y) {
     return checked(carom_record_place(game_.get(), ball, x, y, nullptr));
   }
+#ifdef CAROM_PLAN_H
   /* Puts a ball back on its spot by the rules of a rack's game, or as near to it as they say: on
    * the foot spot in pool. */
   carom_status spot(int ball, carom_rack_kind of = CAROM_RACK_EIGHTBALL) {
@@ -416,6 +421,7 @@ public:
     const double *r = game_->balls[code < 0 ? 0 : ball].state.r;
     return code < 0 ? code : place(ball, r[0], r[1]);
   }
+#endif
 
   /* Whether the shot of the last line was played, with the bits that were recorded. */
   bool same() const {

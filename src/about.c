@@ -1,12 +1,16 @@
 /* What there is, for programs that ask: the rows of about/ at run time. Nothing here is on the path
  * of an impact. */
-#include "carom_plan.h"
+#include "carom_shot.h"
 #include "platform/arithmetic.h"
 
 #include "about/options.h"
 #include "about/words.h"
 #include "cushion/list.h"
 #include "friction/laws.h"
+#ifndef CAROM_WITHOUT_PLAN
+#include "carom_plan.h"
+#include "plan_options.h"
+#endif
 
 #include <stddef.h>
 #include <stdint.h>
@@ -83,17 +87,19 @@ static const carom_number cue_numbers[] = {CAROM_CUE_NUMBERS(CUE, CUE)},
 #define COMPUTE(...) OPTION(carom_shot_options, TO_COMPUTE, __VA_ARGS__, 0)
 #define IMPACT(...) OPTION(carom_options, ALWAYS, __VA_ARGS__, 0)
 #define RAIL(...) OPTION(carom_cushion_options, ALWAYS, __VA_ARGS__, 0)
-#define PLAN(...) OPTION(carom_plan_options, ALWAYS, __VA_ARGS__, 0)
 static const carom_number shot_options[] = {CAROM_MOTION_OPTIONS(MOTION) CAROM_STOP_OPTIONS(STOP)
                                                 CAROM_COMPUTE_OPTIONS(COMPUTE)},
                           impact_options[] = {CAROM_IMPACT_OPTIONS(IMPACT)},
-                          rail_options[] = {CAROM_RAIL_OPTIONS(RAIL)},
-                          plan_options[] = {CAROM_PLAN_OPTIONS(PLAN)};
+                          rail_options[] = {CAROM_RAIL_OPTIONS(RAIL)};
+#ifndef CAROM_WITHOUT_PLAN
+#define PLAN(...) OPTION(carom_plan_options, ALWAYS, __VA_ARGS__, 0)
+static const carom_number plan_options[] = {CAROM_PLAN_OPTIONS(PLAN)};
+#undef PLAN
+#endif
 #undef ROW
 #undef PART
 #undef OPTION
 #undef RAIL
-#undef PLAN
 
 static const struct {
   const carom_number *row;
@@ -108,7 +114,9 @@ static const struct {
     [CAROM_PART_OPTIONS] = ROWS(shot_options),
     [CAROM_PART_IMPACT_OPTIONS] = ROWS(impact_options),
     [CAROM_PART_CUSHION_OPTIONS] = ROWS(rail_options),
+#ifndef CAROM_WITHOUT_PLAN
     [CAROM_PART_PLAN_OPTIONS] = ROWS(plan_options),
+#endif
     [CAROM_PART_CUE] = ROWS(cue_numbers),
     [CAROM_PART_TABLE] = ROWS(table_numbers),
     [CAROM_PART_STATE] = ROWS(state_numbers),

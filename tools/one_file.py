@@ -15,8 +15,9 @@ from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-SRC = ROOT / "src"
-PUBLIC = sorted(path.name for path in (ROOT / "include").glob("*.h"))
+SRC, PLAN = ROOT / "src", ROOT / "plan"
+HEADERS = {path.name: path for folder in (ROOT, PLAN) for path in (folder / "include").glob("*.h*")}
+PUBLIC = sorted(name for name in HEADERS if name.endswith(".h"))
 WRAPPER = "carom.hpp"
 # What CMakeLists.txt compiles once for every instruction set, with the definitions of each time, and the sets of `advance.c`.
 PASSES = [
@@ -33,7 +34,8 @@ SYSTEM = re.compile(r"^[ \t]*#[ \t]*include[ \t]+<[^>]+>[^\n]*\n", re.M)
 
 
 def text_of(name):
-    return (SRC / name).read_text(encoding="utf-8")
+    """A file of src/, or else of plan/src/."""
+    return next(path for path in (SRC / name, PLAN / "src" / name) if path.exists()).read_text(encoding="utf-8")
 
 
 def included(name, seen):
@@ -128,11 +130,16 @@ def guarded(name, text, others):
     return f"\n/* ==== src/{name} ==== */\n{text}{after}"
 
 
+def listed(folder, target):
+    """The sources of a target."""
+    return re.search(rf"add_library\(\s*{target} OBJECT(.*?)\)", (folder / "CMakeLists.txt").read_text(encoding="utf-8"), re.S).group(1).split()
+
+
 def main():
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    listed = re.search(r"add_library\(carom_objects OBJECT(.*?)\)", (SRC / "CMakeLists.txt").read_text(encoding="utf-8"), re.S).group(1)
-    sources = listed.split() + ["platform/processors.c", "platform/processors_windows.c"]
+    sources = listed(SRC, "carom_objects") + [name.removeprefix("src/") for name in listed(PLAN, "carom_plan_objects")]
+    sources += ["platform/processors.c", "platform/processors_windows.c"]
     kernels = {name: f"{room}/{name}" for name, room in KERNELS.items()}
 
     # Headers of the kernels alone are read in every pass; the others once.
@@ -203,7 +210,7 @@ def main():
     out.append("#endif\n")
     (folder / "carom.c").write_text("".join(out), encoding="utf-8")
     for name in [*PUBLIC, WRAPPER]:
-        (folder / name).write_bytes((ROOT / "include" / name).read_bytes())
+        (folder / name).write_bytes(HEADERS[name].read_bytes())
 
 
 KERNEL_MACROS = {"KERNEL_SUFFIX", "KERNEL_PRECISION", "KERNEL_PASTE", "KERNEL_PASTE_EXPANDED", "KERNEL", "PRECISE_KERNEL"}

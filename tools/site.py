@@ -21,7 +21,7 @@ from reference import pages
 SOURCE, WORK = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
 FOLDERS = {"Using": "docs/using", "Understanding": "docs/understanding", "Study": "docs/study"}
-OTHERS = ["CHANGELOG.md", "CONTRIBUTING.md", *sorted(str(page.relative_to(SOURCE)) for room in ("cli", "data", "lab", "python", "src", "tests", "web")
+OTHERS = ["CHANGELOG.md", "CONTRIBUTING.md", *sorted(str(page.relative_to(SOURCE)) for room in ("cli", "data", "lab", "plan", "python", "src", "tests", "web")
                                                      for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md")))]  # fmt: skip
 FIRST = ["command", "questions", "python", "web", "games", "examples", "shots", "physics", "accuracy"]  # what a newcomer asks for, before the other pages
 EXPLORER = SOURCE / "web/page/dist/index.html"

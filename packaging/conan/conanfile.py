@@ -37,7 +37,7 @@ class Carom(ConanFile):
     def export_sources(self):
         if self.conan_data:
             return
-        for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "cmake/*", "include/*", "src/*"):
+        for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "cmake/*", "include/*", "plan/CMakeLists.txt", "plan/include/*", "plan/src/*", "src/*"):
             copy(self, part, Path(self.recipe_folder, TREE), self.export_sources_folder)
 
     def source(self):

@@ -95,27 +95,6 @@
   OPTION(least_step, "least-step", NUMBER("N s"), 0, DBL_MAX, LEAST_STEP,                       \
          "least impulse of a step of Euler's method; pooltool: 0.001")
 
-/* Of carom_plan_options. */
-#define CAROM_PLAN_OPTIONS(OPTION)                                                                 \
-  OPTION(shots, "shots", COUNT, 100, 1000000, OPTIONS,                                             \
-         "shots of the whole layout that a plan plays, about; 0: 2000")                            \
-  OPTION(scan, "", NUMBER(""), -DBL_MAX, 0.9, OPTIONS,                                             \
-         "share of them in all directions; 0: 0.5; below 0: none")                                 \
-  OPTION(seed, "seed", SEED, 0, UINT64_MAX, OPTIONS, "of the errors of strokes")                   \
-  OPTION(                                                                                          \
-      threads, "threads", COUNT, -1, INT32_MAX, OPTIONS,                                           \
-      "most threads, the calling one among them; 0: that one alone; -1: one for each processor")   \
-  OPTION(level, "", FLAG, 0, 1, OPTIONS,                                                           \
-         "1: by a level cue, whose stick may be in cushions and balls; 0: the stick is over them") \
-  OPTION(chance_me, "", NUMBER(""), 0, 1, OPTIONS,                                                 \
-         "chance of each later pot of a visit, of the player; 0: by the layout")                   \
-  OPTION(chance_opponent, "", NUMBER(""), 0, 1, OPTIONS,                                           \
-         "chance of each later pot of a visit, of the opponent; 0: by the layout")                 \
-  OPTION(                                                                                          \
-      unsure, "unsure", NUMBER(""), 0, 1, OPTIONS,                                                 \
-      "how little the player knows of the table; 0: he knows it; 1: as little as of any table. "   \
-      "Its cushions and cloth are drawn, as his errors are")
-
 /* Whether the value x of an option is right. */
 #define CAROM_IN_FLAG(x, low, high) ((uint32_t)(x) <= (uint32_t)(high))
 #define CAROM_IN_COUNT(x, low, high) (((x) >= (low) && (x) <= (high)) || (x) == 0)

@@ -61,7 +61,7 @@ with tempfile.TemporaryDirectory() as work:
         assert (reader / f"{picture}.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>"), picture
 
     # Installing, from a copy of what a clone has.
-    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "cmake", "cli", "data", "docs", "examples", "include", "src"):
+    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "cmake", "cli", "data", "docs", "examples", "include", "plan", "src"):
         (clone / part).symlink_to(SOURCE / part)
     (clone / "web").symlink_to(SOURCE / "web")
     kept = {name: (SOURCE / name).read_bytes() for name in ("README.md", "CHANGELOG.md")}

@@ -13,7 +13,7 @@ from reference import pages  # noqa: E402
 
 text = {name: page for name, _, page in pages(SOURCE)}
 listed = {name: set(re.findall(r"^### (.*)$", page, flags=re.M)) for name, page in text.items()}
-headers = "".join(path.read_text(encoding="utf-8") for path in (SOURCE / "include").glob("*.h"))
+headers = "".join(path.read_text(encoding="utf-8") for room in ("include", "plan/include") for path in (SOURCE / room).glob("*.h"))
 package = ast.parse((SOURCE / "python/src/carom/__init__.py").read_text(encoding="utf-8"))
 names = next(node.value for node in package.body if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
 modules = {path.stem for path in (SOURCE / "python/src/carom").glob("[a-z]*.py")}

@@ -54,7 +54,7 @@ with tempfile.TemporaryDirectory() as work:
             # The name of the file says which language it has, as a user's does.
             file = Path(work, f"{number}.{'cpp' if '++' in standard else 'c'}")
             file.write_text(text, encoding="utf-8")
-            built = subprocess.run([compiler, standard, *WARNINGS, f"-I{SOURCE}/include", file, LIBRARY, "-lm", "-pthread", "-o", file.with_suffix("")],
+            built = subprocess.run([compiler, standard, *WARNINGS, f"-I{SOURCE}/include", f"-I{SOURCE}/plan/include", file, LIBRARY, "-lm", "-pthread", "-o", file.with_suffix("")],
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
             assert built.returncode == 0, f"{name}, {compiler} {standard}:\n{built.stdout}"
             said = subprocess.run([file.with_suffix("")], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)

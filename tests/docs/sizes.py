@@ -85,7 +85,7 @@ def web(source):
 def check(source, mode, *where):
     """Ends the program where a figure is wrong; writes the right ones where that is asked for."""
     measured, wrong, count = {"native": native, "installed": installed, "web": web}[mode](source, *where), [], 0
-    for name in [*pages(source), *(f"include/{header.name}" for header in sorted(Path(source, "include").glob("*.h")))]:
+    for name in [*pages(source), *(f"{room}/{header.name}" for room in ("include", "plan/include") for header in sorted(Path(source, room).glob("*.h")))]:
         text, covered = Path(source, name).read_text(encoding="utf-8"), set()
         for words, unit, what, off in [row for page, *row in FIGURES if page == name]:
             match = re.search(words.replace(" ", r"(?: |\n(?: \*)? *)"), text)

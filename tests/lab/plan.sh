@@ -1,4 +1,4 @@
-# Racks that are played by plans, and the numbers of value.c that are fitted to them.
+# Racks that are played by plans, and the numbers of chances.c that are fitted to them.
 numbers() { sed 's/-\{0,1\}[0-9][0-9.]*/N/g; s/  */ /g' | tr '\n' ' ' | sed 's/ \*//g; s/  */ /g'; echo; }
 echo "--- what was counted does not depend on threads"
 lab plan --racks 2 --shots 100 | sed 's/, [0-9.]* ms a plan//' > one.txt
@@ -17,9 +17,9 @@ lab learn --racks 40 --shots 100 > one.h
 lab learn --racks 40 --shots 100 --threads 3 > two.h
 cmp one.h two.h
 lab learn --racks 40 --shots 100 --seed 1 | cmp -s - one.h || echo "another seed gives other numbers"
-numbers < "$DATA/../src/plan/learned.h" > is.txt
+numbers < "$DATA/../plan/src/learned_numbers.h" > is.txt
 for game in eightball nineball onepocket straight snooker; do grep -qF "$(lab learn --rules $game --racks 40 --shots 100 | numbers | sed 's/ $//')" is.txt && echo "$game: same"; done
-grep -o "racks [0-9]*" "$DATA/../src/plan/learned.h"
+grep -o "racks [0-9]*" "$DATA/../plan/src/learned_numbers.h"
 echo "--- usage"
 try lab learn --racks 3
 try lab learn --shots 99

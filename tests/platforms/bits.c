@@ -12,8 +12,10 @@
  *
  * This program is run under emulators, so it needs nothing but the library. */
 #include <carom.h>
-#include <carom_plan.h>
 #include <carom_shot.h>
+#ifndef CAROM_WITHOUT_PLAN
+#include <carom_plan.h>
+#endif
 
 #include <math.h>
 #include <stdbool.h>
@@ -443,6 +445,7 @@ static void places(void) {
   show("places: polygon", hash);
 }
 
+#ifndef CAROM_WITHOUT_PLAN
 /* Aims of a cue that is left to the stick, beside the head cushion. */
 static void aims(void) {
   static carom_table table;
@@ -469,6 +472,7 @@ static void aims(void) {
   }
   show("aims: least elevation", hash);
 }
+#endif
 
 int main(int argc, char **argv) {
   if (argc > 1 && strcmp(argv[1], "revision") == 0)
@@ -501,6 +505,8 @@ int main(int argc, char **argv) {
   cushion_traces();
   shots();
   places();
+#ifndef CAROM_WITHOUT_PLAN
   aims();
+#endif
   return 0;
 }

@@ -343,7 +343,7 @@ def test_chunks_cover_every_row_once(monkeypatch):
 
 def test_a_dtype_is_called_as_its_struct():
     """docs/using/python.md says so: a header has the fields of each, with their units."""
-    headers = "".join(header.read_text(encoding="utf-8") for header in (Path(__file__).parents[3] / "include").glob("*.h"))
+    headers = "".join(header.read_text(encoding="utf-8") for room in ("include", "plan/include") for header in (Path(__file__).parents[3] / room).glob("*.h"))
     for name, record in vars(carom.dtypes).items():
         if isinstance(record, np.dtype):
             found = re.search(rf"^typedef struct (?:carom_\w+ )?\{{([^}}]*)\}} carom_{name};", headers, flags=re.M)

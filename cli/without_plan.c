@@ -1,0 +1,44 @@
+/* What stands for the planner's commands and options in a build without it (-DCAROM_PLAN=OFF), of
+ * `carom` and of `carom-lab`: each says that there is no planner. */
+#include "command.h"
+#include "leave.h"
+#include "message.h"
+#include "subcommands.h"
+
+static bool refuse(const char *what) {
+  complain("%s: this build has no planner; it was configured with -DCAROM_PLAN=OFF", what);
+  return false;
+}
+
+static int refuse_command(char **argv) {
+  refuse(argv[0]);
+  return EXIT_USAGE;
+}
+
+#define COMMAND(name)               \
+  int name(int argc, char **argv);  \
+  int name(int argc, char **argv) { \
+    (void)argc;                     \
+    return refuse_command(argv);    \
+  }
+COMMAND(command_plan)
+COMMAND(command_ways)
+COMMAND(command_break)
+COMMAND(command_learn)
+
+OPTION_SET(set_leave) {
+  (void)row, (void)text, (void)field;
+  return refuse("--leave");
+}
+
+bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
+                  char told[LEFT_TEXT]) {
+  (void)to, (void)f, (void)options, (void)told;
+  return refuse("--leave");
+}
+
+bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
+                   const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]) {
+  (void)pocket, (void)via, (void)l, (void)options, (void)cue, (void)told;
+  return refuse("--pocket");
+}

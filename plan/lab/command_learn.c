@@ -1,0 +1,351 @@
+/* `carom-lab learn`: a row of plan/src/learned_numbers.h, fitted to racks that are played.
+ *
+ * A rack begins after a break, with some balls taken away, and is played until the turn ends and
+ * once more by the other, by players whose errors are drawn. Of each layout on the way the sample
+ * has x, as carom_plan_features() tells it, and what came of it. Three logistic regressions by
+ * maximum likelihood follow, by Newton's method: of whether the turn was kept; of each later stroke
+ * of the visit, by the mean of each layout before it; and of whether the other kept the turn that
+ * was left to him. In straight pool and snooker the break is as hard as in eight-ball, and in a
+ * quarter of the racks of snooker no red is left, in a quarter a colour is on after a red. In
+ * one-pocket it is gentle or hard, and the balls that are down are shared out at random.
+ */
+#include "command.h"
+#include "memory.h"
+#include "message.h"
+#include "options.h"
+#include "rack_play.h"
+#include "subcommands.h"
+
+#include "platform/threads.h"
+#include "view.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STROKES_MOST = 20, BLOCK = 256, STEPS = 30 };
+
+typedef struct learn_job {
+  shared_options shared;
+  int rules, racks, shots, seed;
+} learn_job;
+
+OPTION(learn_job, learn_rules, "rules", rules, 0, LAB_GAMES, set_choice, 0,
+       "the game (default eightball)");
+
+OPTION(learn_job, learn_racks, "racks", racks, 0, "N", set_count, 10,
+       "racks to be played (default 100000)");
+OPTION(learn_job, learn_shots, "shots", shots, 0, "N", set_count, 100,
+       "shots of a plan (default 200)");
+OPTION(learn_job, learn_seed, "seed", seed, 0, "N", set_count, 0, "seed of the racks (default 0)");
+
+typedef enum chance_of { NEXT, LATER, FIRST } chance_of;
+
+/* A stroke, for one of the three; what is known before it, and whether it kept the turn. */
+typedef struct sample {
+  double x[NEXT_NUMBERS];
+  chance_of what;
+  int kept, left;
+} sample;
+
+/* The layouts of a rack. */
+typedef struct visit {
+  int count;
+  sample samples[STROKES_MOST + STROKES_MOST * (STROKES_MOST - 1) / 2 + 1];
+} visit;
+
+typedef struct block {
+  const learn_job *job;
+  int first;
+  visit *visit;
+} block;
+
+/* ---- Racks */
+
+static int objects_of(uint32_t in_play) {
+  int n = 0;
+  for (in_play &= ~UINT32_C(1); in_play != 0; in_play &= in_play - 1)
+    n++;
+  return n;
+}
+
+static sample look(const lab_rack *rack) {
+  static const int who = 0;
+  carom_view view;
+  carom_view_make(&view, &rack->plan, &rack->options);
+  carom_ball_state state[RACK_BALLS];
+  const int count = (int)rack->plan.count;
+  for (int k = 0; k < count; k++)
+    state[k] = rack->balls[k].state;
+  const uint32_t in_play = carom_in_play(state, count) | 1;
+  sample s = {.kept = 0};
+  carom_plan_features(&view, state, in_play, rack->rules.on(rack->rules.user, in_play),
+                      rack->rules.pockets != NULL ? rack->rules.pockets(rack->rules.user)
+                                                  : ~UINT32_C(0),
+                      who, rack->hand, NULL, s.x);
+  int32_t left[2];
+  rack->rules.left(rack->rules.user, in_play, left);
+  s.left = rack->rules.race == CAROM_RACE_POINTS ? objects_of(in_play) : left[0];
+  return s;
+}
+
+static void take_away(lab_rack *rack, int ball) {
+  rack->balls[ball].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+}
+
+/* A stroke at the rack, of a speed in m/s. A ball that leaves the table is down. */
+static void open_rack(lab_rack *rack, lab_random *draw, double least, double most) {
+  const int count = (int)rack->plan.count;
+  carom_ball_state final[RACK_BALLS];
+  carom_shot played = {.final = final};
+  carom_cue cue = *rack->plan.cue;
+  cue.speed = lab_uniform(draw, least, most);
+  cue.phi = lab_uniform(draw, 87.0, 91.0);
+  carom_shoot(rack->plan.table, rack->balls, count, &cue, rack->plan.shot, &played);
+  for (int k = 0; k < count; k++) {
+    rack->balls[k].state = final[k];
+    if (final[k].label == CAROM_BALL_OFF)
+      take_away(rack, k);
+  }
+}
+
+/* Snooker: a hard stroke at the reds; and the colours in order, or a colour after a red. */
+static void open_snooker(lab_rack *rack, lab_random *draw) {
+  const int count = (int)rack->plan.count;
+  open_rack(rack, draw, 3.0, 9.0);
+  for (int k = 16; k < count; k++)
+    if (rack->balls[k].state.label == CAROM_BALL_POCKETED)
+      carom_spot_ball_of(CAROM_RACK_SNOOKER, rack->plan.table, rack->balls, count, k);
+  const int phase = (int)lab_uniform(draw, 0.0, 4.0);
+  rack->rules.user[0] = phase == 1;
+  for (int k = 1; k < 16 && phase == 0; k++)
+    take_away(rack, k);
+  const int gone = phase == 0 ? (int)lab_uniform(draw, 0.0, 6.0) : 0;
+  for (int k = 16; k < 16 + gone; k++)
+    take_away(rack, k);
+}
+
+/* One-pocket: the balls that are down count for both players, at most seven each. */
+static void share_out(lab_rack *rack, lab_random *draw) {
+  enum { MOST = 7 };
+  int down = 0;
+  for (int k = 1; k < (int)rack->plan.count; k++)
+    down += rack->balls[k].state.label == CAROM_BALL_POCKETED;
+  const int least = down > MOST ? down - MOST : 0, most = down > MOST ? MOST : down;
+  const int own = least + (int)lab_uniform(draw, 0.0, most - least + 1);
+  rack->rules.user[2] = (uint64_t)own;
+  rack->rules.user[3] = (uint64_t)(down - own);
+}
+
+static void play(const learn_job *job, int number, visit *to) {
+  static const double errors[] = {0.25, 0.5, 1.0, 2.0, 3.0, 4.5};
+  enum { PLAYERS = sizeof errors / sizeof errors[0], SOLIDS = 1 };
+  lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
+  const lab_game *game = &lab_games[job->rules];
+  const double scale = errors[(int)lab_uniform(&draw, 0.0, PLAYERS)];
+  lab_rack rack = {.options = {.shots = job->shots}};
+  lab_rack_begin(&rack, game, scale);
+  const bool snooker = game->rules == CAROM_RULES_SNOOKER,
+             onepocket = game->rules == CAROM_RULES_ONEPOCKET,
+             straight = game->rules == CAROM_RULES_STRAIGHT;
+  lab_rack_make(&rack, straight ? CAROM_RULES_EIGHTBALL : game->rules, lab_bits(&draw));
+  rack.rules = straight ? carom_plan_rules_of(CAROM_RULES_STRAIGHT) : rack.rules;
+  if (snooker)
+    open_snooker(&rack, &draw);
+  if (onepocket)
+    open_rack(&rack, &draw, 1.0, 8.0);
+
+  /* some balls are down; the cue ball is anywhere, or in hand once in eight */
+  const int balls = game->balls;
+  if (job->rules == 0)
+    rack.rules.user[0] = SOLIDS;
+  for (int group = 0; group < (job->rules == 0 ? 2 : 1); group++)
+    for (int left = (int)lab_uniform(&draw, 0.0, balls + 1); left > 0; left--) {
+      const int k = 1 + 8 * group + (int)lab_uniform(&draw, 0.0, balls);
+      take_away(&rack, k);
+    }
+  if (onepocket)
+    share_out(&rack, &draw);
+  double x, y;
+  do {
+    x = lab_uniform(&draw, 0.0, rack.table.width);
+    y = lab_uniform(&draw, 0.0, rack.table.length);
+  } while (carom_place_ball(&rack.table, rack.balls, (int)rack.plan.count, 0, x, y, NULL) !=
+           CAROM_OK);
+  rack.hand = lab_bits(&draw) % 8 == 0 && !snooker;
+
+  /* until the turn ends, and the other's first stroke */
+  carom_turn turn = {.is = CAROM_TURN_KEEP};
+  to->count = 0;
+  while (turn.is == CAROM_TURN_KEEP && to->count < STROKES_MOST) {
+    carom_choice choice;
+    sample s = look(&rack);
+    if (!lab_rack_stroke(&rack, &choice, &turn))
+      break;
+    s.kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+    to->samples[to->count++] = s;
+  }
+  /* of each pair of strokes the later one, by the mean before the first one */
+  const int strokes = to->count;
+  for (int k = 0; k < strokes; k++)
+    for (int j = k + 1; j < strokes; j++) {
+      sample s = to->samples[j];
+      s.what = LATER;
+      s.x[2] = 1.0 / s.left;
+      s.x[3] = to->samples[k].x[2];
+      to->samples[to->count++] = s;
+    }
+  if (turn.is == CAROM_TURN_PASS) {
+    carom_choice choice;
+    sample s = look(&rack);
+    s.what = FIRST;
+    s.x[2] = 1.0 / s.left;
+    if (lab_rack_stroke(&rack, &choice, &turn)) {
+      s.kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+      to->samples[to->count++] = s;
+    }
+  }
+  free(rack.plan.memory);
+}
+
+static size_t play_some(const void *context, size_t from, size_t end) {
+  const block *b = context;
+  for (size_t k = from; k < end; k++)
+    play(b->job, b->first + (int)k, &b->visit[k]);
+  return end;
+}
+
+/* ---- The fit */
+
+/* Solves H d = g for a positive definite H by Gauss's method; d comes in the place of g. */
+static void solve(int n, double H[][NEXT_NUMBERS], double *g) {
+  for (int i = 0; i < n; i++)
+    for (int k = i + 1; k < n; k++) {
+      const double part = H[k][i] / H[i][i];
+      for (int j = i; j < n; j++)
+        H[k][j] -= part * H[i][j];
+      g[k] -= part * g[i];
+    }
+  for (int i = n - 1; i >= 0; i--) {
+    for (int j = i + 1; j < n; j++)
+      g[i] -= H[i][j] * g[j];
+    g[i] /= H[i][i];
+  }
+}
+
+static double chance(const double *w, const double *x, int n) {
+  double sum = 0.0;
+  for (int k = 0; k < n; k++)
+    sum += w[k] * x[k];
+  return 1.0 / (1.0 + exp(-sum));
+}
+
+/* The numbers w of greatest likelihood, and a trace of a prior that keeps them finite. */
+static void fit(const sample *s, size_t count, chance_of what, int n, double *w) {
+  memset(w, 0, (size_t)n * sizeof *w);
+  for (int step = 0; step < STEPS; step++) {
+    double H[NEXT_NUMBERS][NEXT_NUMBERS] = {{0.0}}, g[NEXT_NUMBERS];
+    for (int i = 0; i < n; i++) {
+      H[i][i] = 1e-3;
+      g[i] = -1e-3 * w[i];
+    }
+    for (size_t k = 0; k < count; k++) {
+      if (s[k].what != what)
+        continue;
+      const double *x = s[k].x, p = chance(w, x, n), off = s[k].kept - p, weight = p * (1.0 - p);
+      for (int i = 0; i < n; i++) {
+        g[i] += off * x[i];
+        for (int j = 0; j < n; j++)
+          H[i][j] += weight * x[i] * x[j];
+      }
+    }
+    solve(n, H, g);
+    for (int i = 0; i < n; i++)
+      w[i] += g[i];
+  }
+}
+
+/* ---- The file */
+
+/* The logarithm of the likelihood of a trial. */
+static double likelihood(const sample *s, size_t count, chance_of what, int n, const double *w) {
+  double sum = 0.0, all = 0.0;
+  for (size_t k = 0; k < count; k++) {
+    const double p = chance(w, s[k].x, n);
+    sum += s[k].what == what ? log(s[k].kept ? p : 1.0 - p) : 0.0;
+    all += s[k].what == what;
+  }
+  return sum / all;
+}
+
+static void print_numbers(const sample *s, size_t count, chance_of what, int n, const char *name) {
+  double w[NEXT_NUMBERS], constant[1];
+  fit(s, count, what, n, w);
+  fit(s, count, what, 1, constant);
+  printf("     /* log-likelihood of a stroke %.4f; of one number for all, %.4f */\n",
+         likelihood(s, count, what, n, w), likelihood(s, count, what, 1, constant));
+  printf("     .%s = {", name);
+  for (int i = 0; i < n; i++)
+    printf("%s%.3f", i > 0 ? ", " : "", w[i]);
+  puts("},");
+}
+
+static void print_row(const learn_job *job, const sample *s, size_t count) {
+  const char *game = carom_rules_name(lab_games[job->rules].rules);
+  double mean = 0.0;
+  long strokes = 0;
+  for (size_t k = 0; k < count; k++)
+    strokes += s[k].what == NEXT;
+  for (size_t k = 0; k < count; k++)
+    mean += s[k].what == NEXT ? s[k].x[2] / (double)strokes : 0.0;
+  printf("    {/* of %ld strokes: carom-lab learn --rules %s --racks %d --shots %d --seed %d */\n",
+         strokes, game, job->racks, job->shots, job->seed);
+  print_numbers(s, count, NEXT, NEXT_NUMBERS, "next");
+  print_numbers(s, count, LATER, LATER_NUMBERS, "later");
+  print_numbers(s, count, FIRST, FIRST_NUMBERS, "first");
+  printf("     .mean = %.3f,\n     .stretch = 1.0},\n", mean);
+}
+
+static const command_form form = {
+    .name = "learn",
+    .usage = "[OPTIONS]",
+    .about = "Plays racks of a game by plans and fits the chances of pots to what came of them. "
+             "Prints the row of the game in plan/src/learned_numbers.h.\n",
+    .options = (const option_row *const[]){&learn_rules, &learn_racks, &learn_shots, &learn_seed,
+                                           &option_threads, NULL},
+    .details = "exit code: 0; 2 for bad usage\n",
+    .example = "carom-lab learn --rules nineball",
+    .files = NO_FILES,
+};
+
+int command_learn(int argc, char **argv) {
+  static learn_job job;
+  const char *path;
+  job = (learn_job){.shared = {.options = {.threads = 0}}, .racks = 100000, .shots = 200};
+  const int parsed = parse_arguments(&form, argc, argv, &job, &path);
+  if (parsed >= 0)
+    return parsed;
+  const carom_plan_options options = {.shots = job.shots};
+  if (carom_plan_memory(&options) == 0) {
+    complain("--shots: it must be 100 to 1000000");
+    return EXIT_USAGE;
+  }
+  block b = {.job = &job, .visit = allocate(BLOCK, sizeof *b.visit)};
+  sample *all = NULL;
+  size_t count = 0, room = 0;
+  for (; b.first < job.racks; b.first += BLOCK) {
+    const int many = job.racks - b.first < BLOCK ? job.racks - b.first : BLOCK;
+    carom_in_threads(play_some, &b, (size_t)many, job.shared.options.threads, 1);
+    for (int k = 0; k < many; k++) {
+      all = grow(all, &room, count + (size_t)b.visit[k].count, sizeof *all);
+      memcpy(all + count, b.visit[k].samples, (size_t)b.visit[k].count * sizeof *all);
+      count += (size_t)b.visit[k].count;
+    }
+    progress_show("racks", (double)(b.first + many), job.racks);
+  }
+  progress_clear();
+  print_row(&job, all, count);
+  free(all);
+  free(b.visit);
+  return EXIT_GOOD;
+}

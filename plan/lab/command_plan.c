@@ -1,0 +1,246 @@
+/* `carom-lab plan`: how strong the planner is. Racks after a break that pots nothing, run out from
+ * ball in hand by a player who errs, or played to the end by two; and how often shots come off
+ * and games are won beside the chances that were predicted for them. Of games of points also how
+ * many a visit makes. */
+#include "command.h"
+#include "memory.h"
+#include "message.h"
+#include "monotonic.h"
+#include "options.h"
+#include "rack_play.h"
+#include "subcommands.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_SAFETY + 1 };
+
+typedef struct strength_job {
+  shared_options shared;
+  int rules, racks, shots, seed, left, target;
+  bool games;
+  double errors, unsure;
+} strength_job;
+
+OPTION(strength_job, option_rules, "rules", rules, 0, LAB_GAMES, set_choice, 0,
+       "the game (default eightball). straight, snooker and onepocket are played from their racks, "
+       "by two players");
+OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
+       "play each rack to the end, by two players of the same errors; and tell the chances to win");
+
+OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
+       "racks to be played (default 100)");
+OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100,
+       "shots of a plan (default 2000)");
+OPTION(strength_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
+       "scale of the player's errors (default 1)");
+OPTION(strength_job, option_unsure, "unsure", unsure, 0, "SHARE", set_amount, 0,
+       "how little the player knows of the table, 0 to 1 (default 0)");
+OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0,
+       "seed of racks, plans and strokes (default 0)");
+
+OPTION(strength_job, option_left, "left", left, 0, "N", set_count, 1,
+       "end games: N balls of the player, one more of the other, and the eight, at random places");
+
+OPTION(strength_job, option_target, "target", target, 0, "N", set_count, 1,
+       "of straight: points that win (default 100)");
+
+/* A row of the comparison of chances. `off` is what came of the strokes of one rack less what was
+ * predicted of them. They are not independent, so the variance adds up off^2 rack by rack. */
+typedef struct bin {
+  double predicted, variance, off;
+  long shots, kept;
+} bin;
+
+typedef struct tally {
+  long racks, wins, strokes, pots, plans, fouls, visits;
+  double points, best; /* of all visits, of one */
+  double seconds;
+  bin bins[BINS], games[BINS], kinds[KINDS];
+  double *odds; /* of the values of all strokes, logarithms, */
+  bool *won;    /* and whether that player won */
+  size_t values, odds_room, won_room;
+} tally;
+
+static int bin_of(double chance) {
+  return chance < 1.0 ? (int)(BINS * chance) : BINS - 1;
+}
+
+/* Puts a chance beside what came. */
+static void count(bin *b, double chance, bool came) {
+  b->predicted += chance;
+  b->off += (double)came - chance;
+  b->shots++;
+  b->kept += came;
+}
+
+static void end_rack(bin *bins, int count) {
+  for (int k = 0; k < count; k++) {
+    bins[k].variance += bins[k].off * bins[k].off;
+    bins[k].off = 0.0;
+  }
+}
+
+/* One rack: strokes until the turn is not kept, or until the game is won. */
+static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
+  const carom_rules_kind rules = lab_games[job->rules].rules;
+  lab_rack_make(rack, rules, ((uint64_t)job->seed << 32) + 7919 * (number + 1));
+  if (rules == CAROM_RULES_STRAIGHT)
+    rack->rules.user[0] = (uint64_t)job->target;
+  if (job->left > 0)
+    lab_rack_end(rack, job->left);
+  carom_turn turn = {.is = CAROM_TURN_KEEP};
+  int who = 0, n = 0;
+  static int by[STROKES_MOST];
+  static double value[STROKES_MOST];
+  double visit = 0.0;
+  while (n < STROKES_MOST &&
+         (turn.is == CAROM_TURN_KEEP || (job->games && turn.is == CAROM_TURN_PASS))) {
+    carom_choice best;
+    const double begin = processor_ns();
+    who = turn.is == CAROM_TURN_PASS ? 1 - who : who;
+    if (!lab_rack_stroke(rack, &best, &turn))
+      return;
+    to->seconds += 1e-9 * (processor_ns() - begin);
+    to->plans++;
+
+    /* what was predicted beside what came */
+    visit += turn.points;
+    if (turn.is != CAROM_TURN_KEEP) {
+      to->visits++;
+      to->points += visit;
+      to->best = fmax(to->best, visit);
+      visit = 0.0;
+    }
+    const bool kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+    count(&to->bins[bin_of(best.keep)], best.keep, kept);
+    count(&to->kinds[best.kind], best.keep, kept);
+    by[n] = who;
+    value[n++] = best.value;
+    to->strokes++;
+    to->pots += kept;
+    to->fouls += best.foul > 0.5;
+  }
+  const int winner = turn.is == CAROM_TURN_WIN ? who : turn.is == CAROM_TURN_LOSE ? 1 - who : -1;
+  to->wins += winner == 0;
+  for (int k = 0; k < n && winner >= 0; k++) {
+    const double v = fmin(fmax(value[k], 1e-6), 1.0 - 1e-6);
+    count(&to->games[bin_of(value[k])], value[k], by[k] == winner);
+    to->odds = grow(to->odds, &to->odds_room, to->values + 1, sizeof *to->odds);
+    to->won = grow(to->won, &to->won_room, to->values + 1, sizeof *to->won);
+    to->odds[to->values] = log(v / (1.0 - v));
+    to->won[to->values++] = by[k] == winner;
+  }
+  end_rack(to->bins, BINS);
+  end_rack(to->games, BINS);
+  end_rack(to->kinds, KINDS);
+}
+
+static void tell_bins(const bin *bins, int count, const char *const names[], const char *came) {
+  printf("%spredicted,strokes,%s,standard_error\n", names != NULL ? "kind," : "", came);
+  for (int k = 0; k < count; k++) {
+    const bin *b = &bins[k];
+    const double n = (double)b->shots;
+    if (b->shots == 0)
+      continue;
+    if (names != NULL)
+      printf("%s,", names[k]);
+    printf("%.3f,%ld,%.3f,%.3f\n", b->predicted / n, b->shots, (double)b->kept / n,
+           sqrt(b->variance) / n);
+  }
+}
+
+/* By what the log-odds of the values are to be stretched for the greatest likelihood. */
+static double stretch_of(const tally *t) {
+  enum { STEPS = 20 };
+  double stretch = 1.0;
+  for (int step = 0; step < STEPS; step++) {
+    double slope = 0.0, bend = 1e-6;
+    for (size_t k = 0; k < t->values; k++) {
+      const double p = 1.0 / (1.0 + exp(-stretch * t->odds[k]));
+      slope += ((double)t->won[k] - p) * t->odds[k];
+      bend += p * (1.0 - p) * t->odds[k] * t->odds[k];
+    }
+    stretch += fmin(fmax(slope / bend, -0.5), 0.5);
+  }
+  return stretch;
+}
+
+static void report(const tally *t, const strength_job *job) {
+  /* as carom_plan_kind has them */
+  static const char *const kinds[KINDS] = {"pot",  "several ways", "foul",  "given",
+                                           "push", "pass",         "break", "bank",
+                                           "kick", "combination",  "carom", "safety"};
+  /* Wilson's interval, 95 % */
+  const double n = (double)t->racks, p = (double)t->wins / n, z = 1.96;
+  const double wide = 1.0 + z * z / n, middle = (p + z * z / (2.0 * n)) / wide;
+  const double half = z * sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / wide;
+  printf("%d shots a plan, errors %g: %s %ld of %ld, %.1f %% (95 %%: %.1f to %.1f), pots a "
+         "stroke %.3f, %.1f ms a plan\n",
+         job->shots, job->errors, job->games ? "won by the first" : "run out", t->wins, t->racks,
+         100.0 * p, 100.0 * (middle - half), 100.0 * (middle + half),
+         (double)t->pots / (double)t->strokes, 1e3 * t->seconds / (double)t->plans);
+  if (t->points > 0.0)
+    printf("%g points in %ld visits: %.2f a visit, at most %g\n", t->points, t->visits,
+           t->points / (double)t->visits, t->best);
+  tell_bins(t->bins, BINS, NULL, "kept");
+  tell_bins(t->kinds, KINDS, kinds, "kept");
+  if (job->games) {
+    printf("planned to foul: %ld of %ld strokes\n", t->fouls, t->strokes);
+    tell_bins(t->games, BINS, NULL, "won");
+    printf("log-odds to be stretched by %.2f\n", stretch_of(t));
+  }
+}
+
+static const command_form form = {
+    .name = "plan",
+    .usage = "[OPTIONS]",
+    .about = "Plays racks by plans: each is run out from ball in hand after a break that potted "
+             "nothing, by a player whose strokes err. Tells how many are run out, and how often "
+             "shots keep the turn beside the chance that was predicted. With --games it is played "
+             "to the end, and chances to win stand beside how often they were won.\n",
+    .options =
+        (const option_row *const[]){&option_rules, &option_games, &option_left, &option_target,
+                                    &option_racks, &option_shots, &option_errors, &option_unsure,
+                                    &option_seed, &option_threads, NULL},
+    .details = "exit code: 0; 2 for bad usage\n",
+    .example = "carom-lab plan --racks 100 --shots 1000",
+    .files = NO_FILES,
+};
+
+int command_plan(int argc, char **argv) {
+  static strength_job job;
+  const char *path;
+  job = (strength_job){.shared = {.options = {.threads = 0}},
+                       .racks = 100,
+                       .shots = 2000,
+                       .errors = 1.0,
+                       .target = 100};
+  const int parsed = parse_arguments(&form, argc, argv, &job, &path);
+  if (parsed >= 0)
+    return parsed;
+  const bool racked = lab_games[job.rules].rules >= CAROM_RULES_STRAIGHT;
+  if (racked && job.left > 0) {
+    complain("--left is of eight-ball");
+    return EXIT_USAGE;
+  }
+  job.games |= racked;
+  static lab_rack rack;
+  rack.options = (carom_plan_options){
+      .shots = job.shots, .threads = job.shared.options.threads, .unsure = job.unsure};
+  if (carom_plan_memory(&rack.options) == 0) {
+    complain("--shots: it must be 100 to 1000000; --unsure: 0 to 1");
+    return EXIT_USAGE;
+  }
+  lab_rack_begin(&rack, &lab_games[job.rules], job.errors);
+  static tally t;
+  for (; t.racks < job.racks; t.racks++) {
+    play(&job, (uint64_t)t.racks, &rack, &t);
+    progress_show("racks", (double)t.racks, job.racks);
+  }
+  progress_clear();
+  free(rack.plan.memory);
+  report(&t, &job);
+  return EXIT_GOOD;
+}

@@ -1,0 +1,121 @@
+/* Racks and breaks, and strokes by plans. */
+#include "rack_play.h"
+#include "memory.h"
+#include "message.h"
+
+const lab_game lab_games[] = {{CAROM_RULES_EIGHTBALL, CAROM_TABLE_POOLTOOL, CAROM_GAME_POOL, 7},
+                              {CAROM_RULES_NINEBALL, CAROM_TABLE_POOLTOOL, CAROM_GAME_POOL, 8},
+                              {CAROM_RULES_STRAIGHT, CAROM_TABLE_POOL_9FT, CAROM_GAME_POOL, 13},
+                              {CAROM_RULES_SNOOKER, CAROM_TABLE_SNOOKER, CAROM_GAME_SNOOKER, 15},
+                              {CAROM_RULES_ONEPOCKET, CAROM_TABLE_POOL_9FT, CAROM_GAME_POOL, 13}};
+
+void lab_rack_begin(lab_rack *rack, const lab_game *game, double errors) {
+  carom_table_make(game->table, &rack->table);
+  rack->cue = carom_cue_of(game->balls_of);
+  rack->player = carom_player_of(errors);
+  rack->shot = (carom_shot_options){.space = CAROM_SPACE_FLAT};
+  rack->plan = (carom_plan_job){.table = &rack->table,
+                                .cue = &rack->cue,
+                                .player = &rack->player,
+                                .shot = &rack->shot,
+                                .memory_size = carom_plan_memory(&rack->options)};
+  rack->plan.memory = allocate(1, rack->plan.memory_size);
+}
+
+void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
+  const carom_rack_kind kind = game == CAROM_RULES_NINEBALL  ? CAROM_RACK_NINEBALL
+                               : game == CAROM_RULES_SNOOKER ? CAROM_RACK_SNOOKER
+                                                             : CAROM_RACK_EIGHTBALL;
+  rack->state = (lab_random){seed};
+  rack->rules = carom_plan_rules_of(game);
+  rack->plan.rules = &rack->rules;
+  rack->plan.balls = rack->balls;
+  rack->plan.count = carom_rack_size(kind);
+  rack->plan.options = &rack->options;
+  rack->hand = true;
+  const int count = (int)rack->plan.count;
+  rack->kitchen = game == CAROM_RULES_STRAIGHT || game == CAROM_RULES_ONEPOCKET;
+  if (game >= CAROM_RULES_STRAIGHT) {
+    rack->rules.user[1] = game == CAROM_RULES_STRAIGHT;
+    carom_rack(kind, rack->plan.table, 1e-4, lab_bits(&rack->state), rack->balls, count);
+    return;
+  }
+  carom_facts facts = {.down = 1};
+  carom_ball_state final[RACK_BALLS];
+  while (facts.down != 0 || facts.off != 0) {
+    carom_cue opening = *rack->plan.cue;
+    opening.speed = lab_uniform(&rack->state, 7.0, 8.0) * 2.0 / (1.0 + opening.tip_restitution);
+    opening.phi = lab_uniform(&rack->state, 89.0, 91.0);
+    carom_rack(kind, rack->plan.table, 1e-4, (uint64_t)lab_uniform(&rack->state, 0.0, 1e9),
+               rack->balls, count);
+    carom_shot played = {.final = final, .facts = &facts};
+    if (carom_shoot(rack->plan.table, rack->balls, count, &opening, rack->plan.shot, &played) !=
+        CAROM_OK)
+      facts.down = 1;
+  }
+  for (int k = 0; k < count; k++)
+    rack->balls[k].state = final[k];
+}
+
+void lab_rack_end(lab_rack *rack, int left) {
+  enum { SOLIDS = 1, GROUP = 7, EIGHT = 8 };
+  left = left < GROUP ? left : GROUP - 1;
+  rack->rules.user[0] = SOLIDS;
+  rack->hand = false;
+  const int count = (int)rack->plan.count;
+  for (int k = 0; k < count; k++)
+    rack->balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+  for (int k = 0; k < count; k++) {
+    double x, y;
+    do {
+      x = lab_uniform(&rack->state, 0.0, rack->plan.table->width);
+      y = lab_uniform(&rack->state, 0.0, rack->plan.table->length);
+    } while ((k <= left || (k >= EIGHT && k <= EIGHT + left + 1)) &&
+             carom_place_ball(rack->plan.table, rack->balls, count, k, x, y, NULL) != CAROM_OK);
+  }
+}
+
+bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
+  const carom_plan_job *job = &rack->plan;
+  const int count = (int)job->count;
+  int found;
+  rack->options.seed = rack->state.state;
+  const double high[2] = {job->table->width, 0.25 * job->table->length};
+  const carom_status status =
+      rack->hand ? carom_plan_hand(job, NULL, rack->kitchen ? high : NULL, choice, 1, &found)
+                 : carom_plan(job, choice, 1, &found);
+  if (status < 0) {
+    complain("a plan: %s", carom_status_string(status));
+    return false;
+  }
+  if (rack->hand)
+    carom_place_ball(job->table, rack->balls, count, 0, choice->place[0], choice->place[1], NULL);
+
+  /* the stroke, with errors */
+  carom_facts facts = {.first = {-1, -1}};
+  carom_ball_state final[RACK_BALLS];
+  carom_shot played = {.final = final, .facts = &facts};
+  uint32_t in_play = 0;
+  for (int k = 0; k < count; k++) {
+    final[k] = rack->balls[k].state;
+    in_play |= (uint32_t)(final[k].label != CAROM_BALL_POCKETED) << k;
+  }
+  carom_cue cue = choice->cue;
+  carom_player_strike(job->player, rack->state.state, 0, &cue);
+  lab_bits(&rack->state); /* the next stroke has other errors */
+  if (choice->kind != CAROM_PLAN_PASS)
+    carom_shoot(job->table, rack->balls, count, &cue, job->shot, &played);
+  *turn = rack->rules.judge(rack->rules.user, in_play, 0, &facts,
+                            (carom_call){choice->ball, choice->pocket});
+
+  /* the next layout; a ball that left the table is down */
+  for (int k = 0; k < count; k++) {
+    rack->balls[k].state = final[k];
+    if (final[k].label == CAROM_BALL_OFF)
+      rack->balls[k].state.label = CAROM_BALL_POCKETED;
+  }
+  carom_turn_settle(&rack->rules, rack->rules.user, job->table, rack->balls, count, turn);
+  rack->hand = turn->leave != CAROM_LEAVE_AFTER;
+  rack->kitchen = turn->leave == CAROM_LEAVE_KITCHEN;
+  return true;
+}

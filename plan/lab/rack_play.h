@@ -1,0 +1,50 @@
+/* Games that are played by plans of players who err: racks after a break, and their strokes. */
+#ifndef CAROM_LAB_RACK_PLAY_H
+#define CAROM_LAB_RACK_PLAY_H
+
+#include "carom_plan.h"
+#include "random.h"
+
+#include <stdbool.h>
+
+enum { RACK_BALLS = 22 };
+
+/* The games of an option --rules, in its order. */
+#define LAB_GAMES "eightball|nineball|straight|snooker|onepocket"
+typedef struct lab_game {
+  carom_rules_kind rules;
+  carom_table_kind table;
+  carom_game balls_of;
+  int balls; /* that may be taken away, from ball 1 on, in eight-ball also from ball 9 on */
+} lab_game;
+extern const lab_game lab_games[];
+
+typedef struct lab_rack {
+  carom_plan_job plan; /* with memory; all that it points to is here */
+  carom_table table;
+  carom_cue cue;
+  carom_player player;
+  carom_shot_options shot;
+  carom_shot_ball balls[RACK_BALLS];
+  carom_plan_rules rules;
+  carom_plan_options options;
+  lab_random state;
+  bool hand;    /* whether the cue ball is in hand, */
+  bool kitchen; /* and behind the head string */
+} lab_rack;
+
+/* The job for a game, by the options of the rack and the errors of a player; its memory is to be
+ * freed. */
+void lab_rack_begin(lab_rack *rack, const lab_game *game, double errors);
+/* The layout after the first break of a seed that pots nothing, with the cue ball in hand. Of
+ * straight pool, snooker and one-pocket the rack before it: it is a stroke of the game. */
+void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed);
+/* An end game of eight-ball in its place: so many solids, one stripe more, and the eight, at random
+ * places; the cue ball is not in hand. */
+void lab_rack_end(lab_rack *rack, int left);
+/* One stroke by a plan. Gives the choice and the turn; where neither has won, the rack is that of
+ * the next stroke, of the other player after a CAROM_TURN_PASS. False: the plan was refused, which
+ * is told. */
+bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn);
+
+#endif

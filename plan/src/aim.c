@@ -1,0 +1,507 @@
+/* Aims at a pocket, by shots of the balls on the way alone.
+ *
+ * The way is a row of links: the cue ball meets rails or ball 1, which meets rails or ball 2, up to
+ * the ball that is wanted, which meets rails. A direction phi of the cue does the first few of
+ * them. Where it does all, the ball goes on to the pocket, and
+ *
+ *   e(phi) = psi(o) - the direction of v,
+ *
+ * v being its velocity just before anything ends this last piece: a jaw, a cushion, the pocket,
+ * or rest. o is the place on the line of v that is as far from the pocket as the place of the
+ * last link. psi, of pots.c, is the middle of the directions from there that pass the jaws. So
+ * a path may curve on its way.
+ *
+ * Directions that do most links are few: the range of phi is sampled, and shrinks to those, as
+ * long as links are gained. Then e is continuous but for jumps; its roots are bracketed by
+ * neighbours and halved. The samples are those of a sine, under which the cut at the first ball
+ * changes in equal steps.
+ *
+ * A cue that the caller leaves to the stick has in each direction the least elevation of the stick,
+ * so a root is the direction of the stroke that is played. That elevation jumps where the butt
+ * comes over a cushion; where no other root is left, all directions have the greater elevation. */
+#include "platform/elementary.h"
+#include "table/table.h"
+#include "view.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { LINKS = CAROM_VIA_MOST + 1, EVENTS = 96, SAMPLES = 180, HALVINGS = 48 };
+static const carom_shot_options no_options;
+/* a part of the time since the start: a velocity before an event is taken so much earlier */
+static const double just_before = 1e-6;
+/* rad: a root with more is a jump; neighbours that differ by more are none */
+static const double root_most = 1e-4, step_most = 1.0;
+static const double least_time = 1e-9; /* s */
+/* s: a further contact with the same rail is a hop */
+static const double same_contact = 0.1;
+/* cushions that end so near to a pocket are beside it: in its radii */
+static const double beside_most = 3.0;
+/* degrees on either side, for each rail before the first ball */
+static const double kick_wide = 20.0;
+static const double speed_most = 15.0, speed_least = 0.05; /* m/s, of the cue */
+
+/* A way: its links, and its balls, the cue ball first. */
+typedef struct way {
+  const carom_table *table;
+  carom_shot_options options;
+  const carom_pocket *pocket;
+  carom_mouth mouth;
+  const carom_shot_ball *layout; /* the whole layout, of `count` balls */
+  int count, balls, links;
+  bool raised;                      /* the caller leaves the elevation to the stick */
+  carom_part link[LINKS];           /* balls and rails, as they are met */
+  int ball[LINKS + 1];              /* indices in the layout */
+  carom_shot_ball alone[LINKS + 1]; /* the balls as a layout of their own */
+  carom_brief_event *events;        /* room for those of one shot */
+  double *jump;                     /* the greatest elevation at a jump of e, degrees */
+} way;
+
+/* How far a shot came on its way. */
+typedef struct progress {
+  int links;
+  double first, since, until; /* s: of the first link, of the last one, of what ended the rest */
+  carom_brief_event end;      /* that; of type 0: nothing did */
+} progress;
+
+/* An angle of less than three half turns, as one of at most half a turn. */
+static double wrapped(double angle) {
+  return angle > pi ? angle - 2.0 * pi : angle < -pi ? angle + 2.0 * pi : angle;
+}
+
+/* Whether two rails are on one line. */
+static bool in_line(const carom_rail *r, const carom_rail *s) {
+  const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1], length = x * x + y * y;
+  const double from = x * (s->p[1] - r->p[1]) - y * (s->p[0] - r->p[0]);
+  const double to = x * (s->q[1] - r->p[1]) - y * (s->q[0] - r->p[0]);
+  return fmax(fabs(from), fabs(to)) < 1e-6 * length;
+}
+
+/* ---- A shot and its way */
+
+/* Whether a link, if there is one, is the line of this rail. */
+static bool is_on(const way *w, const carom_part *link, int rail) {
+  return link != NULL && link->kind == CAROM_PART_RAIL &&
+         in_line(&w->table->rail[link->index], &w->table->rail[rail]);
+}
+
+/* Follows the events of a shot along the way; `ball` are the indices of its balls there. */
+static progress follow(const way *w, const int *ball, const carom_brief_event *events,
+                       int64_t count) {
+  progress p = {0};
+  int at = 0;
+  for (int64_t k = 0; k < count && p.end.type == 0; k++) {
+    /* events of the ball that is on its way, but those that are no contact */
+    const carom_brief_event *e = &events[k];
+    const bool meets = e->type == CAROM_EVENT_BALL_BALL, rail = e->type == CAROM_EVENT_RAIL;
+    if ((e->a != ball[at] && !(meets && e->b == ball[at])) || e->type == CAROM_EVENT_STRIKE ||
+        e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_SLIDING_ROLLING)
+      continue;
+    const int other = e->a == ball[at] ? e->b : e->a;
+    /* the link that is to come, and the one that was done */
+    const carom_part *next = p.links < w->links ? &w->link[p.links] : NULL,
+                     *last = p.links > 0 ? &w->link[p.links - 1] : NULL;
+
+    if (meets && next != NULL && next->kind == CAROM_PART_BALL && other == ball[at + 1]) {
+      p.first = at++ == 0 ? e->time : p.first;
+      p.since = e->time;
+      p.links++;
+      /* the contacts of one instant are in any order */
+      while (k > 0 && events[k - 1].time == e->time)
+        k--;
+      k--;
+    } else if (meets && at > 0 && other == ball[at - 1] && e->time == p.since) {
+      continue;
+    } else if (rail && is_on(w, next, e->b)) {
+      p.since = e->time;
+      p.links++;
+    } else if (!(rail && is_on(w, last, e->b) && e->time - p.since < same_contact)) {
+      p.end = *e;
+    }
+  }
+  p.until = p.end.time;
+  return p;
+}
+
+/* The states of the balls of the way at a time of their shot. */
+static void states_at(const way *w, const carom_cue *cue, double time,
+                      carom_ball_state states[LINKS + 1]) {
+  carom_shot_options options = w->options;
+  carom_shot shot = {.final = states};
+  options.time_most = fmax(time, least_time); /* 0 would be no bound */
+  carom_shoot(w->table, w->alone, w->balls, cue, &options, &shot);
+}
+
+/* How far the balls of the way come alone, and the time of their shot. */
+static progress alone(const way *w, const carom_cue *cue, double *time) {
+  static const int own[LINKS + 1] = {0, 1, 2, 3, 4, 5};
+  carom_shot_options options = w->options;
+  carom_shot shot = {.brief = w->events, .room = EVENTS};
+  options.stop_at = CAROM_STOP_AT(CAROM_EVENT_POCKET);
+  carom_shoot(w->table, w->alone, w->balls, cue, &options, &shot);
+  *time = shot.time;
+  return follow(w, own, w->events, shot.count < EVENTS ? shot.count : EVENTS);
+}
+
+/* The least elevation of the stick of a cue of the way in its direction, degrees. */
+static double stick_of(const way *w, carom_cue cue) {
+  cue.ball = w->ball[0];
+  return carom_least_elevation(w->table, w->layout, w->count, &cue);
+}
+
+/* The elevation with which a cue is played: as given, or the least. */
+static double elevation_of(const way *w, const carom_cue *cue) {
+  return isnan(cue->theta) ? stick_of(w, *cue) : cue->theta;
+}
+
+/* e, and half the range of directions that pass the jaws; both NaN where the way is not done or
+ * the ball goes nowhere, or away from the pocket. */
+static progress attempt(const way *w, double phi, carom_cue cue, double *e, double *half) {
+  carom_ball_state states[LINKS + 1];
+  double time;
+  cue.ball = 0;
+  cue.phi = phi;
+  cue.theta = elevation_of(w, &cue);
+  const progress p = alone(w, &cue, &time);
+  *e = *half = (double)NAN;
+  if (p.links < w->links)
+    return p;
+
+  /* Where the last link left the ball, and where it went just before the end. */
+  const double *c = w->mouth.centre;
+  const carom_ball_state *s = &states[w->balls - 1];
+  states_at(w, &cue, p.since, states);
+  const double x = c[0] - s->r[0], y = c[1] - s->r[1], far = sqrt(x * x + y * y);
+  const double until = p.end.type != 0 ? p.until : time;
+  states_at(w, &cue, fmax(p.since, until * (1.0 - just_before)), states);
+  const double speed = sqrt(s->v[0] * s->v[0] + s->v[1] * s->v[1]);
+  if (!(speed > 0.0))
+    return p;
+
+  /* The line of v, from as far away. */
+  const double u[2] = {s->v[0] / speed, s->v[1] / speed};
+  if (u[0] * x + u[1] * y < 0.0)
+    return p;
+  const double back = u[0] * (c[0] - s->r[0]) + u[1] * (c[1] - s->r[1]) - far;
+  const double o[2] = {s->r[0] + back * u[0], s->r[1] + back * u[1]};
+  const carom_window window = carom_window_of(&w->mouth, o, w->alone[w->balls - 1].kind.radius);
+  *half = window.half;
+  *e = wrapped(window.psi - carom_angle_of(u[0], u[1]));
+  return p;
+}
+
+/* Whether a cushion that the ball met is beside the pocket. */
+static bool is_beside(const way *w, const carom_brief_event *e) {
+  const carom_rail *r = &w->table->rail[e->b];
+  const double *jaw = w->table->jaw[e->b].centre, *c = w->pocket->centre;
+  const double *ends[2] = {e->type == CAROM_EVENT_JAW ? jaw : r->p,
+                           e->type == CAROM_EVENT_JAW ? jaw : r->q};
+  bool beside = false;
+  for (int k = 0; k < 2; k++) {
+    const double x = ends[k][0] - c[0], y = ends[k][1] - c[1];
+    beside |= x * x + y * y < beside_most * beside_most * w->pocket->radius * w->pocket->radius;
+  }
+  return beside;
+}
+
+/* What comes of a cue, of the whole layout. */
+static carom_pot_is fate(const way *w, const carom_shot_ball *balls, int count,
+                         const carom_cue *cue, carom_brief_event *met) {
+  carom_facts facts;
+  carom_shot shot = {.brief = w->events, .room = EVENTS, .facts = &facts};
+  carom_shoot(w->table, balls, count, cue, &w->options, &shot);
+  const progress p = follow(w, w->ball, w->events, shot.count < EVENTS ? shot.count : EVENTS);
+  const int last = w->ball[w->balls - 1];
+  const bool falls = facts.pocket[last] >= 0 && &w->table->pocket[facts.pocket[last]] == w->pocket;
+  *met = p.end;
+
+  /* After the last link it may touch what is beside the pocket, and nothing else. */
+  const int type = p.end.type;
+  const bool done = p.links == w->links;
+  if (done && (type == 0 || type == CAROM_EVENT_POCKET))
+    return falls ? CAROM_POT_FALLS : CAROM_POT_REJECTED;
+  if (done && (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW))
+    return falls && is_beside(w, &p.end) ? CAROM_POT_FALLS : CAROM_POT_REJECTED;
+  return type == CAROM_EVENT_ROLLING_SPINNING || type == CAROM_EVENT_ROLLING_STATIONARY || type == 0
+             ? CAROM_POT_SHORT
+             : CAROM_POT_BARRED;
+}
+
+/* The last value of *field, of the cue, from its own on and up to `end`, with which the ball falls:
+ * by steps that grow, until one misses, then by halvings. */
+static double last_good(const way *w, const carom_shot_ball *balls, int count, const carom_cue *cue,
+                        double *field, double step, double growth, double end) {
+  const double own = *field;
+  double good, bad = own;
+  carom_brief_event unused;
+  do {
+    good = bad;
+    bad = (good + step < end) == (step > 0.0) ? good + step : end;
+    step *= growth;
+    *field = bad;
+  } while (bad != good && fate(w, balls, count, cue, &unused) == CAROM_POT_FALLS);
+  for (int k = 0; k < HALVINGS / 2 && bad != good; k++) {
+    *field = 0.5 * (good + bad);
+    *(fate(w, balls, count, cue, &unused) == CAROM_POT_FALLS ? &good : &bad) = *field;
+  }
+  *field = own;
+  return good;
+}
+
+/* ---- The search */
+
+/* The stroke and half width of a root of e between two directions, in the first of which it has the
+ * value e0; false for a jump. */
+static bool root_of(const way *w, const carom_cue *cue, const double between[2], double e0,
+                    carom_cue *found, double *half) {
+  double e = e0, low = between[0], high = between[1];
+  *found = *cue;
+  for (int k = 0; k < HALVINGS && !isnan(e); k++) {
+    found->phi = 0.5 * (low + high);
+    attempt(w, found->phi, *cue, &e, half);
+    *((e > 0.0) == (e0 > 0.0) ? &low : &high) = found->phi;
+  }
+  found->theta = elevation_of(w, found);
+  for (int side = 0; side < 2 && fabs(e) >= root_most; side++) {
+    carom_cue end = *cue;
+    end.phi = side == 0 ? low : high;
+    *w->jump = fmax(*w->jump, elevation_of(w, &end));
+  }
+  return fabs(e) < root_most;
+}
+
+/* The angle from the way of the cue ball, just before its first contact, to the line of centres,
+ * degrees. */
+static double cut_of(const way *w, carom_cue cue) {
+  carom_ball_state s[LINKS + 1];
+  carom_motion struck = {0};
+  double unused[2];
+  const progress p = attempt(w, cue.phi, cue, &unused[0], &unused[1]);
+  cue.ball = 0;
+  states_at(w, &cue, p.first * (1.0 - just_before), s);
+  carom_strike(&cue, &w->alone[0].kind, &struck);
+  const double *v = p.first > 0.0 ? s[0].v : struck.v;
+  return wrapped(carom_angle_of(s[1].r[0] - s[0].r[0], s[1].r[1] - s[0].r[1]) -
+                 carom_angle_of(v[0], v[1])) /
+         degree;
+}
+
+/* What comes of a root; where the ball falls, with how much may be erred. */
+static void judge(const way *w, const carom_shot_ball *balls, int count, const carom_cue *root,
+                  double half, carom_pot *pot, carom_cue *cue) {
+  const double phi = root->phi;
+  cue->phi = phi < 0.0 ? phi + 360.0 : phi >= 360.0 ? phi - 360.0 : phi;
+  pot->elevation = stick_of(w, *cue);
+  cue->theta = w->raised ? fmax(root->theta, pot->elevation) : root->theta;
+  pot->is = (int32_t)fate(w, balls, count, cue, &pot->met);
+  if (w->raised && pot->elevation > STICK_MOST)
+    pot->is = CAROM_POT_STICK;
+  pot->cut = cut_of(w, *cue);
+  pot->margin = fmax(half, 0.0) / degree;
+  if (pot->is != CAROM_POT_FALLS)
+    return;
+  pot->met = (carom_brief_event){0};
+  carom_cue c = *cue;
+  for (int side = 0; side < 2; side++) {
+    const double sign = side == 0 ? -1.0 : 1.0, growth = side == 0 ? 1.0 / 1.1 : 1.1;
+    pot->phi[side] = last_good(w, balls, count, &c, &c.phi, 1e-3 * sign, 1.5, c.phi + 10.0 * sign);
+    pot->speed[side] = last_good(w, balls, count, &c, &c.speed, c.speed * (growth - 1.0), growth,
+                                 side == 0 ? speed_least : speed_most);
+  }
+}
+
+/* Searches mid - wide to mid + wide, degrees, for directions with which the ball falls. */
+static void search(const way *w, const carom_shot_ball *balls, int count, double mid, double wide,
+                   carom_pot *pot, carom_cue *cue) {
+  const carom_cue given = *cue;
+  int best = -1;
+  pot->is = CAROM_POT_NO_WAY;
+
+  /* as long as links are gained, and once more for the roots */
+  for (bool gains = true; gains;) {
+    const bool roots = best == w->links;
+    double low = 0.0, high = 0.0, last = 0.0, before = (double)NAN;
+    int most = -1;
+    bool short_of = true; /* whether all that do most come to rest */
+    progress at_rest = {0};
+
+    /* directions at the places of a sine, from one end of the range to the other */
+    for (int k = 0; k <= SAMPLES; k++) {
+      double sine, cosine, e, half, phi;
+      carom_sincos(pi * k / (double)SAMPLES - 0.5 * pi, &sine, &cosine);
+      phi = mid + wide * sine;
+      const progress p = attempt(w, phi, given, &e, &half);
+      const bool rests = p.end.type == CAROM_EVENT_ROLLING_STATIONARY ||
+                         p.end.type == CAROM_EVENT_ROLLING_SPINNING;
+
+      /* The range of those that do most, with a neighbour on either side. */
+      if (p.links > most) {
+        most = p.links;
+        low = k > 0 ? last : phi;
+        short_of = true;
+      }
+      if (p.links == most) {
+        at_rest = p;
+        short_of = short_of && rests;
+        carom_sincos(pi * (k + 1 > SAMPLES ? SAMPLES : k + 1) / (double)SAMPLES - 0.5 * pi, &sine,
+                     &cosine);
+        high = mid + wide * sine;
+      }
+
+      /* a root between this direction and the last one, where the ball may fall */
+      carom_cue root;
+      double width = 0.0;
+      if (roots && (e > 0.0) != (before > 0.0) && fabs(e - before) < step_most &&
+          root_of(w, &given, (double[]){last, phi}, before, &root, &width)) {
+        judge(w, balls, count, &root, width, pot, cue);
+        if (pot->is == CAROM_POT_FALLS)
+          return;
+      }
+      before = e;
+      last = phi;
+    }
+
+    /* once more where links were gained, and then for the roots */
+    gains = most > best;
+    best = most;
+    mid = 0.5 * (low + high);
+    wide = 0.5 * (high - low);
+    if (!gains && best < w->links && short_of) {
+      pot->is = CAROM_POT_SHORT;
+      pot->met = at_rest.end;
+      pot->met.a = w->ball[pot->met.a];
+    }
+  }
+}
+
+/* ---- The call */
+
+/* The way as the caller asks for it; false where that cannot be. */
+static bool way_of(const carom_table *table, const carom_shot_ball *balls, int count,
+                   const carom_shot_options *options, const carom_pot *pot, int cue_ball, way *w) {
+  if (pot->pocket < 0 || pot->pocket >= table->pockets || pot->vias < 0 ||
+      pot->vias > CAROM_VIA_MOST)
+    return false;
+  memset(w, 0, sizeof *w); /* a literal would take its room on the stack a second time */
+  w->table = table;
+  w->options = *options;
+  w->pocket = &table->pocket[pot->pocket];
+  w->mouth = carom_mouth_of(table, pot->pocket);
+  w->balls = 1;
+  w->ball[0] = cue_ball;
+  w->options.stop_at = w->options.first_of = 0;
+  w->options.time_most = 0.0;
+
+  /* The ball that falls comes after the last other ball, where via[] does not name it. */
+  int last = -1;
+  bool named = false;
+  for (int k = 0; k < pot->vias; k++)
+    if (pot->via[k].kind == CAROM_PART_BALL) {
+      last = k;
+      named = pot->via[k].index == pot->ball;
+    }
+  for (int k = -1; k < pot->vias; k++) {
+    if (k >= 0)
+      w->link[w->links++] = pot->via[k];
+    if (k == last && !named)
+      w->link[w->links++] = (carom_part){CAROM_PART_BALL, pot->ball};
+  }
+
+  /* the balls of the links, after one another; a rail is one of the table's */
+  for (int k = 0; k < w->links; k++) {
+    const carom_part *link = &w->link[k];
+    if (link->kind == CAROM_PART_BALL)
+      w->ball[w->balls++] = link->index;
+    else if (link->kind != CAROM_PART_RAIL || link->index < 0 || link->index >= table->rails)
+      return false;
+  }
+
+  /* All are there, once. */
+  for (int k = 0; k < w->balls; k++) {
+    const int ball = w->ball[k];
+    if (ball < 0 || ball >= count || balls[ball].state.label == CAROM_BALL_POCKETED ||
+        balls[ball].state.label == CAROM_BALL_OFF)
+      return false;
+    for (int other = 0; other < k; other++)
+      if (w->ball[other] == ball)
+        return false;
+    w->alone[k] = balls[ball];
+  }
+  return true;
+}
+
+carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,
+                       const carom_shot_options *shot, carom_pot *pot, carom_cue *cue) {
+  if (table == NULL || balls == NULL || pot == NULL || cue == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_shot_options *options = shot != NULL ? shot : &no_options;
+  int where;
+  carom_cue along = *cue;
+  along.theta = isnan(cue->theta) ? 0.0 : cue->theta;
+  const carom_status bad = carom_shot_check(table, balls, count, &along, options, &where);
+  if (bad != CAROM_OK)
+    return bad;
+  way w;
+  if (!way_of(table, balls, count, options, pot, (int)cue->ball, &w))
+    return CAROM_ERROR_BALLS;
+  carom_brief_event events[EVENTS];
+  w.events = events;
+  double jump = 0.0;
+  w.jump = &jump;
+  w.layout = balls;
+  w.count = count;
+  w.raised = isnan(cue->theta);
+
+  /* The directions in which a straight path meets the first ball, or its image in the rails before
+   * it. No rail reflects as a mirror does, and a raised cue's path curves. */
+  const carom_shot_ball *own = &w.alone[0], *first = &w.alone[1];
+  double to[2] = {first->state.r[0], first->state.r[1]};
+  int rails = 0;
+  while (w.link[rails].kind == CAROM_PART_RAIL)
+    rails++;
+  for (int k = rails - 1; k >= 0; k--) {
+    double l[3];
+    carom_rail_line(&table->rail[w.link[k].index], l);
+    const double off = l[0] * to[0] + l[1] * to[1] + l[2] - own->kind.radius;
+    to[0] -= 2.0 * off * l[0];
+    to[1] -= 2.0 * off * l[1];
+  }
+
+  /* a direction to either side of the middle, by the size of the balls and the curve */
+  const double x = to[0] - own->state.r[0], y = to[1] - own->state.r[1];
+  const double sine = (own->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
+  carom_motion struck = {.v = {1.0}};
+  double half = (sine < 1.0 ? carom_asin(sine) : 0.5 * pi) / degree;
+  for (int side = -1; side <= 1 && w.raised; side++) {
+    along.phi = carom_angle_of(x, y) / degree + half * side;
+    along.theta = fmax(along.theta, stick_of(&w, along));
+  }
+  along.phi = 0.0;
+  carom_strike(&along, &own->kind, &struck);
+  const double mid = (carom_angle_of(x, y) - carom_angle_of(struck.v[0], struck.v[1])) / degree;
+  half += (along.theta > 0.0 ? 2.0 + along.theta : 0.0) + kick_wide * rails;
+
+  pot->elevation = pot->cut = pot->margin = pot->phi[0] = pot->phi[1] = pot->speed[0] =
+      pot->speed[1] = 0.0;
+  pot->met = (carom_brief_event){0};
+  search(&w, balls, count, mid, half, pot, cue);
+  /* where the elevation jumps over the root, the greater one */
+  if (w.raised && pot->is == CAROM_POT_NO_WAY && jump > 0.0) {
+    carom_cue high = *cue;
+    high.theta = jump;
+    search(&w, balls, count, mid, half, pot, &high);
+    if (pot->elevation > jump)
+      pot->is = CAROM_POT_NO_WAY;
+    else if (pot->is != CAROM_POT_NO_WAY)
+      *cue = high;
+  }
+
+  /* whether the stick alone is in the way of all directions */
+  along.phi = mid;
+  const double least = w.raised && pot->is == CAROM_POT_NO_WAY ? stick_of(&w, along) : 0.0;
+  if (least > STICK_MOST) {
+    pot->is = CAROM_POT_STICK;
+    pot->elevation = least;
+  }
+  return CAROM_OK;
+}

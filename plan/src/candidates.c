@@ -1,0 +1,313 @@
+/* Candidates: direct pots, with six speeds and five places of the tip, aimed by shots of two balls
+ * that stop at the contact; and strokes in all directions, of which those stay that meet a ball
+ * first that is on. */
+#include "platform/elementary.h"
+#include "platform/promise.h"
+#include "search.h"
+
+#include <math.h>
+
+typedef carom_candidate candidate;
+typedef carom_outcome outcome;
+typedef carom_search search;
+
+enum { TIPS = 5, POT_SPEEDS = 6, SCAN_SPEEDS = 5, STROKES = TIPS * POT_SPEEDS };
+/* m/s of a cue whose tip loses nothing, and radii, from the prototype */
+static const double pot_speed[POT_SPEEDS] = {0.8, 1.2, 1.7, 2.4, 3.4, 4.8};
+static const double pot_tip[TIPS][2] = {
+    {0.0, 0.0}, {0.0, 0.35}, {0.0, -0.35}, {0.3, 0.0}, {-0.3, 0.0}};
+static const double scan_speed[SCAN_SPEEDS] = {1.0, 1.8, 3.0, 5.0, 7.5};
+static const double scan_tip[TIPS][2] = {
+    {0.0, 0.0}, {0.0, 0.3}, {0.0, -0.3}, {0.25, 0.0}, {-0.25, 0.0}};
+
+/* Keeps a stroke within what the player can do. */
+static void bound(const search *plan, candidate *c) {
+  const carom_player *player = &plan->player;
+  c->speed = carom_within(c->speed, player->speed_least, player->speed_most);
+  c->a = carom_within(c->a, -player->tip_most, player->tip_most);
+  c->b = carom_within(c->b, -player->tip_most, player->tip_most);
+}
+
+/* The least elevation of a candidate's stick, or none by a level cue, degrees. */
+static double raised(const search *plan, const candidate *c) {
+  const carom_cue cue = {.phi = c->phi, .a = c->a, .b = c->b, .ball = plan->cue_ball};
+  return plan->options.level
+             ? 0.0
+             : carom_least_elevation(plan->job.table, plan->played, (int)plan->plays, &cue);
+}
+
+/* The elevation is the least of the stick, but where the caller gave it, or an aim did. A gentle
+ * stroke is added whatever that is. */
+void carom_search_add(search *plan, candidate c) {
+  const bool given = c.kind == CAROM_PLAN_GIVEN || c.kind == CAROM_PLAN_PASS;
+  if (!given)
+    bound(plan, &c);
+  if (!given && c.kind != CAROM_PLAN_POT)
+    c.theta = raised(plan, &c);
+  const bool played = given || c.kind == CAROM_PLAN_FOUL || c.theta <= STICK_MOST;
+  if (plan->count < plan->most && played) {
+    c.order = (int32_t)plan->count;
+    plan->found[plan->count++] = c;
+  }
+}
+
+/* The direction, degrees, in which a ball leaves that is struck in the direction 0. */
+static double squirt_of(const carom_cue *cue, const carom_ball_kind *kind) {
+  carom_cue along = *cue;
+  carom_motion motion;
+  along.phi = 0.0;
+  return carom_strike(&along, kind, &motion) < 0
+             ? 0.0
+             : carom_angle_of(motion.v[0], motion.v[1]) / degree;
+}
+
+/* Turns a candidate until the ball that it aims at, hit by the cue ball, goes in its direction phi,
+ * degrees, with the cue raised as it has to be. False where it cannot be hit. */
+static bool aim(const search *plan, candidate *c) {
+  enum { STEPS = 3 };
+  const carom_shot_ball *balls = plan->job.balls;
+  carom_shot_ball pair[2] = {balls[plan->view.cue_ball], balls[c->aimed_ball]};
+  carom_ball_state final[2];
+  carom_shot_options options = plan->shot;
+  options.stop_at = CAROM_STOP_AT_CONTACT;
+  options.first_of = 0;
+  carom_cue alone = *plan->job.cue;
+  alone.ball = 0;
+  alone.theta = 0.0;
+  alone.speed = c->speed;
+  alone.a = c->a;
+  alone.b = c->b;
+  const double both = pair[0].kind.radius + pair[1].kind.radius, *r = pair[0].state.r,
+               *o = pair[1].state.r;
+  const double squirt = squirt_of(&alone, &pair[0].kind), psi = c->phi * degree;
+  double to = psi;
+  for (int step = 0; step < STEPS; step++) {
+    double sine, cosine;
+    carom_sincos(to, &sine, &cosine);
+    alone.phi =
+        carom_angle_of(o[0] - both * cosine - r[0], o[1] - both * sine - r[1]) / degree - squirt;
+    c->phi = alone.phi;
+    c->theta = alone.theta = raised(plan, c);
+    if (c->theta > STICK_MOST)
+      return false;
+
+    /* throw turns the ball away from the line of centres */
+    carom_shot played = {.final = final};
+    if (carom_shoot(plan->job.table, pair, 2, &alone, &options, &played) != CAROM_STOPPED_AT_EVENT)
+      return false;
+    const double *v = final[1].v;
+    if (!(v[0] * v[0] + v[1] * v[1] > 4e-4))
+      return false;
+    double off = psi - carom_angle_of(v[0], v[1]);
+    off += off > 180.0 * degree ? -360.0 * degree : off < -180.0 * degree ? 360.0 * degree : 0.0;
+    to += off;
+  }
+  c->phi += c->phi < 0.0 ? 360.0 : 0.0;
+  return true;
+}
+
+/* Aims the candidates; whether that can be done is their outcome. */
+static size_t aim_rows(const void *context, size_t first, size_t end) {
+  const search *plan = context;
+  for (size_t k = first; k < end; k++) {
+    const int64_t row = plan->stage.done + (int64_t)k;
+    if (row > 0 && carom_is_stopped(plan))
+      return k;
+    plan->outcome[row] = (outcome){.is = aim(plan, &plan->found[row])};
+  }
+  return end;
+}
+
+/* Strokes near the best `parents` ones, between those of the grid: one of speed and both places of
+ * the tip changed at a time, and aimed anew. carom-lab plan --racks 1000 --shots 1000 runs out 761
+ * racks with them, 740 without; half of these steps, and half as much again, could not be told from
+ * them. */
+void carom_search_near(search *plan, int64_t parents) {
+  enum { WAYS = 6 };
+  static const double faster = 1.2, farther = 0.15; /* radii */
+  for (int64_t k = 0; k < parents; k++)
+    for (int way = 0; way < WAYS; way++) {
+      candidate c = plan->found[k];
+      if (c.kind != CAROM_PLAN_POT && c.kind != CAROM_PLAN_SCAN)
+        continue;
+      const bool more = way % 2 == 1;
+      c.round = 0;
+      c.speed = way > 1 ? c.speed : more ? c.speed * faster : c.speed / faster;
+      c.a += way / 2 != 1 ? 0.0 : more ? farther : -farther;
+      c.b += way / 2 != 2 ? 0.0 : more ? farther : -farther;
+      bound(plan, &c);
+      if (c.kind == CAROM_PLAN_POT) {
+        c.phi = plan->view.window[c.aimed_ball][c.aimed_pocket].psi / degree;
+        if (!aim(plan, &c))
+          continue;
+      }
+      carom_search_add(plan, c);
+    }
+}
+
+/* The numbers below `count` in an order that is drawn. */
+static void draw_order(const search *plan, uint32_t stage, int *order, int count) {
+  for (int n = 0; n < count; n++) {
+    const int other = (int)(carom_uniform(plan->options.seed, stage, (uint64_t)n, 0) * (n + 1));
+    order[n] = order[other];
+    order[other] = n;
+  }
+}
+
+/* Direct pots, the likeliest first, each with all strokes, or as many as there is room for. */
+void carom_search_pots(search *plan, int64_t most) {
+  carom_pot_found *way = plan->pot;
+  int ways = 0;
+  for (int k = 0; k < plan->view.count; k++)
+    plan->state[k] = plan->job.balls[k].state;
+  for (int k = 0; k < plan->view.count; k++)
+    for (int p = 0; p < plan->view.pockets && (plan->on >> k & 1); p++) {
+      /* ball k into pocket p, if that is likely at all */
+      if (!(plan->pockets >> p & 1))
+        continue;
+      const carom_way w =
+          carom_way_of(&plan->view, plan->state, plan->in_play, k, p, 0, false, 0.03);
+      if (w.chance == 0.0)
+        continue;
+      int at = ways++; /* sorted in */
+      for (; at > 0 && way[at - 1].way.chance < w.chance; at--)
+        way[at] = way[at - 1];
+      way[at] = (carom_pot_found){w, k, p};
+    }
+
+  /* The strokes in an order that is drawn, so that few of them are of all kinds. */
+  int order[STROKES];
+  draw_order(plan, DRAW_STROKES, order, STROKES);
+  CAROM_PROMISE(ways <= CAROM_BALLS_MOST * CAROM_POCKETS_MOST);
+  const int64_t fit = most / STROKES > 4 ? most / STROKES : 4;
+  ways = ways > fit ? (int)fit : ways;
+  const int64_t share = ways > 0 ? most / ways : 0, strokes = share > STROKES ? STROKES
+                                                              : share < 3     ? 3
+                                                                              : share;
+
+  for (int w = 0; w < ways; w++)
+    for (int n = 0; n < strokes; n++) {
+      const double *tip = pot_tip[order[n] % TIPS];
+      carom_search_add(
+          plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * pot_speed[order[n] / TIPS],
+                            .phi = way[w].way.psi / degree,
+                            .a = tip[0],
+                            .b = tip[1],
+                            .kind = CAROM_PLAN_POT,
+                            .aimed_ball = (int16_t)way[w].ball,
+                            .aimed_pocket = (int16_t)way[w].pocket});
+    }
+  plan->stage = (carom_stage){.work = aim_rows, .rows = plan->count};
+}
+
+/* Those that cannot be aimed are dropped. */
+void carom_search_aimed(search *plan) {
+  plan->count = 0;
+  for (int64_t k = 0; k < plan->stage.done; k++)
+    if (plan->outcome[k].is)
+      carom_search_add(plan, plan->found[k]);
+}
+
+/* Breaks: the nearest balls that are on, full and a little beside their middle, at three speeds
+ * with three tips; up to `most` of these strokes, in an order that is drawn. */
+void carom_search_breaks(search *plan, int64_t most) {
+  enum { TARGETS = 3, SIDES = 5, SPEEDS = 3, HEIGHTS = 3 };
+  static const double side[SIDES] = {0.0, 0.05, -0.05, 0.15, -0.15}; /* radii of both balls */
+  static const double share[SPEEDS] = {1.0, 0.85, 0.7}, above[HEIGHTS] = {0.0, 0.2, -0.2};
+  const double *c = plan->job.balls[plan->view.cue_ball].state.r;
+
+  /* the nearest balls, sorted in */
+  double distance[TARGETS + 1];
+  int ball[TARGETS + 1], balls = 0;
+  for (int k = 0; k < plan->view.count; k++) {
+    const double *r = plan->job.balls[k].state.r, x = r[0] - c[0], y = r[1] - c[1];
+    if (!(plan->on >> k & 1))
+      continue;
+    const double d = sqrt(x * x + y * y);
+    int at = balls < TARGETS ? balls++ : TARGETS;
+    for (; at > 0 && distance[at - 1] > d; at--) {
+      distance[at] = distance[at - 1];
+      ball[at] = ball[at - 1];
+    }
+    distance[at] = d;
+    ball[at] = k;
+  }
+
+  /* strokes in an order that is drawn: a number stands for ball, side, speed and tip */
+  int order[TARGETS * SIDES * SPEEDS * HEIGHTS];
+  const int strokes = balls * SIDES * SPEEDS * HEIGHTS;
+  draw_order(plan, DRAW_BREAKS, order, strokes);
+  for (int n = 0; n < strokes && n < most; n++) {
+    const int target = order[n] % balls, stroke = order[n] / balls;
+    const double *r = plan->job.balls[ball[target]].state.r;
+
+    /* aimed beside the middle of the ball, by a part of both radii */
+    const double both = plan->view.radius[plan->view.cue_ball] + plan->view.radius[ball[target]];
+    const double beside = both * side[stroke % SIDES] / distance[target];
+    const double phi =
+        (carom_angle_of(r[0] - c[0], r[1] - c[1]) + carom_asin(carom_within(beside, -1.0, 1.0))) /
+        degree;
+
+    /* as hard as the player can, or somewhat less */
+    const double speed = share[stroke / SIDES % SPEEDS] * plan->player.speed_most;
+    const double tip = above[stroke / SIDES / SPEEDS];
+    carom_search_add(plan, (candidate){.speed = speed,
+                                       .phi = phi < 0.0 ? phi + 360.0 : phi,
+                                       .b = tip,
+                                       .kind = CAROM_PLAN_BREAK});
+  }
+}
+
+/* Strokes in all directions, of which those stay that meet a ball first that is on. The directions
+ * follow the golden ratio, so that however many are tried, they are spread evenly. */
+bool carom_search_scan(search *plan) {
+  /* in blocks that are sooner made than a plan has to stop */
+  enum { LEAST = 16, MOST = 4096 };
+  const int64_t block = (int64_t)carom_within((double)plan->scan / 2.0, LEAST, MOST);
+  if (plan->tried >= 4 * plan->scan || plan->count >= plan->scan_end || carom_is_stopped(plan))
+    return false;
+  const double begin = carom_uniform(plan->options.seed, DRAW_SCAN, 0, 0);
+  const int64_t first = plan->count, end = plan->tried + block;
+  for (; plan->tried < end && plan->count < plan->most; plan->tried++) {
+    /* a direction, and a speed and a tip that are drawn */
+    const uint64_t row = (uint64_t)plan->tried + 1;
+    double turn = begin + 0.61803398874989485 * (double)plan->tried;
+    turn -= floor(turn);
+    const int speed =
+        (int)((double)SCAN_SPEEDS * carom_uniform(plan->options.seed, DRAW_SCAN, row, 0));
+    const double *tip =
+        scan_tip[(int)((double)TIPS * carom_uniform(plan->options.seed, DRAW_SCAN, row, 1))];
+    double drawn[2];
+    if (plan->view.pockets == 0) { /* any place, since its side decides where cushions send it */
+      const double turned = 2.0 * pi * carom_uniform(plan->options.seed, DRAW_SCAN, row, 2);
+      const double far =
+          plan->player.tip_most * sqrt(carom_uniform(plan->options.seed, DRAW_SCAN, row, 1));
+      carom_sincos(turned, &drawn[0], &drawn[1]);
+      drawn[0] *= far;
+      drawn[1] *= far;
+      tip = drawn;
+    }
+    const bool pushes = (plan->may & CAROM_MAY_PUSH) && plan->tried % 2 == 1;
+    carom_search_add(plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * scan_speed[speed],
+                                       .phi = 360.0 * turn,
+                                       .a = tip[0],
+                                       .b = tip[1],
+                                       .kind = pushes ? CAROM_PLAN_PUSH : CAROM_PLAN_SCAN});
+  }
+  plan->tried = end;
+  carom_search_stage(plan, first, plan->count - first, 1, 0);
+  return true;
+}
+
+/* Those that begin with a foul are dropped, and those that are more than the scan has. */
+void carom_search_scanned(search *plan) {
+  const int64_t first = plan->stage.first, added = plan->stage.done;
+  CAROM_PROMISE(added <= plan->count - first);
+  plan->count = first;
+  for (int64_t k = 0; k < added && plan->count < plan->scan_end; k++)
+    if (plan->found[first + k].kind == CAROM_PLAN_PUSH ||
+        carom_search_begins_well(plan, plan->outcome[k].first)) {
+      carom_search_add(plan, plan->found[first + k]);
+      carom_search_take(plan, plan->count - 1, &plan->outcome[k]);
+    }
+}

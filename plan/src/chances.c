@@ -1,0 +1,101 @@
+/* Chances that a player keeps his turn, by the numbers of learned_numbers.h, which were fitted to
+ * racks that were played: p that he does so now, by a pot of any kind, a_n that he pots a later
+ * ball of this visit where n are left, and e_n that he keeps the turn that the other has left him.
+ * All are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it. The numbers are nine-ball's
+ * where both have the same balls, one-pocket's where each has pockets of his own, those of snooker
+ * or straight pool in races for points, else eight-ball's. */
+#include "learned_numbers.h"
+#include "platform/elementary.h"
+#include "view.h"
+
+#include <string.h>
+
+static double chance(const double *w, const double *x, int n) {
+  double sum = 0.0;
+  for (int k = 0; k < n; k++)
+    sum += w[k] * x[k];
+  return 1.0 / (1.0 + carom_exp(-sum));
+}
+
+/* The numbers of the race of the game, and of its pockets or its rack. */
+static const learned *numbers_of(const carom_view *view) {
+  const carom_plan_rules *rules = view->rules;
+  switch (rules->race) {
+  case CAROM_RACE_SHARED:
+    return &learned_of[OF_NINEBALL];
+  case CAROM_RACE_POINTS:
+    return &learned_of[rules->rack == CAROM_RACK_SNOOKER ? OF_SNOOKER : OF_STRAIGHT];
+  case CAROM_RACE_OWN:
+    return &learned_of[rules->pockets != NULL ? OF_ONEPOCKET : OF_EIGHTBALL];
+  default:
+    return &learned_of[OF_EIGHTBALL];
+  }
+}
+
+double carom_chance_usual(const carom_view *view) {
+  return numbers_of(view)->mean;
+}
+
+double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]) {
+  return chance(numbers_of(view)->next, x, NEXT_NUMBERS);
+}
+
+static const double least_chance = 1e-3; /* between two who never pot the chain has no end */
+
+/* a_n, of a layout with this mean over the balls. */
+double carom_chance_later(const carom_view *view, int who, double mean, int n) {
+  const double x[LATER_NUMBERS] = {1.0, view->log_error[who], 1.0 / n, mean};
+  const double a =
+      view->given[who] > 0.0 ? view->given[who] : chance(numbers_of(view)->later, x, LATER_NUMBERS);
+  return a > least_chance ? a : least_chance;
+}
+
+/* e_n */
+double carom_chance_first(const carom_view *view, int who, int n) {
+  const double x[FIRST_NUMBERS] = {1.0, view->log_error[who], 1.0 / n};
+  const double e = chance(numbers_of(view)->first, x, FIRST_NUMBERS);
+  return e > least_chance ? e : least_chance;
+}
+
+void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                         uint32_t targets, uint32_t pockets, int who, bool in_hand,
+                         double each[CAROM_BALLS_MOST], double x[NEXT_NUMBERS]) {
+  /* the best pot of each ball */
+  double best = 0.0, second = 0.0, sum = 0.0;
+  int count = 0;
+  targets &= in_play;
+  for (int k = 0; targets >> k != 0; k++) {
+    if (!(targets >> k & 1))
+      continue;
+    /* the likeliest pocket of ball k; others are asked only whether they are likelier */
+    double likeliest = 0.0;
+    for (int p = 0; p < view->pockets; p++) {
+      if (!(pockets >> p & 1))
+        continue;
+      const carom_way way = carom_way_of(view, balls, in_play, k, p, who, in_hand, likeliest);
+      likeliest = way.chance > likeliest ? way.chance : likeliest;
+    }
+
+    /* the two best of all balls */
+    count++;
+    sum += likeliest;
+    second = likeliest > best ? best : likeliest > second ? likeliest : second;
+    best = likeliest > best ? likeliest : best;
+    if (each != NULL)
+      each[k] = likeliest;
+  }
+
+  const double is[NEXT_NUMBERS] = {1.0,
+                                   view->log_error[who],
+                                   count > 0 ? sum / count : 0.0,
+                                   best,
+                                   second,
+                                   count == 1 ? 1.0 : 0.0,
+                                   in_hand ? 1.0 : 0.0};
+  memcpy(x, is, sizeof is);
+}
+
+double carom_stretched(const carom_view *view, double value) {
+  const double least = 1e-9, v = value < least ? least : value > 1.0 - least ? 1.0 - least : value;
+  return 1.0 / (1.0 + carom_exp(-numbers_of(view)->stretch * carom_log(v / (1.0 - v))));
+}

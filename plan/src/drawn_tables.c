@@ -1,0 +1,71 @@
+/* A table that the player does not know: its cushions and its cloth are drawn, with the errors of
+ * his strokes.
+ *
+ * Of the TABLES tables of a plan each has restitution and friction of the cushions, rolling
+ * resistance and sliding friction times exp(unsure s z), with z normal and at most 1 of each
+ * number. Tables are made in pairs, the second with -z, so that their mean is the table as it is.
+ * Row k of a round has table k, so all candidates meet the same tables.
+ *
+ * s is the standard deviation of a uniform range over its mean. Three ranges are those that
+ * Alciatore gives for pool tables, "physical properties" at billiards.colostate.edu
+ * (data/measured.csv): restitution 0.6 to 0.9, rolling 0.005 to 0.015, sliding 0.15 to 0.4. The
+ * friction of cushions was measured as 0.14 (Mathavan 2010) and 0.255
+ * (docs/understanding/constants.md), of one table each. So `unsure` 1 is a player who knows nothing
+ * of this table but that it is one. */
+#include "platform/elementary.h"
+#include "search.h"
+
+#include <math.h>
+
+enum { RESTITUTION, FRICTION, ROLLING, SLIDING, NUMBERS };
+static const double spread[NUMBERS] = {0.1155, 0.1681, 0.2887, 0.2624};
+
+/* At most 1: all are shares. */
+static double times(double number, double factor) {
+  const double product = number * factor;
+  return product < 1.0 ? product : number < 1.0 ? 1.0 : number;
+}
+
+void carom_search_tables(carom_search *plan, carom_drawn_table *room) {
+  plan->drawn = room;
+  for (int k = 0; k < TABLES; k++) {
+    double z[6], factor[NUMBERS];
+    carom_normals(plan->options.seed, DRAW_TABLES, (uint64_t)k / 2, z);
+    for (int n = 0; n < NUMBERS; n++)
+      factor[n] = carom_exp(plan->options.unsure * spread[n] * (k % 2 == 0 ? z[n] : -z[n]));
+
+    /* the numbers of the balls; and those that a rail or a jaw has of its own, which are 0 where it
+     * has none */
+    carom_drawn_table *to = &room[k];
+    for (int ball = 0; ball < plan->plays; ball++) {
+      carom_ball_kind *kind = &to->kind[ball];
+      *kind = plan->played[ball].kind;
+      kind->restitution_cushion = times(kind->restitution_cushion, factor[RESTITUTION]);
+      kind->mu_cushion = times(kind->mu_cushion, factor[FRICTION]);
+      kind->mu_roll = times(kind->mu_roll, factor[ROLLING]);
+      kind->mu_slide = times(kind->mu_slide, factor[SLIDING]);
+    }
+    to->table = *plan->job.table;
+    for (int r = 0; r < to->table.rails; r++) {
+      carom_rail *rail = &to->table.rail[r];
+      rail->restitution = times(rail->restitution, factor[RESTITUTION]);
+      rail->mu_cushion = times(rail->mu_cushion, factor[FRICTION]);
+    }
+    for (int j = 0; j < to->table.jaws; j++) {
+      carom_jaw *jaw = &to->table.jaw[j];
+      jaw->restitution = times(jaw->restitution, factor[RESTITUTION]);
+      jaw->mu_cushion = times(jaw->mu_cushion, factor[FRICTION]);
+    }
+  }
+}
+
+const carom_table *carom_search_table(const carom_search *plan, uint32_t draws, int64_t row,
+                                      carom_layout *layout) {
+  *layout = carom_layout_of(plan->played);
+  if (draws == 0 || plan->drawn == NULL)
+    return plan->job.table;
+  const carom_drawn_table *drawn = &plan->drawn[(row + 8 * (int64_t)draws) % TABLES];
+  layout->kind = drawn->kind;
+  layout->kind_step = sizeof drawn->kind[0];
+  return &drawn->table;
+}

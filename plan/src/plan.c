@@ -1,0 +1,519 @@
+/* The best shot of a layout, by playing many.
+ *
+ * 1. Pots: every direct pot whose chance is above 3 %, with six speeds and five places of the
+ *    tip. The aim is solved by shots of two balls that stop at the contact: three fixed-point
+ *    steps for throw, the squirt once for each tip.
+ * 2. Scan: strokes in all directions. One that meets a ball first that is not on is stopped
+ *    there. The others are candidates: banks, kicks, combinations, caroms, safeties, breaks.
+ * 3. Each candidate is played once without errors. Its worth is 1 for a win, 0 for a loss, else
+ *    the value of the layout that it leaves, to whoever plays next.
+ * 4. Sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013): four rounds with equal
+ *    shares of the shots. In each, the candidates that are left are played with errors, the same
+ *    errors for all; a quarter of them stays. In the third round six strokes near the best one
+ *    join, with another speed or tip.
+ *
+ * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
+ * threads and added up in their order, so no bit of a sum depends on threads. The rows of a stage
+ * are played at once or in slices, between which all of the plan is in the caller's memory. */
+#include "about/options.h"
+#include "plan_options.h"
+#include "platform/fingerprint.h"
+#include "platform/ranges.h"
+#include "search.h"
+#include "table/spots.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+typedef carom_candidate candidate;
+typedef carom_outcome outcome;
+typedef carom_search search;
+
+enum { PLACES = 60 }; /* of a cue ball in hand, of which PLACES_PLANNED are planned from */
+
+/* ---- Arguments */
+
+static const carom_plan_options no_options = {0};
+static const carom_shot_options no_shot = {0};
+enum { SHOTS_USUAL = 2000, SPARE = 160 };
+static const double player_most = 1000.0; /* of each number of a player */
+
+static carom_status check_options(const carom_plan_options *o) {
+  CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
+  const bool good = o->slice >= 0 && CAROM_RESERVED_IS_ZERO(o);
+  return good ? CAROM_OK : CAROM_ERROR_OPTIONS;
+}
+
+static bool good_player(const carom_player *p) {
+  const double numbers[] = {p->speed, p->speed_share, p->phi,        p->theta,   p->a,
+                            p->b,     p->speed_least, p->speed_most, p->tip_most};
+  bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
+    good &= numbers[k] >= 0.0 && numbers[k] <= player_most;
+  for (size_t k = 0; k < sizeof p->reserved / sizeof p->reserved[0]; k++)
+    good &= p->reserved[k] == 0.0;
+  return good;
+}
+
+static int64_t shots_of(const carom_plan_options *o) {
+  return o->shots > 0 ? o->shots : SHOTS_USUAL;
+}
+
+/* A quarter of the shots are strokes of pots, each of which is played once without errors; then
+ * those that the scan keeps, half as many again of the block that it tries, and room for the
+ * least numbers of both. */
+static int64_t most_candidates(int64_t shots, double scan) {
+  return (int64_t)((1.0 - scan) * (double)shots / 4.0) + (int64_t)(1.5 * scan * (double)shots) +
+         SPARE;
+}
+
+/* Rows of the largest stage. */
+static int64_t most_rows(int64_t shots, double scan) {
+  return shots + most_candidates(shots, scan);
+}
+
+static size_t bytes_of(int64_t shots, double scan, bool unsure) {
+  const size_t rows = (size_t)most_rows(shots, scan);
+  return sizeof(search) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
+         rows * sizeof(outcome) + (unsure ? TABLES * sizeof(carom_drawn_table) : 0);
+}
+
+size_t carom_plan_memory(const carom_plan_options *options) {
+  const carom_plan_options *o = options != NULL ? options : &no_options;
+  return check_options(o) == CAROM_OK ? bytes_of(shots_of(o), carom_scan_of(o), o->unsure > 0.0)
+                                      : 0;
+}
+
+/* Where a plan is in the caller's memory; NULL where there is too little of it, or nothing to
+ * plan. */
+static search *place(const carom_plan_job *job) {
+  const bool room =
+      job != NULL && job->memory != NULL && job->memory_size >= carom_plan_memory(job->options);
+  return room ? job->memory : NULL;
+}
+
+/* Checks the cue of a job with the stroke of another one. A speed of 0 is raised later by the
+ * bounds of the player, so the rest of the cue counts. */
+static carom_status check_stroke(const carom_plan_job *job, const carom_cue *stroke) {
+  carom_cue cue = *job->cue;
+  cue.speed = stroke->speed == 0.0 ? 1.0 : stroke->speed;
+  cue.phi = stroke->phi;
+  cue.theta = stroke->theta;
+  cue.a = stroke->a;
+  cue.b = stroke->b;
+  return carom_check_strike(carom_layout_of(job->balls), (int)job->count, &cue);
+}
+
+/* Whether all balls are at rest or out of play, but the one in hand (-1: none). */
+static bool is_at_rest(const search *plan, const carom_shot_ball *balls, int in_hand) {
+  bool rests = true;
+  for (int k = 0; k < (int)plan->job.count; k++) {
+    carom_ball_state s = balls[k].state;
+    const int64_t label = carom_label_of_layout(&s, balls[k].kind.radius);
+    rests &= k == in_hand || label == CAROM_BALL_STATIONARY || carom_is_out(label);
+  }
+  return rests;
+}
+
+/* Once for all shots of a plan; with_cue: and its cue, whose stroke is not looked at. */
+static carom_status check_layout(search *plan, const carom_shot_ball *balls, bool with_cue) {
+  int where;
+  const int count = (int)plan->job.count;
+  const carom_status bad = carom_check_layout(plan->job.table, &plan->features,
+                                              carom_layout_of(balls), count, &plan->shot, &where);
+  if (bad != CAROM_OK || !with_cue)
+    return bad;
+  const carom_plan_job job = {.balls = balls, .count = count, .cue = plan->job.cue};
+  return check_stroke(&job, &(carom_cue){0});
+}
+
+static bool is_whole(const carom_plan_job *job) {
+  return job != NULL && job->table != NULL && job->balls != NULL && job->cue != NULL &&
+         job->player != NULL && job->rules != NULL;
+}
+
+/* Of a job and of all that it points to but its memory. */
+static uint64_t fingerprint_of(const carom_plan_job *job) {
+  uint64_t h = carom_fingerprint(1, job, sizeof *job);
+  h = carom_fingerprint(h, job->table, sizeof *job->table);
+  h = carom_fingerprint(h, job->balls, (size_t)job->count * sizeof *job->balls);
+  h = carom_fingerprint(h, job->cue, sizeof *job->cue);
+  h = carom_fingerprint(h, job->player, sizeof *job->player);
+  h = carom_fingerprint(h, job->rules, sizeof *job->rules);
+  if (job->shot != NULL)
+    h = carom_fingerprint(h, job->shot, sizeof *job->shot);
+  if (job->options != NULL)
+    h = carom_fingerprint(h, job->options, sizeof *job->options);
+  return h;
+}
+
+/* Checks the arguments, and makes all of a plan but its candidates. */
+static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand) {
+  if (!is_whole(job))
+    return CAROM_ERROR_NULL;
+  const carom_plan_options *options = job->options != NULL ? job->options : &no_options;
+  const carom_plan_rules *rules = job->rules;
+  const bool good = check_options(options) == CAROM_OK && good_player(job->player) &&
+                    (options->opponent == NULL || good_player(options->opponent)) &&
+                    rules->on != NULL && rules->judge != NULL && rules->left != NULL &&
+                    (uint32_t)rules->breaks <= 1 && (uint32_t)rules->race <= CAROM_RACE_POINTS &&
+                    (uint32_t)rules->rack <= CAROM_RACK_THREECUSHION && rules->unused == 0 &&
+                    CAROM_RESERVED_IS_ZERO(rules) && CAROM_RESERVED_IS_ZERO(job);
+  if (!good)
+    return CAROM_ERROR_OPTIONS;
+
+  /* The memory is as long as good options ask; no plan is in it from here on. */
+  plan->fingerprint = 0;
+  if (job->count < 2 || job->count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
+
+  /* Its shots have the caller's options but for when to stop, which the plan says itself. */
+  plan->job = *job;
+  plan->options = *options;
+  plan->player = carom_player_bounded(job->player, job->cue);
+  plan->shot = job->shot != NULL ? *job->shot : no_shot;
+  plan->shot.threads = 0;
+  plan->shot.stop_at = 0;
+  plan->shot.first_of = 0;
+  plan->shot.time_most = 0.0;
+  int where;
+  carom_status bad = carom_check_common(job->table, job->count, &plan->shot, &where);
+  plan->features.radius = 0.0;
+  if (bad == CAROM_OK)
+    bad = check_layout(plan, job->balls, !in_hand); /* in hand its ball may be down */
+  if (bad != CAROM_OK || job->cue->ball < 0 || job->cue->ball >= job->count)
+    return bad != CAROM_OK ? bad : CAROM_ERROR_CUE_BALL;
+  if (!is_at_rest(plan, job->balls, in_hand ? (int)job->cue->ball : -1))
+    return CAROM_ERROR_IN_MOTION;
+
+  /* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
+  plan->count = 0;
+  plan->most = most_candidates(shots_of(options), carom_scan_of(options));
+  plan->room = most_rows(shots_of(options), carom_scan_of(options));
+  plan->found = (candidate *)(plan + 1);
+  plan->outcome = (outcome *)(plan->found + plan->most);
+  plan->drawn = NULL;
+
+  /* The layout by the rules. */
+  carom_view_make(&plan->view, &plan->job, options);
+  for (int k = 0; k < job->count; k++)
+    plan->state[k] = job->balls[k].state;
+
+  /* which balls are in play, which of them may be met first, and what the stroke may do */
+  const int cue_ball = plan->view.cue_ball;
+  plan->in_play =
+      carom_in_play(plan->state, plan->view.count) | (in_hand ? UINT32_C(1) << cue_ball : 0);
+  plan->on = rules->on(rules->user, plan->in_play) & plan->in_play & ~(UINT32_C(1) << cue_ball);
+  if (plan->on == 0)
+    return CAROM_ERROR_GAME_OVER;
+  plan->breaks = rules->breaks && rules->user[1] == 1;
+  plan->may = rules->may != NULL ? rules->may(rules->user) : 0;
+  plan->pockets = rules->pockets != NULL ? rules->pockets(rules->user) : ~UINT32_C(0);
+  plan->first_decides = rules->first_decides && !(plan->may & CAROM_MAY_PUSH);
+  carom_search_lay_out(plan, job->balls);
+  int32_t left[2];
+  rules->left(rules->user, plan->in_play, left);
+  plan->left = left[0] > 1 ? left[0] : 1;
+
+  /* A foul at the first contact leaves about the layout that there is. */
+  uint64_t user[8]; /* rules change it as they judge */
+  memcpy(user, rules->user, sizeof user);
+  const carom_turn turn =
+      rules->judge(user, plan->in_play, cue_ball, &carom_no_facts, (carom_call){-1, -1});
+  const bool hand = turn.leave >= CAROM_LEAVE_HAND;
+  plan->foul_value =
+      turn.is == CAROM_TURN_LOSE        ? 0.0
+      : rules->race == CAROM_RACE_ALONE ? 0.0
+      : turn.is == CAROM_TURN_KEEP
+          ? carom_value_of(&plan->view, user, plan->state, 0, hand)
+          : carom_search_foul(1.0 - carom_value_of(&plan->view, user, plan->state, 1, hand));
+  plan->ended = false;
+  plan->slice = INT64_MAX;
+  return CAROM_OK;
+}
+
+/* Begins a plan that plays shots, in its memory. */
+static carom_status begin_to_play(search *plan, const carom_plan_job *job, bool in_hand) {
+  const carom_status bad = begin(plan, job, in_hand);
+  if (bad == CAROM_OK && plan->options.unsure > 0.0)
+    carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));
+  return bad;
+}
+
+/* ---- What callers have */
+
+/* Does a part of a plan, `work`, with the threads that the options ask for. */
+static void with_crew(search *plan, carom_crew_caller *work) {
+  carom_with_crew(work, plan, plan->options.threads, (size_t)plan->room / ROWS_LEAST);
+}
+
+static void plan_here(void *context, carom_crew *crew) {
+  search *plan = context;
+  plan->crew = crew;
+  if (!carom_search_run(plan))
+    return;
+  if (plan->may & CAROM_MAY_PASS)
+    carom_search_pass(plan);
+  plan->ended = true;
+}
+
+/* Puts the cue ball in hand on the place k of those that are planned from. */
+static void put(search *plan, int k) {
+  const double *r = plan->best_place[k].r;
+  carom_place_ball(plan->job.table, plan->hand, (int)plan->job.count, plan->view.cue_ball, r[0],
+                   r[1], NULL);
+  carom_search_lay_out(plan, plan->hand);
+}
+
+/* The shots of the plan from each place. */
+static int64_t small_of(const search *plan) {
+  const int64_t share = shots_of(&plan->options) / (2 * PLACES_PLANNED);
+  return share > 100 ? share : 100;
+}
+
+/* A small plan from each place, then one with half of the shots from the best. Where that is
+ * stopped before it has told more, the best so far is that of the small plans. */
+static void plan_places(void *context, carom_crew *crew) {
+  search *plan = context;
+  plan->crew = crew;
+  const int64_t small = small_of(plan), rest = shots_of(&plan->options) - plan->places * small;
+  while (plan->place < plan->places) {
+    if (!carom_search_run(plan))
+      return;
+    const candidate *c = &plan->found[0], *best = &plan->best;
+    /* a plan that was stopped before the rounds of the best one tells less */
+    const bool stopped = plan->place > 0 && c->round < best->round && carom_is_stopped(plan);
+    if (plan->place == 0 ||
+        (!stopped && c->sum / (double)c->seen > best->sum / (double)best->seen)) {
+      plan->best = *c;
+      plan->chosen = plan->place;
+    }
+
+    /* the next place; behind the last one the shots that are left, from the best */
+    const bool stops = carom_is_stopped(plan);
+    plan->place = stops ? plan->places : plan->place + 1;
+    put(plan, plan->place < plan->places ? plan->place : plan->chosen);
+    plan->count = 0;
+    if (!stops)
+      carom_search_begin(plan, plan->place < plan->places || rest < small ? small : rest);
+  }
+  if (!carom_search_run(plan))
+    return;
+  if (carom_is_stopped(plan) && (plan->count == 0 || plan->found[0].seen < plan->best.seen)) {
+    plan->found[0] = plan->best;
+    plan->count = 1;
+  }
+  plan->ended = true;
+}
+
+/* Strokes that the caller gave, each with its share of the shots. */
+static void try_all(void *context, carom_crew *crew) {
+  search *plan = context;
+  plan->crew = crew;
+  const int64_t each = shots_of(&plan->options) / (plan->tries > 0 ? plan->tries : 1);
+  for (int k = 0; k < plan->tries; k++) {
+    const carom_cue *cue = &plan->cues[k];
+    plan->count = 0;
+    carom_search_add(plan, (candidate){.speed = cue->speed,
+                                       .phi = cue->phi,
+                                       .theta = cue->theta,
+                                       .a = cue->a,
+                                       .b = cue->b,
+                                       .kind = CAROM_PLAN_GIVEN,
+                                       .ball = -1,
+                                       .pocket = -1});
+
+    /* once without errors, which names the pot; then with errors, as the last round of a plan */
+    if (!carom_is_stopped(plan)) {
+      carom_search_stage(plan, 0, 1, 1, 0);
+      carom_search_play(plan);
+      carom_search_take(plan, 0, &plan->outcome[0]);
+      carom_search_stage(plan, 0, 1, each > 10 ? each : 10, DRAW_ROUND);
+      carom_search_play(plan);
+      carom_search_add_up(plan);
+    }
+    plan->choices[k] = carom_search_choice(plan, &plan->found[0]);
+  }
+}
+
+/* The best choice of each ball, pocket and kind, the best first. One without a ball is none to a
+ * player who is alone, if there is another; one that looks better than the best was played too
+ * seldom. A plan that was stopped has not sorted what it found: the first is the best. */
+static int give(search *plan, carom_choice *choices, int room) {
+  const int most = carom_is_stopped(plan) ? 1 : room;
+  double best = 0.0;
+  int n = 0;
+  for (int64_t k = 0; n < most && k < plan->count; k++) {
+    const candidate *from = &plan->found[k];
+    const double mean = from->sum / (double)from->seen;
+    best = k == 0 ? mean : best;
+    carom_choice c = carom_search_choice(plan, from);
+    const bool played = c.seen > 0 || c.kind == CAROM_PLAN_PASS;
+    const bool nothing = c.ball < 0 && plan->job.rules->race == CAROM_RACE_ALONE && !plan->breaks;
+    if (n > 0 && (!played || nothing || mean > best))
+      continue;
+    c.kind = carom_search_kind(plan, from, &c);
+    c.value = n > 0 ? fmin(c.value, choices[0].value) : c.value;
+
+    /* where it is not there yet, it is sorted in */
+    int same = 0;
+    while (same < n && (choices[same].ball != c.ball || choices[same].pocket != c.pocket ||
+                        choices[same].kind != c.kind))
+      same++;
+    if (same < n)
+      continue;
+    int at = n++;
+    for (; at > 0 && choices[at - 1].value < c.value; at--)
+      choices[at] = choices[at - 1];
+    choices[at] = c;
+  }
+  return n;
+}
+
+/* Plays a slice of a plan, or what is left of it; and gives what it found if that is the end. */
+static carom_status play_slice(search *plan, carom_choice *choices, int room, int *found) {
+  plan->slice = plan->options.slice > 0 ? plan->options.slice : INT64_MAX;
+  if (!plan->ended)
+    with_crew(plan, plan->go);
+  *found = plan->ended ? give(plan, choices, room) : 0;
+  return CAROM_OK;
+}
+
+carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room, int *found) {
+  if (choices == NULL || found == NULL || room < 1)
+    return CAROM_ERROR_NULL;
+  search *plan = place(job);
+  const carom_status bad = plan == NULL ? CAROM_ERROR_NULL : begin_to_play(plan, job, false);
+  if (bad != CAROM_OK)
+    return bad;
+  plan->fingerprint = fingerprint_of(job);
+  plan->go = plan_here;
+  carom_search_begin(plan, shots_of(&plan->options));
+  return play_slice(plan, choices, room, found);
+}
+
+carom_status carom_plan_continue(const carom_plan_job *job, carom_choice *choices, int room,
+                                 int *found) {
+  if (choices == NULL || found == NULL || room < 1 || !is_whole(job))
+    return CAROM_ERROR_NULL;
+  search *plan = place(job);
+  if (plan == NULL)
+    return CAROM_ERROR_NULL;
+  const bool same =
+      job->count >= 2 && job->count <= CAROM_BALLS_MOST && plan->fingerprint == fingerprint_of(job);
+  return same ? play_slice(plan, choices, room, found) : CAROM_ERROR_STATE;
+}
+
+carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
+                             carom_choice *choices, int room, int *found) {
+  if (choices == NULL || found == NULL || room < 1)
+    return CAROM_ERROR_NULL;
+  search *plan = place(job);
+  const carom_status bad = plan == NULL ? CAROM_ERROR_NULL : begin_to_play(plan, job, true);
+  if (bad != CAROM_OK)
+    return bad;
+
+  /* Places at random, of which the best by the value of the layout are kept; for a break on the
+   * upper edge, all of them. */
+  carom_shot_ball *balls = plan->hand;
+  carom_ball_state *state = plan->state;
+  memcpy(balls, job->balls, (size_t)job->count * sizeof *balls);
+  for (int k = 0; k < job->count; k++)
+    state[k] = balls[k].state;
+  const int cue_ball = plan->view.cue_ball;
+  const double R = plan->view.radius[cue_ball], size[2] = {plan->view.width, plan->view.length};
+  const double head = 0.25 * plan->view.length; /* the line from which a game is opened */
+  const bool in_d = job->rules->rack == CAROM_RACK_SNOOKER;
+  const carom_d d = carom_d_of(size[0], size[1]);
+  const double d_low[2] = {d.x - d.radius, d.y - d.radius}, d_high[2] = {d.x + d.radius, d.y};
+  static const double edge[PLACES_PLANNED] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
+  int tried = 0;
+  plan->places = 0;
+  const uint64_t draws = plan->breaks ? PLACES_PLANNED : 50 * PLACES;
+  for (uint64_t k = 0; k < draws && tried < PLACES; k++) {
+    /* drawn within what the caller allows, and inside the cushions */
+    double r[2];
+    for (int x = 0; x < 2; x++) {
+      /* an empty range, and one with NaN, has no place */
+      double least = low == NULL || low[x] <= R ? R : low[x];
+      double most = high == NULL || high[x] >= size[x] - R ? size[x] - R : high[x];
+      if (in_d) {
+        least = fmax(least, d_low[x]);
+        most = fmin(most, d_high[x]);
+      }
+      if (!(least <= most))
+        return CAROM_ERROR_OFF_TABLE;
+      r[x] =
+          least + (most - least) * carom_uniform(plan->options.seed, DRAW_PLACES, k, (uint32_t)x);
+      /* a break: at one of six places across, at the head line or where the range ends */
+      if (plan->breaks)
+        r[x] = x == 1 ? (high == NULL && most > head ? head : most)
+                      : least + (most - least) * edge[k % PLACES_PLANNED];
+    }
+    if ((in_d && !carom_is_in_d(job->table, r[0], r[1])) ||
+        carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) !=
+            CAROM_OK)
+      continue;
+
+    /* the best are sorted in by value */
+    tried++;
+    state[cue_ball] = balls[cue_ball].state;
+    const double value = carom_value_of(&plan->view, job->rules->user, state, 0, false);
+    int at = plan->places < PLACES_PLANNED ? plan->places++ : PLACES_PLANNED;
+    for (; at > 0 && plan->best_place[at - 1].value < value; at--)
+      plan->best_place[at] = plan->best_place[at - 1];
+    plan->best_place[at] = (carom_place_in_hand){{r[0], r[1]}, value};
+  }
+  if (plan->places == 0)
+    return CAROM_ERROR_OFF_TABLE;
+
+  /* with the cue ball on the best place the layout can be checked */
+  plan->job.balls = balls;
+  put(plan, 0);
+  const carom_status refused = check_layout(plan, balls, true);
+  if (refused != CAROM_OK)
+    return refused;
+  plan->fingerprint = fingerprint_of(job);
+  plan->go = plan_places;
+  plan->place = 0;
+  carom_search_begin(plan, small_of(plan));
+  return play_slice(plan, choices, room, found);
+}
+
+carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n,
+                            carom_choice *choices) {
+  enum { MOST = 1000 };
+  if (choices == NULL || cues == NULL)
+    return CAROM_ERROR_NULL;
+  search *plan = place(job);
+  const carom_status bad = plan == NULL        ? CAROM_ERROR_NULL
+                           : n < 0 || n > MOST ? CAROM_ERROR_OPTIONS
+                                               : begin_to_play(plan, job, false);
+  if (bad != CAROM_OK)
+    return bad;
+  for (int k = 0; k < n; k++) {
+    const carom_status wrong = check_stroke(&plan->job, &cues[k]);
+    if (wrong != CAROM_OK)
+      return wrong;
+  }
+  plan->cues = cues;
+  plan->choices = choices;
+  plan->tries = n;
+  with_crew(plan, try_all);
+  return CAROM_OK;
+}
+
+carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *value) {
+  if (value == NULL)
+    return CAROM_ERROR_NULL;
+  search plan;
+  const carom_status bad = begin(&plan, job, in_hand != 0);
+  if (bad != CAROM_OK)
+    return bad;
+  const double found = carom_value_of(&plan.view, job->rules->user, plan.state, 0, in_hand != 0);
+  *value = job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL
+               ? carom_search_share(&plan, found)
+               : found;
+  return CAROM_OK;
+}

@@ -1,0 +1,118 @@
+/* Values of layouts in games of points.
+ *
+ * The player at the table needs n points, the other one m. Of the balls that are on the one whose
+ * pot is worth most is taken: with the chance p, as chances.c has it, it makes w points, and each
+ * later pot w' with the chance a. A visit that goes on to the end, K pots, wins with the chance
+ * q = p a^(K - 1); in the mean a visit makes
+ *
+ *     u = p (w + w' (a + a^2 + ... + a^(K - 1))).
+ *
+ * After it the other plays. Visits of the usual kind make V = w' e / (1 - a), with the chance e of
+ * their first pot. Their numbers that are still needed are N = (n - u) / V of the player,
+ * and M = m / V' of the other, whose next visit wins with the chance q' = e' a'^(K' - 1), and else
+ * leaves M' = max(M - 1, M / 2). The number of visits has a variance of (1 + w' / V) each. So the
+ * player wins with about
+ *
+ *     q + (1 - q) (1 - q') Phi((M' - N + 1/2) / sqrt(1/4 + N (1 + w' / V) + M' (1 + w' / V'))),
+ *
+ * Phi being the normal distribution. All of it is an estimate: a, e and w' are those of a usual
+ * layout, and the number of pots K supposes w' each. */
+#include "platform/elementary.h"
+#include "platform/promise.h"
+#include "rules.h"
+#include "table/spots.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct visits {
+  double later, first; /* a, e */
+  double made;         /* V */
+} visits;
+
+static visits visits_of(const carom_view *view, int who, double mean, int balls, double each) {
+  visits v;
+  v.later = carom_chance_later(view, who, mean, balls);
+  v.later = v.later < 0.999 ? v.later : 0.999;
+  v.first = carom_chance_first(view, who, balls);
+  v.made = each * v.first / (1.0 - v.later);
+  return v;
+}
+
+/* x^n of 0 < x < 1. */
+static double power(double x, double n) {
+  return carom_exp(n * carom_log(x));
+}
+
+static double normal(double x) {
+  const double e = 0.5 * carom_erf(fabs(x) / 1.4142135623730951);
+  return x < 0.0 ? 0.5 - e : 0.5 + e;
+}
+
+/* From where the cue ball lies, or as pots.c has a cue ball in hand. */
+static double value_from(const carom_view *view, const uint64_t *user,
+                         const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
+  const carom_plan_rules *rules = view->rules;
+  const uint32_t targets = rules->on(user, in_play) & in_play;
+  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(user) : ~UINT32_C(0);
+  const double each = rules->points != NULL ? rules->points(user, in_play, -1) : 1.0;
+  int32_t left[2];
+  rules->left(user, in_play, left);
+  if (left[0] < 1 || left[1] < 1)
+    return left[0] < 1; /* one of them has won already */
+  const double n = left[0], m = left[1];
+
+  /* the pot of each ball; the most is made by the one of `chosen` */
+  double x[NEXT_NUMBERS], pot[CAROM_BALLS_MOST], chosen = 0.0, w = each, most = -1.0;
+  carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, pot, x);
+  for (int k = 0; targets >> k != 0; k++) {
+    const bool on = targets >> k & 1;
+    const double points = on && rules->points != NULL ? rules->points(user, in_play, k) : 1.0;
+    if (on && pot[k] * (points + each) > most) {
+      most = pot[k] * (points + each);
+      chosen = pot[k];
+      w = points;
+    }
+  }
+  const double mean = x[2], best = x[3];
+  const int objects = carom_count_of(in_play & ~(UINT32_C(1) << view->cue_ball));
+  const double p = carom_chance_next(view, x) * (best > 0.0 ? chosen / best : 1.0);
+
+  /* this visit */
+  const visits own = visits_of(view, who, mean, objects, each),
+               other = visits_of(view, 1 - who, mean, objects, each);
+  const double pots = 1.0 + (n > w ? ceil((n - w) / each) : 0.0),
+               all = power(own.later, pots - 1.0);
+  const double later = own.later * (1.0 - all) / (1.0 - own.later);
+  const double wins = p * all, made = p * (w + each * later);
+  const double needed = n - made > 0.5 ? n - made : 0.5;
+
+  /* what follows it */
+  const double needs = needed / own.made, others = m / other.made;
+  const double his = other.first * power(other.later, ceil(m / each) - 1.0);
+  const double rest = others > 2.0 ? others - 1.0 : 0.5 * others;
+  const double variance = 0.25 + needs * (1.0 + each / own.made) + rest * (1.0 + each / other.made);
+  const double then = normal((rest - needs + 0.5) / sqrt(variance));
+  const double value = wins + (1.0 - wins) * (1.0 - his) * then;
+  CAROM_PROMISE(value >= 0.0 && value <= 1.0);
+  return value;
+}
+
+double carom_points_value(const carom_view *view, const uint64_t *user,
+                          const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
+  if (!in_hand || view->rules->rack != CAROM_RACK_SNOOKER)
+    return value_from(view, user, balls, in_play, who, in_hand);
+
+  /* in the D: the best of some places on its line */
+  carom_ball_state placed[CAROM_BALLS_MOST];
+  memcpy(placed, balls, (size_t)view->count * sizeof *placed);
+  const carom_d d = carom_d_of(view->width, view->length);
+  double best = 0.0;
+  for (int k = -1; k <= 1; k++) {
+    placed[view->cue_ball].r[0] = d.x + 0.6 * k * d.radius;
+    placed[view->cue_ball].r[1] = d.y - (k == 0 ? 0.5 * d.radius : 0.0);
+    const double value = value_from(view, user, placed, in_play, who, false);
+    best = value > best ? value : best;
+  }
+  return best;
+}

@@ -1,0 +1,95 @@
+/* What candidates are worth, and which is better. */
+#include "platform/promise.h"
+#include "search.h"
+
+typedef carom_candidate candidate;
+typedef carom_outcome outcome;
+typedef carom_search search;
+
+static bool is_better(const candidate *a, const candidate *b) {
+  if (a->round != b->round)
+    return a->round > b->round;
+  const double of_a = a->sum / (double)a->seen, of_b = b->sum / (double)b->seen;
+  return of_a > of_b || (of_a == of_b && a->order < b->order);
+}
+
+/* Puts candidate k first if it is better than the first. */
+void carom_search_lead(search *plan, int64_t k) {
+  if (is_better(&plan->found[k], &plan->found[0])) {
+    const candidate first = plan->found[0];
+    plan->found[0] = plan->found[k];
+    plan->found[k] = first;
+  }
+}
+
+static void name(candidate *c, const outcome *o) {
+  c->ball = o->ball;
+  c->pocket = o->pocket;
+  c->cushions = o->cushions;
+}
+
+/* Where nothing is called, the pot that is named is the one that comes most often, by the vote of
+ * R. S. Boyer and J S. Moore: with more than half of the pots, it is sure to be named. */
+static void vote(candidate *c, const outcome *o) {
+  if (o->ball < 0)
+    return;
+  if (c->votes == 0)
+    name(c, o);
+  c->votes += o->ball == c->ball && o->pocket == c->pocket ? 1 : -1;
+}
+
+void carom_search_take(search *plan, int64_t k, const outcome *o) {
+  CAROM_PROMISE(k >= 0 && k < plan->count);
+  candidate *c = &plan->found[k];
+  c->sum = o->worth;
+  c->seen = 1;
+  name(c, o);
+  c->votes = c->pots = o->ball >= 0;
+  c->own_ball = c->ball;
+  c->own_pocket = c->pocket;
+  c->own_cushions = c->cushions;
+  c->foul = o->foul;
+  carom_search_lead(plan, k);
+}
+
+/* Sorts the first n candidates, by Shell's method, without memory. The order is total, so that it
+ * does not matter how it is found. To sort half a million takes longer than a plan has to stop; a
+ * sort that is stopped leaves the first in its place if that is the best. */
+void carom_search_sort(const search *plan, int64_t n) {
+  candidate *c = plan->found;
+  for (int64_t gap = n / 2; gap > 0; gap = gap == 2 ? 1 : (gap * 5) / 11)
+    for (int64_t k = gap; k < n && !carom_is_stopped(plan); k++) {
+      const candidate moved = c[k];
+      int64_t at = k;
+      for (; at >= gap && is_better(&moved, &c[at - gap]); at -= gap)
+        c[at] = c[at - gap];
+      c[at] = moved;
+    }
+}
+
+void carom_search_add_up(search *plan) {
+  const carom_stage *s = &plan->stage;
+  const int64_t n = s->rows / s->each, each = n == 1 ? s->done : s->each;
+  CAROM_PROMISE(n >= 1 && n <= plan->count && each >= 1 && s->rows <= plan->room);
+  for (int64_t k = 0; k < s->done / each; k++) {
+    candidate *c = &plan->found[k];
+    if (c->round == 0) { /* the shot without errors is forgotten */
+      c->sum = c->squares = 0.0;
+      c->seen = c->foul = 0;
+    }
+    for (int64_t j = 0; j < each; j++) {
+      const outcome *o = &plan->outcome[k * each + j];
+      if (!plan->job.rules->calls && c->kind != CAROM_PLAN_PUSH)
+        vote(c, o);
+      c->sum += o->worth;
+      c->squares += o->worth * o->worth;
+      c->keep += o->is == CAROM_TURN_KEEP || o->is == CAROM_TURN_WIN;
+      c->lose += o->is == CAROM_TURN_LOSE;
+      c->foul += o->foul;
+    }
+    c->seen += each;
+    c->round++;
+  }
+  for (int64_t k = 1; k < n; k++)
+    carom_search_lead(plan, k);
+}

@@ -1,0 +1,216 @@
+/* The rows of a search: a candidate that is played once, with or without errors, and what that is
+ * worth to the player. A row's errors are a function of seed, round and number. Rows are computed
+ * by threads and added up in their order, so no bit of a sum depends on threads. */
+#include "search.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef carom_candidate candidate;
+typedef carom_outcome outcome;
+typedef carom_search search;
+
+/* What a shot tells. */
+typedef struct told {
+  carom_facts facts;
+  carom_ball_state final[CAROM_BALLS_MOST];
+} told;
+
+carom_cue carom_search_stroke(const search *plan, const candidate *c, uint32_t draws, int64_t row) {
+  carom_cue cue = *plan->job.cue;
+  double z[6] = {0};
+  if (draws != 0)
+    carom_normals(plan->options.seed, draws, (uint64_t)row, z);
+  cue.speed = c->speed;
+  cue.phi = c->phi;
+  cue.theta = c->theta;
+  cue.a = c->a;
+  cue.b = c->b;
+  carom_player_errs(&plan->player, z, &cue);
+  return cue;
+}
+
+/* The pot that a shot made: the first ball that fell into a pocket that counts. Where shots are
+ * called it is one of the balls that were on, and the candidate calls it. Without pockets it is the
+ * ball that was met first. */
+static carom_call call_of(const search *plan, const carom_facts *facts) {
+  carom_call call = {plan->view.pockets > 0 ? -1 : facts->first[0], -1};
+  const uint32_t all = ~(UINT32_C(1) << plan->view.cue_ball);
+  const uint32_t down = facts->down & (plan->job.rules->calls ? plan->on : all);
+  for (int k = 0; down >> k != 0; k++)
+    if ((down >> k & 1) && (plan->pockets >> facts->pocket[k] & 1) &&
+        (call.ball < 0 || facts->pocket_time[k] < facts->pocket_time[call.ball]))
+      call = (carom_call){k, facts->pocket[k]};
+  return call;
+}
+
+/* Of the balls left before the shot; rules that then have more left, or more points than balls,
+ * give at most all. */
+double carom_search_share(const search *plan, double points) {
+  return carom_within(points / plan->left, 0.0, 1.0);
+}
+
+/* The layout of the next stroke, by rules that ask where balls lie. Apart, as its balls would take
+ * 10 KiB of the stack below a shot. */
+__attribute__((noinline)) static void settle(const search *plan, uint64_t *user,
+                                             carom_ball_state *final, bool taken_back,
+                                             carom_turn *turn) {
+  carom_shot_ball balls[CAROM_BALLS_MOST];
+  for (int k = 0; k < plan->view.count; k++) {
+    balls[k] = plan->job.balls[k];
+    if (!taken_back)
+      balls[k].state = final[k];
+  }
+  carom_turn_settle(plan->job.rules, user, plan->job.table, balls, plan->view.count, turn);
+  for (int k = 0; k < plan->view.count; k++)
+    final[k] = balls[k].state;
+}
+
+/* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
+ * `final` is changed. */
+static outcome judge(const search *plan, const carom_facts *facts, carom_ball_state *final,
+                     carom_status status, const candidate *c, bool errors) {
+  const carom_plan_rules *rules = plan->job.rules;
+  facts = status < 0 ? &carom_no_facts : facts; /* an error tells nothing: a foul */
+  const carom_call call = c->kind == CAROM_PLAN_PUSH ? (carom_call){CAROM_CALL_PUSH, -1}
+                          : errors && rules->calls   ? (carom_call){c->ball, c->pocket}
+                                                     : call_of(plan, facts);
+  uint64_t user[8];
+  memcpy(user, rules->user, sizeof user);
+  carom_turn turn = rules->judge(user, plan->in_play, plan->view.cue_ball, facts, call);
+  outcome o = {.is = (int8_t)turn.is,
+               .foul = turn.foul != 0,
+               .ball = -1,
+               .pocket = -1,
+               .first = (int8_t)facts->first[0]};
+
+  /* its call */
+  if (call.ball == CAROM_CALL_PUSH)
+    o.ball = CAROM_CALL_PUSH;
+  if (call.ball >= 0 && (turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN)) {
+    o.ball = (int8_t)call.ball;
+    o.pocket = (int8_t)call.pocket;
+    o.cushions = (int16_t)facts->cushions[call.ball];
+  }
+  const bool alone = rules->race == CAROM_RACE_ALONE;
+  if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE) {
+    o.worth = turn.is == CAROM_TURN_WIN;
+    return o;
+  }
+  if (alone && turn.is == CAROM_TURN_PASS) {
+    o.worth = carom_search_share(plan, turn.points);
+    return o;
+  }
+
+  /* A shot that was stopped at a wrong ball, and one in error, have left no layout. */
+  if (status != CAROM_OK && turn.is == CAROM_TURN_PASS) {
+    o.worth = plan->foul_value;
+    return o;
+  }
+  const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
+  if (rules->settle != NULL && (taken_back || turn.spot != 0 || turn.is == CAROM_TURN_PASS))
+    settle(plan, user, final, taken_back, &turn);
+  for (int k = 0; k < plan->view.count; k++) {
+    if (taken_back && rules->settle == NULL)
+      final[k] = plan->job.balls[k].state;
+    if (rules->settle == NULL && (turn.spot >> k & 1))
+      final[k] = (carom_ball_state){
+          .r = {0.5 * plan->view.width, 0.75 * plan->view.length, plan->view.radius[k]},
+          .label = CAROM_BALL_STATIONARY};
+  }
+  const bool in_hand = turn.leave >= CAROM_LEAVE_HAND;
+  const bool passes = turn.is == CAROM_TURN_PASS;
+  const double value = carom_value_of(&plan->view, user, final, passes, in_hand);
+  o.worth = passes && turn.foul != 0 ? carom_search_foul(1.0 - value)
+            : passes                 ? 1.0 - value
+            : alone                  ? carom_search_share(plan, turn.points + value)
+                                     : value;
+  return o;
+}
+
+/* Whether a stroke of the scan met a ball first that is on. */
+bool carom_search_begins_well(const search *plan, int first) {
+  return first >= 0 && (plan->on >> first & 1);
+}
+
+/* The balls in play of a layout become those of shots. */
+void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
+  plan->plays = 0;
+  plan->shot.first_of = 0;
+  for (int k = 0; k < plan->view.count; k++)
+    if (plan->in_play >> k & 1) {
+      if (plan->first_decides && (plan->on >> k & 1))
+        plan->shot.first_of |= UINT32_C(1) << plan->plays;
+      if (k == plan->view.cue_ball)
+        plan->cue_ball = plan->plays;
+      plan->played[plan->plays] = balls[k];
+      plan->which[plan->plays++] = k;
+    }
+}
+
+/* From the balls of a shot to those of the layout. */
+static void spread(const search *plan, told *with) {
+  carom_facts *f = &with->facts;
+  const carom_facts of_shot = *f;
+  f->down = f->off = f->moved = 0;
+  for (int n = 0; n < 2; n++)
+    f->first[n] = f->first[n] < 0 ? f->first[n] : plan->which[f->first[n]];
+  int n = plan->plays - 1;
+  for (int k = plan->view.count - 1; k >= 0; k--) {
+    const bool plays = n >= 0 && plan->which[n] == k;
+    with->final[k] = plays ? with->final[n] : plan->job.balls[k].state;
+    f->pocket[k] = plays ? of_shot.pocket[n] : -1;
+    f->pocket_time[k] = plays ? of_shot.pocket_time[n] : INFINITY;
+    f->cushions[k] = plays ? of_shot.cushions[n] : 0;
+    if (!plays)
+      continue;
+    f->down |= (of_shot.down >> n & 1) << k;
+    f->off |= (of_shot.off >> n & 1) << k;
+    f->moved |= (of_shot.moved >> n & 1) << k;
+    n--;
+  }
+}
+
+static size_t play_rows(const void *context, size_t first, size_t end) {
+  const search *plan = context;
+  const carom_stage *s = &plan->stage;
+  told what;
+  carom_shot shot = {.final = what.final, .facts = &what.facts};
+  for (size_t k = first; k < end; k++) {
+    const int64_t row = s->done + (int64_t)k;
+    if (row > 0 && carom_is_stopped(plan))
+      return k;
+    const candidate *c = &plan->found[s->first + row / s->each];
+    carom_cue cue = carom_search_stroke(plan, c, s->draws, row % s->each);
+    cue.ball = plan->cue_ball;
+    carom_layout layout;
+    const carom_table *table = carom_search_table(plan, s->draws, row % s->each, &layout);
+    const carom_status status =
+        carom_shoot_prepared(table, &plan->features, layout, plan->plays, &cue, &plan->shot,
+                             &shot); /* in error it is a foul */
+    if (plan->plays < plan->view.count)
+      spread(plan, &what);
+    const int met = status < 0 ? -1 : what.facts.first[0];
+    const bool dropped =
+        s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, met);
+    plan->outcome[row] = dropped ? (outcome){.first = (int8_t)met}
+                                 : judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
+  }
+  return end;
+}
+
+void carom_search_stage(search *plan, int64_t first, int64_t candidates, int64_t each,
+                        uint32_t draws) {
+  plan->stage = (carom_stage){
+      .work = play_rows, .first = first, .each = each, .rows = candidates * each, .draws = draws};
+}
+
+bool carom_search_play(search *plan) {
+  carom_stage *s = &plan->stage;
+  const int64_t left = s->rows - s->done;
+  const size_t rows = (size_t)(left > plan->slice && !carom_is_stopped(plan) ? plan->slice : left);
+  const int64_t played = (int64_t)carom_crew_work(plan->crew, s->work, plan, rows, ROWS_LEAST);
+  s->done += played;
+  plan->slice -= played < plan->slice ? played : plan->slice;
+  return s->done == s->rows || (s->done > 0 && carom_is_stopped(plan));
+}

@@ -1,0 +1,243 @@
+/* Games as data: who may be met first, what a shot amounts to, how many balls are left. World
+ * Standardized Rules of the WPA (2016), sections 2 and 3, with the simplifications that
+ * carom_plan.h names. Games of points have files of their own. */
+#include "rules.h"
+
+#include <stddef.h>
+
+/* Words of the state. */
+enum { GROUP = 0, BREAK = 1, FOULS = 2, FOULS_OTHER = 3, PUSH = 4 };
+enum { MAY_PUSH = 1, PUSHED = 2 }; /* of PUSH */
+enum { FOULS_MOST = 3 };
+enum { OPEN = 0, SOLIDS = 1, STRIPES = 2 };
+static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100, nine = 0x200;
+
+/* Whether a break reaches cushions with four balls, or pots. */
+static bool is_break(const carom_facts *facts, int cue_ball) {
+  int reached = 0;
+  for (int k = 0; k < CAROM_BALLS_MOST; k++)
+    reached += k != cue_ball && facts->cushions[k] > 0;
+  return facts->down != 0 || reached >= 4;
+}
+
+static const carom_turn win = {CAROM_TURN_WIN, CAROM_LEAVE_AFTER, 0, 0, 0.0};
+
+static carom_turn foul_for(int32_t why) {
+  return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_HAND, why, 0, 0.0};
+}
+
+/* ---- Eight-ball */
+
+/* Of a game that is not over. */
+static uint32_t eightball_targets(const uint64_t *user, uint32_t in_play) {
+  const uint32_t own = in_play & balls_of[user[GROUP] <= STRIPES ? user[GROUP] : OPEN];
+  return user[BREAK] != 0 ? in_play & 0xfffe : own != 0 ? own : in_play & eight;
+}
+
+static uint32_t eightball_on(const uint64_t *user, uint32_t in_play) {
+  return (in_play & eight) != 0 ? eightball_targets(user, in_play) : 0;
+}
+
+static void eightball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
+  const int solids = carom_count_of(in_play & balls_of[SOLIDS]),
+            stripes = carom_count_of(in_play & balls_of[STRIPES]);
+  const bool open = user[GROUP] == OPEN;
+  left[0] = 1 + (open                    ? (solids < stripes ? solids : stripes)
+                 : user[GROUP] == SOLIDS ? solids
+                                         : stripes);
+  left[1] = 1 + (open                    ? (solids < stripes ? stripes : solids)
+                 : user[GROUP] == SOLIDS ? stripes
+                                         : solids);
+}
+
+/* The turn goes to the other: the state becomes his. */
+static carom_turn give(uint64_t *user, carom_turn turn) {
+  if (user[GROUP] == SOLIDS || user[GROUP] == STRIPES)
+    user[GROUP] = SOLIDS + STRIPES - user[GROUP];
+  return turn;
+}
+
+static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+                                  const carom_facts *facts, carom_call call) {
+  const uint32_t on = eightball_targets(user, in_play);
+  const int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
+
+  /* The break: nothing is called, the eight comes back, and the table is open after it. */
+  if (user[BREAK] != 0) {
+    user[BREAK] = 0;
+    carom_turn turn = bad != 0                      ? foul_for(bad)
+                      : !is_break(facts, cue_ball)  ? foul_for(CAROM_FOUL_BREAK)
+                      : (facts->down & 0xfffe) != 0 ? carom_keep
+                                                    : carom_pass;
+    turn.leave = bad != 0 ? CAROM_LEAVE_KITCHEN : turn.leave;
+    turn.spot = (facts->down | facts->off) & eight;
+    return turn;
+  }
+
+  /* The eight wins as the last ball, in the pocket that was called, without a foul. */
+  const bool called = carom_is_called(facts, call);
+  if (((facts->down | facts->off) & eight) != 0)
+    return on == eight && !bad && called && call.ball == 8
+               ? win
+               : (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, bad, 0, 0.0};
+  if (bad)
+    return give(user, foul_for(bad));
+
+  /* The first ball that is called and falls decides the groups. */
+  if (!called || !(on >> call.ball & 1))
+    return give(user, carom_pass);
+  if (user[GROUP] == OPEN)
+    user[GROUP] = balls_of[SOLIDS] >> call.ball & 1 ? SOLIDS : STRIPES;
+  return carom_keep;
+}
+
+/* ---- Nine-ball */
+
+static uint32_t nineball_on(const uint64_t *user, uint32_t in_play) {
+  const uint32_t balls = in_play & 0x3fe;
+  (void)user;
+  return balls & (~balls + 1);
+}
+
+static void nineball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
+  (void)user;
+  left[0] = left[1] = carom_count_of(in_play & 0x3fe);
+}
+
+static uint32_t nineball_may(const uint64_t *user) {
+  return user[PUSH] == MAY_PUSH ? CAROM_MAY_PUSH : user[PUSH] == PUSHED ? CAROM_MAY_PASS : 0;
+}
+
+/* The turn goes to the other, with his fouls. */
+static carom_turn give_nine(uint64_t *user, carom_turn turn) {
+  carom_swap(&user[FOULS], &user[FOULS_OTHER]);
+  return turn;
+}
+
+static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+                                 const carom_facts *facts, carom_call call) {
+  const bool opening = user[BREAK] != 0;
+  const bool pushes = user[PUSH] == MAY_PUSH && call.ball == CAROM_CALL_PUSH;
+  const bool passes = user[PUSH] == PUSHED && call.ball == CAROM_CALL_PASS;
+  user[BREAK] = user[PUSH] = 0;
+  if (passes)
+    return give_nine(user, carom_pass);
+
+  /* A push-out may meet any ball or none, and needs no cushion. */
+  int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(user, in_play), cue_ball);
+  if (pushes && bad != CAROM_FOUL_CUE_BALL)
+    bad = facts->off != 0 ? CAROM_FOUL_OFF : CAROM_FOUL_NONE;
+  if (bad == CAROM_FOUL_NONE && opening && !is_break(facts, cue_ball))
+    bad = CAROM_FOUL_BREAK;
+  if (bad != CAROM_FOUL_NONE) {
+    carom_turn turn = foul_for(bad);
+    turn.spot = (facts->down | facts->off) & nine;
+    turn.is = ++user[FOULS] >= FOULS_MOST ? CAROM_TURN_LOSE : turn.is;
+    return give_nine(user, turn);
+  }
+  if (pushes) {
+    carom_turn turn = carom_pass;
+    turn.spot = facts->down & nine;
+    user[PUSH] = PUSHED;
+    return give_nine(user, turn);
+  }
+
+  /* The nine wins, or the highest ball in games that do not put the nine back. A set of balls is
+   * above half of the set that it is from if it has its highest ball. */
+  const uint32_t balls = in_play & 0x3fe;
+  user[FOULS] = 0;
+  user[PUSH] = opening ? MAY_PUSH : 0;
+  if ((facts->down & balls) > balls >> 1)
+    return win;
+  return facts->down != 0 ? carom_keep : give_nine(user, carom_pass);
+}
+
+/* ---- Potting */
+
+static uint32_t potting_on(const uint64_t *user, uint32_t in_play) {
+  (void)user;
+  return in_play & ~UINT32_C(1);
+}
+
+static void potting_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
+  left[0] = carom_count_of(potting_on(user, in_play));
+  left[1] = 1;
+}
+
+static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+                                const carom_facts *facts, carom_call call) {
+  (void)call;
+  const uint32_t on = potting_on(user, in_play);
+  int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
+  bad = bad == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : bad;
+  carom_turn turn = bad                        ? foul_for(bad)
+                    : facts->down == 0         ? carom_pass
+                    : (facts->down & on) == on ? win
+                                               : carom_keep;
+  turn.points = bad ? 0.0 : carom_count_of(facts->down & on);
+  return turn;
+}
+
+/* ---- Three-cushion */
+
+static void threecushion_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
+  (void)user, (void)in_play;
+  left[0] = left[1] = 1;
+}
+
+/* A point: before the cue ball meets the second ball, it meets three cushions. */
+static carom_turn threecushion_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+                                     const carom_facts *facts, carom_call call) {
+  (void)user, (void)in_play, (void)cue_ball, (void)call;
+  const bool off = facts->off != 0;
+  if (off || facts->first[1] < 0 || facts->cushions_before[1] < 3)
+    return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, off ? CAROM_FOUL_OFF : 0, 0, 0.0};
+  carom_turn turn = carom_keep;
+  turn.points = 1.0;
+  return turn;
+}
+
+/* What follows is not estimated. */
+static double threecushion_value(const uint64_t *user, const carom_ball_state *layout, int count,
+                                 int in_hand) {
+  (void)user, (void)layout, (void)count, (void)in_hand;
+  return 0.0;
+}
+
+/* ---- The table of games */
+
+enum { OWN_TABLE = CAROM_RULES_THREECUSHION + 1, GAMES = CAROM_RULES_ONEPOCKET + 1 };
+static const char *const names[] = {"eightball", "nineball", "potting",  "threecushion",
+                                    "straight",  "snooker",  "onepocket"};
+static const carom_plan_rules games[] = {
+    {.on = eightball_on,
+     .judge = eightball_judge,
+     .left = eightball_left,
+     .race = CAROM_RACE_OWN,
+     .calls = 1,
+     .first_decides = 1,
+     .breaks = 1},
+    {.on = nineball_on,
+     .judge = nineball_judge,
+     .left = nineball_left,
+     .may = nineball_may,
+     .race = CAROM_RACE_SHARED,
+     .first_decides = 1,
+     .breaks = 1},
+    {.on = potting_on, .judge = potting_judge, .left = potting_left, .race = CAROM_RACE_ALONE},
+    {.on = potting_on,
+     .judge = threecushion_judge,
+     .left = threecushion_left,
+     .value = threecushion_value,
+     .race = CAROM_RACE_ALONE}};
+
+const char *carom_rules_name(carom_rules_kind kind) {
+  return (unsigned)kind < GAMES ? names[kind] : NULL;
+}
+
+carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
+  static const carom_plan_rules *const own[] = {&carom_straight, &carom_snooker, &carom_onepocket};
+  return (unsigned)kind < OWN_TABLE ? games[kind]
+         : (unsigned)kind < GAMES   ? *own[kind - OWN_TABLE]
+                                    : games[CAROM_RULES_EIGHTBALL];
+}

@@ -1,0 +1,31 @@
+/* What the games share: turns, sets of balls, and the games that have files of their own. A shot is
+ * judged by its facts alone; what depends on places comes after, by settle(). */
+#ifndef CAROM_PLAN_RULES_H
+#define CAROM_PLAN_RULES_H
+
+#include "view.h"
+
+static const carom_turn carom_keep = {CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0, 0, 0.0};
+static const carom_turn carom_pass = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0, 0, 0.0};
+
+static inline int carom_count_of(uint32_t set) {
+  int n = 0;
+  for (; set != 0; set &= set - 1)
+    n++;
+  return n;
+}
+static inline bool carom_is_called(const carom_facts *facts, carom_call call) {
+  return call.ball >= 0 && call.ball < CAROM_BALLS_MOST && facts->pocket[call.ball] == call.pocket;
+}
+static inline void carom_swap(uint64_t *a, uint64_t *b) {
+  const uint64_t kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+/* Puts balls on the foot spot, or behind it, in the order of their numbers. */
+void carom_put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set);
+
+extern const carom_plan_rules carom_straight, carom_snooker, carom_onepocket;
+
+#endif

@@ -1,0 +1,98 @@
+/* What the rulings of all games share: fouls, and balls that are put back. */
+#include "rules.h"
+
+#include <stddef.h>
+
+carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
+  const int first = facts->first[0];
+  return (facts->down | facts->off) >> cue_ball & 1       ? CAROM_FOUL_CUE_BALL
+         : first < 0                                      ? CAROM_FOUL_NO_BALL
+         : !(on >> first & 1)                             ? CAROM_FOUL_FIRST
+         : facts->off != 0                                ? CAROM_FOUL_OFF
+         : facts->down == 0 && facts->cushions_after == 0 ? CAROM_FOUL_CUSHION
+                                                          : CAROM_FOUL_NONE;
+}
+
+const char *carom_foul_string(int foul) {
+  static const char *const words[] = {
+      "",
+      "the cue ball fell or left the table",
+      "the cue ball met no ball",
+      "the cue ball met another ball first than one that is on",
+      "a ball left the table",
+      "nothing fell, and nothing met a cushion after the first contact",
+      "the break potted nothing, and drove too few balls to cushions",
+      "another rule",
+      "a ball fell that was not on"};
+  return foul > 0 && foul < (int)(sizeof words / sizeof words[0]) ? words[foul] : "";
+}
+
+/* ---- Balls that are put back */
+
+/* As near to a place as there is room, towards y = length, else away from it. */
+static carom_status put_near(const carom_table *table, carom_shot_ball *balls, int count, int ball,
+                             const double at[2]) {
+  const double step = table->length > 10.0 ? 1e-4 * table->length : 1e-3;
+  carom_status status = CAROM_ERROR_OFF_TABLE;
+  for (int side = 1; side >= -1; side -= 2)
+    for (double y = at[1]; y > 0.0 && y < table->length; y += side * step) {
+      status = carom_place_ball(table, balls, count, ball, at[0], y, NULL);
+      if (status != CAROM_ERROR_OVERLAP && status != CAROM_ERROR_OFF_TABLE)
+        return status;
+    }
+  return status;
+}
+
+carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, int count,
+                             int ball) {
+  if (table == NULL)
+    return CAROM_ERROR_NULL;
+  const double foot[2] = {0.5 * table->width, 0.75 * table->length};
+  return put_near(table, balls, count, ball, foot);
+}
+
+carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
+                                carom_shot_ball *balls, int count, int ball) {
+  double own[2], at[2];
+  const carom_status bad = carom_spot_of(kind, table, ball, own);
+  if (bad != CAROM_OK)
+    return bad;
+
+  /* a colour: its own spot, then the others, the highest first */
+  enum { YELLOW = 16, BLACK = 21 };
+  const bool colour = kind == CAROM_RACK_SNOOKER && ball >= YELLOW;
+  for (int k = BLACK + 1; k >= YELLOW && colour; k--) {
+    carom_spot_of(kind, table, k > BLACK ? ball : k, at);
+    const carom_status status = carom_place_ball(table, balls, count, ball, at[0], at[1], NULL);
+    if (status != CAROM_ERROR_OVERLAP)
+      return status;
+  }
+  return put_near(table, balls, count, ball, own);
+}
+
+void carom_put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set) {
+  for (int k = 0; k < count; k++)
+    if (set >> k & 1)
+      carom_spot_ball(table, balls, count, k);
+}
+
+carom_status carom_turn_settle(const carom_plan_rules *rules, uint64_t user[8],
+                               const carom_table *table, carom_shot_ball *balls, int count,
+                               carom_turn *turn) {
+  if (rules == NULL || user == NULL || table == NULL || balls == NULL || turn == NULL)
+    return CAROM_ERROR_NULL;
+  if (count < 0 || count > CAROM_BALLS_MOST || (uint64_t)turn->spot >> count != 0)
+    return CAROM_ERROR_BALLS;
+  if (rules->settle != NULL) {
+    rules->settle(user, table, balls, count, turn);
+    return CAROM_OK;
+  }
+  carom_status first = CAROM_OK;
+  for (int k = 0; turn->spot >> k != 0; k++) {
+    const bool back = turn->spot >> k & 1;
+    const carom_status status =
+        back ? carom_spot_ball_of((carom_rack_kind)rules->rack, table, balls, count, k) : CAROM_OK;
+    first = first == CAROM_OK ? status : first;
+  }
+  return first;
+}

@@ -1,0 +1,288 @@
+/* The choice: sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013) of the candidates. All
+ * of a round have the same errors, so that luck counts less than what they are worth. */
+#include "search.h"
+#include "platform/promise.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef carom_candidate candidate;
+typedef carom_outcome outcome;
+typedef carom_search search;
+
+/* In round NEAR_ROUND strokes near the best PARENTS ones join. */
+enum { ROUNDS = 4, NEAR_ROUND = 2, PARENTS = 1 };
+
+/* The candidates of the first round: the best `keep`, of which pots come first, and a third of
+ * `keep` of the scan; of tables without pockets the best. */
+static int64_t first_round(search *plan, int64_t keep) {
+  const int64_t n = plan->count < keep ? plan->count : keep;
+  int64_t scanned = 0, good = 0;
+  for (int64_t k = 0; k < n; k++) {
+    candidate *c = &plan->found[k];
+    const bool stays = c->kind == CAROM_PLAN_POT || plan->breaks || plan->view.pockets == 0 ||
+                       scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
+    if (stays) {
+      const candidate kept = *c;
+      *c = plan->found[good];
+      plan->found[good++] = kept;
+    }
+  }
+  CAROM_PROMISE(good >= 1 && good <= n);
+  return good;
+}
+
+/* A gentle stroke towards the nearest ball that is on: nothing better is known. */
+static candidate gentle(const search *plan) {
+  const double *c = plan->job.balls[plan->view.cue_ball].state.r;
+  double least = INFINITY, phi = 0.0;
+  for (int k = 0; k < plan->view.count; k++) {
+    const double x = plan->job.balls[k].state.r[0] - c[0], y = plan->job.balls[k].state.r[1] - c[1];
+    if ((plan->on >> k & 1) && x * x + y * y < least) {
+      least = x * x + y * y;
+      phi = carom_angle_of(x, y) / degree;
+    }
+  }
+  return (candidate){.speed = plan->player.speed_least,
+                     .phi = phi < 0.0 ? phi + 360.0 : phi,
+                     .kind = CAROM_PLAN_FOUL,
+                     .ball = -1,
+                     .pocket = -1};
+}
+
+carom_choice carom_search_choice(const search *plan, const candidate *c) {
+  CAROM_PROMISE(c->seen > 0 || carom_is_stopped(plan));
+  const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
+  const double error = c->seen > 1 && variance > 0.0 ? sqrt(variance / (n - 1.0)) : 0.0;
+  /* The shots that chose a stroke were lucky for it, by about so much: the games of
+   * understanding/plan.md tell it. What is not a number stays none. */
+  const double luck = c->kind == CAROM_PLAN_GIVEN ? 0.0 : 0.75 * error, told = mean - luck;
+  const double *place = plan->job.balls[plan->view.cue_ball].state.r;
+  /* Luck alone names no pot: where most strokes with errors pot nothing, it is that without. A
+   * direct pot is that of the ball that was aimed at. */
+  const bool often = 2 * c->keep >= c->seen, own = c->pots && !often;
+  const bool named = c->kind != CAROM_PLAN_BREAK && (c->ball < 0 || c->pots || often);
+  const int ball = own ? c->own_ball : c->ball, pocket = own ? c->own_pocket : c->pocket;
+  const bool aimed = named && ball == c->aimed_ball && pocket == c->aimed_pocket;
+  carom_choice made = {.cue = *plan->job.cue,
+                       .place = {place[0], place[1]},
+                       .kind = c->kind == CAROM_PLAN_POT && !aimed ? CAROM_PLAN_SCAN : c->kind,
+                       .ball = named ? ball : -1,
+                       .pocket = named ? pocket : -1,
+                       .cushions = !named ? 0
+                                   : own  ? c->own_cushions
+                                          : c->cushions,
+                       .value = told < 0.0 ? 0.0 : told,
+                       .error = error,
+                       .keep = (double)c->keep / n,
+                       .foul = (double)c->foul / n,
+                       .lose = (double)c->lose / n,
+                       .seen = c->round > 0 && c->kind != CAROM_PLAN_PASS ? c->seen : 0};
+  made.cue.speed = c->speed;
+  made.cue.phi = c->phi;
+  made.cue.theta = c->theta;
+  made.cue.a = c->a;
+  made.cue.b = c->b;
+  return made;
+}
+
+double carom_scan_of(const carom_plan_options *o) {
+  return o->scan == 0.0 ? 0.5 : o->scan > 0.0 ? o->scan : 0.0;
+}
+
+/* ---- The course of a search: each of these sets the next stage, and what comes after it */
+
+/* Shots of the rounds. */
+static int64_t left_for_rounds(const search *plan) {
+  return plan->shots > plan->count ? plan->shots - plan->count : 0;
+}
+
+/* Another pot that looks better than the best, after fewer strokes, is played as often as the best
+ * in the last round before it is told. */
+static void look_again(search *plan) {
+  enum { LOOKS = 2 };
+  plan->next = NEXT_ENDED;
+  if (plan->look == LOOKS || carom_is_stopped(plan))
+    return;
+  const candidate *best = &plan->found[0];
+  double most = best->sum / (double)best->seen;
+  plan->better = 0;
+  for (int64_t k = 1; k < plan->count; k++) {
+    const candidate *c = &plan->found[k];
+    const bool other = c->ball != best->ball || c->pocket != best->pocket;
+    if (other && c->round > 0 && c->round < ROUNDS && c->sum / (double)c->seen > most) {
+      plan->better = k;
+      most = c->sum / (double)c->seen;
+    }
+  }
+  if (plan->better == 0)
+    return;
+
+  /* it is played in the place of the best, with which it is compared then */
+  const candidate first = plan->found[0];
+  plan->found[0] = plan->found[plan->better];
+  plan->found[plan->better] = first;
+  plan->found[0].round = ROUNDS - 1;
+  int64_t each = left_for_rounds(plan) / ROUNDS / 2;
+  each = each < 2 ? 2 : each > plan->room ? plan->room : each;
+  carom_search_stage(plan, 0, 1, each, DRAW_ROUND + ROUNDS - 1);
+  plan->look++;
+  plan->next = NEXT_LOOK;
+}
+
+/* The candidates of a round that were in the one before. */
+static int64_t in_round(search *plan) {
+  const int64_t keep = plan->shots / 25 > 6 ? plan->shots / 25 : 6;
+  int64_t n = keep >> (2 * plan->round);
+  n = n < 2 ? 2 : n;
+  return plan->round == 0 ? first_round(plan, n) : n < plan->count ? n : plan->count;
+}
+
+/* Strokes near the best are played once without errors. False where there are none. */
+static bool add_near(search *plan) {
+  const int64_t first = plan->count;
+  plan->near = 0;
+  plan->entered = in_round(plan);
+  carom_search_near(plan, plan->entered < PARENTS ? plan->entered : PARENTS);
+  if (plan->count == first)
+    return false;
+  carom_search_stage(plan, first, plan->count - first, 1, 0);
+  plan->next = NEXT_NEAR;
+  return true;
+}
+
+/* Those that meet a ball that is on come behind the candidates of the round, as if they had been in
+ * all before; the others are left out. */
+static void take_near(search *plan) {
+  const int64_t first = plan->stage.first;
+  for (int64_t k = 0; k < plan->stage.done; k++) {
+    if (!carom_search_begins_well(plan, plan->outcome[k].first))
+      continue;
+    carom_search_take(plan, first + k, &plan->outcome[k]);
+    candidate c = plan->found[first + k];
+    c.sum = c.squares = 0.0;
+    c.seen = c.keep = c.foul = c.lose = 0;
+    c.round = (int16_t)plan->round;
+    plan->found[first + plan->near] = plan->found[plan->entered + plan->near];
+    plan->found[plan->entered + plan->near++] = c;
+  }
+  plan->count = first + plan->near;
+}
+
+static void next_round(search *plan) {
+  if (plan->round == ROUNDS || carom_is_stopped(plan)) {
+    look_again(plan);
+    return;
+  }
+  if (plan->round == NEAR_ROUND && plan->near < 0 && add_near(plan))
+    return;
+  const int64_t n = plan->round == NEAR_ROUND ? plan->entered + plan->near : in_round(plan);
+  int64_t each = left_for_rounds(plan) / ROUNDS / n;
+  each = each < 2 ? 2 : each;
+  if (each * n > plan->room)
+    each = plan->room / n;
+  carom_search_stage(plan, 0, n, each, DRAW_ROUND + (uint32_t)plan->round);
+  plan->round++;
+  plan->next = NEXT_ROUND;
+}
+
+/* A block of the scan, or the first round behind the last one. */
+static void scan(search *plan) {
+  if (carom_search_scan(plan)) {
+    plan->next = NEXT_SCAN;
+  } else if (plan->count == 0) {
+    carom_search_add(plan, gentle(plan));
+    carom_search_stage(plan, 0, 1, plan->shots / 10, DRAW_ROUND);
+    plan->next = NEXT_GENTLE;
+  } else {
+    carom_search_sort(plan, plan->count);
+    next_round(plan);
+  }
+}
+
+static void go_on(search *plan) {
+  switch (plan->next) {
+  case NEXT_AIMED:
+    carom_search_aimed(plan);
+    carom_search_stage(plan, 0, plan->count, 1, 0);
+    plan->next = NEXT_TAKEN;
+    break;
+  case NEXT_TAKEN:
+    plan->count = plan->stage.done;
+    for (int64_t k = 0; k < plan->count; k++)
+      carom_search_take(plan, k, &plan->outcome[k]);
+    plan->scan_end = plan->count + plan->scan;
+    scan(plan);
+    break;
+  case NEXT_SCAN:
+    carom_search_scanned(plan);
+    scan(plan);
+    break;
+  case NEXT_ROUND:
+    carom_search_add_up(plan);
+    carom_search_sort(plan, plan->count);
+    next_round(plan);
+    break;
+  case NEXT_NEAR:
+    take_near(plan);
+    next_round(plan);
+    break;
+  case NEXT_LOOK:
+    carom_search_add_up(plan);
+    carom_search_lead(plan, plan->better);
+    carom_search_sort(plan, plan->count);
+    look_again(plan);
+    break;
+  case NEXT_GENTLE:
+    carom_search_add_up(plan);
+    plan->next = NEXT_ENDED;
+    break;
+  case NEXT_ENDED:
+    break;
+  }
+}
+
+void carom_search_begin(search *plan, int64_t shots) {
+  const double share = plan->breaks ? 0.0 : carom_scan_of(&plan->options);
+  const int64_t most = (int64_t)((1.0 - share) * (double)shots / 4.0);
+  plan->shots = shots;
+  plan->scan = (int64_t)(share * (double)shots);
+  plan->count = plan->tried = 0;
+  plan->round = plan->look = 0;
+  plan->near = -1;
+  if (plan->breaks) {
+    carom_search_breaks(plan, most);
+    carom_search_stage(plan, 0, plan->count, 1, 0);
+    plan->next = NEXT_TAKEN;
+  } else {
+    carom_search_pots(plan, most);
+    plan->next = NEXT_AIMED;
+  }
+}
+
+bool carom_search_run(search *plan) {
+  while (plan->next != NEXT_ENDED && carom_search_play(plan))
+    go_on(plan);
+  return plan->next == NEXT_ENDED;
+}
+
+/* Not to play, as one more candidate: its worth is that of the layout to the other. */
+void carom_search_pass(search *plan) {
+  uint64_t user[8];
+  memcpy(user, plan->job.rules->user, sizeof user);
+  for (int k = 0; k < plan->view.count; k++)
+    plan->state[k] = plan->job.balls[k].state;
+  const carom_call call = {CAROM_CALL_PASS, -1};
+  plan->job.rules->judge(user, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
+  const double value = 1.0 - carom_value_of(&plan->view, user, plan->state, 1, false);
+  carom_search_add(plan, (candidate){.sum = value,
+                                     .squares = value * value,
+                                     .seen = 1,
+                                     .kind = CAROM_PLAN_PASS,
+                                     .ball = CAROM_CALL_PASS,
+                                     .pocket = -1,
+                                     .round = plan->found[0].round});
+  plan->found[plan->count - 1].order = -1; /* of shots that are worth as much, none is played */
+  carom_search_lead(plan, plan->count - 1);
+  carom_search_sort(plan, plan->count);
+}

@@ -1,0 +1,280 @@
+/* Snooker: the rules of the WPBSA and IBSF, sections 2 and 3.
+ *
+ * A red and a colour in turn, then the colours from the lowest on. A foul gives the other the value
+ * of the ball on, or of the highest ball that it concerns, at least 4; he may let the offender play
+ * on. A player who is snookered after a foul may name any ball for one on: a free ball. The first
+ * pot or foul on the last black ends the frame, but for equal scores: then the black comes back,
+ * and the other plays from the D; by the rules they draw lots. Who comes to the last black more
+ * than its seven points ahead claims the frame. A ball that touches the cue ball has to be met, as
+ * any. */
+#include "rules.h"
+#include "table/spots.h"
+
+#include <math.h>
+
+/* Words of the state, and the parts of two. */
+enum { COLOUR = 0, OWN = 2, OTHER = 3, AFTER_FOUL = 4, NAMED = 5 };
+enum { MAY_PASS = 1, FREE_BALL = 2, IN_HAND = 4 };
+enum { YELLOW = 16, PINK = 20, BLACK = 21, COLOURS = 27, LEAST = 4, MOST = 7 };
+static const uint32_t reds = 0xfffe, colours = 0x3f0000, black = UINT32_C(1) << BLACK;
+
+static int worth(int ball) {
+  return ball < YELLOW ? 1 : ball - YELLOW + 2;
+}
+
+/* Of a set; 0 of none. */
+static int highest(uint32_t set) {
+  int most = 0;
+  for (int k = 1; k <= BLACK; k++)
+    most = set >> k & 1 && worth(k) > most ? worth(k) : most;
+  return most;
+}
+
+/* The balls on, but for a free ball. */
+static uint32_t due_of(const uint64_t *user, uint32_t in_play) {
+  const uint32_t red = in_play & reds, colour = in_play & colours;
+  return user[COLOUR] != 0 ? colour : red != 0 ? red : colour & (~colour + 1);
+}
+
+static uint32_t on(const uint64_t *user, uint32_t in_play) {
+  return user[AFTER_FOUL] & FREE_BALL ? in_play & (reds | colours) : due_of(user, in_play);
+}
+
+static uint32_t may(const uint64_t *user) {
+  return user[AFTER_FOUL] & MAY_PASS ? CAROM_MAY_PASS : 0;
+}
+
+/* Points that are on the table, and in how many pots. */
+static int remaining(const uint64_t *user, uint32_t in_play, int *pots) {
+  const int red = carom_count_of(in_play & reds);
+  const bool colour = user[COLOUR] != 0;
+  if (red > 0 || colour) {
+    *pots = 2 * red + colour + 6;
+    return 8 * red + 7 * colour + COLOURS;
+  }
+  int sum = 0;
+  for (int k = YELLOW; k <= BLACK; k++)
+    sum += in_play >> k & 1 ? worth(k) : 0;
+  *pots = carom_count_of(in_play & colours);
+  return sum;
+}
+
+static int64_t lead_of(const uint64_t *user) {
+  return (int64_t)user[OWN] - (int64_t)user[OTHER];
+}
+
+/* Whether a striker with this lead claims the frame: the black alone is left, and its pot or a foul
+ * on it makes fewer points and ends the frame. */
+static bool is_claimed(int64_t lead, uint32_t balls) {
+  return balls == black && lead > MOST;
+}
+
+/* Points after which the other cannot draw level; 0 of a frame that is won. */
+static void left(const uint64_t *user, uint32_t in_play, int32_t needed[2]) {
+  int pots;
+  const int64_t rest = remaining(user, in_play, &pots), lead = lead_of(user);
+  const uint32_t balls = in_play & (reds | colours);
+  const int64_t own = rest - lead, other = rest + lead;
+  needed[0] = is_claimed(lead, balls) ? 0 : own < 2 ? 1 : (int32_t)(own / 2 + 1);
+  needed[1] = is_claimed(-lead, balls) ? 0 : other < 2 ? 1 : (int32_t)(other / 2 + 1);
+}
+
+static double points(const uint64_t *user, uint32_t in_play, int ball) {
+  int pots;
+  const int rest = remaining(user, in_play, &pots);
+  const uint32_t due = due_of(user, in_play);
+  return ball < 0            ? (pots > 0 ? (double)rest / pots : 1.0)
+         : user[COLOUR] != 0 ? worth(ball)
+                             : highest(due);
+}
+
+/* The turn goes to the other: the state becomes his. */
+static carom_turn give(uint64_t *user, carom_turn turn) {
+  carom_swap(&user[OWN], &user[OTHER]);
+  return turn;
+}
+
+/* The last black is gone: who has more has won; else it comes back. */
+static carom_turn finish(uint64_t *user, carom_turn turn) {
+  turn.spot = 0;
+  turn.leave = CAROM_LEAVE_AFTER;
+  turn.is = user[OWN] > user[OTHER] ? CAROM_TURN_WIN : CAROM_TURN_LOSE;
+  if (user[OWN] != user[OTHER])
+    return turn;
+  turn.is = CAROM_TURN_PASS;
+  turn.leave = CAROM_LEAVE_D;
+  turn.spot = black;
+  return turn;
+}
+
+static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts,
+                        carom_call call) {
+  const uint32_t balls = in_play & (reds | colours), due = due_of(user, in_play);
+  const uint64_t after_foul = user[AFTER_FOUL];
+  const bool colour = user[COLOUR] != 0;
+  user[AFTER_FOUL] = user[NAMED] = 0;
+  if ((after_foul & MAY_PASS) && call.ball == CAROM_CALL_PASS) {
+    carom_turn turn = carom_pass;
+    turn.leave = after_foul & IN_HAND ? CAROM_LEAVE_D : turn.leave;
+    return give(user, turn);
+  }
+
+  /* The ball that is named, where one may be: else it is the first. */
+  const uint32_t choice = after_foul & FREE_BALL ? balls : due;
+  const int first = facts->first[0];
+  const int named = call.ball >= 0 && call.ball <= BLACK && choice >> call.ball & 1 ? call.ball
+                    : first >= 0 && choice >> first & 1                             ? first
+                                                                                    : -1;
+  const uint32_t its = named < 0 ? 0 : UINT32_C(1) << named;
+  const bool free_ball = !colour && its != 0 && (its & due) == 0;
+  const uint32_t to_meet = colour || free_ball ? its : due;
+  const uint32_t to_fall = colour ? its : due | (free_ball ? its : 0);
+  const int value = !colour ? highest(due) : named >= 0 ? worth(named) : MOST;
+
+  /* Fouls. Reds stay down. */
+  const uint32_t gone = (facts->down | facts->off) & balls;
+  const uint32_t wrong = (facts->down & balls & ~to_fall) | (facts->off & balls);
+  const bool off_cue = (facts->down | facts->off) >> cue_ball & 1;
+  const bool wrong_first = first >= 0 && !(to_meet >> first & 1);
+  const int32_t bad = off_cue                      ? CAROM_FOUL_CUE_BALL
+                      : first < 0                  ? CAROM_FOUL_NO_BALL
+                      : wrong_first                ? CAROM_FOUL_FIRST
+                      : (facts->off & balls) != 0  ? CAROM_FOUL_OFF
+                      : (facts->down & wrong) != 0 ? CAROM_FOUL_POT
+                                                   : CAROM_FOUL_NONE;
+  carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, gone & colours, 0.0};
+  user[COLOUR] = 0;
+  if (bad != CAROM_FOUL_NONE) {
+    int cost = value > LEAST ? value : LEAST;
+    const int by_first = wrong_first ? worth(first) : 0, by_fall = highest(wrong);
+    cost = by_first > cost ? by_first : cost;
+    cost = by_fall > cost ? by_fall : cost;
+    user[OTHER] += (uint64_t)cost;
+    turn.leave = off_cue ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER;
+    if (balls == black)
+      turn = finish(user, turn);
+    if (turn.is != CAROM_TURN_PASS)
+      return turn;
+    /* a black that comes back is a new beginning */
+    user[AFTER_FOUL] = balls == black ? 0 : off_cue ? MAY_PASS | IN_HAND : MAY_PASS;
+    return give(user, turn);
+  }
+
+  /* A stroke without a pot; the other must not be snookered behind a free ball. */
+  const uint32_t fell = facts->down & balls;
+  if (fell == 0) {
+    if (is_claimed(-lead_of(user), balls))
+      return finish(user, turn);
+    user[NAMED] = free_ball ? (uint64_t)named + 1 : 0;
+    return give(user, turn);
+  }
+
+  /* Reds count one each, and a free ball beside them as one; of others the ball on counts alone. */
+  const bool red = !colour && (due & reds) != 0;
+  const int made = red ? carom_count_of(fell) : value;
+  user[OWN] += (uint64_t)made;
+  user[COLOUR] = red;
+  turn.is = CAROM_TURN_KEEP;
+  turn.spot = !colour && !red ? fell & ~due : fell & colours;
+  if (balls == black || is_claimed(lead_of(user), (balls & ~fell) | turn.spot))
+    turn = finish(user, turn);
+  turn.points = made;
+  return turn.is == CAROM_TURN_PASS ? give(user, turn) : turn;
+}
+
+/* ---- Where balls lie */
+
+/* Whether a ball of `by` is in the way of the cue ball from c until it grazes ball k on a side, -1
+ * or 1. */
+static bool is_barred(const carom_shot_ball *balls, uint32_t by, const double c[2], int k,
+                      int side) {
+  const double x = balls[k].state.r[0] - c[0], y = balls[k].state.r[1] - c[1];
+  const double both = balls[0].kind.radius + balls[k].kind.radius, d = sqrt(x * x + y * y);
+  if (d <= both)
+    return false;
+  /* the direction of the tangent, and how long it is */
+  const double length = sqrt(d * d - both * both), cosine = length / d, sine = side * both / d;
+  const double u[2] = {(x * cosine - y * sine) / d, (x * sine + y * cosine) / d};
+  for (int n = 1; by >> n != 0; n++) {
+    const double to[2] = {balls[n].state.r[0] - c[0], balls[n].state.r[1] - c[1]};
+    if ((by >> n & 1) && n != k &&
+        carom_is_near_way(to, u, length, balls[0].kind.radius + balls[n].kind.radius))
+      return true;
+  }
+  return false;
+}
+
+/* Whether no ball of `due` can be hit at both of its edges from c: others bar the way. */
+static bool is_snookered_at(const carom_shot_ball *balls, uint32_t due, uint32_t others,
+                            const double c[2]) {
+  for (int k = 1; due >> k != 0; k++)
+    if ((due >> k & 1) && !is_barred(balls, others, c, k, -1) && !is_barred(balls, others, c, k, 1))
+      return false;
+  return true;
+}
+
+/* The same of the cue ball; in hand, from all free places of the D, of which some are tried. */
+static bool is_snookered(const carom_table *table, const carom_shot_ball *balls, uint32_t in_play,
+                         uint32_t due, uint32_t others, bool hand) {
+  enum { STEPS = 6 };
+  if (!hand)
+    return is_snookered_at(balls, due, others, balls[0].state.r);
+  const carom_d d = carom_d_of(table->width, table->length);
+  for (int i = -STEPS; i <= STEPS; i++)
+    for (int j = 0; j <= STEPS; j++) {
+      const double c[2] = {d.x + d.radius * i / (double)STEPS, d.y - d.radius * j / (double)STEPS};
+      bool is_free = carom_is_in_d(table, c[0], c[1]);
+      for (int k = 1; in_play >> k != 0 && is_free; k++) {
+        const double x = balls[k].state.r[0] - c[0], y = balls[k].state.r[1] - c[1],
+                     least = balls[0].kind.radius + balls[k].kind.radius;
+        is_free = !(in_play >> k & 1) || x * x + y * y > least * least;
+      }
+      if (is_free && !is_snookered_at(balls, due, others, c))
+        return false;
+    }
+  return true;
+}
+
+static void settle(uint64_t *user, const carom_table *table, carom_shot_ball *balls, int count,
+                   carom_turn *turn) {
+  for (int k = count <= BLACK ? count - 1 : BLACK; k >= YELLOW; k--)
+    if (turn->spot >> k & 1)
+      carom_spot_ball_of(CAROM_RACK_SNOOKER, table, balls, count, k);
+  if (turn->is != CAROM_TURN_PASS)
+    return;
+
+  uint32_t in_play = 0;
+  for (int k = 1; k < count && k <= BLACK; k++)
+    in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED &&
+                          balls[k].state.label != CAROM_BALL_OFF)
+               << k;
+  const uint32_t due = due_of(user, in_play);
+  const bool hand = turn->leave == CAROM_LEAVE_D;
+
+  /* Behind the free ball, but for pink and black alone: a foul. */
+  if (user[NAMED] != 0 && user[NAMED] <= BLACK + 1) {
+    const uint32_t its = UINT32_C(1) << (user[NAMED] - 1), others = in_play & ~due;
+    user[NAMED] = 0;
+    if (in_play != (black | black >> 1) &&
+        is_snookered(table, balls, in_play, due, others, false) &&
+        !is_snookered(table, balls, in_play, due, others & ~its, false)) {
+      user[OWN] += (uint64_t)(highest(due) > LEAST ? highest(due) : LEAST);
+      user[AFTER_FOUL] = MAY_PASS;
+      turn->foul = CAROM_FOUL_OTHER;
+    }
+  }
+
+  /* A free ball; a black that came back gives none. */
+  if (user[AFTER_FOUL] & MAY_PASS && is_snookered(table, balls, in_play, due, in_play & ~due, hand))
+    user[AFTER_FOUL] |= FREE_BALL;
+}
+
+const carom_plan_rules carom_snooker = {.on = on,
+                                        .judge = judge,
+                                        .left = left,
+                                        .may = may,
+                                        .race = CAROM_RACE_POINTS,
+                                        .calls = 1,
+                                        .points = points,
+                                        .settle = settle,
+                                        .rack = CAROM_RACK_SNOOKER};

@@ -1,0 +1,192 @@
+/* Straight pool, 14.1 continuous: World Standardized Rules of the WPA (2016), section 4.
+ *
+ * A called ball in its pocket keeps the turn; then it and all others that fell with it count one
+ * each. What falls otherwise comes back. A foul costs one point, the third in a row 15 more and a
+ * new break. An opening break pots a called ball, or drives the cue ball and two others to
+ * cushions; else it costs two points, and the other may have it played again. */
+#include "rules.h"
+
+/* Words of the state. */
+enum { TARGET, BREAK, POTS, POTS_OTHER, MAY, LOST, LOST_OTHER, FOULS };
+enum { FOULS_MOST = 3, MANY_FOULS = 15, BAD_BREAK = 2, RACKED = 14, LAST_BALL = 15 };
+static const uint32_t all = 0xfffe;
+
+static int64_t score(const uint64_t *user, int who) {
+  return (int64_t)user[POTS + who] - (int64_t)user[LOST + who];
+}
+
+static uint32_t on(const uint64_t *user, uint32_t in_play) {
+  (void)user;
+  return in_play & all;
+}
+
+static void left(const uint64_t *user, uint32_t in_play, int32_t needed[2]) {
+  (void)in_play;
+  for (int who = 0; who < 2; who++) {
+    const int64_t n = (int64_t)user[TARGET] - score(user, who);
+    needed[who] = n < 1 ? 1 : n > INT32_MAX ? INT32_MAX : (int32_t)n;
+  }
+}
+
+static uint32_t may(const uint64_t *user) {
+  return user[MAY] != 0 ? CAROM_MAY_PASS : 0;
+}
+
+/* The turn goes to the other: the state becomes his. */
+static carom_turn give(uint64_t *user, carom_turn turn) {
+  carom_swap(&user[POTS], &user[POTS_OTHER]);
+  carom_swap(&user[LOST], &user[LOST_OTHER]);
+  user[FOULS] = user[FOULS] >> 2 | (user[FOULS] & 3) << 2;
+  return turn;
+}
+
+/* A break: all balls are racked, and the cue ball is in hand. */
+static carom_turn racked(uint64_t *user, carom_turn_is is, int32_t foul) {
+  user[BREAK] = 1;
+  return (carom_turn){is, CAROM_LEAVE_KITCHEN, foul, all, 0.0};
+}
+
+/* Whether an opening break drove the cue ball and two others to cushions. */
+static bool is_open(const carom_facts *facts, int cue_ball) {
+  int reached = 0;
+  for (int k = 1; k <= LAST_BALL; k++)
+    reached += facts->cushions[k] > 0;
+  return reached >= 2 && facts->cushions[cue_ball] > facts->cushions_before[0];
+}
+
+static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts,
+                        carom_call call) {
+  const uint32_t balls = in_play & all, gone = (facts->down | facts->off) & balls;
+  const bool opening = user[BREAK] != 0, passes = user[MAY] != 0 && call.ball == CAROM_CALL_PASS;
+  user[BREAK] = user[MAY] = 0;
+  if (passes)
+    return give(user, racked(user, CAROM_TURN_PASS, 0));
+
+  /* Fouls: what fell comes back. */
+  int32_t bad = (int32_t)carom_foul_of(facts, balls, cue_ball);
+  const bool called =
+      bad == CAROM_FOUL_NONE && carom_is_called(facts, call) && (balls >> call.ball & 1);
+  const bool bad_break = opening && !called && !is_open(facts, cue_ball);
+  carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, gone, 0.0};
+  if (bad == CAROM_FOUL_CUE_BALL)
+    turn.leave = CAROM_LEAVE_KITCHEN;
+  if (bad_break) {
+    turn.foul = bad != CAROM_FOUL_NONE ? bad : CAROM_FOUL_BREAK;
+    user[LOST] += BAD_BREAK;
+    give(user, turn);
+    user[MAY] = 1;
+    return turn;
+  }
+  if (bad != CAROM_FOUL_NONE) {
+    user[LOST]++;
+    if ((++user[FOULS] & 3) < FOULS_MOST)
+      return give(user, turn);
+    user[LOST] += MANY_FOULS;
+    user[FOULS] -= FOULS_MOST;
+    return racked(user, CAROM_TURN_KEEP, bad);
+  }
+
+  /* A miss or a safety; else points, and a new rack where one ball is left, or none. */
+  user[FOULS] &= ~UINT64_C(3);
+  if (!called)
+    return give(user, turn);
+  turn = carom_keep;
+  turn.points = carom_count_of(gone);
+  user[POTS] += (uint64_t)carom_count_of(gone);
+  turn.is = score(user, 0) >= (int64_t)user[TARGET] ? CAROM_TURN_WIN : CAROM_TURN_KEEP;
+  if (carom_count_of(balls & ~gone) <= 1)
+    turn.spot = all & ~(balls & ~gone);
+  return turn;
+}
+
+/* ---- Racks */
+
+/* The places of the triangle, of which the first is its front. */
+static void places_of(const carom_table *table, double radius, double place[LAST_BALL][2]) {
+  const double pitch = 2.0 * radius + 1e-4; /* the gap of carom's racks */
+  double foot[2] = {0.0, 0.0};
+  carom_spot_of(CAROM_RACK_EIGHTBALL, table, 1, foot);
+  for (int row = 0, n = 0; row < 5; row++)
+    for (int k = 0; k <= row; k++, n++) {
+      place[n][0] = foot[0] + (k - 0.5 * row) * pitch;
+      place[n][1] = foot[1] + row * pitch * 0.8660254037844386;
+    }
+}
+
+/* Whether a ball at r is in the way of one at a place. */
+static bool is_near(const double r[2], const double place[2], double radius) {
+  const double x = r[0] - place[0], y = r[1] - place[1];
+  return x * x + y * y < 4.0 * radius * radius;
+}
+
+static bool is_in_rack(const carom_shot_ball *ball, double place[LAST_BALL][2]) {
+  bool in = false;
+  for (int k = 0; k < LAST_BALL; k++)
+    in |= is_near(ball->state.r, place[k], ball->kind.radius);
+  return in;
+}
+
+/* Racks 14 balls without the front one, or all 15. The fifteenth leaves the rack for the head spot,
+ * or for the centre where the cue ball is there. A cue ball in the rack is in hand; but with the
+ * fifteenth behind the head string it goes to the head spot, or to the centre where the fifteenth
+ * is there. With both in the rack all 15 are racked. */
+static void settle(uint64_t *user, const carom_table *table, carom_shot_ball *balls, int count,
+                   carom_turn *turn) {
+  (void)user;
+  uint32_t spot = turn->spot;
+  if (carom_count_of(spot) < RACKED || count <= LAST_BALL) {
+    carom_put_back(table, balls, count, spot);
+    return;
+  }
+
+  /* who is where */
+  const double R = balls[1].kind.radius;
+  double place[LAST_BALL][2], head[2] = {0.0, 0.0};
+  const double centre[2] = {0.5 * table->width, 0.5 * table->length};
+  places_of(table, R, place);
+  carom_spot_of(CAROM_RACK_EIGHTBALL, table, 0, head);
+  int last = 0;
+  for (int k = 1; k <= LAST_BALL; k++)
+    last = spot >> k & 1 ? last : k;
+  const bool hand = turn->leave == CAROM_LEAVE_KITCHEN;
+  const bool cue_in = is_in_rack(&balls[0], place),
+             last_in = last > 0 && is_in_rack(&balls[last], place);
+  if (cue_in && last_in)
+    spot = turn->spot = all;
+
+  /* all that is racked, and a cue ball that is in hand, make room */
+  for (int k = 0; k <= LAST_BALL; k++)
+    if (spot >> k & 1 || (k == 0 && (hand || cue_in)))
+      balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+  if (last_in && !cue_in) {
+    const bool taken = is_near(balls[0].state.r, head, R) && !hand;
+    carom_place_ball(table, balls, count, last, taken ? centre[0] : head[0],
+                     taken ? centre[1] : head[1], NULL);
+  }
+  for (int k = 1, n = spot == all ? 0 : 1; k <= LAST_BALL; k++)
+    if (spot >> k & 1) {
+      carom_place_ball(table, balls, count, k, place[n][0], place[n][1], NULL);
+      n++;
+    }
+
+  /* a cue ball that was in the rack */
+  if (!cue_in || hand)
+    return;
+  const bool behind = spot != all && balls[last].state.r[1] < head[1];
+  const bool on_head = spot != all && is_near(balls[last].state.r, head, R);
+  if (on_head || behind)
+    carom_place_ball(table, balls, count, 0, on_head ? centre[0] : head[0],
+                     on_head ? centre[1] : head[1], NULL);
+  else
+    turn->leave = CAROM_LEAVE_KITCHEN;
+}
+
+const carom_plan_rules carom_straight = {.user = {[TARGET] = 100},
+                                         .on = on,
+                                         .judge = judge,
+                                         .left = left,
+                                         .may = may,
+                                         .race = CAROM_RACE_POINTS,
+                                         .calls = 1,
+                                         .settle = settle,
+                                         .rack = CAROM_RACK_EIGHTBALL};

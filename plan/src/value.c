@@ -1,0 +1,147 @@
+/* Values of layouts: who wins from there, by the chances of pots of chances.c.
+ *
+ * What follows a miss is a chain over the balls left, n to the one who plays and m to the other:
+ * of a visit he keeps the first turn with the chance e_n and each later one with a_n, both of a
+ * layout of the usual kind, and who misses gives the turn away:
+ *
+ *     W(n, m) = e_n U(n - 1, m) + (1 - e_n) (1 - V(m, n)),
+ *     U(n, m) = a_n U(n - 1, m) + (1 - a_n) (1 - V(m, n)),
+ *     U(0, m) = 1,
+ *
+ * and V of the other likewise. The visit is worth
+ *
+ *     (1 - p) (1 - V(m, n)) + p U'(n - 1, m),
+ *
+ * U' being U with the a_n of the mean of this layout. Of games that were played to the end, the
+ * log-odds of these values were to be stretched by a number for each game. */
+#include "platform/elementary.h"
+#include "platform/promise.h"
+#include "view.h"
+
+#include <math.h>
+#include <string.h>
+
+const carom_facts carom_no_facts = {.first = {-1, -1}};
+
+uint32_t carom_in_play(const carom_ball_state *balls, int count) {
+  uint32_t set = 0;
+  for (int k = 0; k < count; k++)
+    if (balls[k].label != CAROM_BALL_POCKETED && balls[k].label != CAROM_BALL_OFF)
+      set |= UINT32_C(1) << k;
+  return set;
+}
+
+/* The chain: of each pair of numbers of balls the equations of W and V are solved together; on[]
+ * is U of both. */
+static void chain(carom_view *view, double a[2][MOST_LEFT + 1], double e[2][MOST_LEFT + 1]) {
+  const bool shared = view->rules->race == CAROM_RACE_SHARED;
+  double on[2][MOST_LEFT + 1][MOST_LEFT + 1];
+  for (int k = 0; k <= MOST_LEFT; k++)
+    on[0][0][k] = on[1][0][k] = 1.0;
+  for (int total = 2; total <= 2 * MOST_LEFT; total++)
+    for (int n = total > MOST_LEFT ? total - MOST_LEFT : 1; n < total && n <= MOST_LEFT; n++) {
+      const int m = total - n;
+      if (shared && n != m)
+        continue;
+      const double s = on[0][n - 1][shared ? n - 1 : m], t = on[1][m - 1][shared ? m - 1 : n];
+      const double c = e[0][n], d = e[1][m], f = c * s + 1.0 - c, g = d * t + 1.0 - d;
+      const double det = 1.0 - (1.0 - c) * (1.0 - d);
+      const double w = (f - (1.0 - c) * g) / det, v = (g - (1.0 - d) * f) / det;
+      view->win[0][n][m] = w;
+      view->win[1][m][n] = v;
+      on[0][n][m] = a[0][n] * s + (1.0 - a[0][n]) * (1.0 - v);
+      on[1][m][n] = a[1][m] * t + (1.0 - a[1][m]) * (1.0 - w);
+    }
+}
+
+void carom_view_make(carom_view *view, const carom_plan_job *job,
+                     const carom_plan_options *options) {
+  const carom_player *other = options->opponent != NULL ? options->opponent : job->player;
+  view->rules = job->rules;
+  view->pockets = (int)job->table->pockets;
+  view->count = (int)job->count;
+  view->cue_ball = (int)job->cue->ball;
+  view->width = job->table->width;
+  view->length = job->table->length;
+  for (int p = 0; p < view->pockets; p++)
+    view->mouth[p] = carom_mouth_of(job->table, p);
+  for (int k = 0; k < view->count; k++) {
+    view->radius[k] = job->balls[k].kind.radius;
+    for (int p = 0; p < view->pockets; p++)
+      view->window[k][p] = carom_window_of(&view->mouth[p], job->balls[k].state.r, view->radius[k]);
+    memcpy(view->at[k], job->balls[k].state.r, sizeof view->at[k]);
+  }
+  const carom_player *players[2] = {job->player, other};
+  for (int who = 0; who < 2; who++) {
+    view->sigma[who] = players[who]->phi * (pi / 180.0);
+    view->log_error[who] = carom_log(players[who]->phi > 0.01 ? players[who]->phi / 0.1 : 0.1);
+    view->given[who] = who == 0 ? options->chance_me : options->chance_opponent;
+  }
+  const double mean = carom_chance_usual(view);
+  double a[2][MOST_LEFT + 1] = {{0.0}}, e[2][MOST_LEFT + 1] = {{0.0}};
+  for (int who = 0; who < 2; who++)
+    for (int n = 1; n <= MOST_LEFT; n++) {
+      a[who][n] = carom_chance_later(view, who, mean, n);
+      e[who][n] = carom_chance_first(view, who, n);
+    }
+  chain(view, a, e);
+}
+
+static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                           uint32_t targets, uint32_t pockets, const int32_t given[2], int who,
+                           bool in_hand) {
+  const bool alone = view->rules->race == CAROM_RACE_ALONE;
+  const bool shared = view->rules->race == CAROM_RACE_SHARED;
+  const int32_t most = alone ? CAROM_BALLS_MOST : MOST_LEFT;
+  int32_t left[2];
+  for (int k = 0; k < 2; k++)
+    left[k] = given[k] < 1 ? 1 : given[k] > most ? most : given[k];
+  CAROM_PROMISE(who == 0 || who == 1);
+  double x[NEXT_NUMBERS];
+  carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, NULL, x);
+  const double p = carom_chance_next(view, x);
+
+  /* the visit, ball by ball: how likely it is to come so far, and what a miss there is worth */
+  double worth = 0.0, so_far = 1.0, next = p;
+  for (int n = left[0]; n > 0; n--) {
+    if (alone)
+      worth += so_far * next;
+    else
+      worth += so_far * (1.0 - next) * (1.0 - view->win[1 - who][shared ? n : left[1]][n]);
+    so_far *= next;
+    next = n > 1 ? carom_chance_later(view, who, x[2], n - 1) : 0.0;
+  }
+  CAROM_PROMISE(worth >= 0.0 && so_far >= 0.0 && so_far <= 1.0 && (alone || worth <= 1.0));
+  return alone ? worth : carom_stretched(view, worth + so_far);
+}
+
+/* The value to one who plays. */
+static double value_of_playing(const carom_view *view, const uint64_t *user,
+                               const carom_ball_state *balls, uint32_t in_play, int who,
+                               bool in_hand) {
+  const carom_plan_rules *rules = view->rules;
+  if (rules->value != NULL)
+    return rules->value(user, balls, view->count, in_hand);
+  if (rules->race == CAROM_RACE_POINTS)
+    return carom_points_value(view, user, balls, in_play, who, in_hand);
+  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(user) : ~UINT32_C(0);
+  int32_t left[2];
+  rules->left(user, in_play, left);
+  return with_targets(view, balls, in_play, rules->on(user, in_play), pockets, left, who, in_hand);
+}
+
+double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
+                      int who, bool in_hand) {
+  const carom_plan_rules *rules = view->rules;
+  const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
+  const double plays = value_of_playing(view, user, balls, in_play, who, in_hand);
+  if (rules->may == NULL || !(rules->may(user) & CAROM_MAY_PASS))
+    return plays;
+
+  /* he may leave the table to the other */
+  uint64_t passed[8];
+  memcpy(passed, user, sizeof passed);
+  rules->judge(passed, in_play, view->cue_ball, &carom_no_facts, (carom_call){CAROM_CALL_PASS, -1});
+  const double passes = 1.0 - value_of_playing(view, passed, balls, in_play, 1 - who, in_hand);
+  return plays > passes ? plays : passes;
+}

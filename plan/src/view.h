@@ -1,0 +1,131 @@
+/* What the parts of this room share: the table as a player sees it, values of layouts, and
+ * draws. */
+#ifndef CAROM_PLAN_VIEW_H
+#define CAROM_PLAN_VIEW_H
+
+#include "carom_plan.h"
+#include "platform/arithmetic.h"
+
+#include <stdbool.h>
+
+static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
+
+static inline double carom_within(double x, double least, double most) {
+  return x < least ? least : x > most ? most : x;
+}
+
+/* Whether a point, `to` from where a way begins, is nearer than `least` to the way: so long, in the
+ * direction u. */
+static inline bool carom_is_near_way(const double to[2], const double u[2], double length,
+                                     double least) {
+  const double along = carom_within(to[0] * u[0] + to[1] * u[1], 0.0, length);
+  const double off[2] = {to[0] - along * u[0], to[1] - along * u[1]};
+  return off[0] * off[0] + off[1] * off[1] < least * least;
+}
+
+enum { MOST_LEFT = 15 }; /* balls of a player that a chain counts */
+
+/* Two jaws, between which the way into a pocket is. */
+typedef struct carom_mouth {
+  double centre[2], jaw[2][3]; /* of the pocket; of each jaw, with its radius */
+  bool jaws;                   /* whether there are such jaws; else jaw[0][2] is the pocket's
+                                  radius */
+} carom_mouth;
+
+/* The directions in which a ball gets into a pocket: their middle psi, with its sine and cosine,
+ * and half their range, rad, which is below 0 where there is none. */
+typedef struct carom_window {
+  double psi, half, sine, cosine;
+} carom_window;
+
+/* A layout's surroundings, made once for a plan. */
+typedef struct carom_view {
+  const carom_plan_rules *rules;
+  carom_mouth mouth[CAROM_POCKETS_MOST];
+  int pockets, count, cue_ball;
+  double width, length;
+  double radius[CAROM_BALLS_MOST];
+  /* of the player and of his opponent: error of the direction, rad; the logarithm of that in 0.1
+   * degrees, at least 0.01 degrees; the caller's chance of a pot, or 0 */
+  double sigma[2], log_error[2], given[2];
+  /* chance to win at one's turn, by the balls left to oneself and to the other: of the player,
+   * of his opponent */
+  double win[2][MOST_LEFT + 1][MOST_LEFT + 1];
+  /* of the balls where they are before the shot; most of them stay there */
+  double at[CAROM_BALLS_MOST][2];
+  carom_window window[CAROM_BALLS_MOST][CAROM_POCKETS_MOST];
+} carom_view;
+
+/* A direct pot. */
+typedef struct carom_way {
+  double chance;
+  double psi, half; /* the middle of the directions in which the ball gets in, and half their
+                       range, rad */
+} carom_way;
+
+/* Of a shot in error, and of none: no ball was met. */
+extern const carom_facts carom_no_facts;
+
+/* pots.c */
+carom_mouth carom_mouth_of(const carom_table *table, int pocket);
+/* Of a ball of radius R at o. */
+carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double R);
+/* The pot of ball k into a pocket by the player `who`, 0 or 1; in_hand: the cue ball may be put
+ * anywhere. A chance of at most `least` is told as 0. */
+carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                       int k, int pocket, int who, bool in_hand, double least);
+/* chances.c */
+/* What a chance to pot is made of, the numbers of learned_numbers.h: 1; view->log_error; the mean
+ * of the best pots of the balls of `targets`; the best pot; that of the next best ball; whether one
+ * ball is left; whether the cue ball is in hand. For later pots of a visit they are 1,
+ * view->log_error, 1 / the balls that are left then, and the mean; for the first after a turn of
+ * the other those but the mean. each[k] becomes the best pot of ball k, where it is not NULL. */
+enum { NEXT_NUMBERS = 7, LATER_NUMBERS = 4, FIRST_NUMBERS = 3 };
+void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                         uint32_t targets, uint32_t pockets, int who, bool in_hand,
+                         double each[CAROM_BALLS_MOST], double x[NEXT_NUMBERS]);
+/* Chances of the next pot, by carom_plan_features(); of a later one with n balls left, in a layout
+ * with this mean; of the first of a visit. */
+double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]);
+double carom_chance_later(const carom_view *view, int who, double mean, int n);
+double carom_chance_first(const carom_view *view, int who, int n);
+/* The mean over the balls of a usual layout. */
+double carom_chance_usual(const carom_view *view);
+/* A value with its log-odds stretched. */
+double carom_stretched(const carom_view *view, double value);
+
+/* value.c */
+void carom_view_make(carom_view *view, const carom_plan_job *job,
+                     const carom_plan_options *options);
+/* The chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
+double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
+                      int who, bool in_hand);
+uint32_t carom_in_play(const carom_ball_state *balls, int count);
+/* points.c: the chance that player `who` wins a race for points. */
+double carom_points_value(const carom_view *view, const uint64_t *user,
+                          const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand);
+
+/* draws.c: elementary functions beyond platform/elementary.h, and random numbers that are a
+ * function of where they stand. */
+/* of a vector, -pi to pi, rad */
+double carom_angle_of(double x, double y);
+double carom_asin(double x); /* |x| <= 1 */
+/* x >= 0; to 1.5e-7 */
+double carom_erf(double x);
+/* between 0 and 1, without the ends */
+double carom_uniform(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number);
+void carom_normals(uint64_t seed, uint32_t stage, uint64_t row, double z[6]);
+
+/* stick.c: the least elevation, degrees, with which the stick of a cue is over the cushions and the
+ * balls behind the ball that it strikes. Above STICK_MOST nobody plays. */
+static const double STICK_MOST = 60.0; /* degrees */
+double carom_least_elevation(const carom_table *table, const carom_shot_ball *balls, int count,
+                             const carom_cue *cue);
+
+/* player.c */
+/* The player with his bounds: 0 becomes the value it stands for. */
+carom_player carom_player_bounded(const carom_player *player, const carom_cue *cue);
+/* A stroke by a player with bounds; z are his errors in standard deviations. */
+void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue);
+
+#endif

@@ -1,0 +1,352 @@
+/* What plans choose: the same on all machines, with the chances that are told, of what is named. */
+#include "plan_support.h"
+
+/* The choices of 20 layouts, by plain: the same hash on all machines, with one thread and with
+ * two. Where a change of the method or of the physics is meant to change them, the new hash is
+ * the one that this test prints. */
+TEST(golden_choices) {
+  static const uint64_t golden = UINT64_C(0x730b84601e24533b);
+  uint64_t h = UINT64_C(0xcbf29ce484222325);
+  int pots = 0;
+  for (int k = 0; k < 20; k++) {
+    carom_choice choices[2][3];
+    int found[2];
+    make_layout((uint64_t)k + 1, 2 + k % 8);
+    options.seed = (uint64_t)k;
+    if (k % 5 == 4)
+      rules = carom_plan_rules_of(k % 2 == 0 ? CAROM_RULES_NINEBALL : CAROM_RULES_POTTING);
+    make_memory();
+    for (int threads = 0; threads < 2; threads++) {
+      options.threads = 2 * threads;
+      ck_assert_int_eq(k % 4 == 3
+                           ? carom_plan_hand(&job, NULL, NULL, choices[threads], 3, &found[threads])
+                           : carom_plan(&job, choices[threads], 3, &found[threads]),
+                       CAROM_OK);
+    }
+    ck_assert_int_eq(found[0], found[1]);
+    ck_assert_int_eq(memcmp(choices[0], choices[1], (size_t)found[0] * sizeof choices[0][0]), 0);
+    const carom_choice *best = &choices[0][0];
+    ck_assert(best->value >= 0.0 && best->value <= 1.0 && best->error >= 0.0 && best->seen > 0);
+    ck_assert(found[0] == 1 || best->value >= choices[0][1].value);
+    pots += best->ball > 0;
+    h = hash_of(h, choices[0], (size_t)found[0] * sizeof choices[0][0]);
+    edge_free(&memory);
+  }
+  printf("choices of 20 layouts: 0x%016llx; %d pot\n", (unsigned long long)h, pots);
+  ck_assert_int_gt(pots, 10);
+  ck_assert_msg(h == golden, "the choices are others: 0x%016llx", (unsigned long long)h);
+}
+
+/* A stroke may be between those of the grid: then its speed or its tip is. */
+TEST(strokes_between_those_of_the_grid) {
+  static const double grid[] = {0.8, 1.2, 1.7, 2.4, 3.4, 4.8, 1.0, 1.8, 3.0, 5.0, 7.5},
+                      tips[] = {0.0, 0.25, 0.3, 0.35};
+  enum { SPEEDS = sizeof grid / sizeof grid[0], TIPS = sizeof tips / sizeof tips[0] };
+  int between = 0;
+  for (int k = 0; k < 20; k++) {
+    carom_choice best;
+    int found;
+    make_layout((uint64_t)k + 1, 8);
+    options.shots = 1000;
+    make_memory();
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    edge_free(&memory);
+    int of_grid = 0;
+    for (int n = 0; n < SPEEDS; n++)
+      of_grid += fabs(best.cue.speed * 0.5 * (1.0 + cue.tip_restitution) - grid[n]) < 1e-9;
+    for (int n = 0; n < TIPS; n++)
+      of_grid +=
+          (fabs(fabs(best.cue.a) - tips[n]) < 1e-9) + (fabs(fabs(best.cue.b) - tips[n]) < 1e-9);
+    between += of_grid < 3;
+  }
+  printf("%d of 20 strokes are between those of the grid\n", between);
+  ck_assert(between >= 4 && between < 20);
+}
+
+/* The chance to play on is that of shots which are played with errors of other seeds, within
+ * four standard errors. */
+TEST(chances_are_kept) {
+  for (int k = 0; k < 6; k++) {
+    make_layout(test_seed() + (uint64_t)k, 8);
+    options.shots = 1000;
+    make_memory();
+    carom_choice best, again;
+    int found;
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    options.seed = 77;
+    ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &again), CAROM_OK);
+    ck_assert(again.ball == best.ball && again.pocket == best.pocket &&
+              again.kind == CAROM_PLAN_GIVEN);
+    ck_assert_int_eq(again.seen, 1000);
+    const double p = again.keep, n = (double)best.seen, least = 0.5 / n;
+    const double error = sqrt((p * (1.0 - p) + least) * (1.0 / n + 1e-3));
+    /* the best of many is chosen because it was lucky, too: at most by a third of the way to 1 */
+    ck_assert_msg(best.keep - p < 4.0 * error + 0.05 && p - best.keep < 4.0 * error,
+                  "%g after %lld, %g after 1000", best.keep, (long long)best.seen, p);
+    edge_free(&memory);
+  }
+}
+
+/* The chances that plans tell are those of the same strokes with other errors: in the mean of 60
+ * layouts within 0.02. The shots that chose them tell more. */
+TEST(luck_of_the_choice) {
+  enum { LAYOUTS = 60 };
+  double more = 0.0, luck = 0.0;
+  for (uint64_t k = 0; k < LAYOUTS; k++) {
+    make_layout(k + 1, 7);
+    player = carom_player_of(3.0);
+    make_memory();
+    carom_choice best, again;
+    int found;
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    options.seed = 77;
+    ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &again), CAROM_OK);
+    more += (best.value - again.value) / LAYOUTS;
+    luck += 0.75 * best.error / LAYOUTS;
+    edge_free(&memory);
+  }
+  ck_assert_msg(fabs(more) < 0.02 && more + luck > 0.02, "told %+.4f more, with luck %+.4f", more,
+                more + luck);
+}
+
+/* The pots of strokes without errors: the ball that falls first is named, in nine-ball whichever it
+ * is, in eight-ball of those that are on; and only a ball that falls. Strokes in which the lowest
+ * ball of those that fall is not the first are among them. */
+TEST(the_first_ball_that_falls) {
+  enum { CUES = 40 };
+  int named = 0, second = 0, others = 0;
+  for (int layout = 0; layout < 40; layout++) {
+    make_layout((uint64_t)layout, 10);
+    rules = carom_plan_rules_of(layout % 2 == 0 ? CAROM_RULES_NINEBALL : CAROM_RULES_EIGHTBALL);
+    player = carom_player_of(0.0);
+    uint32_t in_play = 0;
+    for (int i = 0; i < BALLS; i++)
+      in_play |= (uint32_t)(balls[i].state.label != CAROM_BALL_POCKETED) << i;
+    const uint32_t on = rules.on(rules.user, in_play);
+    carom_cue cues[CUES];
+    carom_choice told[CUES];
+    for (int k = 0; k < CUES; k++) {
+      cues[k] = cue;
+      cues[k].speed = 7.0;
+      cues[k].phi = 9.0 * k;
+    }
+    make_memory();
+    ck_assert_int_eq(carom_plan_try(&job, cues, CUES, told), CAROM_OK);
+    edge_free(&memory);
+
+    /* the first by the facts, and whether a later one has a lower number */
+    for (int k = 0; k < CUES; k++) {
+      carom_facts facts;
+      carom_ball_state final[BALLS];
+      carom_shot shot = {.final = final, .facts = &facts};
+      ck_assert_int_eq(carom_shoot(&table, balls, BALLS, &cues[k], &shot_options, &shot), CAROM_OK);
+      const uint32_t down = facts.down & (rules.calls ? on : 0xfffe);
+      int first = -1;
+      for (int i = 1; i < BALLS; i++)
+        if ((down >> i & 1) && (first < 0 || facts.pocket_time[i] < facts.pocket_time[first]))
+          first = i;
+      const carom_call call = {first, first < 0 ? -1 : facts.pocket[first]};
+      carom_plan_rules of = rules;
+      const carom_turn turn = of.judge(of.user, in_play, 0, &facts, call);
+      const bool keeps = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+      const int ball = keeps ? first : -1;
+      ck_assert_msg(told[k].ball == ball && told[k].pocket == (ball < 0 ? -1 : call.pocket),
+                    "layout %d, stroke %d: ball %d is named, %d fell first", layout, k,
+                    told[k].ball, ball);
+      ck_assert(told[k].keep == keeps);
+      named += ball >= 0;
+      second += ball >= 0 && (down & ((UINT32_C(1) << ball) - 1)) != 0;
+      others += ball >= 0 && !(on >> ball & 1);
+    }
+  }
+  printf("%d pots named, %d before one of a lower number, %d of balls that were not on\n", named,
+         second, others);
+  ck_assert(named > 40 && second > 3 && others > 3);
+}
+
+/* Nine-ball, with the one in line with the nine before a pocket: the choice names the nine, and is
+ * no direct pot. A choice that keeps the turn in most strokes names a ball, but for a break. The
+ * choices are of different pots, and sorted by their values. */
+TEST(what_is_named_falls) {
+  carom_choice best[5];
+  int found;
+  make_layout(1, 1);
+  rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  carom_place_ball(&table, balls, BALLS, 0, 0.6, 0.6, NULL);
+  carom_place_ball(&table, balls, BALLS, 1, 0.2, 0.2, NULL);
+  carom_place_ball(&table, balls, BALLS, 9, 0.12, 0.12, NULL);
+  job.count = 10;
+  make_memory();
+  ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+  ck_assert_msg(best[0].ball == 9 && best[0].kind == CAROM_PLAN_COMBINATION && best[0].keep > 0.8,
+                "ball %d, kind %d, keep %g", best[0].ball, best[0].kind, best[0].keep);
+  edge_free(&memory);
+
+  int without = 0, pots = 0;
+  for (int k = 0; k < 12; k++) {
+    make_layout((uint64_t)k + 1, 10);
+    rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+    make_memory();
+    ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+    for (int n = 0; n < found; n++) {
+      const bool aimed = best[n].kind == CAROM_PLAN_POT;
+      ck_assert(best[n].seen > 0 && (n == 0 || best[n].value <= best[n - 1].value));
+      for (int m = 0; m < n; m++)
+        ck_assert(best[n].ball != best[m].ball || best[n].pocket != best[m].pocket ||
+                  best[n].kind != best[m].kind);
+      without += best[n].ball < 0 && best[n].keep > 0.5;
+      pots += aimed && best[n].ball < 0;
+    }
+    edge_free(&memory);
+  }
+  ck_assert_msg(without == 0 && pots == 0, "%d keep the turn and name no ball, %d pots of none",
+                without, pots);
+}
+
+/* Three-cushion: what is a point; and plans of it, whose chances are those of strokes with errors
+ * of another seed, and whose ball is the one that is met first. */
+TEST(three_cushion) {
+  static const struct {
+    int second, before;
+    uint32_t off;
+    int is;
+  } given[] = {{2, 3, 0, CAROM_TURN_KEEP},
+               {2, 7, 0, CAROM_TURN_KEEP},
+               {2, 2, 0, CAROM_TURN_PASS},
+               {-1, 0, 0, CAROM_TURN_PASS},
+               {2, 3, 4, CAROM_TURN_PASS}};
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    const carom_facts facts = {.first = {1, given[k].second},
+                               .cushions_before = {1, given[k].before},
+                               .off = given[k].off};
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
+    const carom_turn turn = of.judge(of.user, 7, 0, &facts, (carom_call){-1, -1});
+    ck_assert((int)turn.is == given[k].is && turn.points == (given[k].is == CAROM_TURN_KEEP));
+    ck_assert_int_eq(turn.foul, given[k].off ? CAROM_FOUL_OFF : CAROM_FOUL_NONE);
+  }
+
+  random_source r = {3};
+  double sum = 0.0;
+  for (int k = 0; k < 4; k++) {
+    carom_choice best[5], again;
+    int found;
+    make_layout(1, 1);
+    carom_table_make(CAROM_TABLE_THREECUSHION, &table);
+    carom_rack(CAROM_RACK_THREECUSHION, &table, 0.0, 0, balls, 3);
+    for (int ball = 0; ball < 3 && k > 0; ball++) {
+      double x, y;
+      do {
+        x = random_between(&r, 0.05, 1.37);
+        y = random_between(&r, 0.05, 2.79);
+      } while (carom_place_ball(&table, balls, 3, ball, x, y, NULL) != CAROM_OK);
+    }
+    cue = carom_cue_of(CAROM_GAME_BILLIARD);
+    rules = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
+    job.count = 3;
+    options.shots = 1000;
+    make_memory();
+    ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+    options.seed = 77;
+    ck_assert_int_eq(carom_plan_try(&job, &best[0].cue, 1, &again), CAROM_OK);
+    const double p = again.keep, n = (double)best[0].seen;
+    const double told = fmax(best[0].keep - 0.75 * best[0].error, 0.0);
+    ck_assert(fabs(best[0].value - told) < 1e-12 && best[0].pocket == -1);
+    ck_assert(again.value == again.keep);
+    ck_assert(fabs(best[0].keep - p) < 0.05 + 4.0 * sqrt((p * (1.0 - p) + 0.5 / n) / n));
+    for (int i = 0; i < found; i++) {
+      carom_facts facts;
+      carom_shot shot = {.facts = &facts};
+      carom_shoot(&table, balls, 3, &best[i].cue, &shot_options, &shot);
+      const bool point = facts.first[1] >= 0 && facts.cushions_before[1] >= 3;
+      ck_assert(!point || best[i].ball == facts.first[0]);
+      ck_assert(!point || (best[i].kind == CAROM_PLAN_KICK) == (facts.cushions_before[0] > 0));
+      ck_assert(best[i].ball >= 0 || best[i].kind == CAROM_PLAN_SAFETY);
+    }
+    sum += p;
+    edge_free(&memory);
+  }
+  printf("three-cushion: %g of four strokes score\n", sum);
+  ck_assert(sum > 1.5);
+}
+
+/* Breaks: the cue ball in hand is put on the head string, a ball that may be met is struck, hard
+ * and about full, and few are fouls, also of a weak player, who cannot want one. */
+TEST(breaks) {
+  for (int k = 0; k < 4; k++) {
+    carom_choice best[5];
+    int found;
+    make_layout(1, 1);
+    const bool nine_balls = k % 2 == 1;
+    rules = carom_plan_rules_of(nine_balls ? CAROM_RULES_NINEBALL : CAROM_RULES_EIGHTBALL);
+    rules.user[1] = 1;
+    job.count = nine_balls ? 10 : BALLS;
+    carom_rack(nine_balls ? CAROM_RACK_NINEBALL : CAROM_RACK_EIGHTBALL, &table, 1e-4, 1, balls,
+               BALLS);
+    player = carom_player_fargo(400.0);
+    options.shots = 1000;
+    make_memory();
+    ck_assert_int_eq(k < 2 ? carom_plan_hand(&job, NULL, NULL, best, 5, &found)
+                           : carom_plan(&job, best, 5, &found),
+                     CAROM_OK);
+    for (int n = 0; n < found; n++) {
+      ck_assert(best[n].kind == CAROM_PLAN_BREAK && best[n].ball == -1 && best[n].pocket == -1);
+      ck_assert(best[n].cue.speed > 5.0 && (k >= 2 || best[n].place[1] == 0.25 * table.length));
+      ck_assert(best[n].cue.phi > 45.0 && best[n].cue.phi < 135.0);
+    }
+    ck_assert_msg(best[0].foul < 0.5, "break %d: foul %g", k, best[0].foul);
+    edge_free(&memory);
+  }
+}
+
+/* Where six balls are around the one, the player pushes out if he may; if he may pass, he does.
+ * Where the one is before a pocket and another ball free, he plays. */
+TEST(what_one_may_do) {
+  carom_choice best;
+  int found;
+  for (int easy = 0; easy < 2; easy++)
+    for (int may = 1; may <= 2; may++) {
+      make_layout(1, 1);
+      rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+      rules.user[4] = (uint64_t)may;
+      put_ring(easy ? 1 : 6);
+      if (easy)
+        carom_place_ball(&table, balls, BALLS, 1, 0.1, 0.1, NULL);
+      options.shots = 1000;
+      job.count = 10;
+      make_memory();
+      ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+      const int kind = may == 1 ? CAROM_PLAN_PUSH : CAROM_PLAN_PASS;
+      const int ball = easy ? 1 : may == 1 ? CAROM_CALL_PUSH : CAROM_CALL_PASS;
+      ck_assert_msg((easy || best.kind == kind) && best.ball == ball,
+                    "easy %d, may %d: kind %d, ball %d, %g", easy, may, best.kind, best.ball,
+                    best.value);
+      ck_assert(best.kind != CAROM_PLAN_PASS || (best.foul == 0.0 && best.seen == 0));
+      edge_free(&memory);
+    }
+}
+
+/* A plan that is stopped at once has a choice still; one without a legal shot says so. */
+TEST(little_to_choose) {
+  const volatile int32_t at_once = 1;
+  carom_choice best;
+  int found;
+  make_layout(3, 6);
+  options.stop = &at_once;
+  make_memory();
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  ck_assert(found == 1 && best.seen == 0);
+  ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &best), CAROM_OK);
+  ck_assert(best.seen == 0 && isnan(best.value));
+  edge_free(&memory);
+
+  /* six balls are around the only one that is on */
+  make_layout(1, 1);
+  rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  put_ring(6);
+  job.count = 10;
+  make_memory();
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  ck_assert(found == 1 && best.kind == CAROM_PLAN_FOUL && best.foul == 1.0 && best.ball == -1 &&
+            best.pocket == -1);
+  edge_free(&memory);
+}

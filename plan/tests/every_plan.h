@@ -1,0 +1,104 @@
+/* The functions of carom_plan.h, called as tests/every_function.h calls all others, which includes
+ * this. */
+#ifndef CAROM_TESTS_EVERY_PLAN_H
+#define CAROM_TESTS_EVERY_PLAN_H
+
+#include "carom_plan.h"
+
+_Static_assert(sizeof(carom_choice) == 26 * sizeof(double), "the room for choices");
+
+/* A plan for the rack, with few shots. */
+static inline carom_plan_job plan_of(const every_input *in, every_room *room,
+                                     const carom_player *player, const carom_plan_rules *rules,
+                                     const carom_plan_options *options) {
+  return (carom_plan_job){.table = &in->table,
+                          .balls = in->balls,
+                          .count = EVERY_BALLS,
+                          .cue = &in->cue[0],
+                          .player = player,
+                          .rules = rules,
+                          .options = options,
+                          .memory = room->plan,
+                          .memory_size = sizeof room->plan};
+}
+#define EVERY_PLAN(name, call)                                                 \
+  EVERY_BODY(name) {                                                           \
+    const carom_player player = carom_player_of(1.0);                          \
+    const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_POTTING);   \
+    const carom_plan_options options = {.shots = 100, .threads = in->threads}; \
+    const carom_plan_job job = plan_of(in, room, &player, &rules, &options);   \
+    int found = 0;                                                             \
+    memset(room->choice, 0, sizeof room->choice);                              \
+    STATUS(call);                                                              \
+    HASH(found);                                                               \
+    return HASH(room->choice);                                                 \
+  }
+EVERY_PLAN(plan, carom_plan(&job, (carom_choice *)room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan_continue,
+           carom_plan(&job, (carom_choice *)room->choice, EVERY_FEW, &found) < 0
+               ? CAROM_ERROR_NULL
+               : carom_plan_continue(&job, (carom_choice *)room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan_hand,
+           carom_plan_hand(&job, NULL, NULL, (carom_choice *)room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan_try, carom_plan_try(&job, in->cue, 2, (carom_choice *)room->choice))
+EVERY_PLAN(plan_value, carom_plan_value(&job, 1, &room->choice[0]))
+EVERY_BODY(aim) {
+  for (int pocket = 0; pocket < 6; pocket++) {
+    carom_cue cue = in->cue[0];
+    carom_pot pot = {.ball = 1, .pocket = pocket, .vias = pocket % 3};
+    pot.via[0] = pocket == 1 ? (carom_part){CAROM_PART_RAIL, 0} : (carom_part){CAROM_PART_BALL, 2};
+    pot.via[1] = (carom_part){CAROM_PART_RAIL, 2};
+    STATUS(carom_aim(&in->table, in->balls, EVERY_BALLS, NULL, &pot, &cue));
+    HASH(cue);
+    HASH(pot);
+  }
+  return h;
+}
+EVERY_VALUE(plan_memory, carom_plan_memory(NULL))
+EVERY_NAMES(rules_name, carom_rules_kind)
+EVERY_NAMES(foul_string, int)
+EVERY_BODY(foul_of) {
+  for (uint32_t down = 0; down < 4; down++) {
+    const carom_facts facts = {.first = {2, -1}, .down = down};
+    STATUS(carom_foul_of(&facts, 4, 0));
+  }
+  return h;
+}
+EVERY_BODY(spot_ball) {
+  carom_shot_ball balls[EVERY_BALLS];
+  memcpy(balls, in->balls, sizeof balls);
+  STATUS(carom_spot_ball(&in->table, balls, EVERY_BALLS, 0));
+  return HASH(balls);
+}
+EVERY_BODY(spot_ball_of) {
+  carom_shot_ball balls[EVERY_BALLS];
+  memcpy(balls, in->balls, sizeof balls);
+  STATUS(carom_spot_ball_of(CAROM_RACK_SNOOKER, &in->table, balls, EVERY_BALLS, 1));
+  return HASH(balls);
+}
+EVERY_BODY(turn_settle) {
+  carom_shot_ball balls[EVERY_BALLS];
+  memcpy(balls, in->balls, sizeof balls);
+  carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  carom_turn turn = {.spot = 2};
+  STATUS(carom_turn_settle(&rules, rules.user, &in->table, balls, EVERY_BALLS, &turn));
+  return HASH(balls);
+}
+EVERY_OBJECT(player_of, carom_player, carom_player_of(2.0))
+EVERY_OBJECT(player_fargo, carom_player, carom_player_fargo(512.0))
+EVERY_BODY(player_strike) {
+  const carom_player player = carom_player_of(2.0);
+  carom_cue cue = in->cue[0];
+  carom_player_strike(&player, 7, 3, &cue);
+  return HASH(cue);
+}
+EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NINEBALL))
+
+/* clang-format off */
+#define EVERY_OF_PLANS(F) \
+  F(aim) F(foul_of) F(foul_string) F(plan) F(plan_continue) F(plan_hand) F(plan_memory) \
+  F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) \
+  F(rules_name) F(spot_ball) F(spot_ball_of) F(turn_settle)
+/* clang-format on */
+
+#endif

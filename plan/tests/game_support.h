@@ -1,0 +1,94 @@
+/* What tests of rules share: words of rulings, a shot by its facts, balls that are put, a plan. */
+#ifndef CAROM_TESTS_GAME_SUPPORT_H
+#define CAROM_TESTS_GAME_SUPPORT_H
+
+#include "carom_plan.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  KEEP = CAROM_TURN_KEEP,
+  PASS = CAROM_TURN_PASS,
+  WIN = CAROM_TURN_WIN,
+  LOSE = CAROM_TURN_LOSE
+};
+enum { AFTER = CAROM_LEAVE_AFTER, KITCHEN = CAROM_LEAVE_KITCHEN, D = CAROM_LEAVE_D };
+enum {
+  LEGAL = CAROM_FOUL_NONE,
+  CUE_BALL = CAROM_FOUL_CUE_BALL,
+  NO_BALL = CAROM_FOUL_NO_BALL,
+  FIRST = CAROM_FOUL_FIRST,
+  OFF = CAROM_FOUL_OFF,
+  CUSHION = CAROM_FOUL_CUSHION,
+  BREAK = CAROM_FOUL_BREAK,
+  POT = CAROM_FOUL_POT
+};
+enum { BALLS_MOST = 22, NONE = -1 };
+
+enum { R1 = 1 << 1, R2 = 1 << 2, Y = 1 << 16, G = 1 << 17, BR = 1 << 18, BL = 1 << 19 };
+enum { PI = 1 << 20, BK = 1 << 21, COLOURS = Y | G | BR | BL | PI | BK, ALL = 0x3fffff };
+enum { YELLOW = 16, GREEN, BROWN, BLUE, PINK, BLACK };
+enum { MAY = 1, FREE = 2, HAND = 4 };
+
+/* The pockets of the player, of the other and of none. */
+enum { MINE = 5, HIS = 2, NEUTRAL = 0 };
+
+/* A shot whose cue ball met `first`; all that fell is in pocket 2. */
+static inline carom_facts facts_of(int first, int cushions, uint32_t down, uint32_t off) {
+  carom_facts f = {.first = {first, -1}, .cushions_after = cushions, .down = down, .off = off};
+  for (int k = 0; k < CAROM_BALLS_MOST; k++)
+    f.pocket[k] = down >> k & 1 ? 2 : -1;
+  return f;
+}
+
+/* The one check of a ruling. */
+static inline void ruled(const char *what, const carom_turn *turn, int is, int leave, int foul,
+                         uint32_t spot) {
+  ck_assert_msg((int)turn->is == is && (int)turn->leave == leave && turn->foul == foul &&
+                    turn->spot == spot,
+                "%s: turn %d, leave %d, foul %d, spot %x", what, (int)turn->is, (int)turn->leave,
+                turn->foul, turn->spot);
+}
+
+CK_ATTRIBUTE_UNUSED static carom_table table;
+CK_ATTRIBUTE_UNUSED static carom_shot_ball balls[CAROM_BALLS_MOST];
+
+/* All balls of a rack, of which those that are not in play are down. */
+static inline int lay_out(carom_rack_kind kind, carom_table_kind of, uint32_t in_play) {
+  const int count = carom_rack_size(kind);
+  carom_table_make(of, &table);
+  ck_assert_int_eq(carom_rack(kind, &table, 1e-4, 1, balls, CAROM_BALLS_MOST), CAROM_OK);
+  for (int k = 0; k < count; k++)
+    if (!(in_play >> k & 1))
+      balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+  return count;
+}
+static inline void put(int ball, double x, double y) {
+  balls[ball].state =
+      (carom_ball_state){.r = {x, y, balls[ball].kind.radius}, .label = CAROM_BALL_STATIONARY};
+}
+static inline bool is_at(int ball, double x, double y) {
+  return balls[ball].state.label == CAROM_BALL_STATIONARY &&
+         hypot(balls[ball].state.r[0] - x, balls[ball].state.r[1] - y) < 1e-9;
+}
+
+/* A plan for the balls that lie here, with memory of its own. */
+static inline carom_plan_job job_of(int count, const carom_cue *cue, const carom_player *player,
+                                    const carom_plan_rules *of, const carom_plan_options *options) {
+  const size_t size = carom_plan_memory(options);
+  return (carom_plan_job){.table = &table,
+                          .balls = balls,
+                          .count = count,
+                          .cue = cue,
+                          .player = player,
+                          .rules = of,
+                          .options = options,
+                          .memory = malloc(size),
+                          .memory_size = size};
+}
+
+#endif

@@ -1,0 +1,78 @@
+/* Players: errors by ratings and in strokes. */
+#include "plan_support.h"
+
+/* A player plays as well with any tip: his strokes give the ball the same speeds, and a plan finds
+ * the same choices, by cues that are faster by 2/(1 + e). */
+TEST(players_of_any_tip) {
+  static const double gain = 2.0 / (1.0 + CAROM_TIP_LEATHER);
+  carom_choice choices[2][3];
+  int found[2];
+  for (int tip = 0; tip < 2; tip++) {
+    make_layout(17, 3);
+    cue.tip_restitution = tip == 0 ? 1.0 : CAROM_TIP_LEATHER;
+    make_memory();
+    ck_assert_int_eq(carom_plan(&job, choices[tip], 3, &found[tip]), CAROM_OK);
+    edge_free(&memory);
+  }
+  ck_assert_int_eq(found[0], found[1]);
+  const carom_choice *a = &choices[0][0], *b = &choices[1][0];
+  ck_assert_double_eq_tol(b->cue.speed, gain * a->cue.speed, 1e-12);
+  ck_assert_double_eq_tol(b->cue.phi, a->cue.phi, 1e-9);
+  ck_assert_double_eq_tol(b->value, a->value, 0.01);
+
+  /* strokes; at the default bounds too */
+  for (uint64_t n = 0; n < 200; n++) {
+    const carom_player errs = carom_player_of(n < 100 ? 1.0 : 40.0);
+    double speed[2];
+    for (int tip = 0; tip < 2; tip++) {
+      cue = carom_cue_of(CAROM_GAME_POOL);
+      cue.tip_restitution = tip == 0 ? 0.0 : CAROM_TIP_LEATHER;
+      cue.speed = 3.0 * (tip == 0 ? 1.0 : gain);
+      carom_player_strike(&errs, 7, n, &cue);
+      speed[tip] = cue.speed;
+    }
+    ck_assert_double_eq_tol(speed[1], gain * speed[0], 1e-14);
+  }
+}
+
+/* Errors fall with the rating, evenly between its steps, and stay beyond the ends. */
+TEST(ratings) {
+  double last = INFINITY;
+  for (int rating = 300; rating <= 850; rating += 5) {
+    const carom_player p = carom_player_fargo(rating);
+    ck_assert(p.phi < last && p.phi > 0.0 && p.phi == p.speed && p.a == p.b);
+    last = p.phi;
+  }
+  ck_assert(carom_player_fargo(200.0).phi == carom_player_fargo(300.0).phi);
+  ck_assert(carom_player_fargo(900.0).phi == last);
+  const double half = carom_player_fargo(525.0).phi,
+               ends = carom_player_fargo(500.0).phi + carom_player_fargo(550.0).phi;
+  ck_assert(fabs(half - 0.5 * ends) < 1e-15);
+}
+
+/* A player's strokes have his errors, and stay within his bounds. */
+TEST(strokes_err) {
+  enum { STROKES = 4000 };
+  const carom_player wild = {.speed = 0.3, .speed_share = 0.2, .phi = 2.0, .b = 0.4};
+  double sum = 0.0, squares = 0.0;
+  for (int k = 0; k < STROKES; k++) {
+    carom_cue made = {.speed = 2.0, .phi = 30.0, .theta = 5.0, .a = 0.1, .b = 0.2}, again = made;
+    carom_player_strike(&wild, test_seed(), (uint64_t)k, &made);
+    carom_player_strike(&wild, test_seed(), (uint64_t)k, &again);
+    ck_assert(memcmp(&made, &again, sizeof made) == 0);
+    ck_assert(made.speed >= 0.5 && made.speed <= 8.0 && fabs(made.b) <= 0.5);
+    ck_assert(made.theta == 5.0 && made.a == 0.1);
+    sum += made.phi - 30.0;
+    squares += (made.speed - 2.0) * (made.speed - 2.0);
+  }
+  /* 0.3 and 0.2 of 2 m/s make 0.5; five standard errors */
+  ck_assert(fabs(sum / STROKES) < 5.0 * 2.0 / sqrt(STROKES));
+  ck_assert(fabs(sqrt(squares / STROKES) - 0.5) < 5.0 * 0.5 / sqrt(2.0 * STROKES));
+
+  /* a bound that is beyond the other one's default */
+  const carom_player slow = {.speed_most = 0.3}, fast = {.speed_least = 9.0};
+  carom_cue made[2] = {{.speed = 0.1}, {.speed = 10.0}};
+  carom_player_strike(&slow, 1, 1, &made[0]);
+  carom_player_strike(&fast, 1, 1, &made[1]);
+  ck_assert(made[0].speed == 0.3 && made[1].speed == 9.0);
+}

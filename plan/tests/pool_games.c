@@ -1,0 +1,182 @@
+/* Eight-ball, nine-ball and the drill: rulings beside rulings written down, and balls that are put
+ * back. */
+#include "plan_support.h"
+
+typedef struct ruling {
+  const char *what;
+  int kind;
+  uint32_t in_play, down;
+  int group, first, cushions_after, call, is, foul, leave, group_after;
+} ruling;
+
+/* Everything is on the table but for what is said; all that falls goes into pocket 3, which is
+ * called. */
+TEST(rulings) {
+  enum { E = CAROM_RULES_EIGHTBALL, N = CAROM_RULES_NINEBALL, P = CAROM_RULES_POTTING };
+  enum {
+    KEEP = CAROM_TURN_KEEP,
+    PASS = CAROM_TURN_PASS,
+    WIN = CAROM_TURN_WIN,
+    LOSE = CAROM_TURN_LOSE
+  };
+  enum { AFTER = CAROM_LEAVE_AFTER, HAND = CAROM_LEAVE_HAND };
+  enum {
+    CUE_BALL = CAROM_FOUL_CUE_BALL,
+    NO_BALL = CAROM_FOUL_NO_BALL,
+    FIRST = CAROM_FOUL_FIRST,
+    CUSHION = CAROM_FOUL_CUSHION
+  };
+  static const ruling given[] = {
+      {"a solid on an open table", E, 0xffff, 0x0008, 0, 3, 0, 3, KEEP, 0, AFTER, SOLIDS},
+      {"a stripe on an open table", E, 0xffff, 0x0400, 0, 10, 2, 10, KEEP, 0, AFTER, STRIPES},
+      {"the eight met first on an open table", E, 0xffff, 0, 0, 8, 1, -1, PASS, FIRST, HAND, 0},
+      {"an own ball", E, 0xffff, 0x0400, 2, 9, 0, 10, KEEP, 0, AFTER, STRIPES},
+      {"an own ball that was not called", E, 0xffff, 0x0400, 2, 9, 0, 11, PASS, 0, AFTER, SOLIDS},
+      {"a ball of the other", E, 0xffff, 0x0008, 2, 9, 0, 3, PASS, 0, AFTER, SOLIDS},
+      {"the wrong ball first", E, 0xffff, 0x0400, 2, 3, 1, 10, PASS, FIRST, HAND, SOLIDS},
+      {"no ball met", E, 0xffff, 0, 1, -1, 0, -1, PASS, NO_BALL, HAND, STRIPES},
+      {"no cushion after the contact", E, 0xffff, 0, 1, 3, 0, -1, PASS, CUSHION, HAND, STRIPES},
+      {"a safety", E, 0xffff, 0, 1, 3, 1, -1, PASS, 0, AFTER, STRIPES},
+      {"the cue ball down too", E, 0xffff, 0x0009, 1, 3, 1, 3, PASS, CUE_BALL, HAND, STRIPES},
+      {"the eight too early", E, 0xffff, 0x0100, 1, 3, 1, 8, LOSE, 0, AFTER, SOLIDS},
+      {"the eight at last", E, 0xff01, 0x0100, 1, 8, 0, 8, WIN, 0, AFTER, SOLIDS},
+      {"the eight at last, not called", E, 0xff01, 0x0100, 1, 8, 0, -1, LOSE, 0, AFTER, SOLIDS},
+      {"the eight with the cue ball", E, 0xff01, 0x0101, 1, 8, 0, 8, LOSE, CUE_BALL, AFTER, SOLIDS},
+      {"the lowest ball", N, 0x03f9, 0x0008, 0, 3, 0, -1, KEEP, 0, AFTER, 0},
+      {"another ball by the lowest", N, 0x03f9, 0x0080, 0, 3, 0, -1, KEEP, 0, AFTER, 0},
+      {"not the lowest first", N, 0x03f9, 0x0080, 0, 4, 0, -1, PASS, FIRST, HAND, 0},
+      {"the nine by the lowest", N, 0x03f9, 0x0200, 0, 3, 0, -1, WIN, 0, AFTER, 0},
+      {"the nine by a foul", N, 0x03f9, 0x0200, 0, 4, 0, -1, PASS, FIRST, HAND, 0},
+      {"the eight, where the nine is down", N, 0x01f9, 0x0100, 0, 3, 0, -1, WIN, 0, AFTER, 0},
+      {"a pot of the drill", P, 0x000f, 0x0004, 0, 1, 0, -1, KEEP, 0, AFTER, 0},
+      {"the last ball of the drill", P, 0x0005, 0x0004, 0, 2, 0, -1, WIN, 0, AFTER, 0},
+      {"a miss of the drill", P, 0x000f, 0, 0, 1, 3, -1, PASS, 0, AFTER, 0},
+  };
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    const ruling *g = &given[k];
+    carom_facts facts = {
+        .first = {g->first, -1}, .cushions_after = g->cushions_after, .down = g->down};
+    for (int i = 0; i < CAROM_BALLS_MOST; i++)
+      facts.pocket[i] = g->down >> i & 1 ? 3 : -1;
+    carom_plan_rules of = carom_plan_rules_of((carom_rules_kind)g->kind);
+    of.user[0] = (uint64_t)g->group;
+    const carom_turn turn =
+        of.judge(of.user, g->in_play, 0, &facts, (carom_call){g->call, g->call < 0 ? -1 : 3});
+    ck_assert_msg((int)turn.is == g->is && turn.foul == g->foul && (int)turn.leave == g->leave &&
+                      of.user[0] == (uint64_t)g->group_after,
+                  "%s: turn %d, foul %d, leave %d, group %d", g->what, (int)turn.is, turn.foul,
+                  (int)turn.leave, (int)of.user[0]);
+  }
+  ck_assert_str_eq(carom_rules_name(CAROM_RULES_NINEBALL), "nineball");
+  ck_assert_ptr_null(carom_rules_name((carom_rules_kind)7));
+}
+
+/* A break of eight-ball: one is enough, the table is open whatever falls, and the eight comes
+ * back. */
+TEST(breaks_of_eightball) {
+  static const struct {
+    uint32_t down;
+    int driven, is, leave;
+    uint32_t spot;
+  } given[] = {{0, 4, CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0},
+               {0, 3, CAROM_TURN_PASS, CAROM_LEAVE_HAND, 0},
+               {0x0008, 0, CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0},
+               {0x0100, 0, CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0x0100},
+               {0x0001, 4, CAROM_TURN_PASS, CAROM_LEAVE_KITCHEN, 0}};
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    carom_facts facts = {.first = {1, -1}, .cushions_after = given[k].driven};
+    facts.down = given[k].down;
+    for (int i = 1; i <= given[k].driven; i++)
+      facts.cushions[i] = 1;
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
+    of.user[1] = 1;
+    const carom_turn turn = of.judge(of.user, 0xffff, 0, &facts, (carom_call){-1, -1});
+    ck_assert_msg((int)turn.is == given[k].is && (int)turn.leave == given[k].leave &&
+                      turn.spot == given[k].spot,
+                  "break %zu: turn %d, leave %d", k, (int)turn.is, (int)turn.leave);
+    ck_assert(of.user[0] == 0 && of.user[1] == 0);
+  }
+}
+
+/* A stroke of nine-ball that meets a ball and drives so many to cushions, after which ball `down`
+ * is down, or none for -1. */
+static carom_turn nine(carom_plan_rules *of, int first, int driven, int down, int call) {
+  carom_facts facts = {.first = {first, -1}, .cushions_after = driven};
+  for (int k = 0; k < CAROM_BALLS_MOST; k++)
+    facts.pocket[k] = -1;
+  for (int k = 1; k <= driven; k++)
+    facts.cushions[k] = 1;
+  facts.down = down >= 0 ? UINT32_C(1) << down : 0;
+  return of->judge(of->user, 0x3ff, 0, &facts, (carom_call){call, -1});
+}
+
+/* The third foul of a player in a row loses; a legal stroke in between forgets them. */
+TEST(three_fouls) {
+  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  for (int stroke = 0; stroke < 4; stroke++) { /* of each player two */
+    ck_assert_int_eq(nine(&of, -1, 0, -1, -1).is, CAROM_TURN_PASS);
+    ck_assert_uint_eq(of.user[3], (uint64_t)(stroke / 2 + 1));
+  }
+  carom_plan_rules other = of;
+  const carom_turn third = nine(&of, 2, 1, -1, -1);
+  ck_assert(third.is == CAROM_TURN_LOSE && third.foul == CAROM_FOUL_FIRST);
+  ck_assert(nine(&other, 1, 1, -1, -1).foul == CAROM_FOUL_NONE && other.user[3] == 0);
+  ck_assert_uint_eq(other.user[2], 2);
+}
+
+/* After a break without a foul one may push out, and the other may then pass. */
+TEST(push_outs) {
+  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL), again;
+  of.user[1] = 1;
+  again = of;
+  ck_assert(nine(&again, 1, 3, -1, -1).foul == CAROM_FOUL_BREAK && again.may(again.user) == 0);
+  ck_assert_int_eq(nine(&of, 1, 4, -1, -1).is, CAROM_TURN_PASS);
+  ck_assert_uint_eq(of.may(of.user), CAROM_MAY_PUSH);
+
+  /* a push-out meets what it likes; what falls stays down, but for the nine */
+  again = of;
+  carom_turn turn = nine(&again, -1, 0, -1, CAROM_CALL_PUSH);
+  ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
+  ck_assert_uint_eq(again.may(again.user), CAROM_MAY_PASS);
+  again = of;
+  turn = nine(&again, 5, 0, 9, CAROM_CALL_PUSH);
+  ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.spot == 0x200);
+  again = of;
+  turn = nine(&again, 5, 0, 0, CAROM_CALL_PUSH);
+  ck_assert(turn.foul == CAROM_FOUL_CUE_BALL && again.may(again.user) == 0);
+
+  /* the other passes, and neither may do so again; without the right, a push-out is a stroke */
+  nine(&of, -1, 0, -1, CAROM_CALL_PUSH);
+  turn = nine(&of, -1, 0, -1, CAROM_CALL_PASS);
+  ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
+  ck_assert_uint_eq(of.may(of.user), 0);
+  ck_assert_int_eq(nine(&of, -1, 0, -1, CAROM_CALL_PUSH).foul, CAROM_FOUL_NO_BALL);
+}
+
+/* Balls on the foot spot, then behind it, then, where there is no room behind it, before it. */
+TEST(spots) {
+  make_layout(1, 1);
+  carom_place_ball(&table, balls, BALLS, 0, 0.2, 0.2, NULL);
+  double least = INFINITY, most = 0.0;
+  for (int k = 1; k < BALLS; k++) {
+    ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, k), CAROM_OK);
+    ck_assert(balls[k].state.r[0] == 0.5 * table.width);
+    least = fmin(least, balls[k].state.r[1]);
+    most = fmax(most, balls[k].state.r[1]);
+  }
+  ck_assert(balls[1].state.r[1] == 0.75 * table.length &&
+            balls[2].state.r[1] > 0.75 * table.length);
+  ck_assert(least < 0.75 * table.length - 0.1 && most < table.length - 0.028);
+
+  /* on a long table the search has longer steps, a ten-thousandth of it */
+  const carom_corner corner[] = {
+      {0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {2.0, 40.0, 0.0}, {0.0, 40.0, 0.0}};
+  carom_table alley;
+  ck_assert_int_eq(carom_table_polygon(corner, 4, 0.0365, 0.0, 0.028575, &alley, NULL), CAROM_OK);
+  for (int k = 0; k < BALLS; k++)
+    ck_assert_int_eq(carom_spot_ball(&alley, balls, BALLS, k), CAROM_OK);
+  const double second = balls[1].state.r[1] - (30.0 + 2.0 * 0.028575);
+  ck_assert(balls[0].state.r[1] == 30.0 && second > -1e-6 && second < 4e-3);
+  ck_assert_int_eq(carom_spot_ball(NULL, balls, BALLS, 1), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
+}

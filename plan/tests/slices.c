@@ -1,0 +1,159 @@
+/* Plans that are stopped, and plans in slices. */
+#include "plan_support.h"
+
+/* Rules that stop the plan when they have judged so many shots. */
+static carom_plan_rules stopped_rules;
+static volatile int32_t stop;
+static int64_t judged, judged_most;
+static carom_turn judge_and_stop(uint64_t *user, uint32_t in_play, int cue_ball,
+                                 const carom_facts *facts, carom_call call) {
+  stop |= ++judged == judged_most;
+  return stopped_rules.judge(user, in_play, cue_ball, facts, call);
+}
+
+/* A plan that is stopped judges no other shot, but for one of a stage that has not begun. It gives
+ * the best so far: of ball in hand no worse a place than it had before. */
+TEST(stopped_plans) {
+  enum { PLAN, HAND, TRY };
+  for (int which = PLAN; which <= TRY; which++) {
+    carom_choice best[2];
+    int found = 1;
+    double value = 0.0;
+    make_layout(3, 6);
+    stopped_rules = rules;
+    rules.judge = judge_and_stop;
+    options.shots = 3000;
+    options.stop = &stop;
+    make_memory();
+    const carom_cue cues[2] = {{.speed = 2.0, .phi = 80.0}, {.speed = 3.0, .phi = 100.0}};
+    for (judged_most = 1; judged_most <= 2900; judged_most += judged_most < 3 ? 1 : 289) {
+      judged = stop = 0;
+      ck_assert_int_eq(which == PLAN   ? carom_plan(&job, best, 2, &found)
+                       : which == HAND ? carom_plan_hand(&job, NULL, NULL, best, 2, &found)
+                                       : carom_plan_try(&job, cues, 2, best),
+                       CAROM_OK);
+      if (stop == 0)
+        break;
+      ck_assert_int_le(judged, judged_most + 2);
+      ck_assert(found == 1 && best[0].seen <= judged);
+      ck_assert((best[0].value >= 0.0 && best[0].value <= 1.0) || (which == TRY && judged == 1));
+      if (which == HAND && best[0].seen > 0) {
+        ck_assert(best[0].value > value - 0.05);
+        value = best[0].value;
+      }
+    }
+    if (which == TRY)
+      ck_assert(best[0].seen == 1500 && best[1].seen > 0 && best[1].seen < 1500);
+    printf("plan %d: stopped until %lld, %lld seen\n", which, (long long)judged_most,
+           (long long)best[0].seen);
+    edge_free(&memory);
+  }
+
+  /* long before its end */
+  make_layout(3, 6);
+  stopped_rules = rules;
+  rules.judge = judge_and_stop;
+  options.shots = 1000000;
+  options.stop = &stop;
+  make_memory();
+  carom_choice best;
+  int found;
+  for (judged_most = 10; judged_most < 10000; judged_most *= 10) {
+    judged = stop = 0;
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    ck_assert(judged <= judged_most + 2 && found == 1);
+  }
+  edge_free(&memory);
+}
+
+/* A plan in slices has the choices of one call, bit for bit, and a slice plays no more shots than
+ * it has. */
+TEST(plans_in_slices) {
+  static const int64_t slices[] = {1, 37, 1000};
+  for (int which = 0; which < 6; which++) {
+    const bool hand = which % 2 == 1;
+    carom_choice whole[3], best[3];
+    int found, found_whole;
+    make_layout((uint64_t)which + 1, which < 4 ? 6 : 1);
+    rules = carom_plan_rules_of(which < 2 ? CAROM_RULES_EIGHTBALL : CAROM_RULES_NINEBALL);
+    if (which >= 4) { /* nothing is to be hit, or the player may pass */
+      put_ring(6);
+      job.count = 10;
+      rules.user[4] = which == 5 ? 2 : 0;
+    }
+    stopped_rules = rules;
+    rules.judge = judge_and_stop;
+    options.unsure = which == 1 || which == 2 ? 0.5 : 0.0;
+    options.threads = which % 3;
+    make_memory();
+    judged_most = -1;
+    ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, whole, 3, &found_whole)
+                          : carom_plan(&job, whole, 3, &found_whole),
+                     CAROM_OK);
+    for (size_t k = 0; k < sizeof slices / sizeof slices[0]; k++) {
+      options.slice = slices[k];
+      options.threads = 0; /* the judge counts */
+      judged = 0;
+      int64_t calls = 1;
+      memset(job.memory, 0x55, job.memory_size);
+      ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, best, 3, &found)
+                            : carom_plan(&job, best, 3, &found),
+                       CAROM_OK);
+      int64_t before = judged;
+      for (; found == 0; calls++) {
+        before = judged;
+        ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
+        ck_assert_int_le(judged - before, slices[k] + 1); /* one is not to play */
+      }
+      ck_assert_int_eq(found, found_whole);
+      ck_assert_mem_eq(best, whole, (size_t)found * sizeof *best);
+      ck_assert(calls >= judged / slices[k]);
+
+      /* what has ended stays as it is */
+      before = judged;
+      ck_assert_int_eq(carom_plan_continue(&job, best, 3, &found), CAROM_OK);
+      ck_assert_mem_eq(best, whole, (size_t)found * sizeof *best);
+      ck_assert_int_eq(judged, before);
+    }
+    edge_free(&memory);
+  }
+}
+
+/* A plan that goes on with something else is refused; one that is stopped between slices ends. */
+TEST(slices_of_other_plans) {
+  carom_choice best;
+  int found;
+  make_layout(3, 6);
+  options.slice = 50;
+  options.stop = &stop;
+  make_memory();
+  memset(job.memory, 0, job.memory_size);
+  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
+  stop = 0;
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  ck_assert_int_eq(found, 0);
+  double *numbers[] = {&balls[8].state.r[0], &table.width, &cue.mass, &player.phi,
+                       &options.chance_me};
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+    const double kept = *numbers[k];
+    *numbers[k] += 1e-9;
+    ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
+    *numbers[k] = kept;
+  }
+  ck_assert_int_eq(carom_plan_continue(NULL, &best, 1, &found), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_plan_continue(&job, NULL, 1, &found), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
+  ck_assert_int_eq(found, 0);
+  stop = 1;
+  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_OK);
+  ck_assert_int_eq(found, 1);
+
+  /* a plan that was refused leaves nothing to go on with */
+  stop = 0;
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  balls[8].state.v[0] = 1.0;
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_ERROR_IN_MOTION);
+  balls[8].state.v[0] = 0.0;
+  ck_assert_int_eq(carom_plan_continue(&job, &best, 1, &found), CAROM_ERROR_STATE);
+  edge_free(&memory);
+}

@@ -1,0 +1,355 @@
+/* The stick over cushions and balls: of choices, and of aims that leave the elevation to it. */
+#include "plan_support.h"
+#include "view.h"
+
+/* The distance from a point to the axis of the stick behind the tip, and how far behind it is. */
+static double off_axis(const carom_cue *c, const double p[3], double *behind) {
+  const double R = balls[0].kind.radius, t = c->theta * per_degree, f = c->phi * per_degree;
+  const double u[3] = {cos(t) * cos(f), cos(t) * sin(f), -sin(t)}, left[3] = {-sin(f), cos(f), 0.0},
+               up[3] = {sin(t) * cos(f), sin(t) * sin(f), cos(t)};
+  double d[3], along = 0.0, square = 0.0;
+  for (int x = 0; x < 3; x++) {
+    d[x] = p[x] - balls[0].state.r[x] - R * (c->a * left[x] + c->b * up[x]);
+    along += d[x] * u[x];
+  }
+  for (int x = 0; x < 3; x++)
+    square += (d[x] - along * u[x]) * (d[x] - along * u[x]);
+  *behind = -along;
+  return sqrt(square);
+}
+
+/* The radius of a stick of usual make, less 0.2 mm. */
+static double stick_at(double behind) {
+  return 0.0063 + 0.0055 * behind;
+}
+
+/* The point of a rail, or of the circle of a jaw, at a share of it. */
+static void point_of_nose(const carom_rail *rail, const carom_jaw *jaw, double share,
+                          double point[3]) {
+  const double turn = share * 360.0 * per_degree;
+  for (int k = 0; k < 2; k++)
+    point[k] = rail != NULL ? rail->p[k] + share * (rail->q[k] - rail->p[k])
+                            : jaw->centre[k] + jaw->radius * (k == 0 ? cos(turn) : sin(turn));
+  point[2] = rail != NULL ? rail->height : jaw->height;
+}
+
+/* Whether a stick is over all balls and noses: by points of the noses behind the ball. */
+static bool is_clear(const carom_cue *stick) {
+  bool clear = true;
+  double behind;
+  for (int i = 1; i < BALLS; i++)
+    if (balls[i].state.label != CAROM_BALL_POCKETED) {
+      const double off = off_axis(stick, balls[i].state.r, &behind);
+      clear &= behind < 0.0 || behind > 1.4 || off > balls[i].kind.radius + stick_at(behind);
+    }
+  for (int of = 0; of < table.rails + table.jaws; of++)
+    for (int part = 0; part <= 2000; part++) {
+      const carom_rail *rail = of < table.rails ? &table.rail[of] : NULL;
+      double nose[3];
+      point_of_nose(rail, rail == NULL ? &table.jaw[of - table.rails] : NULL, part / 2000.0, nose);
+      const double off = off_axis(stick, nose, &behind);
+      clear &= behind < 0.0 || behind > 1.4 || off > stick_at(behind);
+    }
+  return clear;
+}
+
+/* The kind of a choice is that of the stroke without errors, where the ball falls in it: by its
+ * facts. Where most strokes with errors pot nothing, the ball that is named falls in it. The stick
+ * is over all balls and noses, also of balls before a cushion and another ball; and no choice is
+ * raised more than it has to be: raised by a degree less, the stick touches. */
+TEST(kinds_and_sticks) {
+  enum { KINDS = CAROM_PLAN_SAFETY + 1 };
+  int of_kind[KINDS] = {0}, raised = 0, seldom = 0;
+  for (int k = 0; k < 24; k++) {
+    carom_choice best[5];
+    int found;
+    make_layout((uint64_t)k + 1, 10);
+    if (k % 2 == 0)
+      rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+    if (k % 3 == 0)
+      carom_place_ball(&table, balls, BALLS, 0, 0.4, 0.03, NULL);
+    if (k % 3 == 1)
+      carom_place_ball(&table, balls, BALLS, 7, balls[0].state.r[0] + 0.07,
+                       balls[0].state.r[1] - 0.04, NULL);
+    make_memory();
+    ck_assert_int_eq(carom_plan(&job, best, 5, &found), CAROM_OK);
+    for (int n = 0; n < found; n++) {
+      const carom_choice *c = &best[n];
+      carom_facts facts;
+      carom_shot shot = {.facts = &facts};
+      carom_shoot(&table, balls, BALLS, &c->cue, &shot_options, &shot);
+      of_kind[c->kind]++;
+      ck_assert((c->kind == CAROM_PLAN_SAFETY) == (c->ball < 0 && c->kind != CAROM_PLAN_FOUL));
+      seldom += c->ball > 0 && c->keep < 0.5;
+      ck_assert(c->ball <= 0 || c->keep >= 0.5 || facts.pocket[c->ball] == c->pocket);
+      if (c->ball > 0 && facts.pocket[c->ball] == c->pocket) {
+        const bool kick = facts.cushions_before[0] > 0, first = facts.first[0] == c->ball;
+        ck_assert(c->kind != CAROM_PLAN_POT || (first && !kick));
+        ck_assert(c->kind != CAROM_PLAN_BANK || (first && !kick && facts.cushions[c->ball] > 0));
+        ck_assert(c->kind != CAROM_PLAN_KICK || (first && kick));
+        ck_assert(c->kind != CAROM_PLAN_COMBINATION || !first);
+        ck_assert(c->kind != CAROM_PLAN_CAROM || !first);
+      }
+
+      ck_assert(c->cue.theta >= 0.0 && c->cue.theta <= 60.0);
+      for (int lower = 0; lower < 2; lower++) {
+        carom_cue stick = c->cue;
+        stick.theta -= lower ? 1.0 : 0.0;
+        if (stick.theta < 0.0)
+          continue;
+        ck_assert_msg(lower != is_clear(&stick), "layout %d, choice %d: raised by %g, %d", k, n,
+                      c->cue.theta, lower);
+        raised += !lower && c->cue.theta > 5.0;
+      }
+    }
+    edge_free(&memory);
+  }
+  for (int kind = 0; kind < KINDS; kind++)
+    printf("kind %d: %d\n", kind, of_kind[kind]);
+  printf("%d pot in less than half of the strokes\n", seldom);
+  ck_assert(raised > 10 && seldom > 10 && of_kind[CAROM_PLAN_POT] > 10 &&
+            of_kind[CAROM_PLAN_BANK] > 0 && of_kind[CAROM_PLAN_KICK] > 0 &&
+            of_kind[CAROM_PLAN_SAFETY] > 0);
+}
+
+/* By a level cue each choice is level, where the stick had to be raised. */
+TEST(a_level_cue) {
+  int raised = 0;
+  for (int k = 0; k < 8; k++) {
+    carom_choice best[5];
+    int found;
+    make_layout((uint64_t)k + 1, 10);
+    carom_place_ball(&table, balls, BALLS, 0, 0.4, 0.03, NULL);
+    for (options.level = 0; options.level < 2; options.level++) {
+      make_memory();
+      ck_assert(carom_plan(&job, best, 5, &found) == CAROM_OK && found > 0);
+      for (int n = 0; n < found; n++) {
+        raised += best[n].cue.theta > 1.0;
+        ck_assert(best[n].cue.theta == 0.0 || !options.level);
+      }
+      edge_free(&memory);
+    }
+    options.level = 0;
+  }
+  ck_assert_int_gt(raised, 10);
+}
+
+/* The least elevation, degrees, of a stick in the cue's direction that is `radius` and more from a
+ * point: by halving the distance of the point from the axis. Below 0 for a point that is not below
+ * the stick: how far it is from there. */
+static double least_over(const carom_cue *c, const double point[3], double radius) {
+  const double R = balls[0].kind.radius, f = c->phi * per_degree, *r = balls[0].state.r;
+  const double u[2] = {cos(f), sin(f)}, h = point[2] - R;
+  const double x = point[0] - r[0] + c->a * R * u[1], y = point[1] - r[1] - c->a * R * u[0];
+  const double D = -x * u[0] - y * u[1], L = u[0] * y - u[1] * x;
+  const double both = radius + 0.0065 + 0.0055 * D;
+  const double off = fmax(fmax(-D, D - 1.47), fabs(L) - both);
+  if (off >= 0.0)
+    return -off;
+  double low = 0.0, high = 90.0;
+  for (int k = 0; k < 60; k++) {
+    const double theta = 0.5 * (low + high), s = sin(theta * per_degree),
+                 t = cos(theta * per_degree), below = c->b * R + D * s - h * t;
+    *(copysign(sqrt(below * below + L * L), below) < both ? &low : &high) = theta;
+  }
+  return high < 1e-9 ? 0.0 : high;
+}
+
+/* The same over a point of a nose. */
+static double over_nose(const carom_cue *c, const carom_rail *rail, const carom_jaw *jaw,
+                        double share) {
+  double point[3];
+  point_of_nose(rail, jaw, share, point);
+  return least_over(c, point, 0.0);
+}
+
+/* The same over all points of a nose: the worst of many, and of places beside that, by thirds. */
+static double over_points(const carom_cue *c, const carom_rail *rail, const carom_jaw *jaw) {
+  enum { POINTS = 1000 };
+  double worst = -INFINITY, low = 0.0, high = 0.0;
+  for (int k = 0; k <= POINTS; k++) {
+    const double least = over_nose(c, rail, jaw, (double)k / POINTS);
+    if (least > worst) {
+      worst = least;
+      low = (rail != NULL ? fmax(k - 1.0, 0.0) : k - 1.0) / POINTS;
+      high = (rail != NULL ? fmin(k + 1.0, POINTS) : k + 1.0) / POINTS;
+    }
+  }
+  for (int k = 0; k < 80; k++) {
+    const double one = low + (high - low) / 3.0, two = high - (high - low) / 3.0;
+    const double at_one = over_nose(c, rail, jaw, one), at_two = over_nose(c, rail, jaw, two);
+    *(at_one < at_two ? &low : &high) = at_one < at_two ? one : two;
+    worst = fmax(worst, fmax(at_one, at_two));
+  }
+  return worst;
+}
+
+static double least_of_all(const carom_cue *c) {
+  double most = 0.0;
+  for (int k = 1; k < BALLS; k++)
+    if (balls[k].state.label != CAROM_BALL_POCKETED)
+      most = fmax(most, least_over(c, balls[k].state.r, balls[k].kind.radius));
+  for (int k = 0; k < table.rails; k++)
+    most = fmax(most, over_points(c, &table.rail[k], NULL));
+  for (int k = 0; k < table.jaws; k++)
+    most = fmax(most, over_points(c, NULL, &table.jaw[k]));
+  return most;
+}
+
+/* Whether an elevation is that of the reference in the cue's direction, or beside it, where the
+ * reference jumps. */
+static bool is_least(double elevation, carom_cue c) {
+  bool good = false;
+  const double phi = c.phi;
+  for (int side = -1; side <= 1; side++) {
+    c.phi = phi + 1e-6 * side;
+    good |= fabs(elevation - least_of_all(&c)) < 1e-3;
+  }
+  return good;
+}
+
+/* Aims the eight at a pocket with a cue that is left to the stick. Where it falls, the cue is
+ * raised by the least elevation that the reference has, or by more where that jumps; a stick
+ * that crosses a nose or a ball is over all; and the stroke pots. A level cue and one that is
+ * raised as far by the caller keep their elevation, and are told the same; but a very thin cut may
+ * slip through the directions that are tried. Returns whether the stroke falls. */
+static bool aims_raised(int pocket, carom_cue *c) {
+  carom_pot pot = {.ball = 8, .pocket = pocket}, given = pot;
+  carom_cue same;
+  carom_facts facts;
+  carom_shot shot = {.facts = &facts};
+  c->theta = (double)NAN;
+  ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, c), CAROM_OK);
+  if (pot.is != CAROM_POT_FALLS)
+    return false;
+  ck_assert(is_least(pot.elevation, *c));
+  ck_assert(c->theta >= pot.elevation && c->theta <= 60.0);
+  ck_assert(pot.elevation == 0.0 || is_clear(c));
+  carom_shoot(&table, balls, BALLS, c, &shot_options, &shot);
+  ck_assert_int_eq(facts.pocket[8], pocket);
+  for (int level = 0; level < 2; level++) {
+    same = *c;
+    same.theta = level ? 0.0 : c->theta;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &given, &same), CAROM_OK);
+    ck_assert(same.theta == (level ? 0.0 : c->theta));
+    if (!level && given.is == CAROM_POT_NO_WAY && fabs(pot.cut) > 80.0)
+      continue;
+    ck_assert(level || (given.is == CAROM_POT_FALLS && fabs(same.phi - c->phi) < 1e-3));
+    if (given.is == CAROM_POT_FALLS)
+      ck_assert(is_least(given.elevation, same));
+  }
+  return true;
+}
+
+/* The stick crosses noses at any angle, also almost along them, and over the jaws of pockets. */
+TEST(noses_under_the_stick) {
+  random_source r = {test_seed()};
+  int raised = 0;
+  for (int k = 0; k < 400; k++) {
+    make_stroke(&r, test_seed() + (uint64_t)k);
+    carom_table_make(k % 2 ? CAROM_TABLE_SNOOKER : CAROM_TABLE_POOL_9FT, &table);
+    carom_place_ball(&table, balls, BALLS, 0, random_between(&r, 0.05, 0.6),
+                     random_between(&r, 0.04, 0.4), NULL);
+    balls[2].state.label = balls[8].state.label = CAROM_BALL_POCKETED;
+    carom_cue one = cue;
+    one.phi = random_between(&r, 3.0, 177.0);
+    one.a = random_between(&r, -0.6, 0.6);
+    one.b = random_between(&r, -0.6, 0.3);
+    const double least = carom_least_elevation(&table, balls, BALLS, &one);
+    ck_assert_msg(least > 60.0 || fabs(least - least_of_all(&one)) < 1e-5,
+                  "raised by %.12g degrees, not %.12g", least, least_of_all(&one));
+    raised += least > 1.0 && least < 60.0;
+  }
+  ck_assert_int_gt(raised, 100);
+}
+
+/* Cue balls anywhere, frozen to a rail, and before another ball, which may touch. */
+TEST(aims_of_the_stick) {
+  random_source r = {test_seed()};
+  int falls = 0, raised = 0;
+  const int draws = 4 * draws_of_each(FEWER(40));
+  for (int k = 0; k < draws; k++) {
+    make_stroke(&r, test_seed() + 3000 + (uint64_t)k);
+    if (k % 4 == 1)
+      carom_place_ball(&table, balls, BALLS, 0, random_between(&r, 0.2, 1.0), balls[0].kind.radius,
+                       NULL);
+    if (k % 4 > 1) {
+      const double far = k % 4 == 2 ? 2.0 * balls[0].kind.radius : random_between(&r, 0.06, 0.5),
+                   x = balls[8].state.r[0] - balls[0].state.r[0],
+                   y = balls[8].state.r[1] - balls[0].state.r[1];
+      carom_place_ball(&table, balls, BALLS, 2, balls[0].state.r[0] - far * x / hypot(x, y),
+                       balls[0].state.r[1] - far * y / hypot(x, y), NULL);
+    }
+    carom_cue one = cue;
+    const bool good = aims_raised(k / 4 % 6, &one);
+    falls += good;
+    raised += good && one.theta > 5.0;
+  }
+  printf("%d fall, %d of them raised by more than 5 degrees\n", falls, raised);
+  ck_assert(falls > draws / 16 && raised > 0);
+}
+
+/* The elevation where it begins: balls beside a level stick, which they just touch or do not, and
+ * the end of the stick over a cushion. Below the middle it jumps there. */
+TEST(where_the_stick_begins_to_touch) {
+  int jumps = 0, held = 0;
+  for (int k = 0; k < FEWER(120); k++) {
+    make_layout(1, 2);
+    carom_place_ball(&table, balls, BALLS, 8, 0.4, 2.2, NULL);
+    carom_place_ball(&table, balls, BALLS, 0, 0.62, k % 3 == 0 ? 1.6 : 1.7828 + 1e-5 * k, NULL);
+    const double R = balls[0].kind.radius, D = 0.1 + 0.002 * k;
+    carom_cue one = cue;
+    one.speed = 2.5;
+    one.a = k % 3 == 0 ? 0.0 : 0.3;
+    one.b = k % 2 == 0 ? -0.2 : 0.1;
+    ck_assert(aims_raised(2, &one));
+    held += one.theta > least_of_all(&one) + 0.1;
+    if (k % 3 != 0)
+      continue;
+
+    /* the cue ball is too far from the head cushion; then a ball beside the stick */
+    ck_assert(one.theta == 0.0);
+    const carom_cue level = one;
+    for (int inside = 0; inside < 2; inside++) {
+      const double f = level.phi * per_degree,
+                   L = R + 0.0065 + 0.0055 * D + (inside ? -1e-9 : 1e-9);
+      carom_place_ball(&table, balls, BALLS, 2, balls[0].state.r[0] - D * cos(f) - L * sin(f),
+                       balls[0].state.r[1] - D * sin(f) + L * cos(f), NULL);
+      carom_pot pot = {.ball = 8, .pocket = 2};
+      one = level;
+      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+      ck_assert(pot.is == CAROM_POT_FALLS && one.phi == level.phi);
+      ck_assert(inside == (pot.elevation > 0.0) || (inside && one.b > 0.0));
+      jumps += pot.elevation > 0.5;
+      ck_assert(aims_raised(2, &one));
+    }
+  }
+  printf("%d jumps, held %d times\n", jumps, held);
+  ck_assert(jumps > 0 && held > 0);
+}
+
+/* A ball that touches the cue ball behind it: a tip far below the middle would need more than 60
+ * degrees, which is told with the elevation. */
+TEST(no_stick_reaches) {
+  make_layout(1, 2);
+  carom_place_ball(&table, balls, BALLS, 8, 0.4, 2.2, NULL);
+  carom_place_ball(&table, balls, BALLS, 0, 0.62, 1.6, NULL);
+  carom_pot pot = {.ball = 8, .pocket = 2};
+  const double R = balls[0].kind.radius;
+  for (int k = 0; k < 3; k++) {
+    carom_cue one = cue;
+    one.speed = k == 2 ? 8.0 : 2.5;
+    one.a = 0.0;
+    one.b = k == 0 ? 0.1 : -0.5;
+    ck_assert(aims_raised(2, &one));
+    carom_place_ball(&table, balls, BALLS, 2,
+                     balls[0].state.r[0] - 2.0 * R * cos(one.phi * per_degree),
+                     balls[0].state.r[1] - 2.0 * R * sin(one.phi * per_degree), NULL);
+    one.theta = (double)NAN;
+    ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+    const double least = asin((R + 0.0065 + 0.011 * R - one.b * R) / (2.0 * R)) / per_degree;
+    ck_assert_msg(pot.is == (k == 0 ? CAROM_POT_FALLS : CAROM_POT_STICK), "%d: %d", k, pot.is);
+    ck_assert_double_eq_tol(pot.elevation, least, 1.0);
+    carom_place_ball(&table, balls, BALLS, 2, 1.1, 0.2, NULL);
+  }
+}

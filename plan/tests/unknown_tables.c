@@ -1,0 +1,67 @@
+/* Players who do not know the table. */
+#include "plan_support.h"
+
+/* A straight pot into the pocket at the origin; or a bank there, off the foot rail. */
+static carom_cue put_pot(bool bank) {
+  make_layout(1, 1);
+  rules = carom_plan_rules_of(CAROM_RULES_POTTING);
+  player = carom_player_of(0.3);
+  carom_place_ball(&table, balls, BALLS, 8, bank ? 0.9 : 0.3, bank ? 1.2 : 0.3, NULL);
+  carom_place_ball(&table, balls, BALLS, 0, bank ? 1.0 : 0.6, bank ? 0.75 : 0.62, NULL);
+  carom_pot pot = {.ball = 8, .vias = bank, .via = {{CAROM_PART_RAIL, 0}}};
+  for (int p = 0; p < table.pockets; p++)
+    if (table.pocket[p].centre[0] + table.pocket[p].centre[1] < 0.2)
+      pot.pocket = p;
+  for (int r = 0; r < table.rails; r++)
+    if (table.rail[r].p[1] > 2.5 && fabs(table.rail[r].p[0] - table.rail[r].q[0]) > 1.0)
+      pot.via[0].index = r;
+  carom_cue stroke = cue;
+  stroke.speed = bank ? 4.0 : 1.5;
+  stroke.b = 0.25;
+  ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &stroke), CAROM_OK);
+  ck_assert_msg(pot.is == CAROM_POT_FALLS, "%s: %d", bank ? "bank" : "pot", pot.is);
+  options.shots = 600;
+  return stroke;
+}
+
+static carom_choice tried(const carom_cue *stroke, double unsure) {
+  carom_choice c;
+  options.unsure = unsure;
+  make_memory();
+  ck_assert_int_eq(carom_plan_try(&job, stroke, 1, &c), CAROM_OK);
+  edge_free(&memory);
+  return c;
+}
+
+/* The less of the table a player knows, the less often a bank comes off; a pot near by comes off as
+ * often. Rails with numbers of their own are as little known as those with the numbers of the
+ * balls. */
+TEST(tables_that_are_not_known) {
+  static const double unsure[] = {0.0, 0.1, 0.3, 1.0};
+  double keep[2][4];
+  for (int bank = 0; bank < 2; bank++)
+    for (int k = 0; k < 4; k++) {
+      const carom_cue stroke = put_pot(bank);
+      const carom_choice c = tried(&stroke, unsure[k]);
+      keep[bank][k] = c.keep;
+
+      for (int r = 0; r < table.rails; r++) {
+        table.rail[r].restitution = balls[0].kind.restitution_cushion;
+        table.rail[r].mu_cushion = balls[0].kind.mu_cushion;
+      }
+      for (int j = 0; j < table.jaws; j++) {
+        table.jaw[j].restitution = balls[0].kind.restitution_cushion;
+        table.jaw[j].mu_cushion = balls[0].kind.mu_cushion;
+      }
+      const carom_choice own = tried(&stroke, unsure[k]);
+      ck_assert_mem_eq(&own, &c, sizeof c);
+    }
+  printf("kept with all, much, some and little known: a pot %.2f %.2f %.2f %.2f, a bank %.2f %.2f "
+         "%.2f %.2f\n",
+         keep[0][0], keep[0][1], keep[0][2], keep[0][3], keep[1][0], keep[1][1], keep[1][2],
+         keep[1][3]);
+  for (int k = 1; k < 4; k++) {
+    ck_assert_double_gt(keep[0][k], keep[0][0] - 0.02);
+    ck_assert_double_lt(keep[1][k], keep[1][k - 1] - (k > 1 ? 0.03 : 0.0));
+  }
+}

@@ -1,0 +1,59 @@
+/* Values of layouts, and pockets that count. */
+#include "plan_support.h"
+
+/* A game in which balls count in one pocket only. */
+static uint32_t one_pocket(const uint64_t *user) {
+  return UINT32_C(1) << user[7];
+}
+
+/* Values: the eight alone before a pocket, and the same with a ball in the way; ball in hand is
+ * no worse. */
+TEST(values) {
+  double easy, blocked, hand;
+  make_layout(1, 2);
+  carom_place_ball(&table, balls, BALLS, 8, 0.12, 0.12, NULL);
+  carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
+  ck_assert_int_eq(carom_plan_value(&job, 0, &easy), CAROM_OK);
+  carom_place_ball(&table, balls, BALLS, 9, 0.35, 0.35, NULL);
+  ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
+  ck_assert_int_eq(carom_plan_value(&job, 1, &hand), CAROM_OK);
+  ck_assert(easy > 0.85 && easy <= 1.0 && blocked < easy - 0.1 && hand > blocked);
+
+  /* a pocket that does not count is worth nothing */
+  double corner;
+  make_layout(1, 2);
+  carom_place_ball(&table, balls, BALLS, 8, 0.12, 0.12, NULL);
+  carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
+  rules.pockets = one_pocket;
+  for (uint64_t pocket = 0; pocket < 6; pocket++) {
+    rules.user[7] = pocket;
+    ck_assert_int_eq(carom_plan_value(&job, 0, &corner), CAROM_OK);
+    const double *centre = table.pocket[pocket].centre;
+    if (centre[0] < 0.5 && centre[1] < 0.5)
+      ck_assert_double_gt(corner, 0.9);
+    else
+      ck_assert_double_lt(corner, 0.8);
+  }
+
+  /* players who pot next to nothing */
+  options.chance_me = options.chance_opponent = 1e-17;
+  ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
+  ck_assert(blocked >= 0.0 && blocked <= 1.0);
+}
+
+/* Of a game in which balls count in one pocket only. */
+TEST(pockets_that_count) {
+  for (int pocket = 0; pocket < 6; pocket++) {
+    carom_choice best[3];
+    int found;
+    make_layout(9, 6);
+    rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
+    rules.user[7] = (uint64_t)pocket;
+    rules.pockets = one_pocket;
+    make_memory();
+    ck_assert_int_eq(carom_plan(&job, best, 3, &found), CAROM_OK);
+    for (int k = 0; k < found; k++)
+      ck_assert(best[k].pocket == pocket || best[k].pocket == -1);
+    edge_free(&memory);
+  }
+}

@@ -1,0 +1,224 @@
+/* Games that are planned: values of points, strokes that are chosen, and whole games, which no
+ * machine changes. */
+#include "game_support.h"
+
+/* Chances: more points are better, and so are fewer that the other has; those of both players add
+ * up to about one where nothing can be potted. */
+TEST(values_of_points) {
+  for (int game = 0; game < 2; game++) {
+    const carom_rules_kind kind = game == 0 ? CAROM_RULES_STRAIGHT : CAROM_RULES_SNOOKER;
+    carom_plan_rules of = carom_plan_rules_of(kind);
+    const int count = lay_out(game == 0 ? CAROM_RACK_EIGHTBALL : CAROM_RACK_SNOOKER,
+                              game == 0 ? CAROM_TABLE_POOL_9FT : CAROM_TABLE_SNOOKER, ALL);
+    carom_cue cue = carom_cue_of(game == 0 ? CAROM_GAME_POOL : CAROM_GAME_SNOOKER);
+    const carom_player player = carom_player_of(1.0);
+    const carom_plan_job job = {.table = &table,
+                                .balls = balls,
+                                .count = count,
+                                .cue = &cue,
+                                .player = &player,
+                                .rules = &of};
+    double last = -1.0, value;
+    for (int own = 0; own <= 99; own += 9) {
+      of.user[2] = (uint64_t)own;
+      of.user[3] = 40;
+      ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
+      ck_assert_msg(value >= last && value >= 0.0 && value <= 1.0, "%d: %g after %g", own, value,
+                    last);
+      last = value;
+    }
+    last = 2.0;
+    for (int other = 0; other <= 99; other += 9) {
+      of.user[2] = 40;
+      of.user[3] = (uint64_t)other;
+      ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
+      ck_assert(value <= last);
+      last = value;
+    }
+    ck_assert(last < 0.25);
+    of.user[3] = 40;
+    ck_assert_int_eq(carom_plan_value(&job, 1, &value), CAROM_OK);
+    ck_assert(value > 0.3 && value < 0.95);
+  }
+}
+
+/* With the black alone a lead of eight points has won the frame, whoever is at the table; one of
+ * seven has not. */
+TEST(values_of_a_claim) {
+  const int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, BK | 1);
+  const carom_cue cue = carom_cue_of(CAROM_GAME_SNOOKER);
+  const carom_player player = carom_player_of(1.0);
+  for (int lead = -9; lead <= 9; lead++) {
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+    of.user[2] = (uint64_t)(50 + lead);
+    of.user[3] = 50;
+    const carom_plan_job job = {.table = &table,
+                                .balls = balls,
+                                .count = count,
+                                .cue = &cue,
+                                .player = &player,
+                                .rules = &of};
+    double value;
+    ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
+    ck_assert_msg(lead > 7    ? value == 1.0
+                  : lead < -7 ? value == 0.0
+                              : value > 0.0 && value < 1.0,
+                  "%d ahead: %g", lead, value);
+  }
+}
+
+/* One-pocket: a ball before a pocket is worth much to its player only, who plays it there; fewer
+ * balls that are needed, or owed, are better. */
+TEST(pocket_of_ones_own) {
+  const int count = lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 0x7);
+  put(0, 0.6, 1.6);
+  put(1, table.width - 0.15, table.length - 0.15);
+  put(2, 0.5 * table.width, 0.1);
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  const carom_player player = carom_player_of(1.0);
+  const carom_plan_options options = {.shots = 1000};
+  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
+  carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+  double value[5];
+  for (int k = 0; k < 5; k++) {
+    const bool mine = k < 4;
+    of.user[0] = mine ? MINE + 8 * HIS : HIS + 8 * MINE;
+    of.user[2] = k == 1 ? 6 : 7;
+    of.user[3] = k == 2 ? 7 : 6;
+    of.user[5] = k == 3;
+    carom_choice best;
+    int found;
+    ck_assert_int_eq(carom_plan_value(&job, 0, &value[k]), CAROM_OK);
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    ck_assert_msg(!mine || (best.ball == 1 && best.pocket == MINE), "%d: ball %d", k, best.ball);
+  }
+  ck_assert_msg(value[0] > value[4] + 0.2 && value[0] > value[1] + 0.01 && value[0] > value[2] &&
+                    fabs(value[3] - value[1]) < 1e-9,
+                "%g %g %g %g %g", value[0], value[1], value[2], value[3], value[4]);
+  free(job.memory);
+}
+
+/* Snooker: after a red a plan takes the black, where it is as easy as the yellow; and the yellow
+ * where the black is out of reach. */
+TEST(colours_by_value_and_position) {
+  for (int k = 0; k < 2; k++) {
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+    of.user[0] = 1;
+    const int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, 1 | R1 | Y | BK);
+    const double w = table.width, l = table.length;
+    put(0, 0.5 * w, 0.5 * l);
+    put(1, 0.5 * w, 0.6 * l);
+    /* both before a corner, or the black far along a rail */
+    put(YELLOW, 0.15, 0.15);
+    put(BLACK, w - 0.15, k == 0 ? 0.15 : l - 0.5);
+    if (k == 1)
+      put(BLACK, 0.027, 0.7 * l);
+    carom_cue cue = carom_cue_of(CAROM_GAME_SNOOKER);
+    const carom_player player = carom_player_of(0.3);
+    const carom_plan_options options = {.shots = 2000};
+    carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+    carom_choice best;
+    int found;
+    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+    ck_assert_msg(best.ball == (k == 0 ? BLACK : YELLOW), "%d: ball %d", k, best.ball);
+    free(job.memory);
+  }
+}
+
+/* A whole game between two plans of few shots: the same strokes, scores and layouts on all
+ * machines. Where a change of the method or of the physics is meant to change them, the new hash is
+ * the one that this test prints. All layouts are such that a shot can be played from, and the
+ * points add up. */
+static uint64_t play(carom_rules_kind kind, int target, int *strokes, int64_t made[2]) {
+  const bool in_d = kind == CAROM_RULES_SNOOKER;
+  const int count = lay_out(in_d ? CAROM_RACK_SNOOKER : CAROM_RACK_EIGHTBALL,
+                            in_d ? CAROM_TABLE_SNOOKER : CAROM_TABLE_POOL_9FT, ALL);
+  carom_plan_rules of = carom_plan_rules_of(kind);
+  if (kind == CAROM_RULES_STRAIGHT) {
+    of.user[0] = (uint64_t)target;
+    of.user[1] = 1;
+  }
+  const carom_cue cue = carom_cue_of(in_d ? CAROM_GAME_SNOOKER : CAROM_GAME_POOL);
+  const carom_player player = carom_player_of(in_d ? 0.5 : 1.0);
+  carom_plan_options options = {.shots = 100};
+  carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+  uint64_t h = UINT64_C(0xcbf29ce484222325);
+  carom_turn turn = {.is = CAROM_TURN_PASS, .leave = in_d ? CAROM_LEAVE_D : CAROM_LEAVE_KITCHEN};
+  const double high[2] = {table.width, 0.25 * table.length};
+  int who = 1;
+  for (*strokes = 0; *strokes < 400 && turn.is != CAROM_TURN_WIN && turn.is != CAROM_TURN_LOSE;
+       (*strokes)++) {
+    carom_choice best;
+    int found;
+    who = turn.is == CAROM_TURN_PASS ? 1 - who : who;
+    options.seed = (uint64_t)*strokes;
+    const bool hand = turn.leave == CAROM_LEAVE_KITCHEN || turn.leave == CAROM_LEAVE_D;
+    ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL,
+                                            turn.leave == CAROM_LEAVE_KITCHEN ? high : NULL, &best,
+                                            1, &found)
+                          : carom_plan(&job, &best, 1, &found),
+                     CAROM_OK);
+    if (hand)
+      ck_assert_int_eq(
+          carom_place_ball(&table, balls, count, 0, best.place[0], best.place[1], NULL), CAROM_OK);
+    if (turn.leave == CAROM_LEAVE_D)
+      ck_assert(hypot(best.place[0] - 0.5 * table.width, best.place[1] - 0.737) < 0.2921 &&
+                best.place[1] < 0.7371);
+
+    carom_cue stroke = best.cue;
+    carom_player_strike(&player, 5, (uint64_t)*strokes, &stroke);
+    carom_facts facts = {.first = {-1, -1}};
+    carom_ball_state final[BALLS_MOST];
+    carom_shot shot = {.final = final, .facts = &facts};
+    uint32_t in_play = 0;
+    for (int k = 0; k < count; k++) {
+      final[k] = balls[k].state;
+      in_play |=
+          (uint32_t)(final[k].label != CAROM_BALL_POCKETED && final[k].label != CAROM_BALL_OFF)
+          << k;
+    }
+    if (best.kind != CAROM_PLAN_PASS)
+      ck_assert_int_eq(carom_shoot(&table, balls, count, &stroke, NULL, &shot), CAROM_OK);
+    for (int k = 0; k < count; k++)
+      balls[k].state = final[k];
+    turn = of.judge(of.user, in_play, 0, &facts, (carom_call){best.ball, best.pocket});
+    ck_assert_int_eq(carom_turn_settle(&of, of.user, &table, balls, count, &turn), CAROM_OK);
+    made[who] += (int64_t)turn.points;
+    if (turn.leave == CAROM_LEAVE_AFTER)
+      ck_assert_int_eq(carom_shot_check(&table, balls, count, NULL, NULL, NULL), CAROM_OK);
+    h = hash_of(h, &best, sizeof best);
+    h = hash_of(h, of.user, sizeof of.user);
+    for (int k = 0; k < count; k++)
+      h = hash_of(h, balls[k].state.r, sizeof balls[k].state.r);
+  }
+  free(job.memory);
+  ck_assert(turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE);
+  if (kind == CAROM_RULES_STRAIGHT)
+    ck_assert(of.user[2] == (uint64_t)made[who] && of.user[3] == (uint64_t)made[1 - who]);
+  else if (!in_d) /* fouls and debts take from them */
+    ck_assert(of.user[turn.is == CAROM_TURN_WIN ? 2 : 3] >= 8 &&
+              (int64_t)of.user[2] <= 15 - (int64_t)of.user[3]);
+  else /* fouls come to the pots */
+    ck_assert(of.user[2] >= (uint64_t)made[who] && of.user[3] >= (uint64_t)made[1 - who]);
+  return h;
+}
+
+TEST(golden_games) {
+  static const struct {
+    carom_rules_kind kind;
+    int target, points; /* least ones of both together */
+    uint64_t hash;
+  } given[] = {{CAROM_RULES_STRAIGHT, 40, 40, UINT64_C(0xb597886f4616a679)},
+               {CAROM_RULES_SNOOKER, 0, 40, UINT64_C(0x8cac88e7c8ff7c24)},
+               {CAROM_RULES_ONEPOCKET, 0, 4, UINT64_C(0xe74819c60dcaabd1)}};
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    int strokes;
+    int64_t made[2] = {0};
+    const uint64_t h = play(given[k].kind, given[k].target, &strokes, made);
+    const char *game = carom_rules_name(given[k].kind);
+    printf("%s: 0x%016llx; %d strokes, %d and %d points\n", game, (unsigned long long)h, strokes,
+           (int)made[0], (int)made[1]);
+    ck_assert(strokes >= 8 && made[0] + made[1] >= given[k].points);
+    ck_assert_msg(h == given[k].hash, "%s is another game", game);
+  }
+}
