@@ -285,6 +285,8 @@ typedef enum carom_status {
   CAROM_ERROR_IN_MOTION = -103,         /* carom_plan.h: a ball of the layout moves. */
   CAROM_ERROR_GAME_OVER = -104,         /* carom_plan.h: the rules have no ball to be played. */
   CAROM_ERROR_FAST = -105,              /* options.fast is neither 0 nor 1. */
+  CAROM_ERROR_CORNERS = -106,           /* a polygon has fewer than 3 or more than 32 corners. */
+  CAROM_ERROR_SIDES_CROSS = -107,       /* two of its sides that are no neighbours meet. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value

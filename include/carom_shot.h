@@ -459,7 +459,8 @@ typedef struct carom_corner {
  * There must be room for a ball in the middle (width/2, length/2), where width and length are the
  * greatest x and y, or, as in an L or a U, beside the longest rail. The result is checked by
  * carom_table_check(), whose status and *fault are those of the call; *fault may be NULL. Further
- * errors: CAROM_ERROR_TABLE with
+ * errors: CAROM_ERROR_CORNERS for their number; CAROM_ERROR_SIDES_CROSS, with the two sides as
+ * rails by the corners where they begin; CAROM_ERROR_TABLE with
  * CAROM_PART_NONE for a number below 0 or not finite, mouths that leave nothing of a rail, or more
  * than CAROM_POCKETS_MOST pockets or CAROM_JAWS_MOST jaws. */
 CAROM_API carom_status carom_table_polygon(const carom_corner *corner, int count,

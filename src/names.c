@@ -163,7 +163,9 @@
     "plans are made of layouts at rest, and a ball moves, turns or flies")                         \
   X(ERROR_GAME_OVER, -104, "game_over",                                                            \
     "no ball is left to be played: all that count are down, or the eight is")                      \
-  X(ERROR_FAST, -105, "bad_fast", "options.fast must be 0 or 1")
+  X(ERROR_FAST, -105, "bad_fast", "options.fast must be 0 or 1")                                   \
+  X(ERROR_CORNERS, -106, "bad_corners", "a table has 3 to 32 corners")                             \
+  X(ERROR_SIDES_CROSS, -107, "sides_cross", "two sides of the table cross or touch")
 
 #define AGREES(NAME, value, name, text) \
   _Static_assert(CAROM_##NAME == (value), "values are never renumbered");

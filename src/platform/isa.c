@@ -5,16 +5,15 @@
  * first use fills. Asking for a lower set is for tests, comparisons and bug reports; the results
  * of the exact solver agree within its contract on all of them.
  */
-#if defined(__linux__) && !defined(_GNU_SOURCE)
-#define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights
-                       than their user */
-#endif
 #include "platform/isa.h"
 
 #include "platform/enumerations.h"
 
 #if defined(__x86_64__)
 #include <cpuid.h>
+#endif
+#if defined(__linux__)
+#include <sys/auxv.h> /* the environment says nothing to programs with more rights than their user */
 #endif
 #include <math.h>
 #include <stdatomic.h>
@@ -130,8 +129,8 @@ static carom_isa best_up_to(carom_isa limit) {
 }
 
 static carom_isa from_environment(void) {
-#if defined(__linux__)
-  const char *wanted = secure_getenv("CAROM_ISA");
+#if defined(__linux__) && defined(AT_SECURE)
+  const char *wanted = getauxval(AT_SECURE) ? NULL : getenv("CAROM_ISA");
 #else
   const char *wanted = getenv("CAROM_ISA");
 #endif

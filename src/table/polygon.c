@@ -69,9 +69,9 @@ static void add_pocket(carom_table *t, const joint *j, double nose, double r, do
 }
 
 /* The corners in the order that has the table to the left; false for numbers that are not
- * finite, negative places, edges without length or parts that do not fit into the struct. */
-static bool joints_of(const carom_corner *corner, int count, double r, joint *j) {
-  /* twice the area, whose sign tells the order */
+ * finite, negative places, edges without length or parts that do not fit into the struct. *twice
+ * becomes twice the area, whose sign tells the order. */
+static bool joints_of(const carom_corner *corner, int count, double r, joint *j, double *twice) {
   double area = 0.0;
   int jaws = 0, pockets = 0;
   for (int k = 0; k < count; k++) {
@@ -104,7 +104,37 @@ static bool joints_of(const carom_corner *corner, int count, double r, joint *j)
     j[k].cut = a->mouth > 0.0 ? (0.5 * a->mouth + r * (1.0 - c)) / s : 0.0;
     jaws += a->mouth > 0.0 ? 2 : j[k].turn < CLEARLY;
   }
-  return area != 0.0 && jaws <= CAROM_JAWS_MOST && pockets <= CAROM_POCKETS_MOST;
+  *twice = area;
+  return jaws <= CAROM_JAWS_MOST && pockets <= CAROM_POCKETS_MOST;
+}
+
+/* On which side of the line from a to b a corner is, by the sign. */
+static double side_of(const carom_corner *a, const carom_corner *b, const carom_corner *c) {
+  return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
+}
+
+/* Whether two sides meet that are no neighbours; *first and *second become theirs, each from its
+ * corner to the next. */
+static bool sides_cross(const carom_corner *corner, int count, int *first, int *second) {
+  for (int k = 0; k < count; k++)
+    for (int n = k + 2; n < count; n++) {
+      const carom_corner *a = &corner[k], *b = &corner[k + 1], *c = &corner[n],
+                         *d = &corner[(n + 1) % count];
+      const double c_side = side_of(a, b, c), d_side = side_of(a, b, d), a_side = side_of(c, d, a),
+                   b_side = side_of(c, d, b);
+      /* sides on one line meet where their boxes do */
+      const bool apart = carom_greater(a->x, b->x) < carom_lesser(c->x, d->x) ||
+                         carom_greater(c->x, d->x) < carom_lesser(a->x, b->x) ||
+                         carom_greater(a->y, b->y) < carom_lesser(c->y, d->y) ||
+                         carom_greater(c->y, d->y) < carom_lesser(a->y, b->y);
+      if ((k > 0 || n < count - 1) && !apart && c_side * d_side <= 0.0 &&
+          a_side * b_side <= 0.0) {
+        *first = k;
+        *second = n;
+        return true;
+      }
+    }
+  return false;
 }
 
 carom_status carom_table_polygon(const carom_corner *corner, int count, double nose_height,
@@ -121,7 +151,20 @@ carom_status carom_table_polygon(const carom_corner *corner, int count, double n
     return CAROM_ERROR_RADIUS;
   if (!(jaw_radius >= 0.0 && jaw_radius < 1e6))
     return CAROM_ERROR_JAW_RADIUS;
-  if (count < 3 || count > CAROM_RAILS_MOST || !joints_of(corner, count, jaw_radius, j))
+  if (count < 3 || count > CAROM_RAILS_MOST)
+    return CAROM_ERROR_CORNERS;
+  double area = 0.0;
+  int first, second;
+  if (!joints_of(corner, count, jaw_radius, j, &area))
+    return CAROM_ERROR_TABLE;
+  if (sides_cross(corner, count, &first, &second)) {
+    if (fault != NULL) {
+      fault->part = (carom_part){CAROM_PART_RAIL, first};
+      fault->other = (carom_part){CAROM_PART_RAIL, second};
+    }
+    return CAROM_ERROR_SIDES_CROSS;
+  }
+  if (area == 0.0)
     return CAROM_ERROR_TABLE;
 
   /* the playing area reaches as far as the corners */

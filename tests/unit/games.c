@@ -467,7 +467,13 @@ TEST(polygon_tables) {
     for (int k = 0; k < t.rails; k++)
       ck_assert_ptr_null(carom_rail_name(&t, k));
   }
-  ck_assert_int_eq(carom_table_polygon(pool, 2, 0.0366, r, R, &t, &fault), CAROM_ERROR_TABLE);
+  ck_assert_int_eq(carom_table_polygon(pool, 2, 0.0366, r, R, &t, &fault), CAROM_ERROR_CORNERS);
+  /* a bow, by which the area may be 0, and a spike that touches the opposite side */
+  static const carom_corner bow[4] = {{0, 0, 0}, {2, 1, 0}, {2, 0, 0}, {0, 1, 0}},
+                            spike[5] = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+  ck_assert_int_eq(carom_table_polygon(bow, 4, 0.0366, r, R, &t, &fault), CAROM_ERROR_SIDES_CROSS);
+  ck_assert(fault.part.kind == CAROM_PART_RAIL && fault.part.index == 0 && fault.other.index == 2);
+  ck_assert_int_eq(carom_table_polygon(spike, 5, 0.0366, r, R, &t, NULL), CAROM_ERROR_SIDES_CROSS);
   ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, -r, R, &t, NULL), CAROM_ERROR_JAW_RADIUS);
   ck_assert_int_eq(carom_table_polygon(pool, 6, 0.2, r, R, &t, NULL), CAROM_ERROR_NOSE_HEIGHT);
   ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, r, NAN, &t, NULL), CAROM_ERROR_RADIUS);
