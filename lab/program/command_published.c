@@ -1,4 +1,5 @@
-/* `carom-lab published`: lab/published.py, which sets the values of data/measured.csv beside carom's.
+/* `carom-lab published`: lab/published.py, which sets the values of data/measured.csv beside those
+ * of carom.
  * It reads carom's headers and calls the shared library. */
 #include "command.h"
 #include "options.h"

@@ -5,6 +5,10 @@
  * first use fills. Asking for a lower set is for tests, comparisons and bug reports; the results
  * of the exact solver agree within its contract on all of them.
  */
+#if defined(__linux__) && !defined(_GNU_SOURCE)
+#define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights
+                       than their user */
+#endif
 #include "platform/isa.h"
 
 #include "platform/enumerations.h"
@@ -12,8 +16,9 @@
 #if defined(__x86_64__)
 #include <cpuid.h>
 #endif
-#if defined(__linux__)
-#include <sys/auxv.h> /* the environment says nothing to programs with more rights than their user */
+#if defined(__ANDROID__) /* without secure_getenv */
+#include <sys/auxv.h>
+#define secure_getenv(name) (getauxval(AT_SECURE) ? NULL : getenv(name))
 #endif
 #include <math.h>
 #include <stdatomic.h>
@@ -129,8 +134,8 @@ static carom_isa best_up_to(carom_isa limit) {
 }
 
 static carom_isa from_environment(void) {
-#if defined(__linux__) && defined(AT_SECURE)
-  const char *wanted = getauxval(AT_SECURE) ? NULL : getenv("CAROM_ISA");
+#if defined(__linux__)
+  const char *wanted = secure_getenv("CAROM_ISA");
 #else
   const char *wanted = getenv("CAROM_ISA");
 #endif

@@ -127,8 +127,7 @@ static bool sides_cross(const carom_corner *corner, int count, int *first, int *
                          carom_greater(c->x, d->x) < carom_lesser(a->x, b->x) ||
                          carom_greater(a->y, b->y) < carom_lesser(c->y, d->y) ||
                          carom_greater(c->y, d->y) < carom_lesser(a->y, b->y);
-      if ((k > 0 || n < count - 1) && !apart && c_side * d_side <= 0.0 &&
-          a_side * b_side <= 0.0) {
+      if ((k > 0 || n < count - 1) && !apart && c_side * d_side <= 0.0 && a_side * b_side <= 0.0) {
         *first = k;
         *second = n;
         return true;
