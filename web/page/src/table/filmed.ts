@@ -1,15 +1,11 @@
 // What the player shows of a shot: where its balls are and how they have turned at a time, and the paths that they take.
 import type { BallState, Shot, ShotBall, Table } from "carom";
-import { product, wordsOf } from "../../../player/words.js";
+import { type Film, product, wordsOf } from "../../../player/words.js";
 
 /** How long a ball falls in a pocket, about, s. */
 const FALL = 0.16;
 
-/** x, y, z of a ball, m, point after point. */
-export interface Path {
-  ball: number;
-  xyz: Float64Array;
-}
+export type Path = Film["shots"][number]["paths"][number];
 
 export const onTable = ({ label }: Pick<BallState, "label">): boolean => label !== "pocketed" && label !== "off";
 /** How long the film of a shot is: a ball that was pocketed at the end falls after it. */
