@@ -3,8 +3,10 @@ import { defineConfig } from "vitest/config";
 export default defineConfig({
   test: {
     include: ["{npm,page}/test/**/*.test.ts"],
-    testTimeout: 60000,
-    hookTimeout: 60000,
+    // Limits of what hangs, which nothing reaches on a busy machine: no test is judged by a clock.
+    testTimeout: 600_000,
+    hookTimeout: 600_000,
+    expect: { poll: { timeout: 300_000 } },
     // Two at a time: tests of the page mostly wait for films.
     maxWorkers: 2,
     minWorkers: 1,

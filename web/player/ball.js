@@ -2,9 +2,8 @@
 import { disc } from "./table.js";
 import { colourOf, IVORY, POOL } from "./words.js";
 
-/** @typedef {import("./words.js").Point} Point */
-/** @typedef {import("./words.js").Pose} Pose */
-/** @typedef {import("./table.js").View} View */
+/** @import { Point, Pose } from "./words.js" */
+/** @import { View } from "./table.js" */
 
 /** Radii of what is drawn on a ball, as angles seen from its middle: a white end of a striped ball, a number, a dot. */
 const [END, NUMBER, DOT] = [0.9, 0.52, 0.2];

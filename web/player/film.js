@@ -1,10 +1,9 @@
 // The pictures of a film: its trails and its balls at a time; and the film of a page that the command wrote.
 import { drawBall } from "./ball.js";
-import { colourOf, IVORY, POOL, wordsOf } from "./words.js";
+import { colourOf, IVORY, POOL, product, wordsOf } from "./words.js";
 
-/** @typedef {import("./words.js").Table} Table */
-/** @typedef {import("./words.js").Film} Film */
-/** @typedef {import("./table.js").View} View */
+/** @import { Film, Table } from "./words.js" */
+/** @import { View } from "./table.js" */
 
 /** Of trails, which have to be bright on the cloth. @type {Record<string, string>} */
 const BRIGHT = { [POOL[0]]: "#ffd84a", [POOL[1]]: "#8fc1ff", [POOL[2]]: "#ff8d80", [POOL[3]]: "#d3b3ff", [POOL[4]]: "#ffb466", [POOL[5]]: "#b6f09c", [POOL[6]]: "#f2a0bd", "#7b4a21": "#c9a27a" };
@@ -58,11 +57,10 @@ export function recorded({ table, balls, shots }) {
         const share = to > from ? since / (times[k + 1] - times[k]) : 0;
         const r = [0, 1, 2].map((c) => pose[from + c] + share * (pose[to + c] - pose[from + c]));
         // It turns on by its spin.
-        const [w, i, j, n, ...spin] = pose.slice(from + 3, from + 10);
+        const spin = pose.slice(from + 7, from + 10);
         const rate = Math.hypot(...spin);
         const [c, s] = [Math.cos((rate * since) / 2), rate > 0 ? Math.sin((rate * since) / 2) / rate : 0];
-        const [x, y, z] = spin.map((part) => part * s);
-        const q = [c * w - x * i - y * j - z * n, c * i + x * w + y * n - z * j, c * j + y * w + z * i - x * n, c * n + z * w + x * j - y * i];
+        const q = product([c, ...spin.map((part) => part * s)], pose.slice(from + 3, from + 7));
         return { r, q, seen: pose[from + 2] >= 0 && (moves || index === 0) };
       });
     },

@@ -3,10 +3,7 @@ import { drawBall } from "./ball.js";
 import { drawBalls, drawTrails } from "./film.js";
 import { clothFor, fitTable, viewOf } from "./table.js";
 
-/** @typedef {import("./words.js").Film} Film */
-/** @typedef {import("./words.js").Point} Point */
-/** @typedef {import("./words.js").Pose} Pose */
-/** @typedef {import("./words.js").Hooks} Hooks */
+/** @import { Film, Hooks, Point, Pose } from "./words.js" */
 /** @typedef {ReturnType<typeof parts>} Parts */
 /** What a player shows, and when of it, s; `before` is when the last frame was drawn, ms, and `all` has the events of all shots.
  * @typedef {{ film: Film | undefined, time: number, end: number, playing: boolean, before: number, listing: number,

@@ -1,11 +1,10 @@
 // The table without balls, and where it lies on its canvas.
 
-/** @typedef {import("./words.js").Point} Point */
-/** @typedef {import("./words.js").Table} Table */
+/** @import { Point, Table } from "./words.js" */
 /** @typedef {ReturnType<typeof viewOf>} View */
 
 /** Wood around the noses of the cushions, m. */
-const WOOD = 0.1;
+export const WOOD = 0.1;
 
 /** Where a table lies on a canvas: pixels for each m, where its corner is, and whether it stands. A table that lies has its length along the canvas'
  * width. The table may be larger than its place on the page by `zoom`; then `middle` of it is in the middle, m; undefined: its own middle. */
@@ -31,14 +30,9 @@ export function viewOf() {
   };
 }
 
-/** Makes a canvas as large as its place is, but for its height no larger than the window; returns its width and height, and pixels of the picture for
- * one of the page. @param {View} view @param {HTMLCanvasElement} canvas @param {Table} table @param {number} sharp @returns {[number, number, number]} */
-export function fitTable(view, canvas, table, sharp) {
-  const [w, l] = [table.width + 2 * WOOD, table.length + 2 * WOOD];
-  const upright = (view.upright = document.documentElement.clientWidth < 480);
-  const ratio = upright ? l / w : w / l;
-  // A browser that does not know dvh keeps vh.
-  for (const unit of ["vh", "dvh"]) canvas.style.maxWidth = `calc((100${unit} - var(--beside, 9rem)) * ${1 / ratio})`;
+/** Makes a canvas as wide as its place is, and so much higher; returns its width and height, and pixels of the picture for one of the page.
+ * @param {HTMLCanvasElement} canvas @param {number} ratio @param {number} [sharp] @returns {[number, number, number]} */
+export function fit(canvas, ratio, sharp = 1) {
   const width = Math.max(canvas.clientWidth, 50);
   const height = Math.round(width * ratio);
   const dpr = Math.max(window.devicePixelRatio || 1, sharp);
@@ -46,6 +40,18 @@ export function fitTable(view, canvas, table, sharp) {
     canvas.style.height = `${height}px`;
     [canvas.width, canvas.height] = [Math.round(width * dpr), Math.round(height * dpr)];
   }
+  return [width, height, dpr];
+}
+
+/** Fits a canvas with a table, no larger than the window is high. @param {View} view @param {HTMLCanvasElement} canvas @param {Table} table
+ * @param {number} sharp */
+export function fitTable(view, canvas, table, sharp) {
+  const [w, l] = [table.width + 2 * WOOD, table.length + 2 * WOOD];
+  const upright = (view.upright = document.documentElement.clientWidth < 480);
+  const ratio = upright ? l / w : w / l;
+  // A browser that does not know dvh keeps vh.
+  for (const unit of ["vh", "dvh"]) canvas.style.maxWidth = `calc((100${unit} - var(--beside, 9rem)) * ${1 / ratio})`;
+  const [width, height, dpr] = fit(canvas, ratio, sharp);
   view.scale = width / (upright ? w : l);
   view.offset = [WOOD * view.scale, upright ? height - WOOD * view.scale : WOOD * view.scale];
   const { zoom, middle } = view;
@@ -55,11 +61,11 @@ export function fitTable(view, canvas, table, sharp) {
     view.scale *= zoom;
     view.offset = /** @type {[number, number]} */ ([width, height].map((size, k) => size / 2 - Math.min(Math.max(zoom * at[k], size / 2), (zoom - 0.5) * size) + zoom * view.offset[k]));
   }
-  return [width, height, dpr];
+  return /** @type {const} */ ([width, height, dpr]);
 }
 
-/** @param {CanvasRenderingContext2D} g @param {View} view @param {(readonly number[])[]} points */
-const line = (g, view, points) => {
+/** @param {CanvasRenderingContext2D} g @param {Pick<View, "place">} view @param {readonly (readonly number[])[]} points */
+export const line = (g, view, points) => {
   g.beginPath();
   points.forEach(([x, y], k) => g[k === 0 ? "moveTo" : "lineTo"](...view.place(x, y)));
   g.stroke();

@@ -2,7 +2,7 @@
 // page imports, and which the command writes one behind the other into the pages of `carom shoot --animate`: no two of them have one name for two things.
 
 /** @typedef {readonly [number, number]} Point */
-/** @typedef {{ width: number, length: number, rails: { p: Point, q: Point }[], jaws: { centre: Point, radius: number }[],
+/** @typedef {{ width: number, length: number, rails: { p: Point, q: Point, height?: number }[], jaws: { centre: Point, radius: number }[],
  *   pockets: { centre: Point, radius: number }[] }} Table */
 /** Where a ball is, m, and how it has turned: a unit quaternion w, x, y, z. It is not seen where it lies in a pocket or on the floor.
  * @typedef {{ r: readonly number[], q: ArrayLike<number>, seen: boolean }} Pose */
@@ -12,6 +12,15 @@
 /** @typedef {{ table: Table, balls: { name: string, radius: number }[], shots: Shot[], apart?: boolean }} Film */
 /** @typedef {{ under?(g: CanvasRenderingContext2D): boolean, over?(g: CanvasRenderingContext2D): void, ended?(): void, moved?(): void,
  *   still?(): boolean, sharp?: number }} Hooks */
+
+/** The product of two rotations, w, x, y, z: first b, then a. @param {ArrayLike<number>} a @param {ArrayLike<number>} b
+ * @returns {[number, number, number, number]} */
+export const product = ({ 0: w, 1: i, 2: j, 3: n }, { 0: c, 1: x, 2: y, 3: z }) => [
+  w * c - i * x - j * y - n * z,
+  w * x + i * c + j * z - n * y,
+  w * y - i * z + j * c + n * x,
+  w * z + i * y - j * x + n * c,
+];
 
 export const IVORY = "#fbfaf5";
 export const POOL = ["#e3b505", "#1446a0", "#c8102e", "#5b2a86", "#e8702a", "#12664f", "#7a1f2b", "#16181b"];

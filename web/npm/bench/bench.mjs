@@ -1,8 +1,6 @@
-// npm run bench: the package beside the native library. Ratios within one run are what counts; each figure is the median of interleaved rounds,
-// with the least. Native figures need build/libcarom.a and cc.
-import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+// npm run bench: how long the calls of the package take. Ratios within one run are what counts; each figure is the median of interleaved rounds,
+// with the least.
+import { readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { load } from "../dist/index.js";
 
@@ -37,23 +35,9 @@ for (const build of ["simd", "plain"]) {
     tasks.push({ what: `WebAssembly ${build}: nine-ball break, ${cushionModel}`, count: 100, go: () => carom.simulateBatch(shots, { cushionModel }) });
 }
 
-// Native: native.c with the library of build/, by `plain`.
-const folder = mkdtempSync(`${tmpdir()}/carom-bench-`);
-const native = {};
-const library = `${root}build/libcarom.a`;
-if (existsSync(library)) {
-  execFileSync("cc", ["-std=c17", "-O2", `-I${root}include`, `${root}web/npm/bench/native.c`, library, "-lm", "-pthread", "-o", `${folder}/native`]);
-  for (const name of ["batch", "calls", "euler", "han", "mathavan"]) tasks.push({ what: `native plain: ${name}`, times: (native[name] = []) });
-} else {
-  console.log(`# without native figures: there is no ${library}`);
-}
-const all = new Float64Array(TIMES * one.length);
-for (let k = 0; k < TIMES; k++) all.set(one, k * one.length);
-
-for (const task of tasks) task.times ??= [];
+for (const task of tasks) task.times = [];
 for (let round = 0; round < 9; round++) {
   for (const task of tasks) {
-    if (!task.go) continue;
     const begun = performance.now();
     let turns = 0;
     do {
@@ -62,13 +46,7 @@ for (let round = 0; round < 9; round++) {
     } while (performance.now() - begun < 30);
     task.times.push((performance.now() - begun) / turns / task.count);
   }
-  if (existsSync(`${folder}/native`))
-    for (const line of execFileSync(`${folder}/native`, [String(N)], { input: Buffer.from(all.buffer), encoding: "utf8" }).trim().split("\n")) {
-      const [name, ns] = line.split(" ");
-      native[name].push(Number(ns) / 1e6);
-    }
 }
-rmSync(folder, { recursive: true });
 console.log(`# Node ${process.version}, ${process.arch}; 204 reference collisions; ns each, median of 9 rounds (least)`);
 for (const { what, times } of tasks) {
   times.sort((a, b) => a - b);

@@ -20,18 +20,19 @@ async function begin(main: HTMLElement): Promise<void> {
   const solver = document.getElementById("solver") as HTMLSelectElement;
   const theme = document.getElementById("theme") as HTMLButtonElement;
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  const dress = (name: "light" | "dark"): void => {
-    document.documentElement.dataset.theme = name;
-    theme.textContent = name === "dark" ? "Light" : "Dark";
+  let view: View | undefined;
+  const dress = (isDark: boolean): void => {
+    document.documentElement.dataset.theme = isDark ? "dark" : "light";
+    theme.textContent = isDark ? "Light" : "Dark";
+    view?.theme();
   };
-  dress(dark.matches ? "dark" : "light");
+  dress(dark.matches);
   const carom = await load({ build: "simd" }).catch((error: unknown) => {
     throw error instanceof WebAssembly.CompileError ? new Error("this page needs WebAssembly with vectors: Chrome 91, Firefox 113, Safari 16.4, or newer") : error;
   });
   document.getElementById("about")!.append(` carom ${carom.version}.`);
   solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
   const chosen = (): "exact" | "euler" => (solver.value === "euler" ? "euler" : "exact");
-  let view: View | undefined;
   const show = (): void => {
     const given = parameters().get("view") ?? "play";
     // "shot" is what links of version 0.3.0 call the laboratory.
@@ -49,12 +50,8 @@ async function begin(main: HTMLElement): Promise<void> {
   show();
   window.addEventListener("hashchange", show);
   solver.addEventListener("change", () => view?.update());
-  const dressed = (name: "light" | "dark"): void => {
-    dress(name);
-    view?.theme();
-  };
-  theme.addEventListener("click", () => dressed(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
-  dark.addEventListener("change", () => dressed(dark.matches ? "dark" : "light"));
+  theme.addEventListener("click", () => dress(document.documentElement.dataset.theme !== "dark"));
+  dark.addEventListener("change", () => dress(dark.matches));
   let waiting = 0;
   window.addEventListener("resize", () => {
     window.clearTimeout(waiting);

@@ -7,15 +7,9 @@ export { el };
 /** What went wrong, in words. */
 export const wrong = (error: unknown): string => (error instanceof Error ? error.message : String(error));
 
-export interface Slider {
-  root: HTMLElement;
-  input: HTMLInputElement;
-  get value(): number;
-  set value(x: number);
-}
-
+export type Slider = ReturnType<typeof slider>;
 /** A labelled slider with its value and unit. */
-export function slider(id: string, text: string, min: number, max: number, step: number, unit: string, onInput: () => void, show = (x: number) => String(x)): Slider {
+export function slider(id: string, text: string, min: number, max: number, step: number, unit: string, onInput: () => void, show = (x: number) => String(x)) {
   const input = el("input", { type: "range", id, min: String(min), max: String(max), step: String(step) });
   const output = el("output", { for: id, id: `${id}-value` });
   // A value that was set is kept as it is; the slider itself rounds to its steps.
@@ -43,27 +37,34 @@ export function slider(id: string, text: string, min: number, max: number, step:
   };
 }
 
+/** Follows a pointer that is held on an element: calls for where it goes down, which comes first, and where it moves to. */
+export function drags(on: HTMLElement, over: (event: PointerEvent, first: boolean) => void): void {
+  on.addEventListener("pointerdown", (event) => {
+    on.setPointerCapture(event.pointerId);
+    over(event, true);
+  });
+  on.addEventListener("pointermove", (event) => on.hasPointerCapture(event.pointerId) && over(event, false));
+}
+
+/** What sliders are set to. */
+export const valuesOf = <K extends string>(sliders: Record<K, Slider>): Record<K, number> => Object.fromEntries(Object.entries<Slider>(sliders).map(([key, one]) => [key, one.value])) as Record<K, number>;
+
 /** A ball as whoever strikes sees it, with the tip on it: right and up in radii, at most 0.7 from the middle. The sliders do the same by keys. */
 export function pad(id: string, text: string, onInput: (right: number, up: number) => void): { root: HTMLElement; set(right: number, up: number): void } {
   const root = el("div", { id, class: "pad", role: "img", "aria-label": text });
   root.innerHTML =
     '<svg viewBox="-1.05 -1.05 2.1 2.1"><circle r="1" fill="#fbfaf5" stroke="#000a" stroke-width="0.03"/><circle r="0.5" fill="none" stroke="#0006" stroke-width="0.02" stroke-dasharray="0.06 0.05"/>' +
     '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle class="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
-  const move = (event: PointerEvent): void => {
+  drags(root, (event, first) => {
     const box = root.getBoundingClientRect();
     const [x, y] = [(2.1 * (event.clientX - box.left)) / box.width - 1.05, 1.05 - (2.1 * (event.clientY - box.top)) / box.height];
     const most = Math.min(1, 0.7 / Math.hypot(x, y));
     onInput(Math.round(100 * most * x) / 100, Math.round(100 * most * y) / 100);
-  };
-  root.addEventListener("pointerdown", (event) => {
-    root.setPointerCapture(event.pointerId);
-    move(event);
+    if (!first) return;
     // One that grows does so around the finger, which stays on the same place of the ball.
-    const box = root.getBoundingClientRect();
     root.style.transformOrigin = `${event.clientX - box.left}px ${event.clientY - box.top}px`;
     root.classList.add("held");
   });
-  root.addEventListener("pointermove", (event) => root.hasPointerCapture(event.pointerId) && move(event));
   for (const type of ["pointerup", "pointercancel"]) root.addEventListener(type, () => root.classList.remove("held"));
   return { root, set: (right, up) => root.querySelector(".tip")!.setAttribute("transform", `translate(${right} ${-up})`) };
 }
@@ -86,6 +87,16 @@ export function check(id: string, text: string, onChange: () => void): { root: H
   return { root: el("label", { class: "check" }, input, text), input };
 }
 
+/** Tells what tasks answer, or why they failed, of each but the last one nothing. A task asks whether it is still the last. */
+export function latest(tell: (text: string) => void): (task: (wanted: () => boolean) => Promise<string>) => Promise<void> {
+  let last: unknown;
+  return async (task) => {
+    last = task;
+    const text = await task(() => last === task).catch(wrong);
+    if (last === task) tell(text);
+  };
+}
+
 /** Calls `draw` once before the next frame, however often it is asked for. */
 export function eachFrame(draw: () => void): () => void {
   let asked = false;
@@ -102,22 +113,6 @@ export function eachFrame(draw: () => void): () => void {
 /** A color of the page's theme. */
 export function color(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-}
-
-/** Fits a canvas to its place at the device's resolution; returns its context in CSS pixels and its size. */
-export function fit(canvas: HTMLCanvasElement, ratio: number): { g: CanvasRenderingContext2D; width: number; height: number } {
-  const width = Math.max(canvas.clientWidth, 50);
-  const height = Math.round(width * ratio);
-  const dpr = window.devicePixelRatio || 1;
-  if (canvas.width !== Math.round(width * dpr) || canvas.height !== Math.round(height * dpr)) {
-    canvas.style.height = `${height}px`;
-    canvas.width = Math.round(width * dpr);
-    canvas.height = Math.round(height * dpr);
-  }
-  const g = canvas.getContext("2d")!;
-  g.setTransform(dpr, 0, 0, dpr, 0, 0);
-  g.clearRect(0, 0, width, height);
-  return { g, width, height };
 }
 
 export function arrow(g: CanvasRenderingContext2D, x: number, y: number, dx: number, dy: number, stroke: string, dashed = false): void {

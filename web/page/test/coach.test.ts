@@ -3,7 +3,7 @@ import { describe, expect, test } from "vitest";
 import { browserPath, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("beside the game", () => {
-  const { open, text, set } = pages();
+  const { open, text, set, turnTo } = pages();
 
   test("the coach tells chances before a stroke, what it cost after it, and keeps a log to print", async () => {
     const one = await open("", { width: 390, height: 844, touch: true });
@@ -16,16 +16,13 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await one.locator("#rate").selectOption("1000");
     await one.locator("#menu .close").click();
     await one.locator("#hint").click();
-    await expect.poll(() => text(one, "said"), { timeout: 30_000 }).toMatch(/^Hint: ball [19] into the .*\. It keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\.$/);
+    await expect.poll(() => text(one, "said")).toMatch(/^Hint: ball [19] into the .*\. It keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\.$/);
     // A stroke that meets nothing: a foul, which the chances and the review tell.
-    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
-      input.value = "200";
-      input.dispatchEvent(new Event("input"));
-    });
+    await turnTo(one, 200);
     await set(one, "power", 0.6);
-    await expect.poll(() => text(one, "said"), { timeout: 30_000 }).toMatch(/^This stroke keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/);
+    await expect.poll(() => text(one, "said")).toMatch(/^This stroke keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/);
     await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said"), { timeout: 30_000 }).toMatch(/^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/);
+    await expect.poll(() => text(one, "said")).toMatch(/^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/);
     await one.locator("#new-game").click();
     await one.locator("#open-log").click();
     expect(await one.locator("#log tbody tr").count()).toBe(1);
@@ -42,7 +39,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     const one = await open("", how);
     expect(await one.locator("#scene").count()).toBe(0);
     await one.locator("#space").click();
-    await one.locator("#scene").waitFor({ timeout: 30_000 });
+    await one.locator("#scene").waitFor();
     expect(await violations(one)).toEqual([]);
     // What is seen changes with the aim and with the balls.
     const seen = async (): Promise<string> => (await one.locator("#scene").screenshot()).toString("base64");
@@ -56,8 +53,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     const turned = await seen();
     expect(turned).not.toBe(before);
     await one.locator("#shoot").click();
-    await one.waitForTimeout(800);
-    expect(await seen()).not.toBe(turned);
+    await expect.poll(seen).not.toBe(turned);
     await one.locator("#space").click();
     expect(await one.locator("#scene").count()).toBe(0);
     expect(await one.locator("#table-scene").isVisible()).toBe(true);
@@ -70,12 +66,9 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await one.evaluate(() => localStorage.setItem("carom-game", JSON.stringify({ game: "nineball", against: "person", own: "0", seed: 7, at: "0.635,0.635 0.75,0.4 in in in in in in in in", entries: [] })));
     await one.reload();
     await one.waitForSelector("main[aria-busy=false]");
-    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
-      input.value = "90";
-      input.dispatchEvent(new Event("input"));
-    });
+    await turnTo(one, 90);
     await one.locator("#space").click();
-    await one.locator("#scene").waitFor({ timeout: 30_000 });
+    await one.locator("#scene").waitFor();
     const png = (await one.locator("#scene").screenshot()).toString("base64");
     const { width, height, letters } = await one.evaluate(async (png) => {
       const image = new Image();

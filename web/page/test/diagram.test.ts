@@ -6,7 +6,7 @@ import type { Page } from "playwright-core";
 import { browserPath, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("a diagram", () => {
-  const { open, text, set } = pages();
+  const { open, text, set, turnTo } = pages();
   const picture = (one: Page): Promise<string> => one.locator("#diagram-scene").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
   async function opened(one: Page): Promise<void> {
     await one.locator("#new-game").click();
@@ -24,10 +24,7 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
 
   test.each(sizes)("balls before and after a stroke, its path and notes are printed, and a link keeps them: %s", async (_, how) => {
     const one = await kept(PRACTICE, how);
-    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
-      input.value = "70";
-      input.dispatchEvent(new Event("input"));
-    });
+    await turnTo(one, 70);
     await set(one, "power", 3);
     await opened(one);
     expect(await one.locator("#diagram-which option").allTextContents()).toEqual(["the stroke that is aimed", "the balls as they lie"]);

@@ -72,14 +72,14 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       await plays.bringToFront();
       if (strokes > 0) {
         await plays.locator("#hint").click();
-        await expect.poll(() => text(plays, "said"), { timeout: 60_000 }).toMatch(/^Hint: /);
+        await expect.poll(() => text(plays, "said")).toMatch(/^Hint: /);
       }
       await plays.locator("#shoot").click();
       await hears.bringToFront();
-      await expect.poll(() => text(hears, "said"), { timeout: 20_000 }).toBe(`Stroke ${strokes + 1} was repeated; every bit agrees.`);
+      await expect.poll(() => text(hears, "said")).toBe(`Stroke ${strokes + 1} was repeated; every bit agrees.`);
       heard++;
       // Then somebody may play, or has won.
-      await expect.poll(async () => /won/.test(await turn(one)) || (await one.locator("#shoot:enabled").count()) + (await other.locator("#shoot:enabled").count()) === 1, { timeout: 20_000 }).toBe(true);
+      await expect.poll(async () => /won/.test(await turn(one)) || (await one.locator("#shoot:enabled").count()) + (await other.locator("#shoot:enabled").count()) === 1).toBe(true);
     }
     expect(heard).toBe(strokes);
     const [mine, yours] = [await turn(one), await turn(other)];

@@ -101,6 +101,17 @@ async function bright(one: Page, from: readonly [number, number], to: readonly [
   for (let k = 0; k < data.length; k += 4) if (Math.min(data[k]!, data[k + 1]!, data[k + 2]!) > 140) count++;
   return count;
 }
+/** Waits until the page has drawn so many frames: what was asked for before them is seen. */
+const frames = (one: Page, count = 2): Promise<void> =>
+  one.evaluate(async (count) => {
+    for (let k = 0; k < count; k++) await new Promise(requestAnimationFrame);
+  }, count);
+/** Sets the direction of a stroke, whose slider may be folded away. */
+const turnTo = (one: Page, phi: number): Promise<void> =>
+  one.locator("#phi").evaluate((input: HTMLInputElement, phi) => {
+    input.value = String(phi);
+    input.dispatchEvent(new Event("input"));
+  }, phi);
 const text = async (one: Page, id: string): Promise<string> => (await one.locator(`#${id}`).textContent())!;
 const set = (one: Page, id: string, value: number): Promise<void> => one.locator(`#${id}`).fill(String(value));
 
@@ -122,6 +133,7 @@ export function pages() {
 
   async function open(hash: string, { width = 1300, height = 800, dark = false, touch = false } = {}): Promise<Page> {
     const one = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", hasTouch: touch, permissions: ["clipboard-read", "clipboard-write"] });
+    one.setDefaultTimeout(300_000);
     one.on("console", (message) => ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall due to ReadPixels") && said.push(`${hash}: ${message.text()}`));
     one.on("pageerror", (error) => said.push(`${hash}: ${error.message}`));
     one.on("request", (request) => asked.push(request.url()));
@@ -131,5 +143,5 @@ export function pages() {
     return one;
   }
 
-  return { open, on, drag, click, lies, pixel, colour, bright, text, set, said, browser: () => browser };
+  return { open, on, drag, click, lies, pixel, colour, bright, frames, turnTo, text, set, said, browser: () => browser };
 }

@@ -4,7 +4,7 @@ import type { Page } from "playwright-core";
 import { browserPath, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("a game", () => {
-  const { open, on, drag, click, pixel, bright, text, set } = pages();
+  const { open, on, drag, click, pixel, bright, text, set, frames, turnTo } = pages();
   const turn = (one: Page): Promise<string> => text(one, "turn");
   const phi = async (one: Page): Promise<number> => Number(await one.locator("#phi").inputValue());
 
@@ -32,11 +32,10 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   }
   const NINE = { game: "nineball", own: "0", seed: 7 };
 
-  test.each(sizes)("it opens on a game, soon, with all that a stroke needs within one screen: %s", async (_, how) => {
+  test.each(sizes)("it opens on a game, with all that a stroke needs within one screen: %s", async (_, how) => {
     const one = await open("", how);
     const paint = await one.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]!.startTime);
     console.log(`first paint after ${paint.toFixed(0)} ms`);
-    expect(paint).toBeLessThan(1500);
     expect(await turn(one)).toContain("You break");
     for (const id of ["table-scene", "power", "tip-ball", "shoot", "hint", "turn", "said"]) {
       const box = (await one.locator(`#${id}`).boundingBox())!;
@@ -87,14 +86,14 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     const box = (await one.locator("#shoot").boundingBox())!;
     await one.mouse.move(box.x + 20, box.y + 20);
     await one.mouse.down();
-    await expect.poll(async () => Number(await one.locator("#power").inputValue()), { timeout: 5000 }).toBeGreaterThan(4);
+    await expect.poll(async () => Number(await one.locator("#power").inputValue())).toBeGreaterThan(4);
     // Let go beside it: nothing is played.
     await one.mouse.move(box.x - 300, box.y);
     await one.mouse.up();
     expect(await one.locator("#skip").isVisible()).toBe(false);
     await one.mouse.move(box.x + 20, box.y + 20);
     await one.mouse.down();
-    await expect.poll(async () => Number(await one.locator("#power").inputValue()), { timeout: 5000 }).toBeGreaterThan(4);
+    await expect.poll(async () => Number(await one.locator("#power").inputValue())).toBeGreaterThan(4);
     await one.mouse.up();
     await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
     await one.reload();
@@ -122,7 +121,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       devtools.send("Input.dispatchTouchEvent", { type, touchPoints: touchPoints as [], timestamp });
     const nothing = async (told: RegExp): Promise<void> => {
       await expect.poll(() => text(one, "said")).toMatch(told);
-      await one.waitForTimeout(100);
+      await frames(one, 6);
       expect(await one.locator("#skip").isVisible()).toBe(false);
       expect(await one.locator("#call-off").isVisible()).toBe(false);
       expect(await text(one, "shoot")).toBe("Shoot");
@@ -135,7 +134,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await nothing(/^Nothing was played/);
     const drawn = async (press: () => Promise<unknown>): Promise<void> => {
       await press();
-      await expect.poll(async () => Number(await one.locator("#power").inputValue()), { timeout: 5000 }).toBeGreaterThan(3);
+      await expect.poll(async () => Number(await one.locator("#power").inputValue())).toBeGreaterThan(3);
       expect(await text(one, "shoot")).toBe("Let go to play");
     };
     const called = async (off: () => Promise<unknown>): Promise<void> => {
@@ -182,7 +181,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       expect(await seen(), id).toEqual(first);
     }
     const phases = new Set<string>();
-    for (let k = 0; k < 300 && !phases.has("thinks"); k++) {
+    while (!phases.has("thinks")) {
       // A weak stroke passes the turn.
       if (await one.locator("#shoot:enabled").isVisible()) {
         await set(one, "power", 0.3);
@@ -190,7 +189,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       }
       phases.add((await turn(one)).match(/play|thinks|Your turn|fouls/)?.[0] ?? "");
       expect(await seen(), await turn(one)).toEqual(first);
-      await one.waitForTimeout(50);
+      await frames(one);
     }
     expect([...phases]).toEqual(expect.arrayContaining(["play", "thinks"]));
     await one.close();
@@ -199,10 +198,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   test("whoever comes to the table has his own power, the tip in the middle, and the aim at the nearest ball that is on", async () => {
     const one = await kept({ ...NINE, against: "person", at: "0.635,0.635 0.3,1.9 0.6,0.9 in in in in in in 0.9,1.9", entries: [] });
     await pace(one, "1000");
-    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
-      input.value = "200";
-      input.dispatchEvent(new Event("input"));
-    });
+    await turnTo(one, 200);
     await one.locator(".numbers-of summary").click();
     await set(one, "right", 0.3);
     await set(one, "power", 0.4);
@@ -242,14 +238,14 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.locator("#shoot").click();
     // The break of full power may keep the turn, and so may a slow stroke after it.
     for (;;) {
-      await expect.poll(() => turn(one), { timeout: 60_000 }).toMatch(/^[^…]*Your turn|The 300 thinks/);
+      await expect.poll(() => turn(one)).toMatch(/^[^…]*Your turn|The 300 thinks/);
       await set(one, "power", 1.7);
       if (!/Your turn/.test(await turn(one))) break;
       await one.locator("#shoot").click();
       await expect.poll(() => turn(one)).toMatch(/…/);
     }
-    await expect.poll(() => one.evaluate(() => (window as unknown as { sticks: number }).sticks), { timeout: 60_000 }).toBeGreaterThan(100);
-    await expect.poll(() => turn(one), { timeout: 90_000 }).toMatch(/Your turn|won/);
+    await expect.poll(() => one.evaluate(() => (window as unknown as { sticks: number }).sticks)).toBeGreaterThan(100);
+    await expect.poll(() => turn(one)).toMatch(/Your turn|won/);
     expect(await one.locator("#power").inputValue()).toBe("1.7");
     expect(await text(one, "said")).toMatch(/^The 300 pocketed (no ball|the \d+( and the \d+)*)\.$/);
     await one.close();
@@ -275,10 +271,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await expect.poll(() => turn(one)).toMatch(/Nothing is called: aim at a ball, or tap a pocket\.$/);
     await click(one, -0.03, 1.27, touch);
     await expect.poll(() => turn(one)).toMatch(/Call: the 8, side-left pocket\.$/);
-    await one.locator("#phi").evaluate((input: HTMLInputElement, phi) => {
-      input.value = String(phi);
-      input.dispatchEvent(new Event("input"));
-    }, await aims);
+    await turnTo(one, await aims);
     await expect.poll(() => turn(one)).toMatch(/Call: the 8, foot-right pocket\.$/);
     await one.locator("#shoot").click();
     const { entries } = JSON.parse((await one.evaluate(() => localStorage.getItem("carom-game")))!) as { entries: { call: { ball: number } }[] };
@@ -288,20 +281,15 @@ describe.runIf(browserPath !== undefined)("a game", () => {
 
   test("a pocket that was tapped is called as long as the aim is at its ball; the call is that of the aim at the stroke", async () => {
     const one = await kept({ game: "eightball", own: "0", seed: 7, against: "person", at: "0.6,1.2 0.9,1.8 0.3,1.87 in in in in in 1.17,2.44 0.1,0.5 in in in in in in", entries: [] });
-    const to = (degrees: number): Promise<void> =>
-      one.locator("#phi").evaluate((input: HTMLInputElement, phi) => {
-        input.value = String(phi);
-        input.dispatchEvent(new Event("input"));
-      }, degrees);
-    await to(63.2);
+    await turnTo(one, 63.2);
     await expect.poll(() => turn(one)).toContain("Call: the 1, foot-right pocket.");
     await click(one, -0.03, 1.27);
     await expect.poll(() => turn(one)).toContain("Call: the 1, side-left pocket.");
-    await to(63.6);
-    await one.waitForTimeout(100);
+    await turnTo(one, 63.6);
+    await frames(one, 6);
     expect(await turn(one)).toContain("Call: the 1, side-left pocket.");
     // At another ball it is another call.
-    await to(114.1);
+    await turnTo(one, 114.1);
     await expect.poll(() => turn(one)).toContain("Call: the 2, foot-left pocket.");
     await one.locator("#table-scene").press("c");
     await expect.poll(() => turn(one)).toMatch(/Call: the 2, (?!foot-left)/);
@@ -370,10 +358,10 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     const box = (await one.locator("#shoot").boundingBox())!;
     const devtools = await one.context().newCDPSession(one);
     await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x: box.x + box.width / 2, y: box.y + box.height / 2 }] });
-    await expect.poll(async () => Number(await one.locator("#power").inputValue()), { timeout: 5000 }).toBeGreaterThan(4);
+    await expect.poll(async () => Number(await one.locator("#power").inputValue())).toBeGreaterThan(4);
     await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
     await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
-    await one.waitForTimeout(300);
+    await frames(one, 20);
     expect(await one.locator("#skip").isVisible()).toBe(true);
     await one.close();
   });
@@ -384,7 +372,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.locator("#shoot").click();
     await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
     await one.locator("#skip").click();
-    await expect.poll(() => turn(one), { timeout: 20_000 }).not.toContain("You break");
+    await expect.poll(() => turn(one)).not.toContain("You break");
     expect(await text(one, "said")).not.toContain("Hint");
     await one.close();
   });
@@ -395,10 +383,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     // The cue ball is put near a corner, and played into it.
     await drag(one, [0.635, 0.635], [0.2, 0.2]);
     await click(one, 0.05, 0.05);
-    await one.locator("#phi").evaluate((input: HTMLInputElement) => {
-      input.value = "225";
-      input.dispatchEvent(new Event("input"));
-    });
+    await turnTo(one, 225);
     await set(one, "power", 2);
     await one.locator("#shoot").click();
     await expect.poll(() => turn(one)).toMatch(/^Player 1 fouls: .*Player 2's turn.* Cue ball in hand/);
@@ -410,14 +395,11 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     const at = "0.635,0.6 in in in in in in in in 0.3,2.3";
     const seen = async (against: string): Promise<number> => {
       const one = await kept({ ...NINE, against, at, entries: [] });
-      await one.locator("#phi").evaluate((input: HTMLInputElement) => {
-        input.value = "45";
-        input.dispatchEvent(new Event("input"));
-      });
+      await turnTo(one, 45);
       await set(one, "power", 3);
       expect(await one.locator("#undo-stroke").isVisible()).toBe(against === "practice");
       // Behind the first cushion there is only the way of practice.
-      await one.waitForTimeout(200);
+      await frames(one, 3);
       const count = await bright(one, [0.2, 1.35], [1.1, 2.1]);
       if (against === "practice") {
         await one.locator("#shoot").click();
@@ -459,12 +441,12 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     const one = await open("", how);
     await begin(one, game, against);
     for (let k = 0; k < 150; k++) {
-      await expect.poll(() => turn(one), { timeout: 60_000 }).toMatch(/Your turn|You break|has won|have won/);
+      await expect.poll(() => turn(one)).toMatch(/Your turn|You break|has won|have won/);
       if (/won/.test(await turn(one))) break;
       await one.locator("#hint").click();
-      await expect.poll(() => text(one, "said"), { timeout: 60_000 }).toMatch(/^Hint: /);
+      await expect.poll(() => text(one, "said")).toMatch(/^Hint: /);
       await one.locator("#shoot").click();
-      await expect.poll(async () => /won/.test(await turn(one)) || !(await text(one, "said")).startsWith("Hint"), { timeout: 60_000 }).toBe(true);
+      await expect.poll(async () => /won/.test(await turn(one)) || !(await text(one, "said")).startsWith("Hint")).toBe(true);
     }
     expect(await turn(one)).toMatch(new RegExp(`(You have|The ${against} has) won\\.$`));
     console.log(`${game} against a ${against}: ${await turn(one)} ${await text(one, "score")}`);
@@ -486,7 +468,7 @@ describe.runIf(browserPath !== undefined)("a game", () => {
         let played = 0;
         for (; played < 3; played++) {
           // A ball that ends the game may fall.
-          await expect.poll(async () => (await one.locator("#shoot").isEnabled()) || /won\.$/.test(await turn(one)), { timeout: 20_000, message: `${game} ${await turn(one)} ${await text(one, "said")}` }).toBe(true);
+          await expect.poll(async () => (await one.locator("#shoot").isEnabled()) || /won\.$/.test(await turn(one)), { message: `${game} ${await turn(one)} ${await text(one, "said")}` }).toBe(true);
           if (!(await one.locator("#shoot").isEnabled())) break;
           await one.locator("#shoot").click();
         }
@@ -502,28 +484,32 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.close();
   }, 120_000);
 
-  test("the script's part of a frame of a break", async () => {
+  test("a frame of a break draws the balls and little else", async () => {
     const one = await open("");
-    const devtools = await one.context().newCDPSession(one);
-    // Time of the processor, which other programs on the machine do not lengthen.
-    await devtools.send("Performance.enable", { timeDomain: "threadTicks" });
-    const spent = async (): Promise<number> => (await devtools.send("Performance.getMetrics")).metrics.find(({ name }) => name === "ScriptDuration")!.value;
     await one.evaluate(() => {
-      const seen = window as unknown as { frames: number };
-      seen.frames = 0;
+      const page = window as unknown as { drawn: number[] };
+      page.drawn = [];
       const ask = window.requestAnimationFrame.bind(window);
       window.requestAnimationFrame = (draw) => ask((now) => {
-        seen.frames++;
+        page.drawn.push(0);
         draw(now);
       });
+      for (const name of ["beginPath", "drawImage", "fillText"] as const) {
+        const draw = CanvasRenderingContext2D.prototype[name] as (...args: unknown[]) => void;
+        CanvasRenderingContext2D.prototype[name] = function (this: CanvasRenderingContext2D, ...args: unknown[]) {
+          page.drawn[page.drawn.length - 1]!++;
+          draw.apply(this, args);
+        };
+      }
     });
     await one.locator("#shoot").click();
-    const before = await spent();
-    const [from, after, to] = [await one.evaluate(() => (window as unknown as { frames: number }).frames), await one.waitForTimeout(3000).then(spent), await one.evaluate(() => (window as unknown as { frames: number }).frames)];
-    const each = (1000 * (after - before)) / (to - from);
-    console.log(`a frame of a break: ${each.toFixed(2)} ms of the script, in the mean of ${to - from}`);
-    expect(to - from).toBeGreaterThan(20);
-    expect(each).toBeLessThan(4);
+    await frames(one, 40);
+    // What other frames wait for draws nothing.
+    const drawn = (await one.evaluate(() => (window as unknown as { drawn: number[] }).drawn)).filter((parts) => parts > 0);
+    console.log(`a frame of a break: at most ${Math.max(...drawn)} parts are drawn`);
+    // 16 balls of at most 10 parts each, and the cloth, which is one picture.
+    expect(drawn.length).toBeGreaterThan(20);
+    expect(Math.max(...drawn)).toBeLessThanOrEqual(161);
     await one.close();
   });
 
@@ -538,8 +524,9 @@ describe.runIf(browserPath !== undefined)("a game", () => {
         return connect.call(this, to);
       } as typeof AudioNode.prototype.connect;
     });
+    await pace(one, "4");
     await one.locator("#shoot").click();
-    await one.waitForTimeout(2500);
+    await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
     const heard = await one.evaluate(() => (window as unknown as { heard: number[] }).heard);
     if ("touch" in how) expect(heard).toEqual([]);
     else {

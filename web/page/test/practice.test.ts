@@ -6,7 +6,7 @@ import { browserPath, pages, sizes, violations } from "./page.js";
 const [W, L, NOSE, R] = [1.27, 2.54, 0.0366, 0.028575];
 
 describe.runIf(browserPath !== undefined)("practice", () => {
-  const { open, text, set } = pages();
+  const { open, text, set, turnTo } = pages();
 
   test("a drill counts what is made and missed, begins again, and hides the way of the balls", async () => {
     const one = await open("", { width: 390, height: 844, touch: true });
@@ -15,15 +15,10 @@ describe.runIf(browserPath !== undefined)("practice", () => {
     await one.locator("#drill").selectOption("Short straight pot");
     await one.locator("#start-drill").click();
     expect(await text(one, "turn")).toBe("Short straight pot");
-    const turn = (phi: number): Promise<void> =>
-      one.locator("#phi").evaluate((input: HTMLInputElement, phi) => {
-        input.value = String(phi);
-        input.dispatchEvent(new Event("input"));
-      }, phi);
-    await turn(200);
+    await turnTo(one, 200);
     await one.locator("#shoot").click();
     await expect.poll(() => text(one, "said")).toBe("Missed: 0 of 1.");
-    await turn(45);
+    await turnTo(one, 45);
     await set(one, "power", 1.5);
     await one.locator("#shoot").click();
     await expect.poll(() => text(one, "said")).toBe("Made: 1 of 2.");

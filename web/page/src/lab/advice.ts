@@ -3,7 +3,7 @@ import type { GameState, PlanOptions, Player } from "carom";
 import { far } from "../far.js";
 import { onTable } from "../table/filmed.js";
 import { RATINGS, wordsOfChances, wordsOfChoice } from "../table/words.js";
-import { button, choice, el, wrong } from "../ui.js";
+import { button, choice, el, latest } from "../ui.js";
 import { aim, cueOf, type Desk, optionsOf } from "./desk.js";
 
 const PLAN = 1000;
@@ -33,43 +33,31 @@ export function advicePanel(d: Desk): { root: HTMLElement; aimed(): void } {
     return { ...game, player: player(own.select.value), shot: optionsOf(d), seed: 1 };
   }
 
-  let number = 0;
-  async function propose(): Promise<void> {
-    const mine = ++number;
-    said.textContent = "Looking for the best shot …";
-    let text: string;
-    try {
+  const advises = latest((text) => (said.textContent = text));
+  const propose = (): Promise<void> =>
+    advises(async (wanted) => {
+      said.textContent = "Looking for the best shot …";
       const [one] = await far("plan", d.table, d.balls, { ...options(), best: 1, shots: PLAN });
-      if (mine !== number) return;
-      aim(d, one!.cue);
-      d.aimed();
-      text = `Best of ${PLAN} shots: ${wordsOfChoice(d.table, d.names, one!)}.`;
-    } catch (error) {
-      text = wrong(error);
-    }
-    // Aiming has begun no other search.
-    if (mine === number) said.textContent = text;
-  }
+      if (wanted()) {
+        aim(d, one!.cue);
+        d.aimed();
+      }
+      return `Best of ${PLAN} shots: ${wordsOfChoice(d.table, d.names, one!)}.`;
+    });
 
-  let asked = 0;
+  const tells = latest((text) => (chance.textContent = text));
   /** The chances of the stroke that is aimed, a moment after it was. */
-  async function chances(): Promise<void> {
-    const mine = ++asked;
-    root.hidden = !RULED.includes(name());
-    chance.textContent = "";
-    if (root.hidden || !onTable(d.balls[0]!.state)) return;
-    await new Promise((later) => window.setTimeout(later, 60));
-    if (mine !== asked) return;
-    let text: string;
-    try {
+  const chances = (): Promise<void> =>
+    tells(async (wanted) => {
+      root.hidden = !RULED.includes(name());
+      chance.textContent = "";
+      if (root.hidden || !onTable(d.balls[0]!.state)) return "";
+      await new Promise((later) => window.setTimeout(later, 60));
+      if (!wanted()) return "";
       const [one] = await far("chances", d.table, d.balls, [cueOf(d)], { ...options(), shots: TRY });
       const call = one!.ball > 0 && d.table.pockets.length > 0 ? `pots ball ${d.names[one!.ball]}, ` : "";
-      text = `This shot ${call}${wordsOfChances(one!, name() === "threecushion")}.`;
-    } catch (error) {
-      text = wrong(error);
-    }
-    if (mine === asked) chance.textContent = text;
-  }
+      return `This shot ${call}${wordsOfChances(one!, name() === "threecushion")}.`;
+    });
 
   return { root, aimed: () => void chances() };
 }

@@ -1,35 +1,30 @@
 // The view Collision: the cue ball meets a ball at rest.
 import type { Carom, CollideOptions, Impact, Motion, Vec3 } from "carom";
-import { arrow, check, color, eachFrame, el, fit, keep, parameters, slider, type Slider } from "../ui.js";
+import { fit } from "../../../player/table.js";
+import { DEGREES } from "../table/drawing.js";
+import { pixelsOf } from "../table/grip.js";
+import { arrow, check, color, drags, eachFrame, el, keep, parameters, slider, type Slider, valuesOf } from "../ui.js";
 import { type Column, merged, plot } from "./plots.js";
 
 declare const MEASURED: string;
 
 const R = 0.028575;
 const MASS = 0.170097;
-const DEGREES = 180 / Math.PI;
 const CURVE = 121;
 
-interface Setting {
-  speed: number;
-  cut: number;
-  side: number;
-  tip: number;
-  muBall: number | undefined;
-  muCloth: number;
-  restitution: number;
-}
+const DEFAULTS: Record<string, number> = { speed: 1.5, cut: 30, side: 0, tip: 0.4, mu: 0.06, cloth: 0.2, e: 0.95 };
+/** The values of the sliders, and whether friction between the balls follows Alciatore's law. */
+type Setting = Record<"speed" | "cut" | "side" | "tip" | "mu" | "cloth" | "e", number> & { law: boolean };
 
 /** The cue ball moves along x; the object ball is to the left at cut angles above 0. Spins are those of a level strike at the tip. */
 function impactOf(s: Setting, over: Partial<Setting> = {}): Impact {
-  const { speed, cut, side, tip, muBall, muCloth, restitution } = { ...s, ...over };
+  const { speed, cut, side, tip, mu, cloth, e, law } = { ...s, ...over };
   const angle = cut / DEGREES;
-  const kind = { radius: R, mass: MASS, muCloth };
+  const kind = { radius: R, mass: MASS, muCloth: cloth };
   return {
     a: { v: [speed, 0, 0], w: [0, (2.5 * speed * tip) / R, (2.5 * speed * side) / R], ...kind },
     b: { r: [2 * R * Math.cos(angle), 2 * R * Math.sin(angle), 0], ...kind },
-    muBall,
-    restitution,
+    ...{ muBall: law ? undefined : mu, restitution: e },
   };
 }
 
@@ -60,12 +55,11 @@ interface View {
   scale: number;
   origin: readonly [number, number];
 }
-const DEFAULTS: Record<string, number> = { speed: 1.5, cut: 30, side: 0, tip: 0.4, mu: 0.06, cloth: 0.2, e: 0.95 };
 
 function controlsOf(update: () => void) {
   const given = parameters();
   const two = (x: number): string => x.toFixed(2);
-  const sliders: Record<string, Slider> = {
+  const sliders: Record<Exclude<keyof Setting, "law">, Slider> = {
     speed: slider("speed", "Speed at the contact", 0.1, 8, 0.1, " m/s", update, (x) => x.toFixed(1)),
     cut: slider("cut", "Cut angle", -85, 85, 0.5, "°", update, (x) => x.toFixed(1)),
     side: slider("side", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", update, two),
@@ -81,10 +75,6 @@ function controlsOf(update: () => void) {
   const law = check("law", "By Alciatore's law from the slip", update);
   law.input.checked = given.get("law") !== "0";
   return { sliders, law };
-}
-function settingOf({ sliders, law }: View["controls"]): Setting {
-  const v = (key: string): number => sliders[key]!.value;
-  return { speed: v("speed"), cut: v("cut"), side: v("side"), tip: v("tip"), muBall: law.input.checked ? undefined : v("mu"), muCloth: v("cloth"), restitution: v("e") };
 }
 
 // ---- Curves ----------------------------------------------------------------------------------------------------------------------
@@ -174,7 +164,9 @@ function rowsOf(s: Setting, impact: Impact, { a, b, status, detail }: ReturnType
 }
 
 function draw(view: View, s: Setting, a: Motion, b: Motion): void {
-  const { g, width, height } = fit(view.canvas, 0.66);
+  const [width, height, dpr] = fit(view.canvas, 0.66);
+  const g = view.canvas.getContext("2d")!;
+  g.setTransform(dpr, 0, 0, dpr, 0, 0);
   g.fillStyle = color("cloth");
   g.fillRect(0, 0, width, height);
   // The object ball is in the middle; the cue ball comes from the left.
@@ -228,11 +220,11 @@ function draw(view: View, s: Setting, a: Motion, b: Motion): void {
 function show(view: View): void {
   const { carom, solver, controls, canvas, numbers } = view;
   const { sliders, law } = controls;
-  const s = settingOf(controls);
+  const s = { ...valuesOf(sliders), law: law.input.checked };
   const impact = impactOf(s);
   const euler = solver() === "euler";
-  sliders.mu!.input.disabled = law.input.checked;
-  if (law.input.checked) sliders.mu!.value = carom.muBall(impact);
+  sliders.mu.input.disabled = law.input.checked;
+  if (law.input.checked) sliders.mu.value = carom.muBall(impact);
   const after = carom.collideDetail(impact, { solver: solver() });
   const { a, b } = after;
   const rolls = [carom.rollingVelocity(a, R), carom.rollingVelocity(b, R)];
@@ -252,26 +244,18 @@ function show(view: View): void {
 function handle(view: View, update: () => void): void {
   const { canvas, controls: { sliders } } = view;
   const soon = eachFrame(update);
-  const cutTo = (cut: number): void => void (sliders.cut!.value = Math.max(-85, Math.min(85, cut)));
-  const aim = (event: PointerEvent): void => {
-    const box = canvas.getBoundingClientRect();
-    const [x, y] = [event.clientX - box.left - view.origin[0], event.clientY - box.top - view.origin[1]];
+  const cutTo = (cut: number): void => void (sliders.cut.value = Math.max(-85, Math.min(85, cut)));
+  drags(canvas, (event) => {
+    const [x, y] = pixelsOf(canvas, event).map((at, k) => at - view.origin[k]!) as [number, number];
     if (Math.hypot(x, y) < view.scale / 2) return;
     cutTo(Math.round(2 * Math.atan2(y, -x) * DEGREES) / 2);
     soon();
-  };
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    aim(event);
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    if (canvas.hasPointerCapture(event.pointerId)) aim(event);
   });
   canvas.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: -0.5, ArrowRight: 0.5, ArrowUp: 5, ArrowDown: -5 }[event.key];
     if (step === undefined) return;
     event.preventDefault();
-    cutTo(sliders.cut!.value + step);
+    cutTo(sliders.cut.value + step);
     update();
   });
 }
@@ -281,7 +265,7 @@ export function collisionView(carom: Carom, solver: View["solver"], main: HTMLEl
   const controls = controlsOf(update);
   const canvas = el("canvas", { class: "scene", id: "collision-scene", role: "img", tabindex: "0" });
   const [numbers, curves] = [el("tbody"), el("div", { class: "plots" })];
-  const roots = (...keys: string[]): HTMLElement[] => keys.map((key) => controls.sliders[key]!.root);
+  const roots = (...keys: Exclude<keyof Setting, "law">[]): HTMLElement[] => keys.map((key) => controls.sliders[key].root);
   main.replaceChildren(
     el(
       "div",

@@ -2,7 +2,8 @@
 import { type Carom, type Cue, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, words } from "carom";
 import type { player } from "../../../player/player.js";
 import { GAMES, type GameOf } from "../table/games.js";
-import { check, choice, el, pad, slider, type Slider } from "../ui.js";
+import { cueWith, strokeControls, strokeOf } from "../table/stroke.js";
+import { check, choice, el, slider, type Slider } from "../ui.js";
 import type { advicePanel } from "./advice.js";
 import type { reel } from "./reel.js";
 
@@ -52,22 +53,14 @@ export interface Desk {
 /** The controls of a stroke, and where its words stand; `aimed` follows a change, `racked` another game. */
 export function controlsOf(aimed: () => void, racked: () => void) {
   const two = (x: number): string => x.toFixed(2);
+  const stroke = strokeControls(slider("speed", "Speed of the cue", 0.1, 10, 0.05, " m/s", aimed, two), "spin", aimed);
   const sliders: Record<string, Slider> = {
-    speed: slider("speed", "Speed of the cue", 0.1, 10, 0.05, " m/s", aimed, two),
-    phi: slider("phi", "Direction", 0, 360, 0.05, "°", aimed, two),
-    right: slider("right", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", aimed, two),
-    up: slider("up", "Tip above (+) or below", -0.7, 0.7, 0.01, " R", aimed, two),
-    theta: slider("theta", "Butt raised by", 0, 80, 1, "°", aimed, (x) => x.toFixed(0)),
+    ...stroke.sliders,
     error: slider("error", "Player's error of direction", 0.05, 2, 0.05, "°", aimed, two),
   };
   const set = (key: string, value: number): void => void (sliders[key]!.value = value);
-  const spin = pad("spin", "Where the tip touches the cue ball", (right, up) => {
-    set("right", right);
-    set("up", up);
-    aimed();
-  });
   return {
-    ...{ sliders, set, spin, value: (key: string): number => sliders[key]!.value },
+    ...{ sliders, stroke, set, value: (key: string): number => sliders[key]!.value },
     games: choice("game", "Game", Object.entries(GAMES).map(([key, { text }]) => [key, text] as const), racked),
     cushion: choice("cushion", "Cushions", CUSHIONS.map((word) => [word, `${word}: ${about.get(word)}`] as const), aimed),
     fanned: check("fan", `Fan: ${FAN} shots with a player's error`, aimed),
@@ -79,15 +72,9 @@ export function controlsOf(aimed: () => void, racked: () => void) {
 }
 
 export const says = ({ controls }: Desk, text: string): void => void (controls.message.textContent = text);
-export function cueOf({ carom, controls: { value }, imported, game }: Desk): Cue {
-  return { ...(imported ?? carom.cue({}, game.game)), speed: value("speed"), phi: value("phi"), a: -value("right") || 0, b: value("up"), theta: value("theta") };
-}
+export const cueOf = ({ carom, controls: { stroke }, imported, game }: Desk): Cue => cueWith(imported ?? carom.cue({}, game.game), stroke.value());
 /** Sets the sliders to a stroke. */
-export function aim({ controls: { set } }: Desk, stroke: Cue): void {
-  for (const key of ["speed", "phi", "theta"] as const) set(key, stroke[key]);
-  set("right", -stroke.a || 0);
-  set("up", stroke.b);
-}
+export const aim = ({ controls: { stroke } }: Desk, cue: Cue): void => stroke.set(strokeOf(cue));
 export function optionsOf({ solver, controls }: Desk): ShotOptions {
   const euler = solver() === "euler";
   const model = controls.cushion.select.value as NonNullable<ShotOptions["cushionModel"]>;

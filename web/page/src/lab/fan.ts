@@ -42,10 +42,8 @@ export async function fan(d: Desk, goes: () => boolean, drawn: (layer: HTMLCanva
       g.globalAlpha = 0.045;
       g.lineWidth = 1.4;
       g.beginPath();
-      for (const { ball, xyz } of pathsOf(one, 20, 200)) {
-        if (ball !== 0) continue;
-        for (let t = 0; t < xyz.length && xyz[t + 2]! > 0; t += 3) g[t === 0 ? "moveTo" : "lineTo"](...place(xyz[t]!, xyz[t + 1]!));
-      }
+      const { xyz = [] } = pathsOf(one, 20, 200).find(({ ball }) => ball === 0) ?? {};
+      for (let t = 0; t < xyz.length && xyz[t + 2]! > 0; t += 3) g[t === 0 ? "moveTo" : "lineTo"](...place(xyz[t]!, xyz[t + 1]!));
       g.stroke();
       g.globalAlpha = 0.25;
       one.final.forEach((state, ball) => {

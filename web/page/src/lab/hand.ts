@@ -1,8 +1,8 @@
 // The laboratory by pointer and keys: what lies under a pointer, balls that are moved and turned, the aim, and what is drawn for it.
-import { CaromError, type ShotBall } from "carom";
-import { drawContact, drawStick, ring } from "../table/drawing.js";
+import type { ShotBall } from "carom";
+import { DEGREES, drawContact, drawStick, ring } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
-import { angleFrom, ARROWS, beside, DEGREES, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, within } from "../table/grip.js";
+import { angleFrom, ARROWS, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, put, within } from "../table/grip.js";
 import { pocketed } from "../table/places.js";
 import { eachFrame } from "../ui.js";
 import { cueOf, type Desk } from "./desk.js";
@@ -72,14 +72,10 @@ function turnBall(d: Desk, { soon }: Hand, ball: number, degrees: number): void 
 function moveBall(d: Desk, { soon }: Hand, ball: number, [x, y]: Point): void {
   const { table, balls } = d;
   const out = Math.max(-x, x - table.width, -y, y - table.length) > 1.5 * balls[ball]!.kind.radius;
-  if (out && ball !== 0 && table.pockets.length > 0) d.balls = balls.map((one, k) => (k === ball ? { kind: one.kind, state: pocketed(table, one.state) } : one));
-  else
-    try {
-      d.balls = d.carom.placeBall(table, balls, ball, ...beside(table, balls, ball, [x, y]));
-    } catch (error) {
-      if (error instanceof CaromError) return; // no room there: it stays
-      throw error;
-    }
+  const leaves = out && ball !== 0 && table.pockets.length > 0;
+  const laid = leaves ? balls.map((one, k) => (k === ball ? { kind: one.kind, state: pocketed(table, one.state) } : one)) : put(d.carom, table, balls, ball, [x, y]);
+  if (!laid) return; // it stays
+  d.balls = laid;
   d.moved = true;
   soon();
 }

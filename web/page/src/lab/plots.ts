@@ -7,11 +7,6 @@ export interface Mark {
   y: number;
 }
 export type Column = (number | null)[];
-export interface Plot {
-  set(data: Column[], marks: Mark[]): void;
-  /** Draws it in the colours of the theme. */
-  theme(): void;
-}
 /** What a plot shows: its words, the label and the range of x, the label of y, its curves, and a band of |y|. */
 export interface Shows {
   id: string;
@@ -37,7 +32,7 @@ function drawMarks(u: uPlot, marks: readonly Mark[]): void {
   }
 }
 
-export function plot(into: HTMLElement, { id, title, note, x, y, series, band }: Shows): Plot {
+export function plot(into: HTMLElement, { id, title, note, x, y, series, band }: Shows): { set(data: Column[], marks: Mark[]): void; theme(): void } {
   const place = el("div");
   into.append(el("section", { class: "panel plot", id, "aria-label": title }, el("h2", {}, title), place, el("p", {}, note)));
   const wide = (): number => Math.max(place.clientWidth, 240);
@@ -73,19 +68,5 @@ export function plot(into: HTMLElement, { id, title, note, x, y, series, band }:
   };
 }
 
-const points = (at: readonly Mark[], x: number[]): Column => {
-  const y: Column = x.map(() => null);
-  for (const point of at) y[x.findIndex((value) => value === point.x)] = point.y;
-  return y;
-};
 /** A curve and points at x of their own, on one ascending axis. */
-export const merged = (x: number[], y: Column, at: readonly Mark[]): Column[] => {
-  const all = [...new Set([...x, ...at.map((point) => point.x)])].sort((a, b) => a - b);
-  const line = all.map((value) => {
-    const k = x.findIndex((one) => one >= value);
-    if (k <= 0 || x[k] === value) return y[Math.max(k, 0)] ?? null;
-    const [before, after] = [y[k - 1], y[k]];
-    return before == null || after == null ? null : before + ((after - before) * (value - x[k - 1]!)) / (x[k]! - x[k - 1]!);
-  });
-  return [all, line, points(at, all)];
-};
+export const merged = (x: number[], y: Column, at: readonly Mark[]): Column[] => uPlot.join([[x, y], [at.map((one) => one.x), at.map((one) => one.y)]]) as Column[];

@@ -1,38 +1,18 @@
 // A recording that was opened: its shots are played again, compared with what was recorded, and shown one after the other.
-import type { Carom, Replayed } from "carom";
+import type { Replayed } from "carom";
 import { button, el, wrong } from "../ui.js";
-
-/** What a recording needs of the view. */
-export interface View {
-  /** Shows a shot of the recording, its film from a time, s. */
-  show(shot: Replayed, from: number): void;
-  start(): void;
-  tell(text: string): void;
-}
-
-export interface Reel {
-  /** The row of buttons with what verifying says. */
-  bar: HTMLElement;
-  /** The button that opens a file. */
-  open: HTMLElement;
-  /** Lets files be dropped on an element. */
-  accept(on: HTMLElement): void;
-  /** The view shows this shot now, or another one that is not recorded. */
-  shows(shot: Replayed | undefined): void;
-  /** The film of a recorded shot has ended: the next one begins. */
-  advance(): void;
-  close(): void;
-}
+import { type Desk, says } from "./desk.js";
+import { showRecorded } from "./lines.js";
 
 /** Plays the recording of a file again while it is `wanted`. The page lives meanwhile. */
-async function replayed(carom: Carom, given: File, view: View, wanted: () => boolean): Promise<{ found: Replayed[]; refused: string }> {
+async function replayed(d: Desk, given: File, wanted: () => boolean): Promise<{ found: Replayed[]; refused: string }> {
   const found: Replayed[] = [];
   try {
     let pause = performance.now() + 30;
-    for (const shot of carom.replay(await given.text())) {
+    for (const shot of d.carom.replay(await given.text())) {
       found.push(shot);
       if (performance.now() < pause) continue;
-      view.tell(`${given.name}: ${found.length} shots so far …`);
+      says(d, `${given.name}: ${found.length} shots so far …`);
       await new Promise(requestAnimationFrame);
       if (!wanted()) break;
       pause = performance.now() + 30;
@@ -43,7 +23,7 @@ async function replayed(carom: Carom, given: File, view: View, wanted: () => boo
   }
 }
 
-export function reel(carom: Carom, view: View): Reel {
+export function reel(d: Desk): { bar: HTMLElement; open: HTMLElement; accept(on: HTMLElement): void; shows(shot: Replayed | undefined): void; advance(): void; close(): void } {
   let shots: Replayed[] = [];
   let shown = -1;
   let opened = 0;
@@ -61,9 +41,9 @@ export function reel(carom: Carom, view: View): Reel {
 
   async function read(given: File): Promise<void> {
     const mine = ++opened;
-    const { found, refused } = await replayed(carom, given, view, () => mine === opened);
+    const { found, refused } = await replayed(d, given, () => mine === opened);
     if (mine !== opened) return;
-    if (found.length === 0) return view.tell(`${given.name}: ${refused || "it has no shot"}`);
+    if (found.length === 0) return says(d, `${given.name}: ${refused || "it has no shot"}`);
     const differ = found.filter(({ same }) => !same);
     const agrees = differ.length === 0 ? "every bit agrees" : `${differ.length} ${differ.length === 1 ? "ends" : "end"} otherwise than recorded, first shot ${differ[0]!.shot} (line ${differ[0]!.line})`;
     file.value = `${given.name}: ${found.length} ${found.length === 1 ? "shot" : "shots"}, ${agrees}.${refused && ` The rest is refused: ${refused}`}`;
@@ -75,9 +55,10 @@ export function reel(carom: Carom, view: View): Reel {
   function go(index: number): void {
     shown = index;
     const one = shots[index]!;
-    view.show(one, one.continues ? shots[index - 1]!.film.time : 0);
+    showRecorded(d, one, one.continues ? shots[index - 1]!.film.time : 0);
   }
 
+  /** The view shows this shot now, or another one that is not recorded. */
   function shows(shot: Replayed | undefined): void {
     if (bar.hidden) return;
     back.disabled = shown <= 0;
@@ -95,6 +76,7 @@ export function reel(carom: Carom, view: View): Reel {
     bar,
     shows,
     open: el("span", {}, input, button("Open recording", () => input.click(), { id: "open-recording" })),
+    // Files may be dropped on the page.
     accept(on) {
       on.addEventListener("dragover", (event) => event.dataTransfer?.types.includes("Files") && event.preventDefault());
       on.addEventListener("drop", (event) => {
@@ -104,10 +86,11 @@ export function reel(carom: Carom, view: View): Reel {
         void read(given);
       });
     },
+    // The film of a recorded shot has ended: the next one begins.
     advance() {
       if (shown >= shots.length - 1) return;
       go(shown + 1);
-      view.start();
+      d.film.start();
     },
     close() {
       opened++;

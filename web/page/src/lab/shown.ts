@@ -11,7 +11,7 @@ export function present(d: Desk, stroke: Cue, played?: Replayed): void {
   d.recorded = played;
   d.recording.shows(played);
   controls.sliders.error!.input.disabled = !controls.fanned.input.checked;
-  controls.spin.set(controls.value("right"), controls.value("up"));
+  controls.stroke.set({}); // the tip is where its sliders are
   const begun = performance.now();
   says(d, "");
   try {

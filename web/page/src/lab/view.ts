@@ -6,7 +6,7 @@ import { restore, undoing } from "./address.js";
 import { advicePanel } from "./advice.js";
 import { controlsOf, cueOf, type Desk, lay } from "./desk.js";
 import { drawHand, handle } from "./hand.js";
-import { importLine, lineOf, showRecorded } from "./lines.js";
+import { importLine, lineOf } from "./lines.js";
 import { reel } from "./reel.js";
 import { present } from "./shown.js";
 
@@ -28,13 +28,12 @@ function deskOf(carom: Carom, solver: Desk["solver"]): Desk {
   });
   const d = {
     ...{ carom, solver, controls, film, recorded: undefined, imported: undefined, shot: undefined, fan: undefined, fanNumber: 0, writing: undefined },
-    recording: reel(carom, { show: (shot, from) => showRecorded(d, shot, from), start: film.start, tell: (text) => (controls.message.textContent = text) }),
     aimed() {
       present(d, cueOf(d));
       d.advice.aimed();
     },
   } as unknown as Desk;
-  return Object.assign(d, { advice: advicePanel(d) });
+  return Object.assign(d, { advice: advicePanel(d), recording: reel(d) });
 }
 /** The balls of the game as they begin. */
 function rackUp(d: Desk): void {
@@ -57,7 +56,7 @@ function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
   return el(
     "div",
     { class: "table-view" },
-    el("section", { class: "stage", "aria-label": "Table" }, film.canvas, ...roots("speed"), controls.spin.root),
+    el("section", { class: "stage", "aria-label": "Table" }, film.canvas, ...roots("speed"), controls.stroke.tip),
     el("section", { class: "bar", "aria-label": "Film" }, film.controls, recording.bar, tools),
     el("section", { class: "panel aim", "aria-label": "The shot" }, ...roots("right", "up", "phi", "theta"), row(controls.games.root, controls.cushion.root), controls.fanned.root, ...roots("error"), lines),
     el(

@@ -1,9 +1,8 @@
 // The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball that may be moved; a tap aims at a place or a ball, or
 // calls a pocket; two fingers, a double tap, or the wheel show a part of the table larger.
-import { CaromError } from "carom";
 import { drawNumbers, drawStick, ring, stroke } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
-import { angleFrom, ARROWS, beside, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, within } from "../table/grip.js";
+import { angleFrom, ARROWS, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, put, within } from "../table/grip.js";
 import { mayLie } from "../table/head.js";
 import { skip } from "./filming.js";
 import { aimed, ballsOn, called, calls, cueOf, free, look, NONE, says, type Session, valid } from "./session.js";
@@ -67,33 +66,25 @@ function under(s: Session, at: Point, finger: boolean): Grip {
   const grip = gripAt(at, reach, table, balls, balls.map(({ state }) => (onTable(state) ? state.r : undefined)), cueOf(s), reach);
   return grip.is === "line" ? { is: "cloth" } : grip;
 }
-function turn(s: Session, phi: number): void {
-  s.stroke.set({ phi: direction(phi) });
+function set(s: Session, stroke: { phi: number } | { speed: number }): void {
+  s.stroke.set(stroke);
   s.changed();
 }
-function hasten(s: Session, speed: number): void {
-  s.stroke.set({ speed });
-  s.changed();
-}
+const turn = (s: Session, phi: number): void => set(s, { phi: direction(phi) });
 /** Whether a ball may be moved. */
 const movable = ({ play }: Session, ball: number): boolean => play.practice || (ball === 0 && play.hand !== "no");
 function move(s: Session, ball: number, to: Point): void {
   const { play } = s;
   const { table, balls } = play;
-  const [x, y] = beside(table, balls, ball, to, play.hand === "kitchen" ? table.length / 4 + balls[0]!.kind.radius + 1e-4 : table.length);
-  if (!play.practice && !mayLie(table, play.hand, [x, y])) return;
-  try {
-    play.put(ball, x, y);
-  } catch (error) {
-    if (error instanceof CaromError) return; // no room there: it stays
-    throw error;
-  }
+  const laid = put(s.carom, table, balls, ball, to, play.hand === "kitchen" ? table.length / 4 + balls[0]!.kind.radius + 1e-4 : table.length);
+  if (!laid || (!play.practice && !mayLie(table, play.hand, laid[ball]!.state.r))) return; // it stays
+  play.balls = laid;
   s.changed();
 }
 function drag(s: Session, { grip, from, phi, speed }: Held, at: Point): void {
   const [cueBall] = s.play.balls as [(typeof s.play.balls)[number]];
   if (grip.is === "ball" && movable(s, grip.ball)) move(s, grip.ball, at);
-  else if (grip.is === "stick") hasten(s, drawnTo(cueBall, speed, from, at));
+  else if (grip.is === "stick") set(s, { speed: drawnTo(cueBall, speed, from, at) });
   else turn(s, phi + angleFrom(cueBall, at) - angleFrom(cueBall, from));
 }
 /** A ball or a pocket was tapped: it is called. */
@@ -195,7 +186,7 @@ function key(s: Session, event: KeyboardEvent): void {
     if (!movable(s, 0)) return;
     move(s, 0, movedBy(film, play.balls[0]!, arrow, (event.shiftKey ? 0.05 : 0.005) * film.scale));
   } else if (arrow[0] !== 0) turn(s, phi - arrow[0] * (event.shiftKey ? 1 : 0.1));
-  else hasten(s, within(speed - arrow[1] * (event.shiftKey ? 0.5 : 0.1)));
+  else set(s, { speed: within(speed - arrow[1] * (event.shiftKey ? 0.5 : 0.1)) });
   event.preventDefault();
 }
 

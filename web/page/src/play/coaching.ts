@@ -1,12 +1,40 @@
 // The coach at the table: the hint and the chances of the stroke that is aimed, and what a stroke cost once it was played.
-import type { Call, Cue } from "carom";
+import type { Call, Carom, Choice, Cue, PlanOptions, ShotBall, Table } from "carom";
+import { drop, far } from "../far.js";
 import { onTable } from "../table/filmed.js";
-import { percent, wordsOfChances } from "../table/words.js";
+import { percent, wordsOfChances, wordsOfChoice } from "../table/words.js";
 import { wrong } from "../ui.js";
-import { type Asked, chance, costOf, hint, keepRow, review, why } from "./coach.js";
 import { rest } from "./filming.js";
 import { OPTIONS } from "./game.js";
+import { costOf, keepRow, type Row } from "./log.js";
 import { aimAt, cueOf, free, look, NONE, placeOf, playerOf, says, type Session } from "./session.js";
+
+const [PLAN, TRY] = [1000, 200];
+
+/** A stroke that a plan is asked for. */
+export interface Asked {
+  game: string;
+  table: Table;
+  balls: readonly ShotBall[];
+  names: readonly string[];
+  options: PlanOptions;
+}
+
+const best = (of: Asked, more: PlanOptions = {}): Promise<Choice> => far("plan", of.table, of.balls, { ...of.options, ...more, best: 1, shots: PLAN }).then(([one]) => one!);
+const chance = (of: Asked, cue: Cue): Promise<Choice> => far("chances", of.table, of.balls, [cue], { ...of.options, shots: TRY }).then(([one]) => one!);
+const isPot = (call: Call | undefined): call is { ball: number; pocket: number } => typeof call === "object" && call.ball > 0 && call.pocket >= 0;
+
+/** How far a stroke is off the aim at what it called. */
+function errors(carom: Carom, { table, balls }: Asked, cue: Cue, call: Call | undefined): Pick<Row, "phi" | "speed"> {
+  if (!isPot(call)) return {};
+  const aim = carom.aim(table, balls, cue, call, OPTIONS);
+  if (aim.is === "no_way") return {};
+  const phi = ((cue.phi - aim.cue.phi + 540) % 360) - 180;
+  // Farther off, something else was meant.
+  if (Math.abs(phi) > 10) return {};
+  const [low, high] = aim.speed;
+  return { phi, ...(aim.is === "falls" ? { speed: cue.speed < low ? cue.speed - low : cue.speed > high ? cue.speed - high : 0 } : {}) };
+}
 
 /** What a plan for whoever sits here begins with. Who does not err is advised as a 600. */
 export function asked(s: Session): Asked {
@@ -23,8 +51,8 @@ export async function advise(s: Session): Promise<void> {
   s.asking++; // chances that come later do not hide the hint
   says(s, "Looking for the best stroke …");
   try {
-    const of = asked(s);
-    const one = await hint(of, placeOf(s));
+    drop("plan"); // what is planned for another stroke
+    const one = await best(asked(s), { inHand: placeOf(s) });
     if (mine !== s.number || !free(s)) return;
     if (s.play.hand !== "no") s.play.put(0, ...(one.place as [number, number]));
     aimAt(s, one.cue);
@@ -32,7 +60,9 @@ export async function advise(s: Session): Promise<void> {
     s.chosen = one.ball > 0 && one.pocket >= 0 ? { ball: one.ball, pocket: one.pocket, met: s.first?.ball ?? -1, phi: one.cue.phi } : NONE;
     s.special = one.kind === "push" ? "push" : undefined;
     rest(s);
-    says(s, `Hint: ${why(of, one, s.play.setup.game === "threecushion")}`);
+    const tip = [one.cue.b > 0.1 ? "follow" : one.cue.b < -0.1 ? "draw" : "", one.cue.a > 0.1 ? "left side" : one.cue.a < -0.1 ? "right side" : ""].filter(Boolean).join(" and ");
+    const words = `${wordsOfChoice(s.play.table, s.play.names, one)}, at ${one.cue.speed.toFixed(1)} m/s${tip && ` with ${tip}`}`;
+    says(s, `Hint: ${words}. It ${wordsOfChances(one, s.play.setup.game === "threecushion")}.`);
   } catch (error) {
     if (mine === s.number && free(s)) says(s, wrong(error));
   }
@@ -53,10 +83,15 @@ export async function chances(s: Session): Promise<void> {
   }
 }
 
+/** Looks back at a stroke: its chances beside those of the best one. */
 export async function lookBack(s: Session, of: Asked, made: Cue, calls: Call | undefined): Promise<void> {
   s.asking++; // chances of this stroke that come later do not hide its review
   try {
-    const row = await review(s.carom, of, made, calls);
+    // Both plans play as the same player.
+    const [mine, other] = await Promise.all([chance(of, made), best(of)]);
+    const meant = wordsOfChoice(of.table, of.names, isPot(calls) ? { ...mine, ...calls } : { ...mine, kind: mine.ball < 0 ? "safety" : mine.kind });
+    const wins = { keep: mine.keep, value: mine.value, best: wordsOfChoice(of.table, of.names, other), bestValue: other.value };
+    const row = { when: new Date().toISOString().slice(0, 16), game: of.game, meant, ...errors(s.carom, of, made, calls), ...wins };
     keepRow(row);
     const cost = costOf(row);
     says(s, `That stroke wins in ${percent(row.value)} of tries; the best one, ${row.best}, in ${percent(row.bestValue)}. ${cost < 0.02 ? "You chose well." : `It cost ${percent(cost)}.`}`);

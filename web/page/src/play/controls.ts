@@ -1,26 +1,13 @@
 // What a stroke is set by, beside the table: the tip on a ball that one touches, the power, small turns, and Shoot. A tap of Shoot plays; held, it draws the
 // stick, and plays when it is let go. A second finger, Escape, or the field that appears above it calls the stroke off.
-import { button, el, pad, slider, type Slider } from "../ui.js";
-
-export interface Stroke {
-  speed: number;
-  phi: number;
-  right: number;
-  up: number;
-  theta: number;
-}
-export interface Host {
-  changed(): void;
-  shoot(): void;
-  /** Whether a stroke may be played now. */
-  free(): boolean;
-  told(text: string): void;
-}
+import { strokeControls } from "../table/stroke.js";
+import { button, el, slider, type Slider } from "../ui.js";
+import { free, says, type Session } from "./session.js";
+import { shoot as play } from "./turns.js";
 
 const FASTEST = 10;
 /** A tap of Shoot is shorter than TAP; the stick is drawn from HELD on, and takes DRAWN to its end, ms. Between TAP and HELD nothing is played. */
 const [TAP, HELD, DRAWN] = [280, 600, 1600];
-const two = (x: number): string => x.toFixed(2);
 
 interface Hold {
   id: number;
@@ -37,7 +24,7 @@ function power(ms: number): number {
 }
 
 /** The button Shoot, and the field above it by which a stroke is called off. */
-function shootButton(host: Host, slider: Slider): { shoot: HTMLButtonElement; zone: HTMLElement } {
+function shootButton(s: Session, slider: Slider): { shoot: HTMLButtonElement; zone: HTMLElement } {
   const shoot = button("Shoot", () => undefined, { id: "shoot", class: "main", title: "Tap: the stroke has the power that is set. Hold: the stick is drawn until you let go." });
   const zone = el("span", { id: "call-off", hidden: "" }, "Slide here to cancel");
   let hold: Hold | undefined;
@@ -53,8 +40,8 @@ function shootButton(host: Host, slider: Slider): { shoot: HTMLButtonElement; zo
     spent = true;
     if (hold!.drawn) slider.value = hold!.speed;
     release();
-    host.changed();
-    host.told("The stroke was called off.");
+    s.changed();
+    says(s, "The stroke was called off.");
   }
   /** Draws the stick while it is held. */
   function grow(mine: Hold): void {
@@ -65,12 +52,12 @@ function shootButton(host: Host, slider: Slider): { shoot: HTMLButtonElement; zo
       zone.hidden = false;
       shoot.textContent = "Let go to play";
       slider.value = power(ms);
-      host.changed();
+      s.changed();
     }
     requestAnimationFrame(() => grow(mine));
   }
   shoot.addEventListener("pointerdown", (event) => {
-    if (event.button > 0 || hold || !host.free()) return;
+    if (event.button > 0 || hold || !free(s)) return;
     const mine: Hold = (hold = { id: event.pointerId, since: event.timeStamp, speed: slider.value, drawn: false, over: new AbortController() });
     spent = false;
     shoot.setPointerCapture(event.pointerId);
@@ -92,8 +79,8 @@ function shootButton(host: Host, slider: Slider): { shoot: HTMLButtonElement; zo
     if (drawn && (x < left - 30 || x > right + 30 || y < top || y > bottom + 30)) return callOff();
     release();
     spent = drawn || event.timeStamp - since > TAP;
-    if (drawn && host.free()) host.shoot();
-    else if (spent) host.told("Nothing was played. Tap Shoot shortly, or hold it until the stick is drawn.");
+    if (drawn) play(s);
+    else if (spent) says(s, "Nothing was played. Tap Shoot shortly, or hold it until the stick is drawn.");
   });
   shoot.addEventListener("pointercancel", (event) => event.pointerId === hold?.id && callOff());
   // Such a finger clicks nothing: Skip is there by now.
@@ -101,7 +88,7 @@ function shootButton(host: Host, slider: Slider): { shoot: HTMLButtonElement; zo
   shoot.addEventListener("contextmenu", (event) => event.preventDefault());
   // A click without a press is one of the keyboard.
   shoot.addEventListener("click", (event) => {
-    if (!(spent && event.detail > 0) && host.free()) host.shoot();
+    if (!(spent && event.detail > 0)) play(s);
     spent = false;
   });
   return { shoot, zone };
@@ -126,41 +113,20 @@ function turns(text: string, label: string, turn: () => void): HTMLElement {
   return one;
 }
 
-export function controls(host: Host): { side: HTMLElement; shoot: HTMLButtonElement; row: HTMLElement[]; numbers: HTMLElement; value: Stroke; set(values: Partial<Stroke>): void } {
-  const sliders: Record<keyof Stroke, Slider> = {
-    speed: slider("power", "Power", 0.1, FASTEST, 0.05, "", host.changed, (x) => `${x.toFixed(1)} m/s`),
-    phi: slider("phi", "Direction", 0, 360, 0.05, "°", host.changed, two),
-    right: slider("right", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", showTip, two),
-    up: slider("up", "Tip above (+) or below", -0.7, 0.7, 0.01, " R", showTip, two),
-    theta: slider("theta", "Butt raised by", 0, 80, 1, "°", host.changed, (x) => x.toFixed(0)),
-  };
-  const tip = pad("tip-ball", "Where the tip touches the cue ball", (right, up) => {
-    sliders.right.value = right;
-    sliders.up.value = up;
-    showTip();
-  });
-  tip.root.classList.add("grows");
-  function showTip(): void {
-    tip.set(sliders.right.value, sliders.up.value);
-    host.changed();
-  }
-  const value: Stroke = Object.defineProperties({} as Stroke, Object.fromEntries(Object.keys(sliders).map((key) => [key, { enumerable: true, get: () => sliders[key as keyof Stroke].value }])));
-  function set(values: Partial<Stroke>): void {
-    for (const [key, x] of Object.entries(values)) sliders[key as keyof Stroke].value = x;
-    tip.set(sliders.right.value, sliders.up.value);
-  }
+export function controls(s: Session) {
+  const { sliders, tip, set, value } = strokeControls(slider("power", "Power", 0.1, FASTEST, 0.05, "", s.changed, (x) => `${x.toFixed(1)} m/s`), "tip-ball", s.changed);
+  tip.classList.add("grows");
   const turnBy = (by: number) => (): void => {
     set({ phi: Math.round((sliders.phi.value + by + 360) * 1000) / 1000 % 360 });
-    host.changed();
+    s.changed();
   };
-  const { shoot, zone } = shootButton(host, sliders.speed);
+  const { shoot, zone } = shootButton(s, sliders.speed);
 
   return {
-    side: el("section", { class: "side", "aria-label": "The stroke" }, sliders.speed.root, tip.root),
+    side: el("section", { class: "side", "aria-label": "The stroke" }, sliders.speed.root, tip),
     shoot,
     row: [turns("↺", "Turn the aim to the left by 0.05 degrees", turnBy(0.05)), zone, shoot, turns("↻", "Turn the aim to the right by 0.05 degrees", turnBy(-0.05))],
     numbers: el("details", { class: "numbers-of" }, el("summary", {}, "Stroke in numbers"), ...(["phi", "right", "up", "theta"] as const).map((key) => sliders[key].root)),
-    value,
-    set,
+    ...{ set, value },
   };
 }

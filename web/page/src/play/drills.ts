@@ -8,7 +8,6 @@
 import type { Shot } from "carom";
 import { pocketName } from "../../../player/words.js";
 import { onTable } from "../table/filmed.js";
-import { kept, keepText } from "./keep.js";
 
 export interface Drill {
   name: string;
@@ -70,15 +69,4 @@ export function judge({ goal }: Drill, shot: Shot): "made" | "missed" | "on" {
     return final.some((state, k) => k > 0 && onTable(state)) ? "on" : "made";
   }
   return goal.every(([word, value]) => checks[word]!(value)) ? "made" : "missed";
-}
-
-const KEY = "carom-drills";
-/** How often each drill was made, of how many tries. */
-export const counts = (): Record<string, [number, number]> => JSON.parse(kept(KEY) ?? "{}") as Record<string, [number, number]>;
-export function count(name: string, made: boolean): [number, number] {
-  const all = counts();
-  const [before, tries] = all[name] ?? [0, 0];
-  all[name] = [before + Number(made), tries + 1];
-  keepText(JSON.stringify(all), KEY);
-  return all[name];
 }

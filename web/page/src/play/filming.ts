@@ -1,7 +1,7 @@
 // What is seen of a game: the balls as they lie, with the stroke that is aimed; the film of a stroke that was played; and what is told beside both.
 import { CaromError } from "carom";
-import { pocketName } from "../../../player/words.js";
-import { filmOf, lasts, onTable, type Path, pathsOf, product } from "../table/filmed.js";
+import { pocketName, product } from "../../../player/words.js";
+import { filmOf, lasts, onTable, type Path, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { OPTIONS, type Stroke } from "./game.js";
 import { racksOf } from "./keep.js";

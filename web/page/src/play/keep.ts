@@ -1,4 +1,4 @@
-// A game in this browser, in the address, and on its way to another page: as text, packed for links, and by a channel between pages of one machine.
+// What is kept in this browser, and what is on its way to another page: texts, packed for links, and counts.
 
 import type { Setup } from "./game.js";
 import { wrong } from "../ui.js";
@@ -20,14 +20,20 @@ export function keepText(text: string, key = KEY): void {
   }
 }
 
-const tally = (): Record<string, [number, number]> => JSON.parse(kept("carom-racks") ?? "{}") as Record<string, [number, number]>;
-/** The racks that each has won of a game against the same one. */
-export const racksOf = ({ game, against }: Setup): readonly [number, number] => tally()[`${game}/${against}`] ?? [0, 0];
-export function countRack({ game, against }: Setup, winner: 0 | 1): void {
-  const all = tally();
-  (all[`${game}/${against}`] ??= [0, 0])[winner]++;
-  keepText(JSON.stringify(all), "carom-racks");
+/** Two numbers that are counted under a name. */
+type Tally = Record<string, [number, number]>;
+const tally = (key: string): Tally => JSON.parse(kept(key) ?? "{}") as Tally;
+export const countsOf = (key: string, name: string): [number, number] => tally(key)[name] ?? [0, 0];
+/** Counts one more of the first or of the second, or of both. */
+export function count(key: string, name: string, more: readonly [number, number]): [number, number] {
+  const [first, second] = countsOf(key, name);
+  const now: [number, number] = [first + more[0], second + more[1]];
+  keepText(JSON.stringify({ ...tally(key), [name]: now }), key);
+  return now;
 }
+/** The racks that each has won of a game against the same one. */
+export const racksOf = ({ game, against }: Setup): readonly [number, number] => countsOf("carom-racks", `${game}/${against}`);
+export const countRack = ({ game, against }: Setup, winner: 0 | 1): unknown => count("carom-racks", `${game}/${against}`, winner === 0 ? [1, 0] : [0, 1]);
 
 async function through(bytes: Uint8Array<ArrayBuffer>, by: ReadableWritablePair<Uint8Array, BufferSource>): Promise<Uint8Array> {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(by)).arrayBuffer());
@@ -56,15 +62,4 @@ export async function send(url: string, title: string, share: boolean, copied: s
   } catch (error) {
     return `The browser does not let the page send the link (${wrong(error)}).`;
   }
-}
-
-/** A game that others of this machine see: they send its text when it has changed, or ask for it. */
-export function channel(heard: (text: string) => void, asked: () => string | undefined): { send(text: string): void; ask(): void; close(): void } {
-  const one = new BroadcastChannel("carom-games");
-  one.addEventListener("message", ({ data }: MessageEvent<{ text?: string }>) => {
-    if (data.text !== undefined) return heard(data.text);
-    const text = asked();
-    if (text !== undefined) one.postMessage({ text });
-  });
-  return { send: (text) => one.postMessage({ text }), ask: () => one.postMessage({}), close: () => one.close() };
 }

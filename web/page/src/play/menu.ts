@@ -2,29 +2,37 @@
 import { GAMES, PLAYED } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
-import type { Against, Setup } from "./game.js";
+import type { Against } from "./game.js";
+import { kept, keepText } from "./keep.js";
+import type { Session } from "./session.js";
+import { begin } from "./turns.js";
 
+const KEY = "carom-settings";
 export interface Settings {
   sound: boolean;
   coach: boolean;
 }
-export interface Host {
-  begin(setup: Setup): void;
-  changed(settings: Settings): void;
-}
+/** The settings that the browser has kept; else sound is on where a mouse is. */
+export const settingsOf = (coarse: boolean): Settings => ({ sound: !coarse, coach: false, ...(JSON.parse(kept(KEY) ?? "{}") as Partial<Settings>) });
 
-export function menu(settings: Settings, pace: HTMLElement, host: Host, ...more: HTMLElement[]): { root: HTMLDialogElement; open(setup: Setup): void } {
+export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElement; open(): void } {
   // Practice has every table.
   const others = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
   const game = choice("new-which", "Game", [...Object.entries(PLAYED), ...others].map(([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const), told);
   const against = choice("new-against", "Against", [["practice", "nobody: practice"], ["person", "a person at this page"], ["link", "a person by link"], ...RATINGS.map((r) => [r, `the computer, rated ${r}`] as const)], told);
   const own = choice("new-own", "Your strokes", [["0", "go where you aim"], ...RATINGS.map((r) => [r, `err like those of a ${r}`] as const)], () => undefined);
   const note = el("p", { class: "note", id: "new-note" });
-  const set = (): void => host.changed({ sound: sound.input.checked, coach: coach.input.checked });
+  const set = (): void => {
+    Object.assign(s.settings, { sound: sound.input.checked, coach: coach.input.checked });
+    s.sound.on = s.settings.sound;
+    s.sound.wake();
+    keepText(JSON.stringify(s.settings), KEY);
+    s.changed();
+  };
   const sound = check("sound", "Sound", set);
   const coach = check("coach", "Coach: tells the chances of a stroke, and then its cost", set);
-  sound.input.checked = settings.sound;
-  coach.input.checked = settings.coach;
+  sound.input.checked = s.settings.sound;
+  coach.input.checked = s.settings.coach;
 
   function told(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
@@ -38,12 +46,13 @@ export function menu(settings: Settings, pace: HTMLElement, host: Host, ...more:
   }
   const start = button("Start", () => {
     root.close();
-    host.begin({ game: game.select.value, against: against.select.value as Against, own: against.select.value === "practice" ? "0" : own.select.value, seed: Math.floor(Math.random() * 2 ** 31) });
+    begin(s, { game: game.select.value, against: against.select.value as Against, own: against.select.value === "practice" ? "0" : own.select.value, seed: Math.floor(Math.random() * 2 ** 31) });
   }, { id: "start", class: "main" });
-  const root = dialog("menu", "New game", el("div", { class: "fields" }, game.root, against.root, own.root), note, start, el("h3", {}, "Settings"), sound.root, coach.root, el("div", { class: "row" }, el("span", {}, "Speed of the film"), pace), ...more);
+  const root = dialog("menu", "New game", el("div", { class: "fields" }, game.root, against.root, own.root), note, start, el("h3", {}, "Settings"), sound.root, coach.root, el("div", { class: "row" }, el("span", {}, "Speed of the film"), s.film.pace), ...more);
   return {
     root,
-    open(setup) {
+    open() {
+      const { setup } = s.play;
       game.select.value = setup.game;
       against.select.value = setup.against;
       own.select.value = setup.own;

@@ -1,7 +1,7 @@
 // The dialog of a table from a photo: a picture, four corners, and the balls by taps; the layout lies on the table for practice.
 import { colourOf } from "../../../player/words.js";
 import { ARROWS, pixelsOf } from "../table/grip.js";
-import { button, choice, dialog, el, wrong } from "../ui.js";
+import { button, choice, dialog, drags, el, wrong } from "../ui.js";
 import { type Camera, cameraOf, type Pixel, suggest } from "./photo.js";
 
 const CORNERS = ["head left", "head right", "foot right", "foot left"];
@@ -190,11 +190,7 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
   const root = dialog("photo-page", "A table from a photo", el("div", { class: "row" }, file, wide.root, long.root), said, canvas, el("div", { class: "row" }, ball.root, button("Take back", back, { id: "photo-back" }), done));
 
   const pixel = (event: PointerEvent): Pixel => pixelsOf(canvas, event).map((x) => x * scaleOf(p)) as [number, number];
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    down(p, pixel(event));
-  });
-  canvas.addEventListener("pointermove", (event) => p.held?.(pixel(event)));
+  drags(canvas, (event, first) => (first ? down(p, pixel(event)) : p.held?.(pixel(event))));
   canvas.addEventListener("keydown", (event) => key(p, event));
   file.addEventListener("change", () => file.files?.[0] && void open(p, file.files[0]));
   return {

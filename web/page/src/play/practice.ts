@@ -1,21 +1,20 @@
 // What practice has besides a table: drills with counts, and a table from a photo. Both are parts of the dialog of a new game.
-import type { Stroke } from "./game.js";
-import type { Setup } from "./game.js";
 import { button, choice, el } from "../ui.js";
-import { atOf, count, counts, drillsOf, judge } from "./drills.js";
+import { atOf, drillsOf, judge } from "./drills.js";
+import type { Setup, Stroke } from "./game.js";
+import { count, countsOf } from "./keep.js";
 import { photoPage } from "./photo_page.js";
 
 declare const DRILLS: string;
 
-export interface Host {
-  begin(setup: Setup): void;
-}
+/** Where the browser keeps how often each drill was made, of how many tries. */
+const KEY = "carom-drills";
 const BALLS = 16;
 const SIZE = [1.27, 2.54] as const;
 /** Practice with the balls of eight-ball. */
 const setupOf = (at: string, drill?: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, ...(drill === undefined ? {} : { drill }) });
 
-export function practice(host: Host): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean } } {
+export function practice(begin: (setup: Setup) => void): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean } } {
   const drills = drillsOf(DRILLS);
   const of = (name: string): (typeof drills)[number] => {
     const drill = drills.find((one) => one.name === name);
@@ -25,7 +24,7 @@ export function practice(host: Host): { parts: HTMLElement[]; photo: HTMLDialogE
   const note = el("p", { class: "note", id: "drill-note" });
   const which = choice("drill", "Drill", drills.map(({ name }) => [name, name] as const), told);
   function made(name: string): string {
-    const [good, tries] = counts()[name] ?? [0, 0];
+    const [good, tries] = countsOf(KEY, name);
     return tries === 0 ? "" : ` Made ${good} of ${tries}.`;
   }
   function told(): void {
@@ -34,12 +33,12 @@ export function practice(host: Host): { parts: HTMLElement[]; photo: HTMLDialogE
   const close = (): void => start.closest("dialog")!.close();
   const start: HTMLButtonElement = button("Start drill", () => {
     close();
-    host.begin(setupOf(atOf(of(which.select.value), BALLS), which.select.value));
+    begin(setupOf(atOf(of(which.select.value), BALLS), which.select.value));
   }, { id: "start-drill" });
   const photo = photoPage({
     names: Array.from({ length: BALLS }, (_, k) => (k === 0 ? "cue" : String(k))),
     size: SIZE,
-    use: (balls) => host.begin(setupOf(Array.from({ length: BALLS }, (_, k) => balls.get(k)?.map((x) => x.toFixed(4)).join(",") ?? (k === 0 ? "0.635,0.635" : "in")).join(" "))),
+    use: (balls) => begin(setupOf(Array.from({ length: BALLS }, (_, k) => balls.get(k)?.map((x) => x.toFixed(4)).join(",") ?? (k === 0 ? "0.635,0.635" : "in")).join(" "))),
   });
   told();
   return {
@@ -57,7 +56,7 @@ export function practice(host: Host): { parts: HTMLElement[]; photo: HTMLDialogE
     played(name, { shot }) {
       const is = judge(of(name), shot!);
       if (is === "on") return { text: "Go on with the next ball.", again: false };
-      const [good, tries] = count(name, is === "made");
+      const [good, tries] = count(KEY, name, [Number(is === "made"), 1]);
       told();
       return { text: `${is === "made" ? "Made" : "Missed"}: ${good} of ${tries}.`, again: true };
     },

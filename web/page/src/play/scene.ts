@@ -1,34 +1,26 @@
 // The table from behind the cue, by three.js: cloth, cushions and pockets, balls with stripes and numbers that turn as the library computed, and shadows.
 // A module by itself: the page has it compressed and starts it when it is asked for.
+import type { Cue } from "carom";
 import * as THREE from "three";
+import { WOOD } from "../../../player/table.js";
+import { IVORY, type Pose, type Table } from "../../../player/words.js";
 
-type Point = readonly [number, number];
 export interface SceneOf {
-  table: { width: number; length: number; rails: { p: Point; q: Point; height?: number }[]; pockets: { centre: Point; radius: number }[] };
+  table: Pick<Table, "width" | "length" | "rails" | "pockets">;
   balls: { name: string; radius: number; colour: string }[];
   cloth: string;
   wood: string;
 }
-/** As of the player in web/player: place, m, and rotation, w, x, y, z. */
-export interface Pose {
-  r: readonly number[];
-  q: ArrayLike<number>;
-  seen: boolean;
-}
-/** The cue: direction and height of its butt, degrees, how far its tip is from the cue ball's middle, m, and where on the ball, radii. */
+/** The cue, how far its tip is from the cue ball's middle, and where the cue ball first meets something, m. */
 export interface Stick {
-  phi: number;
-  theta: number;
+  cue: Cue;
   gap: number;
-  right: number;
-  up: number;
-  /** Where the cue ball first meets something, m. */
   first: readonly number[] | undefined;
 }
 
-const IVORY = "#fbfaf5";
 const DEGREES = 180 / Math.PI;
-const WOOD = 0.1;
+/** The colour of numbers. */
+const NUMBER = [22, 24, 27];
 
 /** The surface of a ball, around its z: white caps at both ends of x of a stripe, numbers at both ends of z, or six dots of a cue ball. */
 function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTexture {
@@ -36,6 +28,12 @@ function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTextur
   [canvas.width, canvas.height] = [512, 256];
   const g = canvas.getContext("2d")!;
   const number = Number(name);
+  // How much ink of the number there is in a square.
+  g.font = `bold ${name.length > 1 ? 72 : 88}px sans-serif`;
+  g.textAlign = "center";
+  g.textBaseline = "middle";
+  g.fillText(name, 64, 68);
+  const ink = g.getImageData(0, 0, 128, 128).data;
   const pixels = g.createImageData(512, 256);
   const rgb = (hex: string): number[] => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
   const [base, ivory, dot] = [rgb(colour), rgb(IVORY), colour === IVORY ? [200, 16, 46] : [255, 255, 255]];
@@ -46,31 +44,17 @@ function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTextur
       const [x, y, z] = [-Math.cos(around) * Math.sin(down), -Math.sin(around) * Math.sin(down), Math.cos(down)];
       let of = base;
       if (number > 8 && Math.abs(x) > Math.cos(0.9)) of = ivory;
-      if (number > 0 && Math.abs(z) > Math.cos(0.52)) of = ivory;
+      if (number > 0 && Math.abs(z) > Math.cos(0.52)) {
+        // The square on the ball: whoever sees the lower end has x to the left.
+        const [u, v] = [64 + 160 * x * Math.sign(z), 64 - 160 * y].map(Math.floor) as [number, number];
+        const black = (ink[4 * (128 * v + u) + 3] ?? 0) / 255;
+        of = ivory.map((part, k) => part + black * (NUMBER[k]! - part));
+      }
       if (!(number > 0) && Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > Math.cos(0.2)) of = dot;
       pixels.data.set([...of, 255], 4 * (512 * row + column));
     }
   g.putImageData(pixels, 0, 0);
-  const texture = new THREE.CanvasTexture(canvas);
-  texture.colorSpace = THREE.SRGBColorSpace;
-  texture.anisotropy = 4;
-  return texture;
-}
-/** A number as a disc that lies on the ball's ends. */
-function label(name: string): THREE.CanvasTexture {
-  const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = 128;
-  const g = canvas.getContext("2d")!;
-  g.fillStyle = IVORY;
-  g.fillRect(0, 0, 128, 128);
-  g.fillStyle = "#16181b";
-  g.font = `bold ${name.length > 1 ? 72 : 88}px sans-serif`;
-  g.textAlign = "center";
-  g.textBaseline = "middle";
-  g.fillText(name, 64, 68);
-  const texture = new THREE.CanvasTexture(canvas);
-  texture.colorSpace = THREE.SRGBColorSpace;
-  return texture;
+  return Object.assign(new THREE.CanvasTexture(canvas), { colorSpace: THREE.SRGBColorSpace, anisotropy: 4 });
 }
 
 /** A lamp above the table. */
@@ -124,25 +108,12 @@ function furnish(scene: THREE.Scene, of: SceneOf): void {
     scene.add(hole);
   }
 }
-/** A ball: a sphere whose y is the ball's z, with numbers on both ends. */
+/** A ball: a sphere whose y is the ball's z. */
 function ballOf(ball: SceneOf["balls"][number]): THREE.Group {
-  const group = new THREE.Group();
   const sphere = new THREE.Mesh(new THREE.SphereGeometry(ball.radius, 40, 28), new THREE.MeshPhongMaterial({ map: surface(ball), shininess: 90, specular: "#666666" }));
   sphere.rotation.x = Math.PI / 2;
   sphere.castShadow = true;
-  group.add(sphere);
-  if (Number(ball.name) > 0)
-    for (const end of [1, -1]) {
-      // Rings within rings: a circle without them would be flat, and the ball in front of it.
-      const disc = new THREE.Mesh(new THREE.RingGeometry(0, ball.radius * 0.4, 24, 6), new THREE.MeshLambertMaterial({ map: label(ball.name) }));
-      disc.position.z = end * ball.radius * 0.925;
-      // The disc is bent onto the ball.
-      const at = disc.geometry.getAttribute("position");
-      for (let k = 0; k < at.count; k++) at.setZ(k, Math.sqrt(ball.radius ** 2 - at.getX(k) ** 2 - at.getY(k) ** 2) * 1.004 - ball.radius * 0.925);
-      if (end < 0) disc.rotation.y = Math.PI;
-      group.add(disc);
-    }
-  return group;
+  return new THREE.Group().add(sphere);
 }
 
 export class Scene {
@@ -229,12 +200,13 @@ export class Scene {
     if (stick) {
       const { r } = poses[0]!;
       const R = r[2]!;
-      const [phi, theta] = [stick.phi / DEGREES, Math.max(stick.theta, 3) / DEGREES];
+      const { a, b } = stick.cue;
+      const [phi, theta] = [stick.cue.phi / DEGREES, Math.max(stick.cue.theta, 3) / DEGREES];
       // From the butt to the tip, and what is to the right of it and above.
       const along = new THREE.Vector3(Math.cos(phi) * Math.cos(theta), Math.sin(phi) * Math.cos(theta), -Math.sin(theta));
       const right = new THREE.Vector3(Math.sin(phi), -Math.cos(phi), 0);
       const up = new THREE.Vector3().crossVectors(right, along);
-      const middle = new THREE.Vector3(r[0]!, r[1]!, r[2]!).addScaledVector(right, stick.right * R).addScaledVector(up, stick.up * R).addScaledVector(along, -(stick.gap + 0.7));
+      const middle = new THREE.Vector3(r[0]!, r[1]!, r[2]!).addScaledVector(right, -a * R).addScaledVector(up, b * R).addScaledVector(along, -(stick.gap + 0.7));
       this.#stick.position.copy(middle);
       this.#stick.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along);
     }

@@ -4,6 +4,7 @@ import type { Call, Carom, Cue, PlanOptions, Player } from "carom";
 import type { player as filmPlayer } from "../../../player/player.js";
 import { type filmOf, onTable, type Quaternion } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
+import { cueWith, strokeOf } from "../table/stroke.js";
 import type { controls } from "./controls.js";
 import { OPTIONS, type Play, type Stroke } from "./game.js";
 import type { byLink } from "./link.js";
@@ -74,11 +75,8 @@ export const free = (s: Session): boolean => stateOf(s) === "aiming";
 export const says = (s: Session, text: string): void => void (s.words.said.textContent = text);
 
 /** The stroke that the controls set. */
-export function cueOf({ carom, play, stroke }: Session): Cue {
-  const { speed, phi, right, up, theta } = stroke.value;
-  return { ...carom.cue({}, GAMES[play.played?.of ?? play.setup.game]!.game), speed, phi, a: -right || 0, b: up, theta };
-}
-export const aimAt = ({ stroke }: Session, of: Cue): void => stroke.set({ speed: of.speed, phi: of.phi, right: -of.a || 0, up: of.b, theta: of.theta });
+export const cueOf = ({ carom, play, stroke }: Session): Cue => cueWith(carom.cue({}, GAMES[play.played?.of ?? play.setup.game]!.game), stroke.value());
+export const aimAt = ({ stroke }: Session, of: Cue): void => stroke.set(strokeOf(of));
 /** The stroke that is shown: of whoever may aim, or of the page's player before it plays. */
 export const aimed = (s: Session): Cue | undefined => (free(s) ? cueOf(s) : s.theirs);
 
@@ -88,7 +86,7 @@ export const ballsOn = ({ carom, play }: Session): number[] => carom.ballsOn(pla
 /** What was chosen, as far as it holds for the aim. */
 export function valid({ first, chosen, stroke }: Session): Chosen {
   const met = first?.ball ?? -1;
-  const off = chosen.phi === undefined ? 0 : Math.abs(((stroke.value.phi - chosen.phi + 540) % 360) - 180);
+  const off = chosen.phi === undefined ? 0 : Math.abs(((stroke.value().phi - chosen.phi + 540) % 360) - 180);
   return off < 2 && (met === -1 || met === chosen.met) ? chosen : NONE;
 }
 /** The ball and the pocket that are called. */

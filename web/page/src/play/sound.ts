@@ -42,16 +42,10 @@ export function wave({ tones, noise: [share, decay, low] }: Voice, rate: number)
 }
 
 export class Sound {
-  on: boolean;
-  /** How many sounds were begun, and the loudest. */
-  begun = 0;
-  loudest = 0;
   #context: AudioContext | undefined;
   readonly #buffers = new Map<Voice, AudioBuffer>();
 
-  constructor(on: boolean) {
-    this.on = on;
-  }
+  constructor(public on: boolean) {}
   /** To be called when the reader has pressed something: browsers let pages sound only then. */
   wake(): void {
     if (!this.on) return;
@@ -78,7 +72,5 @@ export class Sound {
     const source = new AudioBufferSourceNode(context, { buffer, playbackRate: 0.94 + 0.12 * ((event.a * 7 + Math.max(event.b, 0) * 3) % 5) / 5 });
     source.connect(new GainNode(context, { gain: 0.9 * loud })).connect(context.destination);
     source.start();
-    this.begun++;
-    this.loudest = Math.max(this.loudest, loud);
   }
 }

@@ -1,7 +1,8 @@
 // The view from behind the cue, over the flat one: its module is in the page as compressed text, and starts when it is asked for.
 import { colourOf } from "../../../player/words.js";
 import { stickEnd } from "../table/drawing.js";
-import { color } from "../ui.js";
+import { color, drags } from "../ui.js";
+import { skip } from "./filming.js";
 import type { Play } from "./game.js";
 import type { Scene } from "./scene.js";
 import { aimed, free, type Session } from "./session.js";
@@ -19,7 +20,7 @@ async function load(): Promise<typeof import("./scene.js")> {
 }
 
 export class Space {
-  #module: Promise<typeof import("./scene.js")> | undefined;
+  #module: typeof import("./scene.js") | undefined;
   #scene: Scene | undefined;
   #of: Play | undefined;
   on = false;
@@ -27,46 +28,38 @@ export class Space {
   constructor(
     readonly s: Session,
     readonly felt: HTMLElement,
-    readonly skip: () => void,
   ) {}
 
   /** Shows it, or the flat view again. Rejects where the browser has no WebGL: the flat view stays. */
   async toggle(): Promise<void> {
     if (this.on) return this.#hide();
     if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it has no WebGL 2");
-    this.#module ??= load();
-    const { Scene } = await this.#module;
-    this.#make(Scene);
+    this.#module ??= await load();
+    this.#make();
     this.on = true;
     this.s.film.canvas.classList.add("behind");
     this.draw();
   }
 
-  #make(make: typeof Scene): void {
+  #make(): void {
     const play = this.s.play;
     this.#scene?.close();
     this.#scene?.canvas.remove();
     const balls = play.balls.map(({ kind }, k) => ({ name: play.names[k]!, radius: kind.radius, colour: colourOf(play.names[k]!, k) }));
-    const scene = new make({ table: play.table, balls, cloth: color("cloth"), wood: color("rail") });
+    const scene = new this.#module!.Scene({ table: play.table, balls, cloth: color("cloth"), wood: color("rail") });
     this.#scene = scene;
     this.#of = play;
     const { canvas } = scene;
     for (const [name, value] of Object.entries({ id: "scene", role: "img", tabindex: "0", "aria-label": "The table from behind the cue" })) canvas.setAttribute(name, value);
-    let last: number | undefined;
-    canvas.addEventListener("pointerdown", (event) => {
-      if (this.s.film.playing) return this.skip();
-      canvas.setPointerCapture(event.pointerId);
-      last = event.clientX;
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      if (last === undefined) return;
-      if (free(this.s)) {
-        this.s.stroke.set({ phi: (this.s.stroke.value.phi + (last - event.clientX) * 0.08 + 360) % 360 });
+    let last = 0;
+    drags(canvas, (event, first) => {
+      if (first && this.s.film.playing) skip(this.s);
+      else if (!first && free(this.s)) {
+        this.s.stroke.set({ phi: (this.s.stroke.value().phi + (last - event.clientX) * 0.08 + 360) % 360 });
         this.s.changed();
       }
       last = event.clientX;
     });
-    for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => (last = undefined));
     canvas.addEventListener("keydown", (event) => {
       if (event.key === "Tab") return;
       event.preventDefault();
@@ -78,10 +71,7 @@ export class Space {
 
   draw(): void {
     if (!this.on || !this.#scene) return;
-    if (this.#of !== this.s.play) void this.#module!.then(({ Scene }) => {
-      this.#make(Scene);
-      this.draw();
-    });
+    if (this.#of !== this.s.play) this.#make();
     const { clientWidth, clientHeight } = this.s.film.canvas;
     const { canvas } = this.#scene;
     if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight) this.#scene.size(clientWidth, clientHeight);
@@ -89,7 +79,7 @@ export class Space {
     const of = aimed(this.s);
     // The camera stays where it was while the balls roll.
     if (of) this.#scene.look(poses[0]!.r, of.phi);
-    this.#scene.draw(poses, of && { phi: of.phi, theta: of.theta, right: -of.a, up: of.b, gap: stickEnd(this.#of!.balls[0]!.kind.radius, of.speed), first: this.s.first?.at });
+    this.#scene.draw(poses, of && { cue: of, gap: stickEnd(this.#of!.balls[0]!.kind.radius, of.speed), first: this.s.first?.at });
   }
 
   #hide(): void {

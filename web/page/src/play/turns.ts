@@ -1,5 +1,6 @@
 // The turns of a game: it begins, a stroke is played by whoever sits here or by the page's player, and the next one comes to the table.
 import { drop, far } from "../far.js";
+import { angleFrom, direction } from "../table/grip.js";
 import { wordsOfChoice } from "../table/words.js";
 import { parameters, wrong } from "../ui.js";
 import { asked, chances, lookBack } from "./coaching.js";
@@ -65,7 +66,7 @@ function address(s: Session): void {
   const far = (ball: number): number => Math.hypot(r(ball)[0]! - r(0)[0]!, r(ball)[1]! - r(0)[1]!);
   const [near] = ballsOn(s).sort((a, b) => far(a) - far(b));
   s.stroke.set({ right: 0, up: 0, theta: 0 });
-  if (near !== undefined) s.stroke.set({ phi: Math.round(((Math.atan2(r(near)[1]! - r(0)[1]!, r(near)[0]! - r(0)[0]!) * 180) / Math.PI + 360) * 100) / 100 % 360 });
+  if (near !== undefined) s.stroke.set({ phi: direction(angleFrom(s.play.balls[0]!, [r(near)[0]!, r(near)[1]!])) });
 }
 export function next(s: Session): void {
   const { play } = s;

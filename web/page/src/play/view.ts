@@ -4,32 +4,29 @@ import { player as filmPlayer } from "../../../player/player.js";
 import { drop } from "../far.js";
 import { button, eachFrame, el, parameters, wrong } from "../ui.js";
 import { aiming, drawAim } from "./aim.js";
-import { logPage } from "./coach.js";
 import { advise, chances } from "./coaching.js";
 import { controls } from "./controls.js";
 import { diagramPage, type Source } from "./diagram.js";
-import { finish, moved, perform, replay, rest, skip } from "./filming.js";
-import { Play, type Setup } from "./game.js";
-import { kept, keepText } from "./keep.js";
+import { finish, moved, replay, rest, skip } from "./filming.js";
+import { Play } from "./game.js";
 import { byLink } from "./link.js";
-import { menu, type Settings } from "./menu.js";
+import { logPage } from "./log.js";
+import { menu, settingsOf } from "./menu.js";
 import { practice } from "./practice.js";
-import { cueOf, free, NONE, says, type Session } from "./session.js";
+import { cueOf, NONE, says, type Session } from "./session.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
-import { begin, choose, FIRST, keep, next, resume, shoot, start, undo } from "./turns.js";
-
-const SETTINGS = "carom-settings";
+import { begin, choose, FIRST, resume, start, undo } from "./turns.js";
 
 /** The game before it begins, with all that it is played by. */
 function sessionOf(carom: Carom, felt: HTMLElement): Session {
   const coarse = window.matchMedia("(pointer: coarse)").matches;
-  const settings: Settings = { sound: !coarse, coach: false, ...(JSON.parse(kept(SETTINGS) ?? "{}") as Partial<Settings>) };
+  const settings = settingsOf(coarse);
   const changed = eachFrame(() => {
     if (!s.film.playing && s.then === undefined) rest(s);
     if (settings.coach) void chances(s);
   });
-  const s: Session = {
+  const bare: Omit<Session, "stroke" | "link" | "training" | "space"> = {
     ...{ carom, coarse, settings, changed, sound: new Sound(settings.sound) },
     words: { turn: el("p", { id: "turn", role: "status" }), score: el("p", { id: "score" }), said: el("p", { id: "said", role: "status" }) },
     buttons: {
@@ -41,24 +38,17 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
       push: button("Push out", () => choose(s, "push"), { id: "push", "aria-pressed": "false" }),
       pass: button("Pass", () => choose(s, "pass"), { id: "pass" }),
       skip: button("Skip", () => skip(s), { id: "skip" }),
-      link: button("Send link", () => void s.link.send(coarse), { id: "send" }),
+      link: button("Send link", () => void s.link.send(), { id: "send" }),
       space: button("3D", () => void toggle(s), { id: "space", "aria-pressed": "false", title: "The view from behind the cue" }),
     },
-    stroke: controls({ changed, shoot: () => shoot(s), free: () => free(s), told: (text) => says(s, text) }),
     film: filmPlayer({ over: (g) => drawAim(s, g), moved: () => moved(s), ended: () => finish(s) }),
-    link: byLink({
-      ...{ play: () => s.play, seat: () => s.seat, next: () => next(s), rest: () => rest(s), keep: () => keep(s), told: (text) => says(s, text) },
-      perform: (one, then) => perform(s, one, then),
-      busy: () => s.film.playing || s.then !== undefined,
-    }),
-    training: practice({ begin: (setup) => begin(s, setup) }),
-    space: undefined as never,
     play: new Play(carom, FIRST),
     ...{ seat: 0, chosen: NONE, special: undefined, first: undefined, turned: [], turnedBefore: [], thinks: false, theirs: undefined, then: undefined },
     ...{ shown: undefined, filmed: undefined, sounded: 0, number: 0, asking: 0 },
   };
+  const s = bare as Session;
   felt.append(s.film.canvas);
-  return Object.assign(s, { space: new Space(s, felt, () => skip(s)) });
+  return Object.assign(s, { stroke: controls(s), link: byLink(s), training: practice((setup) => begin(s, setup)), space: new Space(s, felt) });
 }
 async function toggle(s: Session): Promise<void> {
   try {
@@ -71,9 +61,8 @@ async function toggle(s: Session): Promise<void> {
 
 /** The dialogs of a game: a new one with its settings, the log of strokes, diagrams. */
 function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof diagramPage> } {
-  const { carom, coarse, settings } = s;
   const log = logPage();
-  const diagram = diagramPage(carom, coarse);
+  const diagram = diagramPage(s.carom, s.coarse);
   const shut = (text: string, id: string, then: () => void): HTMLElement => button(text, () => (games.root.close(), then()), { id });
   const draw = (): void => {
     const { play } = s;
@@ -82,16 +71,9 @@ function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof d
     if (play.practice && !play.setup.drill) sources.unshift(["the stroke that is aimed", play.balls, cueOf(s)]);
     diagram.open(play.setup.game, [...sources, ["the balls as they lie", play.balls, undefined]]);
   };
-  const changed = (now: Settings): void => {
-    Object.assign(settings, now);
-    s.sound.on = now.sound;
-    s.sound.wake();
-    keepText(JSON.stringify(settings), SETTINGS);
-    s.changed();
-  };
-  const rows = [shut("Link to this game", "copy-game", () => void s.link.send(coarse)), shut("Log of your strokes", "open-log", log.open), shut("Diagram to print", "open-diagram", draw)];
-  const games = menu(settings, s.film.pace, { begin: (setup: Setup) => begin(s, setup), changed }, ...s.training.parts, el("h3", {}, "This game"), el("div", { class: "row" }, ...rows));
-  s.buttons.menu.addEventListener("click", () => games.open(s.play.setup));
+  const rows = [shut("Link to this game", "copy-game", () => void s.link.send()), shut("Log of your strokes", "open-log", log.open), shut("Diagram to print", "open-diagram", draw)];
+  const games = menu(s, ...s.training.parts, el("h3", {}, "This game"), el("div", { class: "row" }, ...rows));
+  s.buttons.menu.addEventListener("click", games.open);
   return { all: [games.root, log.root, diagram.root, s.training.photo], diagram };
 }
 

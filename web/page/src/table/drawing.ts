@@ -1,8 +1,9 @@
 // What is drawn over the table while one aims: the stick, the ghost ball, lines, and rings around balls.
 import type { Contact, Cue, ShotBall } from "carom";
+import { line } from "../../../player/table.js";
 import { onTable } from "./filmed.js";
 
-const DEGREES = 180 / Math.PI;
+export const DEGREES = 180 / Math.PI;
 /** How far the stick is drawn back for each m/s, m. */
 export const PULL = 0.04;
 export const stickEnd = (radius: number, speed: number): number => radius + PULL * speed;
@@ -14,13 +15,10 @@ export interface Pen {
   place(x: number, y: number): [number, number];
 }
 
-export function stroke({ g, place }: Pen, from: readonly number[], to: readonly number[], width: number, style: string): void {
-  g.strokeStyle = style;
-  g.lineWidth = width;
-  g.beginPath();
-  g.moveTo(...place(from[0]!, from[1]!));
-  g.lineTo(...place(to[0]!, to[1]!));
-  g.stroke();
+export function stroke(pen: Pen, from: readonly number[], to: readonly number[], width: number, style: string): void {
+  pen.g.strokeStyle = style;
+  pen.g.lineWidth = width;
+  line(pen.g, pen, [from, to]);
 }
 
 /** A circle of a radius, m, and some pixels more. */
@@ -31,17 +29,14 @@ export function ring({ g, scale, place }: Pen, at: readonly number[], radius: nu
 }
 
 /** The ghost ball of a contact, the line of the ball that is met, and the tangent line, to the side where the cue ball goes. */
-export function drawContact(pen: Pen, { event, ball }: Contact, radius: number, [dx, dy]: readonly [number, number], length = 0.35): void {
+export function drawContact(pen: Pen, { event, ball }: Contact, radius: number, [dx, dy]: readonly [number, number]): void {
+  const length = 0.35;
   const [ghost, object] = event.a === ball ? [event.before[1]!.r, event.before[0]!.r] : [event.before[0]!.r, event.before[1]!.r];
   const [nx, ny] = [(object[0] - ghost[0]) / (2 * radius), (object[1] - ghost[1]) / (2 * radius)];
   pen.g.setLineDash([5, 4]);
-  if (length > 0) {
-    stroke(pen, object, [object[0] + length * nx, object[1] + length * ny], 1.4, "#ffffffd0");
-    const turn = Math.sign(dx * -ny + dy * nx) || 1;
-    stroke(pen, ghost, [ghost[0] - length * turn * ny, ghost[1] + length * turn * nx], 1.4, "#ffffffd0");
-  }
-  pen.g.lineWidth = 1.4;
-  pen.g.strokeStyle = "#ffffffd0";
+  stroke(pen, object, [object[0] + length * nx, object[1] + length * ny], 1.4, "#ffffffd0");
+  const turn = Math.sign(dx * -ny + dy * nx) || 1;
+  stroke(pen, ghost, [ghost[0] - length * turn * ny, ghost[1] + length * turn * nx], 1.4, "#ffffffd0");
   ring(pen, ghost, radius, 0);
   pen.g.setLineDash([]);
 }

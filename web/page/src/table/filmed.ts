@@ -1,15 +1,11 @@
 // What the player shows of a shot: where its balls are and how they have turned at a time, and the paths that they take.
 import type { BallState, Shot, ShotBall, Table } from "carom";
-import { wordsOf } from "../../../player/words.js";
+import { type Film, product, wordsOf } from "../../../player/words.js";
 
 /** How long a ball falls in a pocket, about, s. */
 const FALL = 0.16;
 
-/** x, y, z of a ball, m, point after point. */
-export interface Path {
-  ball: number;
-  xyz: Float64Array;
-}
+export type Path = Film["shots"][number]["paths"][number];
 
 export const onTable = ({ label }: Pick<BallState, "label">): boolean => label !== "pocketed" && label !== "off";
 /** How long the film of a shot is: a ball that was pocketed at the end falls after it. */
@@ -43,13 +39,6 @@ export interface Layout {
 export type Quaternion = readonly [number, number, number, number];
 /** The rotation about the vertical by an angle, degrees. */
 export const facing = (degrees: number): Quaternion => [Math.cos((degrees * Math.PI) / 360), 0, 0, Math.sin((degrees * Math.PI) / 360)];
-/** First b, then a, of which the first four numbers are read. */
-export const product = ([w, i, j, n]: ArrayLike<number> & Iterable<number>, [c, x, y, z]: Quaternion): Quaternion => [
-  w! * c - i! * x - j! * y - n! * z,
-  w! * x + i! * c + j! * z - n! * y,
-  w! * y - i! * z + j! * c + n! * x,
-  w! * z + i! * y - j! * x + n! * c,
-];
 
 /** The film of a shot, or the balls as they lie. */
 export function filmOf({ table, balls, names, turned }: Layout, shot: Shot | undefined, paths: Path[]) {

@@ -1,13 +1,12 @@
 // What a pointer takes hold of on a table, and where a drag of it leads: the same in a game and in the laboratory.
-import type { Cue, ShotBall, Table } from "carom";
+import { type Carom, CaromError, type Cue, type ShotBall, type Table } from "carom";
 import type { player } from "../../../player/player.js";
-import { PULL, stickEnd } from "./drawing.js";
+import { DEGREES, PULL, stickEnd } from "./drawing.js";
 import { onTable } from "./filmed.js";
 
 export type Point = [number, number];
 export type Film = ReturnType<typeof player>;
 export type Grip = { is: "ball"; ball: number } | { is: "pocket"; pocket: number } | { is: "stick" | "line" | "cloth" | "turn" };
-export const DEGREES = 180 / Math.PI;
 export const ARROWS: Record<string, Point> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /** Where a pointer is on a canvas, pixels. */
@@ -54,14 +53,21 @@ export function movedBy(film: Film, { state: { r } }: ShotBall, [dx, dy]: Point,
   return film.unplace(px + dx * pixels, py + dy * pixels);
 }
 
-/** Where a ball of a radius lies that is put at x, y: inside the cushions, and beside another ball where one is in the way. */
-export function beside(table: Table, balls: readonly ShotBall[], ball: number, [x, y]: readonly [number, number], highest = table.length): Point {
+/** The layout with a ball at x, y: inside the cushions, and beside another ball where one is in the way. Undefined where there is no room. */
+export function put(carom: Carom, table: Table, balls: readonly ShotBall[], ball: number, [x, y]: readonly [number, number], highest = table.length): ShotBall[] | undefined {
   const R = balls[ball]!.kind.radius;
   const inside = (v: number, most: number): number => Math.min(Math.max(v, R + 1e-4), most - R - 1e-4);
-  const [px, py] = [inside(x, table.width), inside(y, highest)];
+  let [px, py] = [inside(x, table.width), inside(y, highest)];
   const other = balls.find(({ state }, k) => k !== ball && onTable(state) && Math.hypot(state.r[0] - px, state.r[1] - py) < 2 * R + 1e-5);
-  if (!other) return [px, py];
-  const [ox, oy] = other.state.r;
-  const far = Math.hypot(px - ox, py - oy) || 1;
-  return [ox + ((px - ox) / far) * (2 * R + 2e-5), oy + ((py - oy) / far) * (2 * R + 2e-5)];
+  if (other) {
+    const [ox, oy] = other.state.r;
+    const far = (2 * R + 2e-5) / (Math.hypot(px - ox, py - oy) || 1);
+    [px, py] = [ox + (px - ox) * far, oy + (py - oy) * far];
+  }
+  try {
+    return carom.placeBall(table, balls, ball, px, py);
+  } catch (error) {
+    if (error instanceof CaromError) return undefined;
+    throw error;
+  }
 }

@@ -6,7 +6,7 @@ const baulkOf = ({ length }: Table): number => (0.737 / 3.569) * length;
 const radiusOf = ({ width }: Table): number => (0.292 / 1.778) * width;
 
 /** Whether a cue ball in hand may lie at a place: "anywhere", behind the head string ("kitchen"), in the D ("d"). */
-export function mayLie(table: Table, hand: string, [x, y]: readonly [number, number]): boolean {
+export function mayLie(table: Table, hand: string, [x, y]: readonly [number, number, ...number[]]): boolean {
   const baulk = baulkOf(table);
   if (hand === "kitchen") return y <= table.length / 4 + 1e-6;
   return hand !== "d" || (y <= baulk + 1e-6 && Math.hypot(x - table.width / 2, y - baulk) <= radiusOf(table) + 1e-6);

@@ -1,0 +1,56 @@
+// The log of strokes: what was meant and what it cost, kept by the browser, and a page of them to print.
+import { percent } from "../table/words.js";
+import { button, dialog, el } from "../ui.js";
+import { kept, keepText } from "./keep.js";
+
+const LOG = "carom-log";
+const MOST = 500;
+
+/** A stroke of the log. Errors are those of the aim at the ball that was meant: the direction, degrees, and the speed beyond its range, m/s. */
+export interface Row {
+  when: string;
+  game: string;
+  meant: string;
+  phi?: number;
+  speed?: number;
+  /** Chances that it keeps the turn and wins, of this stroke and of the best one. */
+  keep: number;
+  value: number;
+  best: string;
+  bestValue: number;
+}
+/** What a stroke cost against the best one: its chance to win less, never below 0 but for the spread of both plans. */
+export const costOf = ({ value, bestValue }: Row): number => Math.max(bestValue - value, 0);
+
+const rows = (): Row[] => JSON.parse(kept(LOG) ?? "[]") as Row[];
+export const keepRow = (row: Row): void => keepText(JSON.stringify([...rows(), row].slice(-MOST)), LOG);
+
+/** The log as a page to print. */
+export function logPage(): { root: HTMLDialogElement; open(): void } {
+  const body = el("tbody");
+  const sum = el("p", { id: "log-sum" });
+  const head = ["When", "Game", "Meant", "Aim off by, °", "Speed off by, m/s", "Keeps the turn", "Wins", "Best stroke", "Best wins", "Cost"];
+  const table = el("table", { class: "numbers log" }, el("caption", {}, "Strokes, the last one first"), el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))), body);
+  const clear = button("Delete all", () => {
+    keepText("[]", LOG);
+    fill();
+  });
+  const root = dialog("log", "What your strokes cost", sum, el("div", { class: "scrolls", tabindex: "0", role: "region", "aria-label": "Strokes" }, table), el("div", { class: "row no-print" }, button("Print", () => window.print(), { id: "print-log" }), clear));
+  function fill(): void {
+    const all = rows();
+    const number = (x: number | undefined, places: number): string => (x === undefined ? "" : x.toFixed(places));
+    body.replaceChildren(...[...all].reverse().map((row) => el("tr", {}, ...[row.when.replace("T", " "), row.game, row.meant, number(row.phi, 2), number(row.speed, 1), percent(row.keep), percent(row.value), row.best, percent(row.bestValue), percent(costOf(row))].map((text) => el("td", {}, text)))));
+    const mean = (of: (row: Row) => number | undefined): number => {
+      const known = all.flatMap((row) => of(row) ?? []);
+      return known.reduce((total, x) => total + x, 0) / Math.max(known.length, 1);
+    };
+    sum.textContent = all.length === 0 ? "No stroke yet: the coach, in New game, writes one line for each." : `${all.length} ${all.length === 1 ? "stroke" : "strokes"}. A stroke cost ${percent(mean(costOf))} of a game on average. The aim was off by ${mean(({ phi }) => phi && Math.abs(phi)).toFixed(2)}°.`;
+  }
+  return {
+    root,
+    open() {
+      fill();
+      root.showModal();
+    },
+  };
+}
