@@ -373,7 +373,7 @@ int command_ways(int argc, char **argv) {
                    : job.leave.given ? "1:4:0.5"
                                      : "1.5,2.5,4");
   if (job.from.tip.count == 0 && job.leave.given && !alone && !points && has_flags(&job.from)) {
-    char tips[] = "0,-0.4..0.4..0.2";
+    char tips[] = "0,-0.4:0.4:0.2";
     option_tip.set(&option_tip, tips, &job.from.tip);
   }
   if (job.from.tip.count == 0 && points)

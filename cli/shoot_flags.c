@@ -77,7 +77,7 @@ ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
     "speed of the cue ball just after the strike instead, which a level cue gives it");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip; several "
-    "with colons, or ranges: 0,-0.4..0.4..0.2. Right is "
+    "with colons, or ranges: 0,-0.4:0.4:0.2. Right is "
     "positive, as english is everywhere in this command (default 0,0.25). Beyond 0.5 R a chalked "
     "tip "
     "slips off the ball, of which carom warns");
