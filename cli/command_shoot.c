@@ -277,12 +277,12 @@ static int shoot_all(shoot_job *job, shot_file *file, FILE *out) {
       fputs(text, out);
       continue;
     }
+    shot_numbers(&b->line[b->count], &job->from.shared, b->file, &b->unread);
     carom_cue *cue = &b->line[b->count].cue;
     const bool plays = b->line[b->count].error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 &&
                        tip_off_centre(cue) < 1.0;
     if (plays && doubts_about_tip(&b->tips, tip_off_centre(cue)) != NULL && job->from.shared.strict)
       cue->miscue = TIP_LIMIT;
-    shot_numbers(&b->line[b->count], &job->from.shared, b->file, &b->unread);
     begin_shot(b, job->events != EVENTS_NONE || job->together || drawings_asked(&job->drawn) ||
                       job->error.given);
     if (++b->count == BLOCK) {

@@ -384,7 +384,7 @@ int command_ways(int argc, char **argv) {
   shot_file *file = layout_open(&job.from, path, &s.options, MOST_STROKES, &lines);
   if (file == NULL)
     return EXIT_USAGE;
-  s.strokes = strokes_read(file, &line, stroke, MOST_STROKES);
+  s.strokes = strokes_read(file, &job.from.shared, &line, stroke, MOST_STROKES);
   int code = EXIT_USAGE;
   FILE *out = s.strokes > 0 ? output_open(job.from.shared.output) : NULL;
   if (out != NULL) {

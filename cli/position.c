@@ -172,7 +172,7 @@ bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *opt
     return false;
   without_bounds(&player);
   shot_file *file = strokes_of(f, options, &text);
-  const int count = file != NULL ? strokes_read(file, &line, cue, MOST_ROWS) : 0;
+  const int count = file != NULL ? strokes_read(file, &f->shared, &line, cue, MOST_ROWS) : 0;
   const bool found = count > 0 && choose(to, f, options, &player, &line, cue, count, told);
   if (count > 0)
     shot_line_free(&line);
