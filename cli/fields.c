@@ -304,15 +304,28 @@ const char *reader_of(const carom_number *n, const char *of_cushion, char text[1
   return text;
 }
 
+/* Whether the shots, or one of the models of impacts, read a number of --with. */
+static bool is_read(const shared_options *shared, uint32_t models, const carom_number *n) {
+  carom_shot_options options = shared->shot;
+  bool read = false;
+  for (int model = 0; carom_word(CAROM_WORDS_CUSHION_MODEL, model) != NULL && !read;
+       model++) {
+    if (shared->cushion && (models >> model & 1) == 0)
+      continue;
+    if (shared->cushion)
+      options.cushion_model = (carom_shot_cushion)(model + 1);
+    read = carom_number_is_read(n, &shared->with.kind, &options);
+  }
+  return read;
+}
+
 bool numbers_are_read(shared_options *shared) {
   const given_numbers *with = &shared->with;
-  carom_shot_options options = shared->shot;
-  if (shared->cushion)
-    options.cushion_model = (carom_shot_cushion)((int)shared->rail.model + 1);
+  const uint32_t models = shared->models != 0 ? shared->models : 1U << shared->rail.model;
   const carom_number *n;
   char reader[160];
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
-    if ((with->which >> k & 1) != 0 && !carom_number_is_read(n, &with->kind, &options)) {
+    if ((with->which >> k & 1) != 0 && !is_read(shared, models, n)) {
       complain("--with: %s has no effect; %s reads it", n->name,
                reader_of(n, shared->cushion ? "model" : "cushion", reader));
       return false;

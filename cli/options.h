@@ -117,6 +117,7 @@ typedef struct shared_options {
   bool cushion;               /* --cushion: impacts of a ball on a cushion, instead of collisions
                                  of two balls */
   carom_cushion_options rail; /* --model, --convention, --law, --least-step */
+  uint32_t models;            /* a bit for each of several models; 0: that of rail */
   carom_shot_options shot;    /* of whole shots: --models, --ball-ball, ... */
   given_numbers with;         /* --with */
   carom_options options;      /* --solver of one, --slip, --steps, --threads */
