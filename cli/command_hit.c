@@ -16,19 +16,18 @@
 #include <string.h>
 
 enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, RADIUS, MASS, OBJECT_MASS, FRICTION };
-static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN, "stun"},
-                                     [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
-                                     [CUT] = {"cut angle", MEASURE_CUT, "30"},
-                                     [SIDE] = {"side spin", MEASURE_SIDE, "none"},
-                                     [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.95"},
-                                     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
-                                     [RADIUS] = {"radius of the balls", MEASURE_LENGTH, "0.028575"},
-                                     [MASS] = {"mass of the balls", MEASURE_MASS, "0.170097"},
-                                     [OBJECT_MASS] = {"mass of the object ball",
-                                                      MEASURE_OBJECT_MASS, "same"},
-                                     [FRICTION] = {"friction between the balls",
-                                                   MEASURE_FRICTION, "alciatore"},
-                                     [FRICTION + 1] = {NULL, 0, NULL}};
+static const scene_input inputs[] = {
+    [SPIN] = {"spin", MEASURE_SPIN, "stun"},
+    [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
+    [CUT] = {"cut angle", MEASURE_CUT, "30"},
+    [SIDE] = {"side spin", MEASURE_SIDE, "none"},
+    [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.95"},
+    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
+    [RADIUS] = {"radius of the balls", MEASURE_LENGTH, "0.028575"},
+    [MASS] = {"mass of the balls", MEASURE_MASS, "0.170097"},
+    [OBJECT_MASS] = {"mass of the object ball", MEASURE_OBJECT_MASS, "same"},
+    [FRICTION] = {"friction between the balls", MEASURE_FRICTION, "alciatore"},
+    [FRICTION + 1] = {NULL, 0, NULL}};
 
 /* How the names of quantities stand on axes. */
 enum { THROW, DEFLECTION, ROLLING_DEFLECTION, ANGLE_BETWEEN, OBJECT_SPEED, SPIN_TRANSFER, ENERGY };
@@ -116,8 +115,7 @@ static void make(const series *s, one_case *c) {
   memset(in.b.w, 0, sizeof in.b.w);
   in.b.r[0] = 2.0 * R * cos(angle);
   in.b.r[1] = 2.0 * R * sin(angle);
-  in.mu_ball =
-      isnan(v[FRICTION]->x) ? carom_mu_ball(&in, s->asked.friction.law) : v[FRICTION]->x;
+  in.mu_ball = isnan(v[FRICTION]->x) ? carom_mu_ball(&in, s->asked.friction.law) : v[FRICTION]->x;
   memcpy(c->row, &in, sizeof in);
 }
 
@@ -144,7 +142,7 @@ static double measure(const series *s, const one_case *c, int which) {
     return sign_of(s) * d.deflection_rolls;
   case ANGLE_BETWEEN:
     return hypot(d.rolling_1[0], d.rolling_1[1]) > 1e-9 * in->a.v[0]
-               ? fabs(angle_between(d.rolling_1, d.rolling_2))
+               ? fabs(turn(in, d.rolling_1, d.rolling_2))
                : (double)NAN;
   case OBJECT_SPEED:
     return hypot(out->b.v[0], out->b.v[1]);
@@ -239,13 +237,12 @@ static const command_form form = {
     .about = "Computes the collision of the cue ball with a ball at rest, and describes it in "
              "words: throw, deflection, spin, and the speeds just after the collision and once the "
              "balls roll. Angles are measured from the cue ball's path before, seen from above.\n",
-    .options =
-        (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side,
-                                    &option_frictions, &option_restitution, &option_cloth,
-                                    &option_radius, &option_mass, &option_object_mass,
-                                    &option_solver, &option_slip,
-                                    &option_steps, &option_quantity, &option_csv, &option_plot,
-                                    &option_strict, &option_output, NULL},
+    .options = (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side,
+                                           &option_frictions, &option_restitution, &option_cloth,
+                                           &option_radius, &option_mass, &option_object_mass,
+                                           &option_solver, &option_slip, &option_steps,
+                                           &option_quantity, &option_csv, &option_plot,
+                                           &option_strict, &option_output, NULL},
     .details =
         "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A "
         "unit after the last number holds for all: --speed 1,3,7mph, --side 0:100%. Each value of "

@@ -308,10 +308,9 @@ int command_rail(int argc, char **argv) {
   static const scene rail = {&cushion_kind, inputs, QUANTITIES, quantity, make,
                              measure,       tell,   draw,       law};
   static series s;
-  s = (series){.asked = {.cushion = true,
-                         .rail = {.model = CAROM_CUSHION_HAN},
-                         .options = COMMAND_OPTIONS},
-               .scene = &rail};
+  s = (series){
+      .asked = {.cushion = true, .rail = {.model = CAROM_CUSHION_HAN}, .options = COMMAND_OPTIONS},
+      .scene = &rail};
   return series_command(
       &s, &form, argc, argv, ANGLE,
       "--angle is between -90 and 90 degrees; at 90 the ball moves along the cushion");

@@ -27,13 +27,18 @@ OPTION_SET(set_text) {
   return true;
 }
 
+/* Why a list is none of an option's values. */
+static const char *one_hint(const char *text) {
+  return strchr(text, ',') != NULL ? "; it takes one value, in which decimals have a point" : "";
+}
+
 OPTION_SET(set_count) {
   char *end;
   errno = 0;
   const long value = strtol(text, &end, 10);
   if (end == text || *end != '\0' || errno != 0 || value < row->least || value > INT_MAX) {
-    complain("--%s is a whole number from %d to %d, not '%s'", row->name, row->least, INT_MAX,
-             text);
+    complain("--%s is a whole number from %d to %d, not '%s'%s", row->name, row->least, INT_MAX,
+             text, one_hint(text));
     return false;
   }
   *(int *)field = (int)value;
@@ -53,14 +58,14 @@ static OPTION_SET(set_threads) {
 OPTION_SET(set_number) {
   if (parse_number(text, field) && isfinite(*(double *)field))
     return true;
-  complain("--%s is a number, not '%s'%s", row->name, text, comma_hint(text));
+  complain("--%s is a number, not '%s'%s", row->name, text, one_hint(text));
   return false;
 }
 
 OPTION_SET(set_amount) {
   if (parse_number(text, field) && *(double *)field >= 0.0 && isfinite(*(double *)field))
     return true;
-  complain("--%s is a number, 0 or more, not '%s'%s", row->name, text, comma_hint(text));
+  complain("--%s is a number, 0 or more, not '%s'%s", row->name, text, one_hint(text));
   return false;
 }
 
@@ -80,7 +85,9 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
   if (found >= 0)
     *place = found;
   else
-    complain("--%s is %s, not '%s'%s", row->name, list, text, did_you_mean(text, words, hint));
+    complain("--%s is %s, not '%s'%s", row->name, list, text,
+             place_among(words, text, strcspn(text, ",")) >= 0 ? "; it takes one value"
+                                                               : did_you_mean(text, words, hint));
   return found >= 0;
 }
 
@@ -136,7 +143,7 @@ OPTION_SET(set_option) {
   else
     carom_number_range(n, must, sizeof must);
   complain("--%s is %s%s, not '%s'%s", row->name, whole ? "a whole number, " : "a number, ", must,
-           text, comma_hint(text));
+           text, one_hint(text));
   return false;
 }
 
@@ -187,6 +194,8 @@ static const char *refusal(const option_row *row, carom_part_kind part, const ca
     return "a table in a file for `carom shoot` has it";
   if (part == CAROM_PART_CUE && n->error == CAROM_OK)
     return "no strike reads it";
+  if (part == CAROM_PART_CUE && n->type != CAROM_TYPE_DOUBLE)
+    return "a file for `carom shoot` has it";
   if (part == CAROM_PART_CUE && n->offset <= (int32_t)offsetof(carom_cue, b))
     return "--speed, --aim, --elevation and --tip of `carom shoot`, or its file, say it";
   return row->only == CUSHION_ONLY && n->cushion_offset < 0
@@ -203,7 +212,8 @@ static const carom_number *number_named(const option_row *row, const char *name,
   int of_other = 0;
   for (int of = 0, size = 0; of < OWNERS; of++)
     for (int k = 0; (n = carom_number_of(owners[of].part, k)) != NULL; k++) {
-      const bool named = strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0;
+      const bool named =
+          strcmp(n->name, name) == 0 || (name[0] != '\0' && strcmp(n->key, name) == 0);
       *part = owners[of].part;
       *place = k;
       if (refusal(row, *part, n) == NULL && named)
@@ -308,8 +318,7 @@ const char *reader_of(const carom_number *n, const char *of_cushion, char text[1
 static bool is_read(const shared_options *shared, uint32_t models, const carom_number *n) {
   carom_shot_options options = shared->shot;
   bool read = false;
-  for (int model = 0; carom_word(CAROM_WORDS_CUSHION_MODEL, model) != NULL && !read;
-       model++) {
+  for (int model = 0; carom_word(CAROM_WORDS_CUSHION_MODEL, model) != NULL && !read; model++) {
     if (shared->cushion && (models >> model & 1) == 0)
       continue;
     if (shared->cushion)

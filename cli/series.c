@@ -182,7 +182,8 @@ static void write_table(FILE *out, const series *s, int count) {
     for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY);
          q++) {
       char text[NUMBER_TEXT];
-      fprintf(out, "%s%s", q > first ? "," : "", number_text(s->scene->measure(s, &c, q), text));
+      fprintf(out, "%s%s", q > first ? "," : "",
+              number_text(s->scene->measure(s, &c, q) + 0.0, text));
     }
     fputc('\n', out);
   }
@@ -287,6 +288,13 @@ static bool is_possible(const series *s, int count) {
   else if (ranges > 0 && s->picture != NULL && count / s->in[range_of(s)].count > MOST_CASES)
     complain("%d curves are too many to draw: at most %d", count / s->in[range_of(s)].count,
              MOST_CASES);
+  else if (s->csv && s->quantity == NO_QUANTITY && s->asked.models != 0)
+    complain(
+        "--csv writes rows, which have no model: give --model to `carom resolve --cushion`, or "
+        "--quantity here");
+  else if (s->csv && s->quantity == NO_QUANTITY && s->asked.options.solver != CAROM_SOLVER_EXACT)
+    complain("--csv writes rows, which have no solver: give --solver to `carom resolve`, or "
+             "--quantity here");
   else if (ranges == 0 && s->quantity != NO_QUANTITY && !s->csv && s->picture != NULL)
     complain("--quantity is for curves and tables: give a range, such as --speed 1:5");
   else

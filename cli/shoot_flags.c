@@ -104,8 +104,8 @@ bool has_flags(const shoot_flags *f) {
   return f->table != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
          f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 || f->balls.rack > 0 ||
          f->tip.count > 0 || f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 ||
-         f->cut.count > 0 || f->elevation.count > 0 || f->shared.with.own ||
-         f->gap.count > 0 || f->seed != 0;
+         f->cut.count > 0 || f->elevation.count > 0 || f->shared.with.own || f->gap.count > 0 ||
+         f->seed != 0;
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -283,8 +283,7 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
   const carom_status bad = carom_strike(cue, &l->ball[0].kind, &after);
   if (bad == CAROM_ERROR_MISCUE)
     complain("--tip: it is %.4g R from the centre%s tip slips off beyond %g R",
-             hypot(cue->a, cue->b),
-             cue->miscue > 0.0 ? "; this" : ", beside the ball; a chalked",
+             hypot(cue->a, cue->b), cue->miscue > 0.0 ? "; this" : ", beside the ball; a chalked",
              cue->miscue > 0.0 ? cue->miscue : TIP_LIMIT);
   else if (bad != CAROM_OK)
     complain("no such strike: %s", carom_status_string(bad));
