@@ -15,16 +15,19 @@
 #include <math.h>
 #include <string.h>
 
-enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, RADIUS, MASS };
-static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN, "stun"},
-                                     [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
-                                     [CUT] = {"cut angle", MEASURE_CUT, "30"},
-                                     [SIDE] = {"side spin", MEASURE_SIDE, "none"},
-                                     [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.95"},
-                                     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
-                                     [RADIUS] = {"radius of the balls", MEASURE_LENGTH, "0.028575"},
-                                     [MASS] = {"mass of the balls", MEASURE_MASS, "0.170097"},
-                                     [MASS + 1] = {NULL, 0, NULL}};
+enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, RADIUS, MASS, OBJECT_MASS, FRICTION };
+static const scene_input inputs[] = {
+    [SPIN] = {"spin", MEASURE_SPIN, "stun"},
+    [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
+    [CUT] = {"cut angle", MEASURE_CUT, "30"},
+    [SIDE] = {"side spin", MEASURE_SIDE, "none"},
+    [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.95"},
+    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
+    [RADIUS] = {"radius of the balls", MEASURE_LENGTH, "0.028575"},
+    [MASS] = {"mass of the balls", MEASURE_MASS, "0.170097"},
+    [OBJECT_MASS] = {"mass of the object ball", MEASURE_OBJECT_MASS, "same"},
+    [FRICTION] = {"friction between the balls", MEASURE_FRICTION, "alciatore"},
+    [FRICTION + 1] = {NULL, 0, NULL}};
 
 /* How the names of quantities stand on axes. */
 enum { THROW, DEFLECTION, ROLLING_DEFLECTION, ANGLE_BETWEEN, OBJECT_SPEED, SPIN_TRANSFER, ENERGY };
@@ -63,6 +66,22 @@ OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_
        "of the balls, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
        "of the balls, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
+OPTION(series, option_object_mass, "object-mass", in[OBJECT_MASS], 0, "same|M", set_values,
+       MEASURE_OBJECT_MASS, "of the object ball, where that is another one");
+
+/* alciatore=a,b,c is a law, and all else values. */
+static OPTION_SET(set_frictions) {
+  series *s = (series *)(void *)((char *)field - row->field);
+  if (strncmp(text, "alciatore=", strlen("alciatore=")) != 0)
+    return set_values(row, text, field);
+  values_default(field, MEASURE_FRICTION, "alciatore");
+  return option_friction.set(row, text, &s->asked.friction);
+}
+
+OPTION(series, option_frictions, "friction", in[FRICTION], 0, "alciatore|MU", set_frictions,
+       MEASURE_FRICTION,
+       "between the balls: numbers; or alciatore (default), which falls with the slip speed u as "
+       "mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants");
 OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
        "friction with the cloth (default 0.2)");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
@@ -90,11 +109,13 @@ static void make(const series *s, one_case *c) {
                       .mass = v[MASS]->x,
                       .mu_cloth = v[CLOTH]->x};
   in.b = in.a;
+  if (!isnan(v[OBJECT_MASS]->x))
+    in.b.mass = v[OBJECT_MASS]->x;
   memset(in.b.v, 0, sizeof in.b.v);
   memset(in.b.w, 0, sizeof in.b.w);
   in.b.r[0] = 2.0 * R * cos(angle);
   in.b.r[1] = 2.0 * R * sin(angle);
-  in.mu_ball = carom_mu_ball(&in, s->asked.friction.law);
+  in.mu_ball = isnan(v[FRICTION]->x) ? carom_mu_ball(&in, s->asked.friction.law) : v[FRICTION]->x;
   memcpy(c->row, &in, sizeof in);
 }
 
@@ -121,7 +142,7 @@ static double measure(const series *s, const one_case *c, int which) {
     return sign_of(s) * d.deflection_rolls;
   case ANGLE_BETWEEN:
     return hypot(d.rolling_1[0], d.rolling_1[1]) > 1e-9 * in->a.v[0]
-               ? fabs(angle_between(d.rolling_1, d.rolling_2))
+               ? fabs(turn(in, d.rolling_1, d.rolling_2))
                : (double)NAN;
   case OBJECT_SPEED:
     return hypot(out->b.v[0], out->b.v[1]);
@@ -201,8 +222,8 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
 
 static const char *law(const series *s, char text[80]) {
   const carom_speed_law *l = &s->asked.friction.law, usual = carom_alciatore();
-  if (l->b == 0.0)
-    snprintf(text, 80, "friction between the balls %.4g", l->a);
+  if (!isnan(s->in[FRICTION].at[0].x) || s->in[FRICTION].count > 1)
+    text[0] = '\0';
   else if (l->a == usual.a && l->b == usual.b && l->c == usual.c)
     snprintf(text, 80, "friction between the balls by Alciatore's law");
   else
@@ -216,12 +237,12 @@ static const command_form form = {
     .about = "Computes the collision of the cue ball with a ball at rest, and describes it in "
              "words: throw, deflection, spin, and the speeds just after the collision and once the "
              "balls roll. Angles are measured from the cue ball's path before, seen from above.\n",
-    .options =
-        (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side,
-                                    &option_friction, &option_restitution, &option_cloth,
-                                    &option_radius, &option_mass, &option_solver, &option_slip,
-                                    &option_steps, &option_quantity, &option_csv, &option_plot,
-                                    &option_strict, &option_output, NULL},
+    .options = (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side,
+                                           &option_frictions, &option_restitution, &option_cloth,
+                                           &option_radius, &option_mass, &option_object_mass,
+                                           &option_solver, &option_slip, &option_steps,
+                                           &option_quantity, &option_csv, &option_plot,
+                                           &option_strict, &option_output, NULL},
     .details =
         "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A "
         "unit after the last number holds for all: --speed 1,3,7mph, --side 0:100%. Each value of "
@@ -238,7 +259,6 @@ static const command_form form = {
         "  object-speed         speed of the object ball just after, m/s\n"
         "  spin-transfer        side spin of the object ball over that of the cue ball before, %\n"
         "  energy               share of the kinetic energy that is lost, %\n\n"
-        "The default of --friction is alciatore.\n\n"
         "exit code: 0; 2 for bad usage or an impossible collision\n",
     .example = "carom hit --speed 1.5 --cut 30 --spin draw --plot hit.svg",
     .files = NO_FILES,

@@ -30,7 +30,9 @@ static const struct list {
              {CAROM_PART_PLAN_OPTIONS, "options of a plan in programs, and their options here"},
              {CAROM_PART_BALL, "numbers of a ball and its cushions, by their names, for --with, "
                                "and their keys in files"},
-             {CAROM_PART_CUE, "numbers of a cue, and their keys in files"},
+             {CAROM_PART_CUE,
+              "numbers of a cue, by their names, for --with of shots, and their keys in "
+              "files"},
              {CAROM_PART_TABLE, "numbers of a table, and their keys in files"},
              {CAROM_PART_RAIL, "numbers of a rail, and their keys in files"},
              {CAROM_PART_JAW, "numbers of a jaw, and their keys in files"},

@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SPIN, SPEED, ANGLE, SIDE, HEIGHT, RESTITUTION, FRICTION, CLOTH, RADIUS, MASS };
+enum { SPIN, SPEED, ANGLE, SIDE, HEIGHT, RESTITUTION, FRICTION, CLOTH, RADIUS, MASS, MODEL };
 static const scene_input inputs[] = {
     [SPIN] = {"spin", MEASURE_SPIN, "roll"},
     [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
@@ -27,7 +27,8 @@ static const scene_input inputs[] = {
     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
     [RADIUS] = {"radius of the ball", MEASURE_LENGTH, "0.028575"},
     [MASS] = {"mass of the ball", MEASURE_MASS, "0.170097"},
-    [MASS + 1] = {NULL, 0, NULL}};
+    [MODEL] = {"model", MEASURE_MODEL, "han"}, /* that of shots */
+    [MODEL + 1] = {NULL, 0, NULL}};
 _Static_assert(sizeof inputs / sizeof inputs[0] == MOST_INPUTS + 1, "room for all");
 
 enum { ROLLING_REBOUND, REBOUND, SPEED_AFTER, SIDE_AFTER, ENERGY };
@@ -65,6 +66,24 @@ OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_
        "of the ball, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
        "of the ball, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
+
+static OPTION_SET(set_models) {
+  series *s = (series *)(void *)((char *)field - row->field);
+  const values *list = field;
+  const bool good = set_values(row, text, field);
+  s->asked.models = 0;
+  for (int k = 0; k < list->count && good; k++)
+    s->asked.models |= 1U << (int)list->at[k].x;
+  return good;
+}
+
+static const option_row option_models = {
+    .name = "model",
+    .help = "of the impact, which `carom models NAME` tells (default: han, as in shots)",
+    .set = set_models,
+    .field = offsetof(series, in[MODEL]),
+    .least = MEASURE_MODEL,
+    .words = CAROM_WORDS_CUSHION_MODEL};
 OPTION(series, option_quantity, "quantity", quantity, 0, QUANTITIES, set_choice, 0,
        "the quantity that curves and tables show (default: rolling-rebound for curves, all for "
        "tables)");
@@ -91,6 +110,7 @@ static void make(const series *s, one_case *c) {
       .restitution = v[RESTITUTION]->x};
   (void)s;
   memcpy(c->row, &in, sizeof in);
+  c->asked.rail.model = (carom_cushion_model)v[MODEL]->x;
 }
 
 /* angle_in, angle_out, angle_rolling, rollx, rolly, energy_lost: see kind_cushion.c; angles to
@@ -145,8 +165,7 @@ static void tell_cloth(FILE *out, const double v[2], const double d[MOST_DERIVED
 }
 
 /* How much longer or shorter the rebound is than that of the same ball without side spin. */
-static void tell_english(FILE *out, const series *s, const one_case *c,
-                         const double d[MOST_DERIVED]) {
+static void tell_english(FILE *out, const one_case *c, const double d[MOST_DERIVED]) {
   enum { SIDE_SPIN = offsetof(carom_cushion_impact, w) / sizeof(double) + 2 };
   one_case none = *c;
   double plain[MOST_DERIVED];
@@ -154,7 +173,7 @@ static void tell_english(FILE *out, const series *s, const one_case *c,
   none.row[SIDE_SPIN] = 0.0;
   if (c->row[SIDE_SPIN] == 0.0)
     return;
-  cushion_kind.solve(&s->asked, false, none.row, 1, none.result, &status);
+  cushion_kind.solve(&c->asked, false, none.row, 1, none.result, &status);
   derive_case(&none, plain);
   const double way = c->given[ANGLE]->x < 0.0 ? 1.0 : -1.0; /* angles are to the left */
   const double once = way * (d[1] - plain[1]), rolling = way * (d[2] - plain[2]);
@@ -171,11 +190,11 @@ static void tell_english(FILE *out, const series *s, const one_case *c,
 
 /* Where the ball sticks to nose and cloth, for models that follow the impact: the first point from
  * which it sticks to the end. */
-static void tell_sticking(FILE *out, const series *s, const one_case *c) {
+static void tell_sticking(FILE *out, const one_case *c) {
   static const char *const what[2] = {"nose: ", "cloth:"};
   enum { POINTS = 401 };
   carom_cushion_point point[POINTS];
-  const carom_cushion_options options = cushion_options_of(&s->asked);
+  const carom_cushion_options options = cushion_options_of(&c->asked);
   if (carom_cushion_trace((const void *)c->row, &options, POINTS, point) != CAROM_OK)
     return;
   for (int contact = 0; contact < 2; contact++) {
@@ -198,6 +217,7 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   const double *v = c->result;
   double d[MOST_DERIVED];
   char text[64];
+  (void)s;
   derive_case(c, d);
   fprintf(
       out,
@@ -206,13 +226,13 @@ static void tell(FILE *out, const series *s, const one_case *c) {
       hypot(in->v[0], in->v[1]), c->given[ANGLE]->x, c->given[SPIN]->name,
       share_of_rolling(c->given[SPIN]), hypot(in->w[0], in->w[1]), in->w[2]);
   fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
-          in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&s->asked));
+          in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&c->asked));
   fprintf(out, "rebound       at once:     %s\n", rebound_text(d[1], v, text));
   fprintf(out, "              rolling:     %s\n", rebound_text(d[2], d + 3, text));
   tell_cloth(out, v, d);
-  tell_english(out, s, c, d);
+  tell_english(out, c, d);
   tell_spin(out, v + 3);
-  tell_sticking(out, s, c);
+  tell_sticking(out, c);
   fprintf(out, "energy        lost:        %.2f %%\n", 100.0 * d[5]);
 }
 
@@ -245,7 +265,9 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
 }
 
 static const char *law(const series *s, char text[80]) {
-  snprintf(text, 80, "model %s%s", cushion_kind.name(&s->asked),
+  const values *models = &s->in[MODEL];
+  snprintf(text, 80, "%s%s%s", models->count == 1 ? "model " : "",
+           models->count == 1 ? models->at[0].name : "every model",
            s->asked.rail.law == CAROM_CUSHION_LAW_HAN ? " with Han's restitution and friction"
                                                       : "");
   return text;
@@ -262,7 +284,7 @@ static const command_form form = {
         (const option_row *const[]){&option_speed,         &option_angle,  &option_spin,
                                     &option_side,          &option_height, &option_restitution,
                                     &option_friction_rail, &option_cloth,  &option_radius,
-                                    &option_mass,          &option_model,  &option_with,
+                                    &option_mass,          &option_models, &option_with,
                                     &option_convention,    &option_law,    &option_steps,
                                     &option_quantity,      &option_csv,    &option_plot,
                                     &option_strict,        &option_output, NULL},
@@ -286,10 +308,9 @@ int command_rail(int argc, char **argv) {
   static const scene rail = {&cushion_kind, inputs, QUANTITIES, quantity, make,
                              measure,       tell,   draw,       law};
   static series s;
-  s = (series){.asked = {.cushion = true,
-                         .rail = {.model = CAROM_CUSHION_HAN}, /* that of shots */
-                         .options = COMMAND_OPTIONS},
-               .scene = &rail};
+  s = (series){
+      .asked = {.cushion = true, .rail = {.model = CAROM_CUSHION_HAN}, .options = COMMAND_OPTIONS},
+      .scene = &rail};
   return series_command(
       &s, &form, argc, argv, ANGLE,
       "--angle is between -90 and 90 degrees; at 90 the ball moves along the cushion");

@@ -277,12 +277,12 @@ static int shoot_all(shoot_job *job, shot_file *file, FILE *out) {
       fputs(text, out);
       continue;
     }
+    shot_numbers(&b->line[b->count], &job->from.shared, b->file, &b->unread);
     carom_cue *cue = &b->line[b->count].cue;
     const bool plays = b->line[b->count].error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 &&
                        tip_off_centre(cue) < 1.0;
     if (plays && doubts_about_tip(&b->tips, tip_off_centre(cue)) != NULL && job->from.shared.strict)
       cue->miscue = TIP_LIMIT;
-    shot_numbers(&b->line[b->count], &job->from.shared, b->file, &b->unread);
     begin_shot(b, job->events != EVENTS_NONE || job->together || drawings_asked(&job->drawn) ||
                       job->error.given);
     if (++b->count == BLOCK) {
@@ -348,6 +348,26 @@ static int write_sources(const carom_shot_options *options) {
   return EXIT_GOOD;
 }
 
+/* Options that others would ignore in silence; false after a complaint. */
+static bool go_together(const shoot_job *job, bool words, const char *path) {
+  const bool json = job->from.json, drawn = drawings_asked(&job->drawn);
+  if (job->cite && (job->together || path != NULL))
+    complain("--cite tells the sources of models and plays nothing: give it without a shot");
+  else if (json && (job->csv || !words || job->error.given || drawn))
+    complain("--json prints the shot and plays nothing: give it without --%s",
+             job->csv           ? "csv"
+             : !words           ? "events"
+             : job->error.given ? "spread"
+                                : "plot and --animate");
+  else if (job->csv && job->error.given)
+    complain("--csv has no columns for --spread: give one of both");
+  else if (job->id != NULL && (job->together || !drawn))
+    complain("--id is which shot of a file --plot or --animate draws");
+  else
+    return true;
+  return false;
+}
+
 /* Chooses the stroke of --leave; false after a complaint. */
 static bool chooses(shoot_job *job, const carom_shot_options *options) {
   const given_player *given = &job->from.shared.player;
@@ -376,6 +396,8 @@ int command_shoot(int argc, char **argv) {
   job.together = has_flags(&job.from);
   job.words = job.together && job.events == EVENTS_USUAL;
   job.events = job.events == EVENTS_USUAL ? EVENTS_FULL : job.events;
+  if (!go_together(&job, !job.together || job.words, path))
+    return EXIT_USAGE;
   if (job.cite) {
     const carom_shot_options options = options_of(&job);
     return write_sources(&options);

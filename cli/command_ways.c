@@ -373,7 +373,7 @@ int command_ways(int argc, char **argv) {
                    : job.leave.given ? "1:4:0.5"
                                      : "1.5,2.5,4");
   if (job.from.tip.count == 0 && job.leave.given && !alone && !points && has_flags(&job.from)) {
-    char tips[] = "0,-0.4..0.4..0.2";
+    char tips[] = "0,-0.4:0.4:0.2";
     option_tip.set(&option_tip, tips, &job.from.tip);
   }
   if (job.from.tip.count == 0 && points)
@@ -384,7 +384,7 @@ int command_ways(int argc, char **argv) {
   shot_file *file = layout_open(&job.from, path, &s.options, MOST_STROKES, &lines);
   if (file == NULL)
     return EXIT_USAGE;
-  s.strokes = strokes_read(file, &line, stroke, MOST_STROKES);
+  s.strokes = strokes_read(file, &job.from.shared, &line, stroke, MOST_STROKES);
   int code = EXIT_USAGE;
   FILE *out = s.strokes > 0 ? output_open(job.from.shared.output) : NULL;
   if (out != NULL) {

@@ -27,13 +27,18 @@ OPTION_SET(set_text) {
   return true;
 }
 
+/* Why a list is none of an option's values. */
+static const char *one_hint(const char *text) {
+  return strchr(text, ',') != NULL ? "; it takes one value, in which decimals have a point" : "";
+}
+
 OPTION_SET(set_count) {
   char *end;
   errno = 0;
   const long value = strtol(text, &end, 10);
   if (end == text || *end != '\0' || errno != 0 || value < row->least || value > INT_MAX) {
-    complain("--%s is a whole number from %d to %d, not '%s'", row->name, row->least, INT_MAX,
-             text);
+    complain("--%s is a whole number from %d to %d, not '%s'%s", row->name, row->least, INT_MAX,
+             text, one_hint(text));
     return false;
   }
   *(int *)field = (int)value;
@@ -53,14 +58,14 @@ static OPTION_SET(set_threads) {
 OPTION_SET(set_number) {
   if (parse_number(text, field) && isfinite(*(double *)field))
     return true;
-  complain("--%s is a number, not '%s'%s", row->name, text, comma_hint(text));
+  complain("--%s is a number, not '%s'%s", row->name, text, one_hint(text));
   return false;
 }
 
 OPTION_SET(set_amount) {
   if (parse_number(text, field) && *(double *)field >= 0.0 && isfinite(*(double *)field))
     return true;
-  complain("--%s is a number, 0 or more, not '%s'%s", row->name, text, comma_hint(text));
+  complain("--%s is a number, 0 or more, not '%s'%s", row->name, text, one_hint(text));
   return false;
 }
 
@@ -80,7 +85,9 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
   if (found >= 0)
     *place = found;
   else
-    complain("--%s is %s, not '%s'%s", row->name, list, text, did_you_mean(text, words, hint));
+    complain("--%s is %s, not '%s'%s", row->name, list, text,
+             place_among(words, text, strcspn(text, ",")) >= 0 ? "; it takes one value"
+                                                               : did_you_mean(text, words, hint));
   return found >= 0;
 }
 
@@ -136,7 +143,7 @@ OPTION_SET(set_option) {
   else
     carom_number_range(n, must, sizeof must);
   complain("--%s is %s%s, not '%s'%s", row->name, whole ? "a whole number, " : "a number, ", must,
-           text, comma_hint(text));
+           text, one_hint(text));
   return false;
 }
 
@@ -169,54 +176,111 @@ const char *argument_of(const option_row *row) {
   return text;
 }
 
-/* ---- Numbers of balls */
+/* ---- Numbers of balls and cues */
 
-/* The numbers that an option takes: all, or those of one impact on a cushion. */
-static bool takes(const option_row *row, const carom_number *n) {
-  return row->only != CUSHION_ONLY || n->cushion_offset >= 0;
+/* Whose numbers --with may name, in the order in which a name is looked up. */
+static const struct {
+  carom_part_kind part;
+  const char *whose;
+} owners[] = {{CAROM_PART_BALL, "a ball"},   {CAROM_PART_CUE, "a cue"},
+              {CAROM_PART_TABLE, "a table"}, {CAROM_PART_RAIL, "a rail"},
+              {CAROM_PART_JAW, "a jaw"},     {CAROM_PART_POCKET, "a pocket"}};
+enum { OWNERS = sizeof owners / sizeof owners[0] };
+
+/* Why an option does not take a number; NULL: it does. Those of one impact on a cushion are
+ * numbers of its model. */
+static const char *refusal(const option_row *row, carom_part_kind part, const carom_number *n) {
+  if (part != CAROM_PART_BALL && part != CAROM_PART_CUE)
+    return "a table in a file for `carom shoot` has it";
+  if (part == CAROM_PART_CUE && n->error == CAROM_OK)
+    return "no strike reads it";
+  if (part == CAROM_PART_CUE && n->type != CAROM_TYPE_DOUBLE)
+    return "a file for `carom shoot` has it";
+  if (part == CAROM_PART_CUE && n->offset <= (int32_t)offsetof(carom_cue, b))
+    return "--speed, --aim, --elevation and --tip of `carom shoot`, or its file, say it";
+  return row->only == CUSHION_ONLY && n->cushion_offset < 0
+             ? "`carom shoot --with` takes it, here only those of the model are taken"
+             : NULL;
 }
 
-/* The place of a number by its name or its key of files; complains where there is none. */
-static int number_named(const option_row *row, const char *name) {
-  char known[800] = "", hint[HINT_TEXT];
-  const carom_number *n;
-  for (int k = 0, size = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++) {
-    if (!takes(row, n))
-      continue;
-    if (strcmp(n->name, name) == 0 || strcmp(n->key, name) == 0)
-      return k;
-    size +=
-        snprintf(known + size, sizeof known - (size_t)size, "%s%s", size > 0 ? "|" : "", n->name);
-  }
-  complain("--%s is NAME=X,...; there is no number '%.40s'%s; `carom models` lists them", row->name,
-           name, did_you_mean(name, known, hint));
-  return -1;
+/* A number that the option takes, by its name or its key of files, with its place; NULL after a
+ * complaint. */
+static const carom_number *number_named(const option_row *row, const char *name,
+                                        carom_part_kind *part, int *place) {
+  char known[1200] = "", hint[HINT_TEXT];
+  const carom_number *n, *other = NULL;
+  int of_other = 0;
+  for (int of = 0, size = 0; of < OWNERS; of++)
+    for (int k = 0; (n = carom_number_of(owners[of].part, k)) != NULL; k++) {
+      const bool named =
+          strcmp(n->name, name) == 0 || (name[0] != '\0' && strcmp(n->key, name) == 0);
+      *part = owners[of].part;
+      *place = k;
+      if (refusal(row, *part, n) == NULL && named)
+        return n;
+      if (refusal(row, *part, n) == NULL)
+        size += snprintf(known + size, sizeof known - (size_t)size, "%s%s", size > 0 ? "|" : "",
+                         n->name);
+      else if (named && other == NULL) {
+        other = n;
+        of_other = of;
+      }
+    }
+  if (other != NULL)
+    complain("--%s: %s is a number of %s; %s", row->name, name, owners[of_other].whose,
+             refusal(row, owners[of_other].part, other));
+  else
+    complain("--%s is NAME=X,...; there is no number '%.40s'%s; `carom models` lists them",
+             row->name, name, did_you_mean(name, known, hint));
+  return NULL;
 }
 
-/* given_numbers: NAME=X,... of the library's numbers of balls */
+/* given_numbers: NAME=X,... of the library's numbers of balls and cues */
 static OPTION_SET(set_numbers) {
   given_numbers *given = field;
   char *rest = NULL;
   for (char *one = strtok_r(text, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
     char *value = strchr(one, '='), must[100];
+    carom_part_kind part;
+    int k;
+    double x;
     if (value != NULL)
       *value++ = '\0';
-    const int k = number_named(row, one);
-    if (k < 0)
+    const carom_number *n = number_named(row, one, &part, &k);
+    if (n == NULL)
       return false;
-    const carom_number *n = carom_number_of(CAROM_PART_BALL, k);
-    double x;
     if (value == NULL || !parse_number(value, &x) ||
         !((x >= n->low && x <= n->high) || x == n->other)) {
       carom_number_range(n, must, sizeof must);
-      complain("--%s: %s must be %s, not '%.40s'", row->name, n->name, must,
-               value != NULL ? value : "");
+      complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must,
+               value != NULL ? value : "", comma_hint(value != NULL ? value : ""));
       return false;
     }
-    memcpy((char *)&given->kind + n->offset, &x, sizeof x);
-    given->which |= (uint64_t)1 << k;
+    const bool of_cue = part == CAROM_PART_CUE;
+    memcpy((of_cue ? (char *)&given->cue : (char *)&given->kind) + n->offset, &x, sizeof x);
+    *(of_cue ? &given->of_cue : &given->which) |= (uint64_t)1 << k;
   }
   return true;
+}
+
+OPTION_SET(set_cue_number) {
+  const option_row with = {.name = row->name};
+  char one[200];
+  double x;
+  if (!set_number(row, text, &x))
+    return false;
+  snprintf(one, sizeof one, "%s=%s", row->name, text);
+  for (char *dash = one; (dash = strchr(dash, '-')) != NULL && dash < strchr(one, '=');)
+    *dash = '_';
+  ((given_numbers *)field)->own = true;
+  return set_numbers(&with, one, field);
+}
+
+void give_cue(const given_numbers *given, carom_cue *cue) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++)
+    if ((given->of_cue >> k & 1) != 0)
+      memcpy((char *)cue + n->offset, (const char *)&given->cue + n->offset, sizeof(double));
 }
 
 static void give(const given_numbers *given, void *to, bool to_cushion) {
@@ -250,15 +314,27 @@ const char *reader_of(const carom_number *n, const char *of_cushion, char text[1
   return text;
 }
 
+/* Whether the shots, or one of the models of impacts, read a number of --with. */
+static bool is_read(const shared_options *shared, uint32_t models, const carom_number *n) {
+  carom_shot_options options = shared->shot;
+  bool read = false;
+  for (int model = 0; carom_word(CAROM_WORDS_CUSHION_MODEL, model) != NULL && !read; model++) {
+    if (shared->cushion && (models >> model & 1) == 0)
+      continue;
+    if (shared->cushion)
+      options.cushion_model = (carom_shot_cushion)(model + 1);
+    read = carom_number_is_read(n, &shared->with.kind, &options);
+  }
+  return read;
+}
+
 bool numbers_are_read(shared_options *shared) {
   const given_numbers *with = &shared->with;
-  carom_shot_options options = shared->shot;
-  if (shared->cushion)
-    options.cushion_model = (carom_shot_cushion)((int)shared->rail.model + 1);
+  const uint32_t models = shared->models != 0 ? shared->models : 1U << shared->rail.model;
   const carom_number *n;
   char reader[160];
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
-    if ((with->which >> k & 1) != 0 && !carom_number_is_read(n, &with->kind, &options)) {
+    if ((with->which >> k & 1) != 0 && !is_read(shared, models, n)) {
       complain("--with: %s has no effect; %s reads it", n->name,
                reader_of(n, shared->cushion ? "model" : "cushion", reader));
       return false;
@@ -375,5 +451,5 @@ ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
 ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);
 ROW(options_of_motion, NULL, shot, 0, NULL, set_option, CAROM_READ_ALWAYS, ANY_KIND, NULL);
 ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIND,
-    "numbers of all balls and their cushions, instead of those of IN, such as "
-    "mu_slide=0.15,u_b=0.03: `carom models` lists them");
+    "numbers of all balls, their cushions and the cue, instead of those of IN, such as "
+    "mu_slide=0.15,u_b=0.03,end_mass=0.01: `carom models` lists them. M is the cue's mass");

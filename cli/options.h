@@ -63,7 +63,8 @@ OPTION_SET(set_choice); /* int, or an enumeration from 0: the place of the text 
 OPTION_SET(
     set_named); /* an enumeration by the words of the library; its default has none in help */
 
-OPTION_SET(set_option); /* an option of the library, by its row */
+OPTION_SET(set_option);     /* an option of the library, by its row */
+OPTION_SET(set_cue_number); /* given_numbers: that of a cue which has the option's name */
 
 /* Writes the rows of the library's options for which a row without a name stands, at most
  * MOST_OF_LIBRARY; returns how many. Of shots: options_of_motion, or with those of when to stop
@@ -82,14 +83,18 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
 /* What the help calls the argument of an option, "this|that"; NULL for a flag. */
 const char *argument_of(const option_row *row);
 
-/* Numbers of balls that --with gives: bit k of `which` is carom_number_of(CAROM_PART_BALL, k). */
+/* Numbers that --with gives: bit k of `which` is carom_number_of(CAROM_PART_BALL, k), and of
+ * `of_cue` that of CAROM_PART_CUE. */
 typedef struct given_numbers {
-  uint64_t which;
+  uint64_t which, of_cue;
   carom_ball_kind kind;
+  carom_cue cue;
+  bool own; /* an option of its own gives one of the cue */
 } given_numbers;
 
-/* Puts the numbers that are given into those of a ball. */
+/* Puts the numbers that are given into those of a ball, or of a cue. */
 void give_ball(const given_numbers *given, carom_ball_kind *kind);
+void give_cue(const given_numbers *given, carom_cue *cue);
 
 /* Says into text[160] what would read a number, such as "--friction constant". */
 const char *reader_of(const carom_number *number, const char *of_cushion, char text[160]);
@@ -112,6 +117,7 @@ typedef struct shared_options {
   bool cushion;               /* --cushion: impacts of a ball on a cushion, instead of collisions
                                  of two balls */
   carom_cushion_options rail; /* --model, --convention, --law, --least-step */
+  uint32_t models;            /* a bit for each of several models; 0: that of rail */
   carom_shot_options shot;    /* of whole shots: --models, --ball-ball, ... */
   given_numbers with;         /* --with */
   carom_options options;      /* --solver of one, --slip, --steps, --threads */

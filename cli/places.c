@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_TEXT = 1024 };
+enum { MOST_TEXT = 4096, RANGE = 1 };
 static const char frozen[] = "frozen-";
 
 /* In diamonds, as every table has them: corners and middles of the long rails lie at the noses. */
@@ -68,7 +68,7 @@ static bool refuse(const option_row *row, const char *text) {
     snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", colours_of_snooker[k]);
   complain("--%s is %s%s%s; not '%.60s'%s", row->name,
            tip ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
-                 "several with colons: 0,0:0.2,0, or a range of either: 0,-0.4..0.4..0.2"
+                 "several with colons: 0,0:0.2,0, or a range of either: 0,-0.4:0.4:0.2"
                : "X,Y in m, or with a unit: 2,3ft, or 2,3d in diamonds, or a place: " PLACES
                  "; or frozen-left,4d, frozen-1,90, which touches a rail or a ball; several with "
                  "colons: 0.6,1.5:foot-spot",
@@ -77,49 +77,42 @@ static bool refuse(const option_row *row, const char *text) {
   return false;
 }
 
-/* Reads "A", "A..B" or "A..B..STEP", at most MOST_PLACES values of a measure; how many, or 0. A
- * range without a step has five. */
-static int read_range(int measure, const char *text, value to[MOST_PLACES]) {
-  char copy[MOST_TEXT], *rest = copy;
-  value end[3];
-  int parts = 0;
-  snprintf(copy, sizeof copy, "%s", text);
-  for (char *next = rest; next != NULL; rest = next, parts++) {
-    next = strstr(rest, "..");
-    if (next != NULL) {
-      *next = '\0';
-      next += 2;
-    }
-    if (parts == 3 || !value_of(measure, rest, &end[parts]) || end[parts].times != end[0].times)
-      return 0;
+/* Copies pairs, in which ranges get RANGE for ":" or "..". A colon parts two pairs where commas stand
+ * on both sides of it before the next one. */
+static void spell_ranges(const char *text, char *to) {
+  for (bool comma = false; *text != '\0'; text++) {
+    const bool dots = strncmp(text, "..", 2) == 0,
+               next = memchr(text + 1, ',', strcspn(text + 1, ":")) != NULL,
+               range = dots || (*text == ':' && !(comma && next));
+    comma = *text == ',' || (comma && (*text != ':' || range));
+    *to++ = (char)(range ? RANGE : *text);
+    text += dots;
   }
-  to[0] = end[0];
-  if (parts == 1)
-    return 1;
-  const double steps = parts == 3 ? (end[1].x - end[0].x) / end[2].x : 4.0;
-  if (!(steps >= 0.0 && steps < MOST_PLACES))
-    return 0;
-  const int count = (int)(steps + 1e-9) + 1;
-  for (int k = 0; k < count; k++) {
-    to[k] = end[0];
-    to[k].x += (end[1].x - end[0].x) * (k / fmax(steps, 1e-9));
-    snprintf(to[k].name, sizeof to[k].name, "%.4g", to[k].x);
-  }
-  return count;
+  *to = '\0';
 }
 
-/* Adds all pairs of two ranges, A..B,C..D; false where they cannot be read or are too many. */
-static bool add_ranges(int measure, const char *text, place_list *list) {
-  static value x[MOST_PLACES], y[MOST_PLACES];
-  char first[MOST_TEXT];
-  const char *comma = strchr(text, ',');
-  snprintf(first, sizeof first, "%.*s", (int)(comma - text), text);
-  const int across = read_range(measure, first, x), along = read_range(measure, comma + 1, y);
-  if (across == 0 || along == 0 || list->count + across * along > MOST_PLACES)
-    return false;
-  for (int k = 0; k < across * along; k++) {
-    list->at[list->count].x = x[k / along];
-    list->at[list->count++].y = y[k % along];
+/* Adds all pairs of two ranges, A:B,C:D; of one without a step five values. False after a
+ * complaint. */
+static bool add_ranges(const option_row *row, char *text, place_list *list) {
+  static values axis[2];
+  int count[2], stride[2];
+  char *part[2] = {text, strchr(text, ',')};
+  *part[1]++ = '\0';
+  for (int k = 0; k < 2; k++) {
+    int parts = 1;
+    for (char *at = part[k]; (at = strchr(at, RANGE)) != NULL; parts++)
+      *at = ':';
+    if (!set_values(row, part[k], &axis[k]))
+      return false;
+    stride[k] = parts == 2 ? axis[k].count / 4 : 1;
+    count[k] = 1 + (axis[k].count - 1) / stride[k];
+  }
+  const int all = list->count + count[0] * count[1];
+  if (all > MOST_PLACES)
+    return too_many(row, all, MOST_PLACES);
+  for (int k = 0; list->count < all; k++) {
+    list->at[list->count].x = axis[0].at[k / count[1] * stride[0]];
+    list->at[list->count++].y = axis[1].at[k % count[1] * stride[1]];
   }
   return true;
 }
@@ -142,7 +135,15 @@ OPTION_SET(set_places) {
   *list = (place_list){0};
   list->rack =
       row->words != 0 ? 1 + place_among(words_of(row->words, true, racks), text, strlen(text)) : 0;
-  snprintf(copy, sizeof copy, "%s", text);
+  if (strlen(text) >= sizeof copy)
+    return refuse(row, text);
+  if (row->least == MEASURE_TIP)
+    spell_ranges(text, copy);
+  else
+    memcpy(copy, text, strlen(text) + 1);
+  int several = 1;
+  for (const char *at = copy; (at = strchr(at, ':')) != NULL; at++)
+    several++;
   for (char *one = strtok_r(copy, ":", &rest); one != NULL && list->rack == 0;
        one = strtok_r(NULL, ":", &rest)) {
     char *equals = strchr(one, '='), *numbers = equals != NULL ? equals + 1 : one;
@@ -153,17 +154,19 @@ OPTION_SET(set_places) {
       numbers = place_spelt(numbers, spelt);
     const bool touches =
         row->least == MEASURE_PLACE && strncmp(numbers, frozen, strlen(frozen)) == 0;
-    if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row->words == 0))
+    if (list->count == MOST_PLACES)
+      return too_many(row, several, MOST_PLACES);
+    if (name >= PLACE_NAME || (name > 0 && row->words == 0))
       return refuse(row, text);
-    if (!touches && (strspn(numbers, "+-.,0123456789/ eEacdfhimnprtR\"") != strlen(numbers) ||
+    if (!touches && (strspn(numbers, "+-.,0123456789/ eEacdfhimnprtR\"\1") != strlen(numbers) ||
                      strchr(numbers, ',') == NULL))
       return refuse(row, text);
     for (size_t k = 0; k < name; k++)
       if (!isalnum((unsigned char)one[k]) && one[k] != '-' && one[k] != '_')
         return refuse(row, text);
-    if (row->least == MEASURE_TIP && strstr(numbers, "..") != NULL) {
-      if (!add_ranges(row->least, numbers, list))
-        return refuse(row, text);
+    if (row->least == MEASURE_TIP && strchr(numbers, RANGE) != NULL) {
+      if (!add_ranges(row, numbers, list))
+        return false;
       continue;
     }
     given_place *to = &list->at[list->count++];

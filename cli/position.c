@@ -47,7 +47,7 @@ static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *opt
   if (f->speed.count == 0 && f->ball_speed.count == 0)
     values_default(&all.speed, MEASURE_SPEED, "0.5:4:0.1");
   if (f->tip.count == 0)
-    option_tip.set(&option_tip, (char[]){"0,-0.4..0.4..0.2"}, &all.tip);
+    option_tip.set(&option_tip, (char[]){"0,-0.4:0.4:0.2"}, &all.tip);
   FILE *lines = open_text(text, &size);
   const bool good = flags_write(lines, &all, options, MOST_ROWS);
   close_text(lines, text);
@@ -172,7 +172,7 @@ bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *opt
     return false;
   without_bounds(&player);
   shot_file *file = strokes_of(f, options, &text);
-  const int count = file != NULL ? strokes_read(file, &line, cue, MOST_ROWS) : 0;
+  const int count = file != NULL ? strokes_read(file, &f->shared, &line, cue, MOST_ROWS) : 0;
   const bool found = count > 0 && choose(to, f, options, &player, &line, cue, count, told);
   if (count > 0)
     shot_line_free(&line);

@@ -31,6 +31,10 @@ derived derive(const carom_impact *in, const carom_result *out);
 /* The angle from a to b, degrees, -180 to 180, to the left as seen from above. */
 double angle_between(const double a[2], const double b[2]);
 
+/* The same after a collision, of at least 1e-6 degrees where the balls have no friction: the solver
+ * has one of 1e-9 then, which turns them by 6e-8. */
+double turn(const carom_impact *in, const double a[2], const double b[2]);
+
 /* Kinetic energy of a solid ball in motion, J. */
 double energy_of(double mass, double radius, const double v[3], const double w[3]);
 

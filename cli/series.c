@@ -12,8 +12,11 @@
 #include "quantities.h"
 #include "sink.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+
+enum { MOST_COMBINED = 1000000 }; /* of a table */
 
 static int inputs_of(const series *s) {
   int count = 0;
@@ -30,17 +33,23 @@ static int range_of(const series *s) {
   return range;
 }
 
+/* How many combinations there are, or INT_MAX. */
 static int count_of(const series *s) {
-  int count = 1;
+  double count = 1.0;
   for (int k = 0; k < inputs_of(s); k++)
     count *= s->in[k].count;
-  return count;
+  return (int)fmin(count, INT_MAX);
+}
+
+/* Whether a curve's footer tells it as another input, or as the law. */
+static bool is_tacit(const series *s, int k) {
+  return isnan(s->in[k].at[0].x) || s->scene->inputs[k].measure == MEASURE_MODEL;
 }
 
 /* Combination number `index`: a range changes fastest, then the last of the lists. */
 static void make_case(const series *s, int index, one_case *c) {
   const int range = range_of(s), inputs = inputs_of(s);
-  *c = (one_case){0};
+  *c = (one_case){.asked = s->asked};
   for (int k = inputs; k >= 0; k--) {
     const int input = k == inputs ? range : k;
     if (input < 0 || c->given[input] != NULL)
@@ -61,7 +70,7 @@ static void make_case(const series *s, int index, one_case *c) {
 static carom_status resolve_case(const series *s, int index, one_case *c) {
   int8_t status;
   make_case(s, index, c);
-  s->scene->kind->solve(&s->asked, false, c->row, 1, c->result, &status);
+  s->scene->kind->solve(&c->asked, false, c->row, 1, c->result, &status);
   return (carom_status)status;
 }
 
@@ -75,7 +84,7 @@ static bool check_all(const series *s, int count) {
     int field = -1;
     const carom_status status = resolve_case(s, k, &c);
     if (status != CAROM_OK) {
-      kind->check(c.row, &s->asked, &field);
+      kind->check(c.row, &c.asked, &field);
       complain("no such %s (%s): %s%s%s (%s)", kind->noun, c.id,
                field >= 0 ? kind->columns[field].name : "", field >= 0 ? ": " : "",
                carom_status_string(status), carom_status_name(status));
@@ -173,7 +182,8 @@ static void write_table(FILE *out, const series *s, int count) {
     for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY);
          q++) {
       char text[NUMBER_TEXT];
-      fprintf(out, "%s%s", q > first ? "," : "", number_text(s->scene->measure(s, &c, q), text));
+      fprintf(out, "%s%s", q > first ? "," : "",
+              number_text(s->scene->measure(s, &c, q) + 0.0, text));
     }
     fputc('\n', out);
   }
@@ -202,14 +212,16 @@ static void write_curves(FILE *out, const void *data) {
   /* What is the same for all, on lines of a few, and the law. */
   int said = 0;
   for (int k = 0; k < inputs_of(s); k++)
-    if (s->in[k].count == 1)
+    if (s->in[k].count == 1 && !is_tacit(s, k))
       fprintf(out, "%s%s %s",
               said % 3 > 0 ? ", "
               : said > 0   ? "\n# footer: "
                            : "",
               s->scene->inputs[k].name, s->in[k].at[0].name),
           said++;
-  fprintf(out, "\n# footer: %s\n", s->scene->law(s, law));
+  if (s->scene->law(s, law)[0] != '\0')
+    fprintf(out, "\n# footer: %s", law);
+  putc('\n', out);
   for (int curve = 0; curve < curves; curve++) {
     make_case(s, curve * points, &c);
     fprintf(out, "# curve %d: ", curve + 1);
@@ -271,9 +283,18 @@ static bool is_possible(const series *s, int count) {
     complain(
         "%d combinations are too many: at most %d, or a range of one number, such as --speed 1:5",
         count, MOST_CASES);
+  else if (count > MOST_COMBINED)
+    complain("%d combinations are too many: at most %d", count, MOST_COMBINED);
   else if (ranges > 0 && s->picture != NULL && count / s->in[range_of(s)].count > MOST_CASES)
     complain("%d curves are too many to draw: at most %d", count / s->in[range_of(s)].count,
              MOST_CASES);
+  else if (s->csv && s->quantity == NO_QUANTITY && s->asked.models != 0)
+    complain(
+        "--csv writes rows, which have no model: give --model to `carom resolve --cushion`, or "
+        "--quantity here");
+  else if (s->csv && s->quantity == NO_QUANTITY && s->asked.options.solver != CAROM_SOLVER_EXACT)
+    complain("--csv writes rows, which have no solver: give --solver to `carom resolve`, or "
+             "--quantity here");
   else if (ranges == 0 && s->quantity != NO_QUANTITY && !s->csv && s->picture != NULL)
     complain("--quantity is for curves and tables: give a range, such as --speed 1:5");
   else

@@ -8,13 +8,14 @@
 #include "values.h"
 
 /* the speed is the second input of a scene */
-enum { SPEED_INPUT = 1, MOST_INPUTS = 10, MOST_CASES = 16, NO_QUANTITY = -1 };
+enum { SPEED_INPUT = 1, MOST_INPUTS = 11, MOST_CASES = 16, NO_QUANTITY = -1 };
 
 typedef struct series series;
 
-/* One of the combinations: a value of each input, its row, and what comes of it. */
+/* One of the combinations: a value of each input, its row, how it is solved, and what comes of it. */
 typedef struct one_case {
   const value *given[MOST_INPUTS];
+  shared_options asked;
   double row[MOST_NUMBERS], result[MOST_RESULTS];
   char id[MOST_INPUTS * VALUE_NAME];
 } one_case;
@@ -32,7 +33,7 @@ typedef struct scene {
   const char *quantities;      /* words of --quantity, with bars between; the first is the usual
                                   one */
   const char *const *quantity; /* what each is, on an axis, with its unit */
-  /* Makes the row of the values; the id is made. */
+  /* Makes the row of the values, and changes how it is solved; the id is made. */
   void (*make)(const series *s, one_case *c);
   /* Measures a quantity. */
   double (*measure)(const series *s, const one_case *c, int quantity);
@@ -41,7 +42,7 @@ typedef struct scene {
   /* Draws it as a part of a picture, with those words, from `top` down; returns its height,
    * pixels. */
   double (*draw)(FILE *out, double top, const series *s, const one_case *c, const char *words);
-  /* What holds for all curves and is no input: the law of friction. */
+  /* What holds for all curves and is no input, or "": the law of friction. */
   const char *(*law)(const series *s, char text[80]);
 } scene;
 

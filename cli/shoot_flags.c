@@ -9,6 +9,7 @@
 #include "number.h"
 #include "places.h"
 #include "quantities.h"
+#include "shot_fault.h"
 #include "words.h"
 
 #include <math.h>
@@ -77,17 +78,17 @@ ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
     "speed of the cue ball just after the strike instead, which a level cue gives it");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip; several "
-    "with colons, or ranges: 0,-0.4..0.4..0.2. Right is "
+    "with colons, or ranges: 0,-0.4:0.4:0.2. Right is "
     "positive, as english is everywhere in this command (default 0,0.25). Beyond 0.5 R a chalked "
     "tip "
     "slips off the ball, of which carom warns");
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
     "of the butt of the cue (default 0). With --pocket also least: as little as the stick needs "
     "over the cushions and balls behind the cue ball");
-ROW(option_tip_time, "tip-time", tip_time, "SECONDS", set_number, 0,
+ROW(option_tip_time, "tip-time", shared.with, "SECONDS", set_cue_number, 0,
     "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.002, of "
     "leather; of hard resin, which lets balls jump: 0.0006). -1: no time");
-ROW(option_tip_restitution, "tip-restitution", tip_restitution, "E", set_number, 0,
+ROW(option_tip_restitution, "tip-restitution", shared.with, "E", set_cue_number, 0,
     "restitution of the tip and the ball, above 0 to 1: the speed of the ball is in proportion to "
     "1 + E (default 0.73, of leather; of phenolic resin 0.85; of pooltool 1)");
 ROW(option_json, "json", json, NULL, set_flag, 0,
@@ -103,8 +104,8 @@ bool has_flags(const shoot_flags *f) {
   return f->table != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
          f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 || f->balls.rack > 0 ||
          f->tip.count > 0 || f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 ||
-         f->cut.count > 0 || f->elevation.count > 0 || f->tip_time != 0.0 ||
-         f->tip_restitution != 0.0 || f->gap.count > 0 || f->seed != 0;
+         f->cut.count > 0 || f->elevation.count > 0 || f->shared.with.own || f->gap.count > 0 ||
+         f->seed != 0;
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -268,9 +269,7 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
   cue->speed = c->speeds->at[c->speed].x;
   cue->phi = 0.0;
   cue->theta = least ? 0.0 : f->elevation.at[c->rise].x;
-  cue->tip_time = f->tip_time;
-  if (f->tip_restitution != 0.0)
-    cue->tip_restitution = f->tip_restitution;
+  give_cue(&f->shared.with, cue);
   cue->a = -tip_of(&f->tip.at[c->tip].x, R);
   cue->b = tip_of(&f->tip.at[c->tip].y, R);
   if (!(cue->speed > 0.0)) {
@@ -283,9 +282,9 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
   }
   const carom_status bad = carom_strike(cue, &l->ball[0].kind, &after);
   if (bad == CAROM_ERROR_MISCUE)
-    complain(
-        "--tip: it is %.4g R from the centre, beside the ball; a chalked tip slips off beyond %g R",
-        hypot(cue->a, cue->b), TIP_LIMIT);
+    complain("--tip: it is %.4g R from the centre%s tip slips off beyond %g R",
+             hypot(cue->a, cue->b), cue->miscue > 0.0 ? "; this" : ", beside the ball; a chalked",
+             cue->miscue > 0.0 ? cue->miscue : TIP_LIMIT);
   else if (bad != CAROM_OK)
     complain("no such strike: %s", carom_status_string(bad));
   const bool of_ball = f->ball_speed.count > 0 || c->speeds->at[c->speed].times == OF_BALL;
@@ -327,7 +326,7 @@ static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_T
              f->tip.at[c->tip].x.name, f->tip.at[c->tip].y.name);
 }
 
-static void write_line(FILE *out, const layout *l, uint64_t given, const char *id,
+static void write_line(FILE *out, const layout *l, const given_numbers *given, const char *id,
                        const carom_cue *cue) {
   char number[NUMBER_TEXT];
   const carom_number *n;
@@ -338,7 +337,7 @@ static void write_line(FILE *out, const layout *l, uint64_t given, const char *i
     if (n->key[0] != '\0')
       memcpy(&x, (const char *)cue + n->offset, sizeof x);
     /* the stroke is always said */
-    if (x != 0.0 || n->offset <= (int32_t)offsetof(carom_cue, b))
+    if (x != 0.0 || (given->of_cue >> k & 1) != 0 || n->offset <= (int32_t)offsetof(carom_cue, b))
       fprintf(out, "\"%s\": %s, ", n->key, number_text(x + 0.0, number));
   }
   fprintf(out, "\"ball\": \"%s\"}, \"balls\": [", l->name[0]);
@@ -349,7 +348,7 @@ static void write_line(FILE *out, const layout *l, uint64_t given, const char *i
     for (int j = 0; (n = carom_number_of(CAROM_PART_BALL, j)) != NULL; j++) {
       double x;
       memcpy(&x, (const char *)&l->ball[k].kind + n->offset, sizeof x);
-      if ((given >> j & 1) != 0)
+      if ((given->which >> j & 1) != 0)
         fprintf(out, ", \"%s\": %s", n->key, number_text(x, number));
     }
     fputs("}, \"state\": [0", out);
@@ -369,7 +368,7 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
   if (!strike_of(f, l, &c, &cue) || !aim_of(f, l, options, &c, &cue))
     return false;
   name_shot(f, &c, id);
-  write_line(out, l, f->shared.with.which, id, &cue);
+  write_line(out, l, &f->shared.with, id, &cue);
   return true;
 }
 
@@ -481,13 +480,19 @@ shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_option
   return path != NULL ? shot_file_open(path) : flags_open(f, options, most, text);
 }
 
-int strokes_read(shot_file *file, shot_line *line, carom_cue *cues, int most) {
+int strokes_read(shot_file *file, const shared_options *shared, shot_line *line, carom_cue *cues,
+                 int most) {
   shot_line next;
+  char many[80];
+  uint64_t told = 0;
   int n = 0;
   for (shot_read what; (what = shot_file_next_shot(file, &next)) != SHOT_END;) {
+    if (what == SHOT_SHOT)
+      shot_numbers(&next, shared, shot_file_name(file), &told);
+    snprintf(many, sizeof many, "there are more strokes than %d, the most that are read", most);
     const char *wrong = what == SHOT_FAILED  ? "" /* which was told */
                         : next.error != NULL ? next.error
-                        : n == most          ? "these are too many strokes"
+                        : n == most          ? many
                                              : NULL;
     if (wrong == NULL && n > 0) {
       bool same = next.count == line->count && next.cue.ball == line->cue.ball;

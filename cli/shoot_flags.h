@@ -22,7 +22,6 @@ typedef struct shoot_flags {
   values speed, ball_speed, aim, cut, elevation, gap;
   int seed; /* of a rack; 0: 1 */
   place_list cue, balls, tip, to;
-  double tip_time, tip_restitution; /* s, and 0 to 1 */
   bool json;
   bool tries;            /* shots that cannot be aimed are left out, without a complaint */
   int written, left_out; /* of the shots that were asked for */
@@ -49,8 +48,9 @@ shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int mos
 shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_options *options,
                        int most, char **text);
 
-/* Reads all shots of the file, at most `most`, of which all must have the layout of the first one:
+/* Reads all shots of the file with the numbers of --with, at most `most`, of which all must have the layout of the first one:
  * *line is to be freed; how many, with their strokes in cues[]. 0 after a complaint. */
-int strokes_read(shot_file *file, shot_line *line, carom_cue *cues, int most);
+int strokes_read(shot_file *file, const shared_options *shared, shot_line *line, carom_cue *cues,
+                 int most);
 
 #endif

@@ -90,6 +90,13 @@ void shot_numbers(shot_line *line, const shared_options *shared, const char *fil
     *told |= bit;
   }
   const given_numbers *with = &shared->with;
+  give_cue(with, &line->cue);
+  json_t *cue = json_object_get(line->json, "cue");
+  for (int k = 0; cue != NULL && (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++)
+    if ((with->of_cue >> k & 1) != 0)
+      json_object_set_new(
+          cue, n->key,
+          json_real(*(const double *)(const void *)((const char *)&with->cue + n->offset)));
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
     if ((with->which >> k & 1) != 0)
       shot_line_give(line, n,

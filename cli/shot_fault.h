@@ -13,7 +13,7 @@ double tip_off_centre(const carom_cue *cue);
 /* What is wrong, with the key. False if nothing is. */
 bool shot_fault(const shot_line *line, const carom_shot_options *options, char text[FAULT_TEXT]);
 
-/* Gives the balls the numbers of --with, and says once for each, which then is in `told`, which
+/* Gives balls and cue the numbers of --with, and says once for each, which then is in `told`, which
  * numbers of a file these models do not read. --strict makes it an error of the line. */
 void shot_numbers(shot_line *line, const shared_options *shared, const char *file, uint64_t *told);
 

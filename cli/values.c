@@ -19,7 +19,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { POINTS = 161, MOST_TEXT = 256 };
+enum { POINTS = 161, MOST_TEXT = 256, LIST_TEXT = MOST_VALUES * VALUE_NAME };
 
 #define BALL_FRACTION \
   ((double)NAN) /* an angle by the part x of the ball that is hit, 0 to 1:
@@ -58,6 +58,10 @@ static const struct {
     {MEASURE_MASS, "kg", "kg", 1.0, FIXED},
     {MEASURE_MASS, "g", "g", 1e-3, FIXED},
     {MEASURE_MASS, "oz", "ounces", 0.028349523125, FIXED},
+    {MEASURE_OBJECT_MASS, "kg", "kg", 1.0, FIXED},
+    {MEASURE_OBJECT_MASS, "g", "g", 1e-3, FIXED},
+    {MEASURE_OBJECT_MASS, "oz", "ounces", 0.028349523125, FIXED},
+    {MEASURE_FRICTION, "", "", 1.0, FIXED},
     {MEASURE_TIP, "R", "R", 1.0, FIXED},
     {MEASURE_TIP, "tip", "tips", tip_width, OFFSET},
     {MEASURE_SHARE, "%", "%", 0.01, FIXED},
@@ -84,6 +88,8 @@ static const struct {
     {MEASURE_CUT, "quarter", 48.590377890729144, FIXED},
     {MEASURE_CUT, "thin", 61.044975628140819, FIXED}, /* an eighth */
     {MEASURE_ELEVATION, "least", (double)NAN, FIXED},
+    {MEASURE_OBJECT_MASS, "same", (double)NAN, FIXED},
+    {MEASURE_FRICTION, "alciatore", (double)NAN, FIXED},
     {MEASURE_SPEED, "soft", 0.5 * mph, OF_BALL},
     {MEASURE_SPEED, "slow", 1.5 * mph, OF_BALL},
     {MEASURE_SPEED, "medium", 3.0 * mph, OF_BALL},
@@ -169,8 +175,8 @@ static void list_units(int measure, char *text, size_t room) {
   snprintf(text + strlen(text), room - strlen(text), "%sa number",
            between[0] != '\0' ? ", or " : "");
   between = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
-  for (int k = 0; k < UNITS && measure != MEASURE_NUMBER; k++)
-    if (units[k].measure == measure) {
+  for (int k = 0; k < UNITS; k++)
+    if (units[k].measure == measure && units[k].name[0] != '\0') {
       snprintf(text + strlen(text), room - strlen(text), "%s%s", between, units[k].name);
       between = ", ";
     }
@@ -189,6 +195,11 @@ static bool refuse(const option_row *row, const char *text) {
   return false;
 }
 
+bool too_many(const option_row *row, double count, int most) {
+  complain("--%s: these are %.0f values; at most %d", row->name, count, most);
+  return false;
+}
+
 /* A word, of parts of a ball also as half-ball. */
 static bool set_word(const char *text, int measure, value *v) {
   const char *end = measure == MEASURE_CUT ? strstr(text, "-ball") : NULL;
@@ -203,14 +214,14 @@ static bool set_word(const char *text, int measure, value *v) {
   return false;
 }
 
-/* A range, whose ends are split at colons; those of speeds and cuts may be words, in SI units. */
-static bool set_range(const option_row *row, const char *text, values *list) {
-  char copy[MOST_TEXT], *rest = NULL;
+/* A range, whose ends are split at the colons of `copy`; those of speeds and cuts may be words, in
+ * SI units. */
+static bool set_range(const option_row *row, const char *text, char *copy, values *list) {
+  char *rest = NULL;
   double end[3];
   const char *unit = "", *own;
   int parts = 0, worded = 0;
   value word = {.times = FIXED};
-  snprintf(copy, sizeof copy, "%s", text);
   for (char *part = strtok_r(copy, ":", &rest); part != NULL;
        part = strtok_r(NULL, ":", &rest), parts++) {
     const bool is_word =
@@ -228,8 +239,10 @@ static bool set_range(const option_row *row, const char *text, values *list) {
     return refuse(row, text);
   const int found = find_unit(row->least, unit);
   const double steps = parts == 3 ? (end[1] - end[0]) / end[2] : POINTS - 1;
-  if (parts < 2 || found == NO_UNIT || !(steps >= 1.0) || steps > MOST_VALUES - 1)
+  if (parts < 2 || found == NO_UNIT || !(steps >= 1.0) || isinf(steps))
     return refuse(row, text);
+  if (steps > MOST_VALUES - 1)
+    return too_many(row, floor(steps) + 1.0, MOST_VALUES);
   *list = (values){.count = (int)(steps + 1.0 + 1e-9), .range = true, .unit = units[found].axis};
   for (int k = 0; k < list->count; k++) {
     const double x = parts == 3 ? end[0] + k * end[2] : end[0] + (end[1] - end[0]) * k / steps;
@@ -241,26 +254,41 @@ static bool set_range(const option_row *row, const char *text, values *list) {
 }
 
 static bool read_values(const option_row *row, const char *text, values *list) {
+  static char copy[LIST_TEXT]; /* in which ranges have colons */
   const int measure = row->least;
-  char copy[MOST_TEXT], *rest = NULL;
-  double number;
+  char *rest = NULL, *to = copy, all[MOST_WORDS];
+  double number, several = 1.0;
   const char *own, *last = strrchr(text, ',');
   /* The unit of the last is that of those without. */
   if (!split(last != NULL ? last + 1 : text, &number, &own))
     own = "";
   const int common = find_unit(measure, own);
   *list = (values){.unit = common != NO_UNIT ? units[common].axis : ""};
-  if (strchr(text, ':') != NULL)
-    return set_range(row, text, list);
-  snprintf(copy, sizeof copy, "%s", text);
+  for (const char *from = text; *from != '\0'; from++)
+    several += *from == ',';
+  if (several > MOST_VALUES || strlen(text) >= LIST_TEXT)
+    return too_many(row, several, MOST_VALUES);
+  for (const char *from = text; *from != '\0'; from++) {
+    const bool dots = strncmp(from, "..", 2) == 0;
+    *to++ = dots ? ':' : *from;
+    from += dots;
+  }
+  *to = '\0';
+  if (strchr(copy, ':') != NULL)
+    return set_range(row, text, copy, list);
   for (char *one = strtok_r(copy, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
     const char *unit;
-    value *v = &list->at[list->count];
-    if (list->count == MOST_VALUES)
-      return refuse(row, text);
-    list->count++;
+    value *v = &list->at[list->count++];
+    int place;
     if (set_word(one, measure, v))
       continue;
+    if (measure == MEASURE_MODEL) {
+      if (!set_place(row, one, words_of(CAROM_WORDS_CUSHION_MODEL, false, all), &place))
+        return false;
+      *v = (value){.x = place, .given = (double)NAN};
+      snprintf(v->name, sizeof v->name, "%s", one);
+      continue;
+    }
     if (!split(one, &number, &unit))
       return refuse(row, one);
     int found = unit[0] == '\0' ? common : find_unit(measure, unit);

@@ -1,5 +1,5 @@
 /* Lists and ranges of numbers with units, as players and students write them: 0:80, 1,3,7mph,
- * 0:100%, half. */
+ * 0:100%, half; 0..80 is read as 0:80. */
 #ifndef CAROM_CLI_VALUES_H
 #define CAROM_CLI_VALUES_H
 
@@ -17,6 +17,9 @@ enum measure {
   MEASURE_LENGTH,
   MEASURE_PLACE, /* a length, or diamonds of a table */
   MEASURE_MASS,
+  MEASURE_OBJECT_MASS, /* or that of the other ball: NaN */
+  MEASURE_FRICTION,    /* of two balls, or by a law: NaN */
+  MEASURE_MODEL,       /* no number but a carom_cushion_model */
   MEASURE_TIP,
   MEASURE_SHARE,
   MEASURE_SPIN,
@@ -54,6 +57,9 @@ typedef struct values {
  * has no unit, and, but as a warning, where a list looks like one number with a decimal comma,
  * 1,5, unless it is for another kind of option. */
 OPTION_SET(set_values);
+
+/* Says how many values an option has, and the most it takes; returns false. */
+bool too_many(const option_row *row, double count, int most);
 
 /* Reads what set_values() would, for defaults; `text` is not changed. */
 void values_default(values *list, int measure, const char *text);

@@ -1,0 +1,42 @@
+# Kinds of arguments, each as a table: ranges, lists, numbers of --with, and options that one another would ignore.
+echo "--- one range in both forms, of every option that has one"
+lines() { "$CAROM" "$@" | cksum; }
+for pair in "hit --speed 1:3:1" "hit --cut 0:60:20" "hit --spin -50:50:50%" "hit --side 0:100:50%" "hit --friction 0:0.1:0.05" "hit --mass 150:170:10g" "hit --object-mass 150:170:10g" \
+  "rail --angle 0:60:20" "rail --height 30:40:5mm" "shoot --json --speed 1:3:1" "shoot --json --aim 80:90:5" "shoot --json --elevation 0:4:2" "shoot --json --tip 0,-0.4:0.4:0.2" \
+  "shoot --json --tip -0.2:0.2:0.2,0:0.4:0.2" "shoot --json --tip 0,-0.4:0.4"; do
+  # shellcheck disable=SC2046,SC2086
+  [ "$(lines $pair)" = "$(lines $(echo $pair | sed 's/:/../g'))" ] && [ "$(carom $pair | wc -l)" -gt 2 ] || echo "$pair: not the same"
+done
+echo "--- too many, told as that"
+for words in "hit --cut 0:60:0.01" "hit --cut $(seq -s , 0 0.01 12)" "hit --cut $(seq -s , 0 0.1 60)" "shoot --tip 0,-0.4:0.4:0.01" "shoot --aim 0:90:1" "hit --speed 1:9:0.01 --cut $(seq -s , 0 9) --side $(seq -s , 0 99)% --spin $(seq -s , 0 9)%"; do
+  # shellcheck disable=SC2086
+  try carom $words
+done
+echo "--- lists of what is one value"
+for words in "hit --steps 1,2" "hit --solver exact,euler" "rail --law han,constant" "shoot --cushion han,mirror" "shoot --seed 1,2" "shoot --tip-time 0,1" "shoot --time-most 1,2"; do
+  # shellcheck disable=SC2086
+  try carom $words
+done
+echo "--- lists of models, frictions, masses"
+carom rail --model han,mathavan --angle 30,60 --quantity rebound --csv | cut -c 1-16
+for model in han mathavan; do carom rail --model $model --angle 30,60 --quantity rebound --csv | cut -c 1-8; done
+carom hit --object-mass 150g,170g,same --friction 0.05 --quantity object-speed --csv | cut -c 1-14
+carom hit --friction 0 --restitution 1 --cut 10,30,60 --csv --quantity angle-between; carom hit --friction 0 --cut 10,30 --csv --quantity throw
+echo "--- what --with takes of every number that is listed"
+carom shoot --cue 0.6,0.8 --json > line.jsonl
+for name in $(carom models | sed -n '/^numbers of/,$s/^  \([a-z_]*[0-9]*\) .*/\1/p' | sort -u) M; do
+  for command in "rail" "resolve --cushion -" "shoot --cue 0.6,0.8" "shoot line.jsonl" "ways line.jsonl"; do
+    # shellcheck disable=SC2086
+    carom $command --with $name=nothing < /dev/null 2>&1 | sed -n "1{s/^.*must be .*/taken/;s/^carom: --with: $name//;p}"
+  done | uniq -c | tr -s ' \n' ' ' ; echo "$name"
+done
+leaves() { carom shoot --cue 0.6,0.8 --tip 0.4,0 "$@" --csv | sed -n 2p; }
+[ "$(leaves)" != "$(leaves --with end_mass=0.02)" ] && echo "squirt by the cue"
+carom shoot --tip-time -1 --with M=0.5,end_mass=0.02,tip_restitution=0 --json | grep -o '"M.*tip_restitution": 0,\|"tip_time": -1'
+carom ways --scan 0 line.jsonl --with u_b=2 2>&1 | head -n 1
+echo "--- options that would be ignored"
+for words in "shoot --cite --cue 1,1" "shoot --json --csv --aim 1" "shoot --json --events brief --aim 1" "shoot --json --plot a.svg --aim 1" "shoot --json --spread 1%,0,0,0 --aim 1" "shoot --csv --spread 1%,0,0,0 --aim 1" \
+  "shoot --id a --aim 1" "shoot --id a line.jsonl" "hit --csv --solver euler" "rail --csv --model euler"; do
+  # shellcheck disable=SC2086
+  try carom $words
+done
