@@ -4,7 +4,7 @@
 #include "platform/promise.h"
 #include "platform/threads.h"
 #include "shot/rules.h"
-#include "shot/together.h"
+#include "shot/clusters.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -60,7 +60,7 @@ static inline carom_cushion_model carom_cushion_model_of(const carom_shot_option
                                             : CAROM_CUSHION_HAN;
 }
 
-/* fixed.c: the restitution of a ball with the slate, from restitution_table of its kind: 0 stands
+/* slate.c: the restitution of a ball with the slate, from restitution_table of its kind: 0 stands
  * for the default, -1 for none. */
 static inline double carom_slate_restitution(double given) {
   return given == 0.0 ? 0.5 : given > 0.0 ? given : 0.0;

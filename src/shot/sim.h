@@ -149,7 +149,7 @@ carom_status carom_check_room(const carom_shot *shot);
 carom_status carom_check_shot_options(const carom_shot_options *opt);
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
 
-/* ---- fixed.c: the impact of a ball with something that does not move */
+/* ---- slate.c: the impact of a ball with something that does not move */
 
 /* A ball that touches something fixed. N is the unit vector from its centre into that. */
 typedef struct carom_touch {

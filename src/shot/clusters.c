@@ -1,5 +1,5 @@
 /* Contacts that last, src/cluster/, for the balls of a shot, and carom_cluster(). */
-#include "shot/together.h"
+#include "shot/clusters.h"
 #include "cluster/vectors.h"
 #include "platform/promise.h"
 #include "shot/rules.h"
