@@ -1,4 +1,4 @@
-/* Values of layouts in games of points.
+/* Values of layouts: in games of points, and at the end in all games.
  *
  * The player at the table needs n points, the other one m. Of the balls that are on the one whose
  * pot is worth most is taken: with the chance p, as value.c has it, it makes w points, and each
@@ -107,8 +107,9 @@ static double value_from(const carom_view *view, const uint64_t *user,
   return value;
 }
 
-double carom_points_value(const carom_view *view, const uint64_t *user,
-                          const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
+/* The chance that player `who` wins a race for points. */
+static double points_value(const carom_view *view, const uint64_t *user,
+                           const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
   if (!in_hand || view->rules->rack != CAROM_RACK_SNOOKER)
     return value_from(view, user, balls, in_play, who, in_hand);
 
@@ -124,4 +125,38 @@ double carom_points_value(const carom_view *view, const uint64_t *user,
     best = value > best ? value : best;
   }
   return best;
+}
+
+/* ---- Of all games */
+
+/* The value to one who plays. */
+static double value_of_playing(const carom_view *view, const uint64_t *user,
+                               const carom_ball_state *balls, uint32_t in_play, int who,
+                               bool in_hand) {
+  const carom_plan_rules *rules = view->rules;
+  if (rules->value != NULL)
+    return rules->value(user, balls, view->count, in_hand);
+  if (rules->race == CAROM_RACE_POINTS)
+    return points_value(view, user, balls, in_play, who, in_hand);
+  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(user) : ~UINT32_C(0);
+  int32_t left[2];
+  rules->left(user, in_play, left);
+  return carom_chain_value(view, balls, in_play, rules->on(user, in_play), pockets, left, who,
+                           in_hand);
+}
+
+double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
+                      int who, bool in_hand) {
+  const carom_plan_rules *rules = view->rules;
+  const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
+  const double plays = value_of_playing(view, user, balls, in_play, who, in_hand);
+  if (rules->may == NULL || !(rules->may(user) & CAROM_MAY_PASS))
+    return plays;
+
+  /* he may leave the table to the other */
+  uint64_t passed[8];
+  memcpy(passed, user, sizeof passed);
+  rules->judge(passed, in_play, view->cue_ball, &carom_no_facts, (carom_call){CAROM_CALL_PASS, -1});
+  const double passes = 1.0 - value_of_playing(view, passed, balls, in_play, 1 - who, in_hand);
+  return plays > passes ? plays : passes;
 }

@@ -72,9 +72,11 @@ enum { NEXT_NUMBERS = 7, LATER_NUMBERS = 4, FIRST_NUMBERS = 3 };
 void carom_plan_features(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                          uint32_t targets, uint32_t pockets, int who, bool in_hand,
                          double x[NEXT_NUMBERS]);
-/* The chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
-double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
-                      int who, bool in_hand);
+/* The chance that player `who` wins by pots of `targets` one after the other, left[] being needed
+ * by each; alone: balls that he pots yet. */
+double carom_chain_value(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                         uint32_t targets, uint32_t pockets, const int32_t left[2], int who,
+                         bool in_hand);
 uint32_t carom_in_play(const carom_ball_state *balls, int count);
 /* Chances of the next pot, by carom_plan_features(); of a later one with n balls left, in a layout
  * with this mean; of the first of a visit. */
@@ -82,9 +84,9 @@ double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]);
 double carom_chance_later(const carom_view *view, int who, double mean, int n);
 double carom_chance_first(const carom_view *view, int who, int n);
 
-/* points.c: the chance that player `who` wins a race for points. */
-double carom_points_value(const carom_view *view, const uint64_t *user,
-                          const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand);
+/* points.c: the chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
+double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
+                      int who, bool in_hand);
 
 /* uniform.c: elementary functions beyond platform/elementary.h, and random numbers that are a
  * function of where they stand. */

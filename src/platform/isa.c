@@ -120,6 +120,24 @@ int carom_isa_available(carom_isa isa) {
   return (int)isa >= 0 && isa < CAROM_ISA_COUNT && built[isa] && processor_has(isa);
 }
 
+const char *carom_isa_name(carom_isa isa) {
+  switch (isa) {
+  case CAROM_ISA_PLAIN:
+    return "plain";
+  case CAROM_ISA_SSE2:
+    return "sse2";
+  case CAROM_ISA_NEON:
+    return "neon";
+  case CAROM_ISA_AVX2:
+    return "avx2";
+  case CAROM_ISA_AVX512:
+    return "avx512";
+  case CAROM_ISA_ANY:
+    break;
+  }
+  return NULL;
+}
+
 /* The best set that is available and not above `limit`: sets of one processor family are listed
  * from low to high. */
 static carom_isa best_up_to(carom_isa limit) {

@@ -357,3 +357,13 @@ void carom_detect_all(carom_sim *sim) {
   for (int i = 0; i < n; i++)
     scan_row(sim, i);
 }
+
+void carom_take_rates(carom_sim *sim) {
+  sim->unlike = false;
+  sim->widest = 0.0;
+  for (int i = 0; i < sim->count; i++) {
+    sim->rates[i] = carom_rates_of(carom_kind_in(sim->ball, i));
+    sim->widest = carom_greater(sim->widest, sim->rates[i].radius);
+    sim->unlike |= sim->rates[i].radius != sim->features->reference;
+  }
+}

@@ -3,8 +3,8 @@
 #include "motion/strike.h"
 #include "platform/promise.h"
 #include "platform/threads.h"
-#include "shot/rules.h"
 #include "shot/clusters.h"
+#include "shot/rules.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -291,16 +291,6 @@ static carom_status strike(carom_sim *sim) {
   event->impulse = impulse_of(sim, event);
   carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   return CAROM_OK;
-}
-
-void carom_take_rates(carom_sim *sim) {
-  sim->unlike = false;
-  sim->widest = 0.0;
-  for (int i = 0; i < sim->count; i++) {
-    sim->rates[i] = carom_rates_of(carom_kind_in(sim->ball, i));
-    sim->widest = carom_greater(sim->widest, sim->rates[i].radius);
-    sim->unlike |= sim->rates[i].radius != sim->features->reference;
-  }
 }
 
 static void begin(carom_sim *sim) {

@@ -84,11 +84,10 @@ carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3
 void carom_detect(carom_sim *sim, int i, int j);
 /* The same for all balls, at the start. */
 void carom_detect_all(carom_sim *sim);
+/* Takes what follows from the kinds of the balls. */
+void carom_take_rates(carom_sim *sim);
 /* Computes again all that follows from the paths, meetings and pairs: columns and firsts. */
 void carom_detect_columns(carom_sim *sim);
-
-/* shoot.c: what follows from the kinds of the balls. */
-void carom_take_rates(carom_sim *sim);
 
 /* state.c: takes fingerprints of table, balls and options, where a state will be kept. */
 void carom_state_begin(carom_sim *sim);

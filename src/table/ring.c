@@ -1,5 +1,5 @@
-/* Checks of a table of one's own: no way out but the pockets, and rails that are played from the
- * right side. And whether a place can be reached from a table's middle.
+/* The ring of a table: no way out but the pockets, and rails that are played from the right side.
+ * And whether a place can be reached from a table's middle.
  *
  * To the centre of a ball of radius R, jaws are discs grown by R, pockets discs, and rails
  * segments grown by R; but detection knows of a rail only the segment at the distance R on its
@@ -210,6 +210,20 @@ static bool find_middle(const ring *g, const carom_table *t, double P[2]) {
   return false;
 }
 
+bool carom_beside_longest(const carom_table *t, const carom_features *f, double radius,
+                          double place[2]) {
+  double most = 0.0;
+  for (int k = 0; k < f->rails; k++) {
+    const double *p = t->rail[k].p, *q = t->rail[k].q, e_x = q[0] - p[0], e_y = q[1] - p[1];
+    if (e_x * e_x + e_y * e_y <= most)
+      continue;
+    most = e_x * e_x + e_y * e_y;
+    for (int c = 0; c < 2; c++)
+      place[c] = 0.5 * (p[c] + q[c]) + 2.0 * radius * f->line[k][c];
+  }
+  return most > 0.0;
+}
+
 /* A place for a ball on the table: near its middle; or beside the longest rail, where a ring of
  * parts that are at most `grown` apart is closed around that and not around the middle, as in the
  * shape of a U. False if there is none. */
@@ -284,44 +298,18 @@ static bool is_closed(ring *g, const double P[2], carom_table_fault *fault) {
   return false;
 }
 
-static double off_line(const double line[3], const double r[2]) {
-  return fabs(line[0] * r[0] + line[1] * r[1] + line[2]);
-}
-
-carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault) {
-  carom_table_fault unused;
-  fault = fault != NULL ? fault : &unused;
-  *fault = (carom_table_fault){.part = {CAROM_PART_NONE, 0}};
-  if (table == NULL)
-    return CAROM_ERROR_NULL;
-  carom_features features;
-  const carom_status bad = carom_check_parts(table, radius, radius, &features, &fault->part);
-  if (bad != CAROM_OK)
-    return bad;
-
-  /* lines of rails, as they were given */
-  for (int k = 0; k < table->rails; k++) {
-    const carom_rail *rail = &table->rail[k];
-    const double off =
-        carom_greater(off_line(features.line[k], rail->p), off_line(features.line[k], rail->q));
-    if (!(off <= 1e-6)) {
-      fault->part = (carom_part){CAROM_PART_RAIL, k};
-      for (int c = 0; c < 2; c++)
-        fault->place[c] = 0.5 * (rail->p[c] + rail->q[c]);
-      return CAROM_ERROR_RAIL_LINE;
-    }
-  }
-
-  /* the ring, with rails rounded */
+carom_status carom_check_ring(const carom_table *table, const carom_features *features,
+                              double radius, carom_table_fault *fault) {
+  /* with rails rounded */
   const carom_ball_kind ball = {.radius = radius};
   ring g;
   double P[2];
-  shapes_of(table, &features, &ball, 0.0, true, &g);
-  if (!find_place(&g, table, &features, radius, touching, P) || !is_closed(&g, P, fault))
+  shapes_of(table, features, &ball, 0.0, true, &g);
+  if (!find_place(&g, table, features, radius, touching, P) || !is_closed(&g, P, fault))
     return CAROM_ERROR_TABLE_OPEN;
   for (int k = 0; k < table->rails; k++)
-    if (wrong_side(&g, &table->rail[k], features.line[k],
-                   carom_reach_on_cloth(&ball, table->rail[k].height, features.reference), P)) {
+    if (wrong_side(&g, &table->rail[k], features->line[k],
+                   carom_reach_on_cloth(&ball, table->rail[k].height, features->reference), P)) {
       fault->part = (carom_part){CAROM_PART_RAIL, k};
       for (int c = 0; c < 2; c++)
         fault->place[c] = 0.5 * (table->rail[k].p[c] + table->rail[k].q[c]);
@@ -329,7 +317,7 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
     }
 
   /* and with rails as they are detected */
-  shapes_of(table, &features, &ball, 0.0, false, &g);
+  shapes_of(table, features, &ball, 0.0, false, &g);
   return is_closed(&g, P, fault) ? CAROM_OK : CAROM_ERROR_TABLE_OPEN;
 }
 

@@ -45,10 +45,6 @@ extern const carom_table carom_table_pooltool;
 /* features.c: the unit normal of a rail towards its played side, and its offset: distance = line
  * . (x, y, 1). */
 void carom_rail_line(const carom_rail *rail, double line[3]);
-/* A place beside the middle of the longest rail, on its played side, at twice the radius from it;
- * false without rails. */
-bool carom_beside_longest(const carom_table *table, const carom_features *features, double radius,
-                          double place[2]);
 /* Prepares a table for balls of a greatest radius; reference: the radius that it is meant for. */
 void carom_features_of(const carom_table *table, double radius, double reference,
                        carom_features *features);
@@ -95,7 +91,15 @@ bool carom_is_in_sight(const carom_table *table, const carom_features *features,
  * touches none of them. */
 bool carom_place_is_outside(const carom_table *table, const carom_features *features,
                             const carom_ball_kind *kind, const double r[2]);
-/* ring.c: the same by the parts of the table, without a look at the place first: some
+/* ring.c: that the parts of a table keep balls on it, and its rails are played from the right
+ * side. */
+carom_status carom_check_ring(const carom_table *table, const carom_features *features,
+                              double radius, carom_table_fault *fault);
+/* A place beside the middle of the longest rail, on its played side, at twice the radius from it;
+ * false without rails. */
+bool carom_beside_longest(const carom_table *table, const carom_features *features, double radius,
+                          double place[2]);
+/* Whether a place is outside, as above, by the parts of the table, without a look at the place first: some
  * microseconds. */
 bool carom_is_cut_off(const carom_table *table, const carom_features *features,
                       const carom_ball_kind *kind, const double r[2]);

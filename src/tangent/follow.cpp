@@ -237,11 +237,11 @@ bool lands(const scene *s) {
 /* Of a ball that leaves the table in flight: how far it is from the nearest edge of the rails. No
  * flight begins beyond them: a layout there is refused. */
 CAROM_APART number edge(scene *s, const carom_ball_state *a) {
-  real at[4];
-  carom_tangent_edges(s->w, s->w->ball[s->event->a].kind, at);
+  ::carom_features f;
+  ::carom_features_of(s->w->table, s->w->ball[s->event->a].kind->radius, s->w->reference, &f);
   number nearest = INFINITY;
   for (int side = 0; side < 4; side++) {
-    const number gap = a->r[side / 2] - at[side];
+    const number gap = a->r[side / 2] - (f.hull[side] + (side % 2 == 0 ? -f.width : f.width));
     nearest = fabs(gap).x < fabs(nearest).x ? gap : nearest;
   }
   return nearest;

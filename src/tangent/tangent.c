@@ -19,13 +19,6 @@ static const carom_status BUILT = CAROM_OK;
 static const carom_status BUILT = CAROM_ERROR_NO_TANGENTS;
 #endif
 
-void carom_tangent_edges(const work *w, const carom_ball_kind *kind, double edge[4]) {
-  carom_features features;
-  carom_features_of(w->table, kind->radius, w->reference, &features);
-  for (int side = 0; side < 4; side++)
-    edge[side] = features.hull[side] + (side % 2 == 0 ? -features.width : features.width);
-}
-
 /* ---- Arguments ---- */
 
 /* Whether an event can be one of the shot. */
