@@ -45,10 +45,9 @@ int32_t carom_search_kind(search *of, const carom_candidate *c, const carom_choi
     carom_shot shot = {.brief = of->event, .room = EVENTS, .facts = &facts};
     const uint32_t draws = n == 0 ? 0 : DRAW_ROUND;
     carom_cue cue = carom_search_stroke(of, c, draws, n);
-    carom_layout layout;
-    const carom_table *table = carom_search_table(of, draws, n, &layout);
+    const carom_prepared layout = carom_search_layout(of, draws, n);
     cue.ball = of->cue_ball;
-    carom_shoot_prepared(table, &of->features, layout, of->plays, &cue, &of->shot, &shot);
+    carom_shoot_prepared(&layout, &cue, &shot);
     const int kind = of->view.pockets > 0
                          ? way_of(of->job.table, &shot, of->cue_ball, ball, choice->pocket)
                      : facts.first[0] != ball || facts.first[1] < 0 ? -1

@@ -80,7 +80,8 @@ typedef struct carom_search {
   carom_plan_job job; /* with shot and options of its own */
   carom_shot_options shot;
   carom_plan_options options;
-  carom_features features; /* of the table, prepared for the balls */
+  carom_features features; /* of the table, for */
+  carom_prepared layout;   /* all balls */
   carom_view view;
   carom_player player;
   uint32_t in_play, on, may, pockets;
@@ -143,9 +144,8 @@ carom_cue carom_search_stroke(const carom_search *of, const carom_candidate *c, 
                               int64_t row);
 /* unsure.c: draws the tables, into the caller's memory. */
 void carom_search_tables(carom_search *of, carom_drawn_table *room);
-/* The table of a row, and the layout of the balls in play on it. */
-const carom_table *carom_search_table(const carom_search *of, uint32_t draws, int64_t row,
-                                      carom_layout *layout);
+/* The balls in play on the table of a row. */
+carom_prepared carom_search_layout(const carom_search *of, uint32_t draws, int64_t row);
 /* Whether a stroke of the scan met a ball first that is on. */
 bool carom_search_begins_well(const carom_search *of, int first);
 /* What a foul that is worth `worth` counts. Values of layouts are right to some hundredths, and a

@@ -109,8 +109,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
       first = c->balls;
     if (k == j)
       second = c->balls;
-    c->ball[c->balls++] =
-        member_of(carom_kind_in(sim->ball, k), &now, sim->opt, carom_flies(&now), k);
+    c->ball[c->balls++] = member_of(sim->layout->kind[k], &now, sim->opt, carom_flies(&now), k);
   }
 
   /* those that the contact can reach; with none of them it is a contact like any other */

@@ -45,8 +45,8 @@ static uint64_t of_options(const carom_shot_options *o) {
 static uint64_t of_balls(const carom_sim *sim) {
   uint64_t h = 0;
   for (int i = 0; i < sim->count; i++) {
-    h = carom_fingerprint(h, carom_kind_in(sim->ball, i), sizeof(carom_ball_kind));
-    h = carom_fingerprint(h, carom_state_in(sim->ball, i), sizeof(carom_ball_state));
+    h = carom_fingerprint(h, sim->layout->kind[i], sizeof(carom_ball_kind));
+    h = carom_fingerprint(h, sim->layout->state[i], sizeof(carom_ball_state));
   }
   return h;
 }
@@ -85,7 +85,7 @@ void carom_state_save(carom_sim *sim, carom_shot_state *state) {
   sim->rules = NULL; /* these come with the next call */
   sim->table = NULL;
   sim->features = NULL;
-  memset(&sim->ball, 0, sizeof sim->ball);
+  sim->layout = NULL;
   sim->opt = NULL;
   sim->cue = NULL;
   sim->shot = NULL;
@@ -159,7 +159,7 @@ static bool good_pairs(const carom_sim *sim, int i) {
   return good;
 }
 
-/* Whether all indices and numbers are those of a shot of sim->ball on sim->table; those that
+/* Whether all indices and numbers are those of a shot of sim->layout on sim->table; those that
  * follow from others are computed again. */
 static bool restore(carom_sim *sim) {
   static const int64_t many = INT64_C(1) << 62;

@@ -91,11 +91,13 @@ static void find_eye(const carom_table *table, carom_features *f) {
   f->eye[1] = 0.5 * table->length;
   clear_around_eye(f);
   const bool there = carom_beside_longest(table, f, f->radius, place);
-  f->has_eye = there && carom_is_in_sight(table, f, &ball, place);
+  carom_ground ground;
+  carom_ground_of(table, f, &ball, &ground);
+  f->has_eye = there && carom_is_in_sight(&ground, place);
   if (f->has_eye)
     return;
 
-  if (there && !carom_is_cut_off(table, f, &ball, place)) {
+  if (there && !carom_is_cut_off(&ground, place)) {
     f->has_eye = true;
     f->eye[0] = place[0];
     f->eye[1] = place[1];

@@ -136,5 +136,8 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
       return CAROM_ERROR_RAIL_LINE;
     }
   }
-  return carom_check_ring(table, &features, radius, fault);
+  const carom_ball_kind ball = {.radius = radius};
+  carom_ground ground;
+  carom_ground_of(table, &features, &ball, &ground);
+  return carom_check_ring(&ground, fault);
 }
