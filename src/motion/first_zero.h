@@ -45,7 +45,7 @@ carom_first_zero(carom_gap *gap, carom_gap_bound *bound, const void *context, do
     const carom_gap_at here = gap(context, t);
     const double y = here.value + raise, y1 = here.slope;
     if (y <= small && y1 < 0.0) {
-      const double own = y1 * y1 - 4.0 * bound(of, t, t) * y;
+      const double own = y1 * y1 - 4.0 * bound(context, t, t) * y;
       if (own >= 0.0) {
         const double last = t + 2.0 * y / (-y1 + sqrt(own));
         return last <= T ? carom_greater(last, 0.0) : INFINITY;
