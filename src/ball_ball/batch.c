@@ -210,7 +210,7 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n,
   return w.first_bad;
 }
 
-/* n pairs with checked options; status may be NULL. Returns the index of the first in error, or n. */
+/* n pairs with checked options; status may be NULL. Returns the first in error, or n. */
 static size_t solve_rows(carom_precision precision, const void *in, size_t n,
                          const carom_options *opt, void *out, int8_t *status) {
   const size_t in_size = carom_impact_size(precision), out_size = carom_result_size(precision);

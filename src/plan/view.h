@@ -84,7 +84,8 @@ double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]);
 double carom_chance_later(const carom_view *view, int who, double mean, int n);
 double carom_chance_first(const carom_view *view, int who, int n);
 
-/* points.c: the chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
+/* points.c: the chance that player `who`, who is at the table, wins; alone: balls that he pots
+ * yet. */
 double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
                       int who, bool in_hand);
 

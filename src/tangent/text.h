@@ -170,8 +170,8 @@ bool carom_cluster_solve(carom_cluster_state *) {
 #undef defaults
 #include "cushion/stronge.c"
 #include "motion/path.c"
-#include "shot/slate.c"
 #include "shot/models.c"
+#include "shot/slate.c"
 #include "table/nose.c"
 #define contact slow_contact
 #include "shot/resolve.c"
