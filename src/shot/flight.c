@@ -308,9 +308,7 @@ carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3
   meet_pockets(sim, &f, landing, &first, &T);
   if (first.type == 0) { /* it lands */
     const double there[2] = {r[0] + landing * v[0], r[1] + landing * v[1]};
-    carom_ground ground;
-    carom_ground_of(sim->table, sim->features, kind, &ground);
-    if (carom_place_is_outside(&ground, there))
+    if (carom_place_is_outside(sim->table, sim->features, kind, there))
       first = (carom_meeting){landing, CAROM_EVENT_LEFT_TABLE, -1};
   }
   return first;

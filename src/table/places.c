@@ -22,9 +22,6 @@ static bool is_beside(const carom_features *f, int rail, const double r[2]) {
 static bool is_in_hull(const carom_features *f, const double r[2]) {
   return r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
 }
-static bool is_clear(const carom_features *f, const double r[2]) {
-  return fabs(r[0] - f->eye[0]) <= f->clear[0] && fabs(r[1] - f->eye[1]) <= f->clear[1];
-}
 
 /* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
 static bool in_rail(const carom_features *f, int k, const double r[2], double reach) {
@@ -76,7 +73,7 @@ void carom_ground_of(const carom_table *table, const carom_features *f, const ca
 bool carom_is_in_sight(const carom_ground *ground, const double r[2]) {
   const carom_features *f = ground->features;
   const carom_table *table = ground->table;
-  if (is_clear(f, r))
+  if (carom_is_clear(f, r))
     return true;
 
   for (int k = 0; k < f->rails; k++)
@@ -92,13 +89,20 @@ bool carom_is_in_sight(const carom_ground *ground, const double r[2]) {
   return true;
 }
 
-bool carom_place_is_outside(const carom_ground *ground, const double r[2]) {
+/* Of a place that is not clear. */
+static bool is_outside(const carom_ground *ground, const double r[2]) {
   const carom_features *f = ground->features;
-  if (is_clear(f, r))
+  return !is_in_hull(f, r) ||
+         (!(f->has_eye && carom_is_in_sight(ground, r)) && carom_is_cut_off(ground, r));
+}
+
+bool carom_place_is_outside(const carom_table *table, const carom_features *f,
+                            const carom_ball_kind *kind, const double r[2]) {
+  if (carom_is_clear(f, r))
     return false;
-  if (!is_in_hull(f, r))
-    return true;
-  return !(f->has_eye && carom_is_in_sight(ground, r)) && carom_is_cut_off(ground, r);
+  carom_ground ground;
+  carom_ground_of(table, f, kind, &ground);
+  return is_outside(&ground, r);
 }
 
 carom_part carom_part_there(const carom_ground *ground, const double r[3]) {
@@ -118,12 +122,11 @@ carom_part carom_part_there(const carom_ground *ground, const double r[3]) {
 
 bool carom_stands_on_table(const carom_table *table, const carom_features *f,
                            const carom_ball_kind *kind, const double r[3]) {
-  if (is_clear(f, r))
+  if (carom_is_clear(f, r))
     return true;
   carom_ground ground;
   carom_ground_of(table, f, kind, &ground);
-  return carom_part_there(&ground, r).kind == CAROM_PART_NONE &&
-         !carom_place_is_outside(&ground, r);
+  return carom_part_there(&ground, r).kind == CAROM_PART_NONE && !is_outside(&ground, r);
 }
 
 /* Where an airborne ball in front of noses would be, if it was moved off them until it could touch
@@ -168,7 +171,7 @@ __attribute__((noinline, cold)) bool carom_is_above_table(const carom_table *tab
   double there[2];
   off_noses(&ground, r, there);
   bool good = r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - CAROM_MOST_OVERLAP ||
-              !carom_place_is_outside(&ground, there);
+              carom_is_clear(f, there) || !is_outside(&ground, there);
   for (int axis = 0; axis < 2; axis++)
     good &= r[axis] >= f->hull[2 * axis] - f->width && r[axis] <= f->hull[2 * axis + 1] + f->width;
   for (int k = 0; k < f->rails; k++) {

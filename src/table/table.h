@@ -58,6 +58,11 @@ double carom_nose_height(const carom_ball_kind *kind, double height);
 double carom_nose_shift(double height, double reference);
 double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference);
 
+/* Whether a place is in the box around the eye in which a ball meets nothing. */
+static inline bool carom_is_clear(const carom_features *f, const double r[2]) {
+  return fabs(r[0] - f->eye[0]) <= f->clear[0] && fabs(r[1] - f->eye[1]) <= f->clear[1];
+}
+
 /* A prepared table as a ball of one kind on the cloth meets it. */
 typedef struct carom_ground {
   const carom_table *table;
@@ -99,7 +104,8 @@ bool carom_is_above_table(const carom_table *table, const carom_features *featur
 bool carom_is_in_sight(const carom_ground *ground, const double r[2]);
 /* Whether a place is outside the ring of cushions and pockets, for the centre of a ball that
  * touches none of them. */
-bool carom_place_is_outside(const carom_ground *ground, const double r[2]);
+bool carom_place_is_outside(const carom_table *table, const carom_features *features,
+                            const carom_ball_kind *kind, const double r[2]);
 
 /* ring.c: that the parts of a table keep balls on it, and its rails are played from the right
  * side. */
