@@ -103,10 +103,9 @@ typedef struct carom_cushion_options {
                          Where it is 0, all numbers of SMOOTH must be 0; they stand for those
                          measured on one table: q 0.35, x 1.3, t 1.18, a 0.25, k 0, g 0.067,
                          g_log -0.059, e 0.06. */
-  double smooth_x;    /* SMOOTH: the part of the slip along the cushion that friction takes if it
-                         can, above 0, at most 2. 1 stops the slip; more turns a part of it
-                         round. */
-  double smooth_t;    /* SMOOTH: the same for the slip across the cushion. */
+  double smooth_x;    /* SMOOTH: part of the slip along the cushion that friction takes if it can,
+                         above 0, at most 2. 1 stops the slip; more turns a part of it round. */
+  double smooth_t;    /* SMOOTH: the same for the slip across the cushion, above 0, at most 2. */
   double smooth_a;    /* SMOOTH: friction across the cushion reaches 1 + a times as far, 0 to 1. */
   double smooth_k;    /* SMOOTH: where friction is used up, rebound gains this part of the
                          impulse, 0 to 1, up to an impulse that reverses the closing speed. */
@@ -116,7 +115,7 @@ typedef struct carom_cushion_options {
                               least 0.1 m/s: the closing speed at the nose over cos(theta). In
                               flight, too, theta is that of a ball on the cloth. Not read with
                               CAROM_CUSHION_LAW_HAN. */
-  double mu_log;           /* any model: the same for friction. */
+  double mu_log;           /* any model: the same for friction, -1 to 1; default 0. */
   double smooth_g;         /* SMOOTH: rebound gains up to this part of the impulse the more
                               friction slides, at v = 1 m/s, -1 to 1. Energy bounds it. */
   double smooth_g_log;     /* SMOOTH: change of smooth_g for each unit of ln(v), -1 to 1. */
@@ -124,9 +123,8 @@ typedef struct carom_cushion_options {
                               down the nose, as that of a ball that rolls into it, -1 to 1. */
   double restitution_log2; /* any model: as restitution_log, for each unit of ln(v)^2, which
                               counts up to 1, as at 0.37 and 2.7 m/s. -1 to 1. */
-  double roll_loss;        /* any model: the impact takes this part of the ball's speed along the
-                              cushion, as it was before, from the ball's roll along the cushion,
-                              0 to 1. */
+  double roll_loss;        /* any model: the ball's roll along the cushion loses this part of the
+                              ball's speed along the cushion before the impact, 0 to 1. */
   double roll_loss_log;    /* any model: change of roll_loss for each unit of ln(v), -1 to 1; in
                               total 0 to 1. */
   uint64_t reserved[2];    /* must be 0. */

@@ -210,22 +210,6 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n,
   return w.first_bad;
 }
 
-/* n pairs with checked options; status may be NULL. Returns the first in error, or n. */
-static size_t solve_rows(carom_precision precision, const void *in, size_t n,
-                         const carom_options *opt, void *out, int8_t *status) {
-  const size_t in_size = carom_impact_size(precision), out_size = carom_result_size(precision);
-  size_t first_bad = n;
-  for (size_t from = 0; from < n; from += MOST_ROWS) {
-    const size_t rows = n - from < MOST_ROWS ? n - from : MOST_ROWS;
-    const size_t bad =
-        solve_part(precision, (const char *)in + from * in_size, rows, opt,
-                   (char *)out + from * out_size, status != NULL ? status + from : NULL);
-    if (bad < rows && first_bad == n)
-      first_bad = from + bad;
-  }
-  return first_bad;
-}
-
 /* A batch as threads see it. */
 typedef struct batch {
   carom_precision precision;
@@ -235,11 +219,19 @@ typedef struct batch {
   const carom_options *opt;
 } batch;
 
-static size_t solve_rows_of(const void *job, size_t from, size_t end) {
+/* Pairs from `first` on; returns the first in error, or `end`. */
+static size_t solve_rows(const void *job, size_t first, size_t end) {
   const batch *b = job;
-  return from + solve_rows(b->precision, b->in + from * carom_impact_size(b->precision), end - from,
-                           b->opt, b->out + from * carom_result_size(b->precision),
-                           b->status != NULL ? b->status + from : NULL);
+  size_t first_bad = end;
+  for (size_t from = first; from < end; from += MOST_ROWS) {
+    const size_t rows = end - from < MOST_ROWS ? end - from : MOST_ROWS;
+    const size_t bad = solve_part(b->precision, b->in + from * carom_impact_size(b->precision),
+                                  rows, b->opt, b->out + from * carom_result_size(b->precision),
+                                  b->status != NULL ? b->status + from : NULL);
+    if (bad < rows && first_bad == end)
+      first_bad = from + bad;
+  }
+  return first_bad;
 }
 
 /* Fewer pairs than this are not worth a thread: about 50 us of work, some times the cost of
@@ -262,7 +254,7 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
   if (bad != CAROM_OK || n == 0)
     return bad;
   const batch job = {.precision = precision, .in = in, .out = out, .status = status, .opt = opt};
-  const size_t first_bad = carom_in_threads(solve_rows_of, &job, n, opt->threads, least_part(opt));
+  const size_t first_bad = carom_in_threads(solve_rows, &job, n, opt->threads, least_part(opt));
   if (first_bad == n)
     return CAROM_OK;
   /* Only its index came back through the threads; doing the pair again tells its status. */

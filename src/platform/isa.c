@@ -121,21 +121,12 @@ int carom_isa_available(carom_isa isa) {
 }
 
 const char *carom_isa_name(carom_isa isa) {
-  switch (isa) {
-  case CAROM_ISA_PLAIN:
-    return "plain";
-  case CAROM_ISA_SSE2:
-    return "sse2";
-  case CAROM_ISA_NEON:
-    return "neon";
-  case CAROM_ISA_AVX2:
-    return "avx2";
-  case CAROM_ISA_AVX512:
-    return "avx512";
-  case CAROM_ISA_ANY:
-    break;
-  }
-  return NULL;
+  static const char *const names[] = {[CAROM_ISA_PLAIN] = "plain",
+                                      [CAROM_ISA_SSE2] = "sse2",
+                                      [CAROM_ISA_NEON] = "neon",
+                                      [CAROM_ISA_AVX2] = "avx2",
+                                      [CAROM_ISA_AVX512] = "avx512"};
+  return (int)isa >= 0 && isa < CAROM_ISA_COUNT ? names[isa] : NULL;
 }
 
 /* The best set that is available and not above `limit`: sets of one processor family are listed

@@ -140,12 +140,10 @@ void carom_take_balls(carom_prepared *p, const carom_shot_ball *balls, int64_t c
 
 void carom_take_row(carom_prepared *p, const carom_shot_job *job, size_t k) {
   const size_t first = k * (size_t)job->ball_stride;
-  if (job->balls != NULL) {
+  if (job->balls != NULL)
     carom_take_balls(p, job->balls + first, job->count);
-    return;
-  }
   p->count = (int)job->count;
-  for (int i = 0; i < p->count; i++) {
+  for (int i = 0; i < p->count && job->balls == NULL; i++) {
     p->kind[i] = &job->kinds[i];
     p->state[i] = &job->states[first + (size_t)i];
   }
@@ -237,21 +235,20 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
   if (count < 1 || count > CAROM_BALLS_MOST || ball < 0 || ball >= count)
     return CAROM_ERROR_BALLS;
   carom_features features;
-  carom_shot_ball placed = balls[ball];
-  const double R = placed.kind.radius, r[3] = {x, y, R};
+  const carom_ball_kind *kind = &balls[ball].kind;
+  const double R = kind->radius, r[3] = {x, y, R};
   const carom_status bad =
       carom_check_parts(table, R, balls[count - 1].kind.radius, &features, in_the_way);
   if (bad != CAROM_OK)
     return bad;
   if (!bounded(r, 1e6))
     return CAROM_ERROR_POSITION;
-  if (!carom_stands_on_table(table, &features, &placed.kind, r)) {
+  if (!carom_stands_on_table(table, &features, kind, r)) {
     carom_ground ground;
-    carom_ground_of(table, &features, &placed.kind, &ground);
+    carom_ground_of(table, &features, kind, &ground);
     *in_the_way = carom_part_there(&ground, r);
     return CAROM_ERROR_OFF_TABLE;
   }
-  placed.state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
   for (int k = 0; k < count; k++) {
     const double other = balls[k].kind.radius, z = height_of(&balls[k].state, other);
     if (k != ball && overlaps(r, R, &balls[k].state, other, z)) {
@@ -259,7 +256,7 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
       return CAROM_ERROR_OVERLAP;
     }
   }
-  balls[ball].state = placed.state;
+  balls[ball].state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
   return CAROM_OK;
 }
 

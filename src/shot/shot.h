@@ -40,6 +40,16 @@ void carom_take_row(carom_prepared *p, const carom_shot_job *job, size_t k);
 /* shoot.c: carom_shoot() with a prepared layout. */
 carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue, carom_shot *shot);
 
+/* How many balls or parts of the table an event's b may be one of; INT64_MAX: it is none. */
+static inline int64_t carom_others_of(const carom_table *table, int count, int type) {
+  return type == CAROM_EVENT_BALL_BALL  ? count
+         : type == CAROM_EVENT_RAIL     ? table->rails
+         : type == CAROM_EVENT_JAW      ? table->jaws
+         : type == CAROM_EVENT_POCKET   ? table->pockets
+         : type == CAROM_EVENT_RAIL_TOP ? table->rails + table->jaws
+                                        : INT64_MAX;
+}
+
 /* The models of a shot, where 0 is that of its world. A cushion that was measured goes with the
  * balls that have its numbers. */
 static inline carom_ball_model carom_ball_model_of(const carom_shot_options *o) {

@@ -127,25 +127,12 @@ static bool restore_path(carom_sim *sim, int i) {
 /* Whether ball i can meet that on the table. */
 static bool good_meeting(const carom_sim *sim, int i) {
   const carom_meeting *m = &sim->meeting[i];
-  const carom_table *t = sim->table;
   if (isnan(m->time) || (m->time < INFINITY && !carom_translates(sim->path[i].from.label)))
     return false;
-  switch (m->type) {
-  case 0:
-    return m->part == 0;
-  case CAROM_EVENT_RAIL:
-    return m->part >= 0 && m->part < t->rails;
-  case CAROM_EVENT_JAW:
-    return m->part >= 0 && m->part < t->jaws;
-  case CAROM_EVENT_POCKET:
-    return m->part >= 0 && m->part < t->pockets;
-  case CAROM_EVENT_RAIL_TOP:
-    return m->part >= 0 && m->part < t->rails + t->jaws;
-  case CAROM_EVENT_LEFT_TABLE:
-    return m->part == -1;
-  default:
-    return false;
-  }
+  const int64_t parts = carom_others_of(sim->table, 0, m->type);
+  return m->type == 0                        ? m->part == 0
+         : m->type == CAROM_EVENT_LEFT_TABLE ? m->part == -1
+                                             : m->part >= 0 && m->part < parts && parts < INT64_MAX;
 }
 
 /* Whether the pairs of ball i with those behind it can meet when they are said to. */

@@ -91,13 +91,12 @@ static void find_eye(const carom_table *table, carom_features *f) {
   f->eye[1] = 0.5 * table->length;
   clear_around_eye(f);
   const bool there = carom_beside_longest(table, f, f->radius, place);
-  f->has_eye = there && carom_is_clear(f, place);
-  if (f->has_eye)
-    return;
-
   carom_ground ground;
-  carom_ground_of(table, f, &ball, &ground);
-  f->has_eye = there && carom_is_in_sight(&ground, place);
+  f->has_eye = there && carom_is_clear(f, place);
+  if (!f->has_eye) {
+    carom_ground_of(table, f, &ball, &ground);
+    f->has_eye = there && carom_is_in_sight(&ground, place);
+  }
   if (f->has_eye)
     return;
 

@@ -29,12 +29,7 @@ static carom_status check_event(const carom_table *table, int count, const carom
       event->a >= count || event->cluster < 0 || !(event->time >= since && event->time < INFINITY))
     return CAROM_ERROR_STATE;
   const bool two = type == CAROM_EVENT_BALL_BALL;
-  const int64_t parts = two                            ? count
-                        : type == CAROM_EVENT_RAIL     ? table->rails
-                        : type == CAROM_EVENT_JAW      ? table->jaws
-                        : type == CAROM_EVENT_POCKET   ? table->pockets
-                        : type == CAROM_EVENT_RAIL_TOP ? table->rails + table->jaws
-                                                       : INT64_MAX;
+  const int64_t parts = carom_others_of(table, count, type);
   if ((parts < INT64_MAX && (event->b < 0 || event->b >= parts)) || (two && event->a == event->b) ||
       (type == CAROM_EVENT_STRIKE && cue == NULL))
     return CAROM_ERROR_STATE;
