@@ -12,6 +12,8 @@
 #include <stddef.h>
 #include <string.h>
 
+static const carom_shot_options no_options = {0};
+
 static bool is_flat(const carom_shot_options *o) {
   return carom_rules_of(o->world)->flat || o->space == CAROM_SPACE_FLAT;
 }
@@ -212,7 +214,6 @@ carom_status carom_prepare(const carom_table *table, const carom_shot_ball *ball
 
 carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count,
                               const carom_cue *cue, const carom_shot_options *opt, int *where) {
-  static const carom_shot_options no_options = {0};
   carom_features features;
   carom_prepared p;
   int unused;
@@ -269,7 +270,6 @@ static const int numbers_of_law[] = {
 
 int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
                          const carom_shot_options *opt) {
-  static const carom_shot_options no_options = {0};
   opt = opt != NULL ? opt : &no_options;
   if (number == NULL || kind == NULL)
     return 0;

@@ -7,35 +7,21 @@
 /* The value of element k of a number. */
 static double value_of(const carom_number *n, const void *object, int k) {
   const char *at = (const char *)object + n->offset;
-  switch (n->type) {
-  case CAROM_TYPE_INT32:
-    return ((const int32_t *)(const void *)at)[k];
-  case CAROM_TYPE_INT64:
-    return (double)((const int64_t *)(const void *)at)[k];
-  case CAROM_TYPE_UINT64:
-    return (double)((const uint64_t *)(const void *)at)[k];
-  default:
-    return ((const double *)(const void *)at)[k];
-  }
+  return n->type == CAROM_TYPE_INT32    ? ((const int32_t *)(const void *)at)[k]
+         : n->type == CAROM_TYPE_INT64  ? (double)((const int64_t *)(const void *)at)[k]
+         : n->type == CAROM_TYPE_UINT64 ? (double)((const uint64_t *)(const void *)at)[k]
+                                        : ((const double *)(const void *)at)[k];
 }
 
 /* The status of the numbers that a status is about, beside others. */
 static carom_status status_of_numbers(carom_status status) {
-  switch (status) {
-  case CAROM_ERROR_OVERLAP:
-  case CAROM_ERROR_OFF_TABLE:
-    return CAROM_ERROR_POSITION;
-  case CAROM_ERROR_VERTICAL:
-    return CAROM_ERROR_VELOCITY;
-  case CAROM_ERROR_RADII_DIFFER:
-    return CAROM_ERROR_RADIUS;
-  case CAROM_ERROR_MASSES_DIFFER:
-    return CAROM_ERROR_MASS;
-  case CAROM_ERROR_CUE_BALL_OUT:
-    return CAROM_ERROR_CUE_BALL;
-  default:
-    return status;
-  }
+  const bool place = status == CAROM_ERROR_OVERLAP || status == CAROM_ERROR_OFF_TABLE;
+  return place                                 ? CAROM_ERROR_POSITION
+         : status == CAROM_ERROR_VERTICAL      ? CAROM_ERROR_VELOCITY
+         : status == CAROM_ERROR_RADII_DIFFER  ? CAROM_ERROR_RADIUS
+         : status == CAROM_ERROR_MASSES_DIFFER ? CAROM_ERROR_MASS
+         : status == CAROM_ERROR_CUE_BALL_OUT  ? CAROM_ERROR_CUE_BALL
+                                               : status;
 }
 
 /* Blames the first number of a part that has the status of the fault and is outside its range; or

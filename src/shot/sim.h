@@ -21,7 +21,7 @@ typedef struct carom_sim {
   const struct carom_rules *rules; /* of the world, rules.h */
   const carom_table *table;
   const carom_features *features;
-  const carom_prepared *layout; /* of which these are the balls, */
+  const carom_prepared *layout;
   const carom_shot_options *opt;
   const carom_cue *cue;
   carom_shot *shot;

@@ -114,8 +114,7 @@ carom_status carom_check_ring(const carom_ground *ground, carom_table_fault *fau
  * false without rails. */
 bool carom_beside_longest(const carom_table *table, const carom_features *features, double radius,
                           double place[2]);
-/* Whether a place is outside, as above, by the parts of the table, without a look at the place
- * first: some microseconds. */
+/* Whether a place is outside, as above, by the parts of the table alone: some microseconds. */
 bool carom_is_cut_off(const carom_ground *ground, const double r[2]);
 
 #endif
