@@ -1,4 +1,4 @@
-"""No circle of includes or imports, no arrow against the direction of CONTRIBUTING.md, and no source of the library without
+"""No circle of includes, calls or imports, no arrow against the direction of CONTRIBUTING.md, and no source of the library without
 platform/arithmetic.h, which its bits need: python3 arrows.py SOURCE"""
 
 import ast
@@ -76,6 +76,29 @@ for file in files:
         faults.append(f"{file.relative_to(ROOT)} does not include platform/arithmetic.h, which its bits need")
 no_circle("units", units)
 no_circle("rooms", rooms)
+
+# Calls in the library: an arrow from a source to that in which a function stands that it names, itself or in an inline function of a
+# header.
+library = [file for file in files if file.is_relative_to(ROOT / "src") or file.is_relative_to(ROOT / "plan/src")]
+texts = {file: re.sub(r"/\*.*?\*/|//[^\n]*", "", file.read_text(encoding="utf-8"), flags=re.S) for file in library}
+sources = [file for file in library if file.suffix in (".c", ".cpp")]
+words = lambda text: set(re.findall(r"\bcarom_\w+", text))
+stands, through, calls = {}, {}, {}
+for file, text in texts.items():
+    for kind, name, body in re.findall(r"^(static inline )?[a-z_][^\n;{}=]*?\b(carom_\w+)\([^;{}]*\) ?\{(.*?)^\}", text, re.M | re.S):
+        if file in sources:
+            stands[name] = file
+        elif kind:
+            through[name] = words(body)
+for file in sources:
+    bodies = "".join(re.findall(r"\{$.*?^\}", texts[file], re.M | re.S))
+    reached, found = set(), words(bodies)
+    while found:
+        reached |= found
+        found = set().union(*(through.get(name, set()) for name in found)) - reached
+    calls[str(file.relative_to(ROOT))] = {str(stands[name].relative_to(ROOT)) for name in reached if stands.get(name, file) != file}
+assert len(stands) > 200 and sum(map(len, calls.values())) > 100, f"only {len(stands)} functions, {sum(map(len, calls.values()))} calls found"
+no_circle("calls", calls)
 
 # Python: every import, at the top, in a function or for annotations alone.
 PACKAGE = ROOT / "python" / "src"

@@ -261,6 +261,29 @@ TEST(numbers_and_small_changes) {
   }
 }
 
+/* ---- Places */
+
+/* A rail ends with its ends, and is the same from either: a short wall in the middle of a table. */
+TEST(both_ends_of_a_rail) {
+  carom_table t = empty_table(2.0);
+  const carom_rail wall = {.p = {0.75, 1.0}, .q = {1.25, 1.0}, .height = 0.036576, .side = 1},
+                   mirrored = {.p = {1.25, 1.0}, .q = {0.75, 1.0}, .height = 0.036576};
+  t.rails = 5;
+  for (int turn = 0; turn < 2; turn++) {
+    t.rail[4] = turn == 0 ? wall : mirrored;
+    for (int end = 0; end < 2; end++)
+      for (int side = -1; side <= 1; side += 2) {
+        carom_shot_ball ball = ball_at(1.0, 0.5);
+        carom_part part;
+        const double beyond = end == 0 ? nextafter(0.75, 0.0) : nextafter(1.25, 2.0);
+        carom_place_ball(&t, &ball, 1, 0, end == 0 ? 0.75 : 1.25, 1.0 + 0.01 * side, &part);
+        ck_assert(part.kind == CAROM_PART_RAIL && part.index == 4);
+        carom_place_ball(&t, &ball, 1, 0, beyond, 1.0 + 0.01 * side, &part);
+        ck_assert_int_ne(part.kind, CAROM_PART_RAIL);
+      }
+  }
+}
+
 /* ---- Balls that press on each other */
 
 static void ends_well(const carom_table *t, const carom_shot_ball *b, int count, int most_events) {
@@ -287,6 +310,45 @@ TEST(pressed_line) {
   ends_well(&t, b, 4, 3000);
   for (int k = 0; k < 4; k++)
     ck_assert_double_eq_tol(final[k].r[0] - b[k].state.r[0], 0.7486, 0.06);
+}
+
+/* Of a ball, J. */
+static long double energy(const carom_ball_kind *kind, const carom_ball_state *s) {
+  long double v2 = 0.0L, w2 = 0.0L;
+  for (int k = 0; k < 3; k++) {
+    v2 += (long double)s->v[k] * s->v[k];
+    w2 += (long double)s->w[k] * s->w[k];
+  }
+  return 0.5L * kind->mass * (v2 + 0.4L * kind->radius * kind->radius * w2);
+}
+
+/* A slow contact lets two balls part by energy of their spins. It keeps momentum, and takes at
+ * least the energy that it gives, so that thousands of them add none by rounding. */
+TEST(slow_contacts_lose) {
+  const carom_table t = empty_table(8.0);
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
+  const carom_ball_kind kind = ball_at(0.0, 0.0).kind;
+  int slow = 0;
+  for (double spin = 100.0; spin <= 300.0; spin += 10.0) {
+    carom_shot_ball b[4];
+    for (int k = 0; k < 4; k++)
+      b[k] = ball_at(1.0 + 2.0 * k * kind.radius, 4.0);
+    b[0].state.w[1] = spin;
+    const carom_shot shot = play(&t, b, 4, NULL, &options, CAROM_OK);
+    for (int64_t e = 0; e < shot.count; e++) {
+      const carom_ball_state *before = events[e].before, *after = events[e].after;
+      const double closing = before[0].v[0] - before[1].v[0];
+      if (events[e].type != CAROM_EVENT_BALL_BALL || events[e].cluster != 0 || closing >= 1e-3)
+        continue;
+      slow++;
+      NEAR(before[0].v[0] + before[1].v[0], after[0].v[0] + after[1].v[0], 1e-15);
+      const long double there = energy(&kind, &before[0]) + energy(&kind, &before[1]),
+                        left = energy(&kind, &after[0]) + energy(&kind, &after[1]);
+      ck_assert_double_le((double)((left - there) / there), 1e-15);
+    }
+  }
+  printf("%d slow contacts lose energy\n", slow);
+  ck_assert_int_gt(slow, 1000);
 }
 
 /* A frozen triangle that a ball with spin presses on: balls at relative rest that only rounding
