@@ -1,5 +1,5 @@
-/* `carom-lab published`: lab/published.py, which sets the values of data/measured.csv beside carom's.
- * It reads carom's headers and calls the shared library. */
+/* `carom-lab published`: lab/published.py, which sets the values of data/measured.csv beside
+ * carom's. It reads carom's headers and calls the shared library. */
 #include "command.h"
 #include "options.h"
 #include "output.h"
