@@ -99,33 +99,35 @@ typedef struct carom_cushion_options {
                          Default 0; pooltool: 0.001. */
   double omega_ratio; /* STRONGE: frequency of the nose along its surface over that across it, 1
                          to 2 without the ends. 0: 1.8, which is that of pooltool. */
-  double smooth_q;    /* SMOOTH: width of the passage from sticking to sliding, 1e-12 to 0.5. 0:
-                         this and all of SMOOTH below are those measured on one table: 0.35,
-                         1.3, 1.18, 0.25, 0, 0.067, -0.059 and 0.06; then all must be 0. */
-  double smooth_x;    /* SMOOTH: part of the slip along the cushion that friction takes if it
-                         can, above 0, at most 2: 1 */
-  double smooth_t;    /* stops it, more turns a part of it round. And of the slip across the
-                         cushion. */
+  double smooth_q;    /* SMOOTH: width of the passage from sticking to sliding, 1e-12 to 0.5.
+                         Where it is 0, all numbers of SMOOTH must be 0; they stand for those
+                         measured on one table: q 0.35, x 1.3, t 1.18, a 0.25, k 0, g 0.067,
+                         g_log -0.059, e 0.06. */
+  double smooth_x;    /* SMOOTH: part of the slip along the cushion that friction takes if it can,
+                         above 0, at most 2. 1 stops the slip; more turns a part of it round. */
+  double smooth_t;    /* SMOOTH: the same for the slip across the cushion, above 0, at most 2. */
   double smooth_a;    /* SMOOTH: friction across the cushion reaches 1 + a times as far, 0 to 1. */
-  double smooth_k;    /* SMOOTH: rebound gains this part of the impulse where friction is used
-                         up, 0 to 1, up to an impulse that reverses the closing speed. */
-  double restitution_log; /* any model: restitution and friction at v m/s are those of the
-                             impact, which hold at 1 m/s, */
-  double mu_log;          /* plus this times ln(v), limited to 0 to 1; below 0.1 m/s as at 0.1.
-                             v is the speed across the cushion: the closing speed at the nose
-                             over cos(theta). In flight, too, theta is that of a ball on the
-                             cloth. -1 to 1; default 0. Not read with CAROM_CUSHION_LAW_HAN. */
-  double smooth_g;        /* SMOOTH: rebound gains up to this part of the impulse the more friction
-                          slides, at 1 m/s across the cushion, -1 to 1; */
-  double smooth_g_log;    /* and its change for each unit of ln(v), -1 to 1. Energy bounds both. */
-  double smooth_e; /* SMOOTH: restitution gains up to this where the ball's surface moves down
-                          the nose, as that of a ball that rolls into it, -1 to 1. */
-  double restitution_log2; /* any model: as restitution_log, times ln(v)^2, which counts up to 1,
-                              as at 0.37 and 2.7 m/s. -1 to 1. */
-  double roll_loss;     /* any model: after the impact the ball loses this part of its speed along
-                           the cushion before it from its roll along the cushion, 0 to 1, */
-  double roll_loss_log; /* plus this times ln(v), -1 to 1; in total 0 to 1. v as of mu_log. */
-  uint64_t reserved[2]; /* must be 0. */
+  double smooth_k;    /* SMOOTH: where friction is used up, rebound gains this part of the
+                         impulse, 0 to 1, up to an impulse that reverses the closing speed. */
+  double restitution_log;  /* any model: change of restitution for each unit of ln(v), -1 to 1;
+                              default 0. At v = 1 m/s restitution is that of the impact; in total
+                              it is limited to 0 to 1. v is the speed across the cushion, at
+                              least 0.1 m/s: the closing speed at the nose over cos(theta). In
+                              flight, too, theta is that of a ball on the cloth. Not read with
+                              CAROM_CUSHION_LAW_HAN. */
+  double mu_log;           /* any model: the same for friction, -1 to 1; default 0. */
+  double smooth_g;         /* SMOOTH: rebound gains up to this part of the impulse the more
+                              friction slides, at v = 1 m/s, -1 to 1. Energy bounds it. */
+  double smooth_g_log;     /* SMOOTH: change of smooth_g for each unit of ln(v), -1 to 1. */
+  double smooth_e;         /* SMOOTH: restitution gains up to this where the ball's surface moves
+                              down the nose, as that of a ball that rolls into it, -1 to 1. */
+  double restitution_log2; /* any model: as restitution_log, for each unit of ln(v)^2, which
+                              counts up to 1, as at 0.37 and 2.7 m/s. -1 to 1. */
+  double roll_loss;        /* any model: the ball's roll along the cushion loses this part of the
+                              ball's speed along the cushion before the impact, 0 to 1. */
+  double roll_loss_log;    /* any model: change of roll_loss for each unit of ln(v), -1 to 1; in
+                              total 0 to 1. */
+  uint64_t reserved[2];    /* must be 0. */
 } carom_cushion_options;
 
 /* The name of a model ("mathavan"), or NULL for a value not listed. */

@@ -227,24 +227,6 @@ const char *carom_slip_name(carom_slip slip) {
   return carom_word(CAROM_WORDS_SLIP, (int)slip);
 }
 
-const char *carom_isa_name(carom_isa isa) {
-  switch (isa) {
-  case CAROM_ISA_PLAIN:
-    return "plain";
-  case CAROM_ISA_SSE2:
-    return "sse2";
-  case CAROM_ISA_NEON:
-    return "neon";
-  case CAROM_ISA_AVX2:
-    return "avx2";
-  case CAROM_ISA_AVX512:
-    return "avx512";
-  case CAROM_ISA_ANY:
-    break;
-  }
-  return NULL;
-}
-
 const char *carom_event_name(carom_event_type type) {
   return carom_word(CAROM_WORDS_EVENT, (int)type);
 }

@@ -59,13 +59,14 @@ void carom_search_tables(carom_search *plan, carom_drawn_table *room) {
   }
 }
 
-const carom_table *carom_search_table(const carom_search *plan, uint32_t draws, int64_t row,
-                                      carom_layout *layout) {
-  *layout = carom_layout_of(plan->played);
+carom_prepared carom_search_layout(const carom_search *plan, uint32_t draws, int64_t row) {
+  carom_prepared p = plan->layout;
+  carom_take_balls(&p, plan->played, plan->plays);
   if (draws == 0 || plan->drawn == NULL)
-    return plan->job.table;
+    return p;
   const carom_drawn_table *drawn = &plan->drawn[(row + 8 * (int64_t)draws) % TABLES];
-  layout->kind = drawn->kind;
-  layout->kind_step = sizeof drawn->kind[0];
-  return &drawn->table;
+  p.table = &drawn->table;
+  for (int k = 0; k < p.count; k++)
+    p.kind[k] = &drawn->kind[k];
+  return p;
 }

@@ -45,10 +45,9 @@ int32_t carom_search_kind(search *plan, const carom_candidate *c, const carom_ch
     carom_shot shot = {.brief = plan->event, .room = EVENTS, .facts = &facts};
     const uint32_t draws = n == 0 ? 0 : DRAW_ROUND;
     carom_cue cue = carom_search_stroke(plan, c, draws, n);
-    carom_layout layout;
-    const carom_table *table = carom_search_table(plan, draws, n, &layout);
+    const carom_prepared layout = carom_search_layout(plan, draws, n);
     cue.ball = plan->cue_ball;
-    carom_shoot_prepared(table, &plan->features, layout, plan->plays, &cue, &plan->shot, &shot);
+    carom_shoot_prepared(&layout, &cue, &shot);
     const int kind = plan->view.pockets > 0
                          ? way_of(plan->job.table, &shot, plan->cue_ball, ball, choice->pocket)
                      : facts.first[0] != ball || facts.first[1] < 0 ? -1

@@ -93,39 +93,24 @@ static search *place(const carom_plan_job *job) {
   return room ? job->memory : NULL;
 }
 
-/* Checks the cue of a job with the stroke of another one. A speed of 0 is raised later by the
+/* Checks the cue of a plan with the stroke of another one. A speed of 0 is raised later by the
  * bounds of the player, so the rest of the cue counts. */
-static carom_status check_stroke(const carom_plan_job *job, const carom_cue *stroke) {
-  carom_cue cue = *job->cue;
+static carom_status check_stroke(const search *plan, const carom_cue *stroke) {
+  carom_cue cue = *plan->job.cue;
   cue.speed = stroke->speed == 0.0 ? 1.0 : stroke->speed;
   cue.phi = stroke->phi;
   cue.theta = stroke->theta;
   cue.a = stroke->a;
   cue.b = stroke->b;
-  return carom_check_strike(carom_layout_of(job->balls), (int)job->count, &cue);
-}
-
-/* Whether all balls are at rest or out of play, but the one in hand (-1: none). */
-static bool is_at_rest(const search *plan, const carom_shot_ball *balls, int in_hand) {
-  bool rests = true;
-  for (int k = 0; k < (int)plan->job.count; k++) {
-    carom_ball_state s = balls[k].state;
-    const int64_t label = carom_label_of_layout(&s, balls[k].kind.radius);
-    rests &= k == in_hand || label == CAROM_BALL_STATIONARY || carom_is_out(label);
-  }
-  return rests;
+  return carom_check_strike(&plan->layout, &cue);
 }
 
 /* Once for all shots of a plan; with_cue: and its cue, whose stroke is not looked at. */
-static carom_status check_layout(search *plan, const carom_shot_ball *balls, bool with_cue) {
+static carom_status prepare(search *plan, const carom_shot_ball *balls, bool with_cue) {
   int where;
-  const int count = (int)plan->job.count;
-  const carom_status bad = carom_check_layout(plan->job.table, &plan->features,
-                                              carom_layout_of(balls), count, &plan->shot, &where);
-  if (bad != CAROM_OK || !with_cue)
-    return bad;
-  const carom_plan_job job = {.balls = balls, .count = count, .cue = plan->job.cue};
-  return check_stroke(&job, &(carom_cue){0});
+  const carom_status bad = carom_prepare(plan->job.table, balls, plan->job.count, &plan->shot,
+                                         &plan->features, &plan->layout, &where);
+  return bad != CAROM_OK || !with_cue ? bad : check_stroke(plan, &(carom_cue){0});
 }
 
 static bool is_whole(const carom_plan_job *job) {
@@ -177,14 +162,11 @@ static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand)
   plan->shot.stop_at = 0;
   plan->shot.first_of = 0;
   plan->shot.time_most = 0.0;
-  int where;
-  carom_status bad = carom_check_common(job->table, job->count, &plan->shot, &where);
-  plan->features.radius = 0.0;
-  if (bad == CAROM_OK)
-    bad = check_layout(plan, job->balls, !in_hand); /* in hand its ball may be down */
+  /* in hand the cue's ball may be down */
+  const carom_status bad = prepare(plan, job->balls, !in_hand);
   if (bad != CAROM_OK || job->cue->ball < 0 || job->cue->ball >= job->count)
     return bad != CAROM_OK ? bad : CAROM_ERROR_CUE_BALL;
-  if (!is_at_rest(plan, job->balls, in_hand ? (int)job->cue->ball : -1))
+  if (!carom_is_at_rest(&plan->layout, in_hand ? (int)job->cue->ball : -1))
     return CAROM_ERROR_IN_MOTION;
 
   /* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
@@ -471,7 +453,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   /* with the cue ball on the best place the layout can be checked */
   plan->job.balls = balls;
   put(plan, 0);
-  const carom_status refused = check_layout(plan, balls, true);
+  const carom_status refused = prepare(plan, balls, true);
   if (refused != CAROM_OK)
     return refused;
   plan->fingerprint = fingerprint_of(job);
@@ -493,7 +475,7 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
   if (bad != CAROM_OK)
     return bad;
   for (int k = 0; k < n; k++) {
-    const carom_status wrong = check_stroke(&plan->job, &cues[k]);
+    const carom_status wrong = check_stroke(plan, &cues[k]);
     if (wrong != CAROM_OK)
       return wrong;
   }

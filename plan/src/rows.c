@@ -183,11 +183,8 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
     const candidate *c = &plan->found[s->first + row / s->each];
     carom_cue cue = carom_search_stroke(plan, c, s->draws, row % s->each);
     cue.ball = plan->cue_ball;
-    carom_layout layout;
-    const carom_table *table = carom_search_table(plan, s->draws, row % s->each, &layout);
-    const carom_status status =
-        carom_shoot_prepared(table, &plan->features, layout, plan->plays, &cue, &plan->shot,
-                             &shot); /* in error it is a foul */
+    const carom_prepared layout = carom_search_layout(plan, s->draws, row % s->each);
+    const carom_status status = carom_shoot_prepared(&layout, &cue, &shot); /* in error a foul */
     if (plan->plays < plan->view.count)
       spread(plan, &what);
     const int met = status < 0 ? -1 : what.facts.first[0];

@@ -84,7 +84,8 @@ typedef struct carom_search {
   carom_plan_job job; /* with shot and options of its own */
   carom_shot_options shot;
   carom_plan_options options;
-  carom_features features; /* of the table, prepared for the balls */
+  carom_features features; /* of the table, for */
+  carom_prepared layout;   /* all balls */
   carom_view view;
   carom_player player;
   uint32_t in_play, on, may, pockets;
@@ -131,9 +132,8 @@ static inline bool carom_is_stopped(const carom_search *plan) {
 
 /* drawn_tables.c: draws the tables, into the caller's memory. */
 void carom_search_tables(carom_search *plan, carom_drawn_table *room);
-/* The table of a row, and the layout of the balls in play on it. */
-const carom_table *carom_search_table(const carom_search *plan, uint32_t draws, int64_t row,
-                                      carom_layout *layout);
+/* The balls in play on the table of a row. */
+carom_prepared carom_search_layout(const carom_search *plan, uint32_t draws, int64_t row);
 
 /* rows.c: takes the balls in play of a layout as those of shots. */
 void carom_search_lay_out(carom_search *plan, const carom_shot_ball *balls);

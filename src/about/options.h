@@ -14,8 +14,8 @@
 
 #include <stdint.h>
 
-/* Of carom_shot_options. What decides the motion, in the order of recordings; behind the text is
- * the place of the option's 32 bits in the fingerprint of a stopped shot; */
+/* Options of carom_shot_options that decide the motion, in the order of recordings. The number
+ * behind the text is the place of the option's 32 bits in the fingerprint of a stopped shot. */
 #define CAROM_MOTION_OPTIONS(OPTION)                                                               \
   OPTION(world, "models", WORDS(WORLD), 0, CAROM_WORLD_POOLTOOL, WORLD,                            \
          "rules of contact, and the default models", 0)                                            \
@@ -42,7 +42,7 @@
   OPTION(cluster_steps, "cluster-steps", COUNT, 0, 10000, CLUSTER_STEPS,                           \
          "steps of the integrator of clusters for the duration of a contact; 0: 25", 8)
 
-/* when to stop; */
+/* Options of carom_shot_options that decide when a shot stops. */
 #define CAROM_STOP_OPTIONS(OPTION)                                                                 \
   OPTION(time_most, "time-most", NUMBER("s"), 0, DBL_MAX, TIME_MOST,                               \
          "time of its clock, s, at which a shot is stopped; 0: none, but 1000 s are an error")     \
@@ -55,7 +55,7 @@
   OPTION(events_most, "events-most", COUNT, 0, INT32_MAX, EVENTS_MOST,                             \
          "largest number of events of a shot; 0: 10000")
 
-/* and how to compute. */
+/* Options of carom_shot_options that decide how it is computed. */
 #define CAROM_THREAD_OPTIONS(OPTION)                                                            \
   OPTION(threads, "threads", COUNT, -1, INT32_MAX, THREADS,                                     \
          "most threads of a batch, the calling one among them; 0: that one alone; -1: one for " \
@@ -68,14 +68,14 @@
 #define CAROM_SHOT_OPTIONS(OPTION) \
   CAROM_MOTION_OPTIONS(OPTION) CAROM_STOP_OPTIONS(OPTION) CAROM_COMPUTE_OPTIONS(OPTION)
 
-/* Of calls of single impacts, */
+/* Options of calls of single impacts. */
 #define CAROM_CALL_OPTIONS(OPTION)                                                          \
   OPTION(steps, "steps", COUNT, 0, INT32_MAX, STEPS, "steps of Euler's method; 0: 1000")    \
   OPTION(plain, "", FLAG, 0, 1, PLAIN,                                                      \
          "1: with the instruction set plain, and so with the bits that all machines share") \
   CAROM_THREAD_OPTIONS(OPTION)
 
-/* of these carom_options of two balls, */
+/* Options of carom_options, for two balls. */
 #define CAROM_IMPACT_OPTIONS(OPTION)                                     \
   OPTION(solver, "solver", WORDS(SOLVER), 0, CAROM_SOLVER_EULER, SOLVER, \
          "how the collision is solved")                                  \
@@ -83,7 +83,7 @@
          "sign of the spin in the slip over the cloth")                  \
   CAROM_CALL_OPTIONS(OPTION)
 
-/* and carom_cushion_options, beside the numbers of numbers.h. */
+/* Options of carom_cushion_options, beside the numbers of numbers.h. */
 #define CAROM_RAIL_OPTIONS(OPTION)                                                              \
   OPTION(model, "model", WORDS(CUSHION_MODEL), 0, CAROM_CUSHION_MODEL_COUNT - 1, CUSHION_MODEL, \
          "model of the impact")                                                                 \

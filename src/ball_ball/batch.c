@@ -1,4 +1,4 @@
-/* A batch: collisions by the exact limit, sorted by the collocation step that they need next.
+/* Batches: collisions by the exact limit, sorted by the collocation step that they need next.
  *
  * Every row has the bits of carom_collide: its steps are decided by its own numbers, and
  * computed lane by lane. The lists only decide which rows share a register.
@@ -13,11 +13,13 @@
  * A list is worked off when it fills a register, and all of them at the end. Batches of few rows
  * would leave most lanes empty: they are solved one by one, and so are all rows by Euler's
  * method. */
-#include "ball_ball/kernels.h"
-
+#include "ball_ball/arguments.h"
 #include "ball_ball/frame.h"
+#include "ball_ball/kernels.h"
 #include "platform/promise.h"
+#include "platform/threads.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -208,17 +210,65 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n,
   return w.first_bad;
 }
 
-size_t carom_solve_rows(carom_precision precision, const void *in, size_t n,
-                        const carom_options *opt, void *out, int8_t *status) {
-  const size_t in_size = carom_impact_size(precision), out_size = carom_result_size(precision);
-  size_t first_bad = n;
-  for (size_t from = 0; from < n; from += MOST_ROWS) {
-    const size_t rows = n - from < MOST_ROWS ? n - from : MOST_ROWS;
-    const size_t bad =
-        solve_part(precision, (const char *)in + from * in_size, rows, opt,
-                   (char *)out + from * out_size, status != NULL ? status + from : NULL);
-    if (bad < rows && first_bad == n)
+/* A batch as threads see it. */
+typedef struct batch {
+  carom_precision precision;
+  const char *in;
+  char *out;
+  int8_t *status;
+  const carom_options *opt;
+} batch;
+
+/* Pairs from `first` on; returns the first in error, or `end`. */
+static size_t solve_rows(const void *job, size_t first, size_t end) {
+  const batch *b = job;
+  size_t first_bad = end;
+  for (size_t from = first; from < end; from += MOST_ROWS) {
+    const size_t rows = end - from < MOST_ROWS ? end - from : MOST_ROWS;
+    const size_t bad = solve_part(b->precision, b->in + from * carom_impact_size(b->precision),
+                                  rows, b->opt, b->out + from * carom_result_size(b->precision),
+                                  b->status != NULL ? b->status + from : NULL);
+    if (bad < rows && first_bad == end)
       first_bad = from + bad;
   }
   return first_bad;
+}
+
+/* Fewer pairs than this are not worth a thread: about 50 us of work, some times the cost of
+ * starting one. */
+static size_t least_part(const carom_options *opt) {
+  const size_t exact = 4096, least = 4, euler = 4000 / (size_t)carom_steps(opt);
+  if (opt->solver != CAROM_SOLVER_EULER)
+    return exact;
+  return euler > least ? euler : least;
+}
+
+static carom_status collide_batch(carom_precision precision, const void *in, size_t n,
+                                  const carom_options *opt, void *out, int8_t *status) {
+  const carom_options defaults = {0};
+  if (opt == NULL)
+    opt = &defaults;
+  carom_status bad = carom_check_options(opt);
+  if (bad == CAROM_OK && n > 0 && (in == NULL || out == NULL))
+    bad = CAROM_ERROR_NULL;
+  if (bad != CAROM_OK || n == 0)
+    return bad;
+  const batch job = {.precision = precision, .in = in, .out = out, .status = status, .opt = opt};
+  const size_t first_bad = carom_in_threads(solve_rows, &job, n, opt->threads, least_part(opt));
+  if (first_bad == n)
+    return CAROM_OK;
+  /* Only its index came back through the threads; doing the pair again tells its status. */
+  carom_result unused;
+  return carom_collide_one(precision, job.in + first_bad * carom_impact_size(precision), opt,
+                           &unused);
+}
+
+carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt,
+                                 carom_result *out, int8_t *status) {
+  return collide_batch(CAROM_F64, in, n, opt, out, status);
+}
+
+carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt,
+                                     carom_result_f32 *out, int8_t *status) {
+  return collide_batch(CAROM_F32, in, n, opt, out, status);
 }

@@ -1,4 +1,4 @@
-/* The public entry points: collocation, and for other inputs: check, go to the
+/* The public entry points of one collision: collocation, and for other inputs: check, go to the
  * collision frame, solve, come back, say how it went. */
 #include "carom.h"
 #include "platform/arithmetic.h"
@@ -9,7 +9,6 @@
 #include "ball_ball/kernels.h"
 #include "ball_ball/reduced.h"
 #include "friction/laws.h"
-#include "platform/threads.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -235,62 +234,6 @@ static carom_status collide_single(const carom_impact_f32 *in, const carom_optio
 carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt,
                                void *out) {
   return precision == CAROM_F64 ? carom_collide(in, opt, out) : collide_single(in, opt, out);
-}
-
-/* A batch as threads see it. */
-typedef struct batch {
-  carom_precision precision;
-  const char *in;
-  char *out;
-  int8_t *status;
-  const carom_options *opt;
-} batch;
-
-static size_t solve_part(const void *job, size_t from, size_t end) {
-  const batch *b = job;
-  return from + carom_solve_rows(b->precision, b->in + from * carom_impact_size(b->precision),
-                                 end - from, b->opt,
-                                 b->out + from * carom_result_size(b->precision),
-                                 b->status != NULL ? b->status + from : NULL);
-}
-
-/* Fewer pairs than this are not worth a thread: about 50 us of work, some times the cost of
- * starting one. */
-static size_t least_part(const carom_options *opt) {
-  const size_t exact = 4096, least = 4, euler = 4000 / (size_t)carom_steps(opt);
-  if (opt->solver != CAROM_SOLVER_EULER)
-    return exact;
-  return euler > least ? euler : least;
-}
-
-static carom_status collide_batch(carom_precision precision, const void *in, size_t n,
-                                  const carom_options *opt, void *out, int8_t *status) {
-  const carom_options defaults = {0};
-  if (opt == NULL)
-    opt = &defaults;
-  carom_status bad = carom_check_options(opt);
-  if (bad == CAROM_OK && n > 0 && (in == NULL || out == NULL))
-    bad = CAROM_ERROR_NULL;
-  if (bad != CAROM_OK || n == 0)
-    return bad;
-  const batch job = {.precision = precision, .in = in, .out = out, .status = status, .opt = opt};
-  const size_t first_bad = carom_in_threads(solve_part, &job, n, opt->threads, least_part(opt));
-  if (first_bad == n)
-    return CAROM_OK;
-  /* Only its index came back through the threads; doing the pair again tells its status. */
-  carom_result unused;
-  return carom_collide_one(precision, job.in + first_bad * carom_impact_size(precision), opt,
-                           &unused);
-}
-
-carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt,
-                                 carom_result *out, int8_t *status) {
-  return collide_batch(CAROM_F64, in, n, opt, out, status);
-}
-
-carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt,
-                                     carom_result_f32 *out, int8_t *status) {
-  return collide_batch(CAROM_F32, in, n, opt, out, status);
 }
 
 /* ---- Friction around the collision: between the balls, by the speed of their slip; and the

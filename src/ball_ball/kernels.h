@@ -131,10 +131,6 @@ CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 /* Those of a call with options.plain, 0 or 1. */
 const carom_kernels *carom_kernels_of_call(int plain);
 
-/* batch.c: resolves n pairs of a precision with checked options; in, out and status as in
- * carom_collide_batch(), status may be NULL. Returns the index of the first pair in error, or n. */
-size_t carom_solve_rows(carom_precision precision, const void *in, size_t n,
-                        const carom_options *opt, void *out, int8_t *status);
 /* Of an impact and of a result of a precision. */
 static inline size_t carom_impact_size(carom_precision precision) {
   return precision == CAROM_F64 ? sizeof(carom_impact) : sizeof(carom_impact_f32);

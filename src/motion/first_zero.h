@@ -30,29 +30,29 @@ typedef struct carom_gap_at {
 } carom_gap_at;
 
 /* A gap, as functions of its description. They are constants where the search is inlined. */
-typedef carom_gap_at carom_gap(const void *of, double t);
-typedef double carom_gap_bound(const void *of, double from, double to);
+typedef carom_gap_at carom_gap(const void *context, double t);
+typedef double carom_gap_bound(const void *context, double from, double to);
 
 /* The first zero of g + raise at or after t, where that is positive, up to T; or infinity.
  * `small`: a value that counts as none but for a last step, by the parabola that touches g
  * there. */
 static inline __attribute__((always_inline)) double
-carom_first_zero(carom_gap *gap, carom_gap_bound *bound, const void *of, double raise, double t,
-                 double T, double small) {
+carom_first_zero(carom_gap *gap, carom_gap_bound *bound, const void *context, double raise,
+                 double t, double T, double small) {
   enum { MOST_STEPS = 1000, LONG_STEPS = 8 };
   double ahead = T; /* how far the bound reaches */
   for (int k = 0; k < MOST_STEPS; k++) {
-    const carom_gap_at here = gap(of, t);
+    const carom_gap_at here = gap(context, t);
     const double y = here.value + raise, y1 = here.slope;
     if (y <= small && y1 < 0.0) {
-      const double own = y1 * y1 - 4.0 * bound(of, t, t) * y;
+      const double own = y1 * y1 - 4.0 * bound(context, t, t) * y;
       if (own >= 0.0) {
         const double last = t + 2.0 * y / (-y1 + sqrt(own));
         return last <= T ? carom_greater(last, 0.0) : INFINITY;
       }
     }
 
-    const double s = carom_first_fall(y, y1, bound(of, t, ahead));
+    const double s = carom_first_fall(y, y1, bound(context, t, ahead));
     if (!(s > 0.0) || t + s > ahead) {
       /* no zero up to `ahead` */
       if (ahead >= T)
@@ -60,7 +60,7 @@ carom_first_zero(carom_gap *gap, carom_gap_bound *bound, const void *of, double 
       const double reached = ahead;
       ahead = carom_lesser(T, reached + 4.0 * (reached - t));
       t = reached;
-      if (gap(of, t).value + raise <= 0.0) /* by rounding it is here */
+      if (gap(context, t).value + raise <= 0.0) /* by rounding it is here */
         return t;
       continue;
     }

@@ -36,14 +36,14 @@ static double half_curvature(const quartic *f, double t) {
   return f->c[2] + t * (3.0 * f->c[3] + t * 6.0 * f->c[4]);
 }
 
-static carom_gap_at quartic_at(const void *of, double t) {
-  const quartic *f = of;
+static carom_gap_at quartic_at(const void *context, double t) {
+  const quartic *f = context;
   return (carom_gap_at){value(f, t), slope(f, t)};
 }
 
 /* The least half curvature on [from, to]. */
-static double least_half_curvature(const void *of, double from, double to) {
-  const quartic *f = of;
+static double least_half_curvature(const void *context, double from, double to) {
+  const quartic *f = context;
   double least = carom_lesser(half_curvature(f, from), half_curvature(f, to));
   if (f->c[4] > 0.0) {
     const double lowest = -f->c[3] / (4.0 * f->c[4]);
@@ -58,12 +58,12 @@ static double zero_from_left(const quartic *f, double t, double T, double small)
 }
 
 /* The slope as a gap: g = f', and the least g''/2 = 3 c3 + 12 c4 t. */
-static carom_gap_at slope_at(const void *of, double t) {
-  const quartic *f = of;
+static carom_gap_at slope_at(const void *context, double t) {
+  const quartic *f = context;
   return (carom_gap_at){slope(f, t), 2.0 * half_curvature(f, t)};
 }
-static double least_third(const void *of, double from, double to) {
-  const quartic *f = of;
+static double least_third(const void *context, double from, double to) {
+  const quartic *f = context;
   return 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? from : to);
 }
 

@@ -13,7 +13,7 @@
  *
  *   v = V (cos(alpha) (cos(theta) d - sin(theta) z) + sin(alpha) l)
  *
- * the blow alone, which drives the ball into the slate; shot/fixed.c has the impact of the
+ * the blow alone, which drives the ball into the slate; shot/slate.c has the impact of the
  * ball on it. With theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30
  * and TP A-31; pooltool's. */
 #include "motion/strike.h"

@@ -124,6 +124,15 @@ int carom_isa_available(carom_isa isa) {
   return (int)isa >= 0 && isa < CAROM_ISA_COUNT && built[isa] && processor_has(isa);
 }
 
+const char *carom_isa_name(carom_isa isa) {
+  static const char *const names[] = {[CAROM_ISA_PLAIN] = "plain",
+                                      [CAROM_ISA_SSE2] = "sse2",
+                                      [CAROM_ISA_NEON] = "neon",
+                                      [CAROM_ISA_AVX2] = "avx2",
+                                      [CAROM_ISA_AVX512] = "avx512"};
+  return (int)isa >= 0 && isa < CAROM_ISA_COUNT ? names[isa] : NULL;
+}
+
 /* The best set that is available and not above `limit`: sets of one processor family are listed
  * from low to high. */
 static carom_isa best_up_to(carom_isa limit) {

@@ -64,9 +64,9 @@ typedef struct carom_range {
 #define CAROM_UNIT_INTERVAL 0.0, 1.0
 
 /* The first of n numbers that is outside its range, or n. Ranges repeat with a period. */
-static inline int carom_first_outside(const double *x, int n, const carom_range *of, int period) {
+static inline int carom_first_outside(const double *x, int n, const carom_range *row, int period) {
   int k = 0;
-  while (k < n && x[k] >= of[k % period].low && x[k] <= of[k % period].high)
+  while (k < n && x[k] >= row[k % period].low && x[k] <= row[k % period].high)
     k++;
   return k;
 }

@@ -71,22 +71,22 @@ struct carom_crew {
 };
 
 /* Where a part begins; that of one beyond the last is n. */
-static size_t start_of(const carom_crew *of, size_t number) {
-  const size_t units = (of->n + of->unit - 1) / of->unit,
-               start = units * number / of->count * of->unit;
-  CAROM_PROMISE(of->count > 0 && of->unit > 0 && (number < of->count || start >= of->n));
-  return start < of->n ? start : of->n;
+static size_t start_of(const carom_crew *crew, size_t number) {
+  const size_t units = (crew->n + crew->unit - 1) / crew->unit,
+               start = units * number / crew->count * crew->unit;
+  CAROM_PROMISE(crew->count > 0 && crew->unit > 0 && (number < crew->count || start >= crew->n));
+  return start < crew->n ? start : crew->n;
 }
 
 /* Takes parts until none is left. */
-static void work(carom_crew *of) {
+static void work(carom_crew *crew) {
   size_t number;
-  while ((number = atomic_fetch_add(&of->next, 1)) < of->count) {
-    const size_t end = start_of(of, number + 1),
-                 first = of->worker(of->job, start_of(of, number), end);
+  while ((number = atomic_fetch_add(&crew->next, 1)) < crew->count) {
+    const size_t end = start_of(crew, number + 1),
+                 first = crew->worker(crew->job, start_of(crew, number), end);
     CAROM_PROMISE(first <= end);
-    size_t least = atomic_load(&of->bad);
-    while (first < end && first < least && !atomic_compare_exchange_weak(&of->bad, &least, first))
+    size_t least = atomic_load(&crew->bad);
+    while (first < end && first < least && !atomic_compare_exchange_weak(&crew->bad, &least, first))
       continue;
   }
 }
@@ -102,13 +102,13 @@ static void wait_a_little(int *looks) {
 }
 
 /* A thread of the crew: job after job. */
-static void serve(carom_crew *of) {
+static void serve(carom_crew *crew) {
   for (size_t seen = 0;; seen++) {
-    for (int looks = 0; atomic_load(&of->begun) == seen; wait_a_little(&looks))
-      if (atomic_load(&of->over))
+    for (int looks = 0; atomic_load(&crew->begun) == seen; wait_a_little(&looks))
+      if (atomic_load(&crew->over))
         return;
-    work(of);
-    atomic_fetch_sub(&of->working, 1);
+    work(crew);
+    atomic_fetch_sub(&crew->working, 1);
   }
 }
 
@@ -120,10 +120,10 @@ static unsigned __stdcall work_on_thread(void *argument) {
 }
 
 /* Starts threads; returns how many there are. */
-static size_t start_threads(carom_crew *of, thread_handle *thread, size_t most) {
+static size_t start_threads(carom_crew *crew, thread_handle *thread, size_t most) {
   size_t count = 0;
   while (count < most &&
-         (thread[count] = (void *)_beginthreadex(NULL, 0, work_on_thread, of, 0, NULL)) != NULL)
+         (thread[count] = (void *)_beginthreadex(NULL, 0, work_on_thread, crew, 0, NULL)) != NULL)
     count++;
   return count;
 }
@@ -142,12 +142,12 @@ static void *work_on_thread(void *argument) {
 
 /* Starts threads; returns how many there are. A thread inherits the signals that are blocked
  * where it is made. */
-static size_t start_threads(carom_crew *of, thread_handle *thread, size_t most) {
+static size_t start_threads(carom_crew *crew, thread_handle *thread, size_t most) {
   sigset_t all, before;
   sigfillset(&all);
   const bool blocked = pthread_sigmask(SIG_SETMASK, &all, &before) == 0;
   size_t count = 0;
-  while (count < most && pthread_create(&thread[count], NULL, work_on_thread, of) == 0)
+  while (count < most && pthread_create(&thread[count], NULL, work_on_thread, crew) == 0)
     count++;
   if (blocked)
     pthread_sigmask(SIG_SETMASK, &before, NULL);
@@ -208,13 +208,13 @@ typedef struct only_job {
 } only_job;
 
 static void do_only_job(void *context, carom_crew *crew) {
-  only_job *of = context;
-  of->bad = carom_crew_work(crew, of->worker, of->job, of->n, of->least);
+  only_job *only = context;
+  only->bad = carom_crew_work(crew, only->worker, only->job, only->n, only->least);
 }
 
 size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads,
                         size_t least) {
-  only_job of = {worker, job, n, least, n};
-  carom_with_crew(do_only_job, &of, threads, n / least);
-  return of.bad;
+  only_job only = {worker, job, n, least, n};
+  carom_with_crew(do_only_job, &only, threads, n / least);
+  return only.bad;
 }

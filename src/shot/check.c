@@ -12,6 +12,8 @@
 #include <stddef.h>
 #include <string.h>
 
+static const carom_shot_options no_options = {0};
+
 static bool is_flat(const carom_shot_options *o) {
   return carom_rules_of(o->world)->flat || o->space == CAROM_SPACE_FLAT;
 }
@@ -23,19 +25,19 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
 
 /* Prepares the table for the balls of a layout. In flat play all radii are to be that of the
  * first. */
-static carom_status prepare_for(const carom_table *t, carom_layout layout, int count, bool flat,
-                                carom_features *features, int *where) {
-  double least = layout.kind->radius, greatest = least;
-  for (*where = 0; *where < (flat ? 1 : count); ++*where) {
-    const double R = carom_kind_in(layout, *where)->radius;
+static carom_status prepare_table(const carom_prepared *p, bool flat, carom_features *features,
+                                  int *where) {
+  double least = p->kind[0]->radius, greatest = least;
+  for (*where = 0; *where < (flat ? 1 : p->count); ++*where) {
+    const double R = p->kind[*where]->radius;
     if (!carom_is_positive(R))
       return CAROM_ERROR_RADIUS;
     least = carom_lesser(least, R);
     greatest = carom_greater(greatest, R);
   }
-  const double last = carom_kind_in(layout, count - 1)->radius;
-  const double reference = flat ? least : carom_reference_of(t, last);
-  return carom_prepare_table(t, least, greatest, reference, features, where);
+  const double last = p->kind[p->count - 1]->radius;
+  const double reference = flat ? least : carom_reference_of(p->table, last);
+  return carom_prepare_table(p->table, least, greatest, reference, features, where);
 }
 
 static carom_status check_kind(const carom_ball_kind *k) {
@@ -77,22 +79,33 @@ static inline double height_of(const carom_ball_state *state, double R) {
   return carom_flies_in_layout(state, R) ? state->r[2] : R;
 }
 
-/* Whether a ball at r, of radius R, overlaps ball k in play, which is at height z. */
-static inline bool overlaps(const double r[3], double R, carom_layout layout, int k, double z) {
-  const carom_ball_state *other = carom_state_in(layout, k);
+/* Whether a ball at r, of radius R, overlaps another in play of radius R_other, which is at height
+ * z. */
+static inline bool overlaps(const double r[3], double R, const carom_ball_state *other,
+                            double R_other, double z) {
   const double along[3] = {r[0] - other->r[0], r[1] - other->r[1], r[2] - z};
-  const double reach = R + carom_kind_in(layout, k)->radius - CAROM_MOST_OVERLAP;
+  const double reach = R + R_other - CAROM_MOST_OVERLAP;
   return !carom_is_out(other->label) &&
          along[0] * along[0] + along[1] * along[1] + along[2] * along[2] < reach * reach;
 }
 
-carom_status carom_check_strike(carom_layout layout, int count, const carom_cue *cue) {
+carom_status carom_check_strike(const carom_prepared *p, const carom_cue *cue) {
   if (cue == NULL || cue->speed == 0.0)
     return CAROM_OK;
-  if (cue->ball < 0 || cue->ball >= count)
+  if (cue->ball < 0 || cue->ball >= p->count)
     return CAROM_ERROR_CUE_BALL;
-  const bool out = carom_is_out(carom_state_in(layout, (int)cue->ball)->label);
+  const bool out = carom_is_out(p->state[(int)cue->ball]->label);
   return out ? CAROM_ERROR_CUE_BALL_OUT : carom_check_cue(cue);
+}
+
+bool carom_is_at_rest(const carom_prepared *p, int but) {
+  bool rests = true;
+  for (int k = 0; k < p->count; k++) {
+    carom_ball_state s = *p->state[k];
+    const int64_t label = carom_label_of_layout(&s, p->kind[k]->radius);
+    rests &= k == but || label == CAROM_BALL_STATIONARY || carom_is_out(label);
+  }
+  return rests;
 }
 
 carom_status carom_check_common(const carom_table *table, int64_t count,
@@ -119,42 +132,50 @@ carom_status carom_check_job(const carom_shot_job *job) {
   return unused || !CAROM_RESERVED_IS_ZERO(job) ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
 }
 
-carom_layout carom_layout_of_row(const carom_shot_job *job, size_t k) {
-  const size_t first = k * (size_t)job->ball_stride;
-  if (job->balls != NULL)
-    return carom_layout_of(job->balls + first);
-  const carom_layout layout = {job->kinds, job->states + first, sizeof *job->kinds,
-                               sizeof *job->states};
-  return layout;
+void carom_take_balls(carom_prepared *p, const carom_shot_ball *balls, int64_t count) {
+  p->count = (int)count;
+  for (int k = 0; k < count && k < CAROM_BALLS_MOST; k++) {
+    p->kind[k] = &balls[k].kind;
+    p->state[k] = &balls[k].state;
+  }
 }
 
-carom_status carom_check_layout(const carom_table *table, carom_features *features,
-                                carom_layout layout, int count, const carom_shot_options *opt,
-                                int *where) {
+void carom_take_row(carom_prepared *p, const carom_shot_job *job, size_t k) {
+  const size_t first = k * (size_t)job->ball_stride;
+  if (job->balls != NULL)
+    carom_take_balls(p, job->balls + first, job->count);
+  p->count = (int)job->count;
+  for (int i = 0; i < p->count && job->balls == NULL; i++) {
+    p->kind[i] = &job->kinds[i];
+    p->state[i] = &job->states[first + (size_t)i];
+  }
+}
+
+carom_status carom_prepare_row(carom_prepared *p, carom_features *features, int *where) {
   const bool one_mass =
-      carom_rules_of(opt->world)->one_mass || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
-  const bool flat = is_flat(opt);
-  carom_status bad = prepare_for(table, layout, count, flat, features, where);
+      carom_rules_of(p->opt->world)->one_mass || p->opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
+  const bool flat = is_flat(p->opt);
+  p->features = features;
+  carom_status bad = prepare_table(p, flat, features, where);
   if (bad != CAROM_OK)
     return bad;
 
   /* each ball by itself, on the table, and beside those before it */
   double height[CAROM_BALLS_MOST];
-  for (*where = 0; *where < count; ++*where) {
-    const carom_ball_kind *kind = carom_kind_in(layout, *where);
-    const carom_ball_state *state = carom_state_in(layout, *where);
+  for (*where = 0; *where < p->count; ++*where) {
+    const carom_ball_kind *kind = p->kind[*where];
+    const carom_ball_state *state = p->state[*where];
     /* most balls are of the kind of the one before, which is good */
-    const bool known =
-        *where > 0 && memcmp(kind, carom_kind_in(layout, *where - 1), sizeof *kind) == 0;
+    const bool known = *where > 0 && memcmp(kind, p->kind[*where - 1], sizeof *kind) == 0;
     if (!known)
       bad = check_kind(kind);
 
     /* beside the first one, and for the table */
-    if (bad == CAROM_OK && flat && kind->radius != layout.kind->radius)
+    if (bad == CAROM_OK && flat && kind->radius != p->kind[0]->radius)
       bad = CAROM_ERROR_RADII_DIFFER;
     if (bad == CAROM_OK && kind->nose_height >= 2.0 * features->reference)
       bad = CAROM_ERROR_BALL_CUSHION;
-    if (bad == CAROM_OK && one_mass && kind->mass != layout.kind->mass)
+    if (bad == CAROM_OK && one_mass && kind->mass != p->kind[0]->mass)
       bad = CAROM_ERROR_MASSES_DIFFER;
     if (bad == CAROM_OK)
       bad = check_state(state, kind->radius, flat);
@@ -167,32 +188,42 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
     if (carom_is_out(state->label))
       continue;
     const bool flies = carom_flies_in_layout(state, kind->radius);
-    if (flies ? !carom_is_above_table(table, features, kind, state->r)
-              : !carom_stands_on_table(table, features, kind, state->r))
+    if (flies ? !carom_is_above_table(p->table, features, kind, state->r)
+              : !carom_stands_on_table(p->table, features, kind, state->r))
       return CAROM_ERROR_OFF_TABLE;
     for (int k = 0; k < *where; k++)
-      if (overlaps(r, kind->radius, layout, k, height[k]))
+      if (overlaps(r, kind->radius, p->state[k], p->kind[k]->radius, height[k]))
         return CAROM_ERROR_OVERLAP;
   }
   *where = -1;
   return CAROM_OK;
 }
 
+carom_status carom_prepare(const carom_table *table, const carom_shot_ball *balls, int64_t count,
+                           const carom_shot_options *opt, carom_features *features,
+                           carom_prepared *p, int *where) {
+  const carom_status bad = carom_check_common(table, count, opt, where);
+  if (bad != CAROM_OK)
+    return bad;
+  p->table = table;
+  p->opt = opt;
+  carom_take_balls(p, balls, count);
+  features->radius = 0.0; /* of nothing yet */
+  return carom_prepare_row(p, features, where);
+}
+
 carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count,
                               const carom_cue *cue, const carom_shot_options *opt, int *where) {
-  static const carom_shot_options no_options = {0};
+  carom_features features;
+  carom_prepared p;
   int unused;
   where = where != NULL ? where : &unused;
   *where = -1;
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
-  carom_status bad = carom_check_common(table, count, opt, where);
-  carom_features features;
-  features.radius = 0.0;
-  if (bad == CAROM_OK)
-    bad = carom_check_layout(table, &features, carom_layout_of(balls), count, opt, where);
-  return bad != CAROM_OK ? bad : carom_check_strike(carom_layout_of(balls), count, cue);
+  const carom_status bad = carom_prepare(table, balls, count, opt, &features, &p, where);
+  return bad != CAROM_OK ? bad : carom_check_strike(&p, cue);
 }
 
 carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball,
@@ -205,28 +236,28 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
   if (count < 1 || count > CAROM_BALLS_MOST || ball < 0 || ball >= count)
     return CAROM_ERROR_BALLS;
   carom_features features;
-  carom_shot_ball placed = balls[ball];
-  const double R = placed.kind.radius, r[3] = {x, y, R};
+  const carom_ball_kind *kind = &balls[ball].kind;
+  const double R = kind->radius, r[3] = {x, y, R};
   const carom_status bad =
       carom_check_parts(table, R, balls[count - 1].kind.radius, &features, in_the_way);
   if (bad != CAROM_OK)
     return bad;
   if (!bounded(r, 1e6))
     return CAROM_ERROR_POSITION;
-  if (!carom_stands_on_table(table, &features, &placed.kind, r)) {
-    *in_the_way = carom_part_there(table, &features, &placed.kind, r);
+  if (!carom_stands_on_table(table, &features, kind, r)) {
+    carom_ground ground;
+    carom_ground_of(table, &features, kind, &ground);
+    *in_the_way = carom_part_there(&ground, r);
     return CAROM_ERROR_OFF_TABLE;
   }
-  placed.state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
-  const carom_layout layout = carom_layout_of(balls);
   for (int k = 0; k < count; k++) {
-    const double z = height_of(&balls[k].state, balls[k].kind.radius);
-    if (k != ball && overlaps(r, R, layout, k, z)) {
+    const double other = balls[k].kind.radius, z = height_of(&balls[k].state, other);
+    if (k != ball && overlaps(r, R, &balls[k].state, other, z)) {
       *in_the_way = (carom_part){CAROM_PART_BALL, k};
       return CAROM_ERROR_OVERLAP;
     }
   }
-  balls[ball].state = placed.state;
+  balls[ball].state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
   return CAROM_OK;
 }
 
@@ -239,7 +270,6 @@ static const int numbers_of_law[] = {
 
 int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
                          const carom_shot_options *opt) {
-  static const carom_shot_options no_options = {0};
   opt = opt != NULL ? opt : &no_options;
   if (number == NULL || kind == NULL)
     return 0;

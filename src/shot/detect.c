@@ -149,8 +149,8 @@ meet_table_as(const carom_sim *sim, int i, const motion *m, double T, const bool
     double reach = radius;
     if (unlike && pocket < 0)
       reach = carom_reach_on_cloth(
-          carom_kind_in(sim->ball, i),
-          jaw < 0 ? sim->table->rail[k].height : sim->table->jaw[jaw].height, f->reference);
+          sim->layout->kind[i], jaw < 0 ? sim->table->rail[k].height : sim->table->jaw[jaw].height,
+          f->reference);
     const double t = jaw < 0      ? meet_rail(sim, k, reach, m, T)
                      : pocket < 0 ? meet_jaw(sim, jaw, reach, m, T)
                                   : meet_pocket(sim, pocket, m, T);
@@ -356,4 +356,14 @@ void carom_detect_all(carom_sim *sim) {
       meet_balls(sim, i, -1);
   for (int i = 0; i < n; i++)
     scan_row(sim, i);
+}
+
+void carom_take_rates(carom_sim *sim) {
+  sim->unlike = false;
+  sim->widest = 0.0;
+  for (int i = 0; i < sim->count; i++) {
+    sim->rates[i] = carom_rates_of(sim->layout->kind[i]);
+    sim->widest = carom_greater(sim->widest, sim->rates[i].radius);
+    sim->unlike |= sim->rates[i].radius != sim->features->reference;
+  }
 }

@@ -60,9 +60,9 @@ static double leaving(const flight *f, double x, double y, double q) {
   return q > 0.0 ? (x * f->v[0] + y * f->v[1]) / q : 0.0;
 }
 
-static carom_gap_at gap_at(const void *of, double t) {
-  const flight *f = ((const jaw_gap *)of)->f;
-  const circle *c = ((const jaw_gap *)of)->c;
+static carom_gap_at gap_at(const void *context, double t) {
+  const flight *f = ((const jaw_gap *)context)->f;
+  const circle *c = ((const jaw_gap *)context)->c;
   const double x = f->r[0] + t * f->v[0] - c->centre[0], y = f->r[1] + t * f->v[1] - c->centre[1],
                q = sqrt(x * x + y * y);
   const double z = height_at(f, t) - c->height, v_z = f->v[2] - f->g * t, s = q - c->radius;
@@ -77,8 +77,8 @@ static double leaving_at(const jaw_gap *g, double t) {
 }
 
 /* The bound of F''/2 on [t, T]. */
-static double least_half_curvature(const void *of, double t, double T) {
-  const jaw_gap *g = of;
+static double least_half_curvature(const void *context, double t, double T) {
+  const jaw_gap *g = context;
   const flight *f = g->f;
   const double first = leaving_at(g, t), last = leaving_at(g, T);
   const double across = first >= 0.0 ? first * first : last <= 0.0 ? last * last : 0.0;
@@ -299,7 +299,7 @@ static void meet_pockets(const carom_sim *sim, const flight *f, double landing,
 
 carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3],
                                    const double v[3], double landing) {
-  const carom_ball_kind *kind = carom_kind_in(sim->ball, i);
+  const carom_ball_kind *kind = sim->layout->kind[i];
   const flight f = {{r[0], r[1], r[2]}, {v[0], v[1], v[2]}, kind->gravity, kind->radius};
   carom_meeting first = {INFINITY, 0, 0};
   double T = landing;

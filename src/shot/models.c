@@ -53,8 +53,8 @@ void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, dou
 static double friction_of(const carom_sim *sim, int i, int j, double slip) {
   const carom_ball_friction law = sim->opt->friction;
   double p[3], q[3];
-  carom_law_of_ball(law, carom_kind_in(sim->ball, i), p);
-  carom_law_of_ball(law, carom_kind_in(sim->ball, j), q);
+  carom_law_of_ball(law, sim->layout->kind[i], p);
+  carom_law_of_ball(law, sim->layout->kind[j], q);
   const double pair[3] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2])};
   return carom_friction_at((int)law, pair, slip);
 }
@@ -118,8 +118,7 @@ void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state
 carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3],
                                bool in_space, carom_ball_state *a, carom_ball_state *b) {
   const int i = due->a, j = due->b;
-  const carom_ball_kind *kind_a = carom_kind_in(sim->ball, i),
-                        *kind_b = carom_kind_in(sim->ball, j);
+  const carom_ball_kind *kind_a = sim->layout->kind[i], *kind_b = sim->layout->kind[j];
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
   const carom_ball_model model = carom_ball_model_of(sim->opt);
   carom_result out;
@@ -270,7 +269,7 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
 carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3],
                                  carom_ball_state *s) {
   static const double near = 1e-3; /* m */
-  const carom_ball_kind *kind = carom_kind_in(sim->ball, due->a);
+  const carom_ball_kind *kind = sim->layout->kind[due->a];
   const carom_nose nose = carom_nose_of(sim->table, due);
   if (!carom_flies(s))
     return impact_on_cloth(sim, kind, n, &nose, s);

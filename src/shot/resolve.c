@@ -218,7 +218,7 @@ void carom_into_nose(const carom_table *table, const double line[3], double refe
 }
 
 double carom_height_on_top(const carom_sim *sim, int i, int part) {
-  const carom_ball_kind *kind = carom_kind_in(sim->ball, i);
+  const carom_ball_kind *kind = sim->layout->kind[i];
   const int jaw = part - sim->features->rails;
   return carom_nose_height(kind,
                            jaw < 0 ? sim->table->rail[part].height : sim->table->jaw[jaw].height) +
@@ -228,11 +228,10 @@ double carom_height_on_top(const carom_sim *sim, int i, int part) {
 void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a,
                           const carom_ball_state *b, double n[3]) {
   if (b != NULL)
-    carom_line_of_centres(carom_kind_in(sim->ball, due->a), a, carom_kind_in(sim->ball, due->b), b,
-                          n);
+    carom_line_of_centres(sim->layout->kind[due->a], a, sim->layout->kind[due->b], b, n);
   else
     carom_into_nose(sim->table, sim->features->line[due->type == CAROM_EVENT_RAIL ? due->b : 0],
-                    sim->features->reference, carom_kind_in(sim->ball, due->a), due, a, n);
+                    sim->features->reference, sim->layout->kind[due->a], due, a, n);
 }
 
 double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]) {
@@ -245,13 +244,13 @@ double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const
 carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
                            carom_ball_state *b) {
   /* which things touch, along which line, and what the cloth holds */
-  contact c = {.kind_a = carom_kind_in(sim->ball, due->a), .a = a, .b = b};
+  contact c = {.kind_a = sim->layout->kind[due->a], .a = a, .b = b};
   c.in_space = carom_flies(a);
   carom_contact_normal(sim, due, a, b, c.n);
   CAROM_PROMISE(!(fabs(c.n[0] * c.n[0] + c.n[1] * c.n[1] + c.n[2] * c.n[2] - 1.0) > 1e-9));
 
   if (b != NULL) {
-    c.kind_b = carom_kind_in(sim->ball, due->b);
+    c.kind_b = sim->layout->kind[due->b];
     c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;
     c.held_a = c.in_space && !carom_flies(a) && c.n[2] > 0.0;
     c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;

@@ -30,7 +30,7 @@ static const double spacer = 1e-6, longest = 5e-6; /* m */
 /* ---- ORDER */
 
 static double energy_of(const carom_sim *sim, int i) {
-  const carom_ball_kind *k = carom_kind_in(sim->ball, i);
+  const carom_ball_kind *k = sim->layout->kind[i];
   carom_ball_state s;
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &s);
   const double v2 = s.v[0] * s.v[0] + s.v[1] * s.v[1] + s.v[2] * s.v[2],

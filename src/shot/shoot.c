@@ -3,8 +3,8 @@
 #include "motion/strike.h"
 #include "platform/promise.h"
 #include "platform/threads.h"
+#include "shot/clusters.h"
 #include "shot/rules.h"
-#include "shot/together.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -97,7 +97,7 @@ static double impulse_of(const carom_sim *sim, const carom_event *event) {
     return 0.0;
   const double *v = event->before[0].v, *u = event->after[0].v;
   const double x = u[0] - v[0], y = u[1] - v[1], z = u[2] - v[2];
-  return carom_kind_in(sim->ball, event->a)->mass * sqrt(x * x + y * y + z * z);
+  return sim->layout->kind[event->a]->mass * sqrt(x * x + y * y + z * z);
 }
 
 /* Resolves an event: event->before to the paths of its balls. The change itself is made in
@@ -123,8 +123,8 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
   case CAROM_EVENT_SLATE:
   case CAROM_EVENT_RAIL_TOP:
     *state = event->before[0];
-    carom_hit_slate(carom_kind_in(sim->ball, i), state);
-    carom_label_after(true, carom_kind_in(sim->ball, i), state);
+    carom_hit_slate(sim->layout->kind[i], state);
+    carom_label_after(true, sim->layout->kind[i], state);
     return CAROM_OK;
   case CAROM_EVENT_LEFT_TABLE:
     *state = (carom_ball_state){.label = CAROM_BALL_OFF};
@@ -180,7 +180,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
         carom_path_at(path, &sim->rates[i], sim->now, &event->before[side]);
         path->from = event->before[side];
         carom_cluster_take(two[side], &path->from);
-        carom_label_after(c.in_space, carom_kind_in(sim->ball, i), &path->from);
+        carom_label_after(c.in_space, sim->layout->kind[i], &path->from);
         /* a motion that overflows is not taken: the shot ends there */
         if (!carom_is_finite(path->from.v) || !carom_is_finite(path->from.w)) {
           *status = CAROM_ERROR_OVERFLOW;
@@ -267,7 +267,7 @@ static carom_status strike(carom_sim *sim) {
   const int i = (int)cue->ball;
   carom_motion motion;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
-  const carom_status status = carom_blow(cue, carom_kind_in(sim->ball, i), !flat, &motion);
+  const carom_status status = carom_blow(cue, sim->layout->kind[i], !flat, &motion);
   if (status < 0)
     return status;
 
@@ -282,8 +282,8 @@ static carom_status strike(carom_sim *sim) {
   /* a blow that goes down presses the ball on the slate, or has it land at once */
   const bool down = state->v[2] != 0.0;
   if (down && cue->tip_time >= 0.0)
-    carom_press_on_slate(carom_kind_in(sim->ball, i), cue->tip_time, state);
-  carom_label_after(down, carom_kind_in(sim->ball, i), state);
+    carom_press_on_slate(sim->layout->kind[i], cue->tip_time, state);
+  carom_label_after(down, sim->layout->kind[i], state);
   if (sim->rules->contacts_slide)
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;
@@ -293,21 +293,11 @@ static carom_status strike(carom_sim *sim) {
   return CAROM_OK;
 }
 
-void carom_take_rates(carom_sim *sim) {
-  sim->unlike = false;
-  sim->widest = 0.0;
-  for (int i = 0; i < sim->count; i++) {
-    sim->rates[i] = carom_rates_of(carom_kind_in(sim->ball, i));
-    sim->widest = carom_greater(sim->widest, sim->rates[i].radius);
-    sim->unlike |= sim->rates[i].radius != sim->features->reference;
-  }
-}
-
 static void begin(carom_sim *sim) {
   carom_take_rates(sim);
   for (int i = 0; i < sim->count; i++) {
     carom_ball_state *from = &sim->path[i].from;
-    *from = *carom_state_in(sim->ball, i);
+    *from = *sim->layout->state[i];
     carom_label_of_layout(from, sim->rates[i].radius);
     carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   }
@@ -393,10 +383,9 @@ static carom_status start(carom_sim *sim) {
              : CAROM_OK;
 }
 
-/* With arguments that have been checked: a shot from its strike, or on from shot->state. */
-static carom_status shoot(const carom_table *table, const carom_features *features,
-                          carom_layout layout, int count, const carom_cue *cue,
-                          const carom_shot_options *opt, carom_shot *shot, bool anew) {
+/* A shot from its strike, or on from shot->state. */
+static carom_status shoot(const carom_prepared *p, const carom_cue *cue, carom_shot *shot,
+                          bool anew) {
   carom_sim sim;
   if (!anew)
     memcpy(&sim, shot->state, sizeof sim);
@@ -404,21 +393,21 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
     memset(&sim, 0, sizeof sim);
 
   /* what belongs to this call */
-  sim.rules = carom_rules_of(opt->world);
-  sim.table = table;
-  sim.features = features;
-  sim.ball = layout;
-  sim.opt = opt;
+  sim.rules = carom_rules_of(p->opt->world);
+  sim.table = p->table;
+  sim.features = p->features;
+  sim.layout = p;
+  sim.opt = p->opt;
   sim.cue = cue;
   sim.shot = shot;
 
   /* what belongs to the shot: as it begins, or as it was kept */
   carom_status status = CAROM_OK;
   if (anew) {
-    sim.count = count;
+    sim.count = p->count;
     /* a cue of speed 0 is not read, and may name any ball */
-    sim.struck = cue != NULL && cue->ball >= 0 && cue->ball < count ? (int)cue->ball : 0;
-    sim.world = opt->world;
+    sim.struck = cue != NULL && cue->ball >= 0 && cue->ball < p->count ? (int)cue->ball : 0;
+    sim.world = p->opt->world;
     sim.met = false;
     sim.now = 0.0;
     sim.round = 0;
@@ -429,7 +418,7 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
     begin(&sim);
     status = start(&sim);
   } else {
-    status = carom_state_check(&sim, shot->state, count);
+    status = carom_state_check(&sim, shot->state, p->count);
     if (status != CAROM_OK)
       return status;
   }
@@ -447,95 +436,88 @@ static void clear(carom_shot *shot) {
     no_facts(shot->facts);
 }
 
-/* The layout that was checked last, and with which status. It is known by its address, as the rows
- * of a batch that share one have the same. */
-typedef struct checked {
-  const carom_ball_state *states; /* NULL: none */
-  carom_status status;
-  carom_features features; /* prepared for its radii */
-} checked;
-
-carom_status carom_shoot_prepared(const carom_table *table, const carom_features *features,
-                                  carom_layout layout, int count, const carom_cue *cue,
-                                  const carom_shot_options *opt, carom_shot *shot) {
+carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue, carom_shot *shot) {
   clear(shot);
-  const carom_status bad = carom_check_strike(layout, count, cue);
-  return bad != CAROM_OK ? bad : shoot(table, features, layout, count, cue, opt, shot, true);
-}
-
-/* A layout that is the last one is not checked again. */
-static carom_status shoot_checked(const carom_table *table, checked *last, carom_layout layout,
-                                  int count, const carom_cue *cue, const carom_shot_options *opt,
-                                  carom_shot *shot) {
-  int where;
-  if (last->states != layout.state)
-    last->status = carom_check_layout(table, &last->features, layout, count, opt, &where);
-  last->states = layout.state;
-  if (last->status == CAROM_OK)
-    return carom_shoot_prepared(table, &last->features, layout, count, cue, opt, shot);
-  clear(shot);
-  return last->status;
+  const carom_status bad = carom_check_strike(p, cue);
+  return bad != CAROM_OK ? bad : shoot(p, cue, shot, true);
 }
 
 carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count,
                          const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
+  carom_features features;
+  carom_prepared p;
+  int where;
   if (table == NULL || balls == NULL || shot == NULL)
     return CAROM_ERROR_NULL;
   carom_status bad = carom_check_room(shot);
   if (bad != CAROM_OK)
     return bad;
-  opt = opt != NULL ? opt : &no_options;
   clear(shot);
-  int where;
-  bad = carom_check_common(table, count, opt, &where);
-  checked last;
-  last.states = NULL;
-  last.features.radius = 0.0;
-  const carom_layout layout = carom_layout_of(balls);
-  return bad != CAROM_OK ? bad : shoot_checked(table, &last, layout, count, cue, opt, shot);
+  bad = carom_prepare(table, balls, count, opt != NULL ? opt : &no_options, &features, &p, &where);
+  return bad != CAROM_OK ? bad : carom_shoot_prepared(&p, cue, shot);
 }
 
 carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
                                  const carom_shot_options *opt, carom_shot *shot) {
+  carom_features features;
+  carom_prepared p;
+  int where;
   if (table == NULL || balls == NULL || shot == NULL || shot->state == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
-  int where;
-  const carom_layout layout = carom_layout_of(balls);
-  carom_features features;
-  features.radius = 0.0;
   carom_status bad = carom_check_room(shot);
   if (bad == CAROM_OK)
-    bad = carom_check_common(table, count, opt, &where);
-  if (bad == CAROM_OK)
-    bad = carom_check_layout(table, &features, layout, count, opt, &where);
+    bad = carom_prepare(table, balls, count, opt, &features, &p, &where);
   if (bad != CAROM_OK)
     return bad;
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
     return CAROM_ERROR_STATE;
   if (opt->time_most > 0.0 && opt->time_most < shot->time)
     return CAROM_ERROR_TIME_MOST;
-  return shoot(table, &features, layout, count, NULL, opt, shot, false);
+  return shoot(&p, NULL, shot, false);
 }
 
 /* ---- Many */
 
+/* The layout that was checked last, with which status. It is known by the address of its states,
+ * as the rows of a batch that share one have the same. */
+typedef struct checked {
+  carom_prepared layout;
+  carom_features features;
+  carom_status status;
+} checked;
+
+/* Before the first row: features of no radius, and states at no address. */
+static void no_layout(const carom_shot_job *job, checked *last) {
+  last->features.radius = 0.0;
+  last->layout.table = job->table;
+  last->layout.opt = job->options != NULL ? job->options : &no_options;
+  last->layout.state[0] = NULL;
+}
+
 static carom_status shoot_row(const carom_shot_job *job, size_t k, checked *last) {
-  const carom_layout layout = carom_layout_of_row(job, k);
   const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
-  const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
-  const carom_status bad = carom_check_room(&job->shots[k]);
+  carom_shot *shot = &job->shots[k];
+  const carom_status bad = carom_check_room(shot);
   if (bad != CAROM_OK)
     return bad;
-  return shoot_checked(job->table, last, layout, (int)job->count, cue, opt, &job->shots[k]);
+  /* a layout that is the last one is not checked again */
+  int where;
+  const carom_ball_state *before = last->layout.state[0];
+  carom_take_row(&last->layout, job, k);
+  if (last->layout.state[0] != before)
+    last->status = carom_prepare_row(&last->layout, &last->features, &where);
+  if (last->status == CAROM_OK)
+    return carom_shoot_prepared(&last->layout, cue, shot);
+  clear(shot);
+  return last->status;
 }
 
 static size_t shoot_rows(const void *context, size_t first, size_t end) {
   const carom_shot_job *job = context;
   size_t first_bad = end;
   checked last; /* shared by rows with one layout; its features by those with one radius */
-  last.states = NULL;
-  last.features.radius = 0.0;
+  no_layout(job, &last);
   for (size_t k = first; k < end; k++) {
     const carom_status status = shoot_row(job, k, &last);
     if (job->status != NULL)
@@ -564,7 +546,6 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
     return CAROM_OK;
   /* Only its index came back through the threads; playing the shot again tells its status. */
   checked last;
-  last.states = NULL;
-  last.features.radius = 0.0;
+  no_layout(job, &last);
   return shoot_row(job, first_bad, &last);
 }

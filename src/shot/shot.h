@@ -7,42 +7,48 @@
 #include "motion/strike.h"
 #include "table/table.h"
 
-/* The balls of a layout, wherever their kinds and states are. */
-typedef struct carom_layout {
-  const carom_ball_kind *kind;
-  const carom_ball_state *state;
-  size_t kind_step, state_step; /* bytes from ball to ball */
-} carom_layout;
-
-static inline const carom_ball_kind *carom_kind_in(carom_layout layout, int i) {
-  const char *at = (const char *)layout.kind + (size_t)i * layout.kind_step;
-  return (const carom_ball_kind *)(const void *)at;
-}
-static inline const carom_ball_state *carom_state_in(carom_layout layout, int i) {
-  const char *at = (const char *)layout.state + (size_t)i * layout.state_step;
-  return (const carom_ball_state *)(const void *)at;
-}
-static inline carom_layout carom_layout_of(const carom_shot_ball *balls) {
-  const carom_layout layout = {&balls->kind, &balls->state, sizeof *balls, sizeof *balls};
-  return layout;
-}
+/* A layout that has been checked, on its table, with its balls wherever they are. carom_prepare()
+ * and carom_prepare_row() alone make one, so whoever has it need not check again. */
+typedef struct carom_prepared {
+  const carom_table *table;
+  const carom_features *features; /* of the table, prepared for the balls */
+  const carom_shot_options *opt;
+  int count;
+  const carom_ball_kind *kind[CAROM_BALLS_MOST];
+  const carom_ball_state *state[CAROM_BALLS_MOST];
+} carom_prepared;
 
 /* check.c: the arguments that the shots of a batch share; */
 carom_status carom_check_common(const carom_table *table, int64_t count,
                                 const carom_shot_options *opt, int *where);
-/* what a job needs beside them, and the layout of its shot k; */
+/* what a job needs beside them; */
 carom_status carom_check_job(const carom_shot_job *job);
-carom_layout carom_layout_of_row(const carom_shot_job *job, size_t k);
-/* one layout, for which this prepares the table, where *features are for other radii; */
-carom_status carom_check_layout(const carom_table *table, carom_features *features,
-                                carom_layout layout, int count, const carom_shot_options *opt,
-                                int *where);
-/* the cue of a good layout; NULL: none. */
-carom_status carom_check_strike(carom_layout layout, int count, const carom_cue *cue);
-/* shoot.c: carom_shoot() with a layout and options that these have found good. */
-carom_status carom_shoot_prepared(const carom_table *table, const carom_features *features,
-                                  carom_layout layout, int count, const carom_cue *cue,
-                                  const carom_shot_options *opt, carom_shot *shot);
+/* one layout on the table and with the options of p, for which this prepares *features, unless
+ * they are for its radii; */
+carom_status carom_prepare_row(carom_prepared *p, carom_features *features, int *where);
+/* all of it. *where becomes the index of the part or the ball at fault, or -1. */
+carom_status carom_prepare(const carom_table *table, const carom_shot_ball *balls, int64_t count,
+                           const carom_shot_options *opt, carom_features *features,
+                           carom_prepared *p, int *where);
+/* The cue of a prepared layout; NULL: none. */
+carom_status carom_check_strike(const carom_prepared *p, const carom_cue *cue);
+/* Whether all balls are at rest or out of play, but one (-1: none). */
+bool carom_is_at_rest(const carom_prepared *p, int but);
+/* Takes balls, which are not checked yet: those of an array, or of shot k of a job. */
+void carom_take_balls(carom_prepared *p, const carom_shot_ball *balls, int64_t count);
+void carom_take_row(carom_prepared *p, const carom_shot_job *job, size_t k);
+/* shoot.c: carom_shoot() with a prepared layout. */
+carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue, carom_shot *shot);
+
+/* How many balls or parts of the table an event's b may be one of; INT64_MAX: it is none. */
+static inline int64_t carom_others_of(const carom_table *table, int count, int type) {
+  return type == CAROM_EVENT_BALL_BALL  ? count
+         : type == CAROM_EVENT_RAIL     ? table->rails
+         : type == CAROM_EVENT_JAW      ? table->jaws
+         : type == CAROM_EVENT_POCKET   ? table->pockets
+         : type == CAROM_EVENT_RAIL_TOP ? table->rails + table->jaws
+                                        : INT64_MAX;
+}
 
 /* The models of a shot, where 0 is that of its world. A cushion that was measured goes with the
  * balls that have its numbers. */
@@ -60,7 +66,7 @@ static inline carom_cushion_model carom_cushion_model_of(const carom_shot_option
                                             : CAROM_CUSHION_HAN;
 }
 
-/* fixed.c: the restitution of a ball with the slate, from restitution_table of its kind: 0 stands
+/* slate.c: the restitution of a ball with the slate, from restitution_table of its kind: 0 stands
  * for the default, -1 for none. */
 static inline double carom_slate_restitution(double given) {
   return given == 0.0 ? 0.5 : given > 0.0 ? given : 0.0;

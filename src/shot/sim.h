@@ -21,7 +21,7 @@ typedef struct carom_sim {
   const struct carom_rules *rules; /* of the world, rules.h */
   const carom_table *table;
   const carom_features *features;
-  carom_layout ball;
+  const carom_prepared *layout;
   const carom_shot_options *opt;
   const carom_cue *cue;
   carom_shot *shot;
@@ -84,11 +84,10 @@ carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3
 void carom_detect(carom_sim *sim, int i, int j);
 /* The same for all balls, at the start. */
 void carom_detect_all(carom_sim *sim);
+/* Takes what follows from the kinds of the balls. */
+void carom_take_rates(carom_sim *sim);
 /* Computes again all that follows from the paths, meetings and pairs: columns and firsts. */
 void carom_detect_columns(carom_sim *sim);
-
-/* shoot.c: what follows from the kinds of the balls. */
-void carom_take_rates(carom_sim *sim);
 
 /* state.c: takes fingerprints of table, balls and options, where a state will be kept. */
 void carom_state_begin(carom_sim *sim);
@@ -149,7 +148,7 @@ carom_status carom_check_room(const carom_shot *shot);
 carom_status carom_check_shot_options(const carom_shot_options *opt);
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
 
-/* ---- fixed.c: the impact of a ball with something that does not move */
+/* ---- slate.c: the impact of a ball with something that does not move */
 
 /* A ball that touches something fixed. N is the unit vector from its centre into that. */
 typedef struct carom_touch {

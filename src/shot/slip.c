@@ -9,26 +9,16 @@ static carom_ball moving(const carom_ball_kind *kind, const carom_ball_state *s)
       .v = {s->v[0], s->v[1], s->v[2]}, .w = {s->w[0], s->w[1], s->w[2]}, .radius = kind->radius};
 }
 
-/* How many parts an event's b may be one of; 0: it has no slip. */
-static int64_t parts_of(const carom_table *table, int count, int type) {
-  return type == CAROM_EVENT_BALL_BALL  ? count
-         : type == CAROM_EVENT_RAIL     ? table->rails
-         : type == CAROM_EVENT_JAW      ? table->jaws
-         : type == CAROM_EVENT_RAIL_TOP ? table->rails + table->jaws
-         : type == CAROM_EVENT_SLATE    ? INT32_MAX
-                                        : 0;
-}
-
 double carom_event_slip(const carom_table *table, const carom_shot_ball *balls, int count,
                         const carom_event *event) {
   if (table == NULL || balls == NULL || event == NULL || count < 1 || count > CAROM_BALLS_MOST ||
       table->rails < 0 || table->rails > CAROM_RAILS_MOST || table->jaws < 0 ||
       table->jaws > CAROM_JAWS_MOST || event->a < 0 || event->a >= count)
     return NAN;
-  const int64_t parts = parts_of(table, count, event->type);
-  if (parts == 0)
-    return 0.0;
+  const int64_t parts = carom_others_of(table, count, event->type);
   const bool slate = event->type == CAROM_EVENT_SLATE;
+  if (event->type == CAROM_EVENT_POCKET || (parts == INT64_MAX && !slate))
+    return 0.0;
   if (!slate && (event->b < 0 || event->b >= parts))
     return NAN;
 

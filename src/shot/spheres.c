@@ -17,7 +17,7 @@
  *   dE = -(1 - e^2) v_n^2 / (2 B) - J_t (|u| - 7/4 B J_t) <= 0,   the bracket being at least
  *                                                                 |u|/2.
  *
- * The cloth takes no part: a ball on it that is pressed down lands on it afterwards (fixed.c),
+ * The cloth takes no part: a ball on it that is pressed down lands on it afterwards (slate.c),
  * as the balls part within 0.2 ms.
  */
 #include "shot/sim.h"

@@ -45,8 +45,8 @@ static uint64_t of_options(const carom_shot_options *o) {
 static uint64_t of_balls(const carom_sim *sim) {
   uint64_t h = 0;
   for (int i = 0; i < sim->count; i++) {
-    h = carom_fingerprint(h, carom_kind_in(sim->ball, i), sizeof(carom_ball_kind));
-    h = carom_fingerprint(h, carom_state_in(sim->ball, i), sizeof(carom_ball_state));
+    h = carom_fingerprint(h, sim->layout->kind[i], sizeof(carom_ball_kind));
+    h = carom_fingerprint(h, sim->layout->state[i], sizeof(carom_ball_state));
   }
   return h;
 }
@@ -85,7 +85,7 @@ void carom_state_save(carom_sim *sim, carom_shot_state *state) {
   sim->rules = NULL; /* these come with the next call */
   sim->table = NULL;
   sim->features = NULL;
-  memset(&sim->ball, 0, sizeof sim->ball);
+  sim->layout = NULL;
   sim->opt = NULL;
   sim->cue = NULL;
   sim->shot = NULL;
@@ -127,25 +127,12 @@ static bool restore_path(carom_sim *sim, int i) {
 /* Whether ball i can meet that on the table. */
 static bool good_meeting(const carom_sim *sim, int i) {
   const carom_meeting *m = &sim->meeting[i];
-  const carom_table *t = sim->table;
   if (isnan(m->time) || (m->time < INFINITY && !carom_translates(sim->path[i].from.label)))
     return false;
-  switch (m->type) {
-  case 0:
-    return m->part == 0;
-  case CAROM_EVENT_RAIL:
-    return m->part >= 0 && m->part < t->rails;
-  case CAROM_EVENT_JAW:
-    return m->part >= 0 && m->part < t->jaws;
-  case CAROM_EVENT_POCKET:
-    return m->part >= 0 && m->part < t->pockets;
-  case CAROM_EVENT_RAIL_TOP:
-    return m->part >= 0 && m->part < t->rails + t->jaws;
-  case CAROM_EVENT_LEFT_TABLE:
-    return m->part == -1;
-  default:
-    return false;
-  }
+  const int64_t parts = carom_others_of(sim->table, 0, m->type);
+  return m->type == 0                        ? m->part == 0
+         : m->type == CAROM_EVENT_LEFT_TABLE ? m->part == -1
+                                             : m->part >= 0 && m->part < parts && parts < INT64_MAX;
 }
 
 /* Whether the pairs of ball i with those behind it can meet when they are said to. */
@@ -159,7 +146,7 @@ static bool good_pairs(const carom_sim *sim, int i) {
   return good;
 }
 
-/* Whether all indices and numbers are those of a shot of sim->ball on sim->table; those that
+/* Whether all indices and numbers are those of a shot of sim->layout on sim->table; those that
  * follow from others are computed again. */
 static bool restore(carom_sim *sim) {
   static const int64_t many = INT64_C(1) << 62;

@@ -82,20 +82,6 @@ static void clear_around_eye(carom_features *f) {
   f->clear[1] = (double)room_y - 1e-6 * (fabs(f->hull[2]) + fabs(f->hull[3]));
 }
 
-bool carom_beside_longest(const carom_table *t, const carom_features *f, double radius,
-                          double place[2]) {
-  double most = 0.0;
-  for (int k = 0; k < f->rails; k++) {
-    const double *p = t->rail[k].p, *q = t->rail[k].q, e_x = q[0] - p[0], e_y = q[1] - p[1];
-    if (e_x * e_x + e_y * e_y <= most)
-      continue;
-    most = e_x * e_x + e_y * e_y;
-    for (int c = 0; c < 2; c++)
-      place[c] = 0.5 * (p[c] + q[c]) + 2.0 * radius * f->line[k][c];
-  }
-  return most > 0.0;
-}
-
 /* Finds the eye: the middle of the table if it is seen from the place beside the longest rail;
  * else that place, if it is on the table. */
 static void find_eye(const carom_table *table, carom_features *f) {
@@ -105,11 +91,16 @@ static void find_eye(const carom_table *table, carom_features *f) {
   f->eye[1] = 0.5 * table->length;
   clear_around_eye(f);
   const bool there = carom_beside_longest(table, f, f->radius, place);
-  f->has_eye = there && carom_is_in_sight(table, f, &ball, place);
+  carom_ground ground;
+  f->has_eye = there && carom_is_clear(f, place);
+  if (!f->has_eye) {
+    carom_ground_of(table, f, &ball, &ground);
+    f->has_eye = there && carom_is_in_sight(&ground, place);
+  }
   if (f->has_eye)
     return;
 
-  if (there && !carom_is_cut_off(table, f, &ball, place)) {
+  if (there && !carom_is_cut_off(&ground, place)) {
     f->has_eye = true;
     f->eye[0] = place[0];
     f->eye[1] = place[1];

@@ -1,5 +1,8 @@
-/* The parts of a table, each by itself, by the conditions of the comments in carom_shot.h. */
+/* Checks of a table: its parts, each by itself, by the conditions of the comments in
+ * carom_shot.h; and the table of a caller, with its ring (ring.c). */
 #include "table/table.h"
+
+#include <math.h>
 
 /* 0 where all are finite, else NaN. The parts of a table are checked for each shot that is
  * played alone, so without a branch for each number. */
@@ -104,4 +107,37 @@ carom_status carom_check_parts(const carom_table *table, double radius, double u
                          where};
   }
   return bad;
+}
+
+static double off_line(const double line[3], const double r[2]) {
+  return fabs(line[0] * r[0] + line[1] * r[1] + line[2]);
+}
+
+carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault) {
+  carom_table_fault unused;
+  fault = fault != NULL ? fault : &unused;
+  *fault = (carom_table_fault){.part = {CAROM_PART_NONE, 0}};
+  if (table == NULL)
+    return CAROM_ERROR_NULL;
+  carom_features features;
+  const carom_status bad = carom_check_parts(table, radius, radius, &features, &fault->part);
+  if (bad != CAROM_OK)
+    return bad;
+
+  /* lines of rails, as they were given */
+  for (int k = 0; k < table->rails; k++) {
+    const carom_rail *rail = &table->rail[k];
+    const double off =
+        carom_greater(off_line(features.line[k], rail->p), off_line(features.line[k], rail->q));
+    if (!(off <= 1e-6)) {
+      fault->part = (carom_part){CAROM_PART_RAIL, k};
+      for (int c = 0; c < 2; c++)
+        fault->place[c] = 0.5 * (rail->p[c] + rail->q[c]);
+      return CAROM_ERROR_RAIL_LINE;
+    }
+  }
+  const carom_ball_kind ball = {.radius = radius};
+  carom_ground ground;
+  carom_ground_of(table, &features, &ball, &ground);
+  return carom_check_ring(&ground, fault);
 }

@@ -22,9 +22,6 @@ static bool is_beside(const carom_features *f, int rail, const double r[2]) {
 static bool is_in_hull(const carom_features *f, const double r[2]) {
   return r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
 }
-static bool is_clear(const carom_features *f, const double r[2]) {
-  return fabs(r[0] - f->eye[0]) <= f->clear[0] && fabs(r[1] - f->eye[1]) <= f->clear[1];
-}
 
 /* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
 static bool in_rail(const carom_features *f, int k, const double r[2], double reach) {
@@ -62,79 +59,96 @@ static bool crosses_circle(const carom_features *f, const double centre[2], doub
   return in_circle(centre, radius, there);
 }
 
-bool carom_is_in_sight(const carom_table *table, const carom_features *f,
-                       const carom_ball_kind *kind, const double r[2]) {
-  if (is_clear(f, r))
+void carom_ground_of(const carom_table *table, const carom_features *f, const carom_ball_kind *kind,
+                     carom_ground *ground) {
+  ground->table = table;
+  ground->features = f;
+  ground->kind = kind;
+  for (int k = 0; k < f->rails; k++)
+    ground->rail[k] = carom_reach_on_cloth(kind, table->rail[k].height, f->reference);
+  for (int k = 0; k < f->jaws; k++)
+    ground->jaw[k] = carom_reach_on_cloth(kind, table->jaw[k].height, f->reference);
+}
+
+bool carom_is_in_sight(const carom_ground *ground, const double r[2]) {
+  const carom_features *f = ground->features;
+  const carom_table *table = ground->table;
+  if (carom_is_clear(f, r))
     return true;
 
-  for (int k = 0; k < f->rails; k++) {
-    const double reach = carom_reach_on_cloth(kind, table->rail[k].height, f->reference);
-    if (crosses_rail(f, k, r, reach - CAROM_RING_OVERLAP))
+  for (int k = 0; k < f->rails; k++)
+    if (crosses_rail(f, k, r, ground->rail[k] - CAROM_RING_OVERLAP))
       return false;
-  }
-  for (int k = 0; k < f->jaws; k++) {
-    const carom_jaw *jaw = &table->jaw[k];
-    const double reach = carom_reach_on_cloth(kind, jaw->height, f->reference);
-    if (crosses_circle(f, jaw->centre, jaw->radius + reach - CAROM_RING_OVERLAP, r))
+  for (int k = 0; k < f->jaws; k++)
+    if (crosses_circle(f, table->jaw[k].centre,
+                       table->jaw[k].radius + ground->jaw[k] - CAROM_RING_OVERLAP, r))
       return false;
-  }
   for (int k = 0; k < f->pockets; k++)
     if (crosses_circle(f, table->pocket[k].centre, table->pocket[k].radius, r))
       return false;
   return true;
 }
 
-bool carom_place_is_outside(const carom_table *table, const carom_features *f,
-                            const carom_ball_kind *kind, const double r[2]) {
-  if (is_clear(f, r))
-    return false;
-  if (!is_in_hull(f, r))
-    return true;
-  return !(f->has_eye && carom_is_in_sight(table, f, kind, r)) &&
-         carom_is_cut_off(table, f, kind, r);
+/* Of a place that is not clear. */
+static bool is_outside(const carom_ground *ground, const double r[2]) {
+  const carom_features *f = ground->features;
+  return !is_in_hull(f, r) ||
+         (!(f->has_eye && carom_is_in_sight(ground, r)) && carom_is_cut_off(ground, r));
 }
 
-carom_part carom_part_there(const carom_table *table, const carom_features *f,
-                            const carom_ball_kind *kind, const double r[3]) {
+bool carom_place_is_outside(const carom_table *table, const carom_features *f,
+                            const carom_ball_kind *kind, const double r[2]) {
+  if (carom_is_clear(f, r))
+    return false;
+  carom_ground ground;
+  carom_ground_of(table, f, kind, &ground);
+  return is_outside(&ground, r);
+}
+
+carom_part carom_part_there(const carom_ground *ground, const double r[3]) {
+  const carom_features *f = ground->features;
+  const carom_table *table = ground->table;
   for (int k = 0; k < f->pockets; k++)
     if (in_circle(table->pocket[k].centre, table->pocket[k].radius, r))
       return (carom_part){CAROM_PART_POCKET, k};
   for (int k = 0; k < f->rails; k++)
-    if (in_rail(f, k, r, carom_reach_on_cloth(kind, table->rail[k].height, f->reference)))
+    if (in_rail(f, k, r, ground->rail[k]))
       return (carom_part){CAROM_PART_RAIL, k};
   for (int k = 0; k < f->jaws; k++)
-    if (in_jaw(&table->jaw[k], r, carom_reach_on_cloth(kind, table->jaw[k].height, f->reference)))
+    if (in_jaw(&table->jaw[k], r, ground->jaw[k]))
       return (carom_part){CAROM_PART_JAW, k};
   return (carom_part){CAROM_PART_NONE, 0};
 }
 
 bool carom_stands_on_table(const carom_table *table, const carom_features *f,
                            const carom_ball_kind *kind, const double r[3]) {
-  return is_clear(f, r) || (carom_part_there(table, f, kind, r).kind == CAROM_PART_NONE &&
-                            !carom_place_is_outside(table, f, kind, r));
+  if (carom_is_clear(f, r))
+    return true;
+  carom_ground ground;
+  carom_ground_of(table, f, kind, &ground);
+  return carom_part_there(&ground, r).kind == CAROM_PART_NONE && !is_outside(&ground, r);
 }
 
 /* Where an airborne ball in front of noses would be, if it was moved off them until it could touch
  * them while it lay on the cloth: above it, the centre can be nearer to a nose. */
-static void off_noses(const carom_table *table, const carom_features *f,
-                      const carom_ball_kind *kind, const double r[3], double there[2]) {
+static void off_noses(const carom_ground *ground, const double r[3], double there[2]) {
+  const carom_features *f = ground->features;
+  const double R = ground->kind->radius;
   there[0] = r[0];
   there[1] = r[1];
   for (int k = 0; k < f->rails; k++) {
-    const double more =
-        carom_reach_on_cloth(kind, table->rail[k].height, f->reference) - distance_to(f, k, there);
-    if (!is_beside(f, k, there) || more < 0.0 || more > kind->radius)
+    const double more = ground->rail[k] - distance_to(f, k, there);
+    if (!is_beside(f, k, there) || more < 0.0 || more > R)
       continue;
     for (int c = 0; c < 2; c++)
       there[c] += more * f->line[k][c];
   }
   for (int k = 0; k < f->jaws; k++) {
-    const carom_jaw *jaw = &table->jaw[k];
+    const carom_jaw *jaw = &ground->table->jaw[k];
     const double d[2] = {there[0] - jaw->centre[0], there[1] - jaw->centre[1]};
     const double distance = sqrt(d[0] * d[0] + d[1] * d[1]);
-    const double more =
-        jaw->radius + carom_reach_on_cloth(kind, jaw->height, f->reference) - distance;
-    if (more < 0.0 || more > kind->radius)
+    const double more = jaw->radius + ground->jaw[k] - distance;
+    if (more < 0.0 || more > R)
       continue;
     for (int c = 0; c < 2; c++)
       there[c] += more * d[c] / distance;
@@ -152,10 +166,12 @@ __attribute__((noinline, cold)) bool carom_is_above_table(const carom_table *tab
                                                           const carom_features *f,
                                                           const carom_ball_kind *kind,
                                                           const double r[3]) {
+  carom_ground ground;
+  carom_ground_of(table, f, kind, &ground);
   double there[2];
-  off_noses(table, f, kind, r, there);
+  off_noses(&ground, r, there);
   bool good = r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - CAROM_MOST_OVERLAP ||
-              !carom_place_is_outside(table, f, kind, there);
+              carom_is_clear(f, there) || !is_outside(&ground, there);
   for (int axis = 0; axis < 2; axis++)
     good &= r[axis] >= f->hull[2 * axis] - f->width && r[axis] <= f->hull[2 * axis + 1] + f->width;
   for (int k = 0; k < f->rails; k++) {

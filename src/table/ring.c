@@ -1,5 +1,5 @@
-/* Checks of a table of one's own: no way out but the pockets, and rails that are played from the
- * right side. And whether a place can be reached from a table's middle.
+/* The ring of a table: no way out but the pockets, and rails that are played from the right side.
+ * And whether a place can be reached from a table's middle.
  *
  * To the centre of a ball of radius R, jaws are discs grown by R, pockets discs, and rails
  * segments grown by R; but detection knows of a rail only the segment at the distance R on its
@@ -45,20 +45,19 @@ static void add_shape(ring *g, const double p[2], const double q[2], double radi
 
 /* The parts, as the centre of a ball sees them that may be `overlap` in a cushion; rails with
  * round ends, or without. */
-static void shapes_of(const carom_table *t, const carom_features *f, const carom_ball_kind *ball,
-                      double overlap, bool round, ring *g) {
+static void shapes_of(const carom_ground *ground, double overlap, bool round, ring *g) {
+  const carom_table *t = ground->table;
   g->count = 0;
   for (int k = 0; k < t->rails; k++) {
     const carom_rail *rail = &t->rail[k];
-    const double reach = carom_reach_on_cloth(ball, rail->height, f->reference) - overlap,
-                 off = round ? 0.0 : reach, *n = f->line[k];
+    const double reach = ground->rail[k] - overlap, off = round ? 0.0 : reach,
+                 *n = ground->features->line[k];
     const double p[2] = {rail->p[0] + off * n[0], rail->p[1] + off * n[1]},
                  q[2] = {rail->q[0] + off * n[0], rail->q[1] + off * n[1]};
     add_shape(g, p, q, 0.0, round ? reach : 0.0, (carom_part){CAROM_PART_RAIL, k});
   }
   for (int k = 0; k < t->jaws; k++)
-    add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius,
-              carom_reach_on_cloth(ball, t->jaw[k].height, f->reference) - overlap,
+    add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius, ground->jaw[k] - overlap,
               (carom_part){CAROM_PART_JAW, k});
   for (int k = 0; k < t->pockets; k++)
     add_shape(g, t->pocket[k].centre, t->pocket[k].centre, t->pocket[k].radius, 0.0,
@@ -210,18 +209,31 @@ static bool find_middle(const ring *g, const carom_table *t, double P[2]) {
   return false;
 }
 
+bool carom_beside_longest(const carom_table *t, const carom_features *f, double radius,
+                          double place[2]) {
+  double most = 0.0;
+  for (int k = 0; k < f->rails; k++) {
+    const double *p = t->rail[k].p, *q = t->rail[k].q, e_x = q[0] - p[0], e_y = q[1] - p[1];
+    if (e_x * e_x + e_y * e_y <= most)
+      continue;
+    most = e_x * e_x + e_y * e_y;
+    for (int c = 0; c < 2; c++)
+      place[c] = 0.5 * (p[c] + q[c]) + 2.0 * radius * f->line[k][c];
+  }
+  return most > 0.0;
+}
+
 /* A place for a ball on the table: near its middle; or beside the longest rail, where a ring of
  * parts that are at most `grown` apart is closed around that and not around the middle, as in the
  * shape of a U. False if there is none. */
-static bool find_place(ring *g, const carom_table *t, const carom_features *f, double R,
-                       double grown, double P[2]) {
+static bool find_place(ring *g, const carom_ground *ground, double grown, double P[2]) {
   hole unused;
-  const bool found = find_middle(g, t, P);
+  const bool found = find_middle(g, ground->table, P);
   if (found && encloses(g, grown, grown, P, NULL, &unused))
     return true;
   double Q[2];
-  if (!carom_beside_longest(t, f, R, Q) || !is_free(g, Q) ||
-      !encloses(g, grown, grown, Q, NULL, &unused))
+  if (!carom_beside_longest(ground->table, ground->features, ground->kind->radius, Q) ||
+      !is_free(g, Q) || !encloses(g, grown, grown, Q, NULL, &unused))
     return found;
   P[0] = Q[0];
   P[1] = Q[1];
@@ -284,44 +296,17 @@ static bool is_closed(ring *g, const double P[2], carom_table_fault *fault) {
   return false;
 }
 
-static double off_line(const double line[3], const double r[2]) {
-  return fabs(line[0] * r[0] + line[1] * r[1] + line[2]);
-}
-
-carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault) {
-  carom_table_fault unused;
-  fault = fault != NULL ? fault : &unused;
-  *fault = (carom_table_fault){.part = {CAROM_PART_NONE, 0}};
-  if (table == NULL)
-    return CAROM_ERROR_NULL;
-  carom_features features;
-  const carom_status bad = carom_check_parts(table, radius, radius, &features, &fault->part);
-  if (bad != CAROM_OK)
-    return bad;
-
-  /* lines of rails, as they were given */
-  for (int k = 0; k < table->rails; k++) {
-    const carom_rail *rail = &table->rail[k];
-    const double off =
-        carom_greater(off_line(features.line[k], rail->p), off_line(features.line[k], rail->q));
-    if (!(off <= 1e-6)) {
-      fault->part = (carom_part){CAROM_PART_RAIL, k};
-      for (int c = 0; c < 2; c++)
-        fault->place[c] = 0.5 * (rail->p[c] + rail->q[c]);
-      return CAROM_ERROR_RAIL_LINE;
-    }
-  }
-
-  /* the ring, with rails rounded */
-  const carom_ball_kind ball = {.radius = radius};
+carom_status carom_check_ring(const carom_ground *ground, carom_table_fault *fault) {
+  const carom_table *table = ground->table;
   ring g;
   double P[2];
-  shapes_of(table, &features, &ball, 0.0, true, &g);
-  if (!find_place(&g, table, &features, radius, touching, P) || !is_closed(&g, P, fault))
+
+  /* with rails rounded */
+  shapes_of(ground, 0.0, true, &g);
+  if (!find_place(&g, ground, touching, P) || !is_closed(&g, P, fault))
     return CAROM_ERROR_TABLE_OPEN;
   for (int k = 0; k < table->rails; k++)
-    if (wrong_side(&g, &table->rail[k], features.line[k],
-                   carom_reach_on_cloth(&ball, table->rail[k].height, features.reference), P)) {
+    if (wrong_side(&g, &table->rail[k], ground->features->line[k], ground->rail[k], P)) {
       fault->part = (carom_part){CAROM_PART_RAIL, k};
       for (int c = 0; c < 2; c++)
         fault->place[c] = 0.5 * (table->rail[k].p[c] + table->rail[k].q[c]);
@@ -329,24 +314,24 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
     }
 
   /* and with rails as they are detected */
-  shapes_of(table, &features, &ball, 0.0, false, &g);
+  shapes_of(ground, 0.0, false, &g);
   return is_closed(&g, P, fault) ? CAROM_OK : CAROM_ERROR_TABLE_OPEN;
 }
 
-__attribute__((noinline, cold)) bool carom_is_cut_off(const carom_table *table,
-                                                      const carom_features *features,
-                                                      const carom_ball_kind *kind,
+__attribute__((noinline, cold)) bool carom_is_cut_off(const carom_ground *ground,
                                                       const double r[2]) {
+  const carom_features *features = ground->features;
   const double closed = touching + 2.0 * CAROM_RING_OVERLAP;
   ring g;
   hole unused;
   double P[2] = {features->eye[0], features->eye[1]};
-  shapes_of(table, features, kind, CAROM_RING_OVERLAP, true, &g);
-  if (!features->has_eye && !find_place(&g, table, features, kind->radius, closed, P))
+  shapes_of(ground, CAROM_RING_OVERLAP, true, &g);
+  if (!features->has_eye && !find_place(&g, ground, closed, P))
     return false;
   /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken
    * to be closed */
-  shapes_of(table, features, kind, CAROM_RING_OVERLAP, false, &g);
-  const double grown = encloses(&g, closed, closed, P, NULL, &unused) ? closed : 2.0 * kind->radius;
+  shapes_of(ground, CAROM_RING_OVERLAP, false, &g);
+  const double grown =
+      encloses(&g, closed, closed, P, NULL, &unused) ? closed : 2.0 * ground->kind->radius;
   return encloses(&g, grown, grown, P, r, &unused);
 }

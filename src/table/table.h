@@ -45,10 +45,6 @@ extern const carom_table carom_table_pooltool;
 /* features.c: the unit normal of a rail towards its played side, and its offset: distance = line
  * . (x, y, 1). */
 void carom_rail_line(const carom_rail *rail, double line[3]);
-/* A place beside the middle of the longest rail, on its played side, at twice the radius from it;
- * false without rails. */
-bool carom_beside_longest(const carom_table *table, const carom_features *features, double radius,
-                          double place[2]);
 /* Prepares a table for balls of a greatest radius; reference: the radius that it is meant for. */
 void carom_features_of(const carom_table *table, double radius, double reference,
                        carom_features *features);
@@ -61,6 +57,21 @@ bool carom_is_cut(const carom_table *table, int rail);
 double carom_nose_height(const carom_ball_kind *kind, double height);
 double carom_nose_shift(double height, double reference);
 double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference);
+
+/* Whether a place is in the box around the eye in which a ball meets nothing. */
+static inline bool carom_is_clear(const carom_features *f, const double r[2]) {
+  return fabs(r[0] - f->eye[0]) <= f->clear[0] && fabs(r[1] - f->eye[1]) <= f->clear[1];
+}
+
+/* A prepared table as a ball of one kind on the cloth meets it. */
+typedef struct carom_ground {
+  const carom_table *table;
+  const carom_features *features;
+  const carom_ball_kind *kind;
+  /* m: how far from the line of a rail, or beyond the circle of a jaw, the ball touches it */
+  double rail[CAROM_RAILS_MOST], jaw[CAROM_JAWS_MOST];
+} carom_ground;
+
 /* parts.c: the parts of a table, each by itself. *where becomes the index of the part at fault,
  * or -1. */
 carom_status carom_check_table(const carom_table *table, int *where);
@@ -76,28 +87,34 @@ static inline double carom_reference_of(const carom_table *table, double usual) 
 carom_status carom_check_parts(const carom_table *table, double radius, double usual,
                                carom_features *features, carom_part *part);
 
-/* places.c: whether a ball on the cloth stands within the cushions and in no pocket; and the
- * part that one which does not is in, CAROM_PART_NONE outside the ring. */
+/* places.c: a table as balls of a kind meet it. */
+void carom_ground_of(const carom_table *table, const carom_features *features,
+                     const carom_ball_kind *kind, carom_ground *ground);
+/* Whether a ball on the cloth stands within the cushions and in no pocket; and the part that one
+ * which does not is in, CAROM_PART_NONE outside the ring. */
 bool carom_stands_on_table(const carom_table *table, const carom_features *features,
                            const carom_ball_kind *kind, const double r[3]);
-carom_part carom_part_there(const carom_table *table, const carom_features *features,
-                            const carom_ball_kind *kind, const double r[3]);
+carom_part carom_part_there(const carom_ground *ground, const double r[3]);
 /* Whether an airborne ball is above the table or its rails, and in no cushion. Below the tops it
- * must be within the cushions.
- */
+ * must be within the cushions. */
 bool carom_is_above_table(const carom_table *table, const carom_features *features,
                           const carom_ball_kind *kind, const double r[3]);
 /* Whether the way from the eye of the table straight to r is clear of all parts for the centre of
  * a ball on the cloth. */
-bool carom_is_in_sight(const carom_table *table, const carom_features *features,
-                       const carom_ball_kind *kind, const double r[2]);
+bool carom_is_in_sight(const carom_ground *ground, const double r[2]);
 /* Whether a place is outside the ring of cushions and pockets, for the centre of a ball that
  * touches none of them. */
 bool carom_place_is_outside(const carom_table *table, const carom_features *features,
                             const carom_ball_kind *kind, const double r[2]);
-/* ring.c: the same by the parts of the table, without a look at the place first: some
- * microseconds. */
-bool carom_is_cut_off(const carom_table *table, const carom_features *features,
-                      const carom_ball_kind *kind, const double r[2]);
+
+/* ring.c: that the parts of a table keep balls on it, and its rails are played from the right
+ * side. */
+carom_status carom_check_ring(const carom_ground *ground, carom_table_fault *fault);
+/* A place beside the middle of the longest rail, on its played side, at twice the radius from it;
+ * false without rails. */
+bool carom_beside_longest(const carom_table *table, const carom_features *features, double radius,
+                          double place[2]);
+/* Whether a place is outside, as above, by the parts of the table alone: some microseconds. */
+bool carom_is_cut_off(const carom_ground *ground, const double r[2]);
 
 #endif

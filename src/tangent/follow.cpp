@@ -116,7 +116,8 @@ struct scene {
   carom_tangent_work *w;
   const carom_event *event;
   bool two;
-  int side[2]; /* which balls */
+  int side[2];                 /* which balls */
+  text::carom_prepared layout; // its two balls
   carom_sim sim;
   text::carom_shot_ball ball[2];
   text::carom_shot_options opt;
@@ -237,11 +238,11 @@ bool lands(const scene *s) {
 /* Of a ball that leaves the table in flight: how far it is from the nearest edge of the rails. No
  * flight begins beyond them: a layout there is refused. */
 CAROM_APART number edge(scene *s, const carom_ball_state *a) {
-  real at[4];
-  carom_tangent_edges(s->w, s->w->ball[s->event->a].kind, at);
+  ::carom_features f;
+  ::carom_features_of(s->w->table, s->w->ball[s->event->a].kind->radius, s->w->reference, &f);
   number nearest = INFINITY;
   for (int side = 0; side < 4; side++) {
-    const number gap = a->r[side / 2] - at[side];
+    const number gap = a->r[side / 2] - (f.hull[side] + (side % 2 == 0 ? -f.width : f.width));
     nearest = fabs(gap).x < fabs(nearest).x ? gap : nearest;
   }
   return nearest;
@@ -587,7 +588,9 @@ void begin_scene(carom_tangent_work *w, scene *s) {
   s->sim.rules = &s->rules;
   s->sim.table = &s->table;
   s->sim.features = &s->features;
-  s->sim.ball = text::carom_layout_of(s->ball);
+  s->sim.layout = &s->layout;
+  for (int k = 0; k < 2; k++)
+    s->layout.kind[k] = &s->ball[k].kind;
   s->sim.opt = &s->opt;
   s->sim.count = 2;
 }
@@ -618,7 +621,7 @@ struct cluster {
   carom_tangent_work *w;
   int direction, count;
   double apart, most; /* values from those of the shot, and the largest of these */
-  member of[CAROM_BALLS_MOST];
+  member members[CAROM_BALLS_MOST];
 };
 
 /* The balls of the events of a cluster, in the caller's order. */
@@ -629,13 +632,13 @@ void find_members(carom_tangent_work *w, const carom_event *events, int count, c
   for (int i = 0; i < w->count; i++)
     for (int k = 0; k < count; k++)
       if (events[k].a == i || events[k].b == i) {
-        c->of[c->count++] = {i, &events[k], events[k].a == i ? 0 : 1};
+        c->members[c->count++] = {i, &events[k], events[k].a == i ? 0 : 1};
         break;
       }
 }
 int place_of(const cluster *c, int ball) {
   int k = 0;
-  while (c->of[k].ball != ball)
+  while (c->members[k].ball != ball)
     k++;
   return k;
 }
@@ -661,19 +664,19 @@ CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e) {
 }
 
 /* Takes a member to the time of its cluster. */
-CAROM_APART void arrive(carom_tangent_work *w, const member *of, const row &dT, bool starts) {
+CAROM_APART void arrive(carom_tangent_work *w, const member *m, const row &dT, bool starts) {
   scene s;
-  carom_tangent_ball *ball = &w->ball[of->ball];
+  carom_tangent_ball *ball = &w->ball[m->ball];
   carom_ball_state *state = &s.ball[0].state;
-  begin_ball(w, of->ball, 0, &s);
-  state_at(w, of->ball, 0, of->event->time, &s, state);
+  begin_ball(w, m->ball, 0, &s);
+  state_at(w, m->ball, 0, m->event->time, &s, state);
   add_time(dT, state);
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     unload(w->pass, number_of(state, k), w->tangent->final,
-           (int64_t)of->ball * CAROM_STATE_NUMBERS + k);
-  if (!starts && of->event->time - ball->last_contact < SIMULTANEOUS)
+           (int64_t)m->ball * CAROM_STATE_NUMBERS + k);
+  if (!starts && m->event->time - ball->last_contact < SIMULTANEOUS)
     w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
-  ball->last_contact = of->event->time;
+  ball->last_contact = m->event->time;
 }
 
 CAROM_APART void load_member(const carom_tangent_work *w, int i, const ::carom_ball_state &played,
@@ -701,14 +704,14 @@ CAROM_APART void note_gap(carom_tangent_work *w, const carom_event *e) {
 
 bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS], real d[CAROM_MEMBER_NUMBERS]) {
   const cluster *c = (const cluster *)context;
-  const member *of = &c->of[k];
+  const member *m = &c->members[k];
   text::carom_ball_kind kind;
   carom_ball_state s;
-  load_member(c->w, of->ball, of->event->before[of->side], &kind, &s);
+  load_member(c->w, m->ball, m->event->before[m->side], &kind, &s);
   text::carom_shot_options opt;
   copy(c->w, &opt);
   const text::carom_cluster_ball ball =
-      text::member_of(&kind, &s, &opt, text::carom_flies(&s), of->ball);
+      text::member_of(&kind, &s, &opt, text::carom_flies(&s), m->ball);
   const number *from = ball.r;
   for (int n = 0; n < CAROM_MEMBER_NUMBERS; n++) {
     x[n] = from[n].x;
@@ -722,8 +725,8 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS],
   static const int row_of[CAROM_MOTION_NUMBERS] = {S_V_X, S_V_Y, S_V_Z, S_W_X, S_W_Y, S_W_Z};
   cluster *c = (cluster *)context;
   const carom_tangent_work *w = c->w;
-  const int i = c->of[k].ball;
-  const ::carom_ball_state *after = &c->of[k].event->after[c->of[k].side];
+  const int i = c->members[k].ball;
+  const ::carom_ball_state *after = &c->members[k].event->after[c->members[k].side];
   text::carom_ball_kind kind;
   load_kind(w, i, &kind);
   const real R = kind.radius.x, dR = kind.radius.d[c->direction];
@@ -772,13 +775,13 @@ void tell_before(const carom_tangent_work *w, int i, int64_t at) {
   }
 }
 
-CAROM_APART void leave(const cluster *c, const member *of, const row &dT) {
-  const ::carom_ball_state &after = of->event->after[of->side];
+CAROM_APART void leave(const cluster *c, const member *m, const row &dT) {
+  const ::carom_ball_state &after = m->event->after[m->side];
   text::carom_ball_kind kind;
   carom_ball_state s;
-  load_member(c->w, of->ball, after, &kind, &s);
+  load_member(c->w, m->ball, after, &kind, &s);
   settle(&kind, &s);
-  put(c->w, of->ball, after, of->event->time, dT, &s);
+  put(c->w, m->ball, after, m->event->time, dT, &s);
 }
 
 } // namespace
@@ -791,21 +794,21 @@ carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_eve
   find_members(w, events, count, &c);
   const row dT = begin_cluster(w, &events[0]);
   for (int k = 0; k < c.count; k++) {
-    const member *of = &c.of[k];
-    arrive(w, of, dT, of->ball == events[0].a || of->ball == events[0].b);
-    tell_before(w, of->ball, 2 * (at + (of->event - events)) + of->side);
+    const member *m = &c.members[k];
+    arrive(w, m, dT, m->ball == events[0].a || m->ball == events[0].b);
+    tell_before(w, m->ball, 2 * (at + (m->event - events)) + m->side);
   }
   for (int k = 1; k < count; k++)
     note_gap(w, &events[k]);
   if (!solve_cluster(&c, &events[0]))
     return CAROM_ERROR_TANGENT;
   for (int k = 0; k < c.count; k++)
-    leave(&c, &c.of[k], dT);
+    leave(&c, &c.members[k], dT);
   /* before their further events balls are as after the first */
   for (int k = 1; k < count; k++)
     for (int side = 0; side < 2; side++) {
       const int i = side == 0 ? events[k].a : events[k].b;
-      if (c.of[place_of(&c, i)].event != &events[k])
+      if (c.members[place_of(&c, i)].event != &events[k])
         tell_before(w, i, 2 * (at + k) + side);
     }
   memcpy(w->time, &dT, sizeof dT);

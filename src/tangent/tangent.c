@@ -19,13 +19,6 @@ static const carom_status BUILT = CAROM_OK;
 static const carom_status BUILT = CAROM_ERROR_NO_TANGENTS;
 #endif
 
-void carom_tangent_edges(const work *w, const carom_ball_kind *kind, double edge[4]) {
-  carom_features features;
-  carom_features_of(w->table, kind->radius, w->reference, &features);
-  for (int side = 0; side < 4; side++)
-    edge[side] = features.hull[side] + (side % 2 == 0 ? -features.width : features.width);
-}
-
 /* ---- Arguments ---- */
 
 /* Whether an event can be one of the shot. */
@@ -36,12 +29,7 @@ static carom_status check_event(const carom_table *table, int count, const carom
       event->a >= count || event->cluster < 0 || !(event->time >= since && event->time < INFINITY))
     return CAROM_ERROR_STATE;
   const bool two = type == CAROM_EVENT_BALL_BALL;
-  const int64_t parts = two                            ? count
-                        : type == CAROM_EVENT_RAIL     ? table->rails
-                        : type == CAROM_EVENT_JAW      ? table->jaws
-                        : type == CAROM_EVENT_POCKET   ? table->pockets
-                        : type == CAROM_EVENT_RAIL_TOP ? table->rails + table->jaws
-                                                       : INT64_MAX;
+  const int64_t parts = carom_others_of(table, count, type);
   if ((parts < INT64_MAX && (event->b < 0 || event->b >= parts)) || (two && event->a == event->b) ||
       (type == CAROM_EVENT_STRIKE && cue == NULL))
     return CAROM_ERROR_STATE;
@@ -65,29 +53,21 @@ static carom_status check_clusters(const carom_shot *shot) {
 }
 
 /* Whether a shot has been played: nothing happens only where nothing moves. */
-static bool is_played(carom_layout layout, int count, const carom_cue *cue,
-                      const carom_shot *shot) {
-  bool rests = cue == NULL;
-  for (int i = 0; i < count; i++) {
-    carom_ball_state s = *carom_state_in(layout, i);
-    const int64_t label = carom_label_of_layout(&s, carom_kind_in(layout, i)->radius);
-    rests &= label == CAROM_BALL_STATIONARY || carom_is_out(label);
-  }
-  return rests || shot->count > 0 || shot->time > 0.0;
+static bool is_played(const carom_prepared *p, const carom_cue *cue, const carom_shot *shot) {
+  return (cue == NULL && carom_is_at_rest(p, -1)) || shot->count > 0 || shot->time > 0.0;
 }
 
-static carom_status check(const carom_table *table, carom_layout layout, int count,
-                          const carom_cue *cue, const carom_shot_options *opt,
-                          const carom_shot *shot, const carom_tangent_seeds *seeds,
-                          const carom_tangent *tangent) {
-  if (count < 1 || count > CAROM_BALLS_MOST)
+static carom_status check(const carom_prepared *p, const carom_cue *cue, const carom_shot *shot,
+                          const carom_tangent_seeds *seeds, const carom_tangent *tangent) {
+  const carom_shot_options *opt = p->opt;
+  if (p->count < 1 || p->count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
   if (seeds->directions < 1 || seeds->directions > CAROM_DIRECTIONS_MOST)
     return CAROM_ERROR_DIRECTIONS;
   if (!CAROM_RESERVED_IS_ZERO(seeds))
     return CAROM_ERROR_SHOT_OPTIONS;
   int where;
-  const carom_status bad = carom_check_common(table, count, opt, &where);
+  const carom_status bad = carom_check_common(p->table, p->count, opt, &where);
   if (bad != CAROM_OK)
     return bad;
   if (shot->count > 0 && (shot->events == NULL || shot->count > shot->room))
@@ -104,12 +84,12 @@ static carom_status check(const carom_table *table, carom_layout layout, int cou
   if (opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_EULER)
     return CAROM_ERROR_TANGENT;
   for (int64_t k = 0; k < shot->count; k++) {
-    const carom_status status =
-        check_event(table, count, cue, &shot->events[k], k > 0 ? shot->events[k - 1].time : 0.0);
+    const carom_status status = check_event(p->table, p->count, cue, &shot->events[k],
+                                            k > 0 ? shot->events[k - 1].time : 0.0);
     if (status != CAROM_OK)
       return status;
   }
-  return is_played(layout, count, cue, shot) ? check_clusters(shot) : CAROM_ERROR_STATE;
+  return is_played(p, cue, shot) ? check_clusters(shot) : CAROM_ERROR_STATE;
 }
 
 /* ---- A pass ---- */
@@ -129,16 +109,16 @@ static void put(const work *w, carom_tangent_row *d, double *rows, int64_t at) {
 }
 
 /* Where all balls begin. */
-static void begin(work *w, carom_layout layout) {
+static void begin(work *w, const carom_prepared *p) {
   const bool own = w->table->ball_radius > 0.0 && w->opt->space != CAROM_SPACE_FLAT;
-  w->reference = own ? w->table->ball_radius : carom_kind_in(layout, w->count - 1)->radius;
+  w->reference = own ? w->table->ball_radius : p->kind[w->count - 1]->radius;
   w->slow_instants = 0;
   w->slow_last = -1.0;
   for (int i = 0; i < w->count; i++) {
     carom_tangent_ball *ball = &w->ball[i];
-    ball->kind = carom_kind_in(layout, i);
+    ball->kind = p->kind[i];
     ball->last_contact = -INFINITY;
-    ball->from = *carom_state_in(layout, i);
+    ball->from = *p->state[i];
     carom_label_of_layout(&ball->from, ball->kind->radius);
     carom_tangent_begin(w, i);
   }
@@ -169,12 +149,12 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
 }
 
 /* The directions of one pass. */
-static carom_status differentiate(work *w, carom_layout layout, const carom_shot *shot) {
+static carom_status differentiate(work *w, const carom_prepared *p, const carom_shot *shot) {
   carom_tangent *tangent = w->tangent;
   carom_tangent_row *d = w->before[0]; /* free before and behind an event */
   carom_reach reach;
   int64_t next = 0, end_of_cluster = 0;
-  begin(w, layout);
+  begin(w, p);
   if (tangent->reach != NULL)
     carom_reach_begin(&reach, w);
   for (int64_t k = 0; k <= shot->count; k++) {
@@ -224,14 +204,12 @@ static carom_status differentiate(work *w, carom_layout layout, const carom_shot
 
 static const carom_shot_options no_options = {0};
 
-static carom_status shot_tangent(const carom_table *table, carom_layout layout, int count,
-                                 const carom_cue *cue, const carom_shot_options *opt,
+static carom_status shot_tangent(const carom_prepared *p, const carom_cue *cue,
                                  const carom_shot *shot, const carom_tangent_seeds *seeds,
                                  carom_tangent *tangent) {
   if (tangent->final == NULL)
     return CAROM_ERROR_NULL;
-  opt = opt != NULL ? opt : &no_options;
-  carom_status status = check(table, layout, count, cue, opt, shot, seeds, tangent);
+  carom_status status = check(p, cue, shot, seeds, tangent);
   if (status != CAROM_OK && status != CAROM_ERROR_TANGENT)
     return status;
   status = status == CAROM_OK ? BUILT : status;
@@ -240,20 +218,20 @@ static carom_status shot_tangent(const carom_table *table, carom_layout layout, 
 
   /* pass by pass, as many directions at a time as a number carries */
   work w;
-  w.table = table;
+  w.table = p->table;
   w.cue = cue;
-  w.opt = opt;
+  w.opt = p->opt;
   w.seeds = seeds;
   w.tangent = tangent;
-  w.count = count;
+  w.count = p->count;
   const int m = (int)seeds->directions;
   for (int first = 0; first < m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
     w.pass = pass_of(m, first);
-    status = differentiate(&w, layout, shot);
+    status = differentiate(&w, p, shot);
   }
 
   /* derivatives that overflow, and those of an error, are NaN */
-  const int64_t finals = (int64_t)count * CAROM_STATE_NUMBERS * seeds->directions;
+  const int64_t finals = (int64_t)p->count * CAROM_STATE_NUMBERS * seeds->directions;
   for (int64_t k = 0; status == CAROM_OK && k < finals; k++)
     status = isfinite(tangent->final[k]) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
   for (int64_t k = 0; status != CAROM_OK && k < finals; k++)
@@ -267,7 +245,11 @@ carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball 
                                 carom_tangent *tangent) {
   if (table == NULL || balls == NULL || shot == NULL || seeds == NULL || tangent == NULL)
     return CAROM_ERROR_NULL;
-  return shot_tangent(table, carom_layout_of(balls), count, cue, opt, shot, seeds, tangent);
+  carom_prepared p;
+  p.table = table;
+  p.opt = opt != NULL ? opt : &no_options;
+  carom_take_balls(&p, balls, count);
+  return shot_tangent(&p, cue, shot, seeds, tangent);
 }
 
 /* ---- Many ---- */
@@ -277,10 +259,12 @@ static carom_status row(const carom_tangent_job *job, size_t k) {
   const carom_status status = played->status != NULL ? (carom_status)played->status[k] : CAROM_OK;
   if (status < 0)
     return status;
-  return shot_tangent(played->table, carom_layout_of_row(played, k), (int)played->count,
-                      played->cues != NULL ? played->cues + k * played->cue_stride : NULL,
-                      played->options, &played->shots[k], job->seeds + k * job->seeds_stride,
-                      &job->tangents[k]);
+  carom_prepared p;
+  p.table = played->table;
+  p.opt = played->options != NULL ? played->options : &no_options;
+  carom_take_row(&p, played, k);
+  return shot_tangent(&p, played->cues != NULL ? played->cues + k * played->cue_stride : NULL,
+                      &played->shots[k], job->seeds + k * job->seeds_stride, &job->tangents[k]);
 }
 
 static size_t rows(const void *context, size_t first, size_t end) {

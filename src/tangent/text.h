@@ -170,8 +170,8 @@ bool carom_cluster_solve(carom_cluster_state *) {
 #undef defaults
 #include "cushion/stronge.c"
 #include "motion/path.c"
-#include "shot/fixed.c"
 #include "shot/models.c"
+#include "shot/slate.c"
 #include "table/nose.c"
 #define contact slow_contact
 #include "shot/resolve.c"
@@ -182,7 +182,7 @@ bool carom_cluster_solve(carom_cluster_state *) {
 #undef positive
 #define check cluster_check
 #define contact_of cluster_contact_of
-#include "shot/together.c"
+#include "shot/clusters.c"
 #undef contact_of
 #undef check
 

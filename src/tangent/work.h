@@ -72,10 +72,6 @@ static inline double *carom_tangent_columns(const carom_tangent_pass *pass, doub
   return rows + row * pass->m + pass->first;
 }
 
-/* tangent.c: the edges of the rails for a ball, beyond which it has left the table: low and high
- * x, low and high y, m. */
-void carom_tangent_edges(const carom_tangent_work *w, const carom_ball_kind *kind, double edge[4]);
-
 /* follow.cpp: the gap whose zero would be an event of `type`, `a` and `b`, at its time, m, with its
  * derivatives at that time, as the balls move from their last events on. */
 double carom_tangent_gap(carom_tangent_work *w, const carom_event *event, carom_tangent_row d);

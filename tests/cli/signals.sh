@@ -29,14 +29,14 @@ def run(path, number=None, before=None, user=None):
     command.stdin.write(b"".join(rows[:6]))
     command.stdin.flush()
     # It opens the output when it has read the header.
-    descriptors, end = f"/proc/{command.pid}/fd", time.monotonic() + 60
-    while command.poll() is None and len(os.listdir(descriptors)) < 4 and time.monotonic() < end:
+    descriptors = f"/proc/{command.pid}/fd"
+    while command.poll() is None and len(os.listdir(descriptors)) < 4:
         time.sleep(0.001)
     time.sleep(0.005)
     if number is not None:
         command.send_signal(number)
     try:
-        _, messages = command.communicate(b"".join(rows[6:]) if number is None or before else None, timeout=60)
+        _, messages = command.communicate(b"".join(rows[6:]) if number is None or before else None)
     except BrokenPipeError:
         messages = b""
     new = sorted(set(os.listdir(folder)) - set(at_first) - {os.path.basename(path)})

@@ -1,4 +1,4 @@
-"""No circle of includes or imports, no arrow against the direction of CONTRIBUTING.md, and no source of the library without
+"""No circle of includes, calls or imports, no arrow against the direction of CONTRIBUTING.md, and no source of the library without
 platform/arithmetic.h, which its bits need: python3 arrows.py SOURCE"""
 
 import ast
@@ -43,6 +43,14 @@ def no_circle(what, arrows):
         faults.append(f"{what} form a circle: {' <- '.join(circle.args[1])}")
 
 
+def reach(found, arrows):
+    reached = set()
+    while found:
+        reached |= found
+        found = set().union(*(arrows.get(one, ()) for one in found)) - reached
+    return reached
+
+
 def room_of(file):
     return str(file.parent.relative_to(ROOT))
 
@@ -68,14 +76,27 @@ for file in files:
             if found.name != HEADER.get(there, found.name) and file != ROOT / TEXT:
                 faults.append(f"{file.relative_to(ROOT)} includes {found.relative_to(ROOT)}: other rooms include {HEADER[there]} of '{there}'")
 for file in files:
-    reached, found = set(), {file}
-    while found:
-        reached |= found
-        found = set().union(*(includes[path] for path in found)) - reached
-    if file.suffix in (".c", ".cpp") and file.is_relative_to(ROOT / "src") | file.is_relative_to(ROOT / "plan/src") and ROOT / "src/platform/arithmetic.h" not in reached:
+    if file.suffix in (".c", ".cpp") and file.is_relative_to(ROOT / "src") | file.is_relative_to(ROOT / "plan/src") and ROOT / "src/platform/arithmetic.h" not in reach({file}, includes):
         faults.append(f"{file.relative_to(ROOT)} does not include platform/arithmetic.h, which its bits need")
 no_circle("units", units)
 no_circle("rooms", rooms)
+
+# Calls in the library: an arrow from a source to that in which a function stands that it names, itself or in an inline function of a header.
+stands, through, bodies, calls = {}, {}, {}, {}
+words = lambda text: set(re.findall(r"\bcarom_\w+", text))
+for file in (file for file in files if file.is_relative_to(ROOT / "src") or file.is_relative_to(ROOT / "plan/src")):
+    text = re.sub(r"/\*.*?\*/|//[^\n]*", "", file.read_text(encoding="utf-8"), flags=re.S)
+    found = re.findall(r"^(static inline )?[a-z_][^\n;{}=]*?\b(carom_\w+)\([^;{}]*\) ?\{(.*?)^\}", text, re.M | re.S)
+    if file.suffix in (".c", ".cpp"):
+        stands |= {name: file for _, name, _ in found}
+        bodies[file] = words("".join(re.findall(r"\{$.*?^\}", text, re.M | re.S)))
+    else:
+        through |= {name: words(body) for inline, name, body in found if inline}
+for file, found in bodies.items():
+    reached = reach(found, through)
+    calls[str(file.relative_to(ROOT))] = {str(stands[name].relative_to(ROOT)) for name in reached if stands.get(name, file) != file}
+assert len(stands) > 200 and sum(map(len, calls.values())) > 100, f"only {len(stands)} functions, {sum(map(len, calls.values()))} calls found"
+no_circle("calls", calls)
 
 # Python: every import, at the top, in a function or for annotations alone.
 PACKAGE = ROOT / "python" / "src"

@@ -1,7 +1,7 @@
 /* Balls that fly, fall on the slate, and meet each other in space. Numbers are for pool balls: R
  * = 28.575 mm, 0.170097 kg, g = 9.81 m/s^2, mu_slide 0.2, e 0.95, e of the slate 0.5, whose
  * fixed loss is s = 0.02 m/s; they were computed by programs of their own from the closed forms
- * of src/shot/fixed.c and spheres.c, and are right to their last digit. */
+ * of src/shot/slate.c and spheres.c, and are right to their last digit. */
 #include "invariants.h"
 #include "random_shots.h"
 #include "shot_support.h"
@@ -100,7 +100,7 @@ TEST(hops_slow_as_sliding_does) {
   NEAR(8.0 - last->after[0].v[0], 0.2 * (2.0 + g * last->time), 1e-12);
 }
 
-/* Landings are bounded by the formula of src/shot/fixed.c, energy never rises, and friction does
+/* Landings are bounded by the formula of src/shot/slate.c, energy never rises, and friction does
  * not turn the slip round. */
 TEST(random_hops) {
   static const double restitutions[] = {-1.0, 0.3, 0.0, 0.7, 0.9, 0.95, 0.98};

@@ -1,6 +1,6 @@
-/* Contacts that last in a shot: see together.c. */
-#ifndef CAROM_SRC_SHOT_TOGETHER_H
-#define CAROM_SRC_SHOT_TOGETHER_H
+/* Contacts that last in a shot: see clusters.c. */
+#ifndef CAROM_SRC_SHOT_CLUSTERS_H
+#define CAROM_SRC_SHOT_CLUSTERS_H
 
 #include "cluster/cluster.h"
 #include "shot/sim.h"

@@ -1,5 +1,5 @@
 /* Contacts that last, src/cluster/, for the balls of a shot, and carom_cluster(). */
-#include "shot/together.h"
+#include "shot/clusters.h"
 #include "cluster/vectors.h"
 #include "platform/promise.h"
 #include "shot/rules.h"
@@ -109,8 +109,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
       first = c->balls;
     if (k == j)
       second = c->balls;
-    c->ball[c->balls++] =
-        member_of(carom_kind_in(sim->ball, k), &now, sim->opt, carom_flies(&now), k);
+    c->ball[c->balls++] = member_of(sim->layout->kind[k], &now, sim->opt, carom_flies(&now), k);
   }
 
   /* those that the contact can reach; with none of them it is a contact like any other */
