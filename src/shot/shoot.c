@@ -394,9 +394,9 @@ static carom_status start(carom_sim *sim) {
 }
 
 /* With arguments that have been checked: a shot from its strike, or on from shot->state. */
-static carom_status shoot(const carom_table *table, const carom_features *features,
-                          carom_layout layout, int count, const carom_cue *cue,
-                          const carom_shot_options *opt, carom_shot *shot, bool anew) {
+__attribute__((noinline)) static carom_status
+shoot(const carom_table *table, const carom_features *features, carom_layout layout, int count,
+      const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot, bool anew) {
   carom_sim sim;
   if (!anew)
     memcpy(&sim, shot->state, sizeof sim);
@@ -437,6 +437,19 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   return finish(&sim, status == CAROM_OK ? go_on(&sim) : status);
 }
 
+/* The same for a caller who does not want the facts that belong to the state. Apart, for the stack
+ * of the others. */
+__attribute__((noinline, cold)) static carom_status
+shoot_with_facts(const carom_table *table, const carom_features *features, carom_layout layout,
+                 int count, const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot,
+                 bool anew) {
+  carom_facts facts;
+  no_facts(shot->facts = &facts);
+  const carom_status status = shoot(table, features, layout, count, cue, opt, shot, anew);
+  shot->facts = NULL;
+  return status;
+}
+
 /* As a result begins: nothing happened, and there is nothing to go on with. */
 static void clear(carom_shot *shot) {
   shot->count = 0;
@@ -460,7 +473,10 @@ carom_status carom_shoot_prepared(const carom_table *table, const carom_features
                                   const carom_shot_options *opt, carom_shot *shot) {
   clear(shot);
   const carom_status bad = carom_check_strike(layout, count, cue);
-  return bad != CAROM_OK ? bad : shoot(table, features, layout, count, cue, opt, shot, true);
+  if (bad != CAROM_OK)
+    return bad;
+  return (shot->state != NULL && shot->facts == NULL ? shoot_with_facts : shoot)(
+      table, features, layout, count, cue, opt, shot, true);
 }
 
 /* A layout that is the last one is not checked again. */
@@ -513,9 +529,8 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
     return bad;
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
     return CAROM_ERROR_STATE;
-  if (opt->time_most > 0.0 && opt->time_most < shot->time)
-    return CAROM_ERROR_TIME_MOST;
-  return shoot(table, &features, layout, count, NULL, opt, shot, false);
+  return (shot->facts == NULL ? shoot_with_facts : shoot)(table, &features, layout, count, NULL,
+                                                          opt, shot, false);
 }
 
 /* ---- Many */
