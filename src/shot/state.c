@@ -150,28 +150,25 @@ static bool restore_path(carom_sim *sim, int i) {
          fabs(path->second[0]) <= 1e9 && fabs(path->e[0]) <= 2.0 && fabs(path->e[1]) <= 2.0;
 }
 
+/* Whether a number is `least` to `most`. */
+static bool in(int64_t number, int64_t least, int64_t most) {
+  return number >= least && number <= most;
+}
+
 /* Whether ball i can meet that on the table. */
 static bool good_meeting(const carom_sim *sim, int i) {
   const carom_meeting *m = &sim->meeting[i];
   const carom_table *t = sim->table;
   if (isnan(m->time) || (m->time < INFINITY && !carom_translates(sim->path[i].from.label)))
     return false;
-  switch (m->type) {
-  case 0:
-    return m->part == 0;
-  case CAROM_EVENT_RAIL:
-    return m->part >= 0 && m->part < t->rails;
-  case CAROM_EVENT_JAW:
-    return m->part >= 0 && m->part < t->jaws;
-  case CAROM_EVENT_POCKET:
-    return m->part >= 0 && m->part < t->pockets;
-  case CAROM_EVENT_RAIL_TOP:
-    return m->part >= 0 && m->part < t->rails + t->jaws;
-  case CAROM_EVENT_LEFT_TABLE:
-    return m->part == -1;
-  default:
-    return false;
-  }
+  if (m->type == 0 || m->type == CAROM_EVENT_LEFT_TABLE)
+    return m->part == (m->type == 0 ? 0 : -1);
+  const int64_t many = m->type == CAROM_EVENT_RAIL       ? t->rails
+                       : m->type == CAROM_EVENT_JAW      ? t->jaws
+                       : m->type == CAROM_EVENT_POCKET   ? t->pockets
+                       : m->type == CAROM_EVENT_RAIL_TOP ? t->rails + t->jaws
+                                                         : 0;
+  return in(m->part, 0, many - 1);
 }
 
 /* Whether the pairs of ball i with those behind it can meet when they are said to. */
@@ -183,11 +180,6 @@ static bool good_pairs(const carom_sim *sim, int i) {
     good &= out ? t == INFINITY : !isnan(t);
   }
   return good;
-}
-
-/* Whether a number is `least` to `most`. */
-static bool in(int64_t number, int64_t least, int64_t most) {
-  return number >= least && number <= most;
 }
 
 /* Whether the result so far can be that of the shot. */

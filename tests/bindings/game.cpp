@@ -46,17 +46,10 @@ int main(int, char **arguments) {
     hash = add(add(add(hash, state.r), state.v), state.w);
   std::printf("break: %zu events, %016" PRIx64 "\n", shot.events().size(), hash);
 
-  // the film of the shot in parts
   carom::film film;
-  carom::shot parts;
-  options.time_most = 0.2;
-  parts.play(table, balls, cue, options);
   int frames = 0;
   for (; frames / 60.0 < shot.time(); frames++) {
-    options.time_most = frames / 60.0 + 0.2;
-    if (frames / 60.0 > parts.time())
-      parts.resume(table, options);
-    const auto [states, turned] = film.at(parts, frames / 60.0);
+    const auto [states, turned] = film.at(shot, frames / 60.0);
     for (std::size_t k = 0; k < states.size(); k++)
       hash = add(add(hash, states[k].r), turned[k]);
   }
