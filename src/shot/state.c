@@ -66,18 +66,21 @@ void carom_state_begin(carom_sim *sim) {
   sim->of_options = of_options(sim->opt);
 }
 
-/* Of so many events as a caller has them, full or brief; 0 where there are none. */
-static uint64_t of_kept(const void *events, size_t size, int64_t count, int64_t room) {
-  const int64_t kept = count < room ? count : room;
-  if (events == NULL || kept == 0)
-    return 0;
-  return carom_fingerprint((uint64_t)kept, events, (size_t)kept * size);
+/* Of events, full or brief, with those `from` to `end`; 0 where there are none. */
+static uint64_t of_events(uint64_t before, const void *events, size_t size, size_t from,
+                          size_t end) {
+  for (size_t k = from; events != NULL && k < end; k++)
+    before = carom_fingerprint(before, (const unsigned char *)events + k * size, size);
+  return events != NULL ? before : 0;
 }
 
-/* Fills in the fingerprints of a shot's events so far. */
-static void take_events(result *so_far, const carom_shot *shot) {
-  so_far->of_events = of_kept(shot->events, sizeof *shot->events, so_far->events, shot->room);
-  so_far->of_brief = of_kept(shot->brief, sizeof *shot->brief, so_far->events, shot->room);
+/* Adds the events of a shot up to so many, as far as its caller has them. */
+static void add_events(result *so_far, const carom_shot *shot, int64_t count) {
+  const size_t from = (size_t)(so_far->events < shot->room ? so_far->events : shot->room),
+               end = (size_t)(count < shot->room ? count : shot->room);
+  so_far->of_events = of_events(so_far->of_events, shot->events, sizeof *shot->events, from, end);
+  so_far->of_brief = of_events(so_far->of_brief, shot->brief, sizeof *shot->brief, from, end);
+  so_far->events = count;
 }
 
 /* ---- Saving */
@@ -104,8 +107,11 @@ void carom_state_seal(carom_shot_state *state) {
 
 void carom_state_save(carom_sim *sim, carom_shot_state *state) {
   const carom_shot *shot = sim->shot;
-  result so_far = {.events = shot->count, .time = shot->time, .facts = *shot->facts};
-  take_events(&so_far, shot);
+  result so_far; /* that of the state until now, of which the events stay */
+  memcpy(&so_far, state->opaque + sizeof *sim / sizeof *state->opaque, sizeof so_far);
+  add_events(&so_far, shot, shot->count);
+  so_far.time = shot->time;
+  so_far.facts = *shot->facts;
   sim->can_go_on = resumable;
   sim->rules = NULL; /* these come with the next call */
   sim->table = NULL;
@@ -227,15 +233,14 @@ carom_status carom_state_check(carom_sim *sim, const carom_shot_state *state, in
     return CAROM_ERROR_STATE_TABLE;
   if (sim->count != count || sim->of_balls != of_balls(sim))
     return CAROM_ERROR_STATE_BALLS;
-  result then, now;
+  result then, now = {.events = 0};
   memcpy(&then, state->opaque + sizeof *sim / sizeof *state->opaque, sizeof then);
   if (!restore(sim) || !good_result(sim, &then))
     return CAROM_ERROR_STATE;
 
   /* the result so far, in which the events are the caller's */
   carom_shot *shot = sim->shot;
-  now.events = then.events;
-  take_events(&now, shot);
+  add_events(&now, shot, then.events);
   if ((shot->events != NULL && now.of_events != then.of_events) ||
       (shot->brief != NULL && now.of_brief != then.of_brief))
     return CAROM_ERROR_EVENTS_LOST;
