@@ -223,8 +223,8 @@ typedef enum carom_status {
                               e; or a small rail_width. */
   CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little
                               room. */
-  CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(): the shot had more events than there was
-                                      room for. */
+  CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(), carom_shot_continue(): not all events so
+                                      far are in shot.events. */
   CAROM_ERROR_TIME = -55,          /* carom_shot_at(): no number, or after the end of a shot
                                       stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,          /* the drag of a rolling ball is not in [0, 1] 1/m. */

@@ -215,10 +215,8 @@ private:
   /* Plays, and once more with room for all events where there were more: with the same bits. */
   template <class Play> carom_status with_room(Play play) {
     final_.resize(balls_.size());
-    const carom_shot begun = shot_;
     const std::unique_ptr<carom_shot_state> kept =
-        begun.count > 0 ? std::make_unique<carom_shot_state>(*state_) : nullptr;
-    const carom_facts facts = facts_;
+        shot_.count > 0 ? std::make_unique<carom_shot_state>(*state_) : nullptr;
     if (events_.empty())
       events_.resize(64);
     for (;;) {
@@ -231,8 +229,6 @@ private:
       if (shot_.count <= shot_.room)
         return checked(code);
       events_.resize(static_cast<std::size_t>(shot_.count));
-      shot_ = begun;
-      facts_ = facts;
       if (kept != nullptr)
         *state_ = *kept;
     }

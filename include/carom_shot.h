@@ -228,7 +228,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
  * for any number of threads and any cut. Cost: about 0.4 us an event with Han's cushions, the
  * default, so 3 us for a shot with two balls and 40 us for a nine-ball break, of which
  * options.fast saves 1 to 2 %. The exact limit of a cushion costs some 7 to 10 us an impact
- * besides, of which options.fast saves two fifths. Stack: 52 KiB; a batch 58, with threads 60.
+ * besides, of which options.fast saves two fifths. Stack: 53 KiB; a batch 58, with threads 60.
  * Nothing is allocated, but for the threads of a batch. */
 
 /* ---- Balls ----------------------------------------------------------------------------------- */
@@ -694,9 +694,10 @@ typedef struct carom_brief_event {
  * ball. */
 #define CAROM_STOP_AT_CONTACT UINT64_C(1)
 
-/* All that a stopped shot needs to go on; see carom_shot_continue(). Its bytes may be copied,
- * kept in a file and read by the same build of the library, which refuses them where one has
- * changed. They depend on the arguments of the calls alone, and are 0 where they hold nothing. */
+/* All that a stopped shot needs to go on, with its count, time and facts but without its events;
+ * see carom_shot_continue(). Its bytes may be copied, kept in a file and read by the same build of
+ * the library, which refuses them where one has changed. They depend on the arguments of the
+ * calls alone, and are 0 where they hold nothing. */
 typedef struct carom_shot_state {
   uint64_t opaque[4096];
 } carom_shot_state;
@@ -736,8 +737,7 @@ typedef struct carom_shot {
                   moved. */
   carom_shot_state *state; /* where the shot stopped, for carom_shot_continue(); may be
                               NULL. */
-  carom_facts *facts;      /* of the whole shot; may be NULL. carom_shot_continue() adds to the
-                              facts of the shot so far. */
+  carom_facts *facts;      /* of the whole shot, also after carom_shot_continue(); may be NULL. */
   uint64_t reserved[3];    /* not read or written yet. */
 } carom_shot;
 
@@ -798,11 +798,13 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
                                    carom_shot *shot);
 
 /* Goes on with a shot that was stopped, by its options or by a bound, as if it had not been:
- * every event and state has the bits of the unbroken shot, however often it is stopped. Table,
- * balls and `shot`, with its events so far, are those of the call that stopped, for which
- * shot->state was set; the options say when to stop again, and keep the models. shot->events and
- * ->room may have been replaced by a copy with more room. A shot that has come to rest stays as
- * it is, with CAROM_OK. With table, balls, cue, shot and moved of the sample above:
+ * every event and state has the bits of the unbroken shot, however often it is stopped. Table
+ * and balls are those of the call that stopped, for which shot->state was set; the options say
+ * when to stop again, and keep the models. `shot` may be another one with a copy of the state:
+ * count, time and facts so far come from the state, whatever `shot` says. The caller keeps the
+ * events: shot->events and ->brief are NULL, or hold all so far, with any room for more; or as
+ * many as fitted, with the same room. A shot that has come to rest stays as it is, with CAROM_OK.
+ * With table, balls, cue, shot and moved of the sample above:
  *
  *     static carom_shot_state state;
  *     static carom_shot_options options;                                 // all zero: the defaults
@@ -820,8 +822,8 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
  * damaged or of another build, the shot ended in an error other than a bound, or shot->count or
  * ->time cannot be. CAROM_ERROR_STATE_TABLE, CAROM_ERROR_STATE_BALLS, CAROM_ERROR_STATE_OPTIONS:
  * the table, the balls or their layout, or `options` other than those of when to stop, are not
- * those of the call that stopped. CAROM_ERROR_TIME_MOST: time_most is before the time at which
- * the shot stopped. */
+ * those of the call that stopped. CAROM_ERROR_EVENTS_LOST: shot->events or ->brief are not those
+ * so far. CAROM_ERROR_TIME_MOST: time_most is before the time at which the shot stopped. */
 CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls,
                                            int count, const carom_shot_options *opt,
                                            carom_shot *shot);

@@ -95,7 +95,7 @@
   X(ERROR_RACK, -53, "bad_rack",                                                                   \
     "no such rack, or its gap is not between 0 and R, or there is too little room")                \
   X(ERROR_EVENTS_LOST, -54, "events_lost",                                                         \
-    "the shot had more events than there was room for, so the state then is not known")            \
+    "the events of the shot so far are not all there, as with too little room")                    \
   X(ERROR_TIME, -55, "bad_time",                                                                   \
     "the time is not a number, or after the end of a shot that was stopped while balls moved")     \
   X(ERROR_DRAG, -56, "bad_drag", "the drag of a rolling ball must be 0 to 1 per metre")            \

@@ -384,8 +384,8 @@ static carom_status start(carom_sim *sim) {
 }
 
 /* A shot from its strike, or on from shot->state. */
-static carom_status shoot(const carom_prepared *p, const carom_cue *cue, carom_shot *shot,
-                          bool anew) {
+__attribute__((noinline)) static carom_status shoot(const carom_prepared *p, const carom_cue *cue,
+                                                    carom_shot *shot, bool anew) {
   carom_sim sim;
   if (!anew)
     memcpy(&sim, shot->state, sizeof sim);
@@ -426,6 +426,17 @@ static carom_status shoot(const carom_prepared *p, const carom_cue *cue, carom_s
   return finish(&sim, status == CAROM_OK ? go_on(&sim) : status);
 }
 
+/* The same for a caller who does not want the facts that belong to the state. Apart, for the stack
+ * of the others. */
+__attribute__((noinline, cold)) static carom_status
+shoot_with_facts(const carom_prepared *p, const carom_cue *cue, carom_shot *shot, bool anew) {
+  carom_facts facts;
+  no_facts(shot->facts = &facts);
+  const carom_status status = shoot(p, cue, shot, anew);
+  shot->facts = NULL;
+  return status;
+}
+
 /* As a result begins: nothing happened, and there is nothing to go on with. */
 static void clear(carom_shot *shot) {
   shot->count = 0;
@@ -439,7 +450,10 @@ static void clear(carom_shot *shot) {
 carom_status carom_shoot_prepared(const carom_prepared *p, const carom_cue *cue, carom_shot *shot) {
   clear(shot);
   const carom_status bad = carom_check_strike(p, cue);
-  return bad != CAROM_OK ? bad : shoot(p, cue, shot, true);
+  if (bad != CAROM_OK)
+    return bad;
+  return (shot->state != NULL && shot->facts == NULL ? shoot_with_facts : shoot)(p, cue, shot,
+                                                                                 true);
 }
 
 carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count,
@@ -472,9 +486,7 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
     return bad;
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
     return CAROM_ERROR_STATE;
-  if (opt->time_most > 0.0 && opt->time_most < shot->time)
-    return CAROM_ERROR_TIME_MOST;
-  return shoot(&p, NULL, shot, false);
+  return (shot->facts == NULL ? shoot_with_facts : shoot)(&p, NULL, shot, false);
 }
 
 /* ---- Many */

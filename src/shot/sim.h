@@ -91,10 +91,12 @@ void carom_detect_columns(carom_sim *sim);
 
 /* state.c: takes fingerprints of table, balls and options, where a state will be kept. */
 void carom_state_begin(carom_sim *sim);
-/* Leaves the shot, of which the state is the copy, without the caller's pointers. */
+/* Leaves the shot, of which the state is the copy, without the caller's pointers. The facts so far
+ * are those of sim->shot. */
 void carom_state_save(carom_sim *sim, carom_shot_state *state);
 /* Whether sim, the copy of a state with the caller's pointers, can go on: CAROM_OK or why not.
- * Numbers that follow from others are computed again. */
+ * Numbers that follow from others are computed again; count, time and facts so far go into
+ * sim->shot. */
 carom_status carom_state_check(carom_sim *sim, const carom_shot_state *state, int count);
 /* Gives a state the seal that its bits must have. */
 void carom_state_seal(carom_shot_state *state);

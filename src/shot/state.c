@@ -1,5 +1,5 @@
 /* A stopped shot in the keeping of the caller, so that it can go on: carom_shot_state has the
- * carom_sim of the shot.
+ * carom_sim of the shot, and behind it what the caller has of the result so far.
  *
  * The caller may have kept it in a file, so nothing in it is believed. A state is taken only
  * with its seal, which depends on each of its bits; then every index and number is checked
@@ -15,10 +15,19 @@
 #include <math.h>
 #include <string.h>
 
+/* The result so far. The events are the caller's; of those are fingerprints. */
+typedef struct result {
+  int64_t events;
+  double time;
+  uint64_t of_events, of_brief;
+  carom_facts facts;
+} result;
+
+enum { SIZE = sizeof(carom_sim) + sizeof(result) };
+
 /* The first number of a state: another version, or another layout, is refused. */
-static const uint64_t resumable = (uint64_t)CAROM_VERSION_NUMBER << 32 | sizeof(carom_sim);
-_Static_assert(sizeof(carom_sim) <= sizeof(carom_shot_state),
-               "a shot on its way fits in the bytes of callers");
+static const uint64_t resumable = (uint64_t)CAROM_VERSION_NUMBER << 32 | SIZE;
+_Static_assert(SIZE <= sizeof(carom_shot_state), "a shot on its way fits in the bytes of callers");
 
 /* ---- Fingerprints */
 
@@ -57,30 +66,52 @@ void carom_state_begin(carom_sim *sim) {
   sim->of_options = of_options(sim->opt);
 }
 
+/* Of events, full or brief, with those `from` to `end`; 0 where there are none. */
+static uint64_t of_events(uint64_t before, const void *events, size_t size, size_t from,
+                          size_t end) {
+  for (size_t k = from; events != NULL && k < end; k++)
+    before = carom_fingerprint(before, (const unsigned char *)events + k * size, size);
+  return events != NULL ? before : 0;
+}
+
+/* Adds the events of a shot up to so many, as far as its caller has them. */
+static void add_events(result *so_far, const carom_shot *shot, int64_t count) {
+  const size_t from = (size_t)(so_far->events < shot->room ? so_far->events : shot->room),
+               end = (size_t)(count < shot->room ? count : shot->room);
+  so_far->of_events = of_events(so_far->of_events, shot->events, sizeof *shot->events, from, end);
+  so_far->of_brief = of_events(so_far->of_brief, shot->brief, sizeof *shot->brief, from, end);
+  so_far->events = count;
+}
+
 /* ---- Saving */
 
 enum { SEAL = 1, SEALED = 2 }; /* words of a state: its seal, and the first after it */
 _Static_assert(offsetof(carom_sim, seal) == SEAL * sizeof(uint64_t), "the seal is the second word");
 
 static uint64_t seal_of(const carom_shot_state *state) {
-  return carom_fingerprint(resumable, state->opaque + SEALED,
-                           sizeof(carom_sim) - SEALED * sizeof(uint64_t));
+  return carom_fingerprint(resumable, state->opaque + SEALED, SIZE - SEALED * sizeof(uint64_t));
 }
 
 /* Whether nothing stands in the bytes behind the shot. */
 static bool ends_empty(const carom_shot_state *state) {
   uint64_t any = 0;
-  for (size_t k = sizeof(carom_sim) / sizeof any; k < sizeof *state / sizeof any; k++)
+  for (size_t k = SIZE / sizeof any; k < sizeof *state / sizeof any; k++)
     any |= state->opaque[k];
   return any == 0;
 }
-_Static_assert(sizeof(carom_sim) % sizeof(uint64_t) == 0, "the shot ends with a word");
+_Static_assert(sizeof(carom_sim) % 8 == 0 && SIZE % 8 == 0, "its parts end with a word");
 
 void carom_state_seal(carom_shot_state *state) {
   state->opaque[SEAL] = seal_of(state);
 }
 
 void carom_state_save(carom_sim *sim, carom_shot_state *state) {
+  const carom_shot *shot = sim->shot;
+  result so_far; /* that of the state until now, of which the events stay */
+  memcpy(&so_far, state->opaque + sizeof *sim / sizeof *state->opaque, sizeof so_far);
+  add_events(&so_far, shot, shot->count);
+  so_far.time = shot->time;
+  so_far.facts = *shot->facts;
   sim->can_go_on = resumable;
   sim->rules = NULL; /* these come with the next call */
   sim->table = NULL;
@@ -90,6 +121,7 @@ void carom_state_save(carom_sim *sim, carom_shot_state *state) {
   sim->cue = NULL;
   sim->shot = NULL;
   memcpy(state, sim, sizeof *sim);
+  memcpy(state->opaque + sizeof *sim / sizeof *state->opaque, &so_far, sizeof so_far);
   carom_state_seal(state);
 }
 
@@ -124,6 +156,11 @@ static bool restore_path(carom_sim *sim, int i) {
          fabs(path->second[0]) <= 1e9 && fabs(path->e[0]) <= 2.0 && fabs(path->e[1]) <= 2.0;
 }
 
+/* Whether a number is `least` to `most`. */
+static bool in(int64_t number, int64_t least, int64_t most) {
+  return number >= least && number <= most;
+}
+
 /* Whether ball i can meet that on the table. */
 static bool good_meeting(const carom_sim *sim, int i) {
   const carom_meeting *m = &sim->meeting[i];
@@ -146,13 +183,29 @@ static bool good_pairs(const carom_sim *sim, int i) {
   return good;
 }
 
+/* Whether the result so far can be that of the shot. */
+static bool good_result(const carom_sim *sim, const result *so_far) {
+  const carom_facts *f = &so_far->facts;
+  const int64_t most = so_far->events;
+  bool good = so_far->time >= sim->now && so_far->time < INFINITY && in(most, 0, INT32_MAX) &&
+              in(f->cushions_after, 0, most) &&
+              (f->down | f->off | f->moved) >> (sim->count - 1) <= 1;
+  for (int n = 0; n < 2; n++)
+    good &= in(f->first[n], -1, sim->count - 1) && in(f->cushions_before[n], 0, most) &&
+            f->first_time[n] >= 0.0;
+  for (int i = 0; i < CAROM_BALLS_MOST; i++)
+    good &= in(f->pocket[i], -1, sim->table->pockets - 1) && f->pocket_time[i] >= 0.0 &&
+            in(f->cushions[i], 0, most);
+  return good;
+}
+
 /* Whether all indices and numbers are those of a shot of sim->layout on sim->table; those that
  * follow from others are computed again. */
 static bool restore(carom_sim *sim) {
   static const int64_t many = INT64_C(1) << 62;
-  if (!(sim->now >= 0.0 && sim->now < INFINITY) || sim->round < 0 || sim->round > many ||
-      sim->slow_instants < 0 || sim->slow_instants > many || isnan(sim->slow_last) ||
-      isnan(sim->one_by_one) || !is_bool(&sim->met) || sim->struck < 0 || sim->struck >= sim->count)
+  if (!(sim->now >= 0.0 && sim->now < INFINITY) || !in(sim->round, 0, many) ||
+      !in(sim->slow_instants, 0, many) || isnan(sim->slow_last) || isnan(sim->one_by_one) ||
+      !is_bool(&sim->met) || !in(sim->struck, 0, sim->count - 1))
     return false;
   carom_take_rates(sim);
   for (int i = 0; i < sim->count; i++)
@@ -175,5 +228,21 @@ carom_status carom_state_check(carom_sim *sim, const carom_shot_state *state, in
     return CAROM_ERROR_STATE_TABLE;
   if (sim->count != count || sim->of_balls != of_balls(sim))
     return CAROM_ERROR_STATE_BALLS;
-  return restore(sim) ? CAROM_OK : CAROM_ERROR_STATE;
+  result then, now = {.events = 0};
+  memcpy(&then, state->opaque + sizeof *sim / sizeof *state->opaque, sizeof then);
+  if (!restore(sim) || !good_result(sim, &then))
+    return CAROM_ERROR_STATE;
+
+  /* the result so far, in which the events are the caller's */
+  carom_shot *shot = sim->shot;
+  add_events(&now, shot, then.events);
+  if ((shot->events != NULL && now.of_events != then.of_events) ||
+      (shot->brief != NULL && now.of_brief != then.of_brief))
+    return CAROM_ERROR_EVENTS_LOST;
+  if (sim->opt->time_most > 0.0 && sim->opt->time_most < then.time)
+    return CAROM_ERROR_TIME_MOST;
+  shot->count = then.events;
+  shot->time = then.time;
+  *shot->facts = then.facts;
+  return CAROM_OK;
 }

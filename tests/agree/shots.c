@@ -259,22 +259,69 @@ typedef struct broken {
   carom_event events[ROOM];
   carom_ball_state final[CAROM_BALLS_MOST];
   carom_shot_state state;
+  carom_facts facts;
   carom_shot shot;
   carom_status status;
 } broken;
 
 static broken *make_broken(void) {
   broken *b = calloc(1, sizeof *b);
-  b->shot = (carom_shot){.events = b->events, .room = ROOM, .final = b->final, .state = &b->state};
+  b->shot = (carom_shot){.events = b->events, .room = ROOM, .final = b->final};
+  b->shot.state = &b->state;
+  b->shot.facts = &b->facts;
   return b;
 }
 
-static void same_shot(const broken *whole, const broken *parts, int count) {
+/* All but the events. */
+static void same_end(const broken *whole, const broken *parts, int count) {
   ck_assert_int_eq(whole->status, parts->status);
   ck_assert_int_eq(whole->shot.count, parts->shot.count);
   ck_assert_int_eq(memcmp(&whole->shot.time, &parts->shot.time, sizeof whole->shot.time), 0);
-  ck_assert_int_eq(memcmp(whole->events, parts->events, sizeof whole->events), 0);
   ck_assert_int_eq(memcmp(whole->final, parts->final, (size_t)count * sizeof *whole->final), 0);
+  ck_assert_int_eq(memcmp(&whole->facts, &parts->facts, sizeof whole->facts), 0);
+}
+
+static void same_shot(const broken *whole, const broken *parts, int count) {
+  same_end(whole, parts, count);
+  ck_assert_int_eq(memcmp(whole->events, parts->events, sizeof whole->events), 0);
+}
+
+/* The frame of a film at a time is that of the whole shot. */
+static void same_frame(const random_shot *s, const broken *whole, const broken *parts, double time,
+                       carom_frames *film) {
+  carom_ball_state states[2][CAROM_BALLS_MOST];
+  double turned[2][CAROM_BALLS_MOST][4];
+  ck_assert_int_eq(
+      carom_shot_frames(s->ball, s->count, &parts->shot, &time, 1, film, states[0], turned[0]),
+      CAROM_OK);
+  ck_assert_int_eq(carom_shot_at(s->ball, s->count, &whole->shot, time, states[1]), CAROM_OK);
+  ck_assert_int_eq(carom_shot_orientation(s->ball, s->count, &whole->shot, time, turned[1]),
+                   CAROM_OK);
+  ck_assert_mem_eq(states[0], states[1], (size_t)s->count * sizeof *states[0]);
+  ck_assert_mem_eq(turned[0], turned[1], (size_t)s->count * sizeof *turned[0]);
+}
+
+/* A state that is loaded into a shot of its own, without the events so far, has all but a film;
+ * with other events than those so far it is refused, and nothing is written. */
+static void load(const random_shot *s, const broken *whole, const broken *parts,
+                 const carom_shot_options *options) {
+  broken *b = make_broken();
+  memcpy(&b->state, &parts->state, sizeof b->state);
+  for (int64_t had = 0; had < parts->shot.count; had += parts->shot.count / 3 + 1) {
+    memcpy(b->events, parts->events, (size_t)had * sizeof *b->events);
+    ck_assert_int_eq(carom_shot_continue(&s->table, s->ball, s->count, options, &b->shot),
+                     CAROM_ERROR_EVENTS_LOST);
+    ck_assert(b->shot.count == 0 && b->shot.time == 0.0 && b->final[0].r[2] == 0.0);
+    ck_assert_mem_eq(&b->state, &parts->state, sizeof b->state);
+  }
+  b->shot.events = NULL;
+  b->shot.room = 0;
+  b->status = carom_shot_continue(&s->table, s->ball, s->count, options, &b->shot);
+  same_end(whole, b, s->count);
+  carom_ball_state then[CAROM_BALLS_MOST];
+  ck_assert_int_eq(carom_shot_at(s->ball, s->count, &b->shot, 0.5 * b->shot.time, then),
+                   whole->shot.count > 0 ? CAROM_ERROR_EVENTS_LOST : CAROM_OK);
+  free(b);
 }
 
 /* Where the shot stops next: by frames, after each event of each type or some, at any time, at a
@@ -295,6 +342,10 @@ static carom_shot_options next_stop(const carom_shot_options *options, int way,
     break;
   case 3:
     o.events_most = (int)shot->count + 1 + (int)random_between(r, 0.0, 9.0);
+    break;
+  case 4:
+    o.first_of = 1;
+    o.time_most = shot->time + 1.0;
     break;
   default:
     o.time_most = shot->time + random_between(r, 0.0, 1.0);
@@ -321,10 +372,11 @@ static void forge(carom_shot_state *state) {
   carom_state_seal(state);
 }
 
-/* However often a shot is stopped, it has the bits of the unbroken one; and where it stops, it
- * has the states of that time. */
+/* However often a shot is stopped, and in whichever shot its state goes on, it has the bits, facts
+ * and film of the unbroken one; and where it stops, it has the states of that time. */
 TEST(stopped_and_continued) {
   static random_shot s;
+  static carom_frames film;
   random_source r = {test_seed()};
   long stops = 0;
   for (int n = 0; n < 40; n++) {
@@ -342,7 +394,7 @@ TEST(stopped_and_continued) {
       free(whole);
       continue;
     }
-    for (int way = 0; way < 5; way++) {
+    for (int way = 0; way < 6; way++) {
       broken *parts = make_broken();
       carom_shot_options o = next_stop(&options, way, &parts->shot, &r);
       parts->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &o, &parts->shot);
@@ -370,14 +422,29 @@ TEST(stopped_and_continued) {
                k++)
             contact |= last[-k].a == s.cue.ball || last[-k].b == s.cue.ball;
           ck_assert((o.stop_at & CAROM_STOP_AT(last->type)) ||
-                    ((o.stop_at & CAROM_STOP_AT_CONTACT) && contact));
+                    ((o.stop_at & CAROM_STOP_AT_CONTACT || o.first_of != 0) && contact));
           for (int k = 0; k < s.count; k++)
             if (k == last->a)
               ck_assert_int_eq(memcmp(&parts->final[k], &last->after[0], sizeof *parts->final), 0);
         }
+        if (parts->shot.time > 0.0) /* of simultaneous events some may be due */
+          same_frame(&s, whole, parts, random_between(&r, 0.0, parts->shot.time), &film);
         o = next_stop(&options, way, &parts->shot, &r);
         if (stops % 3 == 0)
           forge(&parts->state);
+        if (stops % 8 == 0)
+          load(&s, whole, parts, &options);
+        if (stops % 4 == 1) { /* as another process, with what was kept */
+          broken *other = make_broken();
+          memcpy(other->events, parts->events, (size_t)parts->shot.count * sizeof *parts->events);
+          memcpy(&other->state, &parts->state, sizeof other->state);
+          free(parts);
+          parts = other;
+        } else if (stops % 4 == 2) { /* what the shot says of itself does not count */
+          parts->shot.count = stops % 7;
+          parts->shot.time = 1e3;
+          memset(&parts->facts, 0x55, sizeof parts->facts);
+        }
         parts->status = carom_shot_continue(&s.table, s.ball, s.count, &o, &parts->shot);
         stops++;
       }
@@ -605,7 +672,7 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
   return f;
 }
 
-/* Facts are those of the events, whichever ball is struck, in one go or in parts; those of a
+/* Facts are those of the events, whichever ball is struck, with a state or without; those of a
  * shot that is refused say that nothing happened. */
 TEST(facts_of_shots) {
   static carom_event events[10 * ROOM];
@@ -614,30 +681,20 @@ TEST(facts_of_shots) {
   int down = 0, off = 0, second = 0;
   for (int k = 0; k < 60; k++) {
     carom_cue cue = cues[k == 4 ? 5 : k];
-    carom_facts facts, parts;
+    carom_facts facts;
     memset(&facts, 0x55, sizeof facts);
     cue.ball = k % 3 == 2 ? 7 : 0;
     cue.phi = 6.0 * k;
     cue.theta = k % 4 == 3 ? 35.0 : 0.0;
     carom_shot shot = {.events = events, .room = 10 * ROOM, .facts = &facts};
-    carom_shot_options options = {0};
-    const carom_status whole = carom_shoot(&table, balls + 16 * k, 16, &cue, &options, &shot);
+    shot.state = k % 2 == 0 ? &state : NULL;
+    const carom_status whole = carom_shoot(&table, balls + 16 * k, 16, &cue, NULL, &shot);
     ck_assert_int_ge(whole, CAROM_OK);
     const carom_facts found = facts_of(events, shot.count, (int)cue.ball);
     ck_assert_int_eq(memcmp(&found, &facts, sizeof facts), 0);
     down += facts.down != 0;
     off += facts.off != 0;
     second += facts.first[1] >= 0;
-
-    /* in parts */
-    carom_shot cut = {.facts = &parts, .state = &state};
-    options.time_most = 0.4;
-    carom_status status = carom_shoot(&table, balls + 16 * k, 16, &cue, &options, &cut);
-    while (status == CAROM_STOPPED_AT_TIME) {
-      options.time_most += 0.9;
-      status = carom_shot_continue(&table, balls + 16 * k, 16, &options, &cut);
-    }
-    ck_assert_int_eq(memcmp(&parts, &facts, sizeof facts), 0);
   }
   printf("%d shots pot, %d lose a ball over the cushions, in %d the cue ball meets a second ball\n",
          down, off, second);

@@ -12,17 +12,17 @@ sys.path.insert(0, str(SOURCE / "bindings"))
 from api import describe  # noqa: E402
 
 LAYERS = {
-    "C++": ("include/carom.hpp", r"\b(carom_\w+)\("),
-    "C#": ("bindings/csharp/Runtime/Billiards.cs", r"\bNative\.(carom_\w+)\("),
-    "Rust": ("bindings/rust/carom/src/lib.rs", r"\bsys::(carom_\w+)\("),
+    "C++": ("include/carom*.hpp", r"\b(carom_\w+)\("),
+    "C#": ("bindings/csharp/Runtime/*.cs", r"\bNative\.(carom_\w+)\("),
+    "Rust": ("bindings/rust/carom/src/*.rs", r"\bsys::(carom_\w+)\("),
 }
 functions = sorted(one["name"] for one in describe(SOURCE / "include")["functions"])
 called = {}
-for language, (path, pattern) in LAYERS.items():
-    text = re.sub(r"/\*.*?\*/|//[^\n]*", "", (SOURCE / path).read_text(encoding="utf-8"), flags=re.S)
-    called[language] = set(re.findall(pattern, text)) & set(functions)
+for language, (paths, pattern) in LAYERS.items():
+    text = "\n".join(path.read_text(encoding="utf-8") for path in sorted(SOURCE.glob(paths)))
+    called[language] = set(re.findall(pattern, re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.S))) & set(functions)
     if not called[language]:
-        sys.exit(f"{path}: no call of the library was found")
+        sys.exit(f"{paths}: no call of the library was found")
 lines = "".join(f"{name}: {', '.join(one for one in LAYERS if name in called[one]) or '-'}\n" for name in functions)
 
 kept = SOURCE / "bindings/covered.txt"

@@ -133,9 +133,12 @@ for (const event of shot.events) hash = add(hash, [event.time]);
 for (const { r, v, w } of shot.final) hash = add(hash, [...r, ...v, ...w]);
 console.log(`break: ${shot.events.length} events, ${hex(hash)}`);
 
+// The film of the shot in parts.
+let parts = carom.simulate(table, shot.balls, { speed: 8 }, { timeMost: 0.2 });
 let frames = 0;
 for (; frames / 60 < shot.time; frames++) {
-  const { states, turned } = shot.frame(frames / 60);
+  if (frames / 60 > parts.time) parts = carom.continue(parts, { timeMost: frames / 60 + 0.2 });
+  const { states, turned } = parts.frame(frames / 60);
   for (let k = 0; k < shot.balls.length; k++) hash = add(add(hash, states.subarray(10 * k, 10 * k + 3)), turned.subarray(4 * k, 4 * k + 4));
 }
 console.log(`film: ${frames} frames, ${hex(hash)}`);

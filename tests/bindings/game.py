@@ -30,8 +30,12 @@ for state in shot.final:
     hash_ = add(add(add(hash_, state["r"]), state["v"]), state["w"])
 print(f"break: {len(shot.events)} events, {hash_:016x}")
 
+# The film of the shot in parts.
 times = [k / 60.0 for k in range(int(shot.time * 60.0) + 1)]
-for states, turned in zip(shot.states(times), shot.orientations(times)):
+parts = carom.simulate(table, shot.balls, carom.cue(speed=8.0), t_final=0.2)
+for t_final in (0.4, 1.0, None):
+    parts = carom.resume(parts, t_final=t_final)
+for states, turned in zip(parts.states(times), parts.orientations(times)):
     for state, turn in zip(states, turned):
         hash_ = add(add(hash_, state["r"]), turn)
 print(f"film: {len(times)} frames, {hash_:016x}")

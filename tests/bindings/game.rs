@@ -42,15 +42,28 @@ fn main() -> Result<(), Error> {
     }
     println!("break: {} events, {hash:016x}", shot.events().len());
 
+    // The film of the shot in parts.
     let mut film = Film::default();
+    let until = |time_most| carom::Options {
+        time_most,
+        ..Default::default()
+    };
+    let mut parts = carom::shoot(&table, &balls, &cue, &until(0.2))?;
     let mut frames = 0;
     while f64::from(frames) / 60.0 < shot.time() {
-        let (states, turned) = film.at(&shot, f64::from(frames) / 60.0)?;
+        let time = f64::from(frames) / 60.0;
+        if time > parts.time() {
+            parts.resume(&table, &until(time + 0.2))?;
+        }
+        let (states, turned) = film.at(&parts, time)?;
         for (state, turn) in states.iter().zip(turned) {
             hash = add(add(hash, &state.r), turn);
         }
         frames += 1;
     }
     println!("film: {frames} frames, {hash:016x}");
+    parts.resume(&table, &until(0.0))?;
+    let (all, facts) = (parts.facts(), shot.facts());
+    assert!(all.down == facts.down && all.first == facts.first && all.moved == facts.moved);
     Ok(())
 }

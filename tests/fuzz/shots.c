@@ -472,7 +472,7 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
 static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
   static carom_shot_state damaged;
   static carom_event events[EVENTS + 1];
-  enum { SEALED = 2, WORDS = 2800 }; /* of those that are sealed, without the last */
+  enum { SEALED = 2, WORDS = 2960 }; /* of those that are sealed, without the last */
   carom_shot again = *shot;
   memcpy(&damaged, shot->state, sizeof damaged);
   memset(events, GUARD, sizeof events);

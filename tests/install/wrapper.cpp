@@ -64,6 +64,8 @@ int main() {
   CHECK(std::memcmp(parts.events().data(), events, parts.events().size_bytes()) == 0);
   CHECK(std::memcmp(parts.final_states().data(), final, sizeof final) == 0);
   CHECK(std::memcmp(&parts.facts(), &whole.facts(), sizeof whole.facts()) == 0);
+  const auto frame = film.at(parts, 0.5).states;
+  CHECK(std::memcmp(frame.data(), whole.states(0.5).data(), frame.size_bytes()) == 0);
 
   // a shot that was moved is the same; one that was moved from was not played
   carom::shot moved = std::move(parts);

@@ -56,7 +56,7 @@ namespace Carom {
         Events.CopyTo(events, 0);
         var stopped = state == null ? null : (ShotState[])state.Clone();
         var facts = Facts;
-        var data = new Shot { room = room, count = Events.Length, time = Time, facts = &facts };
+        var data = new Shot { room = room, facts = &facts };
         Status status;
         fixed (ShotBall* of = balls)
         fixed (BallState* final = Final)

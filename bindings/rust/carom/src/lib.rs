@@ -307,15 +307,13 @@ impl Shot {
         mut room: usize,
         play: impl Fn(*const ShotBall, i32, *mut sys::carom_shot) -> sys::carom_status,
     ) -> Result<sys::carom_status, sys::carom_status> {
-        let (happened, facts, state) = (self.events.len(), self.facts, self.state.clone());
+        let (happened, state) = (self.events.len(), self.state.clone());
         loop {
             self.events.resize(room, Event::default());
             let mut shot = sys::carom_shot {
                 facts: &mut self.facts,
                 events: self.events.as_mut_ptr(),
                 room: room as i64,
-                count: happened as i64,
-                time: self.time,
                 r#final: self.last.as_mut_ptr(),
                 state: self
                     .state
@@ -335,7 +333,6 @@ impl Shot {
             }
             room = shot.count as usize;
             self.events.truncate(happened);
-            self.facts = facts;
             self.state = state.clone();
         }
     }
