@@ -34,7 +34,7 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
   b.inverse_mass = 1.0 / kind->mass;
   b.mu_cloth = kind->mu_slide;
   b.restitution = kind->restitution;
-  b.modulus = kind->modulus > 0.0 ? kind->modulus : usual_modulus;
+  b.modulus = carom_or_usual(kind->modulus, usual_modulus);
   b.friction = (int8_t)opt->friction;
 
   /* a mirror has no friction with others: all numbers of the law 0 */

@@ -1068,24 +1068,6 @@ TEST(clusters) {
     follow_clusters(&random, kind);
 }
 
-/* By law_b = 0 of all balls, through a cluster of three. */
-TEST(law_that_begins_at_zero) {
-  const direction by = {OF_KIND, -1, 13, 1};
-  layout l = by_models(of_two(0.6 + 0.3 * R, 1.2, 2.5, 90.0, 0.2, 0.25),
-                       (carom_shot_options){.time_most = 0.6});
-  l.count = 3;
-  l.ball[0] = ball_at(0.6, 0.6);
-  l.ball[2] = ball_at(0.6 + 1.9 * R, 1.2 + 1.2 * R);
-  for (int i = 0; i < l.count; i++) {
-    l.ball[i].kind.law_a = 0.05;
-    l.ball[i].kind.law_c = 1.0;
-  }
-  differentiate(&l, &by, 1);
-  ck_assert_double_lt(off_slope(&l, &by, 0, 1, 0.0, 1e-7), 1e-4);
-  ck_assert_int_lt(first_cluster(), shot.count);
-  ck_assert_double_gt(fabs(ends[0]), 0.01);
-}
-
 /* By the radius of all balls, through a cluster of three that spin, beside differences. */
 TEST(radius_through_a_cluster) {
   const direction by = {OF_KIND, -1, 1, 0.03};
@@ -1109,27 +1091,4 @@ TEST(radius_through_a_cluster) {
   }
   ck_assert_double_eq_tol(times[0], (when[1] - when[0]) / 2e-6, 1e-4 * fabs(times[0]));
   ck_assert_double_eq(times[0], times[1]);
-}
-
-/* By each number of a smooth cushion and of the roll that it takes, where it is 0. */
-TEST(cushions_that_begin_at_zero) {
-#define NUMBER(member) (int)(offsetof(carom_ball_kind, member) / sizeof(double))
-  static const int numbers[] = {
-      NUMBER(roll_loss), NUMBER(roll_loss_log), NUMBER(restitution_log), NUMBER(restitution_log2),
-      NUMBER(mu_log),    NUMBER(smooth_k),      NUMBER(smooth_g),        NUMBER(smooth_g_log),
-      NUMBER(smooth_e),  NUMBER(smooth_a)};
-#undef NUMBER
-  for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
-    const direction by = {OF_KIND, -1, numbers[n], 1};
-    layout l =
-        by_models(of_two(0.0, 0.0, 2.0, 25.0, 0.1, 0.25), (carom_shot_options){.time_most = 1.0});
-    l.count = 1;
-    l.ball[0] = ball_at(0.6, 0.6);
-    l.ball[0].kind.roll_loss = n == 0 ? 0.0 : 0.09;
-    l.ball[0].kind.smooth_q = 0.35;
-    l.ball[0].kind.smooth_x = l.ball[0].kind.smooth_t = 1.2;
-    differentiate(&l, &by, 1);
-    const double off = off_slope(&l, &by, 0, 1, 0.0, 1e-7), most = largest(ends, NUMBERS, 0, 1);
-    ck_assert_msg(off < 1e-4 && most > 1e-3, "number %d: %g off, %g", numbers[n], off, most);
-  }
 }
