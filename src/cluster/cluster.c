@@ -28,6 +28,7 @@
  */
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
+#include "cluster/tip.h"
 #include "cluster/vectors.h"
 #include "friction/laws.h"
 #include "platform/promise.h"
@@ -328,6 +329,16 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
 
 /* ---- A step */
 
+/* Lists a ball, once, as the step begins. */
+static inline void list_pushed(pushes *now, ball *p) {
+  if (p->acting != 0)
+    return;
+  now->pushed[now->balls++] = p;
+  p->base[0] = p->v[0] - p->W[1];
+  p->base[1] = p->v[1] + p->W[0];
+  p->load = p->g[0] = p->g[1] = 0.0;
+}
+
 /* Slips, limits and speeds as the step begins, and the normal impulses. */
 static inline void begin_step(bool flat, state *c, pushes *now) {
   for (int k = 0; k < c->balls; k++)
@@ -352,15 +363,13 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
     /* its two balls, each listed once, as the step begins */
     for (int side = 0; side < 2; side++) {
       ball *p = side == 0 ? x->p : x->q;
-      if (p->acting == 0) {
-        now->pushed[now->balls++] = p;
-        p->base[0] = p->v[0] - p->W[1];
-        p->base[1] = p->v[1] + p->W[0];
-        p->load = p->g[0] = p->g[1] = 0.0;
-      }
+      list_pushed(now, p);
       p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
     }
   }
+  for (int k = 0; c->on_slate && k < c->balls; k++)
+    if (c->slate[k].J > 0.0)
+      list_pushed(now, &c->ball[k]);
   CAROM_PROMISE(now->contacts <= now->pressed && now->balls <= c->balls);
 
   /* all normal impulses, when all of that is known */
@@ -369,10 +378,16 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
     cluster_add(flat, x->p->v, -x->J * x->p->inverse_mass, x->n);
     cluster_add(flat, x->q->v, x->J * x->q->inverse_mass, x->n);
   }
+  if (c->struck)
+    tip_push(flat, c);
+  for (int k = 0; c->on_slate && k < c->balls; k++) {
+    c->ball[k].v[2] += c->slate[k].J * c->ball[k].inverse_mass;
+    c->ball[k].load = c->slate[k].J;
+  }
 }
 
 /* The friction of a step, of all contacts and of the cloth. */
-static inline void rub_all(bool flat, const pushes *now) {
+static inline void rub_all(bool flat, bool on_slate, const pushes *now) {
   double change[CAROM_CLUSTER_CONTACTS][2];
   /* first that of the step before */
   for (int a = 0; a < now->contacts; a++) {
@@ -382,7 +397,7 @@ static inline void rub_all(bool flat, const pushes *now) {
     rub(flat, x, x->f);
   }
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
-    for (int k = 0; flat && k < now->balls; k++)
+    for (int k = 0; (flat || on_slate) && k < now->balls; k++)
       rub_on_cloth(now->pushed[k]);
     if (iteration == ITERATIONS)
       return;
@@ -414,6 +429,10 @@ static inline void end_step(bool flat, state *c, double h, const pushes *now) {
       x->d_max = 0.0;
     }
   }
+  if (c->struck)
+    tip_parts(c, h);
+  if (c->on_slate)
+    slate_parts(c, h);
 }
 
 /* ---- All of it */
@@ -487,6 +506,8 @@ static inline bool solve(bool flat, state *c) {
   const double before = energy_of(c);
   const contact *lead = c->contact;
   double parts, h = first_step(flat, c, &parts), tau = 0.0;
+  if (c->struck)
+    h = tip_step(&c->tip);
   c->taken = 0;
   for (;; c->taken++) {
     if (c->taken == CAROM_CLUSTER_STEPS_MOST)
@@ -506,7 +527,9 @@ static inline bool solve(bool flat, state *c) {
 
     /* where no contact acts, one may touch again, from where the balls are; else all is over */
     tau += 0.5 * h;
-    if (!find_acting(flat, h, tau, &now, &lead)) {
+    const bool balls = find_acting(flat, h, tau, &now, &lead),
+               cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
+    if (!balls && !cue && !slate) {
       if (!touch_again(flat, c))
         break;
       continue;
@@ -514,13 +537,16 @@ static inline bool solve(bool flat, state *c) {
 
     /* impulses, friction and the other half */
     begin_step(flat, c, &now);
-    rub_all(flat, &now);
+    rub_all(flat, c->on_slate, &now);
     end_step(flat, c, h, &now);
     tau += 0.5 * h;
-    h = carom_cluster_duration(lead->pace, lead->size) / parts;
+    h = balls ? carom_cluster_duration(lead->pace, lead->size) / parts : (double)INFINITY;
+    if (c->struck)
+      h = carom_lesser(h, tip_step(&c->tip));
   }
   c->duration = tau;
-  take_back(c, before);
+  if (!c->struck)
+    take_back(c, before);
   return true;
 }
 

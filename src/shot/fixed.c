@@ -55,10 +55,11 @@
 #include "cushion/contact.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
-#include "shot/sim.h"
+#include "shot/together.h"
 
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 static const double hop_loss = 0.02, least_hop = 1e-9; /* m/s: s, and the least speed of a hop */
 
@@ -164,6 +165,25 @@ static double press_parts(const press *p) {
   /* loading again takes only the energy above that given back so far */
   const bool again = p->v > 0.0 && energy > e2 * work;
   return again ? p->e * sqrt(2.0 * (work + energy - e2 * work)) : sqrt(2.0 * energy);
+}
+
+double carom_tip_time(const carom_cue *cue) {
+  return cue->tip_time > 0.0 ? cue->tip_time : CAROM_TIP_TIME;
+}
+
+carom_cluster_slate carom_slate_under(const carom_ball_kind *kind) {
+  const double size = contact_at_1 / CAROM_HERTZ_DURATION;
+  carom_cluster_slate slate;
+  memset(&slate, 0, sizeof slate);
+  slate.k = 1.25 / (size * size * sqrt(size));
+  slate.e = carom_greater(carom_slate_restitution(kind->restitution_table), least_e);
+  return slate;
+}
+
+void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *s) {
+  const double fall = 2.5 * kind->mu_spin * J / kind->radius;
+  s->w[2] = fabs(s->w[2]) <= fall ? 0.0 : s->w[2] - copysign(fall, s->w[2]);
+  s->v[2] = s->v[2] > 0.0 ? carom_rebound(s->v[2], 1.0) : s->v[2];
 }
 
 double carom_press_on_slate(const carom_ball_kind *kind, double tip_time, carom_ball_state *s) {

@@ -139,26 +139,18 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
   }
 }
 
-/* The contact that is due with all that lasts at the same time. Returns false where there is
- * nothing else. Each contact is an event. A ball changes at its first one, and has the same
- * state before and after the others. *due becomes the first contact of the struck ball, where it
- * has one. Apart, as a cluster needs 20 KiB of stack. */
-__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due,
-                                                          carom_status *status) {
-  carom_cluster_state c;
-  uint8_t order[CAROM_CLUSTER_CONTACTS];
-  const int count = carom_cluster_now(sim, due->a, due->b, &c, order);
-  if (count == 0)
-    return false;
-  *status = CAROM_OK;
-
-  /* balls that have had their first contact here */
-  bool changed[CAROM_BALLS_MOST] = {false};
+/* Each contact of a cluster is an event. A ball changes at its first one, unless it is among
+ * changed[], and has the same state before and after the others. *due becomes the first contact of
+ * the struck ball, where it has one. */
+static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
+                                  const uint8_t order[], int count, bool changed[],
+                                  carom_due *due) {
+  carom_status status = CAROM_OK;
   const int struck = sim->struck;
   for (int k = 0; k < count; k++) {
     /* one contact as an event of its own; balls stand in the caller's order */
-    const carom_cluster_contact_state *x = &c.contact[order[k]];
-    const carom_cluster_ball *two[2] = {&c.ball[x->i], &c.ball[x->j]};
+    const carom_cluster_contact_state *x = &c->contact[order[k]];
+    const carom_cluster_ball *two[2] = {&c->ball[x->i], &c->ball[x->j]};
     const carom_due contact = {sim->now, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
     CAROM_PROMISE(contact.a < contact.b);
     /* the loop stops by the contact of the struck ball, wherever it stands */
@@ -179,11 +171,11 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
         changed[i] = true;
         carom_path_at(path, &sim->rates[i], sim->now, &event->before[side]);
         path->from = event->before[side];
-        carom_cluster_take(two[side], &path->from);
-        carom_label_after(c.in_space, carom_kind_in(sim->ball, i), &path->from);
+        carom_cluster_rest(sim, c, (int)(two[side] - c->ball), &path->from);
+        carom_label_after(c->in_space, carom_kind_in(sim->ball, i), &path->from);
         /* a motion that overflows is not taken: the shot ends there */
         if (!carom_is_finite(path->from.v) || !carom_is_finite(path->from.w)) {
-          *status = CAROM_ERROR_OVERFLOW;
+          status = CAROM_ERROR_OVERFLOW;
           path->from = event->before[side];
         }
         carom_path_begin(path, &sim->rates[i], sim->now);
@@ -191,18 +183,55 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
       event->after[side] = path->from;
     }
   }
+  return status;
+}
 
+/* The contact that is due with all that lasts at the same time. Returns false where there is
+ * nothing else. *due becomes the first contact of the struck ball, where it has one. Apart, as a
+ * cluster needs 20 KiB of stack. */
+__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due,
+                                                          carom_status *status) {
+  carom_cluster_state c;
+  uint8_t order[CAROM_CLUSTER_CONTACTS];
+  const int count = carom_cluster_now(sim, due->a, due->b, &c, order);
+  if (count == 0)
+    return false;
+  bool changed[CAROM_BALLS_MOST] = {false};
+  *status = note_contacts(sim, &c, order, count, changed, due);
   carom_detect_all(sim);
+  return true;
+}
+
+/* The push of a cue with the contacts of balls that last meanwhile, as events behind that of the
+ * strike. Returns false where the struck ball is as if it were alone. */
+__attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_motion *alone,
+                                                 bool flat, carom_status *status) {
+  carom_cluster_state c;
+  uint8_t order[CAROM_CLUSTER_CONTACTS];
+  const int count = carom_cluster_strike(sim, alone, flat, &c, order), i = sim->struck;
+  if (count == 0)
+    return false;
+
+  carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
+  carom_event spare, *event = note(sim, &spare, &due);
+  carom_ball_state *state = &sim->path[i].from;
+  event->before[0] = *state;
+  carom_cluster_rest(sim, &c, c.tip.ball, state);
+  carom_label_after(c.in_space, carom_kind_in(sim->ball, i), state);
+  event->after[0] = *state;
+  event->cluster = count;
+  event->impulse = c.tip.impulse;
+  carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
+
+  bool changed[CAROM_BALLS_MOST] = {false};
+  changed[i] = true;
+  *status = note_contacts(sim, &c, order, count, changed, &due);
   return true;
 }
 
 /* Whether a contact may be one of several that last. */
 static inline bool may_last(const carom_sim *sim, const carom_due *due) {
-  const carom_shot_options *opt = sim->opt;
-  const carom_ball_model model = carom_ball_model_of(opt);
-  return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters &&
-         opt->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
-         (model == CAROM_BALL_MODEL_EXACT || model == CAROM_BALL_MODEL_MIRROR) &&
+  return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters && carom_lasts(sim->opt) &&
          sim->one_by_one != sim->now && carom_third_is_near(sim, due->a, due->b);
 }
 
@@ -270,6 +299,11 @@ static carom_status strike(carom_sim *sim) {
   const carom_status status = carom_blow(cue, carom_kind_in(sim->ball, i), !flat, &motion);
   if (status < 0)
     return status;
+
+  /* with the balls that it meets meanwhile */
+  carom_status together;
+  if (carom_may_push(sim, &motion) && push(sim, &motion, flat, &together))
+    return together;
 
   /* the event, and the motion that the cue gives */
   const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};

@@ -21,6 +21,7 @@ bool is_level(const text::carom_cluster_contact_state &x, real most) {
 bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
   text::carom_cluster_state state;
   state.balls = c->balls;
+  state.struck = state.on_slate = false;
   state.steps = c->steps;
   state.slow = c->slow;
 
