@@ -528,7 +528,7 @@ typedef struct carom_cue {
 /* s, of a leather tip. Measured are 0.001 to 0.003 for leather, from 0.0008 on for hard resin
  * (billiards.colostate.edu, "How long is the tip in contact with the cue ball?"); the place in
  * that range is a convention. Only its ratio to the contact of ball and slate counts. */
-#define CAROM_TIP_TIME 0.002
+#define CAROM_TIP_TIME 0.001
 
 /* The restitution of a leather tip: billiards.colostate.edu, "cue tip efficiency", 0.71 to 0.75.
  * One of phenolic resin has 0.81 to 0.87 there. */

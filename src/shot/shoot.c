@@ -158,7 +158,7 @@ static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
       *due = contact;
 
     carom_event spare, *event = note(sim, &spare, &contact);
-    event->cluster = count;
+    event->cluster = count + (c->struck ? 1 : 0);
     event->impulse =
         sqrt(x->impulse * x->impulse + x->rubbed[0] * x->rubbed[0] + x->rubbed[1] * x->rubbed[1]);
     for (int side = 0; side < 2; side++) {
@@ -219,7 +219,7 @@ __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_mot
   carom_cluster_rest(sim, &c, c.tip.ball, state);
   carom_label_after(c.in_space, carom_kind_in(sim->ball, i), state);
   event->after[0] = *state;
-  event->cluster = count;
+  event->cluster = count + 1;
   event->impulse = c.tip.impulse;
   carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
 

@@ -31,7 +31,7 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 int carom_cluster_strike(carom_sim *sim, const carom_motion *alone, bool flat,
                          carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
-/* fixed.c: how long a tip touches; the contact of a ball with the slate; and what an impulse J of
+/* pulse.c: how long a tip touches; the contact of a ball with the slate; and what an impulse J of
  * it, over the mass, takes from the turn about the vertical and the end of hops from v[2]. */
 double carom_tip_time(const carom_cue *cue);
 carom_cluster_slate carom_slate_under(const carom_ball_kind *kind);
