@@ -16,9 +16,13 @@
  * slip, of which half is taken at a time since neighbours act too. f begins with that of the
  * step before, scaled with J. mu is linear in the growth of U within the step.
  *
- * h = T/steps for the stiffest of the contacts that act, T the duration for its compression,
- * shorter by the least e. A step in which a stiffer contact touches is taken again, as short as
- * that one asks for. Where nothing acts, contacts that have touched and close again at `slow` or
+ * h is e T/steps of the contacts that act, T the duration of each for its compression, in a norm
+ * that is nearly that of the shortest and in which contacts that are alike count alike:
+ *
+ *     h = (sum (steps/(e T))^32)^(-1/32)
+ *
+ * So which of equal contacts comes first does not count, and h has the derivatives of all. A step
+ * in which others touch is taken again, as short as these ask for. Where nothing acts, contacts that have touched and close again at `slow` or
  * faster touch at once, as positions stay. It ends where there are none: contacts that never
  * touched are met later, as other events.
  *
@@ -155,6 +159,15 @@ static inline bool meet(bool flat, const contact *x, double time) {
   return square < R * R;
 }
 
+/* What a contact of a compression adds to the norm of steps; and the step of a sum of these. */
+static inline double quickness(const contact *x, double size) {
+  const double q = x->quick * size, q2 = q * q, q4 = q2 * q2;
+  return q4 * q4;
+}
+static inline double step_of(double norm, double steps) {
+  return norm > 0.0 ? 1.0 / (steps * sqrt(sqrt(sqrt(sqrt(sqrt(norm)))))) : (double)INFINITY;
+}
+
 /* ---- Forces */
 
 /* The numbers of a contact's friction. */
@@ -166,8 +179,8 @@ static inline void law_of(const contact *x, double k[3]) {
 /* The contacts that are pressed at half a step: those that were, and open ones that have an
  * overlap, which touch within it and get their sizes and normals. Returns the longest step that
  * suits these and those that touch in the other half, infinite where there are none. */
-static inline double find_pressed(bool flat, state *c, double h, double parts, pushes *now) {
-  double longest = (double)INFINITY;
+static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
+  double norm = 0.0;
   now->pressed = 0;
   CAROM_PROMISE(!(h < 0.0));
   for (int k = 0; k < c->contacts; k++) {
@@ -192,17 +205,16 @@ static inline double find_pressed(bool flat, state *c, double h, double parts, p
     if (d > open && (meets || !first))
       now->press[now->pressed++] = x;
     x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(x), v) : 0.0;
-    if (v > 0.0)
-      longest = carom_lesser(longest, carom_cluster_duration(x->pace, x->size) / parts);
+    norm += quickness(x, x->size);
   }
-  return longest;
+  return step_of(norm, c->steps);
 }
 
-/* Those of the pressed contacts that act, and their impulses. `lead` becomes the stiffest of those
- * that overlap. Returns whether any does. */
-static inline bool find_acting(bool flat, double h, double tau, pushes *now, const contact **lead) {
+/* Those of the pressed contacts that act, and their impulses. *norm becomes that of all that
+ * overlap. Returns whether any does. */
+static inline bool find_acting(bool flat, double h, double tau, pushes *now, double *norm) {
   bool overlap = false;
-  double stiffest = 0.0;
+  *norm = 0.0;
   now->contacts = 0;
   for (int k = 0; k < now->pressed; k++) {
     contact *x = now->press[k];
@@ -223,12 +235,7 @@ static inline bool find_acting(bool flat, double h, double tau, pushes *now, con
     x->size = d >= x->d_max ? carom_greater(x->size, d) : x->size;
     x->J = h * carom_hertz_force(x->K, x->e, d, &x->d_max);
 
-    /* a contact's duration is as (K B)^-1/2 size^-1/4 */
-    const double KB = x->K * mobility(x), stiff = KB * KB * x->size;
-    if (stiff > stiffest) {
-      stiffest = stiff;
-      *lead = x;
-    }
+    *norm += quickness(x, x->size);
     if (x->J > 0.0)
       now->push[now->contacts++] = x;
   }
@@ -483,29 +490,22 @@ static void take_back(state *c, double before) {
       c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
 }
 
-/* The duration of a step before any contact has acted: by the fastest that touches. *parts of it
- * are a contact's duration. */
-static inline double first_step(bool flat, const state *c, double *parts) {
-  double most = 0.0, T = 0.0, stiff = 1.0;
+/* The duration of a step before any contact has acted: by those that touch and close. */
+static inline double first_step(bool flat, const state *c) {
+  double norm = 0.0;
   for (int k = 0; k < c->contacts; k++) {
     const contact *x = &c->contact[k];
-    /* unloading has K/e^3 over e^2 of the overlap, and so lasts e times as long as loading */
-    const double v = closing_of(flat, x);
-    stiff = carom_greater(stiff, 1.0 / x->e);
-    if (!x->touched || v <= most)
-      continue;
-    most = v;
-    T = carom_cluster_duration(x->pace, carom_cluster_compression(x->K, mobility(x), v));
+    const double v = x->touched ? closing_of(flat, x) : (double)0.0;
+    if (v > 0.0)
+      norm += quickness(x, carom_cluster_compression(x->K, mobility(x), v));
   }
-  *parts = c->steps * stiff;
-  return T / *parts;
+  return step_of(norm, c->steps);
 }
 
 /* Step by step, until no contact acts. */
 static inline bool solve(bool flat, state *c) {
   const double before = energy_of(c);
-  const contact *lead = c->contact;
-  double parts, h = first_step(flat, c, &parts), tau = 0.0;
+  double h = first_step(flat, c), tau = 0.0, norm;
   if (c->struck)
     h = tip_step(&c->tip);
   c->taken = 0;
@@ -518,16 +518,16 @@ static inline bool solve(bool flat, state *c) {
     move(flat, c, 0.5 * h);
 
     /* a touch that is faster than what acts asks for a shorter step */
-    const double longest = find_pressed(flat, c, h, parts, &now);
+    const double longest = find_pressed(flat, c, h, &now);
     if (longest < h) {
       move(flat, c, 0.5 * (longest - h));
       h = longest;
-      find_pressed(flat, c, h, parts, &now);
+      find_pressed(flat, c, h, &now);
     }
 
     /* where no contact acts, one may touch again, from where the balls are; else all is over */
     tau += 0.5 * h;
-    const bool balls = find_acting(flat, h, tau, &now, &lead),
+    const bool balls = find_acting(flat, h, tau, &now, &norm),
                cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
     if (!balls && !cue && !slate) {
       if (!touch_again(flat, c))
@@ -540,7 +540,7 @@ static inline bool solve(bool flat, state *c) {
     rub_all(flat, c->on_slate, &now);
     end_step(flat, c, h, &now);
     tau += 0.5 * h;
-    h = balls ? carom_cluster_duration(lead->pace, lead->size) / parts : (double)INFINITY;
+    h = step_of(balls ? norm : (double)0.0, c->steps);
     if (c->struck)
       h = carom_lesser(h, tip_step(&c->tip));
   }
