@@ -120,7 +120,7 @@ static double zero_within(double q0, double v0, double q1, double v1, double h) 
                          h * ((1.0 - 4.0 * t + 3.0 * t * t) * v0 + (3.0 * t * t - 2.0 * t) * v1);
     *((q > 0.0) == (q0 > 0.0) ? &low : &high) = t;
     const double next = t - q / slope;
-    t = next > low && next < high ? next : 0.5 * (low + high);
+    t = next >= low && next <= high ? next : 0.5 * (low + high);
   }
   return t;
 }

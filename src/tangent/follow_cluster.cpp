@@ -71,7 +71,7 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
     return false;
 
   /* of the contact that starts it also where its spin is that of a slide of a millimetre */
-  for (int k = 0; k < state.contacts && !state.in_space && !state.struck; k++) {
+  for (int k = 0; k < state.contacts && !state.in_space; k++) {
     const text::carom_cluster_contact_state &x = state.contact[k];
     const bool starts =
         (x.i == c->first && x.j == c->second) || (x.i == c->second && x.j == c->first);
