@@ -714,6 +714,14 @@ typedef struct carom_facts {
   int32_t pocket[CAROM_BALLS_MOST]; /* the pocket that took each ball in this shot, */
   double pocket_time[CAROM_BALLS_MOST]; /* and when, s. */
   int32_t cushions[CAROM_BALLS_MOST];   /* impacts of each ball on cushions. */
+  uint32_t frozen; /* the set of the balls that touched the cue ball, to 1e-9 m,
+                                           when it was struck, */
+  uint32_t pushed; /* and of those that it met before the tip left it: while it was pushed, or where
+                      the tip touched it again within the push. */
+  int32_t touches; /* of the tip: 0 without a strike, 1, or 2 and more of a double hit within the
+                      push. Positions stay during a push. A touch after its end, as of a cue that
+                      follows through at a ball some mm ahead, is not computed. */
+  int32_t unused;  /* 0. */
 } carom_facts;
 
 /* The result of a shot. All zero is a shot of which only count and time are wanted; the caller

@@ -95,6 +95,7 @@ typedef struct carom_cluster_tip {
   double impulse;             /* sum of J */
   int touches;                /* how many times it has touched */
   double second, second_time; /* closing speed, m/s, and tau of the second of them */
+  double last;                /* tau at which it acts last */
 } carom_cluster_tip;
 
 /* The contact of the slate and a ball, tip.h. The caller sets k, over the mass, and e. */

@@ -66,6 +66,7 @@ static inline bool tip_acts(carom_cluster_state *c, double h, double tau) {
     x->J = h * x->k / e2 * carom_greater(x->d - (1.0 - e2) * x->d_max, 0.0);
   }
   x->impulse += x->J;
+  x->last = tau;
   return true;
 }
 

@@ -41,6 +41,7 @@ static void add_fact(carom_facts *facts, const carom_due *due, int cue, double n
   switch (due->type) {
   case CAROM_EVENT_STRIKE:
     facts->moved |= UINT32_C(1) << a;
+    facts->touches = 1;
     break;
   case CAROM_EVENT_BALL_BALL:
     facts->moved |= UINT32_C(1) << a | UINT32_C(1) << b;
@@ -62,6 +63,36 @@ static void add_fact(carom_facts *facts, const carom_due *due, int cue, double n
     break;
   default:
     break;
+  }
+}
+
+/* The set of the balls that touch the struck one, by the same bound as in members.c. */
+static uint32_t frozen_to(const carom_sim *sim) {
+  const int i = sim->struck;
+  const double *r = sim->path[i].from.r;
+  uint32_t set = 0;
+  for (int k = 0; k < sim->count; k++) {
+    const double *q = sim->path[k].from.r;
+    const double R = sim->rates[i].radius, Q = sim->rates[k].radius, reach = R + Q + 1e-9;
+    const double x = q[0] - r[0], y = q[1] - r[1], z = Q - R;
+    if (k != i && !carom_is_out(sim->path[k].from.label) && x * x + y * y + z * z < reach * reach)
+      set |= UINT32_C(1) << k;
+  }
+  return set;
+}
+
+/* What a push with `count` contacts of balls adds to the facts. */
+static void add_push(const carom_sim *sim, const carom_cluster_state *c, const uint8_t order[],
+                     int count) {
+  carom_facts *facts = sim->shot->facts;
+  if (facts == NULL)
+    return;
+  facts->touches = c->tip.touches;
+  for (int k = 0; k < count; k++) {
+    const carom_cluster_contact_state *x = &c->contact[order[k]];
+    const int other = x->i == c->tip.ball ? x->j : x->j == c->tip.ball ? x->i : -1;
+    if (other >= 0 && x->time <= c->tip.last)
+      facts->pushed |= UINT32_C(1) << c->ball[other].which;
   }
 }
 
@@ -214,6 +245,7 @@ __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_mot
 
   carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
   carom_event spare, *event = note(sim, &spare, &due);
+  add_push(sim, &c, order, count);
   carom_ball_state *state = &sim->path[i].from;
   event->before[0] = *state;
   carom_cluster_rest(sim, &c, c.tip.ball, state);
@@ -301,6 +333,8 @@ static carom_status strike(carom_sim *sim) {
     return status;
 
   /* with the balls that it meets meanwhile */
+  if (sim->shot->facts != NULL)
+    sim->shot->facts->frozen = frozen_to(sim);
   carom_status together;
   if (carom_may_push(sim, &motion) && push(sim, &motion, flat, &together))
     return together;

@@ -78,6 +78,9 @@ class Facts:
     off: frozenset[int]  # Balls that left the table
     cushions: tuple[int, ...]  # Impacts of each ball on cushions
     cushions_after: int  # Those of all balls after the first contact
+    frozen: frozenset[int]  # Balls that touched the cue ball when it was struck
+    pushed: frozenset[int]  # Balls that it met before the tip left it
+    touches: int  # Of the tip: 1, or 2 and more of a double hit within the push; 0 without a strike
     _record: Any = field(repr=False)
 
     def foul(self, on: Collection[int]) -> Foul:
@@ -90,7 +93,8 @@ def _facts(record: Any) -> Facts:
     potted = {ball: int(record.pocket[ball]) for ball in down}
     first, second = record.first
     before = (record.cushions_before[0], record.cushions_before[1])
-    return Facts(first, second, before, potted, _of_set(record.off), tuple(record.cushions), record.cushions_after, record)
+    sets = [_of_set(of) for of in (record.off, record.frozen, record.pushed)]
+    return Facts(first, second, before, potted, sets[0], tuple(record.cushions), record.cushions_after, sets[1], sets[2], record.touches, record)
 
 
 @dataclass(frozen=True)
