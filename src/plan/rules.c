@@ -12,12 +12,19 @@ enum { FOULS_MOST = 3 };
 enum { OPEN = 0, SOLIDS = 1, STRIPES = 2 };
 static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100, nine = 0x200;
 
+/* A ball that was not frozen was met while the tip was on the cue ball, or the tip touched twice
+ * without any that was: a frozen ball may be played through. */
+static bool is_double_hit(const carom_facts *facts) {
+  return (facts->pushed & ~facts->frozen) != 0 || (facts->touches > 1 && facts->pushed == 0);
+}
+
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   const int first = facts->first[0];
   return (facts->down | facts->off) >> cue_ball & 1       ? CAROM_FOUL_CUE_BALL
          : first < 0                                      ? CAROM_FOUL_NO_BALL
          : !(on >> first & 1)                             ? CAROM_FOUL_FIRST
          : facts->off != 0                                ? CAROM_FOUL_OFF
+         : is_double_hit(facts)                           ? CAROM_FOUL_DOUBLE_HIT
          : facts->down == 0 && facts->cushions_after == 0 ? CAROM_FOUL_CUSHION
                                                           : CAROM_FOUL_NONE;
 }
@@ -32,7 +39,8 @@ const char *carom_foul_string(int foul) {
       "nothing fell, and nothing met a cushion after the first contact",
       "the break potted nothing, and drove too few balls to cushions",
       "another rule",
-      "a ball fell that was not on"};
+      "a ball fell that was not on",
+      "the tip was still on the cue ball, or touched it again, as it met a ball"};
   return foul > 0 && foul < (int)(sizeof words / sizeof words[0]) ? words[foul] : "";
 }
 
@@ -150,7 +158,9 @@ static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
   /* A push-out may meet any ball or none, and needs no cushion. */
   int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(user, in_play), cue_ball);
   if (pushes && bad != CAROM_FOUL_CUE_BALL)
-    bad = facts->off != 0 ? CAROM_FOUL_OFF : CAROM_FOUL_NONE;
+    bad = facts->off != 0        ? CAROM_FOUL_OFF
+          : is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT
+                                 : CAROM_FOUL_NONE;
   if (bad == CAROM_FOUL_NONE && opening && !is_break(facts, cue_ball))
     bad = CAROM_FOUL_BREAK;
   if (bad != CAROM_FOUL_NONE) {
@@ -217,9 +227,11 @@ static carom_turn threecushion_judge(uint64_t *user, uint32_t in_play, int cue_b
   (void)in_play;
   (void)cue_ball;
   (void)call;
-  const bool off = facts->off != 0;
-  if (off || facts->first[1] < 0 || facts->cushions_before[1] < 3)
-    return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, off ? CAROM_FOUL_OFF : 0, 0, 0.0};
+  const int32_t bad = facts->off != 0                            ? CAROM_FOUL_OFF
+                      : facts->pushed != 0 || facts->touches > 1 ? CAROM_FOUL_DOUBLE_HIT
+                                                                 : CAROM_FOUL_NONE;
+  if (bad || facts->first[1] < 0 || facts->cushions_before[1] < 3)
+    return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, 0, 0.0};
   carom_turn turn = carom_keep;
   turn.points = 1.0;
   return turn;

@@ -41,7 +41,7 @@ _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compar
 
 
 class Foul(enum.IntEnum):
-    """Why a shot is a foul: the first of these that holds."""
+    """Why a shot is a foul: the first of these that holds, but DOUBLE_HIT before CUSHION and BREAK."""
 
     NONE = 0
     CUE_BALL = 1
@@ -52,6 +52,7 @@ class Foul(enum.IntEnum):
     BREAK = 6
     OTHER = 7
     POT = 8
+    DOUBLE_HIT = 9
 
     @property
     def text(self) -> str:
