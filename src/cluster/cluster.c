@@ -190,7 +190,7 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
       continue;
     }
     const bool first = !x->touched;
-    if (first && !meet(flat, x, 0.5 * h))
+    if (first && (c->late || !meet(flat, x, 0.5 * h)))
       continue;
     const bool meets = first && meet(flat, x, 0.0);
     if (meets)
@@ -509,6 +509,7 @@ static inline bool solve(bool flat, state *c) {
   if (c->struck)
     h = tip_step(&c->tip);
   c->taken = 0;
+  c->late = false;
   for (;; c->taken++) {
     if (c->taken == CAROM_CLUSTER_STEPS_MOST)
       return false;
@@ -529,6 +530,7 @@ static inline bool solve(bool flat, state *c) {
     tau += 0.5 * h;
     const bool balls = find_acting(flat, h, tau, &now, &norm),
                cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
+    c->late |= slate && !balls && !cue;
     if (!balls && !cue && !slate) {
       if (!touch_again(flat, c))
         break;

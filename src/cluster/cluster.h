@@ -112,6 +112,7 @@ typedef struct carom_cluster_state {
   bool in_space;
   bool struck;   /* by a cue: tip is read, */
   bool on_slate; /* and slate[] */
+  bool late;     /* of the integrator: only the slate has acted once, and balls meet later */
   int balls, contacts;
   double steps;    /* of a contact's duration */
   double slow;     /* m/s: contacts that close slower are none, and do not prolong a cluster */
