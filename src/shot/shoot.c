@@ -234,16 +234,17 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
 }
 
 /* The push of a cue with the contacts of balls that last meanwhile, as events behind that of the
- * strike. Returns false where the struck ball is as if it were alone. */
+ * strike. Returns false where the struck ball is as if it were alone. *met becomes the first contact
+ * of the struck ball. */
 __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_motion *alone,
-                                                 bool flat, carom_status *status) {
+                                                 bool flat, carom_due *met, carom_status *status) {
   carom_cluster_state c;
   uint8_t order[CAROM_CLUSTER_CONTACTS];
   const int count = carom_cluster_strike(sim, alone, flat, &c, order), i = sim->struck;
   if (count == 0)
     return false;
 
-  carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
+  const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
   carom_event spare, *event = note(sim, &spare, &due);
   add_push(sim, &c, order, count);
   carom_ball_state *state = &sim->path[i].from;
@@ -257,7 +258,8 @@ __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_mot
 
   bool changed[CAROM_BALLS_MOST] = {false};
   changed[i] = true;
-  *status = note_contacts(sim, &c, order, count, changed, &due);
+  *met = (carom_due){0.0, CAROM_EVENT_BALL_BALL, -1, -1};
+  *status = note_contacts(sim, &c, order, count, changed, met);
   return true;
 }
 
@@ -312,8 +314,8 @@ static carom_status step(carom_sim *sim, carom_due *due) {
   return status;
 }
 
-/* The strike, where there is one. */
-static carom_status strike(carom_sim *sim) {
+/* The strike, where there is one. *met becomes a contact of its push. */
+static carom_status strike(carom_sim *sim, carom_due *met) {
   const carom_cue *cue = sim->cue;
   if (cue == NULL || !(cue->speed > 0.0))
     return CAROM_OK;
@@ -336,7 +338,7 @@ static carom_status strike(carom_sim *sim) {
   if (sim->shot->facts != NULL)
     sim->shot->facts->frozen = frozen_to(sim);
   carom_status together;
-  if (carom_may_push(sim, &motion) && push(sim, &motion, flat, &together))
+  if (carom_may_push(sim, &motion) && push(sim, &motion, flat, met, &together))
     return together;
 
   /* the event, and the motion that the cue gives */
@@ -452,13 +454,14 @@ static carom_status finish(carom_sim *sim, carom_status status) {
 
 /* The strike, and whether the shot is to go on after it. */
 static carom_status start(carom_sim *sim) {
-  const carom_status status = strike(sim);
+  carom_due met = {0.0, 0, -1, -1};
+  const carom_status status = strike(sim, &met);
   if (status != CAROM_OK)
     return status;
   carom_detect_all(sim);
-  return sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1)
-             ? CAROM_STOPPED_AT_EVENT
-             : CAROM_OK;
+  bool stops = sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1);
+  stops |= met.type != 0 && stops_at(sim, met.type, met.a, met.b);
+  return stops ? CAROM_STOPPED_AT_EVENT : CAROM_OK;
 }
 
 /* With arguments that have been checked: a shot from its strike, or on from shot->state. */

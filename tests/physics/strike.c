@@ -254,6 +254,34 @@ TEST(alone) {
   ck_assert_int_gt(apart, 0);
 }
 
+/* A shot that is to stop at a contact, or at a first ball that is not of a set, stops after a push,
+ * and goes on to the same end. */
+TEST(stops_after_a_push) {
+  static carom_shot_state state;
+  const carom_table table = empty_table(table_size);
+  const carom_cue cue = cue_at(2.0, 80.0);
+  const carom_shot_options stops[] = {{.stop_at = CAROM_STOP_AT_CONTACT}, {.first_of = 4}};
+  for (int k = 0; k < 2; k++) {
+    carom_facts whole, parts;
+    carom_ball_state end[REF_BALLS], end_parts[REF_BALLS];
+    begin(3);
+    beside(1, 0, 0.0, 90.0);
+    for (int n = 0; n < 3; n++)
+      balls[n].kind = carom_ball_kind_of(CAROM_GAME_POOL);
+    carom_shot shot = {.facts = &whole, .final = end};
+    ck_assert_int_eq(carom_shoot(&table, balls, 3, &cue, NULL, &shot), CAROM_OK);
+    carom_shot cut = {.facts = &parts, .final = end_parts, .state = &state};
+    ck_assert_int_eq(carom_shoot(&table, balls, 3, &cue, &stops[k], &cut), CAROM_STOPPED_AT_EVENT);
+    ck_assert(cut.time == 0.0 && parts.pushed == 2 && parts.frozen == 2 && parts.first[0] == 1);
+    carom_status status = CAROM_STOPPED_AT_EVENT;
+    for (int n = 0; n < 20 && status == CAROM_STOPPED_AT_EVENT; n++)
+      status = carom_shot_continue(&table, balls, 3, &stops[k], &cut);
+    ck_assert_int_eq(status, CAROM_OK);
+    ck_assert(memcmp(&whole, &parts, sizeof whole) == 0);
+    ck_assert(memcmp(end, end_parts, 3 * sizeof *end) == 0);
+  }
+}
+
 /* ---- Symmetries */
 
 /* The mirror image of a strike is the strike of the mirror image. */
