@@ -521,7 +521,7 @@ typedef struct carom_cue {
   double miscue;          /* R, 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its
                         edge. Chalked tips reach 0.5. */
   double tip_time;        /* s, to 0.01: how long the tip of a raised cue touches the ball. 0:
-                        CAROM_TIP_TIME; tips of hard resin, 0.0006. -1: no time; blow and landing
+                        CAROM_TIP_TIME; tips of hard resin, 0.0008. -1: no time; blow and landing
                         are two events, as before revision 8. */
 } carom_cue;
 
