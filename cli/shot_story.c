@@ -134,7 +134,11 @@ static bool moment_of(const shot_line *line, const carom_shot *shot, int64_t k, 
   case CAROM_EVENT_BALL_BALL:
     m->kind = MOMENT_MEETS;
     m->with = (int)(side == 0 ? e->b : e->a);
-    m->value = cut_of(&e->before[side], &e->before[1 - side]);
+    /* of a push the motion before is not known: the ball of the cue has the one after it */
+    m->value = e->cluster > 0 && shot->events[0].type == CAROM_EVENT_STRIKE &&
+                       e->time == shot->events[0].time
+                   ? (double)NAN
+                   : cut_of(&e->before[side], &e->before[1 - side]);
     return true;
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:

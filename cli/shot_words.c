@@ -108,6 +108,19 @@ static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, 
       tell_moment(out, line, &m[k], k == 0);
 }
 
+/* What the cue ball meets before the tip has left it. */
+static void tell_push(FILE *out, const shot_line *line, const carom_facts *facts) {
+  for (int k = 0; k < line->count; k++)
+    if (facts->pushed >> k & 1)
+      fprintf(out,
+              facts->frozen >> k & 1
+                  ? "frozen to ball %s: pushed, both go\n"
+                  : "a double hit: ball %s is met while the tip is on the cue ball\n",
+              line->name[k]);
+  if (facts->touches > 1)
+    fputs("the tip touches the cue ball twice\n", out);
+}
+
 void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s,
                bool shortly) {
   const carom_cue *cue = &line->cue;
@@ -125,6 +138,8 @@ void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const s
             cue->b != 0.0 ? " and " : " of the centre\n");
   if (cue->b != 0.0)
     fprintf(out, "%.3g R %s the centre\n", fabs(cue->b), cue->b < 0.0 ? "below" : "above");
+  if (shot->facts != NULL)
+    tell_push(out, line, shot->facts);
   int moved = 0;
   for (int k = 0; k < line->count; k++)
     moved += ball_moved(shot, k);
