@@ -22,9 +22,9 @@
  *     h = (sum (steps/(e T))^32)^(-1/32)
  *
  * So which of equal contacts comes first does not count, and h has the derivatives of all. A step
- * in which others touch is taken again, as short as these ask for. Where nothing acts, contacts that have touched and close again at `slow` or
- * faster touch at once, as positions stay. It ends where there are none: contacts that never
- * touched are met later, as other events.
+ * in which others touch is taken again, as short as these ask for. Where nothing acts, contacts
+ * that have touched and close again at `slow` or faster touch at once, as positions stay. It ends
+ * where there are none: contacts that never touched are met later, as other events.
  *
  * Without friction the order is 2; contacts that stick make it 1 (docs/understanding/clusters.md
  * has the errors). The energy rises by 3e-4 at most where e = 1 and nothing rubs; what it has

@@ -140,8 +140,8 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second);
  * contacts there are; 0: it is alone. */
 int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
 
-/* tip.c: the tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed to
- * tip_restitution, in their order, and which touches a ball that is alone for T. */
+/* tip.c: the tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
+ * to tip_restitution, in their order, and which touches a ball that is alone for T. */
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
 
 /* cluster.c: v and W of ball[]; time, impulse and friction of contact[]. False where it takes

@@ -3,8 +3,8 @@
  * The cue presses the ball on the slate for the time T of the tip, within which the slate answers
  * several times. The blow alone would give the ball a speed v_n into the slate and a slip u of its
  * surface there; it comes as a half-sine pulse, of which the part Phi has come at the time t. d is
- * the overlap of ball and slate, F/m Hertz's force over the mass with the restitution e of the slate
- * (cluster/hertz.h). The cloth takes a slip s as it comes:
+ * the overlap of ball and slate, F/m Hertz's force over the mass with the restitution e of the
+ * slate (cluster/hertz.h). The cloth takes a slip s as it comes:
  *
  *   d'' = v_n Phi' - F/m             Phi = (1 - cos(pi t / T)) / 2
  *   s'  = |u| Phi' - 7/2 mu F/m      s >= 0
@@ -27,8 +27,8 @@
  * Hertz's law of a ball on bare slate gives 0.36 ms. e below 0.2 is computed as 0.2, and v'
  * multiplied by e/0.2.
  *
- * v' has jumps where a contact that has nearly ended is loaded again, since one that has ended takes
- * energy once more (physics/air looks for them). */
+ * v' has jumps where a contact that has nearly ended is loaded again, since one that has ended
+ * takes energy once more (physics/air looks for them). */
 #include "cluster/hertz.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"

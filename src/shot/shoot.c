@@ -234,8 +234,8 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
 }
 
 /* The push of a cue with the contacts of balls that last meanwhile, as events behind that of the
- * strike. Returns false where the struck ball is as if it were alone. *met becomes the first contact
- * of the struck ball. */
+ * strike. Returns false where the struck ball is as if it were alone. *met becomes the first
+ * contact of the struck ball. */
 __attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_motion *alone,
                                                  bool flat, carom_due *met, carom_status *status) {
   carom_cluster_state c;

@@ -22,8 +22,8 @@ void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s);
 /* Whether contacts of several balls last by these options. */
 bool carom_lasts(const carom_shot_options *opt);
 
-/* Whether the struck ball, which would get the motion `alone`, may meet another while the cue pushes
- * it. */
+/* Whether the struck ball, which would get the motion `alone`, may meet another while the cue
+ * pushes it. */
 bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 
 /* The cue's push of the struck ball and those that it meets meanwhile. Returns how many contacts

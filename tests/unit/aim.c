@@ -38,7 +38,7 @@ static double cut_at(const problem *p, double phi) {
     return (double)NAN;
   const carom_ball_state *own = &e->before[e->a == 0 ? 0 : 1],
                          *other = &e->before[e->a == 0 ? 1 : 0];
-  /* met while the cue pushes: the cut at which the ball would come alone, straight from its place */
+  /* met while the cue pushes: the cut at which the ball would come alone, straight on */
   if (events[0].cluster > 0 && e->time == 0.0) {
     carom_shot_ball alone = p->ball[0];
     carom_ball_state left;

@@ -472,8 +472,8 @@ TEST(snooker_again) {
   }
 }
 
-/* A ball that is met while the tip is on the cue ball: `frozen` before the stroke, `pushed` in it. In
- * snooker reds are on. Before the same shot without a touch of a cushion, and after a loss. */
+/* A ball that is met while the tip is on the cue ball: `frozen` before the stroke, `pushed` in it.
+ * In snooker reds are on. Before the same shot without a touch of a cushion, and after a loss. */
 TEST(double_hits) {
   static const struct {
     const char *what;
