@@ -3,8 +3,8 @@
  *
  * TIP. The cue is a body of mass M that moves along its axis c at V, and has no other freedom. Its
  * tip touches the ball at p from the centre, and pushes along c', which is c turned by the squirt
- * of the end mass. With q = p x c / R, the arm of the axis, W = R w and delta the compression of the
- * tip,
+ * of the end mass. With q = p x c / R, the arm of the axis, W = R w and delta the compression of
+ * the tip,
  *
  *     delta' = V - v . c' - W . q
  *     F = k delta                                        while delta > delta_max: loading
