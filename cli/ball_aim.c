@@ -12,7 +12,10 @@
  * The ball aimed at is D away in the direction delta. So |q(t)| = D, and phi = delta - direction
  * of q(t). q is continuous between events, and its roots there are bracketed by samples and
  * halved. Something else may be met before, or the same ball at another cut: each root is played
- * up to the first contact, in their order, and the first that holds is taken. */
+ * up to the first contact, in their order, and the first that holds is taken.
+ *
+ * A ball that is met while the cue pushes has the cut at which the ball of the cue would come
+ * without it, straight from its place: the direction that it gets by both is another. */
 #include "ball_aim.h"
 
 #include "quantities.h"

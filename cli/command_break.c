@@ -342,7 +342,8 @@ int command_break(int argc, char **argv) {
       return EXIT_USAGE;
     }
   shot_file *file = flags_open(f, &b.options, MOST_STROKES, &lines);
-  const int strokes = file != NULL ? strokes_read(file, &f->shared, &line, stroke, MOST_STROKES) : 0;
+  const int strokes =
+      file != NULL ? strokes_read(file, &f->shared, &line, stroke, MOST_STROKES) : 0;
   FILE *out = strokes > 0 ? output_open(f->shared.output) : NULL;
   double gap_drawn = 0.0;
   int code = EXIT_USAGE;

@@ -40,6 +40,7 @@ typedef struct shoot_job {
 typedef struct block {
   shot_line line[BLOCK];
   carom_shot shot[BLOCK];
+  carom_facts facts[BLOCK];
   carom_status status[BLOCK];
   int count;
   const char *file;  /* its name, for messages */
@@ -245,7 +246,7 @@ static bool finish_block(block *b, shoot_job *job, FILE *out) {
 
 static void begin_shot(block *b, bool events) {
   carom_shot *shot = &b->shot[b->count];
-  *shot = (carom_shot){.room = events ? FIRST_ROOM : 0};
+  *shot = (carom_shot){.facts = &b->facts[b->count], .room = events ? FIRST_ROOM : 0};
   if (events)
     shot->events = allocate((size_t)shot->room, sizeof *shot->events);
   shot->final = allocate(CAROM_BALLS_MOST, sizeof *shot->final);

@@ -21,7 +21,7 @@ static void draw(FILE *out, const void *data) {
 }
 
 /* Strokes with errors, of which some are drawn. */
-enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_POT + 1, MISS = FOULS, LOSS, WAYS };
+enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_DOUBLE_HIT + 1, MISS = FOULS, LOSS, WAYS };
 
 /* Plays the best shot with the player's errors, and says how often which failure comes of it, the
  * most frequent first. The first of the shots are kept, with their events. */

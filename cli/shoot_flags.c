@@ -86,8 +86,8 @@ ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELE
     "of the butt of the cue (default 0). With --pocket also least: as little as the stick needs "
     "over the cushions and balls behind the cue ball");
 ROW(option_tip_time, "tip-time", shared.with, "SECONDS", set_cue_number, 0,
-    "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.002, of "
-    "leather; of hard resin, which lets balls jump: 0.0006). -1: no time");
+    "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.001, of "
+    "leather; of hard resin, which lets balls jump: 0.0008). -1: no time");
 ROW(option_tip_restitution, "tip-restitution", shared.with, "E", set_cue_number, 0,
     "restitution of the tip and the ball, above 0 to 1: the speed of the ball is in proportion to "
     "1 + E (default 0.73, of leather; of phenolic resin 0.85; of pooltool 1)");

@@ -158,7 +158,11 @@ static bool moment_of(const shot_line *line, const carom_shot *shot, int64_t k, 
   case CAROM_EVENT_BALL_BALL:
     m->kind = MOMENT_MEETS;
     m->with = (int)(side == 0 ? e->b : e->a);
-    m->value = cut_of(&e->before[side], &e->before[1 - side]);
+    /* of a push the motion before is not known: the ball of the cue has the one after it */
+    m->value = e->cluster > 0 && shot->events[0].type == CAROM_EVENT_STRIKE &&
+                       e->time == shot->events[0].time
+                   ? (double)NAN
+                   : cut_of(&e->before[side], &e->before[1 - side]);
     return true;
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
@@ -426,6 +430,19 @@ static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, 
       tell_moment(out, line, &m[k], k == 0);
 }
 
+/* What the cue ball meets before the tip has left it. */
+static void tell_push(FILE *out, const shot_line *line, const carom_facts *facts) {
+  for (int k = 0; k < line->count; k++)
+    if (facts->pushed >> k & 1)
+      fprintf(out,
+              facts->frozen >> k & 1
+                  ? "frozen to ball %s: pushed, both go\n"
+                  : "a double hit: ball %s is met while the tip is on the cue ball\n",
+              line->name[k]);
+  if (facts->touches > 1)
+    fputs("the tip touches the cue ball twice\n", out);
+}
+
 void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s,
                bool shortly) {
   const carom_cue *cue = &line->cue;
@@ -443,6 +460,8 @@ void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const s
             cue->b != 0.0 ? " and " : " of the centre\n");
   if (cue->b != 0.0)
     fprintf(out, "%.3g R %s the centre\n", fabs(cue->b), cue->b < 0.0 ? "below" : "above");
+  if (shot->facts != NULL)
+    tell_push(out, line, shot->facts);
   int moved = 0;
   for (int k = 0; k < line->count; k++)
     moved += ball_moved(shot, k);

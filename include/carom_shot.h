@@ -524,14 +524,14 @@ typedef struct carom_cue {
   double miscue;          /* R, 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its
                         edge. Chalked tips reach 0.5. */
   double tip_time;        /* s, to 0.01: how long the tip of a raised cue touches the ball. 0:
-                        CAROM_TIP_TIME; tips of hard resin, 0.0006. -1: no time; blow and landing
+                        CAROM_TIP_TIME; tips of hard resin, 0.0008. -1: no time; blow and landing
                         are two events, as before revision 8. */
 } carom_cue;
 
 /* s, of a leather tip. Measured are 0.001 to 0.003 for leather, from 0.0008 on for hard resin
  * (billiards.colostate.edu, "How long is the tip in contact with the cue ball?"); the place in
  * that range is a convention. Only its ratio to the contact of ball and slate counts. */
-#define CAROM_TIP_TIME 0.002
+#define CAROM_TIP_TIME 0.001
 
 /* The restitution of a leather tip: billiards.colostate.edu, "cue tip efficiency", 0.71 to 0.75.
  * One of phenolic resin has 0.81 to 0.87 there. */
@@ -718,6 +718,14 @@ typedef struct carom_facts {
   int32_t pocket[CAROM_BALLS_MOST]; /* the pocket that took each ball in this shot, */
   double pocket_time[CAROM_BALLS_MOST]; /* and when, s. */
   int32_t cushions[CAROM_BALLS_MOST];   /* impacts of each ball on cushions. */
+  uint32_t frozen; /* the set of the balls that touched the cue ball, to 1e-9 m,
+                                           when it was struck, */
+  uint32_t pushed; /* and of those that it met before the tip left it: while it was pushed, or where
+                      the tip touched it again within the push. */
+  int32_t touches; /* of the tip: 0 without a strike, 1, or 2 and more of a double hit within the
+                      push. Positions stay during a push. A touch after its end, as of a cue that
+                      follows through at a ball some mm ahead, is not computed. */
+  int32_t unused;  /* 0. */
 } carom_facts;
 
 /* The result of a shot. All zero is a shot of which only count and time are wanted; the caller

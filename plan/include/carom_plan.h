@@ -84,22 +84,26 @@ typedef enum carom_leave {
   CAROM_LEAVE_D = 4        /* the same in the D of a snooker table */
 } carom_leave;
 
-/* Why a shot is a foul: the first of these that holds. */
+/* Why a shot is a foul: the first of these that holds, but DOUBLE_HIT before CUSHION and BREAK. */
 typedef enum carom_foul {
-  CAROM_FOUL_NONE = 0,     /* it is none */
-  CAROM_FOUL_CUE_BALL = 1, /* the cue ball fell or left the table */
-  CAROM_FOUL_NO_BALL = 2,  /* the cue ball met no ball */
-  CAROM_FOUL_FIRST = 3,    /* it met a ball first that is not on */
-  CAROM_FOUL_OFF = 4,      /* a ball left the table */
-  CAROM_FOUL_CUSHION = 5,  /* nothing fell, and nothing met a cushion after the first contact */
-  CAROM_FOUL_BREAK = 6,    /* a break that potted nothing drove too few balls to cushions: fewer
+  CAROM_FOUL_NONE = 0,      /* it is none */
+  CAROM_FOUL_CUE_BALL = 1,  /* the cue ball fell or left the table */
+  CAROM_FOUL_NO_BALL = 2,   /* the cue ball met no ball */
+  CAROM_FOUL_FIRST = 3,     /* it met a ball first that is not on */
+  CAROM_FOUL_OFF = 4,       /* a ball left the table */
+  CAROM_FOUL_CUSHION = 5,   /* nothing fell, and nothing met a cushion after the first contact */
+  CAROM_FOUL_BREAK = 6,     /* a break that potted nothing drove too few balls to cushions: fewer
                               than four; in straight pool the cue ball and two more */
-  CAROM_FOUL_OTHER = 7,    /* by another rule, such as one of the caller's */
-  CAROM_FOUL_POT = 8       /* a ball fell that was not on */
+  CAROM_FOUL_OTHER = 7,     /* by another rule, such as one of the caller's */
+  CAROM_FOUL_POT = 8,       /* a ball fell that was not on */
+  CAROM_FOUL_DOUBLE_HIT = 9 /* the cue ball met a ball that was not frozen to it before the tip
+                               left it, or the tip touched it twice. A frozen ball may be played
+                               through, but not in snooker and three-cushion: there any ball that
+                               is met so is a push. Touches after the push are not known. */
 } carom_foul;
 
-/* The foul of a shot by the rules that all games share, up to CAROM_FOUL_CUSHION; `on` are the
- * balls that may be met first, as a set. */
+/* The foul of a shot by the rules that all games share, up to CAROM_FOUL_CUSHION, and
+ * DOUBLE_HIT; `on` are the balls that may be met first, as a set. */
 CAROM_API carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball);
 
 /* Why, in words, such as "the cue ball met no ball"; "" for NONE and for a value not listed. */

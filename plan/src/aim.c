@@ -110,8 +110,9 @@ static progress follow(const way *w, const int *ball, const carom_brief_event *e
       while (k > 0 && events[k - 1].time == e->time)
         k--;
       k--;
-    } else if (meets && at > 0 && other == ball[at - 1] && e->time == p.since) {
-      continue;
+    } else if (meets && at > 0 && other == ball[at - 1] &&
+               (e->time == p.since || (at == 1 && p.since == 0.0))) {
+      continue; /* the cue ball may follow a ball that it touched, and meet it again */
     } else if (rail && is_on(w, next, e->b)) {
       p.since = e->time;
       p.links++;

@@ -126,7 +126,9 @@ static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
   /* A push-out may meet any ball or none, and needs no cushion. */
   int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(user, in_play), cue_ball);
   if (pushes && bad != CAROM_FOUL_CUE_BALL)
-    bad = facts->off != 0 ? CAROM_FOUL_OFF : CAROM_FOUL_NONE;
+    bad = facts->off != 0              ? CAROM_FOUL_OFF
+          : carom_is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT
+                                       : CAROM_FOUL_NONE;
   if (bad == CAROM_FOUL_NONE && opening && !is_break(facts, cue_ball))
     bad = CAROM_FOUL_BREAK;
   if (bad != CAROM_FOUL_NONE) {
@@ -189,9 +191,11 @@ static void threecushion_left(const uint64_t *user, uint32_t in_play, int32_t le
 static carom_turn threecushion_judge(uint64_t *user, uint32_t in_play, int cue_ball,
                                      const carom_facts *facts, carom_call call) {
   (void)user, (void)in_play, (void)cue_ball, (void)call;
-  const bool off = facts->off != 0;
-  if (off || facts->first[1] < 0 || facts->cushions_before[1] < 3)
-    return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, off ? CAROM_FOUL_OFF : 0, 0, 0.0};
+  const int32_t bad = facts->off != 0                            ? CAROM_FOUL_OFF
+                      : facts->pushed != 0 || facts->touches > 1 ? CAROM_FOUL_DOUBLE_HIT
+                                                                 : CAROM_FOUL_NONE;
+  if (bad || facts->first[1] < 0 || facts->cushions_before[1] < 3)
+    return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, 0, 0.0};
   carom_turn turn = carom_keep;
   turn.points = 1.0;
   return turn;

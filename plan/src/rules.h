@@ -23,6 +23,10 @@ static inline void carom_swap(uint64_t *a, uint64_t *b) {
   *b = kept;
 }
 
+/* A ball that was not frozen was met while the tip was on the cue ball, or the tip touched twice
+ * without any that was: a frozen ball may be played through. */
+bool carom_is_double_hit(const carom_facts *facts);
+
 /* Puts balls on the foot spot, or behind it, in the order of their numbers. */
 void carom_put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set);
 

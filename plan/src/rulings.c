@@ -3,12 +3,17 @@
 
 #include <stddef.h>
 
+bool carom_is_double_hit(const carom_facts *facts) {
+  return (facts->pushed & ~facts->frozen) != 0 || (facts->touches > 1 && facts->pushed == 0);
+}
+
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   const int first = facts->first[0];
   return (facts->down | facts->off) >> cue_ball & 1       ? CAROM_FOUL_CUE_BALL
          : first < 0                                      ? CAROM_FOUL_NO_BALL
          : !(on >> first & 1)                             ? CAROM_FOUL_FIRST
          : facts->off != 0                                ? CAROM_FOUL_OFF
+         : carom_is_double_hit(facts)                     ? CAROM_FOUL_DOUBLE_HIT
          : facts->down == 0 && facts->cushions_after == 0 ? CAROM_FOUL_CUSHION
                                                           : CAROM_FOUL_NONE;
 }
@@ -23,7 +28,8 @@ const char *carom_foul_string(int foul) {
       "nothing fell, and nothing met a cushion after the first contact",
       "the break potted nothing, and drove too few balls to cushions",
       "another rule",
-      "a ball fell that was not on"};
+      "a ball fell that was not on",
+      "the tip was still on the cue ball, or touched it again, as it met a ball"};
   return foul > 0 && foul < (int)(sizeof words / sizeof words[0]) ? words[foul] : "";
 }
 

@@ -5,8 +5,9 @@
  * on. A player who is snookered after a foul may name any ball for one on: a free ball. The first
  * pot or foul on the last black ends the frame, but for equal scores: then the black comes back,
  * and the other plays from the D; by the rules they draw lots. Who comes to the last black more
- * than its seven points ahead claims the frame. A ball that touches the cue ball has to be met, as
- * any. */
+ * than its seven points ahead claims the frame. Who plays away from a ball on that touches the cue
+ * ball has met it first. To meet a ball before the tip has left the cue ball is a push stroke, also
+ * at the very edge of one that nearly touches, which the rules allow: facts do not tell it. */
 #include "rules.h"
 #include "table/spots.h"
 
@@ -107,6 +108,16 @@ static carom_turn finish(uint64_t *user, carom_turn turn) {
   return turn;
 }
 
+/* The ball that is met first: the lowest of `choice` that touches the cue ball, where it is played
+ * away from, else the one that it meets. */
+static int first_of(const carom_facts *facts, uint32_t choice) {
+  const uint32_t touching = facts->frozen & ~facts->pushed & choice;
+  const int first = facts->first[0];
+  if (touching == 0 || (first >= 0 && touching >> first & 1))
+    return first;
+  return carom_count_of((touching & (~touching + 1)) - 1);
+}
+
 static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts,
                         carom_call call) {
   const uint32_t balls = in_play & (reds | colours), due = due_of(user, in_play);
@@ -121,10 +132,10 @@ static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const ca
 
   /* The ball that is named, where one may be: else it is the first. */
   const uint32_t choice = after_foul & FREE_BALL ? balls : due;
-  const int first = facts->first[0];
-  const int named = call.ball >= 0 && call.ball <= BLACK && choice >> call.ball & 1 ? call.ball
-                    : first >= 0 && choice >> first & 1                             ? first
-                                                                                    : -1;
+  const bool calls = call.ball >= 0 && call.ball <= BLACK && choice >> call.ball & 1;
+  const uint32_t called = calls ? UINT32_C(1) << call.ball : choice;
+  const int first = first_of(facts, !colour && (called & due) != 0 ? due : called);
+  const int named = calls ? call.ball : first >= 0 && choice >> first & 1 ? first : -1;
   const uint32_t its = named < 0 ? 0 : UINT32_C(1) << named;
   const bool free_ball = !colour && its != 0 && (its & due) == 0;
   const uint32_t to_meet = colour || free_ball ? its : due;
@@ -136,17 +147,19 @@ static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const ca
   const uint32_t wrong = (facts->down & balls & ~to_fall) | (facts->off & balls);
   const bool off_cue = (facts->down | facts->off) >> cue_ball & 1;
   const bool wrong_first = first >= 0 && !(to_meet >> first & 1);
+  const bool pushes = facts->pushed != 0 || facts->touches > 1;
   const int32_t bad = off_cue                      ? CAROM_FOUL_CUE_BALL
                       : first < 0                  ? CAROM_FOUL_NO_BALL
                       : wrong_first                ? CAROM_FOUL_FIRST
                       : (facts->off & balls) != 0  ? CAROM_FOUL_OFF
+                      : pushes                     ? CAROM_FOUL_DOUBLE_HIT
                       : (facts->down & wrong) != 0 ? CAROM_FOUL_POT
                                                    : CAROM_FOUL_NONE;
   carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, gone & colours, 0.0};
   user[COLOUR] = 0;
   if (bad != CAROM_FOUL_NONE) {
     int cost = value > LEAST ? value : LEAST;
-    const int by_first = wrong_first ? worth(first) : 0, by_fall = highest(wrong);
+    const int by_first = wrong_first ? worth(first) : 0, by_fall = highest(wrong | facts->pushed);
     cost = by_first > cost ? by_first : cost;
     cost = by_fall > cost ? by_fall : cost;
     user[OTHER] += (uint64_t)cost;

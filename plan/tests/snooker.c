@@ -167,6 +167,78 @@ TEST(snooker_claim) {
   }
 }
 
+/* A ball that is met while the tip is on the cue ball: `frozen` before the stroke, `pushed` in it.
+ * In snooker reds are on. Before the same shot without a touch of a cushion, and after a loss. */
+TEST(double_hits) {
+  static const struct {
+    const char *what;
+    uint32_t frozen, pushed;
+    int touches, pool, snooker, three;
+  } given[] = {{"as usual", 0, 0, 1, LEGAL, LEGAL, LEGAL},
+               {"through a frozen ball", R1, R1, 1, LEGAL, DOUBLE_HIT, DOUBLE_HIT},
+               {"the same, touched twice", R1, R1, 2, LEGAL, DOUBLE_HIT, DOUBLE_HIT},
+               {"away from it", R1, 0, 1, LEGAL, LEGAL, LEGAL},
+               {"a near ball", 0, R1, 1, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT},
+               {"a near ball, touched twice", 0, R1, 2, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT},
+               {"a near ball beside a frozen one", R2, R1, 1, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT},
+               {"one of each", R2, R1 | R2, 1, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT},
+               {"touched twice, with no ball", 0, 0, 2, DOUBLE_HIT, DOUBLE_HIT, DOUBLE_HIT}};
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    carom_facts f = facts_of(1, 1, 0, 0), other = f;
+    f.frozen = given[k].frozen;
+    f.pushed = given[k].pushed;
+    f.touches = given[k].touches;
+    ck_assert_msg((int)carom_foul_of(&f, R1, 0) == given[k].pool, "%s", given[k].what);
+    for (int game = CAROM_RULES_EIGHTBALL; game <= CAROM_RULES_ONEPOCKET; game++) {
+      carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)game);
+      const int foul = game == CAROM_RULES_SNOOKER        ? given[k].snooker
+                       : game == CAROM_RULES_THREECUSHION ? given[k].three
+                                                          : given[k].pool;
+      const carom_turn turn = rules.judge(rules.user, 0xffff, 0, &f, (carom_call){NONE, -1});
+      ck_assert_msg((int)turn.foul == foul, "%s: %s", carom_rules_name(game), given[k].what);
+    }
+
+    /* before a cushion, after a ball that is not on, and in a push-out too */
+    f.cushions_after = other.cushions_after = 0;
+    ck_assert_int_eq(carom_foul_of(&f, R1, 0), given[k].pool == LEGAL ? CUSHION : DOUBLE_HIT);
+    ck_assert_int_eq(carom_foul_of(&f, R2, 0), FIRST);
+    carom_plan_rules nine = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+    nine.user[4] = 1;
+    ck_assert_int_eq(nine.judge(nine.user, 0x3ff, 0, &f, (carom_call){CAROM_CALL_PUSH, -1}).foul,
+                     given[k].pool);
+  }
+}
+
+/* A ball on that touches the cue ball has been met by who plays away from it, whatever comes then;
+ * of colours only the one that is named. A push costs what the ball is worth. */
+TEST(snooker_touching) {
+  static const struct {
+    const char *what;
+    int colour, first, call;
+    uint32_t frozen, pushed;
+    int foul, other;
+  } given[] = {{"no other", 0, -1, NONE, R2, 0, LEGAL, 0},
+               {"then a colour", 0, PINK, NONE, R2, 0, LEGAL, 0},
+               {"a colour that is not on", 0, -1, NONE, PI, 0, NO_BALL, 4},
+               {"the colour named", 1, -1, PINK, PI, 0, LEGAL, 0},
+               {"the colour not named", 1, -1, BLUE, PI, 0, NO_BALL, 5},
+               {"none named", 1, -1, NONE, PI, 0, LEGAL, 0},
+               {"the red pushed", 0, 2, NONE, R2, R2, DOUBLE_HIT, 4},
+               {"the pink pushed behind a red", 0, 1, NONE, 0, R1 | PI, DOUBLE_HIT, 6}};
+  for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+    carom_facts f = facts_of(given[k].first, 0, 0, 0);
+    f.frozen = given[k].frozen;
+    f.pushed = given[k].pushed;
+    f.touches = 1;
+    carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
+    rules.user[0] = (uint64_t)given[k].colour;
+    const carom_turn turn = rules.judge(rules.user, ALL, 0, &f, (carom_call){given[k].call, -1});
+    ck_assert_msg((int)turn.foul == given[k].foul, "%s", given[k].what);
+    ck_assert_msg(rules.user[2] == (uint64_t)given[k].other, "%s",
+                  given[k].what); /* his turn now */
+  }
+}
+
 /* After a foul the other may let the offender play again, from hand if the cue ball was; and has no
  * free ball then. */
 TEST(snooker_again) {

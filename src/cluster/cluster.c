@@ -16,11 +16,15 @@
  * slip, of which half is taken at a time since neighbours act too. f begins with that of the
  * step before, scaled with J. mu is linear in the growth of U within the step.
  *
- * h = T/steps for the stiffest of the contacts that act, T the duration for its compression,
- * shorter by the least e. A step in which a stiffer contact touches is taken again, as short as
- * that one asks for. Where nothing acts, contacts that have touched and close again at `slow` or
- * faster touch at once, as positions stay. It ends where there are none: contacts that never
- * touched are met later, as other events.
+ * h is e T/steps of the contacts that act, T the duration of each for its compression, in a norm
+ * that is nearly that of the shortest and in which contacts that are alike count alike:
+ *
+ *     h = (sum (steps/(e T))^32)^(-1/32)
+ *
+ * So which of equal contacts comes first does not count, and h has the derivatives of all. A step
+ * in which others touch is taken again, as short as these ask for. Where nothing acts, contacts
+ * that have touched and close again at `slow` or faster touch at once, as positions stay. It ends
+ * where there are none: contacts that never touched are met later, as other events.
  *
  * Without friction the order is 2; contacts that stick make it 1 (docs/understanding/clusters.md
  * has the errors). The energy rises by 3e-4 at most where e = 1 and nothing rubs; what it has
@@ -28,6 +32,7 @@
  */
 #include "cluster/cluster.h"
 #include "cluster/hertz.h"
+#include "cluster/tip.h"
 #include "cluster/vectors.h"
 #include "friction/laws.h"
 #include "platform/promise.h"
@@ -154,6 +159,15 @@ static inline bool meet(bool flat, const contact *x, double time) {
   return square < R * R;
 }
 
+/* What a contact of a compression adds to the norm of steps; and the step of a sum of these. */
+static inline double quickness(const contact *x, double size) {
+  const double q = x->quick * size, q2 = q * q, q4 = q2 * q2;
+  return q4 * q4;
+}
+static inline double step_of(double norm, double steps) {
+  return norm > 0.0 ? 1.0 / (steps * sqrt(sqrt(sqrt(sqrt(sqrt(norm)))))) : (double)INFINITY;
+}
+
 /* ---- Forces */
 
 /* The numbers of a contact's friction. */
@@ -165,8 +179,8 @@ static inline void law_of(const contact *x, double k[3]) {
 /* The contacts that are pressed at half a step: those that were, and open ones that have an
  * overlap, which touch within it and get their sizes and normals. Returns the longest step that
  * suits these and those that touch in the other half, infinite where there are none. */
-static inline double find_pressed(bool flat, state *c, double h, double parts, pushes *now) {
-  double longest = (double)INFINITY;
+static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
+  double norm = 0.0;
   now->pressed = 0;
   CAROM_PROMISE(!(h < 0.0));
   for (int k = 0; k < c->contacts; k++) {
@@ -176,7 +190,7 @@ static inline double find_pressed(bool flat, state *c, double h, double parts, p
       continue;
     }
     const bool first = !x->touched;
-    if (first && !meet(flat, x, 0.5 * h))
+    if (first && (c->late || !meet(flat, x, 0.5 * h)))
       continue;
     const bool meets = first && meet(flat, x, 0.0);
     if (meets)
@@ -191,17 +205,16 @@ static inline double find_pressed(bool flat, state *c, double h, double parts, p
     if (d > open && (meets || !first))
       now->press[now->pressed++] = x;
     x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(x), v) : 0.0;
-    if (v > 0.0)
-      longest = carom_lesser(longest, carom_cluster_duration(x->pace, x->size) / parts);
+    norm += quickness(x, x->size);
   }
-  return longest;
+  return step_of(norm, c->steps);
 }
 
-/* Those of the pressed contacts that act, and their impulses. `lead` becomes the stiffest of those
- * that overlap. Returns whether any does. */
-static inline bool find_acting(bool flat, double h, double tau, pushes *now, const contact **lead) {
+/* Those of the pressed contacts that act, and their impulses. *norm becomes that of all that
+ * overlap. Returns whether any does. */
+static inline bool find_acting(bool flat, double h, double tau, pushes *now, double *norm) {
   bool overlap = false;
-  double stiffest = 0.0;
+  *norm = 0.0;
   now->contacts = 0;
   for (int k = 0; k < now->pressed; k++) {
     contact *x = now->press[k];
@@ -222,12 +235,7 @@ static inline bool find_acting(bool flat, double h, double tau, pushes *now, con
     x->size = d >= x->d_max ? carom_greater(x->size, d) : x->size;
     x->J = h * carom_hertz_force(x->K, x->e, d, &x->d_max);
 
-    /* a contact's duration is as (K B)^-1/2 size^-1/4 */
-    const double KB = x->K * mobility(x), stiff = KB * KB * x->size;
-    if (stiff > stiffest) {
-      stiffest = stiff;
-      *lead = x;
-    }
+    *norm += quickness(x, x->size);
     if (x->J > 0.0)
       now->push[now->contacts++] = x;
   }
@@ -328,6 +336,16 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
 
 /* ---- A step */
 
+/* Lists a ball, once, as the step begins. */
+static inline void list_pushed(pushes *now, ball *p) {
+  if (p->acting != 0)
+    return;
+  now->pushed[now->balls++] = p;
+  p->base[0] = p->v[0] - p->W[1];
+  p->base[1] = p->v[1] + p->W[0];
+  p->load = p->g[0] = p->g[1] = 0.0;
+}
+
 /* Slips, limits and speeds as the step begins, and the normal impulses. */
 static inline void begin_step(bool flat, state *c, pushes *now) {
   for (int k = 0; k < c->balls; k++)
@@ -352,15 +370,13 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
     /* its two balls, each listed once, as the step begins */
     for (int side = 0; side < 2; side++) {
       ball *p = side == 0 ? x->p : x->q;
-      if (p->acting == 0) {
-        now->pushed[now->balls++] = p;
-        p->base[0] = p->v[0] - p->W[1];
-        p->base[1] = p->v[1] + p->W[0];
-        p->load = p->g[0] = p->g[1] = 0.0;
-      }
+      list_pushed(now, p);
       p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
     }
   }
+  for (int k = 0; c->on_slate && k < c->balls; k++)
+    if (c->slate[k].J > 0.0)
+      list_pushed(now, &c->ball[k]);
   CAROM_PROMISE(now->contacts <= now->pressed && now->balls <= c->balls);
 
   /* all normal impulses, when all of that is known */
@@ -369,10 +385,16 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
     cluster_add(flat, x->p->v, -x->J * x->p->inverse_mass, x->n);
     cluster_add(flat, x->q->v, x->J * x->q->inverse_mass, x->n);
   }
+  if (c->struck)
+    tip_push(flat, c);
+  for (int k = 0; c->on_slate && k < c->balls; k++) {
+    c->ball[k].v[2] += c->slate[k].J * c->ball[k].inverse_mass;
+    c->ball[k].load = c->slate[k].J;
+  }
 }
 
 /* The friction of a step, of all contacts and of the cloth. */
-static inline void rub_all(bool flat, const pushes *now) {
+static inline void rub_all(bool flat, bool on_slate, const pushes *now) {
   double change[CAROM_CLUSTER_CONTACTS][2];
   /* first that of the step before */
   for (int a = 0; a < now->contacts; a++) {
@@ -382,7 +404,7 @@ static inline void rub_all(bool flat, const pushes *now) {
     rub(flat, x, x->f);
   }
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
-    for (int k = 0; flat && k < now->balls; k++)
+    for (int k = 0; (flat || on_slate) && k < now->balls; k++)
       rub_on_cloth(now->pushed[k]);
     if (iteration == ITERATIONS)
       return;
@@ -414,6 +436,10 @@ static inline void end_step(bool flat, state *c, double h, const pushes *now) {
       x->d_max = 0.0;
     }
   }
+  if (c->struck)
+    tip_parts(c, h);
+  if (c->on_slate)
+    slate_parts(c, h);
 }
 
 /* ---- All of it */
@@ -464,30 +490,26 @@ static void take_back(state *c, double before) {
       c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
 }
 
-/* The duration of a step before any contact has acted: by the fastest that touches. *parts of it
- * are a contact's duration. */
-static inline double first_step(bool flat, const state *c, double *parts) {
-  double most = 0.0, T = 0.0, stiff = 1.0;
+/* The duration of a step before any contact has acted: by those that touch and close. */
+static inline double first_step(bool flat, const state *c) {
+  double norm = 0.0;
   for (int k = 0; k < c->contacts; k++) {
     const contact *x = &c->contact[k];
-    /* unloading has K/e^3 over e^2 of the overlap, and so lasts e times as long as loading */
-    const double v = closing_of(flat, x);
-    stiff = carom_greater(stiff, 1.0 / x->e);
-    if (!x->touched || v <= most)
-      continue;
-    most = v;
-    T = carom_cluster_duration(x->pace, carom_cluster_compression(x->K, mobility(x), v));
+    const double v = x->touched ? closing_of(flat, x) : (double)0.0;
+    if (v > 0.0)
+      norm += quickness(x, carom_cluster_compression(x->K, mobility(x), v));
   }
-  *parts = c->steps * stiff;
-  return T / *parts;
+  return step_of(norm, c->steps);
 }
 
 /* Step by step, until no contact acts. */
 static inline bool solve(bool flat, state *c) {
   const double before = energy_of(c);
-  const contact *lead = c->contact;
-  double parts, h = first_step(flat, c, &parts), tau = 0.0;
+  double h = first_step(flat, c), tau = 0.0, norm;
+  if (c->struck)
+    h = tip_step(&c->tip);
   c->taken = 0;
+  c->late = false;
   for (;; c->taken++) {
     if (c->taken == CAROM_CLUSTER_STEPS_MOST)
       return false;
@@ -497,16 +519,19 @@ static inline bool solve(bool flat, state *c) {
     move(flat, c, 0.5 * h);
 
     /* a touch that is faster than what acts asks for a shorter step */
-    const double longest = find_pressed(flat, c, h, parts, &now);
+    const double longest = find_pressed(flat, c, h, &now);
     if (longest < h) {
       move(flat, c, 0.5 * (longest - h));
       h = longest;
-      find_pressed(flat, c, h, parts, &now);
+      find_pressed(flat, c, h, &now);
     }
 
     /* where no contact acts, one may touch again, from where the balls are; else all is over */
     tau += 0.5 * h;
-    if (!find_acting(flat, h, tau, &now, &lead)) {
+    const bool balls = find_acting(flat, h, tau, &now, &norm),
+               cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
+    c->late |= slate && !balls && !cue;
+    if (!balls && !cue && !slate) {
       if (!touch_again(flat, c))
         break;
       continue;
@@ -514,13 +539,16 @@ static inline bool solve(bool flat, state *c) {
 
     /* impulses, friction and the other half */
     begin_step(flat, c, &now);
-    rub_all(flat, &now);
+    rub_all(flat, c->on_slate, &now);
     end_step(flat, c, h, &now);
     tau += 0.5 * h;
-    h = carom_cluster_duration(lead->pace, lead->size) / parts;
+    h = step_of(balls ? norm : (double)0.0, c->steps);
+    if (c->struck)
+      h = carom_lesser(h, tip_step(&c->tip));
   }
   c->duration = tau;
-  take_back(c, before);
+  if (!c->struck)
+    take_back(c, before);
   return true;
 }
 

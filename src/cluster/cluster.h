@@ -68,14 +68,14 @@ typedef struct carom_cluster_ball {
 
 typedef struct carom_cluster_contact_state {
   carom_cluster_ball *p, *q;
-  int8_t i, j;     /* of these in ball[] */
-  bool touched;    /* now or before: n is known */
-  bool may_stick;  /* within this step */
-  double n[3];     /* unit vector from i to j */
-  double offset;   /* d = offset + (s_i - s_j) . n */
-  double d, d_max; /* d_max: 0 while open */
-  double size;     /* the compression that it has, or will have */
-  double K, e, pace;
+  int8_t i, j;        /* of these in ball[] */
+  bool touched;       /* now or before: n is known */
+  bool may_stick;     /* within this step */
+  double n[3];        /* unit vector from i to j */
+  double offset;      /* d = offset + (s_i - s_j) . n */
+  double d, d_max;    /* d_max: 0 while open */
+  double size;        /* the compression that it has, or will have */
+  double K, e, quick; /* quick: (e T)^-4 of a compression of 1 m */
   double mu, U;
   double J, f[2];            /* impulses of a step along n, and of friction along t and the
                                 third; between steps f/J */
@@ -84,10 +84,35 @@ typedef struct carom_cluster_contact_state {
   double impulse, rubbed[2]; /* sums of J and f */
 } carom_cluster_contact_state;
 
-/* The caller sets balls, ball[] up to `which`, steps and slow; carom_cluster_members() in_space
- * and the contacts. */
+/* A cue that pushes a ball, tip.h. The caller sets it up to e. */
+typedef struct carom_cluster_tip {
+  double along[3], arm[3]; /* c' and q */
+  double inverse_mass, V;  /* 1/M; the speed of the cue, m/s */
+  double T, k, e;          /* duration with the ball alone, s; stiffness, N/m; restitution */
+  int ball;                /* of ball[] */
+  /* of the integrator */
+  double d, d_max, J, closing, lost;
+  double impulse;             /* sum of J */
+  int touches;                /* how many times it has touched */
+  double second, second_time; /* closing speed, m/s, and tau of the second of them */
+  double last;                /* tau at which it acts last */
+} carom_cluster_tip;
+
+/* The contact of the slate and a ball, tip.h. The caller sets k, over the mass, and e. */
+typedef struct carom_cluster_slate {
+  bool under; /* the ball is on the slate */
+  double k, e;
+  /* of the integrator */
+  double d, d_max, J, closing, impulse;
+} carom_cluster_slate;
+
+/* The caller sets balls, ball[] up to `which`, steps and slow; of a strike also tip and slate[];
+ * carom_cluster_members() in_space and the contacts. */
 typedef struct carom_cluster_state {
   bool in_space;
+  bool struck;   /* by a cue: tip is read, */
+  bool on_slate; /* and slate[] */
+  bool late;     /* of the integrator: only the slate has acted once, and balls meet later */
   int balls, contacts;
   double steps;    /* of a contact's duration */
   double slow;     /* m/s: contacts that close slower are none, and do not prolong a cluster */
@@ -95,6 +120,8 @@ typedef struct carom_cluster_state {
   int taken;       /* steps */
   carom_cluster_ball ball[CAROM_CLUSTER_BALLS];
   carom_cluster_contact_state contact[CAROM_CLUSTER_CONTACTS];
+  carom_cluster_tip tip;
+  carom_cluster_slate slate[CAROM_CLUSTER_BALLS];
 } carom_cluster_state;
 
 /* members.c: compression of a contact of stiffness K and 1/reduced mass B that closes at v, and
@@ -107,6 +134,15 @@ double carom_cluster_duration(double pace, double size);
  * that of the fastest of the pairs that touch and close. Returns the number of contacts: 0 where
  * no pair touches and closes at `slow` or faster, -1 where there are too many. */
 int carom_cluster_members(carom_cluster_state *c, int first, int second);
+
+/* members.c: keeps of ball[] the struck one, tip.ball, and those that it can reach while the cue
+ * pushes it, if `most` is the speed that it gets, and lists their contacts. Returns how many
+ * contacts there are; 0: it is alone. */
+int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
+
+/* tip.c: the tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
+ * to tip_restitution, in their order, and which touches a ball that is alone for T. */
+void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
 
 /* cluster.c: v and W of ball[]; time, impulse and friction of contact[]. False where it takes
  * too many steps. */

@@ -101,30 +101,30 @@ static bool reaches(const first_contact *first, double deltas, const two_balls *
   return two->gap < deltas * first->delta + first->T * closing;
 }
 
-/* Follows the graph of near neighbours from a pair, and marks those that it reaches. */
-static first_contact follow(const carom_cluster_state *c, const int pair[2],
-                            bool in[CAROM_CLUSTER_BALLS]) {
-  const carom_cluster_ball *a = &c->ball[pair[0]], *b = &c->ball[pair[1]];
+/* delta and T of a contact that closes at v. */
+static first_contact first_of(const carom_cluster_ball *a, const carom_cluster_ball *b, double v) {
   const double K = stiffness(a, b), B = a->inverse_mass + b->inverse_mass;
-  /* delta and T of the pair */
-  const double delta = carom_cluster_compression(K, B, between(a, b).closing);
-  const first_contact first = {delta, carom_cluster_duration(pace_of(K, B), delta)};
+  const double delta = carom_cluster_compression(K, B, v);
+  return (first_contact){delta, carom_cluster_duration(pace_of(K, B), delta)};
+}
 
-  /* breadth first: each ball that is found is asked for its own neighbours */
-  int queue[CAROM_CLUSTER_BALLS] = {pair[0], pair[1]}, found = 2;
-  in[pair[0]] = in[pair[1]] = true;
+/* Follows the graph of near neighbours from `found` balls of the queue, and marks those that it
+ * reaches, breadth first: each ball that is found is asked for its own neighbours. */
+static void follow(const carom_cluster_state *c, const first_contact *first,
+                   int queue[CAROM_CLUSTER_BALLS], int found, bool in[CAROM_CLUSTER_BALLS]) {
+  for (int k = 0; k < found; k++)
+    in[queue[k]] = true;
   for (int k = 0; k < found; k++)
     for (int j = 0; j < c->balls; j++) {
       if (in[j])
         continue;
       const two_balls two = between(&c->ball[queue[k]], &c->ball[j]);
-      if (reaches(&first, reach, &two)) {
+      if (reaches(first, reach, &two)) {
         in[j] = true;
         queue[found++] = j;
       }
     }
   CAROM_PROMISE(found <= c->balls);
-  return first;
 }
 
 static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *two,
@@ -142,7 +142,9 @@ static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *
   memcpy(x->n, two->n, sizeof x->n);
   x->K = stiffness(a, b);
   x->e = e > least_restitution ? e : least_restitution;
-  x->pace = pace_of(x->K, a->inverse_mass + b->inverse_mass);
+  /* unloading has K/e^3 over e^2 of the overlap, and so lasts e times as long as loading */
+  const double pace = x->e * pace_of(x->K, a->inverse_mass + b->inverse_mass);
+  x->quick = 1.0 / (pace * pace * (pace * pace));
   x->time = -1.0;
 }
 
@@ -162,22 +164,13 @@ static int list_contacts(carom_cluster_state *c, const first_contact *first, dou
   return count;
 }
 
-int carom_cluster_members(carom_cluster_state *c, int first, int second) {
-  bool in[CAROM_CLUSTER_BALLS] = {false};
-  int pair[2] = {first, second};
-  c->contacts = 0;
-  if (first < 0 && !fastest_pair(c, pair))
-    return 0;
-  if (between(&c->ball[pair[0]], &c->ball[pair[1]]).closing < c->slow)
-    return 0;
-
-  const first_contact starts = follow(c, pair, in);
-  /* the members, in the caller's order */
+/* Keeps the members, in the caller's order, and lists their contacts. */
+static int keep(carom_cluster_state *c, const first_contact *first,
+                const bool in[CAROM_CLUSTER_BALLS]) {
   int kept = 0;
   for (int k = 0; k < c->balls; k++)
     if (in[k])
       c->ball[kept++] = c->ball[k];
-  CAROM_PROMISE(kept >= 2);
   c->balls = kept;
   c->in_space = false;
   for (int k = 0; k < kept; k++)
@@ -186,7 +179,37 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
    * the nearest */
   int count = -1;
   for (double limit = far; count < 0 && limit > 1e-3; limit *= 0.5)
-    count = list_contacts(c, &starts, limit);
+    count = list_contacts(c, first, limit);
   c->contacts = count > 0 ? count : 0;
   return count;
+}
+
+int carom_cluster_members(carom_cluster_state *c, int first, int second) {
+  bool in[CAROM_CLUSTER_BALLS] = {false};
+  int pair[CAROM_CLUSTER_BALLS] = {first, second};
+  c->contacts = 0;
+  if (first < 0 && !fastest_pair(c, pair))
+    return 0;
+  const carom_cluster_ball *a = &c->ball[pair[0]], *b = &c->ball[pair[1]];
+  const double closing = between(a, b).closing;
+  if (closing < c->slow)
+    return 0;
+  const first_contact starts = first_of(a, b, closing);
+  follow(c, &starts, pair, 2, in);
+  return keep(c, &starts, in);
+}
+
+int carom_cluster_members_of_tip(carom_cluster_state *c, double most) {
+  bool in[CAROM_CLUSTER_BALLS] = {false};
+  int queue[CAROM_CLUSTER_BALLS] = {c->tip.ball};
+  const int which = c->ball[c->tip.ball].which;
+  /* as far as the ball gets in twice the duration of the tip, beside what a contact is deep */
+  first_contact starts = first_of(&c->ball[c->tip.ball], &c->ball[c->tip.ball], most);
+  starts.delta += most * c->tip.T;
+  follow(c, &starts, queue, 1, in);
+  const int count = keep(c, &starts, in);
+  for (int k = 0; k < c->balls; k++)
+    if (c->ball[k].which == which)
+      c->tip.ball = k;
+  return c->balls > 1 ? count : 0;
 }

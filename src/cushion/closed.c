@@ -35,8 +35,8 @@
 
 void carom_apply_han(carom_contact *c) {
   const double v = c->v_y;
-  c->e = carom_limited(0.39 + 0.257 * v - 0.044 * v * v);
-  c->mu_w = carom_limited(0.471 - 0.241 * carom_atan(fabs(c->v_x) / v));
+  c->e = carom_limited(0.0, 0.39 + 0.257 * v - 0.044 * v * v);
+  c->mu_w = carom_limited(0.0, 0.471 - 0.241 * carom_atan(fabs(c->v_x) / v));
 }
 
 carom_status carom_han(carom_contact *c) {
@@ -51,25 +51,26 @@ carom_status carom_han(carom_contact *c) {
 void carom_apply_speed(carom_contact *c, const carom_cushion_options *opt) {
   const double L = c->log_v;
   if (!carom_absent(opt->restitution_log) || !carom_absent(opt->restitution_log2))
-    c->e = carom_limited(c->e + opt->restitution_log * L +
-                         opt->restitution_log2 * carom_lesser(L * L, 1));
+    c->e = carom_limited(c->e, c->e + opt->restitution_log * L +
+                                   opt->restitution_log2 * carom_lesser(L * L, 1));
   if (!carom_absent(opt->mu_log))
-    c->mu_w = carom_limited(c->mu_w + opt->mu_log * L);
+    c->mu_w = carom_limited(c->mu_w, c->mu_w + opt->mu_log * L);
 }
 
 carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   /* the constants of the caller, or those that were measured */
   const bool own = opt->smooth_q > 0;
-  const double q = own ? opt->smooth_q : 0.35, C_x = own ? opt->smooth_x : 1.3,
-               C_t = own ? opt->smooth_t : 1.18, a = own ? opt->smooth_a : 0.25;
-  const double k = own ? opt->smooth_k : 0, g = own ? opt->smooth_g : 0.067,
-               g_log = own ? opt->smooth_g_log : -0.059, e_d = own ? opt->smooth_e : 0.06;
+  const double q = carom_or_usual(opt->smooth_q, 0.35), k = opt->smooth_k,
+               C_x = opt->smooth_x + (own ? 0 : 1.3), C_t = opt->smooth_t + (own ? 0 : 1.18),
+               a = opt->smooth_a + (own ? 0 : 0.25), g = opt->smooth_g + (own ? 0 : 0.067),
+               g_log = opt->smooth_g_log + (own ? 0 : -0.059),
+               e_d = opt->smooth_e + (own ? 0 : 0.06);
 
   /* the slips, and restitution by how far the surface moves down the nose, -1 to 1 */
   const double s_x = carom_slip_x(c), s_t = carom_slip_t(c);
   double e = c->e;
   if (!carom_absent(e_d))
-    e = carom_limited(e - e_d * s_t / sqrt(s_t * s_t + c->v_y * c->v_y));
+    e = carom_limited(e, e - e_d * s_t / sqrt(s_t * s_t + c->v_y * c->v_y));
 
   /* friction without a limit, and the limit */
   const double once = c->v_y * c->cosine, P = (1 + e) * once, most = c->mu_w * P;

@@ -37,7 +37,7 @@ void carom_lose_roll(const carom_cushion_options *opt, double R, const double n[
                            ? opt->roll_loss
                            : opt->roll_loss + opt->roll_loss_log * carom_log_of_speed(v_y);
   /* a share of 0 has derivatives by the numbers that make it */
-  const double pull = carom_limited(share) * v_t;
+  const double pull = carom_limited(opt->roll_loss, share) * v_t;
   const double loss = share == 0.0 && v_t * roll > 0.0 ? pull : carom_minmod(pull, roll);
   for (int k = 0; k < 2; k++)
     w[k] -= loss / R * n[k] + 0.0; /* without a loss w keeps its bits */

@@ -134,7 +134,7 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
 static double friction_share(const carom_contact *c, double v_n, double slip,
                              const carom_cushion_options *opt) {
   const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;
-  const double ratio = opt->omega_ratio > 0 ? opt->omega_ratio : USUAL_RATIO;
+  const double ratio = carom_or_usual(opt->omega_ratio, USUAL_RATIO);
   const double rho = slip / v_n;
   return slip > 0 ? (1 - slip_after(rho, c->mu_w, c->e, ratio, pooltool) / rho) / BETA : 0;
 }

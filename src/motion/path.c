@@ -117,7 +117,7 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
       path->e[1] = y / size;
     }
     /* with drag the path begins with the first piece of a pair */
-    if (!slides && rates->drag * size * size > 1e-16 * rates->roll)
+    if (!slides && (rates->drag * size * size > 1e-16 * rates->roll || carom_varies(rates->drag)))
       friction = begin_pair(path, rates, size);
     path->a[0] = -0.5 * friction * path->e[0];
     path->a[1] = -0.5 * friction * path->e[1];

@@ -22,11 +22,23 @@ static inline double carom_greater(double a, double b) {
 static inline bool carom_absent(double x) {
   return x == 0;
 }
+/* Whether a number has derivatives, so that what it changes counts however small it is. */
+static inline bool carom_varies(double x) {
+  (void)x;
+  return false;
+}
+/* A sum that begins with `from`, within 0 and 1. At either end it has the derivatives of the sum;
+ * there it has a kink by all numbers but `from`, whose range ends there. */
+static inline double carom_limited(double from, double sum) {
+  (void)from;
+  return sum < 0 ? (double)0 : sum > 1 ? (double)1 : sum;
+}
 #endif
 
-/* x within 0 and 1. At either end it has the derivatives of x. */
-static inline double carom_limited(double x) {
-  return x < 0 ? (double)0 : x > 1 ? (double)1 : x;
+/* A number of the caller's, or the usual one that 0 stands for. It has the derivatives of the
+ * number in both cases. */
+static inline double carom_or_usual(double given, double usual) {
+  return given > 0.0 ? given : usual + given;
 }
 
 /* x - x is 0 unless x is infinite or no number. C++ has isfinite() in std alone. */

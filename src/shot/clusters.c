@@ -9,6 +9,7 @@
 
 static const double usual_modulus = 6.6e9; /* N/m^2: phenolic resin,
                                               docs/understanding/clusters.md */
+static const double near = 0.01;           /* m; members.c looks closer */
 static const double simultaneous = 1e-9;   /* of a contact's duration: touches that are nearer in
                                               time count as one */
 
@@ -34,7 +35,7 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
   b.inverse_mass = 1.0 / kind->mass;
   b.mu_cloth = kind->mu_slide;
   b.restitution = kind->restitution;
-  b.modulus = kind->modulus > 0.0 ? kind->modulus : usual_modulus;
+  b.modulus = carom_or_usual(kind->modulus, usual_modulus);
   b.friction = (int8_t)opt->friction;
 
   /* a mirror has no friction with others: all numbers of the law 0 */
@@ -70,8 +71,13 @@ static int in_order(const carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CO
 
 /* ---- In a shot */
 
+bool carom_lasts(const carom_shot_options *opt) {
+  const carom_ball_model model = carom_ball_model_of(opt);
+  return opt->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
+         (model == CAROM_BALL_MODEL_EXACT || model == CAROM_BALL_MODEL_MIRROR);
+}
+
 bool carom_third_is_near(const carom_sim *sim, int i, int j) {
-  static const double near = 0.01; /* m; members.c looks closer */
   const double reach = 2.0 * sim->features->radius + near, most = reach * reach;
   const double ti = sim->now - sim->start[i], tj = sim->now - sim->start[j];
   const double xi = sim->x[i] + ti * (sim->v_x[i] + ti * sim->a_x[i]),
@@ -96,6 +102,7 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
 
   /* all balls in play, as they are now; the two that meet, by their places in the list */
   c->balls = 0;
+  c->struck = c->on_slate = false;
   c->steps = sim->opt->cluster_steps > 0 ? sim->opt->cluster_steps : CAROM_CLUSTER_STEPS;
   c->slow = carom_slow_speed(sim->slow_instants);
   int first = 0, second = 0;
@@ -139,6 +146,73 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
   return count > 1 ? count : 0;
 }
 
+bool carom_may_push(const carom_sim *sim, const carom_motion *alone) {
+  const carom_cue *cue = sim->cue;
+  const int i = sim->struck;
+  if (!sim->rules->clusters || cue->tip_time < 0.0 || !carom_lasts(sim->opt))
+    return false;
+  const double *v = alone->v, *r = sim->path[i].from.r;
+  const double most = carom_tip_time(cue) * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  for (int k = 0; k < sim->count; k++) {
+    const double *q = sim->path[k].from.r;
+    const double x = q[0] - r[0], y = q[1] - r[1];
+    const double reach = sim->rates[i].radius + sim->rates[k].radius + most + near;
+    if (k != i && !carom_is_out(sim->path[k].from.label) && x * x + y * y < reach * reach)
+      return true;
+  }
+  return false;
+}
+
+/* The slate under each member that lies on it, with the duration of shot/slate.c. */
+static void put_on_slate(const carom_sim *sim, carom_cluster_state *c) {
+  memset(c->slate, 0, sizeof c->slate);
+  c->on_slate = c->in_space = true;
+  for (int k = 0; k < c->balls; k++) {
+    const carom_ball_kind *kind = sim->layout->kind[c->ball[k].which];
+    c->slate[k] = carom_slate_under(kind);
+    c->slate[k].under = !c->ball[k].flies;
+  }
+}
+
+int carom_cluster_strike(carom_sim *sim, const carom_motion *alone, bool flat,
+                         carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
+  const carom_cue *cue = sim->cue;
+  c->balls = 0;
+  c->steps = sim->opt->cluster_steps > 0 ? sim->opt->cluster_steps : CAROM_CLUSTER_STEPS;
+  c->slow = carom_slow_speed(0);
+  c->struck = true;
+  c->on_slate = false;
+  int struck = 0;
+  for (int k = 0; k < sim->count; k++) {
+    const carom_ball_state *s = &sim->path[k].from;
+    if (carom_is_out(s->label))
+      continue;
+    if (k == sim->struck)
+      struck = c->balls;
+    c->ball[c->balls++] = member_of(sim->layout->kind[k], s, sim->opt, carom_flies(s), k);
+  }
+
+  /* those that the ball can reach, and of a raised cue the slate */
+  const double *v = alone->v;
+  const double numbers[8] = {cue->speed, cue->phi,  cue->theta,    cue->a,
+                             cue->b,     cue->mass, cue->end_mass, cue->tip_restitution};
+  carom_cluster_tip_of(c, struck, numbers, carom_tip_time(cue));
+  const int size = carom_cluster_members_of_tip(c, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+  if (size <= 0)
+    return 0;
+  if (!flat && alone->v[2] != 0.0)
+    put_on_slate(sim, c);
+  return carom_cluster_solve(c) ? in_order(c, order) : 0;
+}
+
+void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *c, int k,
+                        carom_ball_state *s) {
+  const carom_ball_kind *kind = sim->layout->kind[c->ball[k].which];
+  carom_cluster_take(&c->ball[k], s);
+  if (c->on_slate)
+    carom_leave_slate(kind, c->slate[k].impulse / kind->mass, s);
+}
+
 void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s) {
   motion_of(b, s->v, s->w);
 }
@@ -160,6 +234,7 @@ static carom_cluster_contact contact_of(const carom_cluster_state *c,
 static void gather(const carom_shot_ball *balls, int count, const carom_shot_options *opt,
                    const bool done[], carom_cluster_state *c) {
   c->balls = 0;
+  c->struck = c->on_slate = false;
   c->steps = opt->cluster_steps > 0 ? opt->cluster_steps : CAROM_CLUSTER_STEPS;
   c->slow = carom_slow_speed(0);
   for (int k = 0; k < count; k++) {

@@ -19,4 +19,26 @@ int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
 /* The motion of a ball after its cluster. */
 void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s);
 
+/* Whether contacts of several balls last by these options. */
+bool carom_lasts(const carom_shot_options *opt);
+
+/* Whether the struck ball, which would get the motion `alone`, may meet another while the cue
+ * pushes it. */
+bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
+
+/* The cue's push of the struck ball and those that it meets meanwhile. Returns how many contacts
+ * of balls had an impulse, in the order of order[]; 0: the ball is as if it were alone. */
+int carom_cluster_strike(carom_sim *sim, const carom_motion *alone, bool flat,
+                         carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]);
+
+/* pulse.c: how long a tip touches; the contact of a ball with the slate; and what an impulse J of
+ * it, over the mass, takes from the turn about the vertical and the end of hops from v[2]. */
+double carom_tip_time(const carom_cue *cue);
+carom_cluster_slate carom_slate_under(const carom_ball_kind *kind);
+void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *s);
+
+/* The motion of member k after a push, of a raised cue with what the slate takes from it. */
+void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *c, int k,
+                        carom_ball_state *s);
+
 #endif

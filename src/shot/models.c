@@ -30,11 +30,10 @@ CAROM_FRICTION_LAWS(IN_ORDER)
 /* law_a, law_b and law_c, or Alciatore's where all are 0. */
 static inline void carom_own_law(const carom_ball_kind *kind, double k[3]) {
   const bool own = kind->law_a + kind->law_b + kind->law_c > 0.0;
-  const carom_speed_law law =
-      own ? (carom_speed_law){kind->law_a, kind->law_b, kind->law_c} : carom_alciatore();
-  k[0] = law.a;
-  k[1] = law.b;
-  k[2] = law.c;
+  const carom_speed_law law = own ? (carom_speed_law){0} : carom_alciatore();
+  k[0] = law.a + kind->law_a;
+  k[1] = law.b + kind->law_b;
+  k[2] = law.c + kind->law_c;
 }
 
 void carom_law_of_ball(carom_ball_friction law, const carom_ball_kind *kind, double k[3]) {
@@ -183,11 +182,6 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
 CAROM_CUSHION_MODELS(AGREES)
 #undef AGREES
 
-/* Of a rail or jaw, or of the ball where that has none. */
-static double own_or(double own, double of_ball) {
-  return own > 0.0 ? own : of_ball;
-}
-
 static carom_cushion_options cushion_options(const carom_sim *sim, const carom_ball_kind *kind) {
   carom_cushion_options options = {.model = carom_cushion_model_of(sim->opt, kind),
                                    .convention = sim->rules->convention,
@@ -222,8 +216,8 @@ static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const
   /* restitution and friction by the closing speed; of a ball on the cloth it is v_y cos(theta) */
   const double sine = carom_nose_height(kind, nose->height) / kind->radius - 1.0;
   carom_contact c = {.v_y = touch.closing / sqrt((1.0 - sine) * (1.0 + sine)),
-                     .mu_w = own_or(nose->mu_cushion, kind->mu_cushion),
-                     .e = own_or(nose->restitution, kind->restitution_cushion)};
+                     .mu_w = carom_or_usual(nose->mu_cushion, kind->mu_cushion),
+                     .e = carom_or_usual(nose->restitution, kind->restitution_cushion)};
   carom_apply_law(&c, &options);
 
   const double J_t = friction_in_flight(&c, touch.closing, touch.slip, &options);
@@ -241,9 +235,9 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
                                    .radius = kind->radius,
                                    .mass = kind->mass,
                                    .mu_cloth = kind->mu_slide,
-                                   .mu_cushion = own_or(nose->mu_cushion, kind->mu_cushion),
+                                   .mu_cushion = carom_or_usual(nose->mu_cushion, kind->mu_cushion),
                                    .restitution =
-                                       own_or(nose->restitution, kind->restitution_cushion),
+                                       carom_or_usual(nose->restitution, kind->restitution_cushion),
                                    .jaw_radius = nose->jaw_radius};
   carom_cushion_options options = cushion_options(sim, kind);
   carom_motion out;

@@ -41,6 +41,7 @@ static void add_fact(carom_facts *facts, const carom_due *due, int cue, double n
   switch (due->type) {
   case CAROM_EVENT_STRIKE:
     facts->moved |= UINT32_C(1) << a;
+    facts->touches = 1;
     break;
   case CAROM_EVENT_BALL_BALL:
     facts->moved |= UINT32_C(1) << a | UINT32_C(1) << b;
@@ -62,6 +63,36 @@ static void add_fact(carom_facts *facts, const carom_due *due, int cue, double n
     break;
   default:
     break;
+  }
+}
+
+/* The set of the balls that touch the struck one, by the same bound as in members.c. */
+static uint32_t frozen_to(const carom_sim *sim) {
+  const int i = sim->struck;
+  const double *r = sim->path[i].from.r;
+  uint32_t set = 0;
+  for (int k = 0; k < sim->count; k++) {
+    const double *q = sim->path[k].from.r;
+    const double R = sim->rates[i].radius, Q = sim->rates[k].radius, reach = R + Q + 1e-9;
+    const double x = q[0] - r[0], y = q[1] - r[1], z = Q - R;
+    if (k != i && !carom_is_out(sim->path[k].from.label) && x * x + y * y + z * z < reach * reach)
+      set |= UINT32_C(1) << k;
+  }
+  return set;
+}
+
+/* What a push with `count` contacts of balls adds to the facts. */
+static void add_push(const carom_sim *sim, const carom_cluster_state *c, const uint8_t order[],
+                     int count) {
+  carom_facts *facts = sim->shot->facts;
+  if (facts == NULL)
+    return;
+  facts->touches = c->tip.touches;
+  for (int k = 0; k < count; k++) {
+    const carom_cluster_contact_state *x = &c->contact[order[k]];
+    const int other = x->i == c->tip.ball ? x->j : x->j == c->tip.ball ? x->i : -1;
+    if (other >= 0 && x->time <= c->tip.last)
+      facts->pushed |= UINT32_C(1) << c->ball[other].which;
   }
 }
 
@@ -139,26 +170,18 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
   }
 }
 
-/* The contact that is due with all that lasts at the same time. Returns false where there is
- * nothing else. Each contact is an event. A ball changes at its first one, and has the same
- * state before and after the others. *due becomes the first contact of the struck ball, where it
- * has one. Apart, as a cluster needs 20 KiB of stack. */
-__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due,
-                                                          carom_status *status) {
-  carom_cluster_state c;
-  uint8_t order[CAROM_CLUSTER_CONTACTS];
-  const int count = carom_cluster_now(sim, due->a, due->b, &c, order);
-  if (count == 0)
-    return false;
-  *status = CAROM_OK;
-
-  /* balls that have had their first contact here */
-  bool changed[CAROM_BALLS_MOST] = {false};
+/* Each contact of a cluster is an event. A ball changes at its first one, unless it is among
+ * changed[], and has the same state before and after the others. *due becomes the first contact of
+ * the struck ball, where it has one. */
+static carom_status note_contacts(carom_sim *sim, const carom_cluster_state *c,
+                                  const uint8_t order[], int count, bool changed[],
+                                  carom_due *due) {
+  carom_status status = CAROM_OK;
   const int struck = sim->struck;
   for (int k = 0; k < count; k++) {
     /* one contact as an event of its own; balls stand in the caller's order */
-    const carom_cluster_contact_state *x = &c.contact[order[k]];
-    const carom_cluster_ball *two[2] = {&c.ball[x->i], &c.ball[x->j]};
+    const carom_cluster_contact_state *x = &c->contact[order[k]];
+    const carom_cluster_ball *two[2] = {&c->ball[x->i], &c->ball[x->j]};
     const carom_due contact = {sim->now, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
     CAROM_PROMISE(contact.a < contact.b);
     /* the loop stops by the contact of the struck ball, wherever it stands */
@@ -166,7 +189,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
       *due = contact;
 
     carom_event spare, *event = note(sim, &spare, &contact);
-    event->cluster = count;
+    event->cluster = count + (c->struck ? 1 : 0);
     event->impulse =
         sqrt(x->impulse * x->impulse + x->rubbed[0] * x->rubbed[0] + x->rubbed[1] * x->rubbed[1]);
     for (int side = 0; side < 2; side++) {
@@ -179,11 +202,11 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
         changed[i] = true;
         carom_path_at(path, &sim->rates[i], sim->now, &event->before[side]);
         path->from = event->before[side];
-        carom_cluster_take(two[side], &path->from);
-        carom_label_after(c.in_space, sim->layout->kind[i], &path->from);
+        carom_cluster_rest(sim, c, (int)(two[side] - c->ball), &path->from);
+        carom_label_after(c->in_space, sim->layout->kind[i], &path->from);
         /* a motion that overflows is not taken: the shot ends there */
         if (!carom_is_finite(path->from.v) || !carom_is_finite(path->from.w)) {
-          *status = CAROM_ERROR_OVERFLOW;
+          status = CAROM_ERROR_OVERFLOW;
           path->from = event->before[side];
         }
         carom_path_begin(path, &sim->rates[i], sim->now);
@@ -191,18 +214,58 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
       event->after[side] = path->from;
     }
   }
+  return status;
+}
 
+/* The contact that is due with all that lasts at the same time. Returns false where there is
+ * nothing else. *due becomes the first contact of the struck ball, where it has one. Apart, as a
+ * cluster needs 20 KiB of stack. */
+__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due,
+                                                          carom_status *status) {
+  carom_cluster_state c;
+  uint8_t order[CAROM_CLUSTER_CONTACTS];
+  const int count = carom_cluster_now(sim, due->a, due->b, &c, order);
+  if (count == 0)
+    return false;
+  bool changed[CAROM_BALLS_MOST] = {false};
+  *status = note_contacts(sim, &c, order, count, changed, due);
   carom_detect_all(sim);
+  return true;
+}
+
+/* The push of a cue with the contacts of balls that last meanwhile, as events behind that of the
+ * strike. Returns false where the struck ball is as if it were alone. *met becomes the first
+ * contact of the struck ball. */
+__attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_motion *alone,
+                                                 bool flat, carom_due *met, carom_status *status) {
+  carom_cluster_state c;
+  uint8_t order[CAROM_CLUSTER_CONTACTS];
+  const int count = carom_cluster_strike(sim, alone, flat, &c, order), i = sim->struck;
+  if (count == 0)
+    return false;
+
+  const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
+  carom_event spare, *event = note(sim, &spare, &due);
+  add_push(sim, &c, order, count);
+  carom_ball_state *state = &sim->path[i].from;
+  event->before[0] = *state;
+  carom_cluster_rest(sim, &c, c.tip.ball, state);
+  carom_label_after(c.in_space, sim->layout->kind[i], state);
+  event->after[0] = *state;
+  event->cluster = count + 1;
+  event->impulse = c.tip.impulse;
+  carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
+
+  bool changed[CAROM_BALLS_MOST] = {false};
+  changed[i] = true;
+  *met = (carom_due){0.0, CAROM_EVENT_BALL_BALL, -1, -1};
+  *status = note_contacts(sim, &c, order, count, changed, met);
   return true;
 }
 
 /* Whether a contact may be one of several that last. */
 static inline bool may_last(const carom_sim *sim, const carom_due *due) {
-  const carom_shot_options *opt = sim->opt;
-  const carom_ball_model model = carom_ball_model_of(opt);
-  return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters &&
-         opt->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
-         (model == CAROM_BALL_MODEL_EXACT || model == CAROM_BALL_MODEL_MIRROR) &&
+  return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters && carom_lasts(sim->opt) &&
          sim->one_by_one != sim->now && carom_third_is_near(sim, due->a, due->b);
 }
 
@@ -251,8 +314,8 @@ static carom_status step(carom_sim *sim, carom_due *due) {
   return status;
 }
 
-/* The strike, where there is one. */
-static carom_status strike(carom_sim *sim) {
+/* The strike, where there is one. *met becomes a contact of its push. */
+static carom_status strike(carom_sim *sim, carom_due *met) {
   const carom_cue *cue = sim->cue;
   if (cue == NULL || !(cue->speed > 0.0))
     return CAROM_OK;
@@ -270,6 +333,13 @@ static carom_status strike(carom_sim *sim) {
   const carom_status status = carom_blow(cue, sim->layout->kind[i], !flat, &motion);
   if (status < 0)
     return status;
+
+  /* with the balls that it meets meanwhile */
+  if (sim->shot->facts != NULL)
+    sim->shot->facts->frozen = frozen_to(sim);
+  carom_status together;
+  if (carom_may_push(sim, &motion) && push(sim, &motion, flat, met, &together))
+    return together;
 
   /* the event, and the motion that the cue gives */
   const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
@@ -374,13 +444,14 @@ static carom_status finish(carom_sim *sim, carom_status status) {
 
 /* The strike, and whether the shot is to go on after it. */
 static carom_status start(carom_sim *sim) {
-  const carom_status status = strike(sim);
+  carom_due met = {0.0, 0, -1, -1};
+  const carom_status status = strike(sim, &met);
   if (status != CAROM_OK)
     return status;
   carom_detect_all(sim);
-  return sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1)
-             ? CAROM_STOPPED_AT_EVENT
-             : CAROM_OK;
+  bool stops = sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1);
+  stops |= met.type != 0 && stops_at(sim, met.type, met.a, met.b);
+  return stops ? CAROM_STOPPED_AT_EVENT : CAROM_OK;
 }
 
 /* A shot from its strike, or on from shot->state. */

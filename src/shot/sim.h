@@ -166,6 +166,12 @@ carom_touch carom_touch_of(const double N[3], double radius, const carom_ball_st
 void carom_take_impulse(const carom_touch *touch, double radius, double J, double J_t,
                         carom_ball_state *state);
 
+/* slate.c: the touch of the slate by a ball with v[2] <= 0; and what the impulses J, by which the
+ * ball leaves it at the speed `up`, and J_t change. */
+carom_touch carom_touch_slate(const carom_ball_kind *kind, const carom_ball_state *state);
+void carom_answer_of_slate(const carom_ball_kind *kind, const carom_touch *touch, double up,
+                           double J_t, carom_ball_state *state);
+
 /* ---- spheres.c: two spheres that collide in space, n the unit vector from ball a to ball b */
 
 /* The speed at which the surface of a slips on that of b, m/s. Positions are not read. */

@@ -17,7 +17,7 @@
 #include <math.h>
 
 double carom_nose_height(const carom_ball_kind *kind, double height) {
-  return kind->nose_height > 0.0 ? kind->nose_height : height;
+  return carom_or_usual(kind->nose_height, height);
 }
 
 double carom_nose_shift(double height, double reference) {

@@ -21,11 +21,22 @@ double carom_exp(double x) {
   return {y, x.d * y};
 }
 
+void carom_sincos_degrees(double degrees, double *sine, double *cosine) {
+  const real radians = 0.017453292519943295;
+  real s, c;
+  ::carom_sincos_degrees(degrees.x, &s, &c);
+  *sine = number(s, degrees.d * (radians * c));
+  *cosine = number(c, degrees.d * (radians * -s));
+}
+
 #include "cluster/cluster.h"
 #define open least_overlap
 #include "cluster/cluster.c"
 #undef open
 #include "cluster/members.c"
+#define least_restitution least_of_tip
+#include "cluster/tip.c"
+#undef least_restitution
 
 #undef double
 } // namespace text

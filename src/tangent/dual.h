@@ -236,6 +236,14 @@ CAROM_RULE bool carom_absent(const number &a) {
     none &= a.d[k] == 0;
   return none;
 }
+CAROM_RULE bool carom_varies(const number &a) {
+  return !carom_absent({0, a.d});
+}
+CAROM_RULE number carom_limited(const number &from, const number &sum) {
+  if ((sum.x == 0 || sum.x == 1) && watched.on && part(from.d, sum.d))
+    watched.note.flags |= CAROM_TANGENT_KINK;
+  return sum.x < 0 ? number(0) : sum.x > 1 ? number(1) : sum;
+}
 CAROM_RULE bool isfinite(const number &a) {
   return __builtin_isfinite(a.x);
 }

@@ -620,6 +620,7 @@ struct member {
 struct cluster {
   carom_tangent_work *w;
   int direction, count;
+  bool on_slate;      /* it is pushed by a raised cue */
   double apart, most; /* values from those of the shot, and the largest of these */
   member members[CAROM_BALLS_MOST];
 };
@@ -636,8 +637,11 @@ void find_members(carom_tangent_work *w, const carom_event *events, int count, c
         break;
       }
 }
+/* -1 of none. */
 int place_of(const cluster *c, int ball) {
   int k = 0;
+  if (ball < 0)
+    return -1;
   while (c->members[k].ball != ball)
     k++;
   return k;
@@ -648,6 +652,10 @@ int place_of(const cluster *c, int ball) {
 CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e) {
   scene s;
   begin_event(w, e, &s);
+  if (e->type == CAROM_EVENT_STRIKE) { /* at time 0, of a ball at rest */
+    store_state(&s.ball[0].state, w->before[0]);
+    return row{};
+  }
   const number g = gap(&s);
   row dT = g.d / -g.d[CLOCK];
   dT[CLOCK] = 0;
@@ -702,7 +710,20 @@ CAROM_APART void note_gap(carom_tangent_work *w, const carom_event *e) {
       w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
 }
 
-bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS], real d[CAROM_MEMBER_NUMBERS]) {
+void give_cue(void *context, real x[8], real d[8]) {
+  const cluster *c = (const cluster *)context;
+  for (int n = 0; n < CAROM_CUE_NUMBERS; n++) {
+    number seed;
+    load(c->w->pass, c->w->seeds->cue, n, &seed);
+    x[n] = (&c->w->cue->speed)[n];
+    d[n] = seed.d[c->direction];
+    if (n == 2 && x[n] == 0 && d[n] != 0 && c->w->opt->space != CAROM_SPACE_FLAT)
+      c->w->note.flags |= CAROM_TANGENT_KINK; /* raised it presses the balls on the slate */
+  }
+}
+
+bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS + 2],
+          real d[CAROM_MEMBER_NUMBERS + 2]) {
   const cluster *c = (const cluster *)context;
   const member *m = &c->members[k];
   text::carom_ball_kind kind;
@@ -717,11 +738,16 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS], real d[CAROM_MEMBE
     x[n] = from[n].x;
     d[n] = from[n].d[c->direction];
   }
+  const text::carom_cluster_slate slate = text::carom_slate_under(&kind);
+  x[CAROM_MEMBER_NUMBERS] = slate.k.x;
+  d[CAROM_MEMBER_NUMBERS] = 0;
+  x[CAROM_MEMBER_NUMBERS + 1] = slate.e.x;
+  d[CAROM_MEMBER_NUMBERS + 1] = slate.e.d[c->direction];
   return ball.flies;
 }
 
-void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS],
-          const real d[CAROM_MOTION_NUMBERS]) {
+void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
+          const real d[CAROM_MOTION_NUMBERS + 1]) {
   static const int row_of[CAROM_MOTION_NUMBERS] = {S_V_X, S_V_Y, S_V_Z, S_W_X, S_W_Y, S_W_Z};
   cluster *c = (cluster *)context;
   const carom_tangent_work *w = c->w;
@@ -729,15 +755,27 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS],
   const ::carom_ball_state *after = &c->members[k].event->after[c->members[k].side];
   text::carom_ball_kind kind;
   load_kind(w, i, &kind);
-  const real R = kind.radius.x, dR = kind.radius.d[c->direction];
+  carom_ball_state s = {};
+  number *to[CAROM_MOTION_NUMBERS] = {&s.v[0], &s.v[1], &s.v[2], &s.w[0], &s.w[1], &s.w[2]};
+  for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
+    to[n]->x = x[n];
+    to[n]->d[c->direction] = d[n];
+    if (n >= 3)
+      *to[n] /= kind.radius;
+  }
+  if (c->on_slate) {
+    number J = x[CAROM_MOTION_NUMBERS];
+    J.d[c->direction] = d[CAROM_MOTION_NUMBERS];
+    text::carom_leave_slate(&kind, J / kind.mass, &s);
+  }
   for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
     const int64_t at = (int64_t)i * CAROM_STATE_NUMBERS + row_of[n];
-    carom_tangent_columns(&w->pass, w->tangent->final, at)[c->direction] =
-        n < 3 ? d[n] : (d[n] - x[n] / R * dR) / R;
+    carom_tangent_columns(&w->pass, w->tangent->final, at)[c->direction] = to[n]->d[c->direction];
     if (n == 2) /* the label may end it */
       continue;
-    const real played = n < 3 ? after->v[n] : R * after->w[n - 3];
-    c->apart = __builtin_fmax(c->apart, __builtin_fabs(x[n] - played));
+    const real scale = n < 3 ? 1 : kind.radius.x,
+               played = scale * (n < 3 ? after->v[n] : after->w[n - 3]);
+    c->apart = __builtin_fmax(c->apart, __builtin_fabs(scale * to[n]->x - played));
     c->most = __builtin_fmax(c->most, __builtin_fabs(played));
   }
 }
@@ -747,16 +785,20 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS],
 CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
   carom_tangent_work *w = c->w;
   const int64_t steps = w->opt->cluster_steps;
-  const carom_tangent_cluster task = {.balls = c->count,
-                                      .first = place_of(c, first->a),
-                                      .second = place_of(c, first->b),
-                                      .steps =
-                                          steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
-                                      .slow = text::carom_slow_speed(w->slow_instants).x,
-                                      .friction = (int)w->opt->friction,
-                                      .give = give,
-                                      .take = take,
-                                      .context = c};
+  const carom_tangent_cluster task = {
+      .balls = c->count,
+      .first = place_of(c, first->a),
+      .second = place_of(c, first->b),
+      .steps = steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
+      .slow = text::carom_slow_speed(w->slow_instants).x,
+      .friction = (int)w->opt->friction,
+      .on_slate = c->on_slate,
+      .tip_time =
+          w->cue != nullptr ? (w->cue->tip_time > 0 ? w->cue->tip_time : CAROM_TIP_TIME) : 0,
+      .give_cue = give_cue,
+      .give = give,
+      .take = take,
+      .context = c};
   bool kink = false;
   for (c->direction = 0; c->direction < w->pass.columns; c->direction++)
     if (!carom_tangent_solve_cluster(&task, &kink))
@@ -792,6 +834,8 @@ carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_eve
   w->note = {CAROM_TANGENT_CLUSTER, 0};
   watched = {false, {0, 0}};
   find_members(w, events, count, &c);
+  c.on_slate = events[0].type == CAROM_EVENT_STRIKE && w->opt->space != CAROM_SPACE_FLAT &&
+               w->cue->theta > 0;
   const row dT = begin_cluster(w, &events[0]);
   for (int k = 0; k < c.count; k++) {
     const member *m = &c.members[k];

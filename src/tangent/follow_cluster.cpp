@@ -16,11 +16,19 @@ bool is_level(const text::carom_cluster_contact_state &x, real most) {
              1e-9 * (__builtin_fabs(x.impulse.d[0]) + __builtin_fabs(level.d[0]));
 }
 
+row row_of(real d) {
+  row r = {};
+  r[0] = d;
+  return r;
+}
+
 } // namespace
 
 bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
   text::carom_cluster_state state;
   state.balls = c->balls;
+  state.struck = c->second < 0;
+  state.on_slate = c->on_slate;
   state.steps = c->steps;
   state.slow = c->slow;
 
@@ -31,7 +39,7 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
     static_assert(offsetof(text::carom_cluster_ball, flies) ==
                       CAROM_MEMBER_NUMBERS * sizeof(number),
                   "the numbers come first");
-    real x[CAROM_MEMBER_NUMBERS], d[CAROM_MEMBER_NUMBERS];
+    real x[CAROM_MEMBER_NUMBERS + 2], d[CAROM_MEMBER_NUMBERS + 2];
     ball->flies = c->give(c->context, k, x, d);
     ball->which = (int8_t)k;
     ball->friction = (int8_t)c->friction;
@@ -39,11 +47,27 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
       to[n].x = x[n];
       to[n].d[0] = d[n];
     }
+    memset(&state.slate[k], 0, sizeof state.slate[k]);
+    state.slate[k].under = !ball->flies;
+    state.slate[k].k = number(x[CAROM_MEMBER_NUMBERS], row_of(d[CAROM_MEMBER_NUMBERS]));
+    state.slate[k].e = number(x[CAROM_MEMBER_NUMBERS + 1], row_of(d[CAROM_MEMBER_NUMBERS + 1]));
   }
 
   /* all of them must be members, as when the shot was played */
-  if (text::carom_cluster_members(&state, c->first, c->second) <= 0 || state.balls != c->balls ||
-      !text::carom_cluster_solve(&state))
+  int contacts;
+  if (state.struck) {
+    real x[8], d[8];
+    number cue[8];
+    c->give_cue(c->context, x, d);
+    for (int n = 0; n < 8; n++)
+      cue[n] = number(x[n], row_of(d[n]));
+    text::carom_cluster_tip_of(&state, c->first, cue, c->tip_time);
+    contacts = text::carom_cluster_members_of_tip(&state, 1e3);
+    state.in_space |= state.on_slate;
+  } else {
+    contacts = text::carom_cluster_members(&state, c->first, c->second);
+  }
+  if (contacts <= 0 || state.balls != c->balls || !text::carom_cluster_solve(&state))
     return false;
 
   /* of the contact that starts it also where its spin is that of a slide of a millimetre */
@@ -57,11 +81,13 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
   /* their motion behind it */
   for (int k = 0; k < c->balls; k++) {
     const number *from = state.ball[k].v;
-    real x[CAROM_MOTION_NUMBERS], d[CAROM_MOTION_NUMBERS];
+    real x[CAROM_MOTION_NUMBERS + 1], d[CAROM_MOTION_NUMBERS + 1];
     for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
       x[n] = from[n].x;
       d[n] = from[n].d[0];
     }
+    x[CAROM_MOTION_NUMBERS] = state.slate[k].impulse.x;
+    d[CAROM_MOTION_NUMBERS] = state.slate[k].impulse.d[0];
     c->take(c->context, k, x, d);
   }
   return true;

@@ -9,15 +9,20 @@
 enum { CAROM_MEMBER_NUMBERS = 17, CAROM_MEMBER_MOTION = 3, CAROM_MOTION_NUMBERS = 6 };
 
 typedef struct carom_tangent_cluster {
-  int balls, first, second; /* members; the places of the two of the contact that starts it */
+  int balls, first, second; /* members; the places of the two of the contact that starts it; of a
+                               push second is -1 */
   double steps, slow;       /* as in carom_cluster_state */
   int friction;             /* the law of its balls, friction/laws.h */
-  /* gives numbers and tangents of member k, and whether it flies; */
-  bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS],
-               double d[CAROM_MEMBER_NUMBERS]);
-  /* takes those of its motion, v and W. */
-  void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS],
-               const double d[CAROM_MOTION_NUMBERS]);
+  bool on_slate;
+  double tip_time; /* of the cue that pushes ball `first`, where `second` is below 0; */
+  /* gives the numbers of the cue and their tangents, in the order of carom_cue; */
+  void (*give_cue)(void *context, double x[8], double d[8]);
+  /* gives numbers and tangents of member k, the last two of its slate, and whether it flies; */
+  bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS + 2],
+               double d[CAROM_MEMBER_NUMBERS + 2]);
+  /* takes those of its motion, v and W, and of the impulse of the slate. */
+  void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS + 1],
+               const double d[CAROM_MOTION_NUMBERS + 1]);
   void *context;
 } carom_tangent_cluster;
 

@@ -44,8 +44,8 @@ static carom_status check_clusters(const carom_shot *shot) {
     if (contacts > shot->count - k)
       return CAROM_ERROR_STATE;
     for (const carom_event *e = first; first->cluster > 0 && e < first + contacts; e++)
-      if (e->type != CAROM_EVENT_BALL_BALL || e->cluster != first->cluster ||
-          e->time != first->time)
+      if ((e->type != CAROM_EVENT_BALL_BALL && (e->type != CAROM_EVENT_STRIKE || e > first)) ||
+          e->cluster != first->cluster || e->time != first->time)
         return CAROM_ERROR_STATE;
     k += contacts;
   }

@@ -159,6 +159,11 @@ int carom_cluster_members(carom_cluster_state *, int, int) {
 bool carom_cluster_solve(carom_cluster_state *) {
   return false;
 }
+int carom_cluster_members_of_tip(carom_cluster_state *, double) {
+  return -1;
+}
+void carom_cluster_tip_of(carom_cluster_state *, int, const double *, double) {
+}
 
 #include "tangent/exact.h"
 
@@ -171,6 +176,7 @@ bool carom_cluster_solve(carom_cluster_state *) {
 #include "cushion/stronge.c"
 #include "motion/path.c"
 #include "shot/models.c"
+#include "shot/pulse.c"
 #include "shot/slate.c"
 #include "table/nose.c"
 #define contact slow_contact

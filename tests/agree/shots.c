@@ -648,6 +648,7 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
   for (int64_t k = 0; k < count; k++) {
     const carom_event *e = &events[k];
     const int other = e->a == cue ? e->b : e->a;
+    f.touches += e->type == CAROM_EVENT_STRIKE;
     if (e->type == CAROM_EVENT_STRIKE || e->type == CAROM_EVENT_BALL_BALL)
       f.moved |= 1U << e->a;
     if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) {
@@ -672,13 +673,22 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
   return f;
 }
 
+/* The balls that a cue ball pushed meets in its push. */
+static uint32_t met_in_push(const carom_event *events, int cue) {
+  uint32_t met = 0;
+  for (int k = 1; k < events[0].cluster; k++)
+    if (events[k].a == cue || events[k].b == cue)
+      met |= 1U << (events[k].a == cue ? events[k].b : events[k].a);
+  return met;
+}
+
 /* Facts are those of the events, whichever ball is struck, with a state or without; those of a
  * shot that is refused say that nothing happened. */
 TEST(facts_of_shots) {
   static carom_event events[10 * ROOM];
   static carom_shot_state state;
   make_breaks();
-  int down = 0, off = 0, second = 0;
+  int down = 0, off = 0, second = 0, pushes = 0;
   for (int k = 0; k < 60; k++) {
     carom_cue cue = cues[k == 4 ? 5 : k];
     carom_facts facts;
@@ -690,7 +700,14 @@ TEST(facts_of_shots) {
     shot.state = k % 2 == 0 ? &state : NULL;
     const carom_status whole = carom_shoot(&table, balls + 16 * k, 16, &cue, NULL, &shot);
     ck_assert_int_ge(whole, CAROM_OK);
-    const carom_facts found = facts_of(events, shot.count, (int)cue.ball);
+    carom_facts found = facts_of(events, shot.count, (int)cue.ball);
+    if (events[0].cluster > 0) { /* what it meets after the tip has left it is not in the set */
+      ck_assert_uint_eq(facts.pushed & ~met_in_push(events, (int)cue.ball), 0);
+      ck_assert_int_ge(facts.touches, 1);
+      found.pushed = facts.pushed;
+      found.touches = facts.touches;
+      pushes += facts.pushed != 0;
+    }
     ck_assert_int_eq(memcmp(&found, &facts, sizeof facts), 0);
     down += facts.down != 0;
     off += facts.off != 0;
@@ -698,7 +715,7 @@ TEST(facts_of_shots) {
   }
   printf("%d shots pot, %d lose a ball over the cushions, in %d the cue ball meets a second ball\n",
          down, off, second);
-  ck_assert(down > 5 && second > 5);
+  ck_assert(down > 5 && second > 5 && pushes > 5);
   carom_facts facts;
   const carom_facts nothing = facts_of(events, 0, 0);
   ck_assert_int_lt(carom_shoot(&table, balls, 16, &cues[4], NULL, &(carom_shot){.facts = &facts}),

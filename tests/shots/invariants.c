@@ -218,7 +218,8 @@ static double momentum_change(const follower *f, const carom_event *e) {
   return length2(change[0], change[1]) / allowed;
 }
 
-/* The same for the contacts of a cluster together. The loads of all its balls press on the
+/* The same for the contacts of a cluster together; of a push, by how much their momentum is above
+ * that which the cue gave. The loads of all its balls press on the
  * cloth: friction's part of the normal impulses, of which each contact has at most as much as
  * the balls of the cluster change together. */
 static double momentum_change_of_cluster(const follower *f, const carom_event *e) {
@@ -227,7 +228,7 @@ static double momentum_change_of_cluster(const follower *f, const carom_event *e
   for (int k = 0; k < e->cluster; k++)
     for (int side = 0; side < 2; side++) {
       const int i = side == 0 ? e[k].a : e[k].b;
-      if (changed[i])
+      if (i < 0 || changed[i])
         continue;
       changed[i] = true;
       const carom_ball_kind *kind = &f->balls[i].kind;
@@ -241,7 +242,8 @@ static double momentum_change_of_cluster(const follower *f, const carom_event *e
       mu = fmax(mu, kind->mu_slide);
       space |= flies(&e[k].before[side]) || kind->radius != f->balls[e->a].kind.radius;
     }
-  const double size = hypot(length2(change[0], change[1]), change[2]);
+  const double given = e->type == CAROM_EVENT_STRIKE ? e->impulse : 0.0,
+               size = fmax(hypot(length2(change[0], change[1]), change[2]) - given, 0.0);
   return size / (space ? 1e-13 + 1e-9 * mass : 1e-13 + mu * 0.12 * e->cluster * sum);
 }
 
@@ -271,6 +273,8 @@ static double impulse_error(const follower *f, const carom_event *e, int togethe
       return INFINITY;
     for (int side = 0; side < 2; side++) {
       const int i = side == 0 ? e[k].a : e[k].b;
+      if (i < 0)
+        continue;
       sum[i] += e[k].impulse;
       contacts[i]++;
       shown[i] = fmax(shown[i], impulse_on(f, &e[k], side));
@@ -320,7 +324,7 @@ shot_measures shot_measure(const carom_table *table, const carom_shot_ball *ball
     const int together = e->cluster > 0 ? e->cluster : 1;
     for (int side = 0; side < 2 * together; side++) {
       const carom_event *one = &e[side / 2];
-      if (side % 2 == 1 && e->type != CAROM_EVENT_BALL_BALL)
+      if (side % 2 == 1 && one->type != CAROM_EVENT_BALL_BALL)
         continue;
       const int i = side % 2 == 0 ? one->a : one->b;
       f.m.jump = fmax(f.m.jump, jump_of(&f.at[i], &one->before[side % 2], balls[i].kind.radius));

@@ -38,6 +38,20 @@ static double cut_at(const problem *p, double phi) {
     return (double)NAN;
   const carom_ball_state *own = &e->before[e->a == 0 ? 0 : 1],
                          *other = &e->before[e->a == 0 ? 1 : 0];
+  /* met while the cue pushes: the cut at which the ball would come alone, straight on */
+  if (events[0].cluster > 0 && e->time == 0.0) {
+    carom_shot_ball alone = p->ball[0];
+    carom_ball_state left;
+    carom_shot strike = {.final = &left};
+    const double x = other->r[0] - own->r[0], y = other->r[1] - own->r[1],
+                 touch = alone.kind.radius + p->ball[p->at].kind.radius;
+    options.stop_at = CAROM_STOP_AT(CAROM_EVENT_STRIKE);
+    carom_shoot(&p->table, &alone, 1, &cue, &options, &strike);
+    const double v = hypot(left.v[0], left.v[1]), along = (x * left.v[0] + y * left.v[1]) / v,
+                 across = (x * left.v[1] - y * left.v[0]) / v;
+    const double t = (along - sqrt(fmax(touch * touch - across * across, 0.0))) / v;
+    return angle_between(left.v, (const double[]){x - t * left.v[0], y - t * left.v[1]});
+  }
   return angle_between(own->v, (const double[]){other->r[0] - own->r[0], other->r[1] - own->r[1]});
 }
 

@@ -288,13 +288,13 @@ export class Plans {
   }
 
   #readFacts(at: Pointer, count: number): ShotFacts {
-    const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime } = readStruct<C.Facts>(this.#memory, at, "carom_facts");
-    const all = (field: "down" | "off"): number[] => {
+    const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime, touches } = readStruct<C.Facts>(this.#memory, at, "carom_facts");
+    const all = (field: "down" | "off" | "frozen" | "pushed"): number[] => {
       const set = this.#memory.u32[(at + FACTS.offset[field]) / 4]!;
       return Array.from({ length: count }, (_, k) => k).filter((k) => (set >>> k) & 1);
     };
     const potted = all("down").sort((a, b) => pocketTime[a]! - pocketTime[b]!);
-    return { first, cushionsBefore, cushionsAfter, cushions: cushions.slice(0, count), potted: potted.map((ball) => ({ ball, pocket: pocket[ball]! })), off: all("off") };
+    return { first, cushionsBefore, cushionsAfter, cushions: cushions.slice(0, count), potted: potted.map((ball) => ({ ball, pocket: pocket[ball]! })), off: all("off"), frozen: all("frozen"), pushed: all("pushed"), touches };
   }
 
   #readChoice(at: Pointer): Choice {

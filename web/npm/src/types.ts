@@ -240,6 +240,12 @@ export interface ShotFacts {
   potted: readonly { ball: number; pocket: number }[];
   /** The balls that left the table. */
   off: readonly number[];
+  /** The balls that touched the cue ball when it was struck. */
+  frozen: readonly number[];
+  /** The balls that it met before the tip left it. */
+  pushed: readonly number[];
+  /** Touches of the tip: 1, or 2 and more of a double hit within the push; 0 without a strike. */
+  touches: number;
 }
 
 /** What a shot amounts to. */

@@ -42,7 +42,7 @@ _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compar
 
 
 class Foul(enum.IntEnum):
-    """Why a shot is a foul: the first of these that holds."""
+    """Why a shot is a foul: the first of these that holds, but DOUBLE_HIT before CUSHION and BREAK."""
 
     NONE = 0
     CUE_BALL = 1
@@ -53,6 +53,7 @@ class Foul(enum.IntEnum):
     BREAK = 6
     OTHER = 7
     POT = 8
+    DOUBLE_HIT = 9
 
     @property
     def text(self) -> str:
@@ -79,6 +80,9 @@ class Facts:
     off: frozenset[int]  # Balls that left the table
     cushions: tuple[int, ...]  # Impacts of each ball on cushions
     cushions_after: int  # Those of all balls after the first contact
+    frozen: frozenset[int]  # Balls that touched the cue ball when it was struck
+    pushed: frozenset[int]  # Balls that it met before the tip left it
+    touches: int  # Of the tip: 1, or 2 and more of a double hit within the push; 0 without a strike
     _record: Any = field(repr=False)
 
     def foul(self, on: Collection[int]) -> Foul:
@@ -91,7 +95,8 @@ def _facts(record: Any) -> Facts:
     potted = {ball: int(record.pocket[ball]) for ball in down}
     first, second = record.first
     before = (record.cushions_before[0], record.cushions_before[1])
-    return Facts(first, second, before, potted, _of_set(record.off), tuple(record.cushions), record.cushions_after, record)
+    sets = [_of_set(of) for of in (record.off, record.frozen, record.pushed)]
+    return Facts(first, second, before, potted, sets[0], tuple(record.cushions), record.cushions_after, sets[1], sets[2], record.touches, record)
 
 
 @dataclass(frozen=True)

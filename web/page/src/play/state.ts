@@ -24,6 +24,7 @@ const WHY: Partial<Record<string, string>> = {
   off: "a ball left the table",
   cushion: "no ball fell or reached a cushion",
   break: "the break drove fewer than four balls to cushions",
+  double_hit: "the tip was still on the cue ball, or touched it again, as it met a ball",
 };
 
 /** What has just happened, as far as it is not a plain change of turns. */

@@ -1,0 +1,242 @@
+/* The derivative by every number of a ball, a cue and a nose, at its default, at 0 and at the ends
+ * of its range: right, or with a flag.
+ *
+ * Numbers are rows of about/numbers.h, so one that is added is here too. Each scene, on the cloth
+ * and in space, with pairs and clusters, is differentiated by it, and compared with differences of
+ * whole shots to each side,
+ *
+ *     f'(+-0) = (-3 f(0) + 4 f(+-h) - f(+-2h)) / (+-2h),
+ *
+ * by steps h from 1e-9 to 1e-3 of the number, of which the two adjacent ones that agree best are
+ * taken. At an end of the range the tangent is that of the side within. Where the sides differ it
+ * is one of them, with CAROM_TANGENT_KINK. Where 0 stands for a default it is that at the
+ * default. */
+#include "about/numbers.h"
+#include "precise_solver.h"
+#include "tangent_support.h"
+
+#include <stddef.h>
+
+enum { STEPS = 13, MOST = NUMBERS * LAYOUT_BALLS };
+
+typedef struct number {
+  const char *name;
+  direction by;
+  double low, high;
+} number;
+
+#define OF_BALL(member, key, unit, low, high, ...) \
+  {#member, {OF_KIND, -1, (int)(offsetof(carom_ball_kind, member) / sizeof(double)), 1}, low, high},
+#define OF_STICK(member, key, unit, low, high, ...) \
+  {#member, {OF_CUE, 0, (int)(offsetof(carom_cue, member) / sizeof(double)), 1}, low, high},
+/* clang-format off */
+static const number numbers[] = {
+    CAROM_NUMBERS(OF_BALL, OF_BALL) CAROM_CUE_NUMBERS(OF_STICK, OF_STICK)
+    {"nose.height", {OF_NOSES, 0, 0, 1}, 0.0, 0.05},
+    {"nose.mu_cushion", {OF_NOSES, 0, 1, 1}, 0.0, 1.0},
+    {"nose.restitution", {OF_NOSES, 0, 2, 1}, 0.0, 1.0}};
+/* clang-format on */
+enum { ALL = (int)(sizeof numbers / sizeof *numbers) };
+
+/* Scenes whose first events are of each kind; they stop before small changes grow. */
+enum { ON_CLOTH, SMOOTH, BILLIARD, IN_SPACE, CLUSTER, PAIRS, CONSTANT, USUAL, STRONGE, SCENES };
+static const char *const scene_name[] = {"on the cloth", "smooth",       "billiard",
+                                         "in space",     "cluster",      "pairs",
+                                         "constant",     "usual smooth", "stronge"};
+
+static layout scene(int of) {
+  const carom_game game = of == BILLIARD ? CAROM_GAME_BILLIARD : CAROM_GAME_POOL;
+  static carom_table billiard;
+  layout l = {.count = 2, .cue = carom_cue_of(game)};
+  for (int i = 0; i < 3; i++) {
+    l.ball[i] = ball_at(0.5 + 0.31 * i, 0.5 + 0.4 * i);
+    l.ball[i].kind = carom_ball_kind_of(game);
+    l.ball[i].state.r[2] = l.ball[i].kind.radius;
+  }
+  l.cue.speed = 1.7;
+  l.cue.phi = 57.29577951308232 * atan2(0.4, 0.31) + 0.7;
+  l.cue.a = 0.12;
+  l.cue.b = 0.21;
+  l.cue.theta = 3.0;
+  l.options.space = of == IN_SPACE ? CAROM_SPACE_3D : CAROM_SPACE_FLAT;
+  switch (of) {
+  case SMOOTH:
+    for (int i = 0; i < 3; i++) {
+      l.ball[i].kind.smooth_q = 0.35;
+      l.ball[i].kind.roll_loss = 0.09;
+      l.ball[i].kind.smooth_x = l.ball[i].kind.smooth_t = 1.2;
+    }
+    break;
+  case BILLIARD:
+    carom_table_make(CAROM_TABLE_THREECUSHION, &billiard);
+    l.table = &billiard;
+    break;
+  case IN_SPACE:
+    l.cue.theta = 35.0;
+    l.cue.speed = 4.0;
+    break;
+  case CLUSTER:
+  case PAIRS:
+    l.count = 3;
+    for (int i = 0; i < 3 && of == CLUSTER; i++) {
+      l.ball[i].kind.law_a = 0.05;
+      l.ball[i].kind.law_c = 1.0;
+    }
+    l.ball[2].state.r[0] = l.ball[1].state.r[0] + 1.2 * l.ball[0].kind.radius;
+    l.ball[2].state.r[1] = l.ball[1].state.r[1] + 1.6 * l.ball[0].kind.radius + 1e-9;
+    l.options.simultaneous = of == PAIRS ? CAROM_SIMULTANEOUS_PAIRS : CAROM_SIMULTANEOUS_CLUSTER;
+    break;
+  case CONSTANT:
+    l.options.friction = CAROM_FRICTION_CONSTANT;
+    break;
+  case USUAL:
+    l.options.cushion_model = CAROM_SHOT_CUSHION_SMOOTH;
+    break;
+  case STRONGE:
+    l.options.cushion_model = CAROM_SHOT_CUSHION_STRONGE;
+    break;
+  default:
+    break;
+  }
+  /* of few events, so that differences are exact */
+  l.options.time_most = 2.0;
+  for (shot.count = ROOM; shot.count > 8; l.options.time_most *= 0.8) {
+    shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+    ck_assert_int_ge(shoot(&l, &shot), CAROM_OK);
+  }
+  l.options.time_most /= 0.8;
+  return l;
+}
+
+/* The number, or that of the first ball. */
+static double *number_in(layout *l, const direction *by) {
+  return by->of == OF_CUE    ? (double *)&l->cue + by->row
+         : by->of == OF_KIND ? (double *)&l->ball[0].kind + by->row
+                             : &l->nose[by->row];
+}
+
+/* Puts in the place of a number that is 0 what this 0 stands for, if it stands for something. */
+static void stand_for_zero(layout *l, const char *name) {
+  const carom_speed_law law = carom_alciatore();
+  const carom_rail *rail = &table_of(l)->rail[0];
+#define IS(word) (strcmp(name, word) == 0)
+  for (int i = 0; i < l->count; i++) {
+    carom_ball_kind *k = &l->ball[i].kind;
+    k->omega_ratio = IS("omega_ratio") ? 1.8 : k->omega_ratio;
+    k->restitution_table = IS("restitution_table") ? 0.5 : k->restitution_table;
+    k->modulus = IS("modulus") ? 6.6e9 : k->modulus;
+    k->nose_height = IS("nose_height") ? rail->height : k->nose_height;
+    if (strncmp(name, "law_", 4) == 0 && k->law_a + k->law_b + k->law_c == 0.0) {
+      k->law_a = law.a;
+      k->law_b = law.b;
+      k->law_c = law.c;
+    }
+    if (strncmp(name, "smooth_", 7) == 0 && k->smooth_q == 0.0 &&
+        l->options.cushion_model == CAROM_SHOT_CUSHION_SMOOTH) {
+      k->smooth_q = 0.35;
+      k->smooth_x = 1.3;
+      k->smooth_t = 1.18;
+      k->smooth_a = 0.25;
+      k->smooth_g = 0.067;
+      k->smooth_g_log = -0.059;
+      k->smooth_e = 0.06;
+    }
+  }
+  l->cue.tip_restitution = IS("tip_restitution") ? 1.0 : l->cue.tip_restitution;
+  l->nose[1] += IS("nose.mu_cushion") ? l->ball[0].kind.mu_cushion : 0.0;
+  l->nose[2] += IS("nose.restitution") ? l->ball[0].kind.restitution_cushion : 0.0;
+#undef IS
+}
+
+/* The slope of all final numbers to one side, and by how much two steps agree; infinite where
+ * the side has other events, or is refused. */
+static double slope_to(const layout *l, const direction *by, double side, double slope[MOST]) {
+  double here[MOST], last[MOST], now[MOST], one[MOST], two[MOST], best = INFINITY;
+  bool had = false;
+  if (!plays_alike(l, by, 0.0, here))
+    return INFINITY;
+  for (int step = 0; step < STEPS; step++) {
+    const double h = side * by->unit * pow(10.0, -9.0 + 0.5 * step);
+    const bool alike = plays_alike(l, by, h, one) && plays_alike(l, by, 2.0 * h, two);
+    double apart = 0.0;
+    for (int x = 0; x < NUMBERS * l->count && alike; x++) {
+      now[x] = (4.0 * one[x] - 3.0 * here[x] - two[x]) / (2.0 * h);
+      apart = fmax(apart, had ? fabs(now[x] - last[x]) : INFINITY);
+    }
+    if (alike && apart < best) {
+      best = apart;
+      memcpy(slope, now, sizeof now);
+    }
+    memcpy(last, now, sizeof now);
+    had = alike;
+  }
+  return best;
+}
+
+static double distance(const double *a, const double *b, int n) {
+  double most = 0.0;
+  for (int x = 0; x < n; x++)
+    most = fmax(most, fabs(a[x] - b[x]));
+  return most;
+}
+
+/* Compares the tangent of a layout by a number with both sides; false where it is refused, or
+ * neither side has a difference. */
+static bool is_compared(const layout *l, const number *row, const char *where) {
+  layout at = *l;
+  const int n = NUMBERS * l->count;
+  double slope[2][MOST];
+  int64_t flags;
+  shot = (carom_shot){.events = events, .room = ROOM, .final = final};
+  if (!(l->cue.speed > 0.0) || shoot(l, &shot) < CAROM_OK ||
+      tangent_of(l, &row->by, 1, &flags) != CAROM_OK)
+    return false;
+
+  /* differences to both sides, of those that settle */
+  direction by = row->by;
+  if (*number_in(&at, &by) == 0.0)
+    stand_for_zero(&at, row->name);
+  by.unit = fmax(fabs(*number_in(&at, &by)), 0.03);
+  bool has[2];
+  double most = 1e-3, off = INFINITY;
+  for (int side = 0; side < 2; side++) {
+    const double apart = slope_to(&at, &by, 2.0 * side - 1.0, slope[side]);
+    has[side] = apart < 1e-4 * fmax(1e-3, largest(slope[side], n, 0, 1));
+    most = has[side] ? fmax(most, largest(slope[side], n, 0, 1)) : most;
+    off = has[side] ? fmin(off, distance(ends, slope[side], n)) : off;
+  }
+  if (!has[0] && !has[1])
+    return false;
+
+  const bool kink = has[0] && has[1] && distance(slope[0], slope[1], n) > 3e-3 * most;
+  const bool told = flags & (CAROM_TANGENT_KINK | CAROM_TANGENT_SIMULTANEOUS);
+  ck_assert_msg(told || (off < 3e-3 * most && !kink), "%s, by %s at %g: %g off of %g%s, flags %d",
+                where, row->name, *number_in(&at, &by), off, most, kink ? ", a kink" : "",
+                (int)flags);
+  return true;
+}
+
+TEST(every_number) {
+  precisely = true;
+  for (int of = 0; of < SCENES; of++) {
+    const layout l = scene(of);
+    int compared = 0;
+    for (int n = 0; n < ALL; n++) {
+      const number *row = &numbers[n];
+      layout usual = l;
+      if (row->by.of == OF_CUE && row->by.row >= CAROM_CUE_NUMBERS)
+        continue;
+      const double was = row->by.of == OF_NOSES
+                             ? (row->by.row == 0 ? table_of(&l)->rail[0].height : 0.0)
+                             : *number_in(&usual, &row->by);
+      const double values[] = {was, 0.0, row->low, row->high, 0.5 * (was + row->high)};
+      for (size_t k = 0; k < sizeof values / sizeof *values; k++) {
+        layout at = l;
+        change(&at, &row->by, values[k] - was);
+        compared += is_compared(&at, row, scene_name[of]);
+      }
+    }
+    printf("%s: %d derivatives\n", scene_name[of], compared);
+    ck_assert_int_gt(compared, 60);
+  }
+}

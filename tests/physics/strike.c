@@ -1,0 +1,433 @@
+/* Strikes: pushes of balls that touch or nearly touch the cue ball against an integrator of its own
+ * (strike_reference.h), limits in closed form and symmetries; the pulse of a raised cue against the
+ * same equation in fine steps; hops. docs/understanding/clusters.md has the numbers. */
+#include "shot/shot.h"
+#include "shot_support.h"
+#include "strike_reference.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double R = 0.028575, PI = 3.14159265358979323846, table_size = 4.0;
+static const carom_shot_options gripping = {.friction = CAROM_FRICTION_CONSTANT,
+                                            .stop_at = CAROM_STOP_AT(CAROM_EVENT_STRIKE)};
+static carom_shot_ball balls[REF_BALLS];
+static carom_facts facts;
+
+/* The cue ball in the middle, and `count` balls in all. */
+static void begin(int count) {
+  for (int k = 0; k < count; k++) {
+    balls[k] = ball_at(2.0 + 0.3 * k, 2.0);
+    balls[k].kind.mu_spin = 1e-12; /* the turn about the vertical stays */
+  }
+}
+
+/* Ball k with so much of a gap to ball `of`, at so many degrees from +x. */
+static void beside(int k, int of, double gap, double degrees) {
+  const double far = 2.0 * R + gap, *r = balls[of].state.r;
+  balls[k].state.r[0] = r[0] + far * cos(degrees * PI / 180.0);
+  balls[k].state.r[1] = r[1] + far * sin(degrees * PI / 180.0);
+}
+
+static carom_cue cue_at(double speed, double phi) {
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.speed = speed;
+  cue.phi = phi;
+  cue.a = cue.b = 0.0;
+  cue.tip_time = CAROM_TIP_TIME;
+  return cue;
+}
+
+/* Plays the strike alone: final[] are the balls as it leaves them. */
+static carom_shot strike_with(const carom_cue *cue, int count, const carom_shot_options *options) {
+  const carom_table table = empty_table(table_size);
+  carom_shot shot = {.events = events, .room = ROOM, .final = final, .facts = &facts};
+  ck_assert_int_eq(carom_shoot(&table, balls, count, cue, options, &shot), CAROM_STOPPED_AT_EVENT);
+  return shot;
+}
+
+static carom_shot strike(const carom_cue *cue, int count) {
+  return strike_with(cue, count, &gripping);
+}
+
+static double part_of(double *sorted, int count, double part) {
+  return sorted[(int)(part * (count - 1))];
+}
+
+/* ---- Against the reference */
+
+/* One to five balls, at the cue ball or at one before, half of them frozen; the cue mostly at the
+ * first. Returns how many with the cue ball. */
+static int draw(random_source *r, bool raised, carom_cue *cue) {
+  const int count = 2 + (int)random_between(r, 0.0, 4.999);
+  begin(count);
+  const double e = random_between(r, 0.8, 1.0), mu = random_between(r, 0.02, 0.3);
+  for (int k = 0; k < count; k++) {
+    balls[k].kind.restitution = e;
+    balls[k].kind.mu_ball = mu;
+  }
+  double first = 0.0;
+  for (int k = 1; k < count; k++)
+    for (bool clear = false; !clear;) {
+      const int of = k > 1 && random_between(r, 0.0, 1.0) < 0.5
+                         ? (int)random_between(r, 0.0, (double)k - 1e-9)
+                         : 0;
+      const double gap = random_between(r, 0.0, 1.0) < 0.5 ? 0.0 : random_between(r, 0.0, 0.002);
+      const double degrees = random_between(r, 0.0, 360.0);
+      beside(k, of, gap, degrees);
+      first = k == 1 ? degrees : first;
+      clear = true;
+      for (int j = 0; j < k; j++)
+        clear &= j == of || hypot(balls[k].state.r[0] - balls[j].state.r[0],
+                                  balls[k].state.r[1] - balls[j].state.r[1]) > 2.0 * R + 1e-6;
+    }
+  *cue = cue_at(random_between(r, 0.5, 8.0), first + random_between(r, -70.0, 70.0));
+  cue->theta = raised ? random_between(r, 3.0, 50.0) : 0.0;
+  cue->a = random_between(r, -0.35, 0.35);
+  cue->b = random_between(r, -0.35, 0.35);
+  cue->tip_time = random_between(r, 0.0006, 0.002);
+  cue->tip_restitution = random_between(r, 0.6, 0.95);
+  return count;
+}
+
+/* The greatest difference of v and R w, over the cue's speed. */
+static double error_of(const ref_strike *ref, double speed) {
+  double most = 0.0;
+  for (int k = 0; k < ref->count; k++)
+    for (int axis = 0; axis < 3; axis++) {
+      double v = (double)ref->v[k][axis];
+      if (axis == 2 && ref->slate && v > 0.0)
+        v = carom_rebound(v, 1.0); /* hops end */
+      most = fmax(most, fabs(final[k].v[axis] - v));
+      most = fmax(most, fabs(R * final[k].w[axis] - (double)ref->W[k][axis]));
+    }
+  return most / speed;
+}
+
+/* Whether other balls are met than those of the reference. */
+static bool meet_others(const ref_strike *ref) {
+  bool other = false;
+  for (int k = 1; k < ref->count; k++)
+    other |= (ref_dot(ref->v[k], ref->v[k]) > 0) != (final[k].v[0] != 0.0 || final[k].v[1] != 0.0);
+  return other;
+}
+
+TEST(pushes_are_those_of_the_reference) {
+  random_source r = {test_seed()};
+  const int each = draws_of_each(500);
+  double *error = calloc((size_t)each, sizeof *error);
+  for (int raised = 0; raised < 2; raised++) {
+    int others = 0, twice = 0, at = 0;
+    while (at < each) {
+      carom_cue cue;
+      const int count = draw(&r, raised, &cue);
+      strike(&cue, count);
+      if (facts.pushed == 0)
+        continue; /* as alone */
+      ref_strike ref;
+      ref_begin(&ref, balls, count, &cue);
+      ref_solve(&ref, 3e-7L);
+      twice += ref.touches > 1;
+      if (meet_others(&ref)) { /* met just before or just after the end of the push */
+        others++;
+        continue;
+      }
+      ck_assert_int_eq(ref.touches, facts.touches);
+      error[at++] = error_of(&ref, cue.speed);
+      if (getenv("CAROM_SHOW") != NULL && error[at - 1] > 3e-3)
+        printf("raised %d, %d balls, %g m/s, theta %g, T %g, touches %d %d: %g\n", raised, count,
+               cue.speed, cue.theta, cue.tip_time, ref.touches, facts.touches, error[at - 1]);
+    }
+    qsort(error, (size_t)each, sizeof *error, by_size);
+    printf("%s: %d pushes, %d touched twice, %d that end at another contact: errors %.1e, 9 in 10 "
+           "%.1e, 99 in 100 %.1e, at most %.1e\n",
+           raised ? "raised" : "level", each, twice, others, part_of(error, each, 0.5),
+           part_of(error, each, 0.9), part_of(error, each, 0.99), error[each - 1]);
+    ck_assert_int_le(others, 2 + each / 50);
+    ck_assert(part_of(error, each, 0.5) < 2e-4);
+    ck_assert(part_of(error, each, 0.9) < 5e-4);
+    ck_assert(part_of(error, each, 0.98) < 2e-3);
+  }
+  free(error);
+}
+
+/* ---- Limits */
+
+/* The ball ahead of the cue ball, at a gap, struck straight: speeds of both. */
+static void straight(double gap, double speed, double T, double speeds[2]) {
+  begin(2);
+  beside(1, 0, gap, 90.0);
+  carom_cue cue = cue_at(speed, 90.0);
+  cue.tip_time = T;
+  strike(&cue, 2);
+  speeds[0] = final[0].v[1];
+  speeds[1] = final[1].v[1];
+}
+
+/* A tip that touches long pushes both together; one of 1 ms as the prototype had it. A gap is a
+ * push with one touch, then with two; farther balls are met later. */
+TEST(straight_pushes) {
+  double v[2], most = 0.0;
+  straight(0.0, 2.0, 0.001, v);
+  printf("frozen, straight, 2 m/s: 1 ms %.4f %.4f", v[0], v[1]);
+  NEAR(v[0], 1.8770, 2e-4);
+  NEAR(v[1], 2.4087, 2e-4);
+  const carom_cue cue = cue_at(2.0, 90.0);
+  const double m = balls[0].kind.mass,
+               together = (1.0 + cue.tip_restitution) * cue.speed / (1.0 + 2.0 * m / cue.mass);
+  NEAR(together, 2.162, 1e-3);
+  static const double times[] = {0.002, 0.005, 0.01};
+  for (int k = 0; k < 3; k++) {
+    straight(0.0, 2.0, times[k], v);
+    printf(", %g ms %.4f %.4f", 1e3 * times[k], v[0], v[1]);
+    most = fmax(fabs(v[0] - together), fabs(v[1] - together));
+  }
+  printf(", for ever %.4f\n", together);
+  ck_assert(most < 0.02);
+
+  static const double gaps[] = {1e-4, 3e-4, 7e-4, 0.002, 0.004}, speeds[] = {1.0, 2.0, 4.0};
+  for (int n = 0; n < 3; n++)
+    for (int k = 0; k < 5; k++) {
+      straight(gaps[k], speeds[n], 0.001, v);
+      printf("%g m/s, %g mm: %.3f %.3f, touches %d, pushed %u\n", speeds[n], 1e3 * gaps[k], v[0],
+             v[1], facts.touches, facts.pushed);
+      ck_assert_int_eq(facts.frozen, 0);
+    }
+}
+
+/* Level and without friction: all of the tip's impulse is in the balls, along the push; the energy
+ * falls, counting the cue. The facts are as they should be. */
+TEST(momentum_and_energy) {
+  random_source r = {test_seed()};
+  int pushes = 0;
+  for (int n = 0; n < draws_of_each(300); n++) {
+    carom_cue cue;
+    const int count = draw(&r, false, &cue);
+    for (int k = 0; k < count; k++)
+      balls[k].kind.mu_ball = 0.0;
+    const carom_shot shot = strike(&cue, count);
+    pushes += facts.pushed != 0;
+    const double J = events[0].impulse, V = cue.speed - J / cue.mass, m = balls[0].kind.mass;
+    double P[2] = {0.0, 0.0}, energy = 0.5 * cue.mass * V * V;
+    for (int k = 0; k < count; k++) {
+      energy += state_energy(&balls[k].kind, &final[k]);
+      for (int axis = 0; axis < 2; axis++)
+        P[axis] += m * final[k].v[axis];
+    }
+    NEAR(hypot(P[0], P[1]), J, 1e-12 * J);
+    ck_assert_double_le(energy, 0.5 * cue.mass * cue.speed * cue.speed);
+    ck_assert(shot.count >= 1 && facts.touches >= 1 && (facts.pushed & 1) == 0);
+    for (int k = 1; k < count; k++) {
+      const double far = hypot(balls[k].state.r[0] - 2.0, balls[k].state.r[1] - 2.0);
+      ck_assert_int_eq(facts.frozen >> k & 1, far < 2.0 * R + 1e-9);
+    }
+  }
+  ck_assert_int_gt(pushes, draws_of_each(300) / 3);
+}
+
+/* A ball that the cue ball does not meet changes no bit, and alone and level it is
+ * carom_strike(). */
+TEST(alone) {
+  random_source r = {test_seed()};
+  int apart = 0;
+  for (int n = 0; n < draws_of_each(300); n++) {
+    carom_cue cue;
+    const bool raised = n % 2 != 0;
+    carom_motion out;
+    draw(&r, raised, &cue);
+    beside(1, 0, n % 3 == 0 ? 0.0 : 0.002, cue.phi + random_between(&r, 100.0, 260.0));
+    strike(&cue, 1);
+    const carom_ball_state state = final[0];
+    strike(&cue, 2);
+    ck_assert_int_eq(facts.pushed, 0);
+    ck_assert_int_eq(facts.frozen, n % 3 == 0 ? 2 : 0);
+    ck_assert(memcmp(&state, &final[0], sizeof state) == 0);
+    if (raised)
+      continue;
+    apart++;
+    carom_strike(&cue, &balls[0].kind, &out);
+    ck_assert(memcmp(out.v, state.v, sizeof out.v) == 0 &&
+              memcmp(out.w, state.w, sizeof out.w) == 0);
+  }
+  ck_assert_int_gt(apart, 0);
+}
+
+/* A shot that is to stop at a contact, or at a first ball that is not of a set, stops after a push,
+ * and goes on to the same end. */
+TEST(stops_after_a_push) {
+  static carom_shot_state state;
+  const carom_table table = empty_table(table_size);
+  const carom_cue cue = cue_at(2.0, 80.0);
+  const carom_shot_options stops[] = {{.stop_at = CAROM_STOP_AT_CONTACT}, {.first_of = 4}};
+  for (int k = 0; k < 2; k++) {
+    carom_facts whole, parts;
+    carom_ball_state end[REF_BALLS], end_parts[REF_BALLS];
+    begin(3);
+    beside(1, 0, 0.0, 90.0);
+    for (int n = 0; n < 3; n++)
+      balls[n].kind = carom_ball_kind_of(CAROM_GAME_POOL);
+    carom_shot shot = {.facts = &whole, .final = end};
+    ck_assert_int_eq(carom_shoot(&table, balls, 3, &cue, NULL, &shot), CAROM_OK);
+    carom_shot cut = {.facts = &parts, .final = end_parts, .state = &state};
+    ck_assert_int_eq(carom_shoot(&table, balls, 3, &cue, &stops[k], &cut), CAROM_STOPPED_AT_EVENT);
+    ck_assert(cut.time == 0.0 && parts.pushed == 2 && parts.frozen == 2 && parts.first[0] == 1);
+    carom_status status = CAROM_STOPPED_AT_EVENT;
+    for (int n = 0; n < 20 && status == CAROM_STOPPED_AT_EVENT; n++)
+      status = carom_shot_continue(&table, balls, 3, &stops[k], &cut);
+    ck_assert_int_eq(status, CAROM_OK);
+    ck_assert(memcmp(&whole, &parts, sizeof whole) == 0);
+    ck_assert(memcmp(end, end_parts, 3 * sizeof *end) == 0);
+  }
+}
+
+/* ---- Symmetries */
+
+/* The mirror image of a strike is the strike of the mirror image. */
+TEST(mirror_images) {
+  random_source r = {test_seed()};
+  for (int n = 0; n < draws_of_each(200); n++) {
+    carom_cue cue;
+    carom_ball_state there[REF_BALLS];
+    const int count = draw(&r, n % 2 != 0, &cue);
+    strike(&cue, count);
+    memcpy(there, final, sizeof there);
+    for (int k = 0; k < count; k++)
+      balls[k].state.r[0] = table_size - balls[k].state.r[0];
+    cue.phi = 180.0 - cue.phi;
+    cue.a = -cue.a;
+    strike(&cue, count);
+    for (int k = 0; k < count; k++)
+      for (int axis = 0; axis < 3; axis++) {
+        const double v = axis == 0 ? -1.0 : 1.0, w = -v, tiny = 1e-8 * cue.speed;
+        NEAR(final[k].v[axis], v * there[k].v[axis], tiny);
+        NEAR(R * final[k].w[axis], w * R * there[k].w[axis], tiny);
+      }
+  }
+}
+
+/* Two frozen balls, equal to the left and to the right, get equal motions. */
+TEST(left_and_right) {
+  for (int n = 0; n < 60; n++) {
+    begin(3);
+    const double aside = 31.0 + n % 10 * 4.0, gap = n % 2 != 0 ? 2e-4 : 0.0;
+    beside(1, 0, gap, 90.0 - aside);
+    beside(2, 0, gap, 90.0 + aside);
+    carom_cue cue = cue_at(1.0 + 0.5 * (n % 7), 90.0);
+    cue.b = 0.2;
+    cue.theta = n % 3 == 0 ? 15.0 : 0.0;
+    strike(&cue, 3);
+    ck_assert_int_eq(facts.pushed, 6);
+    NEAR(final[0].v[0], 0.0, 1e-9);
+    NEAR(final[1].v[0], -final[2].v[0], 1e-9);
+    NEAR(final[1].v[1], final[2].v[1], 1e-9);
+  }
+}
+
+/* Balls that grip, the cue at phi off the line of centres and a to the side: the object ball leaves
+ * at tan = (1/7)(tan phi - 2.5 a/cos phi)/nu off that line. nu, the share of the push that is
+ * handed on, is 1/2 for a long touch. */
+TEST(frozen_at_an_angle) {
+  static const double times[] = {0.001, 0.002, 0.01}, nus[] = {0.5625, 0.52, 0.5};
+  for (int t = 0; t < 3; t++) {
+    double low = 1.0, high = 0.0;
+    for (int n = 0; n < 9; n++) {
+      begin(2);
+      for (int k = 0; k < 2; k++)
+        balls[k].kind.mu_ball = 1.0;
+      beside(1, 0, 0.0, 90.0);
+      const double phi = 10.0 + 10.0 * (n % 3), a = 0.1 * (n / 3 - 1);
+      carom_cue cue = cue_at(2.0, 90.0 + phi);
+      cue.a = a;
+      cue.end_mass = 1e-9; /* no squirt */
+      cue.tip_time = times[t];
+      strike(&cue, 2);
+      const double is = tan(phi * PI / 180.0) - 2.5 * a / cos(phi * PI / 180.0);
+      const double nu = is / 7.0 / (-final[1].v[0] / final[1].v[1]);
+      low = fmin(low, nu);
+      high = fmax(high, nu);
+    }
+    printf("gripping, %g ms: nu is %.3f to %.3f\n", 1e3 * times[t], low, high);
+    NEAR(low, nus[t], 0.01);
+    NEAR(high, nus[t], 0.01);
+  }
+}
+
+/* ---- The pulse of a raised cue */
+
+/* The equation of src/shot/pulse.c in fine steps: the speed at which the ball leaves the slate, and
+ * the slip that is left; down and slip are those of the blow alone. */
+static void fine_pulse(num down, num slip, num e, num friction, num T, num out[2]) {
+  const num pi = acosl(-1.0L), size = 8e-4L / 2.9432L, h = 1e-7L;
+  ref_press x = {.k = 1.25L / powl(size, 2.5L), .e = e, .power = 1.5L};
+  num v = 0, s = 0, before = 0;
+  for (num t = h;; t += h) {
+    const num phi = t < T ? (1 - cosl(pi * t / T)) / 2 : 1, more = phi - before;
+    x.d += h * v;
+    const num F = h * ref_force(&x);
+    v += down * more - F;
+    s += slip * more - friction * F;
+    s = s > 0 ? s : 0;
+    before = phi;
+    if (t >= T && x.d <= 0 && v <= 0)
+      break;
+  }
+  out[0] = -v;
+  out[1] = s;
+}
+
+TEST(pulse_in_fine_steps) {
+  random_source r = {test_seed()};
+  const int count = draws_of_each(1000);
+  double *error = calloc((size_t)count, sizeof *error);
+  for (int n = 0; n < count; n++) {
+    carom_ball_kind kind = balls[0].kind;
+    carom_ball_state s = {.v = {random_between(&r, 0.0, 6.0), 0.0, -random_between(&r, 0.05, 6.0)},
+                          .w = {0.0, random_between(&r, -100.0, 100.0), 0.0}};
+    kind.radius = R;
+    kind.mass = 0.17;
+    kind.mu_spin = 1e-12;
+    kind.mu_slide = random_between(&r, 0.05, 0.4);
+    kind.restitution_table = random_between(&r, 0.3, 0.8);
+    const double T = random_between(&r, 0.0004, 0.002), down = -s.v[2];
+    const double u = s.v[0] - R * s.w[1];
+    const double leaves = carom_press_on_slate(&kind, T, &s);
+    num fine[2];
+    fine_pulse(down, fabs(u), kind.restitution_table, 3.5L * kind.mu_slide, T, fine);
+    /* the end of hops takes a little of what the slate gave */
+    const double most = kind.mu_slide * (down + carom_rebound((double)fine[0], 1.0)),
+                 rest = fabs(u) - 3.5 * fmin(2.0 / 7.0 * (fabs(u) - (double)fine[1]), most),
+                 slip = fabs(s.v[0] - R * s.w[1]);
+    error[n] = fmax(fabs(leaves - (double)fine[0]), fabs(slip - rest)) / down;
+    if (getenv("CAROM_SHOW") != NULL && error[n] > 1e-3)
+      printf("down %g, u %g, mu %g, e %g, T %g: leaves %g %g, slip %g %g\n", down, u, kind.mu_slide,
+             kind.restitution_table, T, leaves, (double)fine[0], slip, rest);
+  }
+  qsort(error, (size_t)count, sizeof *error, by_size);
+  printf("pulse: errors %.1e, 99 in 100 %.1e, at most %.1e\n", part_of(error, count, 0.5),
+         part_of(error, count, 0.99), error[count - 1]);
+  fflush(stdout);
+  ck_assert(part_of(error, count, 0.99) < 2e-4);
+  free(error);
+}
+
+/* How high a ball hops: mm, by the elevation and the speed of the cue, struck in the middle. */
+TEST(hops) {
+  static const struct {
+    double theta, high[5];
+  } told[] = {
+      {20.0, {6, 19, 33, 46, 58}}, {30.0, {12, 32, 51, 67, 79}}, {45.0, {20, 48, 71, 84, 89}}};
+  const carom_shot_options usual = {.stop_at = CAROM_STOP_AT(CAROM_EVENT_STRIKE)};
+  for (int n = 0; n < 3; n++)
+    for (int k = 0; k < 5; k++) {
+      begin(1);
+      carom_cue cue = cue_at(2.0 + 2.0 * k, 90.0);
+      cue.theta = told[n].theta;
+      strike_with(&cue, 1, &usual);
+      const double high = 1e3 * final[0].v[2] * final[0].v[2] / (2.0 * balls[0].kind.gravity);
+      printf("%s%.1f", k == 0 ? "" : " ", high);
+      NEAR(high, told[n].high[k], fmax(1.0, 0.02 * told[n].high[k]));
+    }
+  printf(" mm\n");
+}
