@@ -79,11 +79,11 @@ class Facts:
     off: frozenset[int]  # Balls that left the table
     cushions: tuple[int, ...]  # Impacts of each ball on cushions
     cushions_after: int  # Those of all balls after the first contact
-    _record: Any = field(repr=False)
+    _record: bytes = field(repr=False)  # Of C, which copies and pickles as they are
 
     def foul(self, on: Collection[int]) -> Foul:
         """The foul that it is in any game whose balls `on` may be met first: up to `Foul.CUSHION`, or `Foul.NONE`."""
-        return Foul(lib.carom_foul_of(self._record, _set_of(on), 0))
+        return Foul(lib.carom_foul_of(ffi.from_buffer("carom_facts[]", self._record), _set_of(on), 0))
 
 
 def _facts(record: Any) -> Facts:
@@ -91,7 +91,7 @@ def _facts(record: Any) -> Facts:
     potted = {ball: int(record.pocket[ball]) for ball in down}
     first, second = record.first
     before = (record.cushions_before[0], record.cushions_before[1])
-    return Facts(first, second, before, potted, _of_set(record.off), tuple(record.cushions), record.cushions_after, record)
+    return Facts(first, second, before, potted, _of_set(record.off), tuple(record.cushions), record.cushions_after, bytes(ffi.buffer(record)))
 
 
 @dataclass(frozen=True)
@@ -346,8 +346,8 @@ def referee(
     states: Any = np.array([list(made.c.user)], np.uint64)
     called: Array = np.array([[whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]], np.int32)
     turns = judge(made, layout[np.newaxis], shots, states, called)
-    met = pointer("carom_facts[]", shots._facts)[0]
-    facts = _facts(ffi.new("carom_facts *", {"first": [-1, -1]} if failed else met))
+    met = pointer("carom_facts *", shots._facts)
+    facts = _facts(ffi.new("carom_facts *", {"first": [-1, -1]}) if failed else met)
 
     # The next layout.
     after = layout.copy()
