@@ -155,6 +155,22 @@ def check_table(table: object) -> None:
         raise TypeError(f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}")
 
 
+_RADII = {lib.carom_ball_kind_of(number).radius: name for name, number in reversed(GAMES.items())}
+_SIZES = {(0.9906, 1.9812): 0.028575, (1.1176, 2.2352): 0.028575, (1.27, 2.54): 0.028575, (1.778, 3.569): 0.02619375, (1.42, 2.84): 0.03075}
+
+
+def doubt_balls(table: Table, kinds: Array) -> None:
+    """Warns of balls of another game than that whose balls the table is made for."""
+    meant = table.record["ball_radius"].item() or _SIZES.get((table.width, table.length))
+    radius = kinds["radius"].flat[0] if kinds.size else meant
+    if radius != meant and meant in _RADII and radius in _RADII:
+        warnings.warn(
+            f"balls: they are of {_RADII[radius]}, radius {radius:g} m, but the table is made for those of {_RADII[meant]}, radius {meant:g} m: "
+            f"game={_RADII[meant]!r} makes these",
+            stacklevel=3,
+        )
+
+
 def of_record(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
     """The values in C order, refused where they are not of the record, which carom.<builder> gives."""
     array = as_array(values, name)
