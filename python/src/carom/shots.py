@@ -71,7 +71,7 @@ def simulate(
     table, layout = Table.from_record(table.record), copied(layout)
     cue = None if cue is None else copied(one_cue(cue))
     models = chosen(options, changes)
-    doubt_balls(table, layout["kind"])
+    doubt_balls(table, layout["kind"], models.cushion_model)
     if models.first_of != ():
         _check_first_of(models, len(layout), cue)
     state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if models.t_final is not None or models.stop_at else None
@@ -193,7 +193,7 @@ def simulate_batch(
     event = (dtypes.event, dtypes.brief_event)[choice({"full": 0, "brief": 1}, records, "records")]
     models = chosen(options, changes)
     of_c = shot_options(models, threads)
-    doubt_balls(table, kinds if kinds is not None else all_balls["kind"])
+    doubt_balls(table, kinds if kinds is not None else all_balls["kind"], models.cushion_model)
     if models.first_of != ():
         _check_first_of(models, count, cues)
     if out is not None and not isinstance(out, Shots):

@@ -5,6 +5,7 @@ import importlib.util
 import re
 import warnings
 from types import SimpleNamespace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from conftest import refused_by_name
 
 import carom
 from carom._carom import ffi, lib
+from carom._described import ShotCushion
 from carom.record import Recorder
 
 TABLE = carom.tables.pool_9ft()
@@ -281,6 +283,31 @@ def test_balls_of_another_game_than_the_table_are_doubted(play):
                 play(table, carom.balls([[0.5, 0.5]], game=game))
             of = f"balls: they are of {game}, .* made for those of {made_for.partition(',')[0]}"
             assert len(told) == (not made_for.startswith(game)) and all(re.match(of, str(one.message)) for one in told)
+
+
+def test_a_model_of_the_cushion_has_its_own_constants_or_says_that_it_has_none():
+    tables = {"pool": TABLE, "snooker": carom.tables.snooker(), "billiard": carom.tables.threecushion()}
+    models = get_args(ShotCushion)
+    for game, table in tables.items():
+        def played(model, given, play=carom.simulate):
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                layout = carom.balls([[0.5, 0.5]], game=game, cushion_model=given)
+                made = len(told)
+                final = play(table, layout, carom.cue(speed=4.0), cushion_model=model).final
+            return made, [str(one.message) for one in told[made:]], final
+
+        usual = "smooth" if game == "billiard" else "han"
+        for model in models:
+            none, told, own = played(model, model)
+            said, other = played(model, "default")[1:]
+            assert none == (len(told) == 1) and all(f"{game} has no constants for it" in text for text in told)
+            # what is another shot, or has none of its own, is told
+            assert len(said) == (none or other.tobytes() != own.tobytes()) == len(played(model, "default", carom.simulate_batch)[1])
+            assert model not in ("default", usual) or (not said and not none)
+        assert len(played("han", "mathavan")[1]) == (game != "pool")
+    with pytest.raises(ValueError, match="cushion_model: must be one of 'default', 'mathavan'"):
+        carom.balls([[0.5, 0.5]], cushion_model="rubber")
 
 
 def test_features_that_were_not_asked_for_are_told():
