@@ -437,7 +437,8 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   else if (!good)
     complain("these are %d shots; at most %d are told and drawn at once, and %d with --csv", count,
              MOST_SHOTS, MOST_ROWS);
-  good = good && lay_out(f, &l, options->cushion_model);
+  good =
+      good && lay_out(f, &l, options != NULL ? options->cushion_model : CAROM_SHOT_CUSHION_DEFAULT);
   /* of several shots those that cannot be aimed are left out, and the first of them told */
   bool missed = false;
   l.missed = &missed;

@@ -12,6 +12,8 @@ import carom.pool
 import carom.potting
 import carom.record
 import carom.tracks
+from carom._carom import ffi
+from carom.games import potting
 
 TABLE, LONE = carom.tables.pool_9ft(), carom.tables.threecushion()
 RACK, CUE = carom.racks.nineball(TABLE), carom.cue(speed=8.0)
@@ -93,6 +95,9 @@ def test_no_dtype_has_a_hole():
     """NumPy copies fields, and leaves what is between them as the memory was."""
     dtypes = {f"{module.__name__}.{name}": value for module in (carom.dtypes, carom.tracks, carom.fit)
               for name, value in vars(module).items() if isinstance(value, np.dtype)}  # fmt: skip
+    of_c = {name: ffi.sizeof(f"carom_{name}") for name in vars(carom.dtypes) if isinstance(getattr(carom.dtypes, name), np.dtype)}
+    of_c["python_stroke"], dtypes["carom.dtypes.python_stroke"] = ffi.sizeof("carom_python_stroke"), potting._STROKE
+    assert {name: dtypes[f"carom.dtypes.{name}"].itemsize for name in of_c} == of_c
     assert len(dtypes) > 20 and [hole for name, dtype in dtypes.items() for hole in holes(dtype, name)] == []
 
 

@@ -32,7 +32,12 @@ def _dtype(ctype: Any) -> np.dtype[Any]:
     if ctype.kind == "array":
         return np.dtype((_dtype(ctype.item), (ctype.length,)))
     if ctype.kind == "struct":
-        return np.dtype([(name, _dtype(field.type)) for name, field in ctype.fields])
+        fields, end = list[tuple[str, np.dtype[Any]]](), 0
+        for name, begin, kind in [*((name, field.offset, field.type) for name, field in ctype.fields), ("", ffi.sizeof(ctype), None)]:
+            fields += [(f"unused{end}", np.dtype((np.void, begin - end)))] if begin > end else []  # what the compiler leaves out
+            fields += [(name, _dtype(kind))] if kind else []
+            end = begin + (ffi.sizeof(kind) if kind else 0)
+        return np.dtype(fields)
     if ctype.kind == "pointer":
         return np.dtype(np.uintp)
     if ctype.cname == "_Bool":
@@ -121,7 +126,7 @@ def columns(records: Records) -> dict[str, npt.NDArray[Any]]:
     if records.dtype.names is None or records.ndim != 1:
         raise TypeError(f"records: a structured array of shape (n,) is needed, not of {described(records.dtype)} and shape {records.shape}")
     found: dict[str, npt.NDArray[Any]] = {}
-    for name in (name for name in records.dtype.names if name not in _NOT_SHOWN):
+    for name in (name for name in records.dtype.names if name.rstrip("0123456789") not in _NOT_SHOWN):
         field: npt.NDArray[Any] = records[name]
         parts = {name: field}
         if field.ndim == 2:
