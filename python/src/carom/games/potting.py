@@ -153,8 +153,7 @@ class Potting:
     def _for_c(self) -> None:
         """The game as C has it, with what it points to."""
         self._rules = Made(self._game, self._state)
-        self._kept = (self.table.record, shot_options(Options(cushion_model=self.cushion_model), self.threads), layouts.cue(), self.player())
-        record, of_c, cue, player = self._kept
+        record, of_c, cue, player = self._kept = (self.table.record, shot_options(Options(cushion_model=self.cushion_model), self.threads), layouts.cue(), self.player())
         self._c = ffi.new("carom_python_game *", {
             "table": pointer("carom_table[]", record), "options": of_c, "rules": self._rules.c, "cue": pointer("carom_cue[]", cue)[0],
             "player": pointer("carom_player[]", player)[0], "balls": self.balls + 1,
