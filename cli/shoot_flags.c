@@ -159,7 +159,7 @@ static bool lay(layout *l, int k, const given_place *at, int laid) {
 }
 
 /* False after a complaint. */
-static bool lay_out(const shoot_flags *f, layout *l) {
+static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion) {
   const carom_table_kind kind =
       f->table != 0 ? (carom_table_kind)(f->table - 1) : CAROM_TABLE_POOL_9FT;
   l->table_name = carom_table_name(kind);
@@ -167,7 +167,11 @@ static bool lay_out(const shoot_flags *f, layout *l) {
   l->game = kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
             : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
                                                : CAROM_GAME_POOL;
-  carom_ball_kind ball = carom_ball_kind_of(l->game);
+  carom_ball_kind ball;
+  if (!carom_ball_kind_for(l->game, cushion, &ball))
+    complain("%s has no constants for the cushion %s: the balls have those for its default model",
+             carom_word(CAROM_WORDS_GAME, l->game),
+             carom_word(CAROM_WORDS_SHOT_CUSHION, (int)cushion));
   give_ball(&f->shared.with, &ball);
   snprintf(l->name[0], PLACE_NAME, "cue");
   l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
@@ -432,7 +436,8 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   else if (!good)
     complain("these are %d shots; at most %d are told and drawn at once, and %d with --csv", count,
              MOST_SHOTS, MOST_ROWS);
-  good = good && lay_out(f, &l);
+  good =
+      good && lay_out(f, &l, options != NULL ? options->cushion_model : CAROM_SHOT_CUSHION_DEFAULT);
   /* of several shots those that cannot be aimed are left out, and the first of them told */
   bool missed = false;
   l.missed = &missed;

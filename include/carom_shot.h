@@ -310,7 +310,7 @@ typedef struct carom_shot_ball {
 
 /* Games, for their balls and cues. docs/understanding/constants.md has the source of each
  * number. The numbers of the cushion are for the default of the world carom: the smooth model for
- * BILLIARD, else Han's. That page has those for other models. */
+ * BILLIARD, else Han's; carom_ball_kind_for() has those for other models. */
 typedef enum carom_game {
   CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published;
                                       no table was measured */
@@ -599,6 +599,13 @@ typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_EULER = 5,
   CAROM_SHOT_CUSHION_SMOOTH = 6
 } carom_shot_cushion;
+
+/* The balls of a game with the constants of a model of the cushion, which belong to it: writes
+ * them and returns 1. Returns 0 where the game has none for the model, and writes those of
+ * carom_ball_kind_of(). The games of pooltool have one set for all models, and so has POOL for all
+ * but SMOOTH. A NULL kind is not written. */
+CAROM_API int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion,
+                                  carom_ball_kind *kind);
 
 /* Contacts of several balls at one instant. CLUSTER: they last and overlap in time, by
  * carom_cluster(); with the ball models EXACT and MIRROR, which has them without friction.

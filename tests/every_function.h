@@ -176,6 +176,16 @@ EVERY_BODY(ball_fault) {
   const carom_ball_kind none = {.mass = 0};
   return every_text(h, carom_ball_fault(&none, text, sizeof text)->name);
 }
+EVERY_BODY(ball_kind_for) {
+  carom_ball_kind kind;
+  for (int game = CAROM_GAME_POOL; game <= CAROM_GAME_POOLTOOL_BILLIARD; game++)
+    for (int model = CAROM_SHOT_CUSHION_DEFAULT; model <= CAROM_SHOT_CUSHION_SMOOTH; model++) {
+      const int own = carom_ball_kind_for((carom_game)game, (carom_shot_cushion)model, &kind);
+      HASH(own);
+      HASH(kind);
+    }
+  return h;
+}
 EVERY_BODY(cushion_start) {
   carom_ball_kind kind = {.mass = carom_cushion_start(CAROM_CUSHION_EULER, NULL)};
   for (int model = 0; carom_cushion_model_name((carom_cushion_model)model) != NULL; model++) {
@@ -573,7 +583,7 @@ EVERY_BODY(record_settle) {
 
 /* clang-format off */
 #define EVERY_ONE(F) \
-  F(alciatore) F(ball_fault) F(ball_kind_of) F(check) F(cite) F(collide) \
+  F(alciatore) F(ball_fault) F(ball_kind_for) F(ball_kind_of) F(check) F(cite) F(collide) \
   F(cluster) F(collide_batch) \
   F(collide_batch_f32) F(collide_detail) F(collide_tangent) F(cue_of) F(cushion) \
   F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) F(cushion_start) \

@@ -77,3 +77,33 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
   }
   return kind;
 }
+
+int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {
+  carom_ball_kind made = carom_ball_kind_of(game);
+  const bool billiard = game == CAROM_GAME_BILLIARD, snooker = game == CAROM_GAME_SNOOKER;
+  const bool exact = cushion == CAROM_SHOT_CUSHION_MATHAVAN || cushion == CAROM_SHOT_CUSHION_EULER;
+  const carom_cushion_model model =
+      exact ? CAROM_CUSHION_MATHAVAN : (carom_cushion_model)((int)cushion - 1);
+  const bool usual = cushion == CAROM_SHOT_CUSHION_DEFAULT ||
+                     cushion == (billiard ? CAROM_SHOT_CUSHION_SMOOTH : CAROM_SHOT_CUSHION_HAN);
+  int own = usual || game != CAROM_GAME_POOL || cushion != CAROM_SHOT_CUSHION_SMOOTH;
+
+  if (!usual && (billiard || (snooker && exact))) {
+    /* what the default's model has besides is none of this one */
+    made.mu_log = made.restitution_log = made.restitution_log2 = made.roll_loss_log = 0.0;
+    made.smooth_q = made.smooth_x = made.smooth_t = made.smooth_a = 0.0;
+    made.smooth_g = made.smooth_g_log = made.smooth_e = 0.0;
+    made.mu_cushion = 0.14;
+    made.restitution_cushion = 0.98;
+    made.nose_height = 0.0;
+    if (billiard) {
+      own = carom_cushion_start(model, &made);
+      made.roll_loss = cushion == CAROM_SHOT_CUSHION_MIRROR ? 0.0 : 0.087;
+    }
+  } else if (!usual && snooker) {
+    own = 0;
+  }
+  if (kind != NULL)
+    *kind = own ? made : carom_ball_kind_of(game);
+  return own;
+}

@@ -297,6 +297,51 @@ static double *field_of(carom_ball_kind *kind, const char *name) {
   ck_abort_msg("there is no field %s", name);
 }
 
+/* Those of a game for another model of the cushion are the second table of that page, which no
+ * other number of the ball differs from. */
+TEST(constants_of_cushions) {
+  static const char *const games[] = {"pool", "snooker", "billiard"};
+  FILE *file = fopen(CAROM_TEST_DATA "/../docs/understanding/constants.md", "r");
+  ck_assert_ptr_nonnull(file);
+  char line[500], game[40], model[40];
+  double mu, e, nose, loss;
+  bool told[3][7] = {{0}};
+  while (fgets(line, sizeof line, file) != NULL) {
+    if (sscanf(line, "| %39[a-z] | %39[a-z] | %lf | %lf | %lf%*[^|]| %lf |", game, model, &mu, &e,
+               &nose, &loss) != 6)
+      continue;
+    int g = 0, m = 0;
+    while (g < 3 && strcmp(games[g], game) != 0)
+      g++;
+    while (m < 7 && strcmp(carom_word(CAROM_WORDS_SHOT_CUSHION, m), model) != 0)
+      m++;
+    ck_assert_msg(g < 3 && m < 7, "%s", line);
+    carom_ball_kind kind, usual = carom_ball_kind_of((carom_game)g);
+    ck_assert_int_eq(carom_ball_kind_for((carom_game)g, (carom_shot_cushion)m, &kind), 1);
+    ck_assert_msg(kind.mu_cushion == mu && kind.restitution_cushion == e &&
+                      kind.nose_height == nose && kind.roll_loss == loss && kind.smooth_q == 0 &&
+                      kind.restitution_log == 0 && kind.mass == usual.mass &&
+                      kind.mu_slide == usual.mu_slide && kind.law_b == usual.law_b,
+                  "%s", line);
+    told[g][m] = true;
+  }
+  fclose(file);
+
+  /* the default's, those that are told, and one set of pool and of pooltool */
+  for (int g = CAROM_GAME_POOL; g <= CAROM_GAME_POOLTOOL_BILLIARD; g++)
+    for (int m = 0; m < 7; m++) {
+      const bool smooth = m == CAROM_SHOT_CUSHION_SMOOTH, han = m == CAROM_SHOT_CUSHION_HAN;
+      const bool usual = m == 0 || g > 2 || (g == 2 ? smooth : g == 1 ? han : !smooth);
+      const carom_ball_kind of_game = carom_ball_kind_of((carom_game)g);
+      carom_ball_kind kind;
+      const int own = carom_ball_kind_for((carom_game)g, (carom_shot_cushion)m, &kind);
+      ck_assert_int_eq(own, usual || told[g][m]);
+      ck_assert_int_eq(memcmp(&kind, &of_game, sizeof kind) == 0, usual || !told[g][m]);
+      ck_assert_int_eq(carom_ball_kind_for((carom_game)g, (carom_shot_cushion)m, NULL), own);
+    }
+  ck_assert_int_eq(carom_ball_kind_for(CAROM_GAME_BILLIARD, (carom_shot_cushion)99, NULL), 0);
+}
+
 /* Every number of every game stands, with its source, in the tables of
  * docs/understanding/constants.md, and is that number; what does not stand there is 0. */
 TEST(constants) {

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import reprlib
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,8 +25,21 @@ _WORDS = {name: worded(of) for name, of in WORDS.items()}
 _STOPS = {"contact": 0, **numbered("carom_event_type")}
 
 
+def _known(changes: Any) -> Any:
+    """Options by their names; another name is refused."""
+    unknown = changes.keys() - set(ShotOptions._fields)
+    if unknown:
+        raise TypeError(f"options: there is no {min(unknown)!r}; known are {', '.join(ShotOptions._fields)}")
+    return changes
+
+
 class Options(ShotOptions):
     __slots__ = ()
+
+    if not TYPE_CHECKING:
+
+        def __new__(cls, *given, **named):
+            return super().__new__(cls, *given, **_known(named))
 
     def __repr__(self) -> str:
         """What differs from the defaults, which keeps signatures short."""
@@ -34,10 +48,7 @@ class Options(ShotOptions):
 
     def changed(self, changes: Any) -> Options:
         """These options but for some, by their names."""
-        unknown = changes.keys() - set(self._fields)
-        if unknown:
-            raise TypeError(f"options: there is no {min(unknown)!r}; known are {', '.join(self._fields)}")
-        made = self._replace(**changes)
+        made = self._replace(**_known(changes))
         if not isinstance(made.first_of, (int, tuple)):
             balls = several(made.first_of, "first_of", "the index of a ball is needed, or several")
             made = made._replace(first_of=tuple(whole(ball, "first_of", most=31) for ball in balls))
@@ -47,6 +58,7 @@ class Options(ShotOptions):
 
 
 Options.__doc__ = ShotOptions.__doc__
+Options.__signature__ = inspect.signature(ShotOptions)  # type: ignore[attr-defined]
 
 
 def chosen(options: object, changes: Any) -> Options:

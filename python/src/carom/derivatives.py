@@ -214,8 +214,8 @@ def _differentiate(
 
 def _sorted_times(times: npt.ArrayLike | None) -> Array:
     at = np.zeros(0) if times is None else np.ascontiguousarray(as_array(times, "times", np.float64))
-    if at.ndim != 1 or not np.isfinite(at).all() or (np.diff(at) < 0).any():
-        raise ValueError("times: finite numbers of seconds in ascending order are needed, of shape (times,)")
+    if at.ndim != 1 or not (np.isfinite(at) & (at >= 0.0)).all() or (np.diff(at) < 0).any():
+        raise ValueError("times: finite numbers of seconds from the beginning of the shot, in ascending order, are needed, of shape (times,)")
     return at
 
 

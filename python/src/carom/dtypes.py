@@ -24,18 +24,20 @@ __all__ = [
     "motion", "plain", "player", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point",
 ]  # fmt: skip
 
-_NOT_SHOWN = {"reserved", "unused"}
+_NOT_SHOWN = {"reserved", "unused"}  # fields that only keep room for later
 
 
 def _dtype(ctype: Any) -> np.dtype[Any]:
-    """The dtype of a C type; fields that only keep room for later are left out, their bytes are not."""
+    """The dtype of a C type: every byte is in a field, since NumPy copies fields only."""
     if ctype.kind == "array":
         return np.dtype((_dtype(ctype.item), (ctype.length,)))
     if ctype.kind == "struct":
-        fields = [(name, field) for name, field in ctype.fields if name not in _NOT_SHOWN]
-        formats, offsets = [_dtype(field.type) for _, field in fields], [field.offset for _, field in fields]
-        names = [name for name, _ in fields]
-        return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(ctype)})
+        fields, end = list[tuple[str, np.dtype[Any]]](), 0
+        for name, begin, kind in [*((name, field.offset, field.type) for name, field in ctype.fields), ("", ffi.sizeof(ctype), None)]:
+            fields += [(f"unused{end}", np.dtype((np.void, begin - end)))] if begin > end else []  # what the compiler leaves out
+            fields += [(name, _dtype(kind))] if kind else []
+            end = begin + (ffi.sizeof(kind) if kind else 0)
+        return np.dtype(fields)
     if ctype.kind == "pointer":
         return np.dtype(np.uintp)
     if ctype.cname == "_Bool":
@@ -119,12 +121,12 @@ def plain(records: Records) -> Doubles:
 def columns(records: Records) -> dict[str, npt.NDArray[Any]]:
     """The numbers of records of shape (n,) as columns of shape (n,), for pandas and other tables: `DataFrame(columns(records))`.
 
-    The name of a column joins those of its parts: state_r_x, before_a_v_y. Vectors have x, y, z, pairs of states a, b.
+    Fields that keep room for later are left out. The name of a column joins those of its parts: state_r_x, before_a_v_y. Vectors have x, y, z, pairs of states a, b.
     """
     if records.dtype.names is None or records.ndim != 1:
         raise TypeError(f"records: a structured array of shape (n,) is needed, not of {described(records.dtype)} and shape {records.shape}")
     found: dict[str, npt.NDArray[Any]] = {}
-    for name in records.dtype.names:
+    for name in (name for name in records.dtype.names if name.rstrip("0123456789") not in _NOT_SHOWN):
         field: npt.NDArray[Any] = records[name]
         parts = {name: field}
         if field.ndim == 2:

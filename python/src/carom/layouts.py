@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, cast
@@ -11,7 +12,7 @@ import numpy.typing as npt
 
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
-from carom._described import BallNumbers
+from carom._described import BallNumbers, ShotCushion
 from carom._described import Game as Game
 from carom._faults import strike_error
 from carom._rows import Array, as_array, choice, copied, fill, number, pointer, raw, several, whole, with_numbers, worded
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Table", "balls", "by_number", "cue", "place_ball", "struck"]
 
-GAMES = worded("GAME")
+GAMES, _CUSHIONS = worded("GAME"), worded("SHOT_CUSHION")
 
 
 class Table:
@@ -155,6 +156,41 @@ def check_table(table: object) -> None:
         raise TypeError(f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}")
 
 
+_RADII = {lib.carom_ball_kind_of(number).radius: name for name, number in reversed(GAMES.items())}
+_CUSHION = ["mu_cushion", "restitution_cushion", "nose_height", "roll_loss", "restitution_log", "mu_log", "smooth_q"]
+_SIZES = {(0.9906, 1.9812): 0.028575, (1.1176, 2.2352): 0.028575, (1.27, 2.54): 0.028575, (1.778, 3.569): 0.02619375, (1.42, 2.84): 0.03075}
+
+
+@functools.lru_cache(maxsize=256)
+def _other_constants(kind: bytes, cushion_model: str) -> str:
+    """What is to be said of a ball that has a game's constants of another model of the cushion."""
+    given, of_c = np.frombuffer(kind, dtypes.ball_kind)[_CUSHION].tobytes(), ffi.new("carom_ball_kind *")
+    for game, number in list(GAMES.items())[:3]:
+        own = {}
+        for model, of in _CUSHIONS.items():
+            if lib.carom_ball_kind_for(number, of, of_c):
+                own[model] = np.frombuffer(ffi.buffer(of_c), dtypes.ball_kind)[_CUSHION].tobytes()
+        if given in own.values() and own.get(cushion_model) != given:
+            return f"balls(game={game!r}, cushion_model={cushion_model!r}) have its own" if cushion_model in own else f"{game} has no constants for it"
+    return ""
+
+
+def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
+    """Warns of balls of another game than that whose balls the table is made for, and of those with a game's constants of another model of
+    the cushion than that which is asked for by name."""
+    meant = table.record["ball_radius"].item() or _SIZES.get((table.width, table.length))
+    radius = kinds["radius"].flat[0] if kinds.size else meant
+    if radius != meant and meant in _RADII and radius in _RADII:
+        warnings.warn(
+            f"balls: they are of {_RADII[radius]}, radius {radius:g} m, but the table is made for those of {_RADII[meant]}, radius {meant:g} m: "
+            f"game={_RADII[meant]!r} makes these",
+            stacklevel=3,
+        )
+    named = isinstance(cushion_model, str) and cushion_model != "default" and kinds.size > 0
+    if named and cushion_model in _CUSHIONS and (said := _other_constants(kinds.flat[:1].tobytes(), str(cushion_model))):
+        warnings.warn(f"cushion_model: {cushion_model!r} plays constants of another model: {said}", stacklevel=3)
+
+
 def of_record(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
     """The values in C order, refused where they are not of the record, which carom.<builder> gives."""
     array = as_array(values, name)
@@ -247,7 +283,7 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["e
 @with_numbers(lib.CAROM_PART_BALL)
 def balls(
     r: npt.ArrayLike, *, v: npt.ArrayLike = 0.0, w: npt.ArrayLike = 0.0, game: Game = "pool",
-    **kind: Unpack[BallNumbers]
+    cushion_model: ShotCushion = "default", **kind: Unpack[BallNumbers]
 ) -> dtypes.Records:  # fmt: skip
     """Balls on a table, from fields that are broadcast against each other.
 
@@ -260,6 +296,8 @@ def balls(
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
         Whose balls they are: the defaults of the fields of `carom.dtypes.ball_kind`, which follow. docs/understanding/constants.md has the
         source of each number: those of billiard are measured, with drag and loss of roll; pooltool_... are pooltool's figures.
+    cushion_model
+        The model of the cushion whose constants they have, as of `simulate`. A warning tells where the game has none for it.
     {fields}
 
     Returns an ndarray of `carom.dtypes.shot_ball`, shape (..., balls).
@@ -273,7 +311,10 @@ def balls(
         raise ValueError(f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}")
     places = np.zeros((*centres.shape[:-1], 3))
     places[..., : centres.shape[-1]] = centres
-    usual = bytes(ffi.buffer(ffi.new("carom_shot_ball *", {"kind": lib.carom_ball_kind_of(choice(GAMES, game, "game"))})))
+    ball, number = ffi.new("carom_shot_ball *"), choice(GAMES, game, "game")
+    if not lib.carom_ball_kind_for(number, choice(_CUSHIONS, cushion_model, "cushion_model"), ffi.addressof(ball, "kind")):
+        warnings.warn(f"cushion_model: {game} has no constants for {cushion_model!r}; the balls have those for its default model", stacklevel=2)
+    usual = bytes(ffi.buffer(ball))
     made = fill(dtypes.shot_ball, {"r": 3, "v": 3, "w": 3}, {**fields, "state.r": places, "state.v": v, "state.w": w}, usual)
     if centres.shape[-1] == 2:
         made["state"]["r"][..., 2] = made["kind"]["radius"]

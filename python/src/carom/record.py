@@ -90,6 +90,14 @@ class Recorder:
         self._write(lib.CAROM_RECORD_OPTIONS)
         self.balls = balls
 
+    def __getstate__(self) -> tuple[list[str], bytes]:
+        return [*self.lines], bytes(ffi.buffer(self._game))
+
+    def __setstate__(self, state: tuple[list[str], bytes]) -> None:
+        self.lines, self._game = state[0], ffi.new("carom_record *")
+        self._text = ffi.new("char[]", lib.CAROM_RECORD_TEXT)
+        ffi.buffer(self._game)[:] = state[1]
+
     @property
     def balls(self) -> dtypes.Records:
         """The layout after the last shot. One that is assigned is recorded."""

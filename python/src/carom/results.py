@@ -16,7 +16,7 @@ from carom._carom import ffi, lib
 from carom._described import EventType as EventType
 from carom._described import Label as Label
 from carom._faults import argument_error, shot_arguments
-from carom._rows import INT8, Array, Arrays, addresses, as_array, in_chunks, one_or_all, pointer, several, spread, whole
+from carom._rows import INT8, Array, Arrays, addresses, as_array, fill, in_chunks, one_or_all, pointer, several, spread, whole
 from carom._shot_options import Options, shot_options
 from carom.layouts import Table
 from carom.pictures import Animation
@@ -25,9 +25,13 @@ from carom.status import CaromError, Status
 
 def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
     at = np.asarray(as_array(times, "times", np.float64), order="C")
-    if not np.isfinite(at).all():
-        raise ValueError(f"times: each must be a finite number of seconds, not {at[~np.isfinite(at)].flat[0]}")
+    wrong = at[~((at >= 0.0) & (at < np.inf))]
+    if wrong.size:
+        raise ValueError(f"times: each must be a finite number of seconds from the beginning of the shot, not {wrong.flat[0]}")
     return at
+
+
+UNKNOWN = fill(dtypes.ball_state, {}, {**dict.fromkeys("rvw", np.nan), "label": -1})
 
 
 @dataclass(eq=False, repr=False)
@@ -69,11 +73,11 @@ class Shot:
     def states(self, times: npt.ArrayLike, *, drawn: bool = False) -> dtypes.Records:
         """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape (shape of the times..., balls).
 
-        Before 0 they are as at 0; after the end as at the end, where nothing moves any more. With `drawn` a pocketed ball falls in its
+        After the end they are as at the end, where nothing moves any more. With `drawn` a pocketed ball falls in its
         pocket until it lies at the depth or on others, and stays there; a shot of a batch then needs all its events: `simulate_batch(room=...)`.
 
         Raises CaromError: A time is after the end of a shot that was stopped, or that ended in an error, while balls moved.
-        Raises ValueError: A time is not finite.
+        Raises ValueError: A time is before 0, or not finite.
         """
         at = _moments(times)
         states: Array = np.zeros((*at.shape, len(self.balls)), dtypes.ball_state)
@@ -114,14 +118,18 @@ class Shot:
         return np.asarray(self.states(times)["r"], dtype=np.float64)
 
     def to_dataframe(self) -> Any:
-        """The events as a pandas DataFrame, a row an event: time, type (by name), a, b, before_a_r_x and so on.
+        """The events as a pandas DataFrame, a row an event: time, type (by name), a, b, before_a_r_x and so on. Where there is no second
+        ball, the numbers of one are nan, and its labels -1.
 
         Needs pandas. `carom.dtypes.columns` makes columns of any records.
         """
         import pandas
 
         names = {kind.value: kind.name.lower() for kind in EventType}
-        frame = pandas.DataFrame(dtypes.columns(self.events))
+        events = self.events.copy()
+        for side in ("before", "after") if events.dtype == dtypes.event else ():
+            events[side][events["type"] != EventType.BALL_BALL, 1] = UNKNOWN
+        frame = pandas.DataFrame(dtypes.columns(events))
         frame.index.name = "event"
         frame["type"] = pandas.Categorical([names[kind] for kind in self.events["type"].tolist()], list(names.values()))
         return frame
@@ -340,11 +348,11 @@ class Shots:
     def states(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Records:
         """The states of all balls of all shots at any times, s: an ndarray of `carom.dtypes.ball_state`, shape (batch..., times..., balls).
 
-        Before 0 they are as at 0; after the end as at the end, where nothing moves any more. Shots of which not all events were kept are
+        After the end they are as at the end, where nothing moves any more. Shots of which not all events were kept are
         played again, which takes the time of playing them. Numbers are nan, and the label -1, where no state is known: of shots whose
         arguments were in error, and after shots were stopped, or ended in an error, while balls moved. No bit depends on `threads`.
 
-        Raises ValueError: A time is not finite; or a shot has to be played again, and its layout or cue has been changed since.
+        Raises ValueError: A time is before 0, or not finite; or a shot has to be played again, and its layout or cue has been changed since.
         """
         return self._look_at(times, dtypes.ball_state, (), threads)[0]
 
@@ -454,7 +462,7 @@ class Shots:
         the end; and the features where they were asked for. Numbers that have a unit tell it by the attribute "units".
 
         Needs xarray. The dimensions are those of the batch, named as in `to_dataframe`, "ball", "axis" (x, y, z) and, of first contacts,
-        "met".
+        "met"; each has coordinates: those of `dims` that are named as a field of the cue, which changes along it alone, have its values.
         """
         import xarray
 
@@ -478,7 +486,16 @@ class Shots:
             name: (names, np.array(values), {**of.get(name, {}), **({"units": units[name]} if name in units else {})})
             for name, (names, values) in found.items()
         }
-        return xarray.Dataset(variables, {"ball": np.arange(count), "axis": list("xyz")})
+        sizes = {**dict(zip(dims, self.shape)), "ball": count, **({} if self._facts is None else {"met": 2})}
+        return xarray.Dataset(variables, {**{name: self._along(dims, name, size) for name, size in sizes.items()}, "axis": list("xyz")})
+
+    def _along(self, dims: tuple[str, ...], name: str, size: int) -> Array:
+        """The coordinates of a dimension: the cue's field of its name, where that changes along it alone, or else indices."""
+        if name in dims and self.cues is not None and name in (dtypes.cue.names or ()) and self.status.size:
+            values = np.moveaxis(np.broadcast_to(self.cues, self.shape)[name], dims.index(name), 0).reshape(size, -1)
+            if (values == values[:, :1]).all() and len(np.unique(values[:, 0])) == size:
+                return values[:, 0]
+        return np.arange(size)
 
     def _dims(self, dims: Sequence[str] | None) -> tuple[str, ...]:
         """The names of the dimensions of the batch."""

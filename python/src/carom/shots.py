@@ -11,10 +11,10 @@ import numpy as np
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import INT8, Array, apart, broadcast, choice, copied, fill, in_chunks, number, output, pointer, whole
+from carom._rows import INT8, Array, apart, broadcast, choice, copied, in_chunks, number, output, pointer, whole
 from carom._shot_options import Options, StopAt, chosen, shot_options
-from carom.layouts import Table, check_table, of_record, one_cue
-from carom.results import Shot, Shots
+from carom.layouts import Table, check_table, doubt_balls, of_record, one_cue
+from carom.results import UNKNOWN, Shot, Shots
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 _USUAL = Options()
 _FIRST_ROOM = 512
 _NO_EVENTS: Array = np.zeros(0, dtypes.event)
-_UNKNOWN = fill(dtypes.ball_state, {}, {**dict.fromkeys("rvw", np.nan), "label": -1})
 
 
 def cite(*, options: Options = _USUAL, **changes: Unpack[Changes]) -> str:
@@ -72,12 +71,23 @@ def simulate(
     table, layout = Table.from_record(table.record), copied(layout)
     cue = None if cue is None else copied(one_cue(cue))
     models = chosen(options, changes)
+    doubt_balls(table, layout["kind"], models.cushion_model)
+    if models.first_of != ():
+        _check_first_of(models, len(layout), cue)
     state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if models.t_final is not None or models.stop_at else None
     arguments = shot_arguments(table, layout, cue, shot_options(models))
     if (error := argument_error(arguments, layout, cue)) is not None:
         raise error
     begun = Shot(table, layout, Status.OK, 0.0, 0, _NO_EVENTS, layout["state"], cue, models, state)
     return _run(begun, lambda shot: lib.carom_shoot(*arguments, shot))
+
+
+def _check_first_of(options: Options, balls: int, cues: dtypes.Records | None) -> None:
+    """Refuses indices of no ball, and of the cue ball, which does not meet itself."""
+    struck = {0} if cues is None else set(np.unique(cues["ball"]).tolist())
+    for ball in (options.first_of,) if isinstance(options.first_of, int) else options.first_of:
+        if ball in struck or whole(ball, "first_of") >= balls:
+            raise ValueError(f"first_of: ball {ball} is {'the cue ball' if ball in struck else f'none of {balls}'}: it must be one that the cue ball meets")
 
 
 def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
@@ -183,6 +193,9 @@ def simulate_batch(
     event = (dtypes.event, dtypes.brief_event)[choice({"full": 0, "brief": 1}, records, "records")]
     models = chosen(options, changes)
     of_c = shot_options(models, threads)
+    doubt_balls(table, kinds if kinds is not None else all_balls["kind"], models.cushion_model)
+    if models.first_of != ():
+        _check_first_of(models, count, cues)
     if out is not None and not isinstance(out, Shots):
         raise TypeError(f"out: an earlier result of simulate_batch is needed, not {type(out).__name__}")
     shots = Shots(table, all_balls, shape, room, event) if out is None else out
@@ -203,5 +216,5 @@ def simulate_batch(
     if code < 0 and not (shots.status < 0).any():
         raise CaromError(code, "layouts", count) if code == Status.ERROR_BALLS else CaromError(code, "table")
     if code < 0:
-        shots.final[shots.refused] = _UNKNOWN
+        shots.final[shots.refused] = UNKNOWN
     return shots

@@ -1,9 +1,11 @@
 """Each bad argument has its error: of the right kind, beginning with the argument's name, and saying what would be right."""
 
+import enum
 import importlib.util
 import re
 import warnings
 from types import SimpleNamespace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from conftest import refused_by_name
 
 import carom
 from carom._carom import ffi, lib
+from carom._described import ShotCushion
 from carom.record import Recorder
 
 TABLE = carom.tables.pool_9ft()
@@ -114,7 +117,12 @@ VALUES = [
     (r"shot: only what simulate", lambda: carom.resume(carom.simulate(TABLE, RACK, CUE))),
     (r"shot: ", lambda: carom.resume(None)),
     *((rf"times: .* not {bad}", lambda bad=bad, look=look: look(carom.simulate(TABLE, RACK, CUE))([0.1, bad]))
-      for bad in (np.nan, np.inf) for look in (lambda s: s.positions, lambda s: s.states, lambda s: s.orientations)),
+      for bad in (np.nan, np.inf, -5.0) for look in (lambda s: s.positions, lambda s: s.states, lambda s: s.orientations)),
+    *((rf"times: .* not {bad}", lambda bad=bad: carom.simulate_batch(TABLE, RACK, CUE).positions([0.1, bad])) for bad in (np.nan, -1.0)),
+    (r"times: .* from the beginning", lambda: carom.tangents(shot(), ["cue.phi"], times=[-1.0])),
+    (r"times: .* from the beginning", lambda: carom.jacobian(TABLE, RACK, CUE, ["cue.phi"], of="at.r", times=[-1.0, 1.0])),
+    *((rf"first_of: ball {ball} is {text}", lambda ball=ball, play=play: play(TABLE, RACK, CUE, first_of=ball))
+      for ball, text in ((0, "the cue ball"), (10, "none of 10")) for play in (carom.simulate, carom.simulate_batch)),
     *((r"wrt: ", lambda name=name: carom.tangents(shot(), [name]))
       for name in ("phi", "cue.mu", "balls[17].r", "balls[0].r[3]", "kind", "balls[0].kind.radius", "cue.phi[0]")),
     (r"of: .* not None", lambda: carom.jacobian(TABLE, RACK, CUE, ["cue.phi"], of=None)),
@@ -143,6 +151,7 @@ TYPES = [
     (r"records: .* of carom\.dtypes\.shot_ball and shape", lambda: carom.dtypes.columns(RACK.reshape(2, 5))),
     (r"records: ", lambda: carom.dtypes.columns(np.zeros(3))),
     (r"shot: .* not str", lambda: carom.tangents("shot", ["cue.phi"])),
+    (r"options: there is no 'cushon_model'; known are world, ball_model", lambda: carom.Options(cushon_model="han")),
     (r"options: there is no 'cushion'; known are world, ball_model", lambda: carom.simulate(TABLE, RACK, CUE, cushion="han")),
     # masks would be lost
     *((rf"{name}: masks are not read", call) for name, call in (
@@ -246,6 +255,59 @@ def test_what_looks_like_a_number_and_is_none():
     ):
         with pytest.raises(TypeError, match="^" + re.escape(said)):
             call()
+
+
+PRIVATE = re.compile(r"(?<![\w.])_[a-z]\w*|\._[a-z]\w*|ShotOptions")
+
+
+def test_errors_name_public_names():
+    """Of a misspelt argument, by each call and class of the package."""
+    for module in (carom, carom.racks, carom.tables, carom.dtypes, carom.record, carom.derivatives):
+        for call in (getattr(module, name) for name in dir(module)):
+            if callable(call) and not isinstance(call, enum.EnumMeta):
+                with pytest.raises(TypeError) as caught:
+                    call(misspelt=1)
+                assert not PRIVATE.search(str(caught.value)), str(caught.value)
+    for about in (carom.simulate, carom.tangents, carom.Options, carom.Shot, carom.Shots):
+        assert not PRIVATE.search(about.__doc__), about
+
+
+@pytest.mark.parametrize("play", [carom.simulate, carom.simulate_batch])
+def test_balls_of_another_game_than_the_table_are_doubted(play):
+    tables = {"snooker": carom.tables.snooker(), "billiard": carom.tables.threecushion(), "pool": TABLE,
+              "snooker, by its number": carom.tables.polygon(CORNERS, ball_radius=0.02619375)}  # fmt: skip
+    for made_for, table in tables.items():
+        for game in ("pool", "snooker", "billiard"):
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                play(table, carom.balls([[0.5, 0.5]], game=game))
+            of = f"balls: they are of {game}, .* made for those of {made_for.partition(',')[0]}"
+            assert len(told) == (not made_for.startswith(game)) and all(re.match(of, str(one.message)) for one in told)
+
+
+def test_a_model_of_the_cushion_has_its_own_constants_or_says_that_it_has_none():
+    tables = {"pool": TABLE, "snooker": carom.tables.snooker(), "billiard": carom.tables.threecushion()}
+    models = get_args(ShotCushion)
+    for game, table in tables.items():
+        def played(model, given, play=carom.simulate):
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                layout = carom.balls([[0.5, 0.5]], game=game, cushion_model=given)
+                made = len(told)
+                final = play(table, layout, carom.cue(speed=4.0), cushion_model=model).final
+            return made, [str(one.message) for one in told[made:]], final
+
+        usual = "smooth" if game == "billiard" else "han"
+        for model in models:
+            none, told, own = played(model, model)
+            said, other = played(model, "default")[1:]
+            assert none == (len(told) == 1) and all(f"{game} has no constants for it" in text for text in told)
+            # what is another shot, or has none of its own, is told
+            assert len(said) == (none or other.tobytes() != own.tobytes()) == len(played(model, "default", carom.simulate_batch)[1])
+            assert model not in ("default", usual) or (not said and not none)
+        assert len(played("han", "mathavan")[1]) == (game != "pool")
+    with pytest.raises(ValueError, match="cushion_model: must be one of 'default', 'mathavan'"):
+        carom.balls([[0.5, 0.5]], cushion_model="rubber")
 
 
 def test_features_that_were_not_asked_for_are_told():

@@ -78,7 +78,7 @@ def test_trajectories_of_a_batch(breaks, options):
     """Those of single shots, bit for bit, whatever was kept, in any order of times, on any number of threads."""
     play, alone = breaks
     shots = play(**options)
-    times = np.array([[0.0, 0.7, 0.31], [99.0, 0.31, -1.0]])
+    times = np.array([[0.0, 0.7, 0.31], [99.0, 0.31, 0.0]])
     positions = shots.positions(times, threads=3)
     states = shots.states(times)
     assert positions.shape == (12, 2, 3, 10, 3) and states.shape == (12, 2, 3, 10)
@@ -332,7 +332,7 @@ def test_states_between_events():
     at = shot.positions(times)
     assert at.shape == (7, 1, 1, 3) and shot.events["type"][0] == carom.EventType.SLIDING_ROLLING
     np.testing.assert_allclose(at[:, 0, 0, 1], 0.3 + times[:, 0] - 0.5 * 0.2 * 9.81 * times[:, 0] ** 2, rtol=1e-14)
-    assert shot.states(1e9).tobytes() == shot.final.tobytes() and shot.states(-1.0)["r"].tolist() == [[0.6, 0.3, 0.028575]]
+    assert shot.states(1e9).tobytes() == shot.final.tobytes() and shot.states(0.0)["r"].tolist() == [[0.6, 0.3, 0.028575]]
 
 
 def test_more_events_than_the_first_room(monkeypatch):
@@ -448,7 +448,11 @@ def test_columns_and_frames():
     pytest.importorskip("pandas")
     frame = shot.to_dataframe()
     assert list(frame) == list(columns) and frame["type"][0] == "strike"
-    assert (frame["type"] == "ball_ball").sum() == (shot.events["type"] == carom.EventType.BALL_BALL).sum()
+    pair = (frame["type"] == "ball_ball").to_numpy()
+    assert pair.tolist() == (shot.events["type"] == carom.EventType.BALL_BALL).tolist()
+    for side in ("before", "after"):
+        assert frame[f"{side}_b_r_x"][pair].notna().all() and frame[f"{side}_b_r_x"][~pair].isna().all()
+        assert set(frame[f"{side}_b_label"][~pair]) == {-1} and frame[f"{side}_a_r_x"].notna().all()
 
 
 def test_a_batch_as_a_frame(breaks):
@@ -489,7 +493,10 @@ def test_a_batch_as_a_dataset(breaks):
         label.name.lower(): label.value for label in carom.Label
     }
     grid = carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6]]), carom.cue(speed=[[1.0], [2.0]], phi=[0.0, 1.0, 2.0]))
-    assert grid.to_xarray(("speed", "phi"))["time"].dims == ("speed", "phi") and "contact" not in grid.to_xarray()
+    named = grid.to_xarray(("speed", "phi"))
+    assert named["time"].dims == ("speed", "phi") and "contact" not in grid.to_xarray() and set(data.coords) == set(data.dims)
+    assert [named.coords[name].values.tolist() for name in ("speed", "phi")] == [[1.0, 2.0], [0.0, 1.0, 2.0]]
+    assert grid.to_xarray(("phi", "b")).coords["b"].values.tolist() == [0, 1, 2]  # which do not change along these
 
 
 def test_what_is_shown_is_short(breaks):

@@ -129,7 +129,10 @@ def test_known_constants_give_the_strikes_back(made):
     error = np.abs(found.strikes - made.strikes)[good]
     assert np.median(error, axis=0)[:5].max() < 0.02 and np.median(error[:, 5]) < 1e-3
     # rmse is that of the positions, whose rolling against drag is within 1e-5 m
-    places = [found.positions(3, track[:, 0])[:, ball] - track[:, 1:] for ball, track in enumerate(made.recordings[3].tracks)]
+    told = made.recordings[3]
+    moving = [track[rows] for track, rows in zip(told.tracks, told.moving)]
+    places = [found.positions(3, track[:, 0])[:, ball] - track[:, 1:] for ball, track in enumerate(moving)]
+    assert found.noise == found.recordings[0].noise and 0.3e-3 < found.noise < 0.4e-3
     assert found.rmse[3] == pytest.approx(np.sqrt((np.concatenate(places) ** 2).sum(axis=1).mean()), abs=5e-6)
     assert found.plot(3).svg.count("<circle") > sum(map(len, made.recordings[3].tracks))
 
@@ -269,6 +272,43 @@ def test_no_shot_is_ok_whose_rmse_is_three_times_the_noise():
     # many are told in one line
     found.status[:] = [f"rough: {k}" for k in range(12)]
     assert [line for line in _summary.told(found) if "rough" in line][0].startswith("12 of 12 shots are rough: RMSE ")
+
+
+@pytest.mark.parametrize("model", ["smooth", "han", "mathavan"])
+def test_shots_of_a_game_are_fitted_by_the_recipe_of_the_page(model):
+    """Which has no constants for the smooth cushion, and those of the balls for others; the figure is the page's."""
+    page = (Path(__file__).parents[3] / "docs/using/tracks.md").read_text(encoding="utf-8")
+    recipe = 'carom.balls([[0, 0]], game="billiard", cushion_model="han")["kind"][0]'
+    assert f"constants={recipe}`. With noise of 0.5 mm both come to 0.71 mm" in page and "mu_ball" not in page
+    random, recordings = np.random.default_rng(4), []
+    kind = eval(recipe.replace("han", model))
+    table = carom.tables.polygon([(0, 0), (2.84, 0), TABLE, (0, 1.42)], nose_height=float(kind["nose_height"]), ball_radius=RADIUS)
+    for shot in range(4):
+        balls = carom.balls([[0.7, 0.7], [2.0, 0.4 + 0.2 * shot], [2.3, 1.2]], game="billiard", cushion_model=model)
+        way = balls["state"]["r"][1] - balls["state"]["r"][0]
+        cue = carom.cue(speed=2.5, phi=float(np.degrees(np.arctan2(way[1], way[0]))) + 0.7, b=0.2, a=0.1, game="billiard")
+        shot = carom.simulate(table, balls, cue, cushion_model=model)
+        at = np.arange(-0.5, shot.time + 0.1, 0.02)
+        seen = shot.positions(np.maximum(at, 0.0))[..., :2] + random.normal(0.0, 0.5e-3, (len(at), 3, 2))
+        recordings.append(tracks.Recording(len(recordings), (1, 2, 3), tuple(np.column_stack([at, seen[:, ball]]) for ball in range(3))))
+    found = fit.fit(recordings, TABLE, RADIUS, cushion_model=model, free="none", **({} if model == "smooth" else {"constants": kind}))
+    assert 0.65e-3 < found.median_rmse < 0.8e-3 and found.status == ["ok"] * 4
+
+
+def test_an_rmse_does_not_depend_on_how_long_balls_are_seen_at_rest(made, plays):
+    """Nor much on how often they are seen."""
+    def rmse(recordings):
+        other = {**made.constants, "restitution_cushion": 0.9}
+        strikes = made.strikes - np.eye(6)[5] * plays.origins[:, None]
+        return _strikes.Plays(recordings, TABLE, RADIUS, other, "han").rmse(strikes)
+
+    rest = np.arange(0.1, 20.0, 0.02)[:, None]
+    longer = [replace(shot, tracks=tuple(np.concatenate([track, track[-1] + rest * (1.0, 0.0, 0.0)]) for track in shot.tracks))
+              for shot in made.recordings]  # fmt: skip
+    whole = rmse(made.recordings)
+    assert np.median(whole) > 5e-3 and rmse(longer) == pytest.approx(whole, rel=1e-4)
+    often = tracks.synthetic(12, constants=HAN, thin=0.0, seed=2).recordings
+    assert np.median(rmse(often)) == pytest.approx(np.median(whole), rel=0.3)
 
 
 def test_what_no_play_explains_is_doubtful_and_counts(made):

@@ -112,7 +112,7 @@ def test_the_struck_ball_is_told_from_one_that_it_touches_at_once():
             balls["state"]["v"][0, :2] = speed * np.cos(angle), speed * np.sin(angle)
             shot = simulate(world, balls, cushion_model="han")
             start = random.uniform(0.0, 1.0 / rate)
-            seen = tracks._record(lambda t: shot.positions(t - start)[..., :2], 2.0, rate, 0.0, RADIUS, np.array(TABLE) - RADIUS, noise, random)
+            seen = tracks._record(lambda t: shot.positions(np.maximum(t - start, 0.0))[..., :2], 2.0, rate, 0.0, RADIUS, np.array(TABLE) - RADIUS, noise, random)
             shots.append(tracks.Recording(1, (1, 2, 3), seen, noise))
         wrong += sum(shot.cue != 0 for shot in spoiled(shots, lead_in=0.5, rate=rate, noise=noise))
     assert wrong <= 6

@@ -438,9 +438,10 @@ export class Carom {
     return readBalls(this.#memory, balls, this.#call.carom_rack_size(kind));
   }
 
-  /** The constants of a game's balls. */
-  kind(game: Game): BallKind {
-    this.#call.carom_ball_kind_of(this.#at.detail, value("carom_game", game, "game"));
+  /** The constants of a game's balls for a model of the cushion, which has its own; throws a RangeError where the game has none for it. */
+  kind(game: Game, cushion: ShotOptions["cushionModel"] = "default"): BallKind {
+    if (!this.#call.carom_ball_kind_for(value("carom_game", game, "game"), value("carom_shot_cushion", cushion, "cushion"), this.#at.detail))
+      throw new RangeError(`cushion: ${game} has no constants for "${cushion}"`);
     return readStruct(this.#memory, this.#at.detail, "carom_ball_kind");
   }
 

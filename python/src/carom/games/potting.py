@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -141,21 +141,30 @@ class Potting:
         self.threads = threads
         self.reward = reward
         self.noise = noise
-        self._rules = Made(self._game, self._state)
         ball = layouts.balls(np.zeros((1, 2)), game=ball_set)
         self._ball = ball.tobytes()
         self.radius = float(ball["kind"]["radius"][0])
-        # For C, with what it points to.
-        self._kept = (self.table.record, shot_options(Options(cushion_model=cushion_model), threads), layouts.cue(), self.player())
-        record, of_c, cue, player = self._kept
-        self._c = ffi.new("carom_python_game *", {
-            "table": pointer("carom_table[]", record), "options": of_c, "rules": self._rules.c, "cue": pointer("carom_cue[]", cue)[0],
-            "player": pointer("carom_player[]", player)[0], "balls": balls + 1,
-        })  # fmt: skip
+        self._for_c()
         if not isinstance({} if parameters is None else parameters, Mapping):
             raise TypeError(f"parameters: bounds by the names of fields are needed, such as {{'mu_slide': (0.15, 0.25)}}, not {parameters!r}")
         self.parameters = dict({} if parameters is None else parameters)
         self._check_parameters()
+
+    def _for_c(self) -> None:
+        """The game as C has it, with what it points to."""
+        self._rules = Made(self._game, self._state)
+        record, of_c, cue, player = self._kept = (self.table.record, shot_options(Options(cushion_model=self.cushion_model), self.threads), layouts.cue(), self.player())
+        self._c = ffi.new("carom_python_game *", {
+            "table": pointer("carom_table[]", record), "options": of_c, "rules": self._rules.c, "cue": pointer("carom_cue[]", cue)[0],
+            "player": pointer("carom_player[]", player)[0], "balls": self.balls + 1,
+        })  # fmt: skip
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name not in ("_rules", "_kept", "_c")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        self._for_c()
 
     def _check_parameters(self) -> None:
         known = [name for name in dtypes.ball_kind.names or () if name != "radius"]

@@ -83,11 +83,11 @@ class Facts:
     frozen: frozenset[int]  # Balls that touched the cue ball when it was struck
     pushed: frozenset[int]  # Balls that it met before the tip left it
     touches: int  # Of the tip: 1, or 2 and more of a double hit within the push; 0 without a strike
-    _record: Any = field(repr=False)
+    _record: bytes = field(repr=False)  # Of C, which copies and pickles as they are
 
     def foul(self, on: Collection[int]) -> Foul:
         """The foul that it is in any game whose balls `on` may be met first: up to `Foul.CUSHION`, or `Foul.NONE`."""
-        return Foul(lib.carom_foul_of(self._record, _set_of(on), 0))
+        return Foul(lib.carom_foul_of(ffi.from_buffer("carom_facts[]", self._record), _set_of(on), 0))
 
 
 def _facts(record: Any) -> Facts:
@@ -96,7 +96,7 @@ def _facts(record: Any) -> Facts:
     first, second = record.first
     before = (record.cushions_before[0], record.cushions_before[1])
     sets = [_of_set(of) for of in (record.off, record.frozen, record.pushed)]
-    return Facts(first, second, before, potted, sets[0], tuple(record.cushions), record.cushions_after, sets[1], sets[2], record.touches, record)
+    return Facts(first, second, before, potted, sets[0], tuple(record.cushions), record.cushions_after, sets[1], sets[2], record.touches, bytes(ffi.buffer(record)))
 
 
 @dataclass(frozen=True)
@@ -351,8 +351,8 @@ def referee(
     states: Any = np.array([list(made.c.user)], np.uint64)
     called: Array = np.array([[whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]], np.int32)
     turns = judge(made, layout[np.newaxis], shots, states, called)
-    met = pointer("carom_facts[]", shots._facts)[0]
-    facts = _facts(ffi.new("carom_facts *", {"first": [-1, -1]} if failed else met))
+    met = pointer("carom_facts *", shots._facts)
+    facts = _facts(ffi.new("carom_facts *", {"first": [-1, -1]}) if failed else met)
 
     # The next layout.
     after = layout.copy()

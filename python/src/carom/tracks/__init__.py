@@ -248,7 +248,7 @@ def synthetic(
         balls["state"]["v"][0, :2], balls["state"]["w"][0] = strike[:2], strike[2:5] / radius
         shot = simulate(world, balls, cushion_model=cushion_model)
         tracks = _record(
-            lambda times, shot=shot, start=start: shot.positions(times - start)[..., :2],  # type: ignore[misc]
+            lambda times, shot=shot, start=start: shot.positions(np.maximum(times - start, 0.0))[..., :2],  # type: ignore[misc]
             start + shot.time + 0.5, rate, thin, low, high, noise, random,
         )  # fmt: skip
         recordings.append(Recording(index + 1, (1, 2, 3), tracks))

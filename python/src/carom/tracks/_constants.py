@@ -65,8 +65,10 @@ def usual(cushion_model: ShotCushion) -> Constants:
     return made if made["mu_cushion"] else {**made, "roll_loss": 0.0}
 
 
-def complete(given: Mapping[str, float], cushion_model: ShotCushion, where: str = "constants") -> Constants:
+def complete(given: Mapping[str, float] | Array | np.void, cushion_model: ShotCushion, where: str = "constants") -> Constants:
     """The given constants, and the usual ones for those that are not given."""
+    if isinstance(given, (np.ndarray, np.void)) and given.dtype == dtypes.ball_kind and given.shape == ():
+        given = {name: float(given[name]) for name in KINDS if given[name] or name != "nose_height"}
     if not isinstance(given, Mapping):
         raise TypeError(f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {given!r}")
     for name, value in given.items():

@@ -320,9 +320,8 @@ class Kicks(Arrays):
 def report(plays: Plays, strikes: Doubles, shots: Sequence[int], count: int) -> Kicks:
     """Of strikes on the plays' clocks; shots[k] of `count` recordings is the plays' shot k."""
     found = find(plays, strikes)
-    sums = plays.misfit(np.arange(len(found), dtype=np.int32), found, plays.ends, -np.inf)
     numbers, rmse = np.full((count, found.shape[1]), np.nan), np.full(count, np.nan)
-    numbers[shots], rmse[shots] = found, np.sqrt(sums[:, 1] / np.maximum(sums[:, 2], 1.0))
+    numbers[shots], rmse[shots] = found, plays.rmse(found)
     near = quadratics(plays, found)
     told, turns = (list(part) for part in zip(*(_contacts(one, plays, shots[one.row]) for one in near))) if near else ([], [])
     # shots that kicks do not explain either say nothing of their contacts

@@ -75,6 +75,19 @@ class Recording:
                    default=0.0) for k, way in zip(first, ways)]  # fmt: skip
         return int(first[int(np.argmin(hit))])
 
+    @functools.cached_property
+    def moving(self) -> list[npt.NDArray[np.intp]]:
+        """Of each ball the rows that tell a motion: each is farther than `away` from the one before, the first from the place of rest."""
+        found = []
+        for track, at in zip(self.tracks, self.rest):
+            rows = []
+            for k, place in enumerate(track[:, 1:]):
+                if np.hypot(*(place - at)) > self.away:
+                    rows.append(k)
+                    at = place
+            found.append(np.array(rows, np.intp))
+        return found
+
     @property
     def end(self) -> float:
         """The time of the last row, s."""

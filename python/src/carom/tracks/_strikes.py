@@ -13,6 +13,7 @@ from the normal distribution that the normal equations give, and wider. The play
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -171,8 +172,11 @@ class Plays:
         return sums
 
     def rmse(self, strikes: Doubles) -> Doubles:
-        """Root of the mean squared distance over all samples of each shot, m, shape (shots,); inf where the play is in error."""
-        sums = self.misfit(np.arange(len(strikes), dtype=np.int32), strikes, self.ends, -np.inf)
+        """Root of the mean squared distance over the samples of each shot that tell a motion, m, shape (shots,); inf where the play is in error."""
+        moving = copy.copy(self)
+        tracks = [track[rows] - (begin, 0.0, 0.0) for shot, begin in zip(self.recordings, self.origins) for track, rows in zip(shot.tracks, shot.moving)]
+        moving.samples, moving.first = np.ascontiguousarray(np.concatenate(tracks)), np.cumsum([0, *map(len, tracks)]).astype(np.int64)
+        sums = moving.misfit(np.arange(len(strikes), dtype=np.int32), strikes, self.ends, -np.inf)
         return np.asarray(np.sqrt(sums[:, 1] / np.maximum(sums[:, 2], 1.0)))
 
 

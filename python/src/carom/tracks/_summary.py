@@ -48,14 +48,19 @@ class Fit:
     # "ok"; "mended: ...", "rough: ..." or "doubtful: ...", with what was mended, is above the noise or is in doubt; else why the shot does
     # not count
     status: list[str]
-    # (shots,): Root of the mean squared distance between recorded and played places over all samples of all balls, m; NaN
-    # without a play
+    # (shots,): Root of the mean squared distance between recorded and played places, m, over the samples of balls that move
+    # (`Recording.moving`), so that it depends little on how long and how often a camera sees balls at rest; NaN without a play
     rmse: Doubles
     train: list[bool] | None = None  # Which shots the constants were fitted to, if not all
     fitted: tuple[str, ...] = ()  # The constants that whole shots told
     # (fitted, fitted): Of these; the roots of its diagonal are their `spread`. None where fewer than 8 shots tell.
     covariance: Doubles | None = None
     warnings: Sequence[str] = ()  # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the noise
+
+    @property
+    def noise(self) -> float:
+        """The standard deviation of a coordinate of the recordings, m."""
+        return self.recordings[0].noise
 
     @property
     def counts(self) -> list[bool]:
@@ -105,9 +110,9 @@ class Fit:
         return _covariance.of_strike(plays, 0, self.strikes[i] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]])
 
     def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
-        """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2)."""
+        """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2); at rest before the strike."""
         at = np.asarray(times, np.float64)
-        return self.shot(i).positions(at - self.strikes[i, 5])[..., :2]
+        return self.shot(i).positions(np.maximum(at - self.strikes[i, 5], 0.0))[..., :2]
 
     def kicks(self) -> Kicks:
         """What the models get wrong at each contact of the shots that count: the small changes of the motion just after it, kicks, with
@@ -161,7 +166,7 @@ class Fit:
             "shots": shots,
             "median_rmse": self.median_rmse if len(self.counted()) else None,
             "p90_rmse": self.p90_rmse if len(self.counted()) else None,
-            "noise": self.recordings[0].noise,
+            "noise": self.noise,
             "warnings": list(self.warnings),
             **({} if kicks is None else {"kicks": kicks.to_list()}),
         }
@@ -266,10 +271,10 @@ def laws(fit: Fit) -> list[tuple[str, str]]:
 
 def told(fit: Fit) -> list[str]:
     """What a reader of the result should know: the noise, what holds of all shots, and the shots that are not ok."""
-    lines = [f"noise of a coordinate: {1e3 * fit.recordings[0].noise:.2f} mm", *(f"warning: {text}" for text in fit.warnings)]
+    lines = [f"noise of a coordinate: {1e3 * fit.noise:.2f} mm", *(f"warning: {text}" for text in fit.warnings)]
     rough = [float(rmse) for rmse, status in zip(fit.rmse, fit.status) if status.startswith("rough")]
     if len(rough) > _ROUGH_MOST:
-        noise = math.sqrt(2.0) * fit.recordings[0].noise
+        noise = math.sqrt(2.0) * fit.noise
         lines.append(f"{len(rough)} of {len(fit.status)} shots are rough: RMSE {min(rough) / noise:.2g} to {max(rough) / noise:.2g} times that of the noise")
     silent = ("ok", "rough") if len(rough) > _ROUGH_MOST else ("ok",)
     return lines + [f"shot {shot.id}: {status}" for shot, status in zip(fit.recordings, fit.status) if not status.startswith(silent)]

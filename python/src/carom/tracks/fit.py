@@ -24,7 +24,7 @@ import numpy as np
 
 from carom._rows import listing
 from carom._shot_options import ShotCushion
-from carom.dtypes import Doubles
+from carom.dtypes import Doubles, Records
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks
 from carom.tracks import _recordings, _strikes, _summary
 from carom.tracks import Recording, TrackError, events, read
@@ -119,7 +119,7 @@ class _Saved:
 
 def fit(
     recordings: Sequence[Recording], table: tuple[float, float], radius: float, *, cushion_model: ShotCushion = "han",
-    constants: Mapping[str, float] | None = None, free: str | Sequence[str] = "default",
+    constants: Mapping[str, float] | Records | np.void | None = None, free: str | Sequence[str] = "default",
     priors: Mapping[str, tuple[float, float]] | None = None, train: Sequence[int] | None = None, seed: int = 0,
     threads: int = 0, progress: Progress | None = None, state: Path | None = None, calibrate: bool = False
 ) -> Fit:  # fmt: skip
@@ -133,12 +133,12 @@ def fit(
         Extents (float, float) of x and y, and the radius of the balls, m.
     cushion_model : str
         A model with which a fit can begin: `python -m carom.fit --help` lists them.
-    constants : mapping, optional
+    constants : mapping or `carom.dtypes.ball_kind`, optional
         Known constants; the usual ones stand for those that are not given.
     free : "none", "events", "kicks", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
-        drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all of
-        `_joint.PRIORS` together, by whole shots. Names: these constants alone, by whole shots: any field of `carom.dtypes.ball_kind`
+        drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all
+        together with mu_spin, law_a and law_b, by whole shots. Names: these constants alone, by whole shots: any field of `carom.dtypes.ball_kind`
         but radius and mu_ball, also a cushion's own numbers. "kicks": the constants of the cushion by the kicks of its contacts, with the
         others as given, in a fraction of the time; "kicks" and names: these constants of the cushion.
     priors : mapping, optional
@@ -182,7 +182,7 @@ def fit(
     if not (min(table) > 4.0 * radius > 0.0):
         raise ValueError(f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0")
     free = [free] if isinstance(free, str) else list(free)
-    values = _constants.complete(constants or {}, cushion_model)
+    values = _constants.complete({} if constants is None else constants, cushion_model)
     _priors([] if free[0] in ("none", "events") else free, priors or {}, values, cushion_model)
     spread: dict[str, float] = {}
     names: tuple[str, ...] = ()
