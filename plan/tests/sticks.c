@@ -263,32 +263,6 @@ TEST(noses_under_the_stick) {
   ck_assert_int_gt(raised, 100);
 }
 
-/* Cue balls anywhere, frozen to a rail, and before another ball, which may touch. */
-TEST(aims_of_the_stick) {
-  random_source r = {test_seed()};
-  int falls = 0, raised = 0;
-  const int draws = 4 * draws_of_each(FEWER(40));
-  for (int k = 0; k < draws; k++) {
-    make_stroke(&r, test_seed() + 3000 + (uint64_t)k);
-    if (k % 4 == 1)
-      carom_place_ball(&table, balls, BALLS, 0, random_between(&r, 0.2, 1.0), balls[0].kind.radius,
-                       NULL);
-    if (k % 4 > 1) {
-      const double far = k % 4 == 2 ? 2.0 * balls[0].kind.radius : random_between(&r, 0.06, 0.5),
-                   x = balls[8].state.r[0] - balls[0].state.r[0],
-                   y = balls[8].state.r[1] - balls[0].state.r[1];
-      carom_place_ball(&table, balls, BALLS, 2, balls[0].state.r[0] - far * x / hypot(x, y),
-                       balls[0].state.r[1] - far * y / hypot(x, y), NULL);
-    }
-    carom_cue one = cue;
-    const bool good = aims_raised(k / 4 % 6, &one);
-    falls += good;
-    raised += good && one.theta > 5.0;
-  }
-  printf("%d fall, %d of them raised by more than 5 degrees\n", falls, raised);
-  ck_assert(falls > draws / 16 && raised > 0);
-}
-
 /* The elevation where it begins: balls beside a level stick, which they just touch or do not, and
  * the end of the stick over a cushion. Below the middle it jumps there. */
 TEST(where_the_stick_begins_to_touch) {

@@ -334,38 +334,6 @@ TEST(euler_is_bounded) {
   cases_free(&cases);
 }
 
-/* At the ends of the range of double precision: the same status and bits alone and in a batch,
- * and nothing but finite numbers with status ok. */
-TEST(ends_of_the_range) {
-  static const double radii[] = {2e-308, 1e-300, 1e-160, 1e160, 1e300},
-                      spins[] = {1e307, 1e200, 1e160, 1e-300};
-  random_source source = {test_seed()};
-  for (int k = 0; k < 40; k++) {
-    carom_impact in = random_impact(&source);
-    if (k % 2) {
-      const double R = radii[k / 2 % 5];
-      for (int c = 0; c < 3; c++)
-        in.b.r[c] = in.a.r[c] + (in.b.r[c] - in.a.r[c]) / in.a.radius * R;
-      in.a.radius = in.b.radius = R;
-    } else
-      in.a.w[k / 2 % 3] = spins[k / 2 % 4];
-    const carom_options options = {.slip = (carom_slip)(k / 4 % 2)};
-    carom_impact rows[FILL];
-    for (int row = 0; row < FILL; row++)
-      rows[row] = in;
-    carom_result out, many[FILL];
-    FOR_EACH_ISA(isa) {
-      const carom_status status = carom_collide(&in, &options, &out);
-      for (int c = 0; c < 12; c++)
-        ck_assert_int_eq(isfinite(((const double *)&out)[c]) != 0, status >= 0);
-      ck_assert_int_eq(carom_collide_batch(rows, FILL, &options, many, NULL),
-                       status < 0 ? status : CAROM_OK);
-      for (int row = 0; row < FILL; row++)
-        ck_assert(memcmp(&many[row], &out, sizeof out) == 0);
-    }
-  }
-}
-
 /* ---- Euler's method: pooltool's step counts on the 204 cases (`carom-lab verify` compares the
  * bits); and it is of first order: ten times the steps, a tenth of the error. */
 

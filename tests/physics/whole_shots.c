@@ -289,25 +289,6 @@ TEST(pressed_line) {
     ck_assert_double_eq_tol(final[k].r[0] - b[k].state.r[0], 0.7486, 0.06);
 }
 
-/* A frozen triangle that a ball with spin presses on: balls at relative rest that only rounding
- * presses were in contact without end. */
-TEST(pressed_triangle) {
-  const carom_table t = empty_table(8.0);
-  for (int rows = 2; rows <= 7; rows++) {
-    carom_shot_ball b[CAROM_BALLS_MOST];
-    const double R = ball_at(0.0, 0.0).kind.radius;
-    int count = 0;
-    for (int row = 0; row < rows; row++)
-      for (int place = 0; place <= row; place++)
-        b[count++] = ball_at(2.0 + row * sqrt(3.0) * R, 2.0 + (2.0 * place - row) * R);
-    for (int spinning = 0; spinning < count; spinning += 3) {
-      b[spinning].state.w[1] = 200.0;
-      ends_well(&t, b, count, 8000);
-      b[spinning].state.w[1] = 0.0;
-    }
-  }
-}
-
 /* Balls without any room between two rails cannot part, so their contacts have no end: a bound
  * ends them, with a state. */
 TEST(wedged) {
@@ -535,53 +516,4 @@ TEST(draw_and_follow) {
     ck_assert_double_eq_tol(final[0].r[0] - events[k].after[0].r[0], distance, 1e-9);
     ck_assert(distance * way > 0.0);
   }
-}
-
-/* The 2014 paper's experiments as whole shots: a rolling cue ball cuts a ball at rest; speeds
- * and angles once both roll are those that the paper predicts. */
-TEST(experiments_of_the_paper) {
-  FILE *file = fopen(CAROM_TEST_DATA "/experiments.csv", "r");
-  ck_assert_ptr_nonnull(file);
-  char line[400], id[40];
-  ck_assert_ptr_nonnull(fgets(line, sizeof line, file));
-  int shots = 0;
-  const carom_table t = empty_table(40.0);
-  for (double x[11]; fgets(line, sizeof line, file) != NULL; shots++) {
-    ck_assert_int_eq(sscanf(line, "%39[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", id, &x[0],
-                            &x[1], &x[2], &x[3], &x[4], &x[5], &x[6], &x[7], &x[8], &x[9], &x[10]),
-                     12);
-    const double R = 0.02625, cut = x[2] / 57.29577951308232, gap = 1e-7;
-    carom_shot_ball b[2] = {ball_at(20.0, 20.0), ball_at(0.0, 0.0)};
-    b[1].state.r[0] = 20.0 + (2.0 * R + gap) * cos(cut);
-    b[1].state.r[1] = 20.0 + (2.0 * R + gap) * sin(cut);
-    for (int k = 0; k < 2; k++) {
-      b[k].kind.mass = 0.1406;
-      b[k].kind.radius = b[k].state.r[2] = R;
-      b[k].kind.mu_slide = 0.21;
-      b[k].kind.mu_ball = 0.05;
-      b[k].kind.restitution = 0.89;
-    }
-    b[0].state.v[0] = x[0];
-    b[0].state.w[1] = x[1];
-    const carom_shot_options options = {.friction = CAROM_FRICTION_CONSTANT};
-    const carom_shot shot = play(&t, b, 2, NULL, &options, CAROM_OK);
-    double speed[2] = {0.0}, angle[2] = {0.0};
-    bool met = false;
-    for (int64_t k = 0; k < shot.count; k++) {
-      const carom_event *e = &events[k];
-      met |= e->type == CAROM_EVENT_BALL_BALL;
-      if (met && e->type == CAROM_EVENT_SLIDING_ROLLING && speed[e->a] == 0.0) {
-        speed[e->a] = hypot(e->after[0].v[0], e->after[0].v[1]);
-        angle[e->a] = fabs(57.29577951308232 * atan2(e->after[0].v[1], e->after[0].v[0]));
-      }
-    }
-    for (int k = 0; k < 2; k++) {
-      ck_assert_msg(fabs(speed[k] - x[5 + k]) < 0.0035, "%s: ball %d rolls at %g m/s, predicted %g",
-                    id, k, speed[k], x[5 + k]);
-      ck_assert_msg(fabs(angle[k] - x[9 + k]) < 0.15,
-                    "%s: ball %d rolls at %g degrees, predicted %g", id, k, angle[k], x[9 + k]);
-    }
-  }
-  fclose(file);
-  ck_assert_int_eq(shots, 5);
 }

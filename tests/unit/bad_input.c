@@ -269,26 +269,6 @@ TEST(separating_pairs_are_unchanged) {
   expect_unchanged(&in);
 }
 
-/* The collisions on which pooltool never returns. */
-TEST(too_slow_for_euler) {
-  carom_impact in = good_impact();
-  carom_result out;
-  carom_options options = {.solver = CAROM_SOLVER_EULER};
-  in.a.v[0] = 0.0;
-  for (int k = 0; k < CAROM_SLIP_COUNT; k++)
-    for (double approach = 0x1p-52; approach < 1e-13; approach *= 2.0) {
-      carom_detail detail;
-      options.slip = (carom_slip)k;
-      in.b.v[1] = 1.0;
-      in.a.v[1] = 1.0 + approach;
-      const carom_status status = carom_collide_detail(&in, &options, &out, &detail);
-      ck_assert(detail.steps <= 2 * (1010 + 2));
-      if (approach < 1e-14)
-        ck_assert_int_eq(status, CAROM_ERROR_TOO_SLOW);
-      ck_assert(status == CAROM_OK || (status == CAROM_ERROR_TOO_SLOW && isnan(out.a.v[0])));
-    }
-}
-
 TEST(overflow_is_told) {
   carom_impact in = good_impact();
   carom_result out;
