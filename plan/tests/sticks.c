@@ -163,10 +163,10 @@ static bool is_least(double elevation, carom_cue c) {
 }
 
 /* Aims the eight at a pocket with a cue that is left to the stick. Where it falls, the cue is
- * raised by the least elevation that the reference has, or by more where that jumps; and the
- * stroke pots. A level cue and one that is
- * raised as far by the caller keep their elevation, and are told the same; but a very thin cut may
- * slip through the directions that are tried. Returns whether the stroke falls. */
+ * raised by the least elevation that the reference has, or by more where that jumps; and the stroke
+ * pots. A level cue and one that is raised as far by the caller keep their elevation, and are told
+ * the same; but a very thin cut may slip through the directions that are tried. Returns whether the
+ * stroke falls. */
 static bool aims_raised(int pocket, carom_cue *c) {
   carom_pot pot = {.ball = 8, .pocket = pocket}, given = pot;
   carom_cue same;
