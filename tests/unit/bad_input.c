@@ -213,31 +213,6 @@ TEST(null_pointers) {
   ck_assert_int_eq(carom_collide_batch(NULL, 0, NULL, NULL, NULL), CAROM_OK);
 }
 
-TEST(a_bad_row_disturbs_no_neighbour) {
-  enum { ROWS = 2 * BAD_CASES + 1 };
-  carom_impact in[ROWS];
-  carom_result out[ROWS], alone;
-  int8_t status[ROWS];
-  const carom_impact good = good_impact();
-  for (int k = 0; k < ROWS; k++)
-    in[k] = good;
-  ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, NULL), CAROM_OK);
-  alone = out[0];
-  for (int k = 0; k < ROWS; k++)
-    in[k] = k % 2 == 0 ? good : with(bad_cases[k / 2].field, bad_cases[k / 2].value);
-  ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, status), bad_cases[0].status);
-  for (int k = 0; k < ROWS; k++) {
-    const carom_status expected = k % 2 == 0 ? CAROM_OK : bad_cases[k / 2].status;
-    ck_assert_int_eq(status[k], expected);
-    if (k % 2 == 0)
-      ck_assert_mem_eq(&out[k], &alone, sizeof alone);
-    else
-      ck_assert(isnan(out[k].a.v[0]) && isnan(out[k].b.w[2]));
-  }
-  ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, NULL), bad_cases[0].status);
-  ck_assert_int_eq(carom_collide_batch(in, 1, NULL, out, NULL), CAROM_OK);
-}
-
 static void expect_unchanged(const carom_impact *in) {
   carom_result out;
   carom_detail detail = {.steps = 7};

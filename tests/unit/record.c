@@ -197,30 +197,6 @@ TEST(a_game_played_again) {
   ck_assert_int_eq(memcmp(&again.facts, &game.facts, sizeof game.facts), 0);
 }
 
-/* The stopped break ends with the bits of the unbroken one. */
-TEST(stops_change_no_bit) {
-  write_game();
-  static carom_shot_ball balls[10];
-  carom_ball_state final[10];
-  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-  cue.speed = 7.3;
-  cue.phi = 90.2;
-  carom_rack(CAROM_RACK_NINEBALL, &game.table, 1e-4, 5, balls, 10);
-  carom_shot whole = {.final = final};
-  ck_assert_int_eq(carom_shoot(&game.table, balls, 10, &cue, NULL, &whole), CAROM_OK);
-  memset(&again, 0, sizeof again);
-  again.table = game.table;
-  again.count = 10;
-  memcpy(again.balls, balls, sizeof balls);
-  again.cue = cue;
-  again.options.time_most = 0.25;
-  ck_assert_int_eq(carom_record_play(&again, CAROM_RECORD_SHOT, NULL), CAROM_STOPPED_AT_TIME);
-  again.options.time_most = 0.0;
-  ck_assert_int_eq(carom_record_play(&again, CAROM_RECORD_CONTINUE, NULL), CAROM_OK);
-  ck_assert_int_eq(memcmp(again.final, final, sizeof final), 0);
-  ck_assert_int_eq(again.played.events, whole.count);
-}
-
 /* ---- What is refused */
 
 /* One change of the text: what it becomes, and a part of what is said about it. */
