@@ -157,6 +157,12 @@ TEST(spots) {
     ck_assert_int_eq(carom_spot_ball(&alley, balls, BALLS, k), CAROM_OK);
   const double second = balls[1].state.r[1] - (30.0 + 2.0 * 0.028575);
   ck_assert(balls[0].state.r[1] == 30.0 && second > -1e-6 && second < 4e-3);
+  /* what a turn brings back */
+  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  carom_turn turn = {.spot = 0x200};
+  lay_out(CAROM_RACK_NINEBALL, CAROM_TABLE_POOL_9FT, 1);
+  ck_assert_int_eq(carom_turn_settle(&of, of.user, &table, balls, 10, &turn), CAROM_OK);
+  ck_assert(is_at(9, 0.5 * table.width, 0.75 * table.length));
   ck_assert_int_eq(carom_spot_ball(NULL, balls, BALLS, 1), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
 }

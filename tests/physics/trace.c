@@ -29,8 +29,8 @@ static case_set load_cases(void) {
 }
 
 /* What must hold for every trace of a collision that took place. */
-static void expect_order(const carom_trace_point *point, const carom_detail *detail,
-                         carom_solver solver) {
+static void expect_order(const carom_impact *in, const carom_trace_point *point,
+                         const carom_detail *detail, carom_solver solver) {
   /* a step; the solver's error */
   const double per = 1.0 / (POINTS - 1), apart = solver == CAROM_SOLVER_EULER ? 1e-3 : 1e-6;
   ck_assert_double_eq(point[0].normal, 0.0);
@@ -44,6 +44,11 @@ static void expect_order(const carom_trace_point *point, const carom_detail *det
     ck_assert(!point[k].sticks || (point[k].u_x == 0.0 && point[k].u_z == 0.0));
     ck_assert_int_eq(point[k].sticks,
                      detail->stick != CAROM_STICK_NEVER && point[k].normal >= detail->stick_normal);
+    /* the vertical slip is that of both spins, whatever the convention of the other */
+    const double *w = point[k].state.a.w, *o = point[k].state.b.w, x = in->b.r[0] - in->a.r[0],
+                 y = in->b.r[1] - in->a.r[1];
+    const double up = in->a.radius * ((w[0] + o[0]) * y - (w[1] + o[1]) * x) / hypot(x, y);
+    ck_assert(point[k].sticks || fabs(fabs(point[k].u_z) - fabs(up)) <= 1e-9);
     if (k == 0)
       continue;
     ck_assert_double_ge(point[k].work, point[k - 1].work * (1.0 - 1e-12));
@@ -63,7 +68,7 @@ static double worst_end(carom_solver solver, carom_slip slip) {
     carom_detail detail;
     ck_assert_int_eq(carom_trace(&cases.impact[k], &options, POINTS, point), CAROM_OK);
     ck_assert_int_eq(carom_collide_detail(&cases.impact[k], &options, &out, &detail), CAROM_OK);
-    expect_order(point, &detail, solver);
+    expect_order(&cases.impact[k], point, &detail, solver);
     worst = fmax(worst, result_distance(&point[POINTS - 1].state, &out, cases.impact[k].a.radius));
   }
   cases_free(&cases);
