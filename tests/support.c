@@ -171,7 +171,8 @@ uint64_t hash_of(uint64_t h, const void *bytes, size_t size) {
   return h;
 }
 
-void put_number(void *to, const carom_number *n, int at, double x) {
+/* Of element `at` where it is an array. */
+static void put_number(void *to, const carom_number *n, int at, double x) {
   const size_t sizes[] = {sizeof(double), sizeof(int32_t), sizeof(int64_t), sizeof(uint64_t)};
   const int64_t whole = (int64_t)(n->type == CAROM_TYPE_DOUBLE ? 0 : x);
   const int32_t half = (int32_t)(n->type == CAROM_TYPE_INT32 ? x : 0);

@@ -1,6 +1,8 @@
 /* Eight-ball, nine-ball and the drill: rulings beside rulings written down, and balls that are put
  * back. */
-#include "plan_support.h"
+#include "game_support.h"
+
+enum { SOLIDS = 1, STRIPES = 2, IN_HAND = CAROM_LEAVE_HAND };
 
 typedef struct ruling {
   const char *what;
@@ -9,44 +11,30 @@ typedef struct ruling {
   int group, first, cushions_after, call, is, foul, leave, group_after;
 } ruling;
 
-/* Everything is on the table but for what is said; all that falls goes into pocket 3, which is
- * called. */
+/* All that falls goes into pocket 2, which is called. */
 TEST(rulings) {
   enum { E = CAROM_RULES_EIGHTBALL, N = CAROM_RULES_NINEBALL, P = CAROM_RULES_POTTING };
-  enum {
-    KEEP = CAROM_TURN_KEEP,
-    PASS = CAROM_TURN_PASS,
-    WIN = CAROM_TURN_WIN,
-    LOSE = CAROM_TURN_LOSE
-  };
-  enum { AFTER = CAROM_LEAVE_AFTER, HAND = CAROM_LEAVE_HAND };
-  enum {
-    CUE_BALL = CAROM_FOUL_CUE_BALL,
-    NO_BALL = CAROM_FOUL_NO_BALL,
-    FIRST = CAROM_FOUL_FIRST,
-    CUSHION = CAROM_FOUL_CUSHION
-  };
   static const ruling given[] = {
       {"a solid on an open table", E, 0xffff, 0x0008, 0, 3, 0, 3, KEEP, 0, AFTER, SOLIDS},
       {"a stripe on an open table", E, 0xffff, 0x0400, 0, 10, 2, 10, KEEP, 0, AFTER, STRIPES},
-      {"the eight met first on an open table", E, 0xffff, 0, 0, 8, 1, -1, PASS, FIRST, HAND, 0},
+      {"the eight met first on an open table", E, 0xffff, 0, 0, 8, 1, -1, PASS, FIRST, IN_HAND, 0},
       {"an own ball", E, 0xffff, 0x0400, 2, 9, 0, 10, KEEP, 0, AFTER, STRIPES},
       {"an own ball that was not called", E, 0xffff, 0x0400, 2, 9, 0, 11, PASS, 0, AFTER, SOLIDS},
       {"a ball of the other", E, 0xffff, 0x0008, 2, 9, 0, 3, PASS, 0, AFTER, SOLIDS},
-      {"the wrong ball first", E, 0xffff, 0x0400, 2, 3, 1, 10, PASS, FIRST, HAND, SOLIDS},
-      {"no ball met", E, 0xffff, 0, 1, -1, 0, -1, PASS, NO_BALL, HAND, STRIPES},
-      {"no cushion after the contact", E, 0xffff, 0, 1, 3, 0, -1, PASS, CUSHION, HAND, STRIPES},
+      {"the wrong ball first", E, 0xffff, 0x0400, 2, 3, 1, 10, PASS, FIRST, IN_HAND, SOLIDS},
+      {"no ball met", E, 0xffff, 0, 1, -1, 0, -1, PASS, NO_BALL, IN_HAND, STRIPES},
+      {"no cushion after the contact", E, 0xffff, 0, 1, 3, 0, -1, PASS, CUSHION, IN_HAND, STRIPES},
       {"a safety", E, 0xffff, 0, 1, 3, 1, -1, PASS, 0, AFTER, STRIPES},
-      {"the cue ball down too", E, 0xffff, 0x0009, 1, 3, 1, 3, PASS, CUE_BALL, HAND, STRIPES},
+      {"the cue ball down too", E, 0xffff, 0x0009, 1, 3, 1, 3, PASS, CUE_BALL, IN_HAND, STRIPES},
       {"the eight too early", E, 0xffff, 0x0100, 1, 3, 1, 8, LOSE, 0, AFTER, SOLIDS},
       {"the eight at last", E, 0xff01, 0x0100, 1, 8, 0, 8, WIN, 0, AFTER, SOLIDS},
       {"the eight at last, not called", E, 0xff01, 0x0100, 1, 8, 0, -1, LOSE, 0, AFTER, SOLIDS},
       {"the eight with the cue ball", E, 0xff01, 0x0101, 1, 8, 0, 8, LOSE, CUE_BALL, AFTER, SOLIDS},
       {"the lowest ball", N, 0x03f9, 0x0008, 0, 3, 0, -1, KEEP, 0, AFTER, 0},
       {"another ball by the lowest", N, 0x03f9, 0x0080, 0, 3, 0, -1, KEEP, 0, AFTER, 0},
-      {"not the lowest first", N, 0x03f9, 0x0080, 0, 4, 0, -1, PASS, FIRST, HAND, 0},
+      {"not the lowest first", N, 0x03f9, 0x0080, 0, 4, 0, -1, PASS, FIRST, IN_HAND, 0},
       {"the nine by the lowest", N, 0x03f9, 0x0200, 0, 3, 0, -1, WIN, 0, AFTER, 0},
-      {"the nine by a foul", N, 0x03f9, 0x0200, 0, 4, 0, -1, PASS, FIRST, HAND, 0},
+      {"the nine by a foul", N, 0x03f9, 0x0200, 0, 4, 0, -1, PASS, FIRST, IN_HAND, 0},
       {"the eight, where the nine is down", N, 0x01f9, 0x0100, 0, 3, 0, -1, WIN, 0, AFTER, 0},
       {"a pot of the drill", P, 0x000f, 0x0004, 0, 1, 0, -1, KEEP, 0, AFTER, 0},
       {"the last ball of the drill", P, 0x0005, 0x0004, 0, 2, 0, -1, WIN, 0, AFTER, 0},
@@ -54,18 +42,15 @@ TEST(rulings) {
   };
   for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
     const ruling *g = &given[k];
-    carom_facts facts = {
-        .first = {g->first, -1}, .cushions_after = g->cushions_after, .down = g->down};
-    for (int i = 0; i < CAROM_BALLS_MOST; i++)
-      facts.pocket[i] = g->down >> i & 1 ? 3 : -1;
+    const carom_facts facts = facts_of(g->first, g->cushions_after, g->down, 0);
     carom_plan_rules of = carom_plan_rules_of((carom_rules_kind)g->kind);
     of.user[0] = (uint64_t)g->group;
     const carom_turn turn =
-        of.judge(of.user, g->in_play, 0, &facts, (carom_call){g->call, g->call < 0 ? -1 : 3});
-    ck_assert_msg((int)turn.is == g->is && turn.foul == g->foul && (int)turn.leave == g->leave &&
-                      of.user[0] == (uint64_t)g->group_after,
-                  "%s: turn %d, foul %d, leave %d, group %d", g->what, (int)turn.is, turn.foul,
-                  (int)turn.leave, (int)of.user[0]);
+        of.judge(of.user, g->in_play, 0, &facts, (carom_call){g->call, g->call < 0 ? -1 : 2});
+    /* a nine that does not win comes back */
+    const uint32_t spot = g->kind == N && g->is == PASS ? g->down & 0x200 : 0;
+    ruled(g->what, &turn, g->is, g->leave, g->foul, spot);
+    ck_assert_msg(of.user[0] == (uint64_t)g->group_after, "%s: group", g->what);
   }
   ck_assert_str_eq(carom_rules_name(CAROM_RULES_NINEBALL), "nineball");
   ck_assert_ptr_null(carom_rules_name((carom_rules_kind)7));
@@ -76,24 +61,21 @@ TEST(rulings) {
 TEST(breaks_of_eightball) {
   static const struct {
     uint32_t down;
-    int driven, is, leave;
+    int driven, is, leave, foul;
     uint32_t spot;
-  } given[] = {{0, 4, CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0},
-               {0, 3, CAROM_TURN_PASS, CAROM_LEAVE_HAND, 0},
-               {0x0008, 0, CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0},
-               {0x0100, 0, CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0x0100},
-               {0x0001, 4, CAROM_TURN_PASS, CAROM_LEAVE_KITCHEN, 0}};
+  } given[] = {{0, 4, PASS, AFTER, 0, 0},
+               {0, 3, PASS, CAROM_LEAVE_HAND, BREAK, 0},
+               {0x0008, 0, KEEP, AFTER, 0, 0},
+               {0x0100, 0, KEEP, AFTER, 0, 0x0100},
+               {0x0001, 4, PASS, KITCHEN, CUE_BALL, 0}};
   for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
-    carom_facts facts = {.first = {1, -1}, .cushions_after = given[k].driven};
-    facts.down = given[k].down;
+    carom_facts facts = facts_of(1, given[k].driven, given[k].down, 0);
     for (int i = 1; i <= given[k].driven; i++)
       facts.cushions[i] = 1;
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
     of.user[1] = 1;
     const carom_turn turn = of.judge(of.user, 0xffff, 0, &facts, (carom_call){-1, -1});
-    ck_assert_msg((int)turn.is == given[k].is && (int)turn.leave == given[k].leave &&
-                      turn.spot == given[k].spot,
-                  "break %zu: turn %d, leave %d", k, (int)turn.is, (int)turn.leave);
+    ruled("break", &turn, given[k].is, given[k].leave, given[k].foul, given[k].spot);
     ck_assert(of.user[0] == 0 && of.user[1] == 0);
   }
 }
@@ -101,12 +83,9 @@ TEST(breaks_of_eightball) {
 /* A stroke of nine-ball that meets a ball and drives so many to cushions, after which ball `down`
  * is down, or none for -1. */
 static carom_turn nine(carom_plan_rules *of, int first, int driven, int down, int call) {
-  carom_facts facts = {.first = {first, -1}, .cushions_after = driven};
-  for (int k = 0; k < CAROM_BALLS_MOST; k++)
-    facts.pocket[k] = -1;
+  carom_facts facts = facts_of(first, driven, down >= 0 ? UINT32_C(1) << down : 0, 0);
   for (int k = 1; k <= driven; k++)
     facts.cushions[k] = 1;
-  facts.down = down >= 0 ? UINT32_C(1) << down : 0;
   return of->judge(of->user, 0x3ff, 0, &facts, (carom_call){call, -1});
 }
 
@@ -155,7 +134,8 @@ TEST(push_outs) {
 
 /* Balls on the foot spot, then behind it, then, where there is no room behind it, before it. */
 TEST(spots) {
-  make_layout(1, 1);
+  enum { BALLS = 16 };
+  lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 1);
   carom_place_ball(&table, balls, BALLS, 0, 0.2, 0.2, NULL);
   double least = INFINITY, most = 0.0;
   for (int k = 1; k < BALLS; k++) {
@@ -177,6 +157,12 @@ TEST(spots) {
     ck_assert_int_eq(carom_spot_ball(&alley, balls, BALLS, k), CAROM_OK);
   const double second = balls[1].state.r[1] - (30.0 + 2.0 * 0.028575);
   ck_assert(balls[0].state.r[1] == 30.0 && second > -1e-6 && second < 4e-3);
+  /* what a turn brings back */
+  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  carom_turn turn = {.spot = 0x200};
+  lay_out(CAROM_RACK_NINEBALL, CAROM_TABLE_POOL_9FT, 1);
+  ck_assert_int_eq(carom_turn_settle(&of, of.user, &table, balls, 10, &turn), CAROM_OK);
+  ck_assert(is_at(9, 0.5 * table.width, 0.75 * table.length));
   ck_assert_int_eq(carom_spot_ball(NULL, balls, BALLS, 1), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
 }

@@ -48,22 +48,6 @@ TEST(stopped_plans) {
            (long long)best[0].seen);
     edge_free(&memory);
   }
-
-  /* long before its end */
-  make_layout(3, 6);
-  stopped_rules = rules;
-  rules.judge = judge_and_stop;
-  options.shots = 1000000;
-  options.stop = &stop;
-  make_memory();
-  carom_choice best;
-  int found;
-  for (judged_most = 10; judged_most < 10000; judged_most *= 10) {
-    judged = stop = 0;
-    ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
-    ck_assert(judged <= judged_most + 2 && found == 1);
-  }
-  edge_free(&memory);
 }
 
 /* A plan in slices has the choices of one call, bit for bit, and a slice plays no more shots than

@@ -40,20 +40,3 @@ TEST(values) {
   ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
   ck_assert(blocked >= 0.0 && blocked <= 1.0);
 }
-
-/* Of a game in which balls count in one pocket only. */
-TEST(pockets_that_count) {
-  for (int pocket = 0; pocket < 6; pocket++) {
-    carom_choice best[3];
-    int found;
-    make_layout(9, 6);
-    rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
-    rules.user[7] = (uint64_t)pocket;
-    rules.pockets = one_pocket;
-    make_memory();
-    ck_assert_int_eq(carom_plan(&job, best, 3, &found), CAROM_OK);
-    for (int k = 0; k < found; k++)
-      ck_assert(best[k].pocket == pocket || best[k].pocket == -1);
-    edge_free(&memory);
-  }
-}

@@ -12,12 +12,7 @@ TEST(values_of_points) {
                               game == 0 ? CAROM_TABLE_POOL_9FT : CAROM_TABLE_SNOOKER, ALL);
     carom_cue cue = carom_cue_of(game == 0 ? CAROM_GAME_POOL : CAROM_GAME_SNOOKER);
     const carom_player player = carom_player_of(1.0);
-    const carom_plan_job job = {.table = &table,
-                                .balls = balls,
-                                .count = count,
-                                .cue = &cue,
-                                .player = &player,
-                                .rules = &of};
+    carom_plan_job job = job_of(count, &cue, &player, &of, NULL);
     double last = -1.0, value;
     for (int own = 0; own <= 99; own += 9) {
       of.user[2] = (uint64_t)own;
@@ -39,6 +34,7 @@ TEST(values_of_points) {
     of.user[3] = 40;
     ck_assert_int_eq(carom_plan_value(&job, 1, &value), CAROM_OK);
     ck_assert(value > 0.3 && value < 0.95);
+    free(job.memory);
   }
 }
 
@@ -52,18 +48,14 @@ TEST(values_of_a_claim) {
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
     of.user[2] = (uint64_t)(50 + lead);
     of.user[3] = 50;
-    const carom_plan_job job = {.table = &table,
-                                .balls = balls,
-                                .count = count,
-                                .cue = &cue,
-                                .player = &player,
-                                .rules = &of};
+    carom_plan_job job = job_of(count, &cue, &player, &of, NULL);
     double value;
     ck_assert_int_eq(carom_plan_value(&job, 0, &value), CAROM_OK);
     ck_assert_msg(lead > 7    ? value == 1.0
                   : lead < -7 ? value == 0.0
                               : value > 0.0 && value < 1.0,
                   "%d ahead: %g", lead, value);
+    free(job.memory);
   }
 }
 

@@ -199,20 +199,6 @@ TEST(single_precision_takes_fewer_steps) {
   }
 }
 
-TEST(modules_have_names) {
-  char why[LADDER_WHY_SIZE] = "";
-  ck_assert_ptr_null(ladder_module_find("nonsense", why));
-  ck_assert_uint_gt(strlen(why), 0);
-  if (ladder_module_name(0) == NULL)
-    return;
-  const ladder_module *module = ladder_module_find("default", why);
-  ck_assert_msg(module != NULL, "%s", why);
-  ck_assert_str_eq(module->name, ladder_module_name(0));
-  ck_assert_str_eq(module->config, "default");
-  FOR_EACH_MODULE(each)
-  ck_assert_ptr_eq(each, ladder_module_find(each->name, why));
-}
-
 /* Linking with -ffast-math makes a library switch the whole process to flushing subnormal
  * numbers when it is loaded. */
 TEST(loading_leaves_arithmetic_alone) {

@@ -114,28 +114,6 @@ TEST(batch_is_singles) {
   }
 }
 
-/* A bad layout costs itself, wherever it stands, and whatever is wrong with its first ball. */
-TEST(bad_layouts) {
-  static const double radii[] = {0.0, -1.0, NAN, INFINITY};
-  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
-  for (int bad = 0; bad <= SHOTS; bad++) { /* the first ones; all of them */
-    make_breaks();
-    cues[4].a = 0.0;
-    for (int k = 0; k < bad; k++)
-      balls[16 * k].kind.radius = radii[k % 4];
-    results *single = make_results(), *batch = make_results();
-    play_singles(16, false, false, SHOTS, &options, single);
-    ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch),
-                     bad > 0 ? CAROM_ERROR_RADIUS : CAROM_OK);
-    for (int k = 0; k < SHOTS; k++)
-      ck_assert_int_eq(single->status[k], k < bad ? CAROM_ERROR_RADIUS : CAROM_OK);
-    same_results(single, batch);
-    free_results(single);
-    free_results(batch);
-    bad += bad > 2 && bad < SHOTS - 1 ? SHOTS - 2 - bad : 0;
-  }
-}
-
 /* Each layout is checked and played with its own radius and its own kinds of balls, whatever the
  * radius of the others: too large for the nose, too small for it, in the cushion with this
  * radius and not with that. */

@@ -364,29 +364,10 @@ TEST(symmetries) {
   ck_assert_double_lt(renumbered, 1e-9);
 }
 
-TEST(symmetric_rack) {
-  static const int rows[2][5] = {{1, 2, 3, 4, 5}, {1, 2, 3, 2, 1}};
-  for (int game = 8; game < 10; game++)
-    for (int speed = 2; speed < 12; speed += 2) {
-      const layout l = rack(game, 0.0, speed, 0.0, NULL);
-      resolve(&l, 0);
-      int first = 1;
-      for (int r = 0; r < 5; r++) {
-        const int n = rows[game == 9][r];
-        for (int i = 0; i < n; i++) {
-          ck_assert_double_eq_tol(out[first + i].v[0], -out[first + n - 1 - i].v[0], 1e-13);
-          ck_assert_double_eq_tol(out[first + i].v[1], out[first + n - 1 - i].v[1], 1e-13);
-        }
-        first += n;
-      }
-    }
-}
-
-/* Momentum, without the cloth; energy, with and without friction; and the impulses are those
- * that change the motion. */
+/* Momentum, without the cloth; energy, with and without friction. */
 TEST(balances) {
   random_source random = {test_seed()};
-  double momentum = 0.0, rise = -1.0, impulses = 0.0;
+  double momentum = 0.0, rise = -1.0;
   for (int n = 0; n < 400; n++) {
     layout l = random_rack(n, &random);
     const bool rubs = n % 7 != 0;
@@ -394,35 +375,21 @@ TEST(balances) {
       polish(&l);
     resolve(&l, 0);
     rise = fmax(rise, energy(&l, out) / energy_before(&l) - 1.0);
-    double P[2] = {0.0, 0.0}, by_impulse[MOST][2];
-    for (int i = 0; i < l.count; i++)
-      for (int k = 0; k < 2; k++) {
+    double P[2] = {0.0, 0.0};
+    for (int i = 0; i < l.count && !rubs; i++)
+      for (int k = 0; k < 2; k++)
         P[k] += l.ball[i].kind.mass * (out[i].v[k] - l.ball[i].state.v[k]);
-        by_impulse[i][k] = l.ball[i].state.v[k];
-      }
     for (int q = 0; q < contacts_count; q++) {
       double along = 0.0; /* friction is across the normal */
       for (int k = 0; k < 3; k++)
         along += contacts[q].friction[k] * contacts[q].normal[k];
       ck_assert_double_le(fabs(along), 1e-12 * contacts[q].impulse);
-      for (int k = 0; k < 2; k++) {
-        const double on_b = contacts[q].impulse * contacts[q].normal[k] - contacts[q].friction[k];
-        by_impulse[contacts[q].a][k] -= on_b / l.ball[contacts[q].a].kind.mass;
-        by_impulse[contacts[q].b][k] += on_b / l.ball[contacts[q].b].kind.mass;
-      }
     }
-    for (int i = 0; i < l.count && !rubs; i++)
-      for (int k = 0; k < 2; k++) {
-        momentum = fmax(momentum, fabs(P[k]) / l.ball[0].kind.mass);
-        impulses = fmax(impulses, fabs(by_impulse[i][k] - out[i].v[k]));
-      }
+    momentum = fmax(momentum, hypot(P[0], P[1]) / l.ball[0].kind.mass);
   }
-  printf("momentum %.1e m/s, energy rises by %.1e at most, impulses %.1e m/s\n", momentum, rise,
-         impulses);
+  printf("momentum %.1e m/s, energy rises by %.1e at most\n", momentum, rise);
   ck_assert_double_lt(momentum, 1e-12);
   ck_assert_double_le(rise, 0.0);
-  ck_assert_double_lt(impulses, 4e-3); /* where e = 1 what the integrator adds is taken back from
-                                          the motion */
 }
 
 /* Friction without the cloth: a contact turns and pushes its two balls by its impulse and its

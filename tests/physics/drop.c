@@ -140,29 +140,6 @@ TEST(beside_each_other) {
   }
 }
 
-TEST(balls_fall) {
-  int fell = 0, along_the_wall = 0;
-  carom_table_make(CAROM_TABLE_POOL_7FT, &table);
-  for (uint64_t seed = 1; seed <= 60; seed++) {
-    carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, seed, balls, COUNT);
-    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-    cue.speed = 9.0;
-    shot = (carom_shot){.events = events, .room = ROOM, .final = final};
-    if (carom_shoot(&table, balls, COUNT, &cue, NULL, &shot) != CAROM_OK || shot.count > ROOM)
-      continue;
-    for (int k = 0; k < shot.count; k++)
-      if (events[k].type == CAROM_EVENT_POCKET) {
-        check_fall(&events[k]);
-        fell++;
-        /* a fast one, of 0.7 m/s at least, reaches the wall before it lies */
-        along_the_wall += hypot(events[k].before[0].v[0], events[k].before[0].v[1]) > 1.0;
-      }
-  }
-  printf("%d balls fell, %d fast\n", fell, along_the_wall);
-  ck_assert_int_gt(fell, 60);
-  ck_assert_int_gt(along_the_wall, 5);
-}
-
 /* Balls that fly into a pocket, to its middle and beside it. */
 TEST(out_of_the_air) {
   int in_flight = 0;

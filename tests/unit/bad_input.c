@@ -213,31 +213,6 @@ TEST(null_pointers) {
   ck_assert_int_eq(carom_collide_batch(NULL, 0, NULL, NULL, NULL), CAROM_OK);
 }
 
-TEST(a_bad_row_disturbs_no_neighbour) {
-  enum { ROWS = 2 * BAD_CASES + 1 };
-  carom_impact in[ROWS];
-  carom_result out[ROWS], alone;
-  int8_t status[ROWS];
-  const carom_impact good = good_impact();
-  for (int k = 0; k < ROWS; k++)
-    in[k] = good;
-  ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, NULL), CAROM_OK);
-  alone = out[0];
-  for (int k = 0; k < ROWS; k++)
-    in[k] = k % 2 == 0 ? good : with(bad_cases[k / 2].field, bad_cases[k / 2].value);
-  ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, status), bad_cases[0].status);
-  for (int k = 0; k < ROWS; k++) {
-    const carom_status expected = k % 2 == 0 ? CAROM_OK : bad_cases[k / 2].status;
-    ck_assert_int_eq(status[k], expected);
-    if (k % 2 == 0)
-      ck_assert_mem_eq(&out[k], &alone, sizeof alone);
-    else
-      ck_assert(isnan(out[k].a.v[0]) && isnan(out[k].b.w[2]));
-  }
-  ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, NULL), bad_cases[0].status);
-  ck_assert_int_eq(carom_collide_batch(in, 1, NULL, out, NULL), CAROM_OK);
-}
-
 static void expect_unchanged(const carom_impact *in) {
   carom_result out;
   carom_detail detail = {.steps = 7};
@@ -267,26 +242,6 @@ TEST(separating_pairs_are_unchanged) {
   memset(in.a.v, 0, sizeof in.a.v); /* both at rest */
   memset(in.b.v, 0, sizeof in.b.v);
   expect_unchanged(&in);
-}
-
-/* The collisions on which pooltool never returns. */
-TEST(too_slow_for_euler) {
-  carom_impact in = good_impact();
-  carom_result out;
-  carom_options options = {.solver = CAROM_SOLVER_EULER};
-  in.a.v[0] = 0.0;
-  for (int k = 0; k < CAROM_SLIP_COUNT; k++)
-    for (double approach = 0x1p-52; approach < 1e-13; approach *= 2.0) {
-      carom_detail detail;
-      options.slip = (carom_slip)k;
-      in.b.v[1] = 1.0;
-      in.a.v[1] = 1.0 + approach;
-      const carom_status status = carom_collide_detail(&in, &options, &out, &detail);
-      ck_assert(detail.steps <= 2 * (1010 + 2));
-      if (approach < 1e-14)
-        ck_assert_int_eq(status, CAROM_ERROR_TOO_SLOW);
-      ck_assert(status == CAROM_OK || (status == CAROM_ERROR_TOO_SLOW && isnan(out.a.v[0])));
-    }
 }
 
 TEST(overflow_is_told) {

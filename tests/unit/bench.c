@@ -114,14 +114,6 @@ TEST(budget_too_small_for_one_round) {
   ck_assert_uint_eq(figure.loops, 1);
 }
 
-TEST(fingerprints) {
-  double numbers[] = {1.0, 2.0, 3.0};
-  const uint64_t before = bench_fingerprint(numbers, sizeof numbers);
-  ck_assert_uint_eq(bench_fingerprint(numbers, sizeof numbers), before);
-  numbers[2] = nextafter(3.0, 4.0);
-  ck_assert_uint_ne(bench_fingerprint(numbers, sizeof numbers), before);
-}
-
 TEST(clocks_go_forward) {
   const double before = clock_ns(), cycle = clock_core_cycle();
   ck_assert_double_gt(clock_ns(), before);

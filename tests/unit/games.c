@@ -251,63 +251,6 @@ TEST(places) {
 
 /* ---- Places on tables of one's own */
 
-enum { MOST_CORNERS = 7 };
-typedef struct polygon {
-  int corners;
-  double at[MOST_CORNERS][2]; /* counter-clockwise */
-} polygon;
-
-/* A polygon about the middle of the table, which need not be convex. Some corners are pockets,
- * and some rails have a pocket in their middle. */
-static carom_status make_polygon(random_source *r, carom_table *t, polygon *shape) {
-  const int n = shape->corners = 3 + (int)random_between(r, 0.0, MOST_CORNERS - 2.0);
-  const double turn = random_between(r, 0.0, 6.283185307179586),
-               uneven = random_between(r, 0.0, 0.5), mouth = random_between(r, 0.09, 0.16),
-               jaw = random_between(r, 0.0, 0.03), two_pi = 6.283185307179586;
-  double low[2] = {2.0, 2.0};
-  for (int k = 0; k < n; k++) {
-    const double angle = turn + two_pi * (k + random_between(r, -0.3, 0.3) * uneven) / n;
-    const double far = random_between(r, 1.0 - uneven, 1.0);
-    shape->at[k][0] = far * cos(angle);
-    shape->at[k][1] = far * sin(angle);
-    for (int i = 0; i < 2; i++)
-      low[i] = fmin(low[i], shape->at[k][i]);
-  }
-  carom_corner corner[2 * MOST_CORNERS];
-  int corners = 0, pockets = 0;
-  for (int k = 0; k < n; k++)
-    for (int i = 0; i < 2; i++)
-      shape->at[k][i] -= low[i];
-  for (int k = 0; k < n; k++) {
-    const double *p = shape->at[k], *q = shape->at[(k + 1) % n];
-    const bool here = pockets < CAROM_POCKETS_MOST && random_between(r, 0.0, 1.0) < 0.7;
-    pockets += here;
-    corner[corners++] = (carom_corner){p[0], p[1], here ? mouth : 0.0};
-    if (pockets < CAROM_POCKETS_MOST && hypot(q[0] - p[0], q[1] - p[1]) > 0.6 &&
-        random_between(r, 0.0, 1.0) < 0.3) {
-      corner[corners++] = (carom_corner){0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), mouth};
-      pockets++;
-    }
-  }
-  if (random_between(r, 0.0, 1.0) < 0.5) /* the other way round */
-    for (int k = 0; k < corners / 2; k++) {
-      const carom_corner kept = corner[k];
-      corner[k] = corner[corners - 1 - k];
-      corner[corners - 1 - k] = kept;
-    }
-  return carom_table_polygon(corner, corners, 0.0365, jaw, 0.028575, t, NULL);
-}
-
-static bool is_in_polygon(const polygon *shape, double x, double y) {
-  bool in = false;
-  for (int k = 0; k < shape->corners; k++) {
-    const double *p = shape->at[k], *q = shape->at[(k + 1) % shape->corners];
-    if ((p[1] > y) != (q[1] > y) && x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0]))
-      in = !in;
-  }
-  return in;
-}
-
 /* Some times as fast as hypot(), of which floods take most of their time. */
 static double length(double x, double y) {
   return sqrt(x * x + y * y);
@@ -343,9 +286,8 @@ static uint8_t reached[MOST_PLACES][MOST_PLACES];
 static const double margin = 0.3; /* m: of the grid, beyond the table */
 
 /* Finds the places of a grid to which a ball can be rolled from one of them, by flooding; n
- * becomes their numbers. The ball stays away from cushions and pockets by more than `off`. */
-static void flood(const carom_table *t, double R, double step, const double from[2], double off,
-                  int n[2]) {
+ * becomes their numbers. */
+static void flood(const carom_table *t, double R, double step, const double from[2], int n[2]) {
   static int queue[MOST_PLACES * MOST_PLACES];
   int waiting = 0;
   n[0] = (int)((t->width + 2.0 * margin) / step);
@@ -362,7 +304,7 @@ static void flood(const carom_table *t, double R, double step, const double from
                 j = at % MOST_PLACES + (way == 2) - (way == 3);
       const double x = i * step - margin, y = j * step - margin;
       ck_assert_msg(i > 0 && i < n[0] && j > 0 && j < n[1], "the table has a hole");
-      if (!reached[i][j] && room_at(t, R, x, y) > off && off_pockets(t, x, y) >= off) {
+      if (!reached[i][j] && room_at(t, R, x, y) > 0.0 && off_pockets(t, x, y) >= 0.0) {
         reached[i][j] = 1;
         queue[waiting++] = i * MOST_PLACES + j;
       }
@@ -384,7 +326,7 @@ static void expect_place(const carom_table *t, double R, double x, double y, boo
 /* A ball may stand at all places of a grid to which it can be rolled, and nowhere else. */
 static void expect_flooded(const carom_table *t, double R, double step, const double from[2]) {
   int n[2];
-  flood(t, R, step, from, 0.0, n);
+  flood(t, R, step, from, n);
   for (int i = 0; i < n[0]; i++)
     for (int j = 0; j < n[1]; j++) {
       const double x = i * step - margin, y = j * step - margin;
@@ -492,7 +434,9 @@ TEST(polygon_tables) {
 }
 
 /* The same on a table in the shape of a U, whose middle is outside of it, with pockets at the ends
- * of its arms; and on one with a corner so sharp that there is room behind its pocket. */
+ * of its arms; and on one with a corner so sharp that there is room behind its pocket. Rays through
+ * slits that no ball passes once told otherwise, and so did places beyond the ends of short
+ * rails. */
 TEST(places_on_odd_shapes) {
   static const carom_corner u[8] = {{0, 0, 0},     {1.8, 0, 0},   {1.8, 1.5, 0.1}, {1.2, 1.5, 0.1},
                                     {1.2, 0.6, 0}, {0.6, 0.6, 0}, {0.6, 1.5, 0.1}, {0, 1.5, 0.1}};
@@ -512,52 +456,6 @@ TEST(places_on_odd_shapes) {
   expect_flooded(&t, R, 0.01, in_sharp);
   ck_assert_int_eq(carom_table_polygon(few, 9, 0.0365, 0.0266, R, &t, NULL), CAROM_OK);
   expect_flooded(&t, R, 0.01, in_few);
-}
-
-/* The same at some places on tables of all shapes that carom_table_check() accepts; but beyond
- * the rails only where no pocket is near, and not in parts to which nothing rolls. Rays through
- * slits that no ball passes once told otherwise, and so did places beyond the ends of short
- * rails. Ways of less than 2 mm more than the ball may slip through the grid. */
-TEST(places_on_polygons) {
-  random_source r = {test_seed()};
-  const double R = 0.028575, step = 0.01;
-  int tables = 0, drawn = 0, inside = 0, beyond = 0;
-  const int most = draws_of_each(FEWER(48));
-  while (tables < most) {
-    carom_table t;
-    polygon shape;
-    const carom_status made = make_polygon(&r, &t, &shape);
-    drawn++;
-    ck_assert_int_lt(drawn, 40000);
-    if (made != CAROM_OK || room_at(&t, R, 0.5 * t.width, 0.5 * t.length) < 0.1 ||
-        off_pockets(&t, 0.5 * t.width, 0.5 * t.length) < 0.1)
-      continue;
-    tables++;
-    const double middle[2] = {0.5 * t.width, 0.5 * t.length};
-    int n[2];
-    flood(&t, R, step, middle, 0.002, n);
-    for (int judged = 0; judged < 300;) {
-      int i = (int)random_between(&r, 1.0, n[0] - 1.0),
-          j = (int)random_between(&r, 1.0, n[1] - 1.0);
-      if (judged % 2 == 0 && t.pockets > 0) { /* near a pocket */
-        const double *centre = t.pocket[(int)random_between(&r, 0.0, (double)t.pockets)].centre;
-        i = (int)((centre[0] + margin + random_between(&r, -0.4, 0.4)) / step);
-        j = (int)((centre[1] + margin + random_between(&r, -0.4, 0.4)) / step);
-      }
-      if (i < 0 || i >= n[0] || j < 0 || j >= n[1])
-        continue;
-      const double x = i * step - margin, y = j * step - margin;
-      if (fabs(room_at(&t, R, x, y)) < 1.1e-6 ||
-          (!reached[i][j] && (off_pockets(&t, x, y) < 0.1 || is_in_polygon(&shape, x, y))))
-        continue;
-      judged++;
-      *(reached[i][j] ? &inside : &beyond) += 1;
-      expect_place(&t, R, x, y, reached[i][j]);
-    }
-  }
-  printf("%d tables of %d: a ball may stand at %d places, and not at %d\n", tables, drawn, inside,
-         beyond);
-  ck_assert(inside > 60 * tables && beyond > 60 * tables);
 }
 
 /* Under a ball that flies, where one has left the table, and beside balls and cushions of other
@@ -844,24 +742,11 @@ TEST(sources) {
 /* ---- Names */
 
 TEST(names) {
-  for (int k = CAROM_EVENT_STRIKE; k <= CAROM_EVENT_LEFT_TABLE; k++)
-    for (int j = CAROM_EVENT_STRIKE; j < k; j++)
-      ck_assert_str_ne(carom_event_name((carom_event_type)j),
-                       carom_event_name((carom_event_type)k));
-  ck_assert_ptr_null(carom_event_name((carom_event_type)0));
-  ck_assert_ptr_null(carom_event_name((carom_event_type)99));
   ck_assert_str_eq(carom_event_name(CAROM_EVENT_POCKET), "ball_pocket");
   ck_assert_str_eq(carom_event_name(CAROM_EVENT_RAIL_TOP), "rail_top");
   ck_assert_str_eq(carom_label_name(CAROM_BALL_ROLLING), "rolling");
-  ck_assert_str_eq(carom_label_name(CAROM_BALL_AIRBORNE), "airborne");
-  ck_assert_str_eq(carom_label_name(CAROM_BALL_OFF), "off");
-  ck_assert_ptr_null(carom_label_name((carom_label)99));
   ck_assert_str_eq(carom_table_name(CAROM_TABLE_POOL_9FT), "9ft");
   ck_assert_ptr_null(carom_table_name((carom_table_kind)TABLES));
-  for (int k = 0;
-       carom_rack_name((carom_rack_kind)k) != NULL || carom_rack_size((carom_rack_kind)k) != 0; k++)
-    ck_assert(carom_rack_name((carom_rack_kind)k) != NULL &&
-              carom_rack_size((carom_rack_kind)k) > 0);
   ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
 
   /* rails and pockets of rectangles only, whatever the numbers of parts */
