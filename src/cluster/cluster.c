@@ -48,9 +48,8 @@ enum { ITERATIONS = 2 };
 
 /* The contacts that are pressed in a step, those of them that act, and the balls of these. */
 typedef struct pushes {
-  int pressed, contacts, balls;
-  contact *press[CAROM_CLUSTER_CONTACTS], *push[CAROM_CLUSTER_CONTACTS];
-  ball *pushed[CAROM_CLUSTER_BALLS];
+  int pressed, contacts, balls; /* how many; their places in contact[] and ball[]: */
+  uint8_t press[CAROM_CLUSTER_CONTACTS], push[CAROM_CLUSTER_CONTACTS], pushed[CAROM_CLUSTER_BALLS];
 } pushes;
 
 static const double open = 1e-12; /* m: overlaps below it are none; their forces could underflow */
@@ -186,7 +185,7 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
   for (int k = 0; k < c->contacts; k++) {
     contact *x = &c->contact[k];
     if (x->d_max > 0.0) {
-      now->press[now->pressed++] = x;
+      now->press[now->pressed++] = (uint8_t)k;
       continue;
     }
     const bool first = !x->touched;
@@ -203,7 +202,7 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
     if (d + 0.5 * h * v <= open)
       continue;
     if (d > open && (meets || !first))
-      now->press[now->pressed++] = x;
+      now->press[now->pressed++] = (uint8_t)k;
     x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(x), v) : 0.0;
     norm += quickness(x, x->size);
   }
@@ -212,12 +211,13 @@ static inline double find_pressed(bool flat, state *c, double h, pushes *now) {
 
 /* Those of the pressed contacts that act, and their impulses. *norm becomes that of all that
  * overlap. Returns whether any does. */
-static inline bool find_acting(bool flat, double h, double tau, pushes *now, double *norm) {
+static inline bool find_acting(bool flat, state *c, double h, double tau, pushes *now,
+                               double *norm) {
   bool overlap = false;
   *norm = 0.0;
   now->contacts = 0;
   for (int k = 0; k < now->pressed; k++) {
-    contact *x = now->press[k];
+    contact *x = &c->contact[now->press[k]];
     const double d = overlap_of(flat, x);
     if (d <= open)
       continue;
@@ -237,7 +237,7 @@ static inline bool find_acting(bool flat, double h, double tau, pushes *now, dou
 
     *norm += quickness(x, x->size);
     if (x->J > 0.0)
-      now->push[now->contacts++] = x;
+      now->push[now->contacts++] = now->press[k];
   }
   return overlap;
 }
@@ -337,10 +337,10 @@ static inline void iterate(bool flat, contact *x, double change[2]) {
 /* ---- A step */
 
 /* Lists a ball, once, as the step begins. */
-static inline void list_pushed(pushes *now, ball *p) {
+static inline void list_pushed(const state *c, pushes *now, ball *p) {
   if (p->acting != 0)
     return;
-  now->pushed[now->balls++] = p;
+  now->pushed[now->balls++] = (uint8_t)(p - c->ball);
   p->base[0] = p->v[0] - p->W[1];
   p->base[1] = p->v[1] + p->W[0];
   p->load = p->g[0] = p->g[1] = 0.0;
@@ -352,7 +352,7 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
     c->ball[k].acting = 0;
   now->balls = 0;
   for (int a = 0; a < now->contacts; a++) {
-    contact *x = now->push[a];
+    contact *x = &c->contact[now->push[a]];
     /* speeds, and mu, which falls only where the slip is the greatest so far */
     x->closing = closing_of(flat, x);
     slip_of(flat, x, x->u);
@@ -370,48 +370,49 @@ static inline void begin_step(bool flat, state *c, pushes *now) {
     /* its two balls, each listed once, as the step begins */
     for (int side = 0; side < 2; side++) {
       ball *p = side == 0 ? x->p : x->q;
-      list_pushed(now, p);
+      list_pushed(c, now, p);
       p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
     }
   }
-  for (int k = 0; c->on_slate && k < c->balls; k++)
+  for (int k = 0; c->on_slate && k < c->slates; k++)
     if (c->slate[k].J > 0.0)
-      list_pushed(now, &c->ball[k]);
+      list_pushed(c, now, &c->ball[c->slate[k].ball]);
   CAROM_PROMISE(now->contacts <= now->pressed && now->balls <= c->balls);
 
   /* all normal impulses, when all of that is known */
   for (int a = 0; a < now->contacts; a++) {
-    const contact *x = now->push[a];
+    const contact *x = &c->contact[now->push[a]];
     cluster_add(flat, x->p->v, -x->J * x->p->inverse_mass, x->n);
     cluster_add(flat, x->q->v, x->J * x->q->inverse_mass, x->n);
   }
   if (c->struck)
     tip_push(flat, c);
-  for (int k = 0; c->on_slate && k < c->balls; k++) {
-    c->ball[k].v[2] += c->slate[k].J * c->ball[k].inverse_mass;
-    c->ball[k].load = c->slate[k].J;
+  for (int k = 0; c->on_slate && k < c->slates; k++) {
+    ball *p = &c->ball[c->slate[k].ball];
+    p->v[2] += c->slate[k].J * p->inverse_mass;
+    p->load = c->slate[k].J;
   }
 }
 
 /* The friction of a step, of all contacts and of the cloth. */
-static inline void rub_all(bool flat, bool on_slate, const pushes *now) {
+static inline void rub_all(bool flat, state *c, const pushes *now) {
   double change[CAROM_CLUSTER_CONTACTS][2];
   /* first that of the step before */
   for (int a = 0; a < now->contacts; a++) {
-    contact *x = now->push[a];
+    contact *x = &c->contact[now->push[a]];
     x->f[0] *= x->J;
     x->f[1] *= x->J;
     rub(flat, x, x->f);
   }
   for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
-    for (int k = 0; (flat || on_slate) && k < now->balls; k++)
-      rub_on_cloth(now->pushed[k]);
+    for (int k = 0; (flat || c->on_slate) && k < now->balls; k++)
+      rub_on_cloth(&c->ball[now->pushed[k]]);
     if (iteration == ITERATIONS)
       return;
     for (int a = 0; a < now->contacts; a++)
-      iterate(flat, now->push[a], change[a]);
+      iterate(flat, &c->contact[now->push[a]], change[a]);
     for (int a = 0; a < now->contacts; a++)
-      rub(flat, now->push[a], change[a]);
+      rub(flat, &c->contact[now->push[a]], change[a]);
   }
 }
 
@@ -419,7 +420,7 @@ static inline void rub_all(bool flat, bool on_slate, const pushes *now) {
 static inline void end_step(bool flat, state *c, double h, const pushes *now) {
   move(flat, c, 0.5 * h);
   for (int a = 0; a < now->contacts; a++) {
-    contact *x = now->push[a];
+    contact *x = &c->contact[now->push[a]];
     const double each = 1.0 / x->J;
     for (int k = 0; k < 2; k++) {
       x->rubbed[k] += x->f[k];
@@ -429,7 +430,7 @@ static inline void end_step(bool flat, state *c, double h, const pushes *now) {
   }
   /* where the force has reached 0 the rest of the overlap is forgotten */
   for (int k = 0; k < now->pressed; k++) {
-    contact *x = now->press[k];
+    contact *x = &c->contact[now->press[k]];
     const double rest = (1.0 - x->e * x->e) * x->d_max;
     if (overlap_of(flat, x) <= rest) {
       x->offset -= rest;
@@ -528,7 +529,7 @@ static inline bool solve(bool flat, state *c) {
 
     /* where no contact acts, one may touch again, from where the balls are; else all is over */
     tau += 0.5 * h;
-    const bool balls = find_acting(flat, h, tau, &now, &norm),
+    const bool balls = find_acting(flat, c, h, tau, &now, &norm),
                cue = c->struck && tip_acts(c, h, tau), slate = c->on_slate && slate_acts(c, h);
     c->late |= slate && !balls && !cue;
     if (!balls && !cue && !slate) {
@@ -539,7 +540,7 @@ static inline bool solve(bool flat, state *c) {
 
     /* impulses, friction and the other half */
     begin_step(flat, c, &now);
-    rub_all(flat, c->on_slate, &now);
+    rub_all(flat, c, &now);
     end_step(flat, c, h, &now);
     tau += 0.5 * h;
     h = step_of(balls ? norm : (double)0.0, c->steps);

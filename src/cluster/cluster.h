@@ -45,7 +45,10 @@
 #endif
 enum {
   CAROM_CLUSTER_BALLS = 32,
-  CAROM_CLUSTER_STEPS = 25,        /* of a contact's duration, where the caller does not say */
+  CAROM_CLUSTER_SLATES = 8, /* balls of a push that the slate holds meanwhile: the struck one,
+                                      those near it, and others as there is room. The rest lands
+                                      afterwards */
+  CAROM_CLUSTER_STEPS = 25, /* of a contact's duration, where the caller does not say */
   CAROM_CLUSTER_STEPS_MOST = 20000 /* of a cluster; more are not tried */
 };
 
@@ -100,7 +103,7 @@ typedef struct carom_cluster_tip {
 
 /* The contact of the slate and a ball, tip.h. The caller sets k, over the mass, and e. */
 typedef struct carom_cluster_slate {
-  bool under; /* the ball is on the slate */
+  int ball; /* of ball[] */
   double k, e;
   /* of the integrator */
   double d, d_max, J, closing, impulse;
@@ -121,7 +124,8 @@ typedef struct carom_cluster_state {
   carom_cluster_ball ball[CAROM_CLUSTER_BALLS];
   carom_cluster_contact_state contact[CAROM_CLUSTER_CONTACTS];
   carom_cluster_tip tip;
-  carom_cluster_slate slate[CAROM_CLUSTER_BALLS];
+  int slates;
+  carom_cluster_slate slate[CAROM_CLUSTER_SLATES];
 } carom_cluster_state;
 
 /* members.c: compression of a contact of stiffness K and 1/reduced mass B that closes at v, and
@@ -143,6 +147,11 @@ int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
 /* tip.c: the tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
  * to tip_restitution, in their order, and which touches a ball that is alone for T. */
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
+
+/* tip.c: puts the struck ball and those near it on the slate, whose k and e the caller sets
+ * then; and the impulse of the slate on a ball. */
+void carom_cluster_put_on_slate(carom_cluster_state *c);
+double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball);
 
 /* cluster.c: v and W of ball[]; time, impulse and friction of contact[]. False where it takes
  * too many steps. */

@@ -38,3 +38,34 @@ void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8
   const double rate = half_pi * (1.0 + x->e) / T;
   x->k = rate * rate / (x->inverse_mass + (1.0 + 2.5 * (a * a + b * b)) * inverse);
 }
+
+/* Adds a ball that is not among those yet, and does not fly. */
+static void add_slate(carom_cluster_state *c, int ball) {
+  bool there = c->ball[ball].flies || c->slates == CAROM_CLUSTER_SLATES;
+  for (int k = 0; k < c->slates; k++)
+    there |= c->slate[k].ball == ball;
+  if (there)
+    return;
+  carom_cluster_slate *x = &c->slate[c->slates++];
+  memset(x, 0, sizeof *x);
+  x->ball = ball;
+}
+
+void carom_cluster_put_on_slate(carom_cluster_state *c) {
+  const int struck = c->tip.ball;
+  c->on_slate = c->in_space = true;
+  c->slates = 0;
+  add_slate(c, struck);
+  for (int k = 0; k < c->contacts; k++)
+    if (c->contact[k].i == struck || c->contact[k].j == struck)
+      add_slate(c, c->contact[k].i == struck ? c->contact[k].j : c->contact[k].i);
+  for (int k = 0; k < c->balls; k++)
+    add_slate(c, k);
+}
+
+double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball) {
+  for (int k = 0; c->on_slate && k < c->slates; k++)
+    if (c->slate[k].ball == ball)
+      return c->slate[k].impulse;
+  return 0.0;
+}

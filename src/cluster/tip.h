@@ -97,17 +97,18 @@ static inline void tip_parts(carom_cluster_state *c, double h) {
 
 /* ---- The slate */
 
-/* Half a step of the overlaps of all balls, and their impulses; whether one acts. */
+/* Half a step of the overlaps of all, and their impulses; whether one acts. */
 static inline bool slate_acts(carom_cluster_state *c, double h) {
   bool any = false;
-  for (int k = 0; k < c->balls; k++) {
+  for (int k = 0; k < c->slates; k++) {
     carom_cluster_slate *x = &c->slate[k];
+    const carom_cluster_ball *p = &c->ball[x->ball];
     x->J = 0.0;
-    x->closing = -c->ball[k].v[2];
+    x->closing = -p->v[2];
     x->d += 0.5 * h * x->closing;
-    if (!x->under || x->d <= 0.0)
+    if (x->d <= 0.0)
       continue;
-    x->J = h * carom_hertz_force(x->k, x->e, x->d, &x->d_max) / c->ball[k].inverse_mass;
+    x->J = h * carom_hertz_force(x->k, x->e, x->d, &x->d_max) / p->inverse_mass;
     x->impulse += x->J;
     any = true;
   }
@@ -115,9 +116,9 @@ static inline bool slate_acts(carom_cluster_state *c, double h) {
 }
 
 static inline void slate_parts(carom_cluster_state *c, double h) {
-  for (int k = 0; k < c->balls; k++) {
+  for (int k = 0; k < c->slates; k++) {
     carom_cluster_slate *x = &c->slate[k];
-    const double closing = -c->ball[k].v[2], middle = x->d;
+    const double closing = -c->ball[x->ball].v[2], middle = x->d;
     x->d += 0.5 * h * closing;
     if (x->d_max == 0.0)
       continue;

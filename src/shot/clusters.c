@@ -163,14 +163,12 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone) {
   return false;
 }
 
-/* The slate under each member that lies on it, with the duration of shot/slate.c. */
+/* The slate under the balls of a push, with the duration of pulse.c. */
 static void put_on_slate(const carom_sim *sim, carom_cluster_state *c) {
-  memset(c->slate, 0, sizeof c->slate);
-  c->on_slate = c->in_space = true;
-  for (int k = 0; k < c->balls; k++) {
-    const carom_ball_kind *kind = sim->layout->kind[c->ball[k].which];
-    c->slate[k] = carom_slate_under(kind);
-    c->slate[k].under = !c->ball[k].flies;
+  carom_cluster_put_on_slate(c);
+  for (int k = 0; k < c->slates; k++) {
+    carom_cluster_slate *x = &c->slate[k];
+    carom_slate_under(sim->layout->kind[c->ball[x->ball].which], &x->k, &x->e);
   }
 }
 
@@ -210,7 +208,7 @@ void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *c, int 
   const carom_ball_kind *kind = sim->layout->kind[c->ball[k].which];
   carom_cluster_take(&c->ball[k], s);
   if (c->on_slate)
-    carom_leave_slate(kind, c->slate[k].impulse / kind->mass, s);
+    carom_leave_slate(kind, carom_cluster_slate_impulse(c, k) / kind->mass, s);
 }
 
 void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s) {

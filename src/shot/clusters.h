@@ -34,7 +34,7 @@ int carom_cluster_strike(carom_sim *sim, const carom_motion *alone, bool flat,
 /* pulse.c: how long a tip touches; the contact of a ball with the slate; and what an impulse J of
  * it, over the mass, takes from the turn about the vertical and the end of hops from v[2]. */
 double carom_tip_time(const carom_cue *cue);
-carom_cluster_slate carom_slate_under(const carom_ball_kind *kind);
+void carom_slate_under(const carom_ball_kind *kind, double *k, double *e);
 void carom_leave_slate(const carom_ball_kind *kind, double J, carom_ball_state *s);
 
 /* The motion of member k after a push, of a raised cue with what the slate takes from it. */

@@ -69,12 +69,9 @@ static double stiffness_of_slate(void) {
   return 1.25 / (size * size * sqrt(size));
 }
 
-carom_cluster_slate carom_slate_under(const carom_ball_kind *kind) {
-  carom_cluster_slate slate;
-  memset(&slate, 0, sizeof slate);
-  slate.k = stiffness_of_slate();
-  slate.e = carom_greater(carom_slate_restitution(kind->restitution_table), least_e);
-  return slate;
+void carom_slate_under(const carom_ball_kind *kind, double *k, double *e) {
+  *k = stiffness_of_slate();
+  *e = carom_greater(carom_slate_restitution(kind->restitution_table), least_e);
 }
 
 static press_step step_of(const press *p, double h) {

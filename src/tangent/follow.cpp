@@ -738,11 +738,12 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS + 2],
     x[n] = from[n].x;
     d[n] = from[n].d[c->direction];
   }
-  const text::carom_cluster_slate slate = text::carom_slate_under(&kind);
-  x[CAROM_MEMBER_NUMBERS] = slate.k.x;
-  d[CAROM_MEMBER_NUMBERS] = 0;
-  x[CAROM_MEMBER_NUMBERS + 1] = slate.e.x;
-  d[CAROM_MEMBER_NUMBERS + 1] = slate.e.d[c->direction];
+  number slate[2];
+  text::carom_slate_under(&kind, &slate[0], &slate[1]);
+  for (int n = 0; n < 2; n++) {
+    x[CAROM_MEMBER_NUMBERS + n] = slate[n].x;
+    d[CAROM_MEMBER_NUMBERS + n] = slate[n].d[c->direction];
+  }
   return ball.flies;
 }
 

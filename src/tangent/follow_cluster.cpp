@@ -26,6 +26,7 @@ row row_of(real d) {
 
 bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
   text::carom_cluster_state state;
+  number slate[CAROM_BALLS_MOST][2];
   state.balls = c->balls;
   state.struck = c->second < 0;
   state.on_slate = c->on_slate;
@@ -47,10 +48,8 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
       to[n].x = x[n];
       to[n].d[0] = d[n];
     }
-    memset(&state.slate[k], 0, sizeof state.slate[k]);
-    state.slate[k].under = !ball->flies;
-    state.slate[k].k = number(x[CAROM_MEMBER_NUMBERS], row_of(d[CAROM_MEMBER_NUMBERS]));
-    state.slate[k].e = number(x[CAROM_MEMBER_NUMBERS + 1], row_of(d[CAROM_MEMBER_NUMBERS + 1]));
+    for (int n = 0; n < 2; n++)
+      slate[k][n] = number(x[CAROM_MEMBER_NUMBERS + n], row_of(d[CAROM_MEMBER_NUMBERS + n]));
   }
 
   /* all of them must be members, as when the shot was played */
@@ -63,7 +62,12 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
       cue[n] = number(x[n], row_of(d[n]));
     text::carom_cluster_tip_of(&state, c->first, cue, c->tip_time);
     contacts = text::carom_cluster_members_of_tip(&state, 1e3);
-    state.in_space |= state.on_slate;
+    if (c->on_slate)
+      text::carom_cluster_put_on_slate(&state);
+    for (int k = 0; c->on_slate && k < state.slates; k++) {
+      state.slate[k].k = slate[state.slate[k].ball][0];
+      state.slate[k].e = slate[state.slate[k].ball][1];
+    }
   } else {
     contacts = text::carom_cluster_members(&state, c->first, c->second);
   }
@@ -86,8 +90,9 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
       x[n] = from[n].x;
       d[n] = from[n].d[0];
     }
-    x[CAROM_MOTION_NUMBERS] = state.slate[k].impulse.x;
-    d[CAROM_MOTION_NUMBERS] = state.slate[k].impulse.d[0];
+    const number J = text::carom_cluster_slate_impulse(&state, k);
+    x[CAROM_MOTION_NUMBERS] = J.x;
+    d[CAROM_MOTION_NUMBERS] = J.d[0];
     c->take(c->context, k, x, d);
   }
   return true;

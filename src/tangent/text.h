@@ -164,6 +164,11 @@ int carom_cluster_members_of_tip(carom_cluster_state *, double) {
 }
 void carom_cluster_tip_of(carom_cluster_state *, int, const double *, double) {
 }
+void carom_cluster_put_on_slate(carom_cluster_state *) {
+}
+double carom_cluster_slate_impulse(const carom_cluster_state *, int) {
+  return 0.0;
+}
 
 #include "tangent/exact.h"
 
