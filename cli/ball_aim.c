@@ -46,6 +46,8 @@ typedef struct target {
   int count, at;
   carom_shot_options options;
   double x, y, distance, cut; /* from the ball of the cue, m; degrees */
+  double touch, turn; /* R1 + R2, m; the direction in which the struck ball leaves, alone and
+                                 for phi = 0, degrees */
 } target;
 
 carom_table endless_cloth(double radius) {
@@ -99,6 +101,14 @@ static bool next_root(const path *p, double distance, double step, double end, d
   return false;
 }
 
+/* The cut at which a ball is met that comes straight from its place at the strike, degrees. */
+static double pushed_cut(const target *t, double phi) {
+  const double turn = (phi + t->turn) * degree, u[2] = {cos(turn), sin(turn)};
+  const double along = t->x * u[0] + t->y * u[1], across = t->x * u[1] - t->y * u[0];
+  const double way = along - sqrt(fmax(t->touch * t->touch - across * across, 0.0));
+  return angle_between(u, (const double[]){t->x - way * u[0], t->y - way * u[1]});
+}
+
 /* Turns the cue so that q is where the ball lies. Returns whether its ball meets that ball
  * first, and at the cut. Where something else is met before `time`, that becomes *first, unless
  * *barred is set, which then is set. */
@@ -116,6 +126,10 @@ static bool holds(const target *t, const double q[2], double time, carom_cue *cu
       e = c;
   const int side = e->a == cue->ball ? 0 : 1;
   const double *from = e->before[side].r, *to = e->before[1 - side].r;
+  const bool pushed =
+      events[0].type == CAROM_EVENT_STRIKE && events[0].cluster > 0 && e->time == events[0].time;
+  if (pushed && (side == 0 ? e->b : e->a) == t->at)
+    return fabs(pushed_cut(t, cue->phi) - t->cut) < same_cut;
   if (e->type == CAROM_EVENT_BALL_BALL && (side == 0 ? e->b : e->a) == t->at)
     return fabs(angle_between(e->before[side].v,
                               (const double[]){to[0] - from[0], to[1] - from[1]}) -
@@ -152,6 +166,8 @@ aim_result aim_at(const carom_table *table, const carom_shot_ball *balls, int co
   p.shot = (carom_shot){.events = p.events, .room = MOST_EVENTS, .final = &p.final};
   straight.ball = 0;
   carom_shoot(&cloth, &p.ball, 1, &straight, &t.options, &p.shot);
+  t.touch = p.touch;
+  t.turn = atan2(p.events[0].after[0].v[1], p.events[0].after[0].v[0]) / degree;
   t.options.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_RAIL) |
                       CAROM_STOP_AT(CAROM_EVENT_JAW) | CAROM_STOP_AT(CAROM_EVENT_POCKET) |
                       CAROM_STOP_AT(CAROM_EVENT_RAIL_TOP) | CAROM_STOP_AT(CAROM_EVENT_LEFT_TABLE);
