@@ -117,6 +117,43 @@ class _Saved:
             self.path.unlink(missing_ok=True)
 
 
+def _sound(
+    recordings: list[Recording], table: tuple[float, float], radius: float, train: Sequence[int] | None, calibrate: bool
+) -> tuple[list[Recording], list[list[str]], float, list[str]]:
+    """The recordings of a fit without what is wrong in them, what was mended in each, the noise, m, and what is to be told."""
+    noise = _recordings.noise_of(recordings if train is None else [recordings[k] for k in train])
+    recordings, notes = _recordings.sound(recordings, noise)
+    lie, told = _recordings.lie_of(recordings, table, radius), list[str]()
+    if lie.far > max(_CROOKED, 4.0 * lie.error):
+        told.append(f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}")
+    for _ in range(2 if calibrate else 0):
+        # the second time finds impacts that were too far from their cushions
+        recordings = [replace(shot, tracks=tuple(np.column_stack([track[:, 0], lie.places(track[:, 1:])]) for track in shot.tracks))
+                      for shot in recordings]  # fmt: skip
+        lie = _recordings.lie_of(recordings, table, radius)
+    counts = {len(shot.balls) for shot in recordings}
+    if len(counts) > 1:
+        odd = next(shot for shot in recordings if len(shot.balls) != len(recordings[0].balls))
+        raise ValueError(
+            f"recordings: shot {odd.id} has {len(odd.balls)} balls, shot {recordings[0].id} {len(recordings[0].balls)}; "
+            f"all shots must have the same number"
+        )
+    if not (min(table) > 4.0 * radius > 0.0):
+        raise ValueError(f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0")
+    return recordings, notes, noise, told
+
+
+def _seek_again(plays: _strikes.Plays, played: list[int], strikes: Doubles, rmse: Doubles, rough: float) -> None:
+    """Seeks strikes that may have stuck once more, by way of kicks."""
+    stuck = np.array(played)[rmse[played] > rough]
+    if len(stuck):
+        some = plays.some(np.searchsorted(played, stuck))
+        other = _kicks.eased(some, strikes[stuck])
+        again = some.rmse(other)
+        better = again < rmse[stuck]
+        strikes[stuck[better]], rmse[stuck[better]] = other[better], again[better]
+
+
 def fit(
     recordings: Sequence[Recording], table: tuple[float, float], radius: float, *, cushion_model: ShotCushion = "han",
     constants: Mapping[str, float] | Records | np.void | None = None, free: str | Sequence[str] = "default",
@@ -162,25 +199,7 @@ def fit(
     recordings = list(recordings)
     if not recordings:
         raise ValueError("recordings: at least one shot is needed")
-    noise = _recordings.noise_of(recordings if train is None else [recordings[k] for k in train])
-    recordings, notes = _recordings.sound(recordings, noise)
-    lie, told = _recordings.lie_of(recordings, table, radius), list[str]()
-    if lie.far > max(_CROOKED, 4.0 * lie.error):
-        told.append(f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}")
-    for _ in range(2 if calibrate else 0):
-        # the second time finds impacts that were too far from their cushions
-        recordings = [replace(shot, tracks=tuple(np.column_stack([track[:, 0], lie.places(track[:, 1:])]) for track in shot.tracks))
-                      for shot in recordings]  # fmt: skip
-        lie = _recordings.lie_of(recordings, table, radius)
-    counts = {len(shot.balls) for shot in recordings}
-    if len(counts) > 1:
-        odd = next(shot for shot in recordings if len(shot.balls) != len(recordings[0].balls))
-        raise ValueError(
-            f"recordings: shot {odd.id} has {len(odd.balls)} balls, shot {recordings[0].id} {len(recordings[0].balls)}; "
-            f"all shots must have the same number"
-        )
-    if not (min(table) > 4.0 * radius > 0.0):
-        raise ValueError(f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0")
+    recordings, notes, noise, told = _sound(recordings, table, radius, train, calibrate)
     free = [free] if isinstance(free, str) else list(free)
     values = _constants.complete({} if constants is None else constants, cushion_model)
     _priors([] if free[0] in ("none", "events") else free, priors or {}, values, cushion_model)
@@ -234,14 +253,7 @@ def fit(
         plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
-        # strikes that may have stuck are sought once more, by way of kicks
-        stuck = np.array(played)[rmse[played] > _ROUGH * noise * math.sqrt(2.0)]
-        if len(stuck):
-            some = plays.some(np.searchsorted(played, stuck))
-            other = _kicks.eased(some, strikes[stuck])
-            again = some.rmse(other)
-            better = again < rmse[stuck]
-            strikes[stuck[better]], rmse[stuck[better]] = other[better], again[better]
+        _seek_again(plays, played, strikes, rmse, _ROUGH * noise * math.sqrt(2.0))
         for k, strike in zip(played, strikes[played]):
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
