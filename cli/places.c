@@ -77,8 +77,8 @@ static bool refuse(const option_row *row, const char *text) {
   return false;
 }
 
-/* Copies pairs, in which ranges get RANGE for ":" or "..". A colon parts two pairs where commas stand
- * on both sides of it before the next one. */
+/* Copies pairs, in which ranges get RANGE for ":" or "..". A colon parts two pairs where commas
+ * stand on both sides of it before the next one. */
 static void spell_ranges(const char *text, char *to) {
   for (bool comma = false; *text != '\0'; text++) {
     const bool dots = strncmp(text, "..", 2) == 0,

@@ -12,7 +12,7 @@ enum { SPEED_INPUT = 1, MOST_INPUTS = 11, MOST_CASES = 16, NO_QUANTITY = -1 };
 
 typedef struct series series;
 
-/* One of the combinations: a value of each input, its row, how it is solved, and what comes of it. */
+/* One of the combinations: a value of each input, its row, how it is solved, and the result. */
 typedef struct one_case {
   const value *given[MOST_INPUTS];
   shared_options asked;

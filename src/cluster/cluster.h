@@ -144,11 +144,11 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second);
  * contacts there are; 0: it is alone. */
 int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
 
-/* tip.c: the tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
+/* push.c: the tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
  * to tip_restitution, in their order, and which touches a ball that is alone for T. */
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
 
-/* tip.c: puts the struck ball and those near it on the slate, whose k and e the caller sets
+/* push.c: puts the struck ball and those near it on the slate, whose k and e the caller sets
  * then; and the impulse of the slate on a ball. */
 void carom_cluster_put_on_slate(carom_cluster_state *c);
 double carom_cluster_slate_impulse(const carom_cluster_state *c, int ball);

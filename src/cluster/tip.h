@@ -20,11 +20,10 @@
  *
  * SLATE. Hertz's contact (hertz.h) of the slate and the foot of a ball, per unit of its mass, with
  * the restitution e of both; friction |g| <= mu F against the slip of the foot, as on the cloth
- * (cluster.h) with F for L. shot/slate.h has its duration. */
+ * (cluster.h) with F for L. shot/pulse.c has its duration. */
 #ifndef CAROM_SRC_CLUSTER_TIP_H
 #define CAROM_SRC_CLUSTER_TIP_H
 
-#include "cluster/cluster.h"
 #include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "platform/ranges.h"

@@ -18,6 +18,9 @@
 #endif
 #if defined(__ANDROID__) /* without secure_getenv */
 #include <sys/auxv.h>
+#ifndef AT_SECURE
+#define AT_SECURE 23
+#endif
 #define secure_getenv(name) (getauxval(AT_SECURE) ? NULL : getenv(name))
 #endif
 #include <math.h>

@@ -35,7 +35,7 @@ void carom_sincos_degrees(double degrees, double *sine, double *cosine) {
 #undef open
 #include "cluster/members.c"
 #define least_restitution least_of_tip
-#include "cluster/tip.c"
+#include "cluster/push.c"
 #undef least_restitution
 
 #undef double

@@ -565,8 +565,8 @@ TEST(kinks_of_flights) {
   ck_assert_int_ne(event_flags[0] & CAROM_TANGENT_KINK, 0);
 }
 
-/* A blow of 60 degrees at 1.2318 m/s by a tip of 2 ms, where the slate is loaded once more within the pulse and the
- * hop has a step, and blows that are 0.5 and 3 % weaker and stronger. */
+/* A blow of 60 degrees at 1.2318 m/s by a tip of 2 ms, where the slate is loaded once more within
+ * the pulse and the hop has a step, and blows that are 0.5 and 3 % weaker and stronger. */
 TEST(step_of_a_hop) {
   static const double off[5] = {0.0, -0.005, 0.005, -0.03, 0.03};
   double up[5];

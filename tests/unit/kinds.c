@@ -100,7 +100,7 @@ static void compare(const played *a, const played *b) {
   ck_assert_mem_eq(a->event, b->event, sizeof a->event);
 }
 
-/* Layouts of their own, or the first one for all; to rest, or stopped, with states to go on with. */
+/* Layouts of their own, or the first one for all; to rest, or stopped, with states to go on. */
 static void same_bits(carom_world world, size_t stride, double time_most) {
   empty(&one);
   const carom_shot_options one_thread = {.world = world, .time_most = time_most};

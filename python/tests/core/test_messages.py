@@ -263,7 +263,7 @@ PRIVATE = re.compile(r"(?<![\w.])_[a-z]\w*|\._[a-z]\w*|ShotOptions")
 def test_errors_name_public_names():
     """Of a misspelt argument, by each call and class of the package."""
     for module in (carom, carom.racks, carom.tables, carom.dtypes, carom.record, carom.derivatives):
-        for call in (getattr(module, name) for name in dir(module)):
+        for call in (getattr(module, name, None) for name in dir(module)):  # without the folders, of the core
             if callable(call) and not isinstance(call, enum.EnumMeta):
                 with pytest.raises(TypeError) as caught:
                     call(misspelt=1)
