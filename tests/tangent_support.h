@@ -50,12 +50,15 @@ static inline const carom_table *table_of(const layout *l) {
     table = *l->table;
   else
     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
-  for (int k = 0; k < table.rails + table.jaws; k++) {
-    carom_rail *rail = &table.rail[k];
-    carom_jaw *jaw = &table.jaw[k - table.rails];
-    *(k < table.rails ? &rail->height : &jaw->height) += l->nose[0];
-    *(k < table.rails ? &rail->mu_cushion : &jaw->mu_cushion) += l->nose[1];
-    *(k < table.rails ? &rail->restitution : &jaw->restitution) += l->nose[2];
+  for (int k = 0; k < table.rails; k++) {
+    table.rail[k].height += l->nose[0];
+    table.rail[k].mu_cushion += l->nose[1];
+    table.rail[k].restitution += l->nose[2];
+  }
+  for (int k = 0; k < table.jaws; k++) {
+    table.jaw[k].height += l->nose[0];
+    table.jaw[k].mu_cushion += l->nose[1];
+    table.jaw[k].restitution += l->nose[2];
   }
   return &table;
 }

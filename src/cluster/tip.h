@@ -39,7 +39,7 @@ static inline double tip_closing(const carom_cluster_tip *x, const carom_cluster
 
 /* The longest step that suits the tip: unloading is shorter than loading by e. */
 static inline double tip_step(const carom_cluster_tip *x) {
-  return 2.0 * x->e / (1.0 + x->e) * x->T / CAROM_TIP_STEPS;
+  return 2.0 * x->e / (1.0 + x->e) * x->T / (double)CAROM_TIP_STEPS;
 }
 
 /* Half a step of its compression, and its impulse; whether it acts. */

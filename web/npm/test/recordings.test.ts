@@ -46,7 +46,7 @@ test("two programs read each other's lines", () => {
   here.shoot({ speed: 8, phi: 90 });
   expect(there.read(here.lines.at(-1)!)).toMatchObject({ shot: 1, same: true });
   expect([there.balls, there.table]).toEqual([here.balls, table]);
-  there.place(0, 0.6, 0.5);
+  there.place(0, 0.9, 0.4);
   expect(here.read(there.lines.at(-1)!)).toBeUndefined();
   there.shoot({ speed: 2, phi: 70 });
   expect(here.read(there.lines.at(-1)!)).toMatchObject({ shot: 2, same: true });
