@@ -170,7 +170,7 @@ static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion)
   carom_ball_kind ball;
   if (!carom_ball_kind_for(l->game, cushion, &ball))
     complain("%s has no constants for the cushion %s: the balls have those for its default model",
-             carom_word(CAROM_WORDS_GAME, l->game),
+             carom_word(CAROM_WORDS_GAME, (int)l->game),
              carom_word(CAROM_WORDS_SHOT_CUSHION, (int)cushion));
   give_ball(&f->shared.with, &ball);
   snprintf(l->name[0], PLACE_NAME, "cue");

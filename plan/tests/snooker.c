@@ -195,7 +195,8 @@ TEST(double_hits) {
                        : game == CAROM_RULES_THREECUSHION ? given[k].three
                                                           : given[k].pool;
       const carom_turn turn = rules.judge(rules.user, 0xffff, 0, &f, (carom_call){NONE, -1});
-      ck_assert_msg((int)turn.foul == foul, "%s: %s", carom_rules_name(game), given[k].what);
+      ck_assert_msg((int)turn.foul == foul, "%s: %s", carom_rules_name((carom_rules_kind)game),
+                    given[k].what);
     }
 
     /* before a cushion, after a ball that is not on, and in a push-out too */
