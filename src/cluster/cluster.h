@@ -39,6 +39,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#define CAROM_TOUCHING 1e-9 /* m: a ball that is nearer touches */
+
 /* As many as 32 balls of one radius have on the cloth at most. */
 #ifndef CAROM_CLUSTER_CONTACTS
 #define CAROM_CLUSTER_CONTACTS 76

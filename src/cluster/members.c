@@ -16,9 +16,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double reach = 2.0;     /* of delta */
-static const double touching = 1e-9; /* m: a nearer ball touches */
-static const double far = 5.0;       /* of delta: the reach, and as far as a ball gets in T; those
+static const double reach = 2.0; /* of delta */
+static const double far = 5.0;   /* of delta: the reach, and as far as a ball gets in T; those
                                         that are farther apart meet later */
 static const double least_restitution = 0.2;
 
@@ -81,7 +80,7 @@ static bool fastest_pair(const carom_cluster_state *c, int pair[2]) {
   for (int i = 0; i < c->balls; i++)
     for (int j = i + 1; j < c->balls; j++) {
       const two_balls two = between(&c->ball[i], &c->ball[j]);
-      if (two.gap >= touching || two.closing < c->slow || two.closing <= most)
+      if (two.gap >= CAROM_TOUCHING || two.closing < c->slow || two.closing <= most)
         continue;
       most = two.closing;
       pair[0] = i;
@@ -137,7 +136,7 @@ static void make_contact(carom_cluster_state *c, int i, int j, const two_balls *
   x->q = b;
   x->i = (int8_t)i;
   x->j = (int8_t)j;
-  x->touched = two->gap < touching;
+  x->touched = two->gap < CAROM_TOUCHING;
   x->offset = x->touched ? 0.0 : -two->gap;
   memcpy(x->n, two->n, sizeof x->n);
   x->K = stiffness(a, b);
@@ -155,7 +154,7 @@ static int list_contacts(carom_cluster_state *c, const first_contact *first, dou
   for (int i = 0; i < c->balls; i++)
     for (int j = i + 1; j < c->balls; j++) {
       const two_balls two = between(&c->ball[i], &c->ball[j]);
-      if (two.gap >= touching && !reaches(first, deltas, &two))
+      if (two.gap >= CAROM_TOUCHING && !reaches(first, deltas, &two))
         continue;
       if (count == CAROM_CLUSTER_CONTACTS)
         return -1;

@@ -66,14 +66,14 @@ static void add_fact(carom_facts *facts, const carom_due *due, int cue, double n
   }
 }
 
-/* The set of the balls that touch the struck one, by the same bound as in members.c. */
+/* The set of the balls that touch the struck one. */
 static uint32_t frozen_to(const carom_sim *sim) {
   const int i = sim->struck;
   const double *r = sim->path[i].from.r;
   uint32_t set = 0;
   for (int k = 0; k < sim->count; k++) {
     const double *q = sim->path[k].from.r;
-    const double R = sim->rates[i].radius, Q = sim->rates[k].radius, reach = R + Q + 1e-9;
+    const double R = sim->rates[i].radius, Q = sim->rates[k].radius, reach = R + Q + CAROM_TOUCHING;
     const double x = q[0] - r[0], y = q[1] - r[1], z = Q - R;
     if (k != i && !carom_is_out(sim->path[k].from.label) && x * x + y * y + z * z < reach * reach)
       set |= UINT32_C(1) << k;
