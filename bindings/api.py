@@ -22,7 +22,7 @@ BUILT_IN = "".join(f"typedef int {name};" for name in ("size_t", *SIZES) if name
 # Arguments that a function reads and writes. Of the other pointers those to const are read, and the rest written.
 READ_AND_WRITTEN = {
     ("carom_shoot", "shot"), ("carom_shot_continue", "shot"), ("carom_place_ball", "balls"), ("carom_shot_tangent", "tangent"),
-    ("carom_player_strike", "cue"), ("carom_aim", "cue"), ("carom_aim", "pot"), ("carom_rules_judge", "user"),
+    ("carom_player_strike", "cue"), ("carom_aim", "cue"), ("carom_aim", "pot"), ("carom_rules_judge", "state"),
 }  # fmt: skip
 # Macros without a value of their own: guards, marks, and expressions of other constants.
 NO_VALUE = {"CAROM_API", "CAROM_VERSION_NUMBER", "CAROM_STOP_AT", "CAROM_KIND_NUMBERS"}

@@ -63,7 +63,7 @@ static bool rules_of(carom_rack_kind rack, carom_plan_rules *rules) {
   for (int k = 0; (name = carom_rules_name((carom_rules_kind)k)) != NULL; k++)
     if (strcmp(name, own) == 0) {
       *rules = carom_plan_rules_of((carom_rules_kind)k);
-      rules->user[1] = 1;
+      rules->state.opening = 1;
       return rules->breaks != 0;
     }
   return false;
@@ -120,7 +120,7 @@ static void count_break(const breaker *b, const carom_facts *f, const carom_ball
   carom_plan_rules rules;
   if (rules_of(b->rack, &rules)) {
     const uint32_t in_play = ((uint32_t)1 << carom_rack_size(b->rack)) - 1;
-    const carom_turn turn = rules.judge(rules.user, in_play, 0, f, (carom_call){-1, -1});
+    const carom_turn turn = rules.judge(&rules.state, in_play, 0, f, (carom_call){-1, -1});
     c->plays_on += turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
     c->fouls += turn.foul != 0;
   }

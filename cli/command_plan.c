@@ -282,7 +282,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   }
   player_of(&job->from.shared.player, &p->player);
   p->rules = carom_plan_rules_of((carom_rules_kind)job->game.rules);
-  plan_game_state(&job->game, line, p->rules.user);
+  plan_game_state(&job->game, line, &p->rules.state);
   carom_plan_options options = job->plan;
   options.threads = job->from.shared.options.threads;
   if (job->from.shared.player.rated && options.shots == 0)

@@ -3,8 +3,6 @@
 #include "message.h"
 #include "places.h"
 
-#include "carom_plan.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -140,24 +138,18 @@ bool plan_game_fits(const plan_game *game) {
 }
 
 /* The state of a game, as carom_rules_kind has it. */
-void plan_game_state(const plan_game *game, const shot_line *line, uint64_t user[8]) {
-  const bool points = game->rules >= CAROM_RULES_STRAIGHT;
-  if (game->group > 0)
-    user[0] = (uint64_t)game->group;
-  if (game->target > 0)
-    user[0] = (uint64_t)game->target;
-  if (game->colour)
-    user[0] = 1;
-  user[1] = game->opening;
-  for (int who = 0; who < 2 && points; who++)
-    if (game->score[who] >= 0)
-      user[2 + who] = (uint64_t)game->score[who];
-    else
-      user[5 + who] = (uint64_t)-game->score[who];
-  if (game->rules == CAROM_RULES_ONEPOCKET)
-    user[0] = (uint64_t)(foot_of(line, game->pocket == 1) + 8 * foot_of(line, game->pocket == 0));
-  /* of nine-ball 1 or 2; else 1 for a pass, and 2 more with a free ball */
-  enum { PASS = 2 };
-  if (game->may > 0)
-    user[4] = (uint64_t)(points && game->may == PASS ? 1 : game->may);
+void plan_game_state(const plan_game *game, const shot_line *line, carom_rules_state *state) {
+  state->opening = game->opening;
+  state->group = game->group > 0 ? game->group : 0;
+  state->on = game->colour;
+  state->target = game->target > 0 ? game->target : state->target;
+  for (int who = 0; who < 2; who++) {
+    state->score[who] = game->score[who] > 0 ? game->score[who] : 0;
+    state->lost[who] = game->score[who] < 0 ? -game->score[who] : 0;
+    if (game->rules == CAROM_RULES_ONEPOCKET)
+      state->pocket[who] = foot_of(line, (game->pocket == 1) == (who == 0));
+  }
+  static const int32_t may[] = {0, CAROM_MAY_PUSH, CAROM_MAY_PASS,
+                                CAROM_MAY_PASS | CAROM_MAY_FREE_BALL};
+  state->may = game->may > 0 ? may[game->may] : 0;
 }

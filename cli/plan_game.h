@@ -5,8 +5,9 @@
 #include "options.h"
 #include "shot_file.h"
 
+#include "carom_plan.h"
+
 #include <stdbool.h>
-#include <stdint.h>
 
 enum { NOT_GIVEN = -1 };
 
@@ -23,7 +24,7 @@ OPTION_SET(set_score); /* int[2]: OWN,OTHER */
 /* Whether the options are those of the game; complains where they are not. */
 bool plan_game_fits(const plan_game *game);
 /* The state of its rules, as carom_rules_kind has it; what is not given stays. */
-void plan_game_state(const plan_game *game, const shot_line *line, uint64_t user[8]);
+void plan_game_state(const plan_game *game, const shot_line *line, carom_rules_state *state);
 /* Puts the balls of a line where their numbers are, with those that are missing in a pocket; its
  * balls and names change. Complains, with false, of a ball that the game does not have, and of a
  * table without the pockets of one-pocket. */

@@ -45,10 +45,9 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
     shot->facts = NULL;
 
     /* by the rules */
-    uint64_t user[8];
-    memcpy(user, p->rules.user, sizeof user);
+    carom_rules_state state = p->rules.state;
     const carom_turn turn =
-        p->rules.judge(user, in_play, 0, &facts, (carom_call){p->best.ball, p->best.pocket});
+        p->rules.judge(&state, in_play, 0, &facts, (carom_call){p->best.ball, p->best.pocket});
     const bool keeps = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
     good += keeps;
     if (!keeps)

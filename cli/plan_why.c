@@ -26,12 +26,13 @@ static void play(const carom_plan_job *job, const carom_cue *cue, carom_call cal
   shot->facts = &facts;
   carom_shoot(job->table, job->balls, (int)job->count, cue, job->shot, shot);
   to->rules = *job->rules;
-  to->turn = to->rules.judge(to->rules.user, in_play, (int)cue->ball, &facts, call);
+  to->turn = to->rules.judge(&to->rules.state, in_play, (int)cue->ball, &facts, call);
   for (int k = 0; k < job->count; k++) {
     to->balls[k] = job->balls[k];
     to->balls[k].state = final[k];
   }
-  carom_turn_settle(&to->rules, to->rules.user, job->table, to->balls, (int)job->count, &to->turn);
+  carom_turn_settle(&to->rules, &to->rules.state, job->table, to->balls, (int)job->count,
+                    &to->turn);
 }
 
 /* A job from what is left, for whoever plays next. */
@@ -88,7 +89,7 @@ static int left_of(const carom_plan_job *job, const carom_shot_ball *balls) {
   int32_t left[2];
   for (int k = 0; k < job->count; k++)
     in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED) << k;
-  job->rules->left(job->rules->user, in_play, left);
+  job->rules->left(&job->rules->state, in_play, left);
   return left[0] > 1 ? left[0] : 1;
 }
 

@@ -38,7 +38,7 @@ static void begin(game *g, uint64_t seed) {
   carom_table_make(CAROM_TABLE_POOL_9FT, &g->table);
   carom_rack(CAROM_RACK_EIGHTBALL, &g->table, 1e-4, seed, g->balls, BALLS);
   g->rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
-  g->rules.user[1] = 1; /* before the break */
+  g->rules.state.opening = 1; /* before the break */
   g->winner = -1;
 }
 
@@ -61,8 +61,8 @@ static bool play(game *g, const move *m) {
   }
 
   /* whose turn it is, and with which layout */
-  carom_turn turn = g->rules.judge(g->rules.user, in_play, 0, &facts, m->call);
-  carom_turn_settle(&g->rules, g->rules.user, &g->table, g->balls, BALLS, &turn);
+  carom_turn turn = g->rules.judge(&g->rules.state, in_play, 0, &facts, m->call);
+  carom_turn_settle(&g->rules, &g->rules.state, &g->table, g->balls, BALLS, &turn);
   g->in_hand = turn.leave != CAROM_LEAVE_AFTER;
   if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE)
     g->winner = turn.is == CAROM_TURN_WIN ? g->player : 1 - g->player;

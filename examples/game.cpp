@@ -18,7 +18,7 @@ public:
     const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
     sent_ = record_.begin(table, carom::rack(CAROM_RACK_EIGHTBALL, table, 1e-4, 7));
     rules_ = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
-    rules_.user[1] = 1; // before the break
+    rules_.state.opening = 1; // before the break
   }
 
   bool over() const {
@@ -68,7 +68,7 @@ public:
 
 private:
   void judge(uint32_t in_play, carom_call call) {
-    const carom_turn turn = rules_.judge(rules_.user, in_play, 0, &record_.game().facts, call);
+    const carom_turn turn = rules_.judge(&rules_.state, in_play, 0, &record_.game().facts, call);
     in_hand_ = turn.leave != CAROM_LEAVE_AFTER;
     for (int k = 1; k < record_.game().count; k++)
       if (turn.spot >> k & 1) {

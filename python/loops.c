@@ -137,13 +137,12 @@ carom_status carom_python_look(const carom_shot_job *job, const double *times, s
 
 void carom_python_judge(const carom_plan_rules *rules, size_t n, const int8_t *status,
                         const carom_facts *facts, const uint32_t *in_play, const carom_call *calls,
-                        uint64_t *users, carom_turn *turns) {
+                        carom_rules_state *states, carom_turn *turns) {
   const carom_facts none = {.first = {-1, -1}};
   const carom_call no_call = {-1, -1};
   for (size_t k = 0; k < n; k++) {
-    uint64_t user[8];
-    memcpy(user, rules->user, sizeof user);
-    turns[k] = rules->judge(users != NULL ? &users[8 * k] : user, in_play[k], 0,
+    carom_rules_state state = rules->state;
+    turns[k] = rules->judge(states != NULL ? &states[k] : &state, in_play[k], 0,
                             status[k] < 0 ? &none : &facts[k], calls != NULL ? calls[k] : no_call);
   }
 }

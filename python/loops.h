@@ -15,12 +15,12 @@ carom_status carom_python_orientations(const carom_shot_ball *balls, int count,
                                        double *turned);
 
 /* Judges n shots by the facts of each: turns[k] becomes what shot k amounts to for a player with
- * the state users[8 k ...], which is changed; NULL: that of the rules. calls may be NULL: none.
+ * states[k], which is changed; NULL: that of the rules. calls may be NULL: none.
  * in_play[k] are the balls before it; the cue ball is ball 0. A status below 0 stands for facts in
  * which no ball was met. */
 void carom_python_judge(const carom_plan_rules *rules, size_t n, const int8_t *status,
                         const carom_facts *facts, const uint32_t *in_play, const carom_call *calls,
-                        uint64_t *users, carom_turn *turns);
+                        carom_rules_state *states, carom_turn *turns);
 
 /* How the strokes of carom.potting are played, and by which rules of the library. */
 typedef struct carom_python_game {

@@ -31,7 +31,7 @@ struct match {
   int frames = 0;
 
   match() {
-    rules.user[1] = 1; /* before the break */
+    rules.state.opening = 1; /* before the break */
   }
   void begin() {
     const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
@@ -69,8 +69,8 @@ struct match {
     std::uint32_t in_play = 0;
     for (int k = 0; k < of.count; k++)
       in_play |= std::uint32_t{of.balls[k].state.label < CAROM_BALL_POCKETED} << k;
-    const carom_turn turn = rules.judge(rules.user, in_play, 0, &of.facts, {-1, -1});
-    rules.user[4] = 0; /* without push-outs */
+    const carom_turn turn = rules.judge(&rules.state, in_play, 0, &of.facts, {-1, -1});
+    rules.state.may = 0; /* without push-outs */
     put = turn.spot | std::uint32_t{turn.leave != CAROM_LEAVE_AFTER};
     if (turn.is == CAROM_TURN_PASS || turn.is == CAROM_TURN_LOSE)
       player = 1 - player; /* who is at the table at the end has won */

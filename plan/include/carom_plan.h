@@ -3,7 +3,7 @@
  *
  *     carom_player player = carom_player_of(1.0);
  *     carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
- *     rules.user[0] = 1;                                            // the player has the solids
+ *     rules.state.group = CAROM_GROUP_SOLIDS;  // of the player at the table
  *     static carom_plan_job job;
  *     job.table = &table;  // table, balls and cue as of carom_shoot()
  *     job.balls = balls;
@@ -129,7 +129,38 @@ enum {
 };
 
 /* What a player may do besides a stroke by the rules; a sum. */
-typedef enum carom_may { CAROM_MAY_PASS = 1, CAROM_MAY_PUSH = 2 } carom_may;
+typedef enum carom_may {
+  CAROM_MAY_PASS = 1,      /* leave the table to the other, by the call CAROM_CALL_PASS */
+  CAROM_MAY_PUSH = 2,      /* push out, by the call CAROM_CALL_PUSH */
+  CAROM_MAY_FREE_BALL = 4, /* name any ball as one that is on */
+  CAROM_MAY_PLACE = 8      /* in the D, where the cue ball is after the foul: who passes leaves it
+                              in hand */
+} carom_may;
+
+/* Whose the balls of eight-ball are. */
+typedef enum carom_group {
+  CAROM_GROUP_OPEN = 0,   /* the table is open */
+  CAROM_GROUP_SOLIDS = 1, /* 1 to 7 */
+  CAROM_GROUP_STRIPES = 2 /* 9 to 15 */
+} carom_group;
+
+/* How a game stands for the player at the table. Of a pair the first is his, the second the
+ * other's. A game reads the members that carom_rules_kind names; 0 otherwise. */
+typedef struct carom_rules_state {
+  int32_t opening;  /* 1: the stroke is a break, else 0. */
+  int32_t group;    /* a carom_group, the player's. */
+  int32_t fouls[2]; /* in their last successive strokes, 0 to 2. */
+  int32_t score[2]; /* points, or balls that count; the score is these less lost. 0 to 1,000,000. */
+  int32_t lost[2];  /* points that fouls cost, or balls that are owed, 0 to 1,000,000. */
+  int32_t pocket[2]; /* indices of the pockets in which balls count for each, 0 to
+                        CAROM_POCKETS_MOST - 1. */
+  int32_t may;       /* the sum of the carom_may of the player. */
+  int32_t on;        /* 1: a colour is on after a red, else 0. */
+  int32_t free_ball; /* the ball that the other has just named as a free ball, else 0; from judge()
+                        to carom_turn_settle(), which reads it. */
+  int32_t target;    /* points that win, 1 to 1,000,000. */
+  uint64_t user[8];  /* eight words of the rules of a caller; no game here reads them. */
+} carom_rules_state;
 
 /* Whose balls are to be potted before the game is won. */
 typedef enum carom_race {
@@ -144,49 +175,43 @@ typedef enum carom_race {
  * table. They may be called from several threads at once, and depend on their arguments only.
  *
  * carom_rules_on: the balls that may be met first, and potted. */
-typedef uint32_t carom_rules_on(const uint64_t *user, uint32_t in_play);
+typedef uint32_t carom_rules_on(const carom_rules_state *state, uint32_t in_play);
 
 /* carom_rules_judge: the outcome of a shot. `in_play` are the balls before it; cue_ball is the
  * index of the cue ball. Facts in which no ball was met stand for a shot that ended in an error,
  * and for one that was passed. */
-typedef carom_turn carom_rules_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+typedef carom_turn carom_rules_judge(carom_rules_state *state, uint32_t in_play, int cue_ball,
                                      const carom_facts *facts, carom_call call);
 
-/* carom_rules_may: the sum of the carom_may of the player at the table. */
-typedef uint32_t carom_rules_may(const uint64_t *user);
-
 /* carom_rules_pockets: the pockets in which balls count for the player at the table, as a set. */
-typedef uint32_t carom_rules_pockets(const uint64_t *user);
+typedef uint32_t carom_rules_pockets(const carom_rules_state *state);
 
 /* carom_rules_left: how many balls the player at the table, left[0], and the other one, left[1],
  * have to pot to win; in a race for points how many points they need, 0 of one who has won. */
-typedef void carom_rules_left(const uint64_t *user, uint32_t in_play, int32_t left[2]);
+typedef void carom_rules_left(const carom_rules_state *state, uint32_t in_play, int32_t left[2]);
 
 /* carom_rules_value: the chance that the player at the table wins from a layout, 0 to 1;
  * in_hand: 1 where he has ball in hand. Without an opponent, how many balls he pots yet. */
-typedef double carom_rules_value(const uint64_t *user, const carom_ball_state *layout, int count,
-                                 int in_hand);
+typedef double carom_rules_value(const carom_rules_state *state, const carom_ball_state *layout,
+                                 int count, int in_hand);
 
 /* carom_rules_points: of a race for points, the points of ball `ball` if it falls in the next
  * stroke; with ball -1 those of a later pot, in the mean. */
-typedef double carom_rules_points(const uint64_t *user, uint32_t in_play, int ball);
+typedef double carom_rules_points(const carom_rules_state *state, uint32_t in_play, int ball);
 
 /* carom_rules_settle: what depends on where balls lie after a stroke that was judged. It puts back
  * all of turn->spot, and may change the state and the turn. */
-typedef void carom_rules_settle(uint64_t *user, const carom_table *table, carom_shot_ball *balls,
-                                int count, carom_turn *turn);
+typedef void carom_rules_settle(carom_rules_state *state, const carom_table *table,
+                                carom_shot_ball *balls, int count, carom_turn *turn);
 
-/* The rules of a game. The state `user` is always that of the player at the table: judge()
- * leaves it as the next player has it.
- */
+/* The rules of a game. The state is always that of the player at the table: judge() leaves it as
+ * the next player has it. */
 typedef struct carom_plan_rules {
-  uint64_t user[8]; /* eight words for the rules: who has which group and the like. A shot may
-                       change them. */
+  carom_rules_state state; /* a shot may change it. */
   carom_rules_on *on;
   carom_rules_judge *judge;
   carom_rules_left *left;
   carom_rules_value *value; /* NULL: an estimate from the best two pots and from the balls left. */
-  carom_rules_may *may;     /* NULL: he can but play. */
   carom_rules_pockets *pockets; /* NULL: all. */
   int32_t race;                 /* a carom_race. */
   int32_t calls;                /* 1: shots are called. Then a candidate calls the pot that it makes
@@ -194,10 +219,9 @@ typedef struct carom_plan_rules {
   int32_t first_decides;        /* 1: a shot whose first contact is not with a ball of on() is a
                                foul, whatever else happens. Such shots are not played to their
                                end. */
-  int32_t breaks;               /* 1: where user[1] is 1 the stroke is a break, and the plan tries
-                                   strokes as players break: the nearest balls about full, hard.
-                                   In hand the cue ball is on the upper edge of its bounds; NULL:
-                                   on the head string. */
+  int32_t breaks;               /* 1: where state.opening is 1, the plan tries strokes as players
+                                   break: the nearest balls about full, hard. In hand the cue ball
+                                   is on the upper edge of its bounds; NULL: on the head string. */
   carom_rules_points *points;   /* NULL: each ball is worth one. */
   carom_rules_settle *settle;   /* NULL: balls go back to their spots, and nothing else comes. */
   int32_t rack;                 /* a carom_rack_kind, whose spots the balls have. 0: pool's. With
@@ -211,47 +235,36 @@ typedef struct carom_plan_rules {
  * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), but for a break of
  * eight-ball that is not legal: the opponent has ball in hand, and no choice of a new rack. */
 typedef enum carom_rules_kind {
-  CAROM_RULES_EIGHTBALL = 0,    /* 15 balls; the game is over without the eight. user[0]: 1 if the
-                                player at the table has the solids (1 to 7), 2 the stripes (9 to
-                                15), 0 while the table is open. user[1]: 1 before the break. Ball
-                                and pocket are called. */
-  CAROM_RULES_NINEBALL = 1,     /* 9 balls. user[1]: 1 before the break. user[2], user[3]: fouls of
-                                the player and of the other in their last successive strokes; three
-                                lose. user[4]: 1 just after a break without a foul, when the player
-                                may push out; 2 after a push-out, when he may pass. The nine wins;
-                                without it, the highest ball. */
+  CAROM_RULES_EIGHTBALL = 0,    /* 15 balls; the game is over without the eight. Ball and pocket are
+                                   called. State: opening, group. */
+  CAROM_RULES_NINEBALL = 1,     /* 9 balls. The nine wins; without it, the highest ball. State:
+                                   opening; fouls, of which a third loses; may: to push out just
+                                   after a break without a foul, to pass after a push-out. */
   CAROM_RULES_POTTING = 2,      /* a drill for one: any ball may be potted, until one misses or
-                                fouls. */
+                                   fouls. */
   CAROM_RULES_THREECUSHION = 3, /* for one: a point where the cue ball meets three cushions before
                                    the second ball. The value of a shot is the chance of its point,
                                    and what follows is not estimated. No pockets are needed. */
   CAROM_RULES_STRAIGHT = 4,     /* straight pool, 14.1, WPA: 15 balls, any may be played; ball and
-                               pocket are called. Where one ball is left, the others are racked.
-                               user[0]: points that win, 1 to 1,000,000; 100 to begin with.
-                               user[1]: 1 before the opening break. user[2], user[3]: points of
-                               pots, of the player and of the other; user[5], user[6]: points lost
-                               by fouls. user[4]: 1 just after a break of the other that was not
-                               legal, when to pass lets him break again. user[7]: fouls in their
-                               last strokes, the player's and 4 times the other's; a third one
-                               costs 15 more, and a break. */
+                                   pocket are called. Where one ball is left, the others are racked.
+                                   State: opening; target, 100 to begin with; score, lost; fouls, of
+                                   which a third costs 15 more, and a break; may: to pass just after
+                                   a break of the other that was not legal, so that he breaks
+                                   again. */
   CAROM_RULES_SNOOKER = 5,      /* snooker, WPBSA: white 0, reds 1 to 15, yellow 16, green 17, brown
-                               18, blue 19, pink 20, black 21, on any table. The call names a colour
-                               or a free ball; without one it is the ball that is met first.
-                               user[0]: 1 if a colour is on after a red. user[2], user[3]: the
-                               scores. user[4]: a sum of 1 after a foul of the other, when to pass
-                               lets him play again; 2 with a free ball, 4 with the cue ball in
-                               hand. user[5]: 1 + the free ball of the stroke before. A striker more
-                               than seven points ahead claims the frame when the black alone is
-                               left. A miss is left to the caller, who knows the better stroke. */
+                                   18, blue 19, pink 20, black 21, on any table. The call names a
+                                   colour or a free ball; without one it is the ball that is met
+                                   first. A striker more than seven points ahead claims the frame
+                                   when the black alone is left. A miss is left to the caller, who
+                                   knows the better stroke. State: on, score, free_ball; may, after
+                                   a foul of the other: to pass, so that he plays again, and a free
+                                   ball. */
   CAROM_RULES_ONEPOCKET = 6     /* one-pocket, BCA: 15 balls, any may be played, nothing is called.
-                                   user[0]: index of the player's pocket, and 8 times that of the
-                                   other's; 21 to begin with, the foot right and the foot left one
-                                   of carom_table_make(). Who breaks chooses. user[2], user[3]:
-                                   balls that count for the player and for the other; eight win.
-                                   user[5], user[6]: balls that they owe. user[7]: fouls in their
-                                   last strokes, the player's and 4 times the other's; three lose.
-                                   Balls that are down and count for no one come back at the end of
-                                   the visit. */
+                                   Eight balls win. Balls that are down and count for no one come
+                                   back at the end of the visit. State: pocket, to begin with the
+                                   foot right and the foot left one of carom_table_make(), of which
+                                   who breaks chooses; score; lost, balls that are owed; fouls, of
+                                   which a third loses. */
 } carom_rules_kind;
 
 /* Its name ("eightball", "nineball", "potting", "threecushion", "straight", "snooker",
@@ -277,10 +290,10 @@ CAROM_API carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_tabl
  * balls of turn->spot, and does what else depends on where balls lie. In straight pool 14 balls are
  * racked, and the last one and the cue ball leave the rack: the cue ball may come to be in hand. In
  * snooker a player who is snookered after a foul has a free ball; to leave the other so behind the
- * free ball is a foul. `user` is the state that judge() left; it and *turn may change. A cue ball
+ * free ball is a foul. *state is the one that judge() left; it and *turn may change. A cue ball
  * in hand that is in the way is down. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_BALLS where spot
  * names a ball beyond count; or the first error of carom_spot_ball_of(). */
-CAROM_API carom_status carom_turn_settle(const carom_plan_rules *rules, uint64_t user[8],
+CAROM_API carom_status carom_turn_settle(const carom_plan_rules *rules, carom_rules_state *state,
                                          const carom_table *table, carom_shot_ball *balls,
                                          int count, carom_turn *turn);
 

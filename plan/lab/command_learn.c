@@ -79,12 +79,12 @@ static sample look(const lab_rack *rack) {
     state[k] = rack->balls[k].state;
   const uint32_t in_play = carom_in_play(state, count) | 1;
   sample s = {.kept = 0};
-  carom_plan_features(&view, state, in_play, rack->rules.on(rack->rules.user, in_play),
-                      rack->rules.pockets != NULL ? rack->rules.pockets(rack->rules.user)
+  carom_plan_features(&view, state, in_play, rack->rules.on(&rack->rules.state, in_play),
+                      rack->rules.pockets != NULL ? rack->rules.pockets(&rack->rules.state)
                                                   : ~UINT32_C(0),
                       who, rack->hand, NULL, s.x);
   int32_t left[2];
-  rack->rules.left(rack->rules.user, in_play, left);
+  rack->rules.left(&rack->rules.state, in_play, left);
   s.left = rack->rules.race == CAROM_RACE_POINTS ? objects_of(in_play) : left[0];
   return s;
 }
@@ -117,7 +117,7 @@ static void open_snooker(lab_rack *rack, lab_random *draw) {
     if (rack->balls[k].state.label == CAROM_BALL_POCKETED)
       carom_spot_ball_of(CAROM_RACK_SNOOKER, rack->plan.table, rack->balls, count, k);
   const int phase = (int)lab_uniform(draw, 0.0, 4.0);
-  rack->rules.user[0] = phase == 1;
+  rack->rules.state.on = phase == 1;
   for (int k = 1; k < 16 && phase == 0; k++)
     take_away(rack, k);
   const int gone = phase == 0 ? (int)lab_uniform(draw, 0.0, 6.0) : 0;
@@ -133,13 +133,13 @@ static void share_out(lab_rack *rack, lab_random *draw) {
     down += rack->balls[k].state.label == CAROM_BALL_POCKETED;
   const int least = down > MOST ? down - MOST : 0, most = down > MOST ? MOST : down;
   const int own = least + (int)lab_uniform(draw, 0.0, most - least + 1);
-  rack->rules.user[2] = (uint64_t)own;
-  rack->rules.user[3] = (uint64_t)(down - own);
+  rack->rules.state.score[0] = own;
+  rack->rules.state.score[1] = down - own;
 }
 
 static void play(const learn_job *job, int number, visit *to) {
   static const double errors[] = {0.25, 0.5, 1.0, 2.0, 3.0, 4.5};
-  enum { PLAYERS = sizeof errors / sizeof errors[0], SOLIDS = 1 };
+  enum { PLAYERS = sizeof errors / sizeof errors[0] };
   lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
   const lab_game *game = &lab_games[job->rules];
   const double scale = errors[(int)lab_uniform(&draw, 0.0, PLAYERS)];
@@ -158,7 +158,7 @@ static void play(const learn_job *job, int number, visit *to) {
   /* some balls are down; the cue ball is anywhere, or in hand once in eight */
   const int balls = game->balls;
   if (job->rules == 0)
-    rack.rules.user[0] = SOLIDS;
+    rack.rules.state.group = CAROM_GROUP_SOLIDS;
   for (int group = 0; group < (job->rules == 0 ? 2 : 1); group++)
     for (int left = (int)lab_uniform(&draw, 0.0, balls + 1); left > 0; left--) {
       const int k = 1 + 8 * group + (int)lab_uniform(&draw, 0.0, balls);

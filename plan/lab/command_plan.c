@@ -87,7 +87,7 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
   const carom_rules_kind rules = lab_games[job->rules].rules;
   lab_rack_make(rack, rules, ((uint64_t)job->seed << 32) + 7919 * (number + 1));
   if (rules == CAROM_RULES_STRAIGHT)
-    rack->rules.user[0] = (uint64_t)job->target;
+    rack->rules.state.target = job->target;
   if (job->left > 0)
     lab_rack_end(rack, job->left);
   carom_turn turn = {.is = CAROM_TURN_KEEP};

@@ -36,7 +36,7 @@ void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
   const int count = (int)rack->plan.count;
   rack->kitchen = game == CAROM_RULES_STRAIGHT || game == CAROM_RULES_ONEPOCKET;
   if (game >= CAROM_RULES_STRAIGHT) {
-    rack->rules.user[1] = game == CAROM_RULES_STRAIGHT;
+    rack->rules.state.opening = game == CAROM_RULES_STRAIGHT;
     carom_rack(kind, rack->plan.table, 1e-4, lab_bits(&rack->state), rack->balls, count);
     return;
   }
@@ -58,9 +58,9 @@ void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
 }
 
 void lab_rack_end(lab_rack *rack, int left) {
-  enum { SOLIDS = 1, GROUP = 7, EIGHT = 8 };
+  enum { GROUP = 7, EIGHT = 8 };
   left = left < GROUP ? left : GROUP - 1;
-  rack->rules.user[0] = SOLIDS;
+  rack->rules.state.group = CAROM_GROUP_SOLIDS;
   rack->hand = false;
   const int count = (int)rack->plan.count;
   for (int k = 0; k < count; k++)
@@ -105,7 +105,7 @@ bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
   lab_bits(&rack->state); /* the next stroke has other errors */
   if (choice->kind != CAROM_PLAN_PASS)
     carom_shoot(job->table, rack->balls, count, &cue, job->shot, &played);
-  *turn = rack->rules.judge(rack->rules.user, in_play, 0, &facts,
+  *turn = rack->rules.judge(&rack->rules.state, in_play, 0, &facts,
                             (carom_call){choice->ball, choice->pocket});
 
   /* the next layout; a ball that left the table is down */
@@ -114,7 +114,7 @@ bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
     if (final[k].label == CAROM_BALL_OFF)
       rack->balls[k].state.label = CAROM_BALL_POCKETED;
   }
-  carom_turn_settle(&rack->rules, rack->rules.user, job->table, rack->balls, count, turn);
+  carom_turn_settle(&rack->rules, &rack->rules.state, job->table, rack->balls, count, turn);
   rack->hand = turn->leave != CAROM_LEAVE_AFTER;
   rack->kitchen = turn->leave == CAROM_LEAVE_KITCHEN;
   return true;

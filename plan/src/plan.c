@@ -186,30 +186,29 @@ static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand)
   const int cue_ball = plan->view.cue_ball;
   plan->in_play =
       carom_in_play(plan->state, plan->view.count) | (in_hand ? UINT32_C(1) << cue_ball : 0);
-  plan->on = rules->on(rules->user, plan->in_play) & plan->in_play & ~(UINT32_C(1) << cue_ball);
+  plan->on = rules->on(&rules->state, plan->in_play) & plan->in_play & ~(UINT32_C(1) << cue_ball);
   if (plan->on == 0)
     return CAROM_ERROR_GAME_OVER;
-  plan->breaks = rules->breaks && rules->user[1] == 1;
-  plan->may = rules->may != NULL ? rules->may(rules->user) : 0;
-  plan->pockets = rules->pockets != NULL ? rules->pockets(rules->user) : ~UINT32_C(0);
+  plan->breaks = rules->breaks && rules->state.opening == 1;
+  plan->may = (uint32_t)rules->state.may;
+  plan->pockets = rules->pockets != NULL ? rules->pockets(&rules->state) : ~UINT32_C(0);
   plan->first_decides = rules->first_decides && !(plan->may & CAROM_MAY_PUSH);
   carom_search_lay_out(plan, job->balls);
   int32_t left[2];
-  rules->left(rules->user, plan->in_play, left);
+  rules->left(&rules->state, plan->in_play, left);
   plan->left = left[0] > 1 ? left[0] : 1;
 
   /* A foul at the first contact leaves about the layout that there is. */
-  uint64_t user[8]; /* rules change it as they judge */
-  memcpy(user, rules->user, sizeof user);
+  carom_rules_state game = rules->state; /* rules change it as they judge */
   const carom_turn turn =
-      rules->judge(user, plan->in_play, cue_ball, &carom_no_facts, (carom_call){-1, -1});
+      rules->judge(&game, plan->in_play, cue_ball, &carom_no_facts, (carom_call){-1, -1});
   const bool hand = turn.leave >= CAROM_LEAVE_HAND;
   plan->foul_value =
       turn.is == CAROM_TURN_LOSE        ? 0.0
       : rules->race == CAROM_RACE_ALONE ? 0.0
       : turn.is == CAROM_TURN_KEEP
-          ? carom_value_of(&plan->view, user, plan->state, 0, hand)
-          : carom_search_foul(1.0 - carom_value_of(&plan->view, user, plan->state, 1, hand));
+          ? carom_value_of(&plan->view, &game, plan->state, 0, hand)
+          : carom_search_foul(1.0 - carom_value_of(&plan->view, &game, plan->state, 1, hand));
   plan->ended = false;
   plan->slice = INT64_MAX;
   return CAROM_OK;
@@ -441,7 +440,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
     /* the best are sorted in by value */
     tried++;
     state[cue_ball] = balls[cue_ball].state;
-    const double value = carom_value_of(&plan->view, job->rules->user, state, 0, false);
+    const double value = carom_value_of(&plan->view, &job->rules->state, state, 0, false);
     int at = plan->places < PLACES_PLANNED ? plan->places++ : PLACES_PLANNED;
     for (; at > 0 && plan->best_place[at - 1].value < value; at--)
       plan->best_place[at] = plan->best_place[at - 1];
@@ -493,7 +492,7 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   const carom_status bad = begin(&plan, job, in_hand != 0);
   if (bad != CAROM_OK)
     return bad;
-  const double found = carom_value_of(&plan.view, job->rules->user, plan.state, 0, in_hand != 0);
+  const double found = carom_value_of(&plan.view, &job->rules->state, plan.state, 0, in_hand != 0);
   *value = job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL
                ? carom_search_share(&plan, found)
                : found;

@@ -50,14 +50,14 @@ static double normal(double x) {
 }
 
 /* From where the cue ball lies, or as pots.c has a cue ball in hand. */
-static double value_from(const carom_view *view, const uint64_t *user,
+static double value_from(const carom_view *view, const carom_rules_state *game,
                          const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
-  const uint32_t targets = rules->on(user, in_play) & in_play;
-  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(user) : ~UINT32_C(0);
-  const double each = rules->points != NULL ? rules->points(user, in_play, -1) : 1.0;
+  const uint32_t targets = rules->on(game, in_play) & in_play;
+  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(game) : ~UINT32_C(0);
+  const double each = rules->points != NULL ? rules->points(game, in_play, -1) : 1.0;
   int32_t left[2];
-  rules->left(user, in_play, left);
+  rules->left(game, in_play, left);
   if (left[0] < 1 || left[1] < 1)
     return left[0] < 1; /* one of them has won already */
   const double n = left[0], m = left[1];
@@ -67,7 +67,7 @@ static double value_from(const carom_view *view, const uint64_t *user,
   carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, pot, x);
   for (int k = 0; targets >> k != 0; k++) {
     const bool on = targets >> k & 1;
-    const double points = on && rules->points != NULL ? rules->points(user, in_play, k) : 1.0;
+    const double points = on && rules->points != NULL ? rules->points(game, in_play, k) : 1.0;
     if (on && pot[k] * (points + each) > most) {
       most = pot[k] * (points + each);
       chosen = pot[k];
@@ -98,10 +98,10 @@ static double value_from(const carom_view *view, const uint64_t *user,
   return value;
 }
 
-double carom_points_value(const carom_view *view, const uint64_t *user,
+double carom_points_value(const carom_view *view, const carom_rules_state *game,
                           const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand) {
   if (!in_hand || view->rules->rack != CAROM_RACK_SNOOKER)
-    return value_from(view, user, balls, in_play, who, in_hand);
+    return value_from(view, game, balls, in_play, who, in_hand);
 
   /* in the D: the best of some places on its line */
   carom_ball_state placed[CAROM_BALLS_MOST];
@@ -111,7 +111,7 @@ double carom_points_value(const carom_view *view, const uint64_t *user,
   for (int k = -1; k <= 1; k++) {
     placed[view->cue_ball].r[0] = d.x + 0.6 * k * d.radius;
     placed[view->cue_ball].r[1] = d.y - (k == 0 ? 0.5 * d.radius : 0.0);
-    const double value = value_from(view, user, placed, in_play, who, false);
+    const double value = value_from(view, game, placed, in_play, who, false);
     best = value > best ? value : best;
   }
   return best;

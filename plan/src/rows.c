@@ -52,7 +52,7 @@ double carom_search_share(const search *plan, double points) {
 
 /* The layout of the next stroke, by rules that ask where balls lie. Apart, as its balls would take
  * 10 KiB of the stack below a shot. */
-__attribute__((noinline)) static void settle(const search *plan, uint64_t *user,
+__attribute__((noinline)) static void settle(const search *plan, carom_rules_state *game,
                                              carom_ball_state *final, bool taken_back,
                                              carom_turn *turn) {
   carom_shot_ball balls[CAROM_BALLS_MOST];
@@ -61,7 +61,7 @@ __attribute__((noinline)) static void settle(const search *plan, uint64_t *user,
     if (!taken_back)
       balls[k].state = final[k];
   }
-  carom_turn_settle(plan->job.rules, user, plan->job.table, balls, plan->view.count, turn);
+  carom_turn_settle(plan->job.rules, game, plan->job.table, balls, plan->view.count, turn);
   for (int k = 0; k < plan->view.count; k++)
     final[k] = balls[k].state;
 }
@@ -75,9 +75,8 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   const carom_call call = c->kind == CAROM_PLAN_PUSH ? (carom_call){CAROM_CALL_PUSH, -1}
                           : errors && rules->calls   ? (carom_call){c->ball, c->pocket}
                                                      : call_of(plan, facts);
-  uint64_t user[8];
-  memcpy(user, rules->user, sizeof user);
-  carom_turn turn = rules->judge(user, plan->in_play, plan->view.cue_ball, facts, call);
+  carom_rules_state game = rules->state; /* rules change it as they judge */
+  carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, facts, call);
   outcome o = {.is = (int8_t)turn.is,
                .foul = turn.foul != 0,
                .ball = -1,
@@ -109,7 +108,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   }
   const bool taken_back = status != CAROM_OK || turn.leave == CAROM_LEAVE_BEFORE;
   if (rules->settle != NULL && (taken_back || turn.spot != 0 || turn.is == CAROM_TURN_PASS))
-    settle(plan, user, final, taken_back, &turn);
+    settle(plan, &game, final, taken_back, &turn);
   for (int k = 0; k < plan->view.count; k++) {
     if (taken_back && rules->settle == NULL)
       final[k] = plan->job.balls[k].state;
@@ -120,7 +119,7 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   }
   const bool in_hand = turn.leave >= CAROM_LEAVE_HAND;
   const bool passes = turn.is == CAROM_TURN_PASS;
-  const double value = carom_value_of(&plan->view, user, final, passes, in_hand);
+  const double value = carom_value_of(&plan->view, &game, final, passes, in_hand);
   o.worth = passes && turn.foul != 0 ? carom_search_foul(1.0 - value)
             : passes                 ? 1.0 - value
             : alone                  ? carom_search_share(plan, turn.points + value)

@@ -5,11 +5,8 @@
 
 #include <stddef.h>
 
-/* Words of the state. */
-enum { GROUP = 0, BREAK = 1, FOULS = 2, FOULS_OTHER = 3, PUSH = 4 };
-enum { MAY_PUSH = 1, PUSHED = 2 }; /* of PUSH */
 enum { FOULS_MOST = 3 };
-enum { OPEN = 0, SOLIDS = 1, STRIPES = 2 };
+enum { OPEN = CAROM_GROUP_OPEN, SOLIDS = CAROM_GROUP_SOLIDS, STRIPES = CAROM_GROUP_STRIPES };
 static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100, nine = 0x200;
 
 /* Whether a break reaches cushions with four balls, or pots. */
@@ -29,42 +26,42 @@ static carom_turn foul_for(int32_t why) {
 /* ---- Eight-ball */
 
 /* Of a game that is not over. */
-static uint32_t eightball_targets(const uint64_t *user, uint32_t in_play) {
-  const uint32_t own = in_play & balls_of[user[GROUP] <= STRIPES ? user[GROUP] : OPEN];
-  return user[BREAK] != 0 ? in_play & 0xfffe : own != 0 ? own : in_play & eight;
+static uint32_t eightball_targets(const carom_rules_state *game, uint32_t in_play) {
+  const uint32_t own = in_play & balls_of[(uint32_t)game->group <= STRIPES ? game->group : OPEN];
+  return game->opening != 0 ? in_play & 0xfffe : own != 0 ? own : in_play & eight;
 }
 
-static uint32_t eightball_on(const uint64_t *user, uint32_t in_play) {
-  return (in_play & eight) != 0 ? eightball_targets(user, in_play) : 0;
+static uint32_t eightball_on(const carom_rules_state *game, uint32_t in_play) {
+  return (in_play & eight) != 0 ? eightball_targets(game, in_play) : 0;
 }
 
-static void eightball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
+static void eightball_left(const carom_rules_state *game, uint32_t in_play, int32_t left[2]) {
   const int solids = carom_count_of(in_play & balls_of[SOLIDS]),
             stripes = carom_count_of(in_play & balls_of[STRIPES]);
-  const bool open = user[GROUP] == OPEN;
+  const bool open = game->group == OPEN;
   left[0] = 1 + (open                    ? (solids < stripes ? solids : stripes)
-                 : user[GROUP] == SOLIDS ? solids
+                 : game->group == SOLIDS ? solids
                                          : stripes);
   left[1] = 1 + (open                    ? (solids < stripes ? stripes : solids)
-                 : user[GROUP] == SOLIDS ? stripes
+                 : game->group == SOLIDS ? stripes
                                          : solids);
 }
 
 /* The turn goes to the other: the state becomes his. */
-static carom_turn give(uint64_t *user, carom_turn turn) {
-  if (user[GROUP] == SOLIDS || user[GROUP] == STRIPES)
-    user[GROUP] = SOLIDS + STRIPES - user[GROUP];
+static carom_turn give(carom_rules_state *game, carom_turn turn) {
+  if (game->group == SOLIDS || game->group == STRIPES)
+    game->group = SOLIDS + STRIPES - game->group;
   return turn;
 }
 
-static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                   const carom_facts *facts, carom_call call) {
-  const uint32_t on = eightball_targets(user, in_play);
+  const uint32_t on = eightball_targets(game, in_play);
   const int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
 
   /* The break: nothing is called, the eight comes back, and the table is open after it. */
-  if (user[BREAK] != 0) {
-    user[BREAK] = 0;
+  if (game->opening != 0) {
+    game->opening = 0;
     carom_turn turn = bad != 0                      ? foul_for(bad)
                       : !is_break(facts, cue_ball)  ? foul_for(CAROM_FOUL_BREAK)
                       : (facts->down & 0xfffe) != 0 ? carom_keep
@@ -81,50 +78,46 @@ static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball
                ? win
                : (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, bad, 0, 0.0};
   if (bad)
-    return give(user, foul_for(bad));
+    return give(game, foul_for(bad));
 
   /* The first ball that is called and falls decides the groups. */
   if (!called || !(on >> call.ball & 1))
-    return give(user, carom_pass);
-  if (user[GROUP] == OPEN)
-    user[GROUP] = balls_of[SOLIDS] >> call.ball & 1 ? SOLIDS : STRIPES;
+    return give(game, carom_pass);
+  if (game->group == OPEN)
+    game->group = balls_of[SOLIDS] >> call.ball & 1 ? SOLIDS : STRIPES;
   return carom_keep;
 }
 
 /* ---- Nine-ball */
 
-static uint32_t nineball_on(const uint64_t *user, uint32_t in_play) {
+static uint32_t nineball_on(const carom_rules_state *game, uint32_t in_play) {
   const uint32_t balls = in_play & 0x3fe;
-  (void)user;
+  (void)game;
   return balls & (~balls + 1);
 }
 
-static void nineball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
-  (void)user;
+static void nineball_left(const carom_rules_state *game, uint32_t in_play, int32_t left[2]) {
+  (void)game;
   left[0] = left[1] = carom_count_of(in_play & 0x3fe);
 }
 
-static uint32_t nineball_may(const uint64_t *user) {
-  return user[PUSH] == MAY_PUSH ? CAROM_MAY_PUSH : user[PUSH] == PUSHED ? CAROM_MAY_PASS : 0;
-}
-
 /* The turn goes to the other, with his fouls. */
-static carom_turn give_nine(uint64_t *user, carom_turn turn) {
-  carom_swap(&user[FOULS], &user[FOULS_OTHER]);
+static carom_turn give_nine(carom_rules_state *game, carom_turn turn) {
+  carom_swap(game->fouls);
   return turn;
 }
 
-static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                  const carom_facts *facts, carom_call call) {
-  const bool opening = user[BREAK] != 0;
-  const bool pushes = user[PUSH] == MAY_PUSH && call.ball == CAROM_CALL_PUSH;
-  const bool passes = user[PUSH] == PUSHED && call.ball == CAROM_CALL_PASS;
-  user[BREAK] = user[PUSH] = 0;
+  const bool opening = game->opening != 0;
+  const bool pushes = (game->may & CAROM_MAY_PUSH) && call.ball == CAROM_CALL_PUSH;
+  const bool passes = (game->may & CAROM_MAY_PASS) && call.ball == CAROM_CALL_PASS;
+  game->opening = game->may = 0;
   if (passes)
-    return give_nine(user, carom_pass);
+    return give_nine(game, carom_pass);
 
   /* A push-out may meet any ball or none, and needs no cushion. */
-  int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(user, in_play), cue_ball);
+  int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(game, in_play), cue_ball);
   if (pushes && bad != CAROM_FOUL_CUE_BALL)
     bad = facts->off != 0              ? CAROM_FOUL_OFF
           : carom_is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT
@@ -134,42 +127,43 @@ static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
   if (bad != CAROM_FOUL_NONE) {
     carom_turn turn = foul_for(bad);
     turn.spot = (facts->down | facts->off) & nine;
-    turn.is = ++user[FOULS] >= FOULS_MOST ? CAROM_TURN_LOSE : turn.is;
-    return give_nine(user, turn);
+    carom_add(&game->fouls[0], 1);
+    turn.is = game->fouls[0] >= FOULS_MOST ? CAROM_TURN_LOSE : turn.is;
+    return give_nine(game, turn);
   }
   if (pushes) {
     carom_turn turn = carom_pass;
     turn.spot = facts->down & nine;
-    user[PUSH] = PUSHED;
-    return give_nine(user, turn);
+    game->may = CAROM_MAY_PASS;
+    return give_nine(game, turn);
   }
 
   /* The nine wins, or the highest ball in games that do not put the nine back. A set of balls is
    * above half of the set that it is from if it has its highest ball. */
   const uint32_t balls = in_play & 0x3fe;
-  user[FOULS] = 0;
-  user[PUSH] = opening ? MAY_PUSH : 0;
+  game->fouls[0] = 0;
+  game->may = opening ? CAROM_MAY_PUSH : 0;
   if ((facts->down & balls) > balls >> 1)
     return win;
-  return facts->down != 0 ? carom_keep : give_nine(user, carom_pass);
+  return facts->down != 0 ? carom_keep : give_nine(game, carom_pass);
 }
 
 /* ---- Potting */
 
-static uint32_t potting_on(const uint64_t *user, uint32_t in_play) {
-  (void)user;
+static uint32_t potting_on(const carom_rules_state *game, uint32_t in_play) {
+  (void)game;
   return in_play & ~UINT32_C(1);
 }
 
-static void potting_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
-  left[0] = carom_count_of(potting_on(user, in_play));
+static void potting_left(const carom_rules_state *game, uint32_t in_play, int32_t left[2]) {
+  left[0] = carom_count_of(potting_on(game, in_play));
   left[1] = 1;
 }
 
-static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                 const carom_facts *facts, carom_call call) {
   (void)call;
-  const uint32_t on = potting_on(user, in_play);
+  const uint32_t on = potting_on(game, in_play);
   int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
   bad = bad == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : bad;
   carom_turn turn = bad                        ? foul_for(bad)
@@ -182,15 +176,15 @@ static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball,
 
 /* ---- Three-cushion */
 
-static void threecushion_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
-  (void)user, (void)in_play;
+static void threecushion_left(const carom_rules_state *game, uint32_t in_play, int32_t left[2]) {
+  (void)game, (void)in_play;
   left[0] = left[1] = 1;
 }
 
 /* A point: before the cue ball meets the second ball, it meets three cushions. */
-static carom_turn threecushion_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+static carom_turn threecushion_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                      const carom_facts *facts, carom_call call) {
-  (void)user, (void)in_play, (void)cue_ball, (void)call;
+  (void)game, (void)in_play, (void)cue_ball, (void)call;
   const int32_t bad = facts->off != 0                            ? CAROM_FOUL_OFF
                       : facts->pushed != 0 || facts->touches > 1 ? CAROM_FOUL_DOUBLE_HIT
                                                                  : CAROM_FOUL_NONE;
@@ -202,9 +196,9 @@ static carom_turn threecushion_judge(uint64_t *user, uint32_t in_play, int cue_b
 }
 
 /* What follows is not estimated. */
-static double threecushion_value(const uint64_t *user, const carom_ball_state *layout, int count,
-                                 int in_hand) {
-  (void)user, (void)layout, (void)count, (void)in_hand;
+static double threecushion_value(const carom_rules_state *game, const carom_ball_state *layout,
+                                 int count, int in_hand) {
+  (void)game, (void)layout, (void)count, (void)in_hand;
   return 0.0;
 }
 
@@ -224,7 +218,6 @@ static const carom_plan_rules games[] = {
     {.on = nineball_on,
      .judge = nineball_judge,
      .left = nineball_left,
-     .may = nineball_may,
      .race = CAROM_RACE_SHARED,
      .first_decides = 1,
      .breaks = 1},

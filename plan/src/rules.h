@@ -17,10 +17,15 @@ static inline int carom_count_of(uint32_t set) {
 static inline bool carom_is_called(const carom_facts *facts, carom_call call) {
   return call.ball >= 0 && call.ball < CAROM_BALLS_MOST && facts->pocket[call.ball] == call.pocket;
 }
-static inline void carom_swap(uint64_t *a, uint64_t *b) {
-  const uint64_t kept = *a;
-  *a = *b;
-  *b = kept;
+/* The pairs of a state, for the other player. */
+static inline void carom_swap(int32_t pair[2]) {
+  const int32_t kept = pair[0];
+  pair[0] = pair[1];
+  pair[1] = kept;
+}
+/* Adds points, or fouls; none of a state that no game has. */
+static inline void carom_add(int32_t *to, int more) {
+  *to = *to > INT32_MAX - more ? INT32_MAX : *to + more;
 }
 
 /* A ball that was not frozen was met while the tip was on the cue ball, or the tip touched twice

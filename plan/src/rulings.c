@@ -82,15 +82,15 @@ void carom_put_back(const carom_table *table, carom_shot_ball *balls, int count,
       carom_spot_ball(table, balls, count, k);
 }
 
-carom_status carom_turn_settle(const carom_plan_rules *rules, uint64_t user[8],
+carom_status carom_turn_settle(const carom_plan_rules *rules, carom_rules_state *game,
                                const carom_table *table, carom_shot_ball *balls, int count,
                                carom_turn *turn) {
-  if (rules == NULL || user == NULL || table == NULL || balls == NULL || turn == NULL)
+  if (rules == NULL || game == NULL || table == NULL || balls == NULL || turn == NULL)
     return CAROM_ERROR_NULL;
   if (count < 0 || count > CAROM_BALLS_MOST || (uint64_t)turn->spot >> count != 0)
     return CAROM_ERROR_BALLS;
   if (rules->settle != NULL) {
-    rules->settle(user, table, balls, count, turn);
+    rules->settle(game, table, balls, count, turn);
     return CAROM_OK;
   }
   carom_status first = CAROM_OK;

@@ -268,13 +268,12 @@ bool carom_search_run(search *plan) {
 
 /* Not to play, as one more candidate: its worth is that of the layout to the other. */
 void carom_search_pass(search *plan) {
-  uint64_t user[8];
-  memcpy(user, plan->job.rules->user, sizeof user);
+  carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
   for (int k = 0; k < plan->view.count; k++)
     plan->state[k] = plan->job.balls[k].state;
   const carom_call call = {CAROM_CALL_PASS, -1};
-  plan->job.rules->judge(user, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
-  const double value = 1.0 - carom_value_of(&plan->view, user, plan->state, 1, false);
+  plan->job.rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
+  const double value = 1.0 - carom_value_of(&plan->view, &game, plan->state, 1, false);
   carom_search_add(plan, (candidate){.sum = value,
                                      .squares = value * value,
                                      .seen = 1,

@@ -13,9 +13,6 @@
 
 #include <math.h>
 
-/* Words of the state, and the parts of two. */
-enum { COLOUR = 0, OWN = 2, OTHER = 3, AFTER_FOUL = 4, NAMED = 5 };
-enum { MAY_PASS = 1, FREE_BALL = 2, IN_HAND = 4 };
 enum { YELLOW = 16, PINK = 20, BLACK = 21, COLOURS = 27, LEAST = 4, MOST = 7 };
 static const uint32_t reds = 0xfffe, colours = 0x3f0000, black = UINT32_C(1) << BLACK;
 
@@ -32,23 +29,19 @@ static int highest(uint32_t set) {
 }
 
 /* The balls on, but for a free ball. */
-static uint32_t due_of(const uint64_t *user, uint32_t in_play) {
+static uint32_t due_of(const carom_rules_state *game, uint32_t in_play) {
   const uint32_t red = in_play & reds, colour = in_play & colours;
-  return user[COLOUR] != 0 ? colour : red != 0 ? red : colour & (~colour + 1);
+  return game->on != 0 ? colour : red != 0 ? red : colour & (~colour + 1);
 }
 
-static uint32_t on(const uint64_t *user, uint32_t in_play) {
-  return user[AFTER_FOUL] & FREE_BALL ? in_play & (reds | colours) : due_of(user, in_play);
-}
-
-static uint32_t may(const uint64_t *user) {
-  return user[AFTER_FOUL] & MAY_PASS ? CAROM_MAY_PASS : 0;
+static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+  return game->may & CAROM_MAY_FREE_BALL ? in_play & (reds | colours) : due_of(game, in_play);
 }
 
 /* Points that are on the table, and in how many pots. */
-static int remaining(const uint64_t *user, uint32_t in_play, int *pots) {
+static int remaining(const carom_rules_state *game, uint32_t in_play, int *pots) {
   const int red = carom_count_of(in_play & reds);
-  const bool colour = user[COLOUR] != 0;
+  const bool colour = game->on != 0;
   if (red > 0 || colour) {
     *pots = 2 * red + colour + 6;
     return 8 * red + 7 * colour + COLOURS;
@@ -60,8 +53,8 @@ static int remaining(const uint64_t *user, uint32_t in_play, int *pots) {
   return sum;
 }
 
-static int64_t lead_of(const uint64_t *user) {
-  return (int64_t)user[OWN] - (int64_t)user[OTHER];
+static int64_t lead_of(const carom_rules_state *game) {
+  return (int64_t)game->score[0] - game->score[1];
 }
 
 /* Whether a striker with this lead claims the frame: the black alone is left, and its pot or a foul
@@ -71,36 +64,36 @@ static bool is_claimed(int64_t lead, uint32_t balls) {
 }
 
 /* Points after which the other cannot draw level; 0 of a frame that is won. */
-static void left(const uint64_t *user, uint32_t in_play, int32_t needed[2]) {
+static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   int pots;
-  const int64_t rest = remaining(user, in_play, &pots), lead = lead_of(user);
+  const int64_t rest = remaining(game, in_play, &pots), lead = lead_of(game);
   const uint32_t balls = in_play & (reds | colours);
   const int64_t own = rest - lead, other = rest + lead;
   needed[0] = is_claimed(lead, balls) ? 0 : own < 2 ? 1 : (int32_t)(own / 2 + 1);
   needed[1] = is_claimed(-lead, balls) ? 0 : other < 2 ? 1 : (int32_t)(other / 2 + 1);
 }
 
-static double points(const uint64_t *user, uint32_t in_play, int ball) {
+static double points(const carom_rules_state *game, uint32_t in_play, int ball) {
   int pots;
-  const int rest = remaining(user, in_play, &pots);
-  const uint32_t due = due_of(user, in_play);
-  return ball < 0            ? (pots > 0 ? (double)rest / pots : 1.0)
-         : user[COLOUR] != 0 ? worth(ball)
-                             : highest(due);
+  const int rest = remaining(game, in_play, &pots);
+  const uint32_t due = due_of(game, in_play);
+  return ball < 0        ? (pots > 0 ? (double)rest / pots : 1.0)
+         : game->on != 0 ? worth(ball)
+                         : highest(due);
 }
 
 /* The turn goes to the other: the state becomes his. */
-static carom_turn give(uint64_t *user, carom_turn turn) {
-  carom_swap(&user[OWN], &user[OTHER]);
+static carom_turn give(carom_rules_state *game, carom_turn turn) {
+  carom_swap(game->score);
   return turn;
 }
 
 /* The last black is gone: who has more has won; else it comes back. */
-static carom_turn finish(uint64_t *user, carom_turn turn) {
+static carom_turn finish(carom_rules_state *game, carom_turn turn) {
   turn.spot = 0;
   turn.leave = CAROM_LEAVE_AFTER;
-  turn.is = user[OWN] > user[OTHER] ? CAROM_TURN_WIN : CAROM_TURN_LOSE;
-  if (user[OWN] != user[OTHER])
+  turn.is = game->score[0] > game->score[1] ? CAROM_TURN_WIN : CAROM_TURN_LOSE;
+  if (game->score[0] != game->score[1])
     return turn;
   turn.is = CAROM_TURN_PASS;
   turn.leave = CAROM_LEAVE_D;
@@ -118,20 +111,20 @@ static int first_of(const carom_facts *facts, uint32_t choice) {
   return carom_count_of((touching & (~touching + 1)) - 1);
 }
 
-static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts,
-                        carom_call call) {
-  const uint32_t balls = in_play & (reds | colours), due = due_of(user, in_play);
-  const uint64_t after_foul = user[AFTER_FOUL];
-  const bool colour = user[COLOUR] != 0;
-  user[AFTER_FOUL] = user[NAMED] = 0;
-  if ((after_foul & MAY_PASS) && call.ball == CAROM_CALL_PASS) {
+static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                        const carom_facts *facts, carom_call call) {
+  const uint32_t balls = in_play & (reds | colours), due = due_of(game, in_play);
+  const int32_t after_foul = game->may;
+  const bool colour = game->on != 0;
+  game->may = game->free_ball = 0;
+  if ((after_foul & CAROM_MAY_PASS) && call.ball == CAROM_CALL_PASS) {
     carom_turn turn = carom_pass;
-    turn.leave = after_foul & IN_HAND ? CAROM_LEAVE_D : turn.leave;
-    return give(user, turn);
+    turn.leave = after_foul & CAROM_MAY_PLACE ? CAROM_LEAVE_D : turn.leave;
+    return give(game, turn);
   }
 
   /* The ball that is named, where one may be: else it is the first. */
-  const uint32_t choice = after_foul & FREE_BALL ? balls : due;
+  const uint32_t choice = after_foul & CAROM_MAY_FREE_BALL ? balls : due;
   const bool calls = call.ball >= 0 && call.ball <= BLACK && choice >> call.ball & 1;
   const uint32_t called = calls ? UINT32_C(1) << call.ball : choice;
   const int first = first_of(facts, !colour && (called & due) != 0 ? due : called);
@@ -156,43 +149,43 @@ static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const ca
                       : (facts->down & wrong) != 0 ? CAROM_FOUL_POT
                                                    : CAROM_FOUL_NONE;
   carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, gone & colours, 0.0};
-  user[COLOUR] = 0;
+  game->on = 0;
   if (bad != CAROM_FOUL_NONE) {
     int cost = value > LEAST ? value : LEAST;
     const int by_first = wrong_first ? worth(first) : 0, by_fall = highest(wrong | facts->pushed);
     cost = by_first > cost ? by_first : cost;
     cost = by_fall > cost ? by_fall : cost;
-    user[OTHER] += (uint64_t)cost;
+    carom_add(&game->score[1], cost);
     turn.leave = off_cue ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER;
     if (balls == black)
-      turn = finish(user, turn);
+      turn = finish(game, turn);
     if (turn.is != CAROM_TURN_PASS)
       return turn;
     /* a black that comes back is a new beginning */
-    user[AFTER_FOUL] = balls == black ? 0 : off_cue ? MAY_PASS | IN_HAND : MAY_PASS;
-    return give(user, turn);
+    game->may = balls == black ? 0 : off_cue ? CAROM_MAY_PASS | CAROM_MAY_PLACE : CAROM_MAY_PASS;
+    return give(game, turn);
   }
 
   /* A stroke without a pot; the other must not be snookered behind a free ball. */
   const uint32_t fell = facts->down & balls;
   if (fell == 0) {
-    if (is_claimed(-lead_of(user), balls))
-      return finish(user, turn);
-    user[NAMED] = free_ball ? (uint64_t)named + 1 : 0;
-    return give(user, turn);
+    if (is_claimed(-lead_of(game), balls))
+      return finish(game, turn);
+    game->free_ball = free_ball ? named : 0;
+    return give(game, turn);
   }
 
   /* Reds count one each, and a free ball beside them as one; of others the ball on counts alone. */
   const bool red = !colour && (due & reds) != 0;
   const int made = red ? carom_count_of(fell) : value;
-  user[OWN] += (uint64_t)made;
-  user[COLOUR] = red;
+  carom_add(&game->score[0], made);
+  game->on = red;
   turn.is = CAROM_TURN_KEEP;
   turn.spot = !colour && !red ? fell & ~due : fell & colours;
-  if (balls == black || is_claimed(lead_of(user), (balls & ~fell) | turn.spot))
-    turn = finish(user, turn);
+  if (balls == black || is_claimed(lead_of(game), (balls & ~fell) | turn.spot))
+    turn = finish(game, turn);
   turn.points = made;
-  return turn.is == CAROM_TURN_PASS ? give(user, turn) : turn;
+  return turn.is == CAROM_TURN_PASS ? give(game, turn) : turn;
 }
 
 /* ---- Where balls lie */
@@ -248,8 +241,8 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
   return true;
 }
 
-static void settle(uint64_t *user, const carom_table *table, carom_shot_ball *balls, int count,
-                   carom_turn *turn) {
+static void settle(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                   int count, carom_turn *turn) {
   for (int k = count <= BLACK ? count - 1 : BLACK; k >= YELLOW; k--)
     if (turn->spot >> k & 1)
       carom_spot_ball_of(CAROM_RACK_SNOOKER, table, balls, count, k);
@@ -261,31 +254,30 @@ static void settle(uint64_t *user, const carom_table *table, carom_shot_ball *ba
     in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED &&
                           balls[k].state.label != CAROM_BALL_OFF)
                << k;
-  const uint32_t due = due_of(user, in_play);
+  const uint32_t due = due_of(game, in_play);
   const bool hand = turn->leave == CAROM_LEAVE_D;
 
   /* Behind the free ball, but for pink and black alone: a foul. */
-  if (user[NAMED] != 0 && user[NAMED] <= BLACK + 1) {
-    const uint32_t its = UINT32_C(1) << (user[NAMED] - 1), others = in_play & ~due;
-    user[NAMED] = 0;
+  if (game->free_ball > 0 && game->free_ball <= BLACK) {
+    const uint32_t its = UINT32_C(1) << game->free_ball, others = in_play & ~due;
+    game->free_ball = 0;
     if (in_play != (black | black >> 1) &&
         is_snookered(table, balls, in_play, due, others, false) &&
         !is_snookered(table, balls, in_play, due, others & ~its, false)) {
-      user[OWN] += (uint64_t)(highest(due) > LEAST ? highest(due) : LEAST);
-      user[AFTER_FOUL] = MAY_PASS;
+      carom_add(&game->score[0], highest(due) > LEAST ? highest(due) : LEAST);
+      game->may = CAROM_MAY_PASS;
       turn->foul = CAROM_FOUL_OTHER;
     }
   }
 
   /* A free ball; a black that came back gives none. */
-  if (user[AFTER_FOUL] & MAY_PASS && is_snookered(table, balls, in_play, due, in_play & ~due, hand))
-    user[AFTER_FOUL] |= FREE_BALL;
+  if (game->may & CAROM_MAY_PASS && is_snookered(table, balls, in_play, due, in_play & ~due, hand))
+    game->may |= CAROM_MAY_FREE_BALL;
 }
 
 const carom_plan_rules carom_snooker = {.on = on,
                                         .judge = judge,
                                         .left = left,
-                                        .may = may,
                                         .race = CAROM_RACE_POINTS,
                                         .calls = 1,
                                         .points = points,

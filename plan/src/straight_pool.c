@@ -6,43 +6,37 @@
  * cushions; else it costs two points, and the other may have it played again. */
 #include "rules.h"
 
-/* Words of the state. */
-enum { TARGET, BREAK, POTS, POTS_OTHER, MAY, LOST, LOST_OTHER, FOULS };
 enum { FOULS_MOST = 3, MANY_FOULS = 15, BAD_BREAK = 2, RACKED = 14, LAST_BALL = 15 };
 static const uint32_t all = 0xfffe;
 
-static int64_t score(const uint64_t *user, int who) {
-  return (int64_t)user[POTS + who] - (int64_t)user[LOST + who];
+static int64_t score(const carom_rules_state *game, int who) {
+  return (int64_t)game->score[who] - game->lost[who];
 }
 
-static uint32_t on(const uint64_t *user, uint32_t in_play) {
-  (void)user;
+static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
+  (void)game;
   return in_play & all;
 }
 
-static void left(const uint64_t *user, uint32_t in_play, int32_t needed[2]) {
+static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
   for (int who = 0; who < 2; who++) {
-    const int64_t n = (int64_t)user[TARGET] - score(user, who);
+    const int64_t n = game->target - score(game, who);
     needed[who] = n < 1 ? 1 : n > INT32_MAX ? INT32_MAX : (int32_t)n;
   }
 }
 
-static uint32_t may(const uint64_t *user) {
-  return user[MAY] != 0 ? CAROM_MAY_PASS : 0;
-}
-
 /* The turn goes to the other: the state becomes his. */
-static carom_turn give(uint64_t *user, carom_turn turn) {
-  carom_swap(&user[POTS], &user[POTS_OTHER]);
-  carom_swap(&user[LOST], &user[LOST_OTHER]);
-  user[FOULS] = user[FOULS] >> 2 | (user[FOULS] & 3) << 2;
+static carom_turn give(carom_rules_state *game, carom_turn turn) {
+  carom_swap(game->score);
+  carom_swap(game->lost);
+  carom_swap(game->fouls);
   return turn;
 }
 
 /* A break: all balls are racked, and the cue ball is in hand. */
-static carom_turn racked(uint64_t *user, carom_turn_is is, int32_t foul) {
-  user[BREAK] = 1;
+static carom_turn racked(carom_rules_state *game, carom_turn_is is, int32_t foul) {
+  game->opening = 1;
   return (carom_turn){is, CAROM_LEAVE_KITCHEN, foul, all, 0.0};
 }
 
@@ -54,13 +48,13 @@ static bool is_open(const carom_facts *facts, int cue_ball) {
   return reached >= 2 && facts->cushions[cue_ball] > facts->cushions_before[0];
 }
 
-static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts,
-                        carom_call call) {
+static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
+                        const carom_facts *facts, carom_call call) {
   const uint32_t balls = in_play & all, gone = (facts->down | facts->off) & balls;
-  const bool opening = user[BREAK] != 0, passes = user[MAY] != 0 && call.ball == CAROM_CALL_PASS;
-  user[BREAK] = user[MAY] = 0;
+  const bool opening = game->opening != 0, passes = game->may != 0 && call.ball == CAROM_CALL_PASS;
+  game->opening = game->may = 0;
   if (passes)
-    return give(user, racked(user, CAROM_TURN_PASS, 0));
+    return give(game, racked(game, CAROM_TURN_PASS, 0));
 
   /* Fouls: what fell comes back. */
   int32_t bad = (int32_t)carom_foul_of(facts, balls, cue_ball);
@@ -72,28 +66,29 @@ static carom_turn judge(uint64_t *user, uint32_t in_play, int cue_ball, const ca
     turn.leave = CAROM_LEAVE_KITCHEN;
   if (bad_break) {
     turn.foul = bad != CAROM_FOUL_NONE ? bad : CAROM_FOUL_BREAK;
-    user[LOST] += BAD_BREAK;
-    give(user, turn);
-    user[MAY] = 1;
+    carom_add(&game->lost[0], BAD_BREAK);
+    give(game, turn);
+    game->may = CAROM_MAY_PASS;
     return turn;
   }
   if (bad != CAROM_FOUL_NONE) {
-    user[LOST]++;
-    if ((++user[FOULS] & 3) < FOULS_MOST)
-      return give(user, turn);
-    user[LOST] += MANY_FOULS;
-    user[FOULS] -= FOULS_MOST;
-    return racked(user, CAROM_TURN_KEEP, bad);
+    carom_add(&game->lost[0], 1);
+    carom_add(&game->fouls[0], 1);
+    if (game->fouls[0] < FOULS_MOST)
+      return give(game, turn);
+    carom_add(&game->lost[0], MANY_FOULS);
+    game->fouls[0] = 0;
+    return racked(game, CAROM_TURN_KEEP, bad);
   }
 
   /* A miss or a safety; else points, and a new rack where one ball is left, or none. */
-  user[FOULS] &= ~UINT64_C(3);
+  game->fouls[0] = 0;
   if (!called)
-    return give(user, turn);
+    return give(game, turn);
   turn = carom_keep;
   turn.points = carom_count_of(gone);
-  user[POTS] += (uint64_t)carom_count_of(gone);
-  turn.is = score(user, 0) >= (int64_t)user[TARGET] ? CAROM_TURN_WIN : CAROM_TURN_KEEP;
+  carom_add(&game->score[0], carom_count_of(gone));
+  turn.is = score(game, 0) >= game->target ? CAROM_TURN_WIN : CAROM_TURN_KEEP;
   if (carom_count_of(balls & ~gone) <= 1)
     turn.spot = all & ~(balls & ~gone);
   return turn;
@@ -130,9 +125,9 @@ static bool is_in_rack(const carom_shot_ball *ball, double place[LAST_BALL][2]) 
  * or for the centre where the cue ball is there. A cue ball in the rack is in hand; but with the
  * fifteenth behind the head string it goes to the head spot, or to the centre where the fifteenth
  * is there. With both in the rack all 15 are racked. */
-static void settle(uint64_t *user, const carom_table *table, carom_shot_ball *balls, int count,
-                   carom_turn *turn) {
-  (void)user;
+static void settle(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                   int count, carom_turn *turn) {
+  (void)game;
   uint32_t spot = turn->spot;
   if (carom_count_of(spot) < RACKED || count <= LAST_BALL) {
     carom_put_back(table, balls, count, spot);
@@ -181,11 +176,10 @@ static void settle(uint64_t *user, const carom_table *table, carom_shot_ball *ba
     turn->leave = CAROM_LEAVE_KITCHEN;
 }
 
-const carom_plan_rules carom_straight = {.user = {[TARGET] = 100},
+const carom_plan_rules carom_straight = {.state = {.target = 100},
                                          .on = on,
                                          .judge = judge,
                                          .left = left,
-                                         .may = may,
                                          .race = CAROM_RACE_POINTS,
                                          .calls = 1,
                                          .settle = settle,

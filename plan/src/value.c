@@ -116,32 +116,32 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
 }
 
 /* The value to one who plays. */
-static double value_of_playing(const carom_view *view, const uint64_t *user,
+static double value_of_playing(const carom_view *view, const carom_rules_state *game,
                                const carom_ball_state *balls, uint32_t in_play, int who,
                                bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   if (rules->value != NULL)
-    return rules->value(user, balls, view->count, in_hand);
+    return rules->value(game, balls, view->count, in_hand);
   if (rules->race == CAROM_RACE_POINTS)
-    return carom_points_value(view, user, balls, in_play, who, in_hand);
-  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(user) : ~UINT32_C(0);
+    return carom_points_value(view, game, balls, in_play, who, in_hand);
+  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(game) : ~UINT32_C(0);
   int32_t left[2];
-  rules->left(user, in_play, left);
-  return with_targets(view, balls, in_play, rules->on(user, in_play), pockets, left, who, in_hand);
+  rules->left(game, in_play, left);
+  return with_targets(view, balls, in_play, rules->on(game, in_play), pockets, left, who, in_hand);
 }
 
-double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
-                      int who, bool in_hand) {
+double carom_value_of(const carom_view *view, const carom_rules_state *game,
+                      const carom_ball_state *balls, int who, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
-  const double plays = value_of_playing(view, user, balls, in_play, who, in_hand);
-  if (rules->may == NULL || !(rules->may(user) & CAROM_MAY_PASS))
+  const double plays = value_of_playing(view, game, balls, in_play, who, in_hand);
+  if (!(game->may & CAROM_MAY_PASS))
     return plays;
 
   /* he may leave the table to the other */
-  uint64_t passed[8];
-  memcpy(passed, user, sizeof passed);
-  rules->judge(passed, in_play, view->cue_ball, &carom_no_facts, (carom_call){CAROM_CALL_PASS, -1});
-  const double passes = 1.0 - value_of_playing(view, passed, balls, in_play, 1 - who, in_hand);
+  carom_rules_state passed = *game;
+  rules->judge(&passed, in_play, view->cue_ball, &carom_no_facts,
+               (carom_call){CAROM_CALL_PASS, -1});
+  const double passes = 1.0 - value_of_playing(view, &passed, balls, in_play, 1 - who, in_hand);
   return plays > passes ? plays : passes;
 }

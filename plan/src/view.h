@@ -98,11 +98,11 @@ double carom_stretched(const carom_view *view, double value);
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options);
 /* The chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
-double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
-                      int who, bool in_hand);
+double carom_value_of(const carom_view *view, const carom_rules_state *game,
+                      const carom_ball_state *balls, int who, bool in_hand);
 uint32_t carom_in_play(const carom_ball_state *balls, int count);
 /* points.c: the chance that player `who` wins a race for points. */
-double carom_points_value(const carom_view *view, const uint64_t *user,
+double carom_points_value(const carom_view *view, const carom_rules_state *game,
                           const carom_ball_state *balls, uint32_t in_play, int who, bool in_hand);
 
 /* draws.c: elementary functions beyond platform/elementary.h, and random numbers that are a

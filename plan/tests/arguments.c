@@ -1,8 +1,8 @@
 /* Arguments of plans that are in error. */
 #include "plan_support.h"
 
-static uint32_t none_is_on(const uint64_t *user, uint32_t in_play) {
-  (void)user;
+static uint32_t none_is_on(const carom_rules_state *state, uint32_t in_play) {
+  (void)state;
   (void)in_play;
   return 0;
 }

@@ -74,7 +74,7 @@ TEST(the_first_ball_that_falls) {
     uint32_t in_play = 0;
     for (int i = 0; i < BALLS; i++)
       in_play |= (uint32_t)(balls[i].state.label != CAROM_BALL_POCKETED) << i;
-    const uint32_t on = rules.on(rules.user, in_play);
+    const uint32_t on = rules.on(&rules.state, in_play);
     carom_cue cues[CUES];
     carom_choice told[CUES];
     for (int k = 0; k < CUES; k++) {
@@ -99,7 +99,7 @@ TEST(the_first_ball_that_falls) {
           first = i;
       const carom_call call = {first, first < 0 ? -1 : facts.pocket[first]};
       carom_plan_rules of = rules;
-      const carom_turn turn = of.judge(of.user, in_play, 0, &facts, call);
+      const carom_turn turn = of.judge(&of.state, in_play, 0, &facts, call);
       const bool keeps = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
       const int ball = keeps ? first : -1;
       ck_assert_msg(told[k].ball == ball && told[k].pocket == (ball < 0 ? -1 : call.pocket),
@@ -172,7 +172,7 @@ TEST(three_cushion) {
                                .cushions_before = {1, given[k].before},
                                .off = given[k].off};
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_THREECUSHION);
-    const carom_turn turn = of.judge(of.user, 7, 0, &facts, (carom_call){-1, -1});
+    const carom_turn turn = of.judge(&of.state, 7, 0, &facts, (carom_call){-1, -1});
     ck_assert((int)turn.is == given[k].is && turn.points == (given[k].is == CAROM_TURN_KEEP));
     ck_assert_int_eq(turn.foul, given[k].off ? CAROM_FOUL_OFF : CAROM_FOUL_NONE);
   }
@@ -230,7 +230,7 @@ TEST(breaks) {
     make_layout(1, 1);
     const bool nine_balls = k % 2 == 1;
     rules = carom_plan_rules_of(nine_balls ? CAROM_RULES_NINEBALL : CAROM_RULES_EIGHTBALL);
-    rules.user[1] = 1;
+    rules.state.opening = 1;
     job.count = nine_balls ? 10 : BALLS;
     carom_rack(nine_balls ? CAROM_RACK_NINEBALL : CAROM_RACK_EIGHTBALL, &table, 1e-4, 1, balls,
                BALLS);
@@ -259,7 +259,7 @@ TEST(what_one_may_do) {
     for (int may = 1; may <= 2; may++) {
       make_layout(1, 1);
       rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-      rules.user[4] = (uint64_t)may;
+      rules.state.may = may == 1 ? CAROM_MAY_PUSH : CAROM_MAY_PASS;
       put_ring(easy ? 1 : 6);
       if (easy)
         carom_place_ball(&table, balls, BALLS, 1, 0.1, 0.1, NULL);

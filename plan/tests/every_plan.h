@@ -81,7 +81,7 @@ EVERY_BODY(turn_settle) {
   memcpy(balls, in->balls, sizeof balls);
   carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   carom_turn turn = {.spot = 2};
-  STATUS(carom_turn_settle(&rules, rules.user, &in->table, balls, EVERY_BALLS, &turn));
+  STATUS(carom_turn_settle(&rules, &rules.state, &in->table, balls, EVERY_BALLS, &turn));
   return HASH(balls);
 }
 EVERY_OBJECT(player_of, carom_player, carom_player_of(2.0))

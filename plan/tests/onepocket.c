@@ -83,30 +83,31 @@ TEST(onepocket_rulings) {
       if (facts.down >> ball & 1)
         facts.pocket[ball] = c->mine >> ball & 1 ? MINE : c->his >> ball & 1 ? HIS : NEUTRAL;
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_ONEPOCKET);
-    ck_assert_uint_eq(of.user[0], MINE + 8 * HIS);
-    ck_assert_uint_eq(of.pockets(of.user), 1U << MINE);
+    ck_assert(of.state.pocket[0] == MINE && of.state.pocket[1] == HIS);
+    ck_assert_uint_eq(of.pockets(&of.state), 1U << MINE);
     for (int who = 0; who < 2; who++) {
-      of.user[2 + who] = (uint64_t)c->balls[who];
-      of.user[5 + who] = (uint64_t)c->owed[who];
+      of.state.score[who] = c->balls[who];
+      of.state.lost[who] = c->owed[who];
     }
-    of.user[7] = (uint64_t)c->fouls + 4 * 1;
+    of.state.fouls[0] = c->fouls;
+    of.state.fouls[1] = 1;
 
     /* what each needs; then the ruling, and the state of whoever plays next */
     int32_t needs[2];
-    of.left(of.user, c->in_play, needs);
+    of.left(&of.state, c->in_play, needs);
     for (int who = 0; who < 2; who++)
       ck_assert_msg(needs[who] == 8 - c->balls[who] + c->owed[who], "%s: left", c->what);
-    const carom_turn turn = of.judge(of.user, c->in_play, 0, &facts, (carom_call){NONE, -1});
+    const carom_turn turn = of.judge(&of.state, c->in_play, 0, &facts, (carom_call){NONE, -1});
     const int other = c->is == PASS ? 1 : 0;
     ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
     for (int who = 0; who < 2; who++)
-      ck_assert_msg(of.user[2 + (other ^ who)] == (uint64_t)c->balls_after[who] &&
-                        of.user[5 + (other ^ who)] == (uint64_t)c->owed_after[who],
-                    "%s: balls %d, owed %d", c->what, (int)of.user[2 + (other ^ who)],
-                    (int)of.user[5 + (other ^ who)]);
-    const uint64_t fouls = (uint64_t)c->fouls_after;
-    ck_assert_msg(of.user[7] == (other ? 1 + 4 * fouls : fouls + 4), "%s: fouls", c->what);
-    ck_assert_uint_eq(of.pockets(of.user), 1U << (other ? HIS : MINE));
-    ck_assert_uint_eq(of.on(of.user, c->in_play), c->in_play & 0xfffe);
+      ck_assert_msg(of.state.score[other ^ who] == c->balls_after[who] &&
+                        of.state.lost[other ^ who] == c->owed_after[who],
+                    "%s: balls %d, owed %d", c->what, of.state.score[other ^ who],
+                    of.state.lost[other ^ who]);
+    ck_assert_msg(of.state.fouls[other] == c->fouls_after && of.state.fouls[1 - other] == 1,
+                  "%s: fouls", c->what);
+    ck_assert_uint_eq(of.pockets(&of.state), 1U << (other ? HIS : MINE));
+    ck_assert_uint_eq(of.on(&of.state, c->in_play), c->in_play & 0xfffe);
   }
 }

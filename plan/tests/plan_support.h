@@ -41,7 +41,7 @@ static inline void make_layout(uint64_t seed, int in_play) {
   cue = carom_cue_of(CAROM_GAME_POOL);
   player = carom_player_of(1.0);
   rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
-  rules.user[0] = SOLIDS;
+  rules.state.group = SOLIDS;
   options = (carom_plan_options){.shots = 300};
   shot_options = (carom_shot_options){0};
   job = (carom_plan_job){.table = &table,

@@ -44,13 +44,13 @@ TEST(rulings) {
     const ruling *g = &given[k];
     const carom_facts facts = facts_of(g->first, g->cushions_after, g->down, 0);
     carom_plan_rules of = carom_plan_rules_of((carom_rules_kind)g->kind);
-    of.user[0] = (uint64_t)g->group;
+    of.state.group = g->group;
     const carom_turn turn =
-        of.judge(of.user, g->in_play, 0, &facts, (carom_call){g->call, g->call < 0 ? -1 : 2});
+        of.judge(&of.state, g->in_play, 0, &facts, (carom_call){g->call, g->call < 0 ? -1 : 2});
     /* a nine that does not win comes back */
     const uint32_t spot = g->kind == N && g->is == PASS ? g->down & 0x200 : 0;
     ruled(g->what, &turn, g->is, g->leave, g->foul, spot);
-    ck_assert_msg(of.user[0] == (uint64_t)g->group_after, "%s: group", g->what);
+    ck_assert_msg(of.state.group == g->group_after, "%s: group", g->what);
   }
   ck_assert_str_eq(carom_rules_name(CAROM_RULES_NINEBALL), "nineball");
   ck_assert_ptr_null(carom_rules_name((carom_rules_kind)7));
@@ -73,10 +73,10 @@ TEST(breaks_of_eightball) {
     for (int i = 1; i <= given[k].driven; i++)
       facts.cushions[i] = 1;
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
-    of.user[1] = 1;
-    const carom_turn turn = of.judge(of.user, 0xffff, 0, &facts, (carom_call){-1, -1});
+    of.state.opening = 1;
+    const carom_turn turn = of.judge(&of.state, 0xffff, 0, &facts, (carom_call){-1, -1});
     ruled("break", &turn, given[k].is, given[k].leave, given[k].foul, given[k].spot);
-    ck_assert(of.user[0] == 0 && of.user[1] == 0);
+    ck_assert(of.state.group == 0 && of.state.opening == 0);
   }
 }
 
@@ -86,7 +86,7 @@ static carom_turn nine(carom_plan_rules *of, int first, int driven, int down, in
   carom_facts facts = facts_of(first, driven, down >= 0 ? UINT32_C(1) << down : 0, 0);
   for (int k = 1; k <= driven; k++)
     facts.cushions[k] = 1;
-  return of->judge(of->user, 0x3ff, 0, &facts, (carom_call){call, -1});
+  return of->judge(&of->state, 0x3ff, 0, &facts, (carom_call){call, -1});
 }
 
 /* The third foul of a player in a row loses; a legal stroke in between forgets them. */
@@ -94,41 +94,41 @@ TEST(three_fouls) {
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   for (int stroke = 0; stroke < 4; stroke++) { /* of each player two */
     ck_assert_int_eq(nine(&of, -1, 0, -1, -1).is, CAROM_TURN_PASS);
-    ck_assert_uint_eq(of.user[3], (uint64_t)(stroke / 2 + 1));
+    ck_assert_int_eq(of.state.fouls[1], stroke / 2 + 1);
   }
   carom_plan_rules other = of;
   const carom_turn third = nine(&of, 2, 1, -1, -1);
   ck_assert(third.is == CAROM_TURN_LOSE && third.foul == CAROM_FOUL_FIRST);
-  ck_assert(nine(&other, 1, 1, -1, -1).foul == CAROM_FOUL_NONE && other.user[3] == 0);
-  ck_assert_uint_eq(other.user[2], 2);
+  ck_assert(nine(&other, 1, 1, -1, -1).foul == CAROM_FOUL_NONE && other.state.fouls[1] == 0);
+  ck_assert_int_eq(other.state.fouls[0], 2);
 }
 
 /* After a break without a foul one may push out, and the other may then pass. */
 TEST(push_outs) {
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL), again;
-  of.user[1] = 1;
+  of.state.opening = 1;
   again = of;
-  ck_assert(nine(&again, 1, 3, -1, -1).foul == CAROM_FOUL_BREAK && again.may(again.user) == 0);
+  ck_assert(nine(&again, 1, 3, -1, -1).foul == CAROM_FOUL_BREAK && again.state.may == 0);
   ck_assert_int_eq(nine(&of, 1, 4, -1, -1).is, CAROM_TURN_PASS);
-  ck_assert_uint_eq(of.may(of.user), CAROM_MAY_PUSH);
+  ck_assert_int_eq(of.state.may, CAROM_MAY_PUSH);
 
   /* a push-out meets what it likes; what falls stays down, but for the nine */
   again = of;
   carom_turn turn = nine(&again, -1, 0, -1, CAROM_CALL_PUSH);
   ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
-  ck_assert_uint_eq(again.may(again.user), CAROM_MAY_PASS);
+  ck_assert_int_eq(again.state.may, CAROM_MAY_PASS);
   again = of;
   turn = nine(&again, 5, 0, 9, CAROM_CALL_PUSH);
   ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.spot == 0x200);
   again = of;
   turn = nine(&again, 5, 0, 0, CAROM_CALL_PUSH);
-  ck_assert(turn.foul == CAROM_FOUL_CUE_BALL && again.may(again.user) == 0);
+  ck_assert(turn.foul == CAROM_FOUL_CUE_BALL && again.state.may == 0);
 
   /* the other passes, and neither may do so again; without the right, a push-out is a stroke */
   nine(&of, -1, 0, -1, CAROM_CALL_PUSH);
   turn = nine(&of, -1, 0, -1, CAROM_CALL_PASS);
   ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
-  ck_assert_uint_eq(of.may(of.user), 0);
+  ck_assert_int_eq(of.state.may, 0);
   ck_assert_int_eq(nine(&of, -1, 0, -1, CAROM_CALL_PUSH).foul, CAROM_FOUL_NO_BALL);
 }
 
@@ -161,7 +161,7 @@ TEST(spots) {
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL);
   carom_turn turn = {.spot = 0x200};
   lay_out(CAROM_RACK_NINEBALL, CAROM_TABLE_POOL_9FT, 1);
-  ck_assert_int_eq(carom_turn_settle(&of, of.user, &table, balls, 10, &turn), CAROM_OK);
+  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, 10, &turn), CAROM_OK);
   ck_assert(is_at(9, 0.5 * table.width, 0.75 * table.length));
   ck_assert_int_eq(carom_spot_ball(NULL, balls, BALLS, 1), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);

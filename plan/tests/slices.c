@@ -5,10 +5,10 @@
 static carom_plan_rules stopped_rules;
 static volatile int32_t stop;
 static int64_t judged, judged_most;
-static carom_turn judge_and_stop(uint64_t *user, uint32_t in_play, int cue_ball,
+static carom_turn judge_and_stop(carom_rules_state *state, uint32_t in_play, int cue_ball,
                                  const carom_facts *facts, carom_call call) {
   stop |= ++judged == judged_most;
-  return stopped_rules.judge(user, in_play, cue_ball, facts, call);
+  return stopped_rules.judge(state, in_play, cue_ball, facts, call);
 }
 
 /* A plan that is stopped judges no other shot, but for one of a stage that has not begun. It gives
@@ -63,7 +63,7 @@ TEST(plans_in_slices) {
     if (which >= 4) { /* nothing is to be hit, or the player may pass */
       put_ring(6);
       job.count = 10;
-      rules.user[4] = which == 5 ? 2 : 0;
+      rules.state.may = which == 5 ? CAROM_MAY_PASS : 0;
     }
     stopped_rules = rules;
     rules.judge = judge_and_stop;

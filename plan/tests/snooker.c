@@ -86,19 +86,17 @@ TEST(snooker_rulings) {
     const snooker_case *c = &snooker[k];
     const carom_facts facts = facts_of(c->first, 0, c->down, c->off);
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.user[0] = (uint64_t)c->colour;
-    of.user[2] = 20;
-    of.user[3] = 30;
-    of.user[4] = (uint64_t)c->after_foul;
-    const carom_turn turn = of.judge(of.user, c->in_play, 0, &facts, (carom_call){c->call, -1});
+    of.state.on = c->colour;
+    of.state.score[0] = 20;
+    of.state.score[1] = 30;
+    of.state.may = c->after_foul;
+    const carom_turn turn = of.judge(&of.state, c->in_play, 0, &facts, (carom_call){c->call, -1});
     ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
     const bool gives = c->is == PASS;
-    ck_assert_msg(of.user[gives ? 3 : 2] == 20 + (uint64_t)c->own &&
-                      of.user[gives ? 2 : 3] == 30 + (uint64_t)c->other,
-                  "%s: scores %d, %d", c->what, (int)of.user[2], (int)of.user[3]);
-    ck_assert_msg(of.user[0] == (uint64_t)c->colour_next &&
-                      of.user[4] == (uint64_t)c->after_foul_next,
-                  "%s: colour %d, after a foul %d", c->what, (int)of.user[0], (int)of.user[4]);
+    ck_assert_msg(of.state.score[gives] == 20 + c->own && of.state.score[!gives] == 30 + c->other,
+                  "%s: scores %d, %d", c->what, of.state.score[0], of.state.score[1]);
+    ck_assert_msg(of.state.on == c->colour_next && of.state.may == c->after_foul_next,
+                  "%s: colour %d, after a foul %d", c->what, of.state.on, of.state.may);
     ck_assert_msg(turn.points == (double)c->own, "%s", c->what);
   }
 }
@@ -115,9 +113,9 @@ TEST(snooker_on) {
       {BK | 1, 0, 0, BK},           {COLOURS | 1, 0, FREE, COLOURS}, {COLOURS | R2 | 1, 0, 0, R2}};
   for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.user[0] = (uint64_t)given[k].colour;
-    of.user[4] = (uint64_t)given[k].after_foul;
-    ck_assert_uint_eq(of.on(of.user, given[k].in_play), given[k].on);
+    of.state.on = given[k].colour;
+    of.state.may = given[k].after_foul;
+    ck_assert_uint_eq(of.on(&of.state, given[k].in_play), given[k].on);
   }
 }
 
@@ -142,15 +140,15 @@ TEST(snooker_ends) {
   for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
     const carom_facts facts = facts_of(given[k].first, 0, given[k].down, 0);
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.user[2] = (uint64_t)given[k].own;
-    of.user[3] = (uint64_t)given[k].other;
-    const carom_turn turn = of.judge(of.user, BK | 1, 0, &facts, (carom_call){BLACK, -1});
+    of.state.score[0] = given[k].own;
+    of.state.score[1] = given[k].other;
+    const carom_turn turn = of.judge(&of.state, BK | 1, 0, &facts, (carom_call){BLACK, -1});
     ck_assert_msg((int)turn.is == given[k].is && (int)turn.leave == given[k].leave &&
                       turn.spot == given[k].spot,
                   "%s: turn %d, leave %d, spot %x", given[k].what, (int)turn.is, (int)turn.leave,
                   turn.spot);
     /* a black that comes back begins anew: nobody may pass */
-    ck_assert_uint_eq(of.may(of.user), 0);
+    ck_assert_int_eq(of.state.may, 0);
   }
 }
 
@@ -159,11 +157,11 @@ TEST(snooker_claim) {
   for (int other = 43; other < 52; other++) {
     const carom_facts facts = facts_of(PINK, 0, PI, 0);
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.user[2] = 44;
-    of.user[3] = (uint64_t)other;
-    const carom_turn turn = of.judge(of.user, PI | BK | 1, 0, &facts, (carom_call){PINK, -1});
+    of.state.score[0] = 44;
+    of.state.score[1] = other;
+    const carom_turn turn = of.judge(&of.state, PI | BK | 1, 0, &facts, (carom_call){PINK, -1});
     ck_assert_int_eq((int)turn.is, 44 + 6 > other + 7 ? WIN : KEEP);
-    ck_assert(turn.points == 6.0 && turn.foul == 0 && turn.spot == 0 && of.user[2] == 50);
+    ck_assert(turn.points == 6.0 && turn.foul == 0 && turn.spot == 0 && of.state.score[0] == 50);
   }
 }
 
@@ -194,7 +192,7 @@ TEST(double_hits) {
       const int foul = game == CAROM_RULES_SNOOKER        ? given[k].snooker
                        : game == CAROM_RULES_THREECUSHION ? given[k].three
                                                           : given[k].pool;
-      const carom_turn turn = rules.judge(rules.user, 0xffff, 0, &f, (carom_call){NONE, -1});
+      const carom_turn turn = rules.judge(&rules.state, 0xffff, 0, &f, (carom_call){NONE, -1});
       ck_assert_msg((int)turn.foul == foul, "%s: %s", carom_rules_name((carom_rules_kind)game),
                     given[k].what);
     }
@@ -204,8 +202,8 @@ TEST(double_hits) {
     ck_assert_int_eq(carom_foul_of(&f, R1, 0), given[k].pool == LEGAL ? CUSHION : DOUBLE_HIT);
     ck_assert_int_eq(carom_foul_of(&f, R2, 0), FIRST);
     carom_plan_rules nine = carom_plan_rules_of(CAROM_RULES_NINEBALL);
-    nine.user[4] = 1;
-    ck_assert_int_eq(nine.judge(nine.user, 0x3ff, 0, &f, (carom_call){CAROM_CALL_PUSH, -1}).foul,
+    nine.state.may = CAROM_MAY_PUSH;
+    ck_assert_int_eq(nine.judge(&nine.state, 0x3ff, 0, &f, (carom_call){CAROM_CALL_PUSH, -1}).foul,
                      given[k].pool);
   }
 }
@@ -232,11 +230,10 @@ TEST(snooker_touching) {
     f.pushed = given[k].pushed;
     f.touches = 1;
     carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    rules.user[0] = (uint64_t)given[k].colour;
-    const carom_turn turn = rules.judge(rules.user, ALL, 0, &f, (carom_call){given[k].call, -1});
+    rules.state.on = given[k].colour;
+    const carom_turn turn = rules.judge(&rules.state, ALL, 0, &f, (carom_call){given[k].call, -1});
     ck_assert_msg((int)turn.foul == given[k].foul, "%s", given[k].what);
-    ck_assert_msg(rules.user[2] == (uint64_t)given[k].other, "%s",
-                  given[k].what); /* his turn now */
+    ck_assert_msg(rules.state.score[0] == given[k].other, "%s", given[k].what); /* his turn now */
   }
 }
 
@@ -246,15 +243,15 @@ TEST(snooker_again) {
   for (int hand = 0; hand < 2; hand++) {
     const carom_facts none = {.first = {-1, -1}};
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.user[2] = 9;
-    of.user[4] = (uint64_t)(MAY | FREE | (hand ? HAND : 0));
-    ck_assert_uint_eq(of.may(of.user), CAROM_MAY_PASS);
-    const carom_turn turn = of.judge(of.user, ALL, 0, &none, (carom_call){CAROM_CALL_PASS, -1});
+    of.state.score[0] = 9;
+    of.state.may = (MAY | FREE | (hand ? HAND : 0));
+    ck_assert_int_eq(of.state.may & CAROM_MAY_PASS, CAROM_MAY_PASS);
+    const carom_turn turn = of.judge(&of.state, ALL, 0, &none, (carom_call){CAROM_CALL_PASS, -1});
     ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.spot == 0);
     ck_assert_int_eq(turn.leave, hand ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER);
-    ck_assert(of.user[3] == 9 && of.user[4] == 0 && of.on(of.user, ALL) == 0xfffe);
+    ck_assert(of.state.score[1] == 9 && of.state.may == 0 && of.on(&of.state, ALL) == 0xfffe);
     /* without the right it is a stroke that meets nothing */
-    ck_assert_int_eq(of.judge(of.user, ALL, 0, &none, (carom_call){CAROM_CALL_PASS, -1}).foul,
+    ck_assert_int_eq(of.judge(&of.state, ALL, 0, &none, (carom_call){CAROM_CALL_PASS, -1}).foul,
                      CAROM_FOUL_NO_BALL);
   }
 }
@@ -305,7 +302,7 @@ TEST(snooker_spots) {
   put(1, spot[YELLOW][0], spot[YELLOW][1]);
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
   carom_turn turn = {.is = CAROM_TURN_PASS, .foul = CAROM_FOUL_POT, .spot = Y | BK};
-  ck_assert_int_eq(carom_turn_settle(&of, of.user, &table, balls, count, &turn), CAROM_OK);
+  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
   ck_assert(is_at(BLACK, spot[BLACK][0], spot[BLACK][1]) &&
             is_at(YELLOW, spot[PINK][0], spot[PINK][1]));
   ck_assert_int_eq(carom_spot_of(CAROM_RACK_SNOOKER, &table, 22, spot[0]), CAROM_ERROR_RACK);
@@ -313,7 +310,8 @@ TEST(snooker_spots) {
   ck_assert_int_eq(carom_spot_of(CAROM_RACK_NINEBALL, NULL, 1, spot[0]), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_turn_settle(&of, NULL, &table, balls, count, &turn), CAROM_ERROR_NULL);
   turn.spot = 1u << 22;
-  ck_assert_int_eq(carom_turn_settle(&of, of.user, &table, balls, count, &turn), CAROM_ERROR_BALLS);
+  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn),
+                   CAROM_ERROR_BALLS);
 }
 
 /* After a foul: whether the player is snookered, that is, whether no ball on can be hit at both of
@@ -340,12 +338,12 @@ TEST(free_balls) {
     put(BLACK, given[k].blocker[0], given[k].blocker[1]);
     for (int foul = 0; foul < 2; foul++) {
       carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-      of.user[4] = foul ? MAY : 0;
+      of.state.may = foul ? MAY : 0;
       carom_turn turn = {.is = CAROM_TURN_PASS,
                          .leave = given[k].hand ? CAROM_LEAVE_D : CAROM_LEAVE_AFTER,
                          .foul = foul ? CAROM_FOUL_NO_BALL : 0};
-      carom_turn_settle(&of, of.user, &table, balls, count, &turn);
-      ck_assert_msg(((of.user[4] & FREE) != 0) == (foul && given[k].snookered), "%s, foul %d",
+      carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
+      ck_assert_msg(((of.state.may & FREE) != 0) == (foul && given[k].snookered), "%s, foul %d",
                     given[k].what, foul);
     }
   }
@@ -353,23 +351,23 @@ TEST(free_balls) {
   /* in hand, with a wall of colours close to the D */
   int count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, R1 | COLOURS);
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-  of.user[4] = MAY | HAND;
+  of.state.may = MAY | HAND;
   carom_turn turn = {.is = CAROM_TURN_PASS, .leave = CAROM_LEAVE_D, .foul = CAROM_FOUL_CUE_BALL};
   put(1, 1.3, 3.4);
-  carom_turn_settle(&of, of.user, &table, balls, count, &turn);
-  ck_assert(!(of.user[4] & FREE));
+  carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
+  ck_assert(!(of.state.may & FREE));
   for (int k = YELLOW; k <= BLACK; k++)
     put(k, 1.3 + 2.0 * R * (k - 18.5), 3.2);
-  of.user[4] = MAY | HAND;
-  carom_turn_settle(&of, of.user, &table, balls, count, &turn);
-  ck_assert(of.user[4] & FREE);
+  of.state.may = MAY | HAND;
+  carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
+  ck_assert(of.state.may & FREE);
 
   /* a second red that is free ends it */
   balls[2] = balls[1];
   put(2, 0.2, 2.0);
-  of.user[4] = MAY | HAND;
-  carom_turn_settle(&of, of.user, &table, balls, count, &turn);
-  ck_assert(!(of.user[4] & FREE));
+  of.state.may = MAY | HAND;
+  carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
+  ck_assert(!(of.state.may & FREE));
 
   /* to leave the other behind the free ball is a foul; behind another it is not, nor with pink and
    * black alone */
@@ -386,14 +384,14 @@ TEST(free_balls) {
     if (k == 3)
       put(PINK, 0.2, 0.2);
     of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.user[2] = 5;
-    of.user[5] = (uint64_t)named + 1;
+    of.state.score[0] = 5;
+    of.state.free_ball = named;
     turn = (carom_turn){.is = CAROM_TURN_PASS};
-    carom_turn_settle(&of, of.user, &table, balls, count, &turn);
+    carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
     const bool foul = k == 0 || k == 3;
     ck_assert_msg((turn.foul != 0) == foul, "%d: foul %d", k, turn.foul);
-    ck_assert_uint_eq(of.user[2], k == 0 ? 9 : k == 3 ? 10 : 5);
-    ck_assert_uint_eq(of.user[4], foul ? MAY | FREE : 0);
-    ck_assert_uint_eq(of.user[5], 0);
+    ck_assert_int_eq(of.state.score[0], k == 0 ? 9 : k == 3 ? 10 : 5);
+    ck_assert_int_eq(of.state.may, foul ? MAY | FREE : 0);
+    ck_assert_int_eq(of.state.free_ball, 0);
   }
 }

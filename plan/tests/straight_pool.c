@@ -50,25 +50,23 @@ TEST(straight_rulings) {
     const straight_case *c = &straight[k];
     const carom_facts facts = facts_of(c->first, c->cushions, c->down, c->off);
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
-    ck_assert_uint_eq(of.user[0], 100);
+    ck_assert_int_eq(of.state.target, 100);
     /* those of the other are told apart */
-    of.user[2] = (uint64_t)c->pots;
-    of.user[3] = 51;
-    of.user[5] = (uint64_t)c->lost;
-    of.user[6] = 7;
-    of.user[7] = (uint64_t)c->fouls + 4 * 1;
+    of.state = (carom_rules_state){.score = {c->pots, 51},
+                                   .lost = {c->lost, 7},
+                                   .fouls = {c->fouls, 1},
+                                   .target = of.state.target};
     const carom_turn turn =
-        of.judge(of.user, c->in_play, 0, &facts, (carom_call){c->call, c->pocket});
+        of.judge(&of.state, c->in_play, 0, &facts, (carom_call){c->call, c->pocket});
     const bool gives = c->is == PASS;
     ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
-    ck_assert_msg(
-        of.user[gives ? 3 : 2] == (uint64_t)c->pots_after && of.user[gives ? 2 : 3] == 51 &&
-            of.user[gives ? 6 : 5] == (uint64_t)c->lost_after && of.user[gives ? 5 : 6] == 7,
-        "%s: points", c->what);
-    const uint64_t fouls = (uint64_t)c->fouls_after;
-    ck_assert_msg(of.user[7] == (gives ? 1 + 4 * fouls : fouls + 4), "%s: fouls", c->what);
+    ck_assert_msg(of.state.score[gives] == c->pots_after && of.state.score[!gives] == 51 &&
+                      of.state.lost[gives] == c->lost_after && of.state.lost[!gives] == 7,
+                  "%s: points", c->what);
+    ck_assert_msg(of.state.fouls[gives] == c->fouls_after && of.state.fouls[!gives] == 1,
+                  "%s: fouls", c->what);
     ck_assert_msg(turn.points == (double)(c->pots_after - c->pots), "%s: points", c->what);
-    ck_assert_uint_eq(of.user[1], c->fouls == 2 && c->lost_after == c->lost + 16);
+    ck_assert_int_eq(of.state.opening, c->fouls == 2 && c->lost_after == c->lost + 16);
   }
 }
 
@@ -99,13 +97,13 @@ TEST(straight_breaks) {
     for (int i = 1; i <= given[k].driven; i++)
       facts.cushions[i] = 1;
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
-    of.user[1] = 1;
-    const carom_turn turn = of.judge(of.user, 0xffff, 0, &facts, (carom_call){given[k].call, 2});
+    of.state.opening = 1;
+    const carom_turn turn = of.judge(&of.state, 0xffff, 0, &facts, (carom_call){given[k].call, 2});
     ruled(given[k].what, &turn, given[k].is, given[k].leave, given[k].foul, given[k].spot);
-    ck_assert_msg(of.user[6] == (uint64_t)given[k].lost && of.user[1] == 0, "%s", given[k].what);
-    ck_assert_uint_eq(of.may(of.user), given[k].again ? CAROM_MAY_PASS : 0);
+    ck_assert_msg(of.state.lost[1] == given[k].lost && of.state.opening == 0, "%s", given[k].what);
+    ck_assert_int_eq(of.state.may, given[k].again ? CAROM_MAY_PASS : 0);
     /* a bad break is no foul in a row */
-    ck_assert_uint_eq(of.user[7], given[k].lost == 1 ? 4 : 0);
+    ck_assert_int_eq(of.state.fouls[1], given[k].lost == 1);
     if (!given[k].again)
       continue;
 
@@ -113,10 +111,10 @@ TEST(straight_breaks) {
     const carom_facts none = {.first = {-1, -1}};
     carom_plan_rules after = of;
     const carom_turn asked =
-        after.judge(after.user, 0xffff, 0, &none, (carom_call){CAROM_CALL_PASS, -1});
+        after.judge(&after.state, 0xffff, 0, &none, (carom_call){CAROM_CALL_PASS, -1});
     ck_assert(asked.is == CAROM_TURN_PASS && asked.foul == 0 && asked.leave == CAROM_LEAVE_KITCHEN);
-    ck_assert(asked.spot == 0xfffe && after.user[1] == 1 && after.user[5] == 2);
-    ck_assert_uint_eq(after.may(after.user), 0);
+    ck_assert(asked.spot == 0xfffe && after.state.opening == 1 && after.state.lost[0] == 2);
+    ck_assert_int_eq(after.state.may, 0);
   }
 }
 
@@ -159,7 +157,7 @@ TEST(straight_racks) {
     put(last, given[k].last[0], given[k].last[1]);
     carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
     carom_turn turn = {.is = CAROM_TURN_KEEP, .spot = 0xfffe & ~(1u << last)};
-    ck_assert_int_eq(carom_turn_settle(&of, of.user, &table, balls, count, &turn), CAROM_OK);
+    ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
     const double *at[2] = {given[k].cue, given[k].last};
     const int goes[2] = {given[k].cue_goes, given[k].last_goes}, who[2] = {0, last};
     for (int n = 0; n < 2; n++)
@@ -190,12 +188,12 @@ TEST(straight_racks) {
   put(0, 0.3, 1.0);
   carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_STRAIGHT);
   carom_turn turn = {.is = CAROM_TURN_KEEP, .spot = 0xfffe};
-  ck_assert_int_eq(carom_turn_settle(&of, of.user, &table, balls, count, &turn), CAROM_OK);
+  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
   ck_assert(is_at(0, 0.3, 1.0) && turn.leave == CAROM_LEAVE_AFTER && is_at(1, x, 0.75 * l));
   /* a ball that comes back alone goes to the foot spot */
   lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 3);
   put(1, 0.2, 0.3);
   turn = (carom_turn){.is = CAROM_TURN_PASS, .spot = 0x20};
-  ck_assert_int_eq(carom_turn_settle(&of, of.user, &table, balls, count, &turn), CAROM_OK);
+  ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
   ck_assert(is_at(5, x, 0.75 * l));
 }

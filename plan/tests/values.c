@@ -2,8 +2,8 @@
 #include "plan_support.h"
 
 /* A game in which balls count in one pocket only. */
-static uint32_t one_pocket(const uint64_t *user) {
-  return UINT32_C(1) << user[7];
+static uint32_t one_pocket(const carom_rules_state *state) {
+  return UINT32_C(1) << state->user[7];
 }
 
 /* Values: the eight alone before a pocket, and the same with a ball in the way; ball in hand is
@@ -26,7 +26,7 @@ TEST(values) {
   carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
   rules.pockets = one_pocket;
   for (uint64_t pocket = 0; pocket < 6; pocket++) {
-    rules.user[7] = pocket;
+    rules.state.user[7] = pocket;
     ck_assert_int_eq(carom_plan_value(&job, 0, &corner), CAROM_OK);
     const double *centre = table.pocket[pocket].centre;
     if (centre[0] < 0.5 && centre[1] < 0.5)

@@ -62,7 +62,7 @@ static void make_inputs(void) {
   cue = carom_cue_of(CAROM_GAME_POOL);
   cue.ball = choice(16) == 0 ? choice(40) - 4 : 0;
   rules = carom_plan_rules_of((carom_rules_kind)choice(7));
-  rules.user[choice(5)] = (uint64_t)choice(4);
+  (&rules.state.opening)[choice(14)] = choice(4);
   rules.race = choice(32) == 0 ? choice(6) - 1 : rules.race;
   rules.rack = choice(32) == 0 ? choice(7) - 1 : rules.rack;
   shot = (carom_shot_options){.fast = choice(2),
@@ -171,6 +171,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
                      .leave = (carom_leave)choice(5),
                      .foul = choice(9),
                      .spot = (uint32_t)byte() << 8 | (uint32_t)byte() << 16};
-  carom_turn_settle(&rules, rules.user, &table, balls, choice(CAROM_BALLS_MOST + 1), &turn);
+  carom_turn_settle(&rules, &rules.state, &table, balls, choice(CAROM_BALLS_MOST + 1), &turn);
   return 0;
 }

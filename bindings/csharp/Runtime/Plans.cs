@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace Carom {
   /// <summary>Rules of a game of the caller's. Sets of balls have bit k for ball k. The methods may be called from several threads at once, and
-  /// depend on their arguments only; `user`, eight words, is the state of the game as the player at the table has it. An exception of theirs ends
+  /// depend on their arguments only; `user` are the eight words of the state that are theirs, as the player at the table has them. An exception of theirs ends
   /// the program, as none passes through C. An object stays alive while plans by it are made.</summary>
   public abstract unsafe class GameRules {
     readonly Native.carom_rules_on on;
@@ -19,15 +19,15 @@ namespace Carom {
     protected abstract int[] Left(ulong[] user, uint inPlay);
 
     protected GameRules() {
-      on = (user, inPlay) => Guarded(() => On(Words(user), inPlay));
-      judge = (user, inPlay, cueBall, facts, call) => Guarded(() => {
-        var words = Words(user);
+      on = (state, inPlay) => Guarded(() => On(Words(state), inPlay));
+      judge = (state, inPlay, cueBall, facts, call) => Guarded(() => {
+        var words = Words(state);
         var turn = Judge(words, inPlay, cueBall, *facts, call);
-        for (int k = 0; k < 8; k++) user[k] = words[k];
+        for (int k = 0; k < 8; k++) state->user[k] = words[k];
         return turn;
       });
-      left = (user, inPlay, to) => Guarded(() => {
-        var balls = Left(Words(user), inPlay);
+      left = (state, inPlay, to) => Guarded(() => {
+        var balls = Left(Words(state), inPlay);
         to[0] = balls[0];
         to[1] = balls[1];
         return 0;
@@ -41,9 +41,9 @@ namespace Carom {
       };
     }
 
-    static ulong[] Words(ulong* user) {
+    static ulong[] Words(RulesState* state) {
       var words = new ulong[8];
-      for (int k = 0; k < 8; k++) words[k] = user[k];
+      for (int k = 0; k < 8; k++) words[k] = state->user[k];
       return words;
     }
 

@@ -21,7 +21,7 @@ Doubles = npt.NDArray[np.float64]
 
 __all__ = [
     "ball_kind", "ball_state", "brief_event", "choice", "columns", "cue", "cushion_impact", "cushion_point", "event", "facts", "impact", "jaw",
-    "motion", "plain", "player", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point",
+    "motion", "plain", "player", "pocket", "rail", "result", "rules_state", "shot", "shot_ball", "table", "tangent", "trace_point",
 ]  # fmt: skip
 
 _NOT_SHOWN = {"reserved", "unused"}  # fields that only keep room for later
@@ -76,6 +76,8 @@ brief_event: Record = _record("carom_brief_event")
 player: Record = _record("carom_player")
 choice: Record = _record("carom_choice")  # A shot that `carom.plan` proposes.
 facts: Record = _record("carom_facts")  # What happened in a shot, which `carom.Features` shows.
+# How a game stands for the player at the table: opening, group, fouls, score, lost, pocket, may, on, free_ball, target; user is of one's own rules.
+rules_state: Record = _record("carom_rules_state")
 turn: Record = _record("carom_turn")  # What a shot amounts to by rules.
 shot: Record = _record("carom_shot")  # What a shot gives, with the addresses of its arrays: for the calls of C.
 # What derivatives of a shot give, with the addresses of their arrays: for the calls of C.

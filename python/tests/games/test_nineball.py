@@ -19,7 +19,8 @@ AT_POCKET = RULES.base.actions(-135.0, 2.0, b=-0.3)
 def position_of(places, rules=RULES, fouls=(0, 0), group=0, player=0, **changes):
     """A position in play: where balls lie, the others are pocketed; fouls of the players, and the group of the one at the table."""
     begun = rules.begin(1)
-    state = np.array([group, 0, fouls[player], fouls[1 - player], 0, 0, 0, 0], np.uint64)
+    state = begun.state.copy()
+    state["opening"], state["group"], state["fouls"] = 0, group, (fouls[player], fouls[1 - player])
     balls = begun.balls.copy()
     balls["state"]["label"] = carom.Label.POCKETED
     for ball, place in places.items():
@@ -142,12 +143,12 @@ def test_eightball_by_hand():
     """The stroke calls what it pots without noise; the first ball decides the groups; the eight wins as the last, and loses before."""
     far = {5: (0.6, 2.0), 12: (0.7, 2.2), 8: (0.3, 2.3)}
     after, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT), action(AT_POCKET))
-    assert (turn.foul, turn.potted, after.player, after.hand, after.state[0]) == ("", (3,), 0, Hand.NOWHERE, 1)
+    assert (turn.foul, turn.potted, after.player, after.hand, after.state["group"]) == ("", (3,), 0, Hand.NOWHERE, 1)
     after, _ = EIGHT.play(position_of({0: CUE, 11: NEAR, **far}, EIGHT), action(AT_POCKET))
-    assert after.state[0] == 2 and after.player == 0
+    assert after.state["group"] == 2 and after.player == 0
     # A ball of the other group met first is a foul; the other then has his own group.
     after, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2), action(AT_POCKET))
-    assert turn.code == carom.Foul.FIRST and (after.player, after.hand, after.state[0]) == (1, Hand.ANYWHERE, 1)
+    assert turn.code == carom.Foul.FIRST and (after.player, after.hand, after.state["group"]) == (1, Hand.ANYWHERE, 1)
     for group, places, winner in ((1, {8: NEAR, 12: (0.7, 2.2)}, 0), (1, {8: NEAR, 5: (0.6, 2.0)}, 1)):
         after, _ = EIGHT.play(position_of({0: CUE, **places}, EIGHT, group=group), action(AT_POCKET))
         assert after.winner == winner

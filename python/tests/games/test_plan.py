@@ -253,7 +253,6 @@ RACK = carom.racks.eightball(TABLE)
     [
         ({"state": [0] * 8, "group": "open"}, "state, group: the state says the group, too: give one of both"),
         ({"state": [0] * 8, "opening": True}, "state, opening: the state says the opening, too"),
-        ({"state": [9] + [0] * 7}, r"state\[0\]: it must be 0 \(open\), 1 \(solids\) or 2 \(stripes\), not 9"),
         ({"rules": "nineball", "group": "solids", "balls": RACK[:10]}, "group: it is of eight-ball"),
         ({"rules": "potting", "opening": True}, "opening: it is of eight-ball, nine-ball and straight pool"),
         ({"rules": "nineball"}, "balls: the balls of nineball are the cue ball and 1 to 9, not 10"),
@@ -285,24 +284,24 @@ def test_a_referee():
     best = carom.plan(TABLE, ORDER, rules="nineball", shots=300)[0]
     ruling = carom.referee(TABLE, ORDER, best["cue"], rules="nineball")
     assert (ruling.turn, ruling.foul, ruling.hand, ruling.potted, ruling.first) == ("keep", carom.Foul.NONE, "no", (1,), 1)
-    assert ruling.balls["state"].tobytes() == carom.simulate(TABLE, ORDER, best["cue"]).final.tobytes() and not ruling.state.any()
+    assert ruling.balls["state"].tobytes() == carom.simulate(TABLE, ORDER, best["cue"]).final.tobytes() and not any(ruling.state.tobytes())
     # eight-ball without a call passes the turn, with it the groups are known
     passed = carom.referee(TABLE, ORDER, best["cue"])
     called = carom.referee(TABLE, ORDER, best["cue"], call=(1, int(best["pocket"])))
-    assert (passed.turn, called.turn, int(called.state[0])) == ("pass", "keep", 1)
+    assert (passed.turn, called.turn, int(called.state["group"])) == ("pass", "keep", 1)
     # a foul, and the third of a player
     away = carom.cue(speed=1.0, phi=90.0)
-    foul = carom.referee(TABLE, ORDER, away, rules="nineball", state=[0, 0, 1, 2, 0, 0, 0, 0])
-    assert (foul.turn, foul.foul, foul.hand, foul.state[2:4].tolist()) == ("pass", carom.Foul.NO_BALL, "anywhere", [2, 2])
+    foul = carom.referee(TABLE, ORDER, away, rules="nineball", state={"fouls": (1, 2)})
+    assert (foul.turn, foul.foul, foul.hand, foul.state["fouls"].tolist()) == ("pass", carom.Foul.NO_BALL, "anywhere", [2, 2])
     assert foul.foul.text == "the cue ball met no ball"
     assert carom.referee(TABLE, ORDER, away, rules="nineball", state=foul.state).turn == "lose"
 
 
 def test_a_push_out_may_be_passed():
-    pushed = carom.referee(TABLE, ORDER, carom.cue(speed=0.5, phi=0.0), rules="nineball", state=[0, 0, 0, 0, 1, 0, 0, 0], call=(-2, -1))
-    assert (pushed.turn, pushed.foul, int(pushed.state[4])) == ("pass", carom.Foul.NONE, 2)
+    pushed = carom.referee(TABLE, ORDER, carom.cue(speed=0.5, phi=0.0), rules="nineball", state={"may": 2}, call=(-2, -1))
+    assert (pushed.turn, pushed.foul, int(pushed.state["may"])) == ("pass", carom.Foul.NONE, 1)
     passed = carom.referee(TABLE, pushed.balls, carom.cue(), rules="nineball", state=pushed.state, call=(-3, -1))
-    assert (passed.turn, passed.foul, int(passed.state[4])) == ("pass", carom.Foul.NONE, 0)
+    assert (passed.turn, passed.foul, int(passed.state["may"])) == ("pass", carom.Foul.NONE, 0)
     assert passed.balls["state"]["r"].tobytes() == pushed.balls["state"]["r"].tobytes()
 
 
@@ -414,7 +413,11 @@ def test_errors_of_rules():
     with pytest.raises(ValueError, match="in_hand: must be one of 'no', 'anywhere', 'kitchen'"):
         carom.plan(TABLE, LAYOUT, in_hand="head", shots=100)
     with pytest.raises(ValueError, match="state: 8 whole numbers"):
-        carom.plan(TABLE, LAYOUT, state=[1, 2])
+        carom.plan(TABLE, LAYOUT, rules=Corner(), state=[1, 2])
+    for state, match in (({"grup": 1}, "state: there is no 'grup'; there are opening, group"), ({"group": "reds"}, "state: group: must be one of 'open'"),
+                         ({"fouls": 1}, "state: fouls: it must be two whole numbers"), ({"may": -1}, "state: may: it must be a whole number"), ([0] * 8, "state: an array")):  # fmt: skip
+        with pytest.raises((TypeError, ValueError), match=match):
+            carom.plan(TABLE, LAYOUT, state=state)
     with pytest.raises(carom.CaromError):
         carom.referee(TABLE, LAYOUT, carom.cue(speed=-1.0))
 
@@ -425,18 +428,18 @@ def test_one_pocket():
     layout = carom.by_number(carom.balls([[0.6, 1.4], [0.95, 2.1], [0.3, 2.1]]), ["cue", 3, 9], "onepocket")
     right, left = (table.pocket_names.index(name) for name in ("foot-right", "foot-left"))
     for own, other, ball in ((right, left, 3), (left, right, 9)):
-        state = [own + 8 * other, 0, 5, 6, 0, 0, 0, 0]
+        state = {"pocket": (own, other), "score": (5, 6)}
         best = carom.plan(table, layout, rules="onepocket", state=state, shots=600)
         assert set(best["pocket"]) <= {own, -1} and (best["ball"][0], best["pocket"][0]) == (ball, own)
         made = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
         assert made.turn == "keep" and made.potted == (ball,) and made.score == (6, 6) and made.points == 1.0
         # the same ball in the pocket of the other
-        state[0] = other + 8 * own
+        state["pocket"] = (other, own)
         given = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
-        assert given.turn == "pass" and given.score == (7, 5) and given.state[0] == own + 8 * other
+        assert given.turn == "pass" and given.score == (7, 5) and given.state["pocket"].tolist() == [own, other]
     # no ball is met: one that counted comes back; who has none owes one
     for balls in (5, 0):
-        missed = carom.referee(table, layout, carom.cue(speed=0.5, phi=180.0), rules="onepocket", state=[own + 8 * other, 0, balls, 0, 0, 0, 0, 0])
+        missed = carom.referee(table, layout, carom.cue(speed=0.5, phi=180.0), rules="onepocket", state={"pocket": (own, other), "score": (balls, 0)})
         assert missed.turn == "pass" and missed.foul == carom.Foul.NO_BALL and missed.score == (0, balls - 1) and missed.hand == "no"
         assert np.count_nonzero(missed.balls["state"]["label"] == carom.Label.STATIONARY) == (12 if balls else 16)
     with pytest.raises(ValueError, match="balls: onepocket has the cue ball and 1 to 15"):
@@ -454,9 +457,9 @@ def test_straight_pool_and_snooker():
     assert ruling.facts.first == ruling.first == best["ball"] and ruling.facts.potted == {best["ball"]: best["pocket"]}
     assert ruling.turn == "keep" and ruling.score == (1, 0) and ruling.points == 1.0 and ruling.hand == "no"
     # one ball is left: the others are racked
-    assert np.count_nonzero(ruling.balls["state"]["label"] == carom.Label.STATIONARY) == 16 and ruling.state[0] == 100
+    assert np.count_nonzero(ruling.balls["state"]["label"] == carom.Label.STATIONARY) == 16 and ruling.state["target"] == 100
     missed = carom.referee(table, layout, carom.cue(speed=0.5, phi=180.0), rules="straight", state=ruling.state)
-    assert missed.turn == "pass" and missed.foul == carom.Foul.NO_BALL and missed.score == (0, 0) and missed.state[6] == 1
+    assert missed.turn == "pass" and missed.foul == carom.Foul.NO_BALL and missed.score == (0, 0) and missed.state["lost"][1] == 1
     with pytest.raises(ValueError, match="balls: straight has the cue ball and 1 to 15"):
         carom.plan(table, pool[:10], rules="straight")
     opening = carom.plan(table, pool, rules="straight", opening=True, in_hand="kitchen", shots=200)
@@ -469,17 +472,17 @@ def test_straight_pool_and_snooker():
     names = ["white", "red1", *("yellow", "green", "brown", "blue", "pink", "black")]
     spots = rack["state"]["r"][16:, :2]
     layout = carom.by_number(carom.balls([[1.4, 3.2], [0.3, 1.2], *spots], game="snooker"), names, "snooker", cue="white")
-    assert carom.value(table, layout, rules="snooker") < carom.value(table, layout, rules="snooker", state=[0, 0, 30, 0, 0, 0, 0, 0])
-    black = [1, 0, 0, 0, 0, 0, 0, 0]  # a colour is on
+    assert carom.value(table, layout, rules="snooker") < carom.value(table, layout, rules="snooker", state={"score": (30, 0)})
+    black = {"on": 1}  # a colour is on
     best = carom.plan(table, layout, cue, rules="snooker", state=black, shots=1000, player=carom.player(errors=0.2))[0]
     assert best["ball"] == 21
     ruling = carom.referee(table, layout, best["cue"], rules="snooker", state=black, call=(21, -1))
     assert ruling.turn == "keep" and ruling.score == (7, 0) and ruling.potted == (21,) and ruling.balls["state"]["r"][21, :2].tolist() == spots[5].tolist()
     # no ball is met: four points for the other, who may let the offender play again
     scratch = carom.referee(table, layout, carom.cue(game="snooker", speed=0.1, phi=0.0), rules="snooker")
-    assert scratch.foul == carom.Foul.NO_BALL and scratch.score == (4, 0) and int(scratch.state[4]) & 1
+    assert scratch.foul == carom.Foul.NO_BALL and scratch.score == (4, 0) and int(scratch.state["may"]) & 1
     again = carom.referee(table, scratch.balls, cue, rules="snooker", state=scratch.state, call=(-3, -1))
-    assert again.turn == "pass" and again.foul == carom.Foul.NONE and again.score == (0, 4) and again.state[4] == 0
+    assert again.turn == "pass" and again.foul == carom.Foul.NONE and again.score == (0, 4) and again.state["may"] == 0
     with pytest.raises(ValueError, match="balls: snooker has the cue ball and 1 to 21"):
         carom.referee(table, layout[:5], cue, rules="snooker")
 

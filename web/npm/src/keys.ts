@@ -7,7 +7,7 @@ import type { AimOf, GameState, Impact, Motion, PlanOptions, ShotBall } from "./
 /** The keys of an interface; the compiler refuses a list that lacks one or has another. */
 const all = <T>(keys: Record<keyof T, 1>): readonly string[] => Object.keys(keys);
 
-const GAME: Record<keyof GameState, 1> = { rules: 1, group: 1, opening: 1, fouls: 1, may: 1, state: 1 };
+const GAME: Record<keyof GameState, 1> = { rules: 1, group: 1, opening: 1, fouls: 1, score: 1, lost: 1, pocket: 1, may: 1, on: 1, freeBall: 1, target: 1 };
 const keysOf = (struct: keyof typeof options): string[] => options[struct].map(({ key }) => key);
 
 /** The keys of the objects that are no struct of C. */

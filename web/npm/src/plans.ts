@@ -18,12 +18,11 @@ const SHOT = layout.carom_shot.offset;
 const POT = layout.carom_pot;
 const PART = layout.carom_part;
 
-const GROUPS = ["open", "solids", "stripes"] as const;
-const MAY = ["nothing", "push", "pass"] as const;
+const MAY = ["pass", "push", "free_ball", "place"] as const;
 const HANDS = ["no", "no", "anywhere", "kitchen", "d"] as const;
-/** Games whose state is told by its words. */
-const WORDS = ["straight", "snooker", "onepocket"] as const;
-const hasWords = (rules: string): boolean => (WORDS as readonly string[]).includes(rules);
+/** The members of a state that are numbers here, too. */
+const MEMBERS = ["fouls", "score", "lost", "pocket", "on", "freeBall", "target"] as const;
+const of = (state: object, keys: readonly string[]): object => Object.fromEntries(Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined));
 const BOUNDS = { speedShare: 0, speedLeast: 0, speedMost: 0, tipMost: 0, reserved: [0, 0, 0] };
 
 /** What the calls of this file need of the library. */
@@ -38,12 +37,6 @@ export interface Host {
 }
 
 type Method = (...numbers: Pointer[]) => number;
-
-/** Points, or balls, of the next player and of the other, by the words of carom_rules_kind. */
-function scoreOf({ rules, state = [] }: GameState): [number, number] {
-  const word = (k: number): number => state[k] ?? 0;
-  return rules === "straight" || rules === "onepocket" ? [word(2) - word(5), word(3) - word(6)] : [word(2), word(3)];
-}
 
 /** Refuses what is no layout of a game, for a plan. */
 function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: string): void {
@@ -186,7 +179,7 @@ export class Plans {
 
   on(game: GameState, balls: readonly ShotBall[]): number[] {
     this.#writeRules(game, balls);
-    const set = this.#method("on")(this.#at.rules, inPlay(balls));
+    const set = this.#method("on")(this.#at.rules + RULES.offset.state, inPlay(balls));
     return balls.flatMap((_, k) => ((set >>> k) & 1 ? [k] : []));
   }
 
@@ -214,31 +207,29 @@ export class Plans {
     const called = call === "push" ? values.CAROM_CALL_PUSH : call === "pass" ? values.CAROM_CALL_PASS : (call?.ball ?? -1);
     memory.i32[callAt / 4] = called;
     memory.i32[callAt / 4 + 1] = typeof call === "object" ? call.pocket : -1;
-    this.#method("judge")(turnAt, rules, inPlay(balls), struck.ball, facts, callAt);
+    this.#method("judge")(turnAt, rules + RULES.offset.state, inPlay(balls), struck.ball, facts, callAt);
     const i32 = memory.i32;
     const turn = names.carom_turn_is[i32[(turnAt + TURN.offset.is) / 4]!]!;
     const leave = i32[(turnAt + TURN.offset.leave) / 4]!;
     const spot = memory.u32[(turnAt + TURN.offset.spot) / 4]!;
-    const word = (k: number): number => Number(memory.i64[rules / 8 + k]);
     // The layout of the next stroke.
     let lie = balls.map((ball, k): ShotBall => {
       const taken = code < 0 || leave === values.CAROM_LEAVE_BEFORE;
       return taken ? ball : { ...ball, state: readState(memory, at.final + k * layout.carom_ball_state.size) };
     });
-    const settles = spot !== 0 || hasWords(game.rules);
+    const settles = spot !== 0 || this.#settles;
     if (settles) this.#host.writeLayout(table, lie);
-    if (settles) this.#host.refuse(memory.exports.carom_turn_settle(rules, rules, at.table, at.balls, balls.length, turnAt), "balls");
+    if (settles) this.#host.refuse(memory.exports.carom_turn_settle(rules, rules + RULES.offset.state, at.table, at.balls, balls.length, turnAt), "balls");
     if (settles) lie = readBalls(memory, at.balls, balls.length);
 
     // What may have changed by where balls lie.
     const reason = names.carom_foul[memory.i32[(turnAt + TURN.offset.foul) / 4]!]!;
     const hand = HANDS[memory.i32[(turnAt + TURN.offset.leave) / 4]!]!;
     const points = memory.f64[(turnAt + TURN.offset.points) / 8]!;
-    const state = Array.from({ length: 8 }, (_, k) => word(k));
-    const after: GameState = hasWords(game.rules)
-      ? { rules: game.rules, group: "open", opening: word(1) !== 0, state }
-      : { rules: game.rules, group: GROUPS[word(0)]!, opening: word(1) !== 0, fouls: [word(2), word(3)], may: MAY[word(4)]! };
-    return { turn, foul: reason !== "none", reason, hand, points, score: scoreOf(after), facts: happened, balls: lie, game: after };
+    const state = readStruct<C.RulesState & { group: number }>(memory, rules + RULES.offset.state, "carom_rules_state");
+    const { group, opening, may, score, lost } = state;
+    const after: GameState = { rules: game.rules, group: names.carom_group[group]!, opening: opening !== 0, may: MAY.filter((_, k) => (may >> k) & 1), ...of(state, MEMBERS) };
+    return { turn, foul: reason !== "none", reason, hand, points, score: [score[0] - lost[0], score[1] - lost[1]], facts: happened, balls: lie, game: after };
   }
 
   // ---- Structs ---------------------------------------------------------------------------------------------------------------
@@ -248,28 +239,29 @@ export class Plans {
     return this.#memory.exports.__indirect_function_table.get(this.#memory.u32[(this.#at.rules + RULES.offset[name]) / 4]!) as Method;
   }
 
+  /** Whether the rules do more with the places of balls than to put some back; all their balls are in the list then. */
+  get #settles(): boolean {
+    return this.#memory.u32[(this.#at.rules + RULES.offset.settle) / 4] !== 0;
+  }
+
   #writePlayer(at: Pointer, player: Player, name: string): Pointer {
     writeStruct(this.#memory, at, "carom_player", player, name, BOUNDS);
     return at;
   }
 
-  #writeRules({ rules = "eightball", group = "open", opening = false, fouls = [0, 0], may = "nothing", state }: Partial<GameState>, balls: readonly ShotBall[]): void {
+  #writeRules(game: Partial<GameState>, balls: readonly ShotBall[]): void {
+    const { rules = "eightball", group = "open", opening = false, may = [] } = game;
     refuseOrder(balls, rules);
-    const last = LAST[rules];
-    if (hasWords(rules) && last !== undefined && balls.length <= last) throw new TypeError(`balls: ${rules} has the cue ball and 1 to ${last}, of which some may be down`);
     const { rules: at } = this.#at;
-    this.#memory.exports.carom_plan_rules_of(at, value("carom_rules_kind", rules, "rules"));
+    const memory = this.#memory;
+    memory.exports.carom_plan_rules_of(at, value("carom_rules_kind", rules, "rules"));
+    const last = LAST[rules];
+    if (this.#settles && last !== undefined && balls.length <= last) throw new TypeError(`balls: ${rules} has the cue ball and 1 to ${last}, of which some may be down`);
     if (group !== "open" && rules !== "eightball") throw new TypeError("group: it is of eight-ball");
-    if (may !== "nothing" && rules !== "nineball") throw new TypeError("may: it is of nine-ball");
-    if (state !== undefined && !hasWords(rules)) throw new TypeError("state: it is of straight, snooker and onepocket");
-    if (hasWords(rules)) {
-      if (state !== undefined && state.length !== 8) throw new TypeError("state: it has eight numbers");
-      for (const [k, one] of (state ?? []).entries()) this.#memory.i64[at / 8 + k] = BigInt(whole(one, `state[${k}]`));
-      if (opening) this.#memory.i64[at / 8 + 1] = 1n;
-      return;
-    }
-    const words = [indexOf(GROUPS, group, "group"), Number(opening), ...fouls.map((count) => whole(count, "fouls")), indexOf(MAY, may, "may")];
-    for (const [k, word] of words.entries()) this.#memory.i64[at / 8 + k] = BigInt(word);
+    if (may.length > 0 && (rules === "eightball" || rules === "potting")) throw new TypeError(`may: it is not of ${rules}`);
+    const stateAt = at + RULES.offset.state;
+    const words = { group: value("carom_group", group, "group"), opening: Number(opening), may: may.reduce((sum, one) => sum | (1 << indexOf(MAY, one, "may")), 0) };
+    writeStruct(memory, stateAt, "carom_rules_state", { ...readStruct<object>(memory, stateAt, "carom_rules_state"), ...of(game, MEMBERS), ...words, user: Array(8).fill(0) }, "game");
   }
 
   #writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {

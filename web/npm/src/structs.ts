@@ -50,16 +50,17 @@ export function refuseUnknownOf(struct: StructName, from: object, name: string):
 /** A struct of numbers and arrays of them, from an object whose keys are the fields; `defaults` has those that may be missing. */
 export function writeStruct(memory: Memory, at: Pointer, struct: StructName, from: object, name: string, defaults?: object): void {
   refuseUnknownOf(struct, from, name);
-  const f64 = memory.f64;
+  const { f64, i64, i32 } = memory;
   for (const { key, begin, size, type } of FIELDS[struct]) {
     const given = (from as Record<string, unknown>)[key] ?? (defaults as Record<string, unknown> | undefined)?.[key];
-    const index = (at + begin) / 8;
-    const whole = type === "i64";
-    if (whole && Number.isSafeInteger(given)) memory.i64[index] = BigInt(given as number);
-    else if (!whole && typeof given === "number" && size === 1) f64[index] = given;
-    else if (typeof given === "object" && (given as number[] | null)?.length === size)
-      for (let k = 0; k < size; k++) f64[index + k] = (given as number[])[k]!;
-    else throw new TypeError(`${name}.${key}: it must be ${whole ? "a whole number" : size === 1 ? "a number" : `${size} numbers`}, not ${JSON.stringify(given)}`);
+    const whole = type === "i64" || type === "i32";
+    const list = (size === 1 ? [given] : typeof given === "object" ? given : undefined) as ArrayLike<number> | null | undefined;
+    if (list?.length !== size || (size === 1 || whole) && !Array.from(list).every((one) => (whole ? Number.isSafeInteger(one) : typeof one === "number")))
+      throw new TypeError(`${name}.${key}: it must be ${whole ? "a whole number" : size === 1 ? "a number" : `${size} numbers`}, not ${JSON.stringify(given)}`);
+    for (let k = 0; k < size; k++)
+      if (type === "i64") i64[(at + begin) / 8 + k] = BigInt(list[k]!);
+      else if (type === "i32") i32[(at + begin) / 4 + k] = list[k]!;
+      else f64[(at + begin) / 8 + k] = list[k]!;
   }
 }
 

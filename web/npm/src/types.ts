@@ -155,20 +155,16 @@ export type RackName = C.RackKind;
 /** How the strokes of a player differ from those that are meant. What is missing is 0. */
 export type Player = Optional<C.Player, "speedShare" | "speedLeast" | "speedMost" | "tipMost">;
 
-/** A game between two strokes, as the player at the table sees it. Ball k is ball k of the game, ball 0 the cue ball. */
-export interface GameState {
+/** A game between two strokes, as the player at the table sees it. Ball k is ball k of the game, ball 0 the cue ball. What is missing is that of a new game. */
+export interface GameState extends Partial<Pick<C.RulesState, "fouls" | "score" | "lost" | "pocket" | "on" | "freeBall" | "target">> {
   /** Eight-ball, nine-ball and straight pool by the rules of the WPA, snooker by those of the WPBSA, one-pocket by those of the BCA; or a drill for one. Default "eightball". */
   rules: C.RulesKind;
   /** Of eight-ball: whose balls the player has. Default "open". */
-  group: "open" | "solids" | "stripes";
+  group: C.Group;
   /** Whether the next stroke is the break. Default false. */
   opening: boolean;
-  /** Of nine-ball: fouls of the player and of the other in their last successive strokes; three lose. Default [0, 0]. */
-  fouls?: readonly [number, number];
-  /** Of nine-ball: whether the player may push out, just after the break, or pass, after a push-out. Default "nothing". */
-  may?: "nothing" | "push" | "pass";
-  /** Of straight pool, snooker and one-pocket: eight whole numbers, with the scores, as `carom_rules_kind` of C has them. Default: that of a new game. */
-  state?: readonly number[];
+  /** What the player may do besides a stroke. Default: nothing. */
+  may?: readonly C.May[];
 }
 
 /** What an aim is asked for: a ball, and its pocket by index or name, such as "foot-left". */

@@ -7,7 +7,7 @@ use std::os::raw::c_int;
 use std::panic::{catch_unwind, AssertUnwindSafe};
 
 /// Rules of a game. Sets of balls have bit k for ball k. The functions may be called from several threads at once, and depend on
-/// their arguments only; `user` is the state of the game as the player at the table has it. A function that panics ends the program.
+/// their arguments only; `user` are the eight words of the state that are theirs, as the player at the table has them. A function that panics ends the program.
 pub trait Game {
     /// The balls that may be met first, and potted.
     fn on(user: &[u64; 8], in_play: u32) -> u32;
@@ -20,22 +20,26 @@ pub trait Game {
 
 /// The rules of a game, with a state that is all 0; `calls`, `race` and the like can be set.
 pub fn rules<G: Game>() -> Rules {
-    unsafe extern "C" fn on<G: Game>(user: *const u64, in_play: u32) -> u32 {
-        guarded(|| G::on(unsafe { &*user.cast() }, in_play))
+    unsafe extern "C" fn on<G: Game>(state: *const sys::carom_rules_state, in_play: u32) -> u32 {
+        guarded(|| G::on(unsafe { &(*state).user }, in_play))
     }
     unsafe extern "C" fn judge<G: Game>(
-        user: *mut u64,
+        state: *mut sys::carom_rules_state,
         in_play: u32,
         cue_ball: c_int,
         facts: *const Facts,
         call: Call,
     ) -> Turn {
         guarded(|| unsafe {
-            G::judge(&mut *user.cast(), in_play, cue_ball as usize, &*facts, call)
+            G::judge(&mut (*state).user, in_play, cue_ball as usize, &*facts, call)
         })
     }
-    unsafe extern "C" fn left<G: Game>(user: *const u64, in_play: u32, to: *mut i32) {
-        guarded(|| unsafe { *to.cast() = G::left(&*user.cast(), in_play) })
+    unsafe extern "C" fn left<G: Game>(
+        state: *const sys::carom_rules_state,
+        in_play: u32,
+        to: *mut i32,
+    ) {
+        guarded(|| unsafe { *to.cast() = G::left(&(*state).user, in_play) })
     }
     Rules {
         on: Some(on::<G>),

@@ -42,7 +42,7 @@ class Break(Potting):
 
     acts: ClassVar[int] = 6
     _game: ClassVar[RulesGame] = "nineball"
-    _state: ClassVar[tuple[int, ...] | None] = (0, 1, 0, 0, 0, 0, 0, 0)  # of the rules: before the break
+    _state: ClassVar[dict[str, Any] | None] = {"opening": True}
 
     def __init__(self, *, speeds: tuple[float, float] = (0.5, 10.5), **options: Any) -> None:
         super().__init__(9, 1, speeds=speeds, **options)

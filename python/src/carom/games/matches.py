@@ -14,9 +14,19 @@ from carom.games._draws import Draws, Games
 from carom.games.plans import player, with_errors
 from carom.games.pool import Hand, Pool, Position
 from carom.games.potting import Strokes, Turned
+from carom.games.rules import Made, State
 from carom.results import Label, Shot
 
 __dir__ = listing(__name__)
+
+
+def _words(state: State) -> list[int]:
+    """A state as numbers of 64 bits, of which environments keep an array."""
+    return state.reshape(1).view(np.uint64).tolist()  # type: ignore[no-any-return]
+
+
+def _state(words: npt.NDArray[np.uint64]) -> State:
+    return words[:-1].copy().view(dtypes.rules_state).reshape(())
 
 
 class Match:
@@ -40,7 +50,7 @@ class Match:
     """
 
     acts: ClassVar[int] = 6
-    words: ClassVar[tuple[int, ...]] = (0, 1, 0, 0, 0, 0, 0, 0, int(Hand.BEHIND))  # of the rules, and the hand
+    words: ClassVar[tuple[int, ...]] = (*_words(Made("nineball", None, opening=True).state), int(Hand.BEHIND))
 
     def __init__(
         self, game: Literal["nineball", "eightball"] = "nineball", strokes: int = 60, *, opponent: dtypes.Records | None = None,
@@ -63,7 +73,7 @@ class Match:
         left = np.broadcast_to(np.asarray(strokes_left, np.float64), len(balls))
         none = Draws([0])
         return np.stack([
-            np.append(self.pool.observe(Position(layout, 0, Hand(int(own[8])), own[:8], 0, None, none), 0), now)
+            np.append(self.pool.observe(Position(layout, 0, Hand(int(own[-1])), _state(own), 0, None, none), 0), now)
             for layout, own, now in zip(balls, words, left, strict=True)
         ])  # fmt: skip
 
@@ -85,13 +95,13 @@ class Match:
         )  # fmt: skip
         ended = np.zeros(n, np.bool_)
         for k, game in enumerate(games.tolist()):
-            before = Position(balls[k], 0, Hand(int(words[k, 8])), words[k, :8].copy(), 0, None, draws.of(game))
+            before = Position(balls[k], 0, Hand(int(words[k, -1])), _state(words[k]), 0, None, draws.of(game))
             position, turn = self.pool.play(before, given[k])
             struck[k], cues[k] = turn.shot.balls, turn.shot.cue
             strokes.potted[k], strokes.scratch[k], strokes.foul[k] = len(turn.potted), turn.shot.final["label"][0] == Label.POCKETED, turn.code
             strokes.status[k], strokes.time[k] = int(turn.shot.status), turn.shot.time
             position = self._visit(position)
-            after[k], words[k, :8], words[k, 8] = position.balls, position.state, int(position.hand)
+            after[k], words[k] = position.balls, [*_words(position.state), int(position.hand)]
             draws.keep(game, position.draws)
             ended[k] = position.winner is not None
             strokes.rewards[k] = {None: 0.0, 0: 1.0}.get(position.winner, -1.0)

@@ -17,7 +17,7 @@ from carom._faults import argument_error, shot_arguments
 from carom._rows import Array, Arrays, as_array, choice, copied, listing, number, pointer
 from carom._rows import several, whole
 from carom._shot_options import Options, chosen, shot_options
-from carom.games.rules import Game, Group, Hand, Made, Rules
+from carom.games.rules import Game, GivenState, Group, Hand, Made, Rules
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
 from carom.status import CaromError
@@ -257,7 +257,7 @@ def plan(
     rules: Game | Rules = "eightball",
     group: Group | None = None,
     opening: bool = False,
-    state: npt.ArrayLike | None = None,
+    state: GivenState | None = None,
     player: dtypes.Records | None = None,
     opponent: dtypes.Records | None = None,
     shots: int = 2000,
@@ -289,8 +289,9 @@ def plan(
         Of eight-ball: the balls of the player. Default: "open".
     opening : bool
         Whether the stroke is the break of eight-ball, nine-ball or straight pool.
-    state : array_like of 8 whole numbers, optional
-        Of the rules, instead of `group` and `opening`: that of a ruling of `referee`.
+    state : dict or ndarray of `carom.dtypes.rules_state`, optional
+        How the game stands, instead of `group` and `opening`: that of a ruling of `referee`, or what differs from a new game, such as
+        `{"score": (5, 6), "target": 50}`. Of each pair the first is the player's. Of rules of your own eight whole numbers.
     player : ndarray of `carom.dtypes.player`, shape (), optional
         Default: `carom.player()`.
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
@@ -345,7 +346,7 @@ def plan(
 
 def chances(
     table: Table, balls: dtypes.Records, cues: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
-    state: npt.ArrayLike | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, shots: int = 2000, seed: int = 0,
+    state: GivenState | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, shots: int = 2000, seed: int = 0,
     threads: int = 0, unsure: float = 0.0, stop: threading.Event | None = None, options: Options = _USUAL, **changes: Unpack[Changes],
 ) -> dtypes.Records:  # fmt: skip
     """How likely strokes of yours are to win: the chances of each, played with a player's errors.
@@ -385,7 +386,7 @@ def chances(
 
 def value(
     table: Table, balls: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
-    state: npt.ArrayLike | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, in_hand: bool = False,
+    state: GivenState | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, in_hand: bool = False,
     options: Options = _USUAL, **changes: Unpack[Changes],
 ) -> float:  # fmt: skip
     """The chance that the player at the table wins from a layout, 0 to 1: an estimate that plays no shot, in some 20 us.

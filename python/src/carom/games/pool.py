@@ -34,7 +34,6 @@ __dir__ = listing(__name__)
 
 _ONE = np.zeros(1, np.int64)
 _GAMES = {"nineball": 9, "eightball": 15}
-_GROUP, _BREAK, _OWN, _OTHER, _PUSH = range(5)  # the words of the state that the rules have
 _WORTH = np.array([0.5, 0.0, 1.0, -1.0])  # of a stroke that keeps the turn, passes it, wins and loses
 
 
@@ -54,7 +53,7 @@ class Position(Arrays):
     balls: dtypes.Records  # (10,) or (16,): The cue ball, then 1 to 9 or 1 to 15
     player: int  # Whose turn it is, 0 or 1
     hand: Hand  # Whether that player has the cue ball in hand
-    state: State  # (8,): Of the rules, as that player has it, for `carom.plan` and `carom.referee`
+    state: State  # (): Of the rules, as that player has it, for `carom.plan` and `carom.referee`
     strokes: int  # Played until now
     winner: int | None
     draws: Draws  # The random numbers of the game: noise, and places that a player chose but that were not free
@@ -62,7 +61,7 @@ class Position(Arrays):
     @property
     def fouls(self) -> tuple[int, int]:
         """Of player 0 and of player 1 in nine-ball, in consecutive strokes of that player; three lose the game."""
-        own, other = int(self.state[_OWN]), int(self.state[_OTHER])
+        own, other = self.state["fouls"].tolist()
         return (own, other) if self.player == 0 else (other, own)
 
 
@@ -108,7 +107,7 @@ class Pool:
         balls = self.base.deal(draws, _ONE)[0]
         balls["state"]["r"] = rack["state"]["r"]
         balls["state"]["r"][:, 2] = self.base.radius
-        return Position(balls, 0, Hand.BEHIND, np.array([0, 1, 0, 0, 0, 0, 0, 0], np.uint64), 0, None, draws)
+        return Position(balls, 0, Hand.BEHIND, Made(self.game, None, opening=True).state, 0, None, draws)
 
     # ---- The cue ball in hand -------------------------------------------------------------------------------------------
 
@@ -180,7 +179,7 @@ class Pool:
 
         # Balls that left the table are out of play as those that were potted; nobody pushes out.
         ruled.balls["state"]["label"][ruled.balls["state"]["label"] == Label.OFF] = Label.POCKETED
-        ruled.state[_PUSH] = 0
+        ruled.state["may"] = 0
         keeps = ruled.turn in ("keep", "win")
         player = position.player if keeps else 1 - position.player
         after = replace(
@@ -219,19 +218,16 @@ class Pool:
         seen = self.base.observe(position.balls, 0.0)[:-1]
         if self.game == "nineball":
             return np.concatenate([seen, np.array([position.hand, position.fouls[player], position.fouls[1 - player]], np.float64)])
-        group = int(position.state[_GROUP])
+        group = int(position.state["group"])
         own = group if player == position.player or group == 0 else 3 - group
-        return np.concatenate([seen, np.array([position.hand, position.state[_BREAK], own], np.float64)])
+        return np.concatenate([seen, np.array([position.hand, position.state["opening"], own], np.float64)])
 
     def seen(self, observation: npt.ArrayLike) -> Position:
         """The position, with player 0 at the table, of an observation of the player at the table."""
         given = np.asarray(observation, np.float64)
         hand, second, third = (int(number) for number in given[-3:])
-        state = np.zeros(8, np.uint64)
-        if self.game == "nineball":
-            state[[_BREAK, _OWN, _OTHER]] = hand == Hand.BEHIND, second, third
-        else:
-            state[[_BREAK, _GROUP]] = second, third
+        given_state = {"opening": hand == Hand.BEHIND, "fouls": (second, third)} if self.game == "nineball" else {"opening": second, "group": third}
+        state = Made(self.game, given_state).state
         return Position(self.base.layouts(np.append(given[:-3], 0.0)), 0, Hand(hand), state, 0, None, Draws([0]))
 
     def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:

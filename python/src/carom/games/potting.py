@@ -99,7 +99,7 @@ class Potting:
     words: ClassVar[tuple[int, ...]] = ()
     """What the state of a game has besides its balls, as it begins."""
     _game: ClassVar[RulesGame] = "potting"
-    _state: ClassVar[tuple[int, ...] | None] = None
+    _state: ClassVar[dict[str, Any] | None] = None
 
     def __init__(
         self, balls: int = 5, strokes: int = 5, *, table: Table | None = None, ball_set: Game = "pool",

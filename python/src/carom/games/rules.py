@@ -29,15 +29,17 @@ __dir__ = listing(__name__)
 
 Game = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket"]
 Group = Literal["open", "solids", "stripes"]
-State = npt.NDArray[np.uint64]
+State = npt.NDArray[Any]
+GivenState = Mapping[str, Any] | npt.ArrayLike
 Hand = Literal["no", "anywhere", "kitchen", "d"]
 _GAMES = {"eightball": 0, "nineball": 1, "potting": 2, "threecushion": 3, "straight": 4, "snooker": 5, "onepocket": 6}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
 _LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4}
 _RACES = {"own": 0, "shared": 1, "alone": 2, "points": 3}
-_WORDS = 8
+_WORDS = 8  # of the state of rules of one's own
 _USUAL = Options()
+_MEMBERS = tuple(name for name in dtypes.rules_state.names or () if name != "user")
 _POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
 
 
@@ -151,7 +153,7 @@ class Rules:
 class Made:
     """The rules for C, with what has to live as long; and the first exception of a method of Rules."""
 
-    def __init__(self, rules: Game | Rules, state: npt.ArrayLike | None, group: Group | None = None, opening: bool = False) -> None:
+    def __init__(self, rules: Game | Rules, state: GivenState | None, group: Group | None = None, opening: bool = False) -> None:
         self.raised: BaseException | None = None
         self.rules = rules
         self.stop = ffi.new("int32_t *")
@@ -164,7 +166,6 @@ class Made:
             self.c.race, self.c.calls, self.c.first_decides = choice(_RACES, rules.race, "rules.race"), bool(rules.calls), bool(rules.first_decides)
         else:
             self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules")))
-        words = np.zeros(_WORDS, np.uint64)
         self.last = None if isinstance(rules, Rules) else LAST.get(rules)
         """The highest number of a ball."""
         if group is not None and rules != "eightball":
@@ -175,17 +176,41 @@ class Made:
             for is_given, name in ((group is not None, "group"), (opening, "opening")):
                 if is_given:
                     raise ValueError(f"state, {name}: the state says the {name}, too: give one of both")
-            given = as_array(state, "state")
-            if given.shape != (_WORDS,) or given.dtype.kind not in "iu" or (given < 0).any():
-                raise ValueError(f"state: {_WORDS} whole numbers, at least 0, are needed, not {state!r}")
-            if rules == "eightball" and given[0] > 2:
-                raise ValueError(f"state[0]: it must be 0 (open), 1 (solids) or 2 (stripes), not {given[0]}")
-            words[:] = given
-        elif not isinstance(rules, Rules):
-            words[:] = list(self.c.user)
-            words[0] += choice(_GROUPS, group or "open", "group")
-            words[1] = bool(opening)
-        self.c.user = words.tolist()
+            self.state = (self._words if isinstance(rules, Rules) else self._named)(state)
+        self.c.state.group += choice(_GROUPS, group or "open", "group")
+        self.c.state.opening |= bool(opening)
+
+    @property
+    def state(self) -> State:
+        """That of the rules, a copy of shape ()."""
+        return np.frombuffer(bytearray(ffi.buffer(ffi.addressof(self.c, "state"))), dtypes.rules_state)[0:1].reshape(())
+
+    @state.setter
+    def state(self, record: State) -> None:
+        self.c.state = pointer("carom_rules_state[]", record)[0]
+
+    def _words(self, given: Any) -> State:
+        """The state of rules of one's own."""
+        words, made = as_array(given, "state"), self.state
+        if words.shape != (_WORDS,) or words.dtype.kind not in "iu" or (words < 0).any():
+            raise ValueError(f"state: {_WORDS} whole numbers, at least 0, are needed, not {given!r}")
+        made["user"] = words
+        return made
+
+    def _named(self, given: Any) -> State:
+        """The state of a game: a record, or some members by their names, of which the others are those of a new game."""
+        if not isinstance(given, Mapping):
+            return copied(of_record(given, dtypes.rules_state, "state", "referee().state")).reshape(())
+        made = self.state
+        for name, value in given.items():
+            if name not in _MEMBERS:
+                raise ValueError(f"state: there is no {name!r}; there are {', '.join(_MEMBERS)}")
+            found = as_array(choice(_GROUPS, value, "state: group") if isinstance(value, str) else value, f"state: {name}")
+            if found.shape != made[name].shape or found.dtype.kind not in "biu" or not ((found >= 0) & (found <= 2**31 - 1)).all():
+                what = "a whole number" if made[name].shape == () else "two whole numbers, the player's and the other's"
+                raise ValueError(f"state: {name}: it must be {what}, not {value!r}")
+            made[name] = found
+        return made
 
     def _functions(self, rules: Rules) -> None:
         """The methods as functions for C."""
@@ -197,12 +222,12 @@ class Made:
 
             return ffi.callback(kind, call, error=otherwise, onerror=failed)
 
-        def judge(user: Any, in_play: int, cue_ball: int, facts: Any, call: Any) -> Any:
-            state = list(user[0:_WORDS])
+        def judge(game: Any, in_play: int, cue_ball: int, facts: Any, call: Any) -> Any:
+            state = list(game.user)
             turn = rules.judge(state, _of_set(in_play), _facts(facts), (call.ball, call.pocket))
             if not isinstance(turn, Turn):
                 raise TypeError(f"judge: it must return a carom.Turn, not {turn!r}")
-            user[0:_WORDS] = [whole(word, f"judge: state[{k}]", most=2**64 - 1) for k, word in enumerate(state)]
+            game.user = [whole(word, f"judge: state[{k}]", most=2**64 - 1) for k, word in enumerate(state)]
             made = ffi.new("carom_turn *", {"is": choice(_TURNS, turn.turn, "Turn.turn"), "leave": choice(_LEAVES, turn.leave, "Turn.leave")})
             made.foul, made.spot, made.points = int(turn.foul), _set_of(turn.spot, "Turn.spot"), turn.points
             there = _of_set(made.spot & (in_play & ~(facts.down | facts.off) | 1))
@@ -210,15 +235,15 @@ class Made:
                 raise ValueError(f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(there)}")
             return made[0]
 
-        def left(user: Any, in_play: int, out: Any) -> None:
-            own, other = rules.left(list(user[0:_WORDS]), _of_set(in_play))
+        def left(game: Any, in_play: int, out: Any) -> None:
+            own, other = rules.left(list(game.user), _of_set(in_play))
             out[0:2] = whole(own, "left"), whole(other, "left")
 
-        def on(user: Any, in_play: int) -> int:
-            return _set_of(rules.on(list(user[0:_WORDS]), _of_set(in_play)))
+        def on(game: Any, in_play: int) -> int:
+            return _set_of(rules.on(list(game.user), _of_set(in_play)))
 
-        def pockets(user: Any) -> int:
-            return _set_of(rules.pockets(list(user[0:_WORDS])), "pockets", lib.CAROM_POCKETS_MOST - 1)
+        def pockets(game: Any) -> int:
+            return _set_of(rules.pockets(list(game.user)), "pockets", lib.CAROM_POCKETS_MOST - 1)
 
         lost = ffi.new("carom_turn *", {"is": lib.CAROM_TURN_LOSE})[0]
         self.kept = (
@@ -251,27 +276,20 @@ class Made:
             raise self.raised
 
 
-def _score(rules: Game | Rules, state: State) -> tuple[int, int]:
-    """By the words of `carom_rules_kind`: points of both, less those that fouls cost in straight pool, and balls that are owed in one-pocket."""
-    own, other = (int(word) for word in state[2:4])
-    lost = [int(word) for word in state[5:7]]
-    return (own - lost[0], other - lost[1]) if rules in ("straight", "onepocket") else (own, other) if rules == "snooker" else (0, 0)
-
-
 _bits: npt.NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
 
 
 def judge(made: Made, before: dtypes.Records, shots: Shots, states: State | None = None, calls: Array | None = None) -> Array:
     """What shots with facts amount to, as `carom.dtypes.turn`, from the layouts before them, of shape (..., balls).
 
-    `states`, (..., 8), are changed; by default each shot has that of the rules. `calls` are int32 of shape (..., 2); by default none.
+    `states` are changed; by default each shot has that of the rules. `calls` are int32 of shape (..., 2); by default none.
     """
     label = before["state"]["label"]
     in_play = ((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]
     turns: Array = np.zeros(shots.shape, dtypes.turn)
     lib.carom_python_judge(
         made.c, turns.size, pointer("int8_t[]", shots.status), pointer("carom_facts[]", shots._facts), pointer("uint32_t[]", in_play),
-        ffi.NULL if calls is None else pointer("carom_call[]", calls), ffi.NULL if states is None else pointer("uint64_t[]", states),
+        ffi.NULL if calls is None else pointer("carom_call[]", calls), ffi.NULL if states is None else pointer("carom_rules_state[]", states),
         pointer("carom_turn[]", turns),
     )  # fmt: skip
     made.check()
@@ -281,7 +299,7 @@ def judge(made: Made, before: dtypes.Records, shots: Shots, states: State | None
 def on_of(made: Made, layout: dtypes.Records) -> tuple[int, ...]:
     """The balls of a layout, of shape (balls,), that may be met first."""
     label = layout["state"]["label"]
-    return tuple(sorted(_of_set(int(made.c.on(made.c.user, int(((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]))))))
+    return tuple(sorted(_of_set(int(made.c.on(ffi.addressof(made.c, "state"), int(((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]))))))
 
 
 def calls_of(made: Made, layout: dtypes.Records, shots: Shots) -> Array:
@@ -308,7 +326,7 @@ class Ruling(Arrays):
     first: int  # The ball that the cue ball met first, -1 for none
     points: float
     balls: dtypes.Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
-    state: State  # (8,): Of the rules, as the next player has it
+    state: State  # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own eight numbers
     score: tuple[int, int]  # Of straight pool and snooker: points of the next player, and of the other; of one-pocket their balls, below 0 those that they owe
     facts: Facts  # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was met in one that ended in an error
     shot: Shot
@@ -316,7 +334,7 @@ class Ruling(Arrays):
 
 def referee(
     table: Table, balls: dtypes.Records, cue: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
-    state: npt.ArrayLike | None = None, call: tuple[int, int] = (-1, -1), options: Options = _USUAL, **changes: Unpack[Changes]
+    state: GivenState | None = None, call: tuple[int, int] = (-1, -1), options: Options = _USUAL, **changes: Unpack[Changes]
 ) -> Ruling:  # fmt: skip
     """Play a stroke and judge it by the rules of a game.
 
@@ -348,7 +366,7 @@ def referee(
     failed = shots.status[0] < 0
     if shots.refused[0]:
         raise CaromError(int(shots.status[0]), "balls, cue")
-    states: Any = np.array([list(made.c.user)], np.uint64)
+    states: Any = made.state
     called: Array = np.array([[whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]], np.int32)
     turns = judge(made, layout[np.newaxis], shots, states, called)
     met = pointer("carom_facts *", shots._facts)
@@ -362,7 +380,7 @@ def referee(
     if beyond:
         raise ValueError(f"Turn.spot: there are {len(after)} balls, none is {beyond[0]}")
     code = lib.carom_turn_settle(
-        made.c, pointer("uint64_t[]", states), pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", after), len(after),
+        made.c, pointer("carom_rules_state[]", states), pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", after), len(after),
         pointer("carom_turn[]", turns),
     )
     if code < 0:
@@ -371,5 +389,5 @@ def referee(
     hands: dict[int, Hand] = {lib.CAROM_LEAVE_HAND: "anywhere", lib.CAROM_LEAVE_KITCHEN: "kitchen", lib.CAROM_LEAVE_D: "d"}
     return Ruling(
         tuple(_TURNS)[turn["is"]], Foul(int(turn["foul"])), hands.get(int(turn["leave"]), "no"), tuple(facts.potted), facts.first,
-        float(turn["points"]), after, states[0], _score(rules, states[0]), facts, shots[0],
+        float(turn["points"]), after, states["user"] if isinstance(rules, Rules) else states, tuple((states["score"] - states["lost"]).tolist()), facts, shots[0],
     )  # fmt: skip

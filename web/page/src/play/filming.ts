@@ -54,7 +54,7 @@ export function tell(s: Session): void {
     [buttons.hint, play.played !== undefined],
     [buttons.undo, laid],
     [buttons.rack, laid || (play.winner !== undefined && s.then === undefined)],
-    [buttons.push, can && play.state.may === "push"],
+    [buttons.push, can && play.state.may?.includes("push") === true],
     [buttons.pass, can && play.mayPass],
     [buttons.skip, film.playing],
     [s.stroke.shoot, !film.playing],

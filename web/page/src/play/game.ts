@@ -72,15 +72,14 @@ export class Play {
     this.balls = carom.rack(of.rack, this.table, { seed: setup.seed }).map(({ state }) => ({ kind, state }));
     this.names = this.balls.map((_, k) => of.names(k));
     if (setup.at !== undefined) this.balls = placesOf(setup.at, this.table, this.balls).balls;
-    this.state = { rules: this.played?.rules ?? "potting", group: "open", opening: setup.at === undefined, ...(this.played?.state && { state: this.played.state }) };
+    this.state = { rules: this.played?.rules ?? "potting", group: "open", opening: setup.at === undefined, ...this.played?.state };
     this.hand = this.practice || !this.hasPockets ? "no" : setup.game === "snooker" ? ("d" as Ruling["hand"]) : "kitchen";
     this.#recording = carom.record(this.table, this.balls, OPTIONS);
   }
 
   /** Whether the rules let the player pass. */
   get mayPass(): boolean {
-    const { state } = this.state as { state?: readonly number[] };
-    return this.state.may === "pass" || (state !== undefined && (state[4]! & 1) === 1);
+    return this.state.may?.includes("pass") ?? false;
   }
   get hasPockets(): boolean {
     return this.table.pockets.length > 0;

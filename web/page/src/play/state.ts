@@ -36,8 +36,8 @@ function told(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
 
 /** Of one-pocket: where balls count for whoever plays. */
 function pocketOf(play: Play): string {
-  const [pockets = 5] = play.state.state ?? [];
-  return `the ${play.carom.pocketNames(play.table)[pockets % 8] ?? "own"} pocket`;
+  const [pocket = 5] = play.state.pocket ?? [];
+  return `the ${play.carom.pocketNames(play.table)[pocket] ?? "own"} pocket`;
 }
 /** Of snooker: what is to be met. */
 function onOf(play: Play): string {

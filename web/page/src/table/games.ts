@@ -63,7 +63,7 @@ export interface Played {
   target?: number;
   /** Whether the score is points, and the state that a game begins with where it is not that of the library. */
   points?: boolean;
-  state?: readonly number[];
+  state?: Partial<GameState>;
   /** The stroke that a game begins with, as one finds it. */
   begin: Partial<Cue>;
 }
@@ -72,7 +72,7 @@ const BREAK = { speed: 8, phi: 90, a: 0, b: 0 };
 export const PLAYED: Record<string, Played> = {
   eightball: { text: "Eight-ball", of: "eightball", rules: "eightball", calls: true, begin: BREAK },
   nineball: { text: "Nine-ball", of: "nineball", rules: "nineball", calls: false, begin: BREAK },
-  straight: { text: "Straight pool, to 25 points", of: "eightball", rules: "straight", calls: true, points: true, state: [25, 1, 0, 0, 0, 0, 0, 0], begin: { ...BREAK, speed: 4 } },
+  straight: { text: "Straight pool, to 25 points", of: "eightball", rules: "straight", calls: true, points: true, state: { target: 25 }, begin: { ...BREAK, speed: 4 } },
   onepocket: { text: "One-pocket", of: "eightball", rules: "onepocket", calls: false, points: true, begin: { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } },
   snooker: { text: "Snooker", of: "snooker", rules: "snooker", calls: false, points: true, begin: { ...BREAK, speed: 4 } },
   threecushion: { text: "Three-cushion, to 10 points", of: "threecushion", rules: "threecushion", calls: false, points: true, target: 10, begin: { speed: 4, phi: 62, a: 0, b: 0.2 } },
