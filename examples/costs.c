@@ -96,7 +96,7 @@ static bool plan(void) {
 }
 static bool plan_slice(void) {
   static bool goes;
-  wanted = (carom_plan_options){.shots = 300, .slice = 50};
+  wanted = (carom_plan_options){.shots = 300, .slice = 500};
   const carom_status status =
       goes ? carom_plan_continue(&job, &choice, 1, &found) : carom_plan(&job, &choice, 1, &found);
   goes = found == 0;
@@ -133,7 +133,7 @@ static const struct {
     {"carom_aim(): a pot", aim, 1},
     {"carom_plan_value(): a layout", value, 10},
     {"carom_plan(): 300 shots", plan, 1},
-    {"carom_plan_continue(): 50 shots of it", plan_slice, 1},
+    {"carom_plan_continue(): 500 events of it", plan_slice, 1},
     {"a recording of one stroke: four lines and its shot", record_shot, 1},
 };
 

@@ -302,7 +302,7 @@ inline carom_plan_job job(const carom_table &on, std::span<const carom_shot_ball
  * the job points to stays as it is until the end; its memory is allocated here. */
 class thinking {
 public:
-  /* A slice is so many shots, about; 0: all at once. Up to `most` strokes are wanted. */
+  /* A slice is so many events, about; 0: all at once. Up to `most` strokes are wanted. */
   explicit thinking(const carom_plan_job &job, std::int64_t slice, int most = 1,
                     bool in_hand = false)
       : job_(job), options_(std::make_unique<carom_plan_options>()), in_hand_(in_hand),

@@ -86,7 +86,7 @@ struct match {
     carom_plan_job job = carom::job(of.table, record.layout(), cue, rating[player], rules);
     job.options = &wanted;
     carom::film film;
-    carom::thinking mind(job, 50, 1, put == 1);
+    carom::thinking mind(job, 500, 1, put == 1);
     for (; !mind.ended(); frames++) {
       mind.go_on();
       if (of.shots > 0)

@@ -45,7 +45,7 @@ function read(line) {
 async function stroke() {
   const { table, balls } = game;
   const me = ratings[player];
-  const thinking = carom.think(table, balls, { ...state, player: me, shots: 300, best: 1, inHand: put.has(0) }, 50);
+  const thinking = carom.think(table, balls, { ...state, player: me, shots: 300, best: 1, inHand: put.has(0) }, 500);
   let slice;
   for (; !(slice = thinking.next()).done; frames++) {
     shown?.frame(frames / 60);

@@ -302,7 +302,7 @@ CAROM_API carom_status carom_turn_settle(const carom_plan_rules *rules, carom_ru
 /* All zero means the defaults. */
 typedef struct carom_plan_options {
   int64_t shots;                /* of the whole layout that a plan plays, about: 100 to
-                                   1,000,000. 0: 2000. */
+                                   1,000,000. 0: 2000; with `seconds` 200,000. */
   double scan;                  /* share of them for shots in all directions, at most 0.9. 0:
                                    0.5. Below 0: none. */
   uint64_t seed;                /* errors of strokes are a function of the seed, the stage and
@@ -319,19 +319,24 @@ typedef struct carom_plan_options {
                                    it. */
   double chance_opponent;       /* 0 to 1: likewise, of the opponent. */
   const volatile int32_t *stop; /* not NULL: another thread may set it to end the plan early,
-                                   within some ms. It then gives one choice, the best so far; of
+                                   within some ms. Unless `once`, it plays plans of 100, 200, 400
+                                   ... shots. It then gives one choice, the best so far; of
                                    carom_plan_try() those that were not played have `seen` 0 and
                                    the value NaN. */
-  int64_t slice;                /* shots, about, after which carom_plan() and carom_plan_hand()
+  int64_t slice;        /* events of shots, about, after which carom_plan() and carom_plan_hand()
                                    return with *found 0, for carom_plan_continue(). 0: they
                                    return at the end. Not read by carom_plan_try(). */
-  double unsure;                /* how little the player knows of the table, 0 to 1. Above 0 its
+  double unsure;        /* how little the player knows of the table, 0 to 1. Above 0 its
                                    restitution and friction of cushions, rolling resistance and
                                    sliding friction are drawn with the errors of strokes, times
                                    exp(unsure s z), z normal; s is 0.12, 0.17, 0.29 and 0.26, so
                                    that 1 stands for all tables that there are. One of 32 tables
                                    for a stroke, the same for all strokes that are compared. */
-  uint64_t reserved[2];         /* must be 0. */
+  double seconds;       /* of all its calls together, at which a plan is stopped as by
+                                   `stop`, if it has not played its shots by then; 0: none. */
+  int32_t once;         /* 1: all shots are one plan, though it may be stopped. */
+  int32_t unused;       /* must be 0. */
+  uint64_t reserved[1]; /* must be 0. */
 } carom_plan_options;
 
 /* What a choice is, by what happens. */
@@ -421,14 +426,14 @@ CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double l
                                        int *found);
 
 /* Goes on with a plan in slices, for an opponent who thinks between the frames of a game: plays
- * options->slice shots more. *found is 0 until the plan has ended; then the choices are those of
- * one call, bit for bit. A shot takes some 20 us, and a slice somewhat longer where candidates are
- * made or sorted. The job, its memory and all that it points to are those of the call before,
+ * options->slice events more. *found is 0 until the plan has ended; then the choices are those of
+ * one call, bit for bit. 500 events take about 1 ms, and a slice somewhat longer where candidates
+ * are made or sorted. The job, its memory and all that it points to are those of the call before,
  * unchanged.
  * A plan that has ended stays as it is; one whose options->stop was set ends. CAROM_OK;
  * CAROM_ERROR_NULL as of carom_plan(); CAROM_ERROR_STATE where the memory has no plan of this job.
  *
- *     options.slice = 100;  // 2 ms
+ *     options.slice = 1000;  // 2 ms
  *     status = carom_plan(&job, best, 5, &found);
  *     while (status == CAROM_OK && found == 0)
  *       status = carom_plan_continue(&job, best, 5, &found);  // a frame

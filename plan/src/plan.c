@@ -36,12 +36,13 @@ enum { PLACES = 60 }; /* of a cue ball in hand, of which PLACES_PLANNED are plan
 
 static const carom_plan_options no_options = {0};
 static const carom_shot_options no_shot = {0};
-enum { SHOTS_USUAL = 2000, SPARE = 160 };
+/* FIRST: of the first round of doubling */
+enum { SHOTS_USUAL = 2000, SHOTS_IN_TIME = 200000, FIRST = 100, SPARE = 160 };
 static const double player_most = 1000.0; /* of each number of a player */
 
 static carom_status check_options(const carom_plan_options *o) {
   CAROM_PLAN_OPTIONS(CAROM_CHECK_OPTION)
-  const bool good = o->slice >= 0 && CAROM_RESERVED_IS_ZERO(o);
+  const bool good = o->slice >= 0 && o->unused == 0 && CAROM_RESERVED_IS_ZERO(o);
   return good ? CAROM_OK : CAROM_ERROR_OPTIONS;
 }
 
@@ -57,7 +58,7 @@ static bool good_player(const carom_player *p) {
 }
 
 static int64_t shots_of(const carom_plan_options *o) {
-  return o->shots > 0 ? o->shots : SHOTS_USUAL;
+  return o->shots > 0 ? o->shots : o->seconds > 0.0 ? SHOTS_IN_TIME : SHOTS_USUAL;
 }
 
 /* A quarter of the shots are strokes of pots, each of which is played once without errors; then
@@ -217,6 +218,8 @@ static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand)
 /* Begins a plan that plays shots, in its memory. */
 static carom_status begin_to_play(search *plan, const carom_plan_job *job, bool in_hand) {
   const carom_status bad = begin(plan, job, in_hand);
+  plan->late = plan->joins = false;
+  plan->seconds = bad == CAROM_OK ? plan->options.seconds : 0.0;
   if (bad == CAROM_OK && plan->options.unsure > 0.0)
     carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));
   return bad;
@@ -226,14 +229,18 @@ static carom_status begin_to_play(search *plan, const carom_plan_job *job, bool 
 
 /* Does a part of a plan, `work`, with the threads that the options ask for. */
 static void with_crew(search *plan, carom_crew_caller *work) {
+  plan->end = plan->seconds > 0.0 ? carom_seconds() + plan->seconds : 0.0;
   carom_with_crew(work, plan, plan->options.threads, (size_t)plan->room / ROWS_LEAST);
+  plan->seconds = plan->end > 0.0 ? fmax(plan->end - carom_seconds(), 1e-9) : 0.0;
 }
 
 static void plan_here(void *context, carom_crew *crew) {
   search *plan = context;
   plan->crew = crew;
-  if (!carom_search_run(plan))
-    return;
+  do {
+    if (!carom_search_run(plan))
+      return;
+  } while (carom_search_double(plan));
   if (plan->may & CAROM_MAY_PASS)
     carom_search_pass(plan);
   plan->ended = true;
@@ -276,15 +283,16 @@ static void plan_places(void *context, carom_crew *crew) {
     plan->place = stops ? plan->places : plan->place + 1;
     put(plan, plan->place < plan->places ? plan->place : plan->chosen);
     plan->count = 0;
-    if (!stops)
-      carom_search_begin(plan, plan->place < plan->places || rest < small ? small : rest);
+    if (!stops && plan->place < plan->places)
+      carom_search_begin(plan, small);
+    else if (!stops)
+      carom_search_begin_doubling(plan, 2 * small, rest < small ? small : rest);
+    plan->joins = plan->place == plan->places && carom_search_doubles(plan);
   }
-  if (!carom_search_run(plan))
-    return;
-  if (carom_is_stopped(plan) && (plan->count == 0 || plan->found[0].seen < plan->best.seen)) {
-    plan->found[0] = plan->best;
-    plan->count = 1;
-  }
+  do {
+    if (!carom_search_run(plan))
+      return;
+  } while (carom_search_double(plan));
   plan->ended = true;
 }
 
@@ -370,7 +378,7 @@ carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int ro
     return bad;
   plan->fingerprint = fingerprint_of(job);
   plan->go = plan_here;
-  carom_search_begin(plan, shots_of(&plan->options));
+  carom_search_begin_doubling(plan, FIRST, shots_of(&plan->options));
   return play_slice(plan, choices, room, found);
 }
 

@@ -7,7 +7,7 @@
 
 #define CAROM_PLAN_OPTIONS(OPTION)                                                                 \
   OPTION(shots, "shots", COUNT, 100, 1000000, OPTIONS,                                             \
-         "shots of the whole layout that a plan plays, about; 0: 2000")                            \
+         "shots of the whole layout that a plan plays, about; 0: 2000; by seconds 200000")         \
   OPTION(scan, "", NUMBER(""), -DBL_MAX, 0.9, OPTIONS,                                             \
          "share of them in all directions; 0: 0.5; below 0: none")                                 \
   OPTION(seed, "seed", SEED, 0, UINT64_MAX, OPTIONS, "of the errors of strokes")                   \
@@ -23,6 +23,10 @@
   OPTION(                                                                                          \
       unsure, "unsure", NUMBER(""), 0, 1, OPTIONS,                                                 \
       "how little the player knows of the table; 0: he knows it; 1: as little as of any table. "   \
-      "Its cushions and cloth are drawn, as his errors are")
+      "Its cushions and cloth are drawn, as his errors are")                                       \
+  OPTION(seconds, "seconds", NUMBER("s"), 0, 1e6, OPTIONS,                                         \
+         "time of its calls, s, at which a plan is stopped; 0: none")                              \
+  OPTION(once, "", FLAG, 0, 1, OPTIONS,                                                            \
+         "1: all shots are one plan, though it may be stopped; 0: 100 of them, 200, 400 ...")
 
 #endif

@@ -177,7 +177,7 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
   carom_shot shot = {.final = what.final, .facts = &what.facts};
   for (size_t k = first; k < end; k++) {
     const int64_t row = s->done + (int64_t)k;
-    if (row > 0 && carom_is_stopped(plan))
+    if (row > 0 && (carom_is_stopped(plan) || carom_is_late(plan)))
       return k;
     const candidate *c = &plan->found[s->first + row / s->each];
     carom_cue cue = carom_search_stroke(plan, c, s->draws, row % s->each);
@@ -191,6 +191,7 @@ static size_t play_rows(const void *context, size_t first, size_t end) {
         s->draws == 0 && c->kind == CAROM_PLAN_SCAN && !carom_search_begins_well(plan, met);
     plan->outcome[row] = dropped ? (outcome){.first = (int8_t)met}
                                  : judge(plan, shot.facts, shot.final, status, c, s->draws != 0);
+    plan->outcome[row].events = (uint8_t)(shot.count < 255 ? shot.count : 255);
   }
   return end;
 }
@@ -202,11 +203,19 @@ void carom_search_stage(search *plan, int64_t first, int64_t candidates, int64_t
 }
 
 bool carom_search_play(search *plan) {
+  enum { EVENTS_MOST = 64 }; /* of all but few shots */
   carom_stage *s = &plan->stage;
-  const int64_t left = s->rows - s->done;
-  const size_t rows = (size_t)(left > plan->slice && !carom_is_stopped(plan) ? plan->slice : left);
-  const int64_t played = (int64_t)carom_crew_work(plan->crew, s->work, plan, rows, ROWS_LEAST);
-  s->done += played;
-  plan->slice -= played < plan->slice ? played : plan->slice;
+  do {
+    /* in a slice a block of rows whose events are hardly more than what is left of it */
+    const int64_t left = s->rows - s->done, block = plan->slice / EVENTS_MOST + (plan->slice > 0);
+    const size_t rows = (size_t)(left > block && !carom_is_stopped(plan) ? block : left);
+    const int64_t played = (int64_t)carom_crew_work(plan->crew, s->work, plan, rows, ROWS_LEAST);
+    for (int64_t k = s->done; k < s->done + played && plan->slice > 0; k++) {
+      const int64_t events = 1 + plan->outcome[k].events;
+      plan->slice -= events < plan->slice ? events : plan->slice;
+    }
+    s->done += played;
+    plan->late |= carom_is_late(plan);
+  } while (s->done < s->rows && plan->slice > 0 && !carom_is_stopped(plan));
   return s->done == s->rows || (s->done > 0 && carom_is_stopped(plan));
 }

@@ -186,6 +186,21 @@ static void next_round(search *plan) {
   plan->next = NEXT_ROUND;
 }
 
+/* The best of the round of doubling before becomes a candidate that is in the first round. */
+static void join(search *plan) {
+  candidate c = plan->best;
+  if (!plan->joins || c.kind == CAROM_PLAN_FOUL || plan->count == plan->most)
+    return;
+  c.sum = 2.0; /* above all that were played once */
+  c.seen = 1;
+  c.squares = 0.0;
+  c.keep = c.lose = c.foul = 0;
+  c.round = 0;
+  c.votes = c.pots;
+  c.order = (int32_t)plan->count;
+  plan->found[plan->count++] = c;
+}
+
 /* A block of the scan, or the first round behind the last one. */
 static void scan(search *plan) {
   if (carom_search_scan(plan)) {
@@ -195,6 +210,7 @@ static void scan(search *plan) {
     carom_search_stage(plan, 0, 1, plan->shots / 10, DRAW_ROUND);
     plan->next = NEXT_GENTLE;
   } else {
+    join(plan);
     carom_search_sort(plan, plan->count);
     next_round(plan);
   }

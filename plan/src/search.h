@@ -4,6 +4,7 @@
 #ifndef CAROM_PLAN_SEARCH_H
 #define CAROM_PLAN_SEARCH_H
 
+#include "platform/clock.h"
 #include "platform/threads.h"
 #include "shot/shot.h"
 #include "view.h"
@@ -31,11 +32,12 @@ typedef struct carom_candidate {
 
 /* What one shot tells. */
 typedef struct carom_outcome {
-  double worth;         /* to the player, 0 to 1 */
-  int8_t is, foul;      /* a carom_turn_is; 1: a foul */
-  int8_t ball, pocket;  /* the pot that keeps the turn, or -1 */
-  int16_t cushions;     /* impacts of that ball on cushions */
-  int8_t first, unused; /* the ball that was met first, or -1 */
+  double worth;        /* to the player, 0 to 1 */
+  int8_t is, foul;     /* a carom_turn_is; 1: a foul */
+  int8_t ball, pocket; /* the pot that keeps the turn, or -1 */
+  int16_t cushions;    /* impacts of that ball on cushions */
+  int8_t first;        /* the ball that was met first, or -1 */
+  uint8_t events;      /* of the shot, at most 255 */
 } carom_outcome;
 
 /* A stage plays each of some candidates several times. Row k is the shot of candidate
@@ -114,7 +116,13 @@ typedef struct carom_search {
   uint64_t fingerprint;  /* of the job; 0: no plan */
   carom_crew_caller *go; /* the function that goes on with it */
   bool ended;
-  int64_t slice; /* rows that this call may still play */
+  bool late;      /* its seconds are over */
+  bool joins;     /* `best` is of a round of doubling, and joins the next one */
+  int64_t slice;  /* events that this call may still play */
+  int64_t first;  /* shots of the next round of doubling, */
+  int64_t rest;   /* and of all that have not begun */
+  double seconds; /* that are left to it between two calls, */
+  double end;     /* and when they are over; 0: never */
   carom_stage stage;
   carom_search_next next;
   int64_t shots;                  /* of all stages, about, */
@@ -127,7 +135,12 @@ typedef struct carom_search {
 } carom_search;
 
 static inline bool carom_is_stopped(const carom_search *plan) {
-  return plan->options.stop != NULL && *plan->options.stop != 0;
+  return plan->late || (plan->options.stop != NULL && *plan->options.stop != 0);
+}
+
+/* Whether the seconds of a plan are over, whose clock runs in its calls. */
+static inline bool carom_is_late(const carom_search *plan) {
+  return plan->end > 0.0 && carom_seconds() >= plan->end;
 }
 
 /* drawn_tables.c: draws the tables, into the caller's memory. */
@@ -194,5 +207,12 @@ void carom_search_pass(carom_search *plan);
 carom_choice carom_search_choice(const carom_search *plan, const carom_candidate *c);
 /* The share of the shots that the scan has. */
 double carom_scan_of(const carom_plan_options *o);
+
+/* doubling.c: whether a plan doubles, as it may be stopped. Begins one of so many shots: at once, or
+ * by rounds, of which the first has `first`. Ends a round: true if the next one has begun; else the
+ * best so far is the first, and plan->best. */
+bool carom_search_doubles(const carom_search *plan);
+void carom_search_begin_doubling(carom_search *plan, int64_t first, int64_t shots);
+bool carom_search_double(carom_search *plan);
 
 #endif

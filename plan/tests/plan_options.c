@@ -19,9 +19,10 @@ TEST(options_of_plans_are_those_of_the_library) {
   char *field = (char *)&options, shots[] = "300", seed[] = "9007199254740992", few[] = "99",
        half[] = "0.5", beyond[] = "9007199254740994", more[] = "1.5";
   for (int k = 0; k < count; k++) {
-    const bool whole = strcmp(rows[k].name, "unsure") != 0;
+    const bool share = strcmp(rows[k].name, "unsure") == 0,
+               whole = !share && strcmp(rows[k].name, "seconds") != 0;
     ck_assert(rows[k].set(&rows[k], half, field + rows[k].field) != whole);
-    ck_assert(!rows[k].set(&rows[k], more, field + rows[k].field));
+    ck_assert((whole || share) != rows[k].set(&rows[k], more, field + rows[k].field));
     if (strcmp(rows[k].name, "shots") == 0)
       ck_assert(rows[k].set(&rows[k], shots, field + rows[k].field) &&
                 !rows[k].set(&rows[k], few, field + rows[k].field));
@@ -29,5 +30,6 @@ TEST(options_of_plans_are_those_of_the_library) {
       ck_assert(rows[k].set(&rows[k], seed, field + rows[k].field) &&
                 !rows[k].set(&rows[k], beyond, field + rows[k].field));
   }
-  ck_assert(options.shots == 300 && options.seed == (uint64_t)1 << 53 && options.unsure == 0.5);
+  ck_assert(options.shots == 300 && options.seed == (uint64_t)1 << 53 && options.unsure == 0.5 &&
+            options.seconds == 1.5);
 }

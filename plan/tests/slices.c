@@ -51,7 +51,7 @@ TEST(stopped_plans) {
 }
 
 /* A plan in slices has the choices of one call, bit for bit, and a slice plays no more shots than
- * it has. */
+ * it has events. */
 TEST(plans_in_slices) {
   static const int64_t slices[] = {1, 37, 1000};
   for (int which = 0; which < 6; which++) {
@@ -69,6 +69,8 @@ TEST(plans_in_slices) {
     rules.judge = judge_and_stop;
     options.unsure = which == 1 || which == 2 ? 0.5 : 0.0;
     options.threads = which % 3;
+    options.seconds = which < 2 ? 1e5 : 0.0; /* these double */
+    options.shots = which < 2 ? 1500 : 300;
     make_memory();
     judged_most = -1;
     ck_assert_int_eq(hand ? carom_plan_hand(&job, NULL, NULL, whole, 3, &found_whole)
@@ -101,6 +103,53 @@ TEST(plans_in_slices) {
     }
     edge_free(&memory);
   }
+}
+
+/* A plan of many shots that is stopped is about as good as a whole one of half of those that it has
+ * played, by fresh strokes; and one whose seconds are over is stopped. */
+TEST(stopped_plans_are_worth_their_shots) {
+  enum { LAYOUTS = 12, STOPS = 3 };
+  static const int64_t stops[STOPS] = {600, 2000, 8000};
+  double less[STOPS] = {0.0};
+  for (uint64_t seed = 1; seed <= LAYOUTS; seed++) {
+    make_layout(seed, 8);
+    player = carom_player_fargo(600);
+    stopped_rules = rules;
+    options.seed = seed;
+    make_memory();
+    carom_choice best[STOPS + 1], worth[STOPS + 1];
+    int found;
+    ck_assert_int_eq(carom_plan(&job, best, 1, &found), CAROM_OK);
+    edge_free(&memory);
+    options.shots = 20000;
+    options.stop = &stop;
+    make_memory();
+    rules.judge = judge_and_stop;
+    for (int k = 0; k < STOPS; k++) {
+      judged = stop = 0;
+      judged_most = stops[k];
+      ck_assert_int_eq(carom_plan(&job, &best[k + 1], 1, &found), CAROM_OK);
+      ck_assert(stop && found == 1 && best[k + 1].seen > 0);
+    }
+    stop = 0;
+    options.seconds = 1e-9;
+    ck_assert_int_eq(carom_plan(&job, worth, 1, &found), CAROM_OK);
+    ck_assert(found == 1 && worth[0].seen == 0);
+
+    /* fresh strokes */
+    judged_most = -1;
+    options = (carom_plan_options){.shots = (STOPS + 1) * 500, .seed = 777};
+    carom_cue cues[STOPS + 1];
+    for (int k = 0; k <= STOPS; k++)
+      cues[k] = best[k].cue;
+    ck_assert_int_eq(carom_plan_try(&job, cues, STOPS + 1, worth), CAROM_OK);
+    for (int k = 0; k < STOPS; k++)
+      less[k] += (worth[0].value - worth[k + 1].value) / LAYOUTS;
+    edge_free(&memory);
+  }
+  printf("stopped after 600, 2000 and 8000 shots: %+.3f, %+.3f, %+.3f to 300 shots\n", -less[0],
+         -less[1], -less[2]);
+  ck_assert(less[0] < 0.05 && less[1] < 0.02 && less[2] < 0.01);
 }
 
 /* A plan that goes on with something else is refused; one that is stopped between slices ends. */

@@ -9,6 +9,8 @@
 #define KERNEL32(type) __declspec(dllimport) type __stdcall
 KERNEL32(int) CloseHandle(void *handle);
 KERNEL32(unsigned long) GetActiveProcessorCount(unsigned short group);
+KERNEL32(int) QueryPerformanceCounter(int64_t *count);
+KERNEL32(int) QueryPerformanceFrequency(int64_t *each_second);
 KERNEL32(void) Sleep(unsigned long milliseconds);
 KERNEL32(int) SwitchToThread(void);
 KERNEL32(unsigned long) WaitForSingleObject(void *handle, unsigned long milliseconds);

@@ -88,7 +88,7 @@ namespace Carom {
       }
     }
 
-    /// <summary>A plan of the position as it is now, made in slices of so many shots, about, between the frames of a game.</summary>
+    /// <summary>A plan of the position as it is now, made in slices of so many events, about (500 take 1 ms), between the frames of a game.</summary>
     public Thinking Think(long slice, int most = 1, bool inHand = false) { return new Thinking(this, slice, most, inHand); }
 
     /// <summary>The chances of strokes of the caller's, in their order.</summary>

@@ -359,6 +359,10 @@ def test_a_plan_is_stopped():
     with pytest.raises(KeyboardInterrupt):
         carom.plan(TABLE, LAYOUT, rules=rules, state=state, shots=1_000_000)
     assert Long.calls < 100_000
+    late = carom.plan(TABLE, LAYOUT, seconds=1e-9)
+    assert len(late) == 1 and late["seen"][0] == 0
+    with pytest.raises(ValueError, match="seconds: they must be 0 to 1e6, not -1"):
+        carom.plan(TABLE, LAYOUT, seconds=-1)
 
 
 @pytest.mark.parametrize(
@@ -531,7 +535,7 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
 
 CALLS = [
     (carom.plan, {"table": TABLE, "balls": LAYOUT, "rules": "potting", "shots": 100},
-     "table balls rules group state player opponent shots in_hand best seed threads stop options"),
+     "table balls rules group state player opponent shots seconds in_hand best seed threads stop options"),
     (carom.aim, {"table": TABLE, "balls": LAYOUT, "cue": carom.cue(), "ball": 1, "pocket": 0},
      "table balls cue ball pocket options"),
     (carom.player, {}, "errors fargo"),

@@ -758,11 +758,11 @@ export class Carom {
   }
 
   /**
-   * A plan in slices of so many shots, some 20 µs each, for an opponent who thinks between frames: `next()` plays a slice, and the last one returns
+   * A plan in slices of so many events, some 2 µs each, for an opponent who thinks between frames: `next()` plays a slice, and the last one returns
    * the choices of `plan`, bit for bit. Table, balls and options are not changed meanwhile.
    */
-  think(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}, slice = 100): Generator<undefined, Choice[]> {
-    if (whole(slice, "slice") < 1) throw new RangeError("slice: at least 1 shot is needed, not 0");
+  think(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}, slice = 1000): Generator<undefined, Choice[]> {
+    if (whole(slice, "slice") < 1) throw new RangeError("slice: at least 1 event is needed, not 0");
     return this.#plans.think(table, balls, undefined, options, slice);
   }
 

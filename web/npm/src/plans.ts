@@ -91,7 +91,7 @@ export class Plans {
     return value;
   }
 
-  /** A plan in slices of so many shots; 0: at once. */
+  /** A plan in slices of so many events; 0: at once. */
   *think(table: Table, balls: readonly ShotBall[], cues: readonly Partial<Cue>[] | undefined, options: PlanOptions, slice: number): Generator<undefined, Choice[]> {
     refuseUnknown(options, KEYS.plan);
     const { best = 5, inHand = false } = options;

@@ -106,7 +106,7 @@ impl Position {
         Ok(all.choices)
     }
 
-    /// A plan that is made in slices of so many shots, about, between the frames of a game.
+    /// A plan that is made in slices of so many events, about (500 take 1 ms), between the frames of a game.
     pub fn think(self, slice: i64, most: usize, in_hand: bool) -> Result<Thinking, Error> {
         let mut of = Box::new(self);
         of.options.slice = slice;

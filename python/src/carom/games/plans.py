@@ -208,7 +208,7 @@ class _Job:
 
     def __init__(
         self, table: Table, balls: dtypes.Records, cue: dtypes.Records | None, game: Made, own: dtypes.Records | None, opponent: dtypes.Records | None,
-        shots: int, seed: int, threads: int, unsure: float, stop: threading.Event | None, options: Options, level: bool = False,
+        shots: int | None, seed: int, threads: int, unsure: float, stop: threading.Event | None, options: Options, level: bool = False, seconds: float = 0.0,
     ) -> None:  # fmt: skip
         check_table(table)
         self.layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
@@ -220,12 +220,16 @@ class _Job:
         self.shot = shot_options(options)
         if stop is not None and not hasattr(stop, "is_set"):
             raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
-        wanted = ffi.new("carom_plan_options *", {"shots": whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
+        wanted = ffi.new("carom_plan_options *", {"shots": 0 if shots is None else whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
         wanted.threads = whole(threads, "threads", least=-1)
         wanted.level = whole(level, "level", most=1)
         wanted.unsure = number(unsure, "unsure")
         if not 0.0 <= wanted.unsure <= 1.0:
             raise ValueError(f"unsure: it must be 0 to 1, not {unsure}")
+        wanted.seconds = number(seconds, "seconds")
+        if not 0.0 <= wanted.seconds <= 1e6:
+            raise ValueError(f"seconds: they must be 0 to 1e6, not {seconds}")
+        wanted.once = stop is None and seconds == 0.0  # Ctrl-C asks for no choice
         other = None if opponent is None else _one_player(opponent, "opponent")
         wanted.opponent = ffi.NULL if other is None else other
         wanted.stop = game.stop
@@ -260,7 +264,8 @@ def plan(
     state: GivenState | None = None,
     player: dtypes.Records | None = None,
     opponent: dtypes.Records | None = None,
-    shots: int = 2000,
+    shots: int | None = None,
+    seconds: float = 0.0,
     in_hand: bool | Hand | npt.ArrayLike = False,
     best: int = 5,
     seed: int = 0,
@@ -296,8 +301,10 @@ def plan(
         Default: `carom.player()`.
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
         Default: he errs as the player does.
-    shots : int
-        That the plan plays, about: 100 to 1,000,000.
+    shots : int, optional
+        That the plan plays, about: 100 to 1,000,000. Default: 2,000, and 200,000 with `seconds`.
+    seconds : float
+        At which the plan ends, if it has not played its shots by then; 0 is never. It then has one choice, the best so far.
     in_hand : bool, {"no", "anywhere", "kitchen", "d"} or array_like, shape (2, 2)
         Whether the cue ball is in hand, as `hand` of a ruling: `place` of the choices then says where to put it. Two corners (m) of a
         rectangle: there alone.
@@ -332,7 +339,7 @@ def plan(
     in_hand = False if isinstance(in_hand, str) and in_hand == "no" else in_hand
     corners = None if in_hand is False else _corners(in_hand, table)
     game = Made(rules, state, group, opening)
-    job = _Job(table, balls, cue, game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes), level)
+    job = _Job(table, balls, cue, game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes), level, seconds)
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
     rows = pointer("carom_choice[]", choices)
