@@ -91,9 +91,9 @@ static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int
 /* ---- Nine-ball */
 
 static uint32_t nineball_on(const carom_rules_state *game, uint32_t in_play) {
-  const uint32_t balls = in_play & 0x3fe;
+  const uint32_t balls = in_play & 0x3fe; /* 1 to 9 */
   (void)game;
-  return balls & (~balls + 1);
+  return balls & (~balls + 1); /* the lowest */
 }
 
 static void nineball_left(const carom_rules_state *game, uint32_t in_play, int32_t left[2]) {

@@ -208,9 +208,9 @@ carom_choice carom_search_choice(const carom_search *plan, const carom_candidate
 /* The share of the shots that the scan has. */
 double carom_scan_of(const carom_plan_options *o);
 
-/* doubling.c: whether a plan doubles, as it may be stopped. Begins one of so many shots: at once, or
- * by rounds, of which the first has `first`. Ends a round: true if the next one has begun; else the
- * best so far is the first, and plan->best. */
+/* doubling.c: whether a plan doubles, as it may be stopped. Begins one of so many shots: at once,
+ * or by rounds, of which the first has `first`. Ends a round: true if the next one has begun; else
+ * the best so far is the first, and plan->best. */
 bool carom_search_doubles(const carom_search *plan);
 void carom_search_begin_doubling(carom_search *plan, int64_t first, int64_t shots);
 bool carom_search_double(carom_search *plan);

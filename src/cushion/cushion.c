@@ -8,6 +8,7 @@
 
 static const carom_cushion_options defaults = {.steps = 0};
 
+/* By the row of list.h. */
 static carom_status by_model(carom_contact *c, const carom_cushion_options *opt, double mass) {
   switch (opt->model) {
 #define CASE(NAME, name, impact, flight, rows, ...) \
