@@ -114,8 +114,9 @@ void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state
     n[k] /= size;
 }
 
-carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3],
-                               bool in_space, carom_ball_state *a, carom_ball_state *b) {
+__attribute__((noinline)) carom_status carom_model_balls(const carom_sim *sim, const carom_due *due,
+                                                         const double n[3], bool in_space,
+                                                         carom_ball_state *a, carom_ball_state *b) {
   const int i = due->a, j = due->b;
   const carom_ball_kind *kind_a = sim->layout->kind[i], *kind_b = sim->layout->kind[j];
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);

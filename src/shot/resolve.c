@@ -53,9 +53,16 @@
  * PRESSED BY WEIGHT. A ball that lies on another, or on a nose, is pressed by its weight, which
  * does not end as spin does. So a slow contact in space takes energy from the motion of the
  * balls past each other, too, as opposite impulses on both. The cloth takes an impulse that
- * pushes a ball down at once, without a landing. The upper ball hops as it rolls off. Where
- * nothing moves, no energy is there: a ball that is balanced on another ends the shot as
- * too_many_events. */
+ * pushes a ball down at once, without a landing. The upper ball hops as it rolls off.
+ *
+ * ON TOP. Two balls above each other, n_z > 0.7, have s >= 20 mm/s: hops of the upper one are as
+ * high as the least of the slate. Exactly above each other they would hop in place for ever. So
+ * near the top, at q = sqrt(n_x^2 + n_y^2) < 0.05, they part aside at (1 - q / 0.05) of the speed
+ * at which they part upwards, or of 20 mm/s, at least, with the energy that they have. A ball that
+ * is balanced there on one that the cloth holds has no such energy: it parts at 10 mm/s at least,
+ * as if it had been laid down from 5 um. Energy rises nowhere else, and there by 9 uJ at most.
+ * A fall then ends after 130 events in the mean, and after 301 of 2,912 falls at most
+ * (tests/physics/air.c). */
 #include "platform/promise.h"
 #include "shot/sim.h"
 
@@ -63,6 +70,8 @@
 
 static const double slow_first = 1e-3, slow_most = 0.2; /* m/s */
 static const double slow_instants = 1500.0;
+/* ON TOP: n_z, the s there in m/s, the bound of q, and the speed of a balanced ball, m/s */
+static const double steep = 0.7, slow_steep = 0.02, on_top = 0.05, balanced = 0.01;
 
 /* s, above. */
 double carom_slow_speed(int64_t instants) {
@@ -163,13 +172,41 @@ static double part_slowly(const contact *c, double s, double m, double closing) 
 
 /* A contact that closes slowly, or that its model has left closing. */
 static void resolve_slowly(const contact *c, double slow, double closing) {
-  const double m = reduced_mass(c),
-               change = closing + (closing < slow ? part_slowly(c, slow, m, closing) : slow);
+  const double m = reduced_mass(c), q2 = c->n[0] * c->n[0] + c->n[1] * c->n[1];
+  double parting = closing < slow ? part_slowly(c, slow, m, closing) : slow;
+  if ((c->held_a || c->held_b) && q2 < on_top * on_top)
+    parting = carom_greater(parting, balanced);
+  const double change = closing + parting;
   if (c->b != NULL)
     push(c, m * change, c->n);
   else
     for (int k = 0; k < 3; k++)
       c->a->v[k] -= change * c->n[k];
+}
+
+/* ON TOP: the least part of the motion that goes aside. Returns whether it was less. Apart, for the
+ * stack of derivatives. */
+__attribute__((noinline, cold)) static bool part_aside(const contact *c, double slow) {
+  const double q2 = c->n[0] * c->n[0] + c->n[1] * c->n[1], q = q2 > 0.0 ? sqrt(q2) : 0.0;
+  if (!(q < on_top))
+    return false;
+
+  /* the upper ball seen from the lower one: how fast it moves away from the axis, and up */
+  const double up = c->n[2] > 0.0 ? 1.0 : -1.0, z[3] = {0.0, 0.0, 1.0};
+  const double h[3] = {q > 0.0 ? up * c->n[0] / q : up, q > 0.0 ? up * c->n[1] / q : 0.0, 0.0};
+  const double aside = -up * carom_closing(c->a, c->b, h),
+               rise = -up * carom_closing(c->a, c->b, z);
+  const double least = (1.0 - q / on_top) * (rise > slow ? slow / rise : 1.0);
+  if (!(fabs(aside) < least * rise))
+    return false;
+
+  /* impulses aside and up change energy each by itself: aside = least rise, and its sum stays */
+  const double level = 1.0 / mobility(c, 0), upright = 1.0 / mobility(c, 2);
+  const double energy = level * aside * aside + upright * rise * rise;
+  const double risen = sqrt(energy / (level * least * least + upright)) * (1.0 - 1e-15);
+  push(c, up * level * (least * risen - aside), h);
+  push(c, up * upright * (risen - rise), z);
+  return true;
 }
 
 /* The phase after a contact. One in space may have lifted the ball or pushed it down. */
@@ -258,18 +295,23 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
 
   /* by the model, or slowly; a ball that the model leaves moving into a cushion parts slowly, as
    * the head says */
-  const double slow = carom_slow_speed(sim->slow_instants), before = carom_closing(a, b, c.n);
+  const bool above = b != NULL && fabs(c.n[2]) > steep;
+  const double usual = carom_slow_speed(sim->slow_instants), before = carom_closing(a, b, c.n),
+               slow = above ? carom_greater(usual, slow_steep) : usual;
   carom_status status = CAROM_OK;
   double closing = before;
   if (before >= slow) {
     status = b != NULL ? carom_model_balls(sim, due, c.n, c.in_space, a, b)
                        : carom_model_cushion(sim, due, c.n, a);
     closing = b != NULL ? 0.0 : carom_closing(a, NULL, c.n);
+    c.held_a = c.held_b = false; /* the model leaves them to the slate */
   }
   if (before < slow || closing > 0.0) {
     count_slow(sim);
     resolve_slowly(&c, slow, closing);
   }
+  if (above && part_aside(&c, slow))
+    count_slow(sim);
 
   /* the phases that follow */
   carom_label_after(c.in_space, c.kind_a, a);
