@@ -119,7 +119,7 @@ typedef struct carom_tangent {
  * to event, on the cloth and in flight; nothing is played again but clusters, once for each
  * direction. All events of a cluster have the flags and the tangent of the time of its first
  * one, and CAROM_TANGENT_CLUSTER. A touch inside it that begins to stick has no flag.
- * Nothing is allocated; stack: 56 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
+ * Nothing is allocated; stack: 57 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;
  * CAROM_ERROR_DIRECTIONS for other than 1 to 64; CAROM_ERROR_EVENTS_LOST where shot->room was
