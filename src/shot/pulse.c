@@ -38,7 +38,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { PARTS = 24, STEPS_MOST = 4000 };  /* steps of a contact at 1 m/s, or of a shorter pulse */
+enum { PARTS = 32, STEPS_MOST = 4000 };  /* steps of a contact at 1 m/s, or of a shorter pulse */
 static const double contact_at_1 = 8e-4; /* s: of ball and slate at 1 m/s */
 static const double least_e = 0.2;
 
