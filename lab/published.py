@@ -86,14 +86,6 @@ def friction_of(game, slip):
     return ball(game).law_a + ball(game).law_b * exp(-ball(game).law_c * slip)
 
 
-def struck(a, b):
-    """The motion of a ball of pool by a level cue whose tip touches it there, in R."""
-    stroke, out = LIBRARY.carom_cue_of(GAME_POOL), OF["carom_motion"]()
-    stroke.a, stroke.b = a, b
-    LIBRARY.carom_strike(by(stroke), by(ball()), by(out))
-    return out
-
-
 # ---- Two balls of pool: cut in degrees, speed, share of rolling, friction (0: Alciatore's), side spin R w_z / v
 
 
@@ -166,6 +158,48 @@ def kiss_share(angle, speed):
     out = (OF["carom_motion"] * 3)()
     LIBRARY.carom_cluster((OF["carom_shot_ball"] * 3)(*balls), 3, None, out, None, 0, None)
     return out[0].v[0] / out[0].v[1] / tan(radians(angle))
+
+
+# ---- Strikes of pool: the butt's elevation and direction in degrees, the cue's speed, the tip's place, another ball, its friction (0: the law of pool), the cue's numbers
+
+
+def strike(theta, speed, tip=(0, 0), other=None, friction=0, phi=90, **numbers):
+    stroke, balls = LIBRARY.carom_cue_of(GAME_POOL), [shot_ball(place) for place in [(0.635, 0.635, ball().radius), other] if place]
+    for name, value in dict(numbers, phi=phi, theta=theta, speed=speed, a=tip[0], b=tip[1]).items():
+        setattr(stroke, name, value)
+    for one in balls if friction else ():
+        one.kind.law_a, one.kind.law_b = friction, 0
+    return shoot(TABLE_POOL_9FT, balls, stroke)[0]
+
+
+def struck(a, b):
+    """The motion of a ball by a level cue whose tip touches it there, in R."""
+    return strike(0, cue().speed, (a, b))[0].after[0]
+
+
+def rise(ahead, *numbers, **of_cue):
+    """mm, of a ball that hops, at a place ahead; 0: at its highest"""
+    _, forward, up = strike(*numbers, **of_cue)[0].after[0].v
+    time = ahead / forward or up / ball().gravity
+    return 1e3 * time * (up - 0.5 * ball().gravity * time)
+
+
+def in_the_air(*numbers):
+    """the share of the time from the head spot to a ball on the foot spot, %"""
+    events = strike(*numbers, other=(0.635, 1.905, ball().radius))
+    met = next(k for k, e in enumerate(events) if e.type == EVENT_BALL_BALL)
+    return 100 * sum(b.time - a.time for a, b in zip(events[:met], events[1:]) if a.after[0].v[2] > 0) / events[met].time
+
+
+def inside(beside, friction, speed):
+    """how far the tip is from the centre where a frozen ball leaves in the direction of the cue, that angle beside the line of centres, in R"""
+
+    def to_the_left(a):
+        events = strike(0, speed, (-a, 0), (0.635, 0.635 + 2 * ball().radius, ball().radius), friction, 90 + beside)
+        met = next(e for e in events if e.type == EVENT_BALL_BALL)
+        return -angle(met.after[(met.a, met.b).index(1)].v)
+
+    return found(to_the_left, 0, 0.5, beside)
 
 
 # ---- Cushions and slate

@@ -6,6 +6,7 @@ A file that cannot be had leaves its figures and tables out; the page says so in
 import argparse
 import csv
 import hashlib
+import json
 import math
 import os
 import re
@@ -49,6 +50,7 @@ FIGURES = {
     "isas": ("isas", "Batches by instruction set and precision"),
     "batch": ("batch", "Throughput of the exact solver over batch size and threads"),
     "cushion": ("cushion", "A ball and a cushion: rebound, a fine sweep, jumps"),
+    "hops": ("hops", "How high the cue ball hops, by the elevation of the butt"),
 }
 # Pictures that `carom` draws by itself.
 DRAWN = {
@@ -61,7 +63,7 @@ DRAWN = {
     "cuts": "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 10,25,40 --tip 0.2,-0.3 --plot {} -o /dev/null",
 }
 # What the docs show, in docs/figures, with the CSV files beside them in docs/figures/data.
-OF_DOCS = ("accuracy", "runtime", "isas", "batch", "cushion")
+OF_DOCS = ("accuracy", "runtime", "isas", "batch", "cushion", "hops")
 MACHINE = ("processor", "cores", "system", "core cycle", "pinning", "load before", "commit", "compiler", "flags", "date")
 # What must not depend on the machine is computed with instructions that all have.
 PLAIN = {**os.environ, "CAROM_ISA": "plain"}
@@ -217,6 +219,18 @@ def derive_cushion(options, measured):
     write(options, "cushion", {**notes, "solver": solver_bits(options)}, [dict(zip(("what", "x", "y"), row)) for row in rows])
 
 
+def derive_hops(options, measured):
+    """How high a ball of pool hops that the cue of pool, its tip of leather, strikes in the middle, mm."""
+    rows = []
+    for elevation in (5, 10, 20, 30, 45):
+        words = f"shoot --cue 0.6,0.6 --tip 0,0 --elevation {elevation} --speed 0.625:10:0.625 --events full --time-most 0.001".split()
+        for line in subprocess.run([options.build / "carom", *words], capture_output=True, text=True, env=PLAIN, check=True).stdout.splitlines():
+            shot = json.loads(line)
+            up = shot["events"][1][4][0][6]
+            rows.append({"elevation": elevation, "speed": shot["cue"]["V0"], "hop": f"{500 * up * up / 9.81:.5g}"})
+    write(options, "hops", {what: measured[what] for what in ("processor", "compiler", "commit", "date") if what in measured}, rows)
+
+
 def jumps(rows, radius):
     """How far the results (radius times spin), over the largest of them, leave a smooth curve between a row and the next: the distance of
     their step from both neighbouring steps and all between. A corner is no jump; nan at the ends; at least 1e-12."""
@@ -341,7 +355,8 @@ def main(words):
                 shutil.copy(path, options.folder)
     else:
         measure(options, sources)
-        derive_cushion(options, Sheet(options.folder / "accuracy.csv").notes)
+        for derive in (derive_cushion, derive_hops):
+            derive(options, Sheet(options.folder / "accuracy.csv").notes)
         for name, command in DRAWN.items():
             run(command.format(shlex.quote(str(options.folder / f"{name}.svg"))), options, environment=PLAIN)
     data = {name: Sheet(options.folder / f"{name}.csv") for name in DATA} | {"bounds": Sheet(HERE / "bounds.csv")}

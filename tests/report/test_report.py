@@ -91,8 +91,9 @@ def test_figures_of_the_docs(tmp_path):
     options = report.arguments([str(tmp_path / "two"), "--build", str(BUILD)])
     options.folder.mkdir()
     assert sheets["cushion"].notes["solver"] == report.solver_bits(options), f"the solver has changed: {AGAIN}"
-    report.derive_cushion(options, sheets["accuracy"].notes)
-    assert (options.folder / "cushion.csv").read_bytes() == (DOCS / "data" / "cushion.csv").read_bytes(), AGAIN
+    for name in ("cushion", "hops"):
+        getattr(report, f"derive_{name}")(options, sheets["accuracy"].notes)
+        assert (options.folder / f"{name}.csv").read_bytes() == (DOCS / "data" / f"{name}.csv").read_bytes(), AGAIN
     for name, command in report.DRAWN.items():
         report.run(command.format(options.folder / f"{name}.svg"), options, environment=report.PLAIN)
         assert (options.folder / f"{name}.svg").read_bytes() == (DOCS / f"{name}.svg").read_bytes(), f"{name}.svg: {AGAIN}"
