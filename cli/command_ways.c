@@ -20,8 +20,9 @@
 #include <string.h>
 
 enum { MOST_STROKES = 320, MOST_DRAWN = 8 };
-/* directions of all strokes together */
-enum { SCANNED = 20000, SCANNED_TO_SCORE = 100000 };
+/* directions of all strokes together; of pots at least so many of each: steps of 0.2 degrees find
+ * every window of 0.2 degrees */
+enum { SCANNED = 20000, SCANNED_EACH = 1800, SCANNED_TO_SCORE = 100000 };
 
 typedef struct ways_job {
   shoot_flags from;
@@ -43,8 +44,8 @@ OPTION(ways_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
        "several speeds and tips the one is told that brings it there. The cue ball alone is sent "
        "there without a pot");
 OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 0,
-       "strokes in all directions that are searched for caroms (default 20000), or for points "
-       "(default 100000); 0: none");
+       "strokes in all directions that are searched (default 20000, or 1800 for each speed and tip "
+       "if that is more; for points and places 100000)");
 OPTION(
     ways_job, option_each, "each", each, 0, NULL, set_flag, 0,
     "tell each stroke by which a way comes off, in the order of the strokes, instead of the best "
@@ -163,8 +164,8 @@ static void tell(FILE *out, const ways_search *s, int most) {
 
 static void write_rows(FILE *out, const ways_search *s) {
   char parts[PARTS_TEXT];
-  fputs("rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,margin,phi_low,phi_high,speed_low,"
-        "speed_high,chance,error,found,scanned\n",
+  fputs("rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,phi_low,phi_high,speed_low,speed_high,"
+        "chance,error,found,scanned\n",
         out);
   for (int k = 0; k < s->ways; k++) {
     const way *w = &s->way[k];
@@ -172,7 +173,7 @@ static void write_rows(FILE *out, const ways_search *s) {
             w->ball >= 0 ? s->line->name[w->ball] : "",
             w->pocket >= 0 ? s->line->table->pocket[w->pocket] : "", parts_text(s, w, parts),
             w->cue.speed, w->cue.phi, w->cue.theta, w->cue.a, w->cue.b);
-    const double more[] = {w->cut, w->margin, w->phi[0], w->phi[1], w->speed[0], w->speed[1]};
+    const double more[] = {w->cut, w->phi[0], w->phi[1], w->speed[0], w->speed[1]};
     for (size_t n = 0; n < sizeof more / sizeof more[0]; n++)
       fprintf(out, isnan(more[n]) ? "," : "%.10g,", more[n]);
     fprintf(out, "%.6f,%.6f,%lld,%lld\n", w->chance, w->error, (long long)w->found,
@@ -330,9 +331,9 @@ static const command_form form = {
         "the cue, m/s; tip right and "
         "above, R; aim, degrees from +x; and the way, with what is met in its order\n"
         "columns of --csv: "
-        "rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,margin,phi_low,phi_high,speed_low,"
-        "speed_high,chance,error,found,scanned\n"
-        "Combinations are direct; caroms and points are those of --scan.\n\n"
+        "rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,phi_low,phi_high,speed_low,speed_high,"
+        "chance,error,found,scanned\n"
+        "Pots with a window below 0.04 degrees are left out.\n\n"
         "exit code: 0; 1 if there is no way; 2 for bad usage or unreadable input\n",
     .example = "carom ways --cue 0.6,0.8 --balls 0.3,1.9:0.9,1.7 --ball 1 --plot ways.svg",
     .files = FILE_OR_NONE,
@@ -344,8 +345,7 @@ int command_ways(int argc, char **argv) {
   static shot_line line;
   const char *path;
   char *lines = NULL;
-  job = (ways_job){
-      .from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}, .rails = 2, .scanned = -1};
+  job = (ways_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}, .rails = 2};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
@@ -388,9 +388,11 @@ int command_ways(int argc, char **argv) {
   int code = EXIT_USAGE;
   FILE *out = s.strokes > 0 ? output_open(job.from.shared.output) : NULL;
   if (out != NULL) {
-    s.scan = job.scanned >= 0                                    ? job.scanned
+    const int least = SCANNED_EACH * s.strokes > SCANNED ? SCANNED_EACH * s.strokes : SCANNED;
+    s.scan = job.scanned > 0                                     ? job.scanned
              : line.table->table.pockets == 0 || line.count == 1 ? SCANNED_TO_SCORE
-                                                                 : SCANNED;
+                                                                 : least;
+    s.scan = s.scan > s.strokes ? s.scan : s.strokes;
     s.way = allocate(MOST_WAYS, sizeof *s.way);
     if (find(&job, &s)) {
       code = s.ways > 0 ? EXIT_GOOD : EXIT_SOME;

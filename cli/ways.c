@@ -1,9 +1,6 @@
-/* The search of `carom ways`.
- *
- * Direct pots, banks, kicks and combinations are aimed by carom_aim(), each with every stroke. What
- * it does not aim, caroms and the points of three-cushion, is read off strokes in all directions:
- * those that pot or score are counted by the rails and balls that they meet, and a way's best
- * stroke is the middle of the widest run of neighbouring directions. */
+/* The search of `carom ways`: strokes in all directions. Those that pot or score are counted by the
+ * rails and balls that they meet, and a way's best direction is the middle of the widest run of
+ * neighbouring ones, whose ends are bisected. */
 #include "ways.h"
 #include "memory.h"
 #include "message.h"
@@ -15,6 +12,8 @@
 
 /* strokes with errors for a chance; those of one batch; events of one that are read */
 enum { TRIES = 400, BLOCK = 256, ROOM = 300, HALVINGS = 10 };
+/* m/s, of the cue; degrees, of a pot; and cushions so near to a pocket are beside it, in its radii */
+static const double SPEED_LEAST = 0.05, SPEED_MOST = 15.0, WINDOW_LEAST = 0.04, BESIDE = 3.0;
 
 const char *const way_names[] = {"direct", "bank",  "kick", "combination",
                                  "carom",  "point", "place"};
@@ -89,52 +88,7 @@ bool ways_chance(const ways_search *s, way *w) {
   return true;
 }
 
-/* ---- Ways that carom_aim() aims */
-
-static void add_way(ways_search *s, const way *w) {
-  if (s->ways < MOST_WAYS)
-    s->way[s->ways++] = *w;
-  else
-    s->left_out++;
-}
-
-/* Aims a way with each stroke, and keeps the one with the best chance; false after a complaint. */
-static bool try_way(ways_search *s, way_kind kind, int ball, int pocket, const carom_part *via,
-                    int vias) {
-  way best = {.chance = -1.0};
-  for (int k = 0; k < s->strokes; k++) {
-    carom_pot pot = {.ball = ball, .pocket = pocket, .vias = vias};
-    if (vias > 0)
-      memcpy(pot.via, via, (size_t)vias * sizeof *via);
-    carom_cue cue = s->stroke[k];
-    const carom_status bad =
-        carom_aim(&s->line->table->table, s->line->ball, s->line->count, &s->options, &pot, &cue);
-    if (bad < 0) {
-      complain("the layout cannot be played: %s", carom_status_string(bad));
-      return false;
-    }
-    if (kind != KICK && (pot.is == CAROM_POT_NO_WAY || pot.is == CAROM_POT_BARRED))
-      return true; /* by every stroke */
-    if (pot.is != CAROM_POT_FALLS)
-      continue;
-    way w = {.kind = kind, .ball = ball, .pocket = pocket, .cue = cue, .cut = pot.cut, .stroke = k};
-    w.margin = pot.margin;
-    memcpy(w.phi, pot.phi, sizeof w.phi);
-    memcpy(w.speed, pot.speed, sizeof w.speed);
-    for (int n = 0; n < vias; n++)
-      if (via[n].kind != CAROM_PART_BALL || via[n].index != ball)
-        w.part[w.parts++] = via[n];
-    if (!ways_chance(s, &w))
-      return false;
-    if (s->each)
-      add_way(s, &w);
-    else if (w.chance > best.chance)
-      best = w;
-  }
-  if (best.chance >= 0.0)
-    add_way(s, &best);
-  return true;
-}
+/* ---- What a shot tells */
 
 /* The first rail of a name, or -1. */
 static int first_rail(const carom_table *t, const char *name) {
@@ -146,46 +100,6 @@ static int first_rail(const carom_table *t, const char *name) {
   return -1;
 }
 
-static int named_rails(const carom_table *t, carom_part rail[4]) {
-  static const char *const names[] = {"head", "foot", "left", "right"};
-  int count = 0;
-  for (int n = 0; n < 4; n++) {
-    const int k = first_rail(t, names[n]);
-    if (k >= 0)
-      rail[count++] = (carom_part){CAROM_PART_RAIL, k};
-  }
-  return count;
-}
-
-/* All ways of a ball into a pocket that can be aimed; false after a complaint. */
-static bool try_ways(ways_search *s, int ball, int pocket) {
-  carom_part rail[4], via[3];
-  const int rails = named_rails(&s->line->table->table, rail);
-  const carom_part own = {CAROM_PART_BALL, ball};
-  bool good = try_way(s, DIRECT, ball, pocket, NULL, 0);
-  for (int other = 0; other < s->line->count && good; other++)
-    if (other != ball && other != s->line->cue.ball && !is_out_of_play(s->line, other)) {
-      via[0] = (carom_part){CAROM_PART_BALL, other};
-      good = try_way(s, COMBINATION, ball, pocket, via, 1);
-    }
-
-  /* banks name the rails alone; of kicks the ball comes behind them */
-  for (int a = 0; a < rails && good; a++)
-    for (int b = -1; b < rails && good; b++) {
-      const int count = b < 0 ? 1 : 2;
-      if (count > s->rails || a == b)
-        continue;
-      via[0] = rail[a];
-      via[1] = b < 0 ? own : rail[b];
-      via[2] = own;
-      good = try_way(s, BANK, ball, pocket, via, count) &&
-             try_way(s, KICK, ball, pocket, via, count + 1);
-    }
-  return good;
-}
-
-/* ---- Ways that are read off strokes in all directions */
-
 /* Adds a part to a way. False where there is no room. */
 static bool add_part(way *w, carom_part part) {
   if (w->parts == MOST_PARTS)
@@ -194,49 +108,111 @@ static bool add_part(way *w, carom_part part) {
   return true;
 }
 
-/* The rail of an event by the first one of its name; false for the cut of a pocket. */
-static bool rail_of(const carom_table *t, int rail, carom_part *part) {
-  if (!is_cushion(t, rail))
-    return false;
-  const char *name = carom_rail_name(t, rail);
-  *part = (carom_part){CAROM_PART_RAIL, name != NULL ? first_rail(t, name) : rail};
-  return true;
+/* Adds the rail of an event, by the first one of its name, to what a ball meets; the cut of a pocket
+ * is none, nor is a hop on the rail before. False where there is no room. */
+static bool add_rail(const ways_search *s, const carom_event *e, bool hop, way *w, int *rails) {
+  const carom_table *t = &s->line->table->table;
+  if (hop || !is_cushion(t, e->b))
+    return true;
+  const char *name = carom_rail_name(t, e->b);
+  ++*rails;
+  return add_part(w, (carom_part){CAROM_PART_RAIL, name != NULL ? first_rail(t, name) : e->b});
 }
 
-/* The way of a good shot: what the cue ball meets up to the ball of the way, or of a point up to
- * the second ball; then the rails of that ball. False where it is none that is told here. */
-static bool read_way(const ways_search *s, const carom_shot *shot, way *w) {
+/* Whether a rail ends beside the pocket of a way: a ball may touch it and fall. */
+static bool ends_beside(const ways_search *s, int rail, const way *w) {
+  const carom_table *t = &s->line->table->table;
+  const double *c = t->pocket[w->pocket].centre, *p = t->rail[rail].p, *q = t->rail[rail].q;
+  return fmin(hypot(p[0] - c[0], p[1] - c[1]), hypot(q[0] - c[0], q[1] - c[1])) <
+         BESIDE * t->pocket[w->pocket].radius;
+}
+
+static bool is_of(const carom_event *e, int type, int ball) {
+  return e->type == type && (e->a == ball || (type == CAROM_EVENT_BALL_BALL && e->b == ball));
+}
+
+/* The first contact of a ball; of those of one instant that with the cue ball. */
+static const carom_event *first_contact(const carom_shot *shot, int ball, int cue) {
+  const carom_event *first = NULL;
+  for (int64_t k = 0; k < shot->count; k++) {
+    const carom_event *e = &shot->events[k];
+    if (!is_of(e, CAROM_EVENT_BALL_BALL, ball))
+      continue;
+    if (first == NULL || (e->time == first->time && (e->a == cue || e->b == cue)))
+      first = e;
+  }
+  return first;
+}
+
+/* The way of a shot that pots its ball: from the cue ball on, by the balls of which each is first
+ * met by the one before, the rails and other balls that each meets up to the next. */
+static bool read_pot(const ways_search *s, const carom_shot *shot, way *w) {
+  enum { CHAIN = 4 };
+  const int cue = (int)s->line->cue.ball;
+  int chain[CHAIN + 1], links = 0, rails = 0, kicks = 0, others = 0;
+  double from[CHAIN + 1] = {0.0}; /* when each was met first */
+  for (int ball = w->ball; ball != cue; links++) {
+    const carom_event *e = first_contact(shot, ball, cue);
+    if (links == CHAIN || e == NULL)
+      return false;
+    chain[links] = ball;
+    from[links] = e->time;
+    ball = e->a == ball ? e->b : e->a;
+  }
+  chain[links] = cue;
+  from[links] = 0.0;
+
+  int beside = 0; /* of the parts, the last ones, which the ball touches as it falls */
+  for (int n = links; n >= 0; n--) {
+    const int ball = chain[n];
+    const double until = n > 0 ? from[n - 1] : shot->facts->pocket_time[ball];
+    int last = -1;
+    bool good = true;
+    for (int64_t k = 0; k < shot->count && shot->events[k].time <= until && good; k++) {
+      const carom_event *e = &shot->events[k];
+      const int other = e->a == ball ? e->b : e->a, parts = w->parts;
+      if (e->time < from[n])
+        continue;
+      if (is_of(e, CAROM_EVENT_RAIL, ball)) {
+        good = add_rail(s, e, e->b == last, w, &rails);
+        last = e->b;
+        beside = n > 0 || !ends_beside(s, e->b, w) ? 0 : beside + w->parts - parts;
+      } else if (is_of(e, CAROM_EVENT_BALL_BALL, ball) && other != cue &&
+                 other != chain[n > 0 ? n - 1 : 0] && other != chain[n < links ? n + 1 : links]) {
+        others += n > 0 && ball == cue ? 1 : CHAIN;
+        good = add_part(w, (carom_part){CAROM_PART_BALL, other});
+        beside = 0;
+      }
+    }
+    kicks += n == links ? rails : 0;
+    if (!good || (n > 1 && !add_part(w, (carom_part){CAROM_PART_BALL, chain[n - 1]})))
+      return false;
+  }
+  w->parts -= beside;
+  rails -= beside;
+  w->kind = links > 1 || others >= CHAIN ? COMBINATION
+            : others > 0                 ? CAROM
+            : kicks > 0                  ? KICK
+            : rails > 0                  ? BANK
+                                         : DIRECT;
+  return rails <= s->rails;
+}
+
+/* The way of a point or to a place: what the cue ball meets, of a point up to the second ball. */
+static bool read_point(const ways_search *s, const carom_shot *shot, way *w) {
   const int cue = (int)s->line->cue.ball;
   int balls = 0, rails = 0, met[2] = {-1, -1};
-  double last = -INFINITY; /* when a rail was met, */
-  int same = -1;           /* and which: a further hop there at once is none */
-  bool reached = false;
-  if (shot->count > ROOM)
-    return false;
+  const carom_event *last = NULL;
   for (int64_t k = 0; k < shot->count; k++) {
-    const carom_brief_event *e = &shot->brief[k];
-    carom_part part;
-    const int mover = reached ? w->ball : cue;
-    if (e->type == CAROM_EVENT_POCKET && e->a == w->ball)
-      break;
-    if (e->type == CAROM_EVENT_RAIL && e->a == mover &&
-        rail_of(&s->line->table->table, e->b, &part)) {
-      const bool hop = e->b == same && e->time - last < SAME_CONTACT;
-      same = e->b;
-      last = e->time;
-      if (!hop && !add_part(w, part))
-        return false;
-      rails += !hop;
-    }
-    if (e->type != CAROM_EVENT_BALL_BALL)
-      continue;
-    const bool own = e->a == cue || e->b == cue;
+    const carom_event *e = &shot->events[k];
     const int other = e->a == cue ? e->b : e->a;
-    if (w->kind != POINT && (e->a == w->ball || e->b == w->ball)) {
-      if (!own || reached) /* another ball pots it, or the cue ball once more */
+    if (is_of(e, CAROM_EVENT_RAIL, cue)) {
+      const bool hop = last != NULL && last->b == e->b && e->time - last->time < SAME_CONTACT;
+      if (!add_rail(s, e, hop, w, &rails))
         return false;
-      reached = true;
-    } else if (own && !reached && other != met[0] && other != met[1]) {
+      last = e;
+    }
+    if (is_of(e, CAROM_EVENT_BALL_BALL, cue) && other != met[0] && other != met[1]) {
       if (balls == 2 || !add_part(w, (carom_part){CAROM_PART_BALL, other}))
         return false;
       met[balls++] = other;
@@ -244,26 +220,59 @@ static bool read_way(const ways_search *s, const carom_shot *shot, way *w) {
         return rails >= 3;
     }
   }
-  return rails <= s->rails && (w->kind == PLACE || (w->kind == CAROM && reached && balls > 0));
+  return rails <= s->rails && w->kind == PLACE;
 }
 
-/* Whether a way was not read because its shot or a point has too many parts; other ways with so
- * many have too many rails. */
-static bool has_no_room(const carom_shot *shot, const way *w) {
-  return shot->count > ROOM || (w->kind == POINT && w->parts == MOST_PARTS);
-}
-
-/* Counts a way of direction k of a stroke. */
-static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double step) {
-  int at = 0;
-  while (at < s->ways) {
-    const way *w = &s->way[at];
-    if (w->kind == seen->kind && w->ball == seen->ball && w->pocket == seen->pocket &&
-        w->parts == seen->parts &&
-        memcmp(w->part, seen->part, (size_t)w->parts * sizeof *w->part) == 0)
-      break;
-    at++;
+/* The angle from the way of the cue ball, just before its first contact, to the line of centres,
+ * degrees; NAN where there is none. */
+static double cut_of(const carom_shot *shot, int cue) {
+  for (int64_t k = 0; k < shot->count; k++) {
+    const carom_event *e = &shot->events[k];
+    if (!is_of(e, CAROM_EVENT_BALL_BALL, cue))
+      continue;
+    const carom_ball_state *own = &e->before[e->a != cue], *other = &e->before[e->a == cue];
+    const double x = other->r[0] - own->r[0], y = other->r[1] - own->r[1];
+    return atan2(own->v[0] * y - own->v[1] * x, own->v[0] * x + own->v[1] * y) * 57.29577951308232;
   }
+  return NAN;
+}
+
+/* Plays a stroke, and reads its way, of which kind, ball and pocket are given. What it tells: */
+typedef enum told { NOTHING, NO_ROOM, A_WAY } told;
+static told read_stroke(const ways_search *s, const carom_cue *cue, way *w) {
+  static carom_event event[ROOM];
+  static carom_facts facts;
+  static carom_ball_state final[CAROM_BALLS_MOST];
+  carom_shot shot = {.events = event, .room = ROOM, .facts = &facts, .final = final};
+  if (carom_shoot(&s->line->table->table, s->line->ball, s->line->count, cue, &s->options, &shot) <
+          0 ||
+      !way_is_good(s, &facts, final, w))
+    return NOTHING;
+  w->parts = 0;
+  if (shot.count > ROOM)
+    return NO_ROOM;
+  if (s->counted == CAROM ? read_pot(s, &shot, w) : read_point(s, &shot, w)) {
+    w->cut = cut_of(&shot, (int)cue->ball);
+    return A_WAY;
+  }
+  return w->kind == POINT && w->parts == MOST_PARTS ? NO_ROOM : NOTHING;
+}
+
+static bool is_same(const way *one, const way *other) {
+  return one->kind == other->kind && one->ball == other->ball && one->pocket == other->pocket &&
+         one->parts == other->parts &&
+         memcmp(one->part, other->part, (size_t)one->parts * sizeof *one->part) == 0;
+}
+
+/* ---- Strokes in all directions */
+
+/* Counts a way of direction k of a stroke. Of pots each window of a stroke is a way. */
+static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double step) {
+  const bool pots = s->counted == CAROM;
+  int at = 0;
+  while (at < s->ways && !(is_same(&s->way[at], seen) &&
+                           (!pots || (s->way[at].stroke == stroke && s->way[at].last == k - 1))))
+    at++;
   if (at == MOST_WAYS) {
     s->left_out++;
     return;
@@ -271,6 +280,7 @@ static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, do
   way *w = &s->way[at];
   if (at == s->ways) {
     *w = *seen;
+    w->stroke = stroke;
     w->last = -2;
     s->ways++;
   }
@@ -285,55 +295,86 @@ static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, do
   }
 }
 
-/* Counts the way of the ball, -1 of points and places, by the shot of direction k of a stroke where
- * the shot is good, or that there was no room for it. */
-static void read_shot(ways_search *s, const carom_shot *shot, int ball, int stroke, int64_t k,
-                      double step) {
+/* Counts the way of the ball, -1 of points and places, by the stroke of direction k where its shot
+ * is good, or that there was no room for it. */
+static void read_shot(ways_search *s, const carom_shot *shot, const carom_cue *cue, int ball,
+                      int stroke, int64_t k, double step) {
   way seen = {.kind = s->counted, .ball = ball, .pocket = -1};
   if (ball >= 0)
     seen.pocket = shot->facts->pocket[ball];
   if (!way_is_good(s, shot->facts, shot->final, &seen))
     return;
-  if (!read_way(s, shot, &seen))
-    s->left_out += has_no_room(shot, &seen);
-  else {
-    s->good++;
+  const told is = read_stroke(s, cue, &seen);
+  s->left_out += is == NO_ROOM;
+  s->good += is == A_WAY;
+  if (is == A_WAY)
     count_way(s, &seen, stroke, k, step);
-  }
 }
 
-/* Whether the way is that of a stroke in this direction. */
-static bool holds(const ways_search *s, const way *w, double phi) {
-  static carom_brief_event brief[ROOM];
-  carom_facts facts;
-  carom_cue cue = w->cue;
-  cue.phi = phi;
-  carom_ball_state final[CAROM_BALLS_MOST];
-  carom_shot shot = {.brief = brief, .room = ROOM, .facts = &facts, .final = final};
-  way seen = {.kind = w->kind, .ball = w->ball, .pocket = w->pocket};
-  return carom_shoot(&s->line->table->table, s->line->ball, s->line->count, &cue, &s->options,
-                     &shot) >= 0 &&
-         way_is_good(s, &facts, final, w) && read_way(s, &shot, &seen) && seen.parts == w->parts &&
-         memcmp(seen.part, w->part, (size_t)w->parts * sizeof *w->part) == 0;
+/* Whether the way is that of its stroke with another value of *field, of its cue. */
+static bool holds(const ways_search *s, way *w, double *field, double at) {
+  way seen = {.kind = s->counted == CAROM ? CAROM : w->kind, .ball = w->ball, .pocket = w->pocket};
+  const double own = *field;
+  *field = at;
+  const bool same = read_stroke(s, &w->cue, &seen) == A_WAY && is_same(&seen, w);
+  *field = own;
+  return same;
+}
+
+/* The last value of *field between one at which the way holds and another at which it does not. */
+static double edge_of(const ways_search *s, way *w, double *field, double in, double out) {
+  for (int k = 0; k < HALVINGS; k++) {
+    const double middle = 0.5 * (in + out);
+    *(holds(s, w, field, middle) ? &in : &out) = middle;
+  }
+  return in;
 }
 
 /* The best stroke of a way that was counted, the window around it, and its chance; false after a
  * complaint. */
 static bool finish_way(ways_search *s, way *w, double step) {
   w->cue = s->stroke[w->stroke];
+  w->cue.phi = w->middle;
   for (int end = 0; end < 2; end++) {
-    const double away = (end == 0 ? -1.0 : 1.0) * step;
-    double in = w->middle, out = in + away * (0.5 * (double)w->longest + 1.0);
-    for (int k = 0; k < HALVINGS; k++) {
-      const double middle = 0.5 * (in + out);
-      *(holds(s, w, middle) ? &in : &out) = middle;
-    }
-    w->phi[end] = in;
+    const double away = (end == 0 ? -1.0 : 1.0) * step * (0.5 * (double)w->longest + 1.0);
+    w->phi[end] = edge_of(s, w, &w->cue.phi, w->middle, w->middle + away);
   }
   const double middle = 0.5 * (w->phi[0] + w->phi[1]);
-  w->cue.phi = holds(s, w, middle) ? middle : w->middle;
-  w->cut = w->margin = w->speed[0] = w->speed[1] = NAN;
+  w->cue.phi = holds(s, w, &w->cue.phi, middle) ? middle : w->middle;
+  way there = {.kind = s->counted, .ball = w->ball, .pocket = w->pocket};
+  if (read_stroke(s, &w->cue, &there) == A_WAY)
+    w->cut = there.cut;
+  w->speed[0] = w->speed[1] = w->cue.speed;
+  if (s->counted != CAROM || w->phi[1] - w->phi[0] < WINDOW_LEAST)
+    return s->counted == CAROM || ways_chance(s, w);
+  for (int end = 0; end < 2; end++) {
+    const double factor = end == 0 ? 1.0 / 1.1 : 1.1;
+    double in = w->cue.speed, out = in * factor;
+    while (out > SPEED_LEAST && out < SPEED_MOST && holds(s, w, &w->cue.speed, out)) {
+      in = out;
+      out *= factor;
+    }
+    w->speed[end] = edge_of(s, w, &w->cue.speed, in, out);
+  }
   return ways_chance(s, w);
+}
+
+/* Of the ways of pots those that are wide enough stay; and of those that differ by
+ * the stroke alone, unless each is asked for, that with the best chance. */
+static void keep_best(ways_search *s) {
+  int kept = 0;
+  for (int k = 0; k < s->ways; k++) {
+    const way w = s->way[k];
+    int at = kept;
+    if (w.phi[1] - w.phi[0] < WINDOW_LEAST)
+      continue;
+    for (int n = 0; n < kept && !s->each; n++)
+      at = is_same(&s->way[n], &w) ? n : at;
+    if (at == kept || w.chance > s->way[at].chance)
+      s->way[at] = w;
+    kept += at == kept;
+  }
+  s->ways = kept;
 }
 
 /* Plays strokes in all directions; false after a complaint. */
@@ -344,8 +385,6 @@ static bool scan(ways_search *s) {
   static carom_ball_state final[BLOCK][CAROM_BALLS_MOST];
   const int64_t each = s->scan / s->strokes;
   const double step = 360.0 / (double)each;
-  const int first = s->ways;
-  carom_brief_event *brief = allocate((size_t)BLOCK * ROOM, sizeof *brief);
   bool fine = true;
   for (int stroke = 0; stroke < s->strokes && fine; stroke++)
     for (int64_t from = 0; from < each && fine; from += BLOCK) {
@@ -353,43 +392,34 @@ static bool scan(ways_search *s) {
       for (int k = 0; k < n; k++) {
         cue[k] = s->stroke[stroke];
         cue[k].phi = step * (double)(from + k);
-        shot[k] = (carom_shot){
-            .brief = brief + k * ROOM, .room = ROOM, .facts = &facts[k], .final = final[k]};
+        shot[k] = (carom_shot){.facts = &facts[k], .final = final[k]};
       }
       fine = play(s, cue, n, shot);
       for (int k = 0; k < n && fine; k++) {
         s->scanned++;
         if (s->counted != CAROM)
-          read_shot(s, &shot[k], -1, stroke, from + k, step);
+          read_shot(s, &shot[k], &cue[k], -1, stroke, from + k, step);
         for (int ball = 0; ball < s->line->count && s->counted == CAROM; ball++)
           if (ball != s->line->cue.ball && (s->ball < 0 || ball == s->ball) &&
               (s->pocket < 0 || facts[k].pocket[ball] == s->pocket))
-            read_shot(s, &shot[k], ball, stroke, from + k, step);
+            read_shot(s, &shot[k], &cue[k], ball, stroke, from + k, step);
       }
       progress_show("strokes", (double)s->scanned, (double)(each * s->strokes));
     }
-  progress_clear();
-  free(brief);
-  for (int k = first; k < s->ways && fine; k++)
+  for (int k = 0; k < s->ways && fine; k++) {
     fine = finish_way(s, &s->way[k], step);
+    progress_show("ways", (double)k, (double)s->ways);
+  }
+  progress_clear();
+  if (s->counted == CAROM && fine)
+    keep_best(s);
   return fine;
 }
 
 /* ---- All of it */
 
 bool ways_find(ways_search *s) {
-  const int pockets = (int)s->line->table->table.pockets;
-  bool good = true;
-  for (int k = 0; k < s->line->count && good && s->counted == CAROM; k++)
-    for (int p = 0; p < pockets && good; p++)
-      if (k != s->line->cue.ball && !is_out_of_play(s->line, k) && (s->ball < 0 || k == s->ball) &&
-          (s->pocket < 0 || p == s->pocket)) {
-        good = try_ways(s, k, p);
-        progress_show("pots", (double)(k * pockets + p), (double)(s->line->count * pockets));
-      }
-  progress_clear();
-  if (good && s->scan >= s->strokes)
-    good = scan(s);
+  const bool good = scan(s);
   if (good && s->left_out > 0)
     complain("%lld strokes are left out: there is room for %d ways, %d rails and balls of a point "
              "and %d events of a shot",

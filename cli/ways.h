@@ -7,7 +7,7 @@
 #include "options.h"
 #include "shot_file.h"
 
-enum { MOST_WAYS = 2000, MOST_PARTS = 12 };
+enum { MOST_WAYS = 20000, MOST_PARTS = 12 };
 
 typedef enum way_kind { DIRECT, BANK, KICK, COMBINATION, CAROM, POINT, PLACE } way_kind;
 
@@ -20,9 +20,9 @@ typedef struct way {
   int parts;
   carom_part part[MOST_PARTS];
   carom_cue cue;
-  double cut, margin, phi[2], speed[2]; /* as in carom_pot */
-  double chance, error;                 /* of a player, and its standard error */
-  int64_t found;                        /* of the strokes in all directions */
+  double cut, phi[2], speed[2]; /* as in carom_pot */
+  double chance, error;         /* of a player, and its standard error */
+  int64_t found;                /* of the strokes in all directions */
   /* of these: its run of neighbouring directions, and the longest one with its middle */
   int64_t last, run, longest;
   double middle;
@@ -38,9 +38,9 @@ typedef struct ways_search {
   int strokes;
   way_kind counted; /* what strokes in all directions are read for: CAROM, POINT or PLACE */
   int ball, pocket; /* of pots; -1: any */
-  int rails;        /* at most, of banks, kicks, caroms and places */
-  int scan;  /* strokes in all directions, of all strokes together; less than strokes: none */
-  bool each; /* whether a pot is a way of its own by each stroke */
+  int rails;        /* at most, of pots and places */
+  int scan;         /* strokes in all directions, of all strokes together, at least 1 for each */
+  bool each;        /* whether a pot is a way of its own by each stroke */
 
   /* the cue ball shall end within `radius`, m, of a place, where it is above 0 */
   double place[2], radius;

@@ -26,7 +26,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LINKS = CAROM_VIA_MOST + 1, EVENTS = 96, SAMPLES = 180, HALVINGS = 48 };
+enum { LINKS = CAROM_VIA_MOST + 1, EVENTS = 96, SAMPLES = 180, HALVINGS = 48, SWEPT = 600 };
 static const carom_shot_options no_options;
 /* a part of the time since the start: a velocity before an event is taken so much earlier */
 static const double just_before = 1e-6;
@@ -50,6 +50,7 @@ typedef struct way {
   const carom_shot_ball *layout; /* the whole layout, of `count` balls */
   int count, balls, links;
   bool raised;                      /* the caller leaves the elevation to the stick */
+  bool swept;                       /* the cue ball may touch a rail just before the first ball */
   carom_part link[LINKS];           /* balls and rails, as they are met */
   int ball[LINKS + 1];              /* indices in the layout */
   carom_shot_ball alone[LINKS + 1]; /* the balls as a layout of their own */
@@ -85,6 +86,16 @@ static bool is_on(const way *w, const carom_part *link, int rail) {
          in_line(&w->table->rail[link->index], &w->table->rail[rail]);
 }
 
+/* Whether the cue ball meets the first ball right after event k. */
+static bool meets_soon(const int *ball, const carom_brief_event *events, int64_t count, int64_t k) {
+  const double until = events[k].time + same_contact;
+  while (++k < count && events[k].time < until)
+    if (events[k].type == CAROM_EVENT_BALL_BALL && events[k].a + events[k].b == ball[0] + ball[1] &&
+        (events[k].a == ball[0] || events[k].b == ball[0]))
+      return true;
+  return false;
+}
+
 /* Follows the events of a shot along the way; `ball` are the indices of its balls there. */
 static progress follow(const way *w, const int *ball, const carom_brief_event *events,
                        int64_t count) {
@@ -116,7 +127,8 @@ static progress follow(const way *w, const int *ball, const carom_brief_event *e
     } else if (rail && is_on(w, next, e->b)) {
       p.since = e->time;
       p.links++;
-    } else if (!(rail && is_on(w, last, e->b) && e->time - p.since < same_contact)) {
+    } else if (!(rail && is_on(w, last, e->b) && e->time - p.since < same_contact) &&
+               !(rail && w->swept && p.links == 0 && meets_soon(ball, events, count, k))) {
       p.end = *e;
     }
   }
@@ -375,6 +387,46 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
   }
 }
 
+/* Plays directions of this range, for a ball that runs along a rail or is met by way of one: e has
+ * no root there. The middle of the widest range in which the ball falls is taken; where there is
+ * none, what was found stays. */
+static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, double wide,
+                  carom_pot *pot, carom_cue *cue) {
+  carom_cue c;
+  double from = 0.0, last = 0.0, low = 0.0, high = 0.0, unused, half;
+  bool fell = false;
+  w->swept = w->links == 1;
+  for (int k = 0; k <= SWEPT; k++) {
+    double sine, cosine;
+    carom_brief_event met;
+    carom_sincos(pi * k / (double)SWEPT - 0.5 * pi, &sine, &cosine);
+    c = *cue;
+    c.phi = mid + wide * sine;
+    c.theta = elevation_of(w, &c);
+    const bool falls = fate(w, balls, count, &c, &met) == CAROM_POT_FALLS;
+    if (falls && !fell)
+      from = c.phi;
+    last = falls ? c.phi : last;
+    if (falls && last - from >= high - low) {
+      low = from;
+      high = last;
+    }
+    fell = falls;
+  }
+  if (low == 0.0 && high == 0.0)
+    return;
+  c = *cue;
+  c.phi = 0.5 * (low + high);
+  c.theta = elevation_of(w, &c);
+  attempt(w, c.phi, *cue, &unused, &half);
+  carom_pot there = *pot;
+  judge(w, balls, count, &c, half, &there, &c);
+  if (there.is != CAROM_POT_FALLS)
+    return;
+  *pot = there;
+  *cue = c;
+}
+
 /* ---- The call */
 
 /* The way as the caller asks for it; false where that cannot be. */
@@ -496,6 +548,17 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
     else if (pot->is != CAROM_POT_NO_WAY)
       *cue = high;
   }
+
+  /* a ball near a rail by way of that rail */
+  bool near = false;
+  for (int k = 0; k < table->rails; k++) {
+    double l[3];
+    carom_rail_line(&table->rail[k], l);
+    near |=
+        fabs(l[0] * first->state.r[0] + l[1] * first->state.r[1] + l[2]) < 5.0 * first->kind.radius;
+  }
+  if (pot->is == CAROM_POT_NO_WAY || pot->is == CAROM_POT_BARRED || pot->is == CAROM_POT_REJECTED)
+    sweep(&w, balls, count, mid, half + (near && w.links == 1 ? kick_wide : 0.0), pot, cue);
 
   /* whether the stick alone is in the way of all directions */
   along.phi = mid;

@@ -33,7 +33,7 @@ done
 leaves() { carom shoot --cue 0.6,0.8 --tip 0.4,0 "$@" --csv | sed -n 2p; }
 [ "$(leaves)" != "$(leaves --with end_mass=0.02)" ] && echo "squirt by the cue"
 carom shoot --tip-time -1 --with M=0.5,end_mass=0.02,tip_restitution=0 --json | grep -o '"M.*tip_restitution": 0,\|"tip_time": -1'
-carom ways --scan 0 line.jsonl --with u_b=2 2>&1 | head -n 1
+carom ways line.jsonl --with u_b=2 2>&1 | head -n 1
 echo "--- options that would be ignored"
 for words in "shoot --cite --cue 1,1" "shoot --json --csv --aim 1" "shoot --json --events brief --aim 1" "shoot --json --plot a.svg --aim 1" "shoot --json --spread 1%,0,0,0 --aim 1" "shoot --csv --spread 1%,0,0,0 --aim 1" \
   "shoot --id a --aim 1" "shoot --id a line.jsonl" "hit --csv --solver euler" "rail --csv --model euler"; do

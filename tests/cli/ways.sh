@@ -13,7 +13,7 @@ carom ways --table threecushion --balls threecushion --speed 3.0,5.0 --scan 1000
 carom ways $layout --ball 1 --speed 1.5,2.5 --rails 1 -o none --plot figure.svg
 cmp figure.svg "$DATA/../docs/figures/ways.svg" && echo "as in the docs"
 # the cue ball ends where it shall: without errors the chance is 1 or 0
-carom ways --cue 0.6,0.8 --balls 0.3,1.9 --ball 1 --pocket foot-left --rails 0 --scan 0 --leave 2d,4d,20cm --errors 0 --json > leave.jsonl
+carom ways --cue 0.6,0.8 --balls 0.3,1.9 --ball 1 --pocket foot-left --rails 0 --leave 2d,4d,20cm --errors 0 --json > leave.jsonl
 carom ways --cue 1d,2d --leave 0.2,0.3,0.2 --rails 1 --errors 0 --scan 8000 --json > place.jsonl
 for name in leave place; do carom shoot $name.jsonl > $name.out; done
 carom shoot ways.jsonl > ways.out
@@ -70,10 +70,13 @@ print(len(points) > 20, of, counted == good, 0.5 < 100 * good / of < 10)
 PYTHON
 grep -c 'class="legend"' ways.svg
 echo "--- less error, more chance"
-chance() { carom ways --cue 0.6,0.8 --balls 0.3,1.9 --pocket foot-left --rails 0 --scan 0 --speed 2 --csv "$@" | sed -n 2p | cut -d , -f 17; }
+chance() { carom ways --cue 0.6,0.8 --balls 0.3,1.9 --pocket foot-left --rails 0 --speed 2 --csv "$@" | sed -n 2p | cut -d , -f 16; }
 awk -v sure="$(chance --errors 0.3)" -v weak="$(chance --errors 4)" -v rated="$(chance --player 700)" 'BEGIN { print (sure > weak + 0.3), (rated > weak) }'
+echo "--- a ball frozen to a rail: along it, and by way of it"
+carom ways --cue 2d,3d --balls frozen-left,5d --ball 1 --speed 1.5,4 --rails 1 --pocket foot-left
+carom shoot --cue 2d,3d --balls frozen-left,5d --pocket 1:foot-left --speed 1.5 | grep -c "falls with aims of 136"
 echo "--- each stroke"
-carom ways --cue 0.6,0.8 --balls 0.3,1.9 --ball 1 --pocket foot-left --rails 0 --scan 0 --speed 1:3:1 --tip -0.2..0.2..0.2,0 --each --csv | cut -d , -f 6,9
+carom ways --cue 0.6,0.8 --balls 0.3,1.9 --ball 1 --pocket foot-left --rails 0 --speed 1:3:1 --tip -0.2..0.2..0.2,0 --each --csv | cut -d , -f 6,9
 echo "--- refused"
 try carom ways
 try carom ways --cue 0.6,0.8
@@ -93,7 +96,7 @@ carom ways --table threecushion --balls threecushion --speed 25 --scan 3000 2>&1
 try carom ways --cue 0.6,0.8 --leave 3
 try carom shoot --cue 0.6,0.8 --tip 0,-0.4..0.4..0
 try carom ways --cue 0.6,0.8 a.jsonl
-carom ways --scan 0 --rails 0 a.jsonl | cut -c 1-30 | head -n 1
+carom ways --rails 0 a.jsonl | cut -c 1-30 | head -n 1
 echo "--- places in diamonds, ranges of tips"
 carom shoot --cue 1d,2d --balls 2,6d --table 8ft --aim 90 --json | grep -o '"state": \[0, [^,]*, [^,]*'
 for place in $(carom shoot --help | tr -s ' \n' ' ' | grep -o 'a place: [^(]*Corners' | grep -oE '[a-z]+-[a-z]+|centre|yellow|green|brown|blue|pink|black'); do
