@@ -12,7 +12,7 @@
 
 /* strokes with errors for a chance; those of one batch; events of one that are read */
 enum { TRIES = 400, BLOCK = 256, ROOM = 300, HALVINGS = 10 };
-/* m/s, of the cue; degrees, of a pot; and cushions so near to a pocket are beside it, in its radii */
+/* m/s, of the cue; degrees, of a pot; and cushions so near to a pocket are beside it: its radii */
 static const double SPEED_LEAST = 0.05, SPEED_MOST = 15.0, WINDOW_LEAST = 0.04, BESIDE = 3.0;
 
 const char *const way_names[] = {"direct", "bank",  "kick", "combination",
@@ -108,8 +108,8 @@ static bool add_part(way *w, carom_part part) {
   return true;
 }
 
-/* Adds the rail of an event, by the first one of its name, to what a ball meets; the cut of a pocket
- * is none, nor is a hop on the rail before. False where there is no room. */
+/* Adds the rail of an event, by the first one of its name, to what a ball meets; the cut of a
+ * pocket is none, nor is a hop on the rail before. False where there is no room. */
 static bool add_rail(const ways_search *s, const carom_event *e, bool hop, way *w, int *rails) {
   const carom_table *t = &s->line->table->table;
   if (hop || !is_cushion(t, e->b))

@@ -387,6 +387,19 @@ static void search(const way *w, const carom_shot_ball *balls, int count, double
   }
 }
 
+/* Whether the first ball is near a rail, by way of which it may be met. */
+static bool is_near_rail(const way *w) {
+  const carom_shot_ball *first = &w->alone[1];
+  bool near = false;
+  for (int k = 0; k < w->table->rails; k++) {
+    double l[3];
+    carom_rail_line(&w->table->rail[k], l);
+    near |=
+        fabs(l[0] * first->state.r[0] + l[1] * first->state.r[1] + l[2]) < 5.0 * first->kind.radius;
+  }
+  return near;
+}
+
 /* Plays directions of this range, for a ball that runs along a rail or is met by way of one: e has
  * no root there. The middle of the widest range in which the ball falls is taken; where there is
  * none, what was found stays. */
@@ -549,16 +562,9 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
       *cue = high;
   }
 
-  /* a ball near a rail by way of that rail */
-  bool near = false;
-  for (int k = 0; k < table->rails; k++) {
-    double l[3];
-    carom_rail_line(&table->rail[k], l);
-    near |=
-        fabs(l[0] * first->state.r[0] + l[1] * first->state.r[1] + l[2]) < 5.0 * first->kind.radius;
-  }
   if (pot->is == CAROM_POT_NO_WAY || pot->is == CAROM_POT_BARRED || pot->is == CAROM_POT_REJECTED)
-    sweep(&w, balls, count, mid, half + (near && w.links == 1 ? kick_wide : 0.0), pot, cue);
+    sweep(&w, balls, count, mid, half + (w.links == 1 && is_near_rail(&w) ? kick_wide : 0.0), pot,
+          cue);
 
   /* whether the stick alone is in the way of all directions */
   along.phi = mid;

@@ -112,8 +112,9 @@ TEST(aims) {
   ck_assert_int_le(others, (good + others) / 10 + 12);
 }
 
-/* Each window of directions above 0.25 degrees in which a ball within 2 R of a rail falls, met first
- * or right off a rail, and touches at most rails beside its pocket, is found by a direct aim, but for one in 30. */
+/* Each window of directions above 0.25 degrees in which a ball within 2 R of a rail falls, met
+ * first or right off a rail, and touches at most rails beside its pocket, is found by a direct aim,
+ * but for one in 30. */
 TEST(pots_at_rails) {
   enum { SWEPT = 1800 };
   random_source r = {test_seed()};
