@@ -152,7 +152,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   game->on = 0;
   if (bad != CAROM_FOUL_NONE) {
     int cost = value > LEAST ? value : LEAST;
-    const int by_first = wrong_first ? worth(first) : 0, by_fall = highest(wrong | facts->pushed);
+    const int by_first = wrong_first ? worth(first) : 0,
+              by_fall = highest((wrong | facts->pushed) & ~(free_ball ? its : 0));
     cost = by_first > cost ? by_first : cost;
     cost = by_fall > cost ? by_fall : cost;
     carom_add(&game->score[1], cost);

@@ -70,6 +70,8 @@ static const snooker_case snooker[] = {
      MAY},
     {"the black as a free ball, missed", ALL, 0, FREE, -1, 0, 0, BLACK, PASS, AFTER, NO_BALL, 0, 4,
      0, 0, MAY},
+    {"the blue as a free ball, off the table", ALL, 0, FREE, BLUE, 0, BL, BLUE, PASS, AFTER, OFF, 0,
+     4, BL, 0, MAY},
     {"another colour with the free ball", ALL, 0, FREE, BROWN, BR | PI, 0, BROWN, PASS, AFTER, POT,
      0, 6, BR | PI, 0, MAY},
     {"a free ball for the yellow", COLOURS | 1, 0, FREE, BLACK, BK, 0, BLACK, KEEP, AFTER, 0, 2, 0,
