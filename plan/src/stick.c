@@ -11,15 +11,9 @@
  *
  *     theta >= asin((q - b R) / A) - atan2(R - h, D).
  *
- * A line at the height h that crosses below the axis at D has points at D + k x, x beside the
- * axis. All of them are far enough away, if
- *
- *     (f + k x sin(theta))^2 + x^2 - (r + g k x)^2 >= 0,
- *
- * with f = b R + D sin(theta) - (h - R) cos(theta), r the radius of the stick at D, and g how it
- * grows; that is
- *
- *     f >= r (sqrt(1 + k^2 sin(theta)^2 - g^2 k^2) - g k^2 sin(theta)) / (1 - g^2 k^2). */
+ * Of a rail and of a jaw the place that needs most is found by the golden section. The stick grows,
+ * so that is a little behind the place below its axis, or far behind where the stick grows by more
+ * than it rises. */
 #include "platform/elementary.h"
 #include "platform/ranges.h"
 #include "view.h"
@@ -62,24 +56,38 @@ static double radius_at(double D) {
   return tip_radius + radius_growth * D;
 }
 
-/* The same for a line that crosses below the axis at D, by Newton's method from the elevation that
- * the point there needs. Where f does not grow as fast as what it must be, the stick is along the
- * line, and theta is a right angle. *nearest becomes the x that is the last to be far enough. */
-static double over_line(const stick *axis, double D, double h, double k, double *nearest) {
-  enum { STEPS = 8 };
-  const double b = axis->b * axis->R, up = h - axis->R, r = radius_at(D), g = radius_growth,
-               grown = 1.0 - g * g * k * k;
-  double theta = D > 0.0 ? raised(axis, 0.0, D, h, r) : 0.0, more = INFINITY, s = 0.0, c = 1.0;
-  for (int step = 0; step < STEPS && theta > 0.0 && theta < 0.5 * pi && fabs(more) > 1e-9; step++) {
-    carom_sincos(theta, &s, &c);
-    const double root = sqrt(grown + k * k * s * s);
-    const double f = b + D * s - up * c - r * (root - g * k * k * s) / grown,
-                 slope = D * c + up * s - r * k * k * c * (s / root - g) / grown;
-    more = slope > 0.0 ? -f / slope : INFINITY;
-    theta = more < 0.5 * pi - theta ? theta + more : 0.5 * pi;
+/* A nose: a line from a place on, or a circle of radius rho around that. */
+typedef struct nose {
+  double L, D, across, along, rho, h;
+} nose;
+
+/* What a place of it needs: a share of the line, or a direction from the centre, 0 the front. */
+static double needed_at(const stick *axis, const nose *n, double place) {
+  double sine = 0.0, cosine = 0.0;
+  if (n->rho > 0.0)
+    carom_sincos(place, &sine, &cosine);
+  const double L = n->L + place * n->across + n->rho * sine,
+               D = n->D + place * n->along - n->rho * cosine;
+  return needed(axis, L, D, n->h, radius_at(D));
+}
+
+/* The most that places from low to high need, by the golden section. */
+static double most_between(const stick *axis, const nose *n, double low, double high) {
+  enum { STEPS = 30 };
+  const double golden = 0.6180339887498949;
+  double at[2], theta[2];
+  for (int step = -2; step < STEPS; step++) {
+    /* two places; then the worse one is an end, and a place comes on the other side */
+    const int next = step < 0 ? step + 2 : theta[0] < theta[1] ? 1 : 0;
+    if (step >= 0) {
+      *(next == 1 ? &low : &high) = at[1 - next];
+      at[1 - next] = at[next];
+      theta[1 - next] = theta[next];
+    }
+    at[next] = next == 1 ? low + golden * (high - low) : high - golden * (high - low);
+    theta[next] = needed_at(axis, n, at[next]);
   }
-  *nearest = k * (r * g - (b + D * s - up * c) * s) / (grown + k * k * s * s);
-  return theta;
+  return carom_greater(theta[0], theta[1]);
 }
 
 /* Leaves of a range of x where value + slope x > 0. */
@@ -93,59 +101,34 @@ static void keep_positive(double range[2], double value, double slope) {
     range[1] = carom_lesser(range[1], root);
 }
 
-/* What a rail needs: its line, if the point of that which is nearest to the axis is on the rail and
- * below the stick; else the end of that part which is next to the point. */
+/* What the part of a rail needs that is below the stick. */
 static double over_rail(const stick *axis, const carom_rail *rail) {
-  double L[2], D[2], part[2] = {0.0, 1.0}, share = 0.0, nearest;
-  seen_from(axis, rail->p, &L[0], &D[0]);
-  seen_from(axis, rail->q, &L[1], &D[1]);
-  const double across = L[1] - L[0], along = D[1] - D[0], widest = radius_at(stick_end);
-  keep_positive(part, D[0], along);
-  keep_positive(part, stick_end - D[0], -along);
-  const double first = L[0] + part[0] * across, last = L[0] + part[1] * across;
-  if (part[0] >= part[1] || carom_greater(first, last) <= -widest ||
-      carom_lesser(first, last) >= widest)
-    return 0.0;
-
-  if (fabs(across) > radius_growth * fabs(along)) {
-    const double crosses = D[0] - L[0] * along / across;
-    const double theta = over_line(axis, crosses, rail->height, along / across, &nearest);
-    share = (nearest - L[0]) / across;
-    if (share >= part[0] && share <= part[1])
-      return theta;
-  }
-  share = share < part[0] ? part[0] : part[1];
-  const double end = D[0] + share * along;
-  return needed(axis, L[0] + share * across, end, rail->height, radius_at(end));
+  nose n = {.h = rail->height};
+  double part[2] = {0.0, 1.0}, q[2];
+  seen_from(axis, rail->p, &n.L, &n.D);
+  seen_from(axis, rail->q, &q[0], &q[1]);
+  n.across = q[0] - n.L;
+  n.along = q[1] - n.D;
+  const double grows = radius_growth * n.along;
+  keep_positive(part, n.D, n.along);
+  keep_positive(part, stick_end - n.D, -n.along);
+  keep_positive(part, radius_at(n.D) - n.L, grows - n.across);
+  keep_positive(part, radius_at(n.D) + n.L, grows + n.across);
+  return part[0] < part[1] ? most_between(axis, &n, part[0], part[1]) : 0.0;
 }
 
-/* What the front of a jaw needs, or `least` if that is more: by the golden section over directions
- * from its centre. A stick that grows touches it a little behind its widest place. */
+/* What a jaw needs, or `least` if that is more. Its back needs more than its front where the stick
+ * grows by more than it rises, far below 0.05 rad. */
 static double over_jaw(const stick *axis, const carom_jaw *jaw, double least) {
-  enum { STEPS = 30 };
-  const double golden = 0.6180339887498949, rho = jaw->radius;
-  double L, D, at[2], theta[2], high = 0.5 * pi + radius_growth, low = -high;
-  seen_from(axis, jaw->centre, &L, &D);
+  const double rho = jaw->radius, wide = 0.5 * pi + radius_growth;
+  nose n = {.rho = rho, .h = jaw->height};
+  seen_from(axis, jaw->centre, &n.L, &n.D);
   /* no point of it needs more than one at its front that is as near to the axis as any */
-  const double beside = carom_greater(fabs(L) - rho, 0.0), front = carom_greater(D - rho, 1e-9);
-  if (D + rho <= 0.0 || needed(axis, beside, front, jaw->height, radius_at(D + rho)) <= least)
+  const double beside = carom_greater(fabs(n.L) - rho, 0.0), front = carom_greater(n.D - rho, 1e-9);
+  if (n.D + rho <= 0.0 || needed(axis, beside, front, n.h, radius_at(n.D + rho)) <= least)
     return least;
-
-  for (int step = -2; step < STEPS; step++) {
-    /* two places; then the worse one is an end, and a place comes on the other side */
-    const int next = step < 0 ? step + 2 : theta[0] < theta[1] ? 1 : 0;
-    if (step >= 0) {
-      *(next == 1 ? &low : &high) = at[1 - next];
-      at[1 - next] = at[next];
-      theta[1 - next] = theta[next];
-    }
-    double sine, cosine;
-    at[next] = next == 1 ? low + golden * (high - low) : high - golden * (high - low);
-    carom_sincos(at[next], &sine, &cosine);
-    const double behind = D - rho * cosine;
-    theta[next] = needed(axis, L + rho * sine, behind, jaw->height, radius_at(behind));
-  }
-  return carom_greater(carom_greater(theta[0], theta[1]), least);
+  least = carom_greater(most_between(axis, &n, -wide, wide), least);
+  return least > 0.05 ? least : carom_greater(most_between(axis, &n, pi - wide, pi + wide), least);
 }
 
 double carom_least_elevation(const carom_table *table, const carom_shot_ball *balls, int count,
