@@ -36,7 +36,7 @@ typedef enum carom_record_kind {
   CAROM_RECORD_TABLE = 2,    /* "table" */
   CAROM_RECORD_OPTIONS = 3,  /* "options": the models; without this line, the defaults */
   CAROM_RECORD_BALLS = 4,    /* "balls": their constants, places and motion */
-  CAROM_RECORD_PLACE = 5,    /* "place": a ball in hand */
+  CAROM_RECORD_PLACE = 5,    /* "place": a ball comes in hand, or is put from there */
   CAROM_RECORD_SHOT = 6,     /* "shot": a stroke, when to stop its shot, and how that ended */
   CAROM_RECORD_CONTINUE = 7, /* "continue": a stopped shot goes on */
   CAROM_RECORD_EVENT = 8,    /* "event": of the shot before it; may be left out */
@@ -75,6 +75,7 @@ typedef struct carom_record {
   carom_cue cue;
   int64_t placed;            /* the last ball in hand, */
   double place[2];           /* m: and where it was put. */
+  int64_t hand;              /* 1: it is not placed yet: it is in hand. */
   carom_record_end recorded; /* of the line of a shot that was read; */
   carom_record_end played;   /* of the shot that was played. */
   carom_event event;         /* of the last line with an event; */
@@ -108,6 +109,11 @@ CAROM_API carom_status carom_record_play(carom_record *record, carom_record_kind
 /* Ball in hand, by carom_place_ball() after the last shot. */
 CAROM_API carom_status carom_record_place(carom_record *record, int ball, double x, double y,
                                           carom_part *in_the_way);
+
+/* A ball comes in hand after the last shot, and is out of play until it is placed: its label is
+ * CAROM_BALL_POCKETED. CAROM_RECORD_PLACE writes this as well. CAROM_ERROR_BALLS for an index that
+ * cannot be. */
+CAROM_API carom_status carom_record_hand(carom_record *record, int ball);
 
 /* Puts the states at the end of the last shot into record->balls. A caller does so who changes
  * them and writes CAROM_RECORD_BALLS. CAROM_ERROR_BALLS for a record->count that cannot be. */

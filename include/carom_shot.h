@@ -869,6 +869,12 @@ CAROM_API carom_status carom_shot_drawn(const carom_table *table, const carom_sh
                                         int count, const carom_shot *shot, const double *times,
                                         size_t n, carom_ball_state *states);
 
+/* The falls alone, for states of carom_shot_frames() at the same times: those of pocketed balls are
+ * replaced. Its errors are those of carom_shot_drawn(). */
+CAROM_API carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *balls,
+                                        int count, const carom_shot *shot, const double *times,
+                                        size_t n, carom_ball_state *states);
+
 /* How fast the surfaces of ball a and of what it meets pass each other as they meet, m/s: with
  * event->impulse it says how a contact sounds. By the motion before the event, in a cluster before
  * the cluster. 0 of the strike, of pockets and of events without a contact; NaN for a pointer that

@@ -397,6 +397,13 @@ EVERY_BODY(shot_drawn) {
       carom_shot_drawn(&in->table, in->balls, EVERY_BALLS, &room->shot[0], times, 3, room->later));
   return HASH(room->later);
 }
+EVERY_BODY(shot_falls) {
+  static const double late = 3.0;
+  every_break(in, room, 0, 0.0);
+  STATUS(
+      carom_shot_falls(&in->table, in->balls, EVERY_BALLS, &room->shot[0], &late, 1, room->final));
+  return HASH(room->final);
+}
 EVERY_BODY(event_slip) {
   double slip[20];
   every_break(in, room, 0, 0.0);
@@ -567,6 +574,11 @@ EVERY_BODY(record_place) {
   STATUS(carom_record_place(&room->record, 0, 0.3, 0.4, NULL));
   return HASH(room->record.balls);
 }
+EVERY_BODY(record_hand) {
+  every_record_line(in, room, CAROM_RECORD_TABLE);
+  STATUS(carom_record_hand(&room->record, 0));
+  return HASH(room->record.balls);
+}
 EVERY_BODY(record_settle) {
   every_record_line(in, room, CAROM_RECORD_TABLE);
   STATUS(carom_record_settle(&room->record));
@@ -593,10 +605,10 @@ EVERY_BODY(record_settle) {
   F(number_is_read) F(number_of) F(number_range) \
   F(physics_revision) F(place_ball) \
   F(pocket_name) F(rack) \
-  F(rack_name) F(rack_size) F(rail_name) F(record_place) F(record_play) F(record_read) \
-  F(record_settle) F(record_write) F(rolling_velocity) F(serves) F(shoot) \
+  F(rack_name) F(rack_size) F(rail_name) F(record_hand) F(record_place) F(record_play) \
+  F(record_read) F(record_settle) F(record_write) F(rolling_velocity) F(serves) F(shoot) \
   F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) F(shot_continue) F(shot_drawn) \
-  F(shot_fault) F(shot_frames) F(event_slip) \
+  F(shot_falls) F(shot_fault) F(shot_frames) F(event_slip) \
   F(shot_orientation) \
   F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) \
   F(spot_of) F(status_name) \

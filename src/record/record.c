@@ -85,7 +85,8 @@ static const field table[] = {
 static const field models[] = {CAROM_MOTION_OPTIONS(OPTION_KEY) END};
 static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), END};
 static const field place_fields[] = {R("ball", INT64, true, 1, placed),
-                                     R("at", DOUBLE, true, 2, place), END};
+                                     R("at", DOUBLE, false, 2, place),
+                                     R("hand", INT64, false, 1, hand), END};
 
 /* How a shot ended. */
 #define ENDS                                                                                  \
@@ -425,10 +426,24 @@ carom_status carom_record_place(carom_record *record, int ball, double x, double
   if (bad < 0)
     return bad;
   record->placed = ball;
+  record->hand = 0;
   record->place[0] = x;
   record->place[1] = y;
   return carom_place_ball(&record->table, record->balls, (int)record->count, ball, x, y,
                           in_the_way);
+}
+
+carom_status carom_record_hand(carom_record *record, int ball) {
+  const carom_status bad = carom_record_settle(record);
+  if (bad < 0)
+    return bad;
+  if (ball < 0 || ball >= record->count)
+    return CAROM_ERROR_BALLS;
+  record->placed = ball;
+  record->hand = 1;
+  record->place[0] = record->place[1] = 0.0;
+  record->balls[ball].state.label = CAROM_BALL_POCKETED;
+  return CAROM_OK;
 }
 
 /* A line that was read is applied to the game. */
@@ -454,7 +469,9 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
     const int ball =
         record->placed >= 0 && record->placed < record->count ? (int)record->placed : -1;
     const carom_status status =
-        carom_record_place(record, ball, record->place[0], record->place[1], NULL);
+        record->hand != 0
+            ? carom_record_hand(record, ball)
+            : carom_record_place(record, ball, record->place[0], record->place[1], NULL);
     return status == CAROM_OK || wrong(in, carom_status_string(status));
   }
 

@@ -213,12 +213,12 @@ static void state_at(const fall *f, double t, carom_ball_state *state) {
   state->v[2] = lies ? 0.0 : f->from->v[2] - f->kind->gravity * t;
 }
 
-carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls, int count,
+carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *balls, int count,
                               const carom_shot *shot, const double *times, size_t n,
                               carom_ball_state *states) {
-  if (table == NULL)
-    return CAROM_ERROR_NULL;
-  const carom_status status = carom_shot_at_times(balls, count, shot, times, n, states);
+  const bool nothing = table == NULL || (n > 0 && (times == NULL || states == NULL));
+  const carom_status status =
+      nothing ? CAROM_ERROR_NULL : carom_shot_at_times(balls, count, shot, NULL, 0, NULL);
   if (status < 0)
     return status;
 
@@ -251,4 +251,12 @@ carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *b
     memcpy(others[down++].r, last.r, sizeof last.r);
   }
   return status;
+}
+
+carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls, int count,
+                              const carom_shot *shot, const double *times, size_t n,
+                              carom_ball_state *states) {
+  const carom_status status =
+      table == NULL ? CAROM_ERROR_NULL : carom_shot_at_times(balls, count, shot, times, n, states);
+  return status < 0 ? status : carom_shot_falls(table, balls, count, shot, times, n, states);
 }

@@ -112,6 +112,10 @@ static void write_game(void) {
   play(CAROM_RECORD_CONTINUE, CAROM_STOPPED_AT_TIME);
   game.options.time_most = 0.0;
   play(CAROM_RECORD_CONTINUE, CAROM_OK);
+  ck_assert_int_eq(carom_record_hand(&game, 10), CAROM_ERROR_BALLS);
+  ck_assert_int_eq(carom_record_hand(&game, 0), CAROM_OK);
+  put(CAROM_RECORD_PLACE);
+  ck_assert(strstr(text, "\n{\"place\":{\"ball\":0,\"hand\":1}}\n") != NULL);
   ck_assert_int_eq(carom_record_place(&game, 0, 0.6, 0.5, NULL), CAROM_OK);
   put(CAROM_RECORD_PLACE);
   game.options.cushion_model = CAROM_SHOT_CUSHION_STRONGE;
@@ -137,9 +141,10 @@ static uint64_t tell(uint64_t h) {
   } seen[] = {{&again.kind, sizeof again.kind},         {&again.table, sizeof again.table},
               {again.balls, sizeof again.balls},        {&again.options, sizeof again.options},
               {&again.cue, sizeof again.cue},           {&again.placed, sizeof again.placed},
-              {again.place, sizeof again.place},        {&again.recorded, sizeof again.recorded},
-              {&again.event, sizeof again.event},       {&again.before, sizeof again.before},
-              {&again.revision, sizeof again.revision}, {&again.format, sizeof again.format}};
+              {&again.hand, sizeof again.hand},         {again.place, sizeof again.place},
+              {&again.recorded, sizeof again.recorded}, {&again.event, sizeof again.event},
+              {&again.before, sizeof again.before},     {&again.revision, sizeof again.revision},
+              {&again.format, sizeof again.format}};
   for (size_t k = 0; k < sizeof seen / sizeof *seen; k++)
     h = carom_fingerprint(h, seen[k].at, seen[k].size);
   return h;
@@ -346,6 +351,8 @@ static void write_small_game(void) {
   game.options.time_most = 0.0;
   ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL), CAROM_OK);
   put(CAROM_RECORD_CONTINUE);
+  carom_record_hand(&game, 0);
+  put(CAROM_RECORD_PLACE);
   ck_assert_int_eq(carom_record_place(&game, 0, 0.6, 0.5, NULL), CAROM_OK);
   put(CAROM_RECORD_PLACE);
   put(CAROM_RECORD_OPTIONS);
