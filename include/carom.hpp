@@ -127,6 +127,7 @@ public:
   /* Plays it; with options.time_most or stop_at up to there. */
   carom_status play(const carom_table &on, std::span<const carom_shot_ball> balls,
                     const carom_cue &cue, const carom_shot_options &options = {}) {
+    table_ = on;
     balls_.assign(balls.begin(), balls.end());
     if (state_ == nullptr)
       state_ = std::make_unique<carom_shot_state>();
@@ -185,6 +186,11 @@ public:
     return at;
   }
 
+  /* How fast surfaces pass each other in an event, m/s: with its impulse, how it sounds. */
+  double slip(const carom_event &event) const {
+    return carom_event_slip(&table_, balls_.data(), count(), &event);
+  }
+
   /* shot_ points to the vectors: a shot is moved, and not copied. One that was moved from is as one
    * that was not played. */
   shot() = default;
@@ -199,6 +205,7 @@ public:
   void swap(shot &other) noexcept {
     std::swap(shot_, other.shot_);
     std::swap(facts_, other.facts_);
+    std::swap(table_, other.table_);
     balls_.swap(other.balls_);
     events_.swap(other.events_);
     final_.swap(other.final_);
@@ -207,6 +214,7 @@ public:
 
 private:
   friend class film;
+  friend class recording;
 
   int count() const {
     return static_cast<int>(balls_.size());
@@ -216,7 +224,7 @@ private:
   template <class Play> carom_status with_room(Play play) {
     final_.resize(balls_.size());
     const std::unique_ptr<carom_shot_state> kept =
-        shot_.count > 0 ? std::make_unique<carom_shot_state>(*state_) : nullptr;
+        shot_.count > 0 && state_ ? std::make_unique<carom_shot_state>(*state_) : nullptr;
     if (events_.empty())
       events_.resize(64);
     for (;;) {
@@ -236,6 +244,7 @@ private:
 
   carom_shot shot_{};
   carom_facts facts_{};
+  carom_table table_{};
   std::vector<carom_shot_ball> balls_;
   std::vector<carom_event> events_;
   std::vector<carom_ball_state> final_;
@@ -249,8 +258,8 @@ struct frames {
   std::span<const std::array<double, 4>> turned;
 };
 
-/* A film of shots, for drawing: each frame goes on from the one before, where that was of the same
- * shot and earlier. */
+/* A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the one
+ * before, where that was of the same shot and earlier. */
 class film {
 public:
   /* Valid until the next call; empty after an error. */
@@ -260,7 +269,9 @@ public:
     turned_.resize(size);
     if (checked(carom_shot_frames(of.balls_.data(), of.count(), &of.shot_, times.data(),
                                   times.size(), onward_.get(), states_.data(),
-                                  reinterpret_cast<double(*)[4]>(turned_.data()))) < 0)
+                                  reinterpret_cast<double(*)[4]>(turned_.data()))) < 0 ||
+        checked(carom_shot_falls(&of.table_, of.balls_.data(), of.count(), &of.shot_, times.data(),
+                                 times.size(), states_.data())) < 0)
       return {};
     return {states_, turned_};
   }
@@ -401,11 +412,30 @@ public:
     const carom_status code = carom_record_read(game_.get(), line.data(), line.size());
     return checked(code, code == CAROM_ERROR_RECORD ? game_->fault : "");
   }
+  /* Plays a stroke, or goes on; the shot is last() then, with all its events. */
   carom_status play(carom_record_kind kind = CAROM_RECORD_SHOT) {
-    return checked(carom_record_play(game_.get(), kind, nullptr));
+    const auto before = std::make_unique<carom_record>(*game_);
+    if (kind != CAROM_RECORD_CONTINUE)
+      last_.shot_ = {};
+    return last_.with_room([&] {
+      *game_ = *before;
+      const carom_status code = carom_record_play(game_.get(), kind, &last_.shot_);
+      last_.table_ = game_->table;
+      last_.facts_ = game_->facts;
+      last_.balls_.assign(game_->balls, game_->balls + game_->count);
+      last_.final_.assign(game_->final, game_->final + game_->count);
+      return code;
+    });
+  }
+  const shot &last() const {
+    return last_;
   }
   carom_status place(int ball, double x, double y) {
     return checked(carom_record_place(game_.get(), ball, x, y, nullptr));
+  }
+  /* A ball comes in hand, and is out of play until it is placed. */
+  carom_status hand(int ball) {
+    return checked(carom_record_hand(game_.get(), ball));
   }
 #ifdef CAROM_PLAN_H
   /* Puts a ball back on its spot by the rules of a rack's game, or as near to it as they say: on
@@ -428,6 +458,7 @@ public:
 private:
   std::unique_ptr<carom_record> game_;
   std::vector<char> text_;
+  shot last_;
 };
 
 } // namespace carom

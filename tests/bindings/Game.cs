@@ -54,6 +54,7 @@ static class Program {
         for (int n = 0; n < 4; n++) hash = Add(hash, film.Turned[4 * k + n]);
       }
     }
+    foreach (var happened in shot.Events) hash = Add(hash, shot.Slip(happened));
     Console.WriteLine($"film: {frames} frames, {hash:x16}");
 
     // The layout after the shot, and a ball in hand.
@@ -152,9 +153,10 @@ static class Program {
     var lines = "";
     using (var game = new Recording())
     using (var read = new Recording()) {
-      lines += game.Begin(table, balls) + game.Shoot(cue) + game.Place(0, 0.5, 0.3) + game.Shoot(cue) + game.End();
+      lines += game.Begin(table, balls) + game.Shoot(cue) + game.Hand(0) + game.Place(0, 0.5, 0.3) + game.Shoot(cue) + game.End();
       foreach (var line in lines.Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries)) Must(read.Read(line), line);
       Must(read.Ended && read.Shots == 2 && read.Hash == game.Hash && read.Layout()[2].state.r[1] == game.Layout()[2].state.r[1], "a recording differs");
+      Must(read.Last.Events.Length > 2 && read.Last.Time == game.Last.Time && read.Last.Final[0].r[1] == game.Last.Final[0].r[1], "a shot that was read differs");
       Must(read.Facts.moved == game.Facts.moved, "facts differ");
     }
   }

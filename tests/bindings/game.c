@@ -59,17 +59,22 @@ int main(int count, char **arguments) {
     hash = add(add(add(hash, last[k].r, 3), last[k].v, 3), last[k].w, 3);
   printf("break: %" PRId64 " events, %016" PRIx64 "\n", shot.count, hash);
 
-  /* each frame onward from the one before */
+  /* each frame onward from the one before, with the balls that fall, and how events sound */
   static carom_frames film;
   carom_ball_state then[10];
   double turned[10][4];
   int frames = 0;
   for (; frames / 60.0 < shot.time; frames++) {
     const double time = frames / 60.0;
-    if (carom_shot_frames(balls, 10, &shot, &time, 1, &film, then, turned) != CAROM_OK)
+    if (carom_shot_frames(balls, 10, &shot, &time, 1, &film, then, turned) != CAROM_OK ||
+        carom_shot_falls(&table, balls, 10, &shot, &time, 1, then) != CAROM_OK)
       return 1;
     for (int k = 0; k < 10; k++)
       hash = add(add(hash, then[k].r, 3), turned[k], 4);
+  }
+  for (int k = 0; k < shot.count; k++) {
+    const double slip = carom_event_slip(&table, balls, 10, &events[k]);
+    hash = add(hash, &slip, 1);
   }
   printf("film: %d frames, %016" PRIx64 "\n", frames, hash);
   return 0;

@@ -46,12 +46,23 @@ int main(int, char **arguments) {
     hash = add(add(add(hash, state.r), state.v), state.w);
   std::printf("break: %zu events, %016" PRIx64 "\n", shot.events().size(), hash);
 
+  /* the film of the shot in parts */
   carom::film film;
+  carom::shot parts;
+  options.time_most = 0.2;
+  parts.play(table, balls, cue, options);
   int frames = 0;
   for (; frames / 60.0 < shot.time(); frames++) {
-    const auto [states, turned] = film.at(shot, frames / 60.0);
+    options.time_most = frames / 60.0 + 0.2;
+    if (frames / 60.0 > parts.time())
+      parts.resume(table, options);
+    const auto [states, turned] = film.at(parts, frames / 60.0);
     for (std::size_t k = 0; k < states.size(); k++)
       hash = add(add(hash, states[k].r), turned[k]);
+  }
+  for (const carom_event &event : shot.events()) {
+    const double slip = shot.slip(event);
+    hash = add(hash, {&slip, 1});
   }
   std::printf("film: %d frames, %016" PRIx64 "\n", frames, hash);
   return 0;

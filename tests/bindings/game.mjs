@@ -141,4 +141,5 @@ for (; frames / 60 < shot.time; frames++) {
   const { states, turned } = parts.frame(frames / 60);
   for (let k = 0; k < shot.balls.length; k++) hash = add(add(hash, states.subarray(10 * k, 10 * k + 3)), turned.subarray(4 * k, 4 * k + 4));
 }
+for (const { slip } of shot.events) hash = add(hash, [slip]);
 console.log(`film: ${frames} frames, ${hex(hash)}`);

@@ -35,7 +35,8 @@ times = [k / 60.0 for k in range(int(shot.time * 60.0) + 1)]
 parts = carom.simulate(table, shot.balls, carom.cue(speed=8.0), t_final=0.2)
 for t_final in (0.4, 1.0, None):
     parts = carom.resume(parts, t_final=t_final)
-for states, turned in zip(parts.states(times), parts.orientations(times)):
+for states, turned in zip(parts.states(times, drawn=True), parts.orientations(times)):
     for state, turn in zip(states, turned):
         hash_ = add(add(hash_, state["r"]), turn)
+hash_ = add(hash_, shot.slips)
 print(f"film: {len(times)} frames, {hash_:016x}")

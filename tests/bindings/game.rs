@@ -61,6 +61,9 @@ fn main() -> Result<(), Error> {
         }
         frames += 1;
     }
+    for event in shot.events() {
+        hash = add(hash, &[shot.slip(event)]);
+    }
     println!("film: {frames} frames, {hash:016x}");
     parts.resume(&table, &until(0.0))?;
     let (all, facts) = (parts.facts(), shot.facts());

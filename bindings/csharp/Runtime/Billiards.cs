@@ -29,14 +29,24 @@ namespace Carom {
     public double Time { get; internal set; }
     /// <summary>What rules ask about.</summary>
     public Facts Facts { get; internal set; }
+    internal Table table;
     internal ShotBall[] balls;
     ShotState[] state; // of a shot that its options may stop
 
-    internal PlayedShot(ShotBall[] layout, bool stops) {
+    internal PlayedShot(Table on, ShotBall[] layout, bool stops) {
+      table = on;
       balls = (ShotBall[])layout.Clone();
       Final = new BallState[balls.Length];
       Events = new Event[0];
       state = stops ? new ShotState[1] : null;
+    }
+
+    internal PlayedShot(Record* of, Event[] events, Status status) : this(of->table, Billiards.Copy((ShotBall*)&of->balls, of->count), false) {
+      for (int k = 0; k < Final.Length; k++) Final[k] = ((BallState*)&of->final)[k];
+      Events = events;
+      Status = status;
+      Time = of->played.time;
+      Facts = of->facts;
     }
 
     /// <summary>Goes on with a shot that its options stopped, with the bits of the unbroken one; `options` say when to stop again. After an error
@@ -100,6 +110,12 @@ namespace Carom {
       return states;
     }
 
+    /// <summary>How fast surfaces pass each other in an event, m/s: with its impulse, how it sounds.</summary>
+    public double Slip(Event of) {
+      fixed (ShotBall* layout = balls)
+      fixed (Table* on = &table) return Native.carom_event_slip(on, layout, balls.Length, &of);
+    }
+
     /// <summary>What the library reads of it.</summary>
     internal Shot Data(Event* events) { return new Shot { events = events, room = Events.Length, count = Events.Length, time = Time }; }
 
@@ -116,7 +132,7 @@ namespace Carom {
     }
   }
 
-  /// <summary>A film of shots, for drawing: each frame goes on from the one before, where that was of the same shot and earlier.</summary>
+  /// <summary>A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the one before, where that was of the same shot and earlier.</summary>
   public sealed unsafe class Film {
     readonly Frames[] onward = new Frames[1];
 
@@ -133,12 +149,14 @@ namespace Carom {
         Turned = new double[4 * count];
       }
       fixed (ShotBall* balls = shot.balls)
+      fixed (Table* table = &shot.table)
       fixed (Event* events = shot.Events)
       fixed (Frames* film = onward)
       fixed (BallState* states = States)
       fixed (double* turned = Turned) {
         var data = shot.Data(events);
         Billiards.Check(Native.carom_shot_frames(balls, count, &data, &time, (UIntPtr)1, film, states, turned));
+        Billiards.Check(Native.carom_shot_falls(table, balls, count, &data, &time, (UIntPtr)1, states));
       }
     }
   }
@@ -176,7 +194,7 @@ namespace Carom {
 
     /// <summary>Plays a shot until nothing moves, or until the options stop it. The balls are not changed.</summary>
     public static PlayedShot Play(Table table, ShotBall[] balls, Cue cue, ShotOptions options = default(ShotOptions)) {
-      var shot = new PlayedShot(balls, options.timeMost > 0 || options.stopAt != 0 || options.firstOf != 0);
+      var shot = new PlayedShot(table, balls, options.timeMost > 0 || options.stopAt != 0 || options.firstOf != 0);
       // Most shots have fewer events.
       var status = shot.Follow(256, &table, &cue, &options);
       if (status < 0) fixed (ShotBall* of = balls) throw Refused(status, &table, of, balls.Length, &cue, &options);
@@ -241,6 +259,12 @@ namespace Carom {
       return new CaromException(FormattableString.Invariant($"{part}{at}.{Text(fault.row->name)} must be {Text(must)}, not {fault.value}"), status);
     }
 
+    internal static ShotBall[] Copy(ShotBall* from, long count) {
+      var to = new ShotBall[count];
+      for (long k = 0; k < count; k++) to[k] = from[k];
+      return to;
+    }
+
     internal static Status Check(Status status) {
       if (status < 0) throw new CaromException(status);
       return status;
@@ -270,16 +294,47 @@ namespace Carom {
       return Line(RecordKind.Head) + Line(RecordKind.Table) + Line(RecordKind.Options) + Line(RecordKind.Balls);
     }
 
-    /// <summary>Plays a stroke from where the balls are, and returns its line.</summary>
+    /// <summary>Plays a stroke from where the balls are, and returns its line. The shot is Last then.</summary>
     public string Shoot(Cue cue) {
       Open->cue = cue;
-      Billiards.Check(Native.carom_record_play(record, RecordKind.Shot, null));
+      Billiards.Check(Play(RecordKind.Shot));
       return Line(RecordKind.Shot);
+    }
+
+    /// <summary>The last shot that was played or read, with its events; of one that went on, from its start.</summary>
+    public PlayedShot Last { get; private set; }
+
+    Status Play(RecordKind kind) {
+      var before = new[] { *record };
+      var first = kind == RecordKind.Continue && Last != null ? Last.Events : new Event[0];
+      for (long room = first.Length + 256;;) {
+        var events = new Event[room];
+        first.CopyTo(events, 0);
+        var data = new Shot { room = room };
+        Status status;
+        fixed (Event* to = events) {
+          data.events = to;
+          status = Native.carom_record_play(record, kind, &data);
+        }
+        if (data.count <= room) {
+          Array.Resize(ref events, (int)data.count);
+          if (status >= 0 || data.count > 0) Last = new PlayedShot(record, events, status);
+          return status;
+        }
+        room = data.count;
+        *record = before[0];
+      }
     }
 
     /// <summary>Puts a ball at x, y (m), at rest, and returns the line.</summary>
     public string Place(int ball, double x, double y) {
       Billiards.Check(Native.carom_record_place(Open, ball, x, y, null));
+      return Line(RecordKind.Place);
+    }
+
+    /// <summary>A ball comes in hand, and is out of play until it is placed. Returns the line.</summary>
+    public string Hand(int ball) {
+      Billiards.Check(Native.carom_record_hand(Open, ball));
       return Line(RecordKind.Place);
     }
 
@@ -289,9 +344,7 @@ namespace Carom {
     /// <summary>The balls after the last shot.</summary>
     public ShotBall[] Layout() {
       Billiards.Check(Native.carom_record_settle(Open));
-      var layout = new ShotBall[record->count];
-      for (int k = 0; k < layout.Length; k++) layout[k] = ((ShotBall*)&record->balls)[k];
-      return layout;
+      return Billiards.Copy((ShotBall*)&record->balls, record->count);
     }
 
     /// <summary>What rules ask about, of the last shot.</summary>
@@ -312,7 +365,7 @@ namespace Carom {
       fixed (byte* text = bytes) status = Native.carom_record_read(Open, text, (UIntPtr)bytes.Length);
       if (status < 0) throw new CaromException(status, Billiards.Text(record->fault));
       if (record->pending != 1) return true;
-      status = Native.carom_record_play(record, (RecordKind)record->kind, null);
+      status = Play((RecordKind)record->kind);
       // A shot in error is recorded with its status, so its bits count as well.
       RecordEnd played = record->played, recorded = record->recorded;
       return (long)status == played.status && played.status == recorded.status && played.events == recorded.events &&

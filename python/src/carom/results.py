@@ -113,6 +113,13 @@ class Shot:
         self._at(at, turned, 4, "double[]", lib.carom_python_orientations)
         return turned
 
+    @property
+    def slips(self) -> dtypes.Doubles:
+        """How fast surfaces pass each other in each event, m/s: with `impulse` it says how a contact sounds. 0 where nothing touches."""
+        table, balls = pointer("carom_table[]", self.table.record), pointer("carom_shot_ball[]", self.balls)
+        events = pointer("carom_event[]", np.ascontiguousarray(self.events))
+        return np.array([lib.carom_event_slip(table, balls, len(self.balls), events + k) for k in range(len(self.events))])
+
     def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
         """The centres of all balls at any times: float64 of shape (..., balls, 3), m. Times and errors are those of `states`."""
         return np.asarray(self.states(times)["r"], dtype=np.float64)

@@ -163,7 +163,10 @@ export class Carom {
     return {
       events: (shot) => {
         this.#reside(shot);
-        return Array.from({ length: shot.count }, (_, k) => readEvent(this.#memory, this.#events + k * EVENT.size));
+        return Array.from({ length: shot.count }, (_, k) => {
+          const at = this.#events + k * EVENT.size;
+          return { ...readEvent(this.#memory, at), slip: this.#call.carom_event_slip(this.#at.table, this.#at.balls, shot.balls.length, at) };
+        });
       },
       states: (shot, time, drawn) => {
         this.#look(shot, time, drawn);
@@ -198,10 +201,11 @@ export class Carom {
       frame: (shot, time) => {
         this.#reside(shot);
         const count = shot.balls.length;
-        const { balls, shot: at, number, frame: states } = this.#at;
+        const { table, balls, shot: at, number, frame: states } = this.#at;
         const turned = states + BALLS_MOST * STATE.size;
         this.#memory.f64[number / 8] = time;
         this.#refuse(this.#call.carom_shot_frames(balls, count, at, number, 1, turned + BALLS_MOST * 32, states, turned), `time ${time}`);
+        this.#refuse(this.#call.carom_shot_falls(table, balls, count, at, number, 1, states));
         const { f64, i32 } = this.#memory;
         if (this.#frame.states.buffer !== f64.buffer || this.#frame.turned.length !== 4 * count)
           this.#frame = {
@@ -617,6 +621,7 @@ export class Carom {
     if (this.#resident === shot) return;
     this.#resident = undefined;
     this.#needRoom(Math.max(shot.count, 256));
+    writeTable(this.#memory, this.#at.table, shot.table);
     writeBalls(this.#memory, this.#at.balls, shot.balls);
     this.#memory.u8.set(shot.bytes, this.#events);
     this.#writeShot(shot.count);
@@ -631,7 +636,6 @@ export class Carom {
   }
   #statesAt(shot: Shot, times: Pointer, n: number, states: Pointer, drawn: boolean, field: string): void {
     const { balls, shot: at, table } = this.#at;
-    if (drawn) writeTable(this.#memory, table, shot.table);
     const rest = [balls, shot.balls.length, at, times, n, states];
     this.#refuse(drawn ? this.#call.carom_shot_drawn(table, ...rest) : this.#call.carom_shot_at_times(...rest), field);
   }

@@ -181,7 +181,7 @@ export function readTable(memory: Memory, at: Pointer): Table {
 
 const EVENT = layout.carom_event.offset;
 
-export function readEvent(memory: Memory, at: Pointer): ShotEvent {
+export function readEvent(memory: Memory, at: Pointer): Omit<ShotEvent, "slip"> {
   const i32 = memory.i32;
   const type = i32[(at + EVENT.type) / 4]!;
   const sides = type === values.CAROM_EVENT_BALL_BALL ? 2 : 1;

@@ -73,7 +73,7 @@ export type BallKind = C.BallKind;
 /** How a ball moves. */
 export type Label = C.Label;
 
-/** A frame of a shot: views into the module's memory, which hold until the next frame, or until that memory grows. */
+/** A frame of a shot, in which pocketed balls fall: views into the module's memory, which hold until the next frame, or until that memory grows. */
 export interface Frame {
   /** Place, velocity and spin of each ball, SI: 10 numbers, of which the last is no number: its label. */
   readonly states: Float64Array;
@@ -137,6 +137,8 @@ export interface ShotEvent {
   cluster: number;
   /** N s, for sounds: the size of what ball a got from cue, ball, cushion or slate; in a cluster from ball b alone. 0 of every other event. */
   impulse: number;
+  /** m/s, for sounds: how fast surfaces pass each other as they meet; 0 of the strike, of pockets and of events without a contact. */
+  slip: number;
 }
 
 /** What the cue ball touches first. */

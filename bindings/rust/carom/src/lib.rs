@@ -226,6 +226,7 @@ pub struct Shot {
     events: Vec<Event>,
     last: Vec<BallState>,
     time: f64,
+    table: Table,
     balls: Vec<ShotBall>,
     /// Where it was stopped, of a shot whose options may stop it.
     state: Option<Box<sys::carom_shot_state>>,
@@ -239,15 +240,7 @@ pub fn shoot(
     options: &Options,
 ) -> Result<Shot, Error> {
     let stops = options.time_most > 0.0 || options.stop_at != 0 || options.first_of != 0;
-    let mut shot = Shot {
-        facts: Facts::default(),
-        status: sys::CAROM_OK,
-        events: Vec::new(),
-        last: vec![BallState::default(); balls.len()],
-        time: 0.0,
-        balls: balls.to_vec(),
-        state: stops.then(Box::default),
-    };
+    let mut shot = Shot::begun(table, balls, stops);
     // Most shots have fewer events.
     shot.follow(256, |of, count, to| unsafe {
         sys::carom_shoot(table, of, count, cue, options, to)
@@ -257,6 +250,19 @@ pub fn shoot(
 }
 
 impl Shot {
+    fn begun(table: &Table, balls: &[ShotBall], stops: bool) -> Self {
+        Shot {
+            facts: Facts::default(),
+            status: sys::CAROM_OK,
+            events: Vec::new(),
+            last: vec![BallState::default(); balls.len()],
+            time: 0.0,
+            table: *table,
+            balls: balls.to_vec(),
+            state: stops.then(Box::default),
+        }
+    }
+
     /// `sys::CAROM_OK`, or that the options stopped it.
     pub fn status(&self) -> sys::carom_status {
         self.status
@@ -355,6 +361,12 @@ impl Shot {
         Ok(states)
     }
 
+    /// How fast surfaces pass each other in an event, m/s: with its impulse, how it sounds.
+    pub fn slip(&self, of: &Event) -> f64 {
+        let (balls, count) = (self.balls.as_ptr(), count_of(&self.balls));
+        unsafe { sys::carom_event_slip(&self.table, balls, count, of) }
+    }
+
     /// What the library reads of it.
     fn data(&self) -> sys::carom_shot {
         sys::carom_shot {
@@ -379,7 +391,7 @@ impl Shot {
     }
 }
 
-/// A film of shots, for drawing: each frame goes on from the one before, where that was of the same shot and earlier.
+/// A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the one before, where that was of the same shot and earlier.
 #[derive(Default)]
 pub struct Film {
     onward: Box<sys::carom_frames>,
@@ -392,17 +404,14 @@ impl Film {
     pub fn at(&mut self, shot: &Shot, time: f64) -> Result<(&[BallState], &[[f64; 4]]), Error> {
         self.states.resize(shot.balls.len(), BallState::default());
         self.turned.resize(shot.balls.len(), [0.0; 4]);
+        let (balls, count, data) = (shot.balls.as_ptr(), count_of(&shot.balls), shot.data());
+        let (onward, states) = (&mut *self.onward, self.states.as_mut_ptr());
+        let turned = self.turned.as_mut_ptr();
         check(unsafe {
-            sys::carom_shot_frames(
-                shot.balls.as_ptr(),
-                shot.balls.len() as i32,
-                &shot.data(),
-                &time,
-                1,
-                &mut *self.onward,
-                self.states.as_mut_ptr(),
-                self.turned.as_mut_ptr(),
-            )
+            sys::carom_shot_frames(balls, count, &data, &time, 1, onward, states, turned)
+        })?;
+        check(unsafe {
+            sys::carom_shot_falls(&shot.table, balls, count, &data, &time, 1, states)
         })?;
         Ok((&self.states, &self.turned))
     }
@@ -485,7 +494,7 @@ mod tests {
         let mut film = Film::default();
         for time in [0.1, 1.0, 1.0, 0.5] {
             let (states, turned) = film.at(&shot, time).unwrap();
-            for (k, state) in shot.at(time).unwrap().iter().enumerate() {
+            for (k, state) in shot.drawn(&table, time).unwrap().iter().enumerate() {
                 assert_eq!((state.r, state.w), (states[k].r, states[k].w));
                 let size: f64 = turned[k].iter().map(|x| x * x).sum();
                 assert!((size - 1.0).abs() < 1e-12);

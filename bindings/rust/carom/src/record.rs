@@ -1,11 +1,12 @@
 //! Recordings: games that verify themselves. docs/using/games.md has the format.
-use crate::{check, count_of, sys, text, Cue, Error, Facts, Options, ShotBall, Table};
+use crate::{check, count_of, sys, text, Cue, Error, Facts, Options, Shot, ShotBall, Table};
 use std::os::raw::c_char;
 
 /// A recording: read line by line and played, or written. All lines end with an end of line.
 #[derive(Default)]
 pub struct Recording {
     record: Box<sys::carom_record>,
+    last: Option<Shot>,
 }
 
 impl Recording {
@@ -35,10 +36,10 @@ impl Recording {
         .collect()
     }
 
-    /// Plays a stroke from where the balls are, and returns its line.
+    /// Plays a stroke from where the balls are, and returns its line. The shot is `last` then.
     pub fn shoot(&mut self, cue: &Cue) -> Result<String, Error> {
         self.record.cue = *cue;
-        self.play(sys::CAROM_RECORD_SHOT)?;
+        check(self.play(sys::CAROM_RECORD_SHOT))?;
         self.line(sys::CAROM_RECORD_SHOT)
     }
 
@@ -48,6 +49,18 @@ impl Recording {
         let nothing = std::ptr::null_mut();
         check(unsafe { sys::carom_record_place(&mut *self.record, ball, x, y, nothing) })?;
         self.line(sys::CAROM_RECORD_PLACE)
+    }
+
+    /// A ball comes in hand, and is out of play until it is placed. Returns the line.
+    pub fn hand(&mut self, ball: usize) -> Result<String, Error> {
+        let ball = ball.min(i32::MAX as usize) as i32;
+        check(unsafe { sys::carom_record_hand(&mut *self.record, ball) })?;
+        self.line(sys::CAROM_RECORD_PLACE)
+    }
+
+    /// The last shot that was played or read, with its events; of one that went on, from its start.
+    pub fn last(&self) -> Option<&Shot> {
+        self.last.as_ref()
     }
 
     /// Ends the game, and returns its last line.
@@ -66,8 +79,23 @@ impl Recording {
         &self.record.facts
     }
 
-    fn play(&mut self, kind: sys::carom_record_kind) -> Result<sys::carom_status, Error> {
-        check(unsafe { sys::carom_record_play(&mut *self.record, kind, std::ptr::null_mut()) })
+    fn play(&mut self, kind: sys::carom_record_kind) -> sys::carom_status {
+        let (before, goes_on) = (self.record.clone(), kind == sys::CAROM_RECORD_CONTINUE);
+        let count = before.count.clamp(0, i64::from(sys::CAROM_BALLS_MOST)) as usize;
+        let begun = self.last.take().filter(|_| goes_on);
+        let mut shot = begun.unwrap_or_else(|| Shot::begun(&before.table, &[], false));
+        let record: *mut sys::carom_record = &mut *self.record;
+        let room = shot.events.len() + 256;
+        let played = shot.follow(room, |_, _, to| unsafe {
+            *record = *before;
+            sys::carom_record_play(record, kind, to)
+        });
+        let of = &self.record;
+        shot.facts = of.facts;
+        shot.balls = of.balls[..count].to_vec();
+        shot.last = of.r#final[..count].to_vec();
+        self.last = Some(shot);
+        played.unwrap_or_else(|error| error)
     }
 
     fn line(&mut self, kind: sys::carom_record_kind) -> Result<String, Error> {
@@ -98,15 +126,10 @@ impl Recording {
         if record.pending != 1 {
             return Ok(true);
         }
-        let status = unsafe {
-            sys::carom_record_play(
-                record,
-                record.kind as sys::carom_record_kind,
-                std::ptr::null_mut(),
-            )
-        };
+        let kind = record.kind as sys::carom_record_kind;
+        let status = self.play(kind);
         // A shot in error is recorded with its status, so its bits count as well.
-        let (is, was) = (&record.played, &record.recorded);
+        let (is, was) = (&self.record.played, &self.record.recorded);
         Ok(i64::from(status) == is.status
             && (is.status, is.events, is.time.to_bits(), is.hash)
                 == (was.status, was.events, was.time.to_bits(), was.hash))
@@ -145,6 +168,7 @@ mod tests {
                 speed,
                 ..cue(sys::CAROM_GAME_POOL)
             };
+            lines += &game.hand(0).unwrap();
             lines += &game.place(0, 0.5, 0.3).unwrap();
             lines += &game.shoot(&stroke).unwrap();
         }
@@ -154,7 +178,11 @@ mod tests {
         for line in lines.lines() {
             assert!(read.read(line).unwrap(), "{line}");
         }
-        assert!(read.ended());
+        assert!(read.ended() && game.hand(99).is_err());
+        let (one, other) = (game.last().unwrap(), read.last().unwrap());
+        let same = |(a, b): (&crate::Event, &crate::Event)| a.time == b.time;
+        assert!(one.events().iter().zip(other.events()).all(same));
+        assert!(one.events().len() > 5 && one.facts().moved == game.facts().moved);
         assert_eq!((read.shots(), read.hash()), (2, game.hash()));
         let (one, other) = (game.layout().unwrap(), read.layout().unwrap());
         assert!(one.iter().zip(other).all(|(a, b)| a.state.r == b.state.r));
