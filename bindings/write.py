@@ -108,6 +108,8 @@ class CSharp:
                 "",
             ]
         lines += ["  /// <summary>Constants and functions of the library, by their names in C.</summary>", "  public static unsafe class Native {"]
+        # IL2CPP links a plugin into the program itself on these systems.
+        lines += ["#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR", '    const string Library = "__Internal";', "#else", '    const string Library = "carom";', "#endif"]
         for one in self.api["constants"]:
             kind = "double" if isinstance(one["value"], float) else "int"
             lines += [*self.summary(one["comment"], "    "), f"    public const {kind} {one['name']} = {one['value']};"]
@@ -115,7 +117,7 @@ class CSharp:
             lines += [*self.summary(one["comment"], "    "), "    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]"]
             lines.append(f"    public delegate {self.type(one['returns'])} {one['name']}({self.arguments(one)});")
         for one in self.api["functions"]:
-            lines += [*self.summary(one["comment"], "    "), '    [DllImport("carom", CallingConvention = CallingConvention.Cdecl)]']
+            lines += [*self.summary(one["comment"], "    "), '    [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]']
             lines.append(f"    public static extern {self.type(one['returns'])} {one['name']}({self.arguments(one)});")
         return "\n".join([*lines, "  }", "}", ""])
 
