@@ -54,19 +54,17 @@ static bool play(game *g, const move *m) {
   carom_shot shot = {.final = final, .facts = &facts};
   if (carom_shoot(&g->table, g->balls, BALLS, &m->cue, &options, &shot) != CAROM_OK)
     return false;
-  uint32_t in_play = 0;
-  for (int k = 0; k < BALLS; k++) {
-    in_play |= (uint32_t)(g->balls[k].state.label != CAROM_BALL_POCKETED) << k;
-    g->balls[k].state = final[k];
-  }
 
   /* whose turn it is, and with which layout */
-  carom_turn turn = g->rules.judge(&g->rules.state, in_play, 0, &facts, m->call);
-  carom_turn_settle(&g->rules, &g->rules.state, &g->table, g->balls, BALLS, &turn);
-  g->in_hand = turn.leave != CAROM_LEAVE_AFTER;
-  if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE)
-    g->winner = turn.is == CAROM_TURN_WIN ? g->player : 1 - g->player;
-  else if (turn.is == CAROM_TURN_PASS)
+  static carom_ruling ruling;
+  if (carom_referee(&g->rules, &g->table, g->balls, BALLS, 0, &shot, m->call, &ruling) != CAROM_OK)
+    return false;
+  g->rules.state = ruling.state;
+  memcpy(g->balls, ruling.balls, sizeof g->balls);
+  g->in_hand = ruling.hand;
+  if (ruling.winner >= 0)
+    g->winner = ruling.winner == 0 ? g->player : 1 - g->player;
+  else if (ruling.next == 1)
     g->player = 1 - g->player;
   return true;
 }

@@ -297,6 +297,45 @@ CAROM_API carom_status carom_turn_settle(const carom_plan_rules *rules, carom_ru
                                          const carom_table *table, carom_shot_ball *balls,
                                          int count, carom_turn *turn);
 
+/* A ball that fell, s. */
+typedef struct carom_fall {
+  double time;
+  int32_t ball, pocket;
+} carom_fall;
+
+/* What a stroke comes to. */
+typedef struct carom_ruling {
+  carom_turn turn;         /* as carom_turn_settle() left it. */
+  carom_rules_state state; /* as the next player has it; `may` says what he may do besides. */
+  int32_t next;   /* who plays next: 0: the same player, 1: the other; -1: the game is over. */
+  int32_t winner; /* 0: who has played, 1: the other; -1: none yet. */
+  int32_t hand;   /* 1: the cue ball is in hand. */
+  uint32_t on;    /* balls that may be met first in the next stroke, as a set. */
+  uint32_t put;   /* balls that lie elsewhere than the shot left them, as a set. */
+  int32_t unused; /* 0. */
+  int64_t falls;  /* how many balls fell. */
+  carom_fall fall[CAROM_BALLS_MOST];       /* them, the first one first. */
+  carom_facts facts;                       /* of the shot. */
+  carom_shot_ball balls[CAROM_BALLS_MOST]; /* the layout of the next stroke, with all that come
+                                              back. A cue ball in hand is where the shot left it,
+                                              or down. */
+} carom_ruling;
+
+/* Rules what a stroke comes to, from the shot that was played: nothing is played again. The rules
+ * have the state before it, `balls` are those before it, and the shot has facts and final states.
+ * shot NULL: the player has passed, by the call CAROM_CALL_PASS, or the shot ended in an error:
+ * then the balls stay where they were. How the shot sounds is in its events: impulse, and
+ * carom_event_slip(). CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_BALLS for a count or a cue ball that
+ * cannot be; or an error of carom_turn_settle(), with the ruling. */
+CAROM_API carom_status carom_referee(const carom_plan_rules *rules, const carom_table *table,
+                                     const carom_shot_ball *balls, int count, int cue_ball,
+                                     const carom_shot *shot, carom_call call, carom_ruling *ruling);
+
+/* A ruling in words, such as "foul: the cue ball met no ball; the other plays, cue ball in hand",
+ * as much of it as text[room] takes with a closing 0. Returns its whole length without the 0; 0 for
+ * a ruling that cannot be. */
+CAROM_API size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room);
+
 /* ---- Plans ----------------------------------------------------------------------------------- */
 
 /* All zero means the defaults. */

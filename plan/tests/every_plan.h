@@ -84,6 +84,16 @@ EVERY_BODY(turn_settle) {
   STATUS(carom_turn_settle(&rules, &rules.state, &in->table, balls, EVERY_BALLS, &turn));
   return HASH(balls);
 }
+EVERY_BODY(referee) {
+  const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  const carom_call call = {-1, -1};
+  static const carom_ruling none;
+  carom_ruling ruling = none;
+  STATUS(carom_referee(&rules, &in->table, in->balls, EVERY_BALLS, 0, NULL, call, &ruling));
+  HASH(ruling.turn);
+  return HASH(ruling.state);
+}
+EVERY_VALUE(ruling_string, carom_ruling_string(NULL, NULL, 0))
 EVERY_OBJECT(player_of, carom_player, carom_player_of(2.0))
 EVERY_OBJECT(player_fargo, carom_player, carom_player_fargo(512.0))
 EVERY_BODY(player_strike) {
@@ -98,7 +108,7 @@ EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NI
 #define EVERY_OF_PLANS(F) \
   F(aim) F(foul_of) F(foul_string) F(plan) F(plan_continue) F(plan_hand) F(plan_memory) \
   F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) \
-  F(rules_name) F(spot_ball) F(spot_ball_of) F(turn_settle)
+  F(referee) F(rules_name) F(ruling_string) F(spot_ball) F(spot_ball_of) F(turn_settle)
 /* clang-format on */
 
 #endif

@@ -116,6 +116,27 @@ TEST(colours_by_value_and_position) {
   }
 }
 
+/* What a ruling says besides of the turn: falls in their order, balls that were put, words. */
+static void check_ruling(const carom_ruling *r, const carom_ball_state *left, int count) {
+  char words[200];
+  uint32_t down = 0, put = 0;
+  for (int64_t k = 0; k < r->falls; k++) {
+    down |= UINT32_C(1) << r->fall[k].ball;
+    ck_assert(k == 0 || r->fall[k].time >= r->fall[k - 1].time);
+    ck_assert_int_eq(r->fall[k].pocket, r->facts.pocket[r->fall[k].ball]);
+  }
+  for (int k = 0; k < count && left != NULL; k++)
+    put |= (uint32_t)(r->balls[k].state.label != left[k].label ||
+                      memcmp(r->balls[k].state.r, left[k].r, sizeof left[k].r) != 0)
+           << k;
+  ck_assert(down == r->facts.down && put == r->put);
+  ck_assert_int_eq(r->next, r->winner >= 0 ? -1 : r->turn.is == CAROM_TURN_PASS);
+  ck_assert_int_eq(r->hand, r->turn.leave >= CAROM_LEAVE_HAND);
+  ck_assert((r->on & 1) == 0 && (r->on != 0) == (r->next >= 0));
+  const size_t length = carom_ruling_string(r, words, sizeof words);
+  ck_assert(length == strlen(words) && carom_ruling_string(r, words, 5) == length && words[4] == 0);
+}
+
 /* A whole game between two plans of few shots: the same strokes, scores and layouts on all
  * machines. Where a change of the method or of the physics is meant to change them, the new hash is
  * the one that this test prints. All layouts are such that a shot can be played from, and the
@@ -158,22 +179,20 @@ static uint64_t play(carom_rules_kind kind, int target, int *strokes, int64_t ma
 
     carom_cue stroke = best.cue;
     carom_player_strike(&player, 5, (uint64_t)*strokes, &stroke);
-    carom_facts facts = {.first = {-1, -1}};
+    carom_facts facts;
     carom_ball_state final[BALLS_MOST];
     carom_shot shot = {.final = final, .facts = &facts};
-    uint32_t in_play = 0;
-    for (int k = 0; k < count; k++) {
-      final[k] = balls[k].state;
-      in_play |=
-          (uint32_t)(final[k].label != CAROM_BALL_POCKETED && final[k].label != CAROM_BALL_OFF)
-          << k;
-    }
-    if (best.kind != CAROM_PLAN_PASS)
+    static carom_ruling ruling;
+    const bool plays = best.kind != CAROM_PLAN_PASS;
+    if (plays)
       ck_assert_int_eq(carom_shoot(&table, balls, count, &stroke, NULL, &shot), CAROM_OK);
-    for (int k = 0; k < count; k++)
-      balls[k].state = final[k];
-    turn = of.judge(&of.state, in_play, 0, &facts, (carom_call){best.ball, best.pocket});
-    ck_assert_int_eq(carom_turn_settle(&of, &of.state, &table, balls, count, &turn), CAROM_OK);
+    ck_assert_int_eq(carom_referee(&of, &table, balls, count, 0, plays ? &shot : NULL,
+                                   (carom_call){best.ball, best.pocket}, &ruling),
+                     CAROM_OK);
+    check_ruling(&ruling, plays ? final : NULL, count);
+    turn = ruling.turn;
+    of.state = ruling.state;
+    memcpy(balls, ruling.balls, (size_t)count * sizeof *balls);
     made[who] += (int64_t)turn.points;
     if (turn.leave == CAROM_LEAVE_AFTER)
       ck_assert_int_eq(carom_shot_check(&table, balls, count, NULL, NULL, NULL), CAROM_OK);

@@ -1,0 +1,95 @@
+/* The referee: what one played stroke comes to. The shot is not played again: its facts and final
+ * states are those of carom_shoot() or carom_record_play().
+ *
+ * judge() of the rules has the facts and the balls that were in play; a shot that ended in an error
+ * and one that was passed have the facts of a stroke that met nothing. The layout is that of the
+ * shot, or that before it where it is taken back; carom_turn_settle() then puts balls back, and may
+ * change the turn. A cue ball in hand is out of play until it is placed. */
+#include "rules.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Balls on the table, as a set. */
+static uint32_t in_play(const carom_shot_ball *balls, int count) {
+  uint32_t set = 0;
+  for (int k = 0; k < count; k++)
+    set |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED &&
+                      balls[k].state.label != CAROM_BALL_OFF)
+           << k;
+  return set;
+}
+
+/* Balls that fell, the first one first. */
+static int64_t list_falls(const carom_facts *facts, int count, carom_fall *fall) {
+  int64_t falls = 0;
+  for (int k = 0; k < count; k++) {
+    if (!(facts->down >> k & 1))
+      continue;
+    int64_t at = falls++;
+    for (; at > 0 && fall[at - 1].time > facts->pocket_time[k]; at--)
+      fall[at] = fall[at - 1];
+    fall[at] = (carom_fall){facts->pocket_time[k], k, facts->pocket[k]};
+  }
+  return falls;
+}
+
+carom_status carom_referee(const carom_plan_rules *rules, const carom_table *table,
+                           const carom_shot_ball *balls, int count, int cue_ball,
+                           const carom_shot *shot, carom_call call, carom_ruling *ruling) {
+  if (rules == NULL || rules->judge == NULL || table == NULL || balls == NULL || ruling == NULL ||
+      (shot != NULL && (shot->facts == NULL || shot->final == NULL)))
+    return CAROM_ERROR_NULL;
+  if (count < 1 || count > CAROM_BALLS_MOST || cue_ball < 0 || cue_ball >= count)
+    return CAROM_ERROR_BALLS;
+  memset(ruling, 0, sizeof *ruling);
+  ruling->state = rules->state;
+  ruling->facts.first[0] = ruling->facts.first[1] = -1;
+  if (shot != NULL)
+    ruling->facts = *shot->facts;
+  ruling->falls = list_falls(&ruling->facts, count, ruling->fall);
+  ruling->turn =
+      rules->judge(&ruling->state, in_play(balls, count), cue_ball, &ruling->facts, call);
+
+  /* the layout, with balls that come back */
+  const bool taken_back = shot == NULL || ruling->turn.leave == CAROM_LEAVE_BEFORE;
+  for (int k = 0; k < count; k++) {
+    ruling->balls[k] = balls[k];
+    if (!taken_back)
+      ruling->balls[k].state = shot->final[k];
+  }
+  const carom_status status =
+      carom_turn_settle(rules, &ruling->state, table, ruling->balls, count, &ruling->turn);
+  for (int k = 0; k < count; k++) {
+    const carom_ball_state *left = shot != NULL ? &shot->final[k] : &balls[k].state;
+    ruling->put |= (uint32_t)(memcmp(&ruling->balls[k].state, left, sizeof *left) != 0) << k;
+  }
+
+  /* who plays next, and how */
+  const carom_turn_is is = ruling->turn.is;
+  ruling->hand = ruling->turn.leave >= CAROM_LEAVE_HAND ? 1 : 0;
+  ruling->next = is == CAROM_TURN_PASS ? 1 : is == CAROM_TURN_KEEP ? 0 : -1;
+  ruling->winner = is == CAROM_TURN_WIN ? 0 : is == CAROM_TURN_LOSE ? 1 : -1;
+  if (ruling->next >= 0 && rules->on != NULL)
+    ruling->on =
+        rules->on(&ruling->state, in_play(ruling->balls, count) & ~(UINT32_C(1) << cue_ball));
+  return status;
+}
+
+size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) {
+  static const char *const turns[] = {"plays on", "the other plays", "has won", "has lost"};
+  static const char *const leaves[] = {"", ", with the balls as before", ", cue ball in hand",
+                                       ", cue ball in hand behind the head string",
+                                       ", cue ball in hand in the D"};
+  if (ruling == NULL || (uint32_t)ruling->turn.is > CAROM_TURN_LOSE ||
+      (uint32_t)ruling->turn.leave > CAROM_LEAVE_D)
+    return 0;
+  const bool foul = ruling->turn.foul != CAROM_FOUL_NONE;
+  const int32_t may = ruling->next >= 0 ? ruling->state.may : 0;
+  const int size = snprintf(
+      text, room, "%s%s%s%s%s%s%s%s", foul ? "foul: " : "", carom_foul_string(ruling->turn.foul),
+      foul ? "; " : "", turns[ruling->turn.is], ruling->next >= 0 ? leaves[ruling->turn.leave] : "",
+      may & CAROM_MAY_PASS ? "; may pass" : "", may & CAROM_MAY_PUSH ? "; may push out" : "",
+      may & CAROM_MAY_FREE_BALL ? "; has a free ball" : "");
+  return size > 0 ? (size_t)size : 0;
+}
