@@ -1,15 +1,25 @@
 // Plans: which stroke to play, by built-in rules or by those of the caller.
 using System;
+using System.Collections.Generic;
 using System.Runtime.InteropServices;
 
 namespace Carom {
+  /// <summary>Marks a static method that C calls, as IL2CPP asks.</summary>
+  [AttributeUsage(AttributeTargets.Method)]
+  sealed class MonoPInvokeCallbackAttribute : Attribute {
+    public MonoPInvokeCallbackAttribute(System.Type type) {}
+  }
+
   /// <summary>Rules of a game of the caller's. Sets of balls have bit k for ball k. The methods may be called from several threads at once, and
-  /// depend on their arguments only; `user` are the eight words of the state that are theirs, as the player at the table has them. An exception of theirs ends
-  /// the program, as none passes through C. An object stays alive while plans by it are made.</summary>
+  /// depend on their arguments only; `user` are the seven words of the state that are theirs, as the player at the table has them; the eighth names
+  /// the object, which lives as long as the program. An exception of theirs ends the program, as none passes through C.</summary>
   public abstract unsafe class GameRules {
-    readonly Native.carom_rules_on on;
-    readonly Native.carom_rules_judge judge;
-    readonly Native.carom_rules_left left;
+    const int Own = 7;
+    static readonly List<GameRules> all = new List<GameRules>();
+    static readonly Native.carom_rules_on on = OnOf;
+    static readonly Native.carom_rules_judge judge = JudgeOf;
+    static readonly Native.carom_rules_left left = LeftOf;
+    readonly ulong number;
 
     /// <summary>The balls that may be met first, and potted.</summary>
     protected abstract uint On(ulong[] user, uint inPlay);
@@ -19,31 +29,51 @@ namespace Carom {
     protected abstract int[] Left(ulong[] user, uint inPlay);
 
     protected GameRules() {
-      on = (state, inPlay) => Guarded(() => On(Words(state), inPlay));
-      judge = (state, inPlay, cueBall, facts, call) => Guarded(() => {
+      lock (all) {
+        number = (ulong)all.Count;
+        all.Add(this);
+      }
+    }
+
+    /// <summary>The rules with a state that is all 0; `calls`, `race` and the like can be set.</summary>
+    public PlanRules Data() {
+      var data = new PlanRules {
+        on = Marshal.GetFunctionPointerForDelegate(on), judge = Marshal.GetFunctionPointerForDelegate(judge), left = Marshal.GetFunctionPointerForDelegate(left),
+      };
+      data.state.user[Own] = number;
+      return data;
+    }
+
+    [MonoPInvokeCallback(typeof(Native.carom_rules_on))]
+    static uint OnOf(RulesState* state, uint inPlay) { return Guarded(() => Of(state).On(Words(state), inPlay)); }
+
+    [MonoPInvokeCallback(typeof(Native.carom_rules_judge))]
+    static Turn JudgeOf(RulesState* state, uint inPlay, int cueBall, Facts* facts, Call call) {
+      return Guarded(() => {
         var words = Words(state);
-        var turn = Judge(words, inPlay, cueBall, *facts, call);
-        for (int k = 0; k < 8; k++) state->user[k] = words[k];
+        var turn = Of(state).Judge(words, inPlay, cueBall, *facts, call);
+        for (int k = 0; k < Own; k++) state->user[k] = words[k];
         return turn;
       });
-      left = (state, inPlay, to) => Guarded(() => {
-        var balls = Left(Words(state), inPlay);
+    }
+
+    [MonoPInvokeCallback(typeof(Native.carom_rules_left))]
+    static void LeftOf(RulesState* state, uint inPlay, int* to) {
+      Guarded(() => {
+        var balls = Of(state).Left(Words(state), inPlay);
         to[0] = balls[0];
         to[1] = balls[1];
         return 0;
       });
     }
 
-    /// <summary>The rules with a state that is all 0; `calls`, `race` and the like can be set.</summary>
-    public PlanRules Data() {
-      return new PlanRules {
-        on = Marshal.GetFunctionPointerForDelegate(on), judge = Marshal.GetFunctionPointerForDelegate(judge), left = Marshal.GetFunctionPointerForDelegate(left),
-      };
+    static GameRules Of(RulesState* state) {
+      lock (all) return all[(int)state->user[Own]];
     }
 
     static ulong[] Words(RulesState* state) {
-      var words = new ulong[8];
-      for (int k = 0; k < 8; k++) words[k] = state->user[k];
+      var words = new ulong[Own];
+      for (int k = 0; k < Own; k++) words[k] = state->user[k];
       return words;
     }
 
