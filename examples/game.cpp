@@ -42,23 +42,20 @@ public:
     carom_plan_job job = carom::job(of.table, record_.layout(), cue, players_[player_], rules_);
     job.shot = &of.options;
     job.options = &wanted;
-    const auto best = carom::plan(job, 1, in_hand_);
+    const auto best = carom::plan(job, 1, of.hand == 1);
     if (best.empty())
       return false;
-    if (in_hand_) {
+    if (of.hand == 1) {
       if (record_.place(0, best[0].place[0], best[0].place[1]) != CAROM_OK)
         return false;
       sent_ += record_.write(CAROM_RECORD_PLACE);
     }
     of.cue = best[0].cue;
     carom_player_strike(&players_[player_], 1, wanted.seed, &of.cue);
-    uint32_t in_play = 0;
-    for (int k = 0; k < of.count; k++)
-      in_play |= static_cast<uint32_t>(of.balls[k].state.label != CAROM_BALL_POCKETED) << k;
     if (record_.play() != CAROM_OK)
       return false;
     sent_ += record_.write(CAROM_RECORD_SHOT);
-    judge(in_play, {best[0].ball, best[0].pocket});
+    judge({best[0].ball, best[0].pocket});
     return true;
   }
 
@@ -67,17 +64,13 @@ public:
   }
 
 private:
-  void judge(uint32_t in_play, carom_call call) {
-    const carom_turn turn = rules_.judge(&rules_.state, in_play, 0, &record_.game().facts, call);
-    in_hand_ = turn.leave != CAROM_LEAVE_AFTER;
-    for (int k = 1; k < record_.game().count; k++)
-      if (turn.spot >> k & 1) {
-        record_.spot(k);
-        sent_ += record_.write(CAROM_RECORD_PLACE);
-      }
-    if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE)
-      winner_ = turn.is == CAROM_TURN_WIN ? player_ : 1 - player_;
-    else if (turn.is == CAROM_TURN_PASS)
+  void judge(carom_call call) {
+    const carom_ruling ruling = carom::referee(rules_, record_.last(), call);
+    rules_.state = ruling.state;
+    sent_ += carom::settle(record_, ruling);
+    if (ruling.winner >= 0)
+      winner_ = ruling.winner == 0 ? player_ : 1 - player_;
+    else if (ruling.next == 1)
       player_ = 1 - player_;
   }
 
@@ -85,7 +78,6 @@ private:
   carom_plan_rules rules_{};
   carom_player players_[2] = {carom_player_fargo(500.0), carom_player_fargo(600.0)};
   int player_ = 0, winner_ = -1;
-  bool in_hand_ = false;
   std::string sent_;
 };
 

@@ -215,6 +215,9 @@ public:
 private:
   friend class film;
   friend class recording;
+#ifdef CAROM_PLAN_H
+  friend carom_ruling referee(const carom_plan_rules &, const shot &, carom_call, int);
+#endif
 
   int count() const {
     return static_cast<int>(balls_.size());
@@ -293,6 +296,25 @@ inline carom_status aim(const carom_table &on, std::span<const carom_shot_ball> 
                         carom_pot &pot, carom_cue &cue, const carom_shot_options &options = {}) {
   return checked(
       carom_aim(&on, balls.data(), static_cast<int>(balls.size()), &options, &pot, &cue));
+}
+
+/* What a shot that was played comes to by the rules, with the state of the game before it. */
+inline carom_ruling referee(const carom_plan_rules &rules, const shot &of,
+                            carom_call call = {-1, -1}, int cue_ball = 0) {
+  carom_ruling made{};
+  carom_shot seen = of.shot_;
+  carom_facts facts = of.facts_;
+  std::vector<carom_ball_state> last = of.final_;
+  seen.facts = &facts;
+  seen.final = last.data();
+  checked(carom_referee(&rules, &of.table_, of.balls_.data(), of.count(), cue_ball, &seen, call,
+                        &made));
+  return made;
+}
+inline std::string words(const carom_ruling &of) {
+  std::string text(carom_ruling_string(&of, nullptr, 0), ' ');
+  carom_ruling_string(&of, text.data(), text.size() + 1);
+  return text;
 }
 
 /* A plan for the player at the table; options, models and memory are not set. */
@@ -437,17 +459,6 @@ public:
   carom_status hand(int ball) {
     return checked(carom_record_hand(game_.get(), ball));
   }
-#ifdef CAROM_PLAN_H
-  /* Puts a ball back on its spot by the rules of a rack's game, or as near to it as they say: on
-   * the foot spot in pool. */
-  carom_status spot(int ball, carom_rack_kind of = CAROM_RACK_EIGHTBALL) {
-    carom_record_settle(game_.get());
-    const carom_status code = checked(
-        carom_spot_ball_of(of, &game_->table, game_->balls, static_cast<int>(game_->count), ball));
-    const double *r = game_->balls[code < 0 ? 0 : ball].state.r;
-    return code < 0 ? code : place(ball, r[0], r[1]);
-  }
-#endif
 
   /* Whether the shot of the last line was played, with the bits that were recorded. */
   bool same() const {
@@ -460,6 +471,21 @@ private:
   std::vector<char> text_;
   shot last_;
 };
+
+#ifdef CAROM_PLAN_H
+/* Lays the layout of the next stroke into a game: the lines of balls that come back, and of a cue
+ * ball in hand. */
+inline std::string settle(recording &of, const carom_ruling &by, int cue_ball = 0) {
+  std::string lines;
+  carom_record_settle(&of.game());
+  std::copy_n(by.balls, of.game().count, of.game().balls);
+  if (by.put != 0)
+    lines += of.write(CAROM_RECORD_BALLS);
+  if (by.hand == 1 && of.hand(cue_ball) == CAROM_OK)
+    lines += of.write(CAROM_RECORD_PLACE);
+  return lines;
+}
+#endif
 
 } // namespace carom
 

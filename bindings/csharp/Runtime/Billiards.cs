@@ -217,6 +217,26 @@ namespace Carom {
     /// <summary>Built-in rules, with the state after the break.</summary>
     public static PlanRules Rules(RulesKind kind) { return Native.carom_plan_rules_of(kind); }
 
+    /// <summary>What a shot that was played comes to by the rules, with the state of the game before it.</summary>
+    public static Ruling Referee(PlanRules rules, PlayedShot shot, Call? call = null, int cueBall = 0) {
+      Ruling made;
+      Facts facts = shot.Facts;
+      fixed (Table* table = &shot.table)
+      fixed (ShotBall* balls = shot.balls)
+      fixed (BallState* final = shot.Final) {
+        var seen = new Shot { facts = &facts, final = final };
+        Check(Native.carom_referee(&rules, table, balls, shot.balls.Length, cueBall, &seen, call ?? new Call { ball = -1, pocket = -1 }, &made));
+      }
+      return made;
+    }
+
+    /// <summary>A ruling in words.</summary>
+    public static string Words(ref Ruling of) {
+      byte* text = stackalloc byte[256];
+      fixed (Ruling* ruling = &of) Native.carom_ruling_string(ruling, text, (UIntPtr)256);
+      return Text(text);
+    }
+
     /// <summary>The stroke that a player makes who means `cue`: with errors drawn from `seed` and the number of the stroke.</summary>
     public static Cue Strike(Player player, ulong seed, ulong number, Cue cue) {
       Native.carom_player_strike(&player, seed, number, &cue);
@@ -337,6 +357,16 @@ namespace Carom {
       Billiards.Check(Native.carom_record_hand(Open, ball));
       return Line(RecordKind.Place);
     }
+
+    /// <summary>The layout of the next stroke as a ruling has it. Returns the lines of balls that come back, and of a cue ball in hand.</summary>
+    public string Settle(ref Ruling by, int cueBall = 0) {
+      Billiards.Check(Native.carom_record_settle(Open));
+      for (int k = 0; k < record->count; k++) ((ShotBall*)&record->balls)[k] = by.balls[k];
+      return (by.put != 0 ? Line(RecordKind.Balls) : "") + (by.hand == 1 ? Hand(cueBall) : "");
+    }
+
+    /// <summary>Whether the cue ball is in hand, and not placed yet.</summary>
+    public bool InHand { get { return Open->hand == 1; } }
 
     /// <summary>Ends the game, and returns its last line.</summary>
     public string End() { return Line(RecordKind.End); }

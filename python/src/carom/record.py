@@ -117,10 +117,28 @@ class Recorder:
 
     def place(self, ball: int, x: float, y: float) -> None:
         """Ball in hand, as `carom.place_ball`. A place that is not free is refused, and nothing is recorded."""
-        code = lib.carom_record_place(self._game, ball, x, y, ffi.NULL)
+        self._put(ball, lib.carom_record_place(self._game, ball, x, y, ffi.NULL))
+
+    def hand(self, ball: int = 0) -> None:
+        """A ball comes in hand, and is out of play until it is placed."""
+        self._put(ball, lib.carom_record_hand(self._game, ball))
+
+    def _put(self, ball: int, code: int) -> None:
         if code < 0:
             raise CaromError(code, f"ball {ball}")
         self._write(lib.CAROM_RECORD_PLACE)
+
+    @property
+    def in_hand(self) -> bool:
+        """Whether a ball is in hand, and not placed yet."""
+        return bool(self._game.hand)
+
+    def settle(self, ruling: Any) -> None:
+        """The layout of the next stroke as `carom.referee` rules it, and the cue ball in hand."""
+        if ruling.put:
+            self.balls = ruling.balls
+        if ruling.hand != "no":
+            self.hand()
 
     def shoot(self, cue: dtypes.Records, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()) -> End:
         """Play a stroke, up to when `carom.simulate` would stop it, and record it."""

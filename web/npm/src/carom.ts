@@ -22,6 +22,7 @@ import {
   whole,
   writeBalls,
   writeOptions,
+  writeStates,
   writeStruct,
   writeTable,
 } from "./structs.js";
@@ -100,7 +101,7 @@ export class Carom {
   readonly #reader: Reader;
   readonly #plans: Plans;
   readonly #recordings: RecordingHost;
-  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number" | "fault" | "text" | "frame", Pointer>;
+  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number" | "fault" | "text" | "frame" | "facts", Pointer>;
   #points: Pointer = 0;
   #pointRoom = 0;
   #events: Pointer = 0;
@@ -124,6 +125,7 @@ export class Carom {
       cue: part(layout.carom_cue.size),
       shot: part(SHOT.size),
       final: part(BALLS_MOST * STATE.size),
+      facts: part(layout.carom_facts.size),
       state: memory.allocate(layout.carom_shot_state.size),
       motion: part(layout.carom_motion.size),
       // states, turns, and how far the film is
@@ -512,8 +514,8 @@ export class Carom {
   }
 
   #writeShot(count: number): void {
-    const { shot: at, final, state } = this.#at;
-    setStruct(this.#memory, at, "carom_shot", { events: this.#events, final, state, room: this.#room, count });
+    const { shot: at, final, state, facts } = this.#at;
+    setStruct(this.#memory, at, "carom_shot", { events: this.#events, final, state, facts, room: this.#room, count });
   }
 
   #count(): number {
@@ -587,7 +589,7 @@ export class Carom {
       const copy = (part: keyof Kept, size: number): Uint8Array => this.#memory.u8.slice(this.#at[part], this.#at[part] + size);
       kept = { table: copy("table", layout.carom_table.size), options: copy("options", SHOT_OPTIONS.size), state: copy("state", layout.carom_shot_state.size) };
     }
-    const shot = this.#played(table, balls, code, at, final, this.#events, kept);
+    const shot = this.#played(table, balls, code, at, final, this.#events, this.#at.facts, kept);
     this.#resident = shot;
     if (code < 0) throw this.#error(code, undefined, shot);
     return shot;
@@ -609,11 +611,11 @@ export class Carom {
     return this.#error(code, field, undefined, this.#memory.text(this.#call.carom_status_string(code))!.replace(/^\w+\.\w+ must/, "it must"));
   }
 
-  #played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer, kept?: Kept): Shot {
+  #played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer, facts?: Pointer, kept?: Kept): Shot {
     const count = Number(this.#memory.i64[(shot + SHOT.offset.count) / 8]);
     const bytes = this.#memory.u8.slice(events, events + count * EVENT.size);
     const states = balls.map((_, k): BallState => readState(this.#memory, final + k * STATE.size));
-    return new Shot(this.#reader, table, balls, this.statusName(code), this.#memory.f64[(shot + SHOT.offset.time) / 8]!, states, count, bytes, kept);
+    return new Shot(this.#reader, table, balls, this.statusName(code), this.#memory.f64[(shot + SHOT.offset.time) / 8]!, states, count, bytes, facts ? this.#memory.u8.slice(facts, facts + layout.carom_facts.size) : undefined, kept);
   }
 
   /** Puts balls and events of a shot into the module's memory, if others are there. */
@@ -785,5 +787,15 @@ export class Carom {
   referee(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, game: GameState, call?: Call, options: ShotOptions = {}): Ruling {
     refuseUnknown(game, KEYS.game, "game");
     return this.#plans.referee(table, balls, cue, game, call, options);
+  }
+
+  /** The same of a shot that was played, which is not played again; `cueBall` is the index of the cue ball. */
+  rule(shot: Shot, game: GameState, call?: Call, cueBall = 0): Ruling {
+    refuseUnknown(game, KEYS.game, "game");
+    if (shot.facts === undefined) throw new TypeError("shot: one of a batch has no facts");
+    this.#reside(shot);
+    this.#memory.u8.set(shot.facts, this.#at.facts);
+    writeStates(this.#memory, this.#at.final, shot.final);
+    return this.#plans.rule(shot.balls, this.#at.shot, game, call, cueBall);
   }
 }

@@ -4,7 +4,7 @@ import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import { LAST, refuseOrder } from "./lines.js";
 import type { Memory, Pointer } from "./memory.js";
-import { indexOf, readBalls, readState, readStruct, refuseName, setStruct, value, whole, writeOptions, writeStruct } from "./structs.js";
+import { indexOf, readBalls, readStruct, refuseName, setStruct, value, whole, writeOptions, writeStruct } from "./structs.js";
 import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Ruling, ShotBall, ShotFacts, ShotOptions, Table } from "./types.js";
 
 const PLAYER = layout.carom_player;
@@ -13,8 +13,7 @@ const OPTIONS = layout.carom_plan_options;
 const JOB = layout.carom_plan_job;
 const CHOICE = layout.carom_choice;
 const FACTS = layout.carom_facts;
-const TURN = layout.carom_turn;
-const SHOT = layout.carom_shot.offset;
+const RULING = layout.carom_ruling.offset;
 const POT = layout.carom_pot;
 const PART = layout.carom_part;
 
@@ -51,14 +50,14 @@ function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: str
 
 export class Plans {
   readonly #host: Host;
-  readonly #at: Record<"player" | "opponent" | "rules" | "options" | "job" | "facts" | "turn" | "call" | "corners" | "found" | "pot", Pointer>;
+  readonly #at: Record<"player" | "opponent" | "rules" | "options" | "job" | "ruling" | "text" | "call" | "corners" | "found" | "pot", Pointer>;
 
   constructor(host: Host) {
     this.#host = host;
     const room = (bytes: number): Pointer => host.memory.allocate(bytes);
     this.#at = {
       ...{ player: room(PLAYER.size), opponent: room(PLAYER.size), rules: room(RULES.size), options: room(OPTIONS.size), job: room(JOB.size) },
-      ...{ facts: room(FACTS.size), turn: room(TURN.size), call: room(8), corners: room(32), found: room(8), pot: room(POT.size) },
+      ...{ ruling: room(layout.carom_ruling.size), text: room(256), call: room(8), corners: room(32), found: room(8), pot: room(POT.size) },
     };
   }
 
@@ -179,65 +178,50 @@ export class Plans {
 
   on(game: GameState, balls: readonly ShotBall[]): number[] {
     this.#writeRules(game, balls);
-    const set = this.#method("on")(this.#at.rules + RULES.offset.state, inPlay(balls));
-    return balls.flatMap((_, k) => ((set >>> k) & 1 ? [k] : []));
+    // A function of the rules, by the module's table of functions.
+    const on = this.#memory.exports.__indirect_function_table.get(this.#memory.u32[(this.#at.rules + RULES.offset.on) / 4]!) as Method;
+    return members(on(this.#at.rules + RULES.offset.state, inPlay(balls)), balls.length);
   }
 
   referee(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, game: GameState, call: Call | undefined, options: ShotOptions): Ruling {
     const { at } = this.#host;
     const memory = this.#memory;
-    const { facts, turn: turnAt, call: callAt, rules } = this.#at;
-
     // The shot once more, with its facts.
     const struck = this.#host.cue(cue);
     this.#host.writeLayout(table, balls);
     writeStruct(memory, at.cue, "carom_cue", struck, "cue");
     const optionsAt = this.#host.writeShotOptions(options);
     this.#host.writeShot();
-    memory.u32[(at.shot + SHOT.facts) / 4] = facts;
     const code = call === "pass" ? -1 : memory.exports.carom_shoot(at.table, at.balls, balls.length, at.cue, optionsAt, at.shot);
-    if (code < 0) {
-      memory.u8.fill(0, facts, facts + FACTS.size); // no ball was met
-      memory.i32.fill(-1, (facts + FACTS.offset.first) / 4, (facts + FACTS.offset.first) / 4 + 2);
-    }
+    return this.rule(balls, code < 0 ? 0 : at.shot, game, call, struck.ball);
+  }
 
-    // The rules.
-    const happened = this.#readFacts(facts, balls.length);
+  /** What a shot comes to, which is in the module's memory with its table, balls, facts and last states; 0: none was played. */
+  rule(balls: readonly ShotBall[], shot: Pointer, game: GameState, call: Call | undefined, cueBall: number): Ruling {
+    const { at } = this.#host;
+    const memory = this.#memory;
+    const { call: callAt, rules, ruling, text } = this.#at;
     this.#writeRules(game, balls);
-    const called = call === "push" ? values.CAROM_CALL_PUSH : call === "pass" ? values.CAROM_CALL_PASS : (call?.ball ?? -1);
-    memory.i32[callAt / 4] = called;
+    memory.i32[callAt / 4] = call === "push" ? values.CAROM_CALL_PUSH : call === "pass" ? values.CAROM_CALL_PASS : (call?.ball ?? -1);
     memory.i32[callAt / 4 + 1] = typeof call === "object" ? call.pocket : -1;
-    this.#method("judge")(turnAt, rules + RULES.offset.state, inPlay(balls), struck.ball, facts, callAt);
-    const i32 = memory.i32;
-    const turn = names.carom_turn_is[i32[(turnAt + TURN.offset.is) / 4]!]!;
-    const leave = i32[(turnAt + TURN.offset.leave) / 4]!;
-    const spot = memory.u32[(turnAt + TURN.offset.spot) / 4]!;
-    // The layout of the next stroke.
-    let lie = balls.map((ball, k): ShotBall => {
-      const taken = code < 0 || leave === values.CAROM_LEAVE_BEFORE;
-      return taken ? ball : { ...ball, state: readState(memory, at.final + k * layout.carom_ball_state.size) };
-    });
-    const settles = spot !== 0 || this.#settles;
-    if (settles) this.#host.writeLayout(table, lie);
-    if (settles) this.#host.refuse(memory.exports.carom_turn_settle(rules, rules + RULES.offset.state, at.table, at.balls, balls.length, turnAt), "balls");
-    if (settles) lie = readBalls(memory, at.balls, balls.length);
+    this.#host.refuse(memory.exports.carom_referee(rules, at.table, at.balls, balls.length, cueBall, shot, callAt, ruling), "balls");
+    memory.exports.carom_ruling_string(ruling, text, 256);
 
-    // What may have changed by where balls lie.
-    const reason = names.carom_foul[memory.i32[(turnAt + TURN.offset.foul) / 4]!]!;
-    const hand = HANDS[memory.i32[(turnAt + TURN.offset.leave) / 4]!]!;
-    const points = memory.f64[(turnAt + TURN.offset.points) / 8]!;
-    const state = readStruct<C.RulesState & { group: number }>(memory, rules + RULES.offset.state, "carom_rules_state");
-    const { group, opening, may, score, lost } = state;
-    const after: GameState = { rules: game.rules, group: names.carom_group[group]!, opening: opening !== 0, may: MAY.filter((_, k) => (may >> k) & 1), ...of(state, MEMBERS) };
-    return { turn, foul: reason !== "none", reason, hand, points, score: [score[0] - lost[0], score[1] - lost[1]], facts: happened, balls: lie, game: after };
+    const turn = readStruct<Omit<C.Turn, "is" | "leave"> & { is: number; leave: number }>(memory, ruling + RULING.turn, "carom_turn");
+    const reason = names.carom_foul[turn.foul]!;
+    const { group, opening, may, ...state } = readStruct<C.RulesState & { group: number }>(memory, ruling + RULING.state, "carom_rules_state");
+    const { score, lost } = state;
+    return {
+      ...{ turn: names.carom_turn_is[turn.is]!, foul: reason !== "none", reason, hand: HANDS[turn.leave]!, points: turn.points, text: memory.text(text)! },
+      score: [score[0] - lost[0], score[1] - lost[1]],
+      facts: this.#readFacts(ruling + RULING.facts, balls.length),
+      balls: readBalls(memory, ruling + RULING.balls, balls.length).map((ball, k) => ({ ...balls[k], ...ball })),
+      put: members(memory.u32[(ruling + RULING.put) / 4]!, balls.length),
+      game: { rules: game.rules, group: names.carom_group[group]!, opening: opening !== 0, may: MAY.filter((_, k) => (may >> k) & 1), ...of(state, MEMBERS) },
+    };
   }
 
   // ---- Structs ---------------------------------------------------------------------------------------------------------------
-
-  /** A function of the rules, by the module's table of functions. */
-  #method(name: "on" | "judge"): Method {
-    return this.#memory.exports.__indirect_function_table.get(this.#memory.u32[(this.#at.rules + RULES.offset[name]) / 4]!) as Method;
-  }
 
   /** Whether the rules do more with the places of balls than to put some back; all their balls are in the list then. */
   get #settles(): boolean {
@@ -281,18 +265,20 @@ export class Plans {
 
   #readFacts(at: Pointer, count: number): ShotFacts {
     const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime, touches } = readStruct<C.Facts>(this.#memory, at, "carom_facts");
-    const all = (field: "down" | "off" | "frozen" | "pushed"): number[] => {
-      const set = this.#memory.u32[(at + FACTS.offset[field]) / 4]!;
-      return Array.from({ length: count }, (_, k) => k).filter((k) => (set >>> k) & 1);
-    };
+    const all = (field: "down" | "off" | "frozen" | "pushed"): number[] => members(this.#memory.u32[(at + FACTS.offset[field]) / 4]!, count);
     const potted = all("down").sort((a, b) => pocketTime[a]! - pocketTime[b]!);
-    return { first, cushionsBefore, cushionsAfter, cushions: cushions.slice(0, count), potted: potted.map((ball) => ({ ball, pocket: pocket[ball]! })), off: all("off"), frozen: all("frozen"), pushed: all("pushed"), touches };
+    return { first, cushionsBefore, cushionsAfter, cushions: cushions.slice(0, count), potted: potted.map((ball) => ({ ball, pocket: pocket[ball]!, time: pocketTime[ball]! })), off: all("off"), frozen: all("frozen"), pushed: all("pushed"), touches };
   }
 
   #readChoice(at: Pointer): Choice {
     const { kind, ...choice } = readStruct<C.Choice>(this.#memory, at, "carom_choice");
     return { ...choice, kind: names.carom_plan_kind[kind]! };
   }
+}
+
+/** The balls of a set. */
+function members(set: number, count: number): number[] {
+  return Array.from({ length: count }, (_, k) => k).filter((k) => (set >>> k) & 1);
 }
 
 function inPlay(balls: readonly ShotBall[]): number {

@@ -4,7 +4,7 @@ import { layout, values } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
 import type { Shot } from "./shot.js";
 import { readBalls, readStruct, readTable, writeBalls, writeStruct, writeTable } from "./structs.js";
-import type { BallState, Cue, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
+import type { BallState, Cue, Ruling, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
 
 const RECORD = layout.carom_record.offset;
 const END = layout.carom_record_end.offset;
@@ -52,7 +52,7 @@ export interface Host {
   statusName(code: number): string;
   cue(fields: Partial<Cue>): Cue;
   writeShotOptions(options: ShotOptions): Pointer;
-  played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer): Shot;
+  played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer, facts: Pointer): Shot;
   refuse(code: number, field?: string): void;
 }
 
@@ -106,6 +106,9 @@ class Game {
     return this.number(RECORD.kind) === values.CAROM_RECORD_END;
   }
 
+  /** The last shot that was played. */
+  film: Shot | undefined;
+
   /** Plays a shot with all of its events. Where they need more memory, it is played again: it has the same bits. */
   play(kind: number): number {
     const { memory } = this.#host;
@@ -117,7 +120,12 @@ class Game {
       memory.i64[(this.#shot + SHOT.offset.room) / 8] = BigInt(this.#room);
       const code = memory.exports.carom_record_play(this.at, kind, this.#shot);
       const count = Number(memory.i64[(this.#shot + SHOT.offset.count) / 8]);
-      if (count <= this.#room) return code;
+      if (count <= this.#room) {
+        const table = readTable(memory, this.at + RECORD.table);
+        const balls = readBalls(memory, this.at + RECORD.balls, this.number(RECORD.count));
+        if (this.number(RECORD.pending) === 2) this.film = this.#host.played(table, balls, code, this.#shot, this.at + RECORD.final, this.#events, this.at + RECORD.facts);
+        return code;
+      }
       // Those of a shot that goes on stay.
       const events = memory.allocate(2 * count * EVENT_SIZE);
       memory.u8.copyWithin(events, this.#events, this.#events + this.#room * EVENT_SIZE);
@@ -144,15 +152,13 @@ class Game {
     if (this.number(RECORD.pending) === 1) this.#host.refuse(code, `line ${this.number(RECORD.line)}`);
     const recorded = this.end(RECORD.recorded);
     const played = this.end(RECORD.played);
-    const table = readTable(memory, this.at + RECORD.table);
-    const balls = readBalls(memory, this.at + RECORD.balls, this.number(RECORD.count));
-    const film = this.#host.played(table, balls, code, this.#shot, this.at + RECORD.final, this.#events);
+    const film = this.film!;
     return {
       shot: this.number(RECORD.shots),
       line: this.number(RECORD.line),
       continues: kind === values.CAROM_RECORD_CONTINUE,
-      table,
-      balls,
+      table: film.table,
+      balls: [...film.balls],
       cue: readStruct<Cue>(memory, this.at + RECORD.cue, "carom_cue"),
       recorded,
       played,
@@ -238,6 +244,28 @@ export class Recording {
     this.#write(values.CAROM_RECORD_PLACE);
   }
 
+  /** A ball comes in hand, and is out of play until it is placed. */
+  hand(ball: number): void {
+    this.#host.refuse(this.#host.memory.exports.carom_record_hand(this.#game.at, ball), `ball ${ball}`);
+    this.#write(values.CAROM_RECORD_PLACE);
+  }
+
+  /** The layout of the next stroke as a ruling has it, and the cue ball in hand. */
+  settle({ balls, put, hand }: Ruling, cueBall = 0): void {
+    if (put.length > 0) this.setBalls(balls);
+    if (hand !== "no") this.hand(cueBall);
+  }
+
+  /** Whether the cue ball is in hand, and not placed yet. */
+  get inHand(): boolean {
+    return this.#game.number(RECORD.hand) === 1;
+  }
+
+  /** The last shot that was played or read, with its events; of one that went on, from its start. */
+  get last(): Shot | undefined {
+    return this.#game.film;
+  }
+
   /** Plays a stroke, up to where the options stop it, and records it. */
   shoot(cue: Partial<Cue>, options: StopOptions = {}): ShotEnd {
     writeStruct(this.#host.memory, this.#game.at + RECORD.cue, "carom_cue", this.#host.cue(cue), "cue");
@@ -270,7 +298,7 @@ export class Recording {
   #play(kind: number): ShotEnd {
     const { memory } = this.#host;
     memory.i64[(this.#game.at + RECORD.pending) / 8] = 0n;
-    const code = memory.exports.carom_record_play(this.#game.at, kind, 0);
+    const code = this.#game.play(kind);
     this.#game.refuse(code);
     if (this.#game.number(RECORD.pending) === 0) this.#host.refuse(code); // Nothing was played.
     this.#write(kind);

@@ -34,6 +34,8 @@ export class Shot {
     readonly count: number,
     /** @internal The events as the library wrote them. */
     readonly bytes: Uint8Array,
+    /** @internal What rules ask about, as the library wrote it. */
+    readonly facts?: Uint8Array,
     /** @internal What `continue` needs. */
     readonly kept?: Kept,
   ) {

@@ -126,6 +126,11 @@ export function readState(memory: Memory, at: Pointer): BallState {
   return { r: vec3(f64, at + STATE.r), v: vec3(f64, at + STATE.v), w: vec3(f64, at + STATE.w), label };
 }
 
+export function writeStates(memory: Memory, at: Pointer, states: readonly BallState[]): void {
+  for (const [k, state] of states.entries())
+    writeStruct(memory, at + k * layout.carom_ball_state.size, "carom_ball_state", { ...state, label: value("carom_label", state.label, "label") }, "state");
+}
+
 export function writeBalls(memory: Memory, at: Pointer, balls: readonly ShotBall[]): void {
   const { kind, state } = layout.carom_shot_ball.offset;
   for (const [k, ball] of balls.entries()) {

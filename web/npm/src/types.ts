@@ -234,8 +234,8 @@ export interface ShotFacts {
   cushionsAfter: number;
   /** Impacts of each ball on cushions. */
   cushions: readonly number[];
-  /** The balls that fell, in their order, and the pocket that took each. */
-  potted: readonly { ball: number; pocket: number }[];
+  /** The balls that fell, in their order, the pocket that took each, and when, s. */
+  potted: readonly { ball: number; pocket: number; time: number }[];
   /** The balls that left the table. */
   off: readonly number[];
   /** The balls that touched the cue ball when it was struck. */
@@ -261,8 +261,12 @@ export interface Ruling {
   points: number;
   /** Of straight pool and snooker: points of whoever plays next, and of the other; of one-pocket their balls, below 0 those that they owe. */
   score: [number, number];
-  /** The layout of the next stroke. */
+  /** The layout of the next stroke: all that come back are there. A cue ball in hand is where the shot left it, or down. */
   balls: ShotBall[];
+  /** The balls that lie elsewhere than the shot left them. */
+  put: number[];
+  /** All of that in words. */
+  text: string;
   /** The game as whoever plays next sees it. */
   game: GameState;
 }

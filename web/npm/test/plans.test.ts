@@ -155,6 +155,7 @@ test("rulings of shots", () => {
     const pot = carom.referee(table, balls, { speed: 1.2, phi: 225, b: -0.3 }, game, { ball: 3, pocket });
     expect([pot.turn, pot.foul, pot.hand, pot.game.group]).toEqual(["keep", false, "no", "solids"]);
     expect(pot.balls[3]!.state.label).toBe("pocketed");
+    expect(carom.rule(carom.simulate(table, balls, { speed: 1.2, phi: 225, b: -0.3 }), game, { ball: 3, pocket })).toEqual(pot);
     // the wrong ball first
     const foul = carom.referee(table, balls, { speed: 2, phi: 45 }, { ...game, group: "solids" });
     expect([foul.turn, foul.foul, foul.hand, foul.game.group]).toEqual(["pass", true, "anywhere", "stripes"]);
@@ -237,7 +238,7 @@ test("straight pool and snooker: points, colours on their own spots, a foul, the
   const made = carom.referee(pool, balls, best!.cue, { rules: "straight", group: "open", opening: false }, { ball: best!.ball, pocket: best!.pocket });
   expect([made.turn, made.score, made.points, made.hand]).toEqual(["keep", [1, 0], 1, "no"]);
   expect(made.balls.every(({ state }) => state.label === "stationary")).toBe(true); // racked again
-  expect([made.facts.first[0], made.facts.potted]).toEqual([best!.ball, [{ ball: best!.ball, pocket: best!.pocket }]]);
+  expect([made.facts.first[0], made.facts.potted]).toMatchObject([best!.ball, [{ ball: best!.ball, pocket: best!.pocket }]]);
   const missed = carom.referee(pool, balls, carom.cue({ speed: 0.5, phi: 180 }), made.game);
   expect([missed.turn, missed.reason, missed.score]).toEqual(["pass", "no_ball", [0, 0]]);
   expect(missed.game).toMatchObject({ target: 100, opening: false, score: [0, 1], lost: [0, 1], fouls: [0, 1], may: [] });

@@ -140,7 +140,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
       const frame = shot.frame(time);
       expect(frame.states.buffer === first.states.buffer && frame.states.byteOffset === first.states.byteOffset).toBe(true);
       expect([...frame.turned]).toEqual([...turned]);
-      shot.states(time).forEach((state, k) => {
+      shot.states(time, true).forEach((state, k) => {
         expect([...frame.states.subarray(10 * k, 10 * k + 9)]).toEqual([...state.r, ...state.v, ...state.w]);
         expect(frame.label(k)).toBe(state.label);
       });

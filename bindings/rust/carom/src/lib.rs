@@ -17,12 +17,12 @@ mod plan;
 mod record;
 
 pub use carom_sys as sys;
-pub use plan::{built_in_rules, rules, strike, Game, Position, Thinking};
+pub use plan::{built_in_rules, rules, strike, words, Game, Position, Thinking};
 pub use record::Recording;
 pub use sys::{
     carom_ball_state as BallState, carom_call as Call, carom_choice as Choice, carom_cue as Cue,
     carom_event as Event, carom_facts as Facts, carom_plan_options as PlanOptions,
-    carom_plan_rules as Rules, carom_player as Player, carom_pot as Pot,
+    carom_plan_rules as Rules, carom_ruling as Ruling, carom_player as Player, carom_pot as Pot,
     carom_shot_ball as ShotBall, carom_shot_options as Options, carom_table as Table,
     carom_turn as Turn,
 };
@@ -365,6 +365,22 @@ impl Shot {
     pub fn slip(&self, of: &Event) -> f64 {
         let (balls, count) = (self.balls.as_ptr(), count_of(&self.balls));
         unsafe { sys::carom_event_slip(&self.table, balls, count, of) }
+    }
+
+    /// What the shot comes to by the rules, with the state of the game before it.
+    pub fn referee(&self, rules: &Rules, call: Call, cue_ball: i32) -> Result<Ruling, Error> {
+        let (mut facts, mut last, mut made) = (self.facts, self.last.clone(), Ruling::default());
+        let (balls, count) = (self.balls.as_ptr(), count_of(&self.balls));
+        let seen = sys::carom_shot {
+            facts: &mut facts,
+            r#final: last.as_mut_ptr(),
+            ..Default::default()
+        };
+        let (on, to) = (&self.table, &mut made);
+        check(unsafe {
+            sys::carom_referee(rules, on, balls, count, cue_ball, &seen, call, to)
+        })?;
+        Ok(made)
     }
 
     /// What the library reads of it.

@@ -1,9 +1,9 @@
 //! Plans: which stroke to play, by built-in rules or by those of the caller.
 use crate::{
-    check, count_of, sys, Call, Choice, Cue, Error, Facts, Options, PlanOptions, Player, Rules,
-    ShotBall, Table, Turn,
+    check, count_of, sys, text, Call, Choice, Cue, Error, Facts, Options, PlanOptions, Player,
+    Rules, Ruling, ShotBall, Table, Turn,
 };
-use std::os::raw::c_int;
+use std::os::raw::{c_char, c_int};
 use std::panic::{catch_unwind, AssertUnwindSafe};
 
 /// Rules of a game. Sets of balls have bit k for ball k. The functions may be called from several threads at once, and depend on
@@ -57,6 +57,13 @@ fn guarded<T>(call: impl FnOnce() -> T) -> T {
 /// Built-in rules, such as `sys::CAROM_RULES_NINEBALL`, with the state after the break.
 pub fn built_in_rules(kind: sys::carom_rules_kind) -> Rules {
     unsafe { sys::carom_plan_rules_of(kind) }
+}
+
+/// A ruling in words.
+pub fn words(of: &Ruling) -> String {
+    let mut words = [0 as c_char; 256];
+    unsafe { sys::carom_ruling_string(of, words.as_mut_ptr(), words.len()) };
+    text(words.as_ptr())
 }
 
 /// The stroke that a player makes who means `cue`: with errors drawn from `seed` and the number of the stroke.

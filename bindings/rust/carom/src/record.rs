@@ -1,5 +1,5 @@
 //! Recordings: games that verify themselves. docs/using/games.md has the format.
-use crate::{check, count_of, sys, text, Cue, Error, Facts, Options, Shot, ShotBall, Table};
+use crate::{check, count_of, sys, text, Cue, Error, Facts, Options, Ruling, Shot, ShotBall, Table};
 use std::os::raw::c_char;
 
 /// A recording: read line by line and played, or written. All lines end with an end of line.
@@ -61,6 +61,25 @@ impl Recording {
     /// The last shot that was played or read, with its events; of one that went on, from its start.
     pub fn last(&self) -> Option<&Shot> {
         self.last.as_ref()
+    }
+
+    /// The layout of the next stroke as a ruling has it. Returns the lines of balls that come back, and of a cue ball in hand.
+    pub fn settle(&mut self, by: &Ruling, cue_ball: usize) -> Result<String, Error> {
+        let mut lines = String::new();
+        check(unsafe { sys::carom_record_settle(&mut *self.record) })?;
+        self.record.balls = by.balls;
+        if by.put != 0 {
+            lines += &self.line(sys::CAROM_RECORD_BALLS)?;
+        }
+        if by.hand == 1 {
+            lines += &self.hand(cue_ball)?;
+        }
+        Ok(lines)
+    }
+
+    /// Whether the cue ball is in hand, and not placed yet.
+    pub fn in_hand(&self) -> bool {
+        self.record.hand == 1
     }
 
     /// Ends the game, and returns its last line.

@@ -326,9 +326,11 @@ class Ruling(Arrays):
     first: int  # The ball that the cue ball met first, -1 for none
     points: float
     balls: dtypes.Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
+    put: frozenset[int]  # Balls that lie elsewhere than the shot left them
     state: State  # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own eight numbers
     score: tuple[int, int]  # Of straight pool and snooker: points of the next player, and of the other; of one-pocket their balls, below 0 those that they owe
     facts: Facts  # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was met in one that ended in an error
+    text: str  # All of that in words
     shot: Shot
 
 
@@ -366,28 +368,25 @@ def referee(
     failed = shots.status[0] < 0
     if shots.refused[0]:
         raise CaromError(int(shots.status[0]), "balls, cue")
-    states: Any = made.state
-    called: Array = np.array([[whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]], np.int32)
-    turns = judge(made, layout[np.newaxis], shots, states, called)
-    met = pointer("carom_facts *", shots._facts)
-    facts = _facts(ffi.new("carom_facts *", {"first": [-1, -1]}) if failed else met)
-
-    # The next layout.
-    after = layout.copy()
-    if not failed and turns["leave"][0] != lib.CAROM_LEAVE_BEFORE:
-        after["state"] = shots.final[0]
-    beyond = [ball for ball in _of_set(int(turns["spot"][0])) if ball >= len(after)]
-    if beyond:
-        raise ValueError(f"Turn.spot: there are {len(after)} balls, none is {beyond[0]}")
-    code = lib.carom_turn_settle(
-        made.c, pointer("carom_rules_state[]", states), pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", after), len(after),
-        pointer("carom_turn[]", turns),
+    ruling = ffi.new("carom_ruling *")
+    seen = ffi.new("carom_shot *", {"facts": pointer("carom_facts *", shots._facts), "final": pointer("carom_ball_state[]", shots.final)})
+    called = ffi.new("carom_call *", [whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)])
+    code = lib.carom_referee(
+        made.c, pointer("carom_table *", table.record), pointer("carom_shot_ball[]", layout), len(layout), 0, ffi.NULL if failed else seen, called[0], ruling
     )
+    made.check()
+    facts, turn = _facts(ffi.addressof(ruling, "facts")), ruling.turn
+    beyond = [ball for ball in _of_set(turn.spot) if ball >= len(layout)]
+    if beyond:
+        raise ValueError(f"Turn.spot: there are {len(layout)} balls, none is {beyond[0]}")
     if code < 0:
         raise CaromError(code, "Turn.spot", text="there is no room for a ball that comes back")
-    turn = turns[0]
+    after = np.frombuffer(ffi.buffer(ruling.balls, layout.nbytes), dtypes.shot_ball).copy()
+    state = np.frombuffer(ffi.buffer(ffi.addressof(ruling, "state")), dtypes.rules_state).copy().reshape(())
+    words = ffi.new("char[]", 256)
+    lib.carom_ruling_string(ruling, words, 256)
     hands: dict[int, Hand] = {lib.CAROM_LEAVE_HAND: "anywhere", lib.CAROM_LEAVE_KITCHEN: "kitchen", lib.CAROM_LEAVE_D: "d"}
     return Ruling(
-        tuple(_TURNS)[turn["is"]], Foul(int(turn["foul"])), hands.get(int(turn["leave"]), "no"), tuple(facts.potted), facts.first,
-        float(turn["points"]), after, states["user"] if isinstance(rules, Rules) else states, tuple((states["score"] - states["lost"]).tolist()), facts, shots[0],
+        tuple(_TURNS)[getattr(turn, "is")], Foul(turn.foul), hands.get(turn.leave, "no"), tuple(facts.potted), facts.first, turn.points, after, _of_set(ruling.put),
+        state["user"] if isinstance(rules, Rules) else state, tuple((state["score"] - state["lost"]).tolist()), facts, ffi.string(words).decode(), shots[0],
     )  # fmt: skip
