@@ -1,0 +1,56 @@
+// The game of match.cpp in C#: Match.exe FILE keeps its recording.
+using System;
+using System.Globalization;
+using System.IO;
+using Carom;
+
+static class Match {
+  static int Main(string[] arguments) {
+    CultureInfo.DefaultThreadCurrentCulture = CultureInfo.CurrentCulture = CultureInfo.InvariantCulture;
+    var table = Billiards.Table(TableKind.Pool9ft);
+    var cue = Billiards.Cue(Game.Pool);
+    var rules = Billiards.Rules(RulesKind.Nineball);
+    rules.state.opening = 1; // before the break
+    var film = new Film();
+    int player = 0, winner = -1, frames = 0;
+    double loudest = 0; // N s
+    using (var game = new Recording())
+    using (var read = new Recording()) {
+      string lines = game.Begin(table, Billiards.Rack(RackKind.Nineball, table, 1e-4, 2));
+      for (ulong number = 0; winner < 0; number++) {
+        // the player thinks, while the shot of the other is drawn
+        var position = new Position(table, game.Layout(), cue, rules, player == 0 ? 500 : 600);
+        position.Options.shots = 300;
+        Choice best;
+        using (var mind = position.Think(500, 1, game.InHand)) {
+          for (int frame = 0; !mind.Ended; frame++, frames++) {
+            mind.GoOn();
+            if (number > 0) film.At(game.Last, frame / 60.0);
+          }
+          best = mind.Choices[0];
+        }
+
+        // the stroke, and how it sounds
+        if (game.InHand) lines += game.Place(0, best.place[0], best.place[1]);
+        lines += game.Shoot(Billiards.Strike(position.Player, 1, number, best.cue));
+        foreach (var happened in game.Last.Events) loudest = Math.Max(loudest, happened.impulse);
+
+        // the ruling, and the layout that it leaves
+        var ruling = Billiards.Referee(rules, game.Last, new Call { ball = best.ball, pocket = best.pocket });
+        Console.WriteLine($"{player + 1}: {Billiards.Words(ref ruling)}");
+        rules.state = ruling.state;
+        lines += game.Settle(ref ruling);
+        player = ruling.next == 1 ? 1 - player : player;
+        winner = ruling.winner == 1 ? 1 - player : ruling.winner == 0 ? player : -1;
+      }
+      lines += game.End();
+      File.WriteAllText(arguments[0], lines);
+      Console.WriteLine($"player {winner + 1} wins; {frames} frames, the hardest blow {loudest:F4} N s");
+
+      // a reader plays every shot again, and compares its bits
+      foreach (var line in File.ReadLines(arguments[0]))
+        if (!read.Read(line)) throw new Exception("a shot has other bits than were recorded");
+      return read.Ended ? 0 : 1;
+    }
+  }
+}
