@@ -659,7 +659,7 @@ export class Carom {
     return replayed(this.#recordings, recording);
   }
 
-  /** What the cue ball touches first, or undefined. The shot is followed until then only, so this costs a fraction of `simulate`. */
+  /** What the cue ball touches first, or undefined. The shot is followed until then only, but its state is kept: this costs as much as `simulate`. */
   firstContact(table: Table, balls: readonly ShotBall[], cue?: Partial<Cue>, options: Omit<ShotOptions, "stopAt"> = {}): Contact | undefined {
     return this.simulate(table, balls, cue, { ...options, stopAt: "contact" }).firstContact;
   }
