@@ -132,7 +132,7 @@ int command_record(int argc, char **argv) {
   int code = parse_arguments(&record_form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
-  shot_file *file = shot_file_open(path);
+  shot_file *file = shot_file_open(path, CAROM_SHOT_CUSHION_DEFAULT);
   FILE *out = file != NULL ? output_open(job.shared.output) : NULL;
   bool good = true;
   shot_read what = SHOT_FAILED;

@@ -432,7 +432,7 @@ int command_shoot(int argc, char **argv) {
     return EXIT_USAGE;
   shot_file *file = job.together
                         ? flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS, &lines)
-                        : shot_file_open(path);
+                        : shot_file_open(path, options.cushion_model);
   FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;
   code = EXIT_USAGE;
   if (out != NULL && job.from.json) {

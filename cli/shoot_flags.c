@@ -168,10 +168,7 @@ static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion)
             : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
                                                : CAROM_GAME_POOL;
   carom_ball_kind ball;
-  if (!carom_ball_kind_for(l->game, cushion, &ball))
-    complain("%s has no constants for the cushion %s: the balls have those for its default model",
-             carom_word(CAROM_WORDS_GAME, (int)l->game),
-             carom_word(CAROM_WORDS_SHOT_CUSHION, (int)cushion));
+  kind_of_game(l->game, cushion, &ball);
   give_ball(&f->shared.with, &ball);
   snprintf(l->name[0], PLACE_NAME, "cue");
   l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
@@ -482,7 +479,8 @@ shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_option
                             "0.5,1.6:0.9,1.2");
     return NULL;
   }
-  return path != NULL ? shot_file_open(path) : flags_open(f, options, most, text);
+  return path != NULL ? shot_file_open(path, options->cushion_model)
+                      : flags_open(f, options, most, text);
 }
 
 int strokes_read(shot_file *file, const shared_options *shared, shot_line *line, carom_cue *cues,

@@ -25,6 +25,7 @@ struct shot_file {
   named_table **table; /* each stays where it is, for the shots that refer to it */
   size_t tables, room;
   char engine[64];
+  carom_shot_cushion cushion; /* whose constants balls have by the name of their game */
 };
 
 static named_table *find_table(const shot_file *file, const char *id) {
@@ -58,9 +59,18 @@ static bool read_kind(const json_t *params, const char *where, carom_ball_kind *
   return true;
 }
 
+void kind_of_game(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {
+  static bool told = false;
+  if (!carom_ball_kind_for(game, cushion, kind) && !told)
+    complain("%s has no constants for the cushion %s: the balls have those for its default model",
+             carom_word(CAROM_WORDS_GAME, (int)game),
+             carom_word(CAROM_WORDS_SHOT_CUSHION, (int)cushion));
+  told |= !carom_ball_kind_for(game, cushion, NULL);
+}
+
 /* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */
-static bool read_game(const json_t *params, const char *where, carom_ball_kind *kind,
-                      json_fault *f) {
+static bool read_game(shot_file *file, const json_t *params, const char *where,
+                      carom_ball_kind *kind, json_fault *f) {
   const json_t *game = json_object_get(params, "game");
   *kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
   if (game == NULL)
@@ -68,20 +78,14 @@ static bool read_game(const json_t *params, const char *where, carom_ball_kind *
   const char *name;
   for (int k = 0; (name = carom_word(CAROM_WORDS_GAME, k)) != NULL; k++)
     if (json_is_string(game) && strcmp(name, json_string_value(game)) == 0) {
-      *kind = carom_ball_kind_of((carom_game)k);
+      kind_of_game((carom_game)k, file->cushion, kind);
       return true;
     }
-  char all[200] = "";
-  for (int k = 0, size = 0; (name = carom_word(CAROM_WORDS_GAME, k)) != NULL; k++)
-    size += snprintf(all + size, sizeof all - (size_t)size, "%s%s",
-                     k == 0                                        ? ""
-                     : carom_word(CAROM_WORDS_GAME, k + 1) != NULL ? ", "
-                                                                   : " or ",
-                     name);
-  return json_wrong(f, "%sgame must be %s", where, all);
+  return json_wrong(f, "%sgame must be %s", where,
+                    words_of(CAROM_WORDS_GAME, true, (char[MOST_WORDS]){""}));
 }
 
-static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
+static bool read_ball(shot_file *file, const json_t *v, int k, shot_line *line, json_fault *f) {
   char where[64], key[80];
   snprintf(where, sizeof where, "balls[%d].", k);
   if (!json_get_id(v, where, &line->name[k], f))
@@ -94,7 +98,7 @@ static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
   if (params != NULL && !json_is_object(params))
     return json_wrong(f, "%sparams must be an object", where);
   snprintf(key, sizeof key, "%sparams.", where);
-  if (!read_game(params, key, kind, f) || !read_kind(params, key, kind, &line->given, f))
+  if (!read_game(file, params, key, kind, f) || !read_kind(params, key, kind, &line->given, f))
     return false;
   if (json_object_get(params, "u_sp") == NULL && json_object_get(params, "game") == NULL)
     kind->mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind->radius;
@@ -153,7 +157,7 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
   if (json_array_size(balls) == 0)
     return json_wrong(f, "balls must be an array of 1 to %d balls", CAROM_BALLS_MOST);
   json_array_foreach((json_t *)balls, k, v) {
-    if (!read_ball(v, (int)k, line, f))
+    if (!read_ball(file, v, (int)k, line, f))
       return false;
     line->count++;
   }
@@ -180,13 +184,15 @@ static void *json_memory(size_t size) {
   return allocate(size, 1);
 }
 
-shot_file *shot_file_open(const char *path) {
+shot_file *shot_file_open(const char *path, carom_shot_cushion cushion) {
   FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
   if (in == NULL) {
     complain("cannot read %s: %s", path, strerror(errno));
     return NULL;
   }
-  return shot_file_of(in, in == stdin ? "standard input" : path);
+  shot_file *file = shot_file_of(in, in == stdin ? "standard input" : path);
+  file->cushion = cushion;
+  return file;
 }
 
 shot_file *shot_file_of(FILE *in, const char *name) {

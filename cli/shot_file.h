@@ -28,11 +28,15 @@ typedef struct shot_line {
 
 typedef struct shot_file shot_file;
 
-/* Opens a file, "-" for stdin. Complains and returns NULL if that fails. */
-shot_file *shot_file_open(const char *path);
+/* Opens a file, "-" for stdin, of which games have their constants for the model of the cushion.
+ * Complains and returns NULL if that fails. */
+shot_file *shot_file_open(const char *path, carom_shot_cushion cushion);
 
 /* The same of a stream, which it closes; `name` is for messages. */
 shot_file *shot_file_of(FILE *in, const char *name);
+
+/* The balls of a game for a model of the cushion; tells once where the game has none for it. */
+void kind_of_game(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind);
 
 /* The name of the file for messages. */
 const char *shot_file_name(const shot_file *file);

@@ -59,7 +59,7 @@ static bool verified(timed_shot *t) {
 }
 
 static bool read_shots(bench_job *job) {
-  if ((all.file = shot_file_open(job->shots)) == NULL)
+  if ((all.file = shot_file_open(job->shots, CAROM_SHOT_CUSHION_DEFAULT)) == NULL)
     return false;
   timed_shot t = {.options = job->shared.shot};
   t.options.threads = job->threads.count > 0 ? atoi(job->threads.name[0]) : 1;

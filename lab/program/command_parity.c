@@ -227,7 +227,7 @@ int command_parity(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
-  shot_file *file = shot_file_open(path);
+  shot_file *file = shot_file_open(path, CAROM_SHOT_CUSHION_DEFAULT);
   if (file == NULL)
     return EXIT_USAGE;
   shot_line line;
