@@ -47,7 +47,8 @@ enum { OFF, LOADING, UNLOADING };
 typedef struct press {
   int branch;
   double k, e, T;
-  double down;         /* v_n, m/s */
+  double down, blow;   /* v_n, m/s, and v_n pi/(2 T) */
+  double stiff, rest;  /* of the branch: its k, and the overlap at which it is without a force */
   double t, d, d_max;  /* s, m */
   double v;            /* down, m/s */
   double sine, cosine; /* of pi t / T */
@@ -76,19 +77,19 @@ void carom_slate_under(const carom_ball_kind *kind, double *k, double *e) {
 
 static press_step step_of(const press *p, double h) {
   press_step to;
+  double s, c;
   memset(&to, 0, sizeof to);
+  carom_sincos(1.57079632679489662 / p->T * h, &s, &c);
   to.h = h;
-  carom_sincos(1.57079632679489662 / p->T * h, &to.turn_s, &to.turn_c);
+  to.turn_s = s;
+  to.turn_c = c;
   return to;
 }
 
 /* Down, of the pulse and the force of the branch. */
 static inline double acceleration(const press *p, double sine, double d) {
-  const double pulse = p->down * (1.57079632679489662 / p->T) * sine, e2 = p->e * p->e;
-  const double y = p->branch == UNLOADING ? d - (1.0 - e2) * p->d_max : d;
-  if (p->branch == OFF || y <= 0.0)
-    return pulse;
-  return pulse - (p->branch == LOADING ? p->k : p->k / (e2 * p->e)) * y * sqrt(y);
+  const double pulse = p->blow * sine, y = d - p->rest;
+  return y <= 0.0 ? pulse : pulse - p->stiff * y * sqrt(y);
 }
 
 /* Nystrom's method from the state of p. */
@@ -125,7 +126,7 @@ static double zero_within(double q0, double v0, double q1, double v1, double h) 
 /* Where the branch ends within a step, as a part of it; 1: it does not. *next becomes the branch
  * that follows. */
 static double end_of_branch(const press *p, const press_step *to, int *next) {
-  const double rest = (1.0 - p->e * p->e) * p->d_max;
+  const double rest = p->rest;
   *next = p->branch == LOADING ? UNLOADING : LOADING;
   if (p->branch == LOADING && p->v > 0.0 && to->v < 0.0)
     return zero_within(p->v, to->a[0], to->v, to->a[1], to->h);
@@ -142,9 +143,14 @@ static double end_of_branch(const press *p, const press_step *to, int *next) {
 
 /* Begins the next branch where the last one has ended. */
 static void turn_to(press *p, int next) {
+  const double e2 = p->e * p->e;
+  p->stiff = next == OFF ? 0.0 : p->k;
+  p->rest = 0.0;
   if (next == UNLOADING) {
     p->d_max = p->d;
     p->v = 0.0;
+    p->stiff = p->k / (e2 * p->e);
+    p->rest = (1.0 - e2) * p->d_max;
   } else if (next == OFF) {
     p->d = p->d_max = 0.0;
   }
@@ -154,9 +160,12 @@ static void turn_to(press *p, int next) {
 /* The pulse, from its begin to its end. Returns the slip that is left. */
 static double press_on(press *p, double slip, double friction) {
   const double least = carom_lesser(p->T, contact_at_1) / (double)PARTS,
-               of_pulse = slip - friction * p->down;
-  /* unloading is as much shorter as e is below 1 */
-  const press_step whole = step_of(p, least), shorter = step_of(p, p->e * least);
+               of_pulse = slip - friction * p->down,
+               of_rate = of_pulse * (1.57079632679489662 / p->T);
+  /* The first loading is smooth: twice as long steps keep the errors of physics/strike at 5e-5 in
+   * 99 of 100, three times as long 7e-5. Unloading is as much shorter as e is below 1. */
+  const double first = p->T < contact_at_1 ? 1.5 : 2.0;
+  press_step whole = step_of(p, first * least), shorter = step_of(p, p->e * least);
   double lowest = 0.0, X = 0.0, rate = 0.0;
   bool more = true;
   for (int n = 0; more && n < STEPS_MOST; n++) {
@@ -183,13 +192,15 @@ static double press_on(press *p, double slip, double friction) {
     /* the least X, within a step the vertex of a parabola */
     const double before = X, rate_before = rate;
     X = of_pulse * (0.5 * (1.0 - p->cosine)) + friction * p->v;
-    rate = of_pulse * (1.57079632679489662 / p->T) * p->sine + friction * to.a[1];
+    rate = of_rate * p->sine + friction * to.a[1];
     lowest = carom_lesser(lowest, X);
     if (rate_before < 0.0 && rate > 0.0)
       lowest = carom_lesser(lowest,
                             before + 0.5 * to.h * rate_before * rate_before / (rate_before - rate));
-    if (part < 1.0)
+    if (part < 1.0) {
       turn_to(p, next);
+      whole = step_of(p, least);
+    }
   }
   return X - lowest;
 }
@@ -215,12 +226,13 @@ double carom_press_on_slate(const carom_ball_kind *kind, double tip_time, carom_
   const carom_touch touch = carom_touch_slate(kind, s);
   press p;
   memset(&p, 0, sizeof p);
-  p.branch = LOADING;
   p.k = stiffness_of_slate();
   p.e = carom_greater(e, least_e);
   p.T = tip_time > 0.0 ? tip_time : CAROM_TIP_TIME;
   p.down = touch.closing;
+  p.blow = p.down * (1.57079632679489662 / p.T);
   p.cosine = 1.0;
+  turn_to(&p, LOADING);
   const double left = press_on(&p, touch.slip, friction);
 
   /* the rest of the contact, and the end of hops */
