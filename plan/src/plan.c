@@ -218,11 +218,13 @@ static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand)
 /* Begins a plan that plays shots, in its memory. */
 static carom_status begin_to_play(search *plan, const carom_plan_job *job, bool in_hand) {
   const carom_status bad = begin(plan, job, in_hand);
+  if (bad != CAROM_OK)
+    return bad;
   plan->late = plan->joins = false;
-  plan->seconds = bad == CAROM_OK ? plan->options.seconds : 0.0;
-  if (bad == CAROM_OK && plan->options.unsure > 0.0)
+  plan->seconds = plan->options.seconds;
+  if (plan->options.unsure > 0.0)
     carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));
-  return bad;
+  return CAROM_OK;
 }
 
 /* ---- What callers have */
