@@ -102,6 +102,7 @@ def words():
     models = [(text_of(row[1]), text_of(row[-1])) for _, row in rows("cushion/list.h", "CAROM_CUSHION_MODELS")]
     found["CUSHION_MODEL"] = models
     found["SHOT_CUSHION"] += models
+    found["RULES"] = [(text_of(row[2]), text_of(row[3])) for _, row in rows("../plan/src/games.h", "CAROM_GAMES")]
     found["BALL_FRICTION"] = [(text_of(row[1]), text_of(row[-1])) for _, row in rows("friction/laws.h", "CAROM_FRICTION_LAWS")]
     return found
 
@@ -116,6 +117,15 @@ def parts():
             for kind, (name, key, unit, low, high, other, error, text) in rows("about/numbers.h", f"CAROM_{struct.removeprefix('ball_').upper()}_NUMBERS")
         ]  # fmt: skip
     return found
+
+
+def games():
+    """What each game of words()["RULES"] has: its balls and rack, the highest number of a ball, where the cue ball is at first, whether a call is made, the members of its state."""
+    named = {row[1]: text_of(row[2]) for _, row in rows("about/words.h", "CAROM_WORD_ROWS")}
+    return {
+        text_of(word): {"balls": named[f"GAME_{balls}"], "rack": named[f"RACK_{rack}"], "last": int(last), "opening": opening.lower(), "calls": calls == "1", "members": members.lower().split(" | ")}
+        for _, (_name, _rules, word, _text, balls, rack, last, opening, _hand, calls, members, _may) in rows("../plan/src/games.h", "CAROM_GAMES")
+    }
 
 
 STRUCTS = {
@@ -149,7 +159,7 @@ def options():
     return found
 
 
-OF_PYTHON = "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSHION_MODEL CUSHION_CONVENTION CUSHION_LAW GAME SOLVER SLIP".split()
+OF_PYTHON = "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSHION_MODEL CUSHION_CONVENTION CUSHION_LAW GAME SOLVER SLIP RULES".split()
 # Options of shots that Python has in another form: their types, defaults, texts.
 OWN = [
     ("t_final", "float | None", "None", "The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that "
@@ -224,7 +234,7 @@ def python():
 
 if __name__ == "__main__":
     made = {
-        "json": lambda: json.dumps({"numbers": numbers(), "options": options(), "parts": parts(), "words": words()}, indent=1) + "\n",
+        "json": lambda: json.dumps({"numbers": numbers(), "options": options(), "parts": parts(), "words": words(), "games": games()}, indent=1) + "\n",
         "python": python,
     }
     sys.stdout.write(made[sys.argv[1]]())

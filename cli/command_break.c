@@ -60,7 +60,7 @@ static uint32_t wings_of(const carom_table *t, const carom_shot_ball *ball, int 
 /* The rules of a rack's game, at a break; false where carom has none. */
 static bool rules_of(carom_rack_kind rack, carom_plan_rules *rules) {
   const char *name, *own = carom_rack_name(rack);
-  for (int k = 0; (name = carom_rules_name((carom_rules_kind)k)) != NULL; k++)
+  for (int k = 0; (name = carom_word(CAROM_WORDS_RULES, k)) != NULL; k++)
     if (strcmp(name, own) == 0) {
       *rules = carom_plan_rules_of((carom_rules_kind)k);
       rules->state.opening = 1;

@@ -29,34 +29,29 @@ typedef struct plan_job {
   const char *plot;
 } plan_job;
 
-OPTION(plan_job, option_rules, "rules", game.rules, 0,
-       "eightball|nineball|potting|threecushion|straight|snooker|onepocket", set_choice, 0,
+OPTION(plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
        "the game (default eightball; potting is none: all balls count). Balls are named cue and by "
        "their numbers, those of snooker as "
        "in its rack: red1, yellow; potting and threecushion take any names");
 OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
-       "of eight-ball: the balls of the player (default open: any but the eight)");
-OPTION(
-    plan_job, option_may, "may", game.may, 0, "shoot|push-out|pass|free-ball", set_choice, 0,
-    "what the player may do besides a shot (default shoot: nothing). In nine-ball it is a push-out "
-    "after the break, to pass after a push-out; in straight pool to pass after a bad break; in "
-    "snooker to pass after a foul, free-ball: that, and to play any ball");
-OPTION(
-    plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0,
-    "of straight pool, snooker and one-pocket: points, or balls, of the player and of the other; "
-    "below 0 those that he owes in one-pocket (default 0,0)");
+       "the balls of the player, where each has a group (default open: any but the eight)");
+OPTION(plan_job, option_may, "may", game.may, 0, "shoot|push-out|pass|free-ball", set_choice, 0,
+       "what the rules let the player do besides a shot (default shoot: nothing); free-ball: to "
+       "pass, and to play any ball");
+OPTION(plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0,
+       "points, or balls, of the player and of the other; below 0 those that he lost or owes "
+       "(default 0,0)");
 OPTION(plan_job, option_own_pocket, "own-pocket", game.pocket, 0, "foot-right|foot-left",
-       set_choice, 0, "of one-pocket: that of the player (default foot-right)");
+       set_choice, 0, "that of the player, where each has one (default foot-right)");
 OPTION(plan_job, option_target, "target", game.target, 0, "N", set_count, 1,
-       "of straight pool: points that win (default 100)");
+       "points that win, where the rules leave it open");
 OPTION(plan_job, option_colour, "colour", game.colour, 0, NULL, set_flag, 0,
        "of snooker: a colour is on, after a red");
-OPTION(
-    plan_job, option_opening, "opening", game.opening, 0, NULL, set_flag, 0,
-    "of eight-ball, nine-ball and straight pool: the stroke is the break. With --in-hand the cue "
-    "ball is put on the head string, in straight pool behind it");
+OPTION(plan_job, option_opening, "opening", game.opening, 0, NULL, set_flag, 0,
+       "the stroke is the break. With --in-hand the cue ball is put on the head string, or behind "
+       "it");
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
-       "the cue ball is in hand: where to put it, too. In one-pocket it is behind the head string");
+       "the cue ball is in hand: where to put it, too, as far as the rules leave it");
 static const option_row options_of_plan = {
     .set = set_option, .field = offsetof(plan_job, plan), .part = CAROM_PART_PLAN_OPTIONS};
 OPTION(plan_job, option_try, "try", tries, 0, NULL, set_flag, 0,
@@ -281,8 +276,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     line->cue.ball = 0;
   }
   player_of(&job->from.shared.player, &p->player);
-  p->rules = carom_plan_rules_of((carom_rules_kind)job->game.rules);
-  plan_game_state(&job->game, line, &p->rules.state);
+  plan_game_state(&job->game, line, &p->rules);
   carom_plan_options options = job->plan;
   options.threads = job->from.shared.options.threads;
   if (job->from.shared.player.rated && options.shots == 0)
@@ -299,8 +293,8 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   asked.memory = allocate(1, asked.memory_size);
   static carom_choice choices[TRIED_MOST];
   int n = tried;
-  const bool kitchen = (job->game.opening && job->game.rules == CAROM_RULES_STRAIGHT) ||
-                       job->game.rules == CAROM_RULES_ONEPOCKET;
+  const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)job->game.rules);
+  const bool kitchen = (job->game.opening ? about->opening : about->hand) == CAROM_LEAVE_KITCHEN;
   const double high[2] = {line->table->table.width, 0.25 * line->table->table.length};
   const carom_status status =
       job->value  ? tell_value(job, &asked, out)
@@ -310,7 +304,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   if (status != CAROM_OK) {
     free(asked.memory);
     complain("%s:%zu: by --rules %s: %s", file, line->number,
-             carom_rules_name((carom_rules_kind)job->game.rules), carom_status_string(status));
+             carom_word(CAROM_WORDS_RULES, job->game.rules), carom_status_string(status));
     return EXIT_USAGE;
   }
   if (job->why && tried == 0)
@@ -377,7 +371,7 @@ int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
   job = (plan_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}},
-                   .game = {.group = NOT_GIVEN, .may = NOT_GIVEN}};
+                   .game = {.pocket = NOT_GIVEN}};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;

@@ -44,15 +44,15 @@ static int foot_of(const shot_line *line, bool is_left) {
 /* Puts the balls where their numbers are, with those that are missing in a pocket: the line's
  * balls and names change. */
 bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
-  static const int lasts[] = {15, 9, 0, 0, 15, 21, 15}; /* 0: balls have any names */
-  const int last = lasts[game->rules];
-  const bool snooker = game->rules == CAROM_RULES_SNOOKER;
+  const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)game->rules);
+  const carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)game->rules);
+  const int last = about->last;
+  const bool snooker = about->rack == CAROM_RACK_SNOOKER;
   if (last == 0)
     return true;
-  if (game->rules == CAROM_RULES_ONEPOCKET &&
-      (foot_of(line, true) < 0 || foot_of(line, false) < 0)) {
-    complain("%s:%zu: one-pocket needs a table with corner pockets at the foot", file,
-             line->number);
+  if (rules.pockets != NULL && (foot_of(line, true) < 0 || foot_of(line, false) < 0)) {
+    complain("%s:%zu: %s needs a table with corner pockets at the foot", file, line->number,
+             about->name);
     return false;
   }
 
@@ -75,13 +75,13 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
     name[number] = line->name[k];
   }
 
-  /* in one-pocket those that count are down */
+  /* where balls count, those are down */
   const int own = game->score[0] > 0 ? game->score[0] : 0,
             other = game->score[1] > 0 ? game->score[1] : 0;
   const int down = last + 1 - line->count;
-  if (game->rules == CAROM_RULES_ONEPOCKET && own + other > down) {
-    complain("%s:%zu: --score: %d balls count, but %d of 15 are down", file, line->number,
-             own + other, down);
+  if (rules.race == CAROM_RACE_OWN && own + other > down) {
+    complain("%s:%zu: --score: %d balls count, but %d of %d are down", file, line->number,
+             own + other, down, last);
     return false;
   }
 
@@ -104,52 +104,36 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
   return true;
 }
 
-/* What may be done in a game: the same, or 0. */
-static int may_of(int rules, int may) {
-  enum { PUSH = 1, PASS = 2, FREE = 3 };
-  const bool nine = rules == CAROM_RULES_NINEBALL, snooker = rules == CAROM_RULES_SNOOKER;
-  const bool passes = nine || snooker || rules == CAROM_RULES_STRAIGHT;
-  return (may == PUSH && nine) || (may == PASS && passes) || (may == FREE && snooker) ? may : 0;
-}
-
-bool plan_game_fits(const plan_game *game) {
-  if (game->group != NOT_GIVEN && game->rules != CAROM_RULES_EIGHTBALL)
-    complain("--group: it is of eight-ball, so --rules eightball is needed");
-  else if (game->may > 0 && game->may != may_of(game->rules, game->may))
-    complain(
-        "--may: a push-out is of nine-ball, to pass of that, straight pool and snooker, a free "
-        "ball of snooker");
-  else if (game->opening && game->rules >= CAROM_RULES_POTTING &&
-           game->rules != CAROM_RULES_STRAIGHT)
-    complain("--opening: it is of eight-ball, nine-ball and straight pool");
-  else if ((game->score[0] != 0 || game->score[1] != 0) && game->rules < CAROM_RULES_STRAIGHT)
-    complain("--score: it is of straight pool, snooker and one-pocket");
-  else if ((game->score[0] < 0 || game->score[1] < 0) && game->rules != CAROM_RULES_ONEPOCKET)
-    complain("--score: it must be at least 0; below it are balls that are owed in one-pocket");
-  else if (game->target > 0 && game->rules != CAROM_RULES_STRAIGHT)
-    complain("--target: it is of straight pool, so --rules straight is needed");
-  else if (game->pocket > 0 && game->rules != CAROM_RULES_ONEPOCKET)
-    complain("--own-pocket: it is of one-pocket, so --rules onepocket is needed");
-  else if (game->colour && game->rules != CAROM_RULES_SNOOKER)
-    complain("--colour: it is of snooker, so --rules snooker is needed");
-  else
-    return true;
-  return false;
-}
-
-/* The state of a game, as carom_rules_kind has it. */
-void plan_game_state(const plan_game *game, const shot_line *line, carom_rules_state *state) {
+void plan_game_state(const plan_game *game, const shot_line *line, carom_plan_rules *rules) {
+  static const int32_t may[] = {0, CAROM_MAY_PUSH, CAROM_MAY_PASS,
+                                CAROM_MAY_PASS | CAROM_MAY_FREE_BALL};
+  *rules = carom_plan_rules_of((carom_rules_kind)game->rules);
+  carom_rules_state *state = &rules->state;
   state->opening = game->opening;
-  state->group = game->group > 0 ? game->group : 0;
+  state->group = game->group;
+  state->may = may[game->may];
   state->on = game->colour;
   state->target = game->target > 0 ? game->target : state->target;
   for (int who = 0; who < 2; who++) {
     state->score[who] = game->score[who] > 0 ? game->score[who] : 0;
     state->lost[who] = game->score[who] < 0 ? -game->score[who] : 0;
-    if (game->rules == CAROM_RULES_ONEPOCKET)
-      state->pocket[who] = foot_of(line, (game->pocket == 1) == (who == 0));
+    if (rules->pockets != NULL || game->pocket >= 0)
+      state->pocket[who] = line != NULL ? foot_of(line, (game->pocket == 1) == (who == 0)) : 1;
   }
-  static const int32_t may[] = {0, CAROM_MAY_PUSH, CAROM_MAY_PASS,
-                                CAROM_MAY_PASS | CAROM_MAY_FREE_BALL};
-  state->may = game->may > 0 ? may[game->may] : 0;
+}
+
+/* What is given and the game does not have, by the library's rows. */
+bool plan_game_fits(const plan_game *game) {
+  const char *range;
+  carom_plan_rules rules;
+  plan_game_state(game, NULL, &rules);
+  const char *wrong = carom_rules_fault((carom_rules_kind)game->rules, &rules.state, &range);
+  if (wrong != NULL)
+    complain("--rules %s: --%s: it must be %s", carom_word(CAROM_WORDS_RULES, game->rules),
+             strcmp(wrong, "on") == 0       ? "colour"
+             : strcmp(wrong, "lost") == 0   ? "score"
+             : strcmp(wrong, "pocket") == 0 ? "own-pocket"
+                                            : wrong,
+             range);
+  return wrong == NULL;
 }

@@ -732,7 +732,7 @@ typedef struct carom_facts {
   int32_t touches; /* of the tip: 0 without a strike, 1, or 2 and more of a double hit within the
                       push. Positions stay during a push. A touch after its end, as of a cue that
                       follows through at a ball some mm ahead, is not computed. */
-  int32_t unused;  /* 0. */
+  uint32_t banked; /* the set of the balls that met a cushion beside its jaws and cuts. */
 } carom_facts;
 
 /* The result of a shot. All zero is a shot of which only count and time are wanted; the caller
@@ -1087,7 +1087,8 @@ typedef enum carom_words {
   CAROM_WORDS_TABLE = 12,             /* carom_table_kind, */
   CAROM_WORDS_RACK = 13,              /* carom_rack_kind, */
   CAROM_WORDS_SOLVER = 14,            /* carom_solver, */
-  CAROM_WORDS_SLIP = 15               /* carom_slip. */
+  CAROM_WORDS_SLIP = 15,              /* carom_slip, */
+  CAROM_WORDS_RULES = 16              /* carom_rules_kind; none without the planner. */
 } carom_words;
 
 /* The word of a value ("han"), and what it is in a few words; NULL where there is none. */

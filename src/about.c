@@ -9,6 +9,7 @@
 #include "friction/laws.h"
 #ifndef CAROM_WITHOUT_PLAN
 #include "carom_plan.h"
+#include "games.h"
 #include "plan_options.h"
 #endif
 
@@ -323,6 +324,9 @@ static const struct word {
 #define LAW(NAME, word, of, numbers, at, ahead, sources, text) \
   {CAROM_WORDS_BALL_FRICTION, CAROM_FRICTION_##NAME, word, text},
     CAROM_WORD_ROWS(WORD) CAROM_CUSHION_MODELS(CUSHION) CAROM_FRICTION_LAWS(LAW)
+#ifndef CAROM_WITHOUT_PLAN
+        CAROM_GAMES(CAROM_GAME_WORD)
+#endif
 #undef WORD
 #undef CUSHION
 #undef LAW

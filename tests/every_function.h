@@ -196,12 +196,12 @@ EVERY_BODY(cushion_start) {
   return h;
 }
 EVERY_BODY(word) {
-  for (int of = 0; of <= CAROM_WORDS_SLIP; of++)
+  for (int of = 0; of <= CAROM_WORDS_RULES; of++)
     h = every_text(h, carom_word((carom_words)of, 1));
   return h;
 }
 EVERY_BODY(word_text) {
-  for (int of = 0; of <= CAROM_WORDS_SLIP; of++)
+  for (int of = 0; of <= CAROM_WORDS_RULES; of++)
     h = every_text(h, carom_word_text((carom_words)of, 1));
   return h;
 }

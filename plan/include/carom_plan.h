@@ -226,8 +226,9 @@ typedef struct carom_plan_rules {
   carom_rules_settle *settle;   /* NULL: balls go back to their spots, and nothing else comes. */
   int32_t rack;                 /* a carom_rack_kind, whose spots the balls have. 0: pool's. With
                                    that of snooker a cue ball in hand is in the D. */
-  int32_t unused;               /* must be 0, as are */
-  uint64_t reserved[4];         /* these. */
+  int32_t learned;              /* 1 + the carom_rules_kind whose played games tell chances; 0, and
+                                   where none were played: one with the same race. */
+  uint64_t reserved[4];         /* must be 0. */
 } carom_plan_rules;
 
 /* Rules that are built in. A ball's index is its number, and the cue ball is ball 0.
@@ -259,17 +260,35 @@ typedef enum carom_rules_kind {
                                    knows the better stroke. State: on, score, free_ball; may, after
                                    a foul of the other: to pass, so that he plays again, and a free
                                    ball. */
-  CAROM_RULES_ONEPOCKET = 6     /* one-pocket, BCA: 15 balls, any may be played, nothing is called.
+  CAROM_RULES_ONEPOCKET = 6,    /* one-pocket, BCA: 15 balls, any may be played, nothing is called.
                                    Eight balls win. Balls that are down and count for no one come
                                    back at the end of the visit. State: pocket, to begin with the
                                    foot right and the foot left one of carom_table_make(), of which
                                    who breaks chooses; score; lost, balls that are owed; fouls, of
                                    which a third loses. */
+  CAROM_RULES_BANK = 7          /* bank pool, BCA: 15 balls, any may be played; ball and pocket are
+                                   called. A ball counts that meets a cushion before it falls, where
+                                   the cue ball met it first, without a cushion before; what falls
+                                   otherwise comes back. Eight balls win. State: opening; score;
+                                   lost, balls that are owed. */
 } carom_rules_kind;
 
-/* Its name ("eightball", "nineball", "potting", "threecushion", "straight", "snooker",
- * "onepocket"), or NULL for a value not listed. */
-CAROM_API const char *carom_rules_name(carom_rules_kind kind);
+/* What a game is. */
+typedef struct carom_rules_about {
+  const char *name, *text; /* "nineball", and what it is in a few words. */
+  int32_t balls, rack;     /* the usual ones: a carom_game and a carom_rack_kind. */
+  int32_t last;            /* the highest number of a ball; 0: balls have any. */
+  int32_t opening, hand;   /* the carom_leave before the first stroke, and after a foul that leaves
+                              the cue ball in hand. */
+} carom_rules_about;
+
+/* NULL for a value not listed. */
+CAROM_API const carom_rules_about *carom_rules_about_of(carom_rules_kind kind);
+
+/* Whether a game can stand so: returns the name of the first member that is wrong, and *range
+ * becomes what it must be, such as "0 to 7"; NULL where all are right. */
+CAROM_API const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *state,
+                                        const char **range);
 
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
 CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);

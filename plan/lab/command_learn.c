@@ -1,4 +1,4 @@
-/* `carom-lab learn`: a row of plan/src/learned_numbers.h, fitted to racks that are played.
+/* `carom-lab learn`: a row of plan/src/games.h, fitted to racks that are played.
  *
  * A rack begins after a break, with some balls taken away, and is played until the turn ends and
  * once more by the other, by players whose errors are drawn. Of each layout on the way the sample
@@ -6,8 +6,9 @@
  * maximum likelihood follow, by Newton's method: of whether the turn was kept; of each later stroke
  * of the visit, by the mean of each layout before it; and of whether the other kept the turn that
  * was left to him. In straight pool and snooker the break is as hard as in eight-ball, and in a
- * quarter of the racks of snooker no red is left, in a quarter a colour is on after a red. In
- * one-pocket it is gentle or hard, and the balls that are down are shared out at random.
+ * quarter of the racks of snooker no red is left, in a quarter a colour is on after a red. Where
+ * balls count for each player it is gentle or hard, and those that are down are shared out at
+ * random.
  */
 #include "command.h"
 #include "memory.h"
@@ -30,7 +31,7 @@ typedef struct learn_job {
   int rules, racks, shots, seed;
 } learn_job;
 
-OPTION(learn_job, learn_rules, "rules", rules, 0, LAB_GAMES, set_choice, 0,
+OPTION(learn_job, learn_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
        "the game (default eightball)");
 
 OPTION(learn_job, learn_racks, "racks", racks, 0, "N", set_count, 10,
@@ -125,7 +126,7 @@ static void open_snooker(lab_rack *rack, lab_random *draw) {
     take_away(rack, k);
 }
 
-/* One-pocket: the balls that are down count for both players, at most seven each. */
+/* The balls that are down count for both players, at most seven each. */
 static void share_out(lab_rack *rack, lab_random *draw) {
   enum { MOST = 7 };
   int down = 0;
@@ -141,30 +142,31 @@ static void play(const learn_job *job, int number, visit *to) {
   static const double errors[] = {0.25, 0.5, 1.0, 2.0, 3.0, 4.5};
   enum { PLAYERS = sizeof errors / sizeof errors[0] };
   lab_random draw = {((uint64_t)job->seed << 32) + 104729 * ((uint64_t)number + 1)};
-  const lab_game *game = &lab_games[job->rules];
+  const carom_rules_kind game = (carom_rules_kind)job->rules;
   const double scale = errors[(int)lab_uniform(&draw, 0.0, PLAYERS)];
   lab_rack rack = {.options = {.shots = job->shots}};
   lab_rack_begin(&rack, game, scale);
-  const bool snooker = game->rules == CAROM_RULES_SNOOKER,
-             onepocket = game->rules == CAROM_RULES_ONEPOCKET,
-             straight = game->rules == CAROM_RULES_STRAIGHT;
-  lab_rack_make(&rack, straight ? CAROM_RULES_EIGHTBALL : game->rules, lab_bits(&draw));
+  const carom_rules_about *about = carom_rules_about_of(game);
+  const bool snooker = game == CAROM_RULES_SNOOKER, straight = game == CAROM_RULES_STRAIGHT;
+  lab_rack_make(&rack, straight ? CAROM_RULES_EIGHTBALL : game, lab_bits(&draw));
   rack.rules = straight ? carom_plan_rules_of(CAROM_RULES_STRAIGHT) : rack.rules;
+  const bool groups = game == CAROM_RULES_EIGHTBALL, breaks = rack.rules.breaks;
+  const bool counts = rack.rules.race == CAROM_RACE_OWN && !groups;
   if (snooker)
     open_snooker(&rack, &draw);
-  if (onepocket)
+  if (counts)
     open_rack(&rack, &draw, 1.0, 8.0);
 
   /* some balls are down; the cue ball is anywhere, or in hand once in eight */
-  const int balls = game->balls;
-  if (job->rules == 0)
+  const int balls = groups ? 7 : snooker ? 15 : about->last - (breaks ? 1 : 2);
+  if (groups)
     rack.rules.state.group = CAROM_GROUP_SOLIDS;
-  for (int group = 0; group < (job->rules == 0 ? 2 : 1); group++)
+  for (int group = 0; group < (groups ? 2 : 1); group++)
     for (int left = (int)lab_uniform(&draw, 0.0, balls + 1); left > 0; left--) {
       const int k = 1 + 8 * group + (int)lab_uniform(&draw, 0.0, balls);
       take_away(&rack, k);
     }
-  if (onepocket)
+  if (counts)
     share_out(&rack, &draw);
   double x, y;
   do {
@@ -291,7 +293,7 @@ static void print_numbers(const sample *s, size_t count, chance_of what, int n, 
 }
 
 static void print_row(const learn_job *job, const sample *s, size_t count) {
-  const char *game = carom_rules_name(lab_games[job->rules].rules);
+  const char *game = carom_word(CAROM_WORDS_RULES, job->rules);
   double mean = 0.0;
   long strokes = 0;
   for (size_t k = 0; k < count; k++)
@@ -310,7 +312,7 @@ static const command_form form = {
     .name = "learn",
     .usage = "[OPTIONS]",
     .about = "Plays racks of a game by plans and fits the chances of pots to what came of them. "
-             "Prints the row of the game in plan/src/learned_numbers.h.\n",
+             "Prints the row of the game in plan/src/games.h.\n",
     .options = (const option_row *const[]){&learn_rules, &learn_racks, &learn_shots, &learn_seed,
                                            &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
@@ -325,6 +327,8 @@ int command_learn(int argc, char **argv) {
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
+  if (!lab_game_is_played(job.rules))
+    return EXIT_USAGE;
   const carom_plan_options options = {.shots = job.shots};
   if (carom_plan_memory(&options) == 0) {
     complain("--shots: it must be 100 to 1000000");

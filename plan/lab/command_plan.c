@@ -23,9 +23,9 @@ typedef struct strength_job {
   double errors, unsure;
 } strength_job;
 
-OPTION(strength_job, option_rules, "rules", rules, 0, LAB_GAMES, set_choice, 0,
-       "the game (default eightball). straight, snooker and onepocket are played from their racks, "
-       "by two players");
+OPTION(strength_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
+       "the game (default eightball). Games whose break is a stroke like others are played from "
+       "their racks, by two players");
 OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
        "play each rack to the end, by two players of the same errors; and tell the chances to win");
 
@@ -84,7 +84,7 @@ static void end_rack(bin *bins, int count) {
 
 /* One rack: strokes until the turn is not kept, or until the game is won. */
 static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally *to) {
-  const carom_rules_kind rules = lab_games[job->rules].rules;
+  const carom_rules_kind rules = (carom_rules_kind)job->rules;
   lab_rack_make(rack, rules, ((uint64_t)job->seed << 32) + 7919 * (number + 1));
   if (rules == CAROM_RULES_STRAIGHT)
     rack->rules.state.target = job->target;
@@ -220,7 +220,9 @@ int command_plan(int argc, char **argv) {
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
-  const bool racked = lab_games[job.rules].rules >= CAROM_RULES_STRAIGHT;
+  if (!lab_game_is_played(job.rules))
+    return EXIT_USAGE;
+  const bool racked = !carom_plan_rules_of((carom_rules_kind)job.rules).breaks;
   if (racked && job.left > 0) {
     complain("--left is of eight-ball");
     return EXIT_USAGE;
@@ -233,7 +235,7 @@ int command_plan(int argc, char **argv) {
     complain("--shots: it must be 100 to 1000000; --unsure: 0 to 1");
     return EXIT_USAGE;
   }
-  lab_rack_begin(&rack, &lab_games[job.rules], job.errors);
+  lab_rack_begin(&rack, (carom_rules_kind)job.rules, job.errors);
   static tally t;
   for (; t.racks < job.racks; t.racks++) {
     play(&job, (uint64_t)t.racks, &rack, &t);

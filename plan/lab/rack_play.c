@@ -3,15 +3,21 @@
 #include "memory.h"
 #include "message.h"
 
-const lab_game lab_games[] = {{CAROM_RULES_EIGHTBALL, CAROM_TABLE_POOLTOOL, CAROM_GAME_POOL, 7},
-                              {CAROM_RULES_NINEBALL, CAROM_TABLE_POOLTOOL, CAROM_GAME_POOL, 8},
-                              {CAROM_RULES_STRAIGHT, CAROM_TABLE_POOL_9FT, CAROM_GAME_POOL, 13},
-                              {CAROM_RULES_SNOOKER, CAROM_TABLE_SNOOKER, CAROM_GAME_SNOOKER, 15},
-                              {CAROM_RULES_ONEPOCKET, CAROM_TABLE_POOL_9FT, CAROM_GAME_POOL, 13}};
+bool lab_game_is_played(int rules) {
+  const bool known = carom_rules_about_of((carom_rules_kind)rules)->last > 0;
+  if (!known)
+    complain("--rules: a game of two players is needed");
+  return known;
+}
 
-void lab_rack_begin(lab_rack *rack, const lab_game *game, double errors) {
-  carom_table_make(game->table, &rack->table);
-  rack->cue = carom_cue_of(game->balls_of);
+void lab_rack_begin(lab_rack *rack, carom_rules_kind game, double errors) {
+  const carom_rules_about *about = carom_rules_about_of(game);
+  const bool breaks = carom_plan_rules_of(game).breaks;
+  carom_table_make(about->balls == CAROM_GAME_SNOOKER ? CAROM_TABLE_SNOOKER
+                   : breaks                           ? CAROM_TABLE_POOLTOOL
+                                                      : CAROM_TABLE_POOL_9FT,
+                   &rack->table);
+  rack->cue = carom_cue_of((carom_game)about->balls);
   rack->player = carom_player_of(errors);
   rack->shot = (carom_shot_options){.space = CAROM_SPACE_FLAT};
   rack->plan = (carom_plan_job){.table = &rack->table,
@@ -23,9 +29,8 @@ void lab_rack_begin(lab_rack *rack, const lab_game *game, double errors) {
 }
 
 void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
-  const carom_rack_kind kind = game == CAROM_RULES_NINEBALL  ? CAROM_RACK_NINEBALL
-                               : game == CAROM_RULES_SNOOKER ? CAROM_RACK_SNOOKER
-                                                             : CAROM_RACK_EIGHTBALL;
+  const carom_rules_about *about = carom_rules_about_of(game);
+  const carom_rack_kind kind = (carom_rack_kind)about->rack;
   rack->state = (lab_random){seed};
   rack->rules = carom_plan_rules_of(game);
   rack->plan.rules = &rack->rules;
@@ -34,9 +39,12 @@ void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
   rack->plan.options = &rack->options;
   rack->hand = true;
   const int count = (int)rack->plan.count;
-  rack->kitchen = game == CAROM_RULES_STRAIGHT || game == CAROM_RULES_ONEPOCKET;
-  if (game >= CAROM_RULES_STRAIGHT) {
-    rack->rules.state.opening = game == CAROM_RULES_STRAIGHT;
+  if (!rack->rules.breaks) {
+    rack->kitchen = about->opening == CAROM_LEAVE_KITCHEN;
+    const char *range;
+    rack->rules.state.opening = 1;
+    if (carom_rules_fault(game, &rack->rules.state, &range) != NULL)
+      rack->rules.state.opening = 0;
     carom_rack(kind, rack->plan.table, 1e-4, lab_bits(&rack->state), rack->balls, count);
     return;
   }

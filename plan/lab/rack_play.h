@@ -9,15 +9,8 @@
 
 enum { RACK_BALLS = 22 };
 
-/* The games of an option --rules, in its order. */
-#define LAB_GAMES "eightball|nineball|straight|snooker|onepocket"
-typedef struct lab_game {
-  carom_rules_kind rules;
-  carom_table_kind table;
-  carom_game balls_of;
-  int balls; /* that may be taken away, from ball 1 on, in eight-ball also from ball 9 on */
-} lab_game;
-extern const lab_game lab_games[];
+/* Whether a game of the option --rules is played by two; complains where it is not. */
+bool lab_game_is_played(int rules);
 
 typedef struct lab_rack {
   carom_plan_job plan; /* with memory; all that it points to is here */
@@ -35,9 +28,9 @@ typedef struct lab_rack {
 
 /* The job for a game, by the options of the rack and the errors of a player; its memory is to be
  * freed. */
-void lab_rack_begin(lab_rack *rack, const lab_game *game, double errors);
-/* The layout after the first break of a seed that pots nothing, with the cue ball in hand. Of
- * straight pool, snooker and one-pocket the rack before it: it is a stroke of the game. */
+void lab_rack_begin(lab_rack *rack, carom_rules_kind game, double errors);
+/* The layout after the first break of a seed that pots nothing, with the cue ball in hand. Of games
+ * whose break is a stroke like others the rack before it. */
 void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed);
 /* An end game of eight-ball in its place: so many solids, one stripe more, and the eight, at random
  * places; the cue ball is not in hand. */

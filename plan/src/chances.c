@@ -1,10 +1,8 @@
-/* Chances that a player keeps his turn, by the numbers of learned_numbers.h, which were fitted to
+/* Chances that a player keeps his turn, by the numbers of games.h, which were fitted to
  * racks that were played: p that he does so now, by a pot of any kind, a_n that he pots a later
  * ball of this visit where n are left, and e_n that he keeps the turn that the other has left him.
- * All are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it. The numbers are nine-ball's
- * where both have the same balls, one-pocket's where each has pockets of his own, those of snooker
- * or straight pool in races for points, else eight-ball's. */
-#include "learned_numbers.h"
+ * All are 1 / (1 + exp(-w x)), with x as carom_plan_features() has it. */
+#include "games.h"
 #include "platform/elementary.h"
 #include "view.h"
 
@@ -17,19 +15,15 @@ static double chance(const double *w, const double *x, int n) {
   return 1.0 / (1.0 + carom_exp(-sum));
 }
 
-/* The numbers of the race of the game, and of its pockets or its rack. */
+/* Those of the game, or of one with the same race. */
 static const learned *numbers_of(const carom_view *view) {
-  const carom_plan_rules *rules = view->rules;
-  switch (rules->race) {
-  case CAROM_RACE_SHARED:
-    return &learned_of[OF_NINEBALL];
-  case CAROM_RACE_POINTS:
-    return &learned_of[rules->rack == CAROM_RACK_SNOOKER ? OF_SNOOKER : OF_STRAIGHT];
-  case CAROM_RACE_OWN:
-    return &learned_of[rules->pockets != NULL ? OF_ONEPOCKET : OF_EIGHTBALL];
-  default:
-    return &learned_of[OF_EIGHTBALL];
-  }
+  static const int with_race[] = {[CAROM_RACE_OWN] = CAROM_RULES_EIGHTBALL,
+                                  [CAROM_RACE_SHARED] = CAROM_RULES_NINEBALL,
+                                  [CAROM_RACE_ALONE] = CAROM_RULES_EIGHTBALL,
+                                  [CAROM_RACE_POINTS] = CAROM_RULES_STRAIGHT};
+  const int own = view->rules->learned - 1, games = sizeof learned_of / sizeof learned_of[0];
+  const bool was_played = own >= 0 && own < games && learned_of[own].stretch > 0.0;
+  return &learned_of[was_played ? own : with_race[view->rules->race]];
 }
 
 double carom_chance_usual(const carom_view *view) {

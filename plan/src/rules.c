@@ -2,20 +2,13 @@
  * Standardized Rules of the WPA (2016), sections 2 and 3, with the simplifications that
  * carom_plan.h names. Games of points have files of their own. */
 #include "rules.h"
+#include "games.h"
 
 #include <stddef.h>
 
 enum { FOULS_MOST = 3 };
 enum { OPEN = CAROM_GROUP_OPEN, SOLIDS = CAROM_GROUP_SOLIDS, STRIPES = CAROM_GROUP_STRIPES };
 static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100, nine = 0x200;
-
-/* Whether a break reaches cushions with four balls, or pots. */
-static bool is_break(const carom_facts *facts, int cue_ball) {
-  int reached = 0;
-  for (int k = 0; k < CAROM_BALLS_MOST; k++)
-    reached += k != cue_ball && facts->cushions[k] > 0;
-  return facts->down != 0 || reached >= 4;
-}
 
 static const carom_turn win = {CAROM_TURN_WIN, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 
@@ -62,10 +55,10 @@ static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int
   /* The break: nothing is called, the eight comes back, and the table is open after it. */
   if (game->opening != 0) {
     game->opening = 0;
-    carom_turn turn = bad != 0                      ? foul_for(bad)
-                      : !is_break(facts, cue_ball)  ? foul_for(CAROM_FOUL_BREAK)
-                      : (facts->down & 0xfffe) != 0 ? carom_keep
-                                                    : carom_pass;
+    carom_turn turn = bad != 0                           ? foul_for(bad)
+                      : !carom_is_break(facts, cue_ball) ? foul_for(CAROM_FOUL_BREAK)
+                      : (facts->down & 0xfffe) != 0      ? carom_keep
+                                                         : carom_pass;
     turn.leave = bad != 0 ? CAROM_LEAVE_KITCHEN : turn.leave;
     turn.spot = (facts->down | facts->off) & eight;
     return turn;
@@ -87,6 +80,13 @@ static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int
     game->group = balls_of[SOLIDS] >> call.ball & 1 ? SOLIDS : STRIPES;
   return carom_keep;
 }
+
+const carom_plan_rules carom_eightball = {.on = eightball_on,
+                                          .judge = eightball_judge,
+                                          .left = eightball_left,
+                                          .race = CAROM_RACE_OWN,
+                                          .first_decides = 1,
+                                          .breaks = 1};
 
 /* ---- Nine-ball */
 
@@ -122,7 +122,7 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
     bad = facts->off != 0              ? CAROM_FOUL_OFF
           : carom_is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT
                                        : CAROM_FOUL_NONE;
-  if (bad == CAROM_FOUL_NONE && opening && !is_break(facts, cue_ball))
+  if (bad == CAROM_FOUL_NONE && opening && !carom_is_break(facts, cue_ball))
     bad = CAROM_FOUL_BREAK;
   if (bad != CAROM_FOUL_NONE) {
     carom_turn turn = foul_for(bad);
@@ -147,6 +147,13 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
     return win;
   return facts->down != 0 ? carom_keep : give_nine(game, carom_pass);
 }
+
+const carom_plan_rules carom_nineball = {.on = nineball_on,
+                                         .judge = nineball_judge,
+                                         .left = nineball_left,
+                                         .race = CAROM_RACE_SHARED,
+                                         .first_decides = 1,
+                                         .breaks = 1};
 
 /* ---- Potting */
 
@@ -173,6 +180,9 @@ static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int c
   turn.points = bad ? 0.0 : carom_count_of(facts->down & on);
   return turn;
 }
+
+const carom_plan_rules carom_potting = {
+    .on = potting_on, .judge = potting_judge, .left = potting_left, .race = CAROM_RACE_ALONE};
 
 /* ---- Three-cushion */
 
@@ -202,39 +212,8 @@ static double threecushion_value(const carom_rules_state *game, const carom_ball
   return 0.0;
 }
 
-/* ---- The table of games */
-
-enum { OWN_TABLE = CAROM_RULES_THREECUSHION + 1, GAMES = CAROM_RULES_ONEPOCKET + 1 };
-static const char *const names[] = {"eightball", "nineball", "potting",  "threecushion",
-                                    "straight",  "snooker",  "onepocket"};
-static const carom_plan_rules games[] = {
-    {.on = eightball_on,
-     .judge = eightball_judge,
-     .left = eightball_left,
-     .race = CAROM_RACE_OWN,
-     .calls = 1,
-     .first_decides = 1,
-     .breaks = 1},
-    {.on = nineball_on,
-     .judge = nineball_judge,
-     .left = nineball_left,
-     .race = CAROM_RACE_SHARED,
-     .first_decides = 1,
-     .breaks = 1},
-    {.on = potting_on, .judge = potting_judge, .left = potting_left, .race = CAROM_RACE_ALONE},
-    {.on = potting_on,
-     .judge = threecushion_judge,
-     .left = threecushion_left,
-     .value = threecushion_value,
-     .race = CAROM_RACE_ALONE}};
-
-const char *carom_rules_name(carom_rules_kind kind) {
-  return (unsigned)kind < GAMES ? names[kind] : NULL;
-}
-
-carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
-  static const carom_plan_rules *const own[] = {&carom_straight, &carom_snooker, &carom_onepocket};
-  return (unsigned)kind < OWN_TABLE ? games[kind]
-         : (unsigned)kind < GAMES   ? *own[kind - OWN_TABLE]
-                                    : games[CAROM_RULES_EIGHTBALL];
-}
+const carom_plan_rules carom_threecushion = {.on = potting_on,
+                                             .judge = threecushion_judge,
+                                             .left = threecushion_left,
+                                             .value = threecushion_value,
+                                             .race = CAROM_RACE_ALONE};

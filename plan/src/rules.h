@@ -1,5 +1,5 @@
-/* What the games share: turns, sets of balls, and the games that have files of their own. A shot is
- * judged by its facts alone; what depends on places comes after, by settle(). */
+/* What the games share: turns and sets of balls. A shot is judged by its facts alone; what depends
+ * on places comes after, by settle(). */
 #ifndef CAROM_PLAN_RULES_H
 #define CAROM_PLAN_RULES_H
 
@@ -32,9 +32,19 @@ static inline void carom_add(int32_t *to, int more) {
  * without any that was: a frozen ball may be played through. */
 bool carom_is_double_hit(const carom_facts *facts);
 
+/* Whether a break reaches cushions with four balls, or pots. */
+bool carom_is_break(const carom_facts *facts, int cue_ball);
+
+/* Games in which eight balls win: a ball that counts, or is no more owed; one that a foul costs, or
+ * is owed; what each player needs; and the balls that come back after a stroke. */
+enum { CAROM_BALLS_THAT_WIN = 8 };
+void carom_count_ball(carom_rules_state *game, int who);
+void carom_pay_ball(carom_rules_state *game);
+carom_rules_left carom_left_of_eight;
+uint32_t carom_back_of(const carom_rules_state *game, uint32_t down, uint32_t first);
+carom_rules_settle carom_settle_pool;
+
 /* Puts balls on the foot spot, or behind it, in the order of their numbers. */
 void carom_put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set);
-
-extern const carom_plan_rules carom_straight, carom_snooker, carom_onepocket;
 
 #endif

@@ -7,6 +7,14 @@ bool carom_is_double_hit(const carom_facts *facts) {
   return (facts->pushed & ~facts->frozen) != 0 || (facts->touches > 1 && facts->pushed == 0);
 }
 
+/* Whether a break reaches cushions with four balls, or pots. */
+bool carom_is_break(const carom_facts *facts, int cue_ball) {
+  int reached = 0;
+  for (int k = 0; k < CAROM_BALLS_MOST; k++)
+    reached += k != cue_ball && facts->cushions[k] > 0;
+  return facts->down != 0 || reached >= 4;
+}
+
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   const int first = facts->first[0];
   return (facts->down | facts->off) >> cue_ball & 1       ? CAROM_FOUL_CUE_BALL
@@ -101,4 +109,48 @@ carom_status carom_turn_settle(const carom_plan_rules *rules, carom_rules_state 
     first = first == CAROM_OK ? status : first;
   }
   return first;
+}
+
+/* ---- Games of eight balls of fifteen */
+
+void carom_count_ball(carom_rules_state *game, int who) {
+  if (game->lost[who] > 0)
+    game->lost[who]--;
+  else
+    carom_add(&game->score[who], 1);
+}
+
+void carom_pay_ball(carom_rules_state *game) {
+  if (game->score[0] > 0)
+    game->score[0]--;
+  else
+    carom_add(&game->lost[0], 1);
+}
+
+/* With those that are owed; of states that no game has, at least one and at most 16. */
+void carom_left_of_eight(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
+  (void)in_play;
+  for (int who = 0; who < 2; who++) {
+    const int32_t own = game->score[who], owed = game->lost[who];
+    needed[who] = (own < CAROM_BALLS_THAT_WIN ? CAROM_BALLS_THAT_WIN - (own > 0 ? own : 0) : 1) +
+                  (owed < CAROM_BALLS_THAT_WIN ? (owed > 0 ? owed : 0) : CAROM_BALLS_THAT_WIN);
+  }
+}
+
+/* The balls that come back: as many as are down and count for no one, those of `first` before
+ * others. The numbers of balls mean nothing in this game. */
+uint32_t carom_back_of(const carom_rules_state *game, uint32_t down, uint32_t first) {
+  const int64_t counted = (int64_t)game->score[0] + game->score[1];
+  uint32_t back = 0;
+  for (int64_t n = carom_count_of(down); n > counted && n > 0; n--) {
+    const uint32_t from = (first & ~back) != 0 ? first & ~back : down & ~back;
+    back |= from & (~from + 1);
+  }
+  return back;
+}
+
+void carom_settle_pool(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                       int count, carom_turn *turn) {
+  (void)game;
+  carom_put_back(table, balls, count, turn->spot);
 }

@@ -8,6 +8,7 @@
  * than its seven points ahead claims the frame. Who plays away from a ball on that touches the cue
  * ball has met it first. To meet a ball before the tip has left the cue ball is a push stroke, also
  * at the very edge of one that nearly touches, which the rules allow: facts do not tell it. */
+#include "games.h"
 #include "rules.h"
 #include "table/spots.h"
 
@@ -280,7 +281,6 @@ const carom_plan_rules carom_snooker = {.on = on,
                                         .judge = judge,
                                         .left = left,
                                         .race = CAROM_RACE_POINTS,
-                                        .calls = 1,
                                         .points = points,
                                         .settle = settle,
                                         .rack = CAROM_RACK_SNOOKER};

@@ -4,6 +4,7 @@
  * each. What falls otherwise comes back. A foul costs one point, the third in a row 15 more and a
  * new break. An opening break pots a called ball, or drives the cue ball and two others to
  * cushions; else it costs two points, and the other may have it played again. */
+#include "games.h"
 #include "rules.h"
 
 enum { FOULS_MOST = 3, MANY_FOULS = 15, BAD_BREAK = 2, RACKED = 14, LAST_BALL = 15 };
@@ -181,6 +182,5 @@ const carom_plan_rules carom_straight = {.state = {.target = 100},
                                          .judge = judge,
                                          .left = left,
                                          .race = CAROM_RACE_POINTS,
-                                         .calls = 1,
                                          .settle = settle,
                                          .rack = CAROM_RACK_EIGHTBALL};

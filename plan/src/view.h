@@ -75,7 +75,7 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
 carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
                        int k, int pocket, int who, bool in_hand, double least);
 /* chances.c */
-/* What a chance to pot is made of, the numbers of learned_numbers.h: 1; view->log_error; the mean
+/* What a chance to pot is made of, the numbers of games.h: 1; view->log_error; the mean
  * of the best pots of the balls of `targets`; the best pot; that of the next best ball; whether one
  * ball is left; whether the cue ball is in hand. For later pots of a visit they are 1,
  * view->log_error, 1 / the balls that are left then, and the mean; for the first after a turn of

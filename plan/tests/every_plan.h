@@ -55,7 +55,12 @@ EVERY_BODY(aim) {
   return h;
 }
 EVERY_VALUE(plan_memory, carom_plan_memory(NULL))
-EVERY_NAMES(rules_name, carom_rules_kind)
+EVERY_VALUE(rules_about_of, carom_rules_about_of(CAROM_RULES_SNOOKER)->last)
+EVERY_BODY(rules_fault) {
+  const carom_rules_state state = {.group = 3};
+  const char *range = "";
+  return HASH(*carom_rules_fault(CAROM_RULES_EIGHTBALL, &state, &range));
+}
 EVERY_NAMES(foul_string, int)
 EVERY_BODY(foul_of) {
   for (uint32_t down = 0; down < 4; down++) {
@@ -108,7 +113,8 @@ EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NI
 #define EVERY_OF_PLANS(F) \
   F(aim) F(foul_of) F(foul_string) F(plan) F(plan_continue) F(plan_hand) F(plan_memory) \
   F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) \
-  F(referee) F(rules_name) F(ruling_string) F(spot_ball) F(spot_ball_of) F(turn_settle)
+  F(referee) F(rules_about_of) F(rules_fault) F(ruling_string) F(spot_ball) F(spot_ball_of) \
+  F(turn_settle)
 /* clang-format on */
 
 #endif

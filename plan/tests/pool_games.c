@@ -52,8 +52,8 @@ TEST(rulings) {
     ruled(g->what, &turn, g->is, g->leave, g->foul, spot);
     ck_assert_msg(of.state.group == g->group_after, "%s: group", g->what);
   }
-  ck_assert_str_eq(carom_rules_name(CAROM_RULES_NINEBALL), "nineball");
-  ck_assert_ptr_null(carom_rules_name((carom_rules_kind)7));
+  ck_assert_str_eq(carom_rules_about_of(CAROM_RULES_NINEBALL)->name, "nineball");
+  ck_assert_ptr_null(carom_rules_about_of((carom_rules_kind)99));
 }
 
 /* A break of eight-ball: one is enough, the table is open whatever falls, and the eight comes

@@ -195,7 +195,7 @@ TEST(double_hits) {
                        : game == CAROM_RULES_THREECUSHION ? given[k].three
                                                           : given[k].pool;
       const carom_turn turn = rules.judge(&rules.state, 0xffff, 0, &f, (carom_call){NONE, -1});
-      ck_assert_msg((int)turn.foul == foul, "%s: %s", carom_rules_name((carom_rules_kind)game),
+      ck_assert_msg((int)turn.foul == foul, "%s: %s", carom_word(CAROM_WORDS_RULES, game),
                     given[k].what);
     }
 

@@ -225,7 +225,7 @@ TEST(golden_games) {
     int strokes;
     int64_t made[2] = {0};
     const uint64_t h = play(given[k].kind, given[k].target, &strokes, made);
-    const char *game = carom_rules_name(given[k].kind);
+    const char *game = carom_word(CAROM_WORDS_RULES, (int)given[k].kind);
     printf("%s: 0x%016llx; %d strokes, %d and %d points\n", game, (unsigned long long)h, strokes,
            (int)made[0], (int)made[1]);
     ck_assert(strokes >= 8 && made[0] + made[1] >= given[k].points);

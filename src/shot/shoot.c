@@ -36,8 +36,8 @@ static void meet(carom_facts *facts, int cue, int other, double now) {
 }
 
 /* Adds an event to the facts. */
-static void add_fact(carom_facts *facts, const carom_due *due, int cue, double now) {
-  const int a = due->a, b = due->b;
+static void add_fact(carom_facts *facts, const carom_due *due, const carom_sim *sim) {
+  const int a = due->a, b = due->b, cue = sim->struck;
   switch (due->type) {
   case CAROM_EVENT_STRIKE:
     facts->moved |= UINT32_C(1) << a;
@@ -46,17 +46,19 @@ static void add_fact(carom_facts *facts, const carom_due *due, int cue, double n
   case CAROM_EVENT_BALL_BALL:
     facts->moved |= UINT32_C(1) << a | UINT32_C(1) << b;
     if (a == cue || b == cue)
-      meet(facts, cue, a == cue ? b : a, now);
+      meet(facts, cue, a == cue ? b : a, sim->now);
     break;
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
     facts->cushions[a]++;
+    if (due->type == CAROM_EVENT_RAIL && !carom_is_cut(sim->table, b))
+      facts->banked |= UINT32_C(1) << a;
     facts->cushions_after += facts->first[0] >= 0;
     break;
   case CAROM_EVENT_POCKET:
     facts->down |= UINT32_C(1) << a;
     facts->pocket[a] = b;
-    facts->pocket_time[a] = now;
+    facts->pocket_time[a] = sim->now;
     break;
   case CAROM_EVENT_LEFT_TABLE:
     facts->off |= UINT32_C(1) << a;
@@ -105,7 +107,7 @@ static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_
     shot->brief[shot->count] = (carom_brief_event){sim->now, due->type, due->a, due->b, 0};
   carom_event *event = room && shot->events != NULL ? &shot->events[shot->count] : spare;
   if (shot->facts != NULL)
-    add_fact(shot->facts, due, sim->struck, sim->now);
+    add_fact(shot->facts, due, sim);
   shot->count++;
   shot->time = sim->now;
   event->time = sim->now;

@@ -69,7 +69,7 @@ for pocket in foot-left foot-right; do carom plan --rules onepocket --own-pocket
 chance() { carom plan --rules onepocket --value --csv "$@" layout.jsonl | sed -n 2p; }
 awk -v ahead="$(chance --score 7,-1)" -v even="$(chance --score 7,0)" -v behind="$(chance --score -1,7)" 'BEGIN { print (ahead > even), (even > behind + 0.3) }'
 for options in "--score 7,6" "--own-pocket side-left" "--opening" "--score 3"; do try carom plan --rules onepocket $options layout.jsonl; done
-for options in "--rules straight --score -1,0" "--rules nineball --own-pocket foot-left"; do try carom plan $options layout.jsonl; done
+for options in "--rules snooker --score -1,0" "--rules nineball --own-pocket foot-left"; do try carom plan $options layout.jsonl; done
 try carom plan --rules onepocket --table threecushion --cue 0.4,0.9 --balls 1=0.3,1.9
 sed 's/"id": "red1"/"id": "rot"/' snooker.jsonl > rot.jsonl
 try carom plan --rules snooker rot.jsonl
@@ -89,7 +89,7 @@ carom plan --group solids --shots 100 --csv eight.jsonl | cut -d , -f 2,3 | sed 
 echo "--- as many shots as its rating has"
 for shots in "" "--shots 300"; do carom plan --rules potting --player 500 $shots --csv layout.jsonl | cksum; done | uniq | wc -l | tr -d ' '
 echo "--- refused"
-for options in "--player 500 --errors 2" "--rules nineball --group open" "--rules potting --group solids" "--may pass" "--player 200"; do try carom plan $options layout.jsonl; done
+for options in "--player 500 --errors 2" "--rules potting --group solids" "--may pass" "--player 200"; do try carom plan $options layout.jsonl; done
 try carom plan layout.jsonl
 carom shoot --cue 0.4,0.9 --aim 90 --json > alone.jsonl
 for game in eightball nineball potting; do try carom plan --rules $game alone.jsonl; done

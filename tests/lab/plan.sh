@@ -17,9 +17,9 @@ lab learn --racks 40 --shots 100 > one.h
 lab learn --racks 40 --shots 100 --threads 3 > two.h
 cmp one.h two.h
 lab learn --racks 40 --shots 100 --seed 1 | cmp -s - one.h || echo "another seed gives other numbers"
-numbers < "$DATA/../plan/src/learned_numbers.h" > is.txt
+numbers < "$DATA/../plan/src/games.h" > is.txt
 for game in eightball nineball onepocket straight snooker; do grep -qF "$(lab learn --rules $game --racks 40 --shots 100 | numbers | sed 's/ $//')" is.txt && echo "$game: same"; done
-grep -o "racks [0-9]*" "$DATA/../plan/src/learned_numbers.h"
+grep -o "racks [0-9]*" "$DATA/../plan/src/games.h"
 echo "--- usage"
 try lab learn --racks 3
 try lab learn --shots 99

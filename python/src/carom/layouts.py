@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -239,11 +239,11 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     return placed
 
 
-LAST = {"eightball": 15, "nineball": 9, "straight": 15, "snooker": 21, "onepocket": 15}  # the highest number of a ball
+LAST = {ffi.string(about.name).decode(): about.last for k in range(99) if (about := lib.carom_rules_about_of(k)) and about.last}  # the highest number of a ball
 _COLOURS = {"yellow": "16", "green": "17", "brown": "18", "blue": "19", "pink": "20", "black": "21"}
 
 
-def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["eightball", "nineball", "straight", "snooker", "onepocket"], *, cue: int | str = "cue") -> dtypes.Records:
+def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: str, *, cue: int | str = "cue") -> dtypes.Records:
     """A layout as `plan` and `referee` want it, in which ball k is number k, from balls in any order; those that are missing are down.
 
     Parameters
@@ -251,8 +251,8 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: Literal["e
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
     ids : sequence of int or str
         The number of each, as a line of `carom shoot` names its balls; in snooker also "red1" to "red15", and the names of the colours.
-    rules : {"eightball", "nineball", "straight", "snooker", "onepocket"}
-        The game: numbers are 1 to 15, 1 to 9, or 1 to 21, from 16 on the colours.
+    rules : str
+        The game, as of `plan`: numbers are 1 to 15, 1 to 9, or 1 to 21, from 16 on the colours.
     cue : int or str
         Which of the ids is the cue ball's.
 

@@ -22,6 +22,7 @@ export type { Build } from "./memory.js";
 export { type Replayed, Recording, type ShotEnd } from "./recording.js";
 export { Shot } from "./shot.js";
 export type * from "./types.js";
+export { games } from "./generated/layout.js";
 export { words } from "./generated/words.js";
 
 /** Options of `load`. */

@@ -1,6 +1,6 @@
 // Shots as the JSON lines that `carom shoot` reads and writes (docs/using/shots.md has the format).
 import type { Carom } from "./carom.js";
-import { names as NAMES, numbers as NUMBERS } from "./generated/layout.js";
+import { games, names as NAMES, numbers as NUMBERS } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { RulesKind } from "./generated/structs.js";
 import type { BallKind, Cue, Game, ShotBall, Table, TableName } from "./types.js";
@@ -100,7 +100,7 @@ export function fromLine(carom: Carom, text: string): Line {
 }
 
 /** The highest number of a ball of the games whose rules know balls by their numbers. */
-export const LAST: Partial<Record<RulesKind, number>> = { eightball: 15, nineball: 9, straight: 15, snooker: 21, onepocket: 15 };
+export const LAST: Partial<Record<RulesKind, number>> = Object.fromEntries(Object.entries(games).flatMap(([name, { last }]) => (last > 0 ? [[name, last]] : [])));
 const COLOURS = ["yellow", "green", "brown", "blue", "pink", "black"] as const;
 
 /** The number of a ball by its name in a line; 0 for what has none. */

@@ -238,14 +238,15 @@ export class Plans {
     refuseOrder(balls, rules);
     const { rules: at } = this.#at;
     const memory = this.#memory;
-    memory.exports.carom_plan_rules_of(at, value("carom_rules_kind", rules, "rules"));
+    const kind = value("carom_rules_kind", rules, "rules");
+    memory.exports.carom_plan_rules_of(at, kind);
     const last = LAST[rules];
     if (this.#settles && last !== undefined && balls.length <= last) throw new TypeError(`balls: ${rules} has the cue ball and 1 to ${last}, of which some may be down`);
-    if (group !== "open" && rules !== "eightball") throw new TypeError("group: it is of eight-ball");
-    if (may.length > 0 && (rules === "eightball" || rules === "potting")) throw new TypeError(`may: it is not of ${rules}`);
     const stateAt = at + RULES.offset.state;
     const words = { group: value("carom_group", group, "group"), opening: Number(opening), may: may.reduce((sum, one) => sum | (1 << indexOf(MAY, one, "may")), 0) };
     writeStruct(memory, stateAt, "carom_rules_state", { ...readStruct<object>(memory, stateAt, "carom_rules_state"), ...of(game, MEMBERS), ...words, user: Array(8).fill(0) }, "game");
+    const wrong = memory.text(memory.exports.carom_rules_fault(kind, stateAt, this.#at.found));
+    if (wrong !== undefined) throw new RangeError(`${wrong}: by the rules ${rules} it must be ${memory.text(memory.u32[this.#at.found / 4]!)}`);
   }
 
   #writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {

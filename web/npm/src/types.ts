@@ -159,9 +159,9 @@ export type Player = Optional<C.Player, "speedShare" | "speedLeast" | "speedMost
 
 /** A game between two strokes, as the player at the table sees it. Ball k is ball k of the game, ball 0 the cue ball. What is missing is that of a new game. */
 export interface GameState extends Partial<Pick<C.RulesState, "fouls" | "score" | "lost" | "pocket" | "on" | "freeBall" | "target">> {
-  /** Eight-ball, nine-ball and straight pool by the rules of the WPA, snooker by those of the WPBSA, one-pocket by those of the BCA; or a drill for one. Default "eightball". */
+  /** A game of `words.rules`, which says by whose rules. Default "eightball". */
   rules: C.RulesKind;
-  /** Of eight-ball: whose balls the player has. Default "open". */
+  /** Whose balls the player has. Default "open". */
   group: C.Group;
   /** Whether the next stroke is the break. Default false. */
   opening: boolean;
@@ -259,7 +259,7 @@ export interface Ruling {
   hand: "no" | "anywhere" | "kitchen" | "d";
   /** Of the shot, in games of points; of three-cushion and of the drill too. */
   points: number;
-  /** Of straight pool and snooker: points of whoever plays next, and of the other; of one-pocket their balls, below 0 those that they owe. */
+  /** Points, or balls, of whoever plays next, and of the other, less those that they lost or owe. */
   score: [number, number];
   /** The layout of the next stroke: all that come back are there. A cue ball in hand is where the shot left it, or down. */
   balls: ShotBall[];

@@ -125,6 +125,7 @@ writeFileSync(
     `/** Values of the enumerators. */\nexport const values = ${JSON.stringify(values, null, 1)} as const;\n` +
     `/** Numbers of a ball, a cue and a table: the key in lines, and the field. */\nexport const numbers = ${JSON.stringify(numbers)} as const;\n` +
     `/** Options of calls: their form, the enumeration of their words, and whether they say when a shot is stopped. */\nexport const options = ${JSON.stringify(layoutOptions)} as const;\n` +
+    `/** The games that plans and rulings know. */\nexport const games = ${JSON.stringify(rows.games)} as const;\n` +
     `/** Words or names of enumerators, by their values. */\nexport const names = ${JSON.stringify(named, null, 1)} as const;\n`,
 );
 for (const name of ["plain", "simd"]) {

@@ -22,9 +22,9 @@ pub use record::Recording;
 pub use sys::{
     carom_ball_state as BallState, carom_call as Call, carom_choice as Choice, carom_cue as Cue,
     carom_event as Event, carom_facts as Facts, carom_plan_options as PlanOptions,
-    carom_plan_rules as Rules, carom_ruling as Ruling, carom_player as Player, carom_pot as Pot,
-    carom_shot_ball as ShotBall, carom_shot_options as Options, carom_table as Table,
-    carom_turn as Turn,
+    carom_plan_rules as Rules, carom_player as Player, carom_pot as Pot,
+    carom_rules_state as RulesState, carom_ruling as Ruling, carom_shot_ball as ShotBall,
+    carom_shot_options as Options, carom_table as Table, carom_turn as Turn,
 };
 
 use std::ffi::CStr;
@@ -185,9 +185,8 @@ pub fn place(
 ) -> Result<Result<(), sys::carom_part>, Error> {
     let mut part = sys::carom_part::default();
     let (count, ball) = (count_of(balls), ball.min(i32::MAX as usize) as i32);
-    let status = unsafe {
-        sys::carom_place_ball(table, balls.as_mut_ptr(), count, ball, x, y, &mut part)
-    };
+    let status =
+        unsafe { sys::carom_place_ball(table, balls.as_mut_ptr(), count, ball, x, y, &mut part) };
     if status == sys::CAROM_ERROR_OVERLAP || status == sys::CAROM_ERROR_OFF_TABLE {
         return Ok(Err(part));
     }
@@ -377,9 +376,7 @@ impl Shot {
             ..Default::default()
         };
         let (on, to) = (&self.table, &mut made);
-        check(unsafe {
-            sys::carom_referee(rules, on, balls, count, cue_ball, &seen, call, to)
-        })?;
+        check(unsafe { sys::carom_referee(rules, on, balls, count, cue_ball, &seen, call, to) })?;
         Ok(made)
     }
 

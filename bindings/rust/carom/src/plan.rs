@@ -1,7 +1,7 @@
 //! Plans: which stroke to play, by built-in rules or by those of the caller.
 use crate::{
     check, count_of, sys, text, Call, Choice, Cue, Error, Facts, Options, PlanOptions, Player,
-    Rules, Ruling, ShotBall, Table, Turn,
+    Rules, RulesState, Ruling, ShotBall, Table, Turn,
 };
 use std::os::raw::{c_char, c_int};
 use std::panic::{catch_unwind, AssertUnwindSafe};
@@ -20,26 +20,22 @@ pub trait Game {
 
 /// The rules of a game, with a state that is all 0; `calls`, `race` and the like can be set.
 pub fn rules<G: Game>() -> Rules {
-    unsafe extern "C" fn on<G: Game>(state: *const sys::carom_rules_state, in_play: u32) -> u32 {
-        guarded(|| G::on(unsafe { &(*state).user }, in_play))
+    unsafe extern "C" fn on<G: Game>(game: *const RulesState, in_play: u32) -> u32 {
+        guarded(|| G::on(unsafe { &(*game).user }, in_play))
     }
     unsafe extern "C" fn judge<G: Game>(
-        state: *mut sys::carom_rules_state,
+        game: *mut RulesState,
         in_play: u32,
         cue_ball: c_int,
         facts: *const Facts,
         call: Call,
     ) -> Turn {
         guarded(|| unsafe {
-            G::judge(&mut (*state).user, in_play, cue_ball as usize, &*facts, call)
+            G::judge(&mut (*game).user, in_play, cue_ball as usize, &*facts, call)
         })
     }
-    unsafe extern "C" fn left<G: Game>(
-        state: *const sys::carom_rules_state,
-        in_play: u32,
-        to: *mut i32,
-    ) {
-        guarded(|| unsafe { *to.cast() = G::left(&(*state).user, in_play) })
+    unsafe extern "C" fn left<G: Game>(game: *const RulesState, in_play: u32, to: *mut i32) {
+        guarded(|| unsafe { *to.cast() = G::left(&(*game).user, in_play) })
     }
     Rules {
         on: Some(on::<G>),

@@ -1,5 +1,7 @@
 //! Recordings: games that verify themselves. docs/using/games.md has the format.
-use crate::{check, count_of, sys, text, Cue, Error, Facts, Options, Ruling, Shot, ShotBall, Table};
+use crate::{
+    check, count_of, sys, text, Cue, Error, Facts, Options, Ruling, Shot, ShotBall, Table,
+};
 use std::os::raw::c_char;
 
 /// A recording: read line by line and played, or written. All lines end with an end of line.

@@ -286,14 +286,14 @@ def plan(
         2 to 32 of them at rest, with the cue ball first. For eight-ball and nine-ball a ball's index is its number.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
         Its masses, its tip and its miscue count; the stroke does not. Default: that of `carom.cue()`.
-    rules : {"eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket"} or Rules
-        The game, by the rules of the WPA or, snooker, of the WPBSA, one-pocket, of the BCA; or a drill, whose value is the share of the balls that one visit pots; or
-        three-cushion, whose value is the chance of the point, on a table without pockets with the balls of `racks.threecushion`; or a game of
-        your own. Straight pool and one-pocket have the balls of `racks.eightball`, snooker those of `racks.snooker`.
+    rules : str or Rules
+        The game, by its name in `carom plan --help`; of "potting", a drill, the value is the share of the balls that one visit pots, of
+        "threecushion" the chance of the point, on a table without pockets with the balls of `racks.threecushion`; or a game of your own.
+        Games of 15 balls have those of `racks.eightball`, snooker those of `racks.snooker`.
     group : {"open", "solids", "stripes"}
-        Of eight-ball: the balls of the player. Default: "open".
+        The balls of the player, where each has a group. Default: "open".
     opening : bool
-        Whether the stroke is the break of eight-ball, nine-ball or straight pool.
+        Whether the stroke is the break, where the rules have one.
     state : dict or ndarray of `carom.dtypes.rules_state`, optional
         How the game stands, instead of `group` and `opening`: that of a ruling of `referee`, or what differs from a new game, such as
         `{"score": (5, 6), "target": 50}`. Of each pair the first is the player's. Of rules of your own eight whole numbers.

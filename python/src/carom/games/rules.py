@@ -5,13 +5,14 @@ from __future__ import annotations
 import enum
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
+from carom._described import Rules as RulesWord
 from carom._rows import Array, Arrays, as_array, choice, copied, listing, pointer, whole
 from carom._shot_options import Options
 from carom.layouts import LAST, Table, of_record, one_cue
@@ -27,12 +28,12 @@ if TYPE_CHECKING:
 __all__ = ["Facts", "Foul", "Rules", "Ruling", "Turn", "referee"]
 __dir__ = listing(__name__)
 
-Game = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket"]
+Game = RulesWord
 Group = Literal["open", "solids", "stripes"]
 State = npt.NDArray[Any]
 GivenState = Mapping[str, Any] | npt.ArrayLike
 Hand = Literal["no", "anywhere", "kitchen", "d"]
-_GAMES = {"eightball": 0, "nineball": 1, "potting": 2, "threecushion": 3, "straight": 4, "snooker": 5, "onepocket": 6}
+_GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
 _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _TURNS = {"keep": 0, "pass": 1, "win": 2, "lose": 3}
 _LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3, "d": 4}
@@ -168,49 +169,41 @@ class Made:
             self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules")))
         self.last = None if isinstance(rules, Rules) else LAST.get(rules)
         """The highest number of a ball."""
-        if group is not None and rules != "eightball":
-            raise ValueError("group: it is of eight-ball")
-        if opening and rules not in ("eightball", "nineball", "straight"):
-            raise ValueError("opening: it is of eight-ball, nine-ball and straight pool")
         if state is not None:
             for is_given, name in ((group is not None, "group"), (opening, "opening")):
                 if is_given:
                     raise ValueError(f"state, {name}: the state says the {name}, too: give one of both")
-            self.state = (self._words if isinstance(rules, Rules) else self._named)(state)
-        self.c.state.group += choice(_GROUPS, group or "open", "group")
+            self._stand(state)
+        self.c.state.group += choice(_GROUPS, "open" if group is None else group, "group")
         self.c.state.opening |= bool(opening)
+        if not isinstance(rules, Rules):
+            wrong = lib.carom_rules_fault(_GAMES[rules], ffi.addressof(self.c, "state"), limits := ffi.new("char **"))
+            if wrong:
+                raise ValueError(f"{ffi.string(wrong).decode()}: by the rules {rules} it must be {ffi.string(limits[0]).decode()}")
 
     @property
     def state(self) -> State:
-        """That of the rules, a copy of shape ()."""
-        return np.frombuffer(bytearray(ffi.buffer(ffi.addressof(self.c, "state"))), dtypes.rules_state)[0:1].reshape(())
+        """A copy of the state, of shape ()."""
+        return np.frombuffer(bytearray(ffi.buffer(ffi.addressof(self.c, "state"))), dtypes.rules_state).reshape(())
 
-    @state.setter
-    def state(self, record: State) -> None:
-        self.c.state = pointer("carom_rules_state[]", record)[0]
-
-    def _words(self, given: Any) -> State:
-        """The state of rules of one's own."""
-        words, made = as_array(given, "state"), self.state
-        if words.shape != (_WORDS,) or words.dtype.kind not in "iu" or (words < 0).any():
-            raise ValueError(f"state: {_WORDS} whole numbers, at least 0, are needed, not {given!r}")
-        made["user"] = words
-        return made
-
-    def _named(self, given: Any) -> State:
-        """The state of a game: a record, or some members by their names, of which the others are those of a new game."""
-        if not isinstance(given, Mapping):
-            return copied(of_record(given, dtypes.rules_state, "state", "referee().state")).reshape(())
-        made = self.state
-        for name, value in given.items():
-            if name not in _MEMBERS:
+    def _stand(self, given: Any) -> None:
+        """A record; or of a game some members by their names, of rules of one's own eight words."""
+        members: Any = given
+        if isinstance(self.rules, Rules):
+            words = as_array(given, "state")
+            if words.shape != (_WORDS,) or words.dtype.kind not in "iu" or (words < 0).any():
+                raise ValueError(f"state: {_WORDS} whole numbers, at least 0, are needed, not {given!r}")
+            members = {"user": words}
+        elif not isinstance(given, Mapping):
+            record = of_record(given, dtypes.rules_state, "state", "referee().state")
+            members = {name: record[name] for name in _MEMBERS}
+        for name, value in members.items():
+            if not hasattr(self.c.state, name):
                 raise ValueError(f"state: there is no {name!r}; there are {', '.join(_MEMBERS)}")
-            found = as_array(choice(_GROUPS, value, "state: group") if isinstance(value, str) else value, f"state: {name}")
-            if found.shape != made[name].shape or found.dtype.kind not in "biu" or not ((found >= 0) & (found <= 2**31 - 1)).all():
-                what = "a whole number" if made[name].shape == () else "two whole numbers, the player's and the other's"
-                raise ValueError(f"state: {name}: it must be {what}, not {value!r}")
-            made[name] = found
-        return made
+            try:
+                setattr(self.c.state, name, choice(_GROUPS, value, "state: group") if isinstance(value, str) else np.asarray(value).tolist())
+            except (TypeError, OverflowError, IndexError) as wrong:
+                raise ValueError(f"state: {name}: {wrong}") from None
 
     def _functions(self, rules: Rules) -> None:
         """The methods as functions for C."""
@@ -267,7 +260,7 @@ class Made:
 
     def check_count(self, count: int) -> None:
         """Refuses a layout in which balls are missing that may come back."""
-        if self.rules in ("straight", "snooker", "onepocket") and count <= (self.last or 0):
+        if not isinstance(self.rules, Rules) and self.c.settle and count <= (self.last or 0):
             raise ValueError(f"balls: {self.rules} has the cue ball and 1 to {self.last}, of which some may be down, not {count} balls")
 
     def check(self) -> None:
@@ -328,7 +321,7 @@ class Ruling(Arrays):
     balls: dtypes.Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
     put: frozenset[int]  # Balls that lie elsewhere than the shot left them
     state: State  # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own eight numbers
-    score: tuple[int, int]  # Of straight pool and snooker: points of the next player, and of the other; of one-pocket their balls, below 0 those that they owe
+    score: tuple[int, int]  # Points, or balls, of the next player and of the other, less those that they lost or owe
     facts: Facts  # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was met in one that ended in an error
     text: str  # All of that in words
     shot: Shot

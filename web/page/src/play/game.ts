@@ -73,7 +73,7 @@ export class Play {
     this.names = this.balls.map((_, k) => of.names(k));
     if (setup.at !== undefined) this.balls = placesOf(setup.at, this.table, this.balls).balls;
     this.state = { rules: this.played?.rules ?? "potting", group: "open", opening: setup.at === undefined, ...this.played?.state };
-    this.hand = this.practice || !this.hasPockets ? "no" : setup.game === "snooker" ? ("d" as Ruling["hand"]) : "kitchen";
+    this.hand = this.practice || !this.hasPockets ? "no" : (this.played!.opening as Ruling["hand"]);
     this.#recording = carom.record(this.table, this.balls, OPTIONS);
   }
 

@@ -34,7 +34,7 @@ function told(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
   return `${name} ${name === "You" ? "foul" : "fouls"}${WHY[ruling.reason] ? `: ${WHY[ruling.reason]}` : ""}. `;
 }
 
-/** Of one-pocket: where balls count for whoever plays. */
+/** Where balls count for whoever plays. */
 function pocketOf(play: Play): string {
   const [pocket = 5] = play.state.pocket ?? [];
   return `the ${play.carom.pocketNames(play.table)[pocket] ?? "own"} pocket`;
@@ -57,7 +57,7 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean): string {
   const name = nameOf(play, play.turn, seat);
   const you = name === "You";
   const group = play.setup.game === "eightball" && !play.state.opening ? (play.state.group === "open" ? ", open table" : `, ${play.state.group}`) : "";
-  const on = play.setup.game === "snooker" && play.winner === undefined ? `, on ${onOf(play)}` : play.setup.game === "onepocket" ? `, into ${pocketOf(play)}` : group;
+  const on = play.setup.game === "snooker" && play.winner === undefined ? `, on ${onOf(play)}` : play.played?.pockets ? `, into ${pocketOf(play)}` : group;
   if (thinks) return `${before}${name} thinks${on} …`;
   if (!you && play.setup.against === "link") return `${before}${name} plays${on}: send the link.`;
   const turn = play.hasPockets && play.state.opening ? `${name} ${you ? "break" : "breaks"}` : you ? "Your turn" : `${name}'s turn`;

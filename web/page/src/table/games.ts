@@ -1,5 +1,5 @@
 // The games of the page: their tables, racks and names of balls.
-import { byNumber, type Cue, type Game, type GameState, type Line, type RackName, type TableName, words } from "carom";
+import { byNumber, type Cue, type Game, games, type GameState, type Line, type RackName, type TableName, words } from "carom";
 
 export interface GameOf {
   text: string;
@@ -57,23 +57,30 @@ export interface Played {
   /** Its key in GAMES: table, rack, names. */
   of: string;
   rules: GameState["rules"];
-  /** Whether ball and pocket are called. */
+  /** Whether ball and pocket are called, the score is points or balls, each has a pocket of his own; and where the cue ball is at first. */
   calls: boolean;
+  points: boolean;
+  pockets: boolean;
+  opening: string;
   /** Points that win, of games in which the rules count none. */
   target?: number;
-  /** Whether the score is points, and the state that a game begins with where it is not that of the library. */
-  points?: boolean;
+  /** The state that a game begins with where it is not that of the library. */
   state?: Partial<GameState>;
   /** The stroke that a game begins with, as one finds it. */
   begin: Partial<Cue>;
 }
 const BREAK = { speed: 8, phi: 90, a: 0, b: 0 };
-/** The games whose rules the library has. */
-export const PLAYED: Record<string, Played> = {
-  eightball: { text: "Eight-ball", of: "eightball", rules: "eightball", calls: true, begin: BREAK },
-  nineball: { text: "Nine-ball", of: "nineball", rules: "nineball", calls: false, begin: BREAK },
-  straight: { text: "Straight pool, to 25 points", of: "eightball", rules: "straight", calls: true, points: true, state: { target: 25 }, begin: { ...BREAK, speed: 4 } },
-  onepocket: { text: "One-pocket", of: "eightball", rules: "onepocket", calls: false, points: true, begin: { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } },
-  snooker: { text: "Snooker", of: "snooker", rules: "snooker", calls: false, points: true, begin: { ...BREAK, speed: 4 } },
-  threecushion: { text: "Three-cushion, to 10 points", of: "threecushion", rules: "threecushion", calls: false, points: true, target: 10, begin: { speed: 4, phi: 62, a: 0, b: 0.2 } },
+const OWN: Record<string, Partial<Played>> = {
+  straight: { text: "Straight pool, to 25 points", state: { target: 25 }, begin: { ...BREAK, speed: 4 } },
+  snooker: { calls: false, begin: { ...BREAK, speed: 4 } },
+  threecushion: { text: "Three-cushion, to 10 points", points: true, target: 10, begin: { speed: 4, phi: 62, a: 0, b: 0.2 } },
 };
+/** The games whose rules the library has, but for its drill. */
+export const PLAYED: Record<string, Played> = Object.fromEntries(
+  words.rules.flatMap(([name, text]) => {
+    const { rack, calls, opening, members } = games[name];
+    const [points, pockets] = ["score", "pocket"].map((one) => (members as readonly string[]).includes(one)) as [boolean, boolean];
+    const begin = pockets ? { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } : BREAK;
+    return name === "potting" ? [] : [[name, { text: text[0]!.toUpperCase() + text.slice(1).split(" by ")[0]!, of: rack, rules: name, calls, points, pockets, opening, begin, ...OWN[name] }]];
+  }),
+);

@@ -1,0 +1,64 @@
+/* The games by their rows, for programs that ask; and whether a state is one of a game. */
+#include "games.h"
+
+#include <stddef.h>
+
+/* Members of a state, and as bits. */
+#define MEMBER(NAME, ...) PLACE_OF_##NAME,
+enum { CAROM_STATE_MEMBERS(MEMBER) MEMBERS };
+#undef MEMBER
+#define MEMBER(NAME, ...) NAME = 1 << PLACE_OF_##NAME,
+enum { CAROM_STATE_MEMBERS(MEMBER) NO_MEMBER = 0 };
+#undef MEMBER
+#define MEMBER(NAME, member, low, high, range) \
+  {#member, range, sizeof(((carom_rules_state *)NULL)->member) / sizeof(int32_t), low, high},
+static const struct {
+  const char *name, *range;
+  size_t count;
+  int32_t low, high;
+} members[] = {CAROM_STATE_MEMBERS(MEMBER)};
+#undef MEMBER
+
+#define GAME(NAME, rules, word, text, BALLS, RACK, last, OPENING, HAND, calls, members, may) \
+  {{word, text, CAROM_GAME_##BALLS, CAROM_RACK_##RACK, last, CAROM_LEAVE_##OPENING,          \
+    CAROM_LEAVE_##HAND},                                                                     \
+   &rules,                                                                                   \
+   calls,                                                                                    \
+   members,                                                                                  \
+   may},
+static const struct {
+  carom_rules_about about;
+  const carom_plan_rules *rules;
+  int calls, members, may;
+} games[] = {CAROM_GAMES(GAME)};
+#undef GAME
+enum { GAMES = sizeof games / sizeof games[0] };
+
+const carom_rules_about *carom_rules_about_of(carom_rules_kind kind) {
+  return (unsigned)kind < GAMES ? &games[kind].about : NULL;
+}
+
+carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
+  const int k = (unsigned)kind < GAMES ? (int)kind : CAROM_RULES_EIGHTBALL;
+  carom_plan_rules rules = *games[k].rules;
+  rules.calls = games[k].calls;
+  rules.learned = k + 1;
+  return rules;
+}
+
+const char *carom_rules_fault(carom_rules_kind kind, const carom_rules_state *state,
+                              const char **range) {
+  if ((unsigned)kind >= GAMES || state == NULL || range == NULL)
+    return NULL;
+  const int32_t *value = &state->opening; /* all members, one behind the other */
+  for (size_t k = 0; k < MEMBERS; k++)
+    for (size_t i = 0; i < members[k].count; i++, value++) {
+      const bool has = games[kind].members >> k & 1;
+      const int not_allowed = k == PLACE_OF_MAY ? *value & ~games[kind].may : 0;
+      if (has ? *value < members[k].low || *value > members[k].high || not_allowed : *value != 0) {
+        *range = has ? members[k].range : "0, as the game has none";
+        return members[k].name;
+      }
+    }
+  return NULL;
+}

@@ -1,0 +1,75 @@
+/* Bank pool: every branch of its rules beside rulings written down, and a bank that a plan finds. */
+#include "game_support.h"
+
+typedef struct bank_case {
+  const char *what;
+  uint32_t in_play;
+  int first, before;  /* what the cue ball met, and its cushions before */
+  uint32_t down, off; /* what falls into the pocket that is called, or leaves the table */
+  int call, cushions; /* those of the ball that is called */
+  int score, lost;    /* of the player */
+  bool opening;
+  int is, leave, foul;
+  uint32_t spot;
+  int score_after, lost_after;
+} bank_case;
+
+/* clang-format off */
+static const bank_case cases[] = {
+    {"a bank", 0xffff, 3, 0, 8, 0, 3, 1, 0, 0, false, KEEP, AFTER, 0, 0, 1, 0},
+    {"without a cushion", 0xffff, 3, 0, 8, 0, 3, 0, 0, 0, false, PASS, AFTER, 0, 8, 0, 0},
+    {"by a kick", 0xffff, 3, 1, 8, 0, 3, 1, 0, 0, false, PASS, AFTER, 0, 8, 0, 0},
+    {"by a combination", 0xffff, 4, 0, 8, 0, 3, 1, 0, 0, false, PASS, AFTER, 0, 8, 0, 0},
+    {"another ball was called", 0xffff, 3, 0, 8, 0, 4, 1, 0, 0, false, PASS, AFTER, 0, 8, 0, 0},
+    {"one more falls with it", 0xffff, 3, 0, 0x18, 0, 3, 2, 0, 0, false, KEEP, AFTER, 0, 0x10, 1, 0},
+    {"a bank pays a debt", 0xffff, 3, 0, 8, 0, 3, 1, 0, 1, false, KEEP, AFTER, 0, 8, 0, 0},
+    {"the eighth", 0xff01, 9, 0, 0x200, 0, 9, 1, 7, 0, false, WIN, AFTER, 0, 0, 8, 0},
+    {"a safety", 0xffff, 3, 0, 0, 0, NONE, 0, 0, 0, false, PASS, AFTER, 0, 0, 0, 0},
+    {"the cue ball falls with it", 0xfffd, 3, 0, 9, 0, 3, 1, 1, 0, false,
+     PASS, KITCHEN, CUE_BALL, 0xa, 0, 0},
+    {"a ball off the table", 0xffff, 3, 0, 8, 0x10, 3, 1, 0, 0, false, PASS, AFTER, OFF, 0x18, 0, 1},
+    {"no ball met", 0xffff, NONE, 0, 0, 0, NONE, 0, 0, 0, false, PASS, AFTER, NO_BALL, 0, 0, 1},
+    {"a break that pots", 0xffff, 1, 0, 0x6, 0, NONE, 1, 0, 0, true, KEEP, AFTER, 0, 0x6, 0, 0},
+    {"a break that drives one ball", 0xffff, 1, 0, 0, 0, 1, 1, 0, 0, true,
+     PASS, AFTER, BREAK, 0, 0, 1},
+};
+/* clang-format on */
+
+TEST(bank_rulings) {
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    const bank_case *c = &cases[k];
+    carom_facts facts = facts_of(c->first, 1, c->down, c->off);
+    facts.cushions_before[0] = c->before;
+    if (c->call > 0)
+      facts.banked = c->cushions > 0 ? UINT32_C(1) << c->call : 0;
+    carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_BANK);
+    of.state =
+        (carom_rules_state){.opening = c->opening, .score = {c->score, 0}, .lost = {c->lost, 2}};
+    const carom_turn turn = of.judge(&of.state, c->in_play, 0, &facts, (carom_call){c->call, 2});
+    const bool gives = c->is == PASS;
+    ruled(c->what, &turn, c->is, c->leave, c->foul, c->spot);
+    ck_assert_msg(of.state.score[gives] == c->score_after &&
+                      of.state.lost[gives] == c->lost_after && of.state.lost[!gives] == 2 &&
+                      of.state.opening == 0,
+                  "%s: %d, %d owed", c->what, of.state.score[gives], of.state.lost[gives]);
+  }
+}
+
+/* A ball that hangs in a pocket is no shot: the plan banks another one, and tells a chance. */
+TEST(a_bank_is_planned) {
+  const int count = lay_out(CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_9FT, 0x7);
+  put(0, 0.5, 1.0);
+  put(1, 0.62, 1.5);
+  put(2, 0.08, 0.08);
+  const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  const carom_player player = carom_player_of(0.2);
+  const carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_BANK);
+  const carom_plan_options options = {.shots = 4000};
+  carom_plan_job job = job_of(count, &cue, &player, &of, &options);
+  carom_choice best;
+  int found;
+  ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+  ck_assert_msg(best.kind == CAROM_PLAN_BANK && best.cushions > 0 && best.keep > 0.4,
+                "kind %d, ball %d, keeps %g", best.kind, best.ball, best.keep);
+  free(job.memory);
+}
