@@ -390,8 +390,9 @@ typedef struct carom_plan_options {
                                    exp(unsure s z), z normal; s is 0.12, 0.17, 0.29 and 0.26, so
                                    that 1 stands for all tables that there are. One of 32 tables
                                    for a stroke, the same for all strokes that are compared. */
-  double seconds;       /* of all its calls together, at which a plan is stopped as by
-                                   `stop`, if it has not played its shots by then; 0: none. */
+  double seconds;       /* s, up to 1,000,000, of all its calls together, at which a plan is
+                                   stopped as by `stop`, if it has not played its shots by then; 0:
+                                   none. */
   int32_t once;         /* 1: all shots are one plan, though it may be stopped. */
   int32_t unused;       /* must be 0. */
   uint64_t reserved[1]; /* must be 0. */

@@ -26,7 +26,6 @@
       "Its cushions and cloth are drawn, as his errors are")                                       \
   OPTION(seconds, "seconds", NUMBER("s"), 0, 1e6, OPTIONS,                                         \
          "time of its calls, s, at which a plan is stopped; 0: none")                              \
-  OPTION(once, "", FLAG, 0, 1, OPTIONS,                                                            \
-         "1: all shots are one plan, though it may be stopped; 0: 100 of them, 200, 400 ...")
+  OPTION(once, "", FLAG, 0, 1, OPTIONS, "1: all shots are one plan, though it may be stopped")
 
 #endif

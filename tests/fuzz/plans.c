@@ -143,7 +143,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   /* Neither threads nor slices nor what was in the memory count. */
   if (status == CAROM_OK) {
     options.threads = 1 + choice(5);
-    options.slice = choice(2) ? 0 : 1 + choice(60);
+    options.slice = choice(2) ? 0 : 1 + 40 * choice(60);
   }
   if (plan(which, 0xff, cues, low, high, again, &found_again) != status ||
       memcmp(choices, again, sizeof again) != 0)
