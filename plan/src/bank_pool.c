@@ -1,9 +1,9 @@
 /* Bank pool: the rules of the BCA, under the general rules of the WPA.
  *
  * A ball counts that is called with its pocket and banked: the cue ball meets it first, without a
- * cushion before, and it meets a cushion, not only jaws, before it falls. It keeps the turn, and eight of them win.
- * What falls otherwise comes back. A foul costs one ball; who has none owes one. After the break,
- * which is called by nobody, who has potted plays on. */
+ * cushion before, and it meets a cushion, not only jaws, before it falls. It keeps the turn, and
+ * eight of them win. What falls otherwise comes back. A foul costs one ball; who has none owes one.
+ * After the break, which is called by nobody, who has potted plays on. */
 #include "games.h"
 #include "rules.h"
 

@@ -1,8 +1,8 @@
 /* The games, a row each, and what games by them taught. Names, checks and tables of the command and
  * of other languages are made of these rows.
  *
- * GAME(NAME, rules, word, text, BALLS, RACK, last, OPENING, HAND, calls, members, may): `rules` is the
- * object that its file defines, `members` are those of its state, by the names of
+ * GAME(NAME, rules, word, text, BALLS, RACK, last, OPENING, HAND, calls, members, may): `rules` is
+ * the object that its file defines, `members` are those of its state, by the names of
  * CAROM_STATE_MEMBERS, and carom_rules_about has the rest. MEMBER(NAME, member, low, high, range):
  * of carom_rules_state, in its order. */
 #ifndef CAROM_PLAN_GAMES_H

@@ -1,4 +1,4 @@
-/* Bank pool: every branch of its rules beside rulings written down, and a bank that a plan finds. */
+/* Bank pool: each branch of its rules beside rulings written down, and a bank that a plan finds. */
 #include "game_support.h"
 
 typedef struct bank_case {
@@ -21,13 +21,13 @@ static const bank_case cases[] = {
     {"by a kick", 0xffff, 3, 1, 8, 0, 3, 1, 0, 0, false, PASS, AFTER, 0, 8, 0, 0},
     {"by a combination", 0xffff, 4, 0, 8, 0, 3, 1, 0, 0, false, PASS, AFTER, 0, 8, 0, 0},
     {"another ball was called", 0xffff, 3, 0, 8, 0, 4, 1, 0, 0, false, PASS, AFTER, 0, 8, 0, 0},
-    {"one more falls with it", 0xffff, 3, 0, 0x18, 0, 3, 2, 0, 0, false, KEEP, AFTER, 0, 0x10, 1, 0},
+    {"one more with it", 0xffff, 3, 0, 0x18, 0, 3, 2, 0, 0, false, KEEP, AFTER, 0, 0x10, 1, 0},
     {"a bank pays a debt", 0xffff, 3, 0, 8, 0, 3, 1, 0, 1, false, KEEP, AFTER, 0, 8, 0, 0},
     {"the eighth", 0xff01, 9, 0, 0x200, 0, 9, 1, 7, 0, false, WIN, AFTER, 0, 0, 8, 0},
     {"a safety", 0xffff, 3, 0, 0, 0, NONE, 0, 0, 0, false, PASS, AFTER, 0, 0, 0, 0},
     {"the cue ball falls with it", 0xfffd, 3, 0, 9, 0, 3, 1, 1, 0, false,
      PASS, KITCHEN, CUE_BALL, 0xa, 0, 0},
-    {"a ball off the table", 0xffff, 3, 0, 8, 0x10, 3, 1, 0, 0, false, PASS, AFTER, OFF, 0x18, 0, 1},
+    {"a ball off", 0xffff, 3, 0, 8, 0x10, 3, 1, 0, 0, false, PASS, AFTER, OFF, 0x18, 0, 1},
     {"no ball met", 0xffff, NONE, 0, 0, 0, NONE, 0, 0, 0, false, PASS, AFTER, NO_BALL, 0, 0, 1},
     {"a break that pots", 0xffff, 1, 0, 0x6, 0, NONE, 1, 0, 0, true, KEEP, AFTER, 0, 0x6, 0, 0},
     {"a break that drives one ball", 0xffff, 1, 0, 0, 0, 1, 1, 0, 0, true,
