@@ -138,7 +138,7 @@ def listed(folder, target):
 def main():
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    sources = listed(SRC, "carom_objects") + [name.removeprefix("src/") for name in listed(PLAN, "carom_plan_objects")]
+    sources = listed(SRC, "carom_objects") + sorted(path.name for path in (PLAN / "src").glob("*.c"))
     sources += ["platform/processors.c", "platform/processors_windows.c"]
     kernels = {name: f"{room}/{name}" for name, room in KERNELS.items()}
 

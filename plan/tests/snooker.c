@@ -189,7 +189,7 @@ TEST(double_hits) {
     f.pushed = given[k].pushed;
     f.touches = given[k].touches;
     ck_assert_msg((int)carom_foul_of(&f, R1, 0) == given[k].pool, "%s", given[k].what);
-    for (int game = CAROM_RULES_EIGHTBALL; game <= CAROM_RULES_ONEPOCKET; game++) {
+    for (int game = 0; carom_rules_about_of((carom_rules_kind)game) != NULL; game++) {
       carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)game);
       const int foul = game == CAROM_RULES_SNOOKER        ? given[k].snooker
                        : game == CAROM_RULES_THREECUSHION ? given[k].three

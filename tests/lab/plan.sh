@@ -10,15 +10,16 @@ lab plan --games --racks 1 --shots 100 | grep -c "^planned to foul"
 lab plan --left 2 --racks 2 --shots 100 | numbers | cut -d' ' -f1-20
 echo "--- games of points"
 lab plan --rules straight --target 8 --racks 1 --shots 100 | numbers | cut -d' ' -f1-33
-lab plan --rules snooker --racks 1 --shots 100 | grep -c "points in"
-lab plan --rules onepocket --racks 1 --shots 100 | grep -c "points in"
+for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../plan/src/games.h" | sort -u); do
+  case $game in *ball | straight) ;; *) lab plan --rules "$game" --racks 1 --shots 100 | grep -c "points in" ;; esac
+done
 echo "--- nor the rows that are fitted, whose form is that of the library's"
 lab learn --racks 40 --shots 100 > one.h
 lab learn --racks 40 --shots 100 --threads 3 > two.h
 cmp one.h two.h
 lab learn --racks 40 --shots 100 --seed 1 | cmp -s - one.h || echo "another seed gives other numbers"
 numbers < "$DATA/../plan/src/games.h" > is.txt
-for game in eightball nineball onepocket straight snooker; do grep -qF "$(lab learn --rules $game --racks 40 --shots 100 | numbers | sed 's/ $//')" is.txt && echo "$game: same"; done
+for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../plan/src/games.h" | sort -u); do grep -qF "$(lab learn --rules $game --racks 40 --shots 100 | numbers | sed 's/ $//')" is.txt && echo "$game: same"; done
 grep -o "racks [0-9]*" "$DATA/../plan/src/games.h"
 echo "--- usage"
 try lab learn --racks 3
