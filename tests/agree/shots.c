@@ -631,6 +631,8 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
       f.moved |= 1U << e->a;
     if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) {
       f.cushions[e->a]++;
+      if (e->type == CAROM_EVENT_RAIL && !carom_is_cut(&table, e->b))
+        f.banked |= 1U << e->a;
       f.cushions_after += f.first[0] != -1;
     } else if (e->type == CAROM_EVENT_POCKET) {
       f.down |= 1U << e->a;
