@@ -93,7 +93,8 @@ typedef enum carom_foul {
   CAROM_FOUL_OFF = 4,       /* a ball left the table */
   CAROM_FOUL_CUSHION = 5,   /* nothing fell, and nothing met a cushion after the first contact */
   CAROM_FOUL_BREAK = 6,     /* a break that potted nothing drove too few balls to cushions: fewer
-                              than four; in straight pool the cue ball and two more */
+                              than four; in straight pool the cue ball and two more, in bank
+                              pool two */
   CAROM_FOUL_OTHER = 7,     /* by another rule, such as one of the caller's */
   CAROM_FOUL_POT = 8,       /* a ball fell that was not on */
   CAROM_FOUL_DOUBLE_HIT = 9 /* the cue ball met a ball that was not frozen to it before the tip
@@ -234,7 +235,8 @@ typedef struct carom_plan_rules {
 /* Rules that are built in. A ball's index is its number, and the cue ball is ball 0.
  *
  * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), but for a break of
- * eight-ball that is not legal: the opponent has ball in hand, and no choice of a new rack. */
+ * eight-ball that is not legal: the opponent has ball in hand. Nobody chooses a new rack, also not
+ * where the eight falls; and a ball behind the head string may be met first from there. */
 typedef enum carom_rules_kind {
   CAROM_RULES_EIGHTBALL = 0,    /* 15 balls; the game is over without the eight. Ball and pocket are
                                    called. State: opening, group. */
@@ -257,9 +259,9 @@ typedef enum carom_rules_kind {
                                    colour or a free ball; without one it is the ball that is met
                                    first. A striker more than seven points ahead claims the frame
                                    when the black alone is left. A miss is left to the caller, who
-                                   knows the better stroke. State: on, score, free_ball; may, after
-                                   a foul of the other: to pass, so that he plays again, and a free
-                                   ball. */
+                                   knows the better stroke; a jump shot is not seen. State: on,
+                                   score, free_ball; may, after a foul of the other: to pass, so
+                                   that he plays again, and a free ball. */
   CAROM_RULES_ONEPOCKET = 6,    /* one-pocket, BCA: 15 balls, any may be played, nothing is called.
                                    Eight balls win. Balls that are down and count for no one come
                                    back at the end of the visit. State: pocket, to begin with the
@@ -269,8 +271,11 @@ typedef enum carom_rules_kind {
   CAROM_RULES_BANK = 7          /* bank pool, BCA: 15 balls, any may be played; ball and pocket are
                                    called. A ball counts that meets a cushion before it falls, where
                                    the cue ball met it first, without a cushion before; what falls
-                                   otherwise comes back. Eight balls win. State: opening; score;
-                                   lost, balls that are owed. */
+                                   otherwise comes back at the end of the visit. Eight balls win.
+                                   A ball that kisses another on its way counts. State: opening;
+                                   score; lost, balls that are owed; fouls, of which a third loses;
+                                   may: to pass just after a break of the other that was not legal,
+                                   so that he breaks again. */
 } carom_rules_kind;
 
 /* What a game is. */

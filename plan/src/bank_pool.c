@@ -2,17 +2,15 @@
  *
  * A ball counts that is called with its pocket and banked: the cue ball meets it first, without a
  * cushion before, and it meets a cushion, not only jaws, before it falls. It keeps the turn, and
- * eight of them win. What falls otherwise comes back. A foul costs one ball; who has none owes one.
- * After the break, which is called by nobody, who has potted plays on. */
+ * eight of them win. What falls otherwise comes back at the end of the visit, or when no other ball
+ * is left. A foul costs one ball; who has none owes one; the third in a row loses. A ball that
+ * leaves the table is no foul. After the break, which is called by nobody, who has potted plays on;
+ * if it pots none and drives fewer than two balls to rails, the other may have it played again. */
 #include "games.h"
 #include "rules.h"
 
+enum { FOULS_MOST = 3, DRIVEN = 2 };
 static const uint32_t all = 0xfffe;
-
-static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
-  (void)game;
-  return in_play & all;
-}
 
 static bool is_banked(const carom_facts *facts, carom_call call) {
   return carom_is_called(facts, call) && facts->first[0] == call.ball &&
@@ -22,42 +20,49 @@ static bool is_banked(const carom_facts *facts, carom_call call) {
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                         const carom_facts *facts, carom_call call) {
   const uint32_t balls = in_play & all, remain = balls & ~(facts->down | facts->off);
-  const bool opening = game->opening != 0;
+  const bool opening = game->opening != 0, passes = game->may != 0 && call.ball == CAROM_CALL_PASS;
+  game->opening = passes;
+  game->may = 0;
+  if (passes)
+    return carom_give(game, (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_KITCHEN, 0, all, 0.0});
+
   int32_t bad = (int32_t)carom_foul_of(facts, balls, cue_ball);
-  if (bad == CAROM_FOUL_NONE && opening && !carom_is_break(facts, cue_ball))
-    bad = CAROM_FOUL_BREAK;
+  if (bad == CAROM_FOUL_OFF)
+    bad = carom_is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT : CAROM_FOUL_NONE;
+  const bool foul = bad != CAROM_FOUL_NONE, pots = (facts->down & balls) != 0;
+  const bool bad_break = opening && !pots && carom_driven(facts, cue_ball) < DRIVEN;
   carom_turn turn = {.is = CAROM_TURN_PASS,
                      .leave = bad == CAROM_FOUL_CUE_BALL ? CAROM_LEAVE_KITCHEN : CAROM_LEAVE_AFTER,
-                     .foul = bad};
-  game->opening = 0;
+                     .foul = bad_break && !foul ? CAROM_FOUL_BREAK : bad};
 
   /* the ball that counts, or the one that a foul costs */
-  const bool made = bad == CAROM_FOUL_NONE && !opening && is_banked(facts, call);
+  const bool made = !foul && !opening && is_banked(facts, call);
   if (made)
     carom_count_ball(game, 0);
-  else if (bad != CAROM_FOUL_NONE)
+  else if (foul)
     carom_pay_ball(game);
   turn.points = made;
+  game->fouls[0] = foul ? game->fouls[0] : 0;
+  carom_add(&game->fouls[0], foul);
 
   /* who plays, and what comes back: the ball that was made stays down */
   const uint32_t its = made ? UINT32_C(1) << call.ball : 0;
   if (game->score[0] >= CAROM_BALLS_THAT_WIN)
     turn.is = CAROM_TURN_WIN;
-  else if (made || (opening && bad == CAROM_FOUL_NONE && facts->down != 0))
+  else if (game->fouls[0] >= FOULS_MOST)
+    turn.is = CAROM_TURN_LOSE;
+  else if (made || (opening && !foul && pots))
     turn.is = CAROM_TURN_KEEP;
-  if (turn.is != CAROM_TURN_WIN)
+  if (turn.is == CAROM_TURN_PASS || (turn.is == CAROM_TURN_KEEP && remain == 0))
     turn.spot = carom_back_of(game, all & ~remain, balls & ~remain & ~its);
-  if (turn.is == CAROM_TURN_PASS) {
-    carom_swap(game->score);
-    carom_swap(game->lost);
-  }
-  return turn;
+  game->may = bad_break ? CAROM_MAY_PASS : 0;
+  return turn.is == CAROM_TURN_PASS ? carom_give(game, turn) : turn;
 }
 
-const carom_plan_rules carom_bank_pool = {.on = on,
+const carom_plan_rules carom_bank_pool = {.on = carom_on_any,
                                           .judge = judge,
                                           .left = carom_left_of_eight,
                                           .race = CAROM_RACE_OWN,
                                           .breaks = 1,
-                                          .settle = carom_settle_pool,
+                                          .settle = carom_settle_rack,
                                           .rack = CAROM_RACK_EIGHTBALL};

@@ -26,7 +26,7 @@
   GAME(ONEPOCKET, carom_onepocket, "onepocket", "one-pocket by the BCA", POOL, EIGHTBALL, 15,     \
        KITCHEN, KITCHEN, 0, FOULS | SCORE | LOST | POCKET, 0)                                     \
   GAME(BANK, carom_bank_pool, "bank", "bank pool by the BCA", POOL, EIGHTBALL, 15, KITCHEN,       \
-       KITCHEN, 1, OPENING | SCORE | LOST, 0)
+       KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY, CAROM_MAY_PASS)
 
 #define CAROM_STATE_MEMBERS(MEMBER)                     \
   MEMBER(OPENING, opening, 0, 1, "0 or 1")              \

@@ -13,22 +13,8 @@
 enum { BALLS = 15, FOULS_MOST = 3 };
 static const uint32_t all = 0xfffe;
 
-static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
-  (void)game;
-  return in_play & all;
-}
-
 static uint32_t pockets(const carom_rules_state *game) {
   return UINT32_C(1) << (game->pocket[0] & (CAROM_POCKETS_MOST - 1));
-}
-
-/* The turn goes to the other: the state becomes his. */
-static carom_turn give(carom_rules_state *game, carom_turn turn) {
-  carom_swap(game->score);
-  carom_swap(game->lost);
-  carom_swap(game->pocket);
-  carom_swap(game->fouls);
-  return turn;
 }
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
@@ -67,15 +53,15 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     turn.is = CAROM_TURN_KEEP;
   if (turn.is == CAROM_TURN_PASS || (turn.is == CAROM_TURN_KEEP && remain == 0))
     turn.spot = carom_back_of(game, all & ~remain, gone & ~(in[0] | in[1]));
-  return turn.is == CAROM_TURN_PASS ? give(game, turn) : turn;
+  return turn.is == CAROM_TURN_PASS ? carom_give(game, turn) : turn;
 }
 
 /* To begin with, the pockets at the foot of a table of carom_table_make(): 5 and 2. */
 const carom_plan_rules carom_onepocket = {.state = {.pocket = {5, 2}},
-                                          .on = on,
+                                          .on = carom_on_any,
                                           .judge = judge,
                                           .left = carom_left_of_eight,
                                           .pockets = pockets,
                                           .race = CAROM_RACE_OWN,
-                                          .settle = carom_settle_pool,
+                                          .settle = carom_settle_rack,
                                           .rack = CAROM_RACK_EIGHTBALL};

@@ -101,12 +101,6 @@ static void nineball_left(const carom_rules_state *game, uint32_t in_play, int32
   left[0] = left[1] = carom_count_of(in_play & 0x3fe);
 }
 
-/* The turn goes to the other, with his fouls. */
-static carom_turn give_nine(carom_rules_state *game, carom_turn turn) {
-  carom_swap(game->fouls);
-  return turn;
-}
-
 static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                  const carom_facts *facts, carom_call call) {
   const bool opening = game->opening != 0;
@@ -114,7 +108,7 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   const bool passes = (game->may & CAROM_MAY_PASS) && call.ball == CAROM_CALL_PASS;
   game->opening = game->may = 0;
   if (passes)
-    return give_nine(game, carom_pass);
+    return carom_give(game, carom_pass);
 
   /* A push-out may meet any ball or none, and needs no cushion. */
   int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(game, in_play), cue_ball);
@@ -129,13 +123,13 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
     turn.spot = (facts->down | facts->off) & nine;
     carom_add(&game->fouls[0], 1);
     turn.is = game->fouls[0] >= FOULS_MOST ? CAROM_TURN_LOSE : turn.is;
-    return give_nine(game, turn);
+    return carom_give(game, turn);
   }
   if (pushes) {
     carom_turn turn = carom_pass;
     turn.spot = facts->down & nine;
     game->may = CAROM_MAY_PASS;
-    return give_nine(game, turn);
+    return carom_give(game, turn);
   }
 
   /* The nine wins, or the highest ball in games that do not put the nine back. A set of balls is
@@ -145,7 +139,7 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   game->may = opening ? CAROM_MAY_PUSH : 0;
   if ((facts->down & balls) > balls >> 1)
     return win;
-  return facts->down != 0 ? carom_keep : give_nine(game, carom_pass);
+  return facts->down != 0 ? carom_keep : carom_give(game, carom_pass);
 }
 
 const carom_plan_rules carom_nineball = {.on = nineball_on,

@@ -14,15 +14,17 @@ static inline int carom_count_of(uint32_t set) {
     n++;
   return n;
 }
+/* The square of a distance. */
+static inline double carom_square(const double a[2], const double b[2]) {
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+}
 static inline bool carom_is_called(const carom_facts *facts, carom_call call) {
   return call.ball >= 0 && call.ball < CAROM_BALLS_MOST && facts->pocket[call.ball] == call.pocket;
 }
-/* The pairs of a state, for the other player. */
-static inline void carom_swap(int32_t pair[2]) {
-  const int32_t kept = pair[0];
-  pair[0] = pair[1];
-  pair[1] = kept;
-}
+/* The turn goes to the other: the pairs of the state become his. Any of 15 balls may be met. */
+carom_turn carom_give(carom_rules_state *game, carom_turn turn);
+carom_rules_on carom_on_any;
+
 /* Adds points, or fouls; none of a state that no game has. */
 static inline void carom_add(int32_t *to, int more) {
   *to = *to > INT32_MAX - more ? INT32_MAX : *to + more;
@@ -32,7 +34,10 @@ static inline void carom_add(int32_t *to, int more) {
  * without any that was: a frozen ball may be played through. */
 bool carom_is_double_hit(const carom_facts *facts);
 
-/* Whether a break reaches cushions with four balls, or pots. */
+/* How many balls but the cue ball were driven to rails; those that are gone count. */
+int carom_driven(const carom_facts *facts, int cue_ball);
+
+/* Whether a break drives four balls to rails, or pots. */
 bool carom_is_break(const carom_facts *facts, int cue_ball);
 
 /* Games in which eight balls win: a ball that counts, or is no more owed; one that a foul costs, or
@@ -42,9 +47,8 @@ void carom_count_ball(carom_rules_state *game, int who);
 void carom_pay_ball(carom_rules_state *game);
 carom_rules_left carom_left_of_eight;
 uint32_t carom_back_of(const carom_rules_state *game, uint32_t down, uint32_t first);
-carom_rules_settle carom_settle_pool;
 
-/* Puts balls on the foot spot, or behind it, in the order of their numbers. */
-void carom_put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set);
+/* Puts balls back, as a rack where so many come for a break, or in straight pool. */
+carom_rules_settle carom_settle_rack;
 
 #endif

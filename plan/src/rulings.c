@@ -3,16 +3,39 @@
 
 #include <stddef.h>
 
+static void swap(int32_t pair[2]) {
+  const int32_t kept = pair[0];
+  pair[0] = pair[1];
+  pair[1] = kept;
+}
+
+uint32_t carom_on_any(const carom_rules_state *game, uint32_t in_play) {
+  (void)game;
+  return in_play & 0xfffe;
+}
+
+carom_turn carom_give(carom_rules_state *game, carom_turn turn) {
+  swap(game->fouls);
+  swap(game->score);
+  swap(game->lost);
+  swap(game->pocket);
+  return turn;
+}
+
 bool carom_is_double_hit(const carom_facts *facts) {
   return (facts->pushed & ~facts->frozen) != 0 || (facts->touches > 1 && facts->pushed == 0);
 }
 
-/* Whether a break reaches cushions with four balls, or pots. */
-bool carom_is_break(const carom_facts *facts, int cue_ball) {
-  int reached = 0;
+int carom_driven(const carom_facts *facts, int cue_ball) {
+  int driven = 0;
   for (int k = 0; k < CAROM_BALLS_MOST; k++)
-    reached += k != cue_ball && facts->cushions[k] > 0;
-  return facts->down != 0 || reached >= 4;
+    driven +=
+        k != cue_ball && (facts->cushions[k] > 0 || ((facts->down | facts->off) >> k & 1) != 0);
+  return driven;
+}
+
+bool carom_is_break(const carom_facts *facts, int cue_ball) {
+  return facts->down != 0 || carom_driven(facts, cue_ball) >= 4;
 }
 
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
@@ -84,12 +107,6 @@ carom_status carom_spot_ball_of(carom_rack_kind kind, const carom_table *table,
   return put_near(table, balls, count, ball, own);
 }
 
-void carom_put_back(const carom_table *table, carom_shot_ball *balls, int count, uint32_t set) {
-  for (int k = 0; k < count; k++)
-    if (set >> k & 1)
-      carom_spot_ball(table, balls, count, k);
-}
-
 carom_status carom_turn_settle(const carom_plan_rules *rules, carom_rules_state *game,
                                const carom_table *table, carom_shot_ball *balls, int count,
                                carom_turn *turn) {
@@ -147,10 +164,4 @@ uint32_t carom_back_of(const carom_rules_state *game, uint32_t down, uint32_t fi
     back |= from & (~from + 1);
   }
   return back;
-}
-
-void carom_settle_pool(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
-                       int count, carom_turn *turn) {
-  (void)game;
-  carom_put_back(table, balls, count, turn->spot);
 }

@@ -83,12 +83,6 @@ static double points(const carom_rules_state *game, uint32_t in_play, int ball) 
                          : highest(due);
 }
 
-/* The turn goes to the other: the state becomes his. */
-static carom_turn give(carom_rules_state *game, carom_turn turn) {
-  carom_swap(game->score);
-  return turn;
-}
-
 /* The last black is gone: who has more has won; else it comes back. */
 static carom_turn finish(carom_rules_state *game, carom_turn turn) {
   turn.spot = 0;
@@ -121,7 +115,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if ((after_foul & CAROM_MAY_PASS) && call.ball == CAROM_CALL_PASS) {
     carom_turn turn = carom_pass;
     turn.leave = after_foul & CAROM_MAY_PLACE ? CAROM_LEAVE_D : turn.leave;
-    return give(game, turn);
+    return carom_give(game, turn);
   }
 
   /* The ball that is named, where one may be: else it is the first. */
@@ -165,7 +159,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
       return turn;
     /* a black that comes back is a new beginning */
     game->may = balls == black ? 0 : off_cue ? CAROM_MAY_PASS | CAROM_MAY_PLACE : CAROM_MAY_PASS;
-    return give(game, turn);
+    return carom_give(game, turn);
   }
 
   /* A stroke without a pot; the other must not be snookered behind a free ball. */
@@ -174,7 +168,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     if (is_claimed(-lead_of(game), balls))
       return finish(game, turn);
     game->free_ball = free_ball ? named : 0;
-    return give(game, turn);
+    return carom_give(game, turn);
   }
 
   /* Reds count one each, and a free ball beside them as one; of others the ball on counts alone. */
@@ -187,7 +181,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (balls == black || is_claimed(lead_of(game), (balls & ~fell) | turn.spot))
     turn = finish(game, turn);
   turn.points = made;
-  return turn.is == CAROM_TURN_PASS ? give(game, turn) : turn;
+  return turn.is == CAROM_TURN_PASS ? carom_give(game, turn) : turn;
 }
 
 /* ---- Where balls lie */

@@ -3,7 +3,8 @@
  * A called ball in its pocket keeps the turn; then it and all others that fell with it count one
  * each. What falls otherwise comes back. A foul costs one point, the third in a row 15 more and a
  * new break. An opening break pots a called ball, or drives the cue ball and two others to
- * cushions; else it costs two points, and the other may have it played again. */
+ * rails, as those that fall are; else it costs two points, and the other may have it played
+ * again. */
 #include "games.h"
 #include "rules.h"
 
@@ -14,25 +15,12 @@ static int64_t score(const carom_rules_state *game, int who) {
   return (int64_t)game->score[who] - game->lost[who];
 }
 
-static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
-  (void)game;
-  return in_play & all;
-}
-
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
   for (int who = 0; who < 2; who++) {
     const int64_t n = game->target - score(game, who);
     needed[who] = n < 1 ? 1 : n > INT32_MAX ? INT32_MAX : (int32_t)n;
   }
-}
-
-/* The turn goes to the other: the state becomes his. */
-static carom_turn give(carom_rules_state *game, carom_turn turn) {
-  carom_swap(game->score);
-  carom_swap(game->lost);
-  carom_swap(game->fouls);
-  return turn;
 }
 
 /* A break: all balls are racked, and the cue ball is in hand. */
@@ -43,10 +31,9 @@ static carom_turn racked(carom_rules_state *game, carom_turn_is is, int32_t foul
 
 /* Whether an opening break drove the cue ball and two others to cushions. */
 static bool is_open(const carom_facts *facts, int cue_ball) {
-  int reached = 0;
-  for (int k = 1; k <= LAST_BALL; k++)
-    reached += facts->cushions[k] > 0;
-  return reached >= 2 && facts->cushions[cue_ball] > facts->cushions_before[0];
+  const bool gone = (facts->down | facts->off) >> cue_ball & 1;
+  return carom_driven(facts, cue_ball) >= 2 &&
+         (gone || facts->cushions[cue_ball] > facts->cushions_before[0]);
 }
 
 static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
@@ -55,7 +42,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const bool opening = game->opening != 0, passes = game->may != 0 && call.ball == CAROM_CALL_PASS;
   game->opening = game->may = 0;
   if (passes)
-    return give(game, racked(game, CAROM_TURN_PASS, 0));
+    return carom_give(game, racked(game, CAROM_TURN_PASS, 0));
 
   /* Fouls: what fell comes back. */
   int32_t bad = (int32_t)carom_foul_of(facts, balls, cue_ball);
@@ -68,7 +55,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   if (bad_break) {
     turn.foul = bad != CAROM_FOUL_NONE ? bad : CAROM_FOUL_BREAK;
     carom_add(&game->lost[0], BAD_BREAK);
-    give(game, turn);
+    carom_give(game, turn);
     game->may = CAROM_MAY_PASS;
     return turn;
   }
@@ -76,7 +63,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     carom_add(&game->lost[0], 1);
     carom_add(&game->fouls[0], 1);
     if (game->fouls[0] < FOULS_MOST)
-      return give(game, turn);
+      return carom_give(game, turn);
     carom_add(&game->lost[0], MANY_FOULS);
     game->fouls[0] = 0;
     return racked(game, CAROM_TURN_KEEP, bad);
@@ -85,7 +72,7 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   /* A miss or a safety; else points, and a new rack where one ball is left, or none. */
   game->fouls[0] = 0;
   if (!called)
-    return give(game, turn);
+    return carom_give(game, turn);
   turn = carom_keep;
   turn.points = carom_count_of(gone);
   carom_add(&game->score[0], carom_count_of(gone));
@@ -111,8 +98,7 @@ static void places_of(const carom_table *table, double radius, double place[LAST
 
 /* Whether a ball at r is in the way of one at a place. */
 static bool is_near(const double r[2], const double place[2], double radius) {
-  const double x = r[0] - place[0], y = r[1] - place[1];
-  return x * x + y * y < 4.0 * radius * radius;
+  return carom_square(r, place) < 4.0 * radius * radius;
 }
 
 static bool is_in_rack(const carom_shot_ball *ball, double place[LAST_BALL][2]) {
@@ -126,12 +112,14 @@ static bool is_in_rack(const carom_shot_ball *ball, double place[LAST_BALL][2]) 
  * or for the centre where the cue ball is there. A cue ball in the rack is in hand; but with the
  * fifteenth behind the head string it goes to the head spot, or to the centre where the fifteenth
  * is there. With both in the rack all 15 are racked. */
-static void settle(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
-                   int count, carom_turn *turn) {
-  (void)game;
+void carom_settle_rack(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
+                       int count, carom_turn *turn) {
   uint32_t spot = turn->spot;
-  if (carom_count_of(spot) < RACKED || count <= LAST_BALL) {
-    carom_put_back(table, balls, count, spot);
+  const bool racks = game->target > 0 || game->opening != 0;
+  if (!racks || carom_count_of(spot) < RACKED || count <= LAST_BALL) {
+    for (int k = 1; spot >> k != 0; k++)
+      if (spot >> k & 1)
+        carom_spot_ball(table, balls, count, k);
     return;
   }
 
@@ -178,9 +166,9 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
 }
 
 const carom_plan_rules carom_straight = {.state = {.target = 100},
-                                         .on = on,
+                                         .on = carom_on_any,
                                          .judge = judge,
                                          .left = left,
                                          .race = CAROM_RACE_POINTS,
-                                         .settle = settle,
+                                         .settle = carom_settle_rack,
                                          .rack = CAROM_RACK_EIGHTBALL};
