@@ -206,16 +206,37 @@ static bool is_barred(const carom_shot_ball *balls, uint32_t by, const double c[
   return false;
 }
 
+/* Whether others bar the way from c to an edge of ball k. */
+static bool is_hidden(const carom_shot_ball *balls, uint32_t others, const double c[2], int k) {
+  return is_barred(balls, others, c, k, -1) || is_barred(balls, others, c, k, 1);
+}
+
 /* Whether no ball of `due` can be hit at both of its edges from c: others bar the way. */
 static bool is_snookered_at(const carom_shot_ball *balls, uint32_t due, uint32_t others,
                             const double c[2]) {
   for (int k = 1; due >> k != 0; k++)
-    if ((due >> k & 1) && !is_barred(balls, others, c, k, -1) && !is_barred(balls, others, c, k, 1))
+    if ((due >> k & 1) && !is_hidden(balls, others, c, k))
       return false;
   return true;
 }
 
-/* The same of the cue ball; in hand, from all free places of the D, of which some are tried. */
+/* Whether `ball` snookers the cue ball: of the others that bar the way to each ball of `due`, it is
+ * the nearest one. */
+static bool is_behind(const carom_shot_ball *balls, uint32_t due, uint32_t others, int ball) {
+  const double *c = balls[0].state.r;
+  uint32_t nearer = 0;
+  for (int n = 1; others >> n != 0; n++)
+    nearer |= (uint32_t)((others >> n & 1) &&
+                         carom_square(balls[n].state.r, c) < carom_square(balls[ball].state.r, c))
+              << n;
+  for (int k = 1; due >> k != 0; k++)
+    if ((due >> k & 1) &&
+        (!is_hidden(balls, UINT32_C(1) << ball, c, k) || is_hidden(balls, nearer, c, k)))
+      return false;
+  return true;
+}
+
+/* Whether the cue ball is snookered; in hand from all free places of the D: some are tried. */
 static bool is_snookered(const carom_table *table, const carom_shot_ball *balls, uint32_t in_play,
                          uint32_t due, uint32_t others, bool hand) {
   enum { STEPS = 6 };
@@ -227,9 +248,8 @@ static bool is_snookered(const carom_table *table, const carom_shot_ball *balls,
       const double c[2] = {d.x + d.radius * i / (double)STEPS, d.y - d.radius * j / (double)STEPS};
       bool is_free = carom_is_in_d(table, c[0], c[1]);
       for (int k = 1; in_play >> k != 0 && is_free; k++) {
-        const double x = balls[k].state.r[0] - c[0], y = balls[k].state.r[1] - c[1],
-                     least = balls[0].kind.radius + balls[k].kind.radius;
-        is_free = !(in_play >> k & 1) || x * x + y * y > least * least;
+        const double least = balls[0].kind.radius + balls[k].kind.radius;
+        is_free = !(in_play >> k & 1) || carom_square(balls[k].state.r, c) > least * least;
       }
       if (is_free && !is_snookered_at(balls, due, others, c))
         return false;
@@ -255,11 +275,9 @@ static void settle(carom_rules_state *game, const carom_table *table, carom_shot
 
   /* Behind the free ball, but for pink and black alone: a foul. */
   if (game->free_ball > 0 && game->free_ball <= BLACK) {
-    const uint32_t its = UINT32_C(1) << game->free_ball, others = in_play & ~due;
+    const int its = game->free_ball;
     game->free_ball = 0;
-    if (in_play != (black | black >> 1) &&
-        is_snookered(table, balls, in_play, due, others, false) &&
-        !is_snookered(table, balls, in_play, due, others & ~its, false)) {
+    if (in_play != (black | black >> 1) && is_behind(balls, due, in_play & ~due, its)) {
       carom_add(&game->score[0], highest(due) > LEAST ? highest(due) : LEAST);
       game->may = CAROM_MAY_PASS;
       turn->foul = CAROM_FOUL_OTHER;

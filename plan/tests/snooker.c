@@ -22,10 +22,8 @@ static const snooker_case snooker[] = {
     {"the black first, on reds", ALL, 0, 0, BLACK, 0, 0, 1, PASS, AFTER, FIRST, 0, 7, 0, 0, MAY},
     {"the black falls, on reds", ALL, 0, 0, 1, BK, 0, 1, PASS, AFTER, POT, 0, 7, BK, 0, MAY},
     {"a red and the blue", ALL, 0, 0, 1, R1 | BL, 0, 1, PASS, AFTER, POT, 0, 5, BL, 0, MAY},
-    {"a red and the cue ball", ALL, 0, 0, 1, R1 | 1, 0, 1, PASS, D, CUE_BALL, 0, 4, 0, 0,
-     MAY | HAND},
-    {"the cue ball leaves the table", ALL, 0, 0, 1, 0, 1, 1, PASS, D, CUE_BALL, 0, 4, 0, 0,
-     MAY | HAND},
+    {"a red, the cue ball", ALL, 0, 0, 1, R1 | 1, 0, 1, PASS, D, CUE_BALL, 0, 4, 0, 0, MAY | HAND},
+    {"the cue ball is off", ALL, 0, 0, 1, 0, 1, 1, PASS, D, CUE_BALL, 0, 4, 0, 0, MAY | HAND},
     {"a red leaves the table", ALL, 0, 0, 1, 0, R2, 1, PASS, AFTER, OFF, 0, 4, 0, 0, MAY},
     {"the pink leaves the table", ALL, 0, 0, 1, 0, PI, 1, PASS, AFTER, OFF, 0, 6, PI, 0, MAY},
 
@@ -37,8 +35,7 @@ static const snooker_case snooker[] = {
      0, 7, 0, 0, MAY},
     {"a red first, the yellow named", ALL & ~R1, 1, 0, 2, 0, 0, YELLOW, PASS, AFTER, FIRST, 0, 4, 0,
      0, MAY},
-    {"two colours", ALL & ~R1, 1, 0, GREEN, G | PI, 0, GREEN, PASS, AFTER, POT, 0, 6, G | PI, 0,
-     MAY},
+    {"two fall", ALL & ~R1, 1, 0, GREEN, G | PI, 0, GREEN, PASS, AFTER, POT, 0, 6, G | PI, 0, MAY},
     {"a red with the colour", ALL & ~R1, 1, 0, GREEN, G | R2, 0, GREEN, PASS, AFTER, POT, 0, 4, G,
      0, MAY},
     {"the cue ball with the black", ALL & ~R1, 1, 0, BLACK, BK | 1, 0, BLACK, PASS, D, CUE_BALL, 0,
@@ -51,23 +48,17 @@ static const snooker_case snooker[] = {
      Y, 0, 0},
 
     {"the yellow in order", COLOURS | 1, 0, 0, YELLOW, Y, 0, YELLOW, KEEP, AFTER, 0, 2, 0, 0, 0, 0},
-    {"the green too early", COLOURS | 1, 0, 0, GREEN, G, 0, GREEN, PASS, AFTER, FIRST, 0, 4, G, 0,
-     MAY},
-    {"the green in order", (COLOURS & ~Y) | 1, 0, 0, GREEN, G, 0, NONE, KEEP, AFTER, 0, 3, 0, 0, 0,
-     0},
+    {"the green early", COLOURS | 1, 0, 0, GREEN, G, 0, GREEN, PASS, AFTER, FIRST, 0, 4, G, 0, MAY},
+    {"the green next", (COLOURS & ~Y) | 1, 0, 0, GREEN, G, 0, NONE, KEEP, AFTER, 0, 3, 0, 0, 0, 0},
     {"the brown with the green", (COLOURS & ~Y) | 1, 0, 0, GREEN, G | BR, 0, GREEN, PASS, AFTER,
      POT, 0, 4, G | BR, 0, MAY},
-    {"no ball, the pink on", PI | BK | 1, 0, 0, -1, 0, 0, NONE, PASS, AFTER, NO_BALL, 0, 6, 0, 0,
-     MAY},
+    {"none, the pink on", PI | BK | 1, 0, 0, -1, 0, 0, NONE, PASS, AFTER, NO_BALL, 0, 6, 0, 0, MAY},
 
-    {"a free ball, potted", ALL, 0, MAY | FREE, BROWN, BR, 0, BROWN, KEEP, AFTER, 0, 1, 0, BR, 1,
-     0},
-    {"a free ball and a red", ALL, 0, FREE, BROWN, BR | R1, 0, BROWN, KEEP, AFTER, 0, 2, 0, BR, 1,
-     0},
+    {"a free ball falls", ALL, 0, MAY | FREE, BROWN, BR, 0, BROWN, KEEP, AFTER, 0, 1, 0, BR, 1, 0},
+    {"a free ball, a red", ALL, 0, FREE, BROWN, BR | R1, 0, BROWN, KEEP, AFTER, 0, 2, 0, BR, 1, 0},
     {"a red by a free ball", ALL, 0, FREE, BROWN, R1, 0, BROWN, KEEP, AFTER, 0, 1, 0, 0, 1, 0},
     {"the red, with a free ball", ALL, 0, FREE, 1, R1, 0, 1, KEEP, AFTER, 0, 1, 0, 0, 1, 0},
-    {"a red first, the brown named", ALL, 0, FREE, 1, R1, 0, BROWN, PASS, AFTER, FIRST, 0, 4, 0, 0,
-     MAY},
+    {"a red, the brown named", ALL, 0, FREE, 1, R1, 0, BROWN, PASS, AFTER, FIRST, 0, 4, 0, 0, MAY},
     {"the black as a free ball, missed", ALL, 0, FREE, -1, 0, 0, BLACK, PASS, AFTER, NO_BALL, 0, 4,
      0, 0, MAY},
     {"the blue as a free ball, off the table", ALL, 0, FREE, BLUE, 0, BL, BLUE, PASS, AFTER, OFF, 0,
@@ -372,28 +363,31 @@ TEST(free_balls) {
   ck_assert(!(of.state.may & FREE));
 
   /* to leave the other behind the free ball is a foul; behind another it is not, nor with pink and
-   * black alone */
-  for (int k = 0; k < 4; k++) {
-    const bool last = k >= 2;
-    count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER,
-                    last ? (k == 2 ? 1 | PI | BK : 1 | BL | PI | BK) : 1 | R1 | Y | BK);
+   * black alone; of two in one way the nearer one is it, of those before two reds none */
+  static const struct {
+    uint32_t lie;
+    int target, named, points;
+    double yellow[2];
+  } behind[] = {
+      {1 | R1 | Y | BK, 1, BLACK, 4, {0.2, 0.2}},  {1 | R1 | Y | BK, 1, YELLOW, 0, {0.2, 0.2}},
+      {1 | PI | BK, PINK, BLACK, 0, {0.0, 0.0}},   {1 | BL | PI | BK, BLUE, BLACK, 5, {0.0, 0.0}},
+      {1 | R1 | Y | BK, 1, YELLOW, 4, {0.9, 1.3}}, {1 | R1 | R2 | Y | BK, 1, BLACK, 0, {0.6, 1.3}}};
+  for (int k = 0; k < 6; k++) {
+    count = lay_out(CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, behind[k].lie);
     put(0, 0.9, 1.0);
-    const int target = k == 2 ? PINK : k == 3 ? BLUE : 1, named = k == 1 ? YELLOW : BLACK;
-    put(target, 0.9, 2.0);
+    put(behind[k].target, 0.9, 2.0);
     put(BLACK, 0.9, 1.5);
-    if (k == 1)
-      put(YELLOW, 0.2, 0.2);
-    if (k == 3)
-      put(PINK, 0.2, 0.2);
+    if (behind[k].lie & Y)
+      put(YELLOW, behind[k].yellow[0], behind[k].yellow[1]);
+    if (behind[k].lie & R2)
+      put(2, 0.3, 1.6);
     of = carom_plan_rules_of(CAROM_RULES_SNOOKER);
-    of.state.score[0] = 5;
-    of.state.free_ball = named;
+    of.state.free_ball = behind[k].named;
     turn = (carom_turn){.is = CAROM_TURN_PASS};
     carom_turn_settle(&of, &of.state, &table, balls, count, &turn);
-    const bool foul = k == 0 || k == 3;
-    ck_assert_msg((turn.foul != 0) == foul, "%d: foul %d", k, turn.foul);
-    ck_assert_int_eq(of.state.score[0], k == 0 ? 9 : k == 3 ? 10 : 5);
-    ck_assert_int_eq(of.state.may, foul ? MAY | FREE : 0);
-    ck_assert_int_eq(of.state.free_ball, 0);
+    ck_assert_msg((turn.foul != 0) == (behind[k].points > 0) && of.state.free_ball == 0 &&
+                      of.state.score[0] == behind[k].points &&
+                      of.state.may == (behind[k].points > 0 ? MAY | FREE : 0),
+                  "%d: foul %d, %d points", k, turn.foul, of.state.score[0]);
   }
 }
