@@ -91,16 +91,17 @@ typedef enum carom_foul {
   CAROM_FOUL_NO_BALL = 2,   /* the cue ball met no ball */
   CAROM_FOUL_FIRST = 3,     /* it met a ball first that is not on */
   CAROM_FOUL_OFF = 4,       /* a ball left the table */
-  CAROM_FOUL_CUSHION = 5,   /* nothing fell, and nothing met a cushion after the first contact */
+  CAROM_FOUL_CUSHION = 5,   /* nothing fell, and nothing met a cushion after the first contact; a
+                               cushion that a ball lay at counts too, as it does not by the WPA */
   CAROM_FOUL_BREAK = 6,     /* a break that potted nothing drove too few balls to cushions: fewer
                               than four; in straight pool the cue ball and two more, in bank
                               pool two */
   CAROM_FOUL_OTHER = 7,     /* by another rule, such as one of the caller's */
   CAROM_FOUL_POT = 8,       /* a ball fell that was not on */
   CAROM_FOUL_DOUBLE_HIT = 9 /* the cue ball met a ball that was not frozen to it before the tip
-                               left it, or the tip touched it twice. A frozen ball may be played
-                               through, but not in snooker and three-cushion: there any ball that
-                               is met so is a push. Touches after the push are not known. */
+                               left it, be it the finest graze, which rules allow, or the tip
+                               touched it twice. A frozen ball may be played through; in snooker
+                               and three-cushion that is a push. Later touches are not known. */
 } carom_foul;
 
 /* The foul of a shot by the rules that all games share, up to CAROM_FOUL_CUSHION, and
