@@ -416,7 +416,11 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
     c = *cue;
     c.phi = mid + wide * sine;
     c.theta = elevation_of(w, &c);
-    const bool falls = fate(w, balls, count, &c, &met) == CAROM_POT_FALLS;
+    /* the whole layout where the balls of the way alone come so far */
+    carom_cue own = c;
+    own.ball = 0;
+    const bool falls = alone(w, &own, &unused).links == w->links &&
+                       fate(w, balls, count, &c, &met) == CAROM_POT_FALLS;
     if (falls && !fell)
       from = c.phi;
     last = falls ? c.phi : last;

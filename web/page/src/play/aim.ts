@@ -54,7 +54,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
     }
     drawStick(pen, cueBall, of);
   }
-  if (!play.state.opening) drawNumbers(pen, play.balls, play.names);
+  if (!play.breaks) drawNumbers(pen, play.balls, play.names);
 }
 
 // ---- One pointer -----------------------------------------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 // A game on its way: who is at the table, the rulings of the library, and the strokes so far. Each stroke is a line of a recording, which another page
 // reads, plays and compares bit by bit. A game is kept and sent as text: what it begins with, and its strokes.
-import type { Call, Carom, Cue, GameState, Recording, Ruling, Shot, ShotBall, ShotOptions, Table, Vec2 } from "carom";
+import { type Call, type Carom, type Cue, games, type GameState, type Recording, type Ruling, type Shot, type ShotBall, type ShotOptions, type Table, type Vec2 } from "carom";
 import { onTable } from "../table/filmed.js";
 import { GAMES, PLAYED, type Played } from "../table/games.js";
 import { atHead, mayLie } from "../table/head.js";
@@ -72,11 +72,17 @@ export class Play {
     this.balls = carom.rack(of.rack, this.table, { seed: setup.seed }).map(({ state }) => ({ kind, state }));
     this.names = this.balls.map((_, k) => of.names(k));
     if (setup.at !== undefined) this.balls = placesOf(setup.at, this.table, this.balls).balls;
-    this.state = { rules: this.played?.rules ?? "potting", group: "open", opening: setup.at === undefined, ...this.played?.state };
+    const rules = this.played?.rules ?? "potting";
+    const opens = (games[rules].members as readonly string[]).includes("opening") && setup.at === undefined;
+    this.state = { rules, group: "open", opening: opens, ...this.played?.state };
     this.hand = this.practice || !this.hasPockets ? "no" : (this.played!.opening as Ruling["hand"]);
     this.#recording = carom.record(this.table, this.balls, OPTIONS);
   }
 
+  /** Whether the next stroke is the first of a rack, whether or not the rules tell it from others. */
+  get breaks(): boolean {
+    return this.state.opening === true || (this.setup.at === undefined && this.entries.length === 0 && this.last === undefined);
+  }
   /** Whether the rules let the player pass. */
   get mayPass(): boolean {
     return this.state.may?.includes("pass") ?? false;

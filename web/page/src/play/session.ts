@@ -81,7 +81,7 @@ export const aimAt = ({ stroke }: Session, of: Cue): void => stroke.set(strokeOf
 export const aimed = (s: Session): Cue | undefined => (free(s) ? cueOf(s) : s.theirs);
 
 /** Whether a stroke needs a call. */
-export const calls = ({ play }: Session): boolean => play.played?.calls === true && !play.state.opening && !play.practice;
+export const calls = ({ play }: Session): boolean => play.played?.calls === true && !play.breaks && !play.practice;
 export const ballsOn = ({ carom, play }: Session): number[] => carom.ballsOn(play.state, play.balls);
 /** What was chosen, as far as it holds for the aim. */
 export function valid({ first, chosen, stroke }: Session): Chosen {

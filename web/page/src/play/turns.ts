@@ -48,7 +48,7 @@ export function choose(s: Session, what: "push" | "pass"): void {
 /** A stroke was played: its film, and whoever comes next. */
 function played(s: Session, one: Stroke): void {
   // Nobody breaks twice: the next stroke begins as one of medium speed.
-  if (one.state.opening && !s.play.state.opening) s.stroke.set({ speed: SPEED });
+  if ((one.state.opening || s.play.entries.length === 1) && !s.play.breaks) s.stroke.set({ speed: SPEED });
   s.chosen = NONE;
   s.theirs = undefined;
   s.special = undefined;
@@ -81,7 +81,7 @@ export function next(s: Session): void {
   if (play.last && play.hasPockets && computer(s) && play.last.who !== s.seat) says(s, wordsOfStroke(play, play.last, s.seat));
   if (play.winner === undefined && !mine(s) && computer(s)) void reply(s);
   else {
-    if (!play.practice && !play.state.opening && mine(s)) address(s);
+    if (!play.practice && !play.breaks && mine(s)) address(s);
     rest(s);
   }
   // After a stroke its review is read, until the aim changes.
@@ -158,7 +158,7 @@ export async function resume(s: Session): Promise<void> {
       const one = read(s.carom, text);
       start(s, one);
       s.seat = packed && given.get("seat") === "1" ? 1 : 0;
-      aimAt(s, { ...cueOf(s), theta: 0, ...(one.state.opening || one.practice ? one.played?.begin : { speed: SPEED }) });
+      aimAt(s, { ...cueOf(s), theta: 0, ...(one.breaks || one.practice ? one.played?.begin : { speed: SPEED }) });
       if (packed && one.entries.length > 0) told = `${one.entries.length} ${one.entries.length === 1 ? "stroke was" : "strokes were"} repeated; every bit agrees.`;
       save(s);
       s.link.ask();
