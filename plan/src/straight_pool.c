@@ -115,11 +115,12 @@ static bool is_in_rack(const carom_shot_ball *ball, double place[LAST_BALL][2]) 
 void carom_settle_rack(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
                        int count, carom_turn *turn) {
   uint32_t spot = turn->spot;
-  const bool racks = game->target > 0 || game->opening != 0;
-  if (!racks || carom_count_of(spot) < RACKED || count <= LAST_BALL) {
-    for (int k = 1; spot >> k != 0; k++)
+  if ((game->target <= 0 && game->opening == 0) || carom_count_of(spot) < RACKED ||
+      count <= LAST_BALL) {
+    carom_status found = CAROM_OK; /* where one has no place, no other has */
+    for (int k = 1; spot >> k != 0 && found == CAROM_OK; k++)
       if (spot >> k & 1)
-        carom_spot_ball(table, balls, count, k);
+        found = carom_spot_ball(table, balls, count, k);
     return;
   }
 
