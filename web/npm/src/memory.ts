@@ -115,7 +115,7 @@ export async function start(build: Build): Promise<Memory> {
   const known: Record<string, (...numbers: number[]) => number | void> = {
     environ_sizes_get: empty as (...numbers: number[]) => number,
     environ_get: () => 0,
-    clock_time_get: (...[, , , at]) => (new BigUint64Array(memory!.buffer)[at! >>> 3] = BigInt(Math.round(1e6 * performance.now())), 0),
+    clock_time_get: (_clock, _precision, at) => ((new BigUint64Array(memory!.buffer)[at! >>> 3] = BigInt(Math.round(1e6 * performance.now()))), 0),
     emscripten_notify_memory_growth: () => undefined,
   };
   const imports: WebAssembly.Imports = {};
