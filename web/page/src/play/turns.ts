@@ -48,7 +48,7 @@ export function choose(s: Session, what: "push" | "pass"): void {
 /** A stroke was played: its film, and whoever comes next. */
 function played(s: Session, one: Stroke): void {
   // Nobody breaks twice: the next stroke begins as one of medium speed.
-  if ((one.state.opening || s.play.entries.length === 1) && !s.play.breaks) s.stroke.set({ speed: SPEED });
+  if ((one.state.opening || (s.play.setup.at === undefined && s.play.entries.length === 1)) && !s.play.breaks) s.stroke.set({ speed: SPEED });
   s.chosen = NONE;
   s.theirs = undefined;
   s.special = undefined;
