@@ -45,7 +45,7 @@ OPTION(ways_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
        "there without a pot");
 OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 0,
        "strokes in all directions that are searched (default 20000, or 1800 for each speed and tip "
-       "if that is more; for points and places 100000)");
+       "if that is more; for points and places 100000); 0: the default");
 OPTION(
     ways_job, option_each, "each", each, 0, NULL, set_flag, 0,
     "tell each stroke by which a way comes off, in the order of the strokes, instead of the best "

@@ -387,21 +387,22 @@ typedef struct carom_plan_options {
                                    ... shots. It then gives one choice, the best so far; of
                                    carom_plan_try() those that were not played have `seen` 0 and
                                    the value NaN. */
-  int64_t slice;        /* events of shots, about, after which carom_plan() and carom_plan_hand()
-                                   return with *found 0, for carom_plan_continue(). 0: they
-                                   return at the end. Not read by carom_plan_try(). */
-  double unsure;        /* how little the player knows of the table, 0 to 1. Above 0 its
+  int64_t slice;                /* events of shots, about, after which carom_plan() and
+                                   carom_plan_hand() return with *found 0, for
+                                   carom_plan_continue(). 0: they return at the end. Not read by
+                                   carom_plan_try(). */
+  double unsure;                /* how little the player knows of the table, 0 to 1. Above 0 its
                                    restitution and friction of cushions, rolling resistance and
                                    sliding friction are drawn with the errors of strokes, times
                                    exp(unsure s z), z normal; s is 0.12, 0.17, 0.29 and 0.26, so
                                    that 1 stands for all tables that there are. One of 32 tables
                                    for a stroke, the same for all strokes that are compared. */
-  double seconds;       /* s, up to 1,000,000, of all its calls together, at which a plan is
+  double seconds;               /* s, up to 1,000,000, of all its calls together, at which a plan is
                                    stopped as by `stop`, if it has not played its shots by then; 0:
                                    none. */
-  int32_t once;         /* 1: all shots are one plan, though it may be stopped. */
-  int32_t unused;       /* must be 0. */
-  uint64_t reserved[1]; /* must be 0. */
+  int32_t once;                 /* 1: all shots are one plan, though it may be stopped. */
+  int32_t unused;               /* must be 0. */
+  uint64_t reserved[1];         /* must be 0. */
 } carom_plan_options;
 
 /* What a choice is, by what happens. */

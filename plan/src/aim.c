@@ -1,4 +1,4 @@
-/* Aims at a pocket, by shots of the balls on the way alone.
+/* Aims at a pocket, by shots of the balls on the way alone, and at last by those of all balls.
  *
  * The way is a row of links: the cue ball meets rails or ball 1, which meets rails or ball 2, up to
  * the ball that is wanted, which meets rails. A direction phi of the cue does the first few of
@@ -18,7 +18,10 @@
  *
  * A cue that the caller leaves to the stick has in each direction the least elevation of the stick,
  * so a root is the direction of the stroke that is played. That elevation jumps where the butt
- * comes over a cushion; where no other root is left, all directions have the greater elevation. */
+ * comes over a cushion; where no other root is left, all directions have the greater elevation.
+ *
+ * A ball that runs along a rail, or is met right off one, has no root. Then directions are played,
+ * and the middle of the widest range in which the ball falls is taken. */
 #include "platform/elementary.h"
 #include "table/table.h"
 #include "view.h"
@@ -407,7 +410,7 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
                   carom_pot *pot, carom_cue *cue) {
   carom_cue c;
   double from = 0.0, last = 0.0, low = 0.0, high = 0.0, unused, half;
-  bool fell = false;
+  bool fell = false, found = false;
   w->swept = w->links == 1;
   for (int k = 0; k <= SWEPT; k++) {
     double sine, cosine;
@@ -429,8 +432,9 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
       high = last;
     }
     fell = falls;
+    found |= falls;
   }
-  if (low == 0.0 && high == 0.0)
+  if (!found)
     return;
   c = *cue;
   c.phi = 0.5 * (low + high);
