@@ -222,8 +222,10 @@ typedef struct carom_plan_rules {
                                foul, whatever else happens. Such shots are not played to their
                                end. */
   int32_t breaks;               /* 1: where state.opening is 1, the plan tries strokes as players
-                                   break: the nearest balls about full, hard. In hand the cue ball
-                                   is on the upper edge of its bounds; NULL: on the head string. */
+                                   break: the nearest balls about full, hard. 2: as they open who
+                                   leave little: the outer balls of the rack thinly, softly. In
+                                   hand the cue ball is on the upper edge of its bounds; NULL: on
+                                   the head string. */
   carom_rules_points *points;   /* NULL: each ball is worth one. */
   carom_rules_settle *settle;   /* NULL: balls go back to their spots, and nothing else comes. */
   int32_t rack;                 /* a carom_rack_kind, whose spots the balls have. 0: pool's. With

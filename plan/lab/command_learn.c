@@ -150,7 +150,7 @@ static void play(const learn_job *job, int number, visit *to) {
   const bool snooker = game == CAROM_RULES_SNOOKER, straight = game == CAROM_RULES_STRAIGHT;
   lab_rack_make(&rack, straight ? CAROM_RULES_EIGHTBALL : game, lab_bits(&draw));
   rack.rules = straight ? carom_plan_rules_of(CAROM_RULES_STRAIGHT) : rack.rules;
-  const bool groups = game == CAROM_RULES_EIGHTBALL, breaks = rack.rules.breaks;
+  const bool groups = game == CAROM_RULES_EIGHTBALL, breaks = rack.rules.breaks == 1;
   const bool counts = rack.rules.race == CAROM_RACE_OWN && !groups;
   if (snooker)
     open_snooker(&rack, &draw);

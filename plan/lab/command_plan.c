@@ -222,7 +222,7 @@ int command_plan(int argc, char **argv) {
     return parsed;
   if (!lab_game_is_played(job.rules))
     return EXIT_USAGE;
-  const bool racked = !carom_plan_rules_of((carom_rules_kind)job.rules).breaks;
+  const bool racked = carom_plan_rules_of((carom_rules_kind)job.rules).breaks != 1;
   if (racked && job.left > 0) {
     complain("--left is of eight-ball");
     return EXIT_USAGE;

@@ -12,7 +12,7 @@ bool lab_game_is_played(int rules) {
 
 void lab_rack_begin(lab_rack *rack, carom_rules_kind game, double errors) {
   const carom_rules_about *about = carom_rules_about_of(game);
-  const bool breaks = carom_plan_rules_of(game).breaks;
+  const bool breaks = carom_plan_rules_of(game).breaks == 1;
   carom_table_make(about->balls == CAROM_GAME_SNOOKER ? CAROM_TABLE_SNOOKER
                    : breaks                           ? CAROM_TABLE_POOLTOOL
                                                       : CAROM_TABLE_POOL_9FT,
@@ -39,7 +39,7 @@ void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
   rack->plan.options = &rack->options;
   rack->hand = true;
   const int count = (int)rack->plan.count;
-  if (!rack->rules.breaks) {
+  if (rack->rules.breaks != 1) {
     rack->kitchen = about->opening == CAROM_LEAVE_KITCHEN;
     const char *range;
     rack->rules.state.opening = 1;

@@ -208,53 +208,56 @@ void carom_search_aimed(search *plan) {
       carom_search_add(plan, plan->found[k]);
 }
 
-/* Breaks: the nearest balls that are on, full and a little beside their middle, at three speeds
- * with three tips; up to `most` of these strokes, in an order that is drawn. */
-void carom_search_breaks(search *plan, int64_t most) {
-  enum { TARGETS = 3, SIDES = 5, SPEEDS = 3, HEIGHTS = 3 };
-  static const double side[SIDES] = {0.0, 0.05, -0.05, 0.15, -0.15}; /* radii of both balls */
-  static const double share[SPEEDS] = {1.0, 0.85, 0.7}, above[HEIGHTS] = {0.0, 0.2, -0.2};
+/* Breaks: the nearest balls that are on, full and a little beside their middle, hard, with the tip
+ * at three heights. Or thin ones, which leave the other little: the balls that lie farthest to the
+ * sides of the rack, on their outer side, softly, with side. Up to `most` of these strokes, in an
+ * order that is drawn. */
+void carom_search_breaks(carom_search *plan, int64_t most) {
+  enum { TARGETS = 3, SIDES = 5, SPEEDS = 3, PLACES = 3 };
+  static const double side[2][SIDES] = {{0.0, 0.05, -0.05, 0.15, -0.15}, /* radii of both balls */
+                                        {0.6, 0.75, 0.85, 0.92, 0.97}};
+  static const double share[2][SPEEDS] = {{1.0, 0.85, 0.7}, {0.25, 0.34, 0.46}},
+                      tip[2][PLACES] = {{0.0, 0.2, -0.2}, {0.0, 0.25, 0.5}};
+  const bool thin = plan->job.rules->breaks == 2;
   const double *c = plan->job.balls[plan->view.cue_ball].state.r;
+  const double foot =
+      carom_angle_of(0.5 * plan->view.width - c[0], 0.75 * plan->view.length - c[1]);
 
-  /* the nearest balls, sorted in */
-  double distance[TARGETS + 1];
-  int ball[TARGETS + 1], balls = 0;
+  /* the nearest balls, or the outermost as seen from the cue ball, sorted in */
+  struct {
+    double key, to, far, outer; /* direction, distance in both radii, side: 1 or -1 */
+  } ball[TARGETS + 1];
+  int balls = 0;
   for (int k = 0; k < plan->view.count; k++) {
     const double *r = plan->job.balls[k].state.r, x = r[0] - c[0], y = r[1] - c[1];
     if (!(plan->on >> k & 1))
       continue;
-    const double d = sqrt(x * x + y * y);
+    const double to = carom_angle_of(x, y), far = sqrt(x * x + y * y);
+    const double key = thin ? -fabs(to - foot) : far;
     int at = balls < TARGETS ? balls++ : TARGETS;
-    for (; at > 0 && distance[at - 1] > d; at--) {
-      distance[at] = distance[at - 1];
+    for (; at > 0 && ball[at - 1].key > key; at--)
       ball[at] = ball[at - 1];
-    }
-    distance[at] = d;
-    ball[at] = k;
+    ball[at].key = key;
+    ball[at].to = to;
+    ball[at].far = far / (plan->view.radius[plan->view.cue_ball] + plan->view.radius[k]);
+    ball[at].outer = thin && to < foot ? -1.0 : 1.0;
   }
 
   /* strokes in an order that is drawn: a number stands for ball, side, speed and tip */
-  int order[TARGETS * SIDES * SPEEDS * HEIGHTS];
-  const int strokes = balls * SIDES * SPEEDS * HEIGHTS;
+  int order[TARGETS * SIDES * SPEEDS * PLACES];
+  const int strokes = balls * SIDES * SPEEDS * PLACES;
   draw_order(plan, DRAW_BREAKS, order, strokes);
   for (int n = 0; n < strokes && n < most; n++) {
     const int target = order[n] % balls, stroke = order[n] / balls;
-    const double *r = plan->job.balls[ball[target]].state.r;
-
-    /* aimed beside the middle of the ball, by a part of both radii */
-    const double both = plan->view.radius[plan->view.cue_ball] + plan->view.radius[ball[target]];
-    const double beside = both * side[stroke % SIDES] / distance[target];
-    const double phi =
-        (carom_angle_of(r[0] - c[0], r[1] - c[1]) + carom_asin(carom_within(beside, -1.0, 1.0))) /
-        degree;
-
-    /* as hard as the player can, or somewhat less */
-    const double speed = share[stroke / SIDES % SPEEDS] * plan->player.speed_most;
-    const double tip = above[stroke / SIDES / SPEEDS];
-    carom_search_add(plan, (candidate){.speed = speed,
-                                       .phi = phi < 0.0 ? phi + 360.0 : phi,
-                                       .b = tip,
-                                       .kind = CAROM_PLAN_BREAK});
+    const double beside = ball[target].outer * side[thin][stroke % SIDES] / ball[target].far;
+    const double phi = (ball[target].to + carom_asin(carom_within(beside, -1.0, 1.0))) / degree;
+    const double off = tip[thin][stroke / SIDES / SPEEDS];
+    carom_search_add(
+        plan, (candidate){.speed = share[thin][stroke / SIDES % SPEEDS] * plan->player.speed_most,
+                          .phi = phi < 0.0 ? phi + 360.0 : phi,
+                          .a = thin ? -ball[target].outer * off : 0.0,
+                          .b = thin ? 0.0 : off,
+                          .kind = thin ? CAROM_PLAN_SCAN : CAROM_PLAN_BREAK});
   }
 }
 

@@ -143,7 +143,7 @@ static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand)
   const bool good = check_options(options) == CAROM_OK && good_player(job->player) &&
                     (options->opponent == NULL || good_player(options->opponent)) &&
                     rules->on != NULL && rules->judge != NULL && rules->left != NULL &&
-                    (uint32_t)rules->breaks <= 1 && (uint32_t)rules->race <= CAROM_RACE_POINTS &&
+                    (uint32_t)rules->breaks <= 2 && (uint32_t)rules->race <= CAROM_RACE_POINTS &&
                     (uint32_t)rules->rack <= CAROM_RACK_THREECUSHION && rules->learned >= 0 &&
                     CAROM_RESERVED_IS_ZERO(rules) && CAROM_RESERVED_IS_ZERO(job);
   if (!good)

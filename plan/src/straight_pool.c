@@ -171,5 +171,6 @@ const carom_plan_rules carom_straight = {.state = {.target = 100},
                                          .judge = judge,
                                          .left = left,
                                          .race = CAROM_RACE_POINTS,
+                                         .breaks = 2,
                                          .settle = carom_settle_rack,
                                          .rack = CAROM_RACK_EIGHTBALL};
