@@ -72,8 +72,9 @@ typedef enum carom_tangent_flag {
                                      or a ball jams, and of Euler's steps. */
   CAROM_TANGENT_DRAG = 64,    /* not set any more: derivatives of a roll with drag are those of the
                               pieces that shots follow. */
-  CAROM_TANGENT_CLUSTER = 128 /* it is a contact of a cluster: the reach counts no touch that comes
-                                 or goes inside it, and not their order. */
+  CAROM_TANGENT_CLUSTER = 128 /* it is a contact of a cluster, or one by itself with a third ball
+                                 within 1 mm: the reach counts no touch that comes or goes there,
+                                 and not their order. */
 } carom_tangent_flag;
 
 /* The changes in each of `directions` m, 1 to 64. NULL stands for zeros. Numbers that a

@@ -148,12 +148,33 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
   }
 }
 
+/* Whether a contact that is resolved alone has a third ball so near that a small change may have
+ * it touched before. */
+static bool is_in_pile(const work *w, const carom_event *e) {
+  static const double near = 1e-3; /* m; gaps of racks are half of it at most */
+  for (int i = 0; i < w->count && e->type == CAROM_EVENT_BALL_BALL; i++) {
+    const carom_ball_rates rates = carom_rates_of(w->ball[i].kind);
+    carom_path path = {.from = w->ball[i].from};
+    carom_ball_state s;
+    carom_path_begin(&path, &rates, w->ball[i].since);
+    carom_path_at(&path, &rates, e->time, &s);
+    for (int side = 0; side < 2 && i != e->a && i != e->b && !carom_is_out(s.label); side++) {
+      const double *r = e->before[side].r, x = s.r[0] - r[0], y = s.r[1] - r[1], z = s.r[2] - r[2];
+      if (sqrt(x * x + y * y + z * z) - rates.radius - w->ball[e->a].kind->radius < near)
+        return true;
+    }
+  }
+  return false;
+}
+
 /* The directions of one pass. */
 static carom_status differentiate(work *w, const carom_prepared *p, const carom_shot *shot) {
   carom_tangent *tangent = w->tangent;
   carom_tangent_row *d = w->before[0]; /* free before and behind an event */
   carom_reach reach;
   int64_t next = 0, end_of_cluster = 0;
+  const bool one_by_one = w->opt->simultaneous == CAROM_SIMULTANEOUS_PAIRS ||
+                          w->opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
   begin(w, p);
   if (tangent->reach != NULL)
     carom_reach_begin(&reach, w);
@@ -175,6 +196,8 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
     carom_status status = CAROM_OK;
     if (event->cluster == 0) {
       status = carom_tangent_follow(w, event);
+      if (one_by_one && is_in_pile(w, event))
+        w->note.flags |= CAROM_TANGENT_CLUSTER;
     } else if (!w->inner) { /* all of it at once */
       status = carom_tangent_follow_cluster(w, event, contacts, k);
       end_of_cluster = k + contacts;
