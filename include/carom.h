@@ -208,8 +208,8 @@ typedef enum carom_status {
                                         0. */
   CAROM_ERROR_LEFT_TABLE = -42,      /* a ball on the cloth left the table. */
   CAROM_ERROR_SHOT_OPTIONS = -43,    /* a reserved or unused field of a shot's options, a job or
-                                        seeds is not 0, or a job has both balls and
-                                        kinds. */
+                                        seeds is not 0, first_of has a ball beyond the
+                                        layout, or a job has both balls and kinds. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
   CAROM_ERROR_LABEL = -45,           /* the label of a ball is not one that a layout may have. */
   CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 1e-6 m. */
@@ -225,8 +225,8 @@ typedef enum carom_status {
                               room. */
   CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(), carom_shot_continue(): not all events so
                                       far are in shot.events. */
-  CAROM_ERROR_TIME = -55,          /* carom_shot_at(): no number, or after the end of a shot
-                                      stopped while balls moved. */
+  CAROM_ERROR_TIME = -55,          /* carom_shot_at(): below 0, no number, or after the end
+                                      of a shot stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,          /* the drag of a rolling ball is not in [0, 1] 1/m. */
   CAROM_ERROR_BALL_CUSHION = -57,  /* roll_loss of a ball is not 0 to 1, or its nose_height not 0
                                       to below 2 R. */

@@ -641,7 +641,8 @@ typedef struct carom_shot_options {
   int32_t unused;        /* must be 0. */
   uint64_t first_of;     /* the shot is stopped right after the first contact of the cue ball
                             with another ball, with CAROM_STOPPED_AT_EVENT, unless that ball is
-                            of this set: bit k is ball k. 0: it is not stopped. */
+                            of this set: bit k is ball k of the layout. 0: it is not stopped; the
+                            bit of the cue ball alone: at any ball. */
   uint64_t reserved[1];  /* must be 0. */
 } carom_shot_options;
 
@@ -844,12 +845,12 @@ CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom
                                            carom_shot *shot);
 
 /* The states of all balls at a time, by evaluation of the motion after each ball's last event.
- * Before 0: as at 0; after the end: as at the end, where nothing moves any more. CAROM_OK, or an
- * error with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_ROOM; CAROM_ERROR_BALLS;
- * CAROM_ERROR_EVENTS_LOST where shot->room was too small to know; CAROM_ERROR_TIME for a time
- * that is not a number, and for one after shot->time where balls still move then, since a bound
- * or an error ended the shot. CAROM_ERROR_UNRESOLVED, with some states written: an event or a ball
- * was damaged, and its motion is not finite or takes more steps than that of any shot. */
+ * After the end: as at the end, where nothing moves any more. CAROM_OK, or an error with nothing
+ * written: CAROM_ERROR_NULL; CAROM_ERROR_ROOM; CAROM_ERROR_BALLS; CAROM_ERROR_EVENTS_LOST where
+ * shot->room was too small to know; CAROM_ERROR_TIME for a time that is below 0 or not a number,
+ * and for one after shot->time where balls still move then, since a bound or an error ended the
+ * shot. CAROM_ERROR_UNRESOLVED, with some states written: an event or a ball was damaged, and its
+ * motion is not finite or takes more steps than that of any shot. */
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count,
                                      const carom_shot *shot, double time, carom_ball_state *states);
 

@@ -126,7 +126,7 @@ typedef struct carom_tangent {
  * CAROM_ERROR_DIRECTIONS for other than 1 to 64; CAROM_ERROR_EVENTS_LOST where shot->room was
  * too small or events is NULL; CAROM_ERROR_STATE where an event cannot be one of this shot, and
  * for a shot that was refused or never played;
- * CAROM_ERROR_TIME for times that are not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for
+ * CAROM_ERROR_TIME for times below 0, not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for
  * a reserved field; or an error of the table or of an option. CAROM_ERROR_NO_TANGENTS from a
  * library that was built without derivatives. CAROM_ERROR_TANGENT where derivatives are not
  * known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, by

@@ -75,8 +75,8 @@
   X(ERROR_LEFT_TABLE, -42, "left_table",                                                           \
     "a ball on the cloth left the table, through a gap between its cushions")                      \
   X(ERROR_SHOT_OPTIONS, -43, "bad_shot_options",                                                   \
-    "a reserved or unused field of the options, the job or the seeds is not 0, or a job has "      \
-    "both balls and kinds")                                                                        \
+    "a reserved or unused field of the options, the job or the seeds is not 0, first_of has a "    \
+    "ball beyond the layout, or a job has both balls and kinds")                                   \
   X(ERROR_BALLS, -44, "bad_balls",                                                                 \
     "the count of balls must be 1 to 32, and the index of a ball below it")                        \
   X(ERROR_LABEL, -45, "bad_label",                                                                 \
@@ -97,7 +97,7 @@
   X(ERROR_EVENTS_LOST, -54, "events_lost",                                                         \
     "the events of the shot so far are not all there, as with too little room")                    \
   X(ERROR_TIME, -55, "bad_time",                                                                   \
-    "the time is not a number, or after the end of a shot that was stopped while balls moved")     \
+    "the time is below 0, no number, or after the end of a shot stopped while balls moved")        \
   X(ERROR_DRAG, -56, "bad_drag", "the drag of a rolling ball must be 0 to 1 per metre")            \
   X(ERROR_BALL_CUSHION, -57, "bad_ball_cushion",                                                   \
     "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R")                           \

@@ -94,6 +94,8 @@ carom_status carom_check_strike(const carom_prepared *p, const carom_cue *cue) {
     return CAROM_OK;
   if (cue->ball < 0 || cue->ball >= p->count)
     return CAROM_ERROR_CUE_BALL;
+  if (p->opt->first_of >> p->count != 0)
+    return CAROM_ERROR_SHOT_OPTIONS;
   const bool out = carom_is_out(p->state[(int)cue->ball]->label);
   return out ? CAROM_ERROR_CUE_BALL_OUT : carom_check_cue(cue);
 }

@@ -221,6 +221,9 @@ carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *b
       nothing ? CAROM_ERROR_NULL : carom_shot_at_times(balls, count, shot, NULL, 0, NULL);
   if (status < 0)
     return status;
+  for (size_t k = 0; k < n; k++)
+    if (!(times[k] >= 0.0))
+      return CAROM_ERROR_TIME;
 
   /* balls that fall, in the order in which they do; those that lie in the pockets already */
   const int64_t known = shot->count < shot->room ? shot->count : shot->room;

@@ -120,9 +120,9 @@ static carom_status replay_times(const carom_shot_ball *balls, int count, const 
   const int64_t known = shot->count < room ? shot->count : room;
   double left = most_steps;
   for (size_t k = 0; k < n; k++) {
-    if (isnan(times[k]))
+    if (!(times[k] >= 0.0))
       return CAROM_ERROR_TIME;
-    const double time = carom_greater(carom_lesser(times[k], shot->time), 0.0);
+    const double time = carom_lesser(times[k], shot->time);
     if (shot->count > room && (room == 0 || time > shot->events[room - 1].time))
       return CAROM_ERROR_EVENTS_LOST;
     /* an earlier time than the last begins anew */

@@ -78,7 +78,7 @@ static carom_status check(const carom_prepared *p, const carom_cue *cue, const c
   if (tangent->times_count > 0 && (tangent->times == NULL || tangent->at == NULL))
     return CAROM_ERROR_NULL;
   for (int64_t k = 0; k < tangent->times_count; k++)
-    if (!(fabs(tangent->times[k]) < INFINITY) ||
+    if (!(tangent->times[k] >= 0.0 && tangent->times[k] < INFINITY) ||
         (k > 0 && tangent->times[k] < tangent->times[k - 1]))
       return CAROM_ERROR_TIME;
   if (opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_EULER)

@@ -373,8 +373,9 @@ TEST(many_times) {
     for (int order = 0; order < 3; order++) { /* forwards with every event among them, backwards,
                                                  to and fro */
       for (int k = 0; k < TIMES; k++) {
-        const double even = (k / (TIMES - 2.0)) * 1.1 * shot.time - 0.01;
-        times[order == 1 ? TIMES - 1 - k : k] = order == 2 && k % 3 == 0 ? shot.time - even : even;
+        const double even = k / (TIMES - 1.0) * 1.1 * shot.time;
+        times[order == 1 ? TIMES - 1 - k : k] =
+            order == 2 && k % 3 == 0 ? fabs(shot.time - even) : even;
       }
       for (int k = 0; order == 0 && k < 20; k++)
         times[10 * k] = events[k].time;
@@ -395,6 +396,35 @@ TEST(many_times) {
     ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, NULL, 0, NULL), CAROM_OK);
     ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, NULL, 1, alone), CAROM_ERROR_NULL);
   }
+}
+
+/* Each call that takes times refuses those below 0, also the smallest. */
+TEST(times_before_the_start) {
+  static carom_event events[2000];
+  static carom_ball_state at[10];
+  static double turned[10][4], row[10 * CAROM_STATE_NUMBERS], seed[CAROM_CUE_NUMBERS] = {1.0};
+  const double early[] = {-1e-300, -5.0, -INFINITY, NAN};
+  set_up();
+  carom_shot s = {.events = events, .room = 2000};
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &s), CAROM_OK);
+  for (int k = 0; k < 4; k++) {
+    const double *t = &early[k];
+    carom_tangent tangent = {.final = row, .times = t, .times_count = 1, .at = row};
+    const carom_tangent_seeds seeds = {.directions = 1, .cue = seed};
+    const carom_status said[] = {
+        carom_shot_at(balls, 10, &s, *t, at),
+        carom_shot_at_times(balls, 10, &s, t, 1, at),
+        carom_shot_drawn(&table, balls, 10, &s, t, 1, at),
+        carom_shot_falls(&table, balls, 10, &s, t, 1, at),
+        carom_shot_frames(balls, 10, &s, t, 1, NULL, at, turned),
+        carom_shot_orientation(balls, 10, &s, *t, turned),
+        carom_shot_tangent(&table, balls, 10, &cue, NULL, &s, &seeds, &tangent)};
+    for (size_t n = 0; n < sizeof said / sizeof *said; n++)
+      ck_assert_msg(said[n] == CAROM_ERROR_TIME, "call %d at %g: %d", (int)n, *t, said[n]);
+  }
+  const carom_shot_options beyond = {.first_of = 1 << 10}, last = {.first_of = 1 << 9};
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &beyond, &s), CAROM_ERROR_SHOT_OPTIONS);
+  ck_assert_int_ge(carom_shoot(&table, balls, 10, &cue, &last, &s), CAROM_OK);
 }
 
 /* A cue of speed 0 is not read, so it may name any ball; a stopped shot goes on. */
