@@ -86,7 +86,7 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
   /** @param {number} now */
   function frame(now) {
     if (!clock.playing) return;
-    const step = Math.min((now - clock.before) / 1000, 0.1) * Number(of.pace.value);
+    const step = Math.max(Math.min((now - clock.before) / 1000, 0.1), 0) * Number(of.pace.value); // the first frame may have begun before the start
     clock.before = now;
     put(Math.min(clock.time + step, clock.end));
     if (clock.time < clock.end) return void requestAnimationFrame(frame);
