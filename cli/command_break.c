@@ -91,7 +91,7 @@ typedef struct breaker {
 /* Rack number k and its stroke; number -1 is the first one without errors. */
 static void set_up(const breaker *b, const shot_line *line, double gap, int number,
                    carom_shot_ball *ball, carom_cue *cue) {
-  const int seed = b->job->from.seed, k = number < 0 ? 0 : number;
+  const int seed = (int)b->job->from.seed.at[0].x, k = number < 0 ? 0 : number;
   carom_rack(b->rack, &line->table->table, gap, (uint64_t)(seed + k), ball, CAROM_BALLS_MOST);
   for (int n = 0; n < line->count; n++)
     ball[n].kind = line->ball[n].kind;

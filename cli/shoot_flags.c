@@ -12,6 +12,7 @@
 #include "shot_fault.h"
 #include "words.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -97,7 +98,7 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
 
 ROW(option_gap, "gap", gap, "G", set_values, MEASURE_LENGTH,
     "gap between neighbours of a rack, m, or with a unit: 0.1mm (the default); 0 is a frozen rack");
-ROW(option_seed, "seed", seed, "N", set_count, 1,
+ROW(option_seed, "seed", seed, "N", set_values, MEASURE_NUMBER,
     "draws how the balls of a rack are moved and placed (default 1)");
 
 bool has_flags(const shoot_flags *f) {
@@ -105,7 +106,7 @@ bool has_flags(const shoot_flags *f) {
          f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 || f->balls.rack > 0 ||
          f->tip.count > 0 || f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 ||
          f->cut.count > 0 || f->elevation.count > 0 || f->shared.with.own || f->gap.count > 0 ||
-         f->seed != 0;
+         f->seed.count > 0;
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -158,8 +159,9 @@ static bool lay(layout *l, int k, const given_place *at, int laid) {
   return true;
 }
 
-/* False after a complaint. */
-static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion) {
+/* The layout with rack number `which` of those that gaps and seeds ask for; false after a
+ * complaint. */
+static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion, int which) {
   const carom_table_kind kind =
       f->table != 0 ? (carom_table_kind)(f->table - 1) : CAROM_TABLE_POOL_9FT;
   l->table_name = carom_table_name(kind);
@@ -176,7 +178,8 @@ static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion)
   const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
   if (f->balls.rack > 0) {
     l->count = carom_rack_size(rack);
-    carom_rack(rack, &l->table, f->gap.at[0].x, (uint64_t)f->seed, l->ball, CAROM_BALLS_MOST);
+    carom_rack(rack, &l->table, f->gap.at[which % f->gap.count].x,
+               (uint64_t)f->seed.at[which / f->gap.count].x, l->ball, CAROM_BALLS_MOST);
     name_rack(l, rack);
   }
   for (int k = 0; k < l->count; k++) {
@@ -246,10 +249,14 @@ static bool aim_to(const given_place *to, const layout *l, carom_cue *cue) {
   return true;
 }
 
+static int ways_of(const shoot_flags *f) {
+  return f->to.count > 0 ? f->to.count : f->cut.count > 0 ? f->cut.count : f->aim.count;
+}
+
 /* Which value of each number a combination has: the speed changes fastest. */
 typedef struct combination {
   const values *speeds;
-  int speed, tip, rise, way;
+  int speed, tip, rise, way, rack;
 } combination;
 
 static combination combination_at(const shoot_flags *f, int index) {
@@ -257,7 +264,9 @@ static combination combination_at(const shoot_flags *f, int index) {
   c.speed = index % c.speeds->count;
   c.tip = index / c.speeds->count % f->tip.count;
   c.rise = index / c.speeds->count / f->tip.count % f->elevation.count;
-  c.way = index / c.speeds->count / f->tip.count / f->elevation.count;
+  const int ways = f->to.count > 0 ? f->to.count : f->cut.count > 0 ? f->cut.count : f->aim.count;
+  c.way = index / c.speeds->count / f->tip.count / f->elevation.count % ways;
+  c.rack = index / c.speeds->count / f->tip.count / f->elevation.count / ways;
   return c;
 }
 
@@ -316,10 +325,13 @@ static bool aim_of(shoot_flags *f, const layout *l, const carom_shot_options *op
 /* What differs between the shots. */
 static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_TEXT]) {
   id[0] = '\0';
+  name_value(id, "gap", &f->gap, c->rack % f->gap.count);
+  name_value(id, "seed", &f->seed, c->rack / f->gap.count);
   name_value(id, "aim", &f->aim, c->way);
   name_value(id, "cut", &f->cut, c->way);
   if (f->to.count > 1)
-    snprintf(id, MOST_TEXT, "to %s,%s", f->to.at[c->way].x.name, f->to.at[c->way].y.name);
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%sto %s,%s", id[0] != '\0' ? ", " : "",
+             f->to.at[c->way].x.name, f->to.at[c->way].y.name);
   name_value(id, "elevation", &f->elevation, c->rise);
   name_value(id, "speed", c->speeds, c->speed);
   if (f->tip.count > 1)
@@ -375,28 +387,28 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
 
 bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most) {
   static layout l;
-  if (f->aim.count > 0 && (f->cut.count > 0 || f->at_ball != NULL)) {
-    complain("--aim is a direction, --at-ball and --cut aim at a ball: give one of both");
-    return false;
-  }
-  if (f->pocket != NULL && (f->aim.count > 0 || f->cut.count > 0 || f->at_ball != NULL)) {
-    complain("--pocket says the direction, and so do --aim, --at-ball and --cut: give one of them");
-    return false;
-  }
-  if (f->to.count > 0 &&
-      (f->aim.count > 0 || f->cut.count > 0 || f->at_ball != NULL || f->pocket != NULL)) {
-    complain("--to says the direction, and so do --aim, --at-ball, --cut and --pocket: give one of "
-             "them");
-    return false;
-  }
-  if (f->via != NULL && f->pocket == NULL) {
-    complain("--via is the way of a ball to its pocket: give --pocket too");
-    return false;
-  }
-  if (f->speed.count > 0 && f->ball_speed.count > 0) {
-    complain("--speed is that of the cue, --ball-speed that of the ball: give one of both");
-    return false;
-  }
+  const bool aim = f->aim.count > 0, at_ball = f->cut.count > 0 || f->at_ball != NULL;
+  const struct {
+    bool wrong;
+    const char *why;
+  } rules[] = {
+      {aim && at_ball, "--aim is a direction, --at-ball and --cut aim at a ball: give one of both"},
+      {f->pocket != NULL && (aim || at_ball),
+       "--pocket says the direction, and so do --aim, --at-ball and --cut: give one of them"},
+      {f->to.count > 0 && (aim || at_ball || f->pocket != NULL),
+       "--to says the direction, and so do --aim, --at-ball, --cut and --pocket: give one of them"},
+      {f->via != NULL && f->pocket == NULL,
+       "--via is the way of a ball to its pocket: give --pocket too"},
+      {f->speed.count > 0 && f->ball_speed.count > 0,
+       "--speed is that of the cue, --ball-speed that of the ball: give one of both"},
+      {(f->gap.count > 0 || f->seed.count > 0) && f->balls.rack == 0,
+       "--gap and --seed are of a rack: give --balls nineball or the like"},
+      {f->cue.count > 1, "--cue is one place"}};
+  for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
+    if (rules[k].wrong) {
+      complain("%s", rules[k].why);
+      return false;
+    }
   /* What is not given: carom_cue_of() says the same. */
   if (f->at_ball != NULL && f->cut.count == 0)
     values_default(&f->cut, MEASURE_CUT, "0");
@@ -404,16 +416,15 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
     values_default(&f->aim, MEASURE_ANGLE, "90");
   if (f->speed.count == 0)
     values_default(&f->speed, MEASURE_SPEED, "2");
-  if ((f->gap.count > 0 || f->seed != 0) && f->balls.rack == 0) {
-    complain("--gap and --seed are of a rack: give --balls nineball or the like");
-    return false;
-  }
   if (f->gap.count == 0)
     values_default(&f->gap, MEASURE_LENGTH, "0.0001");
-  if (f->seed == 0)
-    f->seed = 1;
-  if (f->gap.count > 1 || !(f->gap.at[0].x >= 0.0 && f->gap.at[0].x <= GAP_MOST)) {
-    complain("--gap is one number, 0 to %g m", GAP_MOST);
+  if (f->seed.count == 0)
+    values_default(&f->seed, MEASURE_NUMBER, "1");
+  for (int k = 0; k < f->gap.count || k < f->seed.count; k++) {
+    const double gap = f->gap.at[k % f->gap.count].x, seed = f->seed.at[k % f->seed.count].x;
+    if (gap >= 0.0 && gap <= GAP_MOST && seed >= 1.0 && seed <= INT_MAX && seed == floor(seed))
+      continue;
+    complain("--gap is 0 to %g m, and --seed a whole number, 1 to %d", GAP_MOST, INT_MAX);
     return false;
   }
   if (f->elevation.count == 0)
@@ -423,24 +434,24 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
   if (f->shared.strict &&
       (f->aim.comma || f->cut.comma || f->speed.comma || f->ball_speed.comma || f->elevation.comma))
     return false;
-  const int ways = f->to.count > 0 ? f->to.count : f->cut.count > 0 ? f->cut.count : f->aim.count;
   const int speeds = f->ball_speed.count > 0 ? f->ball_speed.count : f->speed.count;
-  const int count = speeds * f->tip.count * f->elevation.count * ways;
-  const bool good_cue = f->cue.count <= 1;
-  bool good = good_cue && count <= most;
-  if (!good_cue)
-    complain("--cue is one place");
-  else if (!good)
-    complain("these are %d shots; at most %d are told and drawn at once, and %d with --csv", count,
+  const int racks = f->gap.count * f->seed.count;
+  const double all = (double)speeds * f->tip.count * f->elevation.count * ways_of(f) * racks;
+  const int count = all <= most ? (int)all : 0;
+  bool good = all <= most;
+  if (!good)
+    complain("these are %.0f shots; at most %d are told and drawn at once, and %d with --csv", all,
              MOST_SHOTS, MOST_ROWS);
-  good =
-      good && lay_out(f, &l, options != NULL ? options->cushion_model : CAROM_SHOT_CUSHION_DEFAULT);
+  const carom_shot_cushion cushion =
+      options != NULL ? options->cushion_model : CAROM_SHOT_CUSHION_DEFAULT;
   /* of several shots those that cannot be aimed are left out, and the first of them told */
   bool missed = false;
   l.missed = &missed;
   f->written = 0;
   for (int k = 0; k < count && good; k++) {
     missed = false;
+    if (k % (count / racks) == 0 && !lay_out(f, &l, cushion, k / (count / racks)))
+      return false;
     l.quiet = f->tries || k > f->written;
     const bool written = write_shot(out, f, &l, options, k);
     f->written += written;

@@ -19,8 +19,7 @@ typedef struct shoot_flags {
   shared_options shared;
   int table; /* 1 + a carom_table_kind; 0: none was given */
   const char *at_ball, *pocket, *via;
-  values speed, ball_speed, aim, cut, elevation, gap;
-  int seed; /* of a rack; 0: 1 */
+  values speed, ball_speed, aim, cut, elevation, gap, seed; /* the last two of a rack */
   place_list cue, balls, tip, to;
   bool json;
   bool tries;            /* shots that cannot be aimed are left out, without a complaint */

@@ -187,7 +187,7 @@ cmp lines.svg words.svg && try carom shoot --cue 5,5 --events none
 echo "--- refused"
 for words in "--cue 0.6,0.8 --csv --events brief" "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--speed 1 --ball-speed 1" "--balls 0.4,1.7 --pocket 1:rb" "--balls 0.4,1.7:0.3,1.9 --pocket 1:lt" "--balls 0.4,1.7:0.503,1.25 --cue 0.6,0.8 --pocket 1:lt" "--balls 0.4,1.7 --pocket 1:lt --speed 0.6" "--balls 0.4,1.7 --pocket 1:fot-right" "--balls 0.4,1.7 --pocket 1:lt --via lft" "--balls 0.4,1.7:0.9,1.5 --pocket 1:lt --via left,2" "--balls 0.4,1.7 --pocket 1:lt --via 1,1" "--balls 0.4,1.7 --pocket 1:lt --via head" "--balls 0.4,1.7 --via left" "--balls 0.9,1.5:0.8,2.0 --cue 0.6,0.8 --speed 3 --pocket 1:lt --via right" "--balls 0.9,1.5 --cue 0.6,0.8 --tip 0.2,0.1 --speed 3 --cushion mathavan --pocket 1:lt --via right" "--balls 0.4,1.7 --pocket 1:lt --aim 90" "--table threecushion --balls 0.4,1.7 --pocket 1:lt" "--ball-speed 1 --elevation 5" "--table attic" \
   "--balls 0.5,1.6:8=0.55,1.2 --cue 0.6,0.8 --at-ball 1" "--balls 0.5,1.6 --cue 0.6,0.8 --at-ball 1 --speed 0.2" "--balls 0.6,1.1 --cue 0.6,0.8 --at-ball 1 --elevation 30 --speed 4 --tip-time 0.0006" \
-  "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--to 4d" "--to frozen-left,4d" "--balls frozen-1" "--balls frozen-2,0:2=0.6,1.2" "--balls frozen-left,40degrees" "--cue frozen-1,0" "--to foot-left --aim 20" "--cue 0.6,0.8 --to 0.6,0.81" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
+  "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--to 4d" "--to frozen-left,4d" "--balls frozen-1" "--balls frozen-2,0:2=0.6,1.2" "--balls frozen-left,40degrees" "--cue frozen-1,0" "--to foot-left --aim 20" "--cue 0.6,0.8 --to 0.6,0.81" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html" "--balls nineball --seed 1.5" "--balls nineball --gap 3cm" "--balls nineball --gap 0:1mm:0.01mm --seed 1:900:1 --speed 1:5:0.01"; do
   # shellcheck disable=SC2086
   try carom shoot -o refused.txt $words
 done
@@ -197,3 +197,9 @@ carom hit --complete --side ""
 carom shoot --complete --cushion "" | tr '\n' ' '
 carom resolve --complete x -- | head -n 3
 echo "files: $(carom resolve --complete --derived "")"
+echo "--- lists and ranges of racks: the lines of single gaps and seeds, and too many"
+carom shoot --balls nineball --gap 0,0.3mm --seed 2:4:2 --speed 1:8:7 --json | sed 's|"id": "[^"]*"||' > together
+for rack in "2 --gap 0" "2 --gap 0.3mm" "4 --gap 0" "4 --gap 0.3mm"; do
+  # shellcheck disable=SC2086
+  carom shoot --balls nineball --seed $rack --speed 1:8:7 --json
+done | sed 's|"id": "[^"]*"||' | cmp - together && wc -l < together
