@@ -473,6 +473,15 @@ private:
 };
 
 #ifdef CAROM_PLAN_H
+/* The line that tells how a game stands, and who of both is at the table. */
+inline std::string_view stand(recording &of, carom_rules_kind rules, const carom_rules_state &state,
+                              int player) {
+  of.game().rules = rules;
+  of.game().standing = state;
+  of.game().player = player;
+  return of.write(CAROM_RECORD_GAME);
+}
+
 /* Lays the layout of the next stroke into a game: the lines of balls that come back, and of a cue
  * ball in hand. */
 inline std::string settle(recording &of, const carom_ruling &by, int cue_ball = 0) {

@@ -41,7 +41,8 @@ typedef enum carom_record_kind {
   CAROM_RECORD_CONTINUE = 7, /* "continue": a stopped shot goes on */
   CAROM_RECORD_EVENT = 8,    /* "event": of the shot before it; may be left out */
   CAROM_RECORD_END = 9,      /* "end": the last line, without which a recording was cut off */
-  CAROM_RECORD_WRONG = 10    /* a line that was refused; nothing is read behind it */
+  CAROM_RECORD_GAME = 10,    /* "game": the rules, who is at the table, and how the game stands */
+  CAROM_RECORD_WRONG = 11    /* a line that was refused; nothing is read behind it */
 } carom_record_kind;
 
 /* Bytes with room for any line: of 32 balls that have nothing in common. */
@@ -73,9 +74,13 @@ typedef struct carom_record {
   carom_shot_options options; /* fast and threads are not read. When to stop counts for the next
                                  shot or continuation only. */
   carom_cue cue;
-  int64_t placed;            /* the last ball in hand, */
-  double place[2];           /* m: and where it was put. */
-  int64_t hand;              /* 1: it is not placed yet: it is in hand. */
+  int64_t placed;  /* the last ball in hand, */
+  double place[2]; /* m: and where it was put. */
+  int64_t hand;    /* 1: it is not placed yet: it is in hand. */
+  int64_t rules;   /* of the game: a carom_rules_kind of carom_plan.h, */
+  int64_t player;  /* who is at the table, 0 or 1, */
+  carom_rules_state
+      standing; /* and how it stands for him; carom_rules_fault() tells whether it can. */
   carom_record_end recorded; /* of the line of a shot that was read; */
   carom_record_end played;   /* of the shot that was played. */
   carom_event event;         /* of the last line with an event; */

@@ -18,7 +18,8 @@ static class Match {
     using (var read = new Recording()) {
       string lines = game.Begin(table, Billiards.Rack(RackKind.Nineball, table, 1e-4, 2));
       for (ulong number = 0; winner < 0; number++) {
-        // the player thinks, while the shot of the other is drawn
+        // how the game stands is kept; the player thinks, while the shot of the other is drawn
+        lines += game.Stand(RulesKind.Nineball, rules.state, player);
         var position = new Position(table, game.Layout(), cue, rules, player == 0 ? 500 : 600);
         position.Options.shots = 300;
         Choice best;

@@ -24,7 +24,8 @@ int main(int count, char **arguments) try {
   int player = 0, winner = -1, frames = 0;
   double loudest = 0.0; // N s
   for (std::uint64_t number = 0; winner < 0; number++) {
-    // the player thinks, while the shot of the other is drawn
+    // how the game stands is kept; the player thinks, while the shot of the other is drawn
+    lines += carom::stand(game, CAROM_RULES_NINEBALL, rules.state, player);
     carom_plan_job job = carom::job(table, game.layout(), cue, players[player], rules);
     job.options = &options;
     carom::thinking mind(job, 500, 1, game.game().hand == 1);

@@ -6,9 +6,18 @@ const carom = await load();
 const table = carom.table("9ft");
 const players = [500, 600].map((fargo) => carom.player({ fargo }));
 let state = { rules: "nineball", group: "open", opening: true };
-const game = carom.record(table, carom.rack("nineball", table, { seed: 2 }));
+let game = carom.record(table, carom.rack("nineball", table, { seed: 2 }));
 let [player, winner, frames, loudest] = [0, undefined, 0, 0]; // N s
 for (let number = 0; winner === undefined; number++) {
+  // how the game stands is kept, also for another program, which goes on from there
+  game.stand(state, player);
+  if (number === 3) {
+    const { lines } = game;
+    game = carom.record();
+    for (const line of lines) game.read(line);
+    ({ game: state, player } = game.standing);
+  }
+
   // the player thinks, while the shot of the other is drawn: a page awaits a frame here
   const mind = carom.think(table, game.balls, { ...state, player: players[player], shots: 300, best: 1, inHand: game.inHand }, 500);
   let slice;

@@ -15,6 +15,12 @@ player, winner, number, loudest = 0, None, 0, 0.0  # N s
 shot = None
 with ThreadPoolExecutor() as pool:
     while winner is None:
+        # how the game stands is kept, also for another program, which goes on from there
+        game.stand("nineball", state, player)
+        if number == 3:
+            game = Recorder.load(game.lines)
+            _, state, player = game.standing
+
         # the player thinks, while the shot of the other is drawn
         mind = pool.submit(carom.plan, table, game.balls, rules="nineball", player=players[player], shots=300, best=1, in_hand=game.in_hand, state=state)
         frame = 0

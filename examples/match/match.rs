@@ -13,7 +13,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (mut player, mut winner, mut frames, mut number) = (0, 0, 0, 0);
     let mut loudest: f64 = 0.0; // N s
     while winner == 0 {
-        // the player thinks, while the shot of the other is drawn
+        // how the game stands is kept; the player thinks, while the shot of the other is drawn
+        lines += &game.stand(sys::CAROM_RULES_NINEBALL, &rules.state, player as i64)?;
         let mut position =
             Position::new(&table, game.layout()?, &cue, &rules, [500.0, 600.0][player]);
         position.options.shots = 300;

@@ -146,24 +146,6 @@ typedef enum carom_group {
   CAROM_GROUP_STRIPES = 2 /* 9 to 15 */
 } carom_group;
 
-/* How a game stands for the player at the table. Of a pair the first is his, the second the
- * other's. A game reads the members that carom_rules_kind names; 0 otherwise. */
-typedef struct carom_rules_state {
-  int32_t opening;  /* 1: the stroke is a break, else 0. */
-  int32_t group;    /* a carom_group, the player's. */
-  int32_t fouls[2]; /* in their last successive strokes, 0 to 2. */
-  int32_t score[2]; /* points, or balls that count; the score is these less lost. 0 to 1,000,000. */
-  int32_t lost[2];  /* points that fouls cost, or balls that are owed, 0 to 1,000,000. */
-  int32_t pocket[2]; /* indices of the pockets in which balls count for each, 0 to
-                        CAROM_POCKETS_MOST - 1. */
-  int32_t may;       /* the sum of the carom_may of the player. */
-  int32_t on;        /* 1: a colour is on after a red, else 0. */
-  int32_t free_ball; /* the ball that the other has just named as a free ball, else 0; from judge()
-                        to carom_turn_settle(), which reads it. */
-  int32_t target;    /* points that win, 1 to 1,000,000. */
-  uint64_t user[8];  /* eight words of the rules of a caller; no game here reads them. */
-} carom_rules_state;
-
 /* Whose balls are to be potted before the game is won. */
 typedef enum carom_race {
   CAROM_RACE_OWN = 0,    /* each player has his own */

@@ -3,11 +3,11 @@
  *
  * GAME(NAME, rules, word, text, BALLS, RACK, last, OPENING, HAND, calls, members, may): `rules` is
  * the object that its file defines, `members` are those of its state, by the names of
- * CAROM_STATE_MEMBERS, and carom_rules_about has the rest. MEMBER(NAME, member, low, high, range):
- * of carom_rules_state, in its order. */
+ * CAROM_STATE_MEMBERS of about/numbers.h, and carom_rules_about has the rest. */
 #ifndef CAROM_PLAN_GAMES_H
 #define CAROM_PLAN_GAMES_H
 
+#include "about/numbers.h"
 #include "view.h"
 
 #define CAROM_GAMES(GAME)                                                                         \
@@ -27,18 +27,6 @@
        KITCHEN, KITCHEN, 0, FOULS | SCORE | LOST | POCKET, 0)                                     \
   GAME(BANK, carom_bank_pool, "bank", "bank pool by the BCA", POOL, EIGHTBALL, 15, KITCHEN,       \
        KITCHEN, 1, OPENING | FOULS | SCORE | LOST | MAY, CAROM_MAY_PASS)
-
-#define CAROM_STATE_MEMBERS(MEMBER)                     \
-  MEMBER(OPENING, opening, 0, 1, "0 or 1")              \
-  MEMBER(GROUP, group, 0, 2, "0, 1 or 2")               \
-  MEMBER(FOULS, fouls, 0, 2, "0, 1 or 2")               \
-  MEMBER(SCORE, score, 0, 1000000, "0 to 1000000")      \
-  MEMBER(LOST, lost, 0, 1000000, "0 to 1000000")        \
-  MEMBER(POCKET, pocket, 0, 7, "0 to 7")                \
-  MEMBER(MAY, may, 0, 15, "a sum that the game allows") \
-  MEMBER(ON, on, 0, 1, "0 or 1")                        \
-  MEMBER(FREE_BALL, free_ball, 0, 21, "0 to 21")        \
-  MEMBER(TARGET, target, 1, 1000000, "1 to 1000000")
 
 #define CAROM_GAME_RULES(NAME, rules, ...) extern const carom_plan_rules rules;
 CAROM_GAMES(CAROM_GAME_RULES)

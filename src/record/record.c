@@ -36,14 +36,14 @@ typedef struct field {
 /* The type of a member and how many it has; and of members of structs that have rows. */
 #define KEY_TYPE(x) \
   _Generic(x, double *: DOUBLE, double: DOUBLE, int64_t: INT64, uint64_t: INT64, default: INT32)
-#define MEMBER(name, of, member)                                            \
-  {name,                                                                    \
-   KEY_TYPE(((of *)NULL)->member),                                          \
-   false,                                                                   \
-   sizeof(((of *)NULL)->member) > 8 ? sizeof(((of *)NULL)->member) / 8 : 1, \
-   offsetof(of, member),                                                    \
-   0,                                                                       \
-   0,                                                                       \
+#define MEMBER(name, of, member)                                                     \
+  {name,                                                                             \
+   KEY_TYPE(((of *)NULL)->member),                                                   \
+   false,                                                                            \
+   sizeof(((of *)NULL)->member) / (KEY_TYPE(((of *)NULL)->member) == INT32 ? 4 : 8), \
+   offsetof(of, member),                                                             \
+   0,                                                                                \
+   0,                                                                                \
    NULL},
 #define RAIL_KEY(member, ...) MEMBER(#member, carom_rail, member)
 #define JAW_KEY(member, ...) MEMBER(#member, carom_jaw, member)
@@ -84,6 +84,10 @@ static const field table[] = {
     END};
 static const field models[] = {CAROM_MOTION_OPTIONS(OPTION_KEY) END};
 static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), END};
+#define MEMBER_KEY(NAME, member, ...) MEMBER(#member, carom_record, standing.member)
+static const field game_fields[] = {
+    R("rules", INT64, true, 1, rules), R("player", INT64, false, 1, player),
+    CAROM_STATE_MEMBERS(MEMBER_KEY) R("user", INT64, false, 8, standing.user), END};
 static const field place_fields[] = {R("ball", INT64, true, 1, placed),
                                      R("at", DOUBLE, false, 2, place),
                                      R("hand", INT64, false, 1, hand), END};
@@ -113,12 +117,14 @@ static const struct {
 } lines[] = {{"", NULL},          {"recording", head},   {"table", table},
              {"options", models}, {"balls", layout},     {"place", place_fields},
              {"shot", shot},      {"continue", goes_on}, {"event", event},
-             {"end", end}};
+             {"end", end},        {"game", game_fields}};
 enum { KINDS = sizeof lines / sizeof lines[0] };
 
 static size_t size_of(const field *f) {
   return f->type == LIST ? f->size : f->type == INT32 ? sizeof(int32_t) : sizeof(int64_t);
 }
+
+static const int64_t MOST_WHOLE = 9007199254740991; /* of a double, 2^53 - 1 */
 
 /* ---- The hash of the lines ------------------------------------------------------------------- */
 
@@ -280,7 +286,7 @@ static bool read_value(reader *in, const field *f, unsigned char *to) {
     memcpy(to, &x, sizeof x);
     return true;
   }
-  const double most = f->type == INT32 ? 2147483647.0 : 9007199254740991.0;
+  const double most = f->type == INT32 ? 2147483647.0 : (double)MOST_WHOLE;
   if (!(x >= -most && x <= most) || x != (double)(int64_t)x)
     return wrong(in, "must be a whole number");
   const int64_t whole = (int64_t)x;
@@ -446,6 +452,21 @@ carom_status carom_record_hand(carom_record *record, int ball) {
   return CAROM_OK;
 }
 
+/* How the game stands: each member within its row, or 0 of a game without it. */
+static bool check_standing(reader *in) {
+#define CHECK_MEMBER(NAME, member, low, high, range)                \
+  in->key = #member;                                                \
+  memcpy(value, &state->member, sizeof state->member);              \
+  for (size_t k = 0; k < sizeof state->member / sizeof *value; k++) \
+    if (value[k] != 0 && (value[k] < (low) || value[k] > (high)))   \
+      return wrong(in, "must be " range);
+  const carom_rules_state *state = &in->record->standing;
+  int32_t value[2];
+  CAROM_STATE_MEMBERS(CHECK_MEMBER)
+  in->key = "player";
+  return (in->record->player >> 1) == 0 || wrong(in, "must be 0 or 1");
+}
+
 /* A line that was read is applied to the game. */
 static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   carom_record *record = in->record;
@@ -485,6 +506,9 @@ static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
   case CAROM_RECORD_EVENT:
     return record->before == record->after ||
            wrong(in, "has states of other balls before and after");
+
+  case CAROM_RECORD_GAME:
+    return check_standing(in);
 
   /* of what was read up to here */
   case CAROM_RECORD_END: {
@@ -652,6 +676,8 @@ static void write_value(writer *out, const field *f, const unsigned char *from) 
       memcpy(&half, from, sizeof half);
     if (f->type != DOUBLE) /* -0 stays */
       x = (double)(whole + half);
+    if (f->type == INT64 && (whole > MOST_WHOLE || whole < -MOST_WHOLE)) /* nor such a whole one */
+      out->at = out->end;
     if (!(x - x == 0.0)) /* JSON has no such number */
       out->at = out->end;
     const int size = carom_number_write(x, text);
@@ -678,7 +704,7 @@ static void write_list(writer *out, const field *f, const unsigned char *object,
 /* The fields that are not as in `before`, or where that is NULL not all 0. */
 static void write_object(writer *out, const field *fields, const unsigned char *object,
                          const unsigned char *before) {
-  static const unsigned char zeros[4 * sizeof(double)] = {0};
+  static const unsigned char zeros[8 * sizeof(double)] = {0};
   bool first = true;
   write_text(out, "{");
   for (const field *f = fields; f->key != NULL; f++) {

@@ -66,6 +66,9 @@ static void record_game(void) {
   game.options.stop_at = 0;
   carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL);
   add_line(&game, CAROM_RECORD_CONTINUE);
+  game.standing = (carom_rules_state){.fouls = {0, 1}, .may = 2, .user = {0, 7}};
+  game.rules = game.player = 1;
+  add_line(&game, CAROM_RECORD_GAME);
   carom_record_place(&game, 0, 0.3, 0.4, NULL);
   add_line(&game, CAROM_RECORD_PLACE);
   carom_record_play(&game, CAROM_RECORD_SHOT, NULL);

@@ -256,11 +256,41 @@ TEST(lines_that_are_refused) {
   ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_TABLE, text, ROOM), 0);
 }
 
+/* How the game stands is read as it was written, and what no game can be is refused by its name. */
+TEST(how_a_game_stands) {
+  static const char *const wrong[][2] = {{"\"group\":3", "game.group must be 0, 1 or 2"},
+                                         {"\"fouls\":[0,3]", "game.fouls must be 0, 1 or 2"},
+                                         {"\"target\":-1", "game.target must be 1 to 1000000"},
+                                         {"\"player\":2", "game.player must be 0 or 1"},
+                                         {"\"pocket\":[1]", "game.pocket has too few numbers"},
+                                         {"\"gruop\":1", "game.gruop is no key of the format"}};
+  char line[100];
+  memset(&game, 0, sizeof game);
+  size = 0;
+  put(CAROM_RECORD_HEAD);
+  const size_t head = size;
+  game.standing = (carom_rules_state){.score = {0, 7}, .target = 100, .user = {1, [7] = 9}};
+  game.rules = 4;
+  game.player = 1;
+  put(CAROM_RECORD_GAME);
+  ck_assert_int_eq(replay(text, size), 0);
+  ck_assert(again.rules == 4 && again.player == 1 && again.hash == game.hash);
+  ck_assert_mem_eq(&again.standing, &game.standing, sizeof game.standing);
+  game.standing.user[3] = UINT64_C(1) << 53; /* which no number of JSON is sure to be */
+  ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_GAME, text + size, ROOM - size), 0);
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+    const int n = snprintf(line, sizeof line, "{\"game\":{\"rules\":0,%s}}", wrong[k][0]);
+    ck_assert_int_eq(replay(text, head), 0);
+    ck_assert_int_eq(carom_record_read(&again, line, (size_t)n), CAROM_ERROR_RECORD);
+    ck_assert_msg(strstr(again.fault, wrong[k][1]) != NULL, "%s: %s", line, again.fault);
+  }
+}
+
 /* A kind of line that is none, and a number of balls that cannot be, are refused wherever they come
  * from. */
 TEST(records_that_cannot_be) {
   static const int64_t counts[] = {-1, INT64_MIN, CAROM_BALLS_MOST + 1, 100000, INT64_MAX};
-  static const int kinds[] = {-1, -100, INT_MIN, 10, 64, INT_MAX};
+  static const int kinds[] = {-1, -100, INT_MIN, 12, 64, INT_MAX};
   for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
     write_game();
     for (size_t j = 0; j < sizeof kinds / sizeof *kinds; j++) {
@@ -351,6 +381,9 @@ static void write_small_game(void) {
   game.options.time_most = 0.0;
   ck_assert_int_eq(carom_record_play(&game, CAROM_RECORD_CONTINUE, NULL), CAROM_OK);
   put(CAROM_RECORD_CONTINUE);
+  game.standing = (carom_rules_state){.group = 1, .fouls = {0, 1}, .may = 2, .user = {0, 7}};
+  game.rules = game.player = 1;
+  put(CAROM_RECORD_GAME);
   carom_record_hand(&game, 0);
   put(CAROM_RECORD_PLACE);
   ck_assert_int_eq(carom_record_place(&game, 0, 0.6, 0.5, NULL), CAROM_OK);

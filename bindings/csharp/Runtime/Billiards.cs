@@ -368,6 +368,21 @@ namespace Carom {
     /// <summary>Whether the cue ball is in hand, and not placed yet.</summary>
     public bool InHand { get { return Open->hand == 1; } }
 
+    /// <summary>How a game stands for the player at the table, 0 or 1. Returns the line.</summary>
+    public string Stand(RulesKind rules, RulesState state, int player) {
+      Open->rules = (long)rules;
+      record->standing = state;
+      record->player = player;
+      return Line(RecordKind.Game);
+    }
+
+    /// <summary>The state of the last line of Stand().</summary>
+    public RulesState Standing { get { return Open->standing; } }
+    /// <summary>Its rules.</summary>
+    public RulesKind StandingRules { get { return (RulesKind)Open->rules; } }
+    /// <summary>And who is at the table, 0 or 1.</summary>
+    public int AtTable { get { return (int)Open->player; } }
+
     /// <summary>Ends the game, and returns its last line.</summary>
     public string End() { return Line(RecordKind.End); }
 

@@ -7,21 +7,24 @@ whose bits all machines share.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import listing
+from carom._described import Rules as RulesWord
+from carom._rows import choice, listing
 from carom._shot_options import Options, StopAt, chosen, shot_options
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.status import CaromError, Status
 
 __dir__ = listing(__name__)
+
+_GAMES = {word: k for k, word in enumerate(get_args(RulesWord))}
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -128,6 +131,41 @@ class Recorder:
             raise CaromError(code, f"ball {ball}")
         self._write(lib.CAROM_RECORD_PLACE)
 
+    def stand(self, rules: str, state: Any, player: int = 0) -> None:
+        """How the game stands: its name, the state of a ruling of `carom.referee` or what differs from a new game, and who is at the table, 0 or 1."""
+        game = self._game
+        if player not in (0, 1):
+            raise ValueError(f"player: must be 0 or 1, not {player!r}")
+        game.rules, game.player = choice(_GAMES, rules, "rules"), player
+        fresh = lib.carom_plan_rules_of(game.rules)
+        made = fresh.state
+        if isinstance(state, Mapping):
+            for name, value in state.items():
+                setattr(made, name, value)
+        else:
+            ffi.buffer(ffi.addressof(made))[:] = of_record(state, dtypes.rules_state, "state", "referee().state").tobytes()
+        wrong = lib.carom_rules_fault(game.rules, ffi.addressof(made), limits := ffi.new("char **"))
+        if wrong:
+            raise ValueError(f"{ffi.string(wrong).decode()}: by the rules {rules} it must be {ffi.string(limits[0]).decode()}")
+        game.standing = made
+        self._write(lib.CAROM_RECORD_GAME)
+
+    @property
+    def standing(self) -> tuple[str, dtypes.Record, int]:
+        """What `stand` recorded last: the name of the game, its state, and who is at the table."""
+        state = np.frombuffer(bytearray(ffi.buffer(ffi.addressof(self._game, "standing"))), dtypes.rules_state).reshape(())
+        return list(_GAMES)[self._game.rules], state, self._game.player
+
+    @classmethod
+    def load(cls, recording: str | os.PathLike[str] | Iterable[str]) -> Recorder:
+        """Go on with a game that was saved without its end, from a file or its lines: its shots are played again, as `replay` does."""
+        game = cls.__new__(cls)
+        game.__setstate__(([], bytes(ffi.sizeof("carom_record"))))
+        for shot in _replay(game._game, _lines(recording, game.lines)):
+            if not shot.same:
+                raise CaromError(lib.CAROM_ERROR_RECORD, f"line {shot.line}", text="the shot has other bits here")
+        return game
+
     @property
     def in_hand(self) -> bool:
         """Whether a ball is in hand, and not placed yet."""
@@ -186,12 +224,24 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
 
     Raises CaromError: A line is wrong, by a key or a value; the recording is of another revision of the physics; it is cut off.
     """
+    game = ffi.new("carom_record *")
+    yield from _replay(game, _lines(recording, []))
+    if game.kind != lib.CAROM_RECORD_END:
+        raise CaromError(lib.CAROM_ERROR_RECORD, f"line {game.line}", text='cut off: there is no line {"end": ...}')
+
+
+def _lines(recording: str | os.PathLike[str] | Iterable[str], kept: list[str]) -> Iterator[str]:
     if isinstance(recording, (str, os.PathLike)):
         with Path(recording).open(encoding="utf-8") as lines:
-            yield from replay(lines)
+            yield from _lines(lines, kept)
         return
-    game = ffi.new("carom_record *")
     for text in recording:
+        kept.append(text.rstrip() + "\n")
+        yield text
+
+
+def _replay(game: Any, lines: Iterable[str]) -> Iterator[Replayed]:
+    for text in lines:
         line = text.encode()
         _refuse(game, lib.carom_record_read(game, line, len(line)))
         if game.pending != 1:
@@ -200,5 +250,3 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
         if game.pending == 1:
             raise CaromError(code, f"line {game.line}")
         yield Replayed(game.shots, game.line, _end(game.recorded), _end(game.played), _final(game))
-    if game.kind != lib.CAROM_RECORD_END:
-        raise CaromError(lib.CAROM_ERROR_RECORD, f"line {game.line}", text='cut off: there is no line {"end": ...}')

@@ -156,6 +156,8 @@ export class Carom {
       cue: (fields) => this.cue(fields),
       writeShotOptions: (options) => this.#writeShotOptions(options),
       played: (...of) => this.#played(...of),
+      readState: (...of) => this.#plans.readState(...of),
+      writeState: (...of) => this.#plans.writeState(...of),
       refuse: (code, field) => this.#refuse(code, field),
     };
   }

@@ -209,16 +209,27 @@ export class Plans {
 
     const turn = readStruct<Omit<C.Turn, "is" | "leave"> & { is: number; leave: number }>(memory, ruling + RULING.turn, "carom_turn");
     const reason = names.carom_foul[turn.foul]!;
-    const { group, opening, may, ...state } = readStruct<C.RulesState & { group: number }>(memory, ruling + RULING.state, "carom_rules_state");
-    const { score, lost } = state;
+    const state = this.readState(ruling + RULING.state, game.rules);
+    const { score, lost } = readStruct<C.RulesState>(memory, ruling + RULING.state, "carom_rules_state");
     return {
       ...{ turn: names.carom_turn_is[turn.is]!, foul: reason !== "none", reason, hand: HANDS[turn.leave]!, points: turn.points, text: memory.text(text)! },
       score: [score[0] - lost[0], score[1] - lost[1]],
       facts: this.#readFacts(ruling + RULING.facts, balls.length),
       balls: readBalls(memory, ruling + RULING.balls, balls.length).map((ball, k) => ({ ...balls[k], ...ball })),
       put: members(memory.u32[(ruling + RULING.put) / 4]!, balls.length),
-      game: { rules: game.rules, group: names.carom_group[group]!, opening: opening !== 0, may: MAY.filter((_, k) => (may >> k) & 1), ...of(state, MEMBERS) },
+      game: state,
     };
+  }
+
+  /** A carom_rules_state in the module's memory; and one that is written there, once it is checked. */
+  readState(at: Pointer, rules: GameState["rules"]): GameState {
+    const { group, opening, may, ...state } = readStruct<C.RulesState & { group: number }>(this.#memory, at, "carom_rules_state");
+    return { rules, group: names.carom_group[group]!, opening: opening !== 0, may: MAY.filter((_, k) => (may >> k) & 1), ...of(state, MEMBERS) };
+  }
+
+  writeState(game: GameState, balls: readonly ShotBall[]): Pointer {
+    this.#writeRules(game, balls);
+    return this.#at.rules + RULES.offset.state;
   }
 
   // ---- Structs ---------------------------------------------------------------------------------------------------------------

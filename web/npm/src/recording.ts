@@ -1,10 +1,10 @@
 // Recordings of games that verify themselves: the calls of carom_record.h. docs/using/games.md has the format.
 import { CaromError } from "./error.js";
-import { layout, values } from "./generated/layout.js";
+import { layout, names, values } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
 import type { Shot } from "./shot.js";
 import { readBalls, readStruct, readTable, writeBalls, writeStruct, writeTable } from "./structs.js";
-import type { BallState, Cue, Ruling, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
+import type { BallState, Cue, GameState, Ruling, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
 
 const RECORD = layout.carom_record.offset;
 const END = layout.carom_record_end.offset;
@@ -53,6 +53,8 @@ export interface Host {
   cue(fields: Partial<Cue>): Cue;
   writeShotOptions(options: ShotOptions): Pointer;
   played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer, facts: Pointer): Shot;
+  readState(at: Pointer, rules: GameState["rules"]): GameState;
+  writeState(game: GameState, balls: readonly ShotBall[]): Pointer;
   refuse(code: number, field?: string): void;
 }
 
@@ -254,6 +256,22 @@ export class Recording {
   settle({ balls, put, hand }: Ruling, cueBall = 0): void {
     if (put.length > 0) this.setBalls(balls);
     if (hand !== "no") this.hand(cueBall);
+  }
+
+  /** How a game stands for the player at the table, 0 or 1, which is recorded. */
+  stand(game: GameState, player = 0): void {
+    const { memory } = this.#host;
+    const from = this.#host.writeState(game, this.balls);
+    memory.u8.copyWithin(this.#game.at + RECORD.standing, from, from + layout.carom_rules_state.size);
+    memory.i64[(this.#game.at + RECORD.rules) / 8] = BigInt(names.carom_rules_kind.indexOf(game.rules));
+    memory.i64[(this.#game.at + RECORD.player) / 8] = BigInt(player);
+    this.#write(values.CAROM_RECORD_GAME);
+  }
+
+  /** What \`stand\` recorded last, or was read. */
+  get standing(): { game: GameState; player: number } {
+    const rules = names.carom_rules_kind[this.#game.number(RECORD.rules)] as GameState["rules"];
+    return { game: this.#host.readState(this.#game.at + RECORD.standing, rules), player: this.#game.number(RECORD.player) };
   }
 
   /** Whether the cue ball is in hand, and not placed yet. */

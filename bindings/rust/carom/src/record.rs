@@ -1,6 +1,6 @@
 //! Recordings: games that verify themselves. docs/using/games.md has the format.
 use crate::{
-    check, count_of, sys, text, Cue, Error, Facts, Options, Ruling, Shot, ShotBall, Table,
+    check, count_of, sys, text, Cue, Error, Facts, Options, RulesState, Ruling, Shot, ShotBall, Table,
 };
 use std::os::raw::c_char;
 
@@ -58,6 +58,18 @@ impl Recording {
         let ball = ball.min(i32::MAX as usize) as i32;
         check(unsafe { sys::carom_record_hand(&mut *self.record, ball) })?;
         self.line(sys::CAROM_RECORD_PLACE)
+    }
+
+    /// How a game stands for the player at the table, 0 or 1. Returns the line.
+    pub fn stand(&mut self, rules: i32, state: &RulesState, player: i64) -> Result<String, Error> {
+        (self.record.rules, self.record.player) = (i64::from(rules), player);
+        self.record.standing = *state;
+        self.line(sys::CAROM_RECORD_GAME)
+    }
+
+    /// The state of the last line of `stand`; with it the rules, a carom_rules_kind, and who is at the table.
+    pub fn standing(&self) -> (i64, &RulesState, i64) {
+        (self.record.rules, &self.record.standing, self.record.player)
     }
 
     /// The last shot that was played or read, with its events; of one that went on, from its start.
