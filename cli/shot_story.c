@@ -440,7 +440,9 @@ static void tell_push(FILE *out, const shot_line *line, const carom_facts *facts
                   : "a double hit: ball %s is met while the tip is on the cue ball\n",
               line->name[k]);
   if (facts->touches > 1)
-    fputs("the tip touches the cue ball twice\n", out);
+    fprintf(out, "the tip touches the cue ball %s, at %.2f m/s after %.2g s, at %.3f,%.3f\n",
+            facts->touches > 2 ? "again and again, first" : "again", facts->second_speed,
+            facts->second_time, facts->second_place[0], facts->second_place[1]);
 }
 
 void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s,

@@ -526,7 +526,14 @@ typedef struct carom_cue {
   double tip_time;        /* s, to 0.01: how long the tip of a raised cue touches the ball. 0:
                         CAROM_TIP_TIME; tips of hard resin, 0.0008. -1: no time; blow and landing
                         are two events, as before revision 8. */
+  double follow; /* m, 0 to 1: how far the cue goes on after it has touched the ball, at the
+                             speed that is left. What it touches then is another event STRIKE. 0: it
+                             stops at once; carom_cue_of() gives CAROM_CUE_FOLLOW. */
 } carom_cue;
+
+/* m: the follow-through of carom's games. A convention: who follows through goes on for longer, and
+ * who plays at a near ball stops the cue, or plays from the side. */
+#define CAROM_CUE_FOLLOW 0.03
 
 /* s, of a leather tip. Measured are 0.001 to 0.003 for leather, from 0.0008 on for hard resin
  * (billiards.colostate.edu, "How long is the tip in contact with the cue ball?"); the place in
@@ -730,10 +737,13 @@ typedef struct carom_facts {
                                            when it was struck, */
   uint32_t pushed; /* and of those that it met before the tip left it: while it was pushed, or where
                       the tip touched it again within the push. */
-  int32_t touches; /* of the tip: 0 without a strike, 1, or 2 and more of a double hit within the
-                      push. Positions stay during a push. A touch after its end, as of a cue that
-                      follows through at a ball some mm ahead, is not computed. */
+  int32_t touches; /* of the tip: 0 without a strike, 1, or 2 and more of a double hit: within the
+                      push, during which positions stay, or later by cue.follow. */
   uint32_t banked; /* the set of the balls that met a cushion beside its jaws and cuts. */
+  double second_time;     /* when the second of these touches was, s; infinite where there was none;
+                             0: within the push, */
+  double second_speed;    /* at which speed the tip closed, m/s, */
+  double second_place[2]; /* and where the cue ball was, m. 0 where there was none. */
 } carom_facts;
 
 /* How a game stands for the player at the table. Of a pair the first is his, the second the

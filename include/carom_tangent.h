@@ -120,7 +120,7 @@ typedef struct carom_tangent {
  * to event, on the cloth and in flight; nothing is played again but clusters, once for each
  * direction. All events of a cluster have the flags and the tangent of the time of its first
  * one, and CAROM_TANGENT_CLUSTER. A touch inside it that begins to stick has no flag.
- * Nothing is allocated; stack: 57 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
+ * Nothing is allocated; stack: 59 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;
  * CAROM_ERROR_DIRECTIONS for other than 1 to 64; CAROM_ERROR_EVENTS_LOST where shot->room was
@@ -130,9 +130,10 @@ typedef struct carom_tangent {
  * a reserved field; or an error of the table or of an option. CAROM_ERROR_NO_TANGENTS from a
  * library that was built without derivatives. CAROM_ERROR_TANGENT where derivatives are not
  * known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, by
- * CAROM_BALL_MODEL_EULER, and through clusters that are not those of the events, or have more
- * than 40 contacts. Or CAROM_ERROR_TIME for a time after the end of a shot that ended while
- * balls moved, CAROM_ERROR_OVERFLOW where a number of `final` is not finite, or an error of a
+ * CAROM_BALL_MODEL_EULER, through second touches of a tip that follows through, and through
+ * clusters that are not those of the events, or have more than 40 contacts. Or CAROM_ERROR_TIME
+ * for a time after the end of a shot that ended while balls moved, CAROM_ERROR_OVERFLOW where a
+ * number of `final` is not finite, or an error of a
  * collision. Then every number of `final` is NaN, and others may have been written. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls,
                                           int count, const carom_cue *cue,

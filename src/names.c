@@ -165,7 +165,8 @@
     "no ball is left to be played: all that count are down, or the eight is")                      \
   X(ERROR_FAST, -105, "bad_fast", "options.fast must be 0 or 1")                                   \
   X(ERROR_CORNERS, -106, "bad_corners", "a table has 3 to 32 corners")                             \
-  X(ERROR_SIDES_CROSS, -107, "sides_cross", "two sides of the table cross or touch")
+  X(ERROR_SIDES_CROSS, -107, "sides_cross", "two sides of the table cross or touch")               \
+  X(ERROR_CUE_FOLLOW, -108, "bad_cue_follow", "cue.follow must be 0 to 1 m")
 
 #define AGREES(NAME, value, name, text) \
   _Static_assert(CAROM_##NAME == (value), "values are never renumbered");
@@ -184,7 +185,7 @@ int carom_version_number(void) {
 /* Raised by the commit that changes the bits of any result; tests/platforms/revision says when
  * that is. */
 int carom_physics_revision(void) {
-  return 16;
+  return 17;
 }
 
 int carom_serves(int header) {

@@ -23,7 +23,8 @@ carom_turn carom_give(carom_rules_state *game, carom_turn turn) {
 }
 
 bool carom_is_double_hit(const carom_facts *facts) {
-  return (facts->pushed & ~facts->frozen) != 0 || (facts->touches > 1 && facts->pushed == 0);
+  const bool again = facts->touches > 1 && (facts->pushed == 0 || facts->second_time > 0.0);
+  return again || (facts->pushed & ~facts->frozen) != 0;
 }
 
 int carom_driven(const carom_facts *facts, int cue_ball) {

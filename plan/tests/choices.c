@@ -5,7 +5,7 @@
  * two. Where a change of the method or of the physics is meant to change them, the new hash is
  * the one that this test prints. */
 TEST(golden_choices) {
-  static const uint64_t golden = UINT64_C(0xe86f6e164be0067b);
+  static const uint64_t golden = UINT64_C(0xd2dd1d52d254121f);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
   int pots = 0;
   for (int k = 0; k < 20; k++) {

@@ -5,7 +5,7 @@
 
 #include "carom_plan.h"
 
-_Static_assert(sizeof(carom_choice) == 26 * sizeof(double), "the room for choices");
+_Static_assert(sizeof(carom_choice) == 27 * sizeof(double), "the room for choices");
 
 /* A plan for the rack, with few shots. */
 static inline carom_plan_job plan_of(const every_input *in, every_room *room,

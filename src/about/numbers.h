@@ -110,7 +110,9 @@
   ROW(miscue, "miscue", "R", 0, 1, NAN, CUE_MISCUE,                                               \
       "offset at which the tip slips off the ball; 0: 1")                                         \
   ROW(tip_time, "tip_time", "s", 0, 0.01, -1, CUE_TIP_TIME,                                       \
-      "how long the tip of a raised cue touches the ball; 0: 0.001; -1: no time")
+      "how long the tip of a raised cue touches the ball; 0: 0.001; -1: no time")                 \
+  ROW(follow, "follow", "m", 0, 1, NAN, CUE_FOLLOW,                                               \
+      "how far the cue goes on after it has touched the ball; 0: it stops")
 
 #define CAROM_TABLE_NUMBERS(ROW, LATER)                                            \
   LATER(width, "w", "m", 0, DBL_MAX, NAN, NONE, "width, for racks and drawings")   \

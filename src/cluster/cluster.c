@@ -554,7 +554,7 @@ static inline bool solve(bool flat, state *c) {
 }
 
 bool carom_cluster_solve(carom_cluster_state *c) {
-  CAROM_PROMISE(c->balls >= 2 && c->contacts >= 1 && c->slow > 0.0);
+  CAROM_PROMISE((c->struck || c->contacts >= 1) && c->balls >= 1 && c->slow > 0.0);
   for (int k = 0; k < c->balls; k++)
     c->ball[k].s[0] = c->ball[k].s[1] = c->ball[k].s[2] = 0.0;
   return c->in_space ? solve(false, c) : solve(true, c);

@@ -97,10 +97,10 @@ typedef struct carom_cluster_tip {
   int ball;                /* of ball[] */
   /* of the integrator */
   double d, d_max, J, closing, lost;
-  double impulse;             /* sum of J */
-  int touches;                /* how many times it has touched */
-  double second, second_time; /* closing speed, m/s, and tau of the second of them */
-  double last;                /* tau at which it acts last */
+  double impulse;       /* sum of J */
+  int touches;          /* how many times it has touched */
+  double first, second; /* closing speeds of the first and the second of them, m/s */
+  double last;          /* tau at which it acts last */
 } carom_cluster_tip;
 
 /* The contact of the slate and a ball, tip.h. The caller sets k, over the mass, and e. */
@@ -143,10 +143,12 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second);
 
 /* members.c: keeps of ball[] the struck one, tip.ball, and those that it can reach while the cue
  * pushes it, if `most` is the speed that it gets, and lists their contacts. Returns how many
- * contacts there are; 0: it is alone. */
+ * contacts there are, -1 where there are too many; 0: it is alone. */
 int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
 
-/* push.c: the tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
+/* push.c: the axis of a cue, and the directions to its left and above it; */
+void carom_cue_axes(double phi, double theta, double axis[3], double left[3], double above[3]);
+/* the tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
  * to tip_restitution, in their order, and which touches a ball that is alone for T. */
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
 

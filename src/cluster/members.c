@@ -210,5 +210,5 @@ int carom_cluster_members_of_tip(carom_cluster_state *c, double most) {
   for (int k = 0; k < c->balls; k++)
     if (c->ball[k].which == which)
       c->tip.ball = k;
-  return c->balls > 1 ? count : 0;
+  return count;
 }

@@ -1,5 +1,6 @@
 /* The tip of a cue as a contact of a cluster: directions, arm and stiffness; tip.h has the law. */
 #include "cluster/cluster.h"
+#include "cluster/vectors.h"
 #include "platform/elementary.h"
 
 #include <math.h>
@@ -7,20 +8,29 @@
 
 static const double least_restitution = 0.05; /* a tip that gives nothing back parts at once */
 
+void carom_cue_axes(double phi, double theta, double axis[3], double left[3], double above[3]) {
+  double sin_phi, cos_phi, sin_theta, cos_theta;
+  carom_sincos_degrees(phi, &sin_phi, &cos_phi);
+  carom_sincos_degrees(theta, &sin_theta, &cos_theta);
+  axis[0] = cos_theta * cos_phi;
+  axis[1] = cos_theta * sin_phi;
+  axis[2] = -sin_theta;
+  left[0] = -sin_phi;
+  left[1] = cos_phi;
+  left[2] = 0.0;
+  above[0] = sin_theta * cos_phi;
+  above[1] = sin_theta * sin_phi;
+  above[2] = cos_theta;
+}
+
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T) {
   static const double half_pi = 1.57079632679489662;
   carom_cluster_tip *x = &c->tip;
   memset(x, 0, sizeof *x);
   const double a = cue[3], b = cue[4], inverse = c->ball[struck].inverse_mass;
   const double ratio = 1.0 / (inverse * cue[6]), inside = 1.0 - a * a;
-  double sin_phi, cos_phi, sin_theta, cos_theta;
-  carom_sincos_degrees(cue[1], &sin_phi, &cos_phi);
-  carom_sincos_degrees(cue[2], &sin_theta, &cos_theta);
-
-  /* the axis, and the directions to its left and above it */
-  const double axis[3] = {cos_theta * cos_phi, cos_theta * sin_phi, -sin_theta};
-  const double left[3] = {-sin_phi, cos_phi, 0.0};
-  const double above[3] = {sin_theta * cos_phi, sin_theta * sin_phi, cos_theta};
+  double axis[3], left[3], above[3];
+  carom_cue_axes(cue[1], cue[2], axis, left, above);
 
   /* squirt turns the push, motion/strike.h; the arm p x c / R */
   const double aside = -2.5 * a * sqrt(inside), ahead = 1.0 + ratio + 2.5 * inside;
@@ -37,6 +47,8 @@ void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8
   x->e = cue[7] > least_restitution ? cue[7] : cue[7] == 0.0 ? 1.0 + cue[7] : least_restitution;
   const double rate = half_pi * (1.0 + x->e) / T;
   x->k = rate * rate / (x->inverse_mass + (1.0 + 2.5 * (a * a + b * b)) * inverse);
+  x->first = x->V - cluster_dot(false, c->ball[struck].v, x->along) -
+             cluster_dot(false, c->ball[struck].W, x->arm);
 }
 
 /* Adds a ball that is not among those yet, and does not fly. */

@@ -52,10 +52,8 @@ static inline bool tip_acts(carom_cluster_state *c, double h, double tau) {
     return false;
   if (x->d_max == 0.0) { /* it touches */
     x->touches++;
-    if (x->touches == 2) {
+    if (x->touches == 2)
       x->second = x->closing;
-      x->second_time = tau;
-    }
   }
   const double e2 = x->e * x->e;
   if (x->d >= x->d_max) {

@@ -31,15 +31,19 @@ carom_status carom_check_cue(const carom_cue *cue) {
   return cue->a * cue->a + cue->b * cue->b < limit * limit ? CAROM_OK : CAROM_ERROR_MISCUE;
 }
 
+double carom_speed_of_blow(const carom_cue *cue, const carom_ball_kind *kind) {
+  const double a = cue->a, b = cue->b;
+  return (1.0 + carom_tip_of(cue)) * cue->speed /
+         (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
+}
+
 carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, bool in_space,
                         carom_motion *out) {
   /* the directions of the cue, and the speed of the ball along it */
-  const double a = cue->a, b = cue->b, inside = 1.0 - a * a;
+  const double a = cue->a, b = cue->b, inside = 1.0 - a * a, V = carom_speed_of_blow(cue, kind);
   double sin_phi, cos_phi, sin_theta, cos_theta;
   carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
   carom_sincos_degrees(cue->theta, &sin_theta, &cos_theta);
-  const double V = (1.0 + carom_tip_of(cue)) * cue->speed /
-                   (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
 
   /* squirt as a turn of v, by its sine and cosine */
   const double aside = -2.5 * a * sqrt(inside),

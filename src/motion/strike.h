@@ -17,9 +17,10 @@ static inline double carom_tip_gain(const carom_cue *cue) {
   return 2.0 / (1.0 + carom_tip_of(cue));
 }
 
-/* The numbers of a cue, apart from its ball; and carom_strike() of a cue and a ball that have been
- * checked, in space with the part of the blow that goes down. */
+/* The numbers of a cue, apart from its ball; the speed V that it gives a ball; and carom_strike()
+ * of a cue and a ball that have been checked, in space with the part of the blow that goes down. */
 carom_status carom_check_cue(const carom_cue *cue);
+double carom_speed_of_blow(const carom_cue *cue, const carom_ball_kind *kind);
 carom_status carom_blow(const carom_cue *cue, const carom_ball_kind *kind, bool in_space,
                         carom_motion *out);
 

@@ -172,35 +172,33 @@ static void put_on_slate(const carom_sim *sim, carom_cluster_state *c) {
   }
 }
 
-int carom_cluster_strike(carom_sim *sim, const carom_motion *alone, bool flat,
+int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
-  const carom_cue *cue = sim->cue;
   c->balls = 0;
   c->steps = sim->opt->cluster_steps > 0 ? sim->opt->cluster_steps : CAROM_CLUSTER_STEPS;
-  c->slow = carom_slow_speed(0);
+  c->slow = carom_slow_speed(sim->slow_instants);
   c->struck = true;
   c->on_slate = false;
   int struck = 0;
   for (int k = 0; k < sim->count; k++) {
-    const carom_ball_state *s = &sim->path[k].from;
-    if (carom_is_out(s->label))
+    carom_ball_state now;
+    carom_path_at(&sim->path[k], &sim->rates[k], sim->now, &now);
+    if (carom_is_out(now.label))
       continue;
     if (k == sim->struck)
       struck = c->balls;
-    c->ball[c->balls++] = member_of(sim->layout->kind[k], s, sim->opt, carom_flies(s), k);
+    c->ball[c->balls++] = member_of(sim->layout->kind[k], &now, sim->opt, carom_flies(&now), k);
   }
 
   /* those that the ball can reach, and of a raised cue the slate */
-  const double *v = alone->v;
   const double numbers[8] = {cue->speed, cue->phi,  cue->theta,    cue->a,
                              cue->b,     cue->mass, cue->end_mass, cue->tip_restitution};
   carom_cluster_tip_of(c, struck, numbers, carom_tip_time(cue));
-  const int size = carom_cluster_members_of_tip(c, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
-  if (size <= 0)
-    return 0;
-  if (!flat && alone->v[2] != 0.0)
+  if (c->tip.first < CAROM_LEAST_TOUCH || carom_cluster_members_of_tip(c, most) < 0)
+    return -1;
+  if (slate)
     put_on_slate(sim, c);
-  return carom_cluster_solve(c) ? in_order(c, order) : 0;
+  return carom_cluster_solve(c) ? in_order(c, order) : -1;
 }
 
 void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *c, int k,

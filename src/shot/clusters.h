@@ -26,10 +26,21 @@ bool carom_lasts(const carom_shot_options *opt);
  * pushes it. */
 bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 
-/* The cue's push of the struck ball and those that it meets meanwhile. Returns how many contacts
- * of balls had an impulse, in the order of order[]; 0: the ball is as if it were alone. */
-int carom_cluster_strike(carom_sim *sim, const carom_motion *alone, bool flat,
+/* The push of a cue, now, of the struck ball, which gets the speed `most` at most, and of those
+ * that it meets meanwhile; of a raised one on the slate. Returns how many contacts of balls had an
+ * impulse, in the order of order[]; -1 where the tip does not close at CAROM_LEAST_TOUCH, or where
+ * there are too many contacts or steps. */
+#define CAROM_LEAST_TOUCH 0.01 /* m/s: slower the tip has come to lie at the ball */
+int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]);
+
+/* late.c: the cue that goes on from now, after a push that leaves it the speed V and so far behind
+ * the ball; */
+void carom_follow_on(carom_sim *sim, double V, double behind);
+/* when it touches the struck ball again, into sim->follow.time; and the cue with the place of its
+ * tip and its speed now, if that is a touch. */
+void carom_follow_find(carom_sim *sim);
+bool carom_follow_cue(const carom_sim *sim, carom_cue *now);
 
 /* pulse.c: how long a tip touches; the contact of a ball with the slate; and what an impulse J of
  * it, over the mass, takes from the turn about the vertical and the end of hops from v[2]. */

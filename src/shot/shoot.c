@@ -15,6 +15,7 @@ static const carom_shot_options no_options = {0};
 /* As facts begin: nothing happened. */
 static void no_facts(carom_facts *facts) {
   memset(facts, 0, sizeof *facts);
+  facts->second_time = INFINITY;
   for (int n = 0; n < 2; n++) {
     facts->first[n] = -1;
     facts->first_time[n] = INFINITY;
@@ -41,7 +42,7 @@ static void add_fact(carom_facts *facts, const carom_due *due, const carom_sim *
   switch (due->type) {
   case CAROM_EVENT_STRIKE:
     facts->moved |= UINT32_C(1) << a;
-    facts->touches = 1;
+    facts->touches++;
     break;
   case CAROM_EVENT_BALL_BALL:
     facts->moved |= UINT32_C(1) << a | UINT32_C(1) << b;
@@ -83,13 +84,19 @@ static uint32_t frozen_to(const carom_sim *sim) {
   return set;
 }
 
-/* What a push with `count` contacts of balls adds to the facts. */
+/* What a push with `count` contacts of balls adds to the facts, which have its event. */
 static void add_push(const carom_sim *sim, const carom_cluster_state *c, const uint8_t order[],
                      int count) {
   carom_facts *facts = sim->shot->facts;
   if (facts == NULL)
     return;
-  facts->touches = c->tip.touches;
+  const int before = facts->touches - 1;
+  facts->touches = before + c->tip.touches;
+  if (before < 2 && facts->touches >= 2) {
+    facts->second_time = sim->now;
+    facts->second_speed = before == 1 ? c->tip.first : c->tip.second;
+    memcpy(facts->second_place, sim->path[sim->struck].from.r, sizeof facts->second_place);
+  }
   for (int k = 0; k < count; k++) {
     const carom_cluster_contact_state *x = &c->contact[order[k]];
     const int other = x->i == c->tip.ball ? x->j : x->j == c->tip.ball ? x->i : -1;
@@ -235,33 +242,42 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
   return true;
 }
 
-/* The push of a cue with the contacts of balls that last meanwhile, as events behind that of the
- * strike. Returns false where the struck ball is as if it were alone. *met becomes the first
- * contact of the struck ball. */
-__attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_motion *alone,
-                                                 bool flat, carom_due *met, carom_status *status) {
+/* The push of a cue, now, with the contacts of balls that last meanwhile, as events behind that of
+ * the strike. Returns false where the struck ball is as if it were alone, and `needs` others. *met
+ * becomes the first contact of the struck ball. */
+__attribute__((noinline, cold)) static bool push(carom_sim *sim, const carom_cue *cue, double most,
+                                                 bool slate, bool needs, carom_due *met,
+                                                 carom_status *status) {
   carom_cluster_state c;
   uint8_t order[CAROM_CLUSTER_CONTACTS];
-  const int count = carom_cluster_strike(sim, alone, flat, &c, order), i = sim->struck;
-  if (count == 0)
+  const int count = carom_cluster_strike(sim, cue, most, slate, &c, order), i = sim->struck;
+  if (count < needs)
     return false;
 
-  const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
+  const carom_due due = {sim->now, CAROM_EVENT_STRIKE, i, -1};
   carom_event spare, *event = note(sim, &spare, &due);
-  add_push(sim, &c, order, count);
   carom_ball_state *state = &sim->path[i].from;
-  event->before[0] = *state;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
+  *state = event->before[0];
+  add_push(sim, &c, order, count);
   carom_cluster_rest(sim, &c, c.tip.ball, state);
   carom_label_after(c.in_space, sim->layout->kind[i], state);
   event->after[0] = *state;
-  event->cluster = count + 1;
+  event->cluster = count > 0 ? count + 1 : 0;
   event->impulse = c.tip.impulse;
-  carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
+  memset(&event->after[1], 0, sizeof event->after[1]);
+  *status =
+      carom_is_finite(state->v) && carom_is_finite(state->w) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+  if (*status < 0)
+    *state = event->before[0];
+  carom_path_begin(&sim->path[i], &sim->rates[i], sim->now);
 
   bool changed[CAROM_BALLS_MOST] = {false};
   changed[i] = true;
-  *met = (carom_due){0.0, CAROM_EVENT_BALL_BALL, -1, -1};
-  *status = note_contacts(sim, &c, order, count, changed, met);
+  *met = (carom_due){sim->now, count > 0 ? CAROM_EVENT_BALL_BALL : 0, -1, -1};
+  const carom_status of_contacts = note_contacts(sim, &c, order, count, changed, met);
+  *status = *status < 0 ? *status : of_contacts;
+  carom_follow_on(sim, c.tip.V, carom_greater(-c.tip.d, 0.0));
   return true;
 }
 
@@ -340,8 +356,14 @@ static carom_status strike(carom_sim *sim, carom_due *met) {
   if (sim->shot->facts != NULL)
     sim->shot->facts->frozen = frozen_to(sim);
   carom_status together;
-  if (carom_may_push(sim, &motion) && push(sim, &motion, flat, met, &together))
+  const double *v = motion.v, most = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  memcpy(sim->follow.from, sim->path[i].from.r, sizeof sim->follow.from);
+  sim->follow.along = 0.0;
+  if (carom_may_push(sim, &motion) &&
+      push(sim, cue, most, !flat && v[2] != 0.0, true, met, &together))
     return together;
+  const carom_ball_kind *kind = sim->layout->kind[i];
+  carom_follow_on(sim, cue->speed - kind->mass / cue->mass * carom_speed_of_blow(cue, kind), 0.0);
 
   /* the event, and the motion that the cue gives */
   const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
@@ -386,6 +408,26 @@ static bool stops_at(carom_sim *sim, int type, int a, int b) {
   return ((contact ? CAROM_STOP_AT_CONTACT : 0) | CAROM_STOP_AT(type)) & sim->opt->stop_at;
 }
 
+/* The tip touches the struck ball again, or the follow-through ends. *due becomes what happens. */
+__attribute__((noinline, cold)) static carom_status touch_again(carom_sim *sim, carom_due *due) {
+  carom_follow *f = &sim->follow;
+  carom_cue cue;
+  carom_status status = CAROM_OK;
+  const bool touches = carom_follow_cue(sim, &cue);
+  const bool raised = cue.theta > 0.0 && sim->opt->space != CAROM_SPACE_FLAT;
+  f->along += f->V * (sim->now - f->since);
+  f->until = -1.0;
+  f->time = INFINITY;
+  due->type = 0;
+  if (touches && push(sim, &cue, 2.0 * cue.speed, raised, false, due, &status)) {
+    carom_detect_all(sim);
+    if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
+      status = CAROM_STOPPED_AT_EVENT;
+  }
+  due->type = due->type == 0 ? CAROM_DUE_PIECE : due->type; /* nobody is told again */
+  return status;
+}
+
 /* From event to event, until nothing moves or the shot is to stop. Nothing is changed by
  * stopping, so the loop goes on later as if it had not. */
 static carom_status go_on(carom_sim *sim) {
@@ -395,6 +437,10 @@ static carom_status go_on(carom_sim *sim) {
   while (status == CAROM_OK) {
     /* what ends the shot: rest, or the time that the caller allows */
     carom_due due = carom_next(sim);
+    const bool again =
+        sim->follow.until >= 0.0 && sim->follow.time < INFINITY && sim->follow.time <= due.time;
+    if (again)
+      due = (carom_due){sim->follow.time, CAROM_EVENT_STRIKE, sim->struck, -1};
     if (due.type < 0)
       break;
     if (due.time > time_most) {
@@ -408,6 +454,8 @@ static carom_status go_on(carom_sim *sim) {
       sim->round++;
       carom_path_go_on(&sim->path[due.a], &sim->rates[due.a]);
       carom_detect(sim, due.a, -1);
+      if (sim->now < sim->follow.until)
+        carom_follow_find(sim);
       continue;
     }
 
@@ -421,9 +469,11 @@ static carom_status go_on(carom_sim *sim) {
     /* of simultaneous events one may have been found a trace earlier */
     sim->now = carom_greater(sim->now, due.time);
     sim->round++;
-    status = step(sim, &due);
+    status = again ? touch_again(sim, &due) : step(sim, &due);
     if (status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
-      return CAROM_STOPPED_AT_EVENT;
+      status = CAROM_STOPPED_AT_EVENT;
+    if (sim->now < sim->follow.until)
+      carom_follow_find(sim);
   }
   return status;
 }
@@ -453,6 +503,8 @@ static carom_status start(carom_sim *sim) {
   carom_detect_all(sim);
   bool stops = sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1);
   stops |= met.type != 0 && stops_at(sim, met.type, met.a, met.b);
+  if (sim->follow.until > 0.0)
+    carom_follow_find(sim);
   return stops ? CAROM_STOPPED_AT_EVENT : CAROM_OK;
 }
 
@@ -485,7 +537,8 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
     sim.now = 0.0;
     sim.round = 0;
     sim.slow_instants = 0;
-    sim.slow_last = sim.one_by_one = -1.0;
+    sim.slow_last = sim.one_by_one = sim.follow.until = -1.0;
+    sim.follow.time = INFINITY;
     if (shot->state != NULL)
       carom_state_begin(&sim);
     begin(&sim);
@@ -494,6 +547,7 @@ __attribute__((noinline)) static carom_status shoot(const carom_prepared *p, con
     status = carom_state_check(&sim, shot->state, p->count);
     if (status != CAROM_OK)
       return status;
+    sim.cue = &sim.follow.cue;
   }
   CAROM_PROMISE(sim.count > 0 && sim.count <= CAROM_BALLS_MOST && sim.struck < sim.count);
   return finish(&sim, status == CAROM_OK ? go_on(&sim) : status);

@@ -14,6 +14,16 @@ typedef struct carom_meeting {
 
 struct carom_rules;
 
+/* The cue that goes on after its push, late.c. */
+typedef struct carom_follow {
+  double until;    /* s: it moves up to then; -1: it does not */
+  double since, V; /* s, from when at which speed, m/s, and */
+  double along;    /* how far along its axis it was then, m; 0 where it struck first, */
+  double from[3];  /* with the ball there */
+  double time;     /* when it touches the struck ball again; infinite: it does not */
+  carom_cue cue;   /* of a stopped shot */
+} carom_follow;
+
 typedef struct carom_sim {
   /* of a state that is kept, state.c */
   uint64_t can_go_on, seal;
@@ -54,6 +64,7 @@ typedef struct carom_sim {
                                      earlier */
   double first[CAROM_BALLS_MOST]; /* of row i of pair[] */
   int8_t first_with[CAROM_BALLS_MOST];
+  carom_follow follow;
 } carom_sim;
 
 /* An event that is due. */

@@ -118,6 +118,8 @@ void carom_state_save(carom_sim *sim, carom_shot_state *state) {
   sim->features = NULL;
   sim->layout = NULL;
   sim->opt = NULL;
+  if (sim->follow.until >= 0.0 && sim->cue != &sim->follow.cue)
+    sim->follow.cue = *sim->cue;
   sim->cue = NULL;
   sim->shot = NULL;
   memcpy(state, sim, sizeof *sim);
@@ -190,6 +192,7 @@ static bool good_result(const carom_sim *sim, const result *so_far) {
   bool good = so_far->time >= sim->now && so_far->time < INFINITY && in(most, 0, INT32_MAX) &&
               in(f->cushions_after, 0, most) &&
               (f->down | f->off | f->moved) >> (sim->count - 1) <= 1;
+  good &= f->second_time >= 0.0 && carom_is_positive(1.0 + f->second_speed);
   for (int n = 0; n < 2; n++)
     good &= in(f->first[n], -1, sim->count - 1) && in(f->cushions_before[n], 0, most) &&
             f->first_time[n] >= 0.0;
@@ -199,13 +202,22 @@ static bool good_result(const carom_sim *sim, const result *so_far) {
   return good;
 }
 
+/* Whether a cue that goes on can do so. */
+static bool good_follow(const carom_sim *sim) {
+  const carom_follow *f = &sim->follow;
+  return f->until < 0.0 ||
+         (f->until < INFINITY && f->since >= 0.0 && f->since <= sim->now && f->V > 0.0 &&
+          f->V < INFINITY && fabs(f->along) < INFINITY && carom_is_finite(f->from) &&
+          f->time >= sim->now && carom_check_cue(&f->cue) == CAROM_OK);
+}
+
 /* Whether all indices and numbers are those of a shot of sim->layout on sim->table; those that
  * follow from others are computed again. */
 static bool restore(carom_sim *sim) {
   static const int64_t many = INT64_C(1) << 62;
   if (!(sim->now >= 0.0 && sim->now < INFINITY) || !in(sim->round, 0, many) ||
       !in(sim->slow_instants, 0, many) || isnan(sim->slow_last) || isnan(sim->one_by_one) ||
-      !is_bool(&sim->met) || !in(sim->struck, 0, sim->count - 1))
+      !is_bool(&sim->met) || !good_follow(sim) || !in(sim->struck, 0, sim->count - 1))
     return false;
   carom_take_rates(sim);
   for (int i = 0; i < sim->count; i++)

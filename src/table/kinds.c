@@ -14,7 +14,8 @@ carom_cue carom_cue_of(carom_game game) {
                      .mass = snooker ? 0.478 : 0.567,
                      .end_mass = carom_ball_kind_of(game).mass / 30.0,
                      .tip_restitution = pooltool ? 1.0 : CAROM_TIP_LEATHER,
-                     .tip_radius = 0.0106045};
+                     .tip_radius = 0.0106045,
+                     .follow = pooltool ? 0.0 : CAROM_CUE_FOLLOW};
 }
 
 carom_ball_kind carom_ball_kind_of(carom_game game) {

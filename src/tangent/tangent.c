@@ -89,7 +89,12 @@ static carom_status check(const carom_prepared *p, const carom_cue *cue, const c
     if (status != CAROM_OK)
       return status;
   }
-  return is_played(p, cue, shot) ? check_clusters(shot) : CAROM_ERROR_STATE;
+  const carom_status played = is_played(p, cue, shot) ? check_clusters(shot) : CAROM_ERROR_STATE;
+  /* the tip of a cue that follows through has no derivatives */
+  for (int64_t k = 1; played == CAROM_OK && k < shot->count; k++)
+    if (shot->events[k].type == CAROM_EVENT_STRIKE)
+      return CAROM_ERROR_TANGENT;
+  return played;
 }
 
 /* ---- A pass ---- */

@@ -618,7 +618,7 @@ TEST(bytes_of_states) {
 
 /* The facts of a shot by a walk over its events. */
 static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
-  carom_facts f = {.first = {-1, -1}, .first_time = {INFINITY, INFINITY}};
+  carom_facts f = {.first = {-1, -1}, .first_time = {INFINITY, INFINITY}, .second_time = INFINITY};
   for (int i = 0; i < CAROM_BALLS_MOST; i++) {
     f.pocket[i] = -1;
     f.pocket_time[i] = INFINITY;
@@ -627,6 +627,10 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
     const carom_event *e = &events[k];
     const int other = e->a == cue ? e->b : e->a;
     f.touches += e->type == CAROM_EVENT_STRIKE;
+    if (e->type == CAROM_EVENT_STRIKE && f.touches == 2) {
+      f.second_time = e->time;
+      memcpy(f.second_place, e->before[0].r, sizeof f.second_place);
+    }
     if (e->type == CAROM_EVENT_STRIKE || e->type == CAROM_EVENT_BALL_BALL)
       f.moved |= 1U << e->a;
     if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) {
@@ -681,11 +685,14 @@ TEST(facts_of_shots) {
     const carom_status whole = carom_shoot(&table, balls + 16 * k, 16, &cue, NULL, &shot);
     ck_assert_int_ge(whole, CAROM_OK);
     carom_facts found = facts_of(events, shot.count, (int)cue.ball);
+    found.second_speed = facts.second_speed;
     if (events[0].cluster > 0) { /* what it meets after the tip has left it is not in the set */
       ck_assert_uint_eq(facts.pushed & ~met_in_push(events, (int)cue.ball), 0);
       ck_assert_int_ge(facts.touches, 1);
       found.pushed = facts.pushed;
       found.touches = facts.touches;
+      found.second_time = facts.second_time;
+      memcpy(found.second_place, facts.second_place, sizeof found.second_place);
       pushes += facts.pushed != 0;
     }
     ck_assert_int_eq(memcmp(&found, &facts, sizeof facts), 0);

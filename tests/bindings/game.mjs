@@ -31,7 +31,7 @@ const NUMBERS = {
   options: keys("world# ball_model# cushion_model# friction# steps# space# simultaneous# cluster_steps#"),
   balls: ["list"],
   list: [...kindKeys.map((key) => key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)), ...keys("r*3 v*3 w*3 label#")],
-  shot: keys("speed phi theta a b mass end_mass tip_restitution tip_radius ball# miscue tip_time time_most stop_at# first_of# events_most# status# events# time hash"),
+  shot: keys("speed phi theta a b mass end_mass tip_restitution tip_radius ball# miscue tip_time follow time_most stop_at# first_of# events_most# status# events# time hash"),
 };
 const LINES = { recording: 1n, table: 2n, options: 3n, balls: 4n, shot: 6n };
 

@@ -162,6 +162,7 @@ static bool make_inputs(void) {
     cues[k].tip_restitution = choice(3) == 0 ? number(0, 1) : cues[k].tip_restitution;
     cues[k].tip_time = choice(3) == 0 ? number(0, 0.01) : choice(2) - 1.0;
     cues[k].miscue = choice(10) == 0 ? number(tame ? 0.9 : 0, 1) : 0;
+    cues[k].follow = choice(3) == 0 ? number(0, 1) : cues[k].follow;
   }
   make_options();
   /* the other layouts: with another cue ball */

@@ -186,15 +186,6 @@ TEST(straight_pushes) {
   }
   printf(", for ever %.4f\n", together);
   ck_assert(most < 0.02);
-
-  static const double gaps[] = {1e-4, 3e-4, 7e-4, 0.002, 0.004}, speeds[] = {1.0, 2.0, 4.0};
-  for (int n = 0; n < 3; n++)
-    for (int k = 0; k < 5; k++) {
-      straight(gaps[k], speeds[n], 0.001, v);
-      printf("%g m/s, %g mm: %.3f %.3f, touches %d, pushed %u\n", speeds[n], 1e3 * gaps[k], v[0],
-             v[1], facts.touches, facts.pushed);
-      ck_assert_int_eq(facts.frozen, 0);
-    }
 }
 
 /* Level and without friction: all of the tip's impulse is in the balls, along the push; the energy
@@ -282,6 +273,165 @@ TEST(stops_after_a_push) {
   }
 }
 
+/* ---- The cue goes on */
+
+/* A whole shot of 0.07 s with its facts. */
+static carom_shot follow_with(const carom_cue *cue, int count, double until) {
+  const carom_table table = empty_table(table_size);
+  const carom_shot_options options = {.friction = CAROM_FRICTION_CONSTANT, .time_most = until};
+  carom_shot shot = {.events = events, .room = ROOM, .final = final, .facts = &facts};
+  ck_assert_int_ge(carom_shoot(&table, balls, count, cue, &options, &shot), 0);
+  return shot;
+}
+
+/* The same straight and centred at a ball ahead, in short steps of all that moves: cue, both balls
+ * on their cloth, tip and balls pressed (strike_reference.h). Returns how often the tip touches. */
+static int follow_in_steps(const carom_cue *cue, num gap, num until, num v[2], num second[2]) {
+  const carom_ball_kind *kind = &balls[0].kind;
+  const num h = 2e-7L, m = kind->mass, rub = kind->mu_slide * kind->gravity,
+            e = cue->tip_restitution;
+  const num rate = acosl(-1.0L) / 2 * (1 + e) / cue->tip_time;
+  ref_press tip = {.k = rate * rate / (1 / (num)cue->mass + 1 / m), .e = e, .power = 1},
+            pair = {.e = kind->restitution, .power = 1.5L, .d = -gap};
+  pair.k = 4.0L / 3 * 3.3e9L * sqrtl(kind->radius / 2);
+  num V = cue->speed, W[2] = {0, 0}, far = 0;
+  int touches = 0;
+  v[0] = v[1] = 0;
+  for (num t = 0; t < until; t += h) {
+    const bool open = !(tip.most > 0), goes = far < cue->follow || !open;
+    const num closing = V - v[0];
+    tip.d += h * closing;
+    pair.d += h * (v[0] - v[1]);
+    const num F = goes ? ref_force(&tip) : 0, N = ref_force(&pair);
+    if (open && tip.most > 0 && ++touches == 2) {
+      second[0] = t;
+      second[1] = closing;
+    }
+    far += open && touches > 0 && goes ? h * V : 0;
+    V -= h * F / cue->mass;
+    v[0] += h * (F - N) / m;
+    v[1] += h * N / m;
+    for (int k = 0; k < 2; k++) { /* the cloth takes the slip, and no more than that */
+      const num u = v[k] - W[k], most = h * rub,
+                f = fabsl(u) / 3.5L < most ? u / 3.5L : copysignl(most, u);
+      v[k] -= f;
+      W[k] += 2.5L * f;
+    }
+  }
+  return touches;
+}
+
+/* Counts of touches, when and how fast the second comes, and the speeds behind it; beyond the
+ * length there is one. Where no tip follows, none comes. */
+TEST(second_touches) {
+  static const double gaps[] = {1e-4, 3e-4, 7e-4, 2e-3, 3e-3, 5e-3, 0.01, 0.02, 0.028, 0.034};
+  static const int told[3][10] = {{1, 1, 2, 2, 2, 2, 2, 2, 2, 1},
+                                  {1, 1, 1, 2, 2, 2, 2, 2, 2, 1},
+                                  {1, 1, 1, 1, 2, 2, 2, 2, 2, 1}};
+  for (int n = 0; n < 3; n++)
+    for (int k = 0; k < 10; k++) {
+      begin(2);
+      beside(1, 0, gaps[k], 90.0);
+      balls[0].kind.mu_ball = balls[1].kind.mu_ball = 0.0;
+      carom_cue cue = cue_at(n == 2 ? 4.0 : 1.0 + n, 90.0);
+      num v[2], second[2] = {INFINITY, 0};
+      const int touches = follow_in_steps(&cue, gaps[k], 0.07L, v, second);
+      follow_with(&cue, 2, 0.07);
+      printf("%g m/s, %g mm: %d %d touches, %.2f %.2f ms, %.3f %.3f m/s; %.3f %.3f, %.3f %.3f\n",
+             cue.speed, 1e3 * gaps[k], facts.touches, touches, 1e3 * facts.second_time,
+             (double)(1e3L * second[0]), facts.second_speed, (double)second[1], final[0].v[1],
+             (double)v[0], final[1].v[1], (double)v[1]);
+      ck_assert_int_eq(touches, told[n][k]);
+      ck_assert_int_eq(facts.touches, touches);
+      ck_assert(touches < 2 || fabs(facts.second_time - (double)second[0]) < 5e-4);
+      NEAR(facts.second_speed, (double)second[1], 0.01);
+      for (int i = 0; i < 2; i++)
+        NEAR(final[i].v[1], (double)v[i], 0.01);
+    }
+}
+
+/* The mirror image of a layout. */
+static void mirror(int count, carom_cue *cue) {
+  for (int k = 0; k < count; k++)
+    balls[k].state.r[0] = table_size - balls[k].state.r[0];
+  cue->phi = 180.0 - cue->phi;
+  cue->a = -cue->a;
+}
+
+/* Of balls ahead, at angles, level and raised: up to the second touch all is as without a
+ * follow-through, there the balls get what the cue loses and no energy, the mirror image is that of
+ * the shot, and a shot that is stopped on the way goes on to the same end. */
+TEST(second_touches_at_angles) {
+  static carom_event stopped[ROOM];
+  static carom_shot_state state;
+  random_source r = {test_seed()};
+  int seconds = 0, bare = 0;
+  for (int n = 0; n < draws_of_each(400); n++) {
+    begin(2);
+    beside(1, 0, random_between(&r, 5e-4, 0.03), 90.0 + random_between(&r, -25.0, 25.0));
+    carom_cue cue = cue_at(random_between(&r, 0.5, 8.0), 90.0);
+    cue.theta = n % 4 == 0 ? random_between(&r, 2.0, 40.0) : 0.0;
+    cue.a = random_between(&r, -0.3, 0.3);
+    cue.b = random_between(&r, -0.5, 0.3);
+    carom_facts whole;
+    carom_ball_state end[2];
+    const carom_shot shot = follow_with(&cue, 2, 0.1);
+    const int64_t count = shot.count;
+    whole = facts;
+    memcpy(end, final, sizeof end);
+    memcpy(stopped, events, (size_t)count * sizeof *events);
+
+    /* impulse and energy of the touches that are alone */
+    const double m = balls[0].kind.mass;
+    double V = cue.speed;
+    int touches = 0;
+    for (int64_t k = 0; k < count; k++) {
+      const carom_event *e = &events[k];
+      if (e->type != CAROM_EVENT_STRIKE)
+        continue;
+      const double *u = e->before[0].v, *w = e->after[0].v, next = V - e->impulse / cue.mass;
+      if (k > 0 && e->cluster == 0 && cue.theta == 0.0) {
+        bare++;
+        NEAR(hypot(w[0] - u[0], w[1] - u[1]), e->impulse / m, 1e-9);
+        ck_assert_double_le(state_energy(&balls[0].kind, &e->after[0]) +
+                                0.5 * cue.mass * next * next,
+                            state_energy(&balls[0].kind, &e->before[0]) + 0.5 * cue.mass * V * V);
+      }
+      V = next;
+      touches++;
+    }
+    ck_assert(touches <= whole.touches && V > 0.0);
+    seconds += touches > 1;
+
+    /* in two parts */
+    const double cut = random_between(&r, 0.0, 0.03);
+    carom_table table = empty_table(table_size);
+    carom_shot_options options = {.friction = CAROM_FRICTION_CONSTANT, .time_most = cut};
+    carom_shot part = {
+        .events = events, .room = ROOM, .final = final, .facts = &facts, .state = &state};
+    carom_shoot(&table, balls, 2, &cue, &options, &part);
+    options.time_most = 0.1;
+    ck_assert_int_ge(carom_shot_continue(&table, balls, 2, &options, &part), 0);
+    ck_assert(memcmp(end, final, sizeof end) == 0 && memcmp(&whole, &facts, sizeof whole) == 0 &&
+              part.count == count);
+
+    /* without a follow-through, and the mirror image */
+    carom_cue stops = cue;
+    stops.follow = 0.0;
+    follow_with(&stops, 2, 0.1);
+    for (int64_t k = 0; k < count && stopped[k].time < fmax(whole.second_time, 1e-9); k++)
+      ck_assert(memcmp(&stopped[k], &events[k], sizeof *events) == 0);
+    mirror(2, &cue);
+    follow_with(&cue, 2, 0.1);
+    ck_assert_int_eq(facts.touches, whole.touches);
+    for (int k = 0; k < 2; k++)
+      for (int axis = 0; axis < 2; axis++)
+        NEAR(final[k].v[axis], (axis == 0 ? -1.0 : 1.0) * end[k].v[axis], 1e-7 * cue.speed);
+  }
+  printf("%d second touches, %d alone\n", seconds, bare);
+  ck_assert_int_gt(bare, draws_of_each(400) / 8);
+}
+
 /* ---- Symmetries */
 
 /* The mirror image of a strike is the strike of the mirror image. */
@@ -293,10 +443,7 @@ TEST(mirror_images) {
     const int count = draw(&r, n % 2 != 0, &cue);
     strike(&cue, count);
     memcpy(there, final, sizeof there);
-    for (int k = 0; k < count; k++)
-      balls[k].state.r[0] = table_size - balls[k].state.r[0];
-    cue.phi = 180.0 - cue.phi;
-    cue.a = -cue.a;
+    mirror(count, &cue);
     strike(&cue, count);
     for (int k = 0; k < count; k++)
       for (int axis = 0; axis < 3; axis++) {

@@ -426,6 +426,30 @@ static void shots(void) {
   }
 }
 
+/* Straight shots at a near ball, which the tip of a cue that follows through touches twice; some
+ * with the butt raised. */
+static void follow_through(void) {
+  static carom_table table;
+  static carom_event events[ROOM];
+  carom_ball_state final[2];
+  uint64_t hash = START;
+  state = 7;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  for (int k = 0; k < 40; k++) {
+    carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)},
+                                {.kind = carom_ball_kind_of(CAROM_GAME_POOL)}};
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    cue.speed = between(0.5, 8.0);
+    cue.theta = k % 4 == 3 ? between(0.0, 40.0) : 0.0;
+    carom_place_ball(&table, balls, 1, 0, between(0.4, 0.6), 0.6, NULL);
+    carom_place_ball(&table, balls, 2, 1, 0.5, 0.66 + between(0.0, 0.03), NULL);
+    carom_shot shot = {.events = events, .room = ROOM, .final = final};
+    const carom_status status = carom_shoot(&table, balls, 2, &cue, NULL, &shot);
+    hash = add_shot(hash, &shot, 2, status);
+  }
+  show("shots: follow-through", hash);
+}
+
 /* ---- Places and aims ------------------------------------------------------------------------- */
 
 /* Which places of a grid are on a table of one's own, whose rails are short. */
@@ -504,6 +528,7 @@ int main(int argc, char **argv) {
   slips_that_begin();
   cushion_traces();
   shots();
+  follow_through();
   places();
 #ifndef CAROM_WITHOUT_PLAN
   aims();

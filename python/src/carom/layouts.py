@@ -326,7 +326,7 @@ def cue(
     b: npt.ArrayLike | None = None, ball: npt.ArrayLike = 0, game: Game = "pool", mass: npt.ArrayLike | None = None,
     end_mass: npt.ArrayLike | None = None, tip_radius: npt.ArrayLike | None = None, miscue: npt.ArrayLike = 0.0,
     tip_time: npt.ArrayLike = 0.0, tip_restitution: npt.ArrayLike | None = None, ball_speed: npt.ArrayLike | None = None,
-    tip: npt.ArrayLike | None = None
+    tip: npt.ArrayLike | None = None, follow: npt.ArrayLike | None = None
 ) -> dtypes.Records:  # fmt: skip
     """Build a cue with its strike, or many. The fields are broadcast against each other.
 
@@ -348,8 +348,8 @@ def cue(
     miscue : array_like, shape (...)
         0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips reach 0.5.
     tip_time : array_like, shape (...)
-        s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.002, a leather tip. Hard resin, with which balls
-        jump, has 0.0006. -1: no time, so that the blow and the landing are two events, as before revision 8.
+        s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.001, a leather tip. Hard resin, with which balls
+        jump, has 0.0008. -1: no time, so that the blow and the landing are two events, as before revision 8.
     tip_restitution : array_like, shape (...)
         Restitution of the tip and the ball, 0 to 1; 0: 1, without loss. The speed of the ball is in proportion to 1 + tip_restitution. Default
         0.73, leather, and 1 for pooltool's games; phenolic resin has 0.85.
@@ -357,6 +357,8 @@ def cue(
         Instead of `speed`: that of a ball of `game` just after the strike of a level cue, m/s.
     tip : array_like, shape (..., 2)
         Instead of `a` and `b`: where the tip touches, right of and above the centre, as `carom shoot --tip` has it.
+    follow : array_like, shape (...)
+        m, to 1: how far the cue goes on after it has touched the ball; 0: it stops. Default 0.03, a convention; 0 for pooltool's games.
 
     Returns an ndarray of `carom.dtypes.cue`, shape (...).
     """
@@ -381,6 +383,7 @@ def cue(
         speed = as_array(ball_speed, "ball_speed", np.float64)
     given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
     more = {"miscue": miscue, "tip_time": tip_time, "tip_restitution": tip_restitution, "mass": mass, "end_mass": end_mass, "tip_radius": tip_radius}
+    more["follow"] = follow
     made = fill(dtypes.cue, {}, {**given, **more}, usual)
     if ball_speed is not None:
         _strike_to(made, game)

@@ -475,7 +475,7 @@ class Shots:
 
         count, dims = self.final.shape[-1], self._dims(dims)
         units = {"time": "s", "contact_time": "s", "pocket_time": "s", "cue_speed": "m/s", "cue_phi": "degree", "cue_theta": "degree"}
-        units |= {"cue_mass": "kg", "cue_end_mass": "kg", "cue_tip_radius": "m", "cue_tip_time": "s", "r": "m", "v": "m/s", "w": "rad/s"}
+        units |= {"cue_mass": "kg", "cue_end_mass": "kg", "cue_tip_radius": "m", "cue_tip_time": "s", "cue_follow": "m", "r": "m", "v": "m/s", "w": "rad/s"}
         found: dict[str, tuple[tuple[str, ...], Array]] = {"status": (dims, self.status), "time": (dims, self.time), "count": (dims, self.count)}
         if self.cues is not None:
             cues = np.broadcast_to(self.cues, self.shape)

@@ -211,7 +211,7 @@ STOPPED, PAIR = carom.simulate(TABLE, RACK, CUE, t_final=0.1), carom.balls([[0.6
 CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 # Each function with arguments that are right, and those that each wrong value takes the place of in turn.
 CALLS = [
-    (carom.cue, {}, "speed phi theta a b ball game mass end_mass tip_radius miscue tip_time tip_restitution ball_speed tip"),
+    (carom.cue, {}, "speed phi theta a b ball game mass end_mass tip_radius miscue tip_time tip_restitution ball_speed tip follow"),
     (carom.balls, {"r": [[0.6, 0.8]]}, "r v w game mass mu_slide nose_height"),
     (carom.simulate, {"table": TABLE, "balls": PAIR},
      "table balls options world ball_model cushion_model friction space simultaneous cluster_steps steps events_most plain t_final stop_at first_of"),

@@ -1,0 +1,86 @@
+/* The cue after its push: it follows through, and touches the cue ball again where it reaches it.
+ *
+ * Its tip goes on along the axis c at the speed V that the push has left it, for the length
+ * cue.follow from where it struck. That length is a convention: the arm, which stops the cue, is
+ * not computed. With p from the centre of the struck ball to the tip, the next touch is where
+ *
+ *     |p| = R,   p = p0 + t V c - v t - a t^2
+ *
+ * (gap.c). There it pushes as tip.h has it, with the (a, b) of p, and goes on at the speed that is
+ * left. It is looked for from the first contact of the cue ball with another ball on: before that
+ * the ball runs away from the cue, but in slow draws, in which an arm stops. A tip that closes
+ * slower than CAROM_LEAST_TOUCH has come to lie at the ball, and one that comes past its middle
+ * misses: there the follow-through ends. */
+#include "motion/gap.h"
+#include "shot/clusters.h"
+#include "shot/rules.h"
+
+#include <math.h>
+
+void carom_follow_on(carom_sim *sim, double V, double behind) {
+  const carom_cue *cue = sim->cue;
+  carom_follow *f = &sim->follow;
+  const double left = cue->follow - f->along;
+  f->until = -1.0;
+  if (!(left > 0.0 && V > 0.0) || cue->tip_time < 0.0 || !sim->rules->clusters ||
+      !carom_lasts(sim->opt))
+    return;
+  f->since = sim->now;
+  f->until = sim->now + left / V;
+  f->along -= behind;
+  f->V = V;
+}
+
+/* p, now, and the axis of the cue and the directions to its left and above it. */
+static void tip_of(const carom_sim *sim, const double r[3], double axes[3][3], double p[3]) {
+  const carom_follow *f = &sim->follow;
+  const carom_cue *cue = sim->cue;
+  const double a = cue->a, b = cue->b, R = sim->rates[sim->struck].radius;
+  const double along = f->along + f->V * (sim->now - f->since) - R * sqrt(1.0 - a * a - b * b);
+  carom_cue_axes(cue->phi, cue->theta, axes[0], axes[1], axes[2]);
+  for (int k = 0; k < 3; k++)
+    p[k] = f->from[k] + R * (a * axes[1][k] + b * axes[2][k]) + along * axes[0][k] - r[k];
+}
+
+void carom_follow_find(carom_sim *sim) {
+  carom_follow *f = &sim->follow;
+  const int i = sim->struck;
+  const carom_path *path = &sim->path[i];
+  const bool out = carom_is_out(path->from.label);
+  f->time = INFINITY;
+  f->until = out ? -1.0 : f->until;
+  if (out || !sim->met)
+    return;
+
+  /* the ball as it moves from now on, and the tip from there */
+  carom_ball_state s;
+  carom_separation d;
+  double axes[3][3];
+  carom_path_at(path, &sim->rates[i], sim->now, &s);
+  tip_of(sim, s.r, axes, d.d0);
+  for (int k = 0; k < 3; k++) {
+    d.d1[k] = f->V * axes[0][k] - s.v[k];
+    d.d2[k] = -path->a[k];
+  }
+  const double horizon = carom_lesser(f->until, path->end) - sim->now;
+  if (horizon >= 0.0)
+    f->time = sim->now + carom_first_contact_in_space(&d, sim->rates[i].radius, horizon);
+}
+
+bool carom_follow_cue(const carom_sim *sim, carom_cue *now) {
+  const int i = sim->struck;
+  const double R = sim->rates[i].radius;
+  carom_ball_state s;
+  double axes[3][3], p[3];
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &s);
+  tip_of(sim, s.r, axes, p);
+  const double p2 = p[0] * p[0] + p[1] * p[1] + p[2] * p[2], over = 1.0 / sqrt(p2);
+  double on[3];
+  for (int k = 0; k < 3; k++)
+    on[k] = over * (p[0] * axes[k][0] + p[1] * axes[k][1] + p[2] * axes[k][2]);
+  *now = *sim->cue;
+  now->speed = sim->follow.V;
+  now->a = on[1];
+  now->b = on[2];
+  return p2 > 0.25 * R * R && on[0] < -0.1;
+}
