@@ -3,7 +3,7 @@ import { type Carom, type Cue, type Replayed, type Shot, type ShotBall, type Sho
 import type { player } from "../../../player/player.js";
 import { GAMES, type GameOf } from "../table/games.js";
 import { cueWith, strokeControls, strokeOf } from "../table/stroke.js";
-import { check, choice, el, slider, type Slider } from "../ui.js";
+import { check, choice, el, slider, type Slider, wrong } from "../ui.js";
 import type { advicePanel } from "./advice.js";
 import type { reel } from "./reel.js";
 
@@ -81,12 +81,26 @@ export function optionsOf({ solver, controls }: Desk): ShotOptions {
   return { ballModel: euler ? "euler" : "exact", cushionModel: euler && model === "mathavan" ? "euler" : model };
 }
 
+/** Gives the balls the constants of the game for the cushions that are chosen; those of a line keep their own. What it says where there are none. */
+export function suit(d: Desk): string {
+  let said = "";
+  if (d.imported) return said;
+  let kind = d.carom.kind(d.game.game);
+  try {
+    kind = d.carom.kind(d.game.game, optionsOf(d).cushionModel);
+  } catch (error) {
+    said = `${wrong(error)}; it plays those of its own cushions.`;
+  }
+  d.balls = d.balls.map(({ state }) => ({ kind, state }));
+  return said;
+}
+
 /** Lays the balls of the game as they begin. */
 export function lay(d: Desk): void {
   const { carom, gameName, seed } = d;
   const game = GAMES[gameName]!;
   d.controls.games.select.value = gameName;
-  const [table, kind] = [carom.table(game.table), carom.kind(game.game)];
-  const balls = carom.rack(game.rack, table, { seed }).map(({ state }) => ({ kind, state }));
+  const table = carom.table(game.table);
+  const balls = carom.rack(game.rack, table, { seed });
   Object.assign(d, { game, table, balls, names: balls.map((_, k) => game.names(k)), faces: balls.map(() => 0), chosen: -1, moved: false, imported: undefined, known: true, builtIn: true });
 }

@@ -2,18 +2,19 @@
 import { CaromError, type Cue, type Replayed } from "carom";
 import { facing, filmOf, pathsOf } from "../table/filmed.js";
 import { el, wrong } from "../ui.js";
-import { type Desk, FAN, optionsOf, says } from "./desk.js";
+import { type Desk, FAN, optionsOf, says, suit } from "./desk.js";
 import { fan } from "./fan.js";
 
 /** Shows a stroke, which is played, or the shot of a recording. */
 export function present(d: Desk, stroke: Cue, played?: Replayed): void {
+  const said = played ? "" : suit(d);
   const { controls, table, balls, names } = d;
   d.recorded = played;
   d.recording.shows(played);
   controls.sliders.error!.input.disabled = !controls.fanned.input.checked;
   controls.stroke.set({}); // the tip is where its sliders are
   const begun = performance.now();
-  says(d, "");
+  says(d, said);
   try {
     d.shot = played?.film ?? d.carom.simulate(table, balls, stroke, optionsOf(d));
   } catch (error) {

@@ -68,7 +68,7 @@ export class Play {
     const of = GAMES[this.played?.of ?? setup.game];
     if (!of || (!this.practice && !this.played)) throw new TypeError(`game: there is no game "${setup.game}"`);
     this.table = carom.table(of.table);
-    const kind = carom.kind(of.game);
+    const kind = carom.kind(of.game, OPTIONS.cushionModel);
     this.balls = carom.rack(of.rack, this.table, { seed: setup.seed }).map(({ state }) => ({ kind, state }));
     this.names = this.balls.map((_, k) => of.names(k));
     if (setup.at !== undefined) this.balls = placesOf(setup.at, this.table, this.balls).balls;
