@@ -93,28 +93,27 @@ _tables: dict[tuple[Any, ...], tuple[Table, Any]] = {}
 
 
 def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[Any, ...]) -> Table:
+    rails = []
     for segment in linear:
         if segment.direction not in (0, 1):
             raise UnsupportedError(f"cushion {segment.id!r} has balls on both sides: carom takes direction 0 or 1")
-    p, q = (np.array([getattr(c, end) for c in linear], np.float64).reshape(-1, 3) for end in ("p1", "p2"))
-    centres = np.array([c.center for c in circular], np.float64).reshape(-1, 3)
-    rails, jaws = np.zeros(len(linear), dtypes.rail), np.zeros(len(circular), dtypes.jaw)
-    pockets: Array = np.array([(centre[:2], radius, depth) for centre, radius, depth in holes], dtype=dtypes.pocket)
-    rails["p"], rails["q"], rails["height"], rails["side"] = p[:, :2], q[:, :2], p[:, 2], [c.direction for c in linear]
-    jaws["centre"], jaws["height"], jaws["radius"] = centres[:, :2], centres[:, 2], [c.radius for c in circular]
-    # The lines as pooltool has them, lx, ly and l0, whose signs say what `side` means.
-    (x, y), (dx, dy), line = p.T[:2], (q - p).T[:2], rails["line"]
-    across = dx == 0.0
-    slope = np.divide(dy, dx, out=np.zeros(len(linear)), where=~across)
-    line[:, 0], line[:, 1], line[:, 2] = np.where(across, 1.0, -slope), ~across, np.where(across, -x, slope * x - y)
+        (x, y, height), (other_x, other_y, _) = (np.asarray(end, np.float64).tolist() for end in (segment.p1, segment.p2))
+        # The line as pooltool has it, lx, ly and l0, whose signs say what `side` means.
+        slope = (other_y - y) / (other_x - x) if other_x != x else None
+        line = (1.0, 0.0, -x) if slope is None else (-slope, 1.0, slope * x - y)
+        rails.append(((x, y), (other_x, other_y), height, line, segment.direction, 0.0, 0.0))
+    # Plain numbers: arrays as small as these take ten times as long.
+    jaws = [(c.center[:2].tolist(), c.radius, c.center[2], 0.0, 0.0) for c in circular]
+    pockets = [(centre[:2].tolist(), radius, depth) for centre, radius, depth in holes]
     # The bed reaches from rail to rail, those in the mouths of pockets left out, which are oblique. (A System's own table.w and table.l
     # need segments with the names of pooltool's tables.)
     size = []
     for axis in range(2):
-        across = rails[np.abs(rails["p"][:, axis] - rails["q"][:, axis]) < 1e-9]
-        at = np.concatenate([(across if len(across) else rails)[end][:, axis] for end in "pq"])
-        size.append(float(np.ptp(at)) if len(at) else 1.0)
-    return Table(size[0], size[1], rails=rails, jaws=jaws, pockets=pockets)
+        across = [rail for rail in rails if abs(rail[0][axis] - rail[1][axis]) < 1e-9] or rails
+        at = [end[axis] for rail in across for end in rail[:2]]
+        size.append(max(at) - min(at) if at else 1.0)
+    pieces: list[dtypes.Records] = [np.array(*of) for of in ((rails, dtypes.rail), (jaws, dtypes.jaw), (pockets, dtypes.pocket))]
+    return Table(size[0], size[1], rails=pieces[0], jaws=pieces[1], pockets=pieces[2])
 
 
 def balls_of(system: Any) -> dtypes.Records:

@@ -45,6 +45,7 @@ _TYPES: dict[int, Any] = {
 # ---- Made when first looked at ------------------------------------------------------------------------------------------
 
 _states_of: Any = _BallHistory.__dict__["states"]
+_BALL_FIELDS = [_balls.Ball.__dict__[name] for name in ("history", "history_cts", "state")]  # to set, without attrs' setters
 _id_of, _type_of, _initial_of, _final_of = (_Agent.__dict__[name] for name in ("id", "agent_type", "initial", "final"))
 
 
@@ -196,16 +197,17 @@ class _Filler:
         self.circular = list(system.table.cushion_segments.circular.values())
         self.pockets = list(system.table.pockets.values())
         # The balls of agents: the first of each event, then the second where there is one. Event k has rows 2 k and 2 k + 1.
-        first = 2 * np.arange(len(events))
-        self.rows = np.concatenate([first, first[events["type"] == _BALL_BALL] + 1])
-        self.numbers = np.stack([events["a"], events["b"]], axis=-1).ravel()[self.rows].tolist()
+        self.types, self.others, first = events["type"].tolist(), events["b"].tolist(), events["a"].tolist()
+        pairs = [k for k, kind in enumerate(self.types) if kind == _BALL_BALL]
+        self.rows = [*range(0, 2 * len(first), 2), *(2 * k + 1 for k in pairs)]
+        self.numbers = [*first, *(self.others[k] for k in pairs)]
         ids = [self.balls[number].id for number in self.numbers]
         self.agents = make(_Agent, len(ids), ("id", "agent_type", "initial"), (ids, _BALL, self.settle))
         turn(self.agents, _LaterAgent, (), ())
 
     def settle(self) -> None:
         """Gives all agents their balls, before and after, each without a history."""
-        n, when = len(self.agents), self.events["time"][self.rows // 2].tolist()
+        n, when = len(self.agents), self.events["time"][np.array(self.rows) // 2].tolist()
         owners = [self.balls[number] for number in self.numbers]
         own = [[getattr(ball, field) for ball in owners] for field in _OWN_FIELDS]
         columns = []
@@ -219,10 +221,9 @@ class _Filler:
 
     def happened(self) -> list[Any]:
         """The events with their agents; pockets take their balls."""
-        events, seconds = self.events, iter(self.agents[len(self.events) :])
-        types, others = events["type"].tolist(), events["b"].tolist()
+        seconds = iter(self.agents[len(self.types) :])
         who: list[tuple[Any, ...]] = []
-        for kind, a, b, ball in zip(types, self.numbers, others, self.agents, strict=False):
+        for kind, a, b, ball in zip(self.types, self.numbers, self.others, self.agents, strict=False):
             if kind == _BALL_BALL:
                 # A pair is named in the order of the System, as pooltool names it.
                 second = next(seconds)
@@ -241,7 +242,7 @@ class _Filler:
                 who.append((ball, _Agent(pocket.id, _POCKET_AGENT, empty, pocket.copy())))
             else:
                 who.append((ball,))
-        columns = ([_TYPES[kind] for kind in types], who, events["time"].tolist())
+        columns = ([_TYPES[kind] for kind in self.types], who, self.events["time"].tolist())
         made: list[Any] = make(_events.Event, len(who), ("event_type", "agents", "time"), columns)
         return made
 
@@ -270,9 +271,9 @@ def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) ->
         # The last state is the ball's own, and stands twice: after the last event and at the end.
         first, last = ball.state, lasts[index]
         first.t = 0.0
-        ball.history = _later_history(functools.partial(histories.of, index, [first], [last, last] if kept else [last]))
+        history = _later_history(functools.partial(histories.of, index, [first], [last, last] if kept else [last]))
         made = list if continuous is None else functools.partial(continuous.of, index, [first], [last])
-        ball.history_cts = _later_history(made)
-        ball.state = last
+        for slot, value in zip(_BALL_FIELDS, (history, _later_history(made), last), strict=True):
+            slot.__set__(ball, value)
     if stopped:
         system.stop_balls()
