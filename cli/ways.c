@@ -56,7 +56,9 @@ static bool play(const ways_search *s, const carom_cue *cues, int n, carom_shot 
 bool way_is_good(const ways_search *s, const carom_facts *f, const carom_ball_state *final,
                  const way *w) {
   const uint32_t cue = (uint32_t)1 << s->line->cue.ball;
-  if ((f->down | f->off) & cue)
+  /* a scratch is none, nor is a double hit, as games rule on it */
+  const bool again = f->touches > 1 && (f->pushed == 0 || f->second_time > 0.0);
+  if (((f->down | f->off) & cue) != 0 || again || (f->pushed & ~f->frozen) != 0)
     return false;
   const double *r = final[s->line->cue.ball].r;
   if (s->radius > 0.0 && hypot(r[0] - s->place[0], r[1] - s->place[1]) > s->radius)

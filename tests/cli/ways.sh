@@ -109,3 +109,6 @@ carom shoot --cue 0.5,0.5 --tip -0.2..0.2..0.2,0..0.4..0.2 --json | sed 's/.*"a"
 echo "--- gaps and seeds of a rack"
 places() { carom shoot --balls nineball --aim 90 --json "$@" | grep -o '"state": [^]]*' | cksum; }
 [ "$(places)" = "$(places --gap 0.1mm --seed 1)" ] && [ "$(places)" != "$(places --seed 2)" ] && [ "$(places)" != "$(places --gap 0)" ] && echo "as asked"
+echo "--- a double hit is no way: a ball 5 mm ahead is cut, unless the cue stops"
+for follow in 0.03 0; do
+  carom shoot --cue 0.34395,2.19605 --balls 0.3,2.24 --aim 135 --speed 1.5 --with follow=$follow --json > a.jsonl; carom ways a.jsonl --pocket foot-left | grep direct; done
