@@ -23,7 +23,7 @@ while len(found) < 1000:
     if np.hypot(*(r[:, None] - r)[np.triu_indices(len(r), 1)].T).min() < 0.06:
         continue
     phi = np.degrees(np.arctan2(*(r[1] - r[0])[::-1])) + random.uniform(-1, 1)
-    cue = carom.cue(speed=random.uniform(0.9, 5.8), phi=phi, a=random.uniform(-0.3, 0.3), b=random.uniform(-0.3, 0.3))
+    cue = carom.cue(speed=random.uniform(0.9, 5.8), phi=phi, a=random.uniform(-0.3, 0.3), b=random.uniform(-0.3, 0.3), follow=0.0)
     shot = carom.simulate(table, carom.balls(r), cue)
     contacts = np.zeros(len(r), int)
     for event in shot.events[shot.events["type"] == carom.EventType.BALL_BALL]:

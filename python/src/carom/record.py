@@ -151,7 +151,7 @@ class Recorder:
         self._write(lib.CAROM_RECORD_GAME)
 
     @property
-    def standing(self) -> tuple[str, dtypes.Record, int]:
+    def standing(self) -> tuple[str, dtypes.Records, int]:
         """What `stand` recorded last: the name of the game, its state, and who is at the table."""
         state = np.frombuffer(bytearray(ffi.buffer(ffi.addressof(self._game, "standing"))), dtypes.rules_state).reshape(())
         return list(_GAMES)[self._game.rules], state, self._game.player

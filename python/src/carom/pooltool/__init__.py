@@ -133,7 +133,7 @@ def cue_of(system: Any) -> dtypes.Records:
     """The cue of a System, for `carom.simulate`."""
     cue, specs = system.cue, system.cue.specs
     ball = list(system.balls).index(cue.cue_ball_id)
-    numbers = (cue.V0, cue.phi, cue.theta, cue.a, cue.b, specs.M, specs.end_mass, 1.0, specs.tip_radius, ball, 0.0, 0.0)
+    numbers = (cue.V0, cue.phi, cue.theta, cue.a, cue.b, specs.M, specs.end_mass, 1.0, specs.tip_radius, ball, 0.0, 0.0, 0.0)
     return np.array(numbers, dtype=dtypes.cue)
 
 
