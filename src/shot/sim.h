@@ -64,7 +64,9 @@ typedef struct carom_sim {
                                      earlier */
   double first[CAROM_BALLS_MOST]; /* of row i of pair[] */
   int8_t first_with[CAROM_BALLS_MOST];
+#ifndef CAROM_SRC_TANGENT_TEXT_H /* none of the text with derivatives, whose stack is short */
   carom_follow follow;
+#endif
 } carom_sim;
 
 /* An event that is due. */

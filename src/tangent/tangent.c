@@ -155,7 +155,7 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
 
 /* Whether a contact that is resolved alone has a third ball so near that a small change may have
  * it touched before. */
-static bool is_in_pile(const work *w, const carom_event *e) {
+__attribute__((noinline)) static bool is_in_pile(const work *w, const carom_event *e) {
   static const double near = 1e-3; /* m; gaps of racks are half of it at most */
   for (int i = 0; i < w->count && e->type == CAROM_EVENT_BALL_BALL; i++) {
     const carom_ball_rates rates = carom_rates_of(w->ball[i].kind);
