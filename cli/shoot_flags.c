@@ -249,7 +249,7 @@ static bool aim_to(const given_place *to, const layout *l, carom_cue *cue) {
   return true;
 }
 
-static int ways_of(const shoot_flags *f) {
+static int directions_of(const shoot_flags *f) {
   return f->to.count > 0 ? f->to.count : f->cut.count > 0 ? f->cut.count : f->aim.count;
 }
 
@@ -264,7 +264,7 @@ static combination combination_at(const shoot_flags *f, int index) {
   c.speed = index % c.speeds->count;
   c.tip = index / c.speeds->count % f->tip.count;
   c.rise = index / c.speeds->count / f->tip.count % f->elevation.count;
-  const int ways = f->to.count > 0 ? f->to.count : f->cut.count > 0 ? f->cut.count : f->aim.count;
+  const int ways = directions_of(f);
   c.way = index / c.speeds->count / f->tip.count / f->elevation.count % ways;
   c.rack = index / c.speeds->count / f->tip.count / f->elevation.count / ways;
   return c;
@@ -436,7 +436,7 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
     return false;
   const int speeds = f->ball_speed.count > 0 ? f->ball_speed.count : f->speed.count;
   const int racks = f->gap.count * f->seed.count;
-  const double all = (double)speeds * f->tip.count * f->elevation.count * ways_of(f) * racks;
+  const double all = (double)speeds * f->tip.count * f->elevation.count * directions_of(f) * racks;
   const int count = all <= most ? (int)all : 0;
   bool good = all <= most;
   if (!good)

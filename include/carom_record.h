@@ -77,10 +77,10 @@ typedef struct carom_record {
   int64_t placed;  /* the last ball in hand, */
   double place[2]; /* m: and where it was put. */
   int64_t hand;    /* 1: it is not placed yet: it is in hand. */
-  int64_t rules;   /* of the game: a carom_rules_kind of carom_plan.h, */
-  int64_t player;  /* who is at the table, 0 or 1, */
-  carom_rules_state
-      standing; /* and how it stands for him; carom_rules_fault() tells whether it can. */
+  int64_t rules;   /* a carom_rules_kind of carom_plan.h: the game's. */
+  int64_t player;  /* who is at the table, 0 or 1. */
+  /* How the game stands for him; carom_rules_fault() tells whether it can. */
+  carom_rules_state standing;
   carom_record_end recorded; /* of the line of a shot that was read; */
   carom_record_end played;   /* of the shot that was played. */
   carom_event event;         /* of the last line with an event; */

@@ -526,9 +526,9 @@ typedef struct carom_cue {
   double tip_time;        /* s, to 0.01: how long the tip of a raised cue touches the ball. 0:
                         CAROM_TIP_TIME; tips of hard resin, 0.0008. -1: no time; blow and landing
                         are two events, as before revision 8. */
-  double follow; /* m, 0 to 1: how far the cue goes on after it has touched the ball, at the
-                             speed that is left. What it touches then is another event STRIKE. 0: it
-                             stops at once; carom_cue_of() gives CAROM_CUE_FOLLOW. */
+  double follow; /* m, 0 to 1: how far the cue goes on after it has touched the ball, at the speed
+                    that is left. What it touches then is another event STRIKE. 0: it stops at
+                    once; carom_cue_of() gives CAROM_CUE_FOLLOW. */
 } carom_cue;
 
 /* m: the follow-through of carom's games. A convention: who follows through goes on for longer, and
@@ -747,8 +747,8 @@ typedef struct carom_facts {
 } carom_facts;
 
 /* How a game stands for the player at the table. Of a pair the first is his, the second the
- * other's. A game of
- * carom_plan.h reads the members that carom_rules_kind names; 0 otherwise. */
+ * other's. A game of carom_plan.h reads the members that carom_rules_kind names; the others are
+ * 0. */
 typedef struct carom_rules_state {
   int32_t opening;  /* 1: the stroke is a break, else 0. */
   int32_t group;    /* a carom_group of carom_plan.h, the player's. */

@@ -146,9 +146,9 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second);
  * contacts there are, -1 where there are too many; 0: it is alone. */
 int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
 
-/* push.c: the axis of a cue, and the directions to its left and above it; */
+/* push.c. The axis of a cue, and the directions to its left and above it. */
 void carom_cue_axes(double phi, double theta, double axis[3], double left[3], double above[3]);
-/* the tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
+/* The tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
  * to tip_restitution, in their order, and which touches a ball that is alone for T. */
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
 

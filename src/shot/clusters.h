@@ -34,12 +34,11 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
-/* late.c: the cue that goes on from now, after a push that leaves it the speed V and so far behind
- * the ball; */
+/* late.c. The cue goes on from now, at the speed V, its tip `behind` m behind the ball. */
 void carom_follow_on(carom_sim *sim, double V, double behind);
-/* when it touches the struck ball again, into sim->follow.time; and the cue with the place of its
- * tip and its speed now, if that is a touch. */
+/* Sets sim->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_sim *sim);
+/* *now becomes the cue with the place of its tip and its speed. Returns whether that is a touch. */
 bool carom_follow_cue(const carom_sim *sim, carom_cue *now);
 
 /* pulse.c: how long a tip touches; the contact of a ball with the slate; and what an impulse J of

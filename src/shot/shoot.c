@@ -424,7 +424,8 @@ __attribute__((noinline, cold)) static carom_status touch_again(carom_sim *sim, 
     if (status == CAROM_OK && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1))
       status = CAROM_STOPPED_AT_EVENT;
   }
-  due->type = due->type == 0 ? CAROM_DUE_PIECE : due->type; /* nobody is told again */
+  /* the strike is told; of a contact beside it go_on() asks whether the shot stops there */
+  due->type = due->type == 0 ? CAROM_DUE_PIECE : due->type;
   return status;
 }
 

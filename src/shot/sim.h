@@ -17,10 +17,10 @@ struct carom_rules;
 /* The cue that goes on after its push, late.c. */
 typedef struct carom_follow {
   double until;    /* s: it moves up to then; -1: it does not */
-  double since, V; /* s, from when at which speed, m/s, and */
-  double along;    /* how far along its axis it was then, m; 0 where it struck first, */
-  double from[3];  /* with the ball there */
-  double time;     /* when it touches the struck ball again; infinite: it does not */
+  double since, V; /* s: it moves since then; at this speed, m/s */
+  double along;    /* m: where it was then, along its axis from where it struck first */
+  double from[3];  /* m: the struck ball at that first strike */
+  double time;     /* s: when it touches the struck ball again; infinite: it does not */
   carom_cue cue;   /* of a stopped shot */
 } carom_follow;
 
