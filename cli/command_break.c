@@ -255,7 +255,7 @@ static const command_form form = {
              "rows. The cue aims at the middle of the ball in front.\n",
     .options =
         (const option_row *const[]){
-            &option_rules,         &option_racks,      &option_gap,           &option_seed,
+            &option_rules,         &option_racks,      &option_gap,           &option_one_seed,
             &option_table,         &option_cue,        &option_aim,           &option_shot_speed,
             &option_ball_speed,    &option_tip,        &option_elevation,     &option_player,
             &option_player_errors, &options_of_motion, &option_with_of_shots, &option_break_csv,

@@ -332,7 +332,7 @@ static const command_form form = {
                                            &option_table,
                                            &option_cue,
                                            &option_balls,
-                                           &option_gap,
+                                           &option_one_gap,
                                            &option_group,
                                            &option_may,
                                            &option_score,

@@ -29,6 +29,8 @@ OPTION_SET(set_text) {
 
 /* Why a list is none of an option's values. */
 static const char *one_hint(const char *text) {
+  if (strchr(text, ':') != NULL || strstr(text, "..") != NULL)
+    return "; it takes one value, no range";
   return strchr(text, ',') != NULL ? "; it takes one value, in which decimals have a point" : "";
 }
 
@@ -86,8 +88,8 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
     *place = found;
   else
     complain("--%s is %s, not '%s'%s", row->name, list, text,
-             place_among(words, text, strcspn(text, ",")) >= 0 ? "; it takes one value"
-                                                               : did_you_mean(text, words, hint));
+             place_among(words, text, strcspn(text, ",:")) >= 0 ? "; it takes one value"
+                                                                : did_you_mean(text, words, hint));
   return found >= 0;
 }
 
@@ -229,6 +231,9 @@ static const carom_number *number_named(const option_row *row, const char *name,
   if (other != NULL)
     complain("--%s: %s is a number of %s; %s", row->name, name, owners[of_other].whose,
              refusal(row, owners[of_other].part, other));
+  else if (name[strspn(name, "+-.:0123456789")] == '\0')
+    complain("--%s is NAME=X,...; '%.40s' has no NAME, as each number takes one value", row->name,
+             name);
   else
     complain("--%s is NAME=X,...; there is no number '%.40s'%s; `carom models` lists them",
              row->name, name, did_you_mean(name, known, hint));
@@ -253,7 +258,7 @@ static OPTION_SET(set_numbers) {
         !((x >= n->low && x <= n->high) || x == n->other)) {
       carom_number_range(n, must, sizeof must);
       complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must,
-               value != NULL ? value : "", comma_hint(value != NULL ? value : ""));
+               value != NULL ? value : "", one_hint(value != NULL ? value : ""));
       return false;
     }
     const bool of_cue = part == CAROM_PART_CUE;
@@ -263,17 +268,13 @@ static OPTION_SET(set_numbers) {
   return true;
 }
 
-OPTION_SET(set_cue_number) {
-  const option_row with = {.name = row->name};
+bool give_number(given_numbers *given, const char *name, double x) {
+  const option_row with = {.name = name};
   char one[200];
-  double x;
-  if (!set_number(row, text, &x))
-    return false;
-  snprintf(one, sizeof one, "%s=%s", row->name, text);
+  snprintf(one, sizeof one, "%s=%.17g", name, x);
   for (char *dash = one; (dash = strchr(dash, '-')) != NULL && dash < strchr(one, '=');)
     *dash = '_';
-  ((given_numbers *)field)->own = true;
-  return set_numbers(&with, one, field);
+  return set_numbers(&with, one, given);
 }
 
 void give_cue(const given_numbers *given, carom_cue *cue) {
@@ -368,7 +369,10 @@ static OPTION_SET(set_law) {
     return true;
   complain("--%s is alciatore, alciatore=a,b,c (mu = a + b exp(-c |u|)) or a number from 0 to 1, "
            "not '%s'%s",
-           row->name, text, did_you_mean(strchr(text, '=') == NULL ? text : name, name, hint));
+           row->name, text,
+           strpbrk(text, "=abc") == NULL
+               ? one_hint(text)
+               : did_you_mean(strchr(text, '=') == NULL ? text : name, name, hint));
   return false;
 }
 

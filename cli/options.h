@@ -63,8 +63,7 @@ OPTION_SET(set_choice); /* int, or an enumeration from 0: the place of the text 
 OPTION_SET(
     set_named); /* an enumeration by the words of the library; its default has none in help */
 
-OPTION_SET(set_option);     /* an option of the library, by its row */
-OPTION_SET(set_cue_number); /* given_numbers: that of a cue which has the option's name */
+OPTION_SET(set_option); /* an option of the library, by its row */
 
 /* Writes the rows of the library's options for which a row without a name stands, at most
  * MOST_OF_LIBRARY; returns how many. Of shots: options_of_motion, or with those of when to stop
@@ -89,8 +88,11 @@ typedef struct given_numbers {
   uint64_t which, of_cue;
   carom_ball_kind kind;
   carom_cue cue;
-  bool own; /* an option of its own gives one of the cue */
 } given_numbers;
+
+/* Gives the number of a cue that has the name, with - for _ as options write it; complains and
+ * returns false where it is out of its bounds. */
+bool give_number(given_numbers *given, const char *name, double x);
 
 /* Puts the numbers that are given into those of a ball, or of a cue. */
 void give_ball(const given_numbers *given, carom_ball_kind *kind);

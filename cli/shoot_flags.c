@@ -86,27 +86,47 @@ ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
     "of the butt of the cue (default 0). With --pocket also least: as little as the stick needs "
     "over the cushions and balls behind the cue ball");
-ROW(option_tip_time, "tip-time", shared.with, "SECONDS", set_cue_number, 0,
+ROW(option_tip_time, "tip-time", tip_time, "SECONDS", set_values, MEASURE_NUMBER,
     "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.001, of "
     "leather; of hard resin, which lets balls jump: 0.0008). -1: no time");
-ROW(option_tip_restitution, "tip-restitution", shared.with, "E", set_cue_number, 0,
+ROW(option_tip_restitution, "tip-restitution", tip_restitution, "E", set_values, MEASURE_NUMBER,
     "restitution of the tip and the ball, above 0 to 1: the speed of the ball is in proportion to "
     "1 + E (default 0.73, of leather; of phenolic resin 0.85; of pooltool 1)");
 ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign "
     "holds: a > 0 is left");
 
-ROW(option_gap, "gap", gap, "G", set_values, MEASURE_LENGTH,
-    "gap between neighbours of a rack, m, or with a unit: 0.1mm (the default); 0 is a frozen rack");
-ROW(option_seed, "seed", seed, "N", set_values, MEASURE_NUMBER,
-    "draws how the balls of a rack are moved and placed (default 1)");
+#define GAP_HELP \
+  "gap between neighbours of a rack, m, or with a unit: 0.1mm (the default); 0 is a frozen rack"
+#define SEED_HELP "draws how the balls of a rack are moved and placed (default 1)"
+ROW(option_gap, "gap", gap, "G", set_values, MEASURE_LENGTH, GAP_HELP);
+ROW(option_seed, "seed", seed, "N", set_values, MEASURE_NUMBER, SEED_HELP);
+/* Where the balls lie once, or a seed is that of the first rack of many. */
+static OPTION_SET(set_single) {
+  values *list = field;
+  if (!set_values(row, text, list))
+    return false;
+  if (list->count > 1)
+    complain("--%s takes one value here, not '%s'; `carom shoot` takes a list", row->name, text);
+  return list->count == 1;
+}
+ROW(option_one_gap, "gap", gap, "G", set_single, MEASURE_LENGTH, GAP_HELP);
+ROW(option_one_seed, "seed", seed, "N", set_single, MEASURE_NUMBER, SEED_HELP);
+
+/* Whether one of the lists is given, or looks like a number with a decimal comma. */
+static bool any_list(const shoot_flags *f, bool comma) {
+  const values *const all[] = {&f->speed,    &f->ball_speed,      &f->aim, &f->cut, &f->elevation,
+                               &f->tip_time, &f->tip_restitution, &f->gap, &f->seed};
+  bool any = false;
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    any |= comma ? all[k]->comma : all[k]->count > 0;
+  return any;
+}
 
 bool has_flags(const shoot_flags *f) {
   return f->table != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
          f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 || f->balls.rack > 0 ||
-         f->tip.count > 0 || f->speed.count > 0 || f->ball_speed.count > 0 || f->aim.count > 0 ||
-         f->cut.count > 0 || f->elevation.count > 0 || f->shared.with.own || f->gap.count > 0 ||
-         f->seed.count > 0;
+         f->tip.count > 0 || any_list(f, false);
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -256,22 +276,35 @@ static int directions_of(const shoot_flags *f) {
 /* Which value of each number a combination has: the speed changes fastest. */
 typedef struct combination {
   const values *speeds;
-  int speed, tip, rise, way, rack;
+  int speed, tip, rise, time, bounce, way, rack;
 } combination;
+
+static int many(const values *list) {
+  return list->count > 0 ? list->count : 1;
+}
+
+/* Takes a place among `count` off the index of a combination. */
+static int take(int *index, int count) {
+  const int place = *index % count;
+  *index /= count;
+  return place;
+}
 
 static combination combination_at(const shoot_flags *f, int index) {
   combination c = {.speeds = f->ball_speed.count > 0 ? &f->ball_speed : &f->speed};
-  c.speed = index % c.speeds->count;
-  c.tip = index / c.speeds->count % f->tip.count;
-  c.rise = index / c.speeds->count / f->tip.count % f->elevation.count;
-  const int ways = directions_of(f);
-  c.way = index / c.speeds->count / f->tip.count / f->elevation.count % ways;
-  c.rack = index / c.speeds->count / f->tip.count / f->elevation.count / ways;
+  c.speed = take(&index, c.speeds->count);
+  c.tip = take(&index, f->tip.count);
+  c.rise = take(&index, f->elevation.count);
+  c.time = take(&index, many(&f->tip_time));
+  c.bounce = take(&index, many(&f->tip_restitution));
+  c.way = take(&index, directions_of(f));
+  c.rack = index;
   return c;
 }
 
 /* The strike of a combination, towards +x; false after a complaint where there is no such one. */
-static bool strike_of(const shoot_flags *f, const layout *l, const combination *c, carom_cue *cue) {
+static bool strike_of(const shoot_flags *f, const layout *l, const combination *c,
+                      const given_numbers *with, carom_cue *cue) {
   const double R = l->ball[0].kind.radius;
   const bool least = isnan(f->elevation.at[c->rise].x);
   carom_motion after;
@@ -279,7 +312,7 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
   cue->speed = c->speeds->at[c->speed].x;
   cue->phi = 0.0;
   cue->theta = least ? 0.0 : f->elevation.at[c->rise].x;
-  give_cue(&f->shared.with, cue);
+  give_cue(with, cue);
   cue->a = -tip_of(&f->tip.at[c->tip].x, R);
   cue->b = tip_of(&f->tip.at[c->tip].y, R);
   if (!(cue->speed > 0.0)) {
@@ -333,6 +366,8 @@ static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_T
     snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%sto %s,%s", id[0] != '\0' ? ", " : "",
              f->to.at[c->way].x.name, f->to.at[c->way].y.name);
   name_value(id, "elevation", &f->elevation, c->rise);
+  name_value(id, "tip-time", &f->tip_time, c->time);
+  name_value(id, "tip-restitution", &f->tip_restitution, c->bounce);
   name_value(id, "speed", c->speeds, c->speed);
   if (f->tip.count > 1)
     snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "",
@@ -376,12 +411,18 @@ static void write_line(FILE *out, const layout *l, const given_numbers *given, c
 static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
                        const carom_shot_options *options, int index) {
   const combination c = combination_at(f, index);
+  given_numbers with = f->shared.with;
   carom_cue cue;
   char id[MOST_TEXT];
-  if (!strike_of(f, l, &c, &cue) || !aim_of(f, l, options, &c, &cue))
+  if (f->tip_time.count > 0 && !give_number(&with, "tip-time", f->tip_time.at[c.time].x))
+    return false;
+  if (f->tip_restitution.count > 0 &&
+      !give_number(&with, "tip-restitution", f->tip_restitution.at[c.bounce].x))
+    return false;
+  if (!strike_of(f, l, &c, &with, &cue) || !aim_of(f, l, options, &c, &cue))
     return false;
   name_shot(f, &c, id);
-  write_line(out, l, &f->shared.with, id, &cue);
+  write_line(out, l, &with, id, &cue);
   return true;
 }
 
@@ -431,12 +472,12 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
     values_default(&f->elevation, MEASURE_ELEVATION, "0");
   if (f->tip.count == 0)
     f->tip = (place_list){.count = 1, .at = {{.y = {.x = 0.25}}}};
-  if (f->shared.strict &&
-      (f->aim.comma || f->cut.comma || f->speed.comma || f->ball_speed.comma || f->elevation.comma))
+  if (f->shared.strict && any_list(f, true))
     return false;
   const int speeds = f->ball_speed.count > 0 ? f->ball_speed.count : f->speed.count;
   const int racks = f->gap.count * f->seed.count;
-  const double all = (double)speeds * f->tip.count * f->elevation.count * directions_of(f) * racks;
+  const double all = (double)speeds * f->tip.count * f->elevation.count * many(&f->tip_time) *
+                     many(&f->tip_restitution) * directions_of(f) * racks;
   const int count = all <= most ? (int)all : 0;
   bool good = all <= most;
   if (!good)

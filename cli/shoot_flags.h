@@ -19,7 +19,7 @@ typedef struct shoot_flags {
   shared_options shared;
   int table; /* 1 + a carom_table_kind; 0: none was given */
   const char *at_ball, *pocket, *via;
-  values speed, ball_speed, aim, cut, elevation, gap, seed; /* the last two of a rack */
+  values speed, ball_speed, aim, cut, elevation, tip_time, tip_restitution, gap, seed;
   place_list cue, balls, tip, to;
   bool json;
   bool tries;            /* shots that cannot be aimed are left out, without a complaint */
@@ -30,7 +30,7 @@ typedef struct shoot_flags {
 extern const option_row option_table, option_cue, option_balls, option_aim, option_to,
     option_at_ball, option_pocket, option_via, option_shot_cut, option_shot_speed,
     option_ball_speed, option_tip, option_elevation, option_tip_time, option_tip_restitution,
-    option_json, option_gap, option_seed;
+    option_json, option_gap, option_seed, option_one_gap, option_one_seed;
 
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);

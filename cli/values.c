@@ -239,7 +239,7 @@ static bool set_range(const option_row *row, const char *text, char *copy, value
     return refuse(row, text);
   const int found = find_unit(row->least, unit);
   const double steps = parts == 3 ? (end[1] - end[0]) / end[2] : POINTS - 1;
-  if (parts < 2 || found == NO_UNIT || !(steps >= 1.0) || isinf(steps))
+  if (parts < 2 || found == NO_UNIT || !(steps >= 1.0 - 1e-9) || isinf(steps))
     return refuse(row, text);
   if (steps > MOST_VALUES - 1)
     return too_many(row, floor(steps) + 1.0, MOST_VALUES);

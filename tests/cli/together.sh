@@ -12,11 +12,29 @@ for words in "hit --cut 0:60:0.01" "hit --cut $(seq -s , 0 0.01 12)" "hit --cut 
   # shellcheck disable=SC2086
   try carom $words
 done
-echo "--- lists of what is one value"
-for words in "hit --steps 1,2" "hit --solver exact,euler" "rail --law han,constant" "shoot --cushion han,mirror" "shoot --seed 1,2" "shoot --tip-time 0,1" "shoot --time-most 1,2"; do
+echo "--- a list and a range of every option that takes a number: played, or refused in a sentence that says why"
+{ head -n 1 "$DATA/collisions-204.csv"; sed -n 2p "$DATA/collisions-204.csv"; } > row.csv
+carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --json > two.jsonl
+for all in "resolve row.csv" hit rail "shoot --balls 0.5,1.6" "ways --balls 0.5,1.6 --ball 1 --pocket foot-left" "plan --balls 0.5,1.6 --rules potting --shots 100" "break --racks 1" "record two.jsonl"; do
+  for option in $(carom ${all%% *} --help | sed -n 's/^  *\(-., \)\{0,1\}--\([a-z-]*\) [^ ].*/\2/p'); do
+    case $option in output | id | at-ball | data | ball | pocket | via) continue ;; esac
+    for one in 0.5:0.6:0.1 1:2:1 0.001:0.002:0.001 500:501:1 100:200:100; do
+      # shellcheck disable=SC2086
+      carom $all --$option ${one%%:*} > said 2>&1 || continue
+      last=${one%:*}
+      for list in "${one%%:*},${last#*:}" "$one"; do
+        carom $all --$option "$list" > said 2>&1 && echo "${all%% *} --$option: lists" && continue
+        grep -q -- "--$option.*one value" said && echo "${all%% *} --$option: one value" || { echo "$all --$option $list"; cat said; }
+      done
+      break
+    done
+  done
+done | sort | uniq -c | sed 's/^ *[0-9]* //'
+for words in "shoot --tip-time 0,1" "break --seed 1:3:1" "ways --gap 0,0.3mm" "plan --gap 0:1mm:0.5mm" "shoot --with mu_ball=0.1,0.2" "shoot --with mu_ball=0.1:0.2:0.1" "hit --solver exact,euler" "rail --law han,constant"  "shoot --cushion han,mirror"; do
   # shellcheck disable=SC2086
   try carom $words
 done
+carom shoot --tip-time 0,0.001 --tip-restitution 0.7:0.8:0.1 --elevation 2,3.5 --csv | sed -n 's/^[0-9]*,"\(.*\)",cue,leaves,,0,[^,]*,[^,]*,\([0-9.]\{6\}\).*/\1: \2 m\/s/p'
 echo "--- lists of models, frictions, masses"
 carom rail --model han,mathavan --angle 30,60 --quantity rebound --csv | cut -c 1-16
 for model in han mathavan; do carom rail --model $model --angle 30,60 --quantity rebound --csv | cut -c 1-8; done
