@@ -317,6 +317,13 @@ inline std::string words(const carom_ruling &of) {
   return text;
 }
 
+/* The stroke of a player who means `of`, with errors drawn from the seed and its number. */
+inline carom_cue strike(const carom_player &by, std::uint64_t seed, std::int64_t number,
+                        carom_cue of) {
+  carom_player_strike(&by, seed, static_cast<std::uint64_t>(number), &of);
+  return of;
+}
+
 /* A plan for the player at the table; options, models and memory are not set. */
 inline carom_plan_job job(const carom_table &on, std::span<const carom_shot_ball> balls,
                           const carom_cue &cue, const carom_player &player,
@@ -449,6 +456,10 @@ public:
       return code;
     });
   }
+  /* Plays a stroke, and returns its line. */
+  std::string_view shoot(const carom_cue &cue);
+  /* Reads lines, and plays their shots. False at one with other bits than were recorded. */
+  bool load(std::string_view lines);
   const shot &last() const {
     return last_;
   }
@@ -471,6 +482,23 @@ private:
   std::vector<char> text_;
   shot last_;
 };
+
+inline std::string_view recording::shoot(const carom_cue &cue) {
+  game_->cue = cue;
+  play();
+  return write(CAROM_RECORD_SHOT);
+}
+
+inline bool recording::load(std::string_view lines) {
+  for (std::size_t size; !lines.empty(); lines.remove_prefix(size)) {
+    size = std::min(lines.find('\n'), lines.size() - 1) + 1;
+    if (read(lines.substr(0, size)) < 0)
+      return false;
+    if (game_->pending == 1 && (play(static_cast<carom_record_kind>(game_->kind)), !same()))
+      return false;
+  }
+  return true;
+}
 
 #ifdef CAROM_PLAN_H
 /* The line that tells how a game stands, and who of both is at the table. */

@@ -1,4 +1,4 @@
-//! The game of match.cpp in Rust: `match FILE` keeps its recording.
+//! The game of match.cpp in Rust: `match FILE` keeps its recording, and goes on with one that was saved.
 use carom::{sys, Call, Film, Position, Recording};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -6,64 +6,62 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let table = carom::table(sys::CAROM_TABLE_POOL_9FT)?;
     let cue = carom::cue(sys::CAROM_GAME_POOL);
     let mut rules = carom::built_in_rules(sys::CAROM_RULES_NINEBALL);
-    rules.state.opening = 1; // before the break
-    let (mut game, mut film) = (Recording::default(), Film::default());
-    let rack = carom::rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 2)?;
-    let mut lines = game.begin(&table, &rack, &Default::default())?;
-    let (mut player, mut winner, mut frames, mut number) = (0, 0, 0, 0);
-    let mut loudest: f64 = 0.0; // N s
-    while winner == 0 {
-        // how the game stands is kept; the player thinks, while the shot of the other is drawn
-        lines += &game.stand(sys::CAROM_RULES_NINEBALL, &rules.state, player as i64)?;
-        let mut position =
-            Position::new(&table, game.layout()?, &cue, &rules, [500.0, 600.0][player]);
+    let (mut game, mut read, mut film) = <(Recording, Recording, Film)>::default();
+    let mut lines = std::fs::read_to_string(&file).unwrap_or_default();
+    assert!(game.load(&lines)?, "a shot has other bits");
+    if lines.is_empty() {
+        let rack = carom::rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 2)?;
+        lines = game.begin(&table, &rack, &Default::default())?;
+        rules.state.opening = 1; // before the break
+        lines += &game.stand(sys::CAROM_RULES_NINEBALL, &rules.state, 0)?;
+    }
+    let (mut winner, mut frames, mut loudest) = (-1, 0, 0.0_f64); // N s
+    while winner < 0 {
+        // the game is kept; the player thinks, while the shot of the other is drawn
+        std::fs::write(&file, &lines)?;
+        let player = game.standing().2;
+        rules.state = *game.standing().1;
+        let rating = [500.0, 600.0][player as usize];
+        let mut position = Position::new(&table, game.layout()?, &cue, &rules, rating);
         position.options.shots = 300;
         let errors = position.player;
         let mut mind = position.think(500, 1, game.in_hand())?;
-        let mut frame = 0;
+        let begun = frames;
         while !mind.go_on()? {
             if let Some(shot) = game.last() {
-                film.at(shot, f64::from(frame) / 60.0)?;
+                film.at(shot, f64::from(frames - begun) / 60.0)?;
             }
-            frame += 1;
+            frames += 1;
         }
-        frames += frame + 1;
         let best = mind.choices()[0];
 
         // the stroke, and how it sounds
         if game.in_hand() {
             lines += &game.place(0, best.place[0], best.place[1])?;
         }
-        lines += &game.shoot(&carom::strike(&errors, 1, number, &best.cue))?;
+        lines += &game.shoot(&carom::strike(&errors, 1, game.shots() as u64, &best.cue))?;
         let shot = game.last().ok_or("no shot")?;
-        for event in shot.events() {
-            loudest = loudest.max(event.impulse);
-        }
+        let blows = shot.events().iter().map(|event| event.impulse);
+        loudest = blows.fold(loudest, f64::max);
 
         // the ruling, and the layout that it leaves
-        let call = Call {
-            ball: best.ball,
-            pocket: best.pocket,
-        };
-        let ruling = shot.referee(&rules, call, 0)?;
+        let (ball, pocket) = (best.ball, best.pocket);
+        let ruling = shot.referee(&rules, Call { ball, pocket }, 0)?;
         println!("{}: {}", player + 1, carom::words(&ruling));
-        rules.state = ruling.state;
         lines += &game.settle(&ruling, 0)?;
-        player ^= usize::from(ruling.next == 1);
         if ruling.winner >= 0 {
-            winner = 1 + (player ^ ruling.winner as usize);
+            winner = player ^ i64::from(ruling.winner);
+        } else {
+            let next = player ^ i64::from(ruling.next);
+            lines += &game.stand(sys::CAROM_RULES_NINEBALL, &ruling.state, next)?;
         }
-        number += 1;
     }
     lines += &game.end()?;
     std::fs::write(&file, &lines)?;
+    winner += 1;
     println!("player {winner} wins; {frames} frames, the hardest blow {loudest:.4} N s");
 
     // a reader plays every shot again, and compares its bits
-    let mut read = Recording::default();
-    for line in std::fs::read_to_string(&file)?.lines() {
-        assert!(read.read(line)?, "a shot has other bits than were recorded");
-    }
-    assert!(read.ended());
+    assert!(read.load(&lines)? && read.ended());
     Ok(())
 }

@@ -1,18 +1,17 @@
 // As game.c, in C++ by carom.hpp.
 #include <carom.hpp>
 
+#include <bit>
 #include <cinttypes>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 static uint64_t add(uint64_t hash, std::span<const double> numbers) {
   for (const double number : numbers) {
-    uint64_t bits;
-    std::memcpy(&bits, &number, sizeof bits);
     for (int byte = 0; byte < 8; byte++)
-      hash = (hash ^ (bits >> 8 * byte & 255)) * 0x100000001b3u;
+      hash = (hash ^ (std::bit_cast<uint64_t>(number) >> 8 * byte & 255)) * 0x100000001b3u;
   }
   return hash;
 }
@@ -21,14 +20,9 @@ int main(int, char **arguments) {
   std::ifstream file(arguments[1]);
   carom::recording recording;
   const carom_record &record = recording.game();
-  for (std::string line; std::getline(file, line);) {
-    recording.read(line);
-    if (record.pending == 1)
-      recording.play(static_cast<carom_record_kind>(record.kind));
-    if (record.shots > 0 && !recording.same()) {
-      std::fprintf(stderr, "shot %" PRId64 " has other bits than were recorded\n", record.shots);
-      return 1;
-    }
+  if (!recording.load(std::string(std::istreambuf_iterator<char>(file), {}))) {
+    std::fprintf(stderr, "shot %" PRId64 " has other bits than were recorded\n", record.shots);
+    return 1;
   }
   std::printf("recording: %" PRId64 " shots, %016" PRIx64 "\n", record.shots, record.hash);
 

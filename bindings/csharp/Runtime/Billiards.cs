@@ -417,6 +417,13 @@ namespace Carom {
              BitConverter.DoubleToInt64Bits(played.time) == BitConverter.DoubleToInt64Bits(recorded.time) && played.hash == recorded.hash;
     }
 
+    /// <summary>Reads lines up to a shot with other bits than were recorded, and returns false there. A game that was saved without its end goes on.</summary>
+    public bool Load(string lines) {
+      foreach (var line in lines.Split('\n'))
+        if (!Read(line)) return false;
+      return true;
+    }
+
     /// <summary>Shots so far.</summary>
     public long Shots { get { return record->shots; } }
     /// <summary>The hash of all lines so far.</summary>
