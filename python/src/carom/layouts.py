@@ -179,15 +179,16 @@ def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
     """Warns of balls of another game than that whose balls the table is made for, and of those with a game's constants of another model of
     the cushion than that which is asked for by name."""
     meant = table.record["ball_radius"].item() or _SIZES.get((table.width, table.length))
-    radius = kinds["radius"].flat[0] if kinds.size else meant
+    first: Any = kinds[(0,) * kinds.ndim] if kinds.size else None  # of one record: kinds.flat[:1] copies it field by field
+    radius = meant if first is None else first["radius"]
     if radius != meant and meant in _RADII and radius in _RADII:
         warnings.warn(
             f"balls: they are of {_RADII[radius]}, radius {radius:g} m, but the table is made for those of {_RADII[meant]}, radius {meant:g} m: "
             f"game={_RADII[meant]!r} makes these",
             stacklevel=3,
         )
-    named = isinstance(cushion_model, str) and cushion_model != "default" and kinds.size > 0
-    if named and cushion_model in _CUSHIONS and (said := _other_constants(kinds.flat[:1].tobytes(), str(cushion_model))):
+    named = isinstance(cushion_model, str) and cushion_model != "default" and first is not None
+    if named and cushion_model in _CUSHIONS and (said := _other_constants(first.tobytes(), str(cushion_model))):
         warnings.warn(f"cushion_model: {cushion_model!r} plays constants of another model: {said}", stacklevel=3)
 
 

@@ -61,6 +61,7 @@ _CUSHIONS: dict[str, ShotCushion] = {
     "StrongeCompliant": "stronge", "Han2005": "han", "Mathavan2010": "euler", "Unrealistic": "mirror", "ExactCushion": "mathavan",
 }  # fmt: skip
 _FRICTIONS: dict[str, Friction] = {"AlciatoreBallBallFriction": "alciatore", "AverageBallBallFriction": "constant"}
+_ALCIATORE = alciatore()
 
 
 class UnsupportedError(ValueError):
@@ -138,10 +139,15 @@ def cue_of(system: Any) -> dtypes.Records:
 
 
 def _name(part: Any) -> str:
-    """The class of a part of an engine: its name alone, where it is pooltool's or carom's."""
-    kind = type(part)
+    """The class of a part of an engine."""
+    return _named(part.__class__)
+
+
+@functools.lru_cache(maxsize=64)
+def _named(kind: Any) -> str:
+    """The name of a class: alone, where it is pooltool's or carom's."""
     ours = kind.__module__.partition(".")[0] in ("pooltool", "carom")
-    return kind.__name__ if ours else f"{kind.__module__}.{kind.__qualname__}"
+    return str(kind.__name__) if ours else f"{kind.__module__}.{kind.__qualname__}"
 
 
 def _one_of(known: Collection[str], name: str, part: str) -> None:
@@ -173,7 +179,7 @@ def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> Options:
         friction = _FRICTIONS[_name(pair.friction)]
     if ball_model == "euler":
         steps.add(int(pair.num_iterations))
-    if friction == "alciatore" and (law := (pair.friction.a, pair.friction.b, pair.friction.c)) != alciatore():
+    if friction == "alciatore" and (law := (pair.friction.a, pair.friction.b, pair.friction.c)) != _ALCIATORE:
         kinds["law_a"], kinds["law_b"], kinds["law_c"] = law
         if not any(law):  # which would be the usual law
             friction, kinds["mu_ball"] = "constant", 0.0

@@ -46,6 +46,7 @@ _TYPES: dict[int, Any] = {
 
 _states_of: Any = _BallHistory.__dict__["states"]
 _BALL_FIELDS = [_balls.Ball.__dict__[name] for name in ("history", "history_cts", "state")]  # to set, without attrs' setters
+_time_of = _balls.BallState.__dict__["t"]
 _id_of, _type_of, _initial_of, _final_of = (_Agent.__dict__[name] for name in ("id", "agent_type", "initial", "final"))
 
 
@@ -270,7 +271,7 @@ def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) ->
     for index, ball in enumerate(filler.balls):
         # The last state is the ball's own, and stands twice: after the last event and at the end.
         first, last = ball.state, lasts[index]
-        first.t = 0.0
+        _time_of.__set__(first, 0.0)
         history = _later_history(functools.partial(histories.of, index, [first], [last, last] if kept else [last]))
         made = list if continuous is None else functools.partial(continuous.of, index, [first], [last])
         for slot, value in zip(_BALL_FIELDS, (history, _later_history(made), last), strict=True):
