@@ -726,7 +726,9 @@ typedef struct carom_facts {
   int32_t cushions_before[2];       /* impacts of the cue ball on cushions before it met each of
                                        them; 0 where it met none, */
   double first_time[2];             /* and when it met them, s. */
-  int32_t cushions_after;           /* impacts of all balls on cushions after the first contact. */
+  int32_t cushions_after;           /* impacts of all balls on cushions after the first contact; not
+                                       those of a ball on a cushion that it touched, to 1e-6 m, as
+                                       the shot began, before it left it. */
   uint32_t down;                    /* the set of the balls that fell into a pocket in this shot, */
   uint32_t off;                     /* of those that left the table in this shot, */
   uint32_t moved;                   /* and of those that were struck or met by another ball. */

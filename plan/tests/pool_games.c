@@ -166,3 +166,32 @@ TEST(spots) {
   ck_assert_int_eq(carom_spot_ball(NULL, balls, BALLS, 1), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
 }
+
+/* A ball that was frozen to a cushion, and is pressed into it, is not driven to it: a foul where no
+ * other cushion is met. One that lay 1 mm off is driven. */
+TEST(a_ball_frozen_to_a_cushion) {
+  static const carom_rules_kind kinds[] = {CAROM_RULES_EIGHTBALL, CAROM_RULES_NINEBALL,
+                                           CAROM_RULES_STRAIGHT, CAROM_RULES_ONEPOCKET,
+                                           CAROM_RULES_BANK};
+  for (int k = 0; k < 20; k++) {
+    carom_plan_rules of = carom_plan_rules_of(kinds[k / 4]);
+    const bool off = k & 1, hard = k & 2;
+    const int count = lay_out((carom_rack_kind)of.rack, CAROM_TABLE_POOL_9FT, 0xffff);
+    const double R = balls[1].kind.radius, x[] = {0.3, off ? R + 1e-3 : R};
+    for (int i = 0; i < 2; i++)
+      ck_assert_int_eq(carom_place_ball(&table, balls, count, i, x[i], 0.8, NULL), CAROM_OK);
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    cue.phi = 180.0;
+    cue.speed = hard ? 3.0 : 0.5;
+    carom_facts facts;
+    carom_ball_state final[BALLS_MOST];
+    static carom_ruling made;
+    carom_shot shot = {.final = final, .facts = &facts};
+    ck_assert_int_eq(carom_shoot(&table, balls, count, &cue, NULL, &shot), CAROM_OK);
+    ck_assert_int_eq(
+        carom_referee(&of, &table, balls, count, 0, &shot, (carom_call){-1, -1}, &made), CAROM_OK);
+    ck_assert_msg(made.turn.foul == (off || hard ? LEGAL : CUSHION) && facts.cushions[1] > 0,
+                  "rules %d, off %d, hard %d: foul %d, cushions %d", kinds[k / 4], off, hard,
+                  made.turn.foul, facts.cushions[1]);
+  }
+}

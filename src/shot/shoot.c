@@ -16,10 +16,8 @@ static const carom_shot_options no_options = {0};
 static void no_facts(carom_facts *facts) {
   memset(facts, 0, sizeof *facts);
   facts->second_time = INFINITY;
-  for (int n = 0; n < 2; n++) {
-    facts->first[n] = -1;
-    facts->first_time[n] = INFINITY;
-  }
+  facts->first[0] = facts->first[1] = -1;
+  facts->first_time[0] = facts->first_time[1] = INFINITY;
   for (int i = 0; i < CAROM_BALLS_MOST; i++) {
     facts->pocket[i] = -1;
     facts->pocket_time[i] = INFINITY;
@@ -34,6 +32,15 @@ static void meet(carom_facts *facts, int cue, int other, double now) {
   facts->first[n] = other;
   facts->first_time[n] = now;
   facts->cushions_before[n] = facts->cushions[cue];
+}
+
+/* Whether a ball that meets a cushion lies where it lay at first: it was frozen to it, and has not
+ * left it. */
+static bool is_frozen(const carom_sim *sim, int i) {
+  const double *first = sim->layout->state[i]->r;
+  carom_ball_state is;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &is);
+  return fabs(is.r[0] - first[0]) + fabs(is.r[1] - first[1]) < 1e-6;
 }
 
 /* Adds an event to the facts. */
@@ -54,7 +61,7 @@ static void add_fact(carom_facts *facts, const carom_due *due, const carom_sim *
     facts->cushions[a]++;
     if (due->type == CAROM_EVENT_RAIL && !carom_is_cut(sim->table, b))
       facts->banked |= UINT32_C(1) << a;
-    facts->cushions_after += facts->first[0] >= 0;
+    facts->cushions_after += facts->first[0] >= 0 && !is_frozen(sim, a);
     break;
   case CAROM_EVENT_POCKET:
     facts->down |= UINT32_C(1) << a;
