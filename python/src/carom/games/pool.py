@@ -5,7 +5,7 @@
     position, stroke = rules.play(position, [0.5, 0.9, 0, 0.2, 0, 0])
 
 The rules are those of `carom.referee`, the World Pool-Billiard Association's (wpapool.com, 2016, sections 2, 3 and 6), with the following left
-out: there is no push out and no lag, player 0 breaks; and a ball that is frozen to a cushion at first counts as driven to it. In eight-ball
+out: there is no push out and no lag, and player 0 breaks. In eight-ball
 the call of a stroke is the ball and the pocket that it would pot without noise: the first ball that the player may pot.
 """
 
