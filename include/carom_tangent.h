@@ -72,9 +72,9 @@ typedef enum carom_tangent_flag {
                                      or a ball jams, and of Euler's steps. */
   CAROM_TANGENT_DRAG = 64,    /* not set any more: derivatives of a roll with drag are those of the
                               pieces that shots follow. */
-  CAROM_TANGENT_CLUSTER = 128 /* it is a contact of a cluster, or one by itself with a third ball
-                                 within 1 mm: the reach counts no touch that comes or goes there,
-                                 and not their order. */
+  CAROM_TANGENT_CLUSTER = 128 /* it is a contact of a cluster, a further touch of the tip, or a
+                                 contact by itself with a third ball within 1 mm: the reach counts
+                                 no touch of balls that comes or goes there, and not their order. */
 } carom_tangent_flag;
 
 /* The changes in each of `directions` m, 1 to 64. NULL stands for zeros. Numbers that a
@@ -130,7 +130,7 @@ typedef struct carom_tangent {
  * a reserved field; or an error of the table or of an option. CAROM_ERROR_NO_TANGENTS from a
  * library that was built without derivatives. CAROM_ERROR_TANGENT where derivatives are not
  * known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, by
- * CAROM_BALL_MODEL_EULER, through second touches of a tip that follows through, and through
+ * CAROM_BALL_MODEL_EULER, and through
  * clusters that are not those of the events, or have more than 40 contacts. Or CAROM_ERROR_TIME
  * for a time after the end of a shot that ended while balls moved, CAROM_ERROR_OVERFLOW where a
  * number of `final` is not finite, or an error of a

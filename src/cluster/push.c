@@ -1,27 +1,13 @@
 /* The tip of a cue as a contact of a cluster: directions, arm and stiffness; tip.h has the law. */
 #include "cluster/cluster.h"
+#include "cluster/cue.h"
+#include "cluster/tip.h"
 #include "cluster/vectors.h"
-#include "platform/elementary.h"
 
 #include <math.h>
 #include <string.h>
 
 static const double least_restitution = 0.05; /* a tip that gives nothing back parts at once */
-
-void carom_cue_axes(double phi, double theta, double axis[3], double left[3], double above[3]) {
-  double sin_phi, cos_phi, sin_theta, cos_theta;
-  carom_sincos_degrees(phi, &sin_phi, &cos_phi);
-  carom_sincos_degrees(theta, &sin_theta, &cos_theta);
-  axis[0] = cos_theta * cos_phi;
-  axis[1] = cos_theta * sin_phi;
-  axis[2] = -sin_theta;
-  left[0] = -sin_phi;
-  left[1] = cos_phi;
-  left[2] = 0.0;
-  above[0] = sin_theta * cos_phi;
-  above[1] = sin_theta * sin_phi;
-  above[2] = cos_theta;
-}
 
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T) {
   static const double half_pi = 1.57079632679489662;
@@ -49,6 +35,17 @@ void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8
   x->k = rate * rate / (x->inverse_mass + (1.0 + 2.5 * (a * a + b * b)) * inverse);
   x->first = x->V - cluster_dot(false, c->ball[struck].v, x->along) -
              cluster_dot(false, c->ball[struck].W, x->arm);
+}
+
+void carom_cluster_push_alone(carom_cluster_state *c) {
+  carom_cluster_tip *x = &c->tip;
+  const carom_cluster_ball *p = &c->ball[x->ball];
+  const double arm2 = cluster_dot(false, x->arm, x->arm);
+  const double mobility = x->inverse_mass + (1.0 + 2.5 * arm2) * p->inverse_mass;
+  x->J = x->impulse = (1.0 + x->e) * x->first / mobility;
+  x->touches = 1;
+  x->last = x->T;
+  tip_push(!c->in_space, c);
 }
 
 /* Adds a ball that is not among those yet, and does not fly. */

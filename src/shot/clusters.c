@@ -198,7 +198,19 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
     return -1;
   if (slate)
     put_on_slate(sim, c);
-  return carom_cluster_solve(c) ? in_order(c, order) : -1;
+  const carom_cluster_tip tip = c->tip;
+  const carom_cluster_ball ball = c->ball[tip.ball];
+  if ((slate || c->contacts > 0) && !carom_cluster_solve(c))
+    return -1;
+  const int count = in_order(c, order);
+
+  /* none of those near was touched: all was as if it were alone */
+  if (count == 0 && !slate) {
+    c->tip = tip;
+    c->ball[tip.ball] = ball;
+    carom_cluster_push_alone(c);
+  }
+  return count;
 }
 
 void carom_cluster_rest(const carom_sim *sim, const carom_cluster_state *c, int k,

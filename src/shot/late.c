@@ -11,6 +11,7 @@
  * the ball runs away from the cue, but in slow draws, in which an arm stops. A tip that closes
  * slower than CAROM_LEAST_TOUCH has come to lie at the ball, and one that comes past its middle
  * misses: there the follow-through ends. */
+#include "cluster/cue.h"
 #include "motion/gap.h"
 #include "shot/clusters.h"
 #include "shot/rules.h"
@@ -31,15 +32,11 @@ void carom_follow_on(carom_sim *sim, double V, double behind) {
   f->V = V;
 }
 
-/* p, now, and the axis of the cue and the directions to its left and above it. */
+/* p, now, and the directions of the cue. */
 static void tip_of(const carom_sim *sim, const double r[3], double axes[3][3], double p[3]) {
   const carom_follow *f = &sim->follow;
-  const carom_cue *cue = sim->cue;
-  const double a = cue->a, b = cue->b, R = sim->rates[sim->struck].radius;
-  const double along = f->along + f->V * (sim->now - f->since) - R * sqrt(1.0 - a * a - b * b);
-  carom_cue_axes(cue->phi, cue->theta, axes[0], axes[1], axes[2]);
-  for (int k = 0; k < 3; k++)
-    p[k] = f->from[k] + R * (a * axes[1][k] + b * axes[2][k]) + along * axes[0][k] - r[k];
+  carom_tip_from(sim->cue, sim->rates[sim->struck].radius, f->from,
+                 f->along + f->V * (sim->now - f->since), r, axes, p);
 }
 
 void carom_follow_find(carom_sim *sim) {
@@ -71,13 +68,10 @@ bool carom_follow_cue(const carom_sim *sim, carom_cue *now) {
   const int i = sim->struck;
   const double R = sim->rates[i].radius;
   carom_ball_state s;
-  double axes[3][3], p[3];
+  double axes[3][3], p[3], on[3];
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &s);
   tip_of(sim, s.r, axes, p);
-  const double p2 = p[0] * p[0] + p[1] * p[1] + p[2] * p[2], over = 1.0 / sqrt(p2);
-  double on[3];
-  for (int k = 0; k < 3; k++)
-    on[k] = over * (p[0] * axes[k][0] + p[1] * axes[k][1] + p[2] * axes[k][2]);
+  const double p2 = carom_tip_on(axes, p, on);
   *now = *sim->cue;
   now->speed = sim->follow.V;
   now->a = on[1];

@@ -235,6 +235,52 @@ bool lands(const scene *s) {
           e->time >= start + s->sim.path[0].end.x - 1e-12);
 }
 
+/* The numbers of the cue, with their seeds. */
+CAROM_APART void load_cue(const carom_tangent_work *w, text::carom_cue *cue) {
+  *cue = {};
+  number *x = &cue->speed;
+  for (int k = 0; k < CAROM_CUE_NUMBERS; k++) {
+    x[k] = (&w->cue->speed)[k];
+    load(w->pass, w->seeds->cue, k, &x[k]);
+  }
+}
+
+/* The tip that goes on, at the time of an event, from the middle of the struck ball; the cue, with
+ * the speed that it has then. */
+CAROM_APART void tip_at(const scene *s, text::carom_cue *cue, number *along, number axes[3][3],
+                        number p[3]) {
+  const carom_tangent_work *w = s->w;
+  const carom_tangent_tip *tip = &w->tip;
+  const int64_t struck = s->event->a;
+  load_cue(w, cue);
+  cue->speed = tip->V;
+  memcpy(&cue->speed.d, tip->V_row, sizeof tip->V_row);
+  cue->speed.d[CLOCK] = 0;
+  number since = s->event->time - tip->since, start = 0.0, gone = tip->along, from[3];
+  memcpy(&start.d, tip->start, sizeof tip->start);
+  memcpy(&gone.d, tip->along_row, sizeof tip->along_row);
+  since.d[CLOCK] = 1;
+  gone.d[CLOCK] = start.d[CLOCK] = 0;
+  *along = gone + cue->speed * (since - start);
+
+  /* from where it struck */
+  for (int k = 0; k < 2; k++) {
+    from[k] = tip->from[k];
+    load(w->pass, w->seeds->state, struck * CAROM_STATE_NUMBERS + S_X + k, &from[k]);
+  }
+  from[2] = s->ball[0].kind.radius;
+  text::carom_tip_from(cue, s->ball[0].kind.radius, from, *along, s->ball[0].state.r, axes, p);
+}
+
+/* d and v of the struck ball and the tip, a point, as bodies() has them. */
+CAROM_APART void to_tip(const scene *s, number d[3], number v[3]) {
+  text::carom_cue cue;
+  number along, axes[3][3];
+  tip_at(s, &cue, &along, axes, d);
+  for (int k = 0; k < 3; k++)
+    v[k] = s->ball[0].state.v[k] - cue.speed * axes[0][k];
+}
+
 /* Of a ball that leaves the table in flight: how far it is from the nearest edge of the rails. No
  * flight begins beyond them: a layout there is refused. */
 CAROM_APART number edge(scene *s, const carom_ball_state *a) {
@@ -273,6 +319,10 @@ CAROM_APART number bodies(const scene *s, number d[3], number v[3]) {
   for (int k = 0; k < 3; k++) {
     d[k] = s->two ? b->r[k] - a->r[k] : number(0);
     v[k] = s->two ? a->v[k] - b->v[k] : k < 2 ? a->v[k] : number(0);
+  }
+  if (carom_touches_again(e)) {
+    to_tip(s, d, v);
+    return kind->radius;
   }
   if (s->two) { /* a ball on the cloth is at the height of its radius */
     d[2] = (text::carom_flies(b) ? b->r[2] : s->ball[1].kind.radius) -
@@ -358,7 +408,7 @@ CAROM_APART void note_margin(scene *s) {
 
 bool is_contact(const carom_event *e) {
   return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL ||
-         e->type == CAROM_EVENT_JAW;
+         e->type == CAROM_EVENT_JAW || carom_touches_again(e);
 }
 
 bool ends_phase(const carom_event *e) {
@@ -376,6 +426,11 @@ CAROM_APART void note_grazing(scene *s, real rate) {
     for (int k = 0; k < (e->type == CAROM_EVENT_POCKET ? 2 : 3); k++) {
       const real v = a->v[k] - (s->two ? b->v[k] : 0);
       square += v * v;
+    }
+    if (carom_touches_again(e)) {
+      number d[3], v[3];
+      bodies(s, d, v);
+      square = v[0].x * v[0].x + v[1].x * v[1].x + v[2].x * v[2].x;
     }
     grazes = __builtin_fabs(rate) < GRAZING * __builtin_sqrt(square);
   } else if (e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP) {
@@ -420,15 +475,9 @@ real leaves_slate(const scene *s, const carom_ball_state *struck, real scale) {
 }
 
 CAROM_APART text::carom_status strike(scene *s) {
-  const carom_tangent_work *w = s->w;
-
-  /* the numbers of the cue with their seeds */
-  text::carom_cue cue = {};
-  number *x = &cue.speed;
-  for (int k = 0; k < CAROM_CUE_NUMBERS; k++) {
-    x[k] = (&w->cue->speed)[k];
-    load(w->pass, w->seeds->cue, k, &x[k]);
-  }
+  carom_tangent_work *w = s->w;
+  text::carom_cue cue;
+  load_cue(w, &cue);
 
   /* a level cue that a change raises is raised a trace now */
   const bool flat = w->opt->space == CAROM_SPACE_FLAT,
@@ -439,6 +488,12 @@ CAROM_APART text::carom_status strike(scene *s) {
   const text::carom_status status = text::carom_blow(&cue, &s->ball[0].kind, !flat, &motion);
   if (status < 0)
     return status;
+
+  /* the cue goes on */
+  const text::carom_ball_kind *kind = &s->ball[0].kind;
+  const number V = cue.speed - kind->mass / cue.mass * text::carom_speed_of_blow(&cue, kind);
+  w->tip.V = V.x;
+  store(V, w->tip.V_row);
 
   /* a blow that goes down presses the ball on the slate */
   carom_ball_state *state = &s->ball[0].state;
@@ -620,7 +675,8 @@ struct member {
 struct cluster {
   carom_tangent_work *w;
   int direction, count;
-  bool on_slate;      /* it is pushed by a raised cue */
+  bool on_slate; /* it is pushed by a raised cue */
+  number cue[CAROM_CUE_NUMBERS];
   double apart, most; /* values from those of the shot, and the largest of these */
   member members[CAROM_BALLS_MOST];
 };
@@ -647,12 +703,43 @@ int place_of(const cluster *c, int ball) {
   return k;
 }
 
+/* The cue that pushes: at the start the caller's; of a further touch with the speed that is left,
+ * at the place that it touches. */
+CAROM_APART void take_cue(const scene *s, const row &dT, cluster *c) {
+  carom_tangent_tip *tip = &s->w->tip;
+  text::carom_cue cue;
+  load_cue(s->w, &cue);
+  if (!carom_touches_again(s->event)) {
+    for (int j = 0; j < s->w->pass.columns; j++)
+      if (cue.theta.x == 0 && cue.theta.d[j] != 0 && s->w->opt->space != CAROM_SPACE_FLAT)
+        s->w->note.flags |= CAROM_TANGENT_KINK; /* raised it presses the balls on the slate */
+  } else {
+    number along, axes[3][3], p[3], on[3];
+    tip_at(s, &cue, &along, axes, p);
+    text::carom_tip_on(axes, p, on);
+    cue.a = on[1];
+    cue.b = on[2];
+    number *const moving[] = {&cue.a, &cue.b, &along};
+    for (number *x : moving) {
+      const real rate = x->d[CLOCK];
+      x->d += rate * dT;
+      x->d[CLOCK] = 0;
+    }
+    tip->along = along.x;
+    store(along, tip->along_row);
+    tip->since = s->event->time;
+    memcpy(tip->start, &dT, sizeof dT);
+  }
+  memcpy(c->cue, &cue.speed, sizeof c->cue);
+}
+
 /* The derivatives of the time of the contact that starts a cluster, and its own two balls, which
  * close. */
-CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e) {
+CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e, cluster *c) {
   scene s;
   begin_event(w, e, &s);
-  if (e->type == CAROM_EVENT_STRIKE) { /* at time 0, of a ball at rest */
+  if (e->type == CAROM_EVENT_STRIKE && !carom_touches_again(e)) { /* at time 0, of a ball at rest */
+    take_cue(&s, row{}, c);
     store_state(&s.ball[0].state, w->before[0]);
     return row{};
   }
@@ -661,7 +748,9 @@ CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e) {
   dT[CLOCK] = 0;
   note_grazing(&s, g.d[CLOCK]);
   note_order(&s, g);
-  for (int i = 0; i < 2; i++) {
+  if (carom_touches_again(e))
+    take_cue(&s, dT, c);
+  for (int i = 0; i <= s.two; i++) {
     add_time(dT, &s.ball[i].state);
     set(e->before[i], &s.ball[i].state);
     store_state(&s.ball[i].state, w->before[i]);
@@ -713,12 +802,8 @@ CAROM_APART void note_gap(carom_tangent_work *w, const carom_event *e) {
 void give_cue(void *context, real x[8], real d[8]) {
   const cluster *c = (const cluster *)context;
   for (int n = 0; n < CAROM_CUE_NUMBERS; n++) {
-    number seed;
-    load(c->w->pass, c->w->seeds->cue, n, &seed);
-    x[n] = (&c->w->cue->speed)[n];
-    d[n] = seed.d[c->direction];
-    if (n == 2 && x[n] == 0 && d[n] != 0 && c->w->opt->space != CAROM_SPACE_FLAT)
-      c->w->note.flags |= CAROM_TANGENT_KINK; /* raised it presses the balls on the slate */
+    x[n] = c->cue[n].x;
+    d[n] = c->cue[n].d[c->direction];
   }
 }
 
@@ -786,7 +871,7 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS + 1],
 CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
   carom_tangent_work *w = c->w;
   const int64_t steps = w->opt->cluster_steps;
-  const carom_tangent_cluster task = {
+  carom_tangent_cluster task = {
       .balls = c->count,
       .first = place_of(c, first->a),
       .second = place_of(c, first->b),
@@ -799,11 +884,24 @@ CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
       .give_cue = give_cue,
       .give = give,
       .take = take,
-      .context = c};
+      .context = c,
+      .V = 0,
+      .V_rate = 0,
+      .behind = 0,
+      .behind_rate = 0};
+  carom_tangent_tip *tip = &w->tip;
+  const real along = tip->along;
   bool kink = false;
-  for (c->direction = 0; c->direction < w->pass.columns; c->direction++)
+  for (c->direction = 0; c->direction < w->pass.columns; c->direction++) {
     if (!carom_tangent_solve_cluster(&task, &kink))
       return false;
+    if (task.second < 0) {
+      tip->V = task.V;
+      tip->along = along - task.behind;
+      tip->V_row[c->direction] = task.V_rate;
+      tip->along_row[c->direction] -= task.behind_rate;
+    }
+  }
   if (kink || !(c->apart <= 1e-6 * c->most))
     w->note.flags |= CAROM_TANGENT_KINK;
   return true;
@@ -837,7 +935,7 @@ carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_eve
   find_members(w, events, count, &c);
   c.on_slate = events[0].type == CAROM_EVENT_STRIKE && w->opt->space != CAROM_SPACE_FLAT &&
                w->cue->theta > 0;
-  const row dT = begin_cluster(w, &events[0]);
+  const row dT = begin_cluster(w, &events[0], &c);
   for (int k = 0; k < c.count; k++) {
     const member *m = &c.members[k];
     arrive(w, m, dT, m->ball == events[0].a || m->ball == events[0].b);

@@ -16,6 +16,15 @@ bool is_level(const text::carom_cluster_contact_state &x, real most) {
              1e-9 * (__builtin_fabs(x.impulse.d[0]) + __builtin_fabs(level.d[0]));
 }
 
+/* The cue behind a push, and how far it is behind the ball. */
+void tell_tip(const text::carom_cluster_state &state, carom_tangent_cluster *c) {
+  const number behind = text::carom_greater(-state.tip.d, 0.0);
+  c->V = state.tip.V.x;
+  c->V_rate = state.tip.V.d[0];
+  c->behind = behind.x;
+  c->behind_rate = behind.d[0];
+}
+
 row row_of(real d) {
   row r = {};
   r[0] = d;
@@ -24,7 +33,7 @@ row row_of(real d) {
 
 } // namespace
 
-bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
+bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink) {
   text::carom_cluster_state state;
   number slate[CAROM_BALLS_MOST][2];
   state.balls = c->balls;
@@ -71,7 +80,11 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
   } else {
     contacts = text::carom_cluster_members(&state, c->first, c->second);
   }
-  if (contacts <= 0 || state.balls != c->balls || !text::carom_cluster_solve(&state))
+  const bool alone = contacts == 0 && state.struck && !c->on_slate;
+  const bool all = contacts >= !state.struck && state.balls == c->balls;
+  if (all && alone)
+    text::carom_cluster_push_alone(&state);
+  if (!all || (!alone && !text::carom_cluster_solve(&state)))
     return false;
 
   /* of the contact that starts it also where its spin is that of a slide of a millimetre */
@@ -95,5 +108,7 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink) {
     d[CAROM_MOTION_NUMBERS] = J.d[0];
     c->take(c->context, k, x, d);
   }
+  if (state.struck)
+    tell_tip(state, c);
   return true;
 }

@@ -24,10 +24,13 @@ typedef struct carom_tangent_cluster {
   void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS + 1],
                const double d[CAROM_MOTION_NUMBERS + 1]);
   void *context;
+  /* written: of a push the speed of the cue behind it, and how far its tip is behind the ball, with
+     their tangents */
+  double V, V_rate, behind, behind_rate;
 } carom_tangent_cluster;
 
 /* False where it is not the cluster of all these balls, or takes too many steps. *kink becomes
  * true where a change to one side presses another ball on the cloth than a change to the other. */
-bool carom_tangent_solve_cluster(const carom_tangent_cluster *c, bool *kink);
+bool carom_tangent_solve_cluster(carom_tangent_cluster *c, bool *kink);
 
 #endif

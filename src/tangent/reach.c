@@ -9,6 +9,7 @@
  *               derivative n . (d_b - d_a), also where a ball comes to rest short of something,
  *               or lands beside a pocket
  *     end       a ball on a rail comes to its end, where a jaw stands, or the other way round
+ *     tip       the same of the tip of a cue that goes on, which also ends its way
  *     spin      a spin about the vertical ends before a contact, or lasts until it: the spin
  *               there over its derivative, at a fixed time of the contact
  *     hop       the last hop of a ball on the slate: its fall less the least one after which
@@ -16,6 +17,7 @@
  *
  * In flight the tops of rails, the backs of pockets and the edge of the table do not count. */
 #include "tangent/reach.h"
+#include "cluster/cue.h"
 #include "shot/shot.h"
 
 #include <math.h>
@@ -137,6 +139,15 @@ static double distance_at(const miss *m, double t, double *opens) {
   return rail && d[2] == 0.0 ? level : sqrt(level * level + d[2] * d[2]);
 }
 
+/* When the cue that goes on comes to the end of its way, s, and its tangents. */
+static double end_of_tip(const carom_tangent_work *w, carom_tangent_row d) {
+  const carom_tangent_tip *tip = &w->tip;
+  const double time = (w->cue->follow - tip->along) / tip->V;
+  for (int j = 0; j < w->pass.columns; j++)
+    d[j] = tip->start[j] - (tip->along_row[j] + time * tip->V_row[j]) / tip->V;
+  return tip->since + time;
+}
+
 /* What the gap at a time is worth in each direction, where it is one that a change may close.
  * first: the gap where the way began. */
 static void take_gap(carom_reach *reach, const miss *m, double t, double first) {
@@ -148,6 +159,12 @@ static void take_gap(carom_reach *reach, const miss *m, double t, double first) 
   carom_tangent_row d = {0.0};
   const carom_event event = {.time = m->from + t, .type = m->type, .a = m->ball, .b = m->other};
   const double gap = carom_tangent_gap(reach->work, &event, d);
+  if (m->type == CAROM_EVENT_STRIKE) {
+    carom_tangent_row end;
+    end_of_tip(reach->work, end);
+    for (int j = 0; j < reach->work->pass.columns; j++)
+      d[j] += d[CAROM_TANGENT_COLUMNS] * end[j];
+  }
   for (int j = 0; j < reach->work->pass.columns; j++)
     if (gap > (first <= TOUCHING ? TOUCHING : 0.0))
       take(reach, j, gap, d[j]);
@@ -233,10 +250,36 @@ static void misses_of(carom_reach *reach, int i, const carom_event *event) {
     }
 }
 
+/* The tip that goes on, up to the event: it is looked for from the first contact of the struck ball
+ * on. */
+static void misses_of_tip(carom_reach *reach, int i, const carom_event *event) {
+  const carom_tangent_work *w = reach->work;
+  const carom_tangent_tip *tip = &w->tip;
+  const carom_tangent_ball *ball = &w->ball[i];
+  if (!tip->met || carom_touches_again(event) || carom_is_out(ball->from.label))
+    return;
+  carom_tangent_row d;
+  double r[3], v[3], a[3], axes[3][3];
+  const double R = ball->kind->radius, from[3] = {tip->from[0], tip->from[1], R};
+  const double end = end_of_tip(w, d);
+  miss m = {.type = CAROM_EVENT_STRIKE, .ball = i, .other = -1, .reach = R};
+  m.from = fmax(ball->since, tip->since);
+  motion_at(ball, m.from, r, v, a);
+  carom_tip_from(w->cue, R, from, tip->along + tip->V * (m.from - tip->since), r, axes, m.d);
+  for (int k = 0; k < 3; k++) {
+    m.v[k] = tip->V * axes[0][k] - v[k];
+    m.a[k] = -a[k];
+  }
+  search(reach, &m, fmin(event->time, end), end <= event->time);
+}
+
 void carom_reach_misses(carom_reach *reach, const carom_event *event) {
   const bool two = event->type == CAROM_EVENT_BALL_BALL;
   for (int side = 0; side <= two; side++) {
+    const carom_tangent_work *w = reach->work;
     misses_of(reach, side == 0 ? event->a : event->b, event);
+    if (w->tip.V > 0.0 && w->cue->follow > 0.0 && w->cue->ball == (side == 0 ? event->a : event->b))
+      misses_of_tip(reach, (int)w->cue->ball, event);
     if (two || event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW)
       spin_of(reach, side == 0 ? event->a : event->b, event);
   }
@@ -332,6 +375,14 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
   if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW ||
       (event->type == CAROM_EVENT_POCKET && on_cloth))
     take_rails(reach, event, d[0]);
+
+  /* a further touch before the end of its way */
+  carom_tangent_row end;
+  if (carom_touches_again(event)) {
+    const double left = end_of_tip(w, end) - event->time;
+    for (int j = 0; j < m; j++)
+      take(reach, j, left, end[j] - w->time[j]);
+  }
 
   /* of a cluster the contact that starts it */
   for (int j = 0; j < m && !w->inner && w->margin < INFINITY; j++)

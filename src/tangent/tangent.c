@@ -90,10 +90,12 @@ static carom_status check(const carom_prepared *p, const carom_cue *cue, const c
       return status;
   }
   const carom_status played = is_played(p, cue, shot) ? check_clusters(shot) : CAROM_ERROR_STATE;
-  /* the tip of a cue that follows through has no derivatives */
+  /* a further touch of the tip is of the ball that it struck first */
+  const carom_event *e = shot->events;
   for (int64_t k = 1; played == CAROM_OK && k < shot->count; k++)
-    if (shot->events[k].type == CAROM_EVENT_STRIKE)
-      return CAROM_ERROR_TANGENT;
+    if (e[k].type == CAROM_EVENT_STRIKE &&
+        (!carom_touches_again(&e[k]) || e[0].type != CAROM_EVENT_STRIKE || e[k].a != e[0].a))
+      return CAROM_ERROR_STATE;
   return played;
 }
 
@@ -119,6 +121,7 @@ static void begin(work *w, const carom_prepared *p) {
   w->reference = own ? w->table->ball_radius : p->kind[w->count - 1]->radius;
   w->slow_instants = 0;
   w->slow_last = -1.0;
+  memset(&w->tip, 0, sizeof w->tip);
   for (int i = 0; i < w->count; i++) {
     carom_tangent_ball *ball = &w->ball[i];
     ball->kind = p->kind[i];
@@ -181,6 +184,8 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
   const bool one_by_one = w->opt->simultaneous == CAROM_SIMULTANEOUS_PAIRS ||
                           w->opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
   begin(w, p);
+  for (int k = 0; k < 2 && shot->count > 0; k++)
+    w->tip.from[k] = shot->events[0].before[0].r[k];
   if (tangent->reach != NULL)
     carom_reach_begin(&reach, w);
   for (int64_t k = 0; k <= shot->count; k++) {
@@ -199,7 +204,7 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
     for (int c = 0; c < contacts && !w->inner && tangent->reach != NULL; c++)
       carom_reach_misses(&reach, &event[c]);
     carom_status status = CAROM_OK;
-    if (event->cluster == 0) {
+    if (event->cluster == 0 && !carom_touches_again(event)) {
       status = carom_tangent_follow(w, event);
       if (one_by_one && is_in_pile(w, event))
         w->note.flags |= CAROM_TANGENT_CLUSTER;
@@ -210,6 +215,8 @@ static carom_status differentiate(work *w, const carom_prepared *p, const carom_
     if (status < 0)
       return status;
     tell(w, k, event, &reach);
+    w->tip.met |= event->type == CAROM_EVENT_BALL_BALL && w->cue != NULL &&
+                  (event->a == w->cue->ball || event->b == w->cue->ball);
     if (tangent->flags != NULL)
       tangent->flags[k] = w->note.flags | (w->pass.first > 0 ? tangent->flags[k] : 0);
     tangent->all_flags |= w->note.flags;

@@ -70,6 +70,7 @@ typedef struct carom_table {
 #include "ball_ball/euler.h"
 #include "ball_ball/reduced.h"
 #include "cluster/cluster.h"
+#include "cluster/cue.h"
 #include "cushion/models.h"
 #include "platform/elementary.h"
 #include "platform/threads.h"
@@ -163,6 +164,8 @@ int carom_cluster_members_of_tip(carom_cluster_state *, double) {
   return -1;
 }
 void carom_cluster_tip_of(carom_cluster_state *, int, const double *, double) {
+}
+void carom_cluster_push_alone(carom_cluster_state *) {
 }
 void carom_cluster_put_on_slate(carom_cluster_state *) {
 }

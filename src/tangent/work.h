@@ -42,6 +42,13 @@ typedef struct carom_tangent_ball {
   double last_contact;     /* s */
 } carom_tangent_ball;
 
+/* The tip of a cue that goes on after its push, as in carom_follow, with its tangents. */
+typedef struct carom_tangent_tip {
+  double V, along, since, from[2];
+  carom_tangent_row V_row, along_row, start;
+  bool met; /* the struck ball has met another */
+} carom_tangent_tip;
+
 /* A shot on its way through its events once more. */
 typedef struct carom_tangent_work {
   const carom_table *table;
@@ -55,6 +62,7 @@ typedef struct carom_tangent_work {
   int64_t slow_instants; /* as in carom_sim */
   double slow_last;
   carom_tangent_ball ball[CAROM_BALLS_MOST];
+  carom_tangent_tip tip;
   /* of the last event: its flags, the tangent of its time, total tangents before it, of
    * both balls */
   carom_tangent_note note;
@@ -65,6 +73,11 @@ typedef struct carom_tangent_work {
   double margin;
   carom_tangent_row margin_row;
 } carom_tangent_work;
+
+/* Whether an event is a further touch of the tip, after that of the strike. */
+static inline bool carom_touches_again(const carom_event *e) {
+  return e->type == CAROM_EVENT_STRIKE && e->time > 0.0;
+}
 
 /* The numbers of the caller that stand for row `row` in a pass. */
 static inline double *carom_tangent_columns(const carom_tangent_pass *pass, double *rows,

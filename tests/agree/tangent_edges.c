@@ -1096,6 +1096,97 @@ TEST(radius_through_a_cluster) {
   ck_assert_double_eq(times[0], times[1]);
 }
 
+/* A ball close ahead of the cue ball, which the tip touches again as the cue follows through. */
+static layout draw_double_hit(random_source *random) {
+  const double phi = random_between(random, 0.0, 360.0), off = random_between(random, -15.0, 15.0),
+               d = 2.0 * R + random_between(random, 0.5e-3, 15e-3),
+               x = cos((phi + off) / 57.29577951308232), y = sin((phi + off) / 57.29577951308232);
+  layout l = of_two(0.4 + d * x, 0.6 + d * y, random_between(random, 1.0, 5.0), phi,
+                    random_between(random, -0.2, 0.2), random_between(random, -0.2, 0.2));
+  l.options = (carom_shot_options){.cushion_model = CAROM_SHOT_CUSHION_HAN, .time_most = 0.15};
+  l.cue.theta = random_between(random, 0.0, 1.0) < 0.3 ? random_between(random, 5.0, 30.0) : 0.0;
+  l.cue.follow = CAROM_CUE_FOLLOW;
+  l.cue.tip_time = CAROM_TIP_TIME;
+
+  /* at times a third one beside the cue ball */
+  l.count = 2 + (random_between(random, 0.0, 1.0) < 0.3);
+  l.ball[2] = ball_at(0.4 - (2.0 * R + 2e-4) * y, 0.6 + (2.0 * R + 2e-4) * x);
+  return l;
+}
+
+/* How many of both changes by a thirtieth of the reach give a ball other events. */
+static int changed_within(const layout *l, const direction *by, double reach_of) {
+  static carom_event other[ROOM];
+  int changed = 0;
+  for (int side = -1; side <= 1; side += 2) {
+    layout moved = *l;
+    change(&moved, by, side * reach_of / 30.0);
+    carom_shot s = {.events = other, .room = ROOM};
+    changed += shoot(&moved, &s) < CAROM_OK || !each_alike(&s, l->count);
+  }
+  return changed;
+}
+
+/* Derivatives through further touches of the tip, beside differences; and their reach. */
+TEST(second_touches) {
+  enum { SHOTS = 200, BY = 9 };
+  static const direction by[BY] = {
+      {OF_CUE, 0, 0, 1},     {OF_CUE, 0, 1, 57},    {OF_CUE, 0, 3, 0.1},
+      {OF_CUE, 0, 4, 0.1},   {OF_CUE, 0, 5, 0.5},   {OF_CUE, 0, 7, 0.5},
+      {OF_STATE, 0, 0, 0.1}, {OF_STATE, 1, 1, 0.1}, {OF_KIND, -1, 0, 0.1}};
+  static double errors[SHOTS * BY];
+  random_source random = {test_seed()};
+  int n = 0, late = 0, flagged = 0, changed = 0, tried = 0;
+  for (int k = 0; k < SHOTS; k++) {
+    const layout l = draw_double_hit(&random);
+    const int64_t flags = differentiate(&l, by, BY);
+    bool again = false;
+    for (int64_t e = 1; e < shot.count; e++)
+      again |= events[e].type == CAROM_EVENT_STRIKE;
+    late += again;
+    for (int j = 0; j < BY; j++)
+      if (reach[j] < 0.1 * by[j].unit) {
+        tried += 2;
+        changed += changed_within(&l, &by[j], reach[j]);
+      }
+    if (again && (flags & ~CAROM_TANGENT_CLUSTER) != 0)
+      flagged++;
+    for (int j = 0; j < BY && again && (flags & ~CAROM_TANGENT_CLUSTER) == 0; j++) {
+      double error, plateau;
+      if (compare(&l, &by[j], ends, j, BY, &error, &plateau))
+        errors[n++] = fmin(error, least_error) / largest(ends, NUMBERS * l.count, j, BY);
+    }
+  }
+  printf("%d of %d shots with a further touch, %d flagged; %d of %d changed within reach/30\n",
+         late, SHOTS, flagged, changed, tried);
+  ck_assert(late > SHOTS / 2 && flagged < late / 20 && n > 5 * late && 20 * changed < tried);
+  const double most = tell(errors, n, 0.99, "second touches");
+  ck_assert_double_lt(most, 1e-3);
+}
+
+/* The reach of a follow-through that nearly touches, and of one that touches at its very end. */
+TEST(last_touches) {
+  static const direction by[] = {{OF_STATE, 1, 0, 0.1}, {OF_STATE, 0, 0, 0.1}, {OF_CUE, 0, 5, 0.5}};
+  layout l = of_two(0.4 + 2.0 * R + 8e-3, 0.6, 2.0, 0.0, 0.0, 0.1);
+  l.options = (carom_shot_options){.cushion_model = CAROM_SHOT_CUSHION_HAN};
+  l.cue.tip_time = CAROM_TIP_TIME;
+  double low = 0.0, high = CAROM_CUE_FOLLOW;
+  for (int k = 0; k < 40; k++) {
+    l.cue.follow = 0.5 * (low + high);
+    shot = play(table_of(&l), l.ball, l.count, &l.cue, &l.options, CAROM_OK);
+    int touches = 0;
+    for (int64_t e = 0; e < shot.count; e++)
+      touches += events[e].type == CAROM_EVENT_STRIKE;
+    *(touches < 2 ? &low : &high) = l.cue.follow;
+  }
+  for (int longer = 0; longer < 2; longer++) {
+    l.cue.follow = longer ? high * (1.0 + 1e-4) : low * (1.0 - 1e-4);
+    differentiate(&l, by, 3);
+    for (int j = 0; j < 3; j++)
+      ck_assert_double_eq_tol(change_of_events(&l, &by[j]) / reach[j], 1.05, 0.06);
+  }
+}
+
 /* Contacts one by one. The reach of shots without a pile is held as in docs/using/derivatives.md:
  * by a thirtieth of it next to no ball meets others. Every break has the flag that the reach counts
  * no touch of a pile, and derivatives within 0.3 % of differences. */

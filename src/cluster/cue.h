@@ -1,0 +1,46 @@
+/* The directions of a cue, and where its tip is that goes on after its push. */
+#ifndef CAROM_SRC_CLUSTER_CUE_H
+#define CAROM_SRC_CLUSTER_CUE_H
+
+#include "carom_shot.h"
+#include "platform/elementary.h"
+
+#include <math.h>
+
+/* Along the axis of a cue, and to its left and above it, across the axis; its angles are in
+ * degrees. */
+static inline void carom_cue_axes(double phi, double theta, double axis[3], double left[3],
+                                  double above[3]) {
+  double sin_phi, cos_phi, sin_theta, cos_theta;
+  carom_sincos_degrees(phi, &sin_phi, &cos_phi);
+  carom_sincos_degrees(theta, &sin_theta, &cos_theta);
+  axis[0] = cos_theta * cos_phi;
+  axis[1] = cos_theta * sin_phi;
+  axis[2] = -sin_theta;
+  left[0] = -sin_phi;
+  left[1] = cos_phi;
+  left[2] = 0.0;
+  above[0] = sin_theta * cos_phi;
+  above[1] = sin_theta * sin_phi;
+  above[2] = cos_theta;
+}
+
+/* p, from the centre of a ball at r to the tip, which has gone so far `along` its axis since it
+ * touched that ball at `from`. axes become the directions of the cue, cue.h. */
+static inline void carom_tip_from(const carom_cue *cue, double R, const double from[3],
+                                  double along, const double r[3], double axes[3][3], double p[3]) {
+  const double a = cue->a, b = cue->b, ahead = along - R * sqrt(1.0 - a * a - b * b);
+  carom_cue_axes(cue->phi, cue->theta, axes[0], axes[1], axes[2]);
+  for (int k = 0; k < 3; k++)
+    p[k] = from[k] + R * (a * axes[1][k] + b * axes[2][k]) + ahead * axes[0][k] - r[k];
+}
+
+/* p/|p| along these axes, of which the last two are the (a, b) of a touch. Returns |p|^2. */
+static inline double carom_tip_on(double axes[3][3], const double p[3], double on[3]) {
+  const double p2 = p[0] * p[0] + p[1] * p[1] + p[2] * p[2], over = 1.0 / sqrt(p2);
+  for (int k = 0; k < 3; k++)
+    on[k] = over * (p[0] * axes[k][0] + p[1] * axes[k][1] + p[2] * axes[k][2]);
+  return p2;
+}
+
+#endif
