@@ -8,6 +8,7 @@
 #include "plan_game.h"
 #include "plan_picture.h"
 #include "plan_why.h"
+#include "shoot_aim.h"
 #include "shoot_flags.h"
 #include "shot_file.h"
 #include "shot_story.h"
@@ -16,6 +17,7 @@
 
 #include "carom_plan.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -112,22 +114,20 @@ static const char *const kinds[] = {"pot",   "scan", "foul", "given",       "pus
 
 /* What a choice does, by the names of the file. */
 static void describe(const shot_line *line, const carom_choice *c, char text[200]) {
-  char pocket[WHERE_TEXT];
+  char pocket[WHERE_TEXT], ball[BALL_TEXT];
   if (c->kind == CAROM_PLAN_FOUL)
     snprintf(text, 200, "no shot without a foul was found");
-  else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_PASS)
-    snprintf(text, 200, c->kind == CAROM_PLAN_PUSH ? "a push-out" : "pass: the other plays");
-  else if (c->kind == CAROM_PLAN_BREAK)
-    snprintf(text, 200, "a break");
-  else if (line->table->table.pockets == 0 && c->ball < 0)
-    snprintf(text, 200, "no point");
-  else if (line->table->table.pockets == 0)
-    snprintf(text, 200, "a point, %sball %s first",
-             c->kind == CAROM_PLAN_KICK ? "off a cushion, " : "", line->name[c->ball]);
+  else if (c->kind >= CAROM_PLAN_PUSH && c->kind <= CAROM_PLAN_BREAK)
+    snprintf(text, 200, c->kind == CAROM_PLAN_PASS ? "pass: the other plays" : "a %s",
+             kinds[c->kind]);
   else if (c->ball < 0)
-    snprintf(text, 200, "a safety: nothing is potted");
+    snprintf(text, 200,
+             line->table->table.pockets == 0 ? "no point" : "a safety: nothing is potted");
+  else if (line->table->table.pockets == 0)
+    snprintf(text, 200, "a point, %s%s first", c->kind == CAROM_PLAN_KICK ? "off a cushion, " : "",
+             named_ball(line->name[c->ball], ball));
   else
-    snprintf(text, 200, "ball %s into %s%s%s", line->name[c->ball],
+    snprintf(text, 200, "%s into %s%s%s", named_ball(line->name[c->ball], ball),
              pocket_words(line->table, c->pocket, pocket),
              c->kind == CAROM_PLAN_POT || c->kind == CAROM_PLAN_GIVEN ? ""
              : c->kind == CAROM_PLAN_SCAN                             ? ", by several ways"
@@ -150,11 +150,10 @@ static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, co
     fprintf(out, "%d. %s\n", k + 1, text);
     if (job->hand)
       fprintf(out, "   cue ball at  %.4f, %.4f m\n", c->place[0], c->place[1]);
-    fprintf(
-        out,
-        "   stroke       speed %.3g m/s, direction %.3f degrees, raised %.1f, tip %.2f right, %.2f "
-        "above\n",
-        c->cue.speed, c->cue.phi, c->cue.theta, 0.0 - c->cue.a, c->cue.b);
+    fprintf(out, "   stroke       speed %.3g m/s, direction %.3f degrees, raised %.1f, ",
+            c->cue.speed, c->cue.phi, c->cue.theta);
+    fprintf(out, "tip %.2f %s, %.2f %s\n", fabs(c->cue.a), c->cue.a > 0.0 ? "left" : "right",
+            fabs(c->cue.b), c->cue.b < 0.0 ? "below" : "above");
     fprintf(out,
             "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%; played %lld "
             "times\n",

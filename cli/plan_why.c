@@ -2,6 +2,7 @@
  * the same without those of speed and without those of aim, which tells what these cost. */
 #include "plan_why.h"
 #include "quantities.h"
+#include "shoot_aim.h"
 #include "shot_story.h"
 
 #include <math.h>
@@ -66,7 +67,7 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
   const carom_status status = left->turn.leave == CAROM_LEAVE_AFTER
                                   ? carom_plan(&next, &c, 1, &found)
                                   : carom_plan_hand(&next, NULL, NULL, &c, 1, &found);
-  char pocket[WHERE_TEXT];
+  char pocket[WHERE_TEXT], ball[BALL_TEXT];
   if (status != CAROM_OK)
     fputs("nothing to play\n", out);
   else if (passes)
@@ -74,7 +75,7 @@ static void tell_next(FILE *out, const carom_plan_job *job, const shot_line *lin
   else if (c.ball < 0 || c.pocket < 0)
     fprintf(out, "then it plays on %.0f %%\n", 100.0 * c.keep);
   else
-    fprintf(out, "then ball %s into %s, %.0f %%\n", line->name[c.ball],
+    fprintf(out, "then %s into %s, %.0f %%\n", named_ball(line->name[c.ball], ball),
             pocket_words(line->table, c.pocket, pocket), 100.0 * c.keep);
 }
 

@@ -19,9 +19,15 @@ int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_
   return found;
 }
 
-const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]) {
-  snprintf(text, BALL_TEXT, ball == 0 ? "the cue ball" : "ball %s", l->name[ball]);
+const char *named_ball(const char *name, char text[BALL_TEXT]) {
+  const size_t letters = strspn(name, "abcdefghijklmnopqrstuvwxyz");
+  const char *article = letters < 2 ? "ball " : name[letters] == '\0' ? "the " : "";
+  snprintf(text, BALL_TEXT, "%s%s", article, name);
   return text;
+}
+
+const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]) {
+  return ball == 0 ? "the cue ball" : named_ball(l->name[ball], text);
 }
 
 const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT]) {

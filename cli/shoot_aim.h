@@ -26,8 +26,9 @@ typedef struct layout {
 /* The ball other than that of the cue with this name, or -1; their names, with bars between. */
 int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]);
 
-/* "the cue ball" or "ball 1" */
+/* Ball 3, the black, red11; and "the cue ball" or one of these. */
 enum { BALL_TEXT = PLACE_NAME + 8 };
+const char *named_ball(const char *name, char text[BALL_TEXT]);
 const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]);
 
 /* What stands in the way of a ball that met `other` or a part of the table. */
