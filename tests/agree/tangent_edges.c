@@ -1164,6 +1164,16 @@ TEST(second_touches) {
   ck_assert_double_lt(most, 1e-3);
 }
 
+/* A ball that falls into a corner pocket would meet the rail first, 0.1 mm to its side. */
+TEST(reach_of_a_rail_beside_a_pocket) {
+  static const direction by_x = {OF_STATE, 0, 0, 0.1};
+  const double v[2] = {0.0, 2.0}, w[3] = {-2.0 / R, 0.0, 0.0};
+  layout l = of_one(R + 1e-4, 2.2, v, w);
+  differentiate(&l, &by_x, 1);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_POCKET);
+  ck_assert_double_eq_tol(change_of_events(&l, &by_x) / reach[0], 1.05, 0.06);
+}
+
 /* The reach of a follow-through that nearly touches, and of one that touches at its very end. */
 TEST(last_touches) {
   static const direction by[] = {{OF_STATE, 1, 0, 0.1}, {OF_STATE, 0, 0, 0.1}, {OF_CUE, 0, 5, 0.5}};

@@ -112,6 +112,9 @@ TEST(kinds) {
   expect(CAROM_OK, -1);
   options.space = CAROM_SPACE_FLAT;
   expect(CAROM_ERROR_RADII_DIFFER, 3);
+  carom_fault fault;
+  carom_shot_fault(&table, balls, 10, &cue, &options, &fault, NULL, 0);
+  ck_assert(fault.part.kind == CAROM_PART_BALL && fault.part.index == 3);
   REFUSED(balls[3].kind.radius, 0.03, CAROM_ERROR_OFF_TABLE, 3);
   set_up();
   balls[9].kind.restitution_table = -1.0;
