@@ -357,10 +357,14 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     const one = await open("", { width: 390, height: 844, touch: true });
     const box = (await one.locator("#shoot").boundingBox())!;
     const devtools = await one.context().newCDPSession(one);
-    await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x: box.x + box.width / 2, y: box.y + box.height / 2 }] });
-    await expect.poll(async () => Number(await one.locator("#power").inputValue())).toBeGreaterThan(4);
-    await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
-    await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
+    // A browser that is busy may cancel a touch, which calls the stroke off: then once more.
+    await one.evaluate("window.cancelled = 0, addEventListener('pointercancel', () => cancelled++, true)");
+    for (let tries = 0, played = false; !played && tries < 10; tries++) {
+      await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x: box.x + box.width / 2, y: box.y + box.height / 2 }] });
+      await expect.poll(async () => Number(await one.locator("#power").inputValue()) > 4 || (await one.evaluate("cancelled")) > tries).toBe(true);
+      await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+      await expect.poll(async () => (played = await one.locator("#skip").isVisible()) || (await one.evaluate("cancelled")) > tries).toBe(true);
+    }
     await frames(one, 20);
     expect(await one.locator("#skip").isVisible()).toBe(true);
     await one.close();
