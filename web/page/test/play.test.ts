@@ -361,9 +361,9 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.evaluate("window.cancelled = 0, addEventListener('pointercancel', () => cancelled++, true)");
     for (let tries = 0, played = false; !played && tries < 10; tries++) {
       await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x: box.x + box.width / 2, y: box.y + box.height / 2 }] });
-      await expect.poll(async () => Number(await one.locator("#power").inputValue()) > 4 || (await one.evaluate("cancelled")) > tries).toBe(true);
+      await expect.poll(async () => Number(await one.locator("#power").inputValue()) > 4 || (await one.evaluate<number>("cancelled")) > tries).toBe(true);
       await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
-      await expect.poll(async () => (played = await one.locator("#skip").isVisible()) || (await one.evaluate("cancelled")) > tries).toBe(true);
+      await expect.poll(async () => (played = await one.locator("#skip").isVisible()) || (await one.evaluate<number>("cancelled")) > tries).toBe(true);
     }
     await frames(one, 20);
     expect(await one.locator("#skip").isVisible()).toBe(true);
