@@ -287,7 +287,7 @@ typedef enum carom_status {
   CAROM_ERROR_FAST = -105,              /* options.fast is neither 0 nor 1. */
   CAROM_ERROR_CORNERS = -106,           /* a polygon has fewer than 3 or more than 32 corners. */
   CAROM_ERROR_SIDES_CROSS = -107,       /* two of its sides that are no neighbours meet. */
-  CAROM_ERROR_CUE_FOLLOW = -108,        /* cue.follow is not 0 to 1 m. */
+  CAROM_ERROR_CUE_FOLLOW = -108         /* cue.follow is not 0 to 1 m. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value
