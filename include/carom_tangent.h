@@ -130,10 +130,9 @@ typedef struct carom_tangent {
  * a reserved field; or an error of the table or of an option. CAROM_ERROR_NO_TANGENTS from a
  * library that was built without derivatives. CAROM_ERROR_TANGENT where derivatives are not
  * known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, by
- * CAROM_BALL_MODEL_EULER, and through
- * clusters that are not those of the events, or have more than 40 contacts. Or CAROM_ERROR_TIME
- * for a time after the end of a shot that ended while balls moved, CAROM_ERROR_OVERFLOW where a
- * number of `final` is not finite, or an error of a
+ * CAROM_BALL_MODEL_EULER, and through clusters that are not those of the events, or have more than
+ * 40 contacts. Or CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved,
+ * CAROM_ERROR_OVERFLOW where a number of `final` is not finite, or an error of a
  * collision. Then every number of `final` is NaN, and others may have been written. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls,
                                           int count, const carom_cue *cue,

@@ -146,12 +146,11 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second);
  * contacts there are, -1 where there are too many; 0: it is alone. */
 int carom_cluster_members_of_tip(carom_cluster_state *c, double most);
 
-/* push.c. The tip of a cue at ball[struck], of which the numbers are those of carom_cue from speed
- * to tip_restitution, in their order, and which touches a ball that is alone for T. */
+/* push.c: the tip of a cue at ball[struck], which touches a ball that is alone for T. cue[] has the
+ * numbers of carom_cue from speed to tip_restitution, in their order. */
 void carom_cluster_tip_of(carom_cluster_state *c, int struck, const double cue[8], double T);
 
-/* The end of the push of a ball that nothing else touches, in closed form: restitution e of the
- * tip. */
+/* push.c: a push of a ball that nothing else touches, in closed form. */
 void carom_cluster_push_alone(carom_cluster_state *c);
 
 /* push.c: puts the struck ball and those near it on the slate, whose k and e the caller sets

@@ -26,7 +26,7 @@ static inline void carom_cue_axes(double phi, double theta, double axis[3], doub
 }
 
 /* p, from the centre of a ball at r to the tip, which has gone so far `along` its axis since it
- * touched that ball at `from`. axes become the directions of the cue, cue.h. */
+ * touched that ball at `from`. axes become the directions of the cue. */
 static inline void carom_tip_from(const carom_cue *cue, double R, const double from[3],
                                   double along, const double r[3], double axes[3][3], double p[3]) {
   const double a = cue->a, b = cue->b, ahead = along - R * sqrt(1.0 - a * a - b * b);

@@ -202,7 +202,7 @@ int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool
   const carom_cluster_ball ball = c->ball[tip.ball];
   if ((slate || c->contacts > 0) && !carom_cluster_solve(c))
     return -1;
-  const int count = in_order(c, order);
+  const int count = c->contacts > 0 ? in_order(c, order) : 0;
 
   /* none of those near was touched: all was as if it were alone */
   if (count == 0 && !slate) {

@@ -38,9 +38,9 @@ static void meet(carom_facts *facts, int cue, int other, double now) {
  * left it. */
 static bool is_frozen(const carom_sim *sim, int i) {
   const double *first = sim->layout->state[i]->r;
-  carom_ball_state is;
-  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &is);
-  return fabs(is.r[0] - first[0]) + fabs(is.r[1] - first[1]) < 1e-6;
+  carom_ball_state now;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &now);
+  return fabs(now.r[0] - first[0]) + fabs(now.r[1] - first[1]) < 1e-6;
 }
 
 /* Adds an event to the facts. */

@@ -66,6 +66,13 @@ void load(const carom_tangent_pass &pass, const real *rows, int64_t at, number *
   else if (rows != nullptr)
     memcpy(&to->d, from, sizeof(real) * (size_t)pass.columns);
 }
+/* A value with its tangents. */
+number known(real x, const carom_tangent_row d) {
+  number n = x;
+  memcpy(&n.d, d, sizeof n.d);
+  n.d[CLOCK] = 0;
+  return n;
+}
 void unload(const carom_tangent_pass &pass, const number &from, real *rows, int64_t at) {
   real *to = carom_tangent_columns(&pass, rows, at);
   if (pass.columns == CAROM_TANGENT_COLUMNS)
@@ -136,9 +143,7 @@ CAROM_APART void begin_ball(const carom_tangent_work *w, int i, int side, scene 
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     load(w->pass, w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k,
          &number_of(&path->from, k));
-  number start = 0.0;
-  memcpy(&start.d, ball->start, sizeof start.d);
-  text::carom_path_begin(path, &s->sim.rates[side], start);
+  text::carom_path_begin(path, &s->sim.rates[side], known(0.0, ball->start));
 }
 
 /* The state at a time, with derivatives at that fixed time and, by CLOCK, its rate. A path
@@ -159,13 +164,14 @@ CAROM_APART void state_at(const carom_tangent_work *w, int i, int side, real tim
 }
 
 /* The derivatives at a fixed time become those of an event at the time of which dT are those. */
+void add_time(const row &dT, number *x) {
+  const real rate = x->d[CLOCK];
+  x->d += rate * dT;
+  x->d[CLOCK] = 0;
+}
 CAROM_APART void add_time(const row &dT, carom_ball_state *s) {
-  for (int k = 0; k < CAROM_STATE_NUMBERS; k++) {
-    row &d = number_of(s, k).d;
-    const real rate = d[CLOCK];
-    d += rate * dT;
-    d[CLOCK] = 0;
-  }
+  for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
+    add_time(dT, &number_of(s, k));
 }
 
 /* The numbers of a nose that have seeds, of a rail or a jaw. */
@@ -253,15 +259,10 @@ CAROM_APART void tip_at(const scene *s, text::carom_cue *cue, number *along, num
   const carom_tangent_tip *tip = &w->tip;
   const int64_t struck = s->event->a;
   load_cue(w, cue);
-  cue->speed = tip->V;
-  memcpy(&cue->speed.d, tip->V_row, sizeof tip->V_row);
-  cue->speed.d[CLOCK] = 0;
-  number since = s->event->time - tip->since, start = 0.0, gone = tip->along, from[3];
-  memcpy(&start.d, tip->start, sizeof tip->start);
-  memcpy(&gone.d, tip->along_row, sizeof tip->along_row);
+  cue->speed = known(tip->V, tip->V_row);
+  number since = s->event->time - tip->since, from[3];
   since.d[CLOCK] = 1;
-  gone.d[CLOCK] = start.d[CLOCK] = 0;
-  *along = gone + cue->speed * (since - start);
+  *along = known(tip->along, tip->along_row) + cue->speed * (since - known(0.0, tip->start));
 
   /* from where it struck */
   for (int k = 0; k < 2; k++) {
@@ -720,11 +721,8 @@ CAROM_APART void take_cue(const scene *s, const row &dT, cluster *c) {
     cue.a = on[1];
     cue.b = on[2];
     number *const moving[] = {&cue.a, &cue.b, &along};
-    for (number *x : moving) {
-      const real rate = x->d[CLOCK];
-      x->d += rate * dT;
-      x->d[CLOCK] = 0;
-    }
+    for (number *x : moving)
+      add_time(dT, x);
     tip->along = along.x;
     store(along, tip->along_row);
     tip->since = s->event->time;

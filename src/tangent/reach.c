@@ -256,7 +256,8 @@ static void misses_of_tip(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_work *w = reach->work;
   const carom_tangent_tip *tip = &w->tip;
   const carom_tangent_ball *ball = &w->ball[i];
-  if (!tip->met || carom_touches_again(event) || carom_is_out(ball->from.label))
+  if (!tip->met || !(tip->V > 0.0 && w->cue->follow > 0.0) || i != w->cue->ball ||
+      carom_touches_again(event) || carom_is_out(ball->from.label))
     return;
   carom_tangent_row d;
   double r[3], v[3], a[3], axes[3][3];
@@ -276,12 +277,11 @@ static void misses_of_tip(carom_reach *reach, int i, const carom_event *event) {
 void carom_reach_misses(carom_reach *reach, const carom_event *event) {
   const bool two = event->type == CAROM_EVENT_BALL_BALL;
   for (int side = 0; side <= two; side++) {
-    const carom_tangent_work *w = reach->work;
-    misses_of(reach, side == 0 ? event->a : event->b, event);
-    if (w->tip.V > 0.0 && w->cue->follow > 0.0 && w->cue->ball == (side == 0 ? event->a : event->b))
-      misses_of_tip(reach, (int)w->cue->ball, event);
+    const int i = side == 0 ? event->a : event->b;
+    misses_of(reach, i, event);
+    misses_of_tip(reach, i, event);
     if (two || event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW)
-      spin_of(reach, side == 0 ? event->a : event->b, event);
+      spin_of(reach, i, event);
   }
 }
 
