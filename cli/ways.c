@@ -291,8 +291,7 @@ static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, do
   w->last = k;
   if (w->run > w->longest) {
     w->longest = w->run;
-    /* of these directions */
-    w->middle = step * (double)k - step * (double)((w->run - 1) / 2);
+    w->end = step * (double)k;
     w->stroke = stroke;
   }
 }
@@ -323,8 +322,15 @@ static bool holds(const ways_search *s, way *w, double *field, double at) {
   return same;
 }
 
-/* The last value of *field between one at which the way holds and another at which it does not. */
-static double edge_of(const ways_search *s, way *w, double *field, double in, double out) {
+/* The last value of *field at which the way holds, from `in` on, at which it does: by steps x to
+ * x * factor + add up to one at which it does not, or out of bounds, then by halvings. */
+static double edge_of(const ways_search *s, way *w, double *field, double in, double factor,
+                      double add, double least, double most) {
+  double out = in * factor + add;
+  while (out > least && out < most && holds(s, w, field, out)) {
+    in = out;
+    out = in * factor + add;
+  }
   for (int k = 0; k < HALVINGS; k++) {
     const double middle = 0.5 * (in + out);
     *(holds(s, w, field, middle) ? &in : &out) = middle;
@@ -335,40 +341,32 @@ static double edge_of(const ways_search *s, way *w, double *field, double in, do
 /* The best stroke of a way that was counted, the window around it, and its chance; false after a
  * complaint. */
 static bool finish_way(ways_search *s, way *w, double step) {
+  const double begin = w->end - step * (double)(w->longest - 1);
   w->cue = s->stroke[w->stroke];
-  w->cue.phi = w->middle;
-  for (int end = 0; end < 2; end++) {
-    const double away = (end == 0 ? -1.0 : 1.0) * step * (0.5 * (double)w->longest + 1.0);
-    w->phi[end] = edge_of(s, w, &w->cue.phi, w->middle, w->middle + away);
-  }
+  w->phi[0] = edge_of(s, w, &w->cue.phi, begin, 1.0, -step, w->end - 360.0, w->end);
+  w->phi[1] = edge_of(s, w, &w->cue.phi, w->end, 1.0, step, begin, begin + 360.0);
   const double middle = 0.5 * (w->phi[0] + w->phi[1]);
-  w->cue.phi = holds(s, w, &w->cue.phi, middle) ? middle : w->middle;
+  w->cue.phi = w->end - step * (double)((w->longest - 1) / 2);
+  w->cue.phi = holds(s, w, &w->cue.phi, middle) ? middle : w->cue.phi;
   way there = {.kind = s->counted, .ball = w->ball, .pocket = w->pocket};
   if (read_stroke(s, &w->cue, &there) == A_WAY)
     w->cut = there.cut;
   w->speed[0] = w->speed[1] = w->cue.speed;
-  if (s->counted != CAROM || w->phi[1] - w->phi[0] < WINDOW_LEAST)
-    return s->counted == CAROM || ways_chance(s, w);
-  for (int end = 0; end < 2; end++) {
-    const double factor = end == 0 ? 1.0 / 1.1 : 1.1;
-    double in = w->cue.speed, out = in * factor;
-    while (out > SPEED_LEAST && out < SPEED_MOST && holds(s, w, &w->cue.speed, out)) {
-      in = out;
-      out *= factor;
-    }
-    w->speed[end] = edge_of(s, w, &w->cue.speed, in, out);
-  }
-  return ways_chance(s, w);
+  const bool pots = s->counted == CAROM, narrow = pots && w->phi[1] - w->phi[0] < WINDOW_LEAST;
+  for (int end = 0; end < 2 && pots && !narrow; end++)
+    w->speed[end] = edge_of(s, w, &w->cue.speed, w->cue.speed, end == 0 ? 1.0 / 1.1 : 1.1, 0.0,
+                            SPEED_LEAST, SPEED_MOST);
+  return narrow || ways_chance(s, w);
 }
 
-/* Of the ways of pots those that are wide enough stay; and of those that differ by
- * the stroke alone, unless each is asked for, that with the best chance. */
-static void keep_best(ways_search *s) {
+/* Of the ways of pots those that are wide enough stay, each once where directions end; and of those
+ * that differ by the stroke alone, unless each is asked for, that with the best chance. */
+static void keep_best(ways_search *s, double step) {
   int kept = 0;
   for (int k = 0; k < s->ways; k++) {
     const way w = s->way[k];
     int at = kept;
-    if (w.phi[1] - w.phi[0] < WINDOW_LEAST)
+    if (w.phi[1] - w.phi[0] < WINDOW_LEAST || w.phi[0] <= -step)
       continue;
     for (int n = 0; n < kept && !s->each; n++)
       at = is_same(&s->way[n], &w) ? n : at;
@@ -414,7 +412,7 @@ static bool scan(ways_search *s) {
   }
   progress_clear();
   if (s->counted == CAROM && fine)
-    keep_best(s);
+    keep_best(s, step);
   return fine;
 }
 

@@ -23,9 +23,9 @@ typedef struct way {
   double cut, phi[2], speed[2]; /* as in carom_pot */
   double chance, error;         /* of a player, and its standard error */
   int64_t found;                /* of the strokes in all directions */
-  /* of these: its run of neighbouring directions, and the longest one with its middle */
+  /* of these: its run of neighbouring directions, and the longest one with its end */
   int64_t last, run, longest;
-  double middle;
+  double end;
   int stroke; /* of the search's */
 } way;
 

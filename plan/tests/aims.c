@@ -112,63 +112,6 @@ TEST(aims) {
   ck_assert_int_le(others, (good + others) / 10 + 12);
 }
 
-/* Each window of directions above 0.25 degrees in which a ball within 2 R of a rail falls, met
- * first or right off a rail, and touches at most rails beside its pocket, is found by a direct aim,
- * but for one in 30. */
-TEST(pots_at_rails) {
-  enum { SWEPT = 1800 };
-  random_source r = {test_seed()};
-  int windows = 0, found = 0;
-  for (int layout = 0; layout < draws_of_each(FEWER(90)); layout++) {
-    make_layout(test_seed() + (uint64_t)layout, 1);
-    const double R = balls[0].kind.radius, gap = R * (1.0 + random_between(&r, 0.0, 2.0));
-    const double along = random_between(&r, 0.15, 1.1);
-    const bool side = layout % 2;
-    if (carom_place_ball(&table, balls, BALLS, 1, side ? gap : along, side ? 2.0 * along : gap,
-                         NULL) != CAROM_OK)
-      continue;
-    cue.speed = layout % 3 == 0 ? 1.0 : layout % 3 == 1 ? 1.5 : 2.5;
-    double aimed[CAROM_POCKETS_MOST];
-    for (int pocket = 0; pocket < table.pockets; pocket++) {
-      carom_pot pot = {.ball = 1, .pocket = pocket};
-      carom_cue one = cue;
-      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
-      aimed[pocket] = pot.is == CAROM_POT_FALLS ? one.phi : (double)NAN;
-    }
-
-    /* runs of directions by which it falls so */
-    int last = -1, run = 0;
-    for (int k = 0; k < SWEPT + 10; k++) {
-      carom_event event[64];
-      carom_facts facts;
-      carom_shot shot = {.events = event, .room = 64, .facts = &facts};
-      carom_cue one = cue;
-      one.phi = 360.0 / SWEPT * (k % SWEPT);
-      carom_shoot(&table, balls, BALLS, &one, &shot_options, &shot);
-      int pocket = facts.pocket[1];
-      for (int64_t n = 0; n < shot.count && n < 64 && pocket >= 0; n++) {
-        const double *c = table.pocket[pocket].centre, *at = event[n].before[0].r;
-        const bool rail = event[n].type == CAROM_EVENT_RAIL;
-        const bool before = event[n].time < facts.first_time[0];
-        if (rail && ((event[n].a == 1 && hypot(at[0] - c[0], at[1] - c[1]) > 0.15) ||
-                     (event[n].a == 0 && before && event[n].time < facts.first_time[0] - 0.1)))
-          pocket = -1;
-      }
-      run = pocket >= 0 && pocket == last ? run + 1 : 0;
-      last = pocket;
-      if (run == 1) { /* two of them: 0.2 to 0.6 degrees */
-        windows++;
-        found += !isnan(aimed[pocket]);
-        if (isnan(aimed[pocket]))
-          printf("layout %d: pocket %d at %.1f degrees, %.1f m/s\n", layout, pocket, one.phi,
-                 cue.speed);
-      }
-    }
-  }
-  printf("%d of %d windows of balls near a rail are aimed at\n", found, windows);
-  ck_assert(windows > 3 && found >= windows - 1 - windows / 30);
-}
-
 /* Balls in a row before a pocket without jaws: the margin is the half angle at which its circle is
  * seen from the last ball. The longest way has a ball and four before it; the first may touch the
  * cue ball. A stroke that is too weak tells which ball comes to rest. */

@@ -1,0 +1,174 @@
+/* Ways: each window of directions that a sweep finds is listed, with its kind, and direct aims find
+ * those at rails. The kind is read off the events here too, from the ball's side. */
+#include "ways.h"
+#include "plan_support.h"
+
+enum { SWEPT = 18000, LEAST = 10, ROOM = 300, SPEEDS = 3 };
+static const double speed[SPEEDS] = {1.0, 1.5, 2.5};
+
+static shot_line line;
+static named_table named;
+static way room[MOST_WAYS];
+static carom_cue stroke[SPEEDS];
+
+/* Whether a rail ends within three radii of the pocket. */
+static bool is_beside(int rail, int pocket) {
+  const carom_rail *r = &table.rail[rail];
+  const double *c = table.pocket[pocket].centre;
+  return fmin(hypot(r->p[0] - c[0], r->p[1] - c[1]), hypot(r->q[0] - c[0], r->q[1] - c[1])) <
+         3.0 * table.pocket[pocket].radius;
+}
+
+/* The kind of the pot of a ball: who met it first, and what they met before and after. */
+static int kind_of(const carom_shot *shot, int ball, int pocket) {
+  const double met = shot->facts->first_time[0];
+  double at = INFINITY;
+  int by = -1, before = 0, balls_before = 0, after = 0, beside = 0;
+  for (int64_t k = 0; k < shot->count && k < ROOM; k++) {
+    const carom_brief_event *e = &shot->brief[k];
+    const bool contact = e->type == CAROM_EVENT_BALL_BALL, ours = e->a == ball || e->b == ball;
+    const bool rail = e->type == CAROM_EVENT_RAIL && carom_rail_name(&table, e->b) != NULL;
+    if (contact && ours && (by < 0 || (e->time == at && e->a == 0))) {
+      by = e->a == ball ? e->b : e->a;
+      at = e->time;
+    } else if (contact && ours && e->a != 0 && e->b != 0 && e->time >= at)
+      return COMBINATION;
+    before += rail && e->a == 0 && e->time <= met;
+    balls_before += contact && !ours && (e->a == 0 || e->b == 0) && e->time <= at;
+    if (rail && e->a == ball && by >= 0) {
+      after++;
+      beside = is_beside(e->b, pocket) ? beside + 1 : 0;
+    }
+  }
+  return by != 0              ? COMBINATION
+         : balls_before > 0   ? CAROM
+         : before > 0         ? KICK
+         : after - beside > 0 ? BANK
+                              : DIRECT;
+}
+
+/* A ball within 2 R of a rail, some frozen, with the cue ball; or two to four balls anywhere. */
+static void make_balls(random_source *r, int layout, bool at_rail) {
+  make_layout(test_seed() + (uint64_t)layout, at_rail ? 1 : 3 + layout % 3);
+  const double R = balls[0].kind.radius, gap = fmax(0.0, random_between(r, -0.4, 2.0)) + 1e-9;
+  const bool side = layout / 2 % 2;
+  carom_status placed = at_rail ? CAROM_ERROR_BALLS : CAROM_OK;
+  while (placed != CAROM_OK) {
+    const double along = random_between(r, R, table.width - R);
+    placed = carom_place_ball(&table, balls, BALLS, 8, side ? R * (1.0 + gap) : along,
+                              side ? 2.0 * along : R * (1.0 + gap), NULL);
+  }
+}
+
+/* Finds the ways of the layout by the first `strokes` speeds. */
+static ways_search find(int strokes) {
+  const carom_player exact = carom_player_of(1.0);
+  named.table = table;
+  line.table = &named;
+  line.count = BALLS;
+  memcpy(line.ball, balls, sizeof balls);
+  for (int k = 0; k < SPEEDS; k++) {
+    stroke[k] = cue;
+    stroke[k].speed = speed[k];
+  }
+  ways_search s = {
+      .line = &line, .player = exact, .stroke = stroke, .strokes = strokes, .way = room};
+  s.counted = CAROM;
+  s.ball = s.pocket = -1;
+  s.rails = MOST_PARTS;
+  s.scan = 1800 * strokes;
+  s.each = true;
+  ck_assert(ways_find(&s) && s.left_out == 0);
+  return s;
+}
+
+/* Sweeps the directions of a stroke for a ball: counts the windows, and those that are listed. */
+static void compare(const ways_search *s, int by, int ball, int *windows, int *listed) {
+  int pocket[SWEPT + 1], kind[SWEPT + 1], run = 0;
+  pocket[SWEPT] = -1;
+  for (int k = 0; k < SWEPT; k++) {
+    static carom_brief_event event[ROOM];
+    carom_facts f;
+    carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
+    carom_cue one = stroke[by];
+    one.phi = 360.0 / SWEPT * k;
+    carom_shoot(&table, balls, BALLS, &one, &shot_options, &shot);
+    const bool again = f.touches > 1 && (f.pushed == 0 || f.second_time > 0.0);
+    const bool good = !((f.down | f.off) & 1) && !again && (f.pushed & ~f.frozen) == 0;
+    pocket[k] = good ? f.pocket[ball] : -1;
+    kind[k] = pocket[k] >= 0 ? kind_of(&shot, ball, pocket[k]) : -1;
+  }
+  for (int k = 1; k <= SWEPT; k++) {
+    run = pocket[k] == pocket[k - 1] && kind[k] == kind[k - 1] ? run + 1 : 0;
+    const bool ends = k == SWEPT || pocket[k + 1] != pocket[k] || kind[k + 1] != kind[k];
+    if (!ends || run < LEAST || pocket[k] < 0)
+      continue;
+    const double high = 360.0 / SWEPT * k, low = high - 360.0 / SWEPT * run;
+    bool is = false;
+    for (int n = 0; n < s->ways; n++) {
+      const way *w = &s->way[n];
+      for (double turn = -360.0; turn <= 360.0; turn += 360.0)
+        is |= w->ball == ball && w->pocket == pocket[k] && w->stroke == by &&
+              (int)w->kind == kind[k] && w->phi[0] + turn <= high && w->phi[1] + turn >= low;
+    }
+    ++*windows;
+    *listed += is;
+    if (!is)
+      printf("ball %d to pocket %d by %s, %.1f m/s, %.2f to %.2f degrees: not listed\n", ball,
+             pocket[k], way_names[kind[k]], stroke[by].speed, low, high);
+  }
+}
+
+TEST(every_window_is_a_way) {
+  random_source r = {test_seed()};
+  const int layouts = 2 * draws_of_each(FEWER(3));
+  int windows = 0, listed = 0;
+  for (int layout = 0; layout < layouts; layout++) {
+    make_balls(&r, layout, layout % 2);
+    const ways_search s = find(SPEEDS);
+    for (int ball = 1; ball < BALLS; ball++)
+      for (int k = 0; k < SPEEDS && balls[ball].state.label != CAROM_BALL_POCKETED; k++)
+        compare(&s, k, ball, &windows, &listed);
+  }
+  printf("%d of %d windows are listed\n", listed, windows);
+  ck_assert(windows > 10 * layouts && listed == windows);
+}
+
+/* Whether the cue ball meets a ball directly, or right off one rail. */
+static bool is_met_soon(const carom_cue *one) {
+  carom_brief_event event[ROOM];
+  carom_facts f;
+  carom_shot shot = {.brief = event, .room = ROOM, .facts = &f};
+  carom_shoot(&table, balls, BALLS, one, &shot_options, &shot);
+  for (int64_t k = 0; k < shot.count && event[k].time < f.first_time[0] - 0.1; k++)
+    if (event[k].type == CAROM_EVENT_RAIL)
+      return false;
+  return true;
+}
+
+/* Direct aims find each pot above 0.25 degrees of a ball within 2 R of a rail that is met directly
+ * or right off a rail, and touches at most rails beside its pocket, but for one in 30. */
+TEST(pots_at_rails) {
+  random_source r = {test_seed()};
+  int ways = 0, found = 0;
+  for (int layout = 0; layout < draws_of_each(FEWER(60)); layout++) {
+    make_balls(&r, layout, true);
+    const ways_search s = find(1);
+    for (int n = 0; n < s.ways; n++) {
+      const way *w = &s.way[n];
+      carom_pot pot = {.ball = 8, .pocket = w->pocket};
+      carom_cue one = stroke[0];
+      const bool direct = w->kind == DIRECT || (w->kind == KICK && w->parts == 1);
+      if (!direct || w->phi[1] - w->phi[0] < 0.25 || !is_met_soon(&w->cue))
+        continue;
+      ck_assert_int_eq(carom_aim(&table, balls, BALLS, &shot_options, &pot, &one), CAROM_OK);
+      ways++;
+      found += pot.is == CAROM_POT_FALLS;
+      if (pot.is != CAROM_POT_FALLS)
+        printf("layout %d: pocket %d at %.1f degrees is not aimed at\n", layout, w->pocket,
+               w->cue.phi);
+    }
+  }
+  printf("%d of %d pots of balls near a rail are aimed at\n", found, ways);
+  ck_assert(ways > 30 && found >= ways - 1 - ways / 30);
+}
