@@ -14,9 +14,9 @@ static int way_of(const carom_table *table, const carom_shot *shot, int cue_ball
     const carom_brief_event *e = &shot->brief[k];
     if (e->type == CAROM_EVENT_POCKET && e->a == ball)
       return by < 0 || e->b != pocket ? -1
+             : before > 0             ? CAROM_PLAN_KICK
              : by != cue_ball         ? CAROM_PLAN_COMBINATION
              : others > 0             ? CAROM_PLAN_CAROM
-             : before > 0             ? CAROM_PLAN_KICK
              : after > 0              ? CAROM_PLAN_BANK
                                       : CAROM_PLAN_POT;
     const bool meets = e->type == CAROM_EVENT_BALL_BALL;

@@ -9,8 +9,8 @@
  *    the value of the layout that it leaves, to whoever plays next.
  * 4. Sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013): four rounds with equal
  *    shares of the shots. In each, the candidates that are left are played with errors, the same
- *    errors for all; a quarter of them stays. In the third round six strokes near the best one
- *    join, with another speed or tip.
+ *    errors for all; a quarter of them stays. In the third round strokes near the best one join,
+ *    with another speed, tip or direction; where no pot is direct, after each round.
  *
  * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
  * threads and added up in their order, so no bit of a sum depends on threads. The rows of a stage
@@ -342,7 +342,7 @@ static int give(search *plan, carom_choice *choices, int room) {
     carom_choice c = carom_search_choice(plan, from);
     const bool played = c.seen > 0 || c.kind == CAROM_PLAN_PASS;
     const bool nothing = c.ball < 0 && plan->job.rules->race == CAROM_RACE_ALONE && !plan->breaks;
-    if (n > 0 && (!played || nothing || mean > best))
+    if (n > 0 && (!played || nothing || (mean > best && from->round < plan->found[0].round)))
       continue;
     c.kind = carom_search_kind(plan, from, &c);
     c.value = n > 0 ? fmin(c.value, choices[0].value) : c.value;

@@ -10,18 +10,22 @@ typedef carom_candidate candidate;
 typedef carom_outcome outcome;
 typedef carom_search search;
 
-/* In round NEAR_ROUND strokes near the best PARENTS ones join. */
-enum { ROUNDS = 4, NEAR_ROUND = 2, PARENTS = 1 };
+/* In round NEAR_ROUND strokes near the best one join. Where no pot is direct, those near the best
+ * BLIND_PARENTS do in all rounds but the first, and more of the scan stay. Of 51 layouts of
+ * nine-ball whose ball is snookered, plans of 2,000 shots are worth 0.603 without that, 0.647 with
+ * it, and the best of 20,000 random strokes, played 200,000 times, 0.665. */
+enum { ROUNDS = 4, NEAR_ROUND = 2, BLIND_PARENTS = 4 };
 
 /* The candidates of the first round: the best `keep`, of which pots come first, and a third of
- * `keep` of the scan; of tables without pockets the best. */
+ * `keep` of the scan, or half; of tables without pockets the best. */
 static int64_t first_round(search *plan, int64_t keep) {
   const int64_t n = plan->count < keep ? plan->count : keep;
+  const int64_t share = keep / (plan->blind ? 2 : 3);
   int64_t scanned = 0, good = 0;
   for (int64_t k = 0; k < n; k++) {
     candidate *c = &plan->found[k];
     const bool stays = c->kind == CAROM_PLAN_POT || plan->breaks || plan->view.pockets == 0 ||
-                       scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
+                       scanned++ < (share > 3 ? share : 3);
     if (stays) {
       const candidate kept = *c;
       *c = plan->found[good];
@@ -143,7 +147,8 @@ static bool add_near(search *plan) {
   const int64_t first = plan->count;
   plan->near = 0;
   plan->entered = in_round(plan);
-  carom_search_near(plan, plan->entered < PARENTS ? plan->entered : PARENTS);
+  const int64_t parents = plan->blind ? BLIND_PARENTS : 1;
+  carom_search_near(plan, plan->entered < parents ? plan->entered : parents);
   if (plan->count == first)
     return false;
   carom_search_stage(plan, first, plan->count - first, 1, 0);
@@ -174,15 +179,17 @@ static void next_round(search *plan) {
     look_again(plan);
     return;
   }
-  if (plan->round == NEAR_ROUND && plan->near < 0 && add_near(plan))
+  const bool joined = plan->blind ? plan->round > 0 : plan->round == NEAR_ROUND;
+  if (joined && plan->near < 0 && add_near(plan))
     return;
-  const int64_t n = plan->round == NEAR_ROUND ? plan->entered + plan->near : in_round(plan);
+  const int64_t n = joined ? plan->entered + plan->near : in_round(plan);
   int64_t each = left_for_rounds(plan) / ROUNDS / n;
   each = each < 2 ? 2 : each;
   if (each * n > plan->room)
     each = plan->room / n;
   carom_search_stage(plan, 0, n, each, DRAW_ROUND + (uint32_t)plan->round);
   plan->round++;
+  plan->near = -1;
   plan->next = NEXT_ROUND;
 }
 
@@ -227,6 +234,8 @@ static void go_on(search *plan) {
     plan->count = plan->stage.done;
     for (int64_t k = 0; k < plan->count; k++)
       carom_search_take(plan, k, &plan->outcome[k]);
+    plan->blind = plan->count == 0 && plan->view.pockets > 0;
+    plan->scan += plan->blind && plan->options.scan == 0.0 ? plan->shots / 5 : 0;
     plan->scan_end = plan->count + plan->scan;
     scan(plan);
     break;

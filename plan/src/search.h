@@ -92,6 +92,7 @@ typedef struct carom_search {
   carom_player player;
   uint32_t in_play, on, may, pockets;
   bool breaks;                              /* the stroke is a break */
+  bool blind;                               /* no pot is direct */
   bool first_decides;                       /* a shot ends at a wrong first ball */
   double foul_value;                        /* of a foul at the first contact */
   int32_t left;                             /* balls before the shot */

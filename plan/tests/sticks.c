@@ -112,9 +112,9 @@ TEST(kinds_and_sticks) {
         const bool direct = first && (!kick || jaw);
         ck_assert(c->kind != CAROM_PLAN_POT || direct);
         ck_assert(c->kind != CAROM_PLAN_BANK || (direct && facts.cushions[c->ball] > 0));
-        ck_assert(c->kind != CAROM_PLAN_KICK || (first && kick));
-        ck_assert(c->kind != CAROM_PLAN_COMBINATION || !first);
-        ck_assert(c->kind != CAROM_PLAN_CAROM || !first);
+        ck_assert(c->kind != CAROM_PLAN_KICK || kick);
+        ck_assert(c->kind != CAROM_PLAN_COMBINATION || (!first && (!kick || jaw)));
+        ck_assert(c->kind != CAROM_PLAN_CAROM || (!first && (!kick || jaw)));
       }
 
       ck_assert(c->cue.theta >= 0.0 && c->cue.theta <= 60.0);
