@@ -345,7 +345,7 @@ def test_derivatives_of_shots_give_the_normal_equations(made, plays):
     square, gradient = _strikes.normal(plays.misfit(rows, made.strikes, plays.ends, np.inf))
     off = []
     for row in rows:
-        d, X, C, R = _covariance.derivatives(plays, int(row), made.strikes[row], names)
+        d, X, C, R = _strikes.derivatives(plays, int(row), made.strikes[row], names)
         J, W = np.concatenate([X, C], axis=1), np.repeat(1 / np.sqrt(1 + (d.reshape(-1, 2) ** 2).sum(axis=1) / _strikes.HUBER**2), 2)
         size = np.sqrt(square[row].diagonal()) + 1e-9
         off.append(max(np.abs((J.T @ (W[:, None] * J) - square[row]) / np.outer(size, size)).max(),
@@ -429,14 +429,17 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
     if matches == 0:
         pytest.skip("CAROM_MATCHES says how many matches are fitted, each in some 15 s: 24 before a release")
     for seed in range(matches):
-        random, usual = np.random.default_rng(1000 + seed), _constants.usual("han")
+        model = ("han", "smooth")[seed // 8 % 2]
+        random, usual = np.random.default_rng(1000 + seed), _constants.usual(model)
         truth = {
             name: float(np.clip(usual[name] + size * random.uniform(-1.8, 1.8), max(low, 0.15 * usual[name]), min(high, 0.99)))
             for name, (size, low, high) in _joint.PRIORS.items()
             if not name.endswith("_log")
         }
         noise, rate = (0.35e-3, 0.2e-3, 1e-3, 3e-3)[seed % 4], (50.0, 25.0, 120.0, 240.0)[seed // 2 % 4]
-        made = tracks.synthetic(24, constants=truth, noise=noise, rate=rate, thin=(0.016, 0.0)[seed // 4 % 2], seed=seed)
+        made = tracks.synthetic(
+            24, cushion_model=model, constants=truth, noise=noise, rate=rate, thin=(0.016, 0.0)[seed // 4 % 2], seed=seed
+        )
         crooked = {"angle": random.uniform(-0.5, 0.5), "scale": random.uniform(0.99, 1.01)} if seed % 3 == 1 else {}
         recordings = spoiled(
             made.recordings, seed, lead_in=random.uniform(0.0, 3.0), rate=rate, noise=noise, clock=random.uniform(0.0, 3600.0),
@@ -444,8 +447,8 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
         )  # fmt: skip
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            found = fit.fit(recordings, TABLE, RADIUS, seed=1, threads=-1, calibrate=bool(crooked))
-        best = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
+            found = fit.fit(recordings, TABLE, RADIUS, cushion_model=model, seed=1, threads=-1, calibrate=bool(crooked))
+        best = fit.fit(made.recordings, TABLE, RADIUS, cushion_model=model, constants=made.constants, free="none")
         # a friction that hardly changes with the slip may be found without the change, whose numbers then have no spread
         told = [abs(found.constants[name] - value) / found.spread[name] for name, value in truth.items() if name in found.spread]
         off += told
@@ -453,11 +456,12 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
         print(f"match {seed}: noise {1e3 * noise:.2f} mm, rate {rate:g}, RMSE {1e3 * found.median_rmse:.2f} mm, with the true constants "
               f"{1e3 * best.median_rmse:.2f} mm, constants within one spread {np.mean(np.array(told) < 1):.2f}")  # fmt: skip
     off = np.array(off)
-    print(f"{matches} matches: within one spread {(off < 1).mean():.2f}, within two {(off < 2).mean():.2f}, sound {sound}")
+    print(f"{matches} matches: within one spread {(off < 1).mean():.2f}, within two {(off < 2).mean():.2f}, "
+          f"{(off > 3).sum()} of {len(off)} beyond three, sound {sound}")  # fmt: skip
     if matches < 8:
         assert (off < 2).mean() > 0.7 and found.median_rmse < 4 * np.sqrt(2) * noise
     else:
-        assert (off < 1).mean() > 0.55 and (off < 2).mean() > 0.8 and sound > 0.6 * matches
+        assert (off < 1).mean() > 0.55 and (off < 2).mean() > 0.9 and (off > 3).mean() <= 0.01 and sound > 0.6 * matches
 
 
 def test_a_search_that_stopped_far_above_the_noise_has_a_larger_spread():

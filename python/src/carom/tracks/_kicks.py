@@ -236,7 +236,7 @@ def fitted(plays: Plays, strikes: Doubles, priors: Mapping[str, tuple[float, flo
         def of(half: npt.NDArray[np.intp]) -> Doubles:
             return np.array(list(constants([near[k] for k in half], plays, priors, bounds).values()))
 
-        if len(near) >= 2 * _joint._HALF_LEAST:
+        if len(near) >= _joint.LEAST:
             errors = dict(zip(made, _events.halves(len(near), _SPLITS, np.random.default_rng(seed), of).tolist()))
         plays.set({**plays.constants, **made})
     return made, errors

@@ -26,7 +26,9 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import Array, pointer, workers
 from carom._shot_options import Options, ShotCushion, shot_options
+from carom.derivatives import tangents
 from carom.dtypes import Doubles, Records
+from carom.shots import simulate
 from carom.status import CaromError
 from carom.tracks import _constants
 from carom.tracks._recordings import Recording
@@ -366,3 +368,37 @@ def find(
     found, cost = np.full((len(first), _NUMBERS), np.nan), np.full(len(first), np.inf)
     found[of], cost[of] = strikes, sums[:, 0]
     return found, cost
+
+
+def derivatives(
+    plays: Plays, row: int, strike: Doubles, names: list[str], rest: bool = True
+) -> tuple[Doubles, Doubles, Doubles, Doubles]:
+    """Of one shot: distances of all samples, (2 n,), and their derivatives by the strike, (2 n, 6), by constants, by places of rest.
+
+    The last ones are left out without `rest`. They are tangents of the whole shot in double precision. The time of the strike is on the clock of the plays.
+    """
+    tracks, struck = plays.tracks[row], int(plays.struck[row])
+    balls = plays.layouts[0, row].copy()
+    balls["state"]["v"][struck, :2] = strike[:2]
+    balls["state"]["w"][struck] = strike[2:5] / plays.radius
+    played = simulate(plays.table, balls, cushion_model=plays.cushion_model)
+
+    # the tangents at all times of samples, on the clock of the play
+    times = np.unique(np.concatenate([track[:, 0] for track in tracks]))
+    at = np.maximum(times - strike[5], 0.0)
+    wrt = [f"balls[{struck}].v", f"balls[{struck}].w", *(f"kind.{name}" for name in names)]
+    wrt += [f"balls[{ball}].r" for ball in range(len(balls)) if rest]
+    found = tangents(played, wrt, times=at).at["r"]
+    states = played.states(at)
+
+    distances, slopes = [], []
+    for ball, track in enumerate(tracks):
+        when = np.searchsorted(times, track[:, 0])
+        J = found[when, ball, :2]
+        J[..., 2:5] /= plays.radius  # by R w
+        later = np.where((times[when] > strike[5])[:, None], -states["v"][when, ball, :2], 0.0)
+        distances.append(states["r"][when, ball, :2] - track[:, 1:])
+        slopes.append(np.concatenate([J[..., :5], later[..., None], J[..., 5:]], axis=-1))
+    d, J = np.concatenate(distances).ravel(), np.concatenate(slopes)
+    J = J.reshape(len(d), -1)
+    return d, J[:, :6], J[:, 6 : 6 + len(names)], J[:, 6 + len(names) :]

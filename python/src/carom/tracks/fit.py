@@ -95,7 +95,7 @@ class _Saved:
 
     def __init__(self, path: Path | None, arguments: Sequence[Any]) -> None:
         shots, *others = arguments
-        text = repr([(shot.id, shot.balls, [track.tolist() for track in shot.tracks]) for shot in shots]) + repr((others, "both laws"))
+        text = repr([(shot.id, shot.balls, [track.tolist() for track in shot.tracks]) for shot in shots]) + repr((others, "Newton"))
         self.path, self.parts, self.key = path, dict[str, Any](), hashlib.sha256(text.encode()).hexdigest()
         if path is not None and path.exists():
             with contextlib.suppress(ValueError, TypeError, KeyError):  # another file: begin anew
@@ -152,6 +152,17 @@ def _seek_again(plays: _strikes.Plays, played: list[int], strikes: Doubles, rmse
         again = some.rmse(other)
         better = again < rmse[stuck]
         strikes[stuck[better]], rmse[stuck[better]] = other[better], again[better]
+
+
+def _told_by_events(
+    values: dict[str, float], told: list[str], measured: Mapping[str, float], errors: Mapping[str, float]
+) -> tuple[dict[str, float], dict[str, float]]:
+    """The constants after single events, and their errors: what events tell worse than that it is a table stays as given."""
+    worse = [name for name in measured if errors.get(name, 0.0) > (_joint.prior(name)[0] or math.inf)]
+    if worse:
+        told.append(f"single events tell {', '.join(worse)} worse than tables differ: begun as given")
+    better = {name: value for name, value in measured.items() if name not in worse}
+    return {**values, **better}, {name: error for name, error in errors.items() if name not in worse}
 
 
 def fit(
@@ -216,10 +227,9 @@ def fit(
             if progress:
                 progress("events", 0.0)
             shots = [recordings[k] for k in fitted]
-            measured, spread = saved.get(
-                "events", lambda: _from_events.measured(events(shots, table, radius), radius, cushion_model, seed, values)
+            values, spread = _told_by_events(
+                values, told, *saved.get("events", lambda: _from_events.measured(events(shots, table, radius), radius, cushion_model, seed, values))
             )
-            values = {**values, **measured}
         if free[0] == "kicks" and fitted:
             plays = _strikes.Plays([recordings[k] for k in fitted], table, radius, values, cushion_model, threads)
             wanted, start = _priors(free, priors or {}, values, cushion_model), _strikes.find(plays, seed, progress)[0]
@@ -240,14 +250,17 @@ def fit(
                 if number == _BOTH:
                     searches = dict([min(searches.items(), key=lambda one: one[1].middle)])
             (search,) = searches.values()
-            values = search.constants(search.values)
+            search.resume(saved.get("end", functools.partial(search.finish, seed, _joint.ROUNDS)))
             if progress:
                 progress("spread", _joint.STAGES / (_joint.STAGES + 2))
-            names = tuple(search.names)
-            evidence = {name: error for name, error in spread.items() if name not in (priors or {})}
-            errors = saved.get("spread", lambda: _joint.spread(search, seed))
-            covariance = _covariance.of_constants(search, evidence, errors)
-            spread = {**spread, **errors}
+            if search.middle < _joint.MOST:
+                values, names = search.constants(search.values), tuple(search.names)
+                evidence = {name: error for name, error in spread.items() if name not in (priors or {})}
+                covariance = _covariance.of_constants(search, evidence)
+            else:
+                told.append("half of the shots are off by centimetres: whole shots tell no constants, which stay as they were before")
+            if covariance is not None:
+                spread = {**spread, **dict(zip(names, np.sqrt(covariance.diagonal()).tolist()))}
             told += [f"{name} is at its bound, {values[name]:g}: the recordings do not tell it, or the cushion's model does not fit them"
                      for name in names if values[name] in _joint.prior(name)[1:]]  # fmt: skip
         plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
