@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -10,9 +11,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom import dtypes
-from carom._rows import Array, broadcast
-from carom._shot_options import Options
-from carom.derivatives import ELEMENTS, PARTS, STATE, Direction, directions, numbers_of_direction, play, seeds_of
+from carom._carom import ffi, lib
+from carom._faults import shot_arguments
+from carom._rows import Array, broadcast, pointer
+from carom._shot_options import Options, shot_options
+from carom.derivatives import (
+    AT_ONCE, ELEMENTS, MOST, PARTS, STATE, Direction, by_steps, directions, numbers_of_direction, play, seeds_of, steps_of, tangent_options, tangents,
+)  # fmt: skip
 from carom.layouts import Table, of_record
 from carom.shots import simulate, simulate_batch
 from carom.status import CaromError, Status
@@ -52,7 +57,7 @@ class Shots:
 
     @functools.cached_property
     def directions(self) -> list[Direction]:
-        return [direction for several in directions(self.names, self.count, "numbers") for direction in several]
+        return [direction for several in _directions(self.names, self.count) for direction in several]
 
     @functools.cached_property
     def seeds(self) -> dict[str, dtypes.Doubles]:
@@ -79,9 +84,17 @@ class Shots:
                 number[...] = x[..., j]
         return layouts, cues
 
+    @functools.cached_property
+    def one(self) -> _One | None:
+        """Where a single shot can be played again and again."""
+        single = len(self.balls_shape) == 1 and self.cues_shape == () and len(self.directions) <= MOST
+        return _One(self) if single and "kind.radius" not in self.names else None
+
     def states(self, x: Any) -> dtypes.Doubles:
         """The final states, of shape (..., balls, STATE)."""
         numbers = np.asarray(x)
+        if numbers.ndim == 1 and self.one is not None and (played := self.one.play(numbers, False)) is not None:
+            return played[0]
         layouts, cues = self.records(numbers)
         shots = simulate_batch(self.played_on, layouts, cues, threads=self.threads, options=self.options)
         return self.numbers(numbers, shots.final, shots.status)
@@ -89,10 +102,45 @@ class Shots:
     def both(self, x: Any) -> tuple[dtypes.Doubles, dtypes.Doubles]:
         """The final states and their derivatives, of shape (..., balls, STATE, m)."""
         numbers = np.asarray(x)
+        if numbers.ndim == 1 and self.one is not None and (found_alone := self.one.play(numbers, True)) is not None:
+            return found_alone
         layouts, cues = self.records(numbers)
         found, codes, final = play(self.played_on, layouts, cues, self.seeds, np.zeros(0), ("final",), self.room, self.threads, self.options)
         played = np.where(np.isin(codes, (Status.ERROR_TANGENT, Status.ERROR_EVENTS_LOST)), 0, codes) if self.nan else codes
         return self.numbers(numbers, final, played), found["final"]
+
+    def second(self, x: Any) -> dtypes.Doubles:
+        """The second derivatives of the final states, of shape (..., balls, STATE, m, m), as `carom.hessian` has them."""
+        slopes = self._along(x, np.eye(len(self.directions)))
+        return (slopes + slopes.swapaxes(-1, -2)) / 2.0
+
+    def along(self, x: Any, vectors: Array) -> dtypes.Doubles:
+        """The derivatives along vectors (..., p, m) of the derivatives of the final states: (..., balls, STATE, m, p); nan where unknown.
+
+        As many as there are numbers are products with all second derivatives, which cost no more, and are symmetric.
+        """
+        if vectors.shape[-2] < len(self.directions):
+            return self._along(x, vectors)
+        return self.second(x) @ vectors.swapaxes(-1, -2)[..., np.newaxis, np.newaxis, :, :]
+
+    def _along(self, x: Any, vectors: Array) -> dtypes.Doubles:
+        numbers = np.asarray(x)
+        shape, m = numbers.shape[:-1], numbers.shape[-1]
+        layouts, cues = self.records(numbers)
+        layouts = np.broadcast_to(layouts, (*shape, self.count)).reshape(-1, self.count)
+        cues = None if cues is None else np.broadcast_to(cues, shape).reshape(-1)
+        ways = np.broadcast_to(vectors, (*shape, *np.shape(vectors)[-2:])).reshape(len(layouts), -1, m)
+        found = np.full((len(layouts), self.count, STATE, m, ways.shape[1]), np.nan)
+        for begin in range(0, len(layouts), AT_ONCE):
+            part = slice(begin, begin + AT_ONCE)
+            struck = None if cues is None else cues[part]
+            shots = simulate_batch(self.played_on, layouts[part], struck, room=self.room, threads=self.threads, options=self.options)
+            known = (shots.status >= 0) & (shots.count <= self.room)
+            if known.any():
+                some = shots[known]
+                steps = steps_of(self.directions, some, tangents(some, self.names, threads=self.threads).reach)
+                found[part][known] = by_steps(some, self.directions, steps, ways[part][known], self.threads)
+        return found.reshape(*shape, *found.shape[1:])
 
     def numbers(self, x: dtypes.Doubles, final: dtypes.Records, status: Array) -> dtypes.Doubles:
         """Final states as numbers; shots in error are nan, or raise."""
@@ -121,6 +169,42 @@ class Shots:
         raise CaromError(status, text=f"{which}{values}: {text}")
 
 
+class _One:
+    """A shot in memory that is used again: a single call else spends more time on making arguments than C on the shot and its derivatives."""
+
+    def __init__(self, shots: Shots) -> None:
+        balls, cue, table = np.frombuffer(shots.balls, dtypes.shot_ball).copy(), None, shots.played_on
+        if shots.cues is not None:
+            cue = np.frombuffer(shots.cues, dtypes.cue).reshape(()).copy()
+        simulate_batch(table, balls, cue, options=shots.options)  # which refuses, and warns of, what C does not
+        self.numbers = [numbers_of_direction(direction, balls, cue) for direction in shots.directions]
+        self.final: Array = np.zeros(shots.count, dtypes.ball_state)
+        self.slopes: Array = np.zeros((shots.count, STATE, len(self.numbers)))
+        self.kept = np.empty(shots.room, dtypes.event), shots.seeds, table
+        self.arguments = shot_arguments(table, balls, cue, shot_options(shots.options))
+        self.differentiated = (*self.arguments[:4], tangent_options(shots.options, 0))
+        seeds = {name: pointer("double[]", row) for name, row in shots.seeds.items()}
+        self.seeds = ffi.new("carom_tangent_seeds *", {"directions": len(self.numbers), **seeds})
+        self.tangent = ffi.new("carom_tangent *", {"final": pointer("double[]", self.slopes)})
+        events, final = pointer("carom_event[]", self.kept[0]), pointer("carom_ball_state[]", self.final)
+        self.shot = ffi.new("carom_shot *", {"events": events, "room": shots.room, "final": final})
+        self.free = threading.Lock()
+
+    def play(self, x: dtypes.Doubles, differentiated: bool) -> tuple[dtypes.Doubles, dtypes.Doubles] | None:
+        """The final states and, where they are asked for, their derivatives; None where there are none, and the batch says why."""
+        with self.free:
+            for numbers, value in zip(self.numbers, x.tolist()):
+                for number in numbers:
+                    number[...] = value
+            self.shot.count, self.shot.time = 0, 0.0
+            if lib.carom_shoot(*self.arguments, self.shot) < 0:
+                return None
+            if differentiated and lib.carom_shot_tangent(*self.differentiated, self.shot, self.seeds, self.tangent) < 0:
+                return None
+            return self.final.view(np.float64).reshape(len(self.final), -1)[:, _ORDER], self.slopes.copy()
+
+
+_directions = functools.lru_cache(maxsize=256)(functools.partial(directions, argument="numbers"))
 # JAX compiles a callback once for each object: equal shots are one object
 _shots = functools.lru_cache(maxsize=256)(Shots)
 
@@ -128,8 +212,8 @@ _shots = functools.lru_cache(maxsize=256)(Shots)
 def shots_of(
     table: Table, balls: dtypes.Records, cue: dtypes.Records | None, numbers: Mapping[str, Any], array: Callable[[Any], Any],
     room: int, errors: str, threads: int, options: Options
-) -> tuple[Shots, list[tuple[Any, tuple[int, ...]]]]:  # fmt: skip
-    """The shots, and each of their numbers as an `array` (..., elements) with the shape to which it is broadcast, for one array (..., m)."""
+) -> tuple[Shots, list[tuple[Any, tuple[int, ...]]], tuple[int, ...]]:  # fmt: skip
+    """The shots, each of their numbers as an `array` (...) or (..., elements) with the shape to which it is broadcast, and that of the batch."""
     if errors not in ("raise", "nan"):
         raise ValueError(f"errors: must be 'raise' or 'nan', not {errors!r}")
     layouts = of_record(balls, dtypes.shot_ball, "balls", "balls()")
@@ -137,24 +221,24 @@ def shots_of(
     if layouts.ndim == 0:
         raise ValueError("balls: the shape must be (..., balls), not ()")
     parts: list[Any] = []
-    for (name, value), several in zip(numbers.items(), directions(list(numbers), layouts.shape[-1], "numbers")):
+    owns: list[tuple[int, ...]] = []  # () of a number, (elements,) of several
+    for (name, value), several in zip(numbers.items(), _directions(tuple(numbers), layouts.shape[-1])):
         if several[0].array == "table":
             raise ValueError(f"numbers: {name}: a batch has one table; kind.nose_height, kind.mu_cushion and kind.restitution_cushion can differ")
         if several[0].array == "cue" and cue is None:
             raise ValueError(f"numbers: {name}: there is no cue; give one of carom.cue()")
         part = array(value)
-        if name == several[0].name:
-            part = part[..., None]
-        elif tuple(part.shape[-1:]) != (len(several),):
+        if name != several[0].name and tuple(part.shape[-1:]) != (len(several),):
             raise ValueError(f"numbers: {name}: the shape must be (..., {len(several)}), not {tuple(part.shape)}")
         parts.append(part)
+        owns.append(() if name == several[0].name else (len(several),))
     leading = {"balls": layouts.shape[:-1], "cue": () if cues is None else cues.shape}
-    batch = broadcast({**leading, **{name: tuple(part.shape[:-1]) for name, part in zip(numbers, parts)}})
+    batch = broadcast({**leading, **{name: tuple(part.shape[: part.ndim - len(own)]) for name, part, own in zip(numbers, parts, owns)}})
     shots = _shots(
         table.record.tobytes(), layouts.tobytes(), layouts.shape, None if cues is None else cues.tobytes(), () if cues is None else cues.shape,
         tuple(numbers), options, threads, room, errors == "nan",
     )  # fmt: skip
-    return shots, [(part, (*batch, part.shape[-1])) for part in parts]
+    return shots, [(part, (*batch, *own)) for part, own in zip(parts, owns)], batch
 
 
 def named(states: Any) -> Final:

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, addresses, as_array, in_chunks, pointer, raw, several, whole, workers
+from carom._rows import Array, addresses, as_array, broadcast, in_chunks, pointer, raw, several, whole, workers
 from carom._shot_options import Options, chosen, shot_options
 from carom.layouts import Table, of_record
 from carom.results import EventType, Shot, Shots
@@ -34,7 +34,8 @@ __all__ = ["Flag", "Hessian", "Tangents", "aim_slope", "hessian", "jacobian", "t
 MOST: int = lib.CAROM_DIRECTIONS_MOST
 """Directions of one call of C; more are given in parts."""
 STATE: int = lib.CAROM_STATE_NUMBERS
-_AT_ONCE = 128  # shots of a thread whose events are kept at a time: more take longer for the memory than for the shots
+AT_ONCE = 128  # shots of a thread whose events are kept at a time: more take longer for the memory than for the shots
+_FEW = 64  # events of a shot for which there is memory at first: more of it is slower to touch
 CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass", "tip_restitution")
 KIND = tuple(dtypes.ball_kind.names or ())
 # A state is x, y, v_x, v_y, w_x, w_y, w_z, z, v_z: where its parts are, and the elements of r, v and w of a ball.
@@ -219,7 +220,7 @@ def _sorted_times(times: npt.ArrayLike | None) -> Array:
     return at
 
 
-def _options(models: Options, threads: int) -> Any:
+def tangent_options(models: Options, threads: int) -> Any:
     """The options of C of a shot that was played by these, less when it was to be stopped."""
     return shot_options(models._replace(t_final=None, stop_at=()), threads)
 
@@ -272,10 +273,10 @@ def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | N
         raise ValueError(f"shot: room={room} does not keep all events of {lost.size} of {count.size} shots; room={lost.max()} does")
     events = int(np.minimum(count, room).max(initial=0))
     if isinstance(shot, Shots):
-        job = shot._jobs(_options(shot.options, threads))
+        job = shot._jobs(tangent_options(shot.options, threads))
         found, codes = _differentiate(job, count.size, balls, events, seeds, at, wanted, threads)
         return _tangents(names, units, shot.shape, found, codes)
-    job = _job_of_one(shot, _options(shot.options, 0))
+    job = _job_of_one(shot, tangent_options(shot.options, 0))
     found, codes = _differentiate(job, 1, balls, events, seeds, at, wanted, 0)
     if codes[0] < 0:
         raise CaromError(int(codes[0]))
@@ -284,23 +285,26 @@ def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | N
 
 @dataclass(eq=False, repr=False)
 class Hessian:
-    """Second derivatives of the final states of a shot, by each two of m directions.
+    """Second derivatives of the final states of a shot, or of many, by each two of m directions.
 
-    `final` has "r" of shape (balls, 2, m, m), m; "v", m/s; "w" (balls, 3, m, m), rad/s; "z" and "v_z" (balls, m, m).
+    `final` has "r" of shape (..., balls, 2, m, m), m; "v", m/s; "w" (..., balls, 3, m, m), rad/s; "z" and "v_z" (..., balls, m, m).
+    Along a vector the last dimension is left out.
     """
 
     first: Tangents  # first derivatives, with the names and units of the directions, their reach, and the flags of the events
-    states: dtypes.Doubles  # all of `final`, (balls, 9, m, m)
-    # The largest difference of d2/dx dy and d2/dy dx over the largest second derivative, each for changes in proportion to the steps
-    error: float
+    states: dtypes.Doubles  # all of `final`, (..., balls, 9, m, m)
+    # (...): the largest difference of d2/dx dy and d2/dy dx over the largest second derivative, each for changes in proportion to the
+    # steps; nan along a vector, where it is unknown
+    error: dtypes.Doubles
 
     @property
     def final(self) -> dict[str, dtypes.Doubles]:
         """Of the final states."""
-        return {name: self.states[:, part] for name, part in PARTS.items()}
+        batch = (slice(None),) * (self.first.states.ndim - 2)
+        return {name: self.states[(*batch, part)] for name, part in PARTS.items()}
 
     def __repr__(self) -> str:
-        return f"<carom.Hessian: by {', '.join(self.first.names)}, error {self.error:.1e}>"
+        return f"<carom.Hessian: by {', '.join(self.first.names)}, error {np.max(self.error, initial=0.0):.1e}>"
 
 
 def numbers_of_direction(direction: Direction, layouts: dtypes.Records, cues: dtypes.Records | None) -> list[Array]:
@@ -317,54 +321,104 @@ def numbers_of_direction(direction: Direction, layouts: dtypes.Records, cues: dt
     return found
 
 
-def hessian(shot: Shot, wrt: Sequence[str], *, threads: int = 0) -> Hessian:
-    """Second derivatives of the final states of a shot that `carom.simulate` has played: central differences of its first ones.
+def hessian(shot: Shot | Shots, wrt: Sequence[str], *, along: npt.ArrayLike | None = None, threads: int = 0) -> Hessian:
+    """Second derivatives of the final states of shots that were played: central differences of their first ones.
 
-    It takes the time of two tangents for each direction. All shots of the differences have the events of the shot, else the derivatives by that
-    direction are nan: the steps are small beside its reach. `flags` and `reach` of the first derivatives hold here, too.
+    It takes the time of two shots and their tangents for each direction, or for the vector. All shots of the differences have the events of
+    the shot, else the derivatives by that direction are nan: the steps are small beside its reach. `flags` and `reach` of the first
+    derivatives hold here, too.
 
     Parameters
     ----------
-    shot : Shot
-    wrt, threads
-        As for `tangents`, without numbers of the table and radii: "kind.nose_height" is that of all noses for one ball.
+    shot, wrt, threads
+        As for `tangents`, without numbers of the table: "kind.nose_height" is that of all noses for one ball.
+    along : array_like, shape (..., m), optional
+        A vector for each shot, or one for all: only the Hessian's product with it is found, of shape (..., balls, 9, m).
 
     Returns Hessian.
     Raises CaromError: Derivatives are not known for this shot.
     """
-    if not isinstance(shot, Shot):
-        raise TypeError(f"shot: what carom.simulate() gives is needed, not {type(shot).__name__}")
-    first, given = tangents(shot, wrt), [d for several in directions(wrt, len(shot.balls)) for d in several]
-    m = len(given)
-    layouts = np.repeat(shot.balls[np.newaxis], 2 * m, axis=0)
-    cues = None if shot.cue is None else np.repeat(shot.cue.reshape(1), 2 * m)
+    first, given = tangents(shot, wrt, threads=threads), [d for several in directions(wrt, shot.final.shape[-1]) for d in several]
+    shape, m = first.error.shape, len(given)
+    if isinstance(shot, Shot):
+        shot = simulate_batch(shot.table, shot.balls, shot.cue, room=shot.count, options=shot.options)
+    for direction in given:
+        if direction.array == "table" or (direction.array == "cue" and shot.cues is None):
+            raise ValueError(f"wrt: {direction.name} has no second derivatives here: numbers of a cue that strikes, and of balls, have")
+    steps = steps_of(given, shot, first.reach)
+    if along is None:
+        d = by_steps(shot, given, steps, np.eye(m), threads)
+        other, axes = d.swapaxes(-1, -2), (-4, -3, -2, -1)
+        weight = (steps[..., :, np.newaxis] * steps[..., np.newaxis, :])[..., np.newaxis, np.newaxis, :, :]
+        largest, apart = (np.fmax.reduce(np.abs(each) * weight, axis=axes, initial=0.0) for each in (d, d - other))
+        return Hessian(first, (d + other) / 2.0, apart / np.where(largest > 0.0, largest, 1.0))
+    vectors = as_array(along, "along", np.float64)
+    if vectors.shape[-1:] != (m,) or broadcast({"along": vectors.shape[:-1], "shots": shape}) != shape:
+        raise ValueError(f"along: the shape must be ({m},) or {(*shape, m)}, a number for each direction, not {vectors.shape}")
+    return Hessian(first, by_steps(shot, given, steps, vectors[..., np.newaxis, :], threads)[..., 0], np.full(shape, np.nan))
 
-    # A shot with more and one with less of each number.
-    steps = np.minimum(_STEP * first.reach, _STEP_MOST)
+
+def _whole(shots: Shots) -> tuple[dtypes.Records, dtypes.Records | None]:
+    """The layouts (n, balls) and cues (n,) of shots, a row each."""
+    layouts = np.broadcast_to(shots.layouts, shots.final.shape).reshape(-1, shots.final.shape[-1])
+    if shots.kinds is not None:
+        states, layouts = layouts, np.zeros(layouts.shape, dtypes.shot_ball)
+        layouts["state"], layouts["kind"] = states, shots.kinds
+    return layouts, None if shots.cues is None else np.broadcast_to(shots.cues, shots.shape).reshape(-1)
+
+
+def steps_of(given: Sequence[Direction], shots: Shots, reach: dtypes.Doubles) -> dtypes.Doubles:
+    """The steps (..., m) of second derivatives."""
+    steps: dtypes.Doubles = np.fmin(_STEP * reach, _STEP_MOST)
+    layouts = _whole(shots)[0]
     for j, direction in enumerate(given):
-        numbers = numbers_of_direction(direction, layouts, cues)
-        if not numbers or direction.name == "kind.radius":
-            raise ValueError(f"wrt: {direction.name} has no second derivatives here: numbers of the cue, and of balls but radii, have")
         if direction.array == "kind":
-            steps[j] = min(steps[j], _STEP_MOST * max(abs(number[2 * j]) for number in numbers) or _STEP_MOST)
-        for number in numbers:
-            number[2 * j] += steps[j]
-            number[2 * j + 1] -= steps[j]
-    shots = simulate_batch(shot.table, layouts, cues, room=shot.count, threads=threads, options=shot.options)
+            numbers = np.max(np.abs(numbers_of_direction(direction, layouts, None)), axis=0).reshape(shots.shape)
+            steps[..., j] = np.minimum(steps[..., j], _STEP_MOST * np.where(numbers > 0.0, numbers, 1.0))
+    return steps
 
-    # d[..., i, j]: by i, then by j
-    same = (shots.count == shot.count) & (shots.status == shot.status)
-    for name in ("type", "a", "b"):
-        same &= (shots.events[name] == shot.events[name]).all(axis=-1)
-    by_step = np.full((2 * m, *first.states.shape), np.nan)
-    if same.any():
-        by_step[same] = tangents(shots[same], wrt, threads=threads).states
-    d = np.moveaxis((by_step[0::2] - by_step[1::2]) / (2.0 * steps[:, np.newaxis, np.newaxis, np.newaxis]), 0, -1)
-    other = d.swapaxes(-1, -2)
-    weight = steps[:, np.newaxis] * steps
-    largest, apart = (float(np.fmax.reduce(np.abs(each) * weight, axis=None)) for each in (d, d - other))
-    error = apart / largest if largest != 0.0 else 0.0
-    return Hessian(first, (d + other) / 2.0, error)
+
+def by_steps(shots: Shots, given: Sequence[Direction], steps: dtypes.Doubles, vectors: Array, threads: int) -> dtypes.Doubles:
+    """Differences of the tangents of shots along vectors (..., p, m), for each unit of them: (..., balls, STATE, m, p)."""
+    n, balls, m, p = shots.status.size, shots.final.shape[-1], len(given), vectors.shape[-2]
+    ways = np.broadcast_to(vectors, (*shots.shape, p, m)).reshape(n, p, m)
+    layouts, cues = _whole(shots)
+    events, count, status = shots.events.reshape(n, -1), shots.count.reshape(n), shots.status.reshape(n)
+    found = np.full((n, balls, STATE, m, p), np.nan)
+
+    # The longest step whose parts are no longer than those along each direction alone would be, together.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slower = (np.abs(ways) / steps.reshape(n, 1, m)).sum(axis=-1)
+        h = 1.0 / np.where(ways.any(axis=-1), slower, 1.0)
+
+    at_once = max(AT_ONCE * workers(threads) // (2 * p), 1)
+    for begin in range(0, n, at_once):
+        # Of each shot one with more and one with less along each vector, (shots, 2, p).
+        part = slice(begin, begin + at_once)
+        changes = h[part, np.newaxis, :, np.newaxis] * np.stack([ways[part], -ways[part]], axis=1)
+        moved = np.repeat(layouts[part], 2 * p, axis=0).reshape(-1, 2, p, balls)
+        struck = None if cues is None else np.repeat(cues[part], 2 * p).reshape(-1, 2, p)
+        for j, direction in enumerate(given):
+            if direction.name == "kind.radius":
+                # a ball stays as high above the cloth as it is
+                moved["state"]["r"][..., 2] += changes[..., j, np.newaxis]
+            for number in numbers_of_direction(direction, moved, struck):
+                number += changes[..., j]
+        room = int(count[part].max())
+        others = simulate_batch(shots.table, moved, struck, room=room, threads=threads, options=shots.options)
+
+        # Those with the events of their shot count.
+        same = (others.count == count[part, np.newaxis, np.newaxis]) & (others.status == status[part, np.newaxis, np.newaxis])
+        beyond = np.arange(room) >= count[part, np.newaxis, np.newaxis, np.newaxis]
+        for name in ("type", "a", "b"):
+            same &= ((others.events[name] == events[name][part, np.newaxis, np.newaxis, :room]) | beyond).all(axis=-1)
+        slopes = np.full((*same.shape, balls, STATE, m), np.nan)
+        if same.any():
+            slopes[same] = tangents(others[same], [direction.name for direction in given], threads=threads).states
+        with np.errstate(invalid="ignore"):
+            change = (slopes[:, 0] - slopes[:, 1]) / (2.0 * h[part, :, np.newaxis, np.newaxis, np.newaxis])
+        found[part] = np.moveaxis(change, 1, -1)
+    return found.reshape(*shots.shape, balls, STATE, m, p)
 
 
 def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi") -> dtypes.Doubles:
@@ -417,15 +471,24 @@ def play(
     codes: Array = np.empty(n, np.int8)
     final: Array = np.empty((n, balls), dtypes.ball_state)
     shots: Shots | None = None
-    at_once = _AT_ONCE * workers(threads)
+    at_once = AT_ONCE * workers(threads)
+    at_once = max(-(-n // max(-(-n // at_once), 1)), 1)  # as many in each part, which then all use the memory of the first
+    kept = min(room, _FEW)
     for begin in range(0, max(n, 1), at_once):
         part = slice(begin, min(begin + at_once, n))
         many = part.stop - part.start
         struck = strikes if strikes is None or one_cue else strikes[part]
-        again = shots if shots is not None and shots.shape == (many,) else None
-        shots = simulate_batch(table, rows if one_layout else rows[part], struck, room=room, threads=threads, out=again, options=options)
-        events = int(np.minimum(shots.count, room).max(initial=0))
-        job = shots._jobs(_options(shots.options, threads))
+        while True:
+            again = shots if shots is not None and shots.shape == (many,) and shots.events.shape[-1] == kept else None
+            shots = simulate_batch(
+                table, rows if one_layout else rows[part], struck, room=kept, threads=threads, out=again, options=options
+            )
+            longest = int(shots.count.max(initial=0))
+            if longest <= kept or kept == room:
+                break
+            kept = min(longest, room)
+        events = min(longest, room)
+        job = shots._jobs(tangent_options(shots.options, threads))
         found, codes[part] = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
         raw(final)[part] = raw(shots.final)
         parts.append(found)

@@ -12,8 +12,8 @@
     jax.jit(jax.vmap(jax.grad(miss)))(aims)                    # all shots in one batch
 
 Shots are played and differentiated by C, in callbacks: a batch, or a function under `jax.vmap`, is one batch of `carom.simulate_batch`,
-and its derivative one of `carom.tangents`. `grad`, `jacfwd` and `jacrev` all use the Jacobian of `carom.tangents`; second derivatives are not
-known. docs/using/derivatives.md says what a derivative cannot tell: `carom.jacobian(..., of="reach")` has its reach.
+and its derivative one of `carom.tangents`. `grad`, `jacfwd` and `jacrev` all use the Jacobian of `carom.tangents`, and `hessian` what
+`carom.hessian` finds, nan where that is; third derivatives are not known. docs/using/derivatives.md says what a derivative cannot tell: `carom.jacobian(..., of="reach")` has its reach.
 
 Needs JAX with 64-bit numbers. Its objects have no types here, so that carom can be checked without it.
 """
@@ -44,6 +44,7 @@ except ImportError as missing:
     raise ImportError("carom.jax needs JAX, which is not installed here: pip install jax", name=missing.name) from missing
 
 
+# Each is differentiated by the next. What a tangent is multiplied by does not depend on the tangent, so that JAX can transpose the rules.
 @functools.partial(_jax.custom_jvp, nondiff_argnums=(0,))
 def _states(shots: Shots, x: Any) -> Any:
     shape = _jax.ShapeDtypeStruct((*x.shape[:-1], shots.count, STATE), np.float64)
@@ -57,17 +58,30 @@ def _both(shots: Shots, x: Any) -> Any:
     return _jax.pure_callback(shots.both, shapes, x, vmap_method="expand_dims")
 
 
+@functools.partial(_jax.custom_jvp, nondiff_argnums=(0,))
+def _second(shots: Shots, x: Any) -> Any:
+    shape = _jax.ShapeDtypeStruct((*x.shape[:-1], shots.count, STATE, x.shape[-1], x.shape[-1]), np.float64)
+    return _jax.pure_callback(shots.second, shape, x, vmap_method="expand_dims")
+
+
 def _of_states(shots: Shots, primals: Any, changes: Any) -> Any:
     states, derivatives = _both(shots, primals[0])
     return states, _jnp.einsum("...bsm,...m->...bs", derivatives, changes[0])
 
 
 def _of_both(shots: Shots, primals: Any, changes: Any) -> Any:
-    raise NotImplementedError("carom.jax: second derivatives of shots are not known; jax.grad, jacfwd and jacrev give first ones")
+    states, derivatives = _both(shots, primals[0])
+    slope = _jnp.einsum("...bsm,...m->...bs", derivatives, changes[0])
+    return (states, derivatives), (slope, _jnp.einsum("...bsmk,...k->...bsm", _second(shots, primals[0]), changes[0]))
+
+
+def _of_second(shots: Shots, primals: Any, changes: Any) -> Any:
+    raise NotImplementedError("carom.jax: third derivatives of shots are not known; jax.hessian gives second ones")
 
 
 _states.defjvp(_of_states)
 _both.defjvp(_of_both)
+_second.defjvp(_of_second)
 
 
 def final(
@@ -100,7 +114,8 @@ def final(
     """
     if _jax.dtypes.canonicalize_dtype(np.float64) != np.float64:
         raise TypeError('carom.jax needs 64-bit numbers: set jax.config.update("jax_enable_x64", True) first, or JAX_ENABLE_X64=1')
-    shots, parts = shots_of(
+    shots, parts, batch = shots_of(
         table, balls, cue, numbers, lambda value: _jnp.asarray(value, np.float64), room, errors, threads, chosen(options, changes)
     )  # fmt: skip
-    return named(_states(shots, _jnp.concatenate([_jnp.broadcast_to(part, shape) for part, shape in parts], axis=-1)))
+    wide = [_jnp.broadcast_to(part, shape).reshape((*batch, -1)) for part, shape in parts]
+    return named(_states(shots, _jnp.concatenate(wide, axis=-1)))

@@ -9,9 +9,9 @@
     miss.backward()
     aim.grad
 
-Shots are played and differentiated by C on the CPU: a call is one batch of `carom.simulate_batch`, or, where a number needs a gradient, one
-of `carom.jacobian`. `backward` and `torch.autograd.functional.jacobian` use the Jacobian of `carom.tangents`;
-second derivatives are not known. docs/using/derivatives.md says what a derivative cannot tell: `carom.jacobian(..., of="reach")` has its reach.
+Shots are played and differentiated by C on the CPU: a call, or a function under `torch.func.vmap`, is one batch of `carom.simulate_batch`, or,
+where a number needs a gradient, one of `carom.jacobian`. `backward`, forward mode and `torch.func` use the Jacobian of `carom.tangents`, and
+second derivatives what `carom.hessian` finds, nan where that is; third ones are not known. `torch.compile` leaves shots as they are. docs/using/derivatives.md says what a derivative cannot tell: `carom.jacobian(..., of="reach")` has its reach.
 
 Its objects have no types here, so that carom can be checked without PyTorch.
 """
@@ -19,11 +19,14 @@ Its objects have no types here, so that carom can be checked without PyTorch.
 from __future__ import annotations
 
 import importlib
+import sys
 from collections.abc import Mapping
 from typing import Any, Literal
 
+import numpy as np
+
 from carom import dtypes
-from carom._functions import Final, named, shots_of
+from carom._functions import Final, shots_of
 from carom._rows import listing
 from carom._shot_options import Options, chosen
 from carom.layouts import Table
@@ -37,23 +40,149 @@ except ImportError as missing:
     raise ImportError("carom.torch needs PyTorch, which is not installed here: pip install torch", name=missing.name) from missing
 
 
-class _States(_torch.autograd.Function):
-    """The final states (..., balls, STATE) of shots with numbers (..., m), played together with the Jacobian where one is needed."""
+def _front(x: Any, dim: int | None, size: int) -> Any:
+    """An argument under vmap, with the dimension of the batch in front."""
+    return x.expand(size, *x.shape) if dim is None else x.movedim(dim, 0)
+
+
+def _forward_modes() -> int:
+    """How many of torch.func are around."""
+    around = _torch._C._functorch
+    return sum(level.key() == around.TransformType.Jvp for level in around.get_interpreter_stack() or ())
+
+
+def _refuse(*_: Any) -> Any:
+    raise NotImplementedError("carom.torch: third derivatives of shots are not known; torch.func.hessian and create_graph=True give second ones")
+
+
+class _Known(_torch.autograd.Function):
+    """A function of shots and their numbers (..., m). What differentiates it is another one, so that it can be differentiated in turn."""
+
+    plain: Any = None
+
+    @classmethod
+    def of(cls, *inputs: Any) -> Any:
+        return (cls if cls.plain is None or _transformed() else cls.plain).apply(*inputs)
 
     @staticmethod
-    def forward(ctx: Any, shots: Any, x: Any, differentiated: bool) -> Any:
+    def setup_context(ctx: Any, inputs: Any, output: Any) -> None:
+        ctx.shots, kept = inputs[0], (inputs[1], *(output[1:] if isinstance(output, tuple) else ()))
+        ctx.save_for_backward(*kept)
+        ctx.save_for_forward(*kept)
+        ctx.mark_non_differentiable(*kept[1:])
+
+    backward = jvp = staticmethod(_refuse)
+
+
+class _States(_Known):
+    """The final states (..., balls, STATE) with, where they are wanted at once, their derivatives (..., balls, STATE, m)."""
+
+    @staticmethod
+    def forward(shots: Any, x: Any, differentiated: bool) -> Any:
         numbers = x.detach().numpy()
-        if not differentiated:
-            return _torch.from_numpy(shots.states(numbers))
-        states, derivatives = shots.both(numbers)
-        ctx.jacobian = _torch.from_numpy(derivatives)  # (..., balls, STATE, m)
-        return _torch.from_numpy(states)
+        states, slopes = shots.both(numbers) if differentiated else (shots.states(numbers), numbers[..., 0].copy())
+        return _torch.from_numpy(states), _torch.from_numpy(slopes)
+
+    @staticmethod
+    def backward(ctx: Any, cotangent: Any, _: Any) -> Any:
+        x, slopes = ctx.saved_tensors
+        if _torch.is_grad_enabled() or slopes.ndim < x.ndim:
+            slopes = _Slopes.of(ctx.shots, x, slopes)
+        return None, (cotangent.flatten(-2).unsqueeze(-2) @ slopes.flatten(-3, -2)).squeeze(-2), None
+
+    @staticmethod
+    def jvp(ctx: Any, _: Any, change: Any, __: Any) -> Any:
+        if hasattr(_torch, "func") and _forward_modes() > 1:
+            raise NotImplementedError("carom.torch: PyTorch loses derivatives in forward mode of forward mode: use torch.func.hessian, or jacrev twice")
+        return _torch.einsum("...bsm,...m->...bs", _Slopes.of(ctx.shots, *ctx.saved_tensors), change), None
+
+    @staticmethod
+    def vmap(info: Any, dims: Any, shots: Any, x: Any, differentiated: bool) -> Any:
+        return _States.of(shots, _front(x, dims[1], info.batch_size), differentiated), (0, 0)
+
+
+class _Slopes(_Known):
+    """The derivatives of the final states, given or not."""
+
+    @staticmethod
+    def forward(shots: Any, x: Any, slopes: Any) -> Any:
+        return slopes.detach() if slopes.ndim > x.ndim else _torch.from_numpy(shots.both(x.detach().numpy())[1])
 
     @staticmethod
     def backward(ctx: Any, cotangent: Any) -> Any:
-        if _torch.is_grad_enabled():
-            raise NotImplementedError("carom.torch: second derivatives of shots are not known; first ones need no create_graph=True")
-        return None, _torch.einsum("...bsm,...bs->...m", ctx.jacobian, cotangent), None
+        return None, _torch.einsum("...bsmk,...bsm->...k", _Second.of(ctx.shots, *ctx.saved_tensors), cotangent), None
+
+    @staticmethod
+    def jvp(ctx: Any, _: Any, change: Any, __: Any) -> Any:
+        return _Along.of(ctx.shots, *ctx.saved_tensors, change)
+
+    @staticmethod
+    def vmap(info: Any, dims: Any, shots: Any, x: Any, slopes: Any) -> Any:
+        return _Slopes.of(shots, _front(x, dims[1], info.batch_size), _front(slopes, dims[2], info.batch_size)), 0
+
+
+class _Second(_Known):
+    """The second derivatives (..., balls, STATE, m, m)."""
+
+    @staticmethod
+    def forward(shots: Any, x: Any) -> Any:
+        return _torch.from_numpy(shots.second(x.detach().numpy()))
+
+    @staticmethod
+    def vmap(info: Any, dims: Any, shots: Any, x: Any) -> Any:
+        return _Second.of(shots, _front(x, dims[1], info.batch_size)), 0
+
+
+class _Along(_Known):
+    """The change (several..., ..., balls, STATE, m) of the derivatives along vectors (several..., ..., m)."""
+
+    @staticmethod
+    def forward(shots: Any, x: Any, change: Any) -> Any:
+        vectors = np.moveaxis(change.detach().numpy().reshape(-1, *x.shape), 0, -2)
+        slopes = np.moveaxis(shots.along(x.detach().numpy(), vectors), -1, 0)
+        return _torch.from_numpy(slopes.reshape(*change.shape[: change.ndim - x.ndim], *slopes.shape[1:]))
+
+    @staticmethod
+    def vmap(info: Any, dims: Any, shots: Any, x: Any, change: Any) -> Any:
+        if dims[1] is None:
+            return _Along.of(shots, x, change.movedim(dims[2], 0)), 0
+        x, change = x.movedim(dims[1], 0), _front(change, dims[2], info.batch_size)
+        return _Along.of(shots, x, change.movedim(0, -x.ndim)), change.ndim - x.ndim
+
+
+def _plain(kind: Any) -> Any:
+    """The same without setup_context, which PyTorch 1.13 does not know; and newer ones bind arguments by name at each call with it."""
+
+    def forward(ctx: Any, *inputs: Any) -> Any:
+        output = kind.forward(*inputs)
+        kind.setup_context(ctx, inputs, output)
+        return output
+
+    older = {"setup_context": staticmethod(base)} if (base := getattr(_torch.autograd.Function, "setup_context", None)) else {}
+    return type(kind.__name__, (kind,), {"forward": staticmethod(forward), **older})
+
+
+_transformed = getattr(_torch._C, "_are_functorch_transforms_active", bool)
+for _kind in (_States, _Slopes, _Second, _Along):
+    _kind.plain = _plain(_kind)
+
+
+def _play(table: Any, balls: Any, cue: Any, numbers: Any, room: int, errors: str, threads: int, options: Any, changes: Any) -> Final:
+    shots, parts, batch = shots_of(
+        table, balls, cue, numbers, lambda value: _torch.as_tensor(value, dtype=_torch.float64, device="cpu"), room, errors, threads,
+        chosen(options, changes),
+    )  # fmt: skip
+    wide = [part if part.shape == shape else _torch.broadcast_to(part, shape) for part, shape in parts]
+    one = all(shape == batch for _, shape in parts)
+    x = _torch.stack(wide, -1) if one else _torch.cat([part[..., None] if part.ndim == len(batch) else part for part in wide], -1)
+    differentiated = (x.requires_grad and _torch.is_grad_enabled()) or _torch.autograd.forward_ad.unpack_dual(x).tangent is not None
+    r, v, w, z, v_z = _States.of(shots, x, differentiated)[0].split((2, 2, 3, 1, 1), -1)
+    return Final(r, v, w, z[..., 0], v_z[..., 0])
+
+
+# torch.compile leaves the first out of its graphs; the second is true where it traces. It is a module that takes seconds to import.
+_left_out = _play if (_ways := getattr(_torch, "compiler", None)) is None else _torch._compile._disable_dynamo(_play)
+_compiling = getattr(_ways, "is_compiling", bool)
 
 
 def final(
@@ -82,9 +211,5 @@ def final(
     Raises ValueError: A name or a shape is wrong.
     Raises CaromError: A shot is refused, ends in an error or cannot be differentiated: its numbers, and what is wrong with it.
     """
-    shots, parts = shots_of(
-        table, balls, cue, numbers, lambda value: _torch.as_tensor(value, dtype=_torch.float64, device="cpu"), room, errors, threads,
-        chosen(options, changes),
-    )  # fmt: skip
-    x = _torch.cat([_torch.broadcast_to(part, shape) for part, shape in parts], dim=-1)
-    return named(_States.apply(shots, x, x.requires_grad and _torch.is_grad_enabled()))
+    play = _left_out if _compiling() or "torch._dynamo" in sys.modules else _play
+    return play(table, balls, cue, numbers, room, errors, threads, options, changes)

@@ -96,9 +96,37 @@ def test_second_derivatives_of_a_ball_that_rolls():
     found, far = carom.hessian(shot, ["cue.speed", "kind.mu_roll", "balls[0].r[1]"]), shot.final["r"][0, 1] - 0.3
     expected = far * np.array([[2.0 / speed**2, -2.0 / speed / mu, 0.0], [-2.0 / speed / mu, 2.0 / mu**2, 0.0], [0.0, 0.0, 0.0]])
     np.testing.assert_allclose(found.final["r"][0, 1], expected, rtol=1e-5, atol=1e-6)
-    for wrt, words in ((["table.nose_height"], "wrt: table.nose_height has no second"), (["kind.radius"], "wrt: kind.radius"), ([], "wrt: name at least one")):
+    for wrt, along, words in (
+        (["table.nose_height"], None, "wrt: table.nose_height has no second"), ([], None, "wrt: name at least one"),
+        (["cue.phi"], [1.0, 2.0], r"along: the shape must be \(1,\)"), (["cue.phi"], [[1.0]], "along: the shape"),
+    ):  # fmt: skip
         with pytest.raises(ValueError, match=words):
-            carom.hessian(shot, wrt)
+            carom.hessian(shot, wrt, along=along)
+    # of a radius, with the height of the balls
+    by_radius = [carom.tangents(carom.simulate(TABLE, carom.balls([[0.6, 0.3]], radius=balls["kind"]["radius"] + h), carom.cue(speed=2.0), **CLOSED),
+                                ["kind.radius"]).final["r"] for h in (1e-7, -1e-7)]  # fmt: skip
+    found = carom.hessian(carom.simulate(TABLE, balls, carom.cue(speed=2.0), **CLOSED), ["kind.radius"])
+    np.testing.assert_allclose(found.final["r"][..., 0], (by_radius[0] - by_radius[1]) / 2e-7, rtol=1e-5, atol=1e-3)
+
+
+def test_second_derivatives_of_batches(monkeypatch):
+    """They have the bits of single shots, also some at a time and with kinds apart; along a vector they are products with it."""
+    balls, cue = layout()
+    cues = carom.cue(speed=1.5, phi=np.linspace(76.0, 81.0, 6).reshape(2, 3), a=0.1, b=0.1)
+    cues["b"][1, 0] = 2.0
+    wrt = [*WRT, "balls[1].r", "kind.mu_roll"]
+    shots = carom.simulate_batch(TABLE, balls["state"], cues, kinds=balls["kind"], room=99, **CLOSED)
+    found, vectors = carom.hessian(shots, wrt), np.random.default_rng(1).normal(size=(2, 3, 7)) * [0.1, 0.1, 0.01, 0.01, 0.01, 0.01, 1e-3]
+    monkeypatch.setattr(carom.derivatives, "AT_ONCE", 5)
+    along, again = carom.hessian(shots, wrt, along=vectors), carom.hessian(shots, wrt)
+    assert found.states.shape == (2, 3, 3, 9, 7, 7) and found.final["z"].shape == (2, 3, 3, 7, 7) and along.final["w"].shape == (2, 3, 3, 3, 7)
+    assert np.isnan(found.states[1, 0]).all() and np.isnan(along.error).all()
+    for k in np.ndindex(2, 3):
+        if k != (1, 0):
+            one = carom.hessian(shots[k], wrt)
+            assert found.states[k].tobytes() == again.states[k].tobytes() == one.states.tobytes() and found.error[k] == one.error
+            expected = one.states @ vectors[k]
+            np.testing.assert_allclose(along.states[k], expected, rtol=0.0, atol=1e-5 * np.abs(expected).max())
     with pytest.raises(TypeError, match="^shot: "):
         carom.hessian(TABLE, ["cue.phi"])
 
@@ -154,7 +182,7 @@ def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
     names = ["cue.phi", *(f"balls[{i}].kind.{field}" for i in range(3) for field in carom.dtypes.ball_kind.names if field != "radius")]
     names = names[: carom.derivatives.MOST - 1]
     whole = {of: carom.jacobian(TABLE, balls, cues, names, of=of, **CLOSED) for of in ("final.v", "final.r", "time", "reach")}
-    monkeypatch.setattr(carom.derivatives, "_AT_ONCE", 5)
+    monkeypatch.setattr(carom.derivatives, "AT_ONCE", 5)
     monkeypatch.setattr(carom.derivatives, "MOST", 20)
     for of, array in whole.items():
         part = carom.jacobian(TABLE, np.broadcast_to(balls, (23, 3)), cues, names, of=of, **CLOSED)

@@ -94,6 +94,35 @@ def test_gradients_are_differences_of_shots():
     np.testing.assert_allclose(flat, tangents, rtol=1e-13, atol=1e-13 * np.abs(tangents).max())
 
 
+def test_second_derivatives_are_those_of_hessian():
+    """Through both modes in any order, compiled and mapped, and as a product with a vector."""
+    shot = played(AIM)
+    found, off = carom.hessian(shot, NAMES), shot.final["r"][1, :2] - np.asarray(GOAL)
+    first = found.first.final["r"][1]
+    expected = 2.0 * (first.T @ first + np.einsum("i,ijk->jk", off, found.final["r"][1]))
+    rev, fwd = jax.jacrev, jax.jacfwd
+    for second in (jax.hessian(miss), jax.jit(jax.hessian(miss)), rev(rev(miss)), fwd(fwd(miss)), rev(fwd(miss))):
+        np.testing.assert_allclose(second(AIM), expected, rtol=1e-9)
+    along = jnp.array([0.1, 0.2, 0.3, 0.4])
+    np.testing.assert_allclose(jax.jvp(jax.grad(miss), (AIM,), (along,))[1], expected @ along, rtol=1e-9)
+    many = jax.vmap(jax.hessian(miss))(jnp.stack([AIM + 0.01, AIM]))
+    np.testing.assert_allclose(many[1], expected, rtol=1e-9)
+    assert np.abs(many[0] - many[1]).max() > 1e-3
+
+
+def test_clusters_banks_and_raised_strikes():
+    """In one batch, with the derivatives of tangents: a strike into three balls that touch, one off a rail, one with a raised cue."""
+    rack = [[0.635, 1.5], [0.635 + 0.05715, 1.5], [0.635 + 0.028575, 1.5 + 0.0494934]]
+    layouts, cues = carom.balls([[[0.6, 0.5], *rack]] * 3), carom.cue(speed=[2.0, 2.5, 3.0], phi=[88.0, 20.0, 85.0], theta=[0.0, 0.0, 30.0], b=0.1)
+    names = ["cue.speed", "cue.phi", "cue.theta", "cue.b"]
+    found = jax.jacfwd(lambda given: carom.jax.final(TABLE, layouts, cues, given).r.sum(axis=0))({name: jnp.asarray(cues[name[4:]]) for name in names})
+    for k in range(3):
+        expected = carom.tangents(carom.simulate(TABLE, layouts[k], cues[k]), names)
+        assert [(expected.flags & carom.Flag.CLUSTER).any(), True, np.abs(expected.final["r"][..., 2]).max() > 0.0][k]
+        slopes = np.stack([found[name][..., k] for name in names], axis=-1)
+        np.testing.assert_allclose(slopes, expected.final["r"], rtol=0.0, atol=1e-9 * np.abs(expected.final["r"]).max())
+
+
 def test_vmap_is_one_batch_and_jit_changes_no_bit(monkeypatch):
     aims = AIM + jnp.linspace(0.0, 0.2, 6)[:, None] * jnp.array([1.0, 1.0, 0.1, 0.1])
     singly = np.array([jax.grad(miss)(aim) for aim in aims])
@@ -195,8 +224,8 @@ def test_shots_that_are_refused_say_why():
     assert np.isfinite(value) and np.isnan(slope).all()
     with pytest.raises((ValueError, RuntimeError), match="too little room"):
         jax.block_until_ready(jax.grad(lambda aim: miss(aim, room=2))(AIM))
-    with pytest.raises(NotImplementedError, match="second derivatives of shots are not known"):
-        jax.hessian(miss)(AIM)
+    with pytest.raises(NotImplementedError, match="third derivatives of shots are not known"):
+        jax.jacfwd(jax.hessian(miss))(AIM)
 
 
 def test_arguments_that_are_wrong():

@@ -97,6 +97,74 @@ def test_shots_that_are_refused_say_why():
     assert torch.isfinite(found[0]).all() and torch.isnan(found[1]).all() and torch.isfinite(both.grad[0]).all()
     with pytest.raises(ValueError, match=r"numbers: balls\[1\]\.r: the shape must be \(\.\.\., 2\), not \(3,\)"):
         carom.torch.final(TABLE, BALLS, CUE, {"balls[1].r": torch.ones(3)})
+
+
+def test_second_derivatives_are_those_of_hessian():
+    goal = torch.tensor([0.6, 1.0], dtype=torch.float64)
+    miss = lambda aim: ((ends(aim).r[..., 1, :] - goal) ** 2).sum(-1)  # noqa: E731
+    shot = played(AIM)
+    found, off = carom.hessian(shot, NAMES), shot.final["r"][1, :2] - goal.numpy()
+    first = found.first.final["r"][1]
+    expected = 2.0 * (first.T @ first + np.einsum("i,ijk->jk", off, found.final["r"][1]))
+    close = lambda found, rtol=1e-9: np.testing.assert_allclose(found.detach().numpy(), expected, rtol=rtol, atol=rtol)  # noqa: E731
+    close(torch.autograd.functional.hessian(miss, AIM))
     aim = AIM.clone().requires_grad_()
-    with pytest.raises((NotImplementedError, RuntimeError), match="second derivatives of shots are not known"):
-        torch.autograd.grad((ends(aim).r ** 2).sum(), aim, create_graph=True)
+    (slope,) = torch.autograd.grad(miss(aim), aim, create_graph=True)
+    (second,) = torch.autograd.grad(slope[0], aim, create_graph=True)
+    close(torch.stack([second, *second.new_tensor(expected[1:])]))
+    with pytest.raises((NotImplementedError, RuntimeError), match="third derivatives of shots are not known"):
+        torch.autograd.grad(second.sum(), aim)
+    if not hasattr(torch, "func"):
+        return
+    func, aims = torch.func, torch.stack([AIM + 0.01, AIM])
+    slopes, (hessian, rev, fwd) = expected @ [1.0, 0.1, 1.0, 1.0], (func.hessian, func.jacrev, func.jacfwd)
+    for second in (hessian(miss)(AIM), rev(rev(miss))(AIM), rev(fwd(miss))(AIM), func.vmap(hessian(miss))(aims)[1]):
+        close(second)
+    # Along one vector the product alone is found, by differences of its own.
+    along = func.jvp(func.grad(miss), (AIM,), (AIM.new_tensor([1.0, 0.1, 1.0, 1.0]),))
+    np.testing.assert_allclose(along[0], 2.0 * off @ first, rtol=1e-12)
+    np.testing.assert_allclose(along[1], slopes, rtol=2e-5)
+    with pytest.raises(NotImplementedError, match="third derivatives of shots"):
+        rev(hessian(miss))(AIM)
+    with pytest.raises(NotImplementedError, match="forward mode of forward mode"):
+        fwd(fwd(miss))(AIM)
+
+
+@pytest.mark.skipif(not hasattr(torch, "func"), reason="PyTorch is older than 2.0")
+def test_functions_of_torch_func(monkeypatch):
+    """vmap is one batch, and each transformation has the derivatives of tangents; so has compiled code."""
+    played_at, func = [], torch.func
+    simulate, total = carom.derivatives.simulate_batch, lambda aim: ends(aim).r.sum((-1, -2))
+    monkeypatch.setattr(carom.derivatives, "simulate_batch", lambda *given, **more: played_at.append(1) or simulate(*given, **more))
+    aims = AIM + torch.linspace(0.0, 0.1, 5, dtype=torch.float64)[:, None]
+    singly = np.stack([carom.tangents(played(aim), NAMES).final["r"].sum((0, 1)) for aim in aims])
+    for slopes in (func.vmap(func.grad(total)), func.vmap(func.jacrev(total)), func.vmap(func.jacfwd(total)), func.grad(lambda x: func.vmap(total)(x).sum())):
+        played_at.clear()
+        np.testing.assert_allclose(slopes(aims), singly, rtol=1e-11)
+        assert len(played_at) == 1
+    # one number is mapped, one is not; nested
+    speeds, phis = aims[:3, 0], aims[:2, 1]
+    grid = func.vmap(func.vmap(lambda s, p: total(torch.stack([s, p, AIM[2], AIM[3]])), (None, 0)), (0, None))(speeds, phis)
+    assert float(grid[2, 1]) == pytest.approx(float(total(torch.stack([speeds[2], phis[1], AIM[2], AIM[3]]))), rel=1e-13)
+    try:
+        compiled = torch.compile(total, backend="eager")
+    except RuntimeError as error:
+        pytest.skip(str(error))  # of a Python that is too new
+    aim = AIM.clone().requires_grad_()
+    value = compiled(aim)
+    value.backward()
+    assert float(value) == pytest.approx(float(total(AIM)), rel=1e-13)
+    np.testing.assert_allclose(aim.grad, singly[0], rtol=1e-11)
+
+
+def test_clusters_banks_and_raised_strikes():
+    """In one batch, with the derivatives of tangents: a strike into three balls that touch, one off a rail, one with a raised cue."""
+    rack = [[0.635, 1.5], [0.635 + 0.05715, 1.5], [0.635 + 0.028575, 1.5 + 0.0494934]]
+    layouts, cues = carom.balls([[[0.6, 0.5], *rack]] * 3), carom.cue(speed=[2.0, 2.5, 3.0], phi=[88.0, 20.0, 85.0], theta=[0.0, 0.0, 30.0], b=0.1)
+    names = ["cue.speed", "cue.phi", "cue.theta", "cue.b"]
+    given = [torch.tensor(cues[name[4:]].copy(), requires_grad=True) for name in names]
+    carom.torch.final(TABLE, layouts, cues, dict(zip(names, given))).r.sum().backward()
+    for k in range(3):
+        expected = carom.tangents(carom.simulate(TABLE, layouts[k], cues[k]), names).final["r"].sum((0, 1))
+        found = np.array([each.grad[k] for each in given])
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-9 * np.abs(expected).max())
