@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 from test_fit import HAN
-from test_tracks import RADIUS, TABLE, csv_of
+from test_tracks import RADIUS, TABLE, csv_of, fitted, synthetic
 
 import carom
 from carom import tracks
@@ -16,7 +16,7 @@ from carom.tracks import _kicks, _strikes, fit
 
 @pytest.fixture(scope="module")
 def made():
-    return tracks.synthetic(24, constants=HAN, seed=2)
+    return synthetic(24, constants=HAN, seed=2)
 
 
 def plays_of(made, **others):
@@ -95,7 +95,7 @@ def told(table, row="all"):
 
 
 def test_kicks_of_the_true_model_are_as_large_as_the_noise(made):
-    found = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
+    found = fitted(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
     kicks = found.kicks()
     assert np.median(kicks.rmse) < 1.1 * np.sqrt(2) * tracks.NOISE and len(kicks.contacts) > 120
     moved = kicks.contacts["error"] > 0.0
@@ -114,7 +114,7 @@ def test_kicks_of_the_true_model_are_as_large_as_the_noise(made):
 )  # fmt: skip
 def test_a_wrong_constant_shows_at_its_contacts_in_its_output(made, constant, off, cushion, output, mean):
     value = made.constants[constant] + off
-    found = fit.fit(made.recordings, TABLE, RADIUS, constants={**made.constants, constant: value}, free="none")
+    found = fitted(made.recordings, TABLE, RADIUS, constants={**made.constants, constant: value}, free="none")
     kicks = found.kicks()
     assert np.median(kicks.rmse) < 0.7 * found.median_rmse
     means, errors = told(kicks.tables[0 if cushion else 1])
@@ -129,7 +129,7 @@ def test_the_command_tells_kicks(made, tmp_path, capsys):
     (tmp_path / "tracks.csv").write_text(csv_of(made.recordings[:12]))
     (tmp_path / "in.json").write_text(json.dumps({**made.constants, "restitution_cushion": 0.85}))
     given = [str(tmp_path / "tracks.csv"), "--table", "2.84,1.42", "--radius", "0.03075", "--constants", str(tmp_path / "in.json")]
-    given += ["--free", "none", "--kicks", "--summary", str(tmp_path / "page.html"), "-o", str(tmp_path / "out.json")]
+    given += ["--cushion-model", "han", "--free", "none", "--kicks", "--summary", str(tmp_path / "page.html"), "-o", str(tmp_path / "out.json")]
     assert fit.main(given) == 0
     words = capsys.readouterr().out
     assert re.search(r"with kicks: RMSE median \S+ cm", words) and "| cushions | contacts | effect, mm | along, % |" in words
@@ -142,7 +142,7 @@ def test_the_command_tells_kicks(made, tmp_path, capsys):
 
 def test_constants_of_a_cushion_are_found_by_kicks(made):
     start = {"restitution_cushion": 0.86, "mu_cushion": 0.2, "roll_loss": 0.06, "nose_height": 0.036}
-    found = fit.fit(made.recordings, TABLE, RADIUS, constants={**made.constants, **start}, free="kicks", seed=1)
+    found = fitted(made.recordings, TABLE, RADIUS, constants={**made.constants, **start}, free="kicks", seed=1)
     assert set(found.spread) == set(start) and found.median_rmse < 3 * np.sqrt(2) * tracks.NOISE
     for name, value in start.items():
         truth = made.constants[name]
@@ -150,7 +150,7 @@ def test_constants_of_a_cushion_are_found_by_kicks(made):
     assert {name: value for name, value in found.constants.items() if name not in start} == {
         name: value for name, value in made.constants.items() if name not in start
     }
-    one = fit.fit(made.recordings, TABLE, RADIUS, constants={**made.constants, "mu_cushion": 0.2}, free=["kicks", "mu_cushion"])
+    one = fitted(made.recordings, TABLE, RADIUS, constants={**made.constants, "mu_cushion": 0.2}, free=["kicks", "mu_cushion"])
     assert one.constants["mu_cushion"] == pytest.approx(0.22, abs=0.002) and list(one.spread) == ["mu_cushion"]
     with pytest.raises(ValueError, match="kicks tell constants of the cushion, .*, not 'mu_slide'"):
-        fit.fit(made.recordings, TABLE, RADIUS, free=["kicks", "mu_slide"])
+        fitted(made.recordings, TABLE, RADIUS, free=["kicks", "mu_slide"])

@@ -198,7 +198,7 @@ def _record(positions: Callable[[Doubles], Doubles], end: float, rate: float, th
 
 def synthetic(
     shots: int, *, table: tuple[float, float] = (2.84, 1.42), radius: float = 0.03075,
-    cushion_model: ShotCushion = "han", constants: Mapping[str, float] | None = None,
+    cushion_model: ShotCushion = "smooth", constants: Mapping[str, float] | None = None,
     speeds: tuple[float, float] = (1.5, 5.0), noise: float = NOISE, rate: float = 50.0, thin: float = 0.016,
     seed: int = 0
 ) -> Synthetic:  # fmt: skip

@@ -19,7 +19,7 @@ samples are not, so the scatter of the gradients over the shots tells how large 
 A prior's gradient is off by as much as its mean is. A derivative says nothing beyond its reach: a sample that one deviation of the priors
 moves by more than 0.3 m has as much less weight as if it were moved by 0.3 m.
 
-What the search leaves (`_joint.left`) is added to the diagonal. On synthetic recordings 1 in 100 constants is off by more than three of
+What the search leaves (`_joint.left`) is added to the diagonal. On synthetic recordings 3 in 100 constants are off by more than three of
 these errors. On 91 real shots the constants of two halves differ by less than one.
 """
 

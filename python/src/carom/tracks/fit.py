@@ -1,6 +1,6 @@
 """Fitting carom to recorded shots: each shot's strike, and the constants of a table.
 
-    python -m carom.fit TRACKS.csv --table 2.84,1.42 --radius 0.03075 --cushion-model han -o fit.json
+    python -m carom.fit TRACKS.csv --table 2.84,1.42 --radius 0.03075 -o fit.json
 
 or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), (2.84, 1.42), 0.03075)`. docs/using/tracks.md explains the method and
 what the numbers mean.
@@ -67,7 +67,9 @@ def _priors(
     # a change with the speed is not sought where the usual cushion has none, nor a height where it has no friction
     usual, some = _constants.usual(cushion_model), ("mu_cushion", "roll_loss", "restitution_log", "mu_log")
     left_out = {name for name in some if not usual[name]} | ({"nose_height"} if not usual["mu_cushion"] else set())
-    names = [name for name in _joint.PRIORS if name not in left_out] if list(free) in (["default"], ["kicks"]) else list(free)
+    sets = {"default": list(_joint.PRIORS), "kicks": list(_joint.PRIORS), "table": list(_joint.TABLE)}
+    widths = {name: scale for name, (scale, *_) in _joint.PRIORS.items()} | (_joint.TABLE if list(free) == ["table"] else {})
+    names = [name for name in sets[free[0]] if name not in left_out] if len(free) == 1 and free[0] in sets else list(free)
     if list(free[:1]) == ["kicks"]:
         names = names[1:] if len(free) > 1 else [name for name in names if name in _constants.OF_CUSHION]
         if others := [name for name in names if name not in _constants.OF_CUSHION]:
@@ -82,6 +84,7 @@ def _priors(
     found = {}
     for name in names:
         width, low, high = _joint.prior(name, values[name])
+        width = widths.get(name, width)
         if name not in _joint.PRIORS and not low <= values[name] <= high:
             raise ValueError(f"free: {name} must begin at {low:g} to {high:g}, not at its default of {values[name]:g}: constants gives it")
         if name not in priors and width is None:
@@ -166,7 +169,7 @@ def _told_by_events(
 
 
 def fit(
-    recordings: Sequence[Recording], table: tuple[float, float], radius: float, *, cushion_model: ShotCushion = "han",
+    recordings: Sequence[Recording], table: tuple[float, float], radius: float, *, cushion_model: ShotCushion = "smooth",
     constants: Mapping[str, float] | Records | np.void | None = None, free: str | Sequence[str] = "default",
     priors: Mapping[str, tuple[float, float]] | None = None, train: Sequence[int] | None = None, seed: int = 0,
     threads: int = 0, progress: Progress | None = None, state: Path | None = None, calibrate: bool = False
@@ -183,10 +186,11 @@ def fit(
         A model with which a fit can begin: `python -m carom.fit --help` lists them.
     constants : mapping or `carom.dtypes.ball_kind`, optional
         Known constants; the usual ones stand for those that are not given.
-    free : "none", "events", "kicks", "default", or names of constants
+    free : "none", "events", "kicks", "table", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
         drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all
-        together with mu_spin, law_a and law_b, by whole shots. Names: these constants alone, by whole shots: any field of `carom.dtypes.ball_kind`
+        together with mu_spin, law_a and law_b, by whole shots. "table": restitution_cushion, mu_cushion, mu_slide, mu_roll and drag, by whole
+        shots, as what else a model has is a law that other tables share: for few shots. Names: these constants alone, by whole shots: any field of `carom.dtypes.ball_kind`
         but radius and mu_ball, also a cushion's own numbers. "kicks": the constants of the cushion by the kicks of its contacts, with the
         others as given, in a fraction of the time; "kicks" and names: these constants of the cushion.
     priors : mapping, optional
@@ -324,9 +328,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("tracks", type=Path, help="recorded tracks: a CSV with shot,ball,t,x,y, or JSON Lines; .xz and .gz too")
     parser.add_argument("--table", type=_extents, required=True, metavar="W,L", help="extents of x and y, m")
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
-    parser.add_argument("--cushion-model", default="han", choices=list(_constants.STARTS))
+    parser.add_argument("--cushion-model", default="smooth", choices=list(_constants.STARTS))
     parser.add_argument("--constants", type=Path, metavar="IN.json", help="known constants; the usual ones otherwise")
-    parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|kicks|default|NAME,...",
+    parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|kicks|table|default|NAME,...",
                         help="constants that are fitted besides the strikes")  # fmt: skip
     parser.add_argument("--priors", type=Path, metavar="PRIORS.json", help='{"mu_spin": [mean, deviation], ...}')
     parser.add_argument("--split", action="store_true", help="fit constants to every second shot, and tell how they predict the others")
