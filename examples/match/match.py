@@ -38,7 +38,7 @@ with ThreadPoolExecutor() as pool:
         call = (int(best["ball"]), int(best["pocket"]))
         ruling = carom.referee(table, balls, cue, rules="nineball", call=call, state=state)
         shot = ruling.shot
-        loudest = max(loudest, shot.events["impulse"].max())
+        loudest = max(loudest, shot.events["impulse"].max(initial=0.0))
 
         # the ruling, and the layout that it leaves
         print(f"{player + 1}: {ruling.text}")
