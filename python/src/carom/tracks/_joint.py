@@ -95,12 +95,10 @@ class Search:
         self.rows = np.array([row for row in rows if np.isfinite(strikes[row]).all()], np.int32)
         self.plays, self.names = plays, list(priors)
         self.values = np.array([plays.constants[name] for name in priors])
-        self.start = self.values.copy()
         self.first, self.scale = np.array(list(priors.values())).T
         self.low, self.high = np.array([prior(name)[1:] for name in priors]).T
         self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
         self.counts = plays.counts[self.rows].astype(float)
-        self.again = True  # whether a search that stops early begins again elsewhere
         self.noise, self.prior_cost, self.middle = plays.recordings[0].noise, PRIOR_MOST, MOST
 
     def constants(self, values: Doubles) -> dict[str, float]:
@@ -241,7 +239,7 @@ class Search:
         """One of STAGES searches: the constants and the strikes, as `resume` takes them."""
         if number >= len(_HORIZONS) and self.middle < 1.1 * _AT_NOISE * self.noise**2:
             return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]  # nothing is left to find
-        if number == _ELSEWHERE and self.again and self.middle > 2.5 * _AT_NOISE * self.noise**2:
+        if number == _ELSEWHERE and self.middle > 2.5 * _AT_NOISE * self.noise**2:
             # a search that stopped early begins again elsewhere
             other = copy.copy(self)
             moved = self.values + 0.5 * self.scale * np.random.default_rng(seed).normal(size=len(self.values))

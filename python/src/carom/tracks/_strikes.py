@@ -375,7 +375,8 @@ def derivatives(
 ) -> tuple[Doubles, Doubles, Doubles, Doubles]:
     """Of one shot: distances of all samples, (2 n,), and their derivatives by the strike, (2 n, 6), by constants, by places of rest.
 
-    The last ones are left out without `rest`. They are tangents of the whole shot in double precision. The time of the strike is on the clock of the plays.
+    The last ones are left out without `rest`. They are tangents of the whole shot in double precision. The time of the strike is on the
+    clock of the plays.
     """
     tracks, struck = plays.tracks[row], int(plays.struck[row])
     balls = plays.layouts[0, row].copy()

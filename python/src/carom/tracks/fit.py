@@ -67,9 +67,9 @@ def _priors(
     # a change with the speed is not sought where the usual cushion has none, nor a height where it has no friction
     usual, some = _constants.usual(cushion_model), ("mu_cushion", "roll_loss", "restitution_log", "mu_log")
     left_out = {name for name in some if not usual[name]} | ({"nose_height"} if not usual["mu_cushion"] else set())
-    sets = {"default": list(_joint.PRIORS), "kicks": list(_joint.PRIORS), "table": list(_joint.TABLE)}
-    widths = {name: scale for name, (scale, *_) in _joint.PRIORS.items()} | (_joint.TABLE if list(free) == ["table"] else {})
-    names = [name for name in sets[free[0]] if name not in left_out] if len(free) == 1 and free[0] in sets else list(free)
+    wider = _joint.TABLE if list(free) == ["table"] else {}
+    usually = [name for name in wider or _joint.PRIORS if name not in left_out]
+    names = usually if list(free) in (["default"], ["kicks"], ["table"]) else list(free)
     if list(free[:1]) == ["kicks"]:
         names = names[1:] if len(free) > 1 else [name for name in names if name in _constants.OF_CUSHION]
         if others := [name for name in names if name not in _constants.OF_CUSHION]:
@@ -84,7 +84,7 @@ def _priors(
     found = {}
     for name in names:
         width, low, high = _joint.prior(name, values[name])
-        width = widths.get(name, width)
+        width = wider.get(name, width)
         if name not in _joint.PRIORS and not low <= values[name] <= high:
             raise ValueError(f"free: {name} must begin at {low:g} to {high:g}, not at its default of {values[name]:g}: constants gives it")
         if name not in priors and width is None:
@@ -190,8 +190,8 @@ def fit(
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
         drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all
         together with mu_spin, law_a and law_b, by whole shots. "table": restitution_cushion, mu_cushion, mu_slide, mu_roll and drag, by whole
-        shots, as what else a model has is a law that other tables share: for few shots. Names: these constants alone, by whole shots: any field of `carom.dtypes.ball_kind`
-        but radius and mu_ball, also a cushion's own numbers. "kicks": the constants of the cushion by the kicks of its contacts, with the
+        shots, as what else a model has is a law that other tables share: for few shots. Names: these constants alone, by whole shots: any
+        field of `carom.dtypes.ball_kind` but radius and mu_ball, also a cushion's own numbers. "kicks": the constants of the cushion by the kicks of its contacts, with the
         others as given, in a fraction of the time; "kicks" and names: these constants of the cushion.
     priors : mapping, optional
         Mean and deviation of constants that are fitted by whole shots. Without: about the value before, as wide as the constants of
