@@ -108,9 +108,9 @@ def words():
 
 
 def parts():
-    """The numbers of cue, table, its parts, and states, as numbers() has those of balls, by the names of their structs."""
+    """The numbers of cue, table, its parts and measures, and states, as numbers() has those of balls, by the names of their structs."""
     found = {}
-    for struct in ("cue", "table", "rail", "jaw", "pocket", "ball_state"):
+    for struct in ("cue", "table", "rail", "jaw", "pocket", "ball_state", "measures"):
         found[f"carom_{struct}"] = [
             {"name": name, "key": text_of(key), "unit": text_of(unit), "range": range_of(text_of(unit), low, high.replace("CAROM_BALLS_MOST - 1", "31"), other),
              "ends": ends_of(low, high, other) if kind == "ROW" else [], "error": f"CAROM_ERROR_{error}", "text": text_of(text)}

@@ -414,7 +414,8 @@ typedef enum carom_part_kind {
   CAROM_PART_PLAN_OPTIONS = 8,    /* carom_plan_options */
   CAROM_PART_CUE = 9,             /* carom_cue */
   CAROM_PART_TABLE = 10,          /* carom_table */
-  CAROM_PART_STATE = 11           /* carom_ball_state */
+  CAROM_PART_STATE = 11,          /* carom_ball_state */
+  CAROM_PART_MEASURES = 12        /* carom_measures */
 } carom_part_kind;
 
 /* A part of a table or of a layout. */
@@ -423,7 +424,7 @@ typedef struct carom_part {
   int32_t index; /* in its array; 0 of CAROM_PART_NONE. */
 } carom_part;
 
-/* What is wrong with a table, and where. */
+/* What is wrong with a table, and where. A measure is a part too, by its place in its struct. */
 typedef struct carom_table_fault {
   carom_part part, other; /* the part at fault; of a hole, the parts on both of its sides. */
   double place[2];        /* m: the middle of the hole or of the rail; 0 where a number of the
@@ -447,6 +448,30 @@ typedef struct carom_table_fault {
  * no place for a ball in its middle), CAROM_ERROR_RAIL_SIDE. */
 CAROM_API carom_status carom_table_check(const carom_table *table, double radius,
                                          carom_table_fault *fault);
+
+/* The measures of a table, as rule books have them. A mouth lies between the points where the noses
+ * would meet the facings of the pocket, were they not rounded; a cut is the angle of nose and
+ * facing; a shelf goes from the middle of the mouth to the edge of the hole, past which a ball's
+ * centre falls. carom_number_of(CAROM_PART_MEASURES, k) has the range of each. */
+typedef struct carom_measures {
+  double width, length; /* m, of the playing area, between the noses. */
+  double nose_height;   /* m */
+  double cushion_depth; /* m, to which the facings go back behind the noses. */
+  double corner_mouth, corner_cut, corner_shelf, corner_jaw, corner_hole; /* m and degrees;
+                           jaw and hole are radii, of the rounded point and of the hole. Both
+                           mouths 0: a table without pockets. */
+  double side_mouth, side_cut, side_shelf, side_jaw, side_hole; /* the same, m and degrees. */
+} carom_measures;
+
+/* The measures of a built-in table. Statuses as of carom_table_make(). */
+CAROM_API carom_status carom_table_measures(carom_table_kind kind, carom_measures *measures);
+
+/* Makes a table from its measures, and checks it by carom_table_check() for balls of a radius,
+ * whose status and *fault are those of the call; *fault may be NULL. CAROM_ERROR_TABLE with
+ * CAROM_PART_MEASURES: that measure is outside its range, or, where fault->other is one too, not
+ * below fault->gap, as that other asks. */
+CAROM_API carom_status carom_table_measured(const carom_measures *measures, double ball_radius,
+                                            carom_table *table, carom_table_fault *fault);
 
 /* A corner of a table of any closed shape: its place, m, from 0, and the width of a pocket's mouth
  * there, from jaw to jaw, m; 0: no pocket. A corner on a straight side makes a side pocket. */

@@ -64,12 +64,14 @@ _Static_assert(sizeof(carom_ball_kind) == NUMBERS * sizeof(double), "a row for e
 #define JAW(...) PART(carom_jaw, __VA_ARGS__)
 #define POCKET(...) PART(carom_pocket, __VA_ARGS__)
 #define STATE(...) PART(carom_ball_state, __VA_ARGS__)
+#define MEASURE(...) PART(carom_measures, __VA_ARGS__)
 static const carom_number cue_numbers[] = {CAROM_CUE_NUMBERS(CUE, CUE)},
                           table_numbers[] = {CAROM_TABLE_NUMBERS(TABLE, TABLE)},
                           rail_numbers[] = {CAROM_RAIL_NUMBERS(RAIL, RAIL)},
                           jaw_numbers[] = {CAROM_JAW_NUMBERS(JAW, JAW)},
                           pocket_numbers[] = {CAROM_POCKET_NUMBERS(POCKET, POCKET)},
-                          state_numbers[] = {CAROM_STATE_NUMBERS(STATE, STATE)};
+                          state_numbers[] = {CAROM_STATE_NUMBERS(STATE, STATE)},
+                          measures_numbers[] = {CAROM_MEASURES_NUMBERS(MEASURE, MEASURE)};
 #undef RAIL
 
 /* Options, of which 0 is always right. */
@@ -121,6 +123,7 @@ static const struct {
     [CAROM_PART_CUE] = ROWS(cue_numbers),
     [CAROM_PART_TABLE] = ROWS(table_numbers),
     [CAROM_PART_STATE] = ROWS(state_numbers),
+    [CAROM_PART_MEASURES] = ROWS(measures_numbers),
 };
 
 const carom_number *carom_number_of(carom_part_kind part, int k) {

@@ -313,6 +313,16 @@ EVERY_BODY(table_make) {
   }
   return h;
 }
+EVERY_BODY(table_measures) {
+  carom_measures measures;
+  STATUS(carom_table_measures(CAROM_TABLE_SNOOKER, &measures));
+  return HASH(measures);
+}
+EVERY_BODY(table_measured) {
+  const carom_measures measures = {.width = 2.0, .length = 4.0, .nose_height = 0.037};
+  STATUS(carom_table_measured(&measures, 0.028575, &room->table, NULL));
+  return HASH(room->table);
+}
 EVERY_BODY(table_check) {
   carom_table_fault fault;
   memset(&room->table, 0, sizeof room->table);
@@ -612,7 +622,8 @@ EVERY_BODY(record_settle) {
   F(shot_orientation) \
   F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) \
   F(spot_of) F(status_name) \
-  F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(table_polygon) F(trace) \
+  F(status_string) F(strike) F(table_check) F(table_make) F(table_measured) F(table_measures) \
+  F(table_name) F(table_polygon) F(trace) \
   F(version) F(version_number) F(word) F(word_text) EVERY_OF_PLANS(F)
 /* clang-format on */
 #define EVERY_ROW(name) {"carom_" #name, every_##name},

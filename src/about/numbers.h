@@ -124,6 +124,24 @@
   ROW(pocket_back, "pocket_back", "m", 0, DBL_MAX, NAN, TABLE,                     \
       "height of the backs of pockets; 0: that of the highest nose")
 
+#define CAROM_MEASURES_NUMBERS(ROW, LATER)                                                         \
+  LATER(width, "width", "m", 0.1, 100, NAN, TABLE, "width of the playing area, between the noses") \
+  LATER(length, "length", "m", 0.1, 100, NAN, TABLE, "length of the playing area")                 \
+  LATER(nose_height, "nose_height", "m", CAROM_ABOVE(0), 1, NAN, TABLE, "height of the noses")     \
+  LATER(cushion_depth, "cushion_depth", "m", 0.001, 0.5, NAN, TABLE, "depth of the facings")       \
+  LATER(corner_mouth, "corner", "m", 0.01, 1, NAN, TABLE,                                          \
+        "mouth of corner pockets, between the points of noses; both mouths 0: no pockets")         \
+  LATER(corner_cut, "corner_cut", "degrees", 90, 165, NAN, TABLE, "angle of nose and facing")      \
+  LATER(corner_shelf, "corner_shelf", "m", 0, 0.2, NAN, TABLE, "from the mouth to the hole")       \
+  LATER(corner_jaw, "corner_jaw", "m", 0, 0.5, NAN, TABLE, "radius of the points of noses")        \
+  LATER(corner_hole, "corner_hole", "m", 0.005, 0.5, NAN, TABLE, "radius of the hole")             \
+  LATER(side_mouth, "side", "m", 0.01, 1, NAN, TABLE,                                              \
+        "mouth of side pockets, between the points of noses; both mouths 0: no pockets")           \
+  LATER(side_cut, "side_cut", "degrees", 90, 165, NAN, TABLE, "angle of nose and facing")          \
+  LATER(side_shelf, "side_shelf", "m", 0, 0.2, NAN, TABLE, "from the mouth to the hole")           \
+  LATER(side_jaw, "side_jaw", "m", 0, 0.5, NAN, TABLE, "radius of the points of noses")            \
+  LATER(side_hole, "side_hole", "m", 0.005, 0.5, NAN, TABLE, "radius of the hole")
+
 #define CAROM_RAIL_NUMBERS(ROW, LATER)                                                           \
   ROW(p, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "one end")                                      \
   ROW(q, "", "m", -DBL_MAX, DBL_MAX, NAN, TABLE, "the other end")                                \

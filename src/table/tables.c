@@ -1,12 +1,13 @@
-/* Built-in tables: cushions with pockets from a few measures of a table.
+/* Tables from measures: cushions with pockets, as rule books give them, and those that are built
+ * in.
  *
  * Rails end where the pockets' mouths begin; there a jaw, a cylinder, leads from the rail into
- * the pocket's facing. Each jaw is tangent to its rail and its facing at their ends. With ca =
- * 45 degrees + angle at corners and sa = angle at sides: a corner's rails would meet its facings
- * at q = width cos(45 degrees) from the corner; the jaw takes dc = rc / tan((90 degrees + ca) /
- * 2) of both, at a side ds = rs / tan((90 degrees + sa) / 2). Facings go back to the depth of
- * the cushion. Source: pooltool's generator, whose default table is CAROM_TABLE_POOL_7FT with
- * its order of parts. */
+ * the pocket's facing. Each jaw is tangent to its rail and its facing at their ends. A mouth lies
+ * between the points where its rails would meet its facings; a cut is the angle between both. With
+ * c = cut - 90 degrees: a corner's points are q = mouth cos(45 degrees) from the corner; the jaw
+ * takes d = jaw / tan(cut / 2) of rail and facing. Facings go back to the depth of the cushion. The
+ * hole is a circle whose edge is the shelf behind the middle of the mouth. Source: pooltool's
+ * generator, whose default table is CAROM_TABLE_POOLTOOL with its order of parts. */
 #include "platform/elementary.h"
 #include "table/table.h"
 
@@ -14,11 +15,11 @@
 #include <stddef.h>
 #include <string.h>
 
-typedef struct measures {
-  double width, length, cushion, height;
-  double corner_width, corner_angle, corner_depth, corner_radius, corner_jaw; /* m, degrees */
-  double side_width, side_angle, side_depth, side_radius, side_jaw;
-} measures;
+/* What follows of the measures: cut - 90 degrees, of both pockets; what the facings lose to the
+ * back for each m of depth; q; and d. */
+typedef struct openings {
+  double sin_c, cos_c, sin_s, cos_s, corner_back, side_back, q, dc, ds;
+} openings;
 
 static void add_rail(carom_table *t, double height, int side, double p_x, double p_y, double q_x,
                      double q_y) {
@@ -52,19 +53,26 @@ static void add_plain_rails(carom_table *t, double h) {
   add_rail(t, h, 1, 0.0, 0.0, t->width, 0.0);
 }
 
-static void add_pockets(carom_table *t, const measures *m) {
-  const double w = m->width, l = m->length, h = m->height, cw = m->cushion, rc = m->corner_jaw,
-               rs = m->side_jaw, sw = m->side_width;
-  double sin_c, cos_c, sin_s, cos_s, s, c;
+static openings openings_of(const carom_measures *m, double corner, double side) {
+  openings f;
+  double s, c;
   carom_sincos_degrees(45.0, &s, &c);
-  const double q = m->corner_width * c, off = m->corner_depth * c;
-  carom_sincos_degrees(45.0 + m->corner_angle, &sin_c, &cos_c);
-  carom_sincos_degrees(m->side_angle, &sin_s, &cos_s);
-  const double tan_c = sin_c / cos_c;
-  carom_sincos_degrees(0.5 * (135.0 + m->corner_angle), &s, &c);
-  const double dc = rc * c / s;
-  carom_sincos_degrees(0.5 * (90.0 + m->side_angle), &s, &c);
-  const double ds = rs * c / s;
+  f.q = m->corner_mouth * c;
+  carom_sincos_degrees(corner, &f.sin_c, &f.cos_c);
+  carom_sincos_degrees(side, &f.sin_s, &f.cos_s);
+  carom_sincos_degrees(0.5 * (90.0 + corner), &s, &c);
+  f.dc = m->corner_jaw * c / s;
+  carom_sincos_degrees(0.5 * (90.0 + side), &s, &c);
+  f.ds = m->side_jaw * c / s;
+  f.corner_back = f.sin_c / f.cos_c;
+  f.side_back = f.sin_s / f.cos_s;
+  return f;
+}
+
+static void add_pockets(carom_table *t, const carom_measures *m, const openings *f) {
+  const double w = m->width, l = m->length, h = m->nose_height, cw = m->cushion_depth,
+               rc = m->corner_jaw, rs = m->side_jaw, sw = m->side_mouth, q = f->q, dc = f->dc,
+               ds = f->ds;
 
   /* rails */
   const double low = q + dc, middle_low = (l - sw) / 2.0 - ds, middle_high = (l + sw) / 2.0 + ds,
@@ -77,15 +85,17 @@ static void add_pockets(carom_table *t, const measures *m) {
   add_rail(t, h, 0, low, l, w - q - dc, l);
 
   /* facings of the side pockets */
-  const double back_high = (l + sw) / 2.0 - cw * sin_s, back_low = (l - sw) / 2.0 + cw * sin_s;
-  const double front_high = (l + sw) / 2.0 - ds * sin_s, front_low = (l - sw) / 2.0 + ds * sin_s;
-  add_rail(t, h, 0, -cw, back_high, -ds * cos_s, front_high);
-  add_rail(t, h, 1, -cw, back_low, -ds * cos_s, front_low);
-  add_rail(t, h, 0, w + cw, back_high, w + ds * cos_s, front_high);
-  add_rail(t, h, 1, w + cw, back_low, w + ds * cos_s, front_low);
+  const double back_high = (l + sw) / 2.0 - cw * f->side_back,
+               back_low = (l - sw) / 2.0 + cw * f->side_back;
+  const double front_high = (l + sw) / 2.0 - ds * f->sin_s,
+               front_low = (l - sw) / 2.0 + ds * f->sin_s;
+  add_rail(t, h, 0, -cw, back_high, -ds * f->cos_s, front_high);
+  add_rail(t, h, 1, -cw, back_low, -ds * f->cos_s, front_low);
+  add_rail(t, h, 0, w + cw, back_high, w + ds * f->cos_s, front_high);
+  add_rail(t, h, 1, w + cw, back_low, w + ds * f->cos_s, front_low);
 
   /* facings of the corner pockets */
-  const double back = q - cw * tan_c, front = q - dc * sin_c, in = dc * cos_c;
+  const double back = q - cw * f->corner_back, front = q - dc * f->sin_c, in = dc * f->cos_c;
   add_rail(t, h, 1, back, -cw, front, -in);
   add_rail(t, h, 0, -cw, back, -in, front);
   add_rail(t, h, 0, back, l + cw, front, l + in);
@@ -110,82 +120,139 @@ static void add_pockets(carom_table *t, const measures *m) {
   add_jaw(t, h, rc, w - q - dc, -rc);
 
   /* pockets */
-  add_pocket(t, m->corner_radius, -off, -off);
-  add_pocket(t, m->side_radius, -m->side_depth, l / 2.0);
-  add_pocket(t, m->corner_radius, -off, l + off);
-  add_pocket(t, m->corner_radius, w + off, -off);
-  add_pocket(t, m->side_radius, w + m->side_depth, l / 2.0);
-  add_pocket(t, m->corner_radius, w + off, l + off);
+  double unused, c;
+  carom_sincos_degrees(45.0, &unused, &c);
+  const double off = (m->corner_shelf + m->corner_hole - 0.5 * m->corner_mouth) * c,
+               out = m->side_shelf + m->side_hole;
+  add_pocket(t, m->corner_hole, -off, -off);
+  add_pocket(t, m->side_hole, -out, l / 2.0);
+  add_pocket(t, m->corner_hole, -off, l + off);
+  add_pocket(t, m->corner_hole, w + off, -off);
+  add_pocket(t, m->side_hole, w + out, l / 2.0);
+  add_pocket(t, m->corner_hole, w + off, l + off);
 }
 
-static measures pool(double length) {
-  return (measures){.width = length / 2.0,
-                    .length = length,
-                    .cushion = 0.0508,
-                    .height = 0.64 * 2.0 * 0.028575,
-                    .corner_width = 0.118,
-                    .corner_angle = 5.3,
-                    .corner_depth = 0.0417,
-                    .corner_radius = 0.062,
-                    .corner_jaw = 0.02095,
-                    .side_width = 0.137,
-                    .side_angle = 7.14,
-                    .side_depth = 0.0685,
-                    .side_radius = 0.0645,
-                    .side_jaw = 0.00795};
+/* ---- The tables that are built in */
+
+/* A line for each table, its corners and its sides. */
+/* clang-format off */
+#define POOLTOOL_POCKETS \
+  0.118, 140.3, 0.0387, 0.02095, 0.062, \
+  0.137, 97.14, 0.004, 0.00795, 0.0645
+static const carom_measures built_in[] = {
+  [CAROM_TABLE_POOL_7FT] = {0.9906, 1.9812, 0.036576, 0.0508, POOLTOOL_POCKETS},
+  [CAROM_TABLE_POOL_8FT] = {1.1176, 2.2352, 0.036576, 0.0508, POOLTOOL_POCKETS},
+  [CAROM_TABLE_POOL_9FT] = {1.27, 2.54, 0.036576, 0.0508, POOLTOOL_POCKETS},
+  /* the playing area by the rules of the sport, whose templates of pockets are not published; nose
+   * at 7/5 R as in the 2010 paper; parallel facings, well-rounded jaws */
+  [CAROM_TABLE_SNOOKER] = {1.778, 3.569, 1.4 * 0.02619375, 0.0508,
+                           0.0865, 135.0, 0.02995, 0.07, 0.055,
+                           0.0865, 90.0, 0.0085, 0.04, 0.05},
+  [CAROM_TABLE_THREECUSHION] = {1.42, 2.84, .nose_height = 0.037},
+  [CAROM_TABLE_POOLTOOL] = {0.9906, 1.9812, 0.036576, 0.0508, POOLTOOL_POCKETS}};
+/* clang-format on */
+
+carom_status carom_table_measures(carom_table_kind kind, carom_measures *measures) {
+  if (measures == NULL)
+    return CAROM_ERROR_NULL;
+  if ((uint32_t)kind >= sizeof built_in / sizeof *built_in)
+    return CAROM_ERROR_TABLE;
+  *measures = built_in[kind];
+  return CAROM_OK;
 }
 
-/* A snooker table's playing area by the rules of the sport; nose at 7/5 R as in the 2010 paper;
- * pockets with parallel facings and well-rounded jaws. */
-static measures snooker(void) {
-  return (measures){.width = 1.778,
-                    .length = 3.569,
-                    .cushion = 0.0508,
-                    .height = 1.4 * 0.02619375,
-                    .corner_width = 0.0865,
-                    .corner_depth = 0.0417,
-                    .corner_radius = 0.055,
-                    .corner_jaw = 0.07,
-                    .side_width = 0.0865,
-                    .side_depth = 0.0585,
-                    .side_radius = 0.05,
-                    .side_jaw = 0.04};
+/* The parts, without a check. */
+static void make(const carom_measures *m, const openings *f, carom_table *table) {
+  memset(table, 0, sizeof *table);
+  table->width = m->width;
+  table->length = m->length;
+  if (m->corner_mouth == 0.0)
+    add_plain_rails(table, m->nose_height);
+  else
+    add_pockets(table, m, f);
 }
 
 carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
   if (table == NULL)
     return CAROM_ERROR_NULL;
-
-  /* what the builders of each kind say */
-  measures m;
-  switch (kind) {
-  case CAROM_TABLE_POOL_7FT:
-  case CAROM_TABLE_POOLTOOL:
+  carom_measures m;
+  const carom_status bad = carom_table_measures(kind, &m);
+  if (bad != CAROM_OK)
+    return bad;
+  if (kind == CAROM_TABLE_POOL_7FT || kind == CAROM_TABLE_POOLTOOL) {
     *table = carom_table_pooltool;
     return CAROM_OK;
-  case CAROM_TABLE_POOL_8FT:
-    m = pool(2.2352);
-    break;
-  case CAROM_TABLE_POOL_9FT:
-    m = pool(2.54);
-    break;
-  case CAROM_TABLE_SNOOKER:
-    m = snooker();
-    break;
-  case CAROM_TABLE_THREECUSHION:
-    m = (measures){.width = 1.42, .length = 2.84, .height = 0.037};
-    break;
-  default:
-    return CAROM_ERROR_TABLE;
   }
-
-  /* rails, and with pockets the jaws of their mouths */
-  memset(table, 0, sizeof *table);
-  table->width = m.width;
-  table->length = m.length;
-  if (kind == CAROM_TABLE_THREECUSHION)
-    add_plain_rails(table, m.height);
-  else
-    add_pockets(table, &m);
+  const bool as_pooltool = kind != CAROM_TABLE_SNOOKER;
+  openings f = openings_of(&m, as_pooltool ? 50.3 : m.corner_cut - 90.0,
+                           as_pooltool ? 7.14 : m.side_cut - 90.0);
+  if (as_pooltool)
+    f.side_back = f.sin_s;
+  make(&m, &f, table);
   return CAROM_OK;
+}
+
+/* ---- Tables of one's own */
+
+/* The place of a member among the rows of measures. */
+#define AT(member) ((int32_t)(offsetof(carom_measures, member) / sizeof(double)))
+
+/* Tells which measure is at fault beside which other, and its bound by the others. */
+static carom_status blame(carom_table_fault *fault, int32_t measure, int32_t other, double bound) {
+  fault->part = (carom_part){CAROM_PART_MEASURES, measure};
+  if (other >= 0)
+    fault->other = (carom_part){CAROM_PART_MEASURES, other};
+  fault->gap = bound;
+  return CAROM_ERROR_TABLE;
+}
+
+/* Whether the parts of pockets have room: each condition bounds a measure from above. */
+static carom_status check_room(const carom_measures *m, const openings *f,
+                               carom_table_fault *fault) {
+  const double cw = m->cushion_depth, root = m->corner_mouth / f->q;
+  const struct {
+    int32_t measure, other;
+    double value, bound;
+  } rules[] = {
+      /* something is left of the short and the long rails */
+      {AT(corner_mouth), AT(width), m->corner_mouth, (0.5 * m->width - f->dc) * root},
+      {AT(side_mouth), AT(length), m->side_mouth, m->length - 2.0 * (f->q + f->dc + f->ds)},
+      /* jaws end within their facings */
+      {AT(corner_jaw), AT(cushion_depth), m->corner_jaw, cw * m->corner_jaw / (f->dc * f->cos_c)},
+      {AT(side_jaw), AT(cushion_depth), m->side_jaw, cw * m->side_jaw / (f->ds * f->cos_s)},
+      /* the facings of a pocket do not meet */
+      {AT(cushion_depth), AT(corner_cut), cw,
+       f->corner_back > 1.0 ? f->q / (f->corner_back - 1.0) : INFINITY},
+      {AT(cushion_depth), AT(side_cut), cw,
+       f->side_back > 0.0 ? 0.5 * m->side_mouth / f->side_back : INFINITY}};
+  for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
+    if (rules[k].value >= rules[k].bound)
+      return blame(fault, rules[k].measure, rules[k].other, rules[k].bound);
+  return CAROM_OK;
+}
+
+carom_status carom_table_measured(const carom_measures *measures, double ball_radius,
+                                  carom_table *table, carom_table_fault *fault) {
+  carom_table_fault unused;
+  fault = fault != NULL ? fault : &unused;
+  memset(fault, 0, sizeof *fault);
+  if (measures == NULL || table == NULL)
+    return CAROM_ERROR_NULL;
+  memset(table, 0, sizeof *table);
+
+  /* each by itself, those of pockets where there are some */
+  const carom_number *n;
+  const bool pockets = measures->corner_mouth != 0.0 || measures->side_mouth != 0.0;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_MEASURES, k)) != NULL; k++) {
+    double x;
+    memcpy(&x, (const char *)measures + n->offset, sizeof x);
+    if ((pockets || k <= AT(nose_height)) && !(x >= n->low && x <= n->high))
+      return blame(fault, k, -1, 0.0);
+  }
+  const openings f = openings_of(measures, measures->corner_cut - 90.0, measures->side_cut - 90.0);
+  const carom_status bad = pockets ? check_room(measures, &f, fault) : CAROM_OK;
+  if (bad != CAROM_OK)
+    return bad;
+  make(measures, &f, table);
+  return carom_table_check(table, ball_radius, fault);
 }

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -519,31 +520,6 @@ TEST(lost_ball) {
 
 /* ---- The built-in tables */
 
-typedef struct opening {
-  double mouth, angle, jaw; /* m, degrees between rail and facing, m */
-  double radius, centre;    /* m: of the pocket; of its centre outside the playing area */
-} opening;
-
-#define POOL_MEASURES                                \
-  0.036576, {0.118, 39.7, 0.02095, 0.062, 0.0417}, { \
-    0.137, 82.86, 0.00795, 0.0645, 0.0685            \
-  }
-static const struct {
-  carom_table_kind kind;
-  double width, length, height; /* of the noses */
-  opening corner, side;
-} measured[] = {
-    {CAROM_TABLE_POOL_7FT, 0.9906, 1.9812, POOL_MEASURES},
-    {CAROM_TABLE_POOL_8FT, 1.1176, 2.2352, POOL_MEASURES},
-    {CAROM_TABLE_POOL_9FT, 1.27, 2.54, POOL_MEASURES},
-    {CAROM_TABLE_SNOOKER,
-     1.778,
-     3.569,
-     0.03667125,
-     {0.0865, 45.0, 0.07, 0.055, 0.0417},
-     {0.0865, 90.0, 0.04, 0.05, 0.0585}},
-};
-
 /* Whether a jaw touches the end of a rail or of a facing: the end is on the jaw's circle, and
  * the rail is tangent to it. */
 static bool touches(const carom_jaw *jaw, const carom_rail *rail, const double end[2]) {
@@ -558,66 +534,128 @@ static double outside(double x, double length) {
   return fmax(-x, x - length);
 }
 
-/* The measures that a player would take, from the parts of the tables. The mouth of a pocket
- * lies between the points where its rails would meet its facings. The facings of pooltool's side
- * pockets are 0.064 degrees off the given angle. */
+#define AT(member) ((int)(offsetof(carom_measures, member) / sizeof(double)))
+
+/* The measures that a player would take, from the parts of the table. The mouth of a pocket lies
+ * between the points where its rails would meet its facings. */
+static void measure(const carom_measures *m, double tolerance) {
+  const double w = m->width, l = m->length;
+  ck_assert(table.width == w && table.length == l && table.rails == 18 && table.jaws == 12 &&
+            table.pockets == 6);
+  for (int k = 0; k < 18; k++)
+    ck_assert_double_eq_tol(table.rail[k].height, m->nose_height, 1e-12);
+  /* each jaw leads from one of the six cushions to one of the twelve facings */
+  int corners = 0;
+  for (int k = 0; k < 12; k++) {
+    const carom_jaw *jaw = &table.jaw[k];
+    const carom_rail *rail = NULL, *facing = NULL;
+    for (int n = 0; n < 6; n++)
+      if (touches(jaw, &table.rail[n], table.rail[n].p) ||
+          touches(jaw, &table.rail[n], table.rail[n].q))
+        rail = &table.rail[n];
+    for (int n = 6; n < 18; n++)
+      if (touches(jaw, &table.rail[n], table.rail[n].q))
+        facing = &table.rail[n];
+    ck_assert_msg(rail != NULL && facing != NULL, "jaw %d: no rail, or no facing", k);
+    /* where their lines meet, by Cramer's rule */
+    const double *a = rail->line, *b = facing->line, D = a[0] * b[1] - a[1] * b[0];
+    const double x = (a[1] * b[2] - a[2] * b[1]) / D, y = (a[2] * b[0] - a[0] * b[2]) / D;
+    const bool corner = fabs(y - l / 2.0) > l / 4.0;
+    const double half = corner ? (fmin(x, w - x) + fmin(y, l - y)) * sqrt(0.5) : fabs(y - l / 2.0);
+    corners += corner;
+    ck_assert_double_eq_tol(2.0 * half, corner ? m->corner_mouth : m->side_mouth, 2e-5);
+    ck_assert_double_eq_tol(jaw->radius, corner ? m->corner_jaw : m->side_jaw, 1e-12);
+    ck_assert_double_eq_tol(jaw->height, m->nose_height, 1e-12);
+    const double angle =
+        acos(-fabs(a[0] * b[0] + a[1] * b[1]) / (hypot(a[0], a[1]) * hypot(b[0], b[1])));
+    ck_assert_double_eq_tol(angle * 180.0 / 3.14159265358979323846,
+                            corner ? m->corner_cut : m->side_cut, corner ? 1e-9 : tolerance);
+    /* the facing goes back to the depth of the cushion */
+    ck_assert_double_eq_tol(fmax(outside(facing->p[0], w), outside(facing->p[1], l)),
+                            m->cushion_depth, 1e-12);
+  }
+  ck_assert_int_eq(corners, 8);
+  /* pockets at the corners lie on the bisectors; the shelf goes to their edges */
+  for (int k = 0; k < 6; k++) {
+    const carom_pocket *p = &table.pocket[k];
+    const double x = outside(p->centre[0], w), y = outside(p->centre[1], l);
+    const bool corner = y > -l / 4.0;
+    ck_assert_double_eq_tol(corner ? y : y + l, corner ? x : l / 2.0, 1e-12);
+    ck_assert_double_eq_tol(p->radius, corner ? m->corner_hole : m->side_hole, 1e-12);
+    ck_assert_double_eq_tol(corner ? hypot(x, y) + 0.5 * m->corner_mouth - m->corner_shelf
+                                   : x - m->side_shelf,
+                            p->radius, 1e-12);
+    corners += corner;
+  }
+  ck_assert_int_eq(corners, 12);
+}
+
+/* Of the built-in tables, and of tables made from their measures, some of which are changed. The
+ * facings of pooltool's side pockets are 0.064 degrees off the given angle. */
 TEST(measures) {
-  for (size_t n = 0; n < sizeof measured / sizeof measured[0]; n++) {
-    const double w = measured[n].width, l = measured[n].length;
-    ck_assert_int_eq(carom_table_make(measured[n].kind, &table), CAROM_OK);
-    ck_assert(table.width == w && table.length == l && table.rails == 18 && table.jaws == 12 &&
-              table.pockets == 6);
-    for (int k = 0; k < 18; k++)
-      ck_assert_double_eq_tol(table.rail[k].height, measured[n].height, 1e-12);
-    /* each jaw leads from one of the six cushions to one of the twelve facings */
-    int corners = 0;
-    for (int k = 0; k < 12; k++) {
-      const carom_jaw *jaw = &table.jaw[k];
-      const carom_rail *rail = NULL, *facing = NULL;
-      for (int m = 0; m < 6; m++)
-        if (touches(jaw, &table.rail[m], table.rail[m].p) ||
-            touches(jaw, &table.rail[m], table.rail[m].q))
-          rail = &table.rail[m];
-      for (int m = 6; m < 18; m++)
-        if (touches(jaw, &table.rail[m], table.rail[m].q))
-          facing = &table.rail[m];
-      ck_assert_msg(rail != NULL && facing != NULL, "table %zu, jaw %d: no rail, or no facing", n,
-                    k);
-      /* where their lines meet, by Cramer's rule */
-      const double *a = rail->line, *b = facing->line, D = a[0] * b[1] - a[1] * b[0];
-      const double x = (a[1] * b[2] - a[2] * b[1]) / D, y = (a[2] * b[0] - a[0] * b[2]) / D;
-      const bool corner = fabs(y - l / 2.0) > l / 4.0;
-      const opening *o = corner ? &measured[n].corner : &measured[n].side;
-      const double half =
-          corner ? (fmin(x, w - x) + fmin(y, l - y)) * sqrt(0.5) : fabs(y - l / 2.0);
-      corners += corner;
-      ck_assert_double_eq_tol(half, o->mouth / 2.0, 1e-5);
-      ck_assert_double_eq_tol(jaw->radius, o->jaw, 1e-12);
-      ck_assert_double_eq_tol(jaw->height, measured[n].height, 1e-12);
-      const double angle =
-          acos(fabs(a[0] * b[0] + a[1] * b[1]) / (hypot(a[0], a[1]) * hypot(b[0], b[1])));
-      ck_assert_double_eq_tol(angle * 180.0 / 3.14159265358979323846, o->angle,
-                              corner ? 1e-9 : 0.07);
-      /* the facing goes back to the depth of the cushion */
-      ck_assert_double_eq_tol(fmax(outside(facing->p[0], w), outside(facing->p[1], l)), 0.0508,
-                              1e-12);
+  random_source r = {test_seed()};
+  carom_measures m;
+  for (int kind = CAROM_TABLE_POOL_7FT; kind <= CAROM_TABLE_POOLTOOL; kind++) {
+    ck_assert_int_eq(carom_table_measures((carom_table_kind)kind, &m), CAROM_OK);
+    ck_assert_int_eq(carom_table_make((carom_table_kind)kind, &table), CAROM_OK);
+    if (kind == CAROM_TABLE_THREECUSHION)
+      continue;
+    measure(&m, 0.07);
+    int closed = 0;
+    for (int k = 0; k < 100; k++) {
+      carom_measures own = m;
+      double *x = &own.width;
+      for (size_t n = 0; n < sizeof own / sizeof *x; n++)
+        x[n] *= random_between(&r, n == AT(side_cut) ? 1.0 : 0.95, 1.05);
+      const carom_status made = carom_table_measured(&own, 0.026, &table, NULL);
+      ck_assert(made == CAROM_OK || made == CAROM_ERROR_TABLE_OPEN);
+      if (made == CAROM_OK)
+        measure(&own, 1e-9);
+      closed += made == CAROM_OK;
     }
-    ck_assert_int_eq(corners, 8);
-    /* pockets at the corners lie on the bisectors */
-    for (int k = 0; k < 6; k++) {
-      const double *c = table.pocket[k].centre, x = outside(c[0], w), y = outside(c[1], l);
-      const bool corner = fabs(c[1] - l / 2.0) > l / 4.0;
-      const opening *o = corner ? &measured[n].corner : &measured[n].side;
-      ck_assert_double_eq_tol(corner ? hypot(x, y) : x, o->centre, 1e-12);
-      ck_assert_double_eq_tol(corner ? y : c[1], corner ? x : l / 2.0, 1e-12);
-      ck_assert_double_eq_tol(table.pocket[k].radius, o->radius, 1e-12);
-      corners += corner;
-    }
-    ck_assert_int_eq(corners, 12);
+    ck_assert_int_gt(closed, 50);
   }
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   ck_assert(table.width == 1.42 && table.length == 2.84 && table.rails == 4 && table.jaws == 0 &&
             table.pockets == 0);
   for (int k = 0; k < 4; k++)
     ck_assert_double_eq(table.rail[k].height, 0.037);
+}
+
+/* A measure that is out of its range, or that leaves no room for another, is named, with its bound;
+ * just below that the table has room. */
+TEST(measures_at_fault) {
+  static const struct {
+    int measure, other; /* -1: out of its range */
+    double value, of_other;
+  } wrong[] = {{AT(width), -1, 0.0, 0.0},
+               {AT(nose_height), -1, NAN, 0.0},
+               {AT(corner_mouth), -1, 0.0, 0.0},
+               {AT(side_cut), -1, 14.0, 0.0},
+               {AT(corner_mouth), AT(width), 0.9, 1.0},
+               {AT(side_mouth), AT(length), 0.9, 1.0},
+               {AT(corner_jaw), AT(cushion_depth), 0.3, 0.05},
+               {AT(side_jaw), AT(cushion_depth), 0.3, 0.05},
+               {AT(cushion_depth), AT(corner_cut), 0.45, 141.0},
+               {AT(cushion_depth), AT(side_cut), 0.3, 104.0}};
+  carom_measures m;
+  carom_table_fault fault;
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+    double *const x = &m.width;
+    carom_table_measures(CAROM_TABLE_POOL_7FT, &m);
+    if (wrong[k].other >= 0)
+      x[wrong[k].other] = wrong[k].of_other;
+    x[wrong[k].measure] = wrong[k].value;
+    ck_assert_int_eq(carom_table_measured(&m, 0.028575, &table, &fault), CAROM_ERROR_TABLE);
+    ck_assert(fault.part.kind == CAROM_PART_MEASURES && fault.part.index == wrong[k].measure);
+    ck_assert_int_eq(fault.other.kind == CAROM_PART_MEASURES ? fault.other.index : -1,
+                     wrong[k].other);
+    x[wrong[k].measure] = fault.gap * (1.0 - 1e-9);
+    if (wrong[k].other >= 0)
+      ck_assert(carom_table_measured(&m, 0.028575, &table, &fault) != CAROM_ERROR_TABLE ||
+                fault.part.index != wrong[k].measure);
+  }
+  ck_assert_int_eq(carom_table_measured(NULL, 0.028575, &table, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_table_measures(CAROM_TABLE_POOL_7FT, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_table_measures((carom_table_kind)99, &m), CAROM_ERROR_TABLE);
 }
