@@ -326,10 +326,10 @@ int command_break(int argc, char **argv) {
 
   /* the rack stands on the table of its game, and breaks have a speed of their own */
   f->balls.rack = 1 + (int)b.rack;
-  if (f->table == 0)
-    f->table = 1 + (b.rack == CAROM_RACK_SNOOKER        ? CAROM_TABLE_SNOOKER
-                    : b.rack == CAROM_RACK_THREECUSHION ? CAROM_TABLE_THREECUSHION
-                                                        : CAROM_TABLE_POOL_9FT);
+  if (f->table.kind == 0)
+    f->table.kind = 1 + (b.rack == CAROM_RACK_SNOOKER        ? CAROM_TABLE_SNOOKER
+                         : b.rack == CAROM_RACK_THREECUSHION ? CAROM_TABLE_THREECUSHION
+                                                             : CAROM_TABLE_POOL_9FT);
   if (f->speed.count == 0 && f->ball_speed.count == 0)
     values_default(&f->speed, MEASURE_SPEED, "9");
   gaps = f->gap;

@@ -34,6 +34,7 @@ static const struct list {
               "numbers of a cue, by their names, for --with of shots, and their keys in "
               "files"},
              {CAROM_PART_TABLE, "numbers of a table, and their keys in files"},
+             {CAROM_PART_MEASURES, "measures of a table, and their keys for --table"},
              {CAROM_PART_RAIL, "numbers of a rail, and their keys in files"},
              {CAROM_PART_JAW, "numbers of a jaw, and their keys in files"},
              {CAROM_PART_POCKET, "numbers of a pocket, and their keys in files"}};

@@ -364,7 +364,7 @@ int command_ways(int argc, char **argv) {
   }
 
   /* the usual strokes of the game */
-  const bool points = job.from.table == 1 + CAROM_TABLE_THREECUSHION;
+  const bool points = job.from.table.kind == 1 + CAROM_TABLE_THREECUSHION;
   const bool alone = job.leave.given && job.from.balls.count == 0 && job.from.balls.rack == 0;
   if (job.from.speed.count == 0 && job.from.ball_speed.count == 0 && has_flags(&job.from))
     values_default(&job.from.speed, MEASURE_SPEED,

@@ -18,14 +18,21 @@
 
 enum { MOST_TEXT = 1024 };
 
-/* 1 + the place of the word; 0: none was given. */
-static OPTION_SET(set_word) {
-  char all[MOST_WORDS];
-  int place;
-  if (!set_place(row, text, words_of(row->words, true, all), &place))
+static OPTION_SET(set_table) {
+  struct chosen_table *table = field;
+  char all[MOST_WORDS], name[MOST_WORDS];
+  json_fault fault;
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ","), text);
+  if (!set_place(row, name, words_of(row->words, true, all), &table->kind))
     return false;
-  *(int *)field = 1 + place;
-  return true;
+  table->kind++;
+  table->text = text;
+  named_table *made = built_in_table(text, &fault);
+  if (made == NULL)
+    complain("--%s %.80s: %s", row->name, text, fault.text);
+  else
+    free_table(made);
+  return made != NULL;
 }
 
 #define ROW(row, name, member, argument, set, least, help) \
@@ -34,8 +41,10 @@ static OPTION_SET(set_word) {
 const option_row option_table = {
     .name = "table",
     .help = "play one shot on this table, instead of those of a file (default 9ft). x runs across "
-            "the table, y along it. A table of one's own stands in a file",
-    .set = set_word,
+            "the table, y along it. Measures may change it, with units: "
+            "9ft,corner=4.25in,side_cut=104; "
+            "`carom models` lists them. A table of one's own stands in a file",
+    .set = set_table,
     .field = offsetof(shoot_flags, table),
     .words = CAROM_WORDS_TABLE};
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
@@ -124,9 +133,9 @@ static bool any_list(const shoot_flags *f, bool comma) {
 }
 
 bool has_flags(const shoot_flags *f) {
-  return f->table != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL || f->json ||
-         f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 || f->balls.rack > 0 ||
-         f->tip.count > 0 || any_list(f, false);
+  return f->table.kind != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL ||
+         f->json || f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 ||
+         f->balls.rack > 0 || f->tip.count > 0 || any_list(f, false);
 }
 
 /* Names of the balls of a rack, by carom_rack()'s order. */
@@ -183,12 +192,12 @@ static bool lay(layout *l, int k, const given_place *at, int laid) {
  * complaint. */
 static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion, int which) {
   const carom_table_kind kind =
-      f->table != 0 ? (carom_table_kind)(f->table - 1) : CAROM_TABLE_POOL_9FT;
-  l->table_name = carom_table_name(kind);
-  carom_table_make(kind, &l->table);
-  l->game = kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
-            : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
-                                               : CAROM_GAME_POOL;
+      f->table.kind != 0 ? (carom_table_kind)(f->table.kind - 1) : CAROM_TABLE_POOL_9FT;
+  l->table_name = f->table.text != NULL ? f->table.text : carom_table_name(kind);
+  named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
+  l->table = t->table;
+  free_table(t);
+  l->game = game_of_table(kind);
   carom_ball_kind ball;
   kind_of_game(l->game, cushion, &ball);
   give_ball(&f->shared.with, &ball);

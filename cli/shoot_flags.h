@@ -17,7 +17,10 @@ enum { MOST_SHOTS = 16, MOST_ROWS = 1001 };
 /* The job of a subcommand that has these options begins with it. */
 typedef struct shoot_flags {
   shared_options shared;
-  int table; /* 1 + a carom_table_kind; 0: none was given */
+  struct chosen_table {
+    int kind;         /* 1 + a carom_table_kind; 0: none was given */
+    const char *text; /* its name and measures; NULL: only the kind */
+  } table;
   const char *at_ball, *pocket, *via;
   values speed, ball_speed, aim, cut, elevation, tip_time, tip_restitution, gap, seed;
   place_list cue, balls, tip, to;

@@ -165,11 +165,15 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
     return false;
   const char *name = table != NULL ? json_string_value(table) : "7ft";
   const named_table *found = find_table(file, name);
-  named_table *built_in = found == NULL ? built_in_table(name) : NULL;
+  named_table *built_in = found == NULL ? built_in_table(name, f) : NULL;
   if (built_in != NULL)
     keep_table(file, built_in);
   found = found != NULL ? found : built_in;
   char known[MOST_WORDS];
+  if (found == NULL && f->text[0] != '\0') {
+    const json_fault of_measures = *f;
+    return json_wrong(f, "table '%.80s': %s", name, of_measures.text);
+  }
   if (found == NULL)
     return json_wrong(f, "table '%s' is not in the lines above, nor one of carom's: %s", name,
                       words_of(CAROM_WORDS_TABLE, true, known));

@@ -2,6 +2,8 @@
 #include "shot_table.h"
 
 #include "memory.h"
+#include "values.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -101,8 +103,55 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
   return true;
 }
 
-/* Tables that need no line, by the name of carom_table_make()'s kinds. */
-named_table *built_in_table(const char *id) {
+carom_game game_of_table(carom_table_kind kind) {
+  return kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
+         : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
+                                            : CAROM_GAME_POOL;
+}
+
+/* Changes measures by "corner=4.25in,side_cut=104", which it cuts up. */
+static bool give_measures(char *keys, carom_measures *m, json_fault *f) {
+  char all[JSON_KEYS], hint[HINT_TEXT], range[100], *rest = NULL;
+  for (char *key = strtok_r(keys, ",", &rest); key != NULL; key = strtok_r(NULL, ",", &rest)) {
+    char *text = key + strcspn(key, "=");
+    const carom_number *n;
+    value v;
+    int k = 0;
+    if (*text != '\0')
+      *text++ = '\0';
+    while ((n = carom_number_of(CAROM_PART_MEASURES, k)) != NULL && strcmp(n->key, key) != 0)
+      k++;
+    json_keys_of(CAROM_PART_MEASURES, "", all);
+    if (n == NULL)
+      return json_wrong(f, "%.40s is no measure; there are%s%s", key, all,
+                        did_you_mean(key, all, hint));
+    carom_number_range(n, range, sizeof range);
+    if (!value_of(strcmp(n->unit, "m") == 0 ? MEASURE_LENGTH : MEASURE_ANGLE, text, &v))
+      return json_wrong(f, "%s is a number, such as %s=%s, and must be %s; not '%.40s'", key, key,
+                        strcmp(n->unit, "m") == 0 ? "4.25in" : "104", range, text);
+    memcpy((char *)m + n->offset, &v.x, sizeof v.x);
+  }
+  return true;
+}
+
+/* Says what is wrong with measures. */
+static bool tell_measures(carom_status bad, const carom_table_fault *at, json_fault *f) {
+  char range[100];
+  if (at->part.kind != CAROM_PART_MEASURES && at->gap > 0.0)
+    return json_wrong(f, "%s; %.3g m are open at x = %.4g, y = %.4g m", carom_status_string(bad),
+                      at->gap, at->place[0], at->place[1]);
+  if (at->part.kind != CAROM_PART_MEASURES)
+    return json_wrong(f, "%s", carom_status_string(bad));
+  const carom_number *n = carom_number_of(CAROM_PART_MEASURES, at->part.index);
+  carom_number_range(n, range, sizeof range);
+  if (at->other.kind != CAROM_PART_MEASURES)
+    return json_wrong(f, "%s must be %s", n->key, range);
+  return json_wrong(f, "%s must be below %.4g m with this %s", n->key, at->gap,
+                    carom_number_of(CAROM_PART_MEASURES, at->other.index)->key);
+}
+
+/* Tables that need no line, by the name of carom_table_make()'s kinds, and measures behind it. */
+named_table *built_in_table(const char *id, json_fault *f) {
   static const char *const rails[] = {"3",  "6", "15", "12", "18", "9",  "5",  "4",  "13",
                                       "14", "1", "2",  "8",  "7",  "11", "10", "16", "17"};
   static const char *const plain[] = {"3", "12", "9", "18"};
@@ -110,19 +159,39 @@ named_table *built_in_table(const char *id) {
                                      "10t", "11t", "13t", "14t", "16t", "17t"};
   static const char *const pockets[] = {"lb", "lc", "lt", "rb", "rc", "rt"};
   const char *name;
-  for (int kind = 0; (name = carom_table_name((carom_table_kind)kind)) != NULL; kind++) {
-    if (strcmp(id, name) != 0)
-      continue;
-    named_table *t = allocate(1, sizeof *t);
-    carom_table_make((carom_table_kind)kind, &t->table);
-    t->id = copy_text(id);
-    for (int k = 0; k < t->table.rails; k++)
-      t->rail[k] = copy_text(t->table.rails == 4 ? plain[k] : rails[k]);
-    for (int k = 0; k < t->table.jaws; k++)
-      t->jaw[k] = copy_text(jaws[k]);
-    for (int k = 0; k < t->table.pockets; k++)
-      t->pocket[k] = copy_text(pockets[k]);
-    return t;
+  const size_t size = strcspn(id, ",");
+  int kind = 0;
+  f->text[0] = '\0';
+  while ((name = carom_table_name((carom_table_kind)kind)) != NULL &&
+         (strlen(name) != size || strncmp(id, name, size) != 0))
+    kind++;
+  if (name == NULL)
+    return NULL;
+  named_table *t = allocate(1, sizeof *t);
+  t->id = copy_text(id);
+  carom_table_make((carom_table_kind)kind, &t->table);
+  if (id[size] != '\0') {
+    carom_measures m;
+    carom_table_fault at;
+    char *keys = copy_text(id + size);
+    carom_table_measures((carom_table_kind)kind, &m);
+    bool good = give_measures(keys, &m, f);
+    free(keys);
+    if (good) {
+      const double R = carom_ball_kind_of(game_of_table((carom_table_kind)kind)).radius;
+      const carom_status bad = carom_table_measured(&m, R, &t->table, &at);
+      good = bad == CAROM_OK || tell_measures(bad, &at, f);
+    }
+    if (!good) {
+      free_table(t);
+      return NULL;
+    }
   }
-  return NULL;
+  for (int k = 0; k < t->table.rails; k++)
+    t->rail[k] = copy_text(t->table.rails == 4 ? plain[k] : rails[k]);
+  for (int k = 0; k < t->table.jaws; k++)
+    t->jaw[k] = copy_text(jaws[k]);
+  for (int k = 0; k < t->table.pockets; k++)
+    t->pocket[k] = copy_text(pockets[k]);
+  return t;
 }

@@ -19,8 +19,12 @@ typedef struct named_table {
  * freed either way. */
 bool read_table(const json_t *json, named_table *t, json_fault *f);
 
-/* A new table of this name, or NULL if there is none that is built in. */
-named_table *built_in_table(const char *id);
+/* A new table of this name, behind which measures may stand, "9ft,corner=4.25in"; NULL where that
+ * cannot be, with the reason in *f, or "" if none of that name is built in. */
+named_table *built_in_table(const char *id, json_fault *f);
+
+/* The game whose balls a table is for. */
+carom_game game_of_table(carom_table_kind kind);
 
 void free_table(named_table *t);
 

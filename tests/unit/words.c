@@ -36,8 +36,8 @@ TEST(every_table_and_rack_has_its_word) {
       const option_row *row = rack ? &option_balls : &option_table;
       char text[40];
       strcpy(text, word);
-      ck_assert(row->set(row, text, rack ? (void *)&flags.balls : &flags.table));
-      ck_assert_int_eq(rack ? flags.balls.rack : flags.table, 1 + k);
+      ck_assert(row->set(row, text, rack ? (void *)&flags.balls : (void *)&flags.table));
+      ck_assert_int_eq(rack ? flags.balls.rack : flags.table.kind, 1 + k);
       ck_assert_ptr_nonnull(strstr(argument_of(row), word));
     }
 }
