@@ -87,16 +87,6 @@ export function check(id: string, text: string, onChange: () => void): { root: H
   return { root: el("label", { class: "check" }, input, text), input };
 }
 
-/** Tells what tasks answer, or why they failed, of each but the last one nothing. A task asks whether it is still the last. */
-export function latest(tell: (text: string) => void): (task: (wanted: () => boolean) => Promise<string>) => Promise<void> {
-  let last: unknown;
-  return async (task) => {
-    last = task;
-    const text = await task(() => last === task).catch(wrong);
-    if (last === task) tell(text);
-  };
-}
-
 /** Calls `draw` once before the next frame, however often it is asked for. */
 export function eachFrame(draw: () => void): () => void {
   let asked = false;

@@ -124,11 +124,6 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     const nine = of("cue", "5", "2", "9");
     await take("nineball", nine);
     expect(await text(one, "message")).toBe("");
-    const rows = (rules: string, line: string): string[] => run(["plan", "--rules", rules, "--shots", "1000", "--player", "600", "--csv", "-"], line).trim().split("\n").slice(1).map((row) => row.split(",")[2]!);
-    expect(rows("nineball", nine)).toContain("2");
-    await one.locator("#best").click();
-    await expect.poll(() => text(one, "advice")).toContain("Best of 1000 shots: ball 2 into");
-    await expect.poll(() => text(one, "chance")).toMatch(/^This shot pots ball 2, keeps the turn in/);
     // Ball 12 is of eight-ball alone, and without ball 9 there is no nine-ball.
     for (const line of [of("cue", "5", "12", "8", "9"), of("cue", "8", "2")]) {
       await take("nineball", line);
@@ -145,10 +140,9 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     expect(await one.locator("#game").inputValue()).toBe("nineball");
     await take("snooker", both);
     expect(await text(one, "message")).toBe("balls: they fit Nine-ball and Eight-ball; choose one of these games, then import again");
-    // Neither: it can be played, and is not planned.
+    // Neither: it can be played.
     await take("nineball", of("cue", "5", "2"));
-    expect(await text(one, "message")).toContain("Best shot needs balls that have the numbers of a game");
-    expect(await one.locator("#best").isVisible()).toBe(false);
+    expect(await text(one, "message")).toBe("");
     await one.close();
   });
 
@@ -335,38 +329,6 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     expect(await text(again, "s-time")).toBe(shot);
     expect(await text(again, "s-pocketed")).toBe("1");
     await again.close();
-    await one.close();
-  });
-
-  test("the page does not stop while a shot is planned", async () => {
-    const one = await open("#view=lab&game=eightball");
-    // The answers of workers are held back: who plans by himself would not wait for them.
-    await one.evaluate(() => {
-      const page = window as unknown as { asked: string[]; answer(): void };
-      page.asked = [];
-      const held = new Promise<void>((answer) => (page.answer = answer));
-      const [post, listen] = [Worker.prototype.postMessage, EventTarget.prototype.addEventListener];
-      Worker.prototype.postMessage = function (this: Worker, message: string[]) {
-        page.asked.push(message[1]!);
-        post.call(this, message as never);
-      } as typeof post;
-      Worker.prototype.addEventListener = function (this: Worker, type: string, heard: (event: Event) => void) {
-        listen.call(this, type, (event) => void held.then(() => heard(event)));
-      } as typeof listen;
-    });
-    await one.locator("#best").click();
-    const asked = (): Promise<number> => one.evaluate(() => (window as unknown as { asked: string[] }).asked.filter((name) => name === "plan").length);
-    await expect.poll(asked).toBe(1);
-    // Meanwhile frames are drawn, and one aims.
-    for (const phi of [88, 89]) {
-      await one.locator("#phi").fill(String(phi));
-      await frames(one, 10);
-      expect(await text(one, "phi-value")).toBe(`${phi}.00°`);
-      expect(await text(one, "advice")).toMatch(/^Looking for/);
-    }
-    await one.evaluate(() => (window as unknown as { answer(): void }).answer());
-    await expect.poll(() => text(one, "advice")).toMatch(/Best of/);
-    expect(await asked()).toBe(1);
     await one.close();
   });
 

@@ -4,7 +4,6 @@ import type { player } from "../../../player/player.js";
 import { GAMES, type GameOf } from "../table/games.js";
 import { cueWith, strokeControls, strokeOf } from "../table/stroke.js";
 import { check, choice, el, slider, type Slider, wrong } from "../ui.js";
-import type { advicePanel } from "./advice.js";
 import type { reel } from "./reel.js";
 
 /** Shots of a fan. */
@@ -19,7 +18,6 @@ export interface Desk {
   readonly solver: () => "exact" | "euler";
   readonly controls: ReturnType<typeof controlsOf>;
   readonly film: ReturnType<typeof player>;
-  readonly advice: ReturnType<typeof advicePanel>;
   readonly recording: ReturnType<typeof reel>;
   /** Plays the shot as it is aimed now, from its start. */
   aimed(): void;
@@ -36,8 +34,7 @@ export interface Desk {
   /** Whether balls lie elsewhere than in the rack, and the cue of a line that was read. */
   moved: boolean;
   imported: Cue | undefined;
-  /** Whether the balls are those of the game by their numbers, so that its rules hold, and whether the address can name the table. */
-  known: boolean;
+  /** Whether the address can name the table. */
   builtIn: boolean;
   /** The object ball that was picked, for pockets; -1: none. */
   chosen: number;
@@ -102,5 +99,5 @@ export function lay(d: Desk): void {
   d.controls.games.select.value = gameName;
   const table = carom.table(game.table);
   const balls = carom.rack(game.rack, table, { seed });
-  Object.assign(d, { game, table, balls, names: balls.map((_, k) => game.names(k)), faces: balls.map(() => 0), chosen: -1, moved: false, imported: undefined, known: true, builtIn: true });
+  Object.assign(d, { game, table, balls, names: balls.map((_, k) => game.names(k)), faces: balls.map(() => 0), chosen: -1, moved: false, imported: undefined, builtIn: true });
 }

@@ -9,10 +9,9 @@ import { present } from "./shown.js";
 export const lineOf = (d: Desk, id?: string): string => toLine({ ...(id !== undefined && { id }), tableName: d.game.table, balls: d.balls, cue: cueOf(d), names: d.names });
 export function importLine(d: Desk): void {
   try {
-    const { name, also, known } = take(d, d.controls.line.value);
+    const { name, also } = take(d, d.controls.line.value);
     d.aimed();
     if (also) says(d, `The balls are read as those of ${GAMES[name]!.text}. If they are of ${GAMES[also]!.text}, choose this game and import again.`);
-    else if (!known) says(d, "Best shot needs balls that have the numbers of a game: in nine-ball with ball 9, in eight-ball with ball 8.");
   } catch (error) {
     says(d, wrong(error));
   }
@@ -27,7 +26,7 @@ function use<L extends Line>(d: Desk, read: Read<L>): Read<L> {
   const { balls, names, table, tableName, cue } = read.line;
   d.gameName = read.name;
   lay(d);
-  Object.assign(d, { balls, names, table, imported: cue, game: { ...GAMES[d.gameName]!, table: tableName }, known: read.known, faces: balls.map(() => 0), moved: true });
+  Object.assign(d, { balls, names, table, imported: cue, game: { ...GAMES[d.gameName]!, table: tableName }, faces: balls.map(() => 0), moved: true });
   aim(d, cue);
   return read;
 }

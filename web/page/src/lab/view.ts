@@ -3,7 +3,6 @@ import type { Carom } from "carom";
 import { player } from "../../../player/player.js";
 import { button, el, parameters } from "../ui.js";
 import { restore, undoing } from "./address.js";
-import { advicePanel } from "./advice.js";
 import { controlsOf, cueOf, type Desk, lay } from "./desk.js";
 import { drawHand, handle } from "./hand.js";
 import { importLine, lineOf } from "./lines.js";
@@ -28,12 +27,9 @@ function deskOf(carom: Carom, solver: Desk["solver"]): Desk {
   });
   const d = {
     ...{ carom, solver, controls, film, recorded: undefined, imported: undefined, shot: undefined, fan: undefined, fanNumber: 0, writing: undefined },
-    aimed() {
-      present(d, cueOf(d));
-      d.advice.aimed();
-    },
+    aimed: () => present(d, cueOf(d)),
   } as unknown as Desk;
-  return Object.assign(d, { advice: advicePanel(d), recording: reel(d) });
+  return Object.assign(d, { recording: reel(d) });
 }
 /** The balls of the game as they begin. */
 function rackUp(d: Desk): void {
@@ -62,7 +58,7 @@ function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
     el(
       "div",
       { class: "below" },
-      el("div", { class: "stack" }, d.advice.root, el("section", { class: "panel", "aria-label": "How" }, ...HELP.map((text) => el("p", { class: "note" }, text)), controls.cost)),
+      el("section", { class: "panel", "aria-label": "How" }, ...HELP.map((text) => el("p", { class: "note" }, text)), controls.cost),
       el("section", { class: "panel", "aria-label": "The shot in numbers" }, numbers),
       el("section", { class: "panel", "aria-label": "What happens" }, el("h2", {}, "Events"), film.events),
     ),

@@ -23,8 +23,7 @@ export const TABLES: readonly TableName[] = words.table.map(([word]) => word);
 export interface Read<L> {
   name: string;
   line: L;
-  /** Whether the rules of the game hold for the balls, and which other game they fit. */
-  known: boolean;
+  /** Which other game the balls fit. */
   also: string | undefined;
 }
 
@@ -33,12 +32,12 @@ export interface Read<L> {
  * such games it is the one that is asked for, or the one all of whose balls are there; where it is neither, the line is refused.
  */
 export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
-  if (line.tableName in GAMES) return { name: line.tableName, line, known: true, also: undefined }; // snooker, threecushion
+  if (line.tableName in GAMES) return { name: line.tableName, line, also: undefined }; // snooker, threecushion
   const fitting: Record<string, L> = {};
   for (const [name, last] of [["nineball", "9"], ["eightball", "8"]] as const)
     try {
       const ordered = { ...line, ...byNumber(line, name) };
-      if (line.id === name) return { name, line: ordered, known: true, also: undefined };
+      if (line.id === name) return { name, line: ordered, also: undefined };
       if (line.balls.some(({ state }, k) => line.names[k] === last && state.label !== "pocketed")) fitting[name] = ordered;
     } catch (error) {
       if (line.id === name) throw error;
@@ -46,9 +45,9 @@ export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
   const names = Object.keys(fitting);
   const whole = names.find((one) => fitting[one]!.balls.length === line.balls.length);
   const name = names.includes(asked) ? asked : (whole ?? names[0]);
-  if (name === undefined) return { name: "nineball", line, known: false, also: undefined };
+  if (name === undefined) return { name: "nineball", line, also: undefined };
   if (names.length > 1 && name !== asked && name !== whole) throw new TypeError(`balls: they fit ${names.map((one) => GAMES[one]!.text).join(" and ")}; choose one of these games, then import again`);
-  return { name, line: fitting[name]!, known: true, also: name === whole ? undefined : names.find((one) => one !== name) };
+  return { name, line: fitting[name]!, also: name === whole ? undefined : names.find((one) => one !== name) };
 }
 
 /** A game that is played by the library's rules. */
