@@ -16,11 +16,11 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await one.locator("#rate").selectOption("1000");
     await one.locator("#menu .close").click();
     await one.locator("#hint").click();
-    await expect.poll(() => text(one, "said")).toMatch(/^Hint: ball [19] into the .*\. It keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\.$/);
+    await expect.poll(() => text(one, "said")).toMatch(/^Hint: ball [19] into the .*\. A \d+, as you are, keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. The price of a hint: this stroke errs like his\.$/);
     // A stroke that meets nothing: a foul, which the chances and the review tell.
     await turnTo(one, 200);
     await set(one, "power", 0.6);
-    await expect.poll(() => text(one, "said")).toMatch(/^This stroke keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/);
+    await expect.poll(() => text(one, "said")).toMatch(/^By this stroke a \d+, as you are, keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/);
     await one.locator("#shoot").click();
     await expect.poll(() => text(one, "said")).toMatch(/^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/);
     await one.locator("#new-game").click();

@@ -68,7 +68,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     for (; strokes < 150; strokes++) {
       if (/won/.test(await turn(one))) break;
       // Whoever may shoot does; the other one's page hears of it.
-      const [plays, hears] = (await one.locator("#shoot:enabled").count()) > 0 ? [one, other] : [other, one];
+      const [plays, hears] = (await one.locator("#shoot[aria-disabled=false]").count()) > 0 ? [one, other] : [other, one];
       await plays.bringToFront();
       if (strokes > 0) {
         await plays.locator("#hint").click();
@@ -79,7 +79,7 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       await expect.poll(() => text(hears, "said")).toBe(`Stroke ${strokes + 1} was repeated; every bit agrees.`);
       heard++;
       // Then somebody may play, or has won.
-      await expect.poll(async () => /won/.test(await turn(one)) || (await one.locator("#shoot:enabled").count()) + (await other.locator("#shoot:enabled").count()) === 1).toBe(true);
+      await expect.poll(async () => /won/.test(await turn(one)) || (await one.locator("#shoot[aria-disabled=false]").count()) + (await other.locator("#shoot[aria-disabled=false]").count()) === 1).toBe(true);
     }
     expect(heard).toBe(strokes);
     const [mine, yours] = [await turn(one), await turn(other)];

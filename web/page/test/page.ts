@@ -115,6 +115,14 @@ const turnTo = (one: Page, phi: number): Promise<void> =>
 const text = async (one: Page, id: string): Promise<string> => (await one.locator(`#${id}`).textContent())!;
 const set = (one: Page, id: string, value: number): Promise<void> => one.locator(`#${id}`).fill(String(value));
 
+/** A number of the first stroke of the game that is kept, of which a line has some as hexadecimal text. */
+async function struck(one: Page, key: string): Promise<number> {
+  const { entries } = await one.evaluate(() => JSON.parse(localStorage.getItem("carom-game")!) as { entries: { line: string }[] });
+  const value = (JSON.parse(entries[0]!.line) as { shot: Record<string, number | string> }).shot[key]!;
+  const [, digits = "", power = "0"] = /^0x1\.?([0-9a-f]*)p([+-]\d+)/.exec(String(value)) ?? [];
+  return typeof value === "number" ? value : (1 + (parseInt(digits, 16) || 0) / 16 ** digits.length) * 2 ** Number(power);
+}
+
 /** A browser for the tests of a file: they fail where a page complains, or asks for anything elsewhere. */
 export function pages() {
   let browser: Browser;
@@ -143,5 +151,5 @@ export function pages() {
     return one;
   }
 
-  return { open, on, drag, click, lies, pixel, colour, bright, frames, turnTo, text, set, said, browser: () => browser };
+  return { open, on, drag, click, lies, pixel, colour, bright, frames, turnTo, text, set, struck, said, browser: () => browser };
 }

@@ -1,11 +1,11 @@
 // The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball that may be moved; a tap aims at a place or a ball, or
 // calls a pocket; two fingers, a double tap, or the wheel show a part of the table larger.
-import { drawNumbers, drawStick, ring, stroke } from "../table/drawing.js";
+import { drawNumbers, drawStick, path, type Pen, ring, stroke } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { angleFrom, ARROWS, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, put, within } from "../table/grip.js";
 import { mayLie } from "../table/head.js";
 import { skip } from "./filming.js";
-import { aimed, ballsOn, called, calls, cueOf, free, look, NONE, says, type Session, valid } from "./session.js";
+import { aimed, ballsOn, called, calls, cueOf, free, linesOf, look, NONE, says, type Session, valid } from "./session.js";
 import { shoot, undo } from "./turns.js";
 
 /** What the pointers hold: one of them a grip, since it went down; two of them the table; and the tap before. */
@@ -24,6 +24,16 @@ interface Hand {
   tapped: { when: number; at: Point; phi: number } | undefined;
 }
 
+/** The way of the ball that is met, and of the cue ball after it, as far as the lines of the game show them. */
+function drawWays(s: Session, pen: Pen): void {
+  const { ball, from, way, ways } = s.first!;
+  if (ball < 0 || s.play.breaks || (s.play.practice && !s.play.setup.drill) || linesOf(s) === "none") return;
+  const speed = Math.hypot(way[0]!, way[1]!) || 1;
+  pen.g.setLineDash([5, 4]);
+  const lines = ways.length > 0 ? ways : [[from, [0, 1].map((c) => from[c]! + (0.3 * way[c]!) / speed)]];
+  for (const line of lines) path(pen, line, 1.4, "#ffffffd0");
+  pen.g.setLineDash([]);
+}
 /** Draws what is aimed, called and in hand over the table. */
 export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const { film, play } = s;
@@ -43,6 +53,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
     if (s.first) {
       stroke(pen, cueBall.state.r, s.first.at, 1.4, "#ffffffd0");
       ring(pen, s.first.at, cueBall.kind.radius, 0);
+      drawWays(s, pen);
     }
     if (play.hand !== "no" && free(s)) {
       g.strokeStyle = "#ffe28a";
@@ -177,8 +188,8 @@ function key(s: Session, event: KeyboardEvent): void {
   const { film, play } = s;
   const [arrow, { phi, speed }] = [ARROWS[event.key], cueOf(s)];
   if (film.playing && (event.key === "Enter" || event.key === "Escape")) skip(s);
-  else if (!free(s)) return;
   else if (event.key === "Enter") shoot(s);
+  else if (!free(s)) return;
   else if ((event.ctrlKey || event.metaKey) && event.key === "z") undo(s);
   else if (event.key === "c" && play.hasPockets) choose(s, { pocket: (((calls(s) ? called(s) : undefined)?.pocket ?? -1) + 1) % play.table.pockets.length });
   else if (!arrow) return;

@@ -7,7 +7,7 @@ import { wrong } from "../ui.js";
 import { rest } from "./filming.js";
 import { OPTIONS } from "./game.js";
 import { costOf, keepRow, type Row } from "./log.js";
-import { aimAt, cueOf, free, look, NONE, placeOf, playerOf, says, type Session } from "./session.js";
+import { aimAt, cueOf, free, levelOf, look, NONE, placeOf, playerOf, says, type Session, why } from "./session.js";
 
 const [PLAN, TRY] = [1000, 200];
 
@@ -36,17 +36,17 @@ function errors(carom: Carom, { table, balls }: Asked, cue: Cue, call: Call | un
   return { phi, ...(aim.is === "falls" ? { speed: cue.speed < low ? cue.speed - low : cue.speed > high ? cue.speed - high : 0 } : {}) };
 }
 
-/** What a plan for whoever sits here begins with. Who does not err is advised as a 600. */
+/** What a plan for whoever sits here begins with: he plays as his rating says. */
 export function asked(s: Session): Asked {
   const { play } = s;
-  const { own, against, game, seed } = play.setup;
-  const rating = own === "0" ? "600" : own;
+  const { against, game, seed } = play.setup;
+  const rating = String(levelOf(s));
   const opponent = playerOf(s, /^\d/.test(against) ? against : rating);
   return { game, table: play.table, balls: play.balls, names: play.names, options: { ...play.state, player: playerOf(s, rating), opponent, shot: OPTIONS, seed: seed + play.entries.length } };
 }
 
 export async function advise(s: Session): Promise<void> {
-  if (!free(s)) return;
+  if (!free(s)) return says(s, why(s));
   const mine = ++s.number;
   s.asking++; // chances that come later do not hide the hint
   says(s, "Looking for the best stroke …");
@@ -61,8 +61,9 @@ export async function advise(s: Session): Promise<void> {
     s.special = one.kind === "push" ? "push" : undefined;
     rest(s);
     const tip = [one.cue.b > 0.1 ? "follow" : one.cue.b < -0.1 ? "draw" : "", one.cue.a > 0.1 ? "left side" : one.cue.a < -0.1 ? "right side" : ""].filter(Boolean).join(" and ");
-    const words = `${wordsOfChoice(s.play.table, s.play.names, one)}, at ${one.cue.speed.toFixed(1)} m/s${tip && ` with ${tip}`}`;
-    says(s, `Hint: ${words}. It ${wordsOfChances(one, s.play.setup.game === "threecushion")}.`);
+    const words = `${wordsOfChoice(s.play.table, s.play.names, one, s.first?.ball === -1)}, at ${one.cue.speed.toFixed(1)} m/s${tip && ` with ${tip}`}`;
+    s.hinted = true;
+    says(s, `Hint: ${words}. A ${levelOf(s)}, as you are, ${wordsOfChances(one, s.play.setup.game === "threecushion")}.${s.play.practice ? "" : " The price of a hint: this stroke errs like his."}`);
   } catch (error) {
     if (mine === s.number && free(s)) says(s, wrong(error));
   }
@@ -77,7 +78,7 @@ export async function chances(s: Session): Promise<void> {
   if (mine !== s.asking || !free(s)) return;
   try {
     const one = await chance(asked(s), cueOf(s));
-    if (mine === s.asking && free(s)) says(s, `This stroke ${wordsOfChances(one, play.setup.game === "threecushion")}.`);
+    if (mine === s.asking && free(s)) says(s, `By this stroke a ${levelOf(s)}, as you are, ${wordsOfChances(one, play.setup.game === "threecushion")}.`);
   } catch (error) {
     if (mine === s.asking) says(s, wrong(error));
   }

@@ -15,6 +15,8 @@ export interface Drill {
   /** Places of balls by their numbers, m. */
   balls: Map<number, readonly [number, number]>;
   goal: readonly (readonly [string, string])[];
+  /** The rating that makes it in half of the tries. */
+  rating: number;
 }
 
 /** The fields of a line of CSV, of which some are quoted. */
@@ -22,10 +24,9 @@ const fields = (line: string): string[] => [...line.matchAll(/(?:^|,)(?:"([^"]*)
 
 export function drillsOf(csv: string): Drill[] {
   return csv.trim().split("\n").slice(1).map((line) => {
-    const [name, text, balls, goal] = fields(line) as [string, string, string, string];
+    const [name, text, balls, goal, rating] = fields(line) as [string, string, string, string, string];
     return {
-      name,
-      text,
+      ...{ name, text, rating: Number(rating) },
       balls: new Map(balls.split(" ").map((one) => {
         const [ball, x, y] = one.split(/[:,]/).map(Number) as [number, number, number];
         return [ball, [x, y] as const];

@@ -5,7 +5,7 @@ import { filmOf, lasts, onTable, type Path, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { OPTIONS, type Stroke } from "./game.js";
 import { racksOf } from "./keep.js";
-import { aimed, called, calls, cueOf, free, look, says, type Session, stateOf } from "./session.js";
+import { aimed, called, calls, cueOf, free, linesOf, look, says, type Session, stateOf, why } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
 
 function show(s: Session, of: NonNullable<Session["filmed"]>): void {
@@ -48,7 +48,8 @@ export function tell(s: Session): void {
   const told = plays ? `${plays} ${plays === "You" ? "play" : "plays"} …` : `${wordsOfTurn(play, seat, s.thinks)}${call ? ` Call: the ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : can && calls(s) ? " Nothing is called: aim at a ball, or tap a pocket." : ""}`;
   if (words.turn.textContent !== told) words.turn.textContent = told;
   if (!plays) words.score.textContent = wordsOfScore(play, seat, racksOf(play.setup));
-  s.stroke.shoot.disabled = !can;
+  const { first } = s;
+  s.stroke.met(can && first && first.ball > 0 && (play.practice || linesOf(s) !== "none") ? first : undefined, play.names[first?.ball ?? 0]);
   const laid = play.practice && !play.setup.drill;
   const seen: [HTMLElement, boolean][] = [
     [buttons.hint, play.played !== undefined],
@@ -61,10 +62,9 @@ export function tell(s: Session): void {
     [buttons.link, play.setup.against === "link"],
   ];
   for (const [element, is] of seen) element.hidden = !is;
-  // What cannot be pressed now keeps its place, so that the others keep theirs.
-  buttons.hint.disabled = !can;
-  buttons.replay.disabled = !play.last?.shot || ["film", "thinking"].includes(stateOf(s));
-  buttons.undo.disabled = play.past.length === 0;
+  // What does nothing now keeps its place, so that the others keep theirs, and says why when it is pressed.
+  const able: [HTMLElement, boolean][] = [[s.stroke.shoot, can], [buttons.hint, can], [buttons.replay, play.last?.shot !== undefined && !["film", "thinking"].includes(stateOf(s))], [buttons.undo, play.past.length > 0]];
+  for (const [element, is] of able) element.setAttribute("aria-disabled", String(!is));
   buttons.push.setAttribute("aria-pressed", String(s.special === "push"));
   film.canvas.setAttribute("aria-label", `${GAMES[play.played?.of ?? play.setup.game]!.text} table from above. ${words.turn.textContent}`);
 }
@@ -97,7 +97,8 @@ export function skip(s: Session): void {
 }
 export function replay(s: Session): void {
   const one = s.play.last;
-  if (!one?.shot || ["film", "thinking"].includes(stateOf(s))) return;
+  if (!one?.shot) return says(s, "There is no stroke to show yet.");
+  if (["film", "thinking"].includes(stateOf(s))) return says(s, why(s));
   const now = s.turned;
   s.turned = s.turnedBefore;
   perform(s, one, () => {

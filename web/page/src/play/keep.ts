@@ -22,7 +22,7 @@ export function keepText(text: string, key = KEY): void {
 
 /** Two numbers that are counted under a name. */
 type Tally = Record<string, [number, number]>;
-const tally = (key: string): Tally => JSON.parse(kept(key) ?? "{}") as Tally;
+export const tally = (key: string): Tally => JSON.parse(kept(key) ?? "{}") as Tally;
 export const countsOf = (key: string, name: string): [number, number] => tally(key)[name] ?? [0, 0];
 /** Counts one more of the first or of the second, or of both. */
 export function count(key: string, name: string, more: readonly [number, number]): [number, number] {

@@ -8,29 +8,38 @@ import type { Session } from "./session.js";
 import { begin } from "./turns.js";
 
 const KEY = "carom-settings";
+export type Lines = "none" | "short" | "full";
 export interface Settings {
+  lines: "level" | Lines;
   sound: boolean;
   coach: boolean;
 }
 /** The settings that the browser has kept; else sound is on where a mouse is. */
-export const settingsOf = (coarse: boolean): Settings => ({ sound: !coarse, coach: false, ...(JSON.parse(kept(KEY) ?? "{}") as Partial<Settings>) });
+export const settingsOf = (coarse: boolean): Settings => ({ lines: "level", sound: !coarse, coach: false, ...(JSON.parse(kept(KEY) ?? "{}") as Partial<Settings>) });
 
 export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElement; open(): void } {
   // Practice has every table.
   const others = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
   const game = choice("new-which", "Game", [...Object.entries(PLAYED), ...others].map(([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const), told);
-  const against = choice("new-against", "Against", [["practice", "nobody: practice"], ["person", "a person at this page"], ["link", "a person by link"], ...RATINGS.map((r) => [r, `the computer, rated ${r}`] as const)], told);
-  const own = choice("new-own", "Your strokes", [["0", "go where you aim"], ...RATINGS.map((r) => [r, `err like those of a ${r}`] as const)], () => undefined);
+  const against = choice("new-against", "Against", [["practice", "nobody: practice"], ["person", "a person at this page"], ["link", "a person by link"], ...RATINGS.map((r) => [r, `the computer, rated ${r}`] as const)], errs);
+  const own = choice("new-own", "Your strokes", [["0", "go where you aim (no rating)"], ...RATINGS.map((r) => [r, r === "800" ? "err a little, like those of an 800" : `err like those of a ${r}`] as const)], () => undefined);
+  const lines = choice("lines", "Lines", [["level", "by your rating"], ["none", "none"], ["short", "short: the way of the ball"], ["full", "full: both balls"]], set);
   const note = el("p", { class: "note", id: "new-note" });
-  const set = (): void => {
-    Object.assign(s.settings, { sound: sound.input.checked, coach: coach.input.checked });
+  /** Strokes against the page's player err a little, if nothing else is chosen. */
+  function errs(): void {
+    own.select.value = /^\d/.test(against.select.value) ? "800" : "0";
+    told();
+  }
+  function set(): void {
+    Object.assign(s.settings, { lines: lines.select.value, sound: sound.input.checked, coach: coach.input.checked });
     s.sound.on = s.settings.sound;
     s.sound.wake();
     keepText(JSON.stringify(s.settings), KEY);
     s.changed();
-  };
+  }
   const sound = check("sound", "Sound", set);
   const coach = check("coach", "Coach: tells the chances of a stroke, and then its cost", set);
+  lines.select.value = s.settings.lines;
   sound.input.checked = s.settings.sound;
   coach.input.checked = s.settings.coach;
 
@@ -42,13 +51,13 @@ export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElem
       person: "Both of you play at this page, in turns.",
       link: "You break. Send the link after your turn. The page of the other player repeats your strokes, checks that every bit agrees, and goes on.",
     };
-    note.textContent = notes[against.select.value] ?? `The computer errs like a ${against.select.value} on the scale of Fargo ratings. A 300 is a beginner, a 500 plays in a league, a 700 is a strong amateur.`;
+    note.textContent = notes[against.select.value] ?? `The computer errs like a ${against.select.value} on the scale of Fargo ratings. ${s.training.rating().words} A 300 is a beginner, a 500 plays in a league, a 700 is a strong amateur.`;
   }
   const start = button("Start", () => {
     root.close();
     begin(s, { game: game.select.value, against: against.select.value as Against, own: against.select.value === "practice" ? "0" : own.select.value, seed: Math.floor(Math.random() * 2 ** 31) });
   }, { id: "start", class: "main" });
-  const root = dialog("menu", "New game", el("div", { class: "fields" }, game.root, against.root, own.root), note, start, el("h3", {}, "Settings"), sound.root, coach.root, el("div", { class: "row" }, el("span", {}, "Speed of the film"), s.film.pace), ...more);
+  const root = dialog("menu", "New game", el("div", { class: "fields" }, game.root, against.root, own.root), note, start, el("h3", {}, "Settings"), lines.root, sound.root, coach.root, el("div", { class: "row" }, el("span", {}, "Speed of the film"), s.film.pace), ...more);
   return {
     root,
     open() {

@@ -3,18 +3,17 @@ import { button, choice, el } from "../ui.js";
 import { atOf, drillsOf, judge } from "./drills.js";
 import type { Setup, Stroke } from "./game.js";
 import { count, countsOf } from "./keep.js";
+import { DRILLS_MADE as KEY, ownRating, type Rating } from "./ladder.js";
 import { photoPage } from "./photo_page.js";
 
 declare const DRILLS: string;
 
-/** Where the browser keeps how often each drill was made, of how many tries. */
-const KEY = "carom-drills";
 const BALLS = 16;
 const SIZE = [1.27, 2.54] as const;
 /** Practice with the balls of eight-ball. */
 const setupOf = (at: string, drill?: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, ...(drill === undefined ? {} : { drill }) });
 
-export function practice(begin: (setup: Setup) => void): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean } } {
+export function practice(begin: (setup: Setup) => void): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean }; rating(): Rating & { words: string } } {
   const drills = drillsOf(DRILLS);
   const of = (name: string): (typeof drills)[number] => {
     const drill = drills.find((one) => one.name === name);
@@ -52,6 +51,7 @@ export function practice(begin: (setup: Setup) => void): { parts: HTMLElement[];
       }, { id: "open-photo" })),
     ],
     photo: photo.root,
+    rating: () => ownRating(drills),
     told: (name) => `${of(name).text}${made(name)}`,
     played(name, { shot }) {
       const is = judge(of(name), shot!);

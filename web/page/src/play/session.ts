@@ -9,7 +9,7 @@ import type { controls } from "./controls.js";
 import { OPTIONS, type Play, type Stroke } from "./game.js";
 import type { byLink } from "./link.js";
 import { guessOf, type Look, lookAlong } from "./look.js";
-import type { Settings } from "./menu.js";
+import type { Lines, Settings } from "./menu.js";
 import type { practice } from "./practice.js";
 import type { Sound } from "./sound.js";
 import type { Space } from "./space.js";
@@ -45,6 +45,8 @@ export interface Session {
   seat: 0 | 1;
   chosen: Chosen;
   special: "push" | "pass" | undefined;
+  /** Whether a hint was asked for at this stroke. */
+  hinted: boolean;
   /** What the aim meets first. */
   first: Look | undefined;
   turned: Quaternion[];
@@ -100,7 +102,22 @@ export const callOf = (s: Session): Call | undefined => s.special ?? (calls(s) ?
 /** What the stroke that is shown meets first. */
 export function look(s: Session): void {
   const of = aimed(s);
-  s.first = of && onTable(s.play.balls[0]!.state) ? lookAlong(s.carom, s.play.table, s.play.balls, of, OPTIONS) : undefined;
+  s.first = of && onTable(s.play.balls[0]!.state) ? lookAlong(s.carom, s.play.table, s.play.balls, of, OPTIONS, !s.play.breaks && linesOf(s) === "full") : undefined;
+}
+
+/** The rating of whoever sits here: his own one, or that of his errors where they are larger. */
+export const levelOf = ({ play: { setup: { own } }, training }: Session): number => Math.min(training.rating().rating, own === "0" ? 800 : Number(own));
+/** What lines show of the balls: by a setting, or by the rating. */
+export function linesOf(s: Session): Lines {
+  const { lines } = s.settings;
+  const level = lines === "level" ? s.training.rating().rating : 0;
+  return lines !== "level" ? lines : level < 500 ? "full" : level < 650 ? "short" : "none";
+}
+/** Why nothing can be played now. */
+export function why({ play, ...s }: Session): string {
+  if (s.thinks) return "The other player thinks: your turn comes after his stroke.";
+  if (play.winner !== undefined) return "This game is over: begin another one.";
+  return play.setup.against === "link" ? "The other player is at the table. Send the link, or open the one that comes back." : "Not now: a stroke is on its way.";
 }
 
 export const playerOf = ({ carom }: Session, rating: string): Player => carom.player(rating === "0" ? { errors: 0 } : { fargo: Number(rating) });

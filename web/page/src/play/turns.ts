@@ -7,7 +7,8 @@ import { asked, chances, lookBack } from "./coaching.js";
 import { perform, rest, tell } from "./filming.js";
 import { OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
 import { countRack, kept, keepText, unpack } from "./keep.js";
-import { aimAt, ballsOn, callOf, cueOf, free, look, mine, NONE, placeOf, playerOf, says, type Session } from "./session.js";
+import { countGame, isRated } from "./ladder.js";
+import { aimAt, ballsOn, callOf, cueOf, free, levelOf, look, mine, NONE, placeOf, playerOf, says, type Session, why } from "./session.js";
 import { nameOf, wordsOfStroke } from "./state.js";
 
 const REPLY = 400;
@@ -15,19 +16,20 @@ const REPLY = 400;
 const SHOWN = 700;
 /** The power after the break, m/s. */
 const SPEED = 2.5;
-export const FIRST: Setup = { game: "eightball", against: "500", own: "0", seed: 1 };
+export const FIRST: Setup = { game: "eightball", against: "300", own: "800", seed: 1 };
 const computer = ({ play }: Session): boolean => /^\d/.test(play.setup.against);
 
 // ---- Strokes -------------------------------------------------------------------------------------------------------------------
 
 export function shoot(s: Session): void {
-  if (!free(s)) return;
+  if (!free(s)) return says(s, why(s));
   const { carom, play, settings, sound } = s;
   s.number++; // a search for a hint ends here
   sound.wake();
   const meant = cueOf(s);
   const { own, seed } = play.setup;
-  const made = own === "0" || play.practice ? meant : carom.withErrors(meant, playerOf(s, own), seed, play.entries.length);
+  const rating = s.hinted ? String(levelOf(s)) : own;
+  const made = rating === "0" || play.practice ? meant : carom.withErrors(meant, playerOf(s, rating), seed, play.entries.length);
   const of = asked(s);
   try {
     look(s); // the aim may have changed since the last frame
@@ -52,11 +54,13 @@ function played(s: Session, one: Stroke): void {
   s.chosen = NONE;
   s.theirs = undefined;
   s.special = undefined;
+  s.hinted = false;
   keep(s);
   perform(s, one, () => next(s));
 }
 export function undo(s: Session): void {
-  if (!s.play.practice || !s.play.undo()) return;
+  if (!s.play.practice) return;
+  if (!s.play.undo()) return says(s, "There is nothing to undo.");
   save(s);
   rest(s);
 }
@@ -79,6 +83,7 @@ export function next(s: Session): void {
   }
   if (s.link.waiting()) return s.link.onward();
   if (play.last && play.hasPockets && computer(s) && play.last.who !== s.seat) says(s, wordsOfStroke(play, play.last, s.seat));
+  if (play.winner !== undefined && isRated(play.setup)) says(s, s.training.rating().words);
   if (play.winner === undefined && !mine(s) && computer(s)) void reply(s);
   else {
     if (!play.practice && !play.breaks && mine(s)) address(s);
@@ -102,7 +107,7 @@ async function reply(s: Session): Promise<void> {
     if (play.hand !== "no") play.put(0, ...(one!.place as [number, number]));
     s.theirs = one!.cue;
     rest(s);
-    says(s, `${nameOf(play, play.turn, s.seat)} plays ${wordsOfChoice(play.table, play.names, one!)}.`);
+    says(s, `${nameOf(play, play.turn, s.seat)} plays ${wordsOfChoice(play.table, play.names, one!, s.first?.ball === -1)}.`);
     await new Promise((later) => window.setTimeout(later, s.film.pace.value === "1000" ? 0 : SHOWN));
     if (mine !== s.number) return;
     const pot = one!.ball > 0 && one!.pocket >= 0 ? { ball: one!.ball, pocket: one!.pocket } : undefined;
@@ -122,7 +127,7 @@ async function reply(s: Session): Promise<void> {
 export function start(s: Session, play: Play): void {
   drop("plan");
   const turned = play.balls.map(() => [1, 0, 0, 0] as const);
-  Object.assign(s, { number: s.number + 1, then: undefined, theirs: undefined, thinks: false, play, turned, turnedBefore: turned, chosen: NONE, special: undefined });
+  Object.assign(s, { number: s.number + 1, then: undefined, theirs: undefined, thinks: false, play, turned, turnedBefore: turned, chosen: NONE, special: undefined, hinted: false });
   s.film.stop();
   s.film.look(1);
 }
@@ -143,7 +148,11 @@ function save({ play, link }: Session): void {
 }
 /** Keeps the game after a stroke, and who has won it. */
 export function keep(s: Session): void {
-  if (s.play.winner !== undefined) countRack(s.play.setup, s.play.winner);
+  const { winner, setup } = s.play;
+  if (winner !== undefined) {
+    countRack(setup, winner);
+    countGame(setup, winner);
+  }
   save(s);
 }
 

@@ -43,7 +43,7 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     },
     film: filmPlayer({ over: (g) => drawAim(s, g), moved: () => moved(s), ended: () => finish(s) }),
     play: new Play(carom, FIRST),
-    ...{ seat: 0, chosen: NONE, special: undefined, first: undefined, turned: [], turnedBefore: [], thinks: false, theirs: undefined, then: undefined },
+    ...{ seat: 0, chosen: NONE, special: undefined, hinted: false, first: undefined, turned: [], turnedBefore: [], thinks: false, theirs: undefined, then: undefined },
     ...{ shown: undefined, filmed: undefined, sounded: 0, number: 0, asking: 0 },
   };
   const s = bare as Session;

@@ -15,11 +15,12 @@ export interface Pen {
   place(x: number, y: number): [number, number];
 }
 
-export function stroke(pen: Pen, from: readonly number[], to: readonly number[], width: number, style: string): void {
+export function path(pen: Pen, points: readonly (readonly number[])[], width: number, style: string): void {
   pen.g.strokeStyle = style;
   pen.g.lineWidth = width;
-  line(pen.g, pen, [from, to]);
+  line(pen.g, pen, points);
 }
+export const stroke = (pen: Pen, from: readonly number[], to: readonly number[], width: number, style: string): void => path(pen, [from, to], width, style);
 
 /** A circle of a radius, m, and some pixels more. */
 export function ring({ g, scale, place }: Pen, at: readonly number[], radius: number, more: number): void {
