@@ -116,7 +116,7 @@ static bool meet_others(const ref_strike *ref) {
 
 TEST(pushes_are_those_of_the_reference) {
   random_source r = {test_seed()};
-  const int each = draws_of_each(500);
+  const int each = draws_of_each(200);
   double *error = calloc((size_t)each, sizeof *error);
   for (int raised = 0; raised < 2; raised++) {
     int others = 0, twice = 0, at = 0;

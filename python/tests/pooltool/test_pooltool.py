@@ -475,7 +475,7 @@ def test_what_pooltool_plays_is_told_once(installed, played):
 def test_speed():
     """The example that compares the times finds the same events and histories, and prints its rows."""
     script = Path(__file__).parents[2] / "examples" / "pooltool_speed.py"
-    ran = subprocess.run([sys.executable, str(script), "10"], capture_output=True, text=True, env={**os.environ, "HOME": home})
+    ran = subprocess.run([sys.executable, str(script), "3"], capture_output=True, text=True, env={**os.environ, "HOME": home})
     assert ran.returncode == 0, ran.stderr
     print(ran.stdout)
     times = [[float(word) for word in line[32:].split()] for line in ran.stdout.splitlines()[3:]]

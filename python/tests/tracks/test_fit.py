@@ -193,7 +193,7 @@ def told_and_mended(**how):
     return (fitted(recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=calibrate) for calibrate in (False, True))
 
 
-@pytest.mark.parametrize(("angle", "scale"), [(0.5, 1.0), (0.0, 1.01), (-0.5, 0.99)])
+@pytest.mark.parametrize(("angle", "scale"), [(-0.5, 0.99), (0.5, 1.0), (0.0, 1.01)][: None if MATCHES else 1])
 def test_a_crooked_or_scaled_table_is_told_and_calibrated(angle, scale):
     told, mended = told_and_mended(angle=angle, scale=scale)
     number = re.match(r"the tracks lie turned by (\S+) degrees, (\S+) times .*--calibrate puts them right", told.warnings[0])
@@ -208,7 +208,7 @@ def test_a_straight_table_stays_as_it_is():
     assert list(straight.warnings) == [] and straight.median_rmse < 1.3 * np.sqrt(2) * tracks.NOISE
 
 
-@pytest.mark.parametrize("bend", [(0.004, 0.0, 0.0), (-0.003, 0.003, -0.002)])
+@pytest.mark.parametrize("bend", [(-0.003, 0.003, -0.002), (0.004, 0.0, 0.0)][: None if MATCHES else 1])
 def test_a_bent_picture_is_told_and_calibrated(bend):
     """By a lens or a camera that looks askew, as it bends the edges; corners are up to 2 cm off."""
     told, mended = told_and_mended(angle=0.2, bend=bend)
@@ -217,7 +217,7 @@ def test_a_bent_picture_is_told_and_calibrated(bend):
     assert mended.warnings[0].endswith("put right") and mended.median_rmse < 2 * np.sqrt(2) * tracks.NOISE
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", range(2 if MATCHES else 1))
 def test_noise_does_not_turn_the_table(seed):
     """Noise of 3 mm at 240 pictures a second turns a coordinate round in every third row."""
     made = synthetic(20, constants=HAN, noise=3e-3, rate=240.0, thin=0.0, seed=seed)
