@@ -23,6 +23,8 @@ from carom._rows import numbered, numbers_of
 from carom.cushions import NUMBERS
 from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks, _recordings, _strikes, _summary, fit
 
+# Before a release more matches are fitted.
+MATCHES = int(os.environ.get("CAROM_MATCHES", "0"))
 HAN = {"mu_slide": 0.21, "mu_roll": 0.005, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "law_a": 0.05}
 
 
@@ -375,8 +377,6 @@ def test_strikes_are_off_by_what_their_covariance_says():
         none.strike_covariance(0)
 
 
-# Before a release more matches are fitted.
-MATCHES = int(os.environ.get("CAROM_MATCHES", "0"))
 TRUTH = {
     "mu_slide": 0.21, "mu_roll": 0.0046, "drag": 0.011, "mu_spin": 0.006, "mu_cushion": 0.21, "restitution_cushion": 0.89, "law_a": 0.04,
     "law_b": 0.4, "restitution": 0.94, "nose_height": 0.0362, "roll_loss": 0.06,
