@@ -184,14 +184,17 @@ const char *argument_of(const option_row *row) {
 static const struct {
   carom_part_kind part;
   const char *whose;
-} owners[] = {{CAROM_PART_BALL, "a ball"},   {CAROM_PART_CUE, "a cue"},
-              {CAROM_PART_TABLE, "a table"}, {CAROM_PART_RAIL, "a rail"},
-              {CAROM_PART_JAW, "a jaw"},     {CAROM_PART_POCKET, "a pocket"}};
+} owners[] = {{CAROM_PART_BALL, "a ball"},     {CAROM_PART_CUE, "a cue"},
+              {CAROM_PART_TABLE, "a table"},   {CAROM_PART_RAIL, "a rail"},
+              {CAROM_PART_JAW, "a jaw"},       {CAROM_PART_POCKET, "a pocket"},
+              {CAROM_PART_MEASURES, "a table"}};
 enum { OWNERS = sizeof owners / sizeof owners[0] };
 
 /* Why an option does not take a number; NULL: it does. Those of one impact on a cushion are
  * numbers of its model. */
 static const char *refusal(const option_row *row, carom_part_kind part, const carom_number *n) {
+  if (part == CAROM_PART_MEASURES)
+    return "--table has it by its key, as in --table 9ft,corner=4.25in";
   if (part != CAROM_PART_BALL && part != CAROM_PART_CUE)
     return "a table in a file for `carom shoot` has it";
   if (part == CAROM_PART_CUE && n->error == CAROM_OK)
