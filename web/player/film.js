@@ -10,8 +10,8 @@ const BRIGHT = { [POOL[0]]: "#ffd84a", [POOL[1]]: "#8fc1ff", [POOL[2]]: "#ff8d80
 /** Of shots over each other, as in the picture below the film. */
 const SHOTS = ["#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"];
 
-/** The trails, to the pocket that takes the ball. @param {CanvasRenderingContext2D} g @param {View} view @param {Film} film @param {boolean} dim */
-export function drawTrails(g, view, { balls, shots, apart = false }, dim) {
+/** The trails, to the pocket that takes the ball. @param {CanvasRenderingContext2D} g @param {View} view @param {Film} film */
+export function drawTrails(g, view, { balls, shots, apart = false }) {
   g.lineWidth = 1.6;
   g.lineJoin = g.lineCap = "round";
   for (const [index, { paths }] of shots.entries())
@@ -19,7 +19,7 @@ export function drawTrails(g, view, { balls, shots, apart = false }, dim) {
       const colour = colourOf(balls[ball].name, ball);
       g.strokeStyle = apart ? SHOTS[index % 8] : (BRIGHT[colour] ?? colour);
       g.setLineDash(apart && colour !== IVORY ? [7, 4] : []);
-      g.globalAlpha = dim ? 0.5 : 0.8;
+      g.globalAlpha = 0.8;
       g.beginPath();
       for (let k = 0; k < xyz.length; k += 3) {
         g[k === 0 ? "moveTo" : "lineTo"](...view.place(xyz[k], xyz[k + 1]));

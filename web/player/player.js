@@ -59,7 +59,7 @@ function listEvents(of, clock, go) {
 }
 
 /** What draws the film at the time of its clock. @param {Parts} of @param {Clock} clock @param {ReturnType<typeof viewOf>} view @param {Hooks} hooks */
-function drawing({ canvas }, clock, view, { under, over, sharp = 1 }) {
+function drawing({ canvas }, clock, view, { over, sharp = 1 }) {
   const clothOf = clothFor(view, canvas);
   return () => {
     if (!clock.film) return;
@@ -68,7 +68,7 @@ function drawing({ canvas }, clock, view, { under, over, sharp = 1 }) {
     const g = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
     g.setTransform(dpr, 0, 0, dpr, 0, 0);
     g.drawImage(cloth, 0, 0, width, height);
-    drawTrails(g, view, clock.film, under?.(g) ?? false);
+    drawTrails(g, view, clock.film);
     drawBalls(g, view, clock.film, clock.time);
     over?.(g);
   };
@@ -123,7 +123,7 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
   return { start, stop, go, step };
 }
 
-/** @param {Hooks} hooks `under` draws below the trails and tells whether they are dim; `still` tells that the clock is not the reader's now;
+/** @param {Hooks} hooks `still` tells that the clock is not the reader's now;
  * `sharp` is how many pixels of the picture there are at least for one of the page. */
 export function player(hooks = {}) {
   const [of, view] = [parts(), viewOf()];

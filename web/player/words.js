@@ -10,7 +10,7 @@
  * @typedef {{ time: number, at(time: number): Pose[], paths: { ball: number, xyz: ArrayLike<number> }[], events: { time: number, text: string }[] }} Shot */
 /** Shots that are apart have a colour each: of trails, dashed but for the cue ball, and around balls. */
 /** @typedef {{ table: Table, balls: { name: string, radius: number }[], shots: Shot[], apart?: boolean }} Film */
-/** @typedef {{ under?(g: CanvasRenderingContext2D): boolean, over?(g: CanvasRenderingContext2D): void, ended?(): void, moved?(): void,
+/** @typedef {{ over?(g: CanvasRenderingContext2D): void, ended?(): void, moved?(): void,
  *   still?(): boolean, sharp?: number }} Hooks */
 
 /** The product of two rotations, w, x, y, z: first b, then a. @param {ArrayLike<number>} a @param {ArrayLike<number>} b

@@ -189,12 +189,6 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     await one.close();
   });
 
-  test("a fan of 500 shots", async () => {
-    const one = await open("#view=lab&game=threecushion&speed=4&phi=62&fan=1");
-    await expect.poll(() => text(one, "cost")).toContain("500 of 500");
-    await one.close();
-  });
-
   test.each(sizes)("balls are dragged, wait in a pocket, come back, and stay beside each other: %s", async (_, how) => {
     const touch = "touch" in how;
     const one = await open("#view=lab", how);

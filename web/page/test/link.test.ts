@@ -93,6 +93,22 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     await context.close();
   }, 300_000);
 
+  test("whoever keeps the turn is told that the other one waits, who knows for what", async () => {
+    const [here, there] = [await contextOf(sizes[1][1]), await contextOf(sizes[0][1])];
+    const one = await open(here, `#view=play&seat=0&g=${packed(JSON.stringify({ game: "nineball", against: "link", own: "0", seed: 7, at: "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9", entries: [] }))}`);
+    for (const [id, value] of [["phi", "225"], ["up", "-0.35"], ["power", "1.2"]] as const) await one.locator(`#${id}`).evaluate((input: HTMLInputElement, value) => ((input.value = value), input.dispatchEvent(new Event("input"))), value);
+    await one.locator("#shoot").click();
+    await one.locator("#skip").click();
+    await expect.poll(() => turn(one)).toMatch(/^Your turn/);
+    const other = await open(there, new URL(await link(one)).hash);
+    expect(await text(one, "said")).toMatch(/You are still at the table: send it again after your turn/);
+    expect(await turn(other)).toBe("The other player plays: wait for the link that comes after this turn.");
+    await other.locator("#shoot").evaluate((button: HTMLElement) => button.click());
+    expect(await text(other, "said")).toBe("The other player is at the table: open the link that comes after his turn.");
+    await here.close();
+    await there.close();
+  });
+
   test("a link to another machine plays the strokes, and one that was changed is refused", async () => {
     const [here, there] = [await contextOf(sizes[0][1]), await contextOf(sizes[1][1])];
     const one = await open(here);

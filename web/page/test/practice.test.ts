@@ -17,11 +17,16 @@ describe.runIf(browserPath !== undefined)("practice", () => {
     expect(await text(one, "turn")).toBe("Short straight pot");
     await turnTo(one, 200);
     await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said")).toBe("Missed: 0 of 1.");
+    await expect.poll(() => text(one, "said")).toBe("Missed: 0 of 1. The cue ball fell or left the table.");
+    // So little off its pocket that the page tells by how much.
+    await turnTo(one, 48);
+    await set(one, "power", 1.5);
+    await one.locator("#shoot").click();
+    await expect.poll(() => text(one, "said")).toMatch(/^Missed: 0 of 2\. The 1 did not fall\. Turn the aim [23]\.\d\d° to the right\.$/);
     await turnTo(one, 45);
     await set(one, "power", 1.5);
     await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said")).toBe("Made: 1 of 2.");
+    await expect.poll(() => text(one, "said")).toBe("Made: 1 of 3.");
     expect(await one.locator("#undo-stroke").isVisible()).toBe(false);
     await one.reload();
     await one.waitForSelector("main[aria-busy=false]");
@@ -29,7 +34,20 @@ describe.runIf(browserPath !== undefined)("practice", () => {
     await one.locator("#new-game").click();
     await one.locator("#drill").selectOption("Stop shot");
     await one.locator("#drill").selectOption("Short straight pot");
-    expect(await text(one, "drill-note")).toContain("Made 1 of 2.");
+    expect(await text(one, "drill-note")).toContain("Made 1 of 3.");
+    // What came of a place that was wanted, and all of it in the log.
+    await one.locator("#drill").selectOption("Draw");
+    await one.locator("#start-drill").click();
+    await turnTo(one, 63.43);
+    await set(one, "power", 1.2);
+    await one.locator("#shoot").click();
+    await expect.poll(() => text(one, "said")).toMatch(/The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/);
+    await one.locator("#new-game").click();
+    await one.locator("#open-log").click();
+    expect(await one.locator("#log tbody tr").count()).toBe(4);
+    expect(await one.locator("#log tbody tr").nth(2).textContent()).toMatch(/Short straight pot.*[23]\.\d\d/);
+    expect(await text(one, "log-sum")).toMatch(/Practise next: .*\(/);
+    expect(await violations(one)).toEqual([]);
     await one.close();
   });
 

@@ -14,7 +14,6 @@ function stateOf(d: Desk): Record<string, string> {
   if (d.seed !== 1) kept.seed = String(d.seed);
   for (const [key, s] of Object.entries(controls.sliders)) if (s.value !== DEFAULTS[key]) kept[key] = String(s.value);
   if (controls.cushion.select.value !== "han") kept.cushion = controls.cushion.select.value;
-  if (controls.fanned.input.checked) kept.fan = "1";
   if (d.solver() === "euler") kept.solver = "euler";
   if (d.imported) kept.line = lineOf(d);
   else if (d.moved || d.faces.some((face) => face !== 0)) kept.at = d.balls.map(({ state: { r, label } }, k) => (label === "pocketed" ? "in" : `${r[0]},${r[1]}${d.faces[k] ? `,${d.faces[k]}` : ""}`)).join(" ");
@@ -33,7 +32,6 @@ export function restore(d: Desk, given: URLSearchParams): void {
     s.value = Number.isFinite(x) ? x : DEFAULTS[key]!;
   }
   controls.cushion.select.value = known("cushion", CUSHIONS);
-  controls.fanned.input.checked = given.get("fan") === "1";
   lay(d);
   let refused = "";
   try {

@@ -3,12 +3,10 @@ import { type Carom, type Cue, type Replayed, type Shot, type ShotBall, type Sho
 import type { player } from "../../../player/player.js";
 import { GAMES, type GameOf } from "../table/games.js";
 import { cueWith, strokeControls, strokeOf } from "../table/stroke.js";
-import { check, choice, el, slider, type Slider, wrong } from "../ui.js";
+import { choice, el, slider, type Slider, wrong } from "../ui.js";
 import type { reel } from "./reel.js";
 
-/** Shots of a fan. */
-export const FAN = 500;
-export const DEFAULTS: Record<string, number> = { speed: 8, phi: 90, right: 0, up: 0.25, theta: 0, error: 0.3 };
+export const DEFAULTS: Record<string, number> = { speed: 8, phi: 90, right: 0, up: 0.25, theta: 0 };
 /** Models of the cushion, the page's own choice first. */
 const about: ReadonlyMap<string, string> = new Map(words.cushionModel);
 export const CUSHIONS = ["han", ...[...about.keys()].filter((word) => word !== "han")];
@@ -41,9 +39,6 @@ export interface Desk {
   shot: Shot | undefined;
   /** The shot of a recording that is shown. */
   recorded: Replayed | undefined;
-  /** What was drawn of the fan, whose number is raised by what ends it. */
-  fan: HTMLCanvasElement | undefined;
-  fanNumber: number;
   writing: number | undefined;
 }
 
@@ -51,16 +46,12 @@ export interface Desk {
 export function controlsOf(aimed: () => void, racked: () => void) {
   const two = (x: number): string => x.toFixed(2);
   const stroke = strokeControls(slider("speed", "Speed of the cue", 0.1, 10, 0.05, " m/s", aimed, two), "spin", aimed);
-  const sliders: Record<string, Slider> = {
-    ...stroke.sliders,
-    error: slider("error", "Player's error of direction", 0.05, 2, 0.05, "°", aimed, two),
-  };
+  const sliders: Record<string, Slider> = stroke.sliders;
   const set = (key: string, value: number): void => void (sliders[key]!.value = value);
   return {
     ...{ sliders, stroke, set, value: (key: string): number => sliders[key]!.value },
     games: choice("game", "Game", Object.entries(GAMES).map(([key, { text }]) => [key, text] as const), racked),
     cushion: choice("cushion", "Cushions", CUSHIONS.map((word) => [word, `${word}: ${about.get(word)}`] as const), aimed),
-    fanned: check("fan", `Fan: ${FAN} shots with a player's error`, aimed),
     summary: el("tbody"),
     message: el("p", { class: "error", role: "status", id: "message" }),
     line: el("textarea", { id: "line", spellcheck: "false" }),

@@ -1,9 +1,8 @@
-// What the laboratory shows of a shot: its film, its numbers, and a fan of shots with a player's error.
+// What the laboratory shows of a shot: its film, its numbers.
 import { CaromError, type Cue, type Replayed } from "carom";
 import { facing, filmOf, pathsOf } from "../table/filmed.js";
 import { el, wrong } from "../ui.js";
-import { type Desk, FAN, optionsOf, says, suit } from "./desk.js";
-import { fan } from "./fan.js";
+import { type Desk, optionsOf, says, suit } from "./desk.js";
 
 /** Shows a stroke, which is played, or the shot of a recording. */
 export function present(d: Desk, stroke: Cue, played?: Replayed): void {
@@ -11,7 +10,6 @@ export function present(d: Desk, stroke: Cue, played?: Replayed): void {
   const { controls, table, balls, names } = d;
   d.recorded = played;
   d.recording.shows(played);
-  controls.sliders.error!.input.disabled = !controls.fanned.input.checked;
   controls.stroke.set({}); // the tip is where its sliders are
   const begun = performance.now();
   says(d, said);
@@ -24,12 +22,9 @@ export function present(d: Desk, stroke: Cue, played?: Replayed): void {
   const computed = performance.now() - begun;
   // Flights are short: their paths need more points.
   const paths = d.shot ? pathsOf(d.shot, d.shot.events.some((event) => event.type === "slate") ? 150 : 25, 900) : [];
-  d.fan = undefined;
-  d.fanNumber++;
   tell(d);
   d.film.show(filmOf({ table, balls, names, turned: d.faces.map(facing) }, d.shot, paths));
   controls.cost.textContent = `The shot was computed in ${computed.toFixed(1)} ms, and drawn with its paths in ${(performance.now() - begun).toFixed(1)} ms.`;
-  if (controls.fanned.input.checked) void drawFan(d);
   window.clearTimeout(d.writing);
   d.writing = window.setTimeout(d.settled, 150);
 }
@@ -48,14 +43,4 @@ function tell({ controls, shot, balls, names, game, film }: Desk): void {
   }
   controls.summary.replaceChildren(...rows.map(([id, name, text]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `s-${id}` }, text))));
   film.canvas.setAttribute("aria-label", `${game.text} table from above. The shot lasts ${shot?.time.toFixed(1) ?? 0} seconds; ${contact ? `ball ${names[contact.ball]} is hit first` : "no ball is hit"}.`);
-}
-
-function drawFan(d: Desk): Promise<void> {
-  const mine = d.fanNumber;
-  const { controls, film } = d;
-  return fan(d, () => mine === d.fanNumber && film.canvas.isConnected, (layer, shots, ms) => {
-    d.fan = layer;
-    if (!film.playing) film.draw();
-    controls.cost.textContent = `The fan shows ${shots} of ${FAN} shots, which the library computed in ${ms.toFixed(0)} ms.`;
-  });
 }

@@ -1,4 +1,4 @@
-// The view Laboratory: shots are aimed on it and played while one aims; their film, their events, and a fan of shots with a player's error.
+// The view Laboratory: shots are aimed on it and played while one aims; their film and their events.
 import type { Carom } from "carom";
 import { player } from "../../../player/player.js";
 import { button, el, parameters } from "../ui.js";
@@ -18,15 +18,11 @@ function deskOf(carom: Carom, solver: Desk["solver"]): Desk {
     rackUp(d);
   });
   const film = player({
-    under(g) {
-      if (d.fan) g.drawImage(d.fan, 0, 0, film.canvas.clientWidth, film.canvas.clientHeight);
-      return d.fan !== undefined;
-    },
     over: (g) => drawHand(d, g),
     ended: () => d.recorded && d.recording.advance(),
   });
   const d = {
-    ...{ carom, solver, controls, film, recorded: undefined, imported: undefined, shot: undefined, fan: undefined, fanNumber: 0, writing: undefined },
+    ...{ carom, solver, controls, film, recorded: undefined, imported: undefined, shot: undefined, writing: undefined },
     aimed: () => present(d, cueOf(d)),
   } as unknown as Desk;
   return Object.assign(d, { recording: reel(d) });
@@ -54,7 +50,7 @@ function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
     { class: "table-view" },
     el("section", { class: "stage", "aria-label": "Table" }, film.canvas, ...roots("speed"), controls.stroke.tip),
     el("section", { class: "bar", "aria-label": "Film" }, film.controls, recording.bar, tools),
-    el("section", { class: "panel aim", "aria-label": "The shot" }, ...roots("right", "up", "phi", "theta"), row(controls.games.root, controls.cushion.root), controls.fanned.root, ...roots("error"), lines),
+    el("section", { class: "panel aim", "aria-label": "The shot" }, ...roots("right", "up", "phi", "theta"), row(controls.games.root, controls.cushion.root), lines),
     el(
       "div",
       { class: "below" },

@@ -1,5 +1,6 @@
 // The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball that may be moved; a tap aims at a place or a ball, or
 // calls a pocket; two fingers, a double tap, or the wheel show a part of the table larger.
+import type { Vec3 } from "carom";
 import { drawNumbers, drawStick, path, type Pen, ring, stroke } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { angleFrom, ARROWS, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, put, within } from "../table/grip.js";
@@ -37,8 +38,12 @@ function drawWays(s: Session, pen: Pen): void {
 /** Draws what is aimed, called and in hand over the table. */
 export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const { film, play } = s;
-  if (film.time > 0 || film.playing) return;
   const pen = { g, scale: film.scale, place: film.place };
+  if (film.time > 0 || film.playing) {
+    // Balls that are too small to be read while they roll have their numbers beside them.
+    const poses = play.balls[0]!.kind.radius * film.scale < 8 ? s.filmed!.shots[0]!.at(film.time) : [];
+    return drawNumbers(pen, poses.map(({ r, seen }, k) => ({ kind: play.balls[k]!.kind, state: { r: r as Vec3, label: seen ? "rolling" : "pocketed" } })), play.names);
+  }
   const [cueBall] = play.balls as [(typeof play.balls)[number]];
   const [call, of] = [free(s) && calls(s) ? called(s) : undefined, aimed(s)];
   g.setLineDash([]);
@@ -65,7 +70,7 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
     }
     drawStick(pen, cueBall, of);
   }
-  if (!play.breaks) drawNumbers(pen, play.balls, play.names);
+  drawNumbers(pen, play.balls, play.names);
 }
 
 // ---- One pointer -----------------------------------------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
 // The coach at the table: the hint and the chances of the stroke that is aimed, and what a stroke cost once it was played.
-import type { Call, Carom, Choice, Cue, PlanOptions, ShotBall, Table } from "carom";
+import type { AimOf, Call, Carom, Choice, Cue, PlanOptions, ShotBall, Table } from "carom";
 import { drop, far } from "../far.js";
 import { onTable } from "../table/filmed.js";
 import { percent, wordsOfChances, wordsOfChoice } from "../table/words.js";
@@ -24,10 +24,9 @@ const best = (of: Asked, more: PlanOptions = {}): Promise<Choice> => far("plan",
 const chance = (of: Asked, cue: Cue): Promise<Choice> => far("chances", of.table, of.balls, [cue], { ...of.options, shots: TRY }).then(([one]) => one!);
 const isPot = (call: Call | undefined): call is { ball: number; pocket: number } => typeof call === "object" && call.ball > 0 && call.pocket >= 0;
 
-/** How far a stroke is off the aim at what it called. */
-function errors(carom: Carom, { table, balls }: Asked, cue: Cue, call: Call | undefined): Pick<Row, "phi" | "speed"> {
-  if (!isPot(call)) return {};
-  const aim = carom.aim(table, balls, cue, call, OPTIONS);
+/** How far a stroke is off the aim at a ball and a pocket. */
+export function errors(carom: Carom, table: Table, balls: readonly ShotBall[], cue: Cue, of: AimOf): Pick<Row, "phi" | "speed"> {
+  const aim = carom.aim(table, balls, cue, of, OPTIONS);
   if (aim.is === "no_way") return {};
   const phi = ((cue.phi - aim.cue.phi + 540) % 360) - 180;
   // Farther off, something else was meant.
@@ -92,10 +91,10 @@ export async function lookBack(s: Session, of: Asked, made: Cue, calls: Call | u
     const [mine, other] = await Promise.all([chance(of, made), best(of)]);
     const meant = wordsOfChoice(of.table, of.names, isPot(calls) ? { ...mine, ...calls } : { ...mine, kind: mine.ball < 0 ? "safety" : mine.kind });
     const wins = { keep: mine.keep, value: mine.value, best: wordsOfChoice(of.table, of.names, other), bestValue: other.value };
-    const row = { when: new Date().toISOString().slice(0, 16), game: of.game, meant, ...errors(s.carom, of, made, calls), ...wins };
+    const row = { when: new Date().toISOString().slice(0, 16), game: of.game, meant, ...(isPot(calls) ? errors(s.carom, of.table, of.balls, made, calls) : {}), ...wins };
     keepRow(row);
-    const cost = costOf(row);
-    says(s, `That stroke wins in ${percent(row.value)} of tries; the best one, ${row.best}, in ${percent(row.bestValue)}. ${cost < 0.02 ? "You chose well." : `It cost ${percent(cost)}.`}`);
+    const cost = costOf(row)!;
+    says(s, `That stroke wins in ${percent(mine.value)} of tries; the best one, ${row.best}, in ${percent(other.value)}. ${cost < 0.02 ? "You chose well." : `It cost ${percent(cost)}.`}`);
   } catch (error) {
     says(s, `The review of that stroke failed: ${wrong(error)}`);
   }

@@ -38,14 +38,31 @@ export function drillsOf(csv: string): Drill[] {
 /** The layout as the text of a game, for so many balls. */
 export const atOf = ({ balls }: Drill, count: number): string => Array.from({ length: count }, (_, k) => balls.get(k)?.join(",") ?? "in").join(" ");
 
-/** Whether a stroke made it, failed, or goes on. */
-export function judge({ goal }: Drill, shot: Shot): "made" | "missed" | "on" {
+const cm = (x: number): string => `${Math.round(100 * Math.abs(x))} cm`;
+/** Where the cue ball came, of a place that is wanted, and what would bring it there: along its aim, on from its first contact or back. */
+function wordsOfPlace({ firstContact, final }: Shot, [x, y, far]: readonly [number, number, number]): string {
+  const end = final[0]!.r;
+  const met = firstContact && firstContact.event.before[firstContact.event.a === 0 ? 0 : 1];
+  const [vx, vy] = met ? [0, 1].map((c) => met.v[c]! / Math.hypot(met.v[0], met.v[1])) as [number, number] : [0, 0];
+  const along = (at: readonly number[]): number => (at[0]! - met!.r[0]) * vx + (at[1]! - met!.r[1]) * vy;
+  if (!met || Math.abs((x - met.r[0]) * vy - (y - met.r[1]) * vx) > 0.1) return `The cue ball ended ${cm(Math.hypot(end[0] - x, end[1] - y))} from the place, of ${cm(far)}: change its speed.`;
+  const [wanted, came] = [along([x, y]), along(end)];
+  if (Math.abs(wanted) < 0.1) return `The cue ball ${came > 0 ? "rolled on" : "came back"} by ${cm(came)}, and was to stop: strike it ${came > 0 ? "lower" : "higher"}.`;
+  const share = came / wanted;
+  return `The cue ball ${wanted > 0 ? "rolled on" : "came back"} ${cm(Math.max(share, 0) * wanted)} of ${cm(wanted)}: strike it ${share > 1 ? "softer" : wanted > 0 ? "higher or faster" : "lower or faster"}.`;
+}
+
+/** Whether a stroke made it, failed, or goes on; and of what failed, what was wanted and came. */
+export function judge({ goal }: Drill, shot: Shot): { is: "made" | "missed" | "on"; why: string[] } {
   const { events, final, table } = shot;
-  if (!onTable(final[0]!) || final.some(({ label }) => label === "off")) return "missed";
+  if (!onTable(final[0]!)) return { is: "missed", why: ["The cue ball fell or left the table."] };
+  if (final.some(({ label }) => label === "off")) return { is: "missed", why: ["A ball left the table."] };
   const meets = events.filter(({ type, a, b }) => type === "ball_ball" && (a === 0 || b === 0));
   const other = ({ a, b }: (typeof events)[number]): number => (a === 0 ? b : a);
   const isCushion = ({ type }: (typeof events)[number]): boolean => type === "ball_linear_cushion" || type === "ball_circular_cushion";
   const fell = (ball: number): (typeof events)[number] | undefined => events.find(({ type, a }) => type === "ball_pocket" && a === ball);
+  const met = new Set(meets.map(other)).size;
+  const [kicks, rails] = [events.filter((one) => isCushion(one) && one.a === 0 && meets[0] && one.time < meets[0].time).length, events.filter((one) => one.type === "ball_linear_cushion" && one.a === 0).length];
   const checks: Record<string, (value: string) => boolean> = {
     pot(value) {
       const [ball, pocket] = value.split("@");
@@ -57,17 +74,27 @@ export function judge({ goal }: Drill, shot: Shot): "made" | "missed" | "on" {
       return event !== undefined && events.some((one) => one.type === "ball_linear_cushion" && one.a === Number(value) && one.time < event.time);
     },
     first: (value) => meets[0] !== undefined && other(meets[0]) === Number(value),
-    kick: (value) => meets[0] !== undefined && events.filter((one) => isCushion(one) && one.a === 0 && one.time < meets[0]!.time).length >= Number(value),
-    hit: (value) => new Set(meets.map(other)).size >= Number(value),
-    cushions: (value) => events.filter((one) => one.type === "ball_linear_cushion" && one.a === 0).length >= Number(value),
+    kick: (value) => meets[0] !== undefined && kicks >= Number(value),
+    hit: (value) => met >= Number(value),
+    cushions: (value) => rails >= Number(value),
     cue(value) {
       const [x, y, far] = value.split(",").map(Number) as [number, number, number];
       return Math.hypot(final[0]!.r[0] - x, final[0]!.r[1] - y) <= far;
     },
   };
+  const words: Record<string, (value: string) => string> = {
+    pot: (value) => `The ${parseInt(value)} did not fall${value.includes("@") ? ` in the ${value.split("@")[1]} pocket` : ""}.`,
+    bank: (value) => `The ${value} ${fell(Number(value)) ? "fell without a cushion" : "did not fall"}.`,
+    first: (value) => `The cue ball met ${meets[0] ? `the ${other(meets[0])}` : "no ball"} first, not the ${value}.`,
+    kick: (value) => `It met ${kicks} of ${value} cushions before a ball.`,
+    hit: (value) => `It met ${met} of ${value} balls.`,
+    cushions: (value) => `The cue ball met ${rails} of ${value} cushions: strike it faster.`,
+    cue: (value) => wordsOfPlace(shot, value.split(",").map(Number) as [number, number, number]),
+  };
   if (goal[0]![0] === "clear") {
-    if (!events.some(({ type }) => type === "ball_pocket")) return "missed";
-    return final.some((state, k) => k > 0 && onTable(state)) ? "on" : "made";
+    if (!events.some(({ type }) => type === "ball_pocket")) return { is: "missed", why: ["No ball fell."] };
+    return { is: final.some((state, k) => k > 0 && onTable(state)) ? "on" : "made", why: [] };
   }
-  return goal.every(([word, value]) => checks[word]!(value)) ? "made" : "missed";
+  const why = goal.flatMap(([word, value]) => (checks[word]!(value) ? [] : words[word]!(value)));
+  return { is: why.length === 0 ? "made" : "missed", why };
 }

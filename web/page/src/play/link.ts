@@ -55,7 +55,10 @@ export function byLink(s: Session): { save(): void; send(): Promise<void>; ask()
       // The other one has the other seat; who goes on elsewhere with a game of his own keeps his.
       const seat = play.setup.against === "link" && s.seat === 0 ? 1 : 0;
       const url = `${location.href.split("#")[0]}#view=play&seat=${seat}&g=${await pack(play.text())}`;
-      says(s, await send(url, "A game of billiards", s.coarse, play.setup.against === "link" ? "The link for the other player is copied." : "The link to this game is copied."));
+      const linked = play.setup.against === "link";
+      const told = await send(url, "A game of billiards", s.coarse, linked ? "The link for the other player is copied." : "The link to this game is copied.");
+      const waits = play.turn === s.seat ? "You are still at the table: send it again after your turn, or the other player waits." : "It has nothing new if you have sent it before.";
+      says(s, `${told}${linked && play.winner === undefined && (play.turn === s.seat || play.last?.who !== s.seat) ? ` ${waits}` : ""}`);
     },
     ask: () => others.postMessage({}),
     waiting: () => queue.length > 0,

@@ -6,30 +6,34 @@ import { kept, keepText } from "./keep.js";
 const LOG = "carom-log";
 const MOST = 500;
 
-/** A stroke of the log. Errors are those of the aim at the ball that was meant: the direction, degrees, and the speed beyond its range, m/s. */
+/**
+ * A stroke of the log. Errors are those of the aim at the ball that was meant: the direction, degrees, and the speed beyond its range, m/s; and the side of
+ * the tip, radii. Of a drill nothing is planned, and `best` is what came and what to change.
+ */
 export interface Row {
   when: string;
   game: string;
   meant: string;
   phi?: number;
   speed?: number;
+  side?: number;
   /** Chances that it keeps the turn and wins, of this stroke and of the best one. */
-  keep: number;
-  value: number;
+  keep?: number;
+  value?: number;
   best: string;
-  bestValue: number;
+  bestValue?: number;
 }
 /** What a stroke cost against the best one: its chance to win less, never below 0 but for the spread of both plans. */
-export const costOf = ({ value, bestValue }: Row): number => Math.max(bestValue - value, 0);
+export const costOf = ({ value, bestValue }: Row): number | undefined => (value === undefined ? undefined : Math.max(bestValue! - value, 0));
 
 const rows = (): Row[] => JSON.parse(kept(LOG) ?? "[]") as Row[];
 export const keepRow = (row: Row): void => keepText(JSON.stringify([...rows(), row].slice(-MOST)), LOG);
 
 /** The log as a page to print. */
-export function logPage(): { root: HTMLDialogElement; open(): void } {
+export function logPage(plan: () => string): { root: HTMLDialogElement; open(): void } {
   const body = el("tbody");
   const sum = el("p", { id: "log-sum" });
-  const head = ["When", "Game", "Meant", "Aim off by, °", "Speed off by, m/s", "Keeps the turn", "Wins", "Best stroke", "Best wins", "Cost"];
+  const head = ["When", "Game", "Meant", "Aim off by, °", "Speed off by, m/s", "Tip to the right, R", "Keeps the turn", "Wins", "Best stroke, or what came", "Best wins", "Cost"];
   const table = el("table", { class: "numbers log" }, el("caption", {}, "Strokes, the last one first"), el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))), body);
   const clear = button("Delete all", () => {
     keepText("[]", LOG);
@@ -39,12 +43,13 @@ export function logPage(): { root: HTMLDialogElement; open(): void } {
   function fill(): void {
     const all = rows();
     const number = (x: number | undefined, places: number): string => (x === undefined ? "" : x.toFixed(places));
-    body.replaceChildren(...[...all].reverse().map((row) => el("tr", {}, ...[row.when.replace("T", " "), row.game, row.meant, number(row.phi, 2), number(row.speed, 1), percent(row.keep), percent(row.value), row.best, percent(row.bestValue), percent(costOf(row))].map((text) => el("td", {}, text)))));
+    const share = (x: number | undefined): string => (x === undefined ? "" : percent(x));
+    body.replaceChildren(...[...all].reverse().map((row) => el("tr", {}, ...[row.when.replace("T", " "), row.game, row.meant, number(row.phi, 2), number(row.speed, 1), number(row.side, 2), share(row.keep), share(row.value), row.best, share(row.bestValue), share(costOf(row))].map((text) => el("td", {}, text)))));
     const mean = (of: (row: Row) => number | undefined): number => {
       const known = all.flatMap((row) => of(row) ?? []);
       return known.reduce((total, x) => total + x, 0) / Math.max(known.length, 1);
     };
-    sum.textContent = all.length === 0 ? "No stroke yet: the coach, in New game, writes one line for each." : `${all.length} ${all.length === 1 ? "stroke" : "strokes"}. A stroke cost ${percent(mean(costOf))} of a game on average. The aim was off by ${mean(({ phi }) => phi && Math.abs(phi)).toFixed(2)}°.`;
+    sum.textContent = all.length === 0 ? `No stroke yet: the coach, in New game, and drills write one line for each. ${plan()}` : `${all.length} ${all.length === 1 ? "stroke" : "strokes"}. A stroke cost ${percent(mean(costOf))} of a game on average. The aim was off by ${mean(({ phi }) => phi && Math.abs(phi)).toFixed(2)}°. ${plan()}`;
   }
   return {
     root,

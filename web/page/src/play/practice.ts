@@ -1,9 +1,12 @@
 // What practice has besides a table: drills with counts, and a table from a photo. Both are parts of the dialog of a new game.
+import type { AimOf, Carom } from "carom";
 import { button, choice, el } from "../ui.js";
 import { atOf, drillsOf, judge } from "./drills.js";
+import { errors } from "./coaching.js";
 import type { Setup, Stroke } from "./game.js";
 import { count, countsOf } from "./keep.js";
 import { DRILLS_MADE as KEY, ownRating, type Rating } from "./ladder.js";
+import { keepRow } from "./log.js";
 import { photoPage } from "./photo_page.js";
 
 declare const DRILLS: string;
@@ -13,7 +16,7 @@ const SIZE = [1.27, 2.54] as const;
 /** Practice with the balls of eight-ball. */
 const setupOf = (at: string, drill?: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, ...(drill === undefined ? {} : { drill }) });
 
-export function practice(begin: (setup: Setup) => void): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean }; rating(): Rating & { words: string } } {
+export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean }; rating(): Rating & { words: string }; plan(): string } {
   const drills = drillsOf(DRILLS);
   const of = (name: string): (typeof drills)[number] => {
     const drill = drills.find((one) => one.name === name);
@@ -53,12 +56,31 @@ export function practice(begin: (setup: Setup) => void): { parts: HTMLElement[];
     photo: photo.root,
     rating: () => ownRating(drills),
     told: (name) => `${of(name).text}${made(name)}`,
-    played(name, { shot }) {
-      const is = judge(of(name), shot!);
+    /** What to practise next: what was made least, beside how often one's rating makes it. */
+    plan() {
+      const { rating } = ownRating(drills);
+      const rows = drills.map((one) => {
+        const [good, tries] = countsOf(KEY, one.name);
+        return { text: `${one.name} (${tries ? `${good} of ${tries}` : "not tried"})`, at: (good + 1) / (tries + 2) - 1 / (1 + 2 ** ((one.rating - rating) / 100)) };
+      });
+      return `Practise next: ${rows.sort((a, b) => a.at - b.at).slice(0, 3).map(({ text }) => text).join(", ")}.`;
+    },
+    played(name, { shot, cue, balls }) {
+      const { goal, text } = of(name);
+      const { is, why } = judge(of(name), shot!);
+      // The aim at the ball that was to fall, in the pocket that it was nearest to.
+      const value = (word: string): string | undefined => goal.find((one) => one[0] === word)?.[1];
+      const [ball, into] = (value("pot") ?? "").split("@");
+      const way = { ball: Number(ball), ...(value("first") && value("first") !== ball ? { via: [Number(value("first"))] } : {}) };
+      const all = ball ? (into ? [into] : shot!.table.pockets.keys()) : [];
+      const [off = {}] = [...all].map((pocket) => errors(carom, shot!.table, balls, cue, { ...way, pocket } as AimOf)).filter(({ phi }) => phi !== undefined).sort((a, b) => Math.abs(a.phi!) - Math.abs(b.phi!));
+      const change = `${Math.abs(off.phi ?? 0) >= 0.05 ? ` Turn the aim ${Math.abs(off.phi!).toFixed(2)}° to the ${off.phi! > 0 ? "right" : "left"}.` : ""}${off.speed ? ` Strike ${Math.abs(off.speed).toFixed(1)} m/s ${off.speed > 0 ? "softer" : "faster"}.` : ""}`;
+      const came = is === "missed" ? ` ${why.join(" ")}${why.some((one) => one.includes("fall")) ? change : ""}` : "";
+      keepRow({ when: new Date().toISOString().slice(0, 16), game: name, meant: text, ...off, side: -cue.a || 0, best: is === "missed" ? came.trim() : "Made." });
       if (is === "on") return { text: "Go on with the next ball.", again: false };
       const [good, tries] = count(KEY, name, [Number(is === "made"), 1]);
       told();
-      return { text: `${is === "made" ? "Made" : "Missed"}: ${good} of ${tries}.`, again: true };
+      return { text: `${is === "made" ? "Made" : "Missed"}: ${good} of ${tries}.${came}`, again: true };
     },
   };
 }

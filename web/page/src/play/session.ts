@@ -102,7 +102,7 @@ export const callOf = (s: Session): Call | undefined => s.special ?? (calls(s) ?
 /** What the stroke that is shown meets first. */
 export function look(s: Session): void {
   const of = aimed(s);
-  s.first = of && onTable(s.play.balls[0]!.state) ? lookAlong(s.carom, s.play.table, s.play.balls, of, OPTIONS, !s.play.breaks && linesOf(s) === "full") : undefined;
+  s.first = of && onTable(s.play.balls[0]!.state) ? lookAlong(s.carom, s.play.table, s.play.balls, of, OPTIONS, !s.play.breaks && !s.play.setup.drill && linesOf(s) === "full") : undefined;
 }
 
 /** The rating of whoever sits here: his own one, or that of his errors where they are larger. */
@@ -117,7 +117,8 @@ export function linesOf(s: Session): Lines {
 export function why({ play, ...s }: Session): string {
   if (s.thinks) return "The other player thinks: your turn comes after his stroke.";
   if (play.winner !== undefined) return "This game is over: begin another one.";
-  return play.setup.against === "link" ? "The other player is at the table. Send the link, or open the one that comes back." : "Not now: a stroke is on its way.";
+  if (play.setup.against !== "link") return "Not now: a stroke is on its way.";
+  return `The other player is at the table: ${play.last?.who === s.seat ? "send the link, and open the one that comes back" : "open the link that comes after his turn"}.`;
 }
 
 export const playerOf = ({ carom }: Session, rating: string): Player => carom.player(rating === "0" ? { errors: 0 } : { fargo: Number(rating) });

@@ -59,7 +59,8 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean): string {
   const group = play.setup.game === "eightball" && !play.breaks ? (play.state.group === "open" ? ", open table" : `, ${play.state.group}`) : "";
   const on = play.setup.game === "snooker" && play.winner === undefined ? `, on ${onOf(play)}` : play.played?.pockets ? `, into ${pocketOf(play)}` : group;
   if (thinks) return `${before}${name} thinks${on} …`;
-  if (!you && play.setup.against === "link") return `${before}${name} plays${on}: send the link.`;
+  // Whoever has played has something to send; who has not waits for a link.
+  if (!you && play.setup.against === "link") return `${before}${name} plays${on}: ${play.last?.who === seat ? "send the link." : "wait for the link that comes after this turn."}`;
   const turn = play.hasPockets && play.breaks ? `${name} ${you ? "break" : "breaks"}` : you ? "Your turn" : `${name}'s turn`;
   const hand = play.hand === "no" ? "" : ` Cue ball in hand${play.hand === "kitchen" ? " behind the line" : play.hand === "anywhere" ? "" : " in the D"}: drag it.`;
   return `${before}${turn}${on}.${hand}`;

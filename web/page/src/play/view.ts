@@ -48,7 +48,7 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
   };
   const s = bare as Session;
   felt.append(s.film.canvas);
-  return Object.assign(s, { stroke: controls(s), link: byLink(s), training: practice((setup) => begin(s, setup)), space: new Space(s, felt) });
+  return Object.assign(s, { stroke: controls(s), link: byLink(s), training: practice(s.carom, (setup) => begin(s, setup)), space: new Space(s, felt) });
 }
 async function toggle(s: Session): Promise<void> {
   try {
@@ -61,7 +61,7 @@ async function toggle(s: Session): Promise<void> {
 
 /** The dialogs of a game: a new one with its settings, the log of strokes, diagrams. */
 function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof diagramPage> } {
-  const log = logPage();
+  const log = logPage(s.training.plan);
   const diagram = diagramPage(s.carom, s.coarse);
   const shut = (text: string, id: string, then: () => void): HTMLElement => button(text, () => (games.root.close(), then()), { id });
   const draw = (): void => {

@@ -54,14 +54,17 @@ export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cu
   stroke(pen, at(gap), at(gap + 0.017), 0.8 * thick, "#3f7fbf");
 }
 
-/** The number of each ball beside it, upright, so that one can name a ball however it has turned and however small it is drawn. */
-export function drawNumbers({ g, scale, place }: Pen, balls: readonly ShotBall[], names: readonly string[]): void {
+/**
+ * The number of each ball beside it, upright, so that one can name a ball however it has turned and however small it is drawn; of a ball that has no room for
+ * it between others there is none.
+ */
+export function drawNumbers({ g, scale, place }: Pen, balls: readonly { state: Pick<ShotBall["state"], "r" | "label">; kind: ShotBall["kind"] }[], names: readonly string[]): void {
   g.save();
   g.font = "bold 12px sans-serif";
   g.textAlign = "center";
   g.textBaseline = "middle";
   g.lineJoin = "round";
-  // What a number should not cover: the middle and half the size of each ball, and of the numbers that are drawn already.
+  // What a number does not cover: the middle and half the size of each ball, and of the numbers that are drawn already.
   const taken = balls.flatMap(({ state, kind }) => (onTable(state) ? [[...place(state.r[0], state.r[1]), kind.radius * scale, kind.radius * scale]] : []));
   balls.forEach(({ state, kind }, k) => {
     if (!(Number(names[k]) > 0) || !onTable(state)) return;
@@ -72,6 +75,7 @@ export function drawNumbers({ g, scale, place }: Pen, balls: readonly ShotBall[]
       taken.reduce((sum, [bx, by, bw, bh]) => sum + Math.max(half + bw! - Math.abs(px - bx!), 0) * Math.max(high + bh! - Math.abs(py - by!), 0), 0);
     const around = Array.from({ length: 12 }, (_, k) => ((1.5 + k) * Math.PI) / 6).map((turn) => [x + (away + half) * Math.cos(turn), y - (away + high) * Math.sin(turn)] as const);
     const best = around.reduce((one, other) => (covers(other) < covers(one) - 0.5 ? other : one));
+    if (covers(best) > 4) return;
     taken.push([...best, half + 6, high]); // two numbers are not read as one
     g.strokeStyle = "#000c";
     g.lineWidth = 3;
