@@ -5,6 +5,7 @@
 #include "words.h"
 
 #include <errno.h>
+#include <jansson.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -243,7 +244,27 @@ static const carom_number *number_named(const option_row *row, const char *name,
   return NULL;
 }
 
-/* given_numbers: NAME=X,... of the library's numbers of balls and cues */
+/* Gives the numbers of a fit, which `python -m carom.fit -o` wrote: constants, radius, cushion. */
+static bool give_fit(const char *path, given_numbers *given) {
+  json_error_t error;
+  json_t *fit = json_load_file(path, 0, &error), *of = json_object_get(fit, "constants"), *x;
+  const char *name, *model = json_string_value(json_object_get(fit, "cushion_model"));
+  bool good = of != NULL;
+  if (!good)
+    complain("--with %.200s: %s", path, fit != NULL ? "no fit, which has `constants`" : error.text);
+  json_object_set(of, "radius", json_object_get(fit, "radius"));
+  json_object_foreach(of, name, x) {
+    good = good && give_number(given, name, json_is_number(x) ? json_number_value(x) : NAN);
+  }
+  for (int k = 0; model != NULL && carom_word(CAROM_WORDS_CUSHION_MODEL, k) != NULL; k++)
+    if (strcmp(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model) == 0)
+      given->fitted = (carom_shot_cushion)(k + 1);
+  given->of_fit = given->which;
+  json_decref(fit);
+  return good;
+}
+
+/* given_numbers: NAME=X,... of the library's numbers of balls and cues, or the file of a fit */
 static OPTION_SET(set_numbers) {
   given_numbers *given = field;
   char *rest = NULL;
@@ -254,6 +275,11 @@ static OPTION_SET(set_numbers) {
     double x;
     if (value != NULL)
       *value++ = '\0';
+    else if (strstr(one, ".json") != NULL) {
+      if (give_fit(one, given))
+        continue;
+      return false;
+    }
     const carom_number *n = number_named(row, one, &part, &k);
     if (n == NULL)
       return false;
@@ -337,8 +363,11 @@ bool numbers_are_read(shared_options *shared) {
   const uint32_t models = shared->models != 0 ? shared->models : 1U << shared->rail.model;
   const carom_number *n;
   char reader[160];
+  if (with->fitted != CAROM_SHOT_CUSHION_SMOOTH && shared->shot.cushion_model == 0)
+    shared->shot.cushion_model = with->fitted; /* balls with a smooth_q have the smooth one */
+  /* a fit has numbers of all models */
   for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
-    if ((with->which >> k & 1) != 0 && !is_read(shared, models, n)) {
+    if (((with->which & ~with->of_fit) >> k & 1) != 0 && !is_read(shared, models, n)) {
       complain("--with: %s has no effect; %s reads it", n->name,
                reader_of(n, shared->cushion ? "model" : "cushion", reader));
       return false;
@@ -459,4 +488,5 @@ ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_K
 ROW(options_of_motion, NULL, shot, 0, NULL, set_option, CAROM_READ_ALWAYS, ANY_KIND, NULL);
 ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIND,
     "numbers of all balls, their cushions and the cue, instead of those of IN, such as "
-    "mu_slide=0.15,u_b=0.03,end_mass=0.01: `carom models` lists them. M is the cue's mass");
+    "mu_slide=0.15,u_b=0.03,end_mass=0.01: `carom models` lists them. M is the cue's mass. Or the "
+    "file of a fit, FIT.json");

@@ -83,9 +83,11 @@ bool set_place(const option_row *row, const char *text, const char *words, int *
 const char *argument_of(const option_row *row);
 
 /* Numbers that --with gives: bit k of `which` is carom_number_of(CAROM_PART_BALL, k), and of
- * `of_cue` that of CAROM_PART_CUE. */
+ * `of_cue` that of CAROM_PART_CUE; `of_fit` are those of a fit, and `fitted`
+ * is its cushion, or 0. */
 typedef struct given_numbers {
-  uint64_t which, of_cue;
+  uint64_t which, of_cue, of_fit;
+  carom_shot_cushion fitted;
   carom_ball_kind kind;
   carom_cue cue;
 } given_numbers;

@@ -466,7 +466,7 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
 
 def test_few_shots_tell_a_table():
     """Five shots of a table unlike the usual one, by the law of the game's cushion."""
-    table = {"restitution_cushion": 0.74, "mu_cushion": 0.21, "mu_slide": 0.22, "mu_roll": 0.0052, "drag": 0.009}
+    table = {"restitution_cushion": 0.74, "mu_cushion": 0.21, "nose_height": 0.0355, "mu_slide": 0.22, "mu_roll": 0.0052, "drag": 0.009}
     made = tracks.synthetic(5, constants=table, noise=0.5e-3, seed=3)
     found = fit.fit(made.recordings, TABLE, RADIUS, free="table")
     usual = _constants.usual("smooth")

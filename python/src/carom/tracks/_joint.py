@@ -43,7 +43,7 @@ PRIORS = {
     "restitution_log": (0.01, -0.2, 0.2), "mu_log": (0.01, -0.2, 0.2),
 }  # fmt: skip
 # What a table is, and not a law: with deviations so wide that five shots tell more than these.
-TABLE = {"restitution_cushion": 0.12, "mu_cushion": 0.12, "mu_slide": 0.04, "mu_roll": 1e-3, "drag": 8e-3}
+TABLE = {"restitution_cushion": 0.12, "mu_cushion": 0.12, "nose_height": 1.8e-3, "mu_slide": 0.04, "mu_roll": 1e-3, "drag": 8e-3}
 # How large errors are beside each other on synthetic recordings, whose truth is known.
 _SHAPE = {
     "mu_slide": 1.2e-3, "mu_roll": 1.5e-5, "drag": 6e-4, "mu_spin": 6e-5, "law_a": 4e-3, "law_b": 0.03, "restitution": 3e-3,

@@ -189,8 +189,8 @@ def fit(
     free : "none", "events", "kicks", "table", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
         drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all
-        together with mu_spin, law_a and law_b, by whole shots. "table": restitution_cushion, mu_cushion, mu_slide, mu_roll and drag, by whole
-        shots, as what else a model has is a law that other tables share: for few shots. Names: these constants alone, by whole shots: any
+        together with mu_spin, law_a and law_b, by whole shots. "table": restitution_cushion, mu_cushion, nose_height, mu_slide, mu_roll and
+        drag, by whole shots, as what else a model has is a law that other tables share: for few shots. Names: these constants alone, by whole shots: any
         field of `carom.dtypes.ball_kind` but radius and mu_ball, also a cushion's own numbers. "kicks": the constants of the cushion by the kicks of its contacts, with the
         others as given, in a fraction of the time; "kicks" and names: these constants of the cushion.
     priors : mapping, optional
