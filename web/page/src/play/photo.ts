@@ -6,6 +6,7 @@
 // their middles below the noses, by `lower`: the homography of that plane has the third column h3 - lower K r3, r3 = r1 x r2. Seen from right above, f
 // stays unknown, and the plane of the noses is taken: the error is then at most lower / height of the camera, of the distance from the middle.
 
+const BALL = 0.028575;
 export type Pixel = readonly [number, number];
 /** Row by row. */
 type Matrix = readonly [number, number, number, number, number, number, number, number, number];
@@ -99,31 +100,42 @@ export function cameraOf([wide, high]: Pixel, corners: readonly Pixel[], [width,
   };
 }
 
-/** Which ball a patch of a picture looks like, of those that are named: red, green, blue and alpha of its pixels, row by row. */
-export function suggest(patch: ArrayLike<number>, colours: readonly string[]): number {
+/** The radius of a ball whose middle is seen at a pixel, pixels. */
+export function radiusAt({ place, pixel }: Camera, [u, v]: Pixel): number {
+  const [x, y] = place([u, v]);
+  // The largest of both ways: a ball is seen as wide from all sides.
+  return Math.max(...[pixel([x + BALL, y]), pixel([x, y + BALL])].map(([a, b]) => Math.hypot(a - u, b - v)));
+}
+
+/**
+ * Which balls a patch of a picture may be, the likeliest first, of those that are named: red, green, blue and alpha of its pixels. There is one where its
+ * colour is much nearer to that of a ball than to any other, and where it is plainly a stripe or none.
+ */
+export function suggest(patch: ArrayLike<number>, colours: readonly string[]): number[] {
   // White pixels make a stripe or the cue ball; the others have the colour, whose hue counts more than its light.
   let [white, count] = [0, 0];
   const sum = [0, 0, 0];
   for (let k = 0; k < patch.length; k += 4) {
     const rgb = [patch[k]!, patch[k + 1]!, patch[k + 2]!];
     count++;
-    if (Math.min(...rgb) > 165 && Math.max(...rgb) - Math.min(...rgb) < 45) white++;
+    // White in any light: little colour, and not dark.
+    if (Math.max(...rgb) > 100 && Math.max(...rgb) - Math.min(...rgb) < 0.32 * Math.max(...rgb)) white++;
     else rgb.forEach((x, c) => (sum[c]! += x));
   }
   const share = white / Math.max(count, 1);
-  if (share > 0.8) return 0;
+  if (share > 0.8) return [0];
   const mean = sum.map((x) => x / Math.max(count - white, 1));
   const chroma = ([r, g, b]: number[]): number[] => {
     const light = r! + g! + b! + 60;
     return [r! / light, g! / light, b! / light, light / 1500];
   };
   const of = chroma(mean);
-  let [best, least] = [1, Infinity];
-  colours.forEach((hex, k) => {
-    // Ball k + 1 and ball k + 9 have one colour; ball 8 has no stripe.
+  const far = colours.map((hex) => {
     const other = chroma([1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16)));
-    const far = Math.hypot(...of.map((x, c) => x - other[c]!));
-    if (far < least) [best, least] = [k + 1, far];
+    return Math.hypot(...of.map((x, c) => x - other[c]!));
   });
-  return share > 0.3 && best < 8 ? best + 8 : best;
+  const least = Math.min(...far);
+  // Ball k + 1 and ball k + 9 have one colour; ball 8 has no stripe.
+  const near = [...far.keys()].filter((k) => far[k]! < 1.3 * least + 0.01).sort((a, b) => far[a]! - far[b]!);
+  return near.flatMap((k) => (k === 7 ? [8] : share > 0.3 ? (share > 0.36 ? [k + 9] : [k + 9, k + 1]) : share > 0.22 ? [k + 1, k + 9] : [k + 1]));
 }

@@ -2,13 +2,16 @@
 import { colourOf } from "../../../player/words.js";
 import { ARROWS, pixelsOf } from "../table/grip.js";
 import { button, choice, dialog, drags, el, wrong } from "../ui.js";
-import { type Camera, cameraOf, type Pixel, suggest } from "./photo.js";
+import { type Camera, cameraOf, type Pixel, radiusAt, suggest } from "./photo.js";
+import { discOf, snapCorners, snapDisc } from "./snap.js";
 
 const CORNERS = ["head left", "head right", "foot right", "foot left"];
 /** The noses of cushions, above the middles of balls, m. */
 const LOWER = 0.008;
 /** How near a mark is taken hold of, and how near a tap means it, CSS pixels. */
 const [REACH, TAP] = [18, 8];
+/** How far a finger may be off, and the radius of the magnifier, CSS pixels. */
+const [OFF, LENS] = [3, 50];
 
 export interface Host {
   /** Names of the balls that may lie there, and the size of their table, m. */
@@ -26,22 +29,32 @@ interface Photo {
   readonly ball: HTMLSelectElement;
   readonly done: HTMLButtonElement;
   readonly said: HTMLElement;
+  readonly ask: HTMLElement;
   picture: ImageBitmap | undefined;
+  /** Its pixels, for what marks snap to. */
+  pixels: ImageData | undefined;
   corners: Pixel[];
-  balls: { ball: number; at: Pixel }[];
+  /** Marks of balls; where the colour does not tell which one, those that it may be. */
+  balls: { ball: number; at: Pixel; may?: number[] | undefined }[];
   cross: Pixel;
   held: ((at: Pixel) => void) | undefined;
 }
 
 /** Pixels of the picture for a pixel of the page. */
-const scaleOf = ({ picture, canvas }: Photo): number => (picture ? picture.width / Math.max(canvas.clientWidth, 1) : 1);
+const scaleOf = ({ picture, canvas }: Photo): number => (picture ? picture.width / Math.max(canvas.getBoundingClientRect().width, 1) : 1);
 /** Width and length of the table of the photo, m. */
 const sizeOf = ({ inputs }: Photo): Pixel => [inputs.wide.valueAsNumber, inputs.long.valueAsNumber];
 const cameraOn = (p: Photo): Camera | undefined => (p.picture && p.corners.length === 4 ? cameraOf([p.picture.width, p.picture.height], p.corners, sizeOf(p), LOWER) : undefined);
 
 function draw(p: Photo): void {
   const { corners, balls, said } = p;
-  p.done.disabled = balls.length === 0;
+  const asked = balls.find(({ may }) => may);
+  p.done.disabled = balls.length === 0 || asked !== undefined;
+  const answers = (asked?.may ?? []).map((ball) => button(p.host.names[ball]!, () => {
+    Object.assign(asked!, { ball, may: undefined });
+    draw(p);
+  }));
+  p.ask.replaceChildren(...(asked ? ["Which ball has the mark with a question mark?", ...answers] : []));
   if (!p.picture) return void (said.textContent = "Choose or take a photo in which all four corners are seen.");
   const g = p.canvas.getContext("2d")!;
   g.drawImage(p.picture, 0, 0);
@@ -57,7 +70,9 @@ function draw(p: Photo): void {
     g.moveTo(x, y - 11 * unit);
     g.lineTo(x, y + 11 * unit);
     g.stroke();
-    g.fillText(text, x + 10 * unit, y - 8 * unit);
+    const left = x > 0.7 * p.picture!.width;
+    g.textAlign = left ? "end" : "start";
+    g.fillText(text, x + (left ? -10 : 10) * unit, y - 8 * unit);
   };
   corners.forEach((at, k) => mark(at, CORNERS[k]!));
   try {
@@ -73,37 +88,64 @@ function draw(p: Photo): void {
   } catch (error) {
     said.textContent = wrong(error);
   }
-  for (const one of balls) mark(one.at, p.host.names[one.ball]!);
+  for (const one of balls) mark(one.at, one.may ? "?" : p.host.names[one.ball]!);
+}
+/** The picture around a finger, four times as large, above it, or below where there is no room. */
+function magnify(p: Photo, [x, y]: Pixel): void {
+  const [g, unit] = [p.canvas.getContext("2d")!, scaleOf(p)];
+  const lens = LENS * unit;
+  const [u, v] = [Math.min(Math.max(x, lens), p.canvas.width - lens), y > 2.6 * lens ? y - 1.6 * lens : y + 1.6 * lens];
+  g.save();
+  g.beginPath();
+  g.arc(u, v, lens, 0, 7);
+  g.fill();
+  g.clip();
+  g.drawImage(p.picture!, x - lens / 4, y - lens / 4, lens / 2, lens / 2, u - lens, v - lens, 2 * lens, 2 * lens);
+  g.strokeRect(u - lens, v, 2 * lens, 0);
+  g.strokeRect(u, v - lens, 0, 2 * lens);
+  g.restore();
+  g.stroke();
 }
 
-/** The ball of a tap: the one that was chosen, or the free one that its colour suggests. */
-function ballAt(p: Photo, [x, y]: Pixel): number {
+/** The ball of a tap: the one that was chosen, or the free ones that its colour suggests. */
+function ballAt(p: Photo, at: Pixel): number[] {
   const { names } = p.host;
   const free = names.map((_, k) => k).filter((k) => !p.balls.some((one) => one.ball === k));
   const asked = Number(p.ball.value);
   if (p.ball.value !== "auto" && free.includes(asked)) {
     p.ball.value = "auto";
-    return asked;
+    return [asked];
   }
-  // Half of the ball's radius: around it is cloth.
-  const of = cameraOn(p)!;
-  const [px, py] = of.place([x, y]);
-  const edge = of.pixel([px + 0.014, py]);
-  const reach = Math.max(Math.round(0.7 * Math.hypot(edge[0] - x, edge[1] - y)), 2);
-  const copy = document.createElement("canvas").getContext("2d")!;
-  copy.drawImage(p.picture!, -x + reach, -y + reach);
-  const first = suggest(copy.getImageData(0, 0, 2 * reach, 2 * reach).data, names.slice(1, 9).map((name, k) => colourOf(name, k + 1)));
+  const may = suggest(discOf(p.pixels!, at, radiusAt(cameraOn(p)!, at)), names.slice(1, 9).map((name, k) => colourOf(name, k + 1)));
+  const left = may.filter((one) => free.includes(one));
   // Stripe for solid, else the next that is free.
-  return [first, first > 8 ? first - 8 : first + 8, ...free].find((one) => free.includes(one)) ?? -1;
+  const [first = -1] = may;
+  return left.length > 0 ? left : [[first > 8 ? first - 8 : first + 8, ...free].find((one) => free.includes(one)) ?? -1];
 }
 function tap(p: Photo, at: Pixel): void {
   if (!p.picture) return;
-  if (p.corners.length < 4) p.corners.push(at);
-  else {
-    const which = ballAt(p, at);
-    if (which >= 0) p.balls.push({ ball: which, at });
+  if (p.corners.length < 4) {
+    p.corners.push(at);
+    if (p.corners.length === 4) snap(p);
+  } else {
+    const to = snapped(p, at);
+    const [ball, ...others] = ballAt(p, to);
+    if (ball! >= 0) p.balls.push({ ball: ball!, at: to, may: others.length > 0 ? [ball!, ...others] : undefined });
   }
   draw(p);
+}
+/** Moves the corners to the edge of the cloth, and a mark to the disc that it is on. */
+function snap(p: Photo): void {
+  const to = snapCorners(p.pixels!, p.corners, 2 * OFF * scaleOf(p));
+  try {
+    cameraOf([p.picture!.width, p.picture!.height], to, sizeOf(p));
+    p.corners = to;
+  } catch {
+    return; // the marks are no table yet: draw() says so
+  }
+}
+function snapped(p: Photo, at: Pixel): Pixel {
+  return snapDisc(p.pixels!, at, radiusAt(cameraOn(p)!, at), OFF * scaleOf(p));
 }
 /** Gives the places of the balls, where all lie on the table; tells whether they do. */
 function finish(p: Photo): boolean {
@@ -122,28 +164,62 @@ function finish(p: Photo): boolean {
   return !out;
 }
 
-/** A pointer takes hold of a mark, or taps. */
+/** A pointer takes hold of a mark, or of a new one, and shows what is under it. */
 function down(p: Photo, at: Pixel): void {
   const { canvas, host: { names } } = p;
   const near = ([x, y]: Pixel): boolean => Math.hypot(x - at[0], y - at[1]) < REACH * scaleOf(p);
   const [corner, one] = [p.corners.findIndex(near), p.balls.find(({ at }) => near(at))];
-  let moved = false;
+  let [moved, last] = [false, at];
   p.held = (to) => {
     moved ||= Math.hypot(to[0] - at[0], to[1] - at[1]) > 4 * scaleOf(p);
-    if (!moved) return;
-    if (one) one.at = to;
-    else if (corner >= 0) p.corners[corner] = to;
+    last = to;
+    if (moved && one) one.at = to;
+    else if (moved && corner >= 0) p.corners[corner] = to;
     draw(p);
+    if (p.picture) magnify(p, to);
   };
+  p.held(at);
   const up = (): void => {
+    const held = p.held;
     p.held = undefined;
-    if (moved) return;
+    if (!held) return draw(p); // a second finger came
+    if (moved && one) one.at = snapped(p, last);
+    else if (moved && corner >= 0 && p.corners.length === 4) snap(p);
     // A tap beside a mark is another ball.
-    if (!one || Math.hypot(one.at[0] - at[0], one.at[1] - at[1]) >= TAP * scaleOf(p)) return tap(p, at);
-    one.ball = names.map((_, k) => (one.ball + 1 + k) % names.length).find((k) => !p.balls.some((other) => other !== one && other.ball === k))!;
+    else if (!moved && one && Math.hypot(one.at[0] - at[0], one.at[1] - at[1]) < TAP * scaleOf(p)) Object.assign(one, { may: undefined, ball: names.map((_, k) => (one.ball + 1 + k) % names.length).find((k) => !p.balls.some((other) => other !== one && other.ball === k))! });
+    else if (!(moved && corner >= 0)) return tap(p, last);
     draw(p);
   };
   canvas.addEventListener("pointerup", up, { once: true });
+}
+/** Two fingers show a part of the photo larger, and the place between them stays there. */
+function pinches(p: Photo): void {
+  const { canvas } = p;
+  const fingers = new Map<number, Pixel>();
+  let [zoom, x, y] = [1, 0, 0];
+  const both = (): [number, number, number] => {
+    const [a, b] = [...fingers.values()] as [Pixel, Pixel];
+    return [Math.hypot(a[0] - b[0], a[1] - b[1]), (a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+  };
+  canvas.addEventListener("pointerdown", ({ pointerId, clientX, clientY }) => {
+    fingers.set(pointerId, [clientX, clientY]);
+    if (fingers.size > 1) p.held = undefined;
+  }, true);
+  canvas.addEventListener("pointermove", ({ pointerId, clientX, clientY }) => {
+    if (!fingers.has(pointerId)) return;
+    if (fingers.size !== 2) return void fingers.set(pointerId, [clientX, clientY]);
+    const [far, ...from] = both();
+    fingers.set(pointerId, [clientX, clientY]);
+    const [now, ...to] = both();
+    const frame = canvas.parentElement!.getBoundingClientRect();
+    const more = Math.min(Math.max((zoom * now) / far, 1), 6) / zoom;
+    zoom *= more;
+    const stay = (at: number, start: number, k: number, size: number): number => Math.min(Math.max(to[k]! - start - (from[k]! - start - at) * more, size * (1 - zoom)), 0);
+    [x, y] = [stay(x, frame.left, 0, canvas.clientWidth), stay(y, frame.top, 1, canvas.clientHeight)];
+    canvas.style.transform = `translate(${x}px, ${y}px) scale(${zoom})`;
+    draw(p);
+  });
+  for (const type of ["pointerup", "pointercancel"] as const) canvas.addEventListener(type, ({ pointerId }) => fingers.delete(pointerId));
 }
 function key(p: Photo, event: KeyboardEvent): void {
   const arrow = ARROWS[event.key];
@@ -167,6 +243,9 @@ async function open(p: Photo, given: File): Promise<void> {
   const { width, height } = p.picture;
   [p.canvas.width, p.canvas.height] = [width, height];
   [p.corners, p.balls, p.cross] = [[], [], [width / 2, height / 2]];
+  const g = p.canvas.getContext("2d", { willReadFrequently: true })!;
+  g.drawImage(p.picture, 0, 0);
+  p.pixels = g.getImageData(0, 0, width, height);
   draw(p);
 }
 
@@ -182,15 +261,17 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
   const ball = choice("photo-ball", "Next ball", [["auto", "by its colour"], ...host.names.map((name, k) => [String(k), name === "cue" ? "cue ball" : name] as const)], () => undefined);
   const done = button("Lay the balls", () => finish(p) && root.close(), { id: "photo-use", class: "main" });
   const said = el("p", { id: "photo-said", role: "status" });
-  const p: Photo = { ...{ host, canvas, done, said, ball: ball.select, inputs: { wide: wide.input, long: long.input } }, picture: undefined, corners: [], balls: [], cross: [0, 0], held: undefined };
+  const ask = el("div", { id: "photo-ask", class: "row", role: "status" });
+  const p: Photo = { ...{ host, canvas, done, said, ask, pixels: undefined, ball: ball.select, inputs: { wide: wide.input, long: long.input } }, picture: undefined, corners: [], balls: [], cross: [0, 0], held: undefined };
   const back = (): void => {
     (p.balls.length > 0 ? p.balls : p.corners).pop();
     draw(p);
   };
-  const root = dialog("photo-page", "A table from a photo", el("div", { class: "row" }, file, wide.root, long.root), said, canvas, el("div", { class: "row" }, ball.root, button("Take back", back, { id: "photo-back" }), done));
+  const root = dialog("photo-page", "A table from a photo", el("div", { class: "row" }, file, wide.root, long.root), said, el("div", { class: "photo-frame" }, canvas), ask, el("div", { class: "row" }, ball.root, button("Take back", back, { id: "photo-back" }), done));
 
   const pixel = (event: PointerEvent): Pixel => pixelsOf(canvas, event).map((x) => x * scaleOf(p)) as [number, number];
-  drags(canvas, (event, first) => (first ? down(p, pixel(event)) : p.held?.(pixel(event))));
+  drags(canvas, (event, first) => event.isPrimary && (first ? down(p, pixel(event)) : p.held?.(pixel(event))));
+  pinches(p);
   canvas.addEventListener("keydown", (event) => key(p, event));
   file.addEventListener("change", () => file.files?.[0] && void open(p, file.files[0]));
   return {
