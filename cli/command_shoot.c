@@ -135,6 +135,21 @@ static bool is_named(block *b) {
   return b->unnamed++ < 0;
 }
 
+/* How far the plays of the fit were off after as many contacts, where --with has one. */
+static void tell_bands(FILE *out, const given_numbers *with, const carom_shot *shot) {
+  int met = 0, row = 0;
+  for (int64_t k = 0; k < shot->count; k++)
+    met +=
+        shot->events[k].type == CAROM_EVENT_BALL_BALL || shot->events[k].type == CAROM_EVENT_RAIL;
+  while (row + 1 < with->bands && with->band[row + 1][0] <= met)
+    row++;
+  if (with->bands > 0)
+    fprintf(out,
+            "of the fit, 68 %% of places were within %.2g m, 95 %% within %.2g m, after as many "
+            "contacts\n",
+            with->band[row][1], with->band[row][2]);
+}
+
 /* Tells the shots of a block in words, and draws them over each other. */
 static void tell_block(shoot_job *job, FILE *out, const played *shots, int count) {
   char *words;
@@ -144,6 +159,7 @@ static void tell_block(shoot_job *job, FILE *out, const played *shots, int count
     if (count > 1)
       fprintf(said, "%d: ", k + 1);
     shot_tell(said, shots[k].line, shots[k].shot, shots[k].spread, count > 1);
+    tell_bands(said, &job->from.shared.with, shots[k].shot);
     const size_t number = shots[k].line->number;
     if (number <= MOST_SHOTS)
       fputs(job->from.aimed[number - 1], said);

@@ -260,6 +260,11 @@ static bool give_fit(const char *path, given_numbers *given) {
     if (strcmp(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model) == 0)
       given->fitted = (carom_shot_cushion)(k + 1);
   given->of_fit = given->which;
+  of = json_object_get(fit, "bands");
+  double *row = given->band[0];
+  for (given->bands = 0; given->bands < 8; row = given->band[++given->bands])
+    if (json_unpack(json_array_get(of, (size_t)given->bands), "[FFF]", row, row + 1, row + 2) != 0)
+      break;
   json_decref(fit);
   return good;
 }

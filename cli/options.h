@@ -87,6 +87,8 @@ const char *argument_of(const option_row *row);
  * is its cushion, or 0. */
 typedef struct given_numbers {
   uint64_t which, of_cue, of_fit;
+  int bands; /* of the fit: from so many contacts on, m within which 68 and 95 % of places were */
+  double band[8][3];
   carom_shot_cushion fitted;
   carom_ball_kind kind;
   carom_cue cue;

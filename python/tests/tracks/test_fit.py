@@ -128,6 +128,8 @@ def test_known_constants_give_the_strikes_back(made):
     # the noise of 0.35 mm in x and y, and what an unlucky strike adds
     assert np.median(found.rmse) < 0.6e-3 and (found.rmse < 2e-3).sum() >= 11
     good = found.rmse < 2e-3
+    halves = replace(found, train=[True, False] * 6)
+    assert (found.covered(found.bands()) >= (0.68, 0.95)).all() and (halves.covered(halves.bands(True), False) > (0.5, 0.85)).all()
     error = np.abs(found.strikes - made.strikes)[good]
     assert np.median(error, axis=0)[:5].max() < 0.02 and np.median(error[:, 5]) < 1e-3
     # rmse is that of the positions, whose rolling against drag is within 1e-5 m
@@ -626,7 +628,8 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
     assert written["median_rmse"] == pytest.approx(np.median(rmse)) and written["p90_rmse"] == pytest.approx(np.percentile(rmse, 90))
     assert set(written["shots"][0]["cue"]) == {"ball", "v_x", "v_y", "w_x", "w_y", "w_z", "start"}
     told = capsys.readouterr().out
-    assert "fitted, 4 of 8 shots: RMSE median" in told and "predicted, 4 of 8 shots" in told
+    assert "fitted, 4 of 8 shots: RMSE median" in told and "predicted, 4 of 8 shots" in told and "% are within the bands of 68 and 95 %" in told
+    assert written["bands"][0][0] == 0 and all(0.0 < near <= far for _, near, far in written["bands"])
     # one file, with the pictures in it
     text = page.read_text()
     chart = ElementTree.fromstring(text[text.index("<svg") : text.index("</svg>") + 6])

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import pictures
+from carom._carom import lib
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
 from carom.results import Shot
@@ -23,6 +24,7 @@ from carom.tracks._kicks import Kicks
 from carom.tracks._recordings import Recording
 
 _ROUGH_MOST = 8  # so many are told one by one
+BANDS, _CONTACTS = (0.68, 0.95), (0, 1, 2, 3, 4, 6, 8, 11)  # shares of the samples, and contacts from which a row of bands holds
 _WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels
 _INK, _MARK, _LINE = "#333333", "#1f5fae", "#c0392b"
 _STYLE = (
@@ -67,10 +69,13 @@ class Fit:
         """Which shots count."""
         return [status.partition(":")[0] in ("ok", "mended", "rough", "doubtful") for status in self.status]
 
+    def _counted(self, train: bool | None) -> npt.NDArray[np.bool_]:
+        part = [train is None or self.train is None or one == train for one in self.train or [True] * len(self.status)]
+        return np.asarray(np.array(self.counts) & np.array(part), np.bool_)
+
     def counted(self, train: bool | None = None) -> Doubles:
         """The RMSE of the shots that count, m: of all, of those that constants were fitted to, or of the others."""
-        part = [train is None or self.train is None or one == train for one in self.train or [True] * len(self.status)]
-        rmse: Doubles = self.rmse[np.array(self.counts) & np.array(part)]
+        rmse: Doubles = self.rmse[self._counted(train)]
         return rmse
 
     @property
@@ -113,6 +118,40 @@ class Fit:
         """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2); at rest before the strike."""
         at = np.asarray(times, np.float64)
         return self.shot(i).positions(np.maximum(at - self.strikes[i, 5], 0.0))[..., :2]
+
+    def off(self, train: bool | None = None) -> Doubles:
+        """How far the plays of shots that count are off, shape (samples of moving balls, 3): how many contacts were before, of all balls, the
+        distance (m), and a weight, by which shots count alike. Of all shots, of those that constants were fitted to, or of the others.
+        """
+        found = [np.zeros((0, 3))]
+        for k in np.flatnonzero(self._counted(train)):
+            shot, recording = self.shot(int(k)), self.recordings[k]
+            met = shot.events["time"][np.isin(shot.events["type"], (lib.CAROM_EVENT_BALL_BALL, lib.CAROM_EVENT_RAIL))]
+            rows = [(track[moving], ball) for ball, (track, moving) in enumerate(zip(recording.tracks, recording.moving))]
+            t = np.concatenate([track[:, 0] for track, _ in rows]) - self.strikes[k, 5]
+            apart = np.concatenate([shot.positions(np.maximum(track[:, 0] - self.strikes[k, 5], 0.0))[:, ball, :2] - track[:, 1:] for track, ball in rows])
+            found.append(np.stack([np.searchsorted(met, t), np.hypot(*apart.T), np.full(len(t), 1.0 / len(t))], axis=1))
+        return np.concatenate(found)
+
+    def bands(self, train: bool | None = None) -> Doubles:
+        """Within which distances, m, 68 and 95 % of the samples of another shot are, shape (rows, 3); first a number of contacts, from which
+        a row holds. Of n shots the shares are (n + 1)/n as large, as another one may be farther off than all of them.
+        """
+        off, made = self.off(train), []
+        larger = 1.0 + 1.0 / max(off[:, 2].sum(), 1.0)
+        for least, below in zip(_CONTACTS, (*_CONTACTS[1:], np.inf)):
+            part = off[(off[:, 0] >= least) & (off[:, 0] < below)]
+            if len(part):
+                part = part[np.argsort(part[:, 1])]
+                reached = np.cumsum(part[:, 2]) / part[:, 2].sum()
+                made.append([least, *(part[np.searchsorted(reached[:-1], larger * share), 1] for share in BANDS)])
+        return np.array(made).reshape(-1, 3)
+
+    def covered(self, bands: Doubles, train: bool | None = None) -> Doubles:
+        """Which shares of the samples are within bands: 68 and 95 %, where the bands are true."""
+        off = self.off(train)
+        at = np.maximum(np.searchsorted(bands[:, 0], off[:, 0], side="right") - 1, 0)
+        return np.asarray(off[:, 2] @ (off[:, 1:2] <= bands[at, 1:]) / off[:, 2].sum())
 
     def kicks(self) -> Kicks:
         """What the models get wrong at each contact of the shots that count: the small changes of the motion just after it, kicks, with
@@ -166,6 +205,7 @@ class Fit:
             "shots": shots,
             "median_rmse": self.median_rmse if len(self.counted()) else None,
             "p90_rmse": self.p90_rmse if len(self.counted()) else None,
+            "bands": self.bands(None if self.train is None else True).tolist(),
             "noise": self.noise,
             "warnings": list(self.warnings),
             **({} if kicks is None else {"kicks": kicks.to_list()}),

@@ -367,6 +367,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         rmse = 100.0 * found.counted(part)
         if len(rmse):
             print(f"{what}{len(rmse)} of {len(recordings)} shots: RMSE median {np.median(rmse):.2f} cm, p90 {np.percentile(rmse, 90):.2f} cm")
+    if found.train is not None and len(rmse):
+        within = 100.0 * found.covered(found.bands(True), False)
+        print(f"of their samples {within[0]:.0f} and {within[1]:.0f} % are within the bands of 68 and 95 % of those that were fitted")
     print("\n".join(_summary.told(found)))
     if kicks is not None and np.isfinite(kicks.rmse).any():
         rmse = 100.0 * kicks.rmse[np.isfinite(kicks.rmse)]
