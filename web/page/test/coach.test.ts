@@ -84,6 +84,8 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     /** The places in a rectangle whose colour is so. */
     const where = ([x0, y0, x1, y1]: readonly number[], is: (r: number, g: number, b: number) => boolean): [number, number][] =>
       Array.from({ length: (y1! - y0!) * (x1! - x0!) }, (_, k) => [x0! + (k % (x1! - x0!)), y0! + Math.floor(k / (x1! - x0!))] as [number, number]).filter(([x, y]) => is(...([...bytes.subarray(4 * (width * y + x), 4 * (width * y + x) + 3)] as [number, number, number])));
+    // Its number is beside it, too.
+    expect(await one.locator(".over-scene").evaluate((over: HTMLCanvasElement) => over.getContext("2d")!.getImageData(0, 0, over.width, over.height).data.filter((byte) => byte > 250).length)).toBeGreaterThan(20);
     // Of the room around the table there is little.
     const room = where([0, 0, width, height], (r, g, b) => Math.max(r, g, b) < 34).length / (width * height);
     expect(room).toBeLessThan(0.3);

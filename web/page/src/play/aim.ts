@@ -26,7 +26,7 @@ interface Hand {
 }
 
 /** The way of the ball that is met, and of the cue ball after it, as far as the lines of the game show them. */
-function drawWays(s: Session, pen: Pen): void {
+export function drawWays(s: Session, pen: Pen): void {
   const { ball, from, way, ways } = s.first!;
   if (ball < 0 || s.play.breaks || (s.play.practice && !s.play.setup.drill) || linesOf(s) === "none") return;
   const speed = Math.hypot(way[0]!, way[1]!) || 1;

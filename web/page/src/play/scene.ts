@@ -213,6 +213,12 @@ export class Scene {
     this.#renderer.render(this.#scene, this.#camera);
   }
 
+  /** Where a place is seen, pixels of the page; NaN: behind the camera. */
+  place(x: number, y: number, z: number): [number, number] {
+    const at = new THREE.Vector3(x, y, z).project(this.#camera);
+    return at.z > 1 ? [NaN, NaN] : [((at.x + 1) * this.canvas.clientWidth) / 2, ((1 - at.y) * this.canvas.clientHeight) / 2];
+  }
+
   close(): void {
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();

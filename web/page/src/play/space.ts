@@ -1,7 +1,9 @@
 // The view from behind the cue, over the flat one: its module is in the page as compressed text, and starts when it is asked for.
 import { colourOf } from "../../../player/words.js";
-import { stickEnd } from "../table/drawing.js";
-import { color, drags } from "../ui.js";
+import type { Pose } from "../../../player/words.js";
+import { drawNumbers, stickEnd } from "../table/drawing.js";
+import { color, drags, el } from "../ui.js";
+import { drawWays } from "./aim.js";
 import { skip } from "./filming.js";
 import type { Play } from "./game.js";
 import type { Scene } from "./scene.js";
@@ -23,6 +25,8 @@ export class Space {
   #module: typeof import("./scene.js") | undefined;
   #scene: Scene | undefined;
   #of: Play | undefined;
+  /** What is drawn over the scene: lines, and the numbers of balls. */
+  readonly #over = el("canvas", { class: "over-scene" });
   on = false;
 
   constructor(
@@ -43,8 +47,7 @@ export class Space {
 
   #make(): void {
     const play = this.s.play;
-    this.#scene?.close();
-    this.#scene?.canvas.remove();
+    this.close();
     const balls = play.balls.map(({ kind }, k) => ({ name: play.names[k]!, radius: kind.radius, colour: colourOf(play.names[k]!, k) }));
     const scene = new this.#module!.Scene({ table: play.table, balls, cloth: color("cloth"), wood: color("rail") });
     this.#scene = scene;
@@ -66,7 +69,7 @@ export class Space {
       const { key, altKey, shiftKey, ctrlKey, metaKey } = event;
       this.s.film.canvas.dispatchEvent(new KeyboardEvent("keydown", { key, altKey, shiftKey, ctrlKey, metaKey }));
     });
-    this.felt.append(canvas);
+    this.felt.append(canvas, this.#over);
   }
 
   draw(): void {
@@ -80,6 +83,23 @@ export class Space {
     // The camera stays where it was while the balls roll.
     if (of) this.#scene.look(poses[0]!.r, of.phi);
     this.#scene.draw(poses, of && { cue: of, gap: stickEnd(this.#of!.balls[0]!.kind.radius, of.speed), first: this.s.first?.at });
+    this.#label(poses, of !== undefined);
+  }
+  /** Draws the way of a ball that is aimed at, and the number of each ball where it lies over no other one. */
+  #label(poses: readonly Pose[], aims: boolean): void {
+    const [over, scene, balls] = [this.#over, this.#scene!, this.#of!.balls];
+    const [{ clientWidth: width, clientHeight: height }, sharp] = [scene.canvas, Math.min(window.devicePixelRatio || 1, 2)];
+    Object.assign(over, { width: width * sharp, height: height * sharp });
+    Object.assign(over.style, { width: `${width}px`, height: `${height}px` });
+    const g = over.getContext("2d")!;
+    g.scale(sharp, sharp);
+    if (aims && this.s.first) drawWays(this.s, { g, scale: 1, place: (x, y) => scene.place(x, y, balls[0]!.kind.radius) });
+    const seen = poses.map(({ r, seen }, k) => {
+      const { kind } = balls[k]!;
+      const [[x, y], [u, v]] = [scene.place(r[0]!, r[1]!, r[2]!), scene.place(r[0]!, r[1]!, r[2]! + kind.radius)];
+      return { kind: { ...kind, radius: 1.1 * Math.hypot(u - x, v - y) }, state: { r: [x, y, 0] as const, label: seen && x > 0 && x < width ? ("rolling" as const) : ("pocketed" as const) } };
+    });
+    drawNumbers({ g, scale: 1, place: (x, y) => [x, y] }, seen, this.#of!.names);
   }
 
   #hide(): void {
@@ -90,6 +110,7 @@ export class Space {
   close(): void {
     this.#scene?.close();
     this.#scene?.canvas.remove();
+    this.#over.remove();
     this.#scene = undefined;
   }
 }
