@@ -69,46 +69,6 @@ OPTION(plan_job, option_why, "why", why, 0, NULL, set_flag, 0,
 OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the best shot: without errors, thin with errors, and what can go wrong");
 
-/* The first shot of a file. Its line is to be freed. */
-static bool read_layout(shot_file *file, shot_line *line) {
-  const shot_read what = shot_file_next_shot(file, line);
-  if (what == SHOT_END)
-    complain("%s: there is no shot", shot_file_name(file));
-  else if (what == SHOT_SHOT && line->error != NULL)
-    complain("%s:%zu: %s", shot_file_name(file), line->number, line->error);
-  return what == SHOT_SHOT && line->error == NULL;
-}
-
-/* The stroke of the first shot, and those of all that follow in the file; 0 where one is from
- * another layout. */
-static int read_strokes(shot_file *file, const shot_line *line, carom_cue strokes[TRIED_MOST]) {
-  int n = 0;
-  strokes[n++] = line->cue;
-  static shot_line next;
-  for (shot_read what; (what = shot_file_next_shot(file, &next)) != SHOT_END;) {
-    bool good = what == SHOT_SHOT && next.error == NULL && n < TRIED_MOST;
-    if (what == SHOT_SHOT && next.error != NULL)
-      complain("%s:%zu: %s", shot_file_name(file), next.number, next.error);
-    else if (what == SHOT_SHOT && n == TRIED_MOST)
-      complain("%s:%zu: --try: it plays at most %d strokes", shot_file_name(file), next.number,
-               TRIED_MOST);
-    for (int k = 0; k < line->count && good; k++) {
-      good = next.count == line->count && next.cue.ball == line->cue.ball &&
-             memcmp(&next.ball[k], &line->ball[k], sizeof next.ball[k]) == 0;
-      if (!good)
-        complain("%s:%zu: --try: the balls must be those of the first shot", shot_file_name(file),
-                 next.number);
-    }
-    if (good)
-      strokes[n++] = next.cue;
-    if (what == SHOT_SHOT)
-      shot_line_free(&next);
-    if (!good)
-      return 0;
-  }
-  return n;
-}
-
 static const char *const kinds[] = {"pot",   "scan", "foul", "given",       "push-out", "pass",
                                     "break", "bank", "kick", "combination", "carom",    "safety"};
 
@@ -329,31 +289,19 @@ static const command_form form = {
         "LAYOUT is a file as of carom shoot, of which the first shot counts: its table, balls "
         "and cue; its stroke is read by --try alone. Balls that are missing are down. The five "
         "best shots are told in words: what they do, how to strike, and their chances.\n",
-    .options = (const option_row *const[]){&option_rules,
-                                           &option_table,
-                                           &option_cue,
-                                           &option_balls,
-                                           &option_one_gap,
-                                           &option_group,
-                                           &option_may,
-                                           &option_score,
-                                           &option_target,
-                                           &option_own_pocket,
-                                           &option_colour,
-                                           &option_opening,
-                                           &option_hand,
-                                           &option_try,
-                                           &option_value,
-                                           &option_player,
-                                           &option_player_errors,
-                                           &options_of_plan,
-                                           &options_of_motion,
-                                           &option_csv,
-                                           &option_why,
-                                           &option_plan_plot,
-                                           &option_threads,
-                                           &option_output,
-                                           NULL},
+    .options = (const option_row *const[]){&option_rules,         &option_table,
+                                           &option_cue,           &option_balls,
+                                           &option_one_gap,       &option_group,
+                                           &option_may,           &option_score,
+                                           &option_target,        &option_own_pocket,
+                                           &option_colour,        &option_opening,
+                                           &option_hand,          &option_try,
+                                           &option_value,         &option_player,
+                                           &option_player_errors, &option_with_of_shots,
+                                           &options_of_plan,      &options_of_motion,
+                                           &option_csv,           &option_why,
+                                           &option_plan_plot,     &option_threads,
+                                           &option_output,        NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"
@@ -386,9 +334,11 @@ int command_plan(int argc, char **argv) {
   static planned made;
   int code = EXIT_USAGE;
   static carom_cue strokes[TRIED_MOST];
-  if (read_layout(file, &line)) {
-    const int tried = job.tries ? read_strokes(file, &line, strokes) : 0;
-    FILE *out = job.tries && tried == 0 ? NULL : output_open(job.from.shared.output);
+  const int strokes_of_file =
+      strokes_read(file, &job.from.shared, &line, strokes, job.tries ? TRIED_MOST : 1);
+  if (strokes_of_file > 0) {
+    const int tried = job.tries ? strokes_of_file : 0;
+    FILE *out = output_open(job.from.shared.output);
     if (out != NULL) {
       code = plan(&job, &line, shot_file_name(file), out, strokes, tried, &made);
       if (code == EXIT_USAGE)

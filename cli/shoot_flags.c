@@ -550,7 +550,8 @@ int strokes_read(shot_file *file, const shared_options *shared, shot_line *line,
   char many[80];
   uint64_t told = 0;
   int n = 0;
-  for (shot_read what; (what = shot_file_next_shot(file, &next)) != SHOT_END;) {
+  for (shot_read what;
+       (n == 0 || most > 1) && (what = shot_file_next_shot(file, &next)) != SHOT_END;) {
     if (what == SHOT_SHOT)
       shot_numbers(&next, shared, shot_file_name(file), &told);
     snprintf(many, sizeof many, "there are more strokes than %d, the most that are read", most);

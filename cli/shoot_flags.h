@@ -51,8 +51,8 @@ shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_option
                        int most, char **text);
 
 /* Reads all shots of the file with the numbers of --with, at most `most`, of which all must have
- * the layout of the first one: *line is to be freed; how many, with
- * their strokes in cues[]. 0 after a complaint. */
+ * the layout of the first one; where `most` is 1, the first alone. *line is to be freed; how
+ * many, with their strokes in cues[]. 0 after a complaint. */
 int strokes_read(shot_file *file, const shared_options *shared, shot_line *line, carom_cue *cues,
                  int most);
 
