@@ -163,7 +163,7 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
   }
   if (!read_cue(json, line, f))
     return false;
-  const char *name = table != NULL ? json_string_value(table) : "7ft";
+  const char *name = table != NULL ? json_string_value(table) : "pooltool";
   const named_table *found = find_table(file, name);
   named_table *built_in = found == NULL ? built_in_table(name, f) : NULL;
   if (built_in != NULL)

@@ -374,15 +374,16 @@ typedef struct carom_table {
                          height of a nose. */
 } carom_table;
 
-/* Built-in tables, with their playing areas. */
+/* Built-in tables, with their playing areas. Those of pool have the pockets of the WPA's rules, by
+ * the middles of its ranges; carom_table_measures() tells them. */
 typedef enum carom_table_kind {
   CAROM_TABLE_POOL_7FT = 0,     /* 0.9906 x 1.9812 m */
   CAROM_TABLE_POOL_8FT = 1,     /* 1.1176 x 2.2352 m */
   CAROM_TABLE_POOL_9FT = 2,     /* 1.27 x 2.54 m */
   CAROM_TABLE_SNOOKER = 3,      /* 12 ft, 1.778 x 3.569 m */
   CAROM_TABLE_THREECUSHION = 4, /* 10 ft, 1.42 x 2.84 m, no pockets */
-  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of
-                                   CAROM_TABLE_POOL_7FT, under a name that stays */
+  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood", 0.9906 x 1.9812 m, with
+                                   its pockets, bit for bit */
 } carom_table_kind;
 
 /* Its name ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value not

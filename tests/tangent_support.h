@@ -43,13 +43,18 @@ static inline void numbers_of(const carom_ball_state *s, double to[NUMBERS]) {
     to[k] = ((const double *)s)[number_at[k]];
 }
 
-/* The table of a layout, which stands until the next call. */
+/* The table of a layout, which stands until the next call: of 9 ft with pooltool's pockets, where
+ * the edges of these tests are. */
 static inline const carom_table *table_of(const layout *l) {
   static carom_table table;
+  carom_measures m;
+  carom_table_measures(CAROM_TABLE_POOLTOOL, &m);
+  m.width = 1.27;
+  m.length = 2.54;
   if (l->table != NULL)
     table = *l->table;
   else
-    carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+    carom_table_measured(&m, 0.028575, &table, NULL);
   for (int k = 0; k < table.rails; k++) {
     table.rail[k].height += l->nose[0];
     table.rail[k].mu_cushion += l->nose[1];

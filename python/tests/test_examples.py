@@ -60,7 +60,7 @@ def test_bank_with_position(capsys, monkeypatch):
     monkeypatch.setattr("sys.argv", ["bank_with_position.py"])
     runpy.run_path(str(EXAMPLES / "bank_with_position.py"), run_name="__main__")
     misses = [float(number) for number in re.findall(r"rests ([\d.]+) mm", capsys.readouterr().out)]
-    assert len(misses) == 4 and misses[0] > 90.0 and misses[1] < 10.0 and misses[2] < 0.2 and misses[3] <= misses[2]
+    assert len(misses) == 4 and misses[0] > 70.0 and misses[1] < 10.0 and misses[2] < 0.2 and misses[3] <= misses[2]
 
 
 def test_refine_aim(tmp_path, monkeypatch):

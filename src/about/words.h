@@ -52,8 +52,7 @@
   WORD(TABLE, TABLE_POOL_9FT, "9ft", "pool, 9 feet")                                             \
   WORD(TABLE, TABLE_SNOOKER, "snooker", "snooker, 12 feet")                                      \
   WORD(TABLE, TABLE_THREECUSHION, "threecushion", "three-cushion, without pockets")              \
-  WORD(TABLE, TABLE_POOLTOOL, "pooltool",                                                        \
-       "pooltool's default: that of 7ft, under this name for ever")                              \
+  WORD(TABLE, TABLE_POOLTOOL, "pooltool", "pooltool's default, 7 feet, with wider side pockets") \
   WORD(RACK, RACK_NINEBALL, "nineball",                                                          \
        "cue ball, then 1 to 9 by number; 1 in front, 9 in the middle")                           \
   WORD(RACK, RACK_EIGHTBALL, "eightball",                                                        \

@@ -1,4 +1,4 @@
-/* CAROM_TABLE_POOL_7FT to the last bit as pooltool has it (its "7 Ft Showood"), numbers and
+/* CAROM_TABLE_POOLTOOL to the last bit as pooltool has it (its "7 Ft Showood"), numbers and
  * order of parts: simulations that are to have the same histories cannot afford another rounding
  * of its corners. tables.c has the construction. */
 #include "table/table.h"

@@ -53,16 +53,16 @@ static void add_plain_rails(carom_table *t, double h) {
   add_rail(t, h, 1, 0.0, 0.0, t->width, 0.0);
 }
 
-static openings openings_of(const carom_measures *m, double corner, double side) {
+static openings openings_of(const carom_measures *m) {
   openings f;
   double s, c;
   carom_sincos_degrees(45.0, &s, &c);
   f.q = m->corner_mouth * c;
-  carom_sincos_degrees(corner, &f.sin_c, &f.cos_c);
-  carom_sincos_degrees(side, &f.sin_s, &f.cos_s);
-  carom_sincos_degrees(0.5 * (90.0 + corner), &s, &c);
+  carom_sincos_degrees(m->corner_cut - 90.0, &f.sin_c, &f.cos_c);
+  carom_sincos_degrees(m->side_cut - 90.0, &f.sin_s, &f.cos_s);
+  carom_sincos_degrees(0.5 * m->corner_cut, &s, &c);
   f.dc = m->corner_jaw * c / s;
-  carom_sincos_degrees(0.5 * (90.0 + side), &s, &c);
+  carom_sincos_degrees(0.5 * m->side_cut, &s, &c);
   f.ds = m->side_jaw * c / s;
   f.corner_back = f.sin_c / f.cos_c;
   f.side_back = f.sin_s / f.cos_s;
@@ -136,20 +136,27 @@ static void add_pockets(carom_table *t, const carom_measures *m, const openings 
 
 /* A line for each table, its corners and its sides. */
 /* clang-format off */
-#define POOLTOOL_POCKETS \
-  0.118, 140.3, 0.0387, 0.02095, 0.062, \
-  0.137, 97.14, 0.004, 0.00795, 0.0645
+/* Pool: the WPA's equipment specification: the middles of its ranges, mouths 4.5 to 4.625 and 5 to
+ * 5.125 in, cuts 142 and 104 degrees, shelves 1 to 2.25 and 0 to 0.375 in, noses at 62.5 to 64.5 %
+ * of the ball, cushions 1.875 to 2 in deep; 8 ft are those of homes, 7 ft those of bars. What it
+ * leaves open, points and holes, is pooltool's. */
+#define WPA \
+  0.03629025, 0.0492125, \
+  0.1158875, 142.0, 0.041275, 0.02095, 0.062, \
+  0.1285875, 104.0, 0.0047625, 0.00795, 0.0645
 static const carom_measures built_in[] = {
-  [CAROM_TABLE_POOL_7FT] = {0.9906, 1.9812, 0.036576, 0.0508, POOLTOOL_POCKETS},
-  [CAROM_TABLE_POOL_8FT] = {1.1176, 2.2352, 0.036576, 0.0508, POOLTOOL_POCKETS},
-  [CAROM_TABLE_POOL_9FT] = {1.27, 2.54, 0.036576, 0.0508, POOLTOOL_POCKETS},
+  [CAROM_TABLE_POOL_7FT] = {0.9906, 1.9812, WPA},
+  [CAROM_TABLE_POOL_8FT] = {1.1176, 2.2352, WPA},
+  [CAROM_TABLE_POOL_9FT] = {1.27, 2.54, WPA},
   /* the playing area by the rules of the sport, whose templates of pockets are not published; nose
    * at 7/5 R as in the 2010 paper; parallel facings, well-rounded jaws */
   [CAROM_TABLE_SNOOKER] = {1.778, 3.569, 1.4 * 0.02619375, 0.0508,
                            0.0865, 135.0, 0.02995, 0.07, 0.055,
                            0.0865, 90.0, 0.0085, 0.04, 0.05},
   [CAROM_TABLE_THREECUSHION] = {1.42, 2.84, .nose_height = 0.037},
-  [CAROM_TABLE_POOLTOOL] = {0.9906, 1.9812, 0.036576, 0.0508, POOLTOOL_POCKETS}};
+  [CAROM_TABLE_POOLTOOL] = {0.9906, 1.9812, 0.036576, 0.0508,
+                            0.118, 140.3, 0.0387, 0.02095, 0.062,
+                            0.137, 97.14, 0.004, 0.00795, 0.0645}};
 /* clang-format on */
 
 carom_status carom_table_measures(carom_table_kind kind, carom_measures *measures) {
@@ -179,16 +186,11 @@ carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
   const carom_status bad = carom_table_measures(kind, &m);
   if (bad != CAROM_OK)
     return bad;
-  if (kind == CAROM_TABLE_POOL_7FT || kind == CAROM_TABLE_POOLTOOL) {
+  const openings f = openings_of(&m);
+  if (kind == CAROM_TABLE_POOLTOOL)
     *table = carom_table_pooltool;
-    return CAROM_OK;
-  }
-  const bool as_pooltool = kind != CAROM_TABLE_SNOOKER;
-  openings f = openings_of(&m, as_pooltool ? 50.3 : m.corner_cut - 90.0,
-                           as_pooltool ? 7.14 : m.side_cut - 90.0);
-  if (as_pooltool)
-    f.side_back = f.sin_s;
-  make(&m, &f, table);
+  else
+    make(&m, &f, table);
   return CAROM_OK;
 }
 
@@ -249,7 +251,7 @@ carom_status carom_table_measured(const carom_measures *measures, double ball_ra
     if ((pockets || k <= AT(nose_height)) && !(x >= n->low && x <= n->high))
       return blame(fault, k, -1, 0.0);
   }
-  const openings f = openings_of(measures, measures->corner_cut - 90.0, measures->side_cut - 90.0);
+  const openings f = openings_of(measures);
   const carom_status bad = pockets ? check_room(measures, &f, fault) : CAROM_OK;
   if (bad != CAROM_OK)
     return bad;

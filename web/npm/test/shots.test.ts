@@ -8,7 +8,7 @@ const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "air
 const flat = (s: BallState): number[] => [LABELS.indexOf(s.label), ...s.r, ...s.v, ...s.w];
 const break9 = readFileSync(`${root}data/break-nineball.jsonl`, "utf8").trim();
 const layouts = readFileSync(`${root}data/shots-layouts.jsonl`, "utf8").trim().split("\n");
-const named = layouts.filter((line) => /"kind": "shot"/.test(line) && /"table": "(7ft|8ft|9ft|snooker|threecushion)"/.test(line));
+const named = layouts.filter((line) => /"kind": "shot"/.test(line) && /"table": "(pooltool|7ft|8ft|9ft|snooker|threecushion)"/.test(line));
 
 function played(carom: Carom, line: string): Shot {
   const { table, balls, cue } = fromLine(carom, line);
