@@ -158,7 +158,7 @@ def check_table(table: object) -> None:
 
 _RADII = {lib.carom_ball_kind_of(number).radius: name for name, number in reversed(GAMES.items())}
 _CUSHION = ["mu_cushion", "restitution_cushion", "nose_height", "roll_loss", "restitution_log", "mu_log", "smooth_q"]
-_SIZES = {(0.9906, 1.9812): 0.028575, (1.1176, 2.2352): 0.028575, (1.27, 2.54): 0.028575, (1.778, 3.569): 0.02619375, (1.42, 2.84): 0.03075}
+SIZES = {(0.9906, 1.9812): 0.028575, (1.1176, 2.2352): 0.028575, (1.27, 2.54): 0.028575, (1.778, 3.569): 0.02619375, (1.42, 2.84): 0.03075}
 
 
 @functools.lru_cache(maxsize=256)
@@ -178,7 +178,7 @@ def _other_constants(kind: bytes, cushion_model: str) -> str:
 def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
     """Warns of balls of another game than that whose balls the table is made for, and of those with a game's constants of another model of
     the cushion than that which is asked for by name."""
-    meant = table.record["ball_radius"].item() or _SIZES.get((table.width, table.length))
+    meant = table.record["ball_radius"].item() or SIZES.get((table.width, table.length))
     first: Any = kinds[(0,) * kinds.ndim] if kinds.size else None  # of one record: kinds.flat[:1] copies it field by field
     radius = meant if first is None else first["radius"]
     if radius != meant and meant in _RADII and radius in _RADII:

@@ -8,23 +8,54 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, as_array, called, number, numbered, pointer, several
-from carom.layouts import Table, refuse_table
+from carom._rows import Array, as_array, called, choice, number, numbered, numbers_of, pointer, several
+from carom.layouts import SIZES, Table, refuse_table
 from carom.status import CaromError
 
 
-def _maker(name: str) -> Callable[[], Table]:
+_ROWS = list(numbers_of(lib.CAROM_PART_MEASURES))
+_KEYS = {ffi.string(row.key).decode(): ffi.string(row.name).decode() for row in _ROWS}
+
+
+def measures(table: str) -> dict[str, float]:
+    """The measures of a built-in table by its name, such as "pool_9ft": m, cuts in degrees. Each is an argument of that table's function."""
+    of = ffi.new("carom_measures *")
+    lib.carom_table_measures(choice(numbered("carom_table_kind"), table, "table"), of)
+    return {key: getattr(of, name) for key, name in _KEYS.items()}
+
+
+def _measured(name: str, changes: dict[str, float], record: Array) -> None:
+    """Fills the record of a built-in table some of whose measures are changed."""
+    given, fault, text, keys = measures(name), ffi.new("carom_table_fault *"), ffi.new("char[]", 100), list(_KEYS)
+    radius = SIZES[given["width"], given["length"]]
+    for key, value in changes.items():
+        if key not in _KEYS:
+            raise TypeError(f"{key}: it is no measure of a table; there are {', '.join(keys)}")
+        given[key] = number(value, key, "a length in m, or degrees of a cut, is needed")
+    of = ffi.new("carom_measures *", {_KEYS[key]: value for key, value in given.items()})
+    code = lib.carom_table_measured(of, radius, pointer("carom_table[]", record), fault)
+    if fault.part.kind == lib.CAROM_PART_MEASURES:
+        lib.carom_number_range(_ROWS[fault.part.index], text, 100)
+        other = fault.other.kind == lib.CAROM_PART_MEASURES
+        must = f"below {fault.gap:.4g} m with this {keys[fault.other.index]}" if other else ffi.string(text).decode()
+        raise CaromError(code, keys[fault.part.index], given[keys[fault.part.index]], text=f"it must be {must}")
+    refuse_table(code, fault)
+
+
+def _maker(name: str) -> Callable[..., Table]:
     kind = numbered("carom_table_kind")[name]
 
-    def make() -> Table:
+    def make(**measures: float) -> Table:
         record: Array = np.zeros((), dtypes.table)
-        code = lib.carom_table_make(kind, pointer("carom_table[]", record))
-        if code < 0:
+        if measures:
+            _measured(name, measures, record)
+        elif (code := lib.carom_table_make(kind, pointer("carom_table[]", record))) < 0:
             raise CaromError(code)
         return Table.from_record(record)
 
     made, text = make(), ffi.string(lib.carom_word_text(lib.CAROM_WORDS_TABLE, kind)).decode()
-    return called(make, name, f"{text[0].upper()}{text[1:]}: {made.width:.4g} x {made.length:.5g} m.")
+    told = "Measures change it: corner=0.108 (m); carom.tables.measures() lists them."
+    return called(make, name, f"{text[0].upper()}{text[1:]}: {made.width:.4g} x {made.length:.5g} m. {told}")
 
 
 pool_7ft = _maker("pool_7ft")

@@ -142,7 +142,7 @@ def test_racks_and_tables_are_those_of_the_library():
         table = carom.tables.snooker() if name == "snooker" else carom.tables.pool_9ft()
         made, text = getattr(carom.racks, name), ffi.string(lib.carom_word_text(lib.CAROM_WORDS_RACK, kind)).decode()
         assert made.__doc__ == f"{len(made(table))} balls: {text}."
-    assert dir(carom.tables) == sorted([*numbered("carom_table_kind"), "polygon"])
+    assert dir(carom.tables) == sorted([*numbered("carom_table_kind"), "measures", "polygon"])
     for name in numbered("carom_table_kind"):
         made = getattr(carom.tables, name)
         assert f"{made().width:.4g} x {made().length:.5g} m" in made.__doc__

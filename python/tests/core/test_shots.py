@@ -357,6 +357,13 @@ def test_tables_and_racks():
     assert copy.record.tobytes() == table.record.tobytes() and "6 pockets" in repr(copy)
     assert not len(carom.tables.threecushion().pockets)
     assert carom.tables.pool_9ft() == TABLE != carom.tables.pool_8ft() and TABLE != "table"
+    tight = carom.tables.pool_9ft(corner=0.108, side_cut=103)
+    assert tight != TABLE == carom.tables.pool_9ft(**carom.tables.measures("pool_9ft")) and tight.width == 1.27
+    for wrong, said in (({"corner": 2.0}, "it must be 0.01 to 1, in m"), ({"width": 0.17}, "must be below .* with this width"), ({"side_hole": 0.01}, "can leave")):
+        with pytest.raises(carom.CaromError, match=said):
+            carom.tables.pool_9ft(**wrong)
+    with pytest.raises(TypeError, match="there are width, length"):
+        carom.tables.pool_9ft(mouth=1.0)
 
 
 def test_strike():
