@@ -93,6 +93,22 @@ inline carom_table table(carom_table_kind kind) {
   return made;
 }
 
+/* The measures of a built-in table, and a table made by such measures, checked for balls of a
+ * radius, m; an error names the measure that is wrong. */
+inline carom_measures measures(carom_table_kind kind) {
+  carom_measures made{};
+  checked(carom_table_measures(kind, &made));
+  return made;
+}
+inline carom_table table(const carom_measures &by, double radius = 0.028575) {
+  carom_table made{};
+  carom_table_fault fault{};
+  const carom_status status = carom_table_measured(&by, radius, &made, &fault);
+  const bool named = fault.part.kind == CAROM_PART_MEASURES;
+  checked(status, named ? carom_number_of(fault.part.kind, fault.part.index)->name : "");
+  return made;
+}
+
 /* A rack, with the cue ball first; empty where it cannot be. */
 inline std::vector<carom_shot_ball> rack(carom_rack_kind kind, const carom_table &on, double gap,
                                          std::uint64_t seed) {

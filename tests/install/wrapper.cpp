@@ -15,6 +15,8 @@
 
 int main() {
   const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
+  const carom_table again_made = carom::table(carom::measures(CAROM_TABLE_POOL_9FT));
+  CHECK(std::memcmp(&table, &again_made, sizeof table) == 0);
   const auto balls = carom::rack(CAROM_RACK_EIGHTBALL, table, 1e-4, 3);
   CHECK(balls.size() == 16);
   carom_cue cue = carom_cue_of(CAROM_GAME_POOL);

@@ -182,6 +182,23 @@ namespace Carom {
       return table;
     }
 
+    /// <summary>The measures of a built-in table.</summary>
+    public static Measures Measures(TableKind kind) {
+      Measures measures;
+      Check(Native.carom_table_measures(kind, &measures));
+      return measures;
+    }
+
+    /// <summary>A table by its measures, checked for balls of a radius, m. The exception names the measure that is wrong.</summary>
+    public static Table Table(Measures measures, double radius = 0.028575) {
+      Table table;
+      TableFault fault;
+      var status = Native.carom_table_measured(&measures, radius, &table, &fault);
+      if (fault.part.kind == PartKind.Measures) throw new CaromException(status, Rows(PartKind.Measures)[fault.part.index].Name);
+      Check(status);
+      return table;
+    }
+
     /// <summary>A rack, with the cue ball first. `gap`, m, is left between neighbours; `seed` draws the rest.</summary>
     public static ShotBall[] Rack(RackKind kind, Table table, double gap = 1e-4, ulong seed = 1) {
       var balls = new ShotBall[Native.carom_rack_size(kind)];

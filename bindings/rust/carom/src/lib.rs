@@ -21,10 +21,11 @@ pub use plan::{built_in_rules, rules, strike, words, Game, Position, Thinking};
 pub use record::Recording;
 pub use sys::{
     carom_ball_state as BallState, carom_call as Call, carom_choice as Choice, carom_cue as Cue,
-    carom_event as Event, carom_facts as Facts, carom_plan_options as PlanOptions,
-    carom_plan_rules as Rules, carom_player as Player, carom_pot as Pot,
-    carom_rules_state as RulesState, carom_ruling as Ruling, carom_shot_ball as ShotBall,
-    carom_shot_options as Options, carom_table as Table, carom_turn as Turn,
+    carom_event as Event, carom_facts as Facts, carom_measures as Measures,
+    carom_plan_options as PlanOptions, carom_plan_rules as Rules, carom_player as Player,
+    carom_pot as Pot, carom_rules_state as RulesState, carom_ruling as Ruling,
+    carom_shot_ball as ShotBall, carom_shot_options as Options, carom_table as Table,
+    carom_turn as Turn,
 };
 
 use std::ffi::CStr;
@@ -154,6 +155,25 @@ pub fn physics_revision() -> i32 {
 pub fn table(kind: sys::carom_table_kind) -> Result<Table, Error> {
     let mut table = Table::default();
     check(unsafe { sys::carom_table_make(kind, &mut table) })?;
+    Ok(table)
+}
+
+/// The measures of a built-in table.
+pub fn measures(kind: sys::carom_table_kind) -> Result<Measures, Error> {
+    let mut measures = Measures::default();
+    check(unsafe { sys::carom_table_measures(kind, &mut measures) })?;
+    Ok(measures)
+}
+
+/// A table by its measures, checked for balls of a radius, m. The error names the measure that is wrong.
+pub fn table_measured(measures: &Measures, radius: f64) -> Result<Table, Error> {
+    let (mut table, mut at) = (Table::default(), sys::carom_table_fault::default());
+    let status = unsafe { sys::carom_table_measured(measures, radius, &mut table, &mut at) };
+    if at.part.kind == sys::CAROM_PART_MEASURES {
+        let fault = rows(at.part.kind).swap_remove(at.part.index as usize).name;
+        return Err(Error { status, fault });
+    }
+    check(status)?;
     Ok(table)
 }
 
@@ -445,6 +465,13 @@ mod tests {
         let error = shoot(&table, &balls, &wrong, &Options::default()).unwrap_err();
         assert_eq!(error.status, sys::CAROM_ERROR_CUE_SPEED);
         assert_eq!(error.to_string(), "speed must be 0 to 1000, in m/s, not -1");
+        let mut wide = measures(sys::CAROM_TABLE_POOL_9FT).unwrap();
+        assert_eq!(table_measured(&wide, 0.028575).unwrap().width, table.width);
+        wide.side_mouth = 2.0;
+        assert!(table_measured(&wide, 0.028575)
+            .unwrap_err()
+            .to_string()
+            .contains("side_mouth"));
         assert_eq!(
             rack(99, &table, 1e-4, 1).unwrap_err().status,
             sys::CAROM_ERROR_RACK
