@@ -44,6 +44,7 @@ import type {
   Game,
   GameState,
   Impact,
+  Measures,
   Motion,
   PlanOptions,
   Player,
@@ -67,6 +68,7 @@ const SHOT = layout.carom_shot;
 const SHOT_OPTIONS = layout.carom_shot_options;
 const EVENT = layout.carom_event;
 const STATE = layout.carom_ball_state;
+const MEASURES = Object.keys(layout.carom_measures.offset) as (keyof Measures)[];
 const FAULT = layout.carom_fault;
 const BALLS_MOST = values.CAROM_BALLS_MOST;
 
@@ -383,11 +385,19 @@ export class Carom {
 
   // ---- Tables, racks, balls, cues --------------------------------------------------------------------------------------------
 
-  /** A built-in table. */
-  table(name: TableName): Table {
-    this.#refuse(this.#call.carom_table_make(value("carom_table_kind", name, "table"), this.#at.table), "table");
+  /** A built-in table, some of whose measures may be others, m and degrees: table("9ft", { cornerMouth: 0.108 }). */
+  table(name: TableName, measures: Partial<Measures> = {}): Table {
+    const { table, balls, detail } = this.#at, kind = value("carom_table_kind", name, "table");
+    this.#refuse(this.#call.carom_table_make(kind, table), "table");
     this.#resident = undefined;
-    return readTable(this.#memory, this.#at.table);
+    if (Object.keys(measures).length > 0) {
+      this.#call.carom_table_measures(kind, balls);
+      const usual = Object.fromEntries(MEASURES.map((key, k) => [key, this.#memory.f64[balls / 8 + k]!]));
+      writeStruct(this.#memory, balls, "carom_measures", measures, "measures", usual);
+      const code = this.#call.carom_table_measured(balls, name === "snooker" ? 0.02619375 : 0.028575, table, detail);
+      if (code < 0) throw this.#error(code, this.#part(detail + layout.carom_table_fault.offset.part));
+    }
+    return readTable(this.#memory, table);
   }
 
   /**
@@ -426,6 +436,7 @@ export class Carom {
     const index = this.#memory.i32[(at + layout.carom_part.offset.index) / 4]!;
     const name = names.carom_part_kind[kind]!;
     if (name === "ball" || name === "state") return `balls[${index}]`;
+    if (name === "measures") return `measures.${MEASURES[index]}`;
     return name === "cue" ? name : name === "options" ? "" : name === "none" || name === "table" ? "table" : `table.${name}s[${index}]`;
   }
 

@@ -152,6 +152,7 @@ export interface Contact {
 }
 
 export type TableName = C.TableKind;
+export type Measures = C.Measures;
 export type RackName = C.RackKind;
 
 /** How the strokes of a player differ from those that are meant. What is missing is 0. */

@@ -270,6 +270,9 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const hexagon = carom.polygon([1, 2, 2, 1, 0, 0].map((x, k) => ({ x, y: [0, 0.5, 1.5, 2, 1.5, 0.5][k]!, mouth: 0.12 })));
     expect([hexagon.rails.length, hexagon.jaws.length, hexagon.pockets.length, hexagon.width, hexagon.length]).toEqual([6, 12, 6, 2, 2]);
     expect(carom.simulate(hexagon, [carom.ball(1, 1)], { speed: 3, phi: 20 }).status).toBe("ok");
+    expect(carom.table("9ft", { cornerMouth: 0.108 }).jaws[0]!.centre[0]).toBeLessThan(carom.table("9ft").jaws[0]!.centre[0]);
+    expect(() => carom.table("9ft", { sideMouth: 2 })).toThrow(/^measures.sideMouth: /);
+    expect(() => carom.table("9ft", { corner: 0.1 } as never)).toThrow(/corner.*cornerMouth/);
     expect(() => carom.polygon([{ x: 0, y: 0 }, { x: 1, y: 0, mouth: 3 }, { x: 0, y: 1 }])).toThrow(/^table: /);
     expect(() => carom.polygon([{ x: 0, y: 0, moth: 1 } as never])).toThrow(/moth.*mouth/);
   });
