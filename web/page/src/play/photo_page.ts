@@ -144,9 +144,7 @@ function snap(p: Photo): void {
     return; // the marks are no table yet: draw() says so
   }
 }
-function snapped(p: Photo, at: Pixel): Pixel {
-  return snapDisc(p.pixels!, at, radiusAt(cameraOn(p)!, at), OFF * scaleOf(p));
-}
+const snapped = (p: Photo, at: Pixel): Pixel => snapDisc(p.pixels!, at, radiusAt(cameraOn(p)!, at), OFF * scaleOf(p));
 /** Gives the places of the balls, where all lie on the table; tells whether they do. */
 function finish(p: Photo): boolean {
   const { size, names, use } = p.host;
@@ -183,11 +181,9 @@ function down(p: Photo, at: Pixel): void {
     const held = p.held;
     p.held = undefined;
     if (!held) return draw(p); // a second finger came
-    if (moved && one) one.at = snapped(p, last);
-    else if (moved && corner >= 0 && p.corners.length === 4) snap(p);
-    // A tap beside a mark is another ball.
-    else if (!moved && one && Math.hypot(one.at[0] - at[0], one.at[1] - at[1]) < TAP * scaleOf(p)) Object.assign(one, { may: undefined, ball: names.map((_, k) => (one.ball + 1 + k) % names.length).find((k) => !p.balls.some((other) => other !== one && other.ball === k))! });
-    else if (!(moved && corner >= 0)) return tap(p, last);
+    // What is dragged stays where it was put, which mends what snapped to something else. A tap beside a mark is another ball.
+    if (!moved && one && Math.hypot(one.at[0] - at[0], one.at[1] - at[1]) < TAP * scaleOf(p)) Object.assign(one, { may: undefined, ball: names.map((_, k) => (one.ball + 1 + k) % names.length).find((k) => !p.balls.some((other) => other !== one && other.ball === k))! });
+    else if (!moved || !(one || corner >= 0)) return tap(p, last);
     draw(p);
   };
   canvas.addEventListener("pointerup", up, { once: true });

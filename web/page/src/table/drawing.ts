@@ -70,9 +70,10 @@ export function drawNumbers({ g, scale, place }: Pen, balls: readonly { state: P
     if (!(Number(names[k]) > 0) || !onTable(state)) return;
     const [x, y] = place(state.r[0], state.r[1]);
     const [half, high, away] = [g.measureText(names[k]!).width / 2, 5, kind.radius * scale + 2];
+    const near = taken.filter(([bx, by]) => Math.abs(bx! - x) < 80 && Math.abs(by! - y) < 80);
     // Of twelve places around the ball the one that covers least; the first is at the upper right.
     const covers = ([px, py]: readonly [number, number]): number =>
-      taken.reduce((sum, [bx, by, bw, bh]) => sum + Math.max(half + bw! - Math.abs(px - bx!), 0) * Math.max(high + bh! - Math.abs(py - by!), 0), 0);
+      near.reduce((sum, [bx, by, bw, bh]) => sum + Math.max(half + bw! - Math.abs(px - bx!), 0) * Math.max(high + bh! - Math.abs(py - by!), 0), 0);
     const around = Array.from({ length: 12 }, (_, k) => ((1.5 + k) * Math.PI) / 6).map((turn) => [x + (away + half) * Math.cos(turn), y - (away + high) * Math.sin(turn)] as const);
     const best = around.reduce((one, other) => (covers(other) < covers(one) - 0.5 ? other : one));
     if (covers(best) > 4) return;

@@ -1,6 +1,6 @@
 // What the player shows of a shot: where its balls are and how they have turned at a time, and the paths that they take.
 import type { BallState, Shot, ShotBall, Table } from "carom";
-import { type Film, product, wordsOf } from "../../../player/words.js";
+import { type Film, type Pose, product, wordsOf } from "../../../player/words.js";
 
 /** How long a ball falls in a pocket, about, s. */
 const FALL = 0.16;
@@ -42,22 +42,25 @@ export const facing = (degrees: number): Quaternion => [Math.cos((degrees * Math
 
 /** The film of a shot, or the balls as they lie. */
 export function filmOf({ table, balls, names, turned }: Layout, shot: Shot | undefined, paths: Path[]) {
+  let last: { time: number; poses: Pose[] } | undefined;
   return {
     table,
     balls: balls.map(({ kind }, k) => ({ name: names[k]!, radius: kind.radius })),
     shots: [
       {
         time: shot ? lasts(shot) : 0,
-        at(time: number) {
+        at(time: number): Pose[] {
+          if (last?.time === time) return last.poses;
           // Balls that fall in their pockets lie elsewhere than in the frame.
           const places = shot?.positionsAt([time], true);
           const frame = shot?.frame(time);
-          return balls.map(({ state }, k) => {
+          const poses = balls.map(({ state }, k) => {
             const r = places ? [...places.subarray(3 * k, 3 * k + 3)] : state.r;
             const label = frame?.label(k) ?? state.label;
             const seen = onTable({ label }) || (shot !== undefined && r[2]! > shot.final[k]!.r[2] && label === "pocketed");
             return { r, q: frame ? product(frame.turned.subarray(4 * k, 4 * k + 4), turned[k]!) : turned[k]!, seen };
           });
+          return (last = { time, poses }).poses;
         },
         paths,
         events: (shot?.events ?? []).map(({ time, type, a, b }) => ({ time, text: wordsOf(table, names as string[], type, a, b) })),
