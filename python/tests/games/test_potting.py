@@ -321,7 +321,7 @@ def test_pictures(gymnasium):
     still = images.render()
     images.step(np.full((2, 4), 0.3))
     for before, after in zip(still, images.render()):
-        assert before.dtype == np.uint8 and before.shape == after.shape == (484, 866, 3)
+        assert before.dtype == np.uint8 and before.shape == after.shape == (484, 864, 3)
         # the cue ball is white where it lay, and elsewhere afterwards
         assert (before == 255).all(axis=-1).any() and (before != after).any(axis=-1).sum() > 200
     with pytest.raises(ValueError, match="render_mode: must be None, 'svg' or 'rgb_array', not 'human'"):
