@@ -46,15 +46,15 @@ static inline void numbers_of(const carom_ball_state *s, double to[NUMBERS]) {
 /* The table of a layout, which stands until the next call: of 9 ft with pooltool's pockets, where
  * the edges of these tests are. */
 static inline const carom_table *table_of(const layout *l) {
-  static carom_table table;
-  carom_measures m;
-  carom_table_measures(CAROM_TABLE_POOLTOOL, &m);
-  m.width = 1.27;
-  m.length = 2.54;
-  if (l->table != NULL)
-    table = *l->table;
-  else
-    carom_table_measured(&m, 0.028575, &table, NULL);
+  static carom_table table, nine_feet;
+  if (nine_feet.rails == 0) {
+    carom_measures m;
+    carom_table_measures(CAROM_TABLE_POOLTOOL, &m);
+    m.width = 1.27;
+    m.length = 2.54;
+    carom_table_measured(&m, 0.028575, &nine_feet, NULL);
+  }
+  table = l->table != NULL ? *l->table : nine_feet;
   for (int k = 0; k < table.rails; k++) {
     table.rail[k].height += l->nose[0];
     table.rail[k].mu_cushion += l->nose[1];
