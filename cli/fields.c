@@ -249,7 +249,7 @@ static bool give_fit(const char *path, given_numbers *given) {
   json_error_t error;
   json_t *fit = json_load_file(path, 0, &error), *of = json_object_get(fit, "constants"), *x;
   const char *name, *model = json_string_value(json_object_get(fit, "cushion_model"));
-  bool good = of != NULL;
+  bool good = json_is_object(of);
   if (!good)
     complain("--with %.200s: %s", path, fit != NULL ? "no fit, which has `constants`" : error.text);
   json_object_set(of, "radius", json_object_get(fit, "radius"));

@@ -62,4 +62,4 @@ echo "--- numbers of a fit"
 echo '{"constants": {"mu_slide": 0.3, "smooth_q": 0.0, "law_a": 0.02}, "radius": 0.03, "cushion_model": "mathavan", "bands": [[0, 0.01, 0.03], [2, 0.02, 0.05]]}' > fit.json
 for words in "fit.json" "fit.json,u_s=0.4"; do carom shoot --cue 0.3,0.5 --with $words --json | grep -o '"R": [0-9.]*\|"u_s": [0-9.]*\|"law_a[^,]*'; done
 carom shoot --cue 0.3,0.5 --with fit.json | tail -n 1; carom shoot --speed 0.3 --with fit.json | tail -n 1; [ "$(carom shoot --cue 0.3,0.5 --with fit.json | sed '$d')" = "$(carom shoot --cue 0.3,0.5 --with mu_slide=0.3,law_a=0.02,radius=0.03 --cushion mathavan)" ] && echo "its cushion"
-echo '{"constants": {"mu_slide": "0.3"}}' > text.json; echo '{"radius": 0.03}' > other.json; for file in text other no; do carom shoot --cue 0.3,0.5 --with $file.json 2>&1 | head -n 1; done
+echo '{"constants": {"mu_slide": "0.3"}}' > text.json; echo '{"constants": [0.3]}' > other.json; for file in text other no; do carom shoot --cue 0.3,0.5 --with $file.json 2>&1 | head -n 1; done
