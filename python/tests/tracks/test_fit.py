@@ -21,7 +21,7 @@ from carom import _described, tracks
 from carom._carom import ffi, lib
 from carom._rows import numbered, numbers_of
 from carom.cushions import NUMBERS
-from carom.tracks import _constants, _covariance, _from_events, _joint, _kicks, _recordings, _strikes, _summary, fit
+from carom.tracks import _constants, _from_events, _joint, _kicks, _recordings, _strikes, _summary, fit
 
 # Before a release more matches are fitted.
 MATCHES = int(os.environ.get("CAROM_MATCHES", "0"))
@@ -362,7 +362,7 @@ def test_derivatives_of_shots_give_the_normal_equations(made, plays):
 
 
 def test_strikes_are_off_by_what_their_covariance_says():
-    off = []
+    off, within = [], []
     for seed in (2, 6):
         made = synthetic(24, constants=HAN, seed=seed)
         found = fitted(made.recordings, TABLE, RADIUS, constants=made.constants, free="none", threads=-1)
@@ -370,7 +370,14 @@ def test_strikes_are_off_by_what_their_covariance_says():
             covariance = found.strike_covariance(int(k))
             assert np.isfinite(covariance).all() and (np.linalg.eigvalsh(covariance) > 0).all()
             off.append((found.strikes[k] - made.strikes[k]) / np.sqrt(covariance.diagonal()))
-    off = np.abs(off)
+            # draws end about where the shot did: which share of them is nearer to their middle
+            table, layouts, starts = found.draws(int(k), 100)
+            ends = carom.simulate_batch(table, layouts, cushion_model="han").final["r"][..., :2]
+            apart = ends - np.median(ends, axis=0), made.shots[k].final["r"][:, :2] - np.median(ends, axis=0)
+            within += (np.hypot(*apart[0].T).T < np.hypot(*apart[1].T)).mean(axis=0)[np.isfinite(made.recordings[k].moves)].tolist()
+            assert np.isclose(starts.std(), np.sqrt(covariance[5, 5]), rtol=0.5) and found.draws(int(k), 100)[1].tobytes() == layouts.tobytes()
+    off, within = np.abs(off), np.array(within)
+    assert 0.55 < (within < 0.68).mean() < 0.95 and (within < 0.95).mean() > 0.9, ((within < 0.68).mean(), (within < 0.95).mean())
     # of normal errors 68 % and 95 %
     assert len(off) > 30 and 0.55 < (off < 1).mean() < 0.85 and (off < 2).mean() > 0.85, ((off < 1).mean(), (off < 2).mean())
     still = tuple(track[[0, 0]] + [[0, 0, 0], [1, 0, 0]] for track in made.recordings[0].tracks)

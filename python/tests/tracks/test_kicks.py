@@ -138,19 +138,3 @@ def test_the_command_tells_kicks(made, tmp_path, capsys):
     # a picture of a shot marks the contacts; all rebounds are too slow here
     page = (tmp_path / "page.html").read_text()
     assert page.count("<title>contact ") > 12 and re.search(r">away \+\d\.\d %</text>", page) and "<h2>Kicks</h2>" in page
-
-
-def test_constants_of_a_cushion_are_found_by_kicks(made):
-    start = {"restitution_cushion": 0.86, "mu_cushion": 0.2, "roll_loss": 0.06, "nose_height": 0.036}
-    found = fitted(made.recordings, TABLE, RADIUS, constants={**made.constants, **start}, free="kicks", seed=1)
-    assert set(found.spread) == set(start) and found.median_rmse < 3 * np.sqrt(2) * tracks.NOISE
-    for name, value in start.items():
-        truth = made.constants[name]
-        assert abs(found.constants[name] - truth) < 0.15 * abs(value - truth) + 3 * found.spread[name], (name, found.constants[name])
-    assert {name: value for name, value in found.constants.items() if name not in start} == {
-        name: value for name, value in made.constants.items() if name not in start
-    }
-    one = fitted(made.recordings, TABLE, RADIUS, constants={**made.constants, "mu_cushion": 0.2}, free=["kicks", "mu_cushion"])
-    assert one.constants["mu_cushion"] == pytest.approx(0.22, abs=0.002) and list(one.spread) == ["mu_cushion"]
-    with pytest.raises(ValueError, match="kicks tell constants of the cushion, .*, not 'mu_slide'"):
-        fitted(made.recordings, TABLE, RADIUS, free=["kicks", "mu_slide"])

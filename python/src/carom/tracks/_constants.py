@@ -27,7 +27,6 @@ _SINGLE = {"mu_slide": 2.02 / 9.81, "mu_roll": 0.0418 / 9.81, "drag": 0.0129, "m
 _LAW = {"law_a": 0.0448, "law_b": 0.486, "law_c": 1.088}
 KINDS = tuple(name for name in dtypes.ball_kind.names or () if name != "radius")
 _START = ("restitution_cushion", "mu_cushion", "nose_height")
-OF_CUSHION = (*_START, *NUMBERS)
 
 
 def _own(model: int) -> Constants:

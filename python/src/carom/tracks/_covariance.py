@@ -25,7 +25,7 @@ these errors. On 91 real shots the constants of two halves differ by less than o
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -37,17 +37,17 @@ from carom.tracks._strikes import Plays, derivatives
 _SPEED, _SPIN, _TIME = 8.0, 2.0, 0.1
 
 
-def of_strike(plays: Plays, row: int, strike: Doubles) -> Doubles:
-    """The covariance of the strike of a shot, (6, 6)."""
-    d, J_p, _, J_r = derivatives(plays, row, strike, [])
+def of_strike(plays: Plays, row: int, strike: Doubles, names: Sequence[str] = ()) -> tuple[Doubles, Doubles, Doubles]:
+    """Of the strike of a shot: s^2 P, (6, 6), and how it follows each constant of these names, and each deviation, m, of a coordinate of a
+    place of rest, (6, names + 2 balls), and these deviations."""
+    d, J_p, J_c, J_r = derivatives(plays, row, strike, list(names))
     variance = float(d @ d) / max(len(d) - 6, 1)
     speed = float(np.hypot(strike[0], strike[1]))
     bounds = np.array([_SPEED, _SPEED, *3 * [_SPIN * speed + 0.2], _TIME])
     # by R of the factorisation Q R, as the product J^T J has the square of its condition number
     root = np.linalg.inv(np.linalg.qr(np.vstack([J_p / np.sqrt(variance), np.diag(1.0 / bounds)]), mode="r"))
-    P = root @ root.T / variance
-    follow = P @ (J_p.T @ J_r) / np.sqrt(np.repeat(plays.recordings[row].still, 2))
-    return np.asarray(variance * (P + follow @ follow.T))
+    P = root @ root.T
+    return P, -(P / variance) @ J_p.T @ np.hstack([J_c, J_r]), np.sqrt(variance / np.repeat(plays.recordings[row].still, 2))
 
 
 def of_constants(search: _joint.Search, told: Mapping[str, float]) -> Doubles | None:

@@ -10,31 +10,22 @@ moves the kicks by (H + D)^-1 J^T noise, where D is diag(PRICE/s^2), and 0 for t
 moves them as in `_covariance`.
 
 Strikes without kicks may be found through them: `eased`.
-
-Constants of a cushion. A law with constants c that differs from that of the search by m(c) at the states before the impacts, over V, stands
-for kicks m(c). With these, and further kicks that cost 1/k^2 as much as above, the least cost of a shot is, with r = m(c) - y,
-
-    c + 2 g r + r^T H r - (g + H r)^T (H + D/k^2)^-1 (g + H r),
-
-again a quadratic of r. k = 0 would be the whole shot without further kicks, linearised, and k = 1 single events. Constants minimise the sum
-over shots of log(1 + cost/(n m)), as those of `_joint`, and their priors. No shot is played for that.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import lib
 from carom._rows import Array, Arrays
 from carom.dtypes import Doubles, Records
 from carom.status import CaromError
-from carom.tracks import _events, _from_events, _joint, _strikes
+from carom.tracks import _strikes
 from carom.tracks._strikes import KICKS, Plays
 
 CONTACTS = 16  # of a shot, at most, that have kicks
@@ -151,106 +142,6 @@ def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
             square[k, :m, numbers.shape[1] :] * sign[k], _held([met])[0, :m],
         ))  # fmt: skip
     return found
-
-
-# ---- Constants of a cushion
-
-_FREE = 0.06  # k: what the models still lack, beside what the constants give
-_PRIOR = 0.1  # what one deviation of a constant costs
-_ROUNDS, _SPLITS = 2, 4  # searches of kicks, and splits in halves for the errors
-
-
-def constants(
-    found: Sequence[Quadratic], plays: Plays, priors: Mapping[str, tuple[float, float]], bounds: Mapping[str, tuple[float, float]]
-) -> dict[str, float]:
-    """The constants of `priors`, mean and deviation, by the kicks about the constants of the plays."""
-    names = list(priors)
-    first, scale = np.array(list(priors.values())).T
-    low, high = np.array([bounds[name] for name in names]).T
-    parts = []
-    for one in found:
-        cushion = np.repeat(one.met["type"] == lib.CAROM_EVENT_RAIL, KICKS)
-        if not cushion.any():
-            continue
-        D = one.price / _FREE**2
-        inverse = one.inverse(D)
-        Q, l = np.diag(D) - D[:, None] * inverse * D, D * (inverse @ one.g)
-        # those of balls go, and those of cushions are what the law gives
-        r = np.concatenate([np.zeros(6), np.where(cushion, 0.0, -one.kicks)])
-        at = 6 + np.flatnonzero(cushion)
-        least = one.cost - one.g @ inverse @ one.g + r @ Q @ r + 2.0 * l @ r
-        parts.append((Q[np.ix_(at, at)], (l + Q @ r)[at], least, one.kicks[cushion], one.count))
-    states = np.concatenate([one.met[one.met["type"] == lib.CAROM_EVENT_RAIL] for one in found])
-    cuts = np.cumsum([0, *(len(part[1]) for part in parts)])
-    before = _law(states, plays, plays.constants)
-
-    def costs(values: Doubles) -> tuple[Doubles, Doubles]:
-        m = (_law(states, plays, {**plays.constants, **dict(zip(names, values.tolist()))}) - before).ravel()
-        r = [m[a:b] - part[3] for a, b, part in zip(cuts[:-1], cuts[1:], parts)]
-        return np.array([max(p[2] + e @ p[0] @ e + 2.0 * e @ p[1], 0.0) / p[4] for p, e in zip(parts, r)]), m
-
-    middle = 2.0 * float(np.median(costs(np.array([plays.constants[name] for name in names]))[0]))
-    values, damping = np.array([plays.constants[name] for name in names]), 1e-2
-
-    def total(values: Doubles) -> float:
-        return float(np.log1p(costs(values)[0] / middle).sum() + _PRIOR * (((values - first) / scale) ** 2).sum())
-
-    best = total(values)
-    for _ in range(30):
-        cost, m = costs(values)
-        J = np.stack([(costs(values + 1e-4 * scale * row)[1] - m) / 1e-4 for row in np.eye(len(names))], axis=1)
-        whole, slope = _PRIOR * np.eye(len(names)), _PRIOR * (values - first) / scale
-        for a, b, (Q, l, _, y, count), one in zip(cuts[:-1], cuts[1:], parts, cost):
-            weight = 1.0 / (count * (middle + one))
-            whole += weight * J[a:b].T @ Q @ J[a:b]
-            slope += weight * J[a:b].T @ (Q @ (m[a:b] - y) + l)
-        for _ in range(8):
-            tried = np.clip(values - scale * np.linalg.solve(whole + damping * np.diag(whole.diagonal()), slope), low, high)
-            new = total(tried)
-            if new < best:
-                break
-            damping *= 6.0
-        if not new < best - 1e-5:
-            break
-        best, values, damping = new, tried, 0.2 * damping
-    return dict(zip(names, values.tolist()))
-
-
-def fitted(plays: Plays, strikes: Doubles, priors: Mapping[str, tuple[float, float]], seed: int) -> tuple[dict[str, float], dict[str, float]]:
-    """The constants of a cushion, mean and deviation, by the kicks of shots that begin with `strikes`, and their errors by halves of the shots.
-
-    Kicks are found twice, as they depend on the constants in force.
-    """
-    rows = np.flatnonzero(np.isfinite(strikes).all(axis=1))
-    plays, numbers = plays.some(rows), strikes[rows]
-    bounds = {name: _joint.prior(name)[1:] for name in priors}
-    bounds |= {"nose_height": (1.001 * plays.radius, 1.7 * plays.radius)} if "nose_height" in priors else {}
-    made, errors = dict[str, float](), dict[str, float]()
-    for _ in range(_ROUNDS):
-        numbers = find(plays, numbers[:, :6])
-        near = [one for one in quadratics(plays, numbers) if one.good]
-        if not any((one.met["type"] == lib.CAROM_EVENT_RAIL).any() for one in near):
-            break
-        made = constants(near, plays, priors, bounds)
-
-        def of(half: npt.NDArray[np.intp]) -> Doubles:
-            return np.array(list(constants([near[k] for k in half], plays, priors, bounds).values()))
-
-        if len(near) >= _joint.LEAST:
-            errors = dict(zip(made, _events.halves(len(near), _SPLITS, np.random.default_rng(seed), of).tolist()))
-        plays.set({**plays.constants, **made})
-    return made, errors
-
-
-def _law(impacts: Records, plays: Plays, given: Mapping[str, float]) -> Doubles:
-    """What the five outputs of a cushion's kicks are after impacts, over V, (n, 5)."""
-    n, v, w, speed = _frame(impacts)
-    across, along = (v * n).sum(axis=1), v[:, 0] * n[:, 1] - v[:, 1] * n[:, 0]
-    t = np.stack([n[:, 1], -n[:, 0]], axis=1)
-    spin = plays.radius * np.stack([(w[:, :2] * t).sum(axis=1), (w[:, :2] * n).sum(axis=1), w[:, 2]], axis=1)
-    after = _from_events.rebound(along, across, spin, plays.radius, plays.cushion_model, given)
-    after[:, 1] *= -1.0
-    return np.asarray(after[:, [0, 1, 3, 2, 4]] / speed[:, None])
 
 
 def _frame(impacts: Records) -> tuple[Doubles, Doubles, Doubles, Doubles]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import html
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,10 +15,11 @@ import numpy.typing as npt
 from carom import pictures
 from carom._carom import lib
 from carom._shot_options import ShotCushion
-from carom.dtypes import Doubles
+from carom.dtypes import Doubles, Records
+from carom.layouts import Table
 from carom.results import Shot
 from carom.shots import simulate
-from carom.tracks import _constants, _covariance, _kicks, _strikes
+from carom.tracks import _constants, _covariance, _joint, _kicks, _strikes
 from carom.tracks._events import events
 from carom.tracks._kicks import Kicks
 from carom.tracks._recordings import Recording
@@ -93,15 +94,21 @@ class Fit:
 
         Raises ValueError: No strike was found.
         """
-        strike, recording = self.strikes[i], self.recordings[i]
-        if not np.isfinite(strike).all():
+        table, balls = self._struck(i, self.strikes[[i]], 0.0, {})
+        return simulate(table, balls[0], cushion_model=self.cushion_model)
+
+    def _struck(self, i: int, strikes: Doubles, moved: Doubles | float, changed: Mapping[str, Doubles]) -> tuple[Table, Records]:
+        """The table, and the balls of shot i just after each of the strikes, from places of rest that are moved, with changed constants."""
+        recording = self.recordings[i]
+        if not np.isfinite(self.strikes[i]).all():
             raise ValueError(f"shot {recording.id}: no strike was found: {self.status[i]}")
-        centres = _strikes.apart(recording.rest, self.table, self.radius)
-        balls = _constants.layout(centres, self.radius, self.constants)
-        balls["state"]["v"][recording.cue, :2] = strike[:2]
-        balls["state"]["w"][recording.cue] = strike[2:5] / self.radius
-        table = _constants.rectangle(self.table, self.constants["nose_height"])
-        return simulate(table, balls, cushion_model=self.cushion_model)
+        centres = [_strikes.apart(places, self.table, self.radius) for places in recording.rest + np.zeros((len(strikes), 1, 1)) + moved]
+        balls = _constants.layout(np.array(centres), self.radius, self.constants)
+        for name, values in changed.items():
+            balls["kind"][name] = values[:, None]
+        balls["state"]["v"][:, recording.cue, :2] = strikes[:, :2]
+        balls["state"]["w"][:, recording.cue] = strikes[:, 2:5] / self.radius
+        return _constants.rectangle(self.table, self.constants["nose_height"]), balls
 
     def strike_covariance(self, i: int) -> Doubles:
         """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being right: by derivatives of the shot.
@@ -110,9 +117,30 @@ class Fit:
 
         Raises ValueError: No strike was found.
         """
+        own, follow, rest = self._strike_off(i)
+        follow = follow[:, len(self.fitted) :] * rest
+        return np.asarray(own + follow @ follow.T)
+
+    def _strike_off(self, i: int) -> tuple[Doubles, Doubles, Doubles]:
         self.shot(i)
         plays = self._plays([i])
-        return _covariance.of_strike(plays, 0, self.strikes[i] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]])
+        return _covariance.of_strike(plays, 0, self.strikes[i] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]], self.fitted)
+
+    def draws(self, i: int, count: int, seed: int = 0) -> tuple[Table, Records, Doubles]:
+        """Shot i as it may have been, for `simulate_batch`: table, layouts just after the strike, (count, balls), and times of the strike, s.
+
+        Constants are drawn by `covariance`, where there is one, places of rest by the noise, and strikes that follow both.
+
+        Raises ValueError: No strike was found.
+        """
+        own, follow, rest = self._strike_off(i)
+        random, by, names = np.random.default_rng(seed), np.zeros((count, len(self.fitted))), self.fitted
+        if self.covariance is not None and names:
+            by = random.multivariate_normal(np.zeros(len(names)), self.covariance, count)
+        moved = random.normal(0.0, rest, (count, len(rest)))
+        strikes = random.multivariate_normal(self.strikes[i], own, count) + np.hstack([by, moved]) @ follow.T
+        changed = {name: np.clip(self.constants[name] + off, *_joint.prior(name)[1:]) for name, off in zip(names, by.T)}
+        return (*self._struck(i, strikes, moved.reshape(count, -1, 2), changed), strikes[:, 5])
 
     def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
         """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2); at rest before the strike."""

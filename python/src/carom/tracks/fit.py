@@ -69,11 +69,7 @@ def _priors(
     left_out = {name for name in some if not usual[name]} | ({"nose_height"} if not usual["mu_cushion"] else set())
     wider = _joint.TABLE if list(free) == ["table"] else {}
     usually = [name for name in wider or _joint.PRIORS if name not in left_out]
-    names = usually if list(free) in (["default"], ["kicks"], ["table"]) else list(free)
-    if list(free[:1]) == ["kicks"]:
-        names = names[1:] if len(free) > 1 else [name for name in names if name in _constants.OF_CUSHION]
-        if others := [name for name in names if name not in _constants.OF_CUSHION]:
-            raise ValueError(f"free: kicks tell constants of the cushion, {', '.join(_constants.OF_CUSHION)}, not {others[0]!r}")
+    names = usually if list(free) in (["default"], ["table"]) else list(free)
     known = [name for name in _constants.KINDS if name in values]
     unknown = [name for name in [*names, *priors] if name not in known]
     if unknown:
@@ -186,13 +182,12 @@ def fit(
         A model with which a fit can begin: `python -m carom.fit --help` lists them.
     constants : mapping or `carom.dtypes.ball_kind`, optional
         Known constants; the usual ones stand for those that are not given.
-    free : "none", "events", "kicks", "table", "default", or names of constants
+    free : "none", "events", "table", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
         drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all
         together with mu_spin, law_a and law_b, by whole shots. "table": restitution_cushion, mu_cushion, nose_height, mu_slide, mu_roll and
         drag, by whole shots, as what else a model has is a law that other tables share: for few shots. Names: these constants alone, by whole shots: any
-        field of `carom.dtypes.ball_kind` but radius and mu_ball, also a cushion's own numbers. "kicks": the constants of the cushion by the kicks of its contacts, with the
-        others as given, in a fraction of the time; "kicks" and names: these constants of the cushion.
+        field of `carom.dtypes.ball_kind` but radius and mu_ball, also a cushion's own numbers.
     priors : mapping, optional
         Mean and deviation of constants that are fitted by whole shots. Without: about the value before, as wide as the constants of
         different tables are.
@@ -234,12 +229,7 @@ def fit(
             values, spread = _told_by_events(
                 values, told, *saved.get("events", lambda: _from_events.measured(events(shots, table, radius), radius, cushion_model, seed, values))
             )
-        if free[0] == "kicks" and fitted:
-            plays = _strikes.Plays([recordings[k] for k in fitted], table, radius, values, cushion_model, threads)
-            wanted, start = _priors(free, priors or {}, values, cushion_model), _strikes.find(plays, seed, progress)[0]
-            measured, spread = saved.get("kicks", lambda: _kicks.fitted(plays, start, wanted, seed))
-            values = {**values, **measured}
-        elif free[0] not in ("none", "events") and fitted:
+        if free[0] not in ("none", "events") and fitted:
             plays = _strikes.Plays([recordings[k] for k in fitted], table, radius, values, cushion_model, threads)
             found = saved.get("strikes", lambda: _strikes.find(plays, seed, progress)[0].tolist())
             wanted = _priors(free, priors or {}, values, cushion_model)
@@ -330,7 +320,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
     parser.add_argument("--cushion-model", default="smooth", choices=list(_constants.STARTS))
     parser.add_argument("--constants", type=Path, metavar="IN.json", help="known constants; the usual ones otherwise")
-    parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|kicks|table|default|NAME,...",
+    parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|table|default|NAME,...",
                         help="constants that are fitted besides the strikes")  # fmt: skip
     parser.add_argument("--priors", type=Path, metavar="PRIORS.json", help='{"mu_spin": [mean, deviation], ...}')
     parser.add_argument("--split", action="store_true", help="fit constants to every second shot, and tell how they predict the others")
