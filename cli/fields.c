@@ -250,12 +250,12 @@ static bool give_fit(const char *path, given_numbers *given) {
   json_t *fit = json_load_file(path, 0, &error), *of = json_object_get(fit, "constants"), *x;
   const char *name, *model = json_string_value(json_object_get(fit, "cushion_model"));
   bool good = json_is_object(of);
-  if (!good)
-    complain("--with %.200s: %s", path, fit != NULL ? "no fit, which has `constants`" : error.text);
   json_object_set(of, "radius", json_object_get(fit, "radius"));
-  json_object_foreach(of, name, x) {
-    good = good && give_number(given, name, json_is_number(x) ? json_number_value(x) : NAN);
-  }
+  json_object_foreach(of, name, x) good =
+      good && give_number(given, name, json_is_number(x) ? json_number_value(x) : NAN);
+  if (!good)
+    complain("--with %.200s: %s", path,
+             fit == NULL ? error.text : "no fit, whose `constants` are numbers of balls");
   for (int k = 0; model != NULL && carom_word(CAROM_WORDS_CUSHION_MODEL, k) != NULL; k++)
     if (strcmp(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model) == 0)
       given->fitted = (carom_shot_cushion)(k + 1);

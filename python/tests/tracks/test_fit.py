@@ -556,7 +556,7 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
         for row in numbers_of(lib.CAROM_PART_BALL):
             name = ffi.string(row.name).decode()
             if row.reader == lib.CAROM_READ_BY_CUSHION and row.model == numbered("carom_cushion_model")[model]:
-                mean, deviation = fit._priors(["kicks", name], {}, usual, model)[name]
+                mean, deviation = fit._priors([name], {}, usual, model)[name]
                 assert row.low <= mean == usual[name] <= row.high and deviation > 0.0, (model, name)
     usual = _constants.usual("smooth")
     for name in NUMBERS:
