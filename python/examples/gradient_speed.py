@@ -1,10 +1,9 @@
-"""What a value and its gradient cost in JAX, beside `carom.simulate` and `carom.tangents`: how far a ball rests from its goal, by the cue.
+"""What values and gradients cost in JAX and PyTorch, beside `carom.simulate`, `carom.tangents` and `carom.jacobian`: how far a ball rests from its goal.
 
-    python gradient_speed.py [ROUNDS]
+    python gradient_speed.py torch [ROUNDS]
 
-Each round plays the same 50 strokes in four ways, one way after the other: by simulate alone, by simulate and tangents, by a compiled
-`jax.value_and_grad` one at a time, and by its `jax.vmap` as one batch. The gradients are compared first. Printed are medians over the rounds
-(default 40): processor time of a stroke, and its ratio to that of simulate and tangents. Needs JAX.
+Each round plays 50 strokes one at a time, by simulate and tangents and by the library, then batches of 50 and 2000, by one `carom.jacobian` and by the
+library. The gradients are compared first. Printed are medians over the rounds (default 40): processor time of a stroke, and its ratio.
 """
 
 from __future__ import annotations
@@ -18,54 +17,58 @@ from typing import Any
 import numpy as np
 
 import carom
-import carom.jax
 
-jax: Any = importlib.import_module("jax")
-jnp: Any = importlib.import_module("jax.numpy")
-jax.config.update("jax_enable_x64", True)
-TABLE, BALLS, GOAL = carom.tables.pool_9ft(), carom.balls([[0.4, 0.5], [0.6, 1.5]]), np.array([0.6, 1.8])
-STROKES = np.array([1.5, 79.0]) + np.random.default_rng(1).uniform(-0.1, 0.1, (50, 2))
-
-
-def shot(stroke: Any) -> carom.Shot:
-    return carom.simulate(TABLE, BALLS, carom.cue(speed=stroke[0], phi=stroke[1]))
+TABLE, BALLS, GOAL, NAMES = carom.tables.pool_9ft(), carom.balls([[0.4, 0.5], [0.6, 1.5]]), np.array([0.6, 1.8]), ["cue.speed", "cue.phi"]
+STROKES = np.array([1.5, 79.0]) + np.random.default_rng(1).uniform(-0.1, 0.1, (2000, 2))
 
 
 def by_hand(stroke: Any) -> tuple[float, Any]:
     """The square of the distance, m^2, and its gradient."""
-    played = shot(stroke)
-    off = played.final["r"][1, :2] - GOAL
-    return float((off**2).sum()), 2.0 * off @ carom.tangents(played, ["cue.speed", "cue.phi"]).final["r"][1]
+    shot = carom.simulate(TABLE, BALLS, carom.cue(speed=stroke[0], phi=stroke[1]))
+    off = shot.final["r"][1, :2] - GOAL
+    return float((off**2).sum()), 2.0 * off @ carom.tangents(shot, NAMES).final["r"][1]
 
 
-def miss(stroke: Any) -> Any:
-    ends = carom.jax.final(TABLE, BALLS, carom.cue(), {"cue.speed": stroke[0], "cue.phi": stroke[1]})
-    return ((ends.r[1] - GOAL) ** 2).sum()
+def library(name: str) -> Callable[[Any], Any]:
+    """What gives values and gradients of strokes (..., 2)."""
+    final, of = importlib.import_module(f"carom.{name}").final, importlib.import_module(name)
+    goal = GOAL if name == "jax" else of.from_numpy(GOAL)
+
+    def miss(strokes: Any) -> Any:
+        ends = final(TABLE, BALLS, carom.cue(), {"cue.speed": strokes[..., 0], "cue.phi": strokes[..., 1]})
+        return ((ends.r[..., 1, :] - goal) ** 2).sum(-1)
+
+    def by_torch(strokes: Any) -> Any:
+        x = of.from_numpy(strokes).requires_grad_()
+        values = miss(x)
+        values.sum().backward()
+        return values, x.grad
+
+    if name == "torch":
+        return by_torch
+    of.config.update("jax_enable_x64", True)
+    alone, mapped = of.jit(of.value_and_grad(miss)), of.jit(of.vmap(of.value_and_grad(miss)))
+    return lambda strokes: of.block_until_ready((alone if strokes.ndim == 1 else mapped)(strokes))
 
 
-def spent(play: Callable[[Any], Any], given: Any) -> float:
+def spent(play: Callable[[Any], Any], given: Any, count: int) -> float:
     """Processor time of a stroke, us."""
     begin = time.process_time()
     for each in given:
-        jax.block_until_ready(play(each))
-    return 1e6 * (time.process_time() - begin) / len(STROKES)
+        play(each)
+    return 1e6 * (time.process_time() - begin) / count
 
 
 def main() -> None:
-    one, many, strokes = jax.jit(jax.value_and_grad(miss)), jax.jit(jax.vmap(jax.value_and_grad(miss))), jnp.asarray(STROKES)
-    for stroke, value, slope in zip(STROKES, *many(strokes)):
-        expected, by_tangents = by_hand(stroke)
-        np.testing.assert_allclose([value, *slope], [expected, *by_tangents], rtol=1e-9)
-    ways: dict[str, tuple[Callable[[Any], Any], Any]] = {
-        "simulate": (shot, STROKES),
-        "simulate, tangents": (by_hand, STROKES),
-        "value_and_grad": (one, list(strokes)),
-        "vmap, one of 50": (many, [strokes]),
-    }
-    times = np.array([[spent(*way) for way in ways.values()] for _ in range(1 + (int(sys.argv[1]) if len(sys.argv) > 1 else 40))])[1:]
-    print(f"{'':20} {'us':>8} {'ratio':>6}")
-    for name, each, ratio in zip(ways, np.median(times, axis=0), np.median(times / times[:, 1:2], axis=0)):
-        print(f"{name:20} {each:8.1f} {ratio:6.2f}")
+    play, few, rounds = library(sys.argv[1]), STROKES[:50], int(sys.argv[2]) if len(sys.argv) > 2 else 40
+    for stroke, *found in zip(few, *play(few)):
+        for expected, *others in zip(by_hand(stroke), found, play(stroke)):
+            np.testing.assert_allclose([np.array(other.tolist()) for other in others], [expected] * 2, rtol=1e-9)
+    batch: Callable[[Any], Any] = lambda given: carom.jacobian(TABLE, BALLS, carom.cue(speed=given[:, 0], phi=given[:, 1]), NAMES)  # noqa: E731
+    for name, ours, given, count in (("one", by_hand, few, 50), ("batch of 50", batch, [few], 50), ("batch of 2000", batch, [STROKES], 2000)):
+        times = np.array([[spent(each, given, count) for each in (ours, play)] for _ in range(rounds)])
+        ratio = np.median(times[:, 1] / times[:, 0])
+        print(f"{name:14} {np.median(times[:, 0]):6.1f} us, by {sys.argv[1]} {np.median(times[:, 1]):6.1f} us, ratio {ratio:.2f}")
 
 
 if __name__ == "__main__":

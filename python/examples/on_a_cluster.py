@@ -1,27 +1,28 @@
 """The same batch of shots on this machine, over a cluster of Dask or over one of Ray, with the same bits.
 
-A part of the batch is a few numbers, from which whoever plays it draws its cues; what comes back is a summary: how many shots potted
-how many balls, and a digest (SHA-256) of all final states. So hardly anything travels, and the digest of the digests tells whether
-two ways of playing the batch had the same bits. Without --address a cluster of --workers processes is started on this machine.
+A part of the batch is a few numbers, from which whoever plays it draws its cues; what comes back is how many shots potted how many balls, and a
+digest (SHA-256) of all final states, by which two ways can be compared. Without --address a cluster of --workers processes is started here.
 
     python on_a_cluster.py --by local
     python on_a_cluster.py --by dask --workers 2
-    python on_a_cluster.py --by ray --address auto --isa plain
+    python on_a_cluster.py --by ray --address auto
 """
 
 from __future__ import annotations
 
 import argparse
+import concurrent.futures
 import contextlib
 import hashlib
 import importlib
-import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+
+import carom
 
 
 class Part(NamedTuple):
@@ -31,37 +32,25 @@ class Part(NamedTuple):
     number: int
     shots: int
     threads: int
-    isa: str
 
 
-class Summary(NamedTuple):
-    """What a part gave: digest of the final states, how many shots potted 0, 1, ... balls, and the instruction set in force."""
-
-    digest: bytes
-    potted: npt.NDArray[np.int64]
-    isa: str
+Summary = tuple[bytes, npt.NDArray[np.int64]]  # of a part: digest of the final states, and how many shots potted 0, 1, ... balls
 
 
 def play(part: Part) -> Summary:
     """Plays a part: breaks of nine-ball with the cue's direction and speed drawn at random. This runs in the workers."""
-    if part.isa:
-        os.environ["CAROM_ISA"] = part.isa  # read at the first call of a process, so too late where one ran before
-    import carom
-
-    if part.isa not in ("", carom.isa_in_force()):
-        raise RuntimeError(f"this worker computes with {carom.isa_in_force()}, not {part.isa}: start it with CAROM_ISA={part.isa}")
     generator = np.random.default_rng([part.seed, part.number])
     cues = carom.cue(speed=generator.uniform(4.0, 10.0, part.shots), phi=generator.uniform(85.0, 95.0, part.shots))
     table = carom.tables.pool_9ft()
     shots = carom.simulate_batch(table, carom.racks.nineball(table), cues, cushion_model="han", threads=part.threads)
     digest = hashlib.sha256(shots.final.tobytes() + shots.status.tobytes()).digest()
     down = (shots.final["label"] == carom.Label.POCKETED).sum(axis=-1)
-    return Summary(digest, np.bincount(down, minlength=11), carom.isa_in_force())
+    return digest, np.bincount(down, minlength=11)
 
 
-def by_local(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
-    """In this process, one part after another; --threads of C."""
-    yield from map(play, parts)
+def by_processes(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
+    with concurrent.futures.ProcessPoolExecutor(workers) as pool:
+        yield from pool.map(play, parts)
 
 
 def by_dask(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
@@ -89,7 +78,8 @@ def by_ray(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
     ray.shutdown()
 
 
-WAYS = {"local": by_local, "dask": by_dask, "ray": by_ray}
+# local: in this process, one part after another; --threads of C
+WAYS: dict[str, Callable[..., Iterator[Summary]]] = {"local": lambda parts, *_: map(play, parts), "processes": by_processes, "dask": by_dask, "ray": by_ray}
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -101,21 +91,19 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--shots", type=int, default=100_000)
     parser.add_argument("--parts", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--isa", default="", help="instruction set of all workers, as for CAROM_ISA: plain where machines differ")
     given = parser.parse_args(arguments)
     sizes = np.diff(np.linspace(0, given.shots, given.parts + 1).astype(int))
-    parts = [Part(given.seed, k, int(size), given.threads, given.isa) for k, size in enumerate(sizes)]
+    parts = [Part(given.seed, k, int(size), given.threads) for k, size in enumerate(sizes)]
 
-    together, potted, isas, begun = hashlib.sha256(), np.zeros(11, np.int64), set[str](), time.monotonic()
-    for k, summary in enumerate(WAYS[given.by](parts, given.workers, given.address)):
+    together, potted, begun = hashlib.sha256(), np.zeros(11, np.int64), time.monotonic()
+    for k, (digest, down) in enumerate(WAYS[given.by](parts, given.workers, given.address)):
         # the first summaries come when processes have started and libraries are loaded: the rate is that of the others
         if k == (0 if given.by == "local" else given.workers - 1):
             first, skipped = time.monotonic(), k + 1
-        together.update(summary.digest)
-        potted += summary.potted
-        isas.add(summary.isa)
+        together.update(digest)
+        potted += down
     ended = time.monotonic()
-    print(f"{given.shots} breaks by {given.by}, computed with {', '.join(sorted(isas))}, in {ended - begun:.2f} s", end="")
+    print(f"{given.shots} breaks by {given.by} in {ended - begun:.2f} s", end="")
     print(f"; once all workers run {sizes[skipped:].sum() / (ended - first):.0f} shots/s" if len(parts) > skipped else "")
     print("balls potted:", *(f"{balls}: {count}" for balls, count in enumerate(potted) if count))
     print("digest:", together.hexdigest())

@@ -12,7 +12,7 @@ import tempfile
 
 from blocks import blocks, pages
 
-NEEDS = {"python": [], "python pooltool": ["pooltool"], "python jax": ["jax"], "python torch": ["torch"], "python gymnasium": ["gymnasium"], "python pettingzoo": ["pettingzoo"], "python scale": ["dask", "xarray"]}
+NEEDS = {"python": [], "python pooltool": ["pooltool"], "python jax": ["jax"], "python torch": ["torch"], "python gymnasium": ["gymnasium"], "python pettingzoo": ["pettingzoo"], "python scale": ["dask", "xarray", "pyarrow"]}
 source = os.path.abspath(sys.argv[1])
 run, left_out, shown = 0, 0, 0
 

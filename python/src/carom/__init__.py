@@ -24,7 +24,7 @@ from carom.cushions import cushion, cushion_impacts, cushion_trace
 from carom.derivatives import Flag, Hessian, Tangents, aim_slope, hessian, jacobian, tangents
 from carom.layouts import Table, balls, by_number, cue, place_ball, struck
 from carom.results import EventType, Features, Label, Shot, Shots
-from carom.shots import cite, resume, simulate, simulate_batch
+from carom.shots import cite, resume, simulate, simulate_arrow, simulate_batch
 from carom.status import CaromError, Status
 
 _sys.meta_path.append(_Finder())
@@ -40,8 +40,8 @@ __all__ = [
     "Tangents", "Turn", "aim", "aim_slope", "alciatore", "balls", "by_number", "chances",
     "cite", "collide", "cue", "cushion", "cushion_impacts", "cushion_trace", "dtypes",
     "hessian", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision",
-    "place_ball", "plan", "player", "racks", "referee", "resume", "simulate", "simulate_batch",
-    "struck", "tables", "tangents", "trace", "value", "with_errors",
+    "place_ball", "plan", "player", "racks", "referee", "resume", "simulate", "simulate_arrow",
+    "simulate_batch", "struck", "tables", "tangents", "trace", "value", "with_errors",
 ]  # fmt: skip
 
 if _TYPE_CHECKING:

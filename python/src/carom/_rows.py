@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import importlib
 import math
 import numbers
 import operator
@@ -248,6 +249,15 @@ def called(function: _Made, name: str, text: str) -> _Made:
     function.__name__ = function.__qualname__ = name
     function.__doc__ = text
     return function
+
+
+def needed(module: str, by: str) -> Any:
+    """A module of another package, or the error that says how to get it."""
+    try:
+        return importlib.import_module(module)
+    except ImportError as missing:
+        package = module.partition(".")[0]
+        raise ImportError(f"{by} needs {package}, which is not installed here: pip install {package}", name=missing.name) from missing
 
 
 def listing(module: str) -> Callable[[], list[str]]:

@@ -21,7 +21,6 @@ Needs JAX with 64-bit numbers. Its objects have no types here, so that carom can
 from __future__ import annotations
 
 import functools
-import importlib
 from collections.abc import Mapping
 from typing import Any, Literal
 
@@ -29,7 +28,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._functions import Final, Shots, named, shots_of
-from carom._rows import listing
+from carom._rows import listing, needed
 from carom._shot_options import Options, chosen
 from carom.derivatives import STATE
 from carom.layouts import Table
@@ -37,11 +36,8 @@ from carom.layouts import Table
 __all__ = ["Final", "final"]
 __dir__ = listing(__name__)
 
-try:
-    _jax: Any = importlib.import_module("jax")
-    _jnp: Any = importlib.import_module("jax.numpy")
-except ImportError as missing:
-    raise ImportError("carom.jax needs JAX, which is not installed here: pip install jax", name=missing.name) from missing
+_jax: Any = needed("jax", __name__)
+_jnp: Any = needed("jax.numpy", __name__)
 
 
 # Each is differentiated by the next. What a tangent is multiplied by does not depend on the tangent, so that JAX can transpose the rules.

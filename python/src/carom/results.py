@@ -16,7 +16,7 @@ from carom._carom import ffi, lib
 from carom._described import EventType as EventType
 from carom._described import Label as Label
 from carom._faults import argument_error, shot_arguments
-from carom._rows import INT8, Array, Arrays, addresses, as_array, fill, in_chunks, one_or_all, pointer, several, spread, whole
+from carom._rows import INT8, Array, Arrays, addresses, as_array, fill, in_chunks, needed, one_or_all, pointer, several, spread, whole
 from carom._shot_options import Options, shot_options
 from carom.layouts import Table
 from carom.pictures import Animation
@@ -130,8 +130,7 @@ class Shot:
 
         Needs pandas. `carom.dtypes.columns` makes columns of any records.
         """
-        import pandas
-
+        pandas = needed("pandas", "to_dataframe()")
         names = {kind.value: kind.name.lower() for kind in EventType}
         events = self.events.copy()
         for side in ("before", "after") if events.dtype == dtypes.event else ():
@@ -438,31 +437,40 @@ class Shots:
 
         return job
 
+    def _columns(self) -> tuple[Array, list[str], dict[str, Array]]:
+        """The shots as columns, a row a shot: statuses, what each is called, and the other columns by their names."""
+        count = self.final.shape[-1]
+        found: dict[str, Array] = {"time": self.time.reshape(-1), "count": self.count.reshape(-1)}
+        if self.cues is not None:
+            cues = np.broadcast_to(self.cues, self.shape).reshape(-1)
+            found |= {f"cue_{name}": column for name, column in dtypes.columns(cues).items()}
+        final = self.final.reshape(-1, count)
+        for k in range(count):
+            found |= {f"ball_{k}_{name}": column for name, column in dtypes.columns(final[:, k]).items()}
+        for name, values in vars(self.features).items() if self._facts is not None else ():
+            parts = [("", ())] if values.shape == self.shape else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
+            found |= {f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in parts}
+        known = sorted(Status)
+        return np.searchsorted(known, self.status.reshape(-1)), [status.name.lower() for status in known], found
+
     def to_dataframe(self, dims: Sequence[str] | None = None) -> Any:
         """The shots as a pandas DataFrame, a row a shot: status (by name), time, count, cue_speed and what else the cue has,
         ball_0_r_x and what else is known of each ball at the end, and the features where they were asked for, such as pocket_3.
 
         Needs pandas. The index is that of the batch; `dims` names its levels, which are else "shot", or "shot_0", "shot_1" and so on.
         """
-        import pandas
-
-        n, count, dims = self.status.size, self.final.shape[-1], self._dims(dims)
-        names = {status.value: status.name.lower() for status in Status}
-        found: dict[str, Any] = {"status": pandas.Categorical([names[code] for code in self.status.reshape(-1).tolist()], list(names.values()))}
-        found |= {"time": self.time.reshape(-1), "count": self.count.reshape(-1)}
-        if self.cues is not None:
-            cues = np.broadcast_to(self.cues, self.shape).reshape(-1)
-            found |= {f"cue_{name}": column for name, column in dtypes.columns(cues).items()}
-        final = self.final.reshape(n, count)
-        for k in range(count):
-            found |= {f"ball_{k}_{name}": column for name, column in dtypes.columns(final[:, k]).items()}
-        for name, values in vars(self.features).items() if self._facts is not None else ():
-            parts = [("", ())] if values.shape == self.shape else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
-            found |= {f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in parts}
+        pandas, dims, (codes, names, found) = needed("pandas", "to_dataframe()"), self._dims(dims), self._columns()
+        columns = {"status": pandas.Categorical.from_codes(codes, names), **found}
         if len(self.shape) == 1:
-            return pandas.DataFrame(found, index=pandas.RangeIndex(n, name=dims[0]))
+            return pandas.DataFrame(columns, index=pandas.RangeIndex(len(codes), name=dims[0]))
         index = pandas.MultiIndex.from_tuples(list(np.ndindex(self.shape)), names=dims) if self.shape else None
-        return pandas.DataFrame(found, index=index)
+        return pandas.DataFrame(columns, index=index)
+
+    def to_arrow(self, first: int = 0) -> Any:
+        """The shots as a pyarrow Table with the columns of `to_dataframe`, after "shot", which counts from `first` on. Needs pyarrow."""
+        arrow, (codes, names, found) = needed("pyarrow", "to_arrow()"), self._columns()
+        status = arrow.DictionaryArray.from_arrays(codes.astype(np.int8), names)
+        return arrow.table({"shot": np.arange(first, first + len(codes)), "status": status, **found})
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
         """The shots as an xarray Dataset: status, time, count, cue_speed and what else the cue has; r, v, w and label of each ball at
@@ -471,9 +479,7 @@ class Shots:
         Needs xarray. The dimensions are those of the batch, named as in `to_dataframe`, "ball", "axis" (x, y, z) and, of first contacts,
         "met"; each has coordinates: those of `dims` that are named as a field of the cue, which changes along it alone, have its values.
         """
-        import xarray
-
-        count, dims = self.final.shape[-1], self._dims(dims)
+        xarray, count, dims = needed("xarray", "to_xarray()"), self.final.shape[-1], self._dims(dims)
         units = {"time": "s", "contact_time": "s", "pocket_time": "s", "cue_speed": "m/s", "cue_phi": "degree", "cue_theta": "degree"}
         units |= {"cue_mass": "kg", "cue_end_mass": "kg", "cue_tip_radius": "m", "cue_tip_time": "s", "cue_follow": "m", "r": "m", "v": "m/s", "w": "rad/s"}
         found: dict[str, tuple[tuple[str, ...], Array]] = {"status": (dims, self.status), "time": (dims, self.time), "count": (dims, self.count)}

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterable
+import itertools
+import math
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -11,7 +13,7 @@ import numpy as np
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import INT8, Array, apart, broadcast, choice, copied, in_chunks, number, output, pointer, whole
+from carom._rows import INT8, Array, apart, broadcast, choice, copied, in_chunks, needed, number, output, pointer, whole
 from carom._shot_options import Options, StopAt, chosen, shot_options
 from carom.layouts import Table, check_table, doubt_balls, of_record, one_cue
 from carom.results import UNKNOWN, Shot, Shots
@@ -218,3 +220,43 @@ def simulate_batch(
     if code < 0:
         shots.final[shots.refused] = UNKNOWN
     return shots
+
+
+def simulate_arrow(
+    table: Table, layouts: dtypes.Records, cues: dtypes.Records | Iterator[dtypes.Records] | None = None, *, at_once: int = 10_000, **more: Any
+) -> Any:
+    """Play as many shots as one likes, a part of them at a time, as they are read, so that memory does not grow with them.
+
+    Parameters
+    ----------
+    table, layouts, **more
+        As for `simulate_batch`. Events are not kept.
+    cues : ndarray of `carom.dtypes.cue`, or an iterator of them
+        Of an iterator, such as a generator that draws cues, no two arrays need be in memory together.
+    at_once : int
+        Shots of a part.
+
+    Returns a pyarrow RecordBatchReader: a row a shot, in C order, as of `Shots.to_arrow`. `pyarrow.dataset.write_dataset` writes it as Parquet.
+    """
+    arrow, at_once = needed("pyarrow", "simulate_arrow()"), whole(at_once, "at_once", least=1)
+    all_balls = of_record(layouts, dtypes.ball_state if "kinds" in more else dtypes.shot_ball, "layouts", "balls()")
+
+    def played() -> Iterator[Any]:
+        first = 0
+        for given in cues if isinstance(cues, Iterator) else [cues]:
+            struck = given if given is None else of_record(given, dtypes.cue, "cues", "cue()")
+            shape = broadcast({"layouts": all_balls.shape[:-1], "cues": () if struck is None else struck.shape}) or (1,)
+            for begin in range(0, max(math.prod(shape), 1), at_once):
+                where = np.unravel_index(np.arange(begin, min(begin + at_once, math.prod(shape))), shape)
+                balls = all_balls if all_balls.ndim == 1 else np.broadcast_to(all_balls, (*shape, all_balls.shape[-1]))[where]
+                strikes = struck if struck is None or struck.ndim == 0 else np.broadcast_to(struck, shape)[where]
+                shots = simulate_batch(table, balls, strikes, **more)
+                yield shots.to_arrow(first)
+                first += shots.status.size
+
+    parts = played()
+    begun = next(parts, None)
+    if begun is None:
+        raise ValueError("cues: the iterator gave none")
+    batches = (batch for part in itertools.chain([begun], parts) for batch in part.to_batches())
+    return arrow.RecordBatchReader.from_batches(begun.schema, batches)

@@ -18,7 +18,6 @@ Its objects have no types here, so that carom can be checked without PyTorch.
 
 from __future__ import annotations
 
-import importlib
 import sys
 from collections.abc import Mapping
 from typing import Any, Literal
@@ -27,17 +26,14 @@ import numpy as np
 
 from carom import dtypes
 from carom._functions import Final, shots_of
-from carom._rows import listing
+from carom._rows import listing, needed
 from carom._shot_options import Options, chosen
 from carom.layouts import Table
 
 __all__ = ["Final", "final"]
 __dir__ = listing(__name__)
 
-try:
-    _torch: Any = importlib.import_module("torch")
-except ImportError as missing:
-    raise ImportError("carom.torch needs PyTorch, which is not installed here: pip install torch", name=missing.name) from missing
+_torch: Any = needed("torch", __name__)
 
 
 def _front(x: Any, dim: int | None, size: int) -> Any:

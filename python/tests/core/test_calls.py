@@ -148,10 +148,10 @@ def test_racks_and_tables_are_those_of_the_library():
         assert f"{made().width:.4g} x {made().length:.5g} m" in made.__doc__
 
 
-def test_jax_that_is_not_installed_is_asked_for():
-    blocked = "import sys; sys.modules['jax'] = None; import carom.jax"
-    done = subprocess.run([sys.executable, "-c", blocked], capture_output=True, text=True)
-    assert done.returncode == 1 and "pip install jax" in done.stderr and "ImportError: carom.jax needs" in done.stderr
+@pytest.mark.parametrize(("module", "use"), [("jax", "import carom.jax"), ("pyarrow", "import carom; carom.simulate_arrow(0, 0)")])
+def test_what_is_not_installed_is_asked_for(module, use):
+    done = subprocess.run([sys.executable, "-c", f"import sys; sys.modules['{module}'] = None; {use}"], capture_output=True, text=True)
+    assert done.returncode == 1 and f" needs {module}, which is not installed here: pip install {module}" in done.stderr
 
 
 def test_objects_are_made_of_plain_classes_alone():

@@ -111,14 +111,14 @@ def test_second_derivatives_are_those_of_hessian():
 
 
 def test_clusters_banks_and_raised_strikes():
-    """In one batch, with the derivatives of tangents: a strike into three balls that touch, one off a rail, one with a raised cue."""
-    rack = [[0.635, 1.5], [0.635 + 0.05715, 1.5], [0.635 + 0.028575, 1.5 + 0.0494934]]
-    layouts, cues = carom.balls([[[0.6, 0.5], *rack]] * 3), carom.cue(speed=[2.0, 2.5, 3.0], phi=[88.0, 20.0, 85.0], theta=[0.0, 0.0, 30.0], b=0.1)
-    names = ["cue.speed", "cue.phi", "cue.theta", "cue.b"]
-    found = jax.jacfwd(lambda given: carom.jax.final(TABLE, layouts, cues, given).r.sum(axis=0))({name: jnp.asarray(cues[name[4:]]) for name in names})
-    for k in range(3):
-        expected = carom.tangents(carom.simulate(TABLE, layouts[k], cues[k]), names)
-        assert [(expected.flags & carom.Flag.CLUSTER).any(), True, np.abs(expected.final["r"][..., 2]).max() > 0.0][k]
+    """300 shots in one batch have the derivatives of tangents: strikes into three balls that touch, off a rail, and with a raised cue."""
+    rack, random = [[0.635, 1.5], [0.635 + 0.05715, 1.5], [0.635 + 0.028575, 1.5 + 0.0494934]], np.random.default_rng(1)
+    cues = carom.cue(speed=random.uniform(2.0, 3.0, 300), phi=[88.0, 20.0, 85.0] * 100 + random.normal(0.0, 1.0, 300), theta=[0.0, 0.0, 30.0] * 100, b=0.1)
+    names, balls = ["cue.speed", "cue.phi", "cue.theta", "cue.b"], carom.balls([[0.6, 0.5], *rack])
+    found = jax.jacfwd(lambda given: carom.jax.final(TABLE, balls, cues, given).r.sum(axis=0))({name: jnp.asarray(cues[name[4:]]) for name in names})
+    for k, cue in enumerate(cues):
+        expected = carom.tangents(carom.simulate(TABLE, balls, cue), names)
+        assert [(expected.flags & carom.Flag.CLUSTER).any(), True, np.abs(expected.final["r"][..., 2]).max() > 0.0][k % 3]
         slopes = np.stack([found[name][..., k] for name in names], axis=-1)
         np.testing.assert_allclose(slopes, expected.final["r"], rtol=0.0, atol=1e-9 * np.abs(expected.final["r"]).max())
 
@@ -198,9 +198,8 @@ def test_a_search_in_compiled_code_improves_an_aim():
         return jax.lax.fori_loop(0, 6, lambda _, x: x - jnp.linalg.solve(jax.jacfwd(off)(x), off(x)), aim)
 
     start = AIM[:2] + jnp.array([2e-3, 1e-2])
-    assert jnp.abs(off(start)).max() > 1e-3
     found = search(start)
-    assert jnp.abs(off(found)).max() < 1e-12
+    assert jnp.abs(off(start)).max() > 1e-3 and jnp.abs(off(found)).max() < 1e-12
     np.testing.assert_allclose(found, AIM[:2], atol=1e-9)
 
 
@@ -259,7 +258,5 @@ def test_without_64_bits_the_error_says_what_to_do():
 def test_what_a_gradient_costs():
     """The example finds the gradients of tangents, and prints its rows."""
     script = Path(__file__).parents[2] / "examples" / "gradient_speed.py"
-    ran = subprocess.run([sys.executable, str(script), "1"], capture_output=True, text=True)
-    assert ran.returncode == 0, ran.stderr
-    times = [[float(word) for word in line[20:].split()] for line in ran.stdout.splitlines()[1:]]
-    assert len(times) == 4 and all(min(row) > 0 for row in times) and times[1][1] == 1.0, ran.stdout
+    ran = subprocess.run([sys.executable, str(script), "jax", "1"], capture_output=True, text=True)
+    assert ran.returncode == 0 and ran.stdout.count(" us, ratio ") == 3, ran.stderr + ran.stdout

@@ -3,6 +3,7 @@
 import importlib.util
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 import carom
 
+TABLE = carom.tables.pool_9ft()
 EXAMPLE = Path(__file__).parents[2] / "examples" / "on_a_cluster.py"
 
 
@@ -24,6 +26,25 @@ def test_dask_and_xarray(impacts):
     motion, status = xarray.apply_ufunc(carom.collide, given, input_core_dims=[["field"]], output_core_dims=[["motion"], []])
     assert motion.dims == ("speed", "angle", "motion") and status.dims == ("speed", "angle")
     np.testing.assert_array_equal(motion.values.reshape(204, 12), expected.motion)
+
+
+def test_tables_of_arrow_in_bounded_memory():
+    """A batch in parts has the rows of one; ten times the shots need no more memory."""
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    pandas, layout, cues = pytest.importorskip("pandas"), carom.balls([[0.6, 0.8]]), carom.cue(speed=[[1.0], [9e9]], phi=[70.0, 80.0, 90.0])
+    rows = carom.simulate_arrow(TABLE, layout, cues, at_once=4, features=True).read_pandas()
+    assert rows.pop("shot").tolist() == [*range(6)] and rows["status"][4] == "error_cue_speed"
+    pandas.testing.assert_frame_equal(rows, carom.simulate_batch(TABLE, layout, cues, features=True).to_dataframe().reset_index(drop=True))
+
+    def peak(parts):
+        drawn = (carom.cue(speed=np.linspace(0.5, 2.0, 2000)) for _ in range(parts))
+        tracemalloc.start()
+        assert sum(batch.num_rows for batch in carom.simulate_arrow(TABLE, layout, drawn, at_once=500)) == 2000 * parts
+        most = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return most
+
+    assert peak(20) < 1.2 * peak(2)
 
 
 def digest_of(*arguments):

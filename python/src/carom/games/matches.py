@@ -22,7 +22,8 @@ __dir__ = listing(__name__)
 
 def _words(state: State) -> list[int]:
     """A state as numbers of 64 bits, of which environments keep an array."""
-    return state.reshape(1).view(np.uint64).tolist()  # type: ignore[no-any-return]
+    words: list[int] = state.reshape(1).view(np.uint64).tolist()
+    return words
 
 
 def _state(words: npt.NDArray[np.uint64]) -> State:

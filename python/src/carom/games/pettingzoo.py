@@ -19,16 +19,13 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, pictures
-from carom._rows import listing
+from carom._rows import listing, needed
 from carom.games.pool import Pool, Stroke
 
-try:
-    from gymnasium import spaces
-    from gymnasium.utils import seeding
-    from pettingzoo import AECEnv
-except ImportError as missing:
-    message = "carom.pettingzoo needs PettingZoo, which is not installed here: pip install pettingzoo"
-    raise ImportError(message, name=missing.name) from missing
+needed("pettingzoo", "carom.pettingzoo")
+from gymnasium import spaces  # noqa: E402
+from gymnasium.utils import seeding  # noqa: E402
+from pettingzoo import AECEnv  # noqa: E402
 
 __all__ = ["PoolEnv"]
 __dir__ = listing(__name__)
