@@ -423,11 +423,13 @@ typedef struct carom_choice {
   int32_t cushions;     /* impacts of that ball on cushions, of one such stroke. */
   double value;         /* chance to win; without an opponent, the share of the balls that are
                            potted; 0 to 1. A foul counts 0.03 less than what follows it, so that
-                           of strokes that are as good a legal one is chosen. A stroke that the
-                           plan chose counts 0.75 standard errors less than the mean of the shots
-                           that chose it, as they were lucky; none counts more than the first. */
+                           of strokes that are as good a legal one is chosen. The shots by which a
+                           plan chose a stroke were lucky for it: of the best one what the layout
+                           was worth before counts as 10 shots more, in games that taught chances;
+                           each other one, and that of other games, counts 0.75 standard errors
+                           less than the mean of its shots, and at most as much as the first. */
   double error;         /* the standard error of that mean. */
-  double keep;          /* chance that the player plays on, or wins, */
+  double keep;          /* chance that the player plays on, or wins, with 10 such shots too, */
   double foul, lose;    /* that the shot is a foul, that it loses. */
   int64_t seen;         /* how often the shot was played with errors. 0 of a plan that was stopped
                            before: the value is that of the shot without errors. */

@@ -280,9 +280,14 @@ static double likelihood(const sample *s, size_t count, chance_of what, int n, c
   return sum / all;
 }
 
-static void print_numbers(const sample *s, size_t count, chance_of what, int n, const char *name) {
+static void print_numbers(const sample *s, size_t count, chance_of what, int n, const char *name,
+                          bool anywhere) {
   double w[NEXT_NUMBERS], constant[1];
   fit(s, count, what, n, w);
+  if (anywhere && w[n - 1] < 0.0) { /* a ball in hand that may be put anywhere is no worse */
+    fit(s, count, what, n - 1, w);
+    w[n - 1] = 0.0;
+  }
   fit(s, count, what, 1, constant);
   printf("     /* log-likelihood of a stroke %.4f; of one number for all, %.4f */\n",
          likelihood(s, count, what, n, w), likelihood(s, count, what, 1, constant));
@@ -302,9 +307,10 @@ static void print_row(const learn_job *job, const sample *s, size_t count) {
     mean += s[k].what == NEXT ? s[k].x[2] / (double)strokes : 0.0;
   printf("    {/* of %ld strokes: carom-lab learn --rules %s --racks %d --shots %d --seed %d */\n",
          strokes, game, job->racks, job->shots, job->seed);
-  print_numbers(s, count, NEXT, NEXT_NUMBERS, "next");
-  print_numbers(s, count, LATER, LATER_NUMBERS, "later");
-  print_numbers(s, count, FIRST, FIRST_NUMBERS, "first");
+  const int hand = carom_rules_about_of((carom_rules_kind)job->rules)->hand;
+  print_numbers(s, count, NEXT, NEXT_NUMBERS, "next", hand == CAROM_LEAVE_HAND);
+  print_numbers(s, count, LATER, LATER_NUMBERS, "later", false);
+  print_numbers(s, count, FIRST, FIRST_NUMBERS, "first", false);
   printf("     .mean = %.3f,\n     .stretch = 1.0},\n", mean);
 }
 

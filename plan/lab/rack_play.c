@@ -14,7 +14,7 @@ void lab_rack_begin(lab_rack *rack, carom_rules_kind game, double errors) {
   const carom_rules_about *about = carom_rules_about_of(game);
   const bool breaks = carom_plan_rules_of(game).breaks == 1;
   carom_table_make(about->balls == CAROM_GAME_SNOOKER ? CAROM_TABLE_SNOOKER
-                   : breaks                           ? CAROM_TABLE_POOLTOOL
+                   : breaks                           ? CAROM_TABLE_POOL_7FT
                                                       : CAROM_TABLE_POOL_9FT,
                    &rack->table);
   rack->cue = carom_cue_of((carom_game)about->balls);

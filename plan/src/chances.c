@@ -15,15 +15,19 @@ static double chance(const double *w, const double *x, int n) {
   return 1.0 / (1.0 + carom_exp(-sum));
 }
 
+bool carom_is_learned(const carom_view *view) {
+  const int own = view->rules->learned - 1, games = sizeof learned_of / sizeof learned_of[0];
+  return own >= 0 && own < games && learned_of[own].stretch > 0.0;
+}
+
 /* Those of the game, or of one with the same race. */
 static const learned *numbers_of(const carom_view *view) {
   static const int with_race[] = {[CAROM_RACE_OWN] = CAROM_RULES_EIGHTBALL,
                                   [CAROM_RACE_SHARED] = CAROM_RULES_NINEBALL,
                                   [CAROM_RACE_ALONE] = CAROM_RULES_EIGHTBALL,
                                   [CAROM_RACE_POINTS] = CAROM_RULES_STRAIGHT};
-  const int own = view->rules->learned - 1, games = sizeof learned_of / sizeof learned_of[0];
-  const bool was_played = own >= 0 && own < games && learned_of[own].stretch > 0.0;
-  return &learned_of[was_played ? own : with_race[view->rules->race]];
+  return &learned_of[carom_is_learned(view) ? view->rules->learned - 1
+                                            : with_race[view->rules->race]];
 }
 
 double carom_chance_usual(const carom_view *view) {

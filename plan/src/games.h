@@ -42,44 +42,44 @@ typedef struct learned {
 /* Of the games that were played for it; the others have those of one with the same race. */
 static const learned learned_of[] = {
     [CAROM_RULES_EIGHTBALL] =
-        {/* of 23101 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */
-         /* log-likelihood of a stroke -0.2798; of one number for all, -0.4112 */
-         .next = {-0.209, -0.768, 1.958, 1.979, -0.019, -0.171, 0.381},
-         /* log-likelihood of a stroke -0.3184; of one number for all, -0.3778 */
-         .later = {1.904, -1.117, -0.509, 0.815},
-         /* log-likelihood of a stroke -0.5209; of one number for all, -0.5689 */
-         .first = {2.661, -1.130, -2.505},
-         .mean = 0.612,
-         .stretch = 0.85},
+        {/* of 23041 strokes: carom-lab learn --rules eightball --racks 6144 --shots 200 --seed 0 */
+         /* log-likelihood of a stroke -0.2725; of one number for all, -0.4080 */
+         .next = {-0.199, -0.956, 1.209, 2.257, 0.391, 0.051, 0.320},
+         /* log-likelihood of a stroke -0.2851; of one number for all, -0.3569 */
+         .later = {1.936, -1.352, -0.278, 0.805},
+         /* log-likelihood of a stroke -0.5482; of one number for all, -0.6064 */
+         .first = {2.654, -1.336, -2.274},
+         .mean = 0.620,
+         .stretch = 0.9},
     [CAROM_RULES_NINEBALL] =
-        {/* of 18459 strokes: carom-lab learn --rules nineball --racks 6144 --shots 200 --seed 0 */
-         /* log-likelihood of a stroke -0.3021; of one number for all, -0.4525 */
-         .next = {0.156, -1.092, 1.374, 1.374, 0.000, 0.156, -0.076},
-         /* log-likelihood of a stroke -0.2170; of one number for all, -0.2813 */
-         .later = {1.788, -1.548, 0.951, 0.353},
-         /* log-likelihood of a stroke -0.5945; of one number for all, -0.6557 */
-         .first = {1.032, -1.034, 1.755},
-         .mean = 0.728,
-         .stretch = 1.4},
+        {/* of 19258 strokes: carom-lab learn --rules nineball --racks 6144 --shots 200 --seed 0 */
+         /* log-likelihood of a stroke -0.2791; of one number for all, -0.4510 */
+         .next = {0.066, -1.209, 1.521, 1.521, 0.000, 0.066, 0.000},
+         /* log-likelihood of a stroke -0.1922; of one number for all, -0.2489 */
+         .later = {1.849, -1.561, 0.987, 0.325},
+         /* log-likelihood of a stroke -0.5831; of one number for all, -0.6766 */
+         .first = {1.175, -1.387, 1.824},
+         .mean = 0.734,
+         .stretch = 1.5},
     [CAROM_RULES_ONEPOCKET] =
-        {/* of 18373 strokes: carom-lab learn --rules onepocket --racks 6144 --shots 200 --seed 0 */
-         /* log-likelihood of a stroke -0.3250; of one number for all, -0.5352 */
-         .next = {-0.589, -0.696, 0.919, 3.921, -0.347, -0.588, -2.201},
-         /* log-likelihood of a stroke -0.3340; of one number for all, -0.3914 */
-         .later = {1.738, -1.182, -0.472, 0.742},
-         /* log-likelihood of a stroke -0.6681; of one number for all, -0.6927 */
-         .first = {0.455, -0.510, -0.767},
-         .mean = 0.165,
+        {/* of 18017 strokes: carom-lab learn --rules onepocket --racks 6144 --shots 200 --seed 0 */
+         /* log-likelihood of a stroke -0.3255; of one number for all, -0.5495 */
+         .next = {-0.678, -0.777, 0.389, 4.047, -0.243, -0.695, -2.111},
+         /* log-likelihood of a stroke -0.3407; of one number for all, -0.4060 */
+         .later = {1.697, -1.283, -0.738, 0.674},
+         /* log-likelihood of a stroke -0.6642; of one number for all, -0.6923 */
+         .first = {0.439, -0.555, -0.731},
+         .mean = 0.154,
          .stretch = 1.6},
     [CAROM_RULES_STRAIGHT] =
-        {/* of 4558 strokes: carom-lab learn --rules straight --racks 512 --shots 200 --seed 0 */
-         /* log-likelihood of a stroke -0.2221; of one number for all, -0.3014 */
-         .next = {0.141, -0.902, 0.969, 0.991, 1.607, 0.000, 6.455},
-         /* log-likelihood of a stroke -0.2187; of one number for all, -0.2435 */
-         .later = {2.118, -1.208, 1.049, -0.284},
-         /* log-likelihood of a stroke -0.4772; of one number for all, -0.5368 */
-         .first = {2.131, -1.152, -0.526},
-         .mean = 0.515,
+        {/* of 19836 strokes: carom-lab learn --rules straight --racks 2048 --shots 200 --seed 0 */
+         /* log-likelihood of a stroke -0.1891; of one number for all, -0.2654 */
+         .next = {0.077, -1.013, 0.616, 1.777, 1.510, 0.000, -0.604},
+         /* log-likelihood of a stroke -0.1639; of one number for all, -0.1947 */
+         .later = {2.676, -1.522, 0.657, -0.455},
+         /* log-likelihood of a stroke -0.4254; of one number for all, -0.4976 */
+         .first = {3.305, -1.726, -2.164},
+         .mean = 0.455,
          .stretch = 1.0},
     [CAROM_RULES_SNOOKER] =
         {/* of 5484 strokes: carom-lab learn --rules snooker --racks 1792 --shots 200 --seed 0 */

@@ -328,6 +328,28 @@ static void try_all(void *context, carom_crew *crew) {
   }
 }
 
+/* The shots of the best choice chose it, so they were lucky for it. What the layout was worth before
+ * is not, where games have taught it: it counts as so many shots. The games of
+ * understanding/plan.md tell how many. */
+static void temper(const search *plan, const candidate *best, carom_choice *c) {
+  static const double shots = 10.0;
+  const bool stroke = c->kind == CAROM_PLAN_POT || c->kind == CAROM_PLAN_SCAN;
+  if (!stroke || plan->breaks || !carom_is_learned(&plan->view) ||
+      plan->job.rules->race == CAROM_RACE_ALONE)
+    return;
+  carom_ball_state state[CAROM_BALLS_MOST];
+  for (int k = 0; k < plan->view.count; k++)
+    state[k] = plan->job.balls[k].state;
+  double x[NEXT_NUMBERS];
+  carom_plan_features(&plan->view, state, plan->in_play, plan->on, plan->pockets, 0, false, NULL,
+                      x);
+  const double value = carom_value_of(&plan->view, &plan->job.rules->state, state, 0, false);
+  const double n = (double)best->seen, all = n + shots;
+  c->value = (best->sum + shots * value) / all;
+  c->keep = (n * c->keep + shots * carom_chance_next(&plan->view, x)) / all;
+  c->error *= n / all;
+}
+
 /* The best choice of each ball, pocket and kind, the best first. One without a ball is none to a
  * player who is alone, if there is another; one that looks better than the best was played too
  * seldom. A plan that was stopped has not sorted what it found: the first is the best. */
@@ -344,6 +366,8 @@ static int give(search *plan, carom_choice *choices, int room) {
     const bool nothing = c.ball < 0 && plan->job.rules->race == CAROM_RACE_ALONE && !plan->breaks;
     if (n > 0 && (!played || nothing || (mean > best && from->round < plan->found[0].round)))
       continue;
+    if (n == 0)
+      temper(plan, from, &c);
     c.kind = carom_search_kind(plan, from, &c);
     c.value = n > 0 ? fmin(c.value, choices[0].value) : c.value;
 

@@ -89,6 +89,8 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
 double carom_chance_next(const carom_view *view, const double x[NEXT_NUMBERS]);
 double carom_chance_later(const carom_view *view, int who, double mean, int n);
 double carom_chance_first(const carom_view *view, int who, int n);
+/* Whether games of these rules taught their chances, not those of others. */
+bool carom_is_learned(const carom_view *view);
 /* The mean over the balls of a usual layout. */
 double carom_chance_usual(const carom_view *view);
 /* A value with its log-odds stretched. */
