@@ -20,7 +20,7 @@ carom_player carom_player_of(double scale) {
  * 1000 --shots 300 --errors E makes one of them again. */
 carom_player carom_player_fargo(double rating) {
   static const double errors[] = {12.4, 8.5,  5.8,  4.1,  3.06, 2.48,
-                                  1.99, 1.51, 1.15, 0.81, 0.52, 0.33};
+                                  1.99, 1.51, 1.15, 0.81, 0.58, 0.36};
   enum { LAST = sizeof errors / sizeof errors[0] - 1 };
   double at = (rating - 300.0) / 50.0;
   at = at > 0.0 ? at : 0.0;
