@@ -30,7 +30,7 @@ def miss(phi: float) -> tuple[carom.Shot, float, float]:
     return shot, to @ quarter @ u, to @ quarter @ du - dr @ quarter @ u
 
 
-phi, off = 80.0, np.inf
+phi, shot, off = 80.0, miss(80.0)[0], np.inf
 while abs(off) > 1e-9:
     shot, off, slope = miss(phi)
     print(f"aim {phi:.4f} degrees: ball 1 misses the middle of the pocket by {1000 * abs(off):.3g} mm")

@@ -25,7 +25,7 @@ print(f"{kick.sum()} of {kick.size} strokes are good kicks; {np.sum(potted & ~ki
 assert kick.any() and not (kick & ~potted).any()
 
 # The easiest kick is in the middle of the widest window of directions.
-near = np.apply_along_axis(np.convolve, 1, kick.astype(int), np.ones(21, int), "same") * kick
+near = np.stack([np.convolve(row, np.ones(21), "same") for row in kick]) * kick
 best = np.unravel_index(near.argmax(), near.shape)
 shot = carom.simulate(table, layout, cues[best])
 print(f"{cues['speed'][best]:g} m/s at {cues['phi'][best]:.2f} degrees, after {facts.cushions_before[best][0]} cushions")

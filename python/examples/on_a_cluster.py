@@ -95,7 +95,7 @@ def main(arguments: list[str] | None = None) -> None:
     sizes = np.diff(np.linspace(0, given.shots, given.parts + 1).astype(int))
     parts = [Part(given.seed, k, int(size), given.threads) for k, size in enumerate(sizes)]
 
-    together, potted, begun = hashlib.sha256(), np.zeros(11, np.int64), time.monotonic()
+    together, potted, begun, first, skipped = hashlib.sha256(), np.zeros(11, np.int64), time.monotonic(), 0.0, len(parts)
     for k, (digest, down) in enumerate(WAYS[given.by](parts, given.workers, given.address)):
         # the first summaries come when processes have started and libraries are loaded: the rate is that of the others
         if k == (0 if given.by == "local" else given.workers - 1):

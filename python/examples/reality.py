@@ -136,7 +136,7 @@ def single_events(seen: carom.tracks.Events) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("tracks", type=Path)
     parser.add_argument("--table", type=carom.tracks.fit._extents, required=True, metavar="W,L")
     parser.add_argument("--radius", type=float, required=True, metavar="R")

@@ -39,7 +39,7 @@ class TenBall(carom.Rules):
 
 table = carom.tables.pool_9ft()
 layout, state, hand = carom.racks.tenball(table, seed=3), np.zeros(8, np.uint64), "no"
-players = carom.player(fargo=750), carom.player(fargo=450)
+players, stroke, player, ruling = (carom.player(fargo=750), carom.player(fargo=450)), 0, 0, None
 for stroke in range(300):
     player = int(state[0])
     best = carom.plan(
@@ -55,4 +55,4 @@ for stroke in range(300):
         break
     print(f"{stroke + 1:2}. player {player}: {ruling.turn}, potted {ruling.potted}{', foul: ' + ruling.foul.text if ruling.foul else ''}")
 print(f"after {stroke + 1} strokes: player {player} has won")
-assert ruling.turn == "win", "the game has not ended"
+assert ruling and ruling.turn == "win", "the game has not ended"
