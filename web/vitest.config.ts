@@ -7,8 +7,8 @@ export default defineConfig({
     testTimeout: 600_000,
     hookTimeout: 600_000,
     expect: { poll: { timeout: 300_000 } },
-    // Two at a time: tests of the page mostly wait for films.
-    maxWorkers: 2,
+    // Tests of the page mostly wait for films.
+    maxWorkers: 3,
     minWorkers: 1,
   },
 });

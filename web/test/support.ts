@@ -1,14 +1,9 @@
-// What the tests of package and page share: both builds, the command `carom`, and the draws of tests/platforms/bits.c.
+// What the tests of package and page share: the command `carom`, and the draws of tests/platforms/bits.c.
 import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { fileURLToPath } from "node:url";
-import { type Carom, load } from "carom";
 
 export const root = fileURLToPath(new URL("../../", import.meta.url));
-export const builds: { name: string; carom: Carom }[] = [
-  { name: "simd", carom: await load({ build: "simd" }) },
-  { name: "plain", carom: await load({ build: "plain" }) },
-];
 
 /** The command of the native build; CAROM in the environment names another. */
 export const command = process.env.CAROM ?? `${root}build/carom`;
@@ -35,10 +30,6 @@ export class Draws {
 
   /** A power of two between 2^low and 2^high. */
   powerOfTwo(low: number, high: number): number {
-    let x = 1;
-    const exponent = this.between(low, high);
-    for (let k = 1; k <= exponent; k++) x *= 2;
-    for (let k = -1; k >= exponent; k--) x *= 0.5;
-    return x;
+    return 2 ** Math.trunc(this.between(low, high));
   }
 }

@@ -2,6 +2,7 @@
 import { readFileSync } from "node:fs";
 import { root } from "../../test/support.js";
 
+export * from "../../test/builds.js";
 export * from "../../test/support.js";
 
 /** A CSV file of data/ as rows by column. */

@@ -12,13 +12,7 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
     await one.locator("#new-game").click();
     await one.locator("#open-diagram").click();
   }
-  async function kept(game: object, how: object): Promise<Page> {
-    const one = await open("", how);
-    await one.evaluate((text) => localStorage.setItem("carom-game", text), JSON.stringify(game));
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
-    return one;
-  }
+  const kept = (game: object, how: object): Promise<Page> => open("", how, game);
   const PRACTICE = { game: "eightball", against: "practice", own: "0", seed: 1, at: "0.4,0.6 0.635,1.27 0.9,1.9 in in in in in 1.0,2.2 in in in in in in in", entries: [] };
   const NOTES = "Stop the cue ball.\n<b>Aim</b> at the left half & wait.";
 

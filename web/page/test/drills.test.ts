@@ -3,7 +3,8 @@ import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import type { Carom, Cue, ShotBall, Shot } from "carom";
 import { type Drill, drillsOf, judge } from "../src/play/drills.js";
-import { builds, Draws, root } from "../../test/support.js";
+import { builds } from "../../test/builds.js";
+import { Draws, root } from "../../test/support.js";
 
 const drills = drillsOf(readFileSync(`${root}data/drills.csv`, "utf8"));
 const OPTIONS = { cushionModel: "han" } as const;

@@ -3,7 +3,8 @@ import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
 import { toLine } from "carom";
 import { browserPath, pages, sizes } from "./page.js";
-import { builds, root, run, thereIsACommand } from "../../test/support.js";
+import { builds } from "../../test/builds.js";
+import { root, run, thereIsACommand } from "../../test/support.js";
 
 describe.runIf(browserPath !== undefined)("the laboratory", () => {
   const { open, on, drag, click, lies, colour, text, set, frames } = pages();

@@ -22,8 +22,7 @@ test("a rating grows with what is won, its interval shrinks, and half of the gam
 describe.runIf(browserPath !== undefined)("by level", () => {
   const { open, bright, frames, struck, text, turnTo } = pages();
   test.each(sizes)("lines and the part of the ball that is met, by setting and by rating; the wheel turns by its step: %s", async (_, how) => {
-    const one = await open("", how);
-    await one.evaluate((at) => localStorage.setItem("carom-game", JSON.stringify({ game: "nineball", against: "300", own: "800", seed: 7, at, entries: [] })), "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9");
+    const one = await open("", how, { game: "nineball", against: "300", own: "800", seed: 7, at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9", entries: [] });
     /** Bright pixels of the way of the 1, after a cut by which it goes to the left, near it and farther on. */
     const seen = async (lines: string, games: object): Promise<boolean[]> => {
       await one.evaluate(([lines, games]) => {
@@ -60,11 +59,8 @@ describe.runIf(browserPath !== undefined)("by level", () => {
   });
 
   test("a game that is won against the page's player counts, and a stroke with a hint errs like one's rating", async () => {
-    const one = await open("");
     // The nine hangs in the corner.
-    await one.evaluate(() => localStorage.setItem("carom-game", JSON.stringify({ game: "nineball", against: "500", own: "800", seed: 7, at: "0.4,0.4 in in in in in in in in 0.06,0.06", entries: [] })));
-    await one.reload();
-    await one.waitForSelector("main[aria-busy=false]");
+    const one = await open("", {}, { game: "nineball", against: "500", own: "800", seed: 7, at: "0.4,0.4 in in in in in in in in 0.06,0.06", entries: [] });
     await one.locator("#new-game").click();
     expect(await text(one, "new-note")).toMatch(/Your rating is about 4\d\d \(95 %: 3\d\d to \d+\), a guess before the first game\./);
     await one.locator("#rate").selectOption("1000");

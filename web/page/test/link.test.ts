@@ -54,11 +54,12 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     return one.evaluate(() => navigator.clipboard.readText());
   }
 
-  test.each(sizes)("two tabs play a whole game, each stroke compared bit by bit: %s", async (_, how) => {
-    const context = await contextOf(how);
+  test("two tabs, a wide one and one as of a phone, play a whole game, each stroke compared bit by bit", async () => {
+    const context = await contextOf(sizes[0][1]);
     const one = await open(context);
     await begin(one, "eightball");
     const other = await open(context, new URL(await link(one)).hash);
+    await other.setViewportSize({ width: 390, height: 844 });
     await other.locator("#new-game").click();
     await other.locator("#rate").selectOption("1000");
     await other.locator(".close").first().click();

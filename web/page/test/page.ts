@@ -139,15 +139,30 @@ export function pages() {
     expect(asked.filter((url) => !url.startsWith("file://") && !url.startsWith("data:") && !url.startsWith("blob:"))).toEqual([]);
   });
 
-  async function open(hash: string, { width = 1300, height = 800, dark = false, touch = false } = {}): Promise<Page> {
-    const one = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", hasTouch: touch, permissions: ["clipboard-read", "clipboard-write"] });
-    one.setDefaultTimeout(300_000);
-    one.on("console", (message) => ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall due to ReadPixels") && said.push(`${hash}: ${message.text()}`));
-    one.on("pageerror", (error) => said.push(`${hash}: ${error.message}`));
-    one.on("request", (request) => asked.push(request.url()));
-    await one.addInitScript(seeded, seed);
+  const free: Record<string, Page[]> = {};
+  /** Opens the page, with a game that was kept, in a tab of that kind that a test has closed, or in a new one: a new tab takes a second. */
+  async function open(hash: string, { width = 1300, height = 800, dark = false, touch = false } = {}, game?: object): Promise<Page> {
+    const kind = [width, height, dark, touch].join();
+    const one = free[kind]?.pop() ?? (await tab(kind, width, height, dark, touch));
+    // A picture of the same origin, where what an earlier game has kept goes.
+    await one.goto(`file://${page.replace("index.html", "icon.svg")}`);
+    await one.evaluate((text) => (localStorage.clear(), text && localStorage.setItem("carom-game", text)), game && JSON.stringify(game));
     await one.goto(`file://${page}${hash}`);
     await one.waitForSelector("main[aria-busy=false]");
+    return one;
+  }
+  async function tab(kind: string, width: number, height: number, dark: boolean, touch: boolean): Promise<Page> {
+    const one = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", hasTouch: touch, permissions: ["clipboard-read", "clipboard-write"] });
+    one.setDefaultTimeout(300_000);
+    one.on("console", (message) => ["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall due to ReadPixels") && said.push(`${one.url()}: ${message.text()}`));
+    one.on("pageerror", (error) => said.push(`${one.url()}: ${error.message}`));
+    one.on("request", (request) => asked.push(request.url()));
+    await one.addInitScript(seeded, seed);
+    one.close = async () => {
+      await one.emulateMedia({ media: null });
+      await one.goto("about:blank");
+      (free[kind] ??= []).push(one);
+    };
     return one;
   }
 

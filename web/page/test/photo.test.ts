@@ -80,20 +80,23 @@ test("a patch suggests its ball, or the balls that it may be", () => {
 /** A photo: wood, cloth, and balls with caps or number, in a light, with noise. */
 function photo(see: ReturnType<typeof camera>, [w, h]: Pixel, balls: readonly (readonly [number, number, number])[], light: readonly number[], draws: Draws): Picture {
   const data = new Uint8ClampedArray(4 * w * h);
+  let state = draws.between(0, 2 ** 31) | 0;
   const rgb = (hex: string): number[] => [1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16));
   const corners = [see(0, 0, NOSE), see(W, 0, NOSE), see(W, L, NOSE), see(0, L, NOSE)];
   const discs = balls.map(([ball, x, y]) => ({ ball, at: see(x, y, R), r: Math.max(...[see(x + R, y, R), see(x, y + R, R)].map(([u, v]) => Math.hypot(u - see(x, y, R)[0], v - see(x, y, R)[1]))) }));
   const [wood, cloth, white] = [rgb("#5b3a24"), rgb("#1f6f5c"), rgb("#f4f2ea")];
-  for (let y = 0; y < h; y++)
-    for (let x = 0; x < w; x++) {
-      let colour = corners.every(([u, v], k) => (corners[(k + 1) % 4]![0] - u) * (y - v) - (corners[(k + 1) % 4]![1] - v) * (x - u) < 0) ? cloth : wood;
-      for (const { ball, at: [u, v], r } of discs) {
+  const paint = (x: number, y: number, colour: number[]): void => {
+    state = Math.imul(state, 1664525) + 1013904223; // draws of 64 bits would take most of the time
+    for (let c = 0; c < 4; c++) data[4 * (w * y + x) + c] = c === 3 ? 255 : colour[c]! * light[c]! + state / 2 ** 28;
+  };
+  const edges = corners.map(([u, v], k) => [u, v, corners[(k + 1) % 4]![0] - u, corners[(k + 1) % 4]![1] - v] as const);
+  for (let y = 0; y < h; y++) for (let x = 0; x < w; x++) paint(x, y, edges.every((edge) => edge[2] * (y - edge[1]) < edge[3] * (x - edge[0])) ? cloth : wood);
+  for (const { ball, at: [u, v], r } of discs)
+    for (let y = Math.ceil(v - r); y < v + r; y++)
+      for (let x = Math.ceil(u - r); x < u + r; x++) {
         const [a, b] = [(x - u) / r, (y - v) / r];
-        if (a * a + b * b < 1) colour = ball === 0 || (ball > 8 && Math.abs(b) > 0.45) || (ball < 9 && a * a + b * b < 0.08) ? white : rgb(COLOURS[(ball - 1) % 8]!);
+        if (a * a + b * b < 1) paint(x, y, ball === 0 || (ball > 8 && Math.abs(b) > 0.45) || (ball < 9 && a * a + b * b < 0.08) ? white : rgb(COLOURS[(ball - 1) % 8]!));
       }
-      const noise = draws.between(-8, 8);
-      for (let c = 0; c < 4; c++) data[4 * (w * y + x) + c] = c === 3 ? 255 : colour[c]! * light[c]! + noise;
-    }
   return { data, width: w, height: h };
 }
 

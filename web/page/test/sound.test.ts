@@ -1,7 +1,7 @@
 // Sounds of the page: louder by a larger impulse, and each with the tones that it is made of.
 import { expect, test } from "vitest";
 import { loudness, wave } from "../src/play/sound.js";
-import { builds } from "../../test/support.js";
+import { builds } from "../../test/builds.js";
 
 test("a harder stroke is louder, by the impulses of its events", () => {
   const { carom } = builds[0]!;
