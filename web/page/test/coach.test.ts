@@ -3,7 +3,7 @@ import { describe, expect, test } from "vitest";
 import { browserPath, pages, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("beside the game", () => {
-  const { open, text, set, turnTo } = pages();
+  const { open, frames, text, set, turnTo } = pages();
 
   test("the coach tells chances before a stroke, what it cost after it, and keeps a log to print", async () => {
     // A straight pot, and the nine for the game.
@@ -13,7 +13,7 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await one.locator("#rate").selectOption("1000");
     await one.locator("#menu .close").click();
     await one.locator("#hint").click();
-    await expect.poll(() => text(one, "said")).toMatch(/^Hint: ball [19] into the .*\. A \d+, as you are, keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. The price of a hint: this stroke errs like his\.$/);
+    await expect.poll(() => text(one, "said")).toMatch(/^Hint: ball [19] into the .*\. A \d+, as you are, keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/);
     // A stroke that meets nothing: a foul, which the chances and the review tell.
     await turnTo(one, 200);
     await set(one, "power", 0.6);
@@ -96,6 +96,57 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     const upper = [left + Math.round((right - left) / 4), top, right - Math.round((right - left) / 4), Math.round((top + bottom) / 2)];
     expect(where(upper, (r, g, b) => Math.min(r, g, b) > 150).length).toBeGreaterThan(8);
     expect(where(upper, (r, g, b) => Math.max(r, g, b) < 200 && Math.max(r, g, b) - Math.min(r, g, b) < 40).length).toBeGreaterThan(3);
+    await one.close();
+  });
+
+  test("behind the cue a finger calls another pocket, and moves the cue ball that is in hand", async () => {
+    const one = await open("", { width: 390, height: 844, touch: true }, { game: "eightball", own: "0", seed: 7, against: "person", at: "0.635,0.6 0.635,1.6 in in in in in in 1.0,2.0 0.3,0.5 in in in in in in", entries: [] });
+    await turnTo(one, 88.5);
+    await one.locator("#space").click();
+    await one.locator("#scene").waitFor();
+    const box = (await one.locator("#scene").boundingBox())!;
+    /** Where the view has marks: what is called, or in hand. */
+    const marks = (): Promise<string[]> =>
+      one.locator(".over-scene").evaluate((over: HTMLCanvasElement) => {
+        const copy = document.createElement("canvas");
+        [copy.width, copy.height] = [over.width, over.height];
+        copy.getContext("2d")!.drawImage(over, 0, 0);
+        const { data } = copy.getContext("2d")!.getImageData(0, 0, over.width, over.height);
+        return Array.from({ length: over.width * over.height }, (_, k) => k).filter((k) => data[4 * k]! > 240 && data[4 * k + 3]! > 240 && Math.abs(data[4 * k + 2]! - 138) < 20).map((k) => `${k % over.width},${Math.floor(k / over.width)}`);
+      });
+    const middle = (all: string[]): [number, number] => [0, 1].map((c) => all.reduce((sum, at) => sum + Number(at.split(",")[c]), 0) / all.length) as [number, number];
+    const next = async (pocket: string): Promise<void> => {
+      for (let k = 0; k < 6 && !(await text(one, "turn")).includes(pocket); k++) {
+        await one.locator("#scene").press("c");
+        await frames(one);
+      }
+    };
+    await expect.poll(() => text(one, "turn")).toContain("Call: the 1, ");
+    await next("foot-right");
+    const before = await marks();
+    await next("foot-left");
+    const [x, y] = middle((await marks()).filter((at) => !before.includes(at)));
+    await next("foot-right");
+    await one.touchscreen.tap(box.x + x, box.y + y);
+    await expect.poll(() => text(one, "turn")).toContain("Call: the 1, foot-left pocket.");
+    // A foul, and the cue ball in hand.
+    await turnTo(one, 200);
+    await set(one, "power", 0.4);
+    await one.locator("#shoot").click();
+    await one.locator("#skip").click();
+    await expect.poll(() => text(one, "turn")).toMatch(/Cue ball in hand: drag it/);
+    // The mark that is nearest to whoever aims.
+    const all = await marks();
+    const from = middle(all.filter((at) => Number(at.split(",")[1]) > Math.max(...all.map((one) => Number(one.split(",")[1]))) - 40));
+    const devtools = await one.context().newCDPSession(one);
+    const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...to: number[]): Promise<unknown> => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: to.length ? [{ x: box.x + to[0]!, y: box.y + to[1]! }] : [] });
+    await touch("touchStart", ...from);
+    for (let k = 10; k <= 60; k += 10) await touch("touchMove", from[0] + k, from[1]);
+    await touch("touchEnd");
+    await one.locator("#shoot").click();
+    const { entries } = JSON.parse((await one.evaluate(() => localStorage.getItem("carom-game")))!) as { entries: { place: number[] }[] };
+    // It lay on the head spot.
+    expect(Math.hypot(entries[1]!.place[0]! - 0.635, entries[1]!.place[1]! - 0.635)).toBeGreaterThan(0.1);
     await one.close();
   });
 

@@ -1,7 +1,7 @@
 // The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball that may be moved; a tap aims at a place or a ball, or
 // calls a pocket; two fingers, a double tap, or the wheel show a part of the table larger.
 import type { Vec3 } from "carom";
-import { drawNumbers, drawStick, path, type Pen, ring, stroke } from "../table/drawing.js";
+import { circle, drawNumbers, drawStick, path, type Pen, ring, stroke } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
 import { angleFrom, ARROWS, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, put, within } from "../table/grip.js";
 import { mayLie } from "../table/head.js";
@@ -35,6 +35,23 @@ export function drawWays(s: Session, pen: Pen): void {
   for (const line of lines) path(pen, line, 1.4, "#ffffffd0");
   pen.g.setLineDash([]);
 }
+const MARK = "#ffe28a";
+/** Marks what is called, and the cue ball in hand with its line. */
+export function drawMarks(s: Session, pen: Pen): void {
+  const { balls, hand, table } = s.play;
+  if (!free(s)) return;
+  const call = calls(s) ? called(s) : undefined;
+  if (call) {
+    const [{ centre, radius }, { state, kind }] = [table.pockets[call.pocket]!, balls[call.ball]!];
+    circle(pen, centre, radius + 0.008, 3, MARK);
+    circle(pen, state.r, kind.radius + 0.008, 3, MARK);
+  }
+  if (hand === "no" || !onTable(balls[0]!.state)) return;
+  circle(pen, balls[0]!.state.r, balls[0]!.kind.radius + 0.02, 2, MARK);
+  pen.g.setLineDash([6, 6]);
+  if (hand === "kitchen") stroke(pen, [0, table.length / 4], [table.width, table.length / 4], 1, MARK);
+  pen.g.setLineDash([]);
+}
 /** Draws what is aimed, called and in hand over the table. */
 export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const { film, play } = s;
@@ -45,28 +62,14 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
     return drawNumbers(pen, poses.map(({ r, seen }, k) => ({ kind: play.balls[k]!.kind, state: { r: r as Vec3, label: seen ? "rolling" : "pocketed" } })), play.names);
   }
   const [cueBall] = play.balls as [(typeof play.balls)[number]];
-  const [call, of] = [free(s) && calls(s) ? called(s) : undefined, aimed(s)];
+  const of = aimed(s);
   g.setLineDash([]);
-  if (call) {
-    g.strokeStyle = "#ffe28a";
-    g.lineWidth = 3;
-    const { centre, radius } = play.table.pockets[call.pocket]!;
-    ring(pen, centre, radius, 2);
-    ring(pen, play.balls[call.ball]!.state.r, play.balls[call.ball]!.kind.radius, 2);
-  }
+  drawMarks(s, pen);
   if (of && onTable(cueBall.state)) {
     if (s.first) {
       stroke(pen, cueBall.state.r, s.first.at, 1.4, "#ffffffd0");
       ring(pen, s.first.at, cueBall.kind.radius, 0);
       drawWays(s, pen);
-    }
-    if (play.hand !== "no" && free(s)) {
-      g.strokeStyle = "#ffe28a";
-      g.lineWidth = 2;
-      ring(pen, cueBall.state.r, cueBall.kind.radius, 5);
-      g.setLineDash([6, 6]);
-      if (play.hand === "kitchen") stroke(pen, [0, play.table.length / 4], [play.table.width, play.table.length / 4], 1, "#ffe28a");
-      g.setLineDash([]);
     }
     drawStick(pen, cueBall, of);
   }
@@ -88,8 +91,8 @@ function set(s: Session, stroke: { phi: number } | { speed: number }): void {
 }
 const turn = (s: Session, phi: number): void => set(s, { phi: direction(phi) });
 /** Whether a ball may be moved. */
-const movable = ({ play }: Session, ball: number): boolean => play.practice || (ball === 0 && play.hand !== "no");
-function move(s: Session, ball: number, to: Point): void {
+export const movable = ({ play }: Session, ball: number): boolean => play.practice || (ball === 0 && play.hand !== "no");
+export function move(s: Session, ball: number, to: Point): void {
   const { play } = s;
   const { table, balls } = play;
   const laid = put(s.carom, table, balls, ball, to, play.hand === "kitchen" ? table.length / 4 + balls[0]!.kind.radius + 1e-4 : table.length);
@@ -112,7 +115,7 @@ function choose(s: Session, on: { ball: number } | { pocket: number }): void {
   if ("pocket" in on && calls(s) && !called(s)) says(s, "Which ball? Tap it first, then the pocket.");
   s.changed();
 }
-function tap(s: Session, grip: Grip, at: Point): void {
+export function tap(s: Session, grip: Grip, at: Point): void {
   const [cueBall] = s.play.balls as [(typeof s.play.balls)[number]];
   if (grip.is === "pocket") return choose(s, { pocket: grip.pocket });
   if (grip.is === "ball" && grip.ball > 0) {

@@ -219,6 +219,13 @@ export class Scene {
     return at.z > 1 ? [NaN, NaN] : [((at.x + 1) * this.canvas.clientWidth) / 2, ((1 - at.y) * this.canvas.clientHeight) / 2];
   }
 
+  /** The place at a height that is seen at a pixel of the page; none above the horizon. */
+  unplace(px: number, py: number, z: number): [number, number] | undefined {
+    const from = this.#camera.position;
+    const way = new THREE.Vector3((2 * px) / this.canvas.clientWidth - 1, 1 - (2 * py) / this.canvas.clientHeight, 0.5).unproject(this.#camera).sub(from);
+    return way.z < -1e-6 ? [from.x - (way.x * (from.z - z)) / way.z, from.y - (way.y * (from.z - z)) / way.z] : undefined;
+  }
+
   close(): void {
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();

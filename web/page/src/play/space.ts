@@ -2,8 +2,10 @@
 import { colourOf } from "../../../player/words.js";
 import type { Pose } from "../../../player/words.js";
 import { drawNumbers, stickEnd } from "../table/drawing.js";
+import { onTable } from "../table/filmed.js";
+import { type Grip, pixelsOf, type Point } from "../table/grip.js";
 import { color, drags, el } from "../ui.js";
-import { drawWays } from "./aim.js";
+import { drawMarks, drawWays, move, movable, tap } from "./aim.js";
 import { skip } from "./filming.js";
 import type { Play } from "./game.js";
 import type { Scene } from "./scene.js";
@@ -28,6 +30,8 @@ export class Space {
   /** What is drawn over the scene: lines, and the numbers of balls. */
   readonly #over = el("canvas", { class: "over-scene" });
   on = false;
+  /** Whether the cue ball is being moved. */
+  #moves = false;
 
   constructor(
     readonly s: Session,
@@ -54,15 +58,7 @@ export class Space {
     this.#of = play;
     const { canvas } = scene;
     for (const [name, value] of Object.entries({ id: "scene", role: "img", tabindex: "0", "aria-label": "The table from behind the cue" })) canvas.setAttribute(name, value);
-    let last = 0;
-    drags(canvas, (event, first) => {
-      if (first && this.s.film.playing) skip(this.s);
-      else if (!first && free(this.s)) {
-        this.s.stroke.set({ phi: (this.s.stroke.value().phi + (last - event.clientX) * 0.08 + 360) % 360 });
-        this.s.changed();
-      }
-      last = event.clientX;
-    });
+    this.#handle(scene);
     canvas.addEventListener("keydown", (event) => {
       if (event.key === "Tab") return;
       event.preventDefault();
@@ -70,6 +66,51 @@ export class Space {
       this.s.film.canvas.dispatchEvent(new KeyboardEvent("keydown", { key, altKey, shiftKey, ctrlKey, metaKey }));
     });
     this.felt.append(canvas, this.#over);
+  }
+
+  /** A drag turns the aim, or moves the cue ball that is in hand; a tap aims at a ball or a place, or calls. */
+  #handle(scene: Scene): void {
+    const { s } = this;
+    const { canvas } = scene;
+    let [from, last]: Point[] = [[0, 0], [0, 0]];
+    let taps = false;
+    let grip: Grip = { is: "cloth" };
+    const at = ([x, y]: Point): Point | undefined => scene.unplace(x, y, s.play.balls[0]!.kind.radius);
+    drags(canvas, (event, first) => {
+      const now = pixelsOf(canvas, event);
+      if (first) {
+        taps = !s.film.playing;
+        if (!taps) skip(s);
+        [from, grip] = [now, this.#under(scene, now)];
+      } else if (free(s)) {
+        taps &&= Math.hypot(now[0] - from[0], now[1] - from[1]) < 6;
+        const to = at(now);
+        this.#moves = !taps && grip.is === "ball" && grip.ball === 0 && movable(s, 0);
+        if (this.#moves && to) move(s, 0, to);
+        else if (!this.#moves && !taps) {
+          s.stroke.set({ phi: (s.stroke.value().phi + (last[0] - now[0]) * 0.08 + 360) % 360 });
+          s.changed();
+        }
+      }
+      last = now;
+    });
+    for (const type of ["pointerup", "pointercancel"])
+      canvas.addEventListener(type, () => {
+        const to = at(from);
+        if (type === "pointerup" && taps && to && free(s)) tap(s, grip, to);
+        this.#moves = taps = false;
+        s.changed();
+      });
+  }
+  /** What is seen within a finger's reach: the nearest ball or pocket. */
+  #under(scene: Scene, [x, y]: Point): Grip {
+    const { balls, table } = this.s.play;
+    const far = (px: number, py: number): number => Math.hypot(px - x, py - y);
+    const near = [
+      ...balls.map(({ state: { r } }, ball) => ({ grip: { is: "ball", ball } as Grip, d: onTable(balls[ball]!.state) ? far(...scene.place(r[0], r[1], r[2])) : 99 })),
+      ...table.pockets.map(({ centre }, pocket) => ({ grip: { is: "pocket", pocket } as Grip, d: far(...scene.place(centre[0], centre[1], 0)) })),
+    ].filter(({ d }) => d < 24).sort((a, b) => a.d - b.d);
+    return near[0]?.grip ?? { is: "cloth" };
   }
 
   draw(): void {
@@ -80,8 +121,8 @@ export class Space {
     if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight) this.#scene.size(clientWidth, clientHeight);
     const poses = this.s.filmed!.shots[0]!.at(this.s.film.time);
     const of = aimed(this.s);
-    // The camera stays where it was while the balls roll.
-    if (of) this.#scene.look(poses[0]!.r, of.phi);
+    // The camera stays where it was while the balls roll, or the cue ball is moved.
+    if (of && !this.#moves) this.#scene.look(poses[0]!.r, of.phi);
     this.#scene.draw(poses, of && { cue: of, gap: stickEnd(this.#of!.balls[0]!.kind.radius, of.speed), first: this.s.first?.at });
     this.#label(poses, of !== undefined);
   }
@@ -93,7 +134,9 @@ export class Space {
     Object.assign(over.style, { width: `${width}px`, height: `${height}px` });
     const g = over.getContext("2d")!;
     g.scale(sharp, sharp);
-    if (aims && this.s.first) drawWays(this.s, { g, scale: 1, place: (x, y) => scene.place(x, y, balls[0]!.kind.radius) });
+    const pen = { g, scale: 1, place: (x: number, y: number) => scene.place(x, y, balls[0]!.kind.radius) };
+    if (aims && this.s.first) drawWays(this.s, pen);
+    drawMarks(this.s, pen);
     const seen = poses.map(({ r, seen }, k) => {
       const { kind } = balls[k]!;
       const [[x, y], [u, v]] = [scene.place(r[0]!, r[1]!, r[2]!), scene.place(r[0]!, r[1]!, r[2]! + kind.radius)];

@@ -29,6 +29,10 @@ export function ring({ g, scale, place }: Pen, at: readonly number[], radius: nu
   g.stroke();
 }
 
+/** A circle on the cloth of a radius, m, as it is seen from anywhere. */
+export const circle = (pen: Pen, at: readonly number[], radius: number, width: number, style: string): void =>
+  path(pen, Array.from({ length: 33 }, (_, k) => (k * Math.PI) / 16).map((turn) => [at[0]! + radius * Math.cos(turn), at[1]! + radius * Math.sin(turn)]), width, style);
+
 /** The ghost ball of a contact, the line of the ball that is met, and the tangent line, to the side where the cue ball goes. */
 export function drawContact(pen: Pen, { event, ball }: Contact, radius: number, [dx, dy]: readonly [number, number]): void {
   const length = 0.35;
