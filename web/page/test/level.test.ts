@@ -66,7 +66,7 @@ describe.runIf(browserPath !== undefined)("by level", () => {
     await one.locator("#rate").selectOption("1000");
     await one.locator("#menu .close").click();
     await one.locator("#hint").click();
-    await expect.poll(() => text(one, "said")).toMatch(/^Hint: .* The price of a hint: this stroke errs like his\.$/);
+    await expect.poll(() => text(one, "said")).toMatch(/^Hint: .* This stroke errs like his\.$/);
     const meant = Number(await one.locator("#phi").inputValue());
     await one.locator("#shoot").click();
     await expect.poll(() => text(one, "turn")).toMatch(/have won\.$/);

@@ -62,7 +62,7 @@ export async function advise(s: Session): Promise<void> {
     const tip = [one.cue.b > 0.1 ? "follow" : one.cue.b < -0.1 ? "draw" : "", one.cue.a > 0.1 ? "left side" : one.cue.a < -0.1 ? "right side" : ""].filter(Boolean).join(" and ");
     const words = `${wordsOfChoice(s.play.table, s.play.names, one, s.first?.ball === -1)}, at ${one.cue.speed.toFixed(1)} m/s${tip && ` with ${tip}`}`;
     s.hinted = true;
-    says(s, `Hint: ${words}. A ${levelOf(s)}, as you are, ${wordsOfChances(one, s.play.setup.game === "threecushion")}.${s.play.practice ? "" : " The price of a hint: this stroke errs like his."}`);
+    says(s, `Hint: ${words}. A ${levelOf(s)}, as you are, ${wordsOfChances(one, s.play.setup.game === "threecushion")}.${s.play.practice ? "" : " This stroke errs like his."}`);
   } catch (error) {
     if (mine === s.number && free(s)) says(s, wrong(error));
   }

@@ -13,8 +13,8 @@ declare const DRILLS: string;
 
 const BALLS = 16;
 const SIZE = [1.27, 2.54] as const;
-/** Practice with the balls of eight-ball. */
-const setupOf = (at: string, drill?: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, ...(drill === undefined ? {} : { drill }) });
+/** Practice with the balls of eight-ball. Strokes of a drill, which count for the rating, err as those of a game do. */
+const setupOf = (at: string, drill?: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, ...(drill === undefined ? {} : { drill, own: "800", seed: Math.floor(Math.random() * 2 ** 31) }) });
 
 export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean }; rating(): Rating & { words: string }; plan(): string } {
   const drills = drillsOf(DRILLS);
@@ -55,7 +55,7 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: 
     ],
     photo: photo.root,
     rating: () => ownRating(drills),
-    told: (name) => `${of(name).text}${made(name)}`,
+    told: (name) => `${of(name).text}${made(name)} It counts for your rating: strokes err a little, like those of an 800.`,
     /** What to practise next: what was made least, beside how often one's rating makes it. */
     plan() {
       const { rating } = ownRating(drills);

@@ -28,8 +28,8 @@ export function shoot(s: Session): void {
   sound.wake();
   const meant = cueOf(s);
   const { own, seed } = play.setup;
-  const rating = s.hinted ? String(levelOf(s)) : own;
-  const made = rating === "0" || play.practice ? meant : carom.withErrors(meant, playerOf(s, rating), seed, play.entries.length);
+  const rating = s.hinted && !(play.practice && own === "0") ? String(levelOf(s)) : own;
+  const made = rating === "0" ? meant : carom.withErrors(meant, playerOf(s, rating), seed, play.entries.length + play.past.length);
   const of = asked(s);
   try {
     look(s); // the aim may have changed since the last frame
