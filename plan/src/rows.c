@@ -151,7 +151,13 @@ void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
 static void spread(const search *plan, told *with) {
   carom_facts *f = &with->facts;
   const carom_facts of_shot = *f;
-  f->down = f->off = f->moved = 0;
+  uint32_t *const set[] = {&f->down, &f->off, &f->moved, &f->frozen, &f->pushed, &f->banked};
+  for (int s = 0; s < (int)(sizeof set / sizeof set[0]); s++) {
+    uint32_t all = 0;
+    for (int n = 0; n < plan->plays; n++)
+      all |= (*set[s] >> n & 1) << plan->which[n];
+    *set[s] = all;
+  }
   for (int n = 0; n < 2; n++)
     f->first[n] = f->first[n] < 0 ? f->first[n] : plan->which[f->first[n]];
   int n = plan->plays - 1;
@@ -161,12 +167,7 @@ static void spread(const search *plan, told *with) {
     f->pocket[k] = plays ? of_shot.pocket[n] : -1;
     f->pocket_time[k] = plays ? of_shot.pocket_time[n] : INFINITY;
     f->cushions[k] = plays ? of_shot.cushions[n] : 0;
-    if (!plays)
-      continue;
-    f->down |= (of_shot.down >> n & 1) << k;
-    f->off |= (of_shot.off >> n & 1) << k;
-    f->moved |= (of_shot.moved >> n & 1) << k;
-    n--;
+    n -= plays;
   }
 }
 
