@@ -328,8 +328,8 @@ static void try_all(void *context, carom_crew *crew) {
   }
 }
 
-/* The shots of the best choice chose it, so they were lucky for it. What the layout was worth before
- * is not, where games have taught it: it counts as so many shots. The games of
+/* The shots of the best choice chose it, so they were lucky for it. What the layout was worth
+ * before is not, where games have taught it: it counts as so many shots. The games of
  * understanding/plan.md tell how many. */
 static void temper(const search *plan, const candidate *best, carom_choice *c) {
   static const double shots = 10.0;
