@@ -3,6 +3,7 @@ import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import type { Carom, Cue, ShotBall, Shot } from "carom";
 import { type Drill, drillsOf, judge } from "../src/play/drills.js";
+import { Play } from "../src/play/game.js";
 import { builds } from "../../test/builds.js";
 import { Draws, root } from "../../test/support.js";
 
@@ -66,4 +67,22 @@ test.each(drills.map((drill) => [drill.name, drill] as const))("%s can be made, 
   // Where three balls are to fall, the stroke goes on.
   for (const cue of strokes(carom, drill, 1000)) if (judge(drill, play(cue)).is !== "missed") return;
   expect.fail(`${drill.name}: no stroke of 1000 makes it`);
+});
+
+test("a game of pool is played on the table that it names, with the pockets of that table", () => {
+  const { carom } = builds[0]!;
+  const on = (table?: string, game = "nineball"): Play => new Play(carom, { game, against: "practice", own: "0", seed: 1, ...(table !== undefined && { table }) });
+  expect(["9ft", "8ft", "7ft", "tight"].map((name) => on(name).table.width)).toEqual([1.27, 1.1176, 0.9906, 1.27]);
+  expect(on().table).toEqual(on("9ft").table);
+  // Of balls side by side that run at a corner, fewer fall into the tight one.
+  const into = ({ table, balls }: Play): number => {
+    const lie = balls.map(({ kind, state }): ShotBall => ({ kind, state: { ...state, r: [0, 0, -0.1], label: "pocketed" } }));
+    const line = Array.from({ length: 41 }, (_, k) => carom.placeBall(table, lie, 0, 0.4, 0.4 + 0.002 * k));
+    return line.filter((all) => carom.simulate(table, all, carom.cue({ speed: 2, phi: 225 }), OPTIONS).final[0]!.label === "pocketed").length;
+  };
+  const [usual, tight] = [into(on("9ft")), into(on("tight"))];
+  expect(tight).toBeGreaterThan(2);
+  expect(tight).toBeLessThan(usual);
+  expect(() => on("10ft")).toThrow('table: there is no table "10ft" for this game');
+  expect(() => on("7ft", "snooker")).toThrow('there is no table "7ft"');
 });

@@ -427,6 +427,28 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.close();
   }, 120_000);
 
+  test("pool is played on the table that is chosen, which a new rack, a link and a diagram keep", async () => {
+    const one = await open("", { width: 390, height: 844, touch: true });
+    const setup = async (): Promise<{ table?: string; seed: number }> => one.evaluate(() => JSON.parse(localStorage.getItem("carom-game")!) as { table?: string; seed: number });
+    await one.locator("#new-game").click();
+    await one.locator("#new-which").selectOption("snooker");
+    expect(await one.locator("#new-table").isVisible()).toBe(false);
+    await one.locator("#new-which").selectOption("nineball");
+    expect(await one.locator("#new-table option").evaluateAll((all) => all.map((option) => (option as HTMLOptionElement).value))).toEqual(["9ft", "8ft", "7ft", "tight"]);
+    await one.locator("#new-table").selectOption("tight");
+    await one.locator("#new-against").selectOption("practice");
+    await one.locator("#start").click();
+    const { seed, table } = await setup();
+    expect(table).toBe("tight");
+    await one.locator("#rack-up").click();
+    expect(await setup()).toMatchObject({ table: "tight", seed: seed + 1 });
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    await one.locator("#new-game").click();
+    expect(await one.locator("#new-table").inputValue()).toBe("tight");
+    await one.close();
+  });
+
   test("a frame of a break draws the balls and little else", async () => {
     const one = await open("");
     await one.evaluate(() => {

@@ -6,13 +6,14 @@ import { filmOf, onTable, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { placesText } from "../table/places.js";
 import { button, check, choice, dialog, el } from "../ui.js";
-import { OPTIONS, Play } from "./game.js";
+import { OPTIONS, Play, type Setup } from "./game.js";
 import { pack, send, unpack } from "./keep.js";
 
 /** Of the cue, what the page sets: m/s, degrees, radii of the ball. */
 const SET = ["speed", "phi", "a", "b", "theta"] as const;
 interface Drawn {
   game: string;
+  table?: string;
   /** Where balls lie, "x,y" or "in" of each, m. */
   at: string;
   /** The stroke in the order of SET, where there is one. */
@@ -89,7 +90,7 @@ function draw(d: Diagram): void {
 /** Lays the balls and plays the stroke. Throws where they cannot be. */
 function lay(d: Diagram, of: Drawn): void {
   const { after, path, words } = d.parts;
-  const next = new Play(d.carom, { game: of.game, against: "practice", own: "0", seed: 1, at: of.at });
+  const next = new Play(d.carom, { game: of.game, ...(of.table !== undefined && { table: of.table }), against: "practice", own: "0", seed: 1, at: of.at });
   next.end();
   d.play = next;
   d.drawn = of;
@@ -104,7 +105,8 @@ function lay(d: Diagram, of: Drawn): void {
 /** Draws a source. */
 function take(d: Diagram, k: number): void {
   const [, balls, cue] = d.sources[k]!;
-  const still = { game: d.drawn.game, at: placesText(balls), notes: d.parts.notes.value };
+  const { game, table } = d.drawn;
+  const still: Drawn = { game, ...(table !== undefined && { table }), at: placesText(balls), notes: d.parts.notes.value };
   try {
     lay(d, cue ? { ...still, cue: SET.map((key) => cue[key]), path: true } : still);
   } catch (error) {
@@ -127,7 +129,7 @@ async function unpacked(packed: string): Promise<Drawn> {
   return of;
 }
 
-export function diagramPage(carom: Carom, coarse: boolean): { root: HTMLDialogElement; open(game: string, sources: readonly Source[]): void; read(packed: string): Promise<void>; theme(): void } {
+export function diagramPage(carom: Carom, coarse: boolean): { root: HTMLDialogElement; open(setup: Setup, sources: readonly Source[]): void; read(packed: string): Promise<void>; theme(): void } {
   const parts = partsOf((k) => take(d, k), () => {
     d.drawn = { ...d.drawn, after: parts.after.input.checked, path: parts.path.input.checked };
     draw(d);
@@ -143,9 +145,9 @@ export function diagramPage(carom: Carom, coarse: boolean): { root: HTMLDialogEl
   const root = dialogOf(d, () => void link());
   return {
     root,
-    open(game, of) {
+    open({ game, table }, of) {
       d.sources = of;
-      d.drawn = { game, at: "", notes: "" };
+      d.drawn = { game, ...(table !== undefined && { table }), at: "", notes: "" };
       parts.which.select.replaceChildren(...of.map(([name], k) => el("option", { value: String(k) }, name)));
       show(d, root, "");
       take(d, 0);

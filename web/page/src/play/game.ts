@@ -2,7 +2,7 @@
 // reads, plays and compares bit by bit. A game is kept and sent as text: what it begins with, and its strokes.
 import { type Call, type Carom, type Cue, games, type GameState, type Recording, type Ruling, type Shot, type ShotBall, type ShotOptions, type Table, type Vec2 } from "carom";
 import { onTable } from "../table/filmed.js";
-import { GAMES, PLAYED, type Played } from "../table/games.js";
+import { GAMES, PLAYED, type Played, POOL_TABLES } from "../table/games.js";
 import { atHead, mayLie } from "../table/head.js";
 import { placesOf, placesText, pocketed } from "../table/places.js";
 
@@ -16,6 +16,8 @@ export interface Setup {
   own: string;
   /** Of the rack and of errors. */
   seed: number;
+  /** Of pool, a key of POOL_TABLES. */
+  table?: string;
   /** Of practice: where balls lie, "x,y" or "in" of each. */
   at?: string;
   /** The name of the drill that the layout is of. */
@@ -67,7 +69,9 @@ export class Play {
     this.played = PLAYED[setup.game];
     const of = GAMES[this.played?.of ?? setup.game];
     if (!of || (!this.practice && !this.played)) throw new TypeError(`game: there is no game "${setup.game}"`);
-    this.table = carom.table(of.table);
+    const chosen = POOL_TABLES[setup.table ?? "9ft"];
+    if (!chosen || (setup.table !== undefined && of.game !== "pool")) throw new TypeError(`table: there is no table "${setup.table}" for this game`);
+    this.table = of.game === "pool" ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
     const kind = carom.kind(of.game, OPTIONS.cushionModel);
     this.balls = carom.rack(of.rack, this.table, { seed: setup.seed }).map(({ state }) => ({ kind, state }));
     this.names = this.balls.map((_, k) => of.names(k));

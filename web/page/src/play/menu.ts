@@ -1,5 +1,5 @@
 // The dialog of a new game: which one, against whom, and how the page plays it.
-import { GAMES, PLAYED } from "../table/games.js";
+import { GAMES, PLAYED, POOL_TABLES } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import type { Against } from "./game.js";
@@ -23,6 +23,7 @@ export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElem
   const game = choice("new-which", "Game", [...Object.entries(PLAYED), ...others].map(([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const), told);
   const against = choice("new-against", "Against", [["practice", "nobody: practice"], ["person", "a person at this page"], ["link", "a person by link"], ...RATINGS.map((r) => [r, `the computer, rated ${r}`] as const)], errs);
   const own = choice("new-own", "Your strokes", [["0", "go where you aim (no rating)"], ...RATINGS.map((r) => [r, r === "800" ? "err a little, like those of an 800" : `err like those of a ${r}`] as const)], () => undefined);
+  const table = choice("new-table", "Table", Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const), () => undefined);
   const lines = choice("lines", "Lines", [["level", "by your rating"], ["none", "none"], ["short", "short: the way of the ball"], ["full", "full: both balls"]], set);
   const note = el("p", { class: "note", id: "new-note" });
   /** Strokes against the page's player err a little, if nothing else is chosen. */
@@ -43,9 +44,11 @@ export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElem
   sound.input.checked = s.settings.sound;
   coach.input.checked = s.settings.coach;
 
+  const isPool = (): boolean => GAMES[PLAYED[game.select.value]?.of ?? game.select.value]!.game === "pool";
   function told(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";
+    table.root.hidden = !isPool();
     const notes: Record<string, string> = {
       practice: "There are no rules. You move any ball, see every path, and undo strokes.",
       person: "Both of you play at this page, in turns.",
@@ -55,9 +58,9 @@ export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElem
   }
   const start = button("Start", () => {
     root.close();
-    begin(s, { game: game.select.value, against: against.select.value as Against, own: against.select.value === "practice" ? "0" : own.select.value, seed: Math.floor(Math.random() * 2 ** 31) });
+    begin(s, { game: game.select.value, against: against.select.value as Against, own: against.select.value === "practice" ? "0" : own.select.value, seed: Math.floor(Math.random() * 2 ** 31), ...(isPool() && table.select.value !== "9ft" ? { table: table.select.value } : {}) });
   }, { id: "start", class: "main" });
-  const root = dialog("menu", "New game", el("div", { class: "fields" }, game.root, against.root, own.root), note, start, el("h3", {}, "Settings"), lines.root, sound.root, coach.root, el("div", { class: "row" }, el("span", {}, "Speed of the film"), s.film.pace), ...more);
+  const root = dialog("menu", "New game", el("div", { class: "fields" }, game.root, table.root, against.root, own.root), note, start, el("h3", {}, "Settings"), lines.root, sound.root, coach.root, el("div", { class: "row" }, el("span", {}, "Speed of the film"), s.film.pace), ...more);
   return {
     root,
     open() {
@@ -65,6 +68,7 @@ export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElem
       game.select.value = setup.game;
       against.select.value = setup.against;
       own.select.value = setup.own;
+      table.select.value = setup.table ?? "9ft";
       told();
       root.showModal();
     },

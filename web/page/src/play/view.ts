@@ -69,7 +69,7 @@ function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof d
     const sources: Source[] = play.last?.shot ? [["the last stroke", play.last.balls, play.last.cue]] : [];
     // In a game nobody sees where the balls would go.
     if (play.practice && !play.setup.drill) sources.unshift(["the stroke that is aimed", play.balls, cueOf(s)]);
-    diagram.open(play.setup.game, [...sources, ["the balls as they lie", play.balls, undefined]]);
+    diagram.open(play.setup, [...sources, ["the balls as they lie", play.balls, undefined]]);
   };
   const rows = [shut("Link to this game", "copy-game", () => void s.link.send()), shut("Log of your strokes", "open-log", log.open), shut("Diagram to print", "open-diagram", draw)];
   const games = menu(s, ...s.training.parts, el("h3", {}, "This game"), el("div", { class: "row" }, ...rows));

@@ -1,5 +1,5 @@
 // The games of the page: their tables, racks and names of balls.
-import { byNumber, type Cue, type Game, games, type GameState, type Line, type RackName, type TableName, words } from "carom";
+import { byNumber, type Cue, type Game, games, type GameState, type Line, type Measures, type RackName, type TableName, words } from "carom";
 
 export interface GameOf {
   text: string;
@@ -16,6 +16,13 @@ export const GAMES: Record<string, GameOf> = {
   eightball: { text: "Eight-ball", table: "9ft", rack: "eightball", game: "pool", names: pool },
   snooker: { text: "Snooker", table: "snooker", rack: "snooker", game: "snooker", names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : COLOURS[k - 16]!) },
   threecushion: { text: "Three-cushion", table: "threecushion", rack: "threecushion", game: "billiard", names: (k) => ["white", "yellow", "red"][k] ?? String(k) },
+};
+/** The tables of pool, by the key that a game keeps; without one it is that of nine feet. */
+export const POOL_TABLES: Record<string, readonly [text: string, table: TableName, measures?: Partial<Measures>]> = {
+  "9ft": ["nine feet", "9ft"],
+  "8ft": ["eight feet", "8ft"],
+  "7ft": ["seven feet", "7ft"],
+  tight: ["nine feet, corners of 4 1/4 in", "9ft", { cornerMouth: 0.10795 }],
 };
 export const TABLES: readonly TableName[] = words.table.map(([word]) => word);
 
