@@ -1,12 +1,14 @@
 """How well carom predicts recorded shots: the tables and pictures of docs/understanding/reality.md.
 
     python reality.py TRACKS.csv --table 2.84,1.42 --radius 0.03075 --pictures FOLDER
+    python reality.py TRACKS.csv --table 2.84,1.42 --radius 0.03075 --few 7
 
 For each model of the cushion, constants are fitted to every second shot and used for the others, and the other way round. The first table
 has the RMSE of the shots that the constants were not fitted to, of both halves: of each shot only the strike, six numbers, is fitted, by one
 search and by the better of two with other seeds. Then
 follow the floor, which is the RMSE of a perfect model; how far single impacts are from each model, output by output; how the error grows
-with the part of a shot that the strike is fitted to; and the laws of single events. Markdown on standard output; the pictures are SVG.
+with the part of a shot that the strike is fitted to; and the laws of single events. With --few N there is only what few shots tell of the
+table, over N draws of them. Markdown on standard output; the pictures are SVG.
 """
 
 import argparse
@@ -121,6 +123,19 @@ def growth(fit: carom.tracks.fit.Fit, seed: int) -> None:
         print(f"| {until:g} s | {100 * found.median_rmse:.2f} |")
 
 
+def few_shots(recordings: Recordings, table: tuple[float, float], radius: float, draws: int, seed: int) -> None:
+    """Medians of draws of so many shots, by which the table's constants are fitted: the RMSE of up to 20 others."""
+    print("| shots fitted | RMSE of others: median, cm | 9 in 10 below, cm |\n|--:|--:|--:|")
+    for count in (n for n in (0, 1, 3, 5, 10, 20) if n + 10 <= len(recordings)):
+        figures = []
+        for draw in range(draws):
+            drawn = [recordings[k] for k in np.random.default_rng((seed, draw)).permutation(len(recordings))[: count + 20]]
+            constants = carom.tracks.fit.fit(drawn[:count], table, radius, free="table", seed=seed).constants if count else None
+            found = carom.tracks.fit.fit(drawn[count:], table, radius, constants=constants, free="none", seed=seed)
+            figures.append((100 * found.median_rmse, 100 * found.p90_rmse))
+        print(f"| {count} | {' | '.join(f'{value:.2f}' for value in np.median(figures, axis=0))} |", flush=True)
+
+
 def single_events(seen: carom.tracks.Events) -> None:
     (a, a_error), (b, b_error) = seen.roll
     print("\n| law | measured |\n|---|---|")
@@ -143,14 +158,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--models", default="smooth,han,stronge,mathavan")
     parser.add_argument("--free", default="default", help="constants that are fitted, as in carom.fit")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--folds", action="store_true", help="only the table of unseen shots")
+    parser.add_argument("--few", type=int, metavar="N", help="only what few shots tell, over N draws of them")
     parser.add_argument("--pictures", type=Path, metavar="FOLDER")
     given = parser.parse_args(arguments)
     recordings = carom.tracks.read(given.tracks, table=given.table, radius=given.radius)
     recordings = [shot for shot in recordings if np.isfinite(shot.moves).any()]
     models = given.models.split(",")
-    if given.folds:
-        held_out(recordings, given.table, given.radius, models, given.free.split(","), given.seed)
+    if given.few:
+        few_shots(recordings, given.table, given.radius, given.few, given.seed)
         return 0
     seen = carom.tracks.events(recordings, given.table, given.radius)
     single_events(seen)
@@ -161,7 +176,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     growth(fit, given.seed)
     if given.pictures:
         given.pictures.mkdir(parents=True, exist_ok=True)
-        pictures = {"rmse": _summary.histogram(fit)}
+        pictures = {"rmse": _summary.histogram(fit), "bands": _summary.bands(fit)}
         pictures.update(zip(("rolling", "sliding", "cushion", "hits"), (svg for _, svg in _summary.laws(fit))))
         for name, svg in pictures.items():
             (given.pictures / f"reality-{name}.svg").write_text(svg + "\n", encoding="utf-8")

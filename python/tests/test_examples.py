@@ -90,7 +90,7 @@ def test_what_ppo_is_given():
         train_pot_one.main(["pot.svg", "many"])
 
 
-SHORT = ("aim_at_pocket", "ball_by_ball", "bot", "chaos", "custom_rule", "draw_distance", "drill", "frozen_kiss", "jump_over",
+SHORT = ("ball_by_ball", "bot", "chaos", "custom_rule", "draw_distance", "drill", "frozen_kiss", "jump_over",
          "kick_by_diamonds", "masse", "own_table", "thirty_degrees", "throw_by_speed")  # fmt: skip
 
 

@@ -306,6 +306,20 @@ def histogram(fit: Fit) -> str:
     return chart.svg()
 
 
+def bands(fit: Fit) -> str:
+    """How far off places are, over the contacts before them, and within which distances 68 and 95 % are."""
+    unseen = None if fit.train is None else False
+    off, rows = fit.off(unseen), fit.bands(None if fit.train is None else True)
+    shown = off[:: max(len(off) // 1000, 1)]
+    top = 200.0 * float(np.median(rows[:, 2]))
+    ends = np.append(rows[1:, 0], max(float(off[:, 0].max(initial=0.0)), rows[-1, 0]) + 1.0)
+    chart = _Chart((0.0, float(ends[-1])), (0.0, top), "contacts of the shot before", "distance, cm")
+    chart.dots(shown[:, 0] + np.modf(0.618034 * np.arange(len(shown)))[0], 100.0 * shown[:, 1])
+    for column in (1, 2):
+        chart.line(np.stack([rows[:, 0], ends], axis=1).ravel(), np.repeat(np.minimum(100.0 * rows[:, column], top), 2))
+    return chart.svg()
+
+
 def laws(fit: Fit) -> list[tuple[str, str]]:
     """Pictures of what single events say, over what the fit plays with; each with its text."""
     seen, constants = events(fit.recordings, fit.table, fit.radius), fit.constants
@@ -360,6 +374,9 @@ def page(fit: Fit, name: str, kicks: Kicks | None = None) -> str:
         )
     parts.append(f"<ul>{''.join(f'<li>{html.escape(line)}</li>' for line in told(fit))}</ul>")
     figures = [("RMSE over all samples of all balls of a shot.", histogram(fit))] if order else []
+    if order:
+        whose = "shots" if fit.train is None else "shots that the constants were not fitted to"
+        figures.append((f"How far off the places of {whose} are. Lines: the bands of 68 and 95 %.", bands(fit)))
     for what, k in [("best", order[0]), ("median", order[len(order) // 2]), ("worst", order[-1])] if order else []:
         text = f"The {what} shot, {fit.recordings[k].id}: {100 * fit.rmse[k]:.2f} cm. Lines as played, dots as recorded."
         if kicks is not None:
