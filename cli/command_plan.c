@@ -84,7 +84,8 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
     snprintf(text, 200,
              line->table->table.pockets == 0 ? "no point"
              : c->keep < 0.005               ? "a safety: nothing is potted"
-                                             : "a safety: balls fall by luck alone");
+             : c->keep < 0.1                 ? "a safety: balls fall by luck alone"
+                                             : "no sure pot: which ball falls is luck");
   else if (line->table->table.pockets == 0)
     snprintf(text, 200, "a point, %s%s first", c->kind == CAROM_PLAN_KICK ? "off a cushion, " : "",
              named_ball(line->name[c->ball], ball));

@@ -19,7 +19,7 @@ enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_SAFETY + 1 };
 typedef struct strength_job {
   shared_options shared;
   int rules, racks, shots, seed, left, target;
-  bool games;
+  bool games, run_out;
   double errors, unsure;
 } strength_job;
 
@@ -29,6 +29,8 @@ OPTION(strength_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WOR
 OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
        "play each rack to the end, by two players of the same errors; and tell the chances to win");
 
+OPTION(strength_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0,
+       "plan to run out: a turn that ends before is worth nothing");
 OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
        "racks to be played (default 100)");
 OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100,
@@ -201,9 +203,9 @@ static const command_form form = {
              "shots keep the turn beside the chance that was predicted. With --games it is played "
              "to the end, and chances to win stand beside how often they were won.\n",
     .options =
-        (const option_row *const[]){&option_rules, &option_games, &option_left, &option_target,
-                                    &option_racks, &option_shots, &option_errors, &option_unsure,
-                                    &option_seed, &option_threads, NULL},
+        (const option_row *const[]){&option_rules, &option_games, &option_run_out, &option_left,
+                                    &option_target, &option_racks, &option_shots, &option_errors,
+                                    &option_unsure, &option_seed, &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
     .example = "carom-lab plan --racks 100 --shots 1000",
     .files = NO_FILES,
@@ -229,8 +231,10 @@ int command_plan(int argc, char **argv) {
   }
   job.games |= racked;
   static lab_rack rack;
-  rack.options = (carom_plan_options){
-      .shots = job.shots, .threads = job.shared.options.threads, .unsure = job.unsure};
+  rack.options = (carom_plan_options){.shots = job.shots,
+                                      .threads = job.shared.options.threads,
+                                      .chance_opponent = job.run_out,
+                                      .unsure = job.unsure};
   if (carom_plan_memory(&rack.options) == 0) {
     complain("--shots: it must be 100 to 1000000; --unsure: 0 to 1");
     return EXIT_USAGE;

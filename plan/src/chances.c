@@ -48,10 +48,11 @@ double carom_chance_later(const carom_view *view, int who, double mean, int n) {
   return a > least_chance ? a : least_chance;
 }
 
-/* e_n */
+/* e_n; that of an opponent who makes every ball is 1. */
 double carom_chance_first(const carom_view *view, int who, int n) {
   const double x[FIRST_NUMBERS] = {1.0, view->log_error[who], 1.0 / n};
-  const double e = chance(numbers_of(view)->first, x, FIRST_NUMBERS);
+  const double e =
+      who == 1 && view->given[1] == 1.0 ? 1.0 : chance(numbers_of(view)->first, x, FIRST_NUMBERS);
   return e > least_chance ? e : least_chance;
 }
 

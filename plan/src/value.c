@@ -91,6 +91,8 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
                            uint32_t targets, uint32_t pockets, const int32_t given[2], int who,
                            bool in_hand) {
   const bool alone = view->rules->race == CAROM_RACE_ALONE;
+  if (!alone && who == 1 && view->given[1] == 1.0)
+    return 1.0;
   const bool shared = view->rules->race == CAROM_RACE_SHARED;
   const int32_t most = alone ? CAROM_BALLS_MOST : MOST_LEFT;
   int32_t left[2];

@@ -16,7 +16,7 @@ export function wordsOfChances({ keep, value, foul }: Pick<Choice, "keep" | "val
 
 /** What a choice is, by which the cue ball may be known to meet a cushion first. */
 export function wordsOfChoice(table: Table, names: readonly string[], one: Choice, cushion = false): string {
-  if (one.ball < 0) return WITHOUT[one.kind] ?? (one.keep < 0.005 ? "a safety" : "a stroke by which balls fall by luck alone");
+  if (one.ball < 0) return WITHOUT[one.kind] ?? (one.keep < 0.005 ? "a safety" : "a stroke without a sure pot: which ball falls is luck");
   if (table.pockets.length === 0) return `the ${names[one.ball]} ball first`;
   return `ball ${names[one.ball]} into the ${pocketName(table, one.pocket)}${BY[one.kind] ?? ""}${cushion && one.kind !== "kick" ? ", off a cushion first" : ""}`;
 }
