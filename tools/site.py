@@ -38,9 +38,9 @@ def put(page, text):
     (PAGES / page).write_text(text, encoding="utf-8")
 
 
-def add(page):
+def add(page, text=None):
     """A page of the tree, with the files that it links to. The second word of a fence is for the tests."""
-    text = re.sub(r"^```(\w+) [^\n]*$", r"```\1", (SOURCE / page).read_text(encoding="utf-8"), flags=re.M)
+    text = text or re.sub(r"^```(\w+) [^\n]*$", r"```\1", (SOURCE / page).read_text(encoding="utf-8"), flags=re.M)
 
     def target(match):
         words, link = match.groups()
@@ -49,6 +49,8 @@ def add(page):
             return match[0]
         if to.is_dir():  # the site has pages of files only
             return f"[{words}]({link.rstrip('/')}/README.md)" if (to / "README.md").is_file() else words
+        if to.suffix == ".ipynb":
+            return f"[{words}]({link}.md)"
         if to.is_file() and to.suffix != ".md":
             name = to.resolve().relative_to(SOURCE)
             (PAGES / name).parent.mkdir(parents=True, exist_ok=True)
@@ -86,6 +88,17 @@ def example(path):
     return page
 
 
+def notebook(path):
+    """The page of a notebook: its text, its code, what it printed, and its pictures, which python/tests/test_examples.py draws."""
+    page, parts = f"{path.relative_to(SOURCE)}.md", []
+    for k, cell in enumerate(json.loads(path.read_text(encoding="utf-8"))["cells"]):
+        text, printed = "".join(cell["source"]), "".join(line for output in cell.get("outputs", ()) for line in output["text"])
+        parts += [f"```python\n{text}\n```" if cell["cell_type"] == "code" else text, f"```text\n{printed}```" * bool(printed)]
+        parts += [f"![What this cell draws](../../docs/figures/{drawn.name})" for drawn in sorted((SOURCE / "docs/figures").glob(f"notebook-{path.stem}-{k}[-.]*"))]
+    add(page, "\n\n".join(parts))
+    return page
+
+
 shutil.rmtree(PAGES, ignore_errors=True)
 shutil.copytree(SOURCE / "docs/figures", PAGES / "docs/figures", ignore=shutil.ignore_patterns("data"))
 (PAGES / "live").mkdir()
@@ -103,7 +116,8 @@ for name, folder in FOLDERS.items():
     navigation.append({name: [{title(page): page} for page in sheets]})
 programs = [*sorted((SOURCE / "examples").glob("*.c*")), *sorted((SOURCE / "python/examples").glob("*.py")), *sorted((SOURCE / "web/npm/examples").glob("*.mjs"))]
 add("examples/README.md")
-made = [page for page in map(example, programs) if page]
+notebooks = [*map(notebook, sorted((SOURCE / "python/examples").glob("*.ipynb")))]
+made = [*notebooks, *filter(None, map(example, programs))]
 navigation.append({"Examples": [{"Programs": "examples/README.md"}, *({Path(page).stem: page} for page in made)]})
 for page in OTHERS:
     add(page)
@@ -126,7 +140,8 @@ done = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "--c
 if done.returncode:
     sys.exit("\n".join(line for line in done.stdout.splitlines() if not line.startswith("INFO")))
 built = sorted((WORK / "site").rglob("*.html"))
-assert len(made) >= 4 and len(built) >= 30 and (WORK / "site/search/search_index.json").is_file(), (len(made), len(built))
+assert all("```text\n" in (text := (PAGES / page).read_text(encoding="utf-8")) and "/notebook-" in text for page in notebooks), notebooks
+assert len(made) >= 4 and len(notebooks) >= 2 and len(built) >= 30 and (WORK / "site/search/search_index.json").is_file(), (len(made), len(built))
 # The licences of what the site contains; the explorer has the others in itself.
 (WORK / "site/licenses").mkdir()
 theme = next(file for file in distribution("mkdocs-material").files if file.name == "LICENSE")
