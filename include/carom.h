@@ -278,16 +278,15 @@ typedef enum carom_status {
   CAROM_ERROR_PLAIN = -98,              /* options.plain is neither 0 nor 1. */
   CAROM_ERROR_SIMULTANEOUS = -99,       /* options.simultaneous is not one of carom_simultaneous. */
   CAROM_ERROR_CLUSTER_STEPS = -100,     /* options.cluster_steps is not 0 to 10000. */
-  CAROM_ERROR_RECORD = -101,            /* carom_record.h: a recording is wrong; record.fault says
-                                           where and why. */
-  CAROM_ERROR_REVISION = -102,          /* carom_record.h: it is of another revision of the
-                                           physics. */
+  CAROM_ERROR_RECORD = -101,            /* carom_record.h: record.fault says what is wrong. */
+  CAROM_ERROR_REVISION = -102,          /* carom_record.h: of another revision of the physics. */
   CAROM_ERROR_IN_MOTION = -103,         /* carom_plan.h: a ball of the layout moves. */
   CAROM_ERROR_GAME_OVER = -104,         /* carom_plan.h: the rules have no ball to be played. */
   CAROM_ERROR_FAST = -105,              /* options.fast is neither 0 nor 1. */
   CAROM_ERROR_CORNERS = -106,           /* a polygon has fewer than 3 or more than 32 corners. */
   CAROM_ERROR_SIDES_CROSS = -107,       /* two of its sides that are no neighbours meet. */
-  CAROM_ERROR_CUE_FOLLOW = -108         /* cue.follow is not 0 to 1 m. */
+  CAROM_ERROR_CUE_FOLLOW = -108,        /* cue.follow is not 0 to 1 m. */
+  CAROM_ERROR_SCORE = -109              /* carom_plan.h: a score of games is wrong. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value

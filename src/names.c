@@ -90,8 +90,7 @@
     "the tip misses the ball: a^2 + b^2 must be below miscue^2, which is 1 by default")            \
   X(ERROR_TABLE, -52, "bad_table",                                                                 \
     "the table has too many parts, a part that is not finite or has no length, friction or "       \
-    "restitution outside 0 to 1, or a "                                                            \
-    "rail_width below the radius of a ball")                                                       \
+    "restitution outside 0 to 1, or a rail_width below the radius of a ball")                      \
   X(ERROR_RACK, -53, "bad_rack",                                                                   \
     "no such rack, or its gap is not between 0 and R, or there is too little room")                \
   X(ERROR_EVENTS_LOST, -54, "events_lost",                                                         \
@@ -166,7 +165,8 @@
   X(ERROR_FAST, -105, "bad_fast", "options.fast must be 0 or 1")                                   \
   X(ERROR_CORNERS, -106, "bad_corners", "a table has 3 to 32 corners")                             \
   X(ERROR_SIDES_CROSS, -107, "sides_cross", "two sides of the table cross or touch")               \
-  X(ERROR_CUE_FOLLOW, -108, "bad_cue_follow", "cue.follow must be 0 to 1 m")
+  X(ERROR_CUE_FOLLOW, -108, "bad_cue_follow", "cue.follow must be 0 to 1 m")                       \
+  X(ERROR_SCORE, -109, "bad_score", "a rating must be 0 to 1000, games won and lost 0 to 1e9 each")
 
 #define AGREES(NAME, value, name, text) \
   _Static_assert(CAROM_##NAME == (value), "values are never renumbered");

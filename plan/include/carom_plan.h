@@ -65,6 +65,25 @@ CAROM_API carom_player carom_player_fargo(double rating);
 CAROM_API void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t number,
                                    carom_cue *cue);
 
+/* Games that a player won and lost against one of a Fargo rating, 0 to 1000. Both are 0 to 1e9;
+ * fractions are fine, such as for games that count less. */
+typedef struct carom_score {
+  double against, won, lost;
+} carom_score;
+
+/* What is known of a rating. */
+typedef struct carom_rating {
+  double mean, low, high; /* 95 % of the likely ratings are low to high, 2.5 % on each side. */
+  int64_t row;            /* of a score that is wrong; else -1. */
+} carom_rating;
+
+/* The rating of a player, 300 to 850, by games. Of ratings r and d, the odds that r wins a game are
+ * 2^((r - d)/100) : 1. Before the first game ratings are normal around 400 with a spread of 150.
+ * CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_SCORE, with rating->row and numbers of NaN. About 0.1 ms
+ * a row, of any numbers of games. */
+CAROM_API carom_status carom_rating_of(const carom_score *scores, int64_t count,
+                                       carom_rating *rating);
+
 /* ---- Rules ----------------------------------------------------------------------------------- */
 
 /* What becomes of the turn of the player who has played. */

@@ -107,13 +107,19 @@ EVERY_BODY(player_strike) {
   carom_player_strike(&player, 7, 3, &cue);
   return HASH(cue);
 }
+EVERY_BODY(rating_of) {
+  const carom_score scores[] = {{500.0, 7.0, 3.0}, {620.0, 2.0, 4.5}};
+  carom_rating rating;
+  STATUS(carom_rating_of(scores, 2, &rating));
+  return HASH(rating);
+}
 EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NINEBALL))
 
 /* clang-format off */
 #define EVERY_OF_PLANS(F) \
   F(aim) F(foul_of) F(foul_string) F(plan) F(plan_continue) F(plan_hand) F(plan_memory) \
   F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) \
-  F(referee) F(rules_about_of) F(rules_fault) F(ruling_string) F(spot_ball) F(spot_ball_of) \
+  F(rating_of) F(referee) F(rules_about_of) F(rules_fault) F(ruling_string) F(spot_ball) F(spot_ball_of) \
   F(turn_settle)
 /* clang-format on */
 

@@ -76,3 +76,33 @@ TEST(strokes_err) {
   carom_player_strike(&fast, 1, 1, &made[1]);
   ck_assert(made[0].speed == 0.3 && made[1].speed == 9.0);
 }
+
+/* Ratings by games, beside sums over 2,000,001 ratings, by NumPy: none, few, half of the games won
+ * or all or none, so many that the density is a needle; and what is refused. */
+TEST(rating_by_games) {
+  static const struct {
+    carom_score scores[2];
+    double rating[3];
+  } known[] = {{{{0}}, {463.32767, 308.59761, 708.05045}},
+               {{{500, 7, 3}, {600, 2, 4}}, {541.07907, 409.73742, 672.87917}},
+               {{{400, 200, 100}}, {498.97971, 464.89153, 533.72511}},
+               {{{800, 1000, 0}}, {849.65026, 848.71142, 849.99113}},
+               {{{300, 0, 1000}}, {300.28833, 300.00731, 301.06272}},
+               {{{500, 1e9, 1e9}}, {500.0, 499.98735, 500.01265}},
+               {{{0, 5, 3.5}, {1000, 1, 2}}, {366.93143, 302.16848, 509.04914}}};
+  carom_rating rating;
+  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+    ck_assert_int_eq(carom_rating_of(known[k].scores, 2, &rating), CAROM_OK);
+    ck_assert_double_eq_tol(rating.mean, known[k].rating[0], 2e-5);
+    ck_assert_double_eq_tol(rating.low, known[k].rating[1], 2e-5);
+    ck_assert_double_eq_tol(rating.high, known[k].rating[2], 2e-5);
+    ck_assert_int_eq(rating.row, -1);
+  }
+  for (int k = 0; k < 6; k++) {
+    carom_score scores[] = {{500, 1, 1}, {500, 1, 1}};
+    (&scores[1].against)[k / 2] = k == 4 ? INFINITY : k % 2 == 0 ? -1.0 : NAN;
+    ck_assert_int_eq(carom_rating_of(scores, 2, &rating), CAROM_ERROR_SCORE);
+    ck_assert(rating.row == 1 && rating.mean != rating.mean);
+  }
+  ck_assert_int_eq(carom_rating_of(NULL, 1, &rating), CAROM_ERROR_NULL);
+}

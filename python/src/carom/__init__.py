@@ -35,18 +35,18 @@ __dir__ = _listing(__name__)
 __version__: str = _ffi.string(_lib.carom_version()).decode()
 
 __all__ = [
-    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Hessian",
-    "Label", "Options", "Outcome", "Pot", "Rules", "Ruling", "Shot", "Shots", "Status", "Table",
-    "Tangents", "Turn", "aim", "aim_slope", "alciatore", "balls", "by_number", "chances",
-    "cite", "collide", "cue", "cushion", "cushion_impacts", "cushion_trace", "dtypes",
-    "hessian", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision",
-    "place_ball", "plan", "player", "racks", "referee", "resume", "simulate", "simulate_arrow",
-    "simulate_batch", "struck", "tables", "tangents", "trace", "value", "with_errors",
+    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Hessian", "Label",
+    "Options", "Outcome", "Pot", "Rating", "Rules", "Ruling", "Shot", "Shots", "Status", "Table", "Tangents",
+    "Turn", "aim", "aim_slope", "alciatore", "balls", "by_number", "chances", "cite", "collide", "cue",
+    "cushion", "cushion_impacts", "cushion_trace", "dtypes", "hessian", "impacts", "isa_in_force", "jacobian",
+    "mu_ball", "physics_revision", "place_ball", "plan", "player", "racks", "rating", "referee", "resume",
+    "simulate", "simulate_arrow", "simulate_batch", "struck", "tables", "tangents", "trace", "value",
+    "with_errors",
 ]  # fmt: skip
 
 if _TYPE_CHECKING:
-    from carom.games import Facts, Foul, Pot, Rules, Ruling, Turn
-    from carom.games import aim, chances, plan, player, referee, value, with_errors
+    from carom.games import Facts, Foul, Pot, Rating, Rules, Ruling, Turn
+    from carom.games import aim, chances, plan, player, rating, referee, value, with_errors
 else:
 
     def __getattr__(name: str) -> object:

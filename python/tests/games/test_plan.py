@@ -547,3 +547,17 @@ CALLS = [
 @pytest.mark.parametrize(("call", "good", "names"), CALLS, ids=[case[0].__qualname__ for case in CALLS])
 def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(call, good, names):
     refused_by_name(call, good, names)
+
+
+def test_rating():
+    """A rating by games is that of a fine sum over all ratings; a score in error is named."""
+    random, r = np.random.default_rng(7), np.linspace(300, 850, 200_001)
+    for rows in [[], *(random.uniform(0, [1000, 30, 30], (n, 3)) for n in (1, 2, 5))]:
+        logs = -((r - 400) ** 2) / 45000 - sum(w * np.logaddexp(0, x) + n * np.logaddexp(0, -x) for d, w, n in rows for x in [(d - r) * np.log(2) / 100])
+        mass = np.cumsum(np.exp(logs - logs.max()))
+        wanted = [np.average(r, weights=np.diff(mass, prepend=0)), *np.interp([0.025 * mass[-1], 0.975 * mass[-1]], mass, r)]
+        assert np.allclose(carom.rating(rows), wanted, rtol=0, atol=0.01)
+    with pytest.raises(carom.CaromError, match=r"scores\[1\] = .*games won and lost 0 to 1e9"):
+        carom.rating([(500, 1, 1), (500, -1, 1)])
+    with pytest.raises(ValueError, match="scores: rows of 3 numbers"):
+        carom.rating([1, 2, 3])

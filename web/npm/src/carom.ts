@@ -8,55 +8,9 @@ import type { Build, Memory, Pointer } from "./memory.js";
 import { Plans } from "./plans.js";
 import { type Host as RecordingHost, Recording, type Replayed, replayed } from "./recording.js";
 import { type Kept, type Reader, Shot } from "./shot.js";
-import {
-  readBalls,
-  readEvent,
-  readMotion,
-  readState,
-  readStruct,
-  readTable,
-  refuseUnknownOf,
-  setStruct,
-  value,
-  vec3,
-  whole,
-  writeBalls,
-  writeOptions,
-  writeStates,
-  writeStruct,
-  writeTable,
-} from "./structs.js";
-import type {
-  Aim,
-  AimOf,
-  BallKind,
-  BallState,
-  Call,
-  Choice,
-  Collided,
-  CollideOptions,
-  Contact,
-  Cue,
-  CushionImpact,
-  CushionOptions,
-  Detail,
-  Frame,
-  Game,
-  GameState,
-  Impact,
-  Measures,
-  Motion,
-  PlanOptions,
-  Player,
-  RackName,
-  Ruling,
-  ShotBall,
-  ShotOptions,
-  StopOptions,
-  Table,
-  TableName,
-  TracePoint,
-} from "./types.js";
+import { readBalls, readEvent, readMotion, readState, readStruct, readTable, refuseUnknownOf, setStruct, value, vec3, whole, writeBalls, writeOptions, writeStates, writeStruct, writeTable } from "./structs.js";
+import type { Aim, AimOf, BallKind, BallState, Call, Choice, Collided, CollideOptions, Contact, Cue, CushionImpact, CushionOptions, Detail, Frame, Game } from "./types.js";
+import type { GameState, Impact, Measures, Motion, PlanOptions, Player, RackName, Rating, Ruling, Score, ShotBall, ShotOptions, StopOptions, Table, TableName, TracePoint } from "./types.js";
 
 const IMPACT = layout.carom_impact;
 const RESULT = layout.carom_result;
@@ -735,6 +689,11 @@ export class Carom {
   player(of: { errors?: number; fargo?: number } = {}): Player {
     refuseUnknown(of, KEYS.player);
     return this.#plans.player(of);
+  }
+
+  /** The Fargo rating of a player by games won and lost, 300 to 850, with its interval of 95 %. Without games it is a guess. */
+  rating(scores: readonly Score[]): Rating {
+    return this.#plans.rating(scores);
   }
 
   /** The stroke that a player makes of the one that he means, with errors drawn from a seed and the number of the stroke. */

@@ -5,7 +5,7 @@ import { KEYS, refuseUnknown } from "./keys.js";
 import { LAST, refuseOrder } from "./lines.js";
 import type { Memory, Pointer } from "./memory.js";
 import { indexOf, readBalls, readStruct, refuseName, setStruct, value, whole, writeOptions, writeStruct } from "./structs.js";
-import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Ruling, ShotBall, ShotFacts, ShotOptions, Table } from "./types.js";
+import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Rating, Ruling, Score, ShotBall, ShotFacts, ShotOptions, Table } from "./types.js";
 
 const PLAYER = layout.carom_player;
 const RULES = layout.carom_plan_rules;
@@ -22,6 +22,7 @@ const HANDS = ["no", "no", "anywhere", "kitchen", "d"] as const;
 /** The members of a state that are numbers here, too. */
 const MEMBERS = ["fouls", "score", "lost", "pocket", "on", "freeBall", "target"] as const;
 const of = (state: object, keys: readonly string[]): object => Object.fromEntries(Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined));
+const SCORE = layout.carom_score;
 const BOUNDS = { speedShare: 0, speedLeast: 0, speedMost: 0, tipMost: 0, reserved: [0, 0, 0] };
 
 /** What the calls of this file need of the library. */
@@ -74,6 +75,20 @@ export class Plans {
     else this.#memory.exports.carom_player_fargo(this.#at.player, fargo);
     const { reserved: _, ...player } = readStruct<Player & { reserved: number[] }>(this.#memory, this.#at.player, "carom_player");
     return player;
+  }
+
+  rating(scores: readonly Score[]): Rating {
+    const memory = this.#memory;
+    const [rows, made] = [memory.allocate(scores.length * SCORE.size + 8), this.#at.corners];
+    try {
+      for (const [k, one] of scores.entries()) writeStruct(memory, rows + k * SCORE.size, "carom_score", one, `scores[${k}]`);
+      const code = memory.exports.carom_rating_of(rows, BigInt(scores.length), made);
+      const { row, ...rating } = readStruct<Rating & { row: number }>(memory, made, "carom_rating");
+      this.#host.refuse(code, `scores[${row}]`);
+      return rating;
+    } finally {
+      memory.free(rows);
+    }
   }
 
   withErrors(cue: Partial<Cue>, player: Player, seed: number, number: number): Cue {

@@ -158,6 +158,11 @@ export type RackName = C.RackKind;
 /** How the strokes of a player differ from those that are meant. What is missing is 0. */
 export type Player = Optional<C.Player, "speedShare" | "speedLeast" | "speedMost" | "tipMost">;
 
+/** Games won and lost against a player of a Fargo rating, 0 to 1000. */
+export type Score = C.Score;
+/** A rating by games: the mean of the likely ones, and the interval that has 95 % of them. */
+export type Rating = Omit<C.Rating, "row">;
+
 /** A game between two strokes, as the player at the table sees it. Ball k is ball k of the game, ball 0 the cue ball. What is missing is that of a new game. */
 export interface GameState extends Partial<Pick<C.RulesState, "fouls" | "score" | "lost" | "pocket" | "on" | "freeBall" | "target">> {
   /** A game of `words.rules`, which says by whose rules. Default "eightball". */

@@ -260,3 +260,12 @@ test("straight pool and snooker: points, colours on their own spots, a foul, the
   const [first] = carom.plan(table, rack, { rules: "snooker", inHand: true, shots: 300 });
   expect(Math.hypot(first!.place[0] - table.width / 2, first!.place[1] - 0.737)).toBeLessThan(0.2921);
 });
+
+test("a rating grows with what is won, by both builds; a score in error is named", () => {
+  const [plain, simd] = builds.map(({ carom }) => (won: number) => carom.rating([{ against: 500, won, lost: 3 }]));
+  expect(plain!(7).mean).toBeCloseTo(560.89336, 4);
+  expect(plain!(7)).toEqual(simd!(7));
+  expect(plain!(8).low).toBeGreaterThan(plain!(7).low);
+  expect(builds[0]!.carom.rating([]).high).toBeCloseTo(708.05045, 4);
+  expect(() => plain!(-1)).toThrow("scores[0]: a rating must be 0 to 1000");
+});

@@ -1,23 +1,6 @@
 // What a level is: one's own rating by games and drills, the lines of the table, the part of a ball that is met, and the price of a hint.
 import { describe, expect, test } from "vitest";
-import { ratingOf } from "../src/play/ladder.js";
 import { browserPath, pages, sizes, violations } from "./page.js";
-
-test("a rating grows with what is won, its interval shrinks, and half of the games are won at one's own", () => {
-  const none = ratingOf([]);
-  expect(none.rating).toBeGreaterThan(400);
-  expect(none.high - none.low).toBeGreaterThan(300);
-  // So often as the odds of the scale say: 500 against a 400 wins two of three.
-  for (const [against, won, lost] of [[400, 200, 100], [500, 150, 150], [600, 100, 200]] as const) {
-    const { rating, low, high } = ratingOf([{ against, won, lost }]);
-    expect(Math.abs(rating - 500), `${against}`).toBeLessThan(12);
-    expect(low).toBeLessThan(500);
-    expect(high).toBeGreaterThan(500);
-    expect(high - low).toBeLessThan(90);
-  }
-  expect(ratingOf([{ against: 300, won: 0, lost: 50 }])).toMatchObject({ low: 300 });
-  expect(ratingOf([{ against: 800, won: 50, lost: 0 }])).toMatchObject({ high: 800 });
-});
 
 describe.runIf(browserPath !== undefined)("by level", () => {
   const { open, bright, frames, struck, text, turnTo } = pages();

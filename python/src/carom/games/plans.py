@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -53,6 +53,29 @@ def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes
     made: Array = np.zeros((), dtypes.player)
     pointer("carom_player[]", made)[0] = lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
     return made
+
+
+class Rating(NamedTuple):
+    """A Fargo rating by games: the mean of the likely ones, and the interval that has 95 % of them, 2.5 % on each side."""
+
+    mean: float
+    low: float
+    high: float
+
+
+def rating(scores: npt.ArrayLike) -> Rating:
+    """The Fargo rating of a player by games, 300 to 850.
+
+    `scores` has a row (against, won, lost) for each opponent: the rating, 0 to 1000, and the games won and lost. Of ratings r and d, the
+    odds that r wins a game are 2^((r - d) / 100) : 1; before the first game ratings are normal around 400 with a spread of 150.
+    """
+    given = np.ascontiguousarray(as_array(scores, "scores", np.float64))
+    if given.size and (given.ndim != 2 or given.shape[1] != 3):
+        raise ValueError(f"scores: rows of 3 numbers are needed: against, won, lost; not the shape {given.shape}")
+    made = ffi.new("carom_rating *")
+    if (code := lib.carom_rating_of(pointer("carom_score[]", given), len(given), made)) < 0:
+        raise CaromError(code, f"scores[{made.row}]", given[made.row].tolist())
+    return Rating(made.mean, made.low, made.high)
 
 
 def with_errors(cue: dtypes.Records, player: dtypes.Records, seed: int, number: int = 0) -> dtypes.Records:

@@ -5,7 +5,7 @@ import { atOf, drillsOf, judge } from "./drills.js";
 import { errors } from "./coaching.js";
 import type { Setup, Stroke } from "./game.js";
 import { count, countsOf } from "./keep.js";
-import { DRILLS_MADE as KEY, ownRating, type Rating } from "./ladder.js";
+import { DRILLS_MADE as KEY, ownRating } from "./ladder.js";
 import { keepRow } from "./log.js";
 import { photoPage } from "./photo_page.js";
 
@@ -16,7 +16,7 @@ const SIZE = [1.27, 2.54] as const;
 /** Practice with the balls of eight-ball. Strokes of a drill, which count for the rating, err as those of a game do. */
 const setupOf = (at: string, drill?: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, ...(drill === undefined ? {} : { drill, own: "800", seed: Math.floor(Math.random() * 2 ** 31) }) });
 
-export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean }; rating(): Rating & { words: string }; plan(): string } {
+export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean }; rating(): ReturnType<typeof ownRating>; plan(): string } {
   const drills = drillsOf(DRILLS);
   const of = (name: string): (typeof drills)[number] => {
     const drill = drills.find((one) => one.name === name);
@@ -54,11 +54,11 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: 
       }, { id: "open-photo" })),
     ],
     photo: photo.root,
-    rating: () => ownRating(drills),
+    rating: () => ownRating(carom, drills),
     told: (name) => `${of(name).text}${made(name)} It counts for your rating: strokes err a little, like those of an 800.`,
     /** What to practise next: what was made least, beside how often one's rating makes it. */
     plan() {
-      const { rating } = ownRating(drills);
+      const { rating } = ownRating(carom, drills);
       const rows = drills.map((one) => {
         const [good, tries] = countsOf(KEY, one.name);
         return { text: `${one.name} (${tries ? `${good} of ${tries}` : "not tried"})`, at: (good + 1) / (tries + 2) - 1 / (1 + 2 ** ((one.rating - rating) / 100)) };
