@@ -243,6 +243,12 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await turnTo(one, 63.6);
     await frames(one, 6);
     expect(await turn(one)).toContain("Call: the 1, side-left pocket.");
+    // A safety is a call, too, which a second press takes back.
+    for (const [told, is] of [["a safety.", "true"], ["the 1, foot-right pocket.", "false"], ["a safety.", "true"]] as const) {
+      await one.locator("#push").click();
+      await expect.poll(() => turn(one)).toContain(`Call: ${told}`);
+      expect(await one.locator("#push").getAttribute("aria-pressed")).toBe(is);
+    }
     // At another ball it is another call.
     await turnTo(one, 114.1);
     await expect.poll(() => turn(one)).toContain("Call: the 2, foot-left pocket.");
@@ -257,6 +263,16 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     const { entries } = JSON.parse((await one.evaluate(() => localStorage.getItem("carom-game")))!) as { entries: { call: { ball: number } }[] };
     expect(entries[0]!.call.ball).toBe(1);
     await one.close();
+    // A ball that is called a safety falls, and the turn passes; of a bank nothing is guessed.
+    const other = await kept({ game: "bank", own: "0", seed: 7, against: "person", at: "0.3,0.3 0.1,0.1 0.9,1.8 in in in in in in in in in in in in in", entries: [] });
+    await pace(other, "1000");
+    await click(other, 0.1, 0.1);
+    await expect.poll(() => turn(other)).toContain("Nothing is called");
+    await other.locator("#push").click();
+    await expect.poll(() => turn(other)).toContain("Call: a safety.");
+    await other.locator("#shoot").click();
+    await expect.poll(() => turn(other)).toContain("Player 2");
+    await other.close();
   });
 
   test.each(sizes)("each ball has its number beside it, upright; a double tap shows the table larger, and aims at nothing: %s", async (_, how) => {

@@ -7,7 +7,7 @@ import { wrong } from "../ui.js";
 import { rest } from "./filming.js";
 import { OPTIONS } from "./game.js";
 import { costOf, keepRow, type Row } from "./log.js";
-import { aimAt, cueOf, free, levelOf, look, NONE, placeOf, playerOf, says, type Session, why } from "./session.js";
+import { aimAt, cueOf, free, levelOf, look, placeOf, playerOf, SAFETY, says, type Session, why } from "./session.js";
 
 const [PLAN, TRY] = [1000, 200];
 
@@ -56,7 +56,8 @@ export async function advise(s: Session): Promise<void> {
     if (s.play.hand !== "no") s.play.put(0, ...(one.place as [number, number]));
     aimAt(s, one.cue);
     look(s);
-    s.chosen = one.ball > 0 && one.pocket >= 0 ? { ball: one.ball, pocket: one.pocket, met: s.first?.ball ?? -1, phi: one.cue.phi } : NONE;
+    const [ball, pocket] = one.ball > 0 && one.pocket >= 0 ? [one.ball, one.pocket] : [-1, SAFETY];
+    s.chosen = { ball, pocket, met: s.first?.ball ?? -1, phi: one.cue.phi };
     s.special = one.kind === "push" ? "push" : undefined;
     rest(s);
     const tip = [one.cue.b > 0.1 ? "follow" : one.cue.b < -0.1 ? "draw" : "", one.cue.a > 0.1 ? "left side" : one.cue.a < -0.1 ? "right side" : ""].filter(Boolean).join(" and ");

@@ -5,7 +5,7 @@ import { filmOf, lasts, onTable, type Path, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { OPTIONS, type Stroke } from "./game.js";
 import { racksOf } from "./keep.js";
-import { aimed, called, calls, cueOf, free, linesOf, look, says, type Session, stateOf, why } from "./session.js";
+import { aimed, called, calls, cueOf, free, isSafety, linesOf, look, says, type Session, stateOf, why } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
 
 function show(s: Session, of: NonNullable<Session["filmed"]>): void {
@@ -43,9 +43,10 @@ export function tell(s: Session): void {
   const { play, seat, buttons, words, film } = s;
   const can = free(s);
   const call = can && calls(s) ? called(s) : undefined;
+  const [safe, pushes] = [can && isSafety(s), play.state.may?.includes("push") === true];
   // What comes of a stroke is told after its film. What is read aloud changes only where the words do.
   const plays = s.then !== undefined && s.shown && !play.practice ? nameOf(play, s.shown.who, seat) : undefined;
-  const told = plays ? `${plays} ${plays === "You" ? "play" : "plays"} …` : `${wordsOfTurn(play, seat, s.thinks)}${call ? ` Call: the ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : can && calls(s) ? " Nothing is called: aim at a ball, or tap a pocket." : ""}`;
+  const told = plays ? `${plays} ${plays === "You" ? "play" : "plays"} …` : `${wordsOfTurn(play, seat, s.thinks)}${call ? ` Call: the ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : safe ? " Call: a safety." : can && calls(s) ? " Nothing is called: aim at a ball, or tap a pocket." : ""}`;
   if (words.turn.textContent !== told) words.turn.textContent = told;
   if (!plays) words.score.textContent = wordsOfScore(play, seat, racksOf(play.setup));
   const { first } = s;
@@ -55,7 +56,7 @@ export function tell(s: Session): void {
     [buttons.hint, play.played !== undefined],
     [buttons.undo, laid],
     [buttons.rack, laid || (play.winner !== undefined && s.then === undefined)],
-    [buttons.push, can && play.state.may?.includes("push") === true],
+    [buttons.push, (can && pushes) || (play.played?.calls === true && !play.practice)],
     [buttons.pass, can && play.mayPass],
     [buttons.skip, film.playing],
     [s.stroke.shoot, !film.playing],
@@ -63,9 +64,10 @@ export function tell(s: Session): void {
   ];
   for (const [element, is] of seen) element.hidden = !is;
   // What does nothing now keeps its place, so that the others keep theirs, and says why when it is pressed.
-  const able: [HTMLElement, boolean][] = [[s.stroke.shoot, can], [buttons.hint, can], [buttons.replay, play.last?.shot !== undefined && !["film", "thinking"].includes(stateOf(s))], [buttons.undo, play.past.length > 0]];
+  const able: [HTMLElement, boolean][] = [[s.stroke.shoot, can], [buttons.hint, can], [buttons.push, can && (pushes || calls(s))], [buttons.replay, play.last?.shot !== undefined && !["film", "thinking"].includes(stateOf(s))], [buttons.undo, play.past.length > 0]];
   for (const [element, is] of able) element.setAttribute("aria-disabled", String(!is));
-  buttons.push.setAttribute("aria-pressed", String(s.special === "push"));
+  buttons.push.textContent = pushes ? "Push out" : "Safety";
+  buttons.push.setAttribute("aria-pressed", String(safe || s.special === "push"));
   film.canvas.setAttribute("aria-label", `${GAMES[play.played?.of ?? play.setup.game]!.text} table from above. ${words.turn.textContent}`);
 }
 

@@ -15,7 +15,7 @@ import type { Sound } from "./sound.js";
 import type { Space } from "./space.js";
 
 /**
- * What was chosen to be called, -1: nothing, and the ball that the aim met then: the choice does not hold where the aim meets another one. That of a hint,
+ * What was chosen to be called, -1: nothing, pocket -2: a safety, and the ball that the aim met then: the choice does not hold where the aim meets another one. That of a hint,
  * which has a direction, holds near it only.
  */
 export interface Chosen {
@@ -25,6 +25,7 @@ export interface Chosen {
   phi?: number;
 }
 export const NONE: Chosen = { ball: -1, pocket: -1, met: -1 };
+export const SAFETY = -2;
 
 export interface Session {
   readonly carom: Carom;
@@ -91,9 +92,13 @@ export function valid({ first, chosen, stroke }: Session): Chosen {
   const off = chosen.phi === undefined ? 0 : Math.abs(((stroke.value().phi - chosen.phi + 540) % 360) - 180);
   return off < 2 && (met === -1 || met === chosen.met) ? chosen : NONE;
 }
-/** The ball and the pocket that are called. */
+/** Whether a safety is called: what falls keeps no turn. */
+export const isSafety = (s: Session): boolean => calls(s) && valid(s).pocket === SAFETY;
+/** The ball and the pocket that are called. Of banks nothing is guessed, as no ball counts on its way. */
 export function called(s: Session): { ball: number; pocket: number } | undefined {
-  const [guess, given] = [guessOf(s.play.table, s.first, ballsOn(s)), valid(s)];
+  const [of, given] = [guessOf(s.play.table, s.first, ballsOn(s)), valid(s)];
+  const guess = s.play.setup.game === "bank" ? { ...of, pocket: -1 } : of;
+  if (given.pocket === SAFETY) return undefined;
   const ball = given.ball > 0 ? given.ball : guess.ball;
   const pocket = given.pocket >= 0 ? given.pocket : ball === guess.ball ? guess.pocket : -1;
   return ball > 0 && pocket >= 0 && onTable(s.play.balls[ball]!.state) ? { ball, pocket } : undefined;

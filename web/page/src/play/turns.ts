@@ -4,11 +4,11 @@ import { angleFrom, direction } from "../table/grip.js";
 import { wordsOfChoice } from "../table/words.js";
 import { parameters, wrong } from "../ui.js";
 import { asked, chances, lookBack } from "./coaching.js";
-import { perform, rest, tell } from "./filming.js";
+import { perform, rest } from "./filming.js";
 import { OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
 import { countRack, kept, keepText, unpack } from "./keep.js";
 import { countGame, isRated } from "./ladder.js";
-import { aimAt, ballsOn, callOf, cueOf, free, levelOf, look, mine, NONE, placeOf, playerOf, says, type Session, why } from "./session.js";
+import { aimAt, ballsOn, callOf, calls, cueOf, free, isSafety, levelOf, look, mine, NONE, placeOf, playerOf, SAFETY, says, type Session, why } from "./session.js";
 import { nameOf, wordsOfStroke } from "./state.js";
 
 const REPLY = 400;
@@ -43,9 +43,13 @@ export function shoot(s: Session): void {
   }
 }
 export function choose(s: Session, what: "push" | "pass"): void {
+  if (!free(s)) return says(s, why(s));
   if (what === "pass") return played(s, s.play.stroke(cueOf(s), "pass"));
-  s.special = s.special === "push" ? undefined : "push";
-  tell(s);
+  // A safety holds as long as the aim meets the same ball.
+  if (calls(s)) s.chosen = isSafety(s) ? NONE : { ball: -1, pocket: SAFETY, met: s.first?.ball ?? -1 };
+  else if (s.play.breaks) says(s, "A break calls nothing.");
+  else s.special = s.special === "push" ? undefined : "push";
+  rest(s);
 }
 /** A stroke was played: its film, and whoever comes next. */
 function played(s: Session, one: Stroke): void {
