@@ -29,8 +29,7 @@ OPTION(strength_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WOR
 OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
        "play each rack to the end, by two players of the same errors; and tell the chances to win");
 
-OPTION(strength_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0,
-       "plan to run out: a turn that ends before is worth nothing");
+OPTION(strength_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0, "plan to run out");
 OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
        "racks to be played (default 100)");
 OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100,

@@ -165,8 +165,6 @@ void carom_search_pots(search *plan, int64_t most) {
   carom_pot_found *way = plan->pot;
   int ways = 0;
   for (int k = 0; k < plan->view.count; k++)
-    plan->state[k] = plan->job.balls[k].state;
-  for (int k = 0; k < plan->view.count; k++)
     for (int p = 0; p < plan->view.pockets && (plan->on >> k & 1); p++) {
       /* ball k into pocket p, if that is likely at all */
       if (!(plan->pockets >> p & 1))

@@ -337,13 +337,10 @@ static void temper(const search *plan, const candidate *best, carom_choice *c) {
   if (!stroke || plan->breaks || !carom_is_learned(&plan->view) ||
       plan->job.rules->race == CAROM_RACE_ALONE)
     return;
-  carom_ball_state state[CAROM_BALLS_MOST];
-  for (int k = 0; k < plan->view.count; k++)
-    state[k] = plan->job.balls[k].state;
   double x[NEXT_NUMBERS];
-  carom_plan_features(&plan->view, state, plan->in_play, plan->on, plan->pockets, 0, false, NULL,
-                      x);
-  const double value = carom_value_of(&plan->view, &plan->job.rules->state, state, 0, false);
+  carom_plan_features(&plan->view, plan->state, plan->in_play, plan->on, plan->pockets, 0, false,
+                      NULL, x);
+  const double value = carom_value_of(&plan->view, &plan->job.rules->state, plan->state, 0, false);
   const double n = (double)best->seen, all = n + shots;
   c->value = (best->sum + shots * value) / all;
   c->keep = (n * c->keep + shots * carom_chance_next(&plan->view, x)) / all;
@@ -432,10 +429,7 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   /* Places at random, of which the best by the value of the layout are kept; for a break on the
    * upper edge, all of them. */
   carom_shot_ball *balls = plan->hand;
-  carom_ball_state *state = plan->state;
   memcpy(balls, job->balls, (size_t)job->count * sizeof *balls);
-  for (int k = 0; k < job->count; k++)
-    state[k] = balls[k].state;
   const int cue_ball = plan->view.cue_ball;
   const double R = plan->view.radius[cue_ball], size[2] = {plan->view.width, plan->view.length};
   const double head = 0.25 * plan->view.length; /* the line from which a game is opened */
@@ -473,8 +467,8 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
 
     /* the best are sorted in by value */
     tried++;
-    state[cue_ball] = balls[cue_ball].state;
-    const double value = carom_value_of(&plan->view, &job->rules->state, state, 0, false);
+    plan->state[cue_ball] = balls[cue_ball].state;
+    const double value = carom_value_of(&plan->view, &job->rules->state, plan->state, 0, false);
     int at = plan->places < PLACES_PLANNED ? plan->places++ : PLACES_PLANNED;
     for (; at > 0 && plan->best_place[at - 1].value < value; at--)
       plan->best_place[at] = plan->best_place[at - 1];

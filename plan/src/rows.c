@@ -136,7 +136,8 @@ bool carom_search_begins_well(const search *plan, int first) {
 void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
   plan->plays = 0;
   plan->shot.first_of = 0;
-  for (int k = 0; k < plan->view.count; k++)
+  for (int k = 0; k < plan->view.count; k++) {
+    plan->state[k] = balls[k].state;
     if (plan->in_play >> k & 1) {
       if (plan->first_decides && (plan->on >> k & 1))
         plan->shot.first_of |= UINT32_C(1) << plan->plays;
@@ -145,6 +146,7 @@ void carom_search_lay_out(search *plan, const carom_shot_ball *balls) {
       plan->played[plan->plays] = balls[k];
       plan->which[plan->plays++] = k;
     }
+  }
 }
 
 /* From the balls of a shot to those of the layout. */

@@ -294,8 +294,6 @@ bool carom_search_run(search *plan) {
 /* Not to play, as one more candidate: its worth is that of the layout to the other. */
 void carom_search_pass(search *plan) {
   carom_rules_state game = plan->job.rules->state; /* rules change it as they judge */
-  for (int k = 0; k < plan->view.count; k++)
-    plan->state[k] = plan->job.balls[k].state;
   const carom_call call = {CAROM_CALL_PASS, -1};
   plan->job.rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts, call);
   const double value = 1.0 - carom_value_of(&plan->view, &game, plan->state, 1, false);

@@ -101,7 +101,7 @@ typedef struct carom_search {
   carom_drawn_table *drawn;                 /* TABLES of them; NULL: the table is known */
   int64_t count, most;                      /* of candidates */
   int64_t room;                             /* of outcomes */
-  carom_ball_state state[CAROM_BALLS_MOST]; /* of the layout */
+  carom_ball_state state[CAROM_BALLS_MOST]; /* of the layout that is laid out */
   carom_shot_ball hand[CAROM_BALLS_MOST];   /* the layout with the cue ball in hand */
   /* the balls in play, which alone take part in shots: which they are, and their set in shots
    * of the balls that are on, where the first contact decides */

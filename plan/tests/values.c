@@ -6,10 +6,9 @@ static uint32_t one_pocket(const carom_rules_state *state) {
   return UINT32_C(1) << state->user[7];
 }
 
-/* Values: the eight alone before a pocket, and the same with a ball in the way; ball in hand is
- * no worse. */
+/* Values: the eight alone before a pocket, and with a ball in the way; in hand is no worse. */
 TEST(values) {
-  double easy, blocked, hand;
+  double easy, blocked, hand, corner;
   make_layout(1, 2);
   carom_place_ball(&table, balls, BALLS, 8, 0.12, 0.12, NULL);
   carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
@@ -20,7 +19,6 @@ TEST(values) {
   ck_assert(easy > 0.85 && easy <= 1.0 && blocked < easy - 0.1 && hand > blocked);
 
   /* a pocket that does not count is worth nothing */
-  double corner;
   make_layout(1, 2);
   carom_place_ball(&table, balls, BALLS, 8, 0.12, 0.12, NULL);
   carom_place_ball(&table, balls, BALLS, 0, 0.5, 0.5, NULL);
@@ -35,8 +33,10 @@ TEST(values) {
       ck_assert_double_lt(corner, 0.8);
   }
 
-  /* players who pot next to nothing */
+  /* players who pot next to nothing; to one who makes every ball a miss is worth nothing */
   options.chance_me = options.chance_opponent = 1e-17;
   ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
-  ck_assert(blocked >= 0.0 && blocked <= 1.0);
+  options.chance_opponent = 1.0;
+  ck_assert_int_eq(carom_plan_value(&job, 0, &hand), CAROM_OK);
+  ck_assert(hand >= 0.0 && hand < blocked && blocked <= 1.0);
 }
