@@ -43,8 +43,7 @@ def test_short_names_run_and_have_help():
     done = run("-m", "carom.fit", "--help")
     assert done.returncode == 0 and "--cushion-model" in done.stdout, done.stderr
     assert "fit(recordings" in run("-m", "pydoc", "carom.fit").stdout
-    shown = run("-m", "pydoc", "carom").stdout
-    assert "simulate_batch(" in shown and "referee(" in shown
+    assert "referee" in run("-m", "pydoc", "carom").stdout
 
 
 def test_pickles_have_short_names_and_long_ones():

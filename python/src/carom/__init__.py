@@ -1,10 +1,16 @@
 """Billiards, computed: collisions of balls and cushions, whole shots, and millions of any of them.
 
-`impacts` and `cushion_impacts` build arrays of impacts; `collide` and `cushion` solve them. `mu_ball` computes the friction between
-balls from their slip speed. `trace` and `cushion_trace` follow one impact. `simulate` plays a shot and `simulate_batch` many: on
-`tables`, from `racks` or `balls`, with a `cue`. `resume` goes on with a shot that was stopped; `place_ball`
-is ball in hand. `plan` finds the best shots of a `player`. Units are SI; vectors are right-handed with z up.
-`dtypes` has the structured dtypes. Every call that computes releases the GIL.
+    collisions   impacts, cushion_impacts, collide, cushion, mu_ball, alciatore, Outcome; step by step: trace, cushion_trace
+    layouts      tables, Table, racks, balls, by_number, cue, struck, place_ball
+    shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
+    results      Shot, Shots, Features, EventType, Label, Status, CaromError
+    derivatives  tangents, jacobian, hessian, aim_slope, Tangents, Hessian, Flag
+    plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating
+    rules        referee, Rules, Ruling, Facts, Turn, Foul
+    other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
+    modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches, gymnasium, pettingzoo
+
+`help(carom.simulate)` is the manual of a call. Units are SI; vectors are right-handed with z up. Every call that computes releases the GIL.
 """
 
 import importlib as _importlib
@@ -35,26 +41,28 @@ __dir__ = _listing(__name__)
 __version__: str = _ffi.string(_lib.carom_version()).decode()
 
 __all__ = [
-    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Hessian", "Label",
-    "Options", "Outcome", "Pot", "Rating", "Rules", "Ruling", "Shot", "Shots", "Status", "Table", "Tangents",
-    "Turn", "aim", "aim_slope", "alciatore", "balls", "by_number", "chances", "cite", "collide", "cue",
-    "cushion", "cushion_impacts", "cushion_trace", "dtypes", "hessian", "impacts", "isa_in_force", "jacobian",
-    "mu_ball", "physics_revision", "place_ball", "plan", "player", "racks", "rating", "referee", "resume",
-    "simulate", "simulate_arrow", "simulate_batch", "struck", "tables", "tangents", "trace", "value",
-    "with_errors",
+    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Hessian", "Label", "Options", "Outcome", "Pot",
+    "Rating", "Rules", "Ruling", "Shot", "Shots", "Status", "Table", "Tangents", "Turn", "aim", "aim_slope", "alciatore", "balls",
+    "by_number", "chances", "cite", "collide", "cue", "cushion", "cushion_impacts", "cushion_trace", "dtypes", "hessian", "impacts",
+    "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball", "plan", "player", "racks", "rating", "referee",
+    "resume", "simulate", "simulate_arrow", "simulate_batch", "struck", "tables", "tangents", "trace", "value", "with_errors",
 ]  # fmt: skip
 
 if _TYPE_CHECKING:
     from carom.games import Facts, Foul, Pot, Rating, Rules, Ruling, Turn
     from carom.games import aim, chances, plan, player, rating, referee, value, with_errors
 else:
+    _names = __all__
+    del __all__
 
     def __getattr__(name: str) -> object:
-        """What lies in a folder: a module by its short name, or what `carom.games` gives."""
+        """What lies in a folder: a module by its short name, or what `carom.games` gives. pydoc would print the whole of all that `__all__` has."""
+        if name == "__all__" and _sys._getframe(1).f_code.co_name != "docmodule":
+            return _names
         try:
             if f"carom.{name}" in _MODULES:
                 return _importlib.import_module(f"carom.{name}")
-            if name in __all__:
+            if name in _names:
                 return getattr(_importlib.import_module("carom.games"), name)
         except ModuleNotFoundError as missing:
             raise AttributeError(f"carom.{name}: {missing}", name=name) from missing

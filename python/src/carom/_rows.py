@@ -264,9 +264,9 @@ def listing(module: str) -> Callable[[], list[str]]:
     """A module's __dir__, for tab completion: what it offers, without the names that it imports."""
 
     def names() -> list[str]:
-        found = vars(sys.modules[module])
-        own = [name for name, value in found.items() if name[0] != "_" and getattr(value, "__module__", None) == module]
-        return sorted(found.get("__all__", own))
+        given = sys.modules[module]
+        own = [name for name, value in vars(given).items() if name[0] != "_" and getattr(value, "__module__", None) == module]
+        return sorted(getattr(given, "__all__", own))
 
     return names
 

@@ -9,6 +9,7 @@ import multiprocessing
 import os
 import pickle
 import pkgutil
+import pydoc
 import re
 import signal
 import subprocess
@@ -125,8 +126,8 @@ def test_tab_completion_shows_what_a_module_offers():
 
 
 def test_the_package_shows_what_it_offers_and_short_signatures():
-    """help() of a call has its options by name; those that are the usual ones are not spelt out."""
-    assert dir(carom) == sorted(carom.__all__)
+    """help() of the package names all in a page or two; that of a call has its options by name, without the usual ones."""
+    assert dir(carom) == sorted(carom.__all__) and pydoc.render_doc(carom).count("\n") < 100 and set(carom.__all__) <= set(re.findall(r"\w+", carom.__doc__))
     assert "options: 'Options' = Options(), **changes" in str(inspect.signature(carom.simulate))
     usual = carom.Options()
     assert repr(usual) == "Options()" and repr(carom.Options("pooltool", stop_at=("contact",))) == "Options(world='pooltool', stop_at=('contact',))"
