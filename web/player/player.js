@@ -59,10 +59,10 @@ function listEvents(of, clock, go) {
 }
 
 /** What draws the film at the time of its clock. @param {Parts} of @param {Clock} clock @param {ReturnType<typeof viewOf>} view @param {Hooks} hooks */
-function drawing({ canvas }, clock, view, { over, sharp = 1 }) {
+function drawing({ canvas }, clock, view, { over, hidden, sharp = 1 }) {
   const clothOf = clothFor(view, canvas);
   return () => {
-    if (!clock.film) return;
+    if (!clock.film || hidden?.()) return;
     const [width, height, dpr] = fitTable(view, canvas, clock.film.table, sharp);
     const cloth = clothOf(clock.film.table, [width, height, dpr]);
     const g = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
@@ -123,7 +123,7 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
   return { start, stop, go, step };
 }
 
-/** @param {Hooks} hooks `still` tells that the clock is not the reader's now;
+/** @param {Hooks} hooks `hidden` tells that nothing is seen of the table, `still` that the clock is not the reader's now;
  * `sharp` is how many pixels of the picture there are at least for one of the page. */
 export function player(hooks = {}) {
   const [of, view] = [parts(), viewOf()];

@@ -11,7 +11,7 @@
 /** Shots that are apart have a colour each: of trails, dashed but for the cue ball, and around balls. */
 /** @typedef {{ table: Table, balls: { name: string, radius: number }[], shots: Shot[], apart?: boolean }} Film */
 /** @typedef {{ over?(g: CanvasRenderingContext2D): void, ended?(): void, moved?(): void,
- *   still?(): boolean, sharp?: number }} Hooks */
+ *   still?(): boolean, hidden?(): boolean, sharp?: number }} Hooks */
 
 /** The product of two rotations, w, x, y, z: first b, then a. @param {ArrayLike<number>} a @param {ArrayLike<number>} b
  * @returns {[number, number, number, number]} */

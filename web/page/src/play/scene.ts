@@ -70,43 +70,46 @@ function lampOver(scene: THREE.Scene, width: number, length: number): void {
   lamp.shadow.bias = -5e-4;
   scene.add(lamp, lamp.target);
 }
+/** Parts that never move, as one mesh: each mesh that is drawn costs a frame some time. */
+function joined(parts: THREE.Mesh[], material: THREE.Material, receiveShadow: boolean, castShadow = false): THREE.Mesh {
+  const all = parts.map((part) => (part.updateMatrix(), part.geometry.toNonIndexed().applyMatrix4(part.matrix)));
+  const geometry = new THREE.BufferGeometry();
+  for (const name of ["position", "normal"]) geometry.setAttribute(name, new THREE.Float32BufferAttribute(all.flatMap((one) => [...one.getAttribute(name)!.array]), 3));
+  return Object.assign(new THREE.Mesh(geometry, material), { receiveShadow, castShadow });
+}
 /** Slate with cloth up to the middle of the pockets, wood around it, the faces of cushions, and dark pockets. */
 function furnish(scene: THREE.Scene, of: SceneOf): void {
   const { width, length } = of.table;
   const cloth = new THREE.MeshLambertMaterial({ color: of.cloth });
-  const wood = new THREE.MeshLambertMaterial({ color: of.wood });
-  const box = (x: number, y: number, w: number, l: number, low: number, high: number, material: THREE.Material): void => {
-    const mesh = new THREE.Mesh(new THREE.BoxGeometry(w, l, high - low), material);
+  const box = (x: number, y: number, w: number, l: number, low: number, high: number): THREE.Mesh => {
+    const mesh = new THREE.Mesh(new THREE.BoxGeometry(w, l, high - low));
     mesh.position.set(x, y, (low + high) / 2);
-    mesh.receiveShadow = true;
-    scene.add(mesh);
+    return mesh;
   };
-  box(width / 2, length / 2, width + WOOD, length + WOOD, -0.03, 0, cloth);
   const nose = 0.0365;
-  for (const side of [-1, 1]) {
-    box(width / 2 + side * (width / 2 + WOOD), length / 2, WOOD, length + 3 * WOOD, -0.06, 1.2 * nose, wood);
-    box(width / 2, length / 2 + side * (length / 2 + WOOD), width + WOOD, WOOD, -0.06, 1.2 * nose, wood);
-  }
-  for (const { p, q, height = nose } of of.table.rails) {
+  const wood = [-1, 1].flatMap((side) => [
+    box(width / 2 + side * (width / 2 + WOOD), length / 2, WOOD, length + 3 * WOOD, -0.06, 1.2 * nose),
+    box(width / 2, length / 2 + side * (length / 2 + WOOD), width + WOOD, WOOD, -0.06, 1.2 * nose),
+  ]);
+  const strips = of.table.rails.flatMap(({ p, q, height = nose }) => {
     // A strip from the nose outwards, over the cloth.
     const along = Math.hypot(q[0] - p[0], q[1] - p[1]);
-    if (along < 1e-6) continue;
-    const [ux, uy] = [(q[0] - p[0]) / along, (q[1] - p[1]) / along];
+    if (along < 1e-6) return [];
+    const [ux, uy, thick] = [(q[0] - p[0]) / along, (q[1] - p[1]) / along, 0.045];
     const middle = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2] as const;
     const outward = Math.sign(-uy * (middle[0] - width / 2) + ux * (middle[1] - length / 2)) || 1;
-    const thick = 0.045;
-    const mesh = new THREE.Mesh(new THREE.BoxGeometry(along, thick, 0.012), cloth);
-    mesh.position.set(middle[0] - (outward * uy * thick) / 2, middle[1] + (outward * ux * thick) / 2, height);
+    const mesh = box(middle[0] - (outward * uy * thick) / 2, middle[1] + (outward * ux * thick) / 2, along, thick, height - 0.006, height + 0.006);
     mesh.rotation.z = Math.atan2(uy, ux);
-    mesh.castShadow = mesh.receiveShadow = true;
-    scene.add(mesh);
-  }
-  for (const { centre, radius } of of.table.pockets) {
-    const hole = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, 0.09, 32), new THREE.MeshBasicMaterial({ color: "#050606" }));
+    return [mesh];
+  });
+  const holes = of.table.pockets.map(({ centre, radius }) => {
+    const hole = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, 0.09, 32));
     hole.rotation.x = Math.PI / 2;
     hole.position.set(centre[0], centre[1], 0.002);
-    scene.add(hole);
-  }
+    return hole;
+  });
+  scene.add(joined([box(width / 2, length / 2, width + WOOD, length + WOOD, -0.03, 0)], cloth, true), joined(wood, new THREE.MeshLambertMaterial({ color: of.wood }), true));
+  scene.add(joined(strips, cloth, true, true), joined(holes, new THREE.MeshBasicMaterial({ color: "#050606" }), false));
 }
 /** A ball: a sphere whose y is the ball's z. */
 function ballOf(ball: SceneOf["balls"][number]): THREE.Group {
@@ -168,8 +171,7 @@ export class Scene {
     const high = this.#camera.aspect > 1 ? 0.48 : 0.95;
     // How far off the outer wood is where the cue points, and behind the cue ball, where the camera stays near it.
     const wood = (sign: number): number => Math.min(...along.map((d, c) => (Math.abs(d) < 1e-9 ? Infinity : ((sign * d > 0 ? this.#within[c]! + WOOD : -WOOD) - at[c]!) / (sign * d))));
-    const far = wood(1);
-    const back = Math.min(wood(-1) + 0.5, 1.15);
+    const [far, back] = [wood(1), Math.min(wood(-1) + 0.5, 1.15)];
     // That wood is seen below the upper edge, but the cue ball never near it.
     const half = this.#camera.fov / 2;
     const down = Math.min(half - 4 + Math.atan2(high, back + far) * DEGREES, 0.5 * half + Math.atan2(high, back) * DEGREES) / DEGREES;
@@ -185,11 +187,10 @@ export class Scene {
       ball.position.set(r[0]!, r[1]!, r[2]!);
       ball.quaternion.set(q[1]!, q[2]!, q[3]!, q[0]!);
     });
-    const to = stick?.first;
+    const [to, { r }] = [stick?.first, poses[0]!];
     this.#stick.visible = stick !== undefined;
     this.#aim.visible = this.#ghost.visible = to !== undefined;
     if (to) {
-      const { r } = poses[0]!;
       const [dx, dy] = [to[0]! - r[0]!, to[1]! - r[1]!];
       const gone = Math.hypot(dx, dy);
       this.#aim.scale.x = Math.max(gone, 1e-3);
@@ -198,16 +199,13 @@ export class Scene {
       this.#ghost.position.set(to[0]!, to[1]!, 0.002);
     }
     if (stick) {
-      const { r } = poses[0]!;
-      const R = r[2]!;
-      const { a, b } = stick.cue;
+      const [R, { a, b }] = [r[2]!, stick.cue];
       const [phi, theta] = [stick.cue.phi / DEGREES, Math.max(stick.cue.theta, 3) / DEGREES];
       // From the butt to the tip, and what is to the right of it and above.
       const along = new THREE.Vector3(Math.cos(phi) * Math.cos(theta), Math.sin(phi) * Math.cos(theta), -Math.sin(theta));
       const right = new THREE.Vector3(Math.sin(phi), -Math.cos(phi), 0);
       const up = new THREE.Vector3().crossVectors(right, along);
-      const middle = new THREE.Vector3(r[0]!, r[1]!, r[2]!).addScaledVector(right, -a * R).addScaledVector(up, b * R).addScaledVector(along, -(stick.gap + 0.7));
-      this.#stick.position.copy(middle);
+      this.#stick.position.set(r[0]!, r[1]!, R).addScaledVector(right, -a * R).addScaledVector(up, b * R).addScaledVector(along, -(stick.gap + 0.7));
       this.#stick.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along);
     }
     this.#renderer.render(this.#scene, this.#camera);

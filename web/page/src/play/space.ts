@@ -148,6 +148,7 @@ export class Space {
   #hide(): void {
     this.on = false;
     this.s.film.canvas.classList.remove("behind");
+    this.s.film.draw();
     this.close();
   }
   close(): void {

@@ -41,7 +41,7 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
       link: button("Send link", () => void s.link.send(), { id: "send" }),
       space: button("3D", () => void toggle(s), { id: "space", "aria-pressed": "false", title: "The view from behind the cue" }),
     },
-    film: filmPlayer({ over: (g) => drawAim(s, g), moved: () => moved(s), ended: () => finish(s) }),
+    film: filmPlayer({ hidden: () => s.space?.on, over: (g) => drawAim(s, g), moved: () => moved(s), ended: () => finish(s) }),
     play: new Play(carom, FIRST),
     ...{ seat: 0, chosen: NONE, special: undefined, hinted: false, first: undefined, turned: [], turnedBefore: [], thinks: false, theirs: undefined, then: undefined },
     ...{ shown: undefined, filmed: undefined, sounded: 0, number: 0, asking: 0 },
