@@ -36,16 +36,14 @@ export function drawWays(s: Session, pen: Pen): void {
   pen.g.setLineDash([]);
 }
 const MARK = "#ffe28a";
-/** Marks what is called, and the cue ball in hand with its line. */
+/** Marks what is called or the player's own pocket, and the cue ball in hand with its line. */
 export function drawMarks(s: Session, pen: Pen): void {
-  const { balls, hand, table } = s.play;
+  const { balls, hand, played, practice, state, table } = s.play;
   if (!free(s)) return;
   const call = calls(s) ? called(s) : undefined;
-  if (call) {
-    const [{ centre, radius }, { state, kind }] = [table.pockets[call.pocket]!, balls[call.ball]!];
-    circle(pen, centre, radius + 0.008, 3, MARK);
-    circle(pen, state.r, kind.radius + 0.008, 3, MARK);
-  }
+  const pocket = table.pockets[call?.pocket ?? (played?.pockets && !practice ? (state.pocket?.[0] ?? 5) : -1)];
+  if (pocket) circle(pen, pocket.centre, pocket.radius + 0.008, 3, MARK);
+  if (call) circle(pen, balls[call.ball]!.state.r, balls[call.ball]!.kind.radius + 0.008, 3, MARK);
   if (hand === "no" || !onTable(balls[0]!.state)) return;
   circle(pen, balls[0]!.state.r, balls[0]!.kind.radius + 0.02, 2, MARK);
   pen.g.setLineDash([6, 6]);

@@ -2,7 +2,7 @@
 import type { AimOf, Call, Carom, Choice, Cue, PlanOptions, ShotBall, Table } from "carom";
 import { drop, far } from "../far.js";
 import { onTable } from "../table/filmed.js";
-import { percent, wordsOfChances, wordsOfChoice } from "../table/words.js";
+import { isSafe, percent, wordsOfChances, wordsOfChoice } from "../table/words.js";
 import { wrong } from "../ui.js";
 import { rest } from "./filming.js";
 import { OPTIONS } from "./game.js";
@@ -56,13 +56,13 @@ export async function advise(s: Session): Promise<void> {
     if (s.play.hand !== "no") s.play.put(0, ...(one.place as [number, number]));
     aimAt(s, one.cue);
     look(s);
-    const [ball, pocket] = one.ball > 0 && one.pocket >= 0 ? [one.ball, one.pocket] : [-1, SAFETY];
+    const [ball, pocket] = one.ball > 0 && one.pocket >= 0 ? [one.ball, one.pocket] : [-1, isSafe(one) ? SAFETY : -1];
     s.chosen = { ball, pocket, met: s.first?.ball ?? -1, phi: one.cue.phi };
     s.special = one.kind === "push" ? "push" : undefined;
+    s.hinted = true; // what came before makes room for the hint
     rest(s);
     const tip = [one.cue.b > 0.1 ? "follow" : one.cue.b < -0.1 ? "draw" : "", one.cue.a > 0.1 ? "left side" : one.cue.a < -0.1 ? "right side" : ""].filter(Boolean).join(" and ");
-    const words = `${wordsOfChoice(s.play.table, s.play.names, one, s.first?.ball === -1)}, at ${one.cue.speed.toFixed(1)} m/s${tip && ` with ${tip}`}`;
-    s.hinted = true;
+    const words = `${wordsOfChoice(s.play.table, s.play.names, one, s.first?.ball === -1)}${one.kind === "pass" ? "" : `, at ${one.cue.speed.toFixed(1)} m/s${tip && ` with ${tip}`}`}`;
     says(s, `Hint: ${words}. A ${levelOf(s)}, as you are, ${wordsOfChances(one, s.play.setup.game === "threecushion")}.${s.play.practice ? "" : " This stroke errs like his."}`);
   } catch (error) {
     if (mine === s.number && free(s)) says(s, wrong(error));

@@ -46,7 +46,7 @@ export function tell(s: Session): void {
   const [safe, pushes] = [can && isSafety(s), play.state.may?.includes("push") === true];
   // What comes of a stroke is told after its film. What is read aloud changes only where the words do.
   const plays = s.then !== undefined && s.shown && !play.practice ? nameOf(play, s.shown.who, seat) : undefined;
-  const told = plays ? `${plays} ${plays === "You" ? "play" : "plays"} …` : `${wordsOfTurn(play, seat, s.thinks)}${call ? ` Call: the ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : safe ? " Call: a safety." : can && calls(s) ? " Nothing is called: aim at a ball, or tap a pocket." : ""}`;
+  const told = plays ? `${plays} ${plays === "You" ? "play" : "plays"} …` : `${wordsOfTurn(play, seat, s.thinks, s.hinted)}${call ? ` Call: the ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : safe ? " Call: a safety." : can && calls(s) ? " Nothing is called: aim at a ball, or tap a pocket." : ""}`;
   if (words.turn.textContent !== told) words.turn.textContent = told;
   if (!plays) words.score.textContent = wordsOfScore(play, seat, racksOf(play.setup));
   const { first } = s;

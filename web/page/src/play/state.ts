@@ -47,9 +47,9 @@ function onOf(play: Play): string {
   return on.length === 1 ? play.names[on[0]!]! : "a colour";
 }
 
-export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean): string {
+export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = false): string {
   if (play.practice) return play.setup.drill ?? "Practice";
-  const before = play.last ? told(play, play.last, seat) : "";
+  const before = play.last && !short ? told(play, play.last, seat) : "";
   if (play.winner !== undefined) {
     const name = nameOf(play, play.winner, seat);
     return `${before}${name} ${name === "You" ? "have" : "has"} won.`;
@@ -79,7 +79,7 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
     return `${count} ${count === 1 ? "ball" : "balls"}`;
   }
   const names = ([0, 1] as const).map((who) => nameOf(play, who, seat));
-  const of = (parts: readonly (string | number)[]): string => parts.map((part, k) => `${names[k]}: ${part}`).join(" · ");
+  const of = (parts: readonly (string | number)[]): string => parts.map((part, k) => `${names[k]}: ${part}`.replace(": -", ": −")).join(" · ");
   if (play.played?.points) return of(play.points);
   const won = racks[0] + racks[1] > 0 ? `racks won ${racks[0]} : ${racks[1]}` : "";
   if (play.setup.game === "eightball") {

@@ -14,9 +14,10 @@ export function wordsOfChances({ keep, value, foul }: Pick<Choice, "keep" | "val
   return `keeps the turn in ${percent(keep)}, ${alone ? "" : `wins the game in ${percent(value)}, `}fouls in ${percent(foul)} of tries`;
 }
 
+export const isSafe = ({ ball, keep }: Choice): boolean => ball < 0 && keep < 0.005;
 /** What a choice is, by which the cue ball may be known to meet a cushion first. */
 export function wordsOfChoice(table: Table, names: readonly string[], one: Choice, cushion = false): string {
-  if (one.ball < 0) return WITHOUT[one.kind] ?? (one.keep < 0.005 ? "a safety" : "a stroke without a sure pot: which ball falls is luck");
+  if (one.ball < 0) return WITHOUT[one.kind] ?? (isSafe(one) ? "a safety" : "a stroke without a sure pot: which ball falls is luck");
   if (table.pockets.length === 0) return `the ${names[one.ball]} ball first`;
-  return `ball ${names[one.ball]} into the ${pocketName(table, one.pocket)}${BY[one.kind] ?? ""}${cushion && one.kind !== "kick" ? ", off a cushion first" : ""}`;
+  return `${/^\d/.test(names[one.ball]!) ? "ball" : "the"} ${names[one.ball]} into the ${pocketName(table, one.pocket)}${BY[one.kind] ?? ""}${cushion && one.kind !== "kick" ? ", off a cushion first" : ""}`;
 }
