@@ -15,7 +15,8 @@ enum { CELLS = 1024 };
 static const double LEAST = 300.0, MOST = 850.0, LN2 = 0x1.62e42fefa39efp-1;
 
 /* l(r), and its slope. */
-static double likely(const carom_score *row, int64_t count, double r, double *slope) {
+__attribute__((noinline)) static double likely(const carom_score *row, int64_t count, double r,
+                                               double *slope) {
   double l = -0.5 * (r - 400.0) * (r - 400.0) / 22500.0;
   *slope = (400.0 - r) / 22500.0;
   for (int64_t k = 0; k < count; k++) {
@@ -32,8 +33,8 @@ static double likely(const carom_score *row, int64_t count, double r, double *sl
 
 /* Where l' changes its sign, and where l is `least`, between two ratings of which only `inside`
  * is above. */
-static double edge(const carom_score *row, int64_t count, double inside, double outside,
-                   bool of_slope, double least) {
+__attribute__((noinline)) static double edge(const carom_score *row, int64_t count, double inside,
+                                             double outside, bool of_slope, double least) {
   double slope;
   for (int k = 0; k < 60; k++) {
     const double r = 0.5 * (inside + outside), l = likely(row, count, r, &slope);
@@ -66,8 +67,7 @@ carom_status carom_rating_of(const carom_score *rows, int64_t count, carom_ratin
   double slope, f[2 * CELLS + 1], sum = 0.0, first = 0.0;
   const double m = edge(rows, count, LEAST, MOST, true, 0.0), top = likely(rows, count, m, &slope);
   const double low = edge(rows, count, m, LEAST, false, top - 40.0),
-               high = edge(rows, count, m, MOST, false, top - 40.0);
-  const double cell = (high - low) / CELLS;
+               high = edge(rows, count, m, MOST, false, top - 40.0), cell = (high - low) / CELLS;
 
   /* its mass and mean, in cells from low on */
   for (int k = 0; k <= 2 * CELLS; k++) {

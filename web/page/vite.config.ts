@@ -21,10 +21,10 @@ function gzip(text: string): Buffer {
   return zopfli.status === 0 ? zopfli.stdout : gzipSync(text, { level: 9 });
 }
 
-/** The page's licences: that of carom, of the libraries in its WebAssembly, and of every package that was bundled. */
+/** The page's licences, without their indents: that of carom, of the libraries in its WebAssembly, and of every package that was bundled. */
 function licences(modules: string[]): string {
   const packages = new Set(modules.flatMap((name) => name.match(/^.*\/node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []));
-  const texts = [here("../../LICENSE"), here("../npm/NOTICES"), ...[...packages].map((folder) => `${folder}/LICENSE`)].map((file) => readFileSync(file, "utf8").trim());
+  const texts = [here("../../LICENSE"), here("../npm/NOTICES"), ...[...packages].map((folder) => `${folder}/LICENSE`)].map((file) => readFileSync(file, "utf8").trim().replaceAll(/^[ \t]+/gm, ""));
   const named = ["carom", "In its WebAssembly", ...[...packages].map((folder) => folder.replace(/^.*\/node_modules\//, ""))];
   return texts.map((text, k) => `${named[k]}\n\n${text}`).join("\n\n\n").replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 }
