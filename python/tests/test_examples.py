@@ -86,15 +86,15 @@ def test_refine_aim(tmp_path, monkeypatch):
 def test_what_ppo_is_given():
     """Without stable_baselines3: to aim at the ghost ball of the easiest pot does better than corrections at random, and those than strokes at random."""
     pytest.importorskip("gymnasium", reason="gymnasium is not installed")
-    train_pot_one = pytest.importorskip("train_pot_one")
+    train_games = pytest.importorskip("train_games")
     generator = np.random.default_rng(1)
-    straight = train_pot_one.mean_return(lambda sight: np.zeros((len(sight), 4)))
-    corrected = train_pot_one.mean_return(lambda sight: generator.uniform(-1.0, 1.0, (len(sight), 4)))
-    games = train_pot_one.gymnasium.make_vec(train_pot_one.GAME, num_envs=2000)
-    games.reset(seed=10**6)
-    assert straight > corrected + 0.1 and corrected > games.step(generator.uniform(-1.0, 1.0, (2000, 4)))[1].mean() + 0.1
+    policies = [lambda sight: np.zeros((1, 6)), lambda sight: generator.uniform(-1.0, 1.0, (1, 6))]
+    agents = [*map(train_games.agent, policies), train_games.game_agents.random_agent(1)]
+    for game in ("carom/PotOne-v1", "carom/RunOutSix-v1"):
+        straight, corrected, random = (train_games.game_agents.play(agent, game, 400, 1)[0].mean() for agent in agents)
+        assert straight > corrected + 0.1 and corrected > random + 0.1
     with pytest.raises(SystemExit):
-        train_pot_one.main(["pot.svg", "many"])
+        train_games.main(["games.svg", "--minutes", "many"])
 
 
 SHORT = ("ball_by_ball", "bot", "chaos", "custom_rule", "draw_distance", "drill", "frozen_kiss", "jump_over",

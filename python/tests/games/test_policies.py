@@ -16,7 +16,7 @@ from stable_baselines3.common.env_checker import check_env  # noqa: E402
 import carom.gymnasium  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "examples"))
-import train_pot_one  # noqa: E402
+import train_games  # noqa: E402
 
 
 def test_the_checker_does_not_warn():
@@ -26,9 +26,9 @@ def test_the_checker_does_not_warn():
             check_env(gymnasium.make(name).unwrapped)
 
 
-def test_ppo_is_trained(tmp_path, capsys):
-    """Two rounds, by which the policy changes; the curve, its table, and the agents at the end."""
-    train_pot_one.main([str(tmp_path / "pot.svg"), "8192", "--games", "3"])
-    curve = np.loadtxt(tmp_path / "pot.csv", delimiter=",", skiprows=1)
-    assert curve[:, 0].tolist() == [4096, 8192] and curve[0, 2] != curve[1, 2]
-    assert "plan of 2000 shots: " in capsys.readouterr().out and (tmp_path / "pot.svg").stat().st_size > 10_000
+def test_ppo_is_trained(tmp_path):
+    """In each game a round at least, by which the policy changes: the curve, and the table of all agents."""
+    train_games.main([str(tmp_path / "games.svg"), "--minutes", "1e-6", "--games", "3"])
+    curve = np.loadtxt(tmp_path / "games.csv", delimiter=",", skiprows=1, usecols=(1, 2))
+    assert curve[:, 0].tolist() == [0, 4096] * 5 + [0, 1024] * 2 and (curve[::2, 1] != curve[1::2, 1]).sum() >= 3
+    assert (tmp_path / "games.md").read_text(encoding="utf-8").count("|") == 8 * 9 and (tmp_path / "games.svg").stat().st_size > 10_000
