@@ -11,6 +11,7 @@ With a third argument the corner and the difference from 5 to 3 are told for oth
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +22,7 @@ DIAMOND = table.length / 8  # m
 STARTS = [5.0, 4.5, 4.0, 3.5, 3.0]
 
 
-def kick(start, first, **numbers):
+def kick(start: float, first: float, **numbers: Any) -> tuple[carom.Shot, float, float]:
     """The shot from a start to a number of the first rail, and its places on the third and the fourth: NaN where it meets others."""
     at = np.array([0.2 * DIAMOND, max(2 * (5 - start), 0.2) * DIAMOND])
     phi = np.degrees(np.arctan2(*(np.array([table.width, (8 - first) * DIAMOND]) - at)[::-1]))
@@ -37,12 +38,12 @@ def kick(start, first, **numbers):
     return shot, 8 - place[1] / DIAMOND, 8 - fourth / DIAMOND
 
 
-def through_two(start, **numbers):
+def through_two(start: float, **numbers: Any) -> list[float]:
     """The number of the first rail with which the third is met at 2, and the place on the fourth."""
     firsts = np.linspace(start - 2.2, start - 1.4, 9)
     third, fourth = np.transpose([kick(start, first, **numbers)[1:] for first in firsts])
     met = np.isfinite(third)
-    return [np.interp(-2.0, -third[met], values[met]) for values in (firsts, fourth)]
+    return [float(np.interp(-2.0, -third[met], values[met])) for values in (firsts, fourth)]
 
 
 for name, numbers in ("2022", {}), ("2017", {"restitution_cushion": 0.753, "mu_cushion": 0.238}):

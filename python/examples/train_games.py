@@ -227,9 +227,8 @@ def main(arguments: list[str] | None = None) -> None:
     for game, axis in zip(given.only, axes.flat, strict=False):
         curve, found = learn(game, given.minutes, max(given.games // 8, 2) if "Ball-" in game else given.games)
         most, name = game_agents.most_of(GameEnv(**GAMES[game]).rules), game[6:-3]
-        cells = {"agent": name, "---": "--:", "thousand strokes of PPO": f"{curve[-1][0] / 1000:.0f}"}
-        cells |= {who: game_agents.score(own, most).replace(" ± ", "±").removesuffix(" (0%)") for who, own in found.items()}
-        for who, cell in cells.items():
+        cells = {who: game_agents.score(own, most).replace(" ± ", "±").removesuffix(" (0%)") for who, own in found.items()}
+        for who, cell in [*cells.items(), ("agent", name), ("---", "--:"), ("thousand strokes of PPO", f"{curve[-1][0] / 1000:.0f}")]:
             rows[who].append(cell)
         lines += [f"{name},{strokes},{mean:.6g}" for strokes, mean in curve]
         axis.plot(*(np.array(curve) / (1000.0, 1.0)).T)
