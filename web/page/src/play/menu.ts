@@ -21,8 +21,8 @@ export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElem
   // Practice has every table.
   const others = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
   const game = choice("new-which", "Game", [...Object.entries(PLAYED), ...others].map(([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const), told);
-  const against = choice("new-against", "Against", [["practice", "nobody: practice"], ["person", "a person at this page"], ["link", "a person by link"], ...RATINGS.map((r) => [r, `the computer, rated ${r}`] as const)], errs);
-  const own = choice("new-own", "Your strokes", [["0", "go where you aim (no rating)"], ...RATINGS.map((r) => [r, r === "800" ? "err a little, like those of an 800" : `err like those of a ${r}`] as const)], () => undefined);
+  const against = choice("new-against", "Against", [["practice", "nobody: practice"], ["person", "a person at this page"], ["link", "a person by link"], ...RATINGS.map((r) => [r, `the computer, a ${r}`] as const)], errs);
+  const own = choice("new-own", "Your strokes", [["0", "go where you aim (no rating)"], ...RATINGS.map((r) => [r, r === "800" ? "err a little, like an 800" : `err like a ${r}`] as const)], () => undefined);
   const table = choice("new-table", "Table", Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const), () => undefined);
   const lines = choice("lines", "Lines", [["level", "by your rating"], ["none", "none"], ["short", "short: the way of the ball"], ["full", "full: both balls"]], set);
   const note = el("p", { class: "note", id: "new-note" });
