@@ -42,7 +42,7 @@ OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0,
        "seed of racks, plans and strokes (default 0)");
 
 OPTION(strength_job, option_left, "left", left, 0, "N", set_count, 1,
-       "end games: N balls of the player, one more of the other, and the eight, at random places");
+       "end games: N balls of the player, one more of the other, and the eight; of nine-ball N");
 
 OPTION(strength_job, option_target, "target", target, 0, "N", set_count, 1,
        "of straight: points that win (default 100)");
@@ -225,7 +225,7 @@ int command_plan(int argc, char **argv) {
     return EXIT_USAGE;
   const bool racked = carom_plan_rules_of((carom_rules_kind)job.rules).breaks != 1;
   if (racked && job.left > 0) {
-    complain("--left is of eight-ball");
+    complain("--left is of eight-ball and nine-ball");
     return EXIT_USAGE;
   }
   job.games |= racked;

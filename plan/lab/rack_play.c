@@ -67,10 +67,11 @@ void lab_rack_make(lab_rack *rack, carom_rules_kind game, uint64_t seed) {
 
 void lab_rack_end(lab_rack *rack, int left) {
   enum { GROUP = 7, EIGHT = 8 };
-  left = left < GROUP ? left : GROUP - 1;
-  rack->rules.state.group = CAROM_GROUP_SOLIDS;
-  rack->hand = false;
   const int count = (int)rack->plan.count;
+  const bool groups = count > 10; /* eight-ball; else the last balls of nine-ball */
+  left = left < GROUP ? left : GROUP - 1;
+  rack->rules.state.group = groups ? CAROM_GROUP_SOLIDS : 0;
+  rack->hand = false;
   for (int k = 0; k < count; k++)
     rack->balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
   for (int k = 0; k < count; k++) {
@@ -78,7 +79,8 @@ void lab_rack_end(lab_rack *rack, int left) {
     do {
       x = lab_uniform(&rack->state, 0.0, rack->plan.table->width);
       y = lab_uniform(&rack->state, 0.0, rack->plan.table->length);
-    } while ((k <= left || (k >= EIGHT && k <= EIGHT + left + 1)) &&
+    } while ((k == 0 ||
+              (groups ? k <= left || (k >= EIGHT && k <= EIGHT + left + 1) : k >= count - left)) &&
              carom_place_ball(rack->plan.table, rack->balls, count, k, x, y, NULL) != CAROM_OK);
   }
 }

@@ -7,7 +7,7 @@ cmp one.txt two.txt && numbers < one.txt | cut -d' ' -f1-20
 echo "--- games that are played to the end, and end games"
 lab plan --rules nineball --games --racks 2 --shots 100 | numbers | cut -d' ' -f1-20
 lab plan --games --racks 1 --shots 100 | grep -c "^planned to foul"
-lab plan --left 2 --racks 2 --shots 100 | numbers | cut -d' ' -f1-20
+for rules in eightball nineball; do lab plan --rules $rules --left 2 --run-out --racks 2 --shots 100 | numbers | cut -d' ' -f1-20; done
 echo "--- games of points"
 lab plan --rules straight --target 8 --racks 1 --shots 100 | numbers | cut -d' ' -f1-33
 for game in $(sed -n 's/.*--rules \([a-z]*\) --racks.*/\1/p' "$DATA/../plan/src/games.h" | sort -u); do
