@@ -384,8 +384,8 @@ typedef struct carom_plan_options {
                                    layout and his error phi, as racks that were played told it.
                                    One below 0.001 counts as 0.001. Values of layouts depend on
                                    it. */
-  double chance_opponent;       /* likewise, of the opponent. 1: he makes every ball: a plan is to
-                                   run out, and a turn that ends before is worth nothing. */
+  double chance_opponent;       /* 0 to 1: likewise, of the opponent. 1: he makes every ball, so a
+                                   plan is to run out: a turn that ends before is worth nothing. */
   const volatile int32_t *stop; /* not NULL: another thread may set it to end the plan early,
                                    within some ms. Unless `once`, it plays plans of 100, 200, 400
                                    ... shots. It then gives one choice, the best so far; of

@@ -119,8 +119,8 @@ EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NI
 #define EVERY_OF_PLANS(F) \
   F(aim) F(foul_of) F(foul_string) F(plan) F(plan_continue) F(plan_hand) F(plan_memory) \
   F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) \
-  F(rating_of) F(referee) F(rules_about_of) F(rules_fault) F(ruling_string) F(spot_ball) F(spot_ball_of) \
-  F(turn_settle)
+  F(rating_of) F(referee) F(rules_about_of) F(rules_fault) F(ruling_string) F(spot_ball) \
+  F(spot_ball_of) F(turn_settle)
 /* clang-format on */
 
 #endif
