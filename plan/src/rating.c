@@ -67,7 +67,8 @@ carom_status carom_rating_of(const carom_score *rows, int64_t count, carom_ratin
   double slope, f[2 * CELLS + 1], sum = 0.0, first = 0.0;
   const double m = edge(rows, count, LEAST, MOST, true, 0.0), top = likely(rows, count, m, &slope);
   const double low = edge(rows, count, m, LEAST, false, top - 40.0),
-               high = edge(rows, count, m, MOST, false, top - 40.0), cell = (high - low) / CELLS;
+               high = edge(rows, count, m, MOST, false, top - 40.0),
+               cell = (high - low) / (double)CELLS;
 
   /* its mass and mean, in cells from low on */
   for (int k = 0; k <= 2 * CELLS; k++) {

@@ -645,7 +645,7 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
     # the ends of an axis have ticks, also where rounding puts them just beside
     assert _summary._ticks(0.07, 0.1) == pytest.approx([0.07, 0.08, 0.09, 0.1])
     assert _summary._ticks(0.0, 0.3) == pytest.approx([0.0, 0.1, 0.2, 0.3])
-    assert text.count("<svg") == 8 and "http" not in text.replace("http://www.w3.org/2000/svg", "") and "mu_spin" in text
+    assert text.count("<svg") == 9 and "http" not in text.replace("http://www.w3.org/2000/svg", "") and "mu_spin" in text
     # interrupted in the second of the searches, the same command goes on with the third, and has the same bits
     stages, done = _joint.Search.stage, []
 
