@@ -1,12 +1,14 @@
-"""The interface of the library as data, read from the headers: constants, enumerations, structs, callbacks and functions.
+"""The interface of the library as data, read from the headers: constants, enumerations, structs,
+callbacks and functions.
 
 api.py json INCLUDE         the description as JSON, which README.md explains
 api.py functions INCLUDE    the names of the functions
 api.py abi INCLUDE          sizes, offsets and values, a line each; abi-wasm32: on WebAssembly
 api.py c INCLUDE            a C program that prints the same as its compiler sees it
 
-The declarations are parsed by pycparser. A comment beside or above a declaration is its description. Sizes and offsets are those of
-64-bit systems; "wasm32" has those with pointers of 32 bits. The tests install/abi and bindings/api compare them with compilers.
+The declarations are parsed by pycparser. A comment beside or above a declaration is its
+description. Sizes and offsets are those of 64-bit systems; "wasm32" has those with pointers of 32
+bits. The tests install/abi and bindings/api compare them with compilers.
 """
 
 import json
@@ -17,17 +19,35 @@ from pathlib import Path
 from pycparser import c_ast, c_parser
 
 HEADERS = ("carom.h", "carom_shot.h", "carom_tangent.h", "carom_plan.h", "carom_record.h")
-SIZES = {"double": 8, "float": 4, "char": 1, "int": 4, "int8_t": 1, "int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8}
+SIZES = {
+    "double": 8,
+    "float": 4,
+    "char": 1,
+    "int": 4,
+    "int8_t": 1,
+    "int32_t": 4,
+    "uint32_t": 4,
+    "int64_t": 8,
+    "uint64_t": 8,
+}
 BUILT_IN = "".join(f"typedef int {name};" for name in ("size_t", *SIZES) if name.endswith("_t"))
-# Arguments that a function reads and writes. Of the other pointers those to const are read, and the rest written.
+# Arguments that a function reads and writes. Of the other pointers those to const are read, and the
+# rest written.
 READ_AND_WRITTEN = {
-    ("carom_shoot", "shot"), ("carom_shot_continue", "shot"), ("carom_place_ball", "balls"), ("carom_shot_tangent", "tangent"),
-    ("carom_player_strike", "cue"), ("carom_aim", "cue"), ("carom_aim", "pot"), ("carom_rules_judge", "state"),
-}  # fmt: skip
+    ("carom_shoot", "shot"),
+    ("carom_shot_continue", "shot"),
+    ("carom_place_ball", "balls"),
+    ("carom_shot_tangent", "tangent"),
+    ("carom_player_strike", "cue"),
+    ("carom_aim", "cue"),
+    ("carom_aim", "pot"),
+    ("carom_rules_judge", "state"),
+}
 # Macros without a value of their own: guards, marks, and expressions of other constants.
 NO_VALUE = {"CAROM_API", "CAROM_VERSION_NUMBER", "CAROM_STOP_AT", "CAROM_KIND_NUMBERS"}
 A_UNIT = r"m/s\^2|m/s|rad/s|1/m|s/m|N s|kg|m|s|J|Pa|degrees"
-# A unit stands first, after the lengths of an array, or after a comma; but "u, m/s" is about another number.
+# A unit stands first, after the lengths of an array, or after a comma; but "u, m/s" is about
+# another number.
 UNIT = re.compile(rf"(?:^(?:\[\w+\])*|(?<! u), |\()({A_UNIT})(?=[,.;:)]|$| from)")
 UNITS = re.compile(rf"(?:(?:{A_UNIT}|-)(?:, |$))+")
 
@@ -46,13 +66,25 @@ class Header:
             return re.sub(r"[^\n]", " ", match[0])
 
         code = re.sub(r"/\*.*?\*/", blank, text, flags=re.DOTALL)
-        self.macros = [(m[1], m[2], code.count("\n", 0, m.start()) + 1) for m in re.finditer(r"^#define (\w+)(.*)$", code, flags=re.M)]
-        code = re.sub(r"#ifdef __cplusplus\n.*?#endif", lambda m: "\n" * m[0].count("\n"), code, flags=re.DOTALL)
-        code = re.sub(r"^#(?:.*\\\n)*.*$", lambda m: "\n" * m[0].count("\n"), code, flags=re.MULTILINE)
+        self.macros = [
+            (m[1], m[2], code.count("\n", 0, m.start()) + 1)
+            for m in re.finditer(r"^#define (\w+)(.*)$", code, flags=re.M)
+        ]
+        code = re.sub(
+            r"#ifdef __cplusplus\n.*?#endif",
+            lambda m: "\n" * m[0].count("\n"),
+            code,
+            flags=re.DOTALL,
+        )
+        code = re.sub(
+            r"^#(?:.*\\\n)*.*$", lambda m: "\n" * m[0].count("\n"), code, flags=re.MULTILINE
+        )
         self.code = code.replace("CAROM_API", "").split("\n")
 
     def above(self, line, over=0):
-        """The comment that ends right above a line, or above up to `over` lines of code right above it."""
+        """The comment that ends right above a line, or above up to `over` lines of code right above
+        it.
+        """
         for line in range(line - 1, max(line - 2 - over, 0), -1):
             for _, last, words in self.comments:
                 if last == line and not self.code[line - 1].strip():
@@ -73,14 +105,22 @@ def type_of(node):
         return {**inner, "array": [node.dim, *inner.get("array", [])]}
     if isinstance(node, c_ast.PtrDecl):
         inner = type_of(node.type)
-        return {**inner, "pointer": inner.get("pointer", 0) + 1, **({"to_array": inner.pop("array")} if "array" in inner else {})}
+        return {
+            **inner,
+            "pointer": inner.get("pointer", 0) + 1,
+            **({"to_array": inner.pop("array")} if "array" in inner else {}),
+        }
     found = {"type": " ".join(node.type.names)}
     return {**found, "const": True} if "const" in node.quals else found
 
 
 def header_of(include, name):
     """The planner's header is in a folder of its own."""
-    return next(path for path in (include / name, include.parent / "plan" / "include" / name) if path.exists())
+    return next(
+        path
+        for path in (include / name, include.parent / "plan" / "include" / name)
+        if path.exists()
+    )
 
 
 class Api:
@@ -88,12 +128,16 @@ class Api:
 
     def __init__(self, include):
         self.values, self.places, self.layouts = {}, {}, {}
-        self.about = {kind: [] for kind in ("constants", "enums", "structs", "callbacks", "functions")}
+        self.about = {
+            kind: [] for kind in ("constants", "enums", "structs", "callbacks", "functions")
+        }
         parser, earlier = c_parser.CParser(), BUILT_IN
         for name in HEADERS:
             header = Header(header_of(Path(include), name))
             # Earlier headers stand on one line before it, so that lines keep their numbers.
-            tree = parser.parse(earlier + "\n# 1 \"" + name + "\"\n" + "\n".join(header.code), "before")
+            tree = parser.parse(
+                earlier + '\n# 1 "' + name + '"\n' + "\n".join(header.code), "before"
+            )
             for node in tree.ext:
                 if node.coord.file == name:
                     self.declaration(header, node)
@@ -102,32 +146,57 @@ class Api:
 
     def declaration(self, header, node):
         inner = node.type
-        made_of = getattr(inner, "type", None)  # the coordinates of a typedef are those of its name, at the end
-        comment = header.above((made_of if isinstance(made_of, (c_ast.Struct, c_ast.Enum)) else node).coord.line, over=1)
+        made_of = getattr(
+            inner, "type", None
+        )  # the coordinates of a typedef are those of its name, at the end
+        comment = header.above(
+            (made_of if isinstance(made_of, (c_ast.Struct, c_ast.Enum)) else node).coord.line,
+            over=1,
+        )
         if isinstance(inner, c_ast.FuncDecl):
-            name = inner.type.type.declname if isinstance(inner.type, c_ast.PtrDecl) else inner.type.declname
+            name = (
+                inner.type.type.declname
+                if isinstance(inner.type, c_ast.PtrDecl)
+                else inner.type.declname
+            )
             kind = "callbacks" if isinstance(node, c_ast.Typedef) else "functions"
-            self.add(kind, name, comment, returns=type_of(inner.type), arguments=[self.argument(name, one) for one in self.arguments(inner)])
+            self.add(
+                kind,
+                name,
+                comment,
+                returns=type_of(inner.type),
+                arguments=[self.argument(name, one) for one in self.arguments(inner)],
+            )
         elif isinstance(inner, c_ast.Enum):
             self.constants(header, inner.values)
         elif isinstance(inner.type, c_ast.Enum):
-            self.add("enums", node.name, comment, values=self.enumerators(header, inner.type.values))
+            self.add(
+                "enums", node.name, comment, values=self.enumerators(header, inner.type.values)
+            )
             SIZES[node.name] = 4
         elif isinstance(inner.type, c_ast.Struct):
             self.struct(header, node.name, comment, inner.type)
         else:
-            raise SystemExit(f"{node.coord}: this kind of declaration is not known: {type(inner).__name__}")
+            raise SystemExit(
+                f"{node.coord}: this kind of declaration is not known: {type(inner).__name__}"
+            )
 
     def add(self, kind, name, comment, **more):
         if name in self.places:
             raise SystemExit(f"{name}: it is declared twice")
         self.places[name] = len(self.places)
-        self.about[kind].append({"name": name, "comment": comment, "place": self.places[name], **more})
+        self.about[kind].append(
+            {"name": name, "comment": comment, "place": self.places[name], **more}
+        )
 
     @staticmethod
     def arguments(function):
         found = function.args.params if function.args else []
-        return [one for one in found if not (isinstance(one.type, c_ast.TypeDecl) and one.type.type.names == ["void"])]
+        return [
+            one
+            for one in found
+            if not (isinstance(one.type, c_ast.TypeDecl) and one.type.type.names == ["void"])
+        ]
 
     def argument(self, function, node):
         found = {"name": node.name, **type_of(node.type)}
@@ -151,19 +220,28 @@ class Api:
         for one in values.enumerators:
             self.values[one.name] = value = self.value(one.value) if one.value else following
             following = value + 1
-            found.append({"name": one.name, "value": value, "comment": header.beside(one.coord.line)})
+            found.append(
+                {"name": one.name, "value": value, "comment": header.beside(one.coord.line)}
+            )
         return found
 
     def constants(self, header, values):
         for one in self.enumerators(header, values):
-            self.add("constants", one["name"], one["comment"] or header.above(values.enumerators[0].coord.line, over=1), value=one["value"])
+            self.add(
+                "constants",
+                one["name"],
+                one["comment"] or header.above(values.enumerators[0].coord.line, over=1),
+                value=one["value"],
+            )
 
     def macros(self, header):
         for name, text, line in header.macros:
             if name.startswith("CAROM_") and not name.endswith("_H") and name not in NO_VALUE:
                 literal = re.sub(r"^UINT64_C\((\d+)\)$", r"\1", text.strip())
                 if not re.fullmatch(r"[\d.]+", literal):
-                    raise SystemExit(f"{name}: a macro whose value is not a number: {text.strip()}; it belongs in NO_VALUE of bindings/api.py")
+                    raise SystemExit(
+                        f"{name}: a macro whose value is not a number: {text.strip()}; it belongs in NO_VALUE of bindings/api.py"
+                    )
                 self.values[name] = float(literal) if "." in literal else int(literal)
                 self.add("constants", name, header.above(line), value=self.values[name])
 
@@ -175,7 +253,9 @@ class Api:
             if "array" in found:
                 found["array"] = [self.value(length) for length in found["array"]]
             if UNITS.fullmatch(words) and "," in words:
-                words = words.split(", ")[sum(field["comment"] in words.split(", ") for field in fields)]
+                words = words.split(", ")[
+                    sum(field["comment"] in words.split(", ") for field in fields)
+                ]
             if unit := UNIT.search(words):
                 found["unit"] = unit[1]
             fields.append({**found, "comment": words})
@@ -189,10 +269,17 @@ class Api:
                 for field, (offset, bytes_) in zip(fields, places):
                     field |= {"offset": offset, "size": bytes_}
             else:
-                about[key] = {"size": size, "align": align, "offsets": [offset for offset, _ in places], "sizes": [bytes_ for _, bytes_ in places]}
+                about[key] = {
+                    "size": size,
+                    "align": align,
+                    "offsets": [offset for offset, _ in places],
+                    "sizes": [bytes_ for _, bytes_ in places],
+                }
 
     def layout(self, fields, pointer):
-        """Size and alignment of a struct, and offset and size of each field: each stands at the next multiple of its alignment."""
+        """Size and alignment of a struct, and offset and size of each field: each stands at the
+        next multiple of its alignment.
+        """
         end, widest, places = 0, 1, []
         for field in fields:
             name = field["type"]
@@ -210,7 +297,9 @@ class Api:
         return -(-end // widest) * widest, widest, places
 
     def described(self):
-        version = ".".join(str(self.values[f"CAROM_VERSION_{part}"]) for part in ("MAJOR", "MINOR", "PATCH"))
+        version = ".".join(
+            str(self.values[f"CAROM_VERSION_{part}"]) for part in ("MAJOR", "MINOR", "PATCH")
+        )
         return {"name": "carom", "version": version, "headers": list(HEADERS), **self.about}
 
 
@@ -220,7 +309,9 @@ def describe(include):
 
 
 def abi(api, bits=None):
-    """Sizes, offsets and values as lines, as tests/install/abi compares them; `bits`: "wasm32" for those of that system."""
+    """Sizes, offsets and values as lines, as tests/install/abi compares them; `bits`: "wasm32" for
+    those of that system.
+    """
     lines = []
     for one in types(api):
         if "values" in one:
@@ -230,7 +321,10 @@ def abi(api, bits=None):
         lines.append(f"{one['name']}: {here['size']} bytes, aligned to {here['align']}")
         offsets = here["offsets"] if bits else [field["offset"] for field in one["fields"]]
         sizes = here["sizes"] if bits else [field["size"] for field in one["fields"]]
-        lines += [f"  {offset:3} {field['name']}: {size}" for field, offset, size in zip(one["fields"], offsets, sizes)]
+        lines += [
+            f"  {offset:3} {field['name']}: {size}"
+            for field, offset, size in zip(one["fields"], offsets, sizes)
+        ]
     return "\n".join([*lines, *(f"{name} = {value}" for name, value in values(api)), ""])
 
 
@@ -240,9 +334,15 @@ def types(api):
 
 
 def values(api):
-    """Names and values of enumerators and whole constants but for the version, in the order of their names."""
+    """Names and values of enumerators and whole constants but for the version, in the order of
+    their names.
+    """
     found = [one for enum in api["enums"] for one in enum["values"]] + api["constants"]
-    return sorted((one["name"], one["value"]) for one in found if isinstance(one["value"], int) and "_VERSION_" not in one["name"])
+    return sorted(
+        (one["name"], one["value"])
+        for one in found
+        if isinstance(one["value"], int) and "_VERSION_" not in one["name"]
+    )
 
 
 def c_program(api):
@@ -251,10 +351,14 @@ def c_program(api):
     lines += ["#include <stdio.h>", "int main(void) {"]
     for one in types(api):
         name = one["name"]
-        lines.append(f'  printf("{name}: %zu bytes, aligned to %zu\\n", sizeof({name}), _Alignof({name}));')
+        lines.append(
+            f'  printf("{name}: %zu bytes, aligned to %zu\\n", sizeof({name}), _Alignof({name}));'
+        )
         for field in one.get("fields", ()):
             member = field["name"]
-            lines.append(f'  printf("  %3zu {member}: %zu\\n", offsetof({name}, {member}), sizeof((({name} *)0)->{member}));')
+            lines.append(
+                f'  printf("  %3zu {member}: %zu\\n", offsetof({name}, {member}), sizeof((({name} *)0)->{member}));'
+            )
     lines += [f'  printf("{name} = %lld\\n", (long long){name});' for name, _ in values(api)]
     return "\n".join([*lines, "  return 0;", "}", ""])
 
@@ -263,8 +367,10 @@ def main():
     made = {
         "json": lambda api: json.dumps(api, indent=1, ensure_ascii=False) + "\n",
         "functions": lambda api: "".join(sorted(f"{one['name']}\n" for one in api["functions"])),
-        "abi": abi, "abi-wasm32": lambda api: abi(api, "wasm32"), "c": c_program,
-    }  # fmt: skip
+        "abi": abi,
+        "abi-wasm32": lambda api: abi(api, "wasm32"),
+        "c": c_program,
+    }
     what, include = sys.argv[1:]
     if what not in made:
         raise SystemExit(f"{what}: must be one of {', '.join(made)}")

@@ -1,6 +1,8 @@
-"""The rows of src/about as data: what the library says of itself at run time, for what is needed before it runs.
+"""The rows of src/about as data: what the library says of itself at run time, for what is needed
+before it runs.
 
-rows.py json      numbers of a ball, options and words, as carom_number_of() and carom_word() tell them
+rows.py json      numbers of a ball, options and words, as carom_number_of() and carom_word() tell
+                  them
 rows.py python    python/src/carom/_described.py
 """
 
@@ -14,7 +16,9 @@ SOURCE = Path(__file__).resolve().parent.parent / "src"
 
 
 def arguments(text):
-    """The arguments of a call of a macro, of which `text` begins behind the bracket; and where it ends."""
+    """The arguments of a call of a macro, of which `text` begins behind the bracket; and where it
+    ends.
+    """
     found, begin, depth, at = [], 0, 0, 0
     for match in re.finditer(r'"(?:[^"\\]|\\.)*"|[(),]', text):
         at, sign = match.start(), match[0]
@@ -35,7 +39,13 @@ def rows(file, macro):
     text = (SOURCE / file).read_text(encoding="utf-8")
     head = re.search(rf"#define {macro}\(([^)]*)\)((?:.*\\\n)*.*)\n", text)
     body, calls = head[2].replace("\\\n", "\n"), head[1].replace(" ", "").split(",")
-    body = re.sub(r"\bCAROM_\w+_OPTIONS\(\w+\)", lambda of: "".join(f"{calls[0]}({', '.join(row)})" for _, row in rows(file, of[0][:-len(calls[0]) - 2])), body)
+    body = re.sub(
+        r"\bCAROM_\w+_OPTIONS\(\w+\)",
+        lambda of: "".join(
+            f"{calls[0]}({', '.join(row)})" for _, row in rows(file, of[0][: -len(calls[0]) - 2])
+        ),
+        body,
+    )
     call_of, found, at = re.compile(rf"\b({'|'.join(calls)})\("), [], 0
     while call := call_of.search(body, at):
         values, size = arguments(body[call.end() :])
@@ -51,7 +61,9 @@ def text_of(value):
 def end_of(value):
     """A number of a row, None for one that is not there; and whether it belongs to the range."""
     inner = re.fullmatch(r"CAROM_(?:ABOVE|BELOW)\((.*)\)", value)
-    number = {"DBL_MAX": None, "-DBL_MAX": None, "NAN": None}.get(value, inner[1] if inner else value)
+    number = {"DBL_MAX": None, "-DBL_MAX": None, "NAN": None}.get(
+        value, inner[1] if inner else value
+    )
     return (None if number is None else float(number)), inner is None
 
 
@@ -78,19 +90,33 @@ def range_of(unit, low, high, other):
     elif not from_ and not to:
         words = f"between {digits(low)} and {digits(high)}"
     else:
-        words = f"above {digits(low)} and at most {digits(high)}" if to else f"{digits(low)} or more and below {digits(high)}"
+        words = (
+            f"above {digits(low)} and at most {digits(high)}"
+            if to
+            else f"{digits(low)} or more and below {digits(high)}"
+        )
     return begin + words + (f", in {unit}" if unit else "")
 
 
 def numbers():
     """The numbers of a ball, in the order of carom_ball_kind."""
     found = []
-    for kind, (name, key, unit, low, high, other, error, reader, text) in rows("about/numbers.h", "CAROM_NUMBERS"):
-        found.append({
-            "name": name, "key": text_of(key), "unit": text_of(unit), "range": range_of(text_of(unit), low, high, other),
-            "ends": ends_of(low, high, other), "error": f"CAROM_ERROR_{error}", "reader": reader, "of_cushion": kind == "CUSHION",
-            "text": text_of(text),
-        })  # fmt: skip
+    for kind, (name, key, unit, low, high, other, error, reader, text) in rows(
+        "about/numbers.h", "CAROM_NUMBERS"
+    ):
+        found.append(
+            {
+                "name": name,
+                "key": text_of(key),
+                "unit": text_of(unit),
+                "range": range_of(text_of(unit), low, high, other),
+                "ends": ends_of(low, high, other),
+                "error": f"CAROM_ERROR_{error}",
+                "reader": reader,
+                "of_cushion": kind == "CUSHION",
+                "text": text_of(text),
+            }
+        )
     return found
 
 
@@ -99,49 +125,105 @@ def words():
     found = {}
     for _, (of, _value, word, text) in rows("about/words.h", "CAROM_WORD_ROWS"):
         found.setdefault(of, []).append((text_of(word), text_of(text)))
-    models = [(text_of(row[1]), text_of(row[-1])) for _, row in rows("cushion/list.h", "CAROM_CUSHION_MODELS")]
+    models = [
+        (text_of(row[1]), text_of(row[-1]))
+        for _, row in rows("cushion/list.h", "CAROM_CUSHION_MODELS")
+    ]
     found["CUSHION_MODEL"] = models
     found["SHOT_CUSHION"] += models
-    found["RULES"] = [(text_of(row[2]), text_of(row[3])) for _, row in rows("../plan/src/games.h", "CAROM_GAMES")]
-    found["BALL_FRICTION"] = [(text_of(row[1]), text_of(row[-1])) for _, row in rows("friction/laws.h", "CAROM_FRICTION_LAWS")]
+    found["RULES"] = [
+        (text_of(row[2]), text_of(row[3])) for _, row in rows("../plan/src/games.h", "CAROM_GAMES")
+    ]
+    found["BALL_FRICTION"] = [
+        (text_of(row[1]), text_of(row[-1]))
+        for _, row in rows("friction/laws.h", "CAROM_FRICTION_LAWS")
+    ]
     return found
 
 
 def parts():
-    """The numbers of cue, table, its parts and measures, and states, as numbers() has those of balls, by the names of their structs."""
+    """The numbers of cue, table, its parts and measures, and states, as numbers() has those of
+    balls, by the names of their structs.
+    """
     found = {}
     for struct in ("cue", "table", "rail", "jaw", "pocket", "ball_state", "measures"):
         found[f"carom_{struct}"] = [
-            {"name": name, "key": text_of(key), "unit": text_of(unit), "range": range_of(text_of(unit), low, high.replace("CAROM_BALLS_MOST - 1", "31"), other),
-             "ends": ends_of(low, high, other) if kind == "ROW" else [], "error": f"CAROM_ERROR_{error}", "text": text_of(text)}
-            for kind, (name, key, unit, low, high, other, error, text) in rows("about/numbers.h", f"CAROM_{struct.removeprefix('ball_').upper()}_NUMBERS")
-        ]  # fmt: skip
+            {
+                "name": name,
+                "key": text_of(key),
+                "unit": text_of(unit),
+                "range": range_of(
+                    text_of(unit), low, high.replace("CAROM_BALLS_MOST - 1", "31"), other
+                ),
+                "ends": ends_of(low, high, other) if kind == "ROW" else [],
+                "error": f"CAROM_ERROR_{error}",
+                "text": text_of(text),
+            }
+            for kind, (name, key, unit, low, high, other, error, text) in rows(
+                "about/numbers.h", f"CAROM_{struct.removeprefix('ball_').upper()}_NUMBERS"
+            )
+        ]
     return found
 
 
 def games():
-    """What each game of words()["RULES"] has: its balls and rack, the highest number of a ball, where the cue ball is at first, whether a call is made, the members of its state."""
+    """What each game of words()["RULES"] has: its balls and rack, the highest number of a ball,
+    where the cue ball is at first, whether a call is made, the members of its state.
+    """
     named = {row[1]: text_of(row[2]) for _, row in rows("about/words.h", "CAROM_WORD_ROWS")}
     return {
-        text_of(word): {"balls": named[f"GAME_{balls}"], "rack": named[f"RACK_{rack}"], "last": int(last), "opening": opening.lower(), "calls": calls == "1", "members": members.lower().split(" | ")}
-        for _, (_name, _rules, word, _text, balls, rack, last, opening, _hand, calls, members, _may) in rows("../plan/src/games.h", "CAROM_GAMES")
+        text_of(word): {
+            "balls": named[f"GAME_{balls}"],
+            "rack": named[f"RACK_{rack}"],
+            "last": int(last),
+            "opening": opening.lower(),
+            "calls": calls == "1",
+            "members": members.lower().split(" | "),
+        }
+        for _, (
+            _name,
+            _rules,
+            word,
+            _text,
+            balls,
+            rack,
+            last,
+            opening,
+            _hand,
+            calls,
+            members,
+            _may,
+        ) in rows("../plan/src/games.h", "CAROM_GAMES")
     }
 
 
 STRUCTS = {
-    "MOTION": "carom_shot_options", "STOP": "carom_shot_options", "COMPUTE": "carom_shot_options", "IMPACT": "carom_options",
-    "RAIL": "carom_cushion_options", "PLAN": "carom_plan_options",
-}  # fmt: skip
+    "MOTION": "carom_shot_options",
+    "STOP": "carom_shot_options",
+    "COMPUTE": "carom_shot_options",
+    "IMPACT": "carom_options",
+    "RAIL": "carom_cushion_options",
+    "PLAN": "carom_plan_options",
+}
 
 
 def options():
-    """The options of each struct, in the order of carom_number_of(), by its name. `form` is words, count, flag, seed, number or set; `words`
-    the name in words() of an enumeration or a set; `group` motion, stop or compute."""
+    """The options of each struct, in the order of carom_number_of(), by its name.
+
+    `form` is words, count, flag, seed, number or set; `words` the name in words() of an enumeration
+    or a set; `group` motion, stop or compute.
+    """
     found = {}
     for group, struct in STRUCTS.items():
-        for _, (name, key, form, low, high, error, text, *_place) in rows("../plan/src/plan_options.h" if group == "PLAN" else "about/options.h", f"CAROM_{group}_OPTIONS"):
+        for _, (name, key, form, low, high, error, text, *_place) in rows(
+            "../plan/src/plan_options.h" if group == "PLAN" else "about/options.h",
+            f"CAROM_{group}_OPTIONS",
+        ):
             kind, of = re.fullmatch(r"(\w+)(?:\((.*)\))?", form).groups()
-            words_of, unit = (of if kind in ("WORDS", "SET") and of != "BALLS" else None), text_of(of or "")
+            words_of, unit = (
+                (of if kind in ("WORDS", "SET") and of != "BALLS" else None),
+                text_of(of or ""),
+            )
             if kind == "WORDS":
                 several = [word for word, _ in words()[of]]
                 range_ = " or ".join([", ".join(several[:-1]), several[-1]])
@@ -150,25 +232,56 @@ def options():
             elif high == "INT32_MAX":
                 range_ = f"{low} or more"
             else:
-                range_ = range_of(unit, low, high, "0" if end_of(low)[0] is not None and end_of(low)[0] > 0 else "NAN")
-            found.setdefault(struct, []).append({
-                "name": name, "key": text_of(key), "form": kind.lower(), "words": words_of, "unit": unit, "range": range_,
-                "ends": ends_of(low, high) if kind in ("COUNT", "NUMBER") and high != "INT32_MAX" else [],
-                "error": f"CAROM_ERROR_{error}", "group": group.lower() if group in ("STOP", "COMPUTE") else "motion", "text": text_of(text),
-            })  # fmt: skip
+                range_ = range_of(
+                    unit,
+                    low,
+                    high,
+                    "0" if end_of(low)[0] is not None and end_of(low)[0] > 0 else "NAN",
+                )
+            found.setdefault(struct, []).append(
+                {
+                    "name": name,
+                    "key": text_of(key),
+                    "form": kind.lower(),
+                    "words": words_of,
+                    "unit": unit,
+                    "range": range_,
+                    "ends": ends_of(low, high)
+                    if kind in ("COUNT", "NUMBER") and high != "INT32_MAX"
+                    else [],
+                    "error": f"CAROM_ERROR_{error}",
+                    "group": group.lower() if group in ("STOP", "COMPUTE") else "motion",
+                    "text": text_of(text),
+                }
+            )
     return found
 
 
 OF_PYTHON = "WORLD BALL_MODEL SHOT_CUSHION BALL_FRICTION SPACE SIMULTANEOUS CUSHION_MODEL CUSHION_CONVENTION CUSHION_LAW GAME SOLVER SLIP RULES".split()
 # Options of shots that Python has in another form: their types, defaults, texts.
 OWN = [
-    ("t_final", "float | None", "None", "The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that "
-     "lasts longer than 1000 s is an error."),
-    ("stop_at", "StopAt | Iterable[StopAt]", "()", 'The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the '
-     'cue ball with another, or a type of `carom.EventType` in lower case, such as "pocket". `carom.resume` goes on with a shot that was stopped.'),
-    ("first_of", "int | Iterable[int]", "()", "Indices of balls. The shot is stopped right after the first contact of the cue ball with another ball, with the "
-     "status STOPPED_AT_EVENT, unless that ball is one of these. (): it is not stopped."),
-]  # fmt: skip
+    (
+        "t_final",
+        "float | None",
+        "None",
+        "The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that "
+        "lasts longer than 1000 s is an error.",
+    ),
+    (
+        "stop_at",
+        "StopAt | Iterable[StopAt]",
+        "()",
+        'The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the '
+        'cue ball with another, or a type of `carom.EventType` in lower case, such as "pocket". `carom.resume` goes on with a shot that was stopped.',
+    ),
+    (
+        "first_of",
+        "int | Iterable[int]",
+        "()",
+        "Indices of balls. The shot is stopped right after the first contact of the cue ball with another ball, with the "
+        "status STOPPED_AT_EVENT, unless that ball is one of these. (): it is not stopped.",
+    ),
+]
 
 
 def name_of(words_of):
@@ -177,14 +290,39 @@ def name_of(words_of):
 
 
 def shot_options():
-    """The options of shots in Python, (name, type, default, text, enumeration or bound): models, then counts, then its own."""
-    given = [one for one in options()["carom_shot_options"] if one["form"] in ("words", "count", "flag") and one["name"] != "threads"]
-    given.sort(key=lambda one: (one["form"] == "flag", one["group"] == "stop", one["form"] == "count", one["name"] if one["form"] == "count" else ""))
+    """The options of shots in Python, (name, type, default, text, enumeration or bound): models,
+    then counts, then its own.
+    """
+    given = [
+        one
+        for one in options()["carom_shot_options"]
+        if one["form"] in ("words", "count", "flag") and one["name"] != "threads"
+    ]
+    given.sort(
+        key=lambda one: (
+            one["form"] == "flag",
+            one["group"] == "stop",
+            one["form"] == "count",
+            one["name"] if one["form"] == "count" else "",
+        )
+    )
     for one in given:
         if one["form"] == "words":
-            yield one["name"], name_of(one["words"]), json.dumps(words()[one["words"]][0][0]), one["text"], one["words"]
+            yield (
+                one["name"],
+                name_of(one["words"]),
+                json.dumps(words()[one["words"]][0][0]),
+                one["text"],
+                one["words"],
+            )
         else:
-            yield one["name"], "bool" if one["form"] == "flag" else "int", "False" if one["form"] == "flag" else "0", one["text"], int(most[1]) if (most := re.fullmatch(r"0 to (\d+)", one["range"])) else 2**31 - 1
+            yield (
+                one["name"],
+                "bool" if one["form"] == "flag" else "int",
+                "False" if one["form"] == "flag" else "0",
+                one["text"],
+                int(most[1]) if (most := re.fullmatch(r"0 to (\d+)", one["range"])) else 2**31 - 1,
+            )
     for one in OWN:
         yield *one, None
 
@@ -195,46 +333,132 @@ def wrapped(text, indent, width=140):
 
 
 def python():
-    """Types for checkers of types, which know nothing of the library: words, and the numbers of one impact on a cushion."""
-    lines = ['"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""', ""]
-    lines += ["from __future__ import annotations", "", "import enum", "from collections.abc import Iterable"]
-    lines += ["from typing import Literal, NamedTuple, TypedDict", "", "import numpy.typing as npt", ""]
+    """Types for checkers of types, which know nothing of the library: words, and the numbers of one
+    impact on a cushion.
+    """
+    lines = [
+        '"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""',
+        "",
+    ]
+    lines += [
+        "from __future__ import annotations",
+        "",
+        "import enum",
+        "from collections.abc import Iterable",
+    ]
+    lines += [
+        "from typing import Literal, NamedTuple, TypedDict",
+        "",
+        "import numpy.typing as npt",
+        "",
+    ]
     enums = []
     for of in OF_PYTHON:
-        lines.append(f"{name_of(of)} = Literal[{', '.join(json.dumps(word) for word, _ in words()[of])}]")
-    events = [value.removeprefix("EVENT_").lower() for _, (of, value, *_) in rows("about/words.h", "CAROM_WORD_ROWS") if of == "EVENT"]
-    for name, of, text in (("Label", "LABEL", "How a ball moves."), ("EventType", "EVENT", "What happened: to ball a, and to ball, rail, jaw or pocket b.")):
+        lines.append(
+            f"{name_of(of)} = Literal[{', '.join(json.dumps(word) for word, _ in words()[of])}]"
+        )
+    events = [
+        value.removeprefix("EVENT_").lower()
+        for _, (of, value, *_) in rows("about/words.h", "CAROM_WORD_ROWS")
+        if of == "EVENT"
+    ]
+    for name, of, text in (
+        ("Label", "LABEL", "How a ball moves."),
+        ("EventType", "EVENT", "What happened: to ball a, and to ball, rail, jaw or pocket b."),
+    ):
         values = [row[1] for _, row in rows("about/words.h", "CAROM_WORD_ROWS") if row[0] == of]
         enums += ["", "", f"class {name}(enum.IntEnum):", f'    """{text}"""', ""]
-        enums += [f"    {value.split('_', 1)[1]} = {k}" for k, value in enumerate(values, of == "EVENT")]
-    lines += ["StopAt = Literal[", *wrapped(", ".join(json.dumps(word) for word in ["contact", *events]) + ",", "    "), "]  # fmt: skip"]
+        enums += [
+            f"    {value.split('_', 1)[1]} = {k}" for k, value in enumerate(values, of == "EVENT")
+        ]
+    lines += [
+        "StopAt = Literal[",
+        *wrapped(", ".join(json.dumps(word) for word in ["contact", *events]) + ",", "    "),
+        "]  # fmt: skip",
+    ]
     chosen = list(shot_options())
-    lines += [*enums, "", "", "class ShotOptions(NamedTuple):", '    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this']
+    lines += [
+        *enums,
+        "",
+        "",
+        "class ShotOptions(NamedTuple):",
+        '    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this',
+    ]
     lines += ["    class, or both.", "", "    Attributes", "    ----------"]
     for name, kind, _, text, of in chosen:
-        several = "{" + ", ".join(json.dumps(word) for word, _ in words()[of]) + "}" if of in words() else kind
+        several = (
+            "{" + ", ".join(json.dumps(word) for word, _ in words()[of]) + "}"
+            if of in words()
+            else kind
+        )
         lines += [f"    {name} : {several}", *wrapped(text[0].upper() + text[1:], "        ")]
-    lines += ['    """', ""] + [f"    {name}: {kind} = {default}" for name, kind, default, *_ in chosen]
-    lines += ["", "", "class Changes(TypedDict, total=False):", '    """Some of the options, as keywords."""', ""]
+    lines += ['    """', ""] + [
+        f"    {name}: {kind} = {default}" for name, kind, default, *_ in chosen
+    ]
+    lines += [
+        "",
+        "",
+        "class Changes(TypedDict, total=False):",
+        '    """Some of the options, as keywords."""',
+        "",
+    ]
     lines += [f"    {name}: {kind}" for name, kind, *_ in chosen]
     lines += ["", "", "# What each of them is: words, or a whole number up to this."]
-    lines += ["WORDS = {", *wrapped(", ".join(f'"{name}": "{of}"' for name, *_, of in chosen if of in words()) + ",", "    "), "}  # fmt: skip"]
-    lines.append("COUNTS = {" + ", ".join(f'"{name}": {of}' for name, *_, of in chosen if isinstance(of, int)) + "}")
-    lines += ["", "", "class CushionNumbers(TypedDict, total=False):", '    """Numbers of an impact on a cushion, by the models that read them."""', ""]
+    lines += [
+        "WORDS = {",
+        *wrapped(
+            ", ".join(f'"{name}": "{of}"' for name, *_, of in chosen if of in words()) + ",", "    "
+        ),
+        "}  # fmt: skip",
+    ]
+    lines.append(
+        "COUNTS = {"
+        + ", ".join(f'"{name}": {of}' for name, *_, of in chosen if isinstance(of, int))
+        + "}"
+    )
+    lines += [
+        "",
+        "",
+        "class CushionNumbers(TypedDict, total=False):",
+        '    """Numbers of an impact on a cushion, by the models that read them."""',
+        "",
+    ]
     for one in numbers():
         if one["of_cushion"]:
             reader = re.match(r"(?:BY_CUSHION|WITH)\((\w+)", one["reader"])
             model = reader[1].lower() if reader else "any model"
-            lines += [f"    {one['name']}: float", f'    """{model}: {one["text"]}; {one["range"]}"""']
-    lines += ["", "", "class BallNumbers(TypedDict, total=False):", '    """Numbers of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""', ""]
+            lines += [
+                f"    {one['name']}: float",
+                f'    """{model}: {one["text"]}; {one["range"]}"""',
+            ]
+    lines += [
+        "",
+        "",
+        "class BallNumbers(TypedDict, total=False):",
+        '    """Numbers of a ball and its cushions, the fields of `carom.dtypes.ball_kind`."""',
+        "",
+    ]
     for one in numbers():
-        lines += [f"    {one['name']}: npt.ArrayLike | None", f'    """{one["text"]}; {one["range"]}"""']
+        lines += [
+            f"    {one['name']}: npt.ArrayLike | None",
+            f'    """{one["text"]}; {one["range"]}"""',
+        ]
     return "\n".join([*lines, ""])
 
 
 if __name__ == "__main__":
     made = {
-        "json": lambda: json.dumps({"numbers": numbers(), "options": options(), "parts": parts(), "words": words(), "games": games()}, indent=1) + "\n",
+        "json": lambda: json.dumps(
+            {
+                "numbers": numbers(),
+                "options": options(),
+                "parts": parts(),
+                "words": words(),
+                "games": games(),
+            },
+            indent=1,
+        )
+        + "\n",
         "python": python,
     }
     sys.stdout.write(made[sys.argv[1]]())

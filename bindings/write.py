@@ -2,7 +2,8 @@
 
 OUT/api.json    the description of the interface
 OUT/csharp      a package for Unity, whose Runtime/ any other program in C# compiles too
-OUT/rust        the crates carom-sys, generated, with the library as one file, and carom, the safe layer
+OUT/rust        the crates carom-sys, generated, with the library as one file, and carom, the safe
+                layer
 """
 
 import json
@@ -37,14 +38,37 @@ def wrapped(words, before, width=100):
 
 
 class CSharp:
-    """Runtime/Native.cs: structs by sequential layout, enumerations, and the functions of C by P/Invoke."""
+    """Runtime/Native.cs: structs by sequential layout, enumerations, and the functions of C by
+    P/Invoke.
+    """
 
     BASE = {
-        "double": "double", "float": "float", "char": "byte", "int": "int", "int8_t": "sbyte", "int32_t": "int", "uint32_t": "uint",
-        "int64_t": "long", "uint64_t": "ulong", "size_t": "UIntPtr", "void": "void",
-    }  # fmt: skip
+        "double": "double",
+        "float": "float",
+        "char": "byte",
+        "int": "int",
+        "int8_t": "sbyte",
+        "int32_t": "int",
+        "uint32_t": "uint",
+        "int64_t": "long",
+        "uint64_t": "ulong",
+        "size_t": "UIntPtr",
+        "void": "void",
+    }
     SAFE_MOST = 32  # numbers of an array that code without pointers reads and sets
-    KEYWORDS = {"is", "in", "out", "event", "fixed", "params", "ref", "base", "lock", "object", "operator"}
+    KEYWORDS = {
+        "is",
+        "in",
+        "out",
+        "event",
+        "fixed",
+        "params",
+        "ref",
+        "base",
+        "lock",
+        "object",
+        "operator",
+    }
 
     def __init__(self, api):
         self.api, self.arrays = api, {}
@@ -58,7 +82,9 @@ class CSharp:
     def type(self, about):
         if about["type"] in self.callbacks:
             return "IntPtr"
-        return (self.BASE.get(about["type"]) or pascal(about["type"].removeprefix("carom_"))) + "*" * about.get("pointer", 0)
+        return (
+            self.BASE.get(about["type"]) or pascal(about["type"].removeprefix("carom_"))
+        ) + "*" * about.get("pointer", 0)
 
     @staticmethod
     def summary(words, indent):
@@ -77,18 +103,29 @@ class CSharp:
         return f"public {pascal(self.type(about))}Array{count} {name};"
 
     def text(self):
-        lines = [NOTE.format(version=self.api["version"]) + "using System;", "using System.Runtime.InteropServices;", "", "namespace Carom {"]
+        lines = [
+            NOTE.format(version=self.api["version"]) + "using System;",
+            "using System.Runtime.InteropServices;",
+            "",
+            "namespace Carom {",
+        ]
         for one in self.api["enums"]:
             prefix = commonprefix([value["name"] for value in one["values"]])
             prefix = prefix[: prefix.rindex("_") + 1]
-            lines += [*self.summary(one["comment"], "  "), f"  public enum {pascal(one['name'].removeprefix('carom_'))} {{"]
+            lines += [
+                *self.summary(one["comment"], "  "),
+                f"  public enum {pascal(one['name'].removeprefix('carom_'))} {{",
+            ]
             for value in one["values"]:
                 name = pascal(value["name"].removeprefix(prefix))
                 lines += self.summary(value["comment"], "    ")
                 lines.append(f"    {'_' if name[0].isdigit() else ''}{name} = {value['value']},")
             lines += ["  }", ""]
         for one in self.api["structs"]:
-            lines += [*self.summary(one["comment"], "  "), "  [StructLayout(LayoutKind.Sequential)]"]
+            lines += [
+                *self.summary(one["comment"], "  "),
+                "  [StructLayout(LayoutKind.Sequential)]",
+            ]
             lines.append(f"  public unsafe struct {pascal(one['name'].removeprefix('carom_'))} {{")
             for field in one["fields"]:
                 lines += [*self.summary(field["comment"], "    "), f"    {self.field(field)}"]
@@ -103,30 +140,59 @@ class CSharp:
                 f"      get {{ Check(k); fixed ({struct}* at = &first) return at[k]; }}",
                 f"      set {{ Check(k); fixed ({struct}* at = &first) at[k] = value; }}",
                 "    }",
-                f"    static void Check(int k) {{ if (k < 0 || k >= {count}) throw new IndexOutOfRangeException($\"must be 0 to {count - 1}, not {{k}}\"); }}",
+                f'    static void Check(int k) {{ if (k < 0 || k >= {count}) throw new IndexOutOfRangeException($"must be 0 to {count - 1}, not {{k}}"); }}',
                 "  }",
                 "",
             ]
-        lines += ["  /// <summary>Constants and functions of the library, by their names in C.</summary>", "  public static unsafe class Native {"]
+        lines += [
+            "  /// <summary>Constants and functions of the library, by their names in C.</summary>",
+            "  public static unsafe class Native {",
+        ]
         # IL2CPP links a plugin into the program itself on these systems.
-        lines += ["#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR", '    const string Library = "__Internal";', "#else", '    const string Library = "carom";', "#endif"]
+        lines += [
+            "#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR",
+            '    const string Library = "__Internal";',
+            "#else",
+            '    const string Library = "carom";',
+            "#endif",
+        ]
         for one in self.api["constants"]:
             kind = "double" if isinstance(one["value"], float) else "int"
-            lines += [*self.summary(one["comment"], "    "), f"    public const {kind} {one['name']} = {one['value']};"]
+            lines += [
+                *self.summary(one["comment"], "    "),
+                f"    public const {kind} {one['name']} = {one['value']};",
+            ]
         for one in self.api["callbacks"]:
-            lines += [*self.summary(one["comment"], "    "), "    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]"]
-            lines.append(f"    public delegate {self.type(one['returns'])} {one['name']}({self.arguments(one)});")
+            lines += [
+                *self.summary(one["comment"], "    "),
+                "    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]",
+            ]
+            lines.append(
+                f"    public delegate {self.type(one['returns'])} {one['name']}({self.arguments(one)});"
+            )
         for one in self.api["functions"]:
-            lines += [*self.summary(one["comment"], "    "), '    [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]']
-            lines.append(f"    public static extern {self.type(one['returns'])} {one['name']}({self.arguments(one)});")
+            lines += [
+                *self.summary(one["comment"], "    "),
+                "    [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]",
+            ]
+            lines.append(
+                f"    public static extern {self.type(one['returns'])} {one['name']}({self.arguments(one)});"
+            )
         return "\n".join([*lines, "  }", "}", ""])
 
     def arguments(self, function):
-        return ", ".join(f"{self.type(one)} {self.name(one['name'])}" for one in function["arguments"])
+        return ", ".join(
+            f"{self.type(one)} {self.name(one['name'])}" for one in function["arguments"]
+        )
 
     def layout_test(self):
         """A program that compares sizes and offsets with those of C."""
-        lines = ["using System;", "using System.Runtime.InteropServices;", "using Carom;", "static class Layout {"]
+        lines = [
+            "using System;",
+            "using System.Runtime.InteropServices;",
+            "using Carom;",
+            "static class Layout {",
+        ]
         lines += [
             "  static int wrong;",
             "  static void Same(string what, long seen, long expected) {",
@@ -143,7 +209,13 @@ class CSharp:
                 for name in [self.name(field["name"])]
             ]
         count = len(self.api["structs"])
-        lines += [f'    if (wrong == 0) Console.WriteLine("{count} structs have the layout of C");', "    return wrong == 0 ? 0 : 1;", "  }", "}", ""]
+        lines += [
+            f'    if (wrong == 0) Console.WriteLine("{count} structs have the layout of C");',
+            "    return wrong == 0 ? 0 : 1;",
+            "  }",
+            "}",
+            "",
+        ]
         return "\n".join(lines)
 
 
@@ -151,9 +223,18 @@ class Rust:
     """carom-sys/src/lib.rs: the declarations of C."""
 
     BASE = {
-        "double": "f64", "float": "f32", "char": "c_char", "int": "c_int", "int8_t": "i8", "int32_t": "i32", "uint32_t": "u32",
-        "int64_t": "i64", "uint64_t": "u64", "size_t": "usize", "void": "c_void",
-    }  # fmt: skip
+        "double": "f64",
+        "float": "f32",
+        "char": "c_char",
+        "int": "c_int",
+        "int8_t": "i8",
+        "int32_t": "i32",
+        "uint32_t": "u32",
+        "int64_t": "i64",
+        "uint64_t": "u64",
+        "size_t": "usize",
+        "void": "c_void",
+    }
     KEYWORDS = {"final", "type", "in", "where", "box", "match", "move", "ref", "loop", "use"}
 
     def __init__(self, api):
@@ -177,7 +258,9 @@ class Rust:
         return found
 
     def signature(self, function):
-        arguments = ", ".join(f"{self.name(one['name'])}: {self.type(one)}" for one in function["arguments"])
+        arguments = ", ".join(
+            f"{self.name(one['name'])}: {self.type(one)}" for one in function["arguments"]
+        )
         returns = self.type(function["returns"])
         return f"({arguments})" + ("" if returns == "c_void" else f" -> {returns}")
 
@@ -187,38 +270,82 @@ class Rust:
         return wrapped(re.sub(r"([\[\]<>])", r"\\\1", words), f"{indent}/// ")
 
     def text(self):
-        lines = [NOTE.format(version=self.api["version"]) + "//! The declarations of the C library carom, by their names in C."]
-        lines += ["#![allow(non_camel_case_types)]", "use std::os::raw::{c_char, c_int, c_void};", ""]
+        lines = [
+            NOTE.format(version=self.api["version"])
+            + "//! The declarations of the C library carom, by their names in C."
+        ]
+        lines += [
+            "#![allow(non_camel_case_types)]",
+            "use std::os::raw::{c_char, c_int, c_void};",
+            "",
+        ]
         for one in self.api["constants"]:
             kind = "f64" if isinstance(one["value"], float) else "c_int"
-            lines += [*self.about(one["comment"]), f"pub const {one['name']}: {kind} = {one['value']};"]
+            lines += [
+                *self.about(one["comment"]),
+                f"pub const {one['name']}: {kind} = {one['value']};",
+            ]
         for one in self.api["enums"]:
             lines += [*self.about(one["comment"]), f"pub type {one['name']} = c_int;"]
             for value in one["values"]:
-                lines += [*self.about(value["comment"]), f"pub const {value['name']}: {one['name']} = {value['value']};"]
+                lines += [
+                    *self.about(value["comment"]),
+                    f"pub const {value['name']}: {one['name']} = {value['value']};",
+                ]
         for one in self.api["structs"]:
-            lines += ["", *self.about(one["comment"]), "#[repr(C)]", "#[derive(Clone, Copy, Debug)]", f"pub struct {one['name']} {{"]
+            lines += [
+                "",
+                *self.about(one["comment"]),
+                "#[repr(C)]",
+                "#[derive(Clone, Copy, Debug)]",
+                f"pub struct {one['name']} {{",
+            ]
             for field in one["fields"]:
-                lines += [*self.about(field["comment"], "    "), f"    pub {self.name(field['name'])}: {self.type(field)},"]
+                lines += [
+                    *self.about(field["comment"], "    "),
+                    f"    pub {self.name(field['name'])}: {self.type(field)},",
+                ]
             lines += ["}", "", f"impl Default for {one['name']} {{", "    /// All zero."]
-            # All fields are numbers, pointers, or functions that may be missing: zeros are valid in each.
-            lines += ["    fn default() -> Self {", "        unsafe { core::mem::zeroed() }", "    }", "}"]
+            # All fields are numbers, pointers, or functions that may be missing: zeros are valid in
+            # each.
+            lines += [
+                "    fn default() -> Self {",
+                "        unsafe { core::mem::zeroed() }",
+                "    }",
+                "}",
+            ]
         for one in self.api["callbacks"]:
-            lines += ["", *self.about(one["comment"]), f"pub type {one['name']} = unsafe extern \"C\" fn{self.signature(one)};"]
+            lines += [
+                "",
+                *self.about(one["comment"]),
+                f'pub type {one["name"]} = unsafe extern "C" fn{self.signature(one)};',
+            ]
         lines += ["", 'extern "C" {']
         for one in self.api["functions"]:
-            lines += [*self.about(one["comment"], "    "), f"    pub fn {one['name']}{self.signature(one)};"]
+            lines += [
+                *self.about(one["comment"], "    "),
+                f"    pub fn {one['name']}{self.signature(one)};",
+            ]
         return "\n".join([*lines, "}", ""])
 
     def layout_test(self):
         """A test that compares sizes and offsets with those of C."""
-        lines = ["use carom_sys::*;", "use core::mem::{size_of, MaybeUninit};", "use core::ptr::addr_of;", ""]
+        lines = [
+            "use carom_sys::*;",
+            "use core::mem::{size_of, MaybeUninit};",
+            "use core::ptr::addr_of;",
+            "",
+        ]
         for one in self.api["structs"]:
-            lines += ["#[test]", f"fn {one['name']}() {{", f"    assert_eq!(size_of::<carom_sys::{one['name']}>(), {one['size']});"]
+            lines += [
+                "#[test]",
+                f"fn {one['name']}() {{",
+                f"    assert_eq!(size_of::<carom_sys::{one['name']}>(), {one['size']});",
+            ]
             lines.append(f"    let one = MaybeUninit::<carom_sys::{one['name']}>::uninit();")
             for field in one["fields"]:
                 place = f"unsafe {{ addr_of!((*one.as_ptr()).{self.name(field['name'])}) }} as usize - one.as_ptr() as usize"
-                lines.append(f"    assert_eq!({place}, {field['offset']}, \"{field['name']}\");")
+                lines.append(f'    assert_eq!({place}, {field["offset"]}, "{field["name"]}");')
             lines += ["}", ""]
         return "\n".join(line for line in lines if line != "use carom_sys::*;")
 
@@ -235,16 +362,24 @@ def main():
     }
     for language in ("csharp", "rust"):
         shutil.copytree(HERE / language, out / language, dirs_exist_ok=True)
-        for package in [*(out / language).glob("*/Cargo.toml"), *(out / language).glob("package.json")]:
+        for package in [
+            *(out / language).glob("*/Cargo.toml"),
+            *(out / language).glob("package.json"),
+        ]:
             for licence in ("LICENSE", "NOTICE"):
                 shutil.copy(HERE.parent / licence, package.parent)
         for part in (out / language).rglob("*"):
             if part.suffix in (".json", ".toml"):
-                part.write_text(part.read_text(encoding="utf-8").replace("VERSION", api["version"]), encoding="utf-8")
+                part.write_text(
+                    part.read_text(encoding="utf-8").replace("VERSION", api["version"]),
+                    encoding="utf-8",
+                )
     for name, text in made.items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         (out / name).write_text(text, encoding="utf-8")
-    subprocess.run([sys.executable, HERE.parent / "tools/one_file.py", out / "rust/carom-sys/c"], check=True)
+    subprocess.run(
+        [sys.executable, HERE.parent / "tools/one_file.py", out / "rust/carom-sys/c"], check=True
+    )
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
-/* The game of game.c in C++20: eight-ball between two programs, sent as a recording, and judged by its reader.
- *
- * One side plays and writes lines of a recording; the other reads them, plays every shot again and compares its bits. The rules and both
+/*
+ * The game of game.c in C++20: eight-ball between two programs, sent as a recording, and judged by
+ * its reader.  One side plays and writes lines of a recording; the other reads them, plays every
+ * shot again and compares its bits. The rules and both
  * players are those of carom_plan.h. With exceptions or without them, it prints the same. */
 #include <carom.hpp>
 
@@ -31,7 +32,8 @@ public:
     return record_.game().shots;
   }
 
-  // The best stroke that a plan finds, with the errors of the player, and what it comes to by the rules.
+  // The best stroke that a plan finds, with the errors of the player, and what it comes to by the
+  // rules.
   bool play() {
     carom_record &of = record_.game();
     const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
@@ -81,7 +83,8 @@ private:
   std::string sent_;
 };
 
-// How many shots have the bits that were recorded, up to the first that has not; -1 where a line is wrong or missing.
+// How many shots have the bits that were recorded, up to the first that has not; -1 where a line is
+// wrong or missing.
 std::int64_t referee(std::string_view lines) {
   carom::recording record;
   const carom_record &of = record.game();

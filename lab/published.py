@@ -1,7 +1,9 @@
-"""published.py LIBRARY MEASURED.csv [csv], which `carom-lab published` runs: values that others measured or stated, beside those that carom computes.
+"""published.py LIBRARY MEASURED.csv [csv], which `carom-lab published` runs: values that others
+measured or stated, beside those that carom computes.
 
-The columns of a row end with the verdict that is wanted, and with what computes carom's value: an expression of Python over the functions of this file,
-such as rebound(1, 1.5); "-" where nothing of carom can be compared, which the conditions explain. A row without bounds is printed and not judged.
+The columns of a row end with the verdict that is wanted, and with what computes carom's value: an
+expression of Python over the functions of this file, such as rebound(1, 1.5); "-" where nothing of
+carom can be compared, which the conditions explain. A row without bounds is printed and not judged.
 Games, tables and racks are the numbers of carom_shot.h: 0 is pool, the 7 ft table, nine-ball.
 """
 
@@ -27,18 +29,32 @@ def types():
     for one in api.types(api.describe(ROOT / "include")):
         fields = []
         for field in one.get("fields", ()):
-            kind = ctypes.c_void_p if field.get("pointer") else found.get(field["type"], ctypes.c_int)
+            kind = (
+                ctypes.c_void_p if field.get("pointer") else found.get(field["type"], ctypes.c_int)
+            )
             for length in reversed(field.get("array", [])):
                 kind *= length
             fields.append((field["name"], kind))
-        found[one["name"]] = type(one["name"], (ctypes.Structure,), {"_fields_": fields}) if fields else ctypes.c_int
-        globals().update({value["name"].removeprefix("CAROM_"): value["value"] for value in one.get("values", ())})
+        found[one["name"]] = (
+            type(one["name"], (ctypes.Structure,), {"_fields_": fields}) if fields else ctypes.c_int
+        )
+        globals().update(
+            {
+                value["name"].removeprefix("CAROM_"): value["value"]
+                for value in one.get("values", ())
+            }
+        )
     return found
 
 
 LIBRARY, OF = ctypes.CDLL(sys.argv[1]), types()
 Triple = ctypes.c_double * 3
-for name, kind in {"ball_kind_of": "carom_ball_kind", "cue_of": "carom_cue", "alciatore": "carom_speed_law", "mu_ball": "double"}.items():
+for name, kind in {
+    "ball_kind_of": "carom_ball_kind",
+    "cue_of": "carom_cue",
+    "alciatore": "carom_speed_law",
+    "mu_ball": "double",
+}.items():
     getattr(LIBRARY, f"carom_{name}").restype = OF[kind]
 by = ctypes.byref
 
@@ -69,10 +85,23 @@ def shot_ball(r, v=(0, 0, 0), w=(0, 0, 0), game=0, **numbers):
 
 def shoot(kind, balls, stroke=None, room=100):
     """The events of a shot, its facts, and where the first ball ends."""
-    events, facts, final = (OF["carom_event"] * room)(), OF["carom_facts"](), (OF["carom_ball_state"] * len(balls))()
+    events, facts, final = (
+        (OF["carom_event"] * room)(),
+        OF["carom_facts"](),
+        (OF["carom_ball_state"] * len(balls))(),
+    )
     shot = OF["carom_shot"](room=room)
-    shot.events, shot.facts, shot.final = (ctypes.cast(one, ctypes.c_void_p) for one in (events, by(facts), final))
-    LIBRARY.carom_shoot(by(table(kind)), (OF["carom_shot_ball"] * len(balls))(*balls), len(balls), by(stroke) if stroke else None, None, by(shot))
+    shot.events, shot.facts, shot.final = (
+        ctypes.cast(one, ctypes.c_void_p) for one in (events, by(facts), final)
+    )
+    LIBRARY.carom_shoot(
+        by(table(kind)),
+        (OF["carom_shot_ball"] * len(balls))(*balls),
+        len(balls),
+        by(stroke) if stroke else None,
+        None,
+        by(shot),
+    )
     return events[: min(shot.count, room)], facts, final[0].r
 
 
@@ -89,14 +118,20 @@ def friction_of(game, slip):
     return ball(game).law_a + ball(game).law_b * exp(-ball(game).law_c * slip)
 
 
-# ---- Two balls of pool: cut in degrees, speed, share of rolling, friction (0: Alciatore's), side spin R w_z / v
+# ---- Two balls of pool: cut in degrees, speed, share of rolling, friction (0: Alciatore's), side
+# spin R w_z / v
 
 
 def hit(cut, speed, roll=0, friction=0, side=0):
     R, v = ball().radius, (speed * sin(radians(cut)), speed * cos(radians(cut)))
     w = (-roll * v[1] / R, roll * v[0] / R, side * speed / R)
     one = (R, ball().mass, ball().mu_slide)
-    pair = OF["carom_impact"]((Triple(), Triple(*v, 0), Triple(*w), *one), (Triple(0, 2 * R, 0), Triple(), Triple(), *one), friction, ball().restitution)
+    pair = OF["carom_impact"](
+        (Triple(), Triple(*v, 0), Triple(*w), *one),
+        (Triple(0, 2 * R, 0), Triple(), Triple(), *one),
+        friction,
+        ball().restitution,
+    )
     if friction == 0:
         pair.mu_ball = LIBRARY.carom_mu_ball(by(pair), LIBRARY.carom_alciatore())
     out = OF["carom_result"]()
@@ -134,13 +169,19 @@ def found(of, low, high, wanted):
 
 
 def draw_angle(cut, speed):
-    """between the path to the ball and the path back, with the draw that turns that of a half-ball hit by 90 degrees"""
+    """between the path to the ball and the path back, with the draw that turns that of a half-ball
+    hit by 90 degrees
+    """
     return 180 - deflection(cut, speed, found(lambda roll: deflection(30, speed, roll), -2, 0, 90))
 
 
 def gearing(cut, speed, roll):
     """the offset of the tip at which nothing is thrown, over that of the point of contact"""
-    return found(lambda side: hit(cut, speed, roll, 0, side)[1].v[0], -1.25, 1.25, 0) / 2.5 / sin(radians(cut))
+    return (
+        found(lambda side: hit(cut, speed, roll, 0, side)[1].v[0], -1.25, 1.25, 0)
+        / 2.5
+        / sin(radians(cut))
+    )
 
 
 def throw_most(speed):
@@ -149,25 +190,37 @@ def throw_most(speed):
 
 
 def distance_ratio(*numbers):
-    """of the object ball over the cue ball: of the distances that they roll, which grow with the square of the speed"""
+    """of the object ball over the cue ball: of the distances that they roll, which grow with the
+    square of the speed
+    """
     a, b = (hypot(*rolling(one)) for one in hit(*numbers))
     return (b / a) ** 2
 
 
 def kiss_share(angle, speed):
-    """of the first of two frozen balls: how far from the kiss line to the line of centres its path lies, by tangents; a third ball drives it"""
+    """of the first of two frozen balls: how far from the kiss line to the line of centres its path
+    lies, by tangents; a third ball drives it
+    """
     R, along, across = ball().radius, sin(radians(angle)), cos(radians(angle))
-    balls = shot_ball((0, 0, R)), shot_ball((2 * R, 0, R)), shot_ball((-2 * R * along, -2 * R * across, R), (speed * along, speed * across, 0))
+    balls = (
+        shot_ball((0, 0, R)),
+        shot_ball((2 * R, 0, R)),
+        shot_ball((-2 * R * along, -2 * R * across, R), (speed * along, speed * across, 0)),
+    )
     out = (OF["carom_motion"] * 3)()
     LIBRARY.carom_cluster((OF["carom_shot_ball"] * 3)(*balls), 3, None, out, None, 0, None)
     return out[0].v[0] / out[0].v[1] / tan(radians(angle))
 
 
-# ---- Strikes of pool: the butt's elevation and direction in degrees, the cue's speed, the tip's place, another ball, its friction (0: the law of pool), the cue's numbers
+# ---- Strikes of pool: the butt's elevation and direction in degrees, the cue's speed, the tip's
+# place, another ball, its friction (0: the law of pool), the cue's numbers
 
 
 def strike(theta, speed, tip=(0, 0), other=None, friction=0, phi=90, **numbers):
-    stroke, balls = LIBRARY.carom_cue_of(GAME_POOL), [shot_ball(place) for place in [(0.635, 0.635, ball().radius), other] if place]
+    stroke, balls = (
+        LIBRARY.carom_cue_of(GAME_POOL),
+        [shot_ball(place) for place in [(0.635, 0.635, ball().radius), other] if place],
+    )
     for name, value in dict(numbers, phi=phi, theta=theta, speed=speed, a=tip[0], b=tip[1]).items():
         setattr(stroke, name, value)
     for one in balls if friction else ():
@@ -191,14 +244,27 @@ def in_the_air(*numbers):
     """the share of the time from the head spot to a ball on the foot spot, %"""
     events = strike(*numbers, other=(0.635, 1.905, ball().radius))
     met = next(k for k, e in enumerate(events) if e.type == EVENT_BALL_BALL)
-    return 100 * sum(b.time - a.time for a, b in zip(events[:met], events[1:]) if a.after[0].v[2] > 0) / events[met].time
+    return (
+        100
+        * sum(b.time - a.time for a, b in zip(events[:met], events[1:]) if a.after[0].v[2] > 0)
+        / events[met].time
+    )
 
 
 def inside(beside, friction, speed):
-    """how far the tip is from the centre where a frozen ball leaves in the direction of the cue, that angle beside the line of centres, in R"""
+    """how far the tip is from the centre where a frozen ball leaves in the direction of the cue,
+    that angle beside the line of centres, in R
+    """
 
     def to_the_left(a):
-        events = strike(0, speed, (-a, 0), (0.635, 0.635 + 2 * ball().radius, ball().radius), friction, 90 + beside)
+        events = strike(
+            0,
+            speed,
+            (-a, 0),
+            (0.635, 0.635 + 2 * ball().radius, ball().radius),
+            friction,
+            90 + beside,
+        )
         met = next(e for e in events if e.type == EVENT_BALL_BALL)
         return -angle(met.after[(met.a, met.b).index(1)].v)
 
@@ -209,14 +275,24 @@ def inside(beside, friction, speed):
 
 
 # Of the table that was played on in 2017, by a fit of 21 shots; that of 2022 has those of the game.
-MATCH_2017 = {"restitution_cushion": 0.753, "mu_cushion": 0.238, "mu_slide": 0.203, "mu_roll": 0.0045, "drag": 0.0126}
+MATCH_2017 = {
+    "restitution_cushion": 0.753,
+    "mu_cushion": 0.238,
+    "mu_slide": 0.203,
+    "mu_roll": 0.0045,
+    "drag": 0.0126,
+}
 
 
 def rebound(game, speed, **numbers):
-    """of a ball that rolls into a rail, full on: once to find where it meets the rail, and once from just before it"""
+    """of a ball that rolls into a rail, full on: once to find where it meets the rail, and once
+    from just before it
+    """
     kind, R, x = (TABLE_POOL_9FT, TABLE_SNOOKER, TABLE_THREECUSHION)[game], ball(game).radius, 0.5
     for _ in range(2):
-        events, _, _ = shoot(kind, [shot_ball((x, 0.7, R), (-speed, 0, 0), (0, -speed / R, 0), game, **numbers)])
+        events, _, _ = shoot(
+            kind, [shot_ball((x, 0.7, R), (-speed, 0, 0), (0, -speed / R, 0), game, **numbers)]
+        )
         met = next(e for e in events if e.type == EVENT_RAIL)
         x = met.before[0].r[0] + 1e-6
     return -met.after[0].v[0] / met.before[0].v[0]
@@ -226,22 +302,32 @@ def lengths_of_travel(speed):
     """lengths of a 9 ft table that a ball goes from the head spot through the foot spot"""
     made = table(TABLE_POOL_9FT)
     at = 0.25 * made.length
-    events, _, _ = shoot(TABLE_POOL_9FT, [shot_ball((0.5 * made.width, at, ball().radius), (0, speed, 0))])
+    events, _, _ = shoot(
+        TABLE_POOL_9FT, [shot_ball((0.5 * made.width, at, ball().radius), (0, speed, 0))]
+    )
     places = [at] + [e.before[0].r[1] for e in events]
     return sum(abs(b - a) for a, b in zip(places, places[1:])) / made.length
 
 
 def diamond(kind, game, start, aim, speed, side, nth, **numbers):
-    """How far beyond its aim a ball meets a rail, in diamonds: it rolls from one long rail to the other, with side spin R w_z / v to run on. Diamonds
-    count from the end that it nears, 94 mm behind the noses. Of the rail `nth`, which is that from which it came."""
+    """How far beyond its aim a ball meets a rail, in diamonds: it rolls from one long rail to the
+    other, with side spin R w_z / v to run on. Diamonds count from the end that it nears, 94 mm
+    behind the noses. Of the rail `nth`, which is that from which it came.
+    """
     made, R, back, x = table(kind), ball(game).radius, 0.094, 0.3
     one, across = made.length / 8, made.width + 2 * back
     along = (start - aim) * one
     v = speed * across / hypot(across, along), speed * along / hypot(across, along)
     place = (x, made.length - start * one + (x + back) * along / across, R)
-    events, _, _ = shoot(kind, [shot_ball(place, (*v, 0), (-v[1] / R, v[0] / R, -side * speed / R), game, **numbers)])
+    events, _, _ = shoot(
+        kind, [shot_ball(place, (*v, 0), (-v[1] / R, v[0] / R, -side * speed / R), game, **numbers)]
+    )
     met = [e for e in events if e.type == EVENT_RAIL][nth - 1].before[0]
-    return (made.length - met.r[1] + (met.r[0] + back) * met.v[1] / met.v[0]) / one if met.r[0] < 0.5 * made.width else nan
+    return (
+        (made.length - met.r[1] + (met.r[0] + back) * met.v[1] / met.v[0]) / one
+        if met.r[0] < 0.5 * made.width
+        else nan
+    )
 
 
 def bounce(height):
@@ -250,23 +336,29 @@ def bounce(height):
     return (first.after[0].v[2] / first.before[0].v[2]) ** 2 if first.type == EVENT_SLATE else nan
 
 
-# ---- Breaks: the rack, the table, the gap in mm, how far the cue ball is beside the long string, m, its speed, the tip above its centre in R.
-# Values are pairs, with the standard error.
+# ---- Breaks: the rack, the table, the gap in mm, how far the cue ball is beside the long string,
+# m, its speed, the tip above its centre in R. Values are pairs, with the standard error.
 
 BREAKS = 1600
 
 
 def back_of(events):
-    """The velocity of the cue ball along the table once it has met the rack, over that before: contacts within a millisecond are one."""
-    met = [(e, (e.a, e.b).index(0)) for e in events if e.type == EVENT_BALL_BALL and 0 in (e.a, e.b)]
+    """The velocity of the cue ball along the table once it has met the rack, over that before:
+    contacts within a millisecond are one.
+    """
+    met = [
+        (e, (e.a, e.b).index(0)) for e in events if e.type == EVENT_BALL_BALL and 0 in (e.a, e.b)
+    ]
     last, own = [one for one in met if one[0].time <= met[0][0].time + 1e-3][-1]
     return last.after[own].v[1] / met[0][0].before[met[0][1]].v[1]
 
 
 @cache
 def breaks(rack, kind, gap, beside, speed, above=0):
-    """Of each break: the places of the balls that fell, in rows from the cue ball and from the left; what is counted; the cue ball's velocity back, and how
-    far from the middle of the table it stops, m. The errors are those of a good player: 0.2 degrees, 3 % of the speed, 0.03 R."""
+    """Of each break: the places of the balls that fell, in rows from the cue ball and from the
+    left; what is counted; the cue ball's velocity back, and how far from the middle of the table it
+    stops, m. The errors are those of a good player: 0.2 degrees, 3 % of the speed, 0.03 R.
+    """
     count, made, draw, all_of_them = LIBRARY.carom_rack_size(rack), table(kind), Random(1), []
 
     def normal(deviation):
@@ -274,10 +366,14 @@ def breaks(rack, kind, gap, beside, speed, above=0):
 
     for k in range(BREAKS):
         balls = (OF["carom_shot_ball"] * count)()
-        LIBRARY.carom_rack(rack, by(made), ctypes.c_double(1e-3 * gap), ctypes.c_uint64(k), balls, count)
+        LIBRARY.carom_rack(
+            rack, by(made), ctypes.c_double(1e-3 * gap), ctypes.c_uint64(k), balls, count
+        )
         balls[0].state.r[0], balls[0].state.r[1] = 0.5 * made.width + beside, 0.25 * made.length
         R, at = ball().radius, [tuple(one.state.r) for one in balls]
-        order = [sum(b[0] < a[0] if abs(b[1] - a[1]) < R else b[1] < a[1] for b in at[1:]) for a in at]
+        order = [
+            sum(b[0] < a[0] if abs(b[1] - a[1]) < R else b[1] < a[1] for b in at[1:]) for a in at
+        ]
         front = at[1 + order[1:].index(0)]
         stroke = LIBRARY.carom_cue_of(GAME_POOL)
         stroke.b, stroke.a = above + normal(0.03), normal(0.03)
@@ -285,11 +381,24 @@ def breaks(rack, kind, gap, beside, speed, above=0):
         stroke.speed = speed * cue().speed / struck(0, above).v[1] * (1 + normal(0.03))
         events, facts, end = shoot(kind, balls, stroke, 64)
         fell = [b for b in range(1, count) if facts.down >> b & 1]
-        side = [b for b in fell if abs(made.pocket[facts.pocket[b]].centre[1] - 0.5 * made.length) < 0.25 * made.length]
+        side = [
+            b
+            for b in fell
+            if abs(made.pocket[facts.pocket[b]].centre[1] - 0.5 * made.length) < 0.25 * made.length
+        ]
         scratch = bool((facts.down | facts.off) & 1)
         rest = nan if scratch else hypot(end[0] - 0.5 * made.width, end[1] - 0.5 * made.length)
-        all_of_them.append({"places": [order[b] for b in fell], "success": bool(fell) and not scratch, "scratch": scratch, "eight": 8 in fell,
-                            "front_in_side": 0 in [order[b] for b in side], "back": back_of(events), "rest": rest})  # fmt: skip
+        all_of_them.append(
+            {
+                "places": [order[b] for b in fell],
+                "success": bool(fell) and not scratch,
+                "scratch": scratch,
+                "eight": 8 in fell,
+                "front_in_side": 0 in [order[b] for b in side],
+                "back": back_of(events),
+                "rest": rest,
+            }
+        )
     return all_of_them
 
 
@@ -307,9 +416,14 @@ def balls_of_a_break(*numbers):
 
 
 def wings(*numbers):
-    """how often the likelier wing ball of nine-ball falls over how often the likeliest other ball does; the error is that of both"""
+    """how often the likelier wing ball of nine-ball falls over how often the likeliest other ball
+    does; the error is that of both
+    """
     count = [sum(k in one["places"] for one in breaks(*numbers)) for k in range(16)]
-    wing, other = max(count[3], count[5]), max([1] + [n for k, n in enumerate(count) if k not in (3, 5)])
+    wing, other = (
+        max(count[3], count[5]),
+        max([1] + [n for k, n in enumerate(count) if k not in (3, 5)]),
+    )
     return wing / other, wing / other * sqrt(1 / (wing + 1) + 1 / other)
 
 
@@ -332,7 +446,15 @@ def judged(row):
     value, error = value if isinstance(value, tuple) else (value, 0)
     if isnan(value):
         raise ValueError
-    verdict = "-" if low == -inf and high == inf else "low" if value < low else "high" if value > high else "ok"
+    verdict = (
+        "-"
+        if low == -inf and high == inf
+        else "low"
+        if value < low
+        else "high"
+        if value > high
+        else "ok"
+    )
     return f"{value:.4g}", f"{error:.2g}" if error else "", verdict
 
 
@@ -340,7 +462,11 @@ def main(path, as_csv):
     out, code = csv.writer(sys.stdout, lineterminator="\n"), 0
     heads = "quantity,published,low,high,unit,carom,error,verdict,conditions,source".split(",")
     line = "{:<42.42} {:>9} {:>7} {:>7} {:>9} {:<7} {:<6} {:<4}  {}"
-    print(",".join(heads) if as_csv else "quantity                                   published     low    high     carom error   unit   verdict")
+    print(
+        ",".join(heads)
+        if as_csv
+        else "quantity                                   published     low    high     carom error   unit   verdict"
+    )
     with open(path, encoding="utf-8", newline="") as file:
         for row in (rows := csv.DictReader(file)):
             if row["computed"] == "":
@@ -348,12 +474,17 @@ def main(path, as_csv):
             try:
                 value, error, verdict = judged(row)
             except (ValueError, TypeError, AttributeError, NameError, SyntaxError):
-                print(f"carom-lab: {path}:{rows.line_num}: not a row of {len(rows.fieldnames)} columns with bounds and a function", file=sys.stderr)
+                print(
+                    f"carom-lab: {path}:{rows.line_num}: not a row of {len(rows.fieldnames)} columns with bounds and a function",
+                    file=sys.stderr,
+                )
                 return 2
             code |= row["verdict"] == "ok" != verdict
             cells = [row["quantity"], row["value"], row["low"], row["high"]]
             if as_csv:
-                out.writerow([*cells, row["unit"], value, error, verdict, row["conditions"], row["source"]])
+                out.writerow(
+                    [*cells, row["unit"], value, error, verdict, row["conditions"], row["source"]]
+                )
             else:
                 print(line.format(*cells, value, error, row["unit"], verdict, row["conditions"]))
     return code

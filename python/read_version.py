@@ -1,4 +1,7 @@
-"""The version of the package: that of the public header, its one source. A provider of dynamic metadata for scikit-build-core."""
+"""The version of the package: that of the public header, its one source.
+
+A provider of dynamic metadata for scikit-build-core.
+"""
 
 import re
 from collections.abc import Mapping
@@ -7,9 +10,13 @@ from typing import Any
 
 
 def dynamic_metadata(settings: Mapping[str, Any], project: Mapping[str, Any]) -> dict[str, str]:
-    """The field "version", read from carom.h: in library/ in an archive of the sources, else beside this folder."""
+    """The field "version", read from carom.h: in library/ in an archive of the sources, else beside
+    this folder.
+    """
     here = Path(__file__).parent
     library = here / "library" if (here / "library").is_dir() else here.parent
     header = (library / "include" / "carom.h").read_text(encoding="utf-8")
-    numbers = dict(re.findall(r"^#define CAROM_VERSION_(MAJOR|MINOR|PATCH) +(\d+)$", header, re.MULTILINE))
+    numbers = dict(
+        re.findall(r"^#define CAROM_VERSION_(MAJOR|MINOR|PATCH) +(\d+)$", header, re.MULTILINE)
+    )
     return {"version": "{MAJOR}.{MINOR}.{PATCH}".format(**numbers)}

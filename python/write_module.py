@@ -1,7 +1,9 @@
-"""Writes the C source of the extension module carom._carom from headers: write_module.py OUT HEADER...
+"""Writes the C source of the extension module carom._carom from headers: write_module.py OUT
+HEADER...
 
-The declarations that cffi needs are the headers without what its parser does not take: comments, preprocessor lines,
-the braces of extern "C", the export mark. So the module can never differ from the headers.
+The declarations that cffi needs are the headers without what its parser does not take: comments,
+preprocessor lines, the braces of extern "C", the export mark. So the module can never differ from
+the headers.
 """
 
 import re

@@ -1,25 +1,36 @@
-"""Prints the quadrature rules of the collocation steps, computed with 50 digits. Needs mpmath; what it prints is kept in the tree:
+"""Prints the quadrature rules of the collocation steps, computed with 50 digits.
 
-    python3 tools/collocation_rules.py ball_ball > src/ball_ball/quadrature.h
-    python3 tools/collocation_rules.py impact > src/impact/quadrature.h && cmake --build build --target format
+Needs mpmath; what it prints is kept in the tree:
 
-For impact: Gauss's rule of 8 nodes on [0, 1] in double precision, described in that file. For ball_ball, in single precision:
+    python3 tools/collocation_rules.py ball_ball > src/ball_ball/quadrature.h python3
+    tools/collocation_rules.py impact > src/impact/quadrature.h && cmake --build build --target
+    format
 
-Gauss rules of n nodes on [0, 1], and one of Gauss and Jacobi for the weight (1 - x)^4, for steps to stick; each has what the steps over
-its nodes need. With L_j the Lagrange basis on the nodes x_k:
+For impact: Gauss's rule of 8 nodes on [0, 1] in double precision, described in that file. For
+ball_ball, in single precision:
+
+Gauss rules of n nodes on [0, 1], and one of Gauss and Jacobi for the weight (1 - x)^4, for steps to
+stick; each has what the steps over its nodes need. With L_j the Lagrange basis on the nodes x_k:
 
     node[k]        x_k, ascending
-    end[k], bend[k], third[k]   the first Taylor coefficients of the integral of L_k beyond 1: L_k, L_k' / 2 and L_k'' / 6 at 1
+    end[k], bend[k], third[k]   the first Taylor coefficients of the integral of L_k beyond 1: L_k,
+                                L_k' / 2 and L_k'' / 6 at 1
     all[k]         integral of (the weight times) L_k over [0, 1]
     sum[j][k]      integral of (the weight times) L_j from 0 to x_k
-    part[m][k]     integral of L_k from 0 to x, divided by x, as powers m of 2 x - 1, whose coefficients stay small
+    part[m][k]     integral of L_k from 0 to x, divided by x, as powers m of 2 x - 1, whose
+                   coefficients stay small
     twice[m][k]    the integral of that integral from 0 to x, divided by x^2, as such powers
-    powers[k][m]   part[m][k], to sum over k; for the rule to stick, with the weight: from x to 1, divided by (1 - x)^5, as powers
+    powers[k][m]   part[m][k], to sum over k; for the rule to stick, with the weight: from x to 1,
+                   divided by (1 - x)^5, as powers
                    of 1 - 2 x
     basis[k][m]    for the rule to stick: L_k as such powers
-    turn[j][k]     for the rule to stick, with l = 1 - x, whose node is l_k: 2 l_k^2 times the integral of L_j l^-3 from l_k to 1
-    lambda[k], lambda_2[k], lambda_5[k], log[k], gone[k], gone_mean[k]   for the rule to stick: l, l^2, l^5, log l, 1 - l^6, 1 - m^6
-                   with m = 2 l / (1 + l)"""
+    turn[j][k]     for the rule to stick, with l = 1 - x, whose node is l_k: 2 l_k^2 times the
+                   integral of L_j l^-3 from l_k to 1
+    lambda[k], lambda_2[k], lambda_5[k], log[k], gone[k], gone_mean[k]   for the rule to stick: l,
+        l^2, l^5, log l, 1 - l^6, 1 - m^6
+                   with m = 2 l / (1 + l)
+"""
+
 import sys
 
 from mpmath import matrix, mp, mpf, polyroots
@@ -86,7 +97,9 @@ def print_rule(name, n, w):
         y.reverse()
     L = lagrange_basis(y)
     part = [centred([v / (m + w + 1) for m, v in enumerate(c)]) for c in L]
-    between = (lambda c, at: integral(c, w, at, one)) if w else (lambda c, at: integral(c, 0, zero, at))
+    between = (
+        (lambda c, at: integral(c, w, at, one)) if w else (lambda c, at: integral(c, 0, zero, at))
+    )
     print("static const %s_rule %s_%d = {" % ("stick" if w else "gauss", name, n))
     if not w:
         print("    .node = %s," % text(y))
@@ -94,7 +107,10 @@ def print_rule(name, n, w):
     if n == 4:
         print("    .bend = %s," % text([sum(m * v for m, v in enumerate(c)) / 2 for c in L]))
     if not w and n < 8:
-        print("    .third = %s," % text([sum(m * (m - 1) * v for m, v in enumerate(c)) / 6 for c in L]))
+        print(
+            "    .third = %s,"
+            % text([sum(m * (m - 1) * v for m, v in enumerate(c)) / 6 for c in L])
+        )
     print("    .all = %s," % text([integral(c, w, zero, one) for c in L]))
     print("    .sum = {%s}," % ",\n".join(text([between(c, at) for at in y]) for c in L))
     by_node = lambda rows: ",\n".join(text([row[m] for m in span]) for row in rows)
@@ -105,21 +121,28 @@ def print_rule(name, n, w):
     if n == 8 or w:
         print("    .powers = {%s}," % by_node(part))
     if w:
-        turn = lambda c, at: 2 * at ** 2 * sum(v * (-mp.log(at) if m == 2 else (1 - at ** (m - 2)) / (m - 2)) for m, v in enumerate(c))
+        turn = (
+            lambda c, at: 2
+            * at**2
+            * sum(
+                v * (-mp.log(at) if m == 2 else (1 - at ** (m - 2)) / (m - 2))
+                for m, v in enumerate(c)
+            )
+        )
         mean = [2 * at / (1 + at) for at in y]
         print("    .basis = {%s}," % by_node([centred(c) for c in L]))
         print("    .turn = {%s}," % ",\n".join(text([turn(c, at) for at in y]) for c in L))
         print("    .lambda = %s," % text(y))
-        print("    .lambda_2 = %s," % text([at ** 2 for at in y]))
-        print("    .lambda_5 = %s," % text([at ** 5 for at in y]))
+        print("    .lambda_2 = %s," % text([at**2 for at in y]))
+        print("    .lambda_5 = %s," % text([at**5 for at in y]))
         print("    .log = %s," % text([mp.log(at) for at in y]))
-        print("    .gone = %s," % text([1 - at ** 6 for at in y]))
-        print("    .gone_mean = %s," % text([1 - at ** 6 for at in mean]))
+        print("    .gone = %s," % text([1 - at**6 for at in y]))
+        print("    .gone_mean = %s," % text([1 - at**6 for at in mean]))
     print("};")
 
 
 def print_ball_ball():
-    print("#include \"ball_ball/carrier.h\"\n")
+    print('#include "ball_ball/carrier.h"\n')
     print_rule("gauss", 4, 0)
     print_rule("gauss", 6, 0)
     print_rule("gauss", 8, 0)
@@ -136,18 +159,36 @@ def print_impact():
     print("enum { NODES = 8 };")
     print(row % ("Nodes on [0, 1], and weights.", "NODE[NODES]", text(x)))
     print("static const double __attribute__((aligned(64))) WEIGHT[NODES] = %s;" % text(weight))
-    print(row % ("Sum with the values at the nodes: the coefficient of the Legendre polynomial of degree 7.", "HIGHEST[NODES]", text(highest)))
+    print(
+        row
+        % (
+            "Sum with the values at the nodes: the coefficient of the Legendre polynomial of degree 7.",
+            "HIGHEST[NODES]",
+            text(highest),
+        )
+    )
     at_end = [sum(c) for c in L]
-    print(row % ("Sum with the values at the nodes: the value at 1.", "AT_END[NODES]", text(at_end)))
+    print(
+        row % ("Sum with the values at the nodes: the value at 1.", "AT_END[NODES]", text(at_end))
+    )
     sums = ",\n".join(text([integral(c, 0, zero, at) for at in x]) for c in L)
-    print(row % ("[j][k]: integral of the Lagrange polynomial of node j from 0 to node k.", "INTEGRAL[NODES][NODES]", "{%s}" % sums))
+    print(
+        row
+        % (
+            "[j][k]: integral of the Lagrange polynomial of node j from 0 to node k.",
+            "INTEGRAL[NODES][NODES]",
+            "{%s}" % sums,
+        )
+    )
 
 
 room = sys.argv[1] if len(sys.argv) == 2 else ""
 if room not in ("ball_ball", "impact"):
     sys.exit("usage: collocation_rules.py ball_ball|impact")
 guard = "CAROM_SRC_%s_RULES_H" % room.upper()
-print("/* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed them. */")
+print(
+    "/* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed them. */"
+)
 print("#ifndef %s\n#define %s\n" % (guard, guard))
 (print_ball_ball if room == "ball_ball" else print_impact)()
 print("\n#endif")

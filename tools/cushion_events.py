@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Takes the impacts on cushions out of recorded shots: cushion_events.py SHOTS.jsonl > EVENTS.csv
 
-SHOTS.jsonl is a file of shots that the simulator pooltool has recorded (kinds meta, table, shot; states before and after each
-event). A row of EVENTS.csv is one impact in the columns of `carom resolve --cushion`, the direction into the cushion being that
-after pooltool has moved the ball to its spacer of 1e-6 m (its make_kiss), and the motion after it (avx ... awz).
+SHOTS.jsonl is a file of shots that the simulator pooltool has recorded (kinds meta, table, shot;
+states before and after each event). A row of EVENTS.csv is one impact in the columns of `carom
+resolve --cushion`, the direction into the cushion being that after pooltool has moved the ball to
+its spacer of 1e-6 m (its make_kiss), and the motion after it (avx ... awz).
 """
+
 import cmath
 import csv
 import json
@@ -30,7 +32,11 @@ def circular_normal(segment, r, v, moving, radius):
     moved = False
     if moving and a > 0:
         root = cmath.sqrt(b * b - 4 * a * c)
-        times = [t for t in ((-b + root) / (2 * a), (-b - root) / (2 * a)) if abs(t.imag) < 1e-3 * abs(t.real)]
+        times = [
+            t
+            for t in ((-b + root) / (2 * a), (-b - root) / (2 * a))
+            if abs(t.imag) < 1e-3 * abs(t.real)
+        ]
         if times:
             t = min(times, key=abs).real
             if abs(t) * math.sqrt(a) <= 5 * SPACER:
@@ -64,8 +70,21 @@ def rows(lines):
             else:
                 normal = circular_normal(segment, r, v, state[0] in (2, 3), p["R"])
                 height, jaw = segment["center"][2], segment["radius"]
-            yield [f"{entry['id']}:{number}", *v, *w, *normal, height, p["R"], p["m"], p["u_s"], p["f_c"], p["e_c"], jaw,
-                   *after[0][4:7], *after[0][7:10]]
+            yield [
+                f"{entry['id']}:{number}",
+                *v,
+                *w,
+                *normal,
+                height,
+                p["R"],
+                p["m"],
+                p["u_s"],
+                p["f_c"],
+                p["e_c"],
+                jaw,
+                *after[0][4:7],
+                *after[0][7:10],
+            ]
 
 
 def main():

@@ -1,12 +1,15 @@
 """Writes the library as one file, for projects that vendor it: tools/one_file.py FOLDER
 
-FOLDER gets carom.c and the public headers. `cc -O2 app.c carom.c -lm` compiles them as C17, `-pthread` where the C library wants it.
-All instruction sets of the processor are in: the kernels that the build compiles several times are a part of carom.c that
-includes itself, with other definitions each time. Derivatives are not in: they are C++, and their calls return
-CAROM_ERROR_NO_TANGENTS. -DCAROM_WITHOUT_AVX512 (AVX2, SSE2, NEON) leaves sets out, -DCAROM_WITHOUT_THREADS the threads.
+FOLDER gets carom.c and the public headers. `cc -O2 app.c carom.c -lm` compiles them as C17,
+`-pthread` where the C library wants it. All instruction sets of the processor are in: the kernels
+that the build compiles several times are a part of carom.c that includes itself, with other
+definitions each time. Derivatives are not in: they are C++, and their calls return
+CAROM_ERROR_NO_TANGENTS. -DCAROM_WITHOUT_AVX512 (AVX2, SSE2, NEON) leaves sets out,
+-DCAROM_WITHOUT_THREADS the threads.
 
-In one translation unit the names that two sources have for themselves would meet. So a source's own macros are undefined behind it, and
-names that another source has too stand for longer ones meanwhile.
+In one translation unit the names that two sources have for themselves would meet. So a source's own
+macros are undefined behind it, and names that another source has too stand for longer ones
+meanwhile.
 """
 
 import re
@@ -19,14 +22,24 @@ SRC, PLAN = ROOT / "src", ROOT / "plan"
 HEADERS = {path.name: path for folder in (ROOT, PLAN) for path in (folder / "include").glob("*.h*")}
 PUBLIC = sorted(name for name in HEADERS if name.endswith(".h"))
 WRAPPER = "carom.hpp"
-# What CMakeLists.txt compiles once for every instruction set, with the definitions of each time, and the sets of `advance.c`.
+# What CMakeLists.txt compiles once for every instruction set, with the definitions of each time,
+# and the sets of `advance.c`.
 PASSES = [
-    ("rows.c", "", "f64"), ("rows.c", "F32", "f32"), ("rows.c", "ONE", "one_f64"), ("rows.c", "ONE F32", "one_f32"),
-    ("collocate.c", "F32", "steps"), ("collocate.c", "ONE F32", "one_steps"), ("advance.c", "", "impact"),
-]  # fmt: skip
+    ("rows.c", "", "f64"),
+    ("rows.c", "F32", "f32"),
+    ("rows.c", "ONE", "one_f64"),
+    ("rows.c", "ONE F32", "one_f32"),
+    ("collocate.c", "F32", "steps"),
+    ("collocate.c", "ONE F32", "one_steps"),
+    ("advance.c", "", "impact"),
+]
 KERNELS = {"rows.c": "ball_ball", "collocate.c": "ball_ball", "advance.c": "impact"}
 ISAS = {"plain": "1", "sse2": "x86_64", "avx2": "x86_64", "avx512": "x86_64", "neon": "aarch64"}
-TARGETS = {"sse2": "sse2", "avx2": "avx2,fma", "avx512": "avx512f,avx512dq,avx512vl,fma,prefer-vector-width=512"}
+TARGETS = {
+    "sse2": "sse2",
+    "avx2": "avx2,fma",
+    "avx512": "avx512f,avx512dq,avx512vl,fma,prefer-vector-width=512",
+}
 
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 LOCAL = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"]+)"[^\n]*\n', re.M)
@@ -35,7 +48,9 @@ SYSTEM = re.compile(r"^[ \t]*#[ \t]*include[ \t]+<[^>]+>[^\n]*\n", re.M)
 
 def text_of(name):
     """A file of src/, or else of plan/src/."""
-    return next(path for path in (SRC / name, PLAN / "src" / name) if path.exists()).read_text(encoding="utf-8")
+    return next(path for path in (SRC / name, PLAN / "src" / name) if path.exists()).read_text(
+        encoding="utf-8"
+    )
 
 
 def included(name, seen):
@@ -55,9 +70,15 @@ def macros(text):
 
 
 def own_names(text):
-    """The names that a source declares at file scope for itself: functions, variables, types, enumerators."""
+    """The names that a source declares at file scope for itself: functions, variables, types,
+    enumerators.
+    """
     # functions that a macro writes: KIND(name, ...)
-    makers = [name for name, rest in re.findall(r"#define (\w+)\(name,((?:[^\n]*\\\n)*[^\n]*)", text) if re.search(r"static\b.* name\(", rest)]
+    makers = [
+        name
+        for name, rest in re.findall(r"#define (\w+)\(name,((?:[^\n]*\\\n)*[^\n]*)", text)
+        if re.search(r"static\b.* name\(", rest)
+    ]
     made = set(re.findall(rf"^(?:{'|'.join(makers) or '(?!)'})\((\w+),", text, re.M))
     text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*\n", "\n", COMMENT.sub(" ", text), flags=re.M)
     tokens = re.findall(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])*\'|\w+|\S', text)
@@ -74,7 +95,11 @@ def own_names(text):
 def is_function(item):
     """Whether a block that has just been closed is the body of a function."""
     top = [token for token, depth in item if depth == 0 or (depth == 1 and token in "{(")]
-    return "(" in top and "=" not in top[: top.index("(")] and top[0] not in ("typedef", "struct", "enum", "union")
+    return (
+        "(" in top
+        and "=" not in top[: top.index("(")]
+        and top[0] not in ("typedef", "struct", "enum", "union")
+    )
 
 
 def declared(item):
@@ -83,19 +108,48 @@ def declared(item):
     names = set()
     # enumerators, and tags
     for k, token in enumerate(tokens):
-        if token in ("struct", "enum", "union") and depths[k] == 0 and k + 1 < len(tokens) and re.match(r"\w", tokens[k + 1]):
-            if k + 2 < len(tokens) and tokens[k + 2] == "{" and not tokens[k + 1].startswith("carom_"):
+        if (
+            token in ("struct", "enum", "union")
+            and depths[k] == 0
+            and k + 1 < len(tokens)
+            and re.match(r"\w", tokens[k + 1])
+        ):
+            if (
+                k + 2 < len(tokens)
+                and tokens[k + 2] == "{"
+                and not tokens[k + 1].startswith("carom_")
+            ):
                 names.add(tokens[k + 1])
         if token == "enum" and depths[k] == 0 and "{" in tokens[k : k + 3]:
             at = tokens.index("{", k)
-            end = next(n for n in range(at, len(tokens)) if tokens[n] == "}" and depths[n] == depths[at] - 1)
-            names |= {tokens[n + 1] for n in range(at, end) if tokens[n] in "{," and depths[n] == depths[at] and n + 1 < end}
+            end = next(
+                n
+                for n in range(at, len(tokens))
+                if tokens[n] == "}" and depths[n] == depths[at] - 1
+            )
+            names |= {
+                tokens[n + 1]
+                for n in range(at, end)
+                if tokens[n] in "{," and depths[n] == depths[at] and n + 1 < end
+            }
     # declarators: the names before ( = , ; [ at the top; what is not static begins with carom_
     static = tokens[0] in ("static", "typedef", "always")
     for k in range(1, len(tokens)):
         outside = depths[k] == 0 or (depths[k] == 1 and tokens[k] in "([")
-        if outside and tokens[k] in ("(", "=", ",", ";", "[", "__attribute__") and re.match(r"[A-Za-z_]\w*$", tokens[k - 1]) and depths[k - 1] == 0:
-            if tokens[k - 1] not in ("__attribute__", "_Alignas", "_Static_assert", "inline", "const", "static") and (static or not tokens[k - 1].startswith("carom_")):
+        if (
+            outside
+            and tokens[k] in ("(", "=", ",", ";", "[", "__attribute__")
+            and re.match(r"[A-Za-z_]\w*$", tokens[k - 1])
+            and depths[k - 1] == 0
+        ):
+            if tokens[k - 1] not in (
+                "__attribute__",
+                "_Alignas",
+                "_Static_assert",
+                "inline",
+                "const",
+                "static",
+            ) and (static or not tokens[k - 1].startswith("carom_")):
                 names.add(tokens[k - 1])
             if tokens[k] == "(" and tokens[k - 1] != "__attribute__":
                 break
@@ -132,13 +186,23 @@ def guarded(name, text, others):
 
 def listed(folder, target):
     """The sources of a target."""
-    return re.search(rf"add_library\(\s*{target} OBJECT(.*?)\)", (folder / "CMakeLists.txt").read_text(encoding="utf-8"), re.S).group(1).split()
+    return (
+        re.search(
+            rf"add_library\(\s*{target} OBJECT(.*?)\)",
+            (folder / "CMakeLists.txt").read_text(encoding="utf-8"),
+            re.S,
+        )
+        .group(1)
+        .split()
+    )
 
 
 def main():
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    sources = listed(SRC, "carom_objects") + sorted(path.name for path in (PLAN / "src").glob("*.c"))
+    sources = listed(SRC, "carom_objects") + sorted(
+        path.name for path in (PLAN / "src").glob("*.c")
+    )
     sources += ["platform/processors.c", "platform/processors_windows.c"]
     kernels = {name: f"{room}/{name}" for name, room in KERNELS.items()}
 
@@ -151,49 +215,106 @@ def main():
     inner = [name for name in inner if name not in common]
     texts = {name: text_of(name) for name in [*common, *inner, *sources, *kernels.values()]}
 
-    counted = Counter(name for source in sources for name in own_names(texts[source]) | macros(texts[source]))
-    counted.update(name for header in common for name in own_names(texts[header]) | macros(texts[header]))
+    counted = Counter(
+        name for source in sources for name in own_names(texts[source]) | macros(texts[source])
+    )
+    counted.update(
+        name for header in common for name in own_names(texts[header]) | macros(texts[header])
+    )
     macro = set().union(*(macros(texts[name]) for name in [*common, *sources]))
-    others = {name for name, times in counted.items() if times > 1 and name not in macro} | {"open", "close", "read", "write"}  # and those of POSIX
+    others = {name for name, times in counted.items() if times > 1 and name not in macro} | {
+        "open",
+        "close",
+        "read",
+        "write",
+    }  # and those of POSIX
 
-    system = sorted({line.strip() for text in texts.values() for line in SYSTEM.findall(COMMENT.sub("", text))})
-    everywhere = [line for line in system if re.search(r"<(math|stdbool|stddef|stdint|string|float|limits|stdlib|stdio|stdatomic)\.h>", line)]
-    posix = [line for line in system if re.search(r"<(pthread|sched|signal|unistd|fcntl|time)\.h>", line)]
+    system = sorted(
+        {line.strip() for text in texts.values() for line in SYSTEM.findall(COMMENT.sub("", text))}
+    )
+    everywhere = [
+        line
+        for line in system
+        if re.search(
+            r"<(math|stdbool|stddef|stdint|string|float|limits|stdlib|stdio|stdatomic)\.h>", line
+        )
+    ]
+    posix = [
+        line for line in system if re.search(r"<(pthread|sched|signal|unistd|fcntl|time)\.h>", line)
+    ]
     x86 = [line for line in system if re.search(r"<(cpuid|immintrin|emmintrin)\.h>", line)]
 
-    out = [f'/* carom {version()} in one file, written by tools/one_file.py. It includes itself; its name must stay. */\n']
-    out.append("#ifndef CAROM_PASS\n#if defined(__linux__) && !defined(_GNU_SOURCE)\n#define _GNU_SOURCE\n#endif\n#define CAROM_BUILD\n")
-    out.append("#if defined(__MINGW32__) && !defined(__clang__) /* gcc for Windows cannot align the stack for their vectors */\n")
-    out.append("#undef CAROM_WITHOUT_AVX2\n#define CAROM_WITHOUT_AVX2\n#undef CAROM_WITHOUT_AVX512\n#define CAROM_WITHOUT_AVX512\n#endif\n")
+    out = [
+        f"/* carom {version()} in one file, written by tools/one_file.py. It includes itself; its name must stay. */\n"
+    ]
+    out.append(
+        "#ifndef CAROM_PASS\n#if defined(__linux__) && !defined(_GNU_SOURCE)\n#define _GNU_SOURCE\n#endif\n#define CAROM_BUILD\n"
+    )
+    out.append(
+        "#if defined(__MINGW32__) && !defined(__clang__) /* gcc for Windows cannot align the stack for their vectors */\n"
+    )
+    out.append(
+        "#undef CAROM_WITHOUT_AVX2\n#define CAROM_WITHOUT_AVX2\n#undef CAROM_WITHOUT_AVX512\n#define CAROM_WITHOUT_AVX512\n#endif\n"
+    )
     out.append("#include <float.h>\n" + bare(texts["platform/arithmetic.h"]) + "\n")
     out.append("\n".join(everywhere) + "\n#ifndef _WIN32\n" + "\n".join(posix) + "\n#endif\n")
-    out.append("#if defined(__x86_64__) || defined(__i386__)\n" + "\n".join(x86) + "\n#elif defined(__aarch64__)\n#include <arm_neon.h>\n#endif\n")
+    out.append(
+        "#if defined(__x86_64__) || defined(__i386__)\n"
+        + "\n".join(x86)
+        + "\n#elif defined(__aarch64__)\n#include <arm_neon.h>\n#endif\n"
+    )
     out.append("#ifdef __wasm_simd128__\n#include <wasm_simd128.h>\n#endif\n")
     out.append("".join(f'#include "{name}"\n' for name in PUBLIC))
     for name in common:
         if name != "platform/arithmetic.h":
             out.append(f"\n/* ==== src/{name} ==== */\n{bare(texts[name])}")
     for name in sources:
-        windows_alone = {"platform/processors.c": "#ifndef _WIN32\n", "platform/processors_windows.c": "#ifdef _WIN32\n"}.get(name)
-        out.append((windows_alone or "") + guarded(name, texts[name], others) + ("#endif\n" if windows_alone else ""))
+        windows_alone = {
+            "platform/processors.c": "#ifndef _WIN32\n",
+            "platform/processors_windows.c": "#ifdef _WIN32\n",
+        }.get(name)
+        out.append(
+            (windows_alone or "")
+            + guarded(name, texts[name], others)
+            + ("#endif\n" if windows_alone else "")
+        )
 
     # The passes, and at the end their text.
     for isa, family in ISAS.items():
-        out.append(f"\n#if {'1' if family == '1' else f'defined(__{family}__) && !defined(CAROM_WITHOUT_{isa.upper()})'}\n")
+        out.append(
+            f"\n#if {'1' if family == '1' else f'defined(__{family}__) && !defined(CAROM_WITHOUT_{isa.upper()})'}\n"
+        )
         if isa in TARGETS:
-            each = "".join(f"{part}," for part in TARGETS[isa].split(",") if not part.startswith("prefer"))[:-1]
+            each = "".join(
+                f"{part}," for part in TARGETS[isa].split(",") if not part.startswith("prefer")
+            )[:-1]
             out.append("#ifdef __clang__\n")
-            out.append(f'#pragma clang attribute push(__attribute__((target("{each}"))), apply_to = function)\n')
-            out.append(f'#else\n#pragma GCC push_options\n#pragma GCC target("{TARGETS[isa]}")\n#endif\n')
+            out.append(
+                f'#pragma clang attribute push(__attribute__((target("{each}"))), apply_to = function)\n'
+            )
+            out.append(
+                f'#else\n#pragma GCC push_options\n#pragma GCC target("{TARGETS[isa]}")\n#endif\n'
+            )
         for number, (name, definitions, tag) in enumerate(PASSES, 1):
             if name == "advance.c" and isa not in ("plain", "avx2"):
                 continue
-            defined = [f"CAROM_LANES_{isa.upper()}", f"CAROM_LANES_SUFFIX {isa}", *(f"CAROM_LANES_{d}" for d in definitions.split())]
-            out.append(f"#define CAROM_PASS {number}\n#define CAROM_PASS_NAME(x) x##_of_{isa}_{tag}\n")
+            defined = [
+                f"CAROM_LANES_{isa.upper()}",
+                f"CAROM_LANES_SUFFIX {isa}",
+                *(f"CAROM_LANES_{d}" for d in definitions.split()),
+            ]
+            out.append(
+                f"#define CAROM_PASS {number}\n#define CAROM_PASS_NAME(x) x##_of_{isa}_{tag}\n"
+            )
             out.append("".join(f"#define {d}\n" for d in defined) + '#include "carom.c"\n')
-            out.append("".join(f"#undef {d.split()[0]}\n" for d in defined) + "#undef CAROM_PASS\n#undef CAROM_PASS_NAME\n")
+            out.append(
+                "".join(f"#undef {d.split()[0]}\n" for d in defined)
+                + "#undef CAROM_PASS\n#undef CAROM_PASS_NAME\n"
+            )
         if isa in TARGETS:
-            out.append("#ifdef __clang__\n#pragma clang attribute pop\n#else\n#pragma GCC pop_options\n#endif\n")
+            out.append(
+                "#ifdef __clang__\n#pragma clang attribute pop\n#else\n#pragma GCC pop_options\n#endif\n"
+            )
         out.append("#endif\n")
     out.append("\n#else /* a pass */\n")
     for name, path in kernels.items():
@@ -203,29 +324,54 @@ def main():
         numbers = " || ".join(f"CAROM_PASS == {k}" for k, p in enumerate(PASSES, 1) if p[0] == name)
         names = set().union(*(own_names(texts[part]) for part in parts))
         defined = set().union(*(macros(texts[part]) for part in parts))
-        out.append(f"#if {numbers}\n" + "".join(f"#define {own} CAROM_PASS_NAME({own})\n" for own in sorted(names - defined - macro - KERNEL_MACROS)))
+        out.append(
+            f"#if {numbers}\n"
+            + "".join(
+                f"#define {own} CAROM_PASS_NAME({own})\n"
+                for own in sorted(names - defined - macro - KERNEL_MACROS)
+            )
+        )
         out.append(names_of_pass(name))
         out.append(expanded(path, set(inner)))
-        out.append("".join(f"#undef {own}\n" for own in sorted(names | defined | KERNEL_MACROS)) + "#endif\n")
+        out.append(
+            "".join(f"#undef {own}\n" for own in sorted(names | defined | KERNEL_MACROS))
+            + "#endif\n"
+        )
     out.append("#endif\n")
     (folder / "carom.c").write_text("".join(out), encoding="utf-8")
     for name in [*PUBLIC, WRAPPER]:
         (folder / name).write_bytes(HEADERS[name].read_bytes())
 
 
-KERNEL_MACROS = {"KERNEL_SUFFIX", "KERNEL_PRECISION", "KERNEL_PASTE", "KERNEL_PASTE_EXPANDED", "KERNEL", "PRECISE_KERNEL"}
+KERNEL_MACROS = {
+    "KERNEL_SUFFIX",
+    "KERNEL_PRECISION",
+    "KERNEL_PASTE",
+    "KERNEL_PASTE_EXPANDED",
+    "KERNEL",
+    "PRECISE_KERNEL",
+}
 
 
 def names_of_pass(name):
     """The part of a common header that names what a source gives, which depends on the pass."""
     if name == "advance.c":
         part = r"#ifdef CAROM_LANES_AVX2\n#define CAROM_IMPACT_ADVANCE .*?\n#endif\n"
-        return "#undef CAROM_IMPACT_ADVANCE\n" + re.search(part, text_of("impact/impact.h"), re.S).group(0)
-    return re.search(r"#ifdef CAROM_LANES_SUFFIX\n.*?PRECISE_KERNEL.*?\n#endif\n", text_of("ball_ball/kernels.h"), re.S).group(0)
+        return "#undef CAROM_IMPACT_ADVANCE\n" + re.search(
+            part, text_of("impact/impact.h"), re.S
+        ).group(0)
+    return re.search(
+        r"#ifdef CAROM_LANES_SUFFIX\n.*?PRECISE_KERNEL.*?\n#endif\n",
+        text_of("ball_ball/kernels.h"),
+        re.S,
+    ).group(0)
 
 
 def version():
-    numbers = re.findall(r"#define CAROM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", (ROOT / "include" / "carom.h").read_text(encoding="utf-8"))
+    numbers = re.findall(
+        r"#define CAROM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)",
+        (ROOT / "include" / "carom.h").read_text(encoding="utf-8"),
+    )
     return ".".join(numbers)
 
 

@@ -1,7 +1,9 @@
-"""Makes the outputs in the docs anew: tools/python tools/outputs.py [PAGE...], in a tree that ./run has built, on a quiet machine.
+"""Makes the outputs in the docs anew: tools/python tools/outputs.py [PAGE...], in a tree that ./run
+has built, on a quiet machine.
 
-Where a page has a line <!-- output of: COMMAND -->, the indented lines below it become what the command prints now, without its notes. The commands take some
-minutes together. The figures of docs/figures are made by `cmake --build build --target figures`.
+Where a page has a line <!-- output of: COMMAND -->, the indented lines below it become what the
+command prints now, without its notes. The commands take some minutes together. The figures of
+docs/figures are made by `cmake --build build --target figures`.
 """
 
 import re
@@ -19,7 +21,9 @@ def made(match: re.Match[str]) -> str:
     run = subprocess.run(["sh", "-c", command], cwd=ROOT, stdout=subprocess.PIPE, text=True)
     if run.returncode != 0:
         sys.exit(f"{command}: exit code {run.returncode}")
-    shown = run.stdout.split("\nlargest errors:")[0].rstrip("\n")  # those are rows for `carom resolve`
+    shown = run.stdout.split("\nlargest errors:")[0].rstrip(
+        "\n"
+    )  # those are rows for `carom resolve`
     lines = (f"    {line}".rstrip() for line in shown.split("\n") if not line.startswith("#"))
     return match[1] + "\n".join(lines) + "\n\n"
 

@@ -1,5 +1,7 @@
-"""pack.py OUT FOLDER [PREFIX]: packs a folder into OUT, a .tar.gz, .tgz, .zip or .nupkg, under PREFIX/. The same files give the same bytes: in the
-order of their names, of nobody, at the time SOURCE_DATE_EPOCH."""
+"""pack.py OUT FOLDER [PREFIX]: packs a folder into OUT, a .tar.gz, .tgz, .zip or .nupkg, under
+PREFIX/. The same files give the same bytes: in the order of their names, of nobody, at the time
+SOURCE_DATE_EPOCH.
+"""
 
 import gzip
 import io
@@ -13,13 +15,21 @@ from pathlib import Path
 out, folder = Path(sys.argv[1]), Path(sys.argv[2])
 prefix = f"{sys.argv[3]}/" if len(sys.argv) > 3 else ""
 when = int(os.environ["SOURCE_DATE_EPOCH"])
-files = [(prefix + str(path.relative_to(folder)), path) for path in sorted(folder.rglob("*")) if path.is_file()]
+files = [
+    (prefix + str(path.relative_to(folder)), path)
+    for path in sorted(folder.rglob("*"))
+    if path.is_file()
+]
 assert files, f"nothing in {folder}"
 if out.suffix in (".zip", ".nupkg"):
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as packed:
         for name, path in files:
             entry = zipfile.ZipInfo(name, time.gmtime(when)[:6])
-            entry.external_attr, entry.create_system, entry.compress_type = 0o100644 << 16, 3, zipfile.ZIP_DEFLATED
+            entry.external_attr, entry.create_system, entry.compress_type = (
+                0o100644 << 16,
+                3,
+                zipfile.ZIP_DEFLATED,
+            )
             packed.writestr(entry, path.read_bytes())
 else:
     tar = io.BytesIO()

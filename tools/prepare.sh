@@ -2,12 +2,18 @@
 # Sourced by run and test: what the machine needs, and how a preset is built. Expects the repository root as working folder.
 
 say() { printf '%s\n' "$*" >&2; }
-fail() { say "carom: $*"; exit 1; }
+fail() {
+  say "carom: $*"
+  exit 1
+}
 
 # there PROGRAM-OR-FILE: is it? A file may be a pattern.
 there() {
   case $1 in
-    /*) for found in $1; do [ -e "$found" ] && return 0; done; return 1 ;;
+    /*)
+      for found in $1; do [ -e "$found" ] && return 0; done
+      return 1
+      ;;
     *) command -v "$1" > /dev/null 2>&1 ;;
   esac
 }

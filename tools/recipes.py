@@ -1,5 +1,6 @@
-"""recipes.py DIST OUT: the recipes of Conan, vcpkg, Homebrew and NuGet for the source archive in DIST, into OUT, and DIST/carom-VERSION.cdx.json,
-what carom is made of (CycloneDX). The text @NAME@ of packaging/ stands for what is known of the release; a line with a field that is empty is left
+"""recipes.py DIST OUT: the recipes of Conan, vcpkg, Homebrew and NuGet for the source archive in
+DIST, into OUT, and DIST/carom-VERSION.cdx.json, what carom is made of (CycloneDX). The text @NAME@
+of packaging/ stands for what is known of the release; a line with a field that is empty is left
 out, but where the recipe must have an address: that is https://carom.invalid then.
 """
 
@@ -21,40 +22,114 @@ version = project["version"]
 name = f"carom-{version}-source.tar.gz"
 archive = (DIST / name).read_bytes()
 home = project["address"].removesuffix(".git")
-known = {"VERSION": version, "HOMEPAGE": home, "ADDRESS": project["address"], "ARCHIVE": f"{home or 'https://carom.invalid'}/releases/download/{version}/{name}",
-         "HOLDER": project["holder"], "AUTHORS": ", ".join(project["people"]) or project["holder"], "COPYRIGHT": f"{project['year']} {project['copyright']}".strip(),
-         "SHA256": hashlib.sha256(archive).hexdigest(), "SHA512": hashlib.sha512(archive).hexdigest()}  # fmt: skip
+known = {
+    "VERSION": version,
+    "HOMEPAGE": home,
+    "ADDRESS": project["address"],
+    "ARCHIVE": f"{home or 'https://carom.invalid'}/releases/download/{version}/{name}",
+    "HOLDER": project["holder"],
+    "AUTHORS": ", ".join(project["people"]) or project["holder"],
+    "COPYRIGHT": f"{project['year']} {project['copyright']}".strip(),
+    "SHA256": hashlib.sha256(archive).hexdigest(),
+    "SHA512": hashlib.sha512(archive).hexdigest(),
+}
 for kind in ("vcpkg", "homebrew", "nuget"):
     shutil.copytree(ROOT / "packaging" / kind, OUT / kind)
 # As conan-center has it, with the program of its test beside it.
 conan = OUT / "conan/carom"
 shutil.copytree(ROOT / "packaging/conan", conan / "all")
-shutil.copytree(ROOT / "tests/install/consumer-cmake", conan / "all/test_package", dirs_exist_ok=True)
+shutil.copytree(
+    ROOT / "tests/install/consumer-cmake", conan / "all/test_package", dirs_exist_ok=True
+)
 (conan / "config.yml").write_text(f'versions:\n  "{version}":\n    folder: all\n', encoding="utf-8")
-(conan / "all/conandata.yml").write_text(f'sources:\n  "{version}":\n    url: "{known["ARCHIVE"]}"\n    sha256: "{known["SHA256"]}"\n', encoding="utf-8")
+(conan / "all/conandata.yml").write_text(
+    f'sources:\n  "{version}":\n    url: "{known["ARCHIVE"]}"\n    sha256: "{known["SHA256"]}"\n',
+    encoding="utf-8",
+)
 for path in OUT.rglob("*"):
     if path.is_file():
         safe = escape if path.suffix == ".nuspec" else str
-        kept = [line for line in path.read_text(encoding="utf-8").splitlines(keepends=True)
-                if path.suffix == ".rb" or not any(f"@{key}@" in line and not value for key, value in known.items())]  # fmt: skip
-        path.write_text(re.sub(r"@([A-Z0-9]+)@", lambda match: safe(known[match[1]] or "https://carom.invalid"), "".join(kept)), encoding="utf-8")
+        kept = [
+            line
+            for line in path.read_text(encoding="utf-8").splitlines(keepends=True)
+            if path.suffix == ".rb"
+            or not any(f"@{key}@" in line and not value for key, value in known.items())
+        ]
+        path.write_text(
+            re.sub(
+                r"@([A-Z0-9]+)@",
+                lambda match: safe(known[match[1]] or "https://carom.invalid"),
+                "".join(kept),
+            ),
+            encoding="utf-8",
+        )
 
 npm = json.loads((ROOT / "web/page/package.json").read_text(encoding="utf-8"))["devDependencies"]
 PARTS = [  # what is inside packages, and what packages ask for
     ("uplot", npm["uplot"], "MIT", "required", "in the page and in the site's explorer"),
-    ("three", npm["three"], "MIT", "required", "in the page and in the site's explorer: the view from behind the cue"),
-    ("musl", None, "MIT", "required", "functions in the WebAssembly of the npm package, the page and the site"),
-    ("emscripten", None, "MIT", "required", "functions in the WebAssembly of the npm package, the page and the site"),
+    (
+        "three",
+        npm["three"],
+        "MIT",
+        "required",
+        "in the page and in the site's explorer: the view from behind the cue",
+    ),
+    (
+        "musl",
+        None,
+        "MIT",
+        "required",
+        "functions in the WebAssembly of the npm package, the page and the site",
+    ),
+    (
+        "emscripten",
+        None,
+        "MIT",
+        "required",
+        "functions in the WebAssembly of the npm package, the page and the site",
+    ),
     ("mkdocs-material", None, "MIT", "required", "style and search of the site"),
-    ("mingw-w64", None, "ZPL-2.1", "required", "its runtime, in the library for Windows of the NuGet package and of the wheel"),
-    ("libcsv", None, "LGPL-2.1-or-later", "optional", "the command asks for it as a shared library"),
+    (
+        "mingw-w64",
+        None,
+        "ZPL-2.1",
+        "required",
+        "its runtime, in the library for Windows of the NuGet package and of the wheel",
+    ),
+    (
+        "libcsv",
+        None,
+        "LGPL-2.1-or-later",
+        "optional",
+        "the command asks for it as a shared library",
+    ),
     ("jansson", None, "MIT", "optional", "the command asks for it as a shared library"),
     ("numpy", None, "BSD-3-Clause", "optional", "the Python package asks for it"),
     ("cffi", None, "MIT", "optional", "the Python package asks for it"),
 ]
-parts = [{"type": "library", "name": name, **({"version": number} if number else {}), "scope": scope, "description": use,
-          "licenses": [{"license": {"id": licence}}]} for name, number, licence, scope, use in PARTS]  # fmt: skip
-carom = {"type": "library", "name": "carom", "version": version, "licenses": [{"license": {"id": project["license"]}}],
-         "hashes": [{"alg": "SHA-256", "content": known["SHA256"]}]}  # fmt: skip
-bill = {"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1, "metadata": {"component": carom}, "components": parts}
+parts = [
+    {
+        "type": "library",
+        "name": name,
+        **({"version": number} if number else {}),
+        "scope": scope,
+        "description": use,
+        "licenses": [{"license": {"id": licence}}],
+    }
+    for name, number, licence, scope, use in PARTS
+]
+carom = {
+    "type": "library",
+    "name": "carom",
+    "version": version,
+    "licenses": [{"license": {"id": project["license"]}}],
+    "hashes": [{"alg": "SHA-256", "content": known["SHA256"]}],
+}
+bill = {
+    "bomFormat": "CycloneDX",
+    "specVersion": "1.5",
+    "version": 1,
+    "metadata": {"component": carom},
+    "components": parts,
+}
 (DIST / f"carom-{version}.cdx.json").write_text(json.dumps(bill, indent=1) + "\n", encoding="utf-8")

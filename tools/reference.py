@@ -1,5 +1,7 @@
-"""The pages of the site that list every call: of C from the description of the headers (bindings/api.py), of Python, npm, C# and Rust from their
-sources. pages(SOURCE) gives names and texts."""
+"""The pages of the site that list every call: of C from the description of the headers
+(bindings/api.py), of Python, npm, C# and Rust from their sources. pages(SOURCE) gives names and
+texts.
+"""
 
 import ast
 import re
@@ -10,7 +12,10 @@ from pathlib import Path
 def plain(words):
     """A comment as Markdown: only what stands between backquotes is code."""
     parts = re.split(r"(`[^`]*`)", " ".join(words.split()))
-    return "".join(part if part.startswith("`") else re.sub(r"([\[\]<>*_|`#])", r"\\\1", part) for part in parts)
+    return "".join(
+        part if part.startswith("`") else re.sub(r"([\[\]<>*_|`#])", r"\\\1", part)
+        for part in parts
+    )
 
 
 def entry(name, code, kind, words, more=""):
@@ -20,7 +25,18 @@ def entry(name, code, kind, words, more=""):
 def rows(head, lines):
     table = [head, *(line for line in lines)]
     bar = "|".join("---" for _ in head)
-    return "\n".join([f"| {' | '.join(table[0])} |", f"|{bar}|", *(f"| {' | '.join(line)} |" for line in table[1:])]) + "\n\n" if lines else ""
+    return (
+        "\n".join(
+            [
+                f"| {' | '.join(table[0])} |",
+                f"|{bar}|",
+                *(f"| {' | '.join(line)} |" for line in table[1:]),
+            ]
+        )
+        + "\n\n"
+        if lines
+        else ""
+    )
 
 
 def of_c(source):
@@ -32,35 +48,67 @@ def of_c(source):
 
     def typed(about):
         """const double *v[3]"""
-        stars, lengths = "*" * about.get("pointer", 0), "".join(f"[{length}]" for length in about.get("array", ()))
+        stars, lengths = (
+            "*" * about.get("pointer", 0),
+            "".join(f"[{length}]" for length in about.get("array", ())),
+        )
         return f"{'const ' if about.get('const') else ''}{about['type']} {stars}{about.get('name', '')}{lengths}".rstrip()
 
     def called(one):
         return f"{typed({**one['returns'], 'name': one['name']})}({', '.join(map(typed, one['arguments'])) or 'void'});"
 
     text = f"# Reference: C\n\nEvery name of the headers of carom {api['version']}, which are the manual.\n\n## Functions\n\n"
-    text += "".join(entry(one["name"], called(one), "c", one["comment"]) for one in api["functions"])
-    text += "## Functions of the caller\n\n" + "".join(entry(one["name"], called(one), "c", one["comment"]) for one in api["callbacks"])
+    text += "".join(
+        entry(one["name"], called(one), "c", one["comment"]) for one in api["functions"]
+    )
+    text += "## Functions of the caller\n\n" + "".join(
+        entry(one["name"], called(one), "c", one["comment"]) for one in api["callbacks"]
+    )
     text += "## Structs\n\n"
     for one in api["structs"]:
-        fields = [[f"`{typed(field)}`", field.get("unit", ""), plain(field["comment"])] for field in one["fields"]]
-        text += entry(one["name"], f"{one['name']} /* {one['size']} bytes */", "c", one["comment"], rows(["field", "unit", ""], fields))
+        fields = [
+            [f"`{typed(field)}`", field.get("unit", ""), plain(field["comment"])]
+            for field in one["fields"]
+        ]
+        text += entry(
+            one["name"],
+            f"{one['name']} /* {one['size']} bytes */",
+            "c",
+            one["comment"],
+            rows(["field", "unit", ""], fields),
+        )
     text += "## Enumerations\n\n"
     for one in api["enums"]:
-        values = [[f"`{value['name']}`", str(value["value"]), plain(value["comment"])] for value in one["values"]]
-        text += entry(one["name"], f"enum {one['name']}", "c", one["comment"], rows(["name", "value", ""], values))
-    constants = [[f"`{one['name']}`", str(one["value"]), plain(one["comment"])] for one in api["constants"]]
+        values = [
+            [f"`{value['name']}`", str(value["value"]), plain(value["comment"])]
+            for value in one["values"]
+        ]
+        text += entry(
+            one["name"],
+            f"enum {one['name']}",
+            "c",
+            one["comment"],
+            rows(["name", "value", ""], values),
+        )
+    constants = [
+        [f"`{one['name']}`", str(one["value"]), plain(one["comment"])] for one in api["constants"]
+    ]
     return text + "## Constants\n\n" + rows(["name", "value", ""], constants)
 
 
 def of_name(source, name):
-    """The entry of a name that the package gives and that is neither a function nor a class of a public module."""
+    """The entry of a name that the package gives and that is neither a function nor a class of a
+    public module.
+    """
 
     def defined(name):
         for path in sorted((source / "python/src/carom").rglob("*.py")):
             text = path.read_text(encoding="utf-8")
             for node in ast.walk(ast.parse(text)):
-                if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.Assign)) and name in (getattr(node, "name", ""), *(getattr(one, "id", "") for one in getattr(node, "targets", ()))):
+                if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.Assign)) and name in (
+                    getattr(node, "name", ""),
+                    *(getattr(one, "id", "") for one in getattr(node, "targets", ())),
+                ):
                     return text, node
 
     text, node = defined(name) or ("", None)
@@ -73,12 +121,20 @@ def of_name(source, name):
         words = ast.get_docstring(node)
     code = ast.get_source_segment(text, node)
     code = code.replace('"""' + code.split('"""')[1] + '"""', "").rstrip() if described else code
-    code = re.sub(r"\n\s*\n", "\n", re.split(r"\n    (?:@|def )", code)[0]) if isinstance(node, ast.ClassDef) else code.split("\n")[0]
-    return f"### {name}\n\n```python\n{code}\n```\n\n" + (f"```text\n{words}\n```\n\n" if words else "")
+    code = (
+        re.sub(r"\n\s*\n", "\n", re.split(r"\n    (?:@|def )", code)[0])
+        if isinstance(node, ast.ClassDef)
+        else code.split("\n")[0]
+    )
+    return f"### {name}\n\n```python\n{code}\n```\n\n" + (
+        f"```text\n{words}\n```\n\n" if words else ""
+    )
 
 
 def of_python(source):
-    """A page: the names that the package gives, then the public functions and classes of each module, with their docstrings."""
+    """A page: the names that the package gives, then the public functions and classes of each
+    module, with their docstrings.
+    """
     text = "# Reference: Python\n\nEvery public call of the package `carom`. [python.md](../docs/using/python.md) is the manual.\n\n"
     listed = set()
     folder = source / "python/src"
@@ -91,31 +147,61 @@ def of_python(source):
             if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
                 continue
             inside = node.body if isinstance(node, ast.ClassDef) else []
-            for one, name in ((node, node.name), *((inner, f"{node.name}.{inner.name}") for inner in inside if isinstance(inner, ast.FunctionDef))):
+            for one, name in (
+                (node, node.name),
+                *(
+                    (inner, f"{node.name}.{inner.name}")
+                    for inner in inside
+                    if isinstance(inner, ast.FunctionDef)
+                ),
+            ):
                 words = ast.get_docstring(one) or ""
                 if words and not name.rpartition(".")[2].startswith("_"):
-                    returns = f" -> {ast.unparse(one.returns)}" if getattr(one, "returns", None) else ""
-                    head = f"class {name}" if one in (node,) and inside else f"{name}({ast.unparse(one.args)}){returns}"
+                    returns = (
+                        f" -> {ast.unparse(one.returns)}" if getattr(one, "returns", None) else ""
+                    )
+                    head = (
+                        f"class {name}"
+                        if one in (node,) and inside
+                        else f"{name}({ast.unparse(one.args)}){returns}"
+                    )
                     listed.add(name)
                     # A docstring is text with columns of its own.
                     found += f"### {name}\n\n```python\n{head}\n```\n\n```text\n{words.replace('```', '')}\n```\n\n"
         text += f"## {module}\n\n{found}" if found else ""
     package = ast.parse((source / "python/src/carom/__init__.py").read_text(encoding="utf-8")).body
-    given = next(node.value for node in package if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
-    return text + "## Other names of carom\n\n" + "".join(of_name(source, name) for name in ast.literal_eval(given) if name not in listed)
+    given = next(
+        node.value
+        for node in package
+        if isinstance(node, ast.Assign) and node.targets[0].id == "__all__"
+    )
+    return (
+        text
+        + "## Other names of carom\n\n"
+        + "".join(of_name(source, name) for name in ast.literal_eval(given) if name not in listed)
+    )
 
 
 def documented(source, files, comment, kind, title, named):
-    """A page: each declaration with a comment of that form above it, in the order of the files. A member has the name of its class too."""
+    """A page: each declaration with a comment of that form above it, in the order of the files.
+
+    A member has the name of its class too.
+    """
     text, holder = f"# Reference: {title}\n\n", None
     for file in files:
         whole = (source / file).read_text(encoding="utf-8")
         for found in re.finditer(comment, whole, flags=re.M | re.S):
             words, line = found.groups()
             # In Rust a member is in the block of its type; those of a trait are public.
-            blocks = re.findall(r"^(?:pub )?(impl|trait)(?:<[^>]*>)? (?:\w+ for )?(\w+)[^\n]*\{$|^\}$", whole[: found.start()], flags=re.M)
+            blocks = re.findall(
+                r"^(?:pub )?(impl|trait)(?:<[^>]*>)? (?:\w+ for )?(\w+)[^\n]*\{$|^\}$",
+                whole[: found.start()],
+                flags=re.M,
+            )
             block, inside = blocks[-1] if kind == "rust" and blocks else ("", "")
-            name = "@internal" not in words and named(("pub " if block == "trait" else "") + line.strip())
+            name = "@internal" not in words and named(
+                ("pub " if block == "trait" else "") + line.strip()
+            )
             outer = not line.startswith(" ") or re.search(r"\bclass\b", line)
             if outer:
                 holder = name
@@ -123,22 +209,39 @@ def documented(source, files, comment, kind, title, named):
                 words = re.sub(r"</?summary>|^\s*(?:\*|///) ?", " ", words, flags=re.M)
                 # The fields of a struct, some of which have no words of their own.
                 body = whole[found.start(2) :]
-                body = body[: re.search(rf"^{re.match(' *', line)[0]}\}}|\Z", body, flags=re.M).start()] if re.search(r"\b(?:class|struct)\b", line) else ""
-                fields = "".join(f"\n{field}" for field in re.findall(r"^ *pub(?:lic)? [^({\n]*[;,]$", body, flags=re.M))
+                body = (
+                    body[
+                        : re.search(rf"^{re.match(' *', line)[0]}\}}|\Z", body, flags=re.M).start()
+                    ]
+                    if re.search(r"\b(?:class|struct)\b", line)
+                    else ""
+                )
+                fields = "".join(
+                    f"\n{field}"
+                    for field in re.findall(r"^ *pub(?:lic)? [^({\n]*[;,]$", body, flags=re.M)
+                )
                 called = f"{inside}::{name}" if inside else name if outer else f"{holder}.{name}"
-                text += entry(called, re.sub(r"\s*\{.*$", "", line.strip(), flags=re.S) + fields, kind, words)
+                text += entry(
+                    called, re.sub(r"\s*\{.*$", "", line.strip(), flags=re.S) + fields, kind, words
+                )
     return text
 
 
 def of_npm(line, public):
     if re.match(r"(?:const|let|private|constructor|import|#|readonly #|function|class)", line):
         return None
-    found = re.match(r"(export )?(?:static |async |get |readonly |abstract |const )*(?:class |interface |type |function )?([A-Za-z]\w*)", line)
+    found = re.match(
+        r"(export )?(?:static |async |get |readonly |abstract |const )*(?:class |interface |type |function )?([A-Za-z]\w*)",
+        line,
+    )
     return found and found[2] if found and (not found[1] or found[2] in public) else None
 
 
 def of_csharp(line):
-    found = re.match(r"(?:public|protected) (?:static |sealed |unsafe |readonly |abstract |virtual )*(?:class )?(?:[\w\[\]<>.]+ )?(\w+)", line)
+    found = re.match(
+        r"(?:public|protected) (?:static |sealed |unsafe |readonly |abstract |virtual )*(?:class )?(?:[\w\[\]<>.]+ )?(\w+)",
+        line,
+    )
     return found and found[1]
 
 
@@ -149,17 +252,38 @@ def of_rust(line):
 
 def pages(source):
     source = Path(source)
-    block, slashes = r"/\*\*((?:(?!\*/).)*)\*/\n([^\n]+)", r"((?:^ *///[^\n]*\n)+)(?: *#\[[^\n]*\n)*([^\n]+(?:\([^)]*\)[^\n]*)?)"
+    block, slashes = (
+        r"/\*\*((?:(?!\*/).)*)\*/\n([^\n]+)",
+        r"((?:^ *///[^\n]*\n)+)(?: *#\[[^\n]*\n)*([^\n]+(?:\([^)]*\)[^\n]*)?)",
+    )
 
     def files(pattern):
         return [str(path.relative_to(source)) for path in sorted(source.glob(pattern))]
 
     index = (source / "web/npm/src/index.ts").read_text(encoding="utf-8")
-    public = set(re.findall(r"\w+", " ".join(re.findall(r"export (?:type )?\{([^}]*)\}", index)))) | set(re.findall(r"^export \w+ (?:function )?(\w+)", index, flags=re.M))
+    public = set(
+        re.findall(r"\w+", " ".join(re.findall(r"export (?:type )?\{([^}]*)\}", index)))
+    ) | set(re.findall(r"^export \w+ (?:function )?(\w+)", index, flags=re.M))
     types = (source / "web/npm/src/types.ts").read_text(encoding="utf-8")
     public |= set(re.findall(r"^export (?:interface|type) (\w+)", types, flags=re.M))
     yield "C", "reference/c.md", of_c(source)
     yield "Python", "reference/python.md", of_python(source)
-    yield "npm", "reference/npm.md", documented(source, files("web/npm/src/*.ts"), block, "ts", "npm", lambda line: of_npm(line, public))
-    yield "C#", "reference/csharp.md", documented(source, files("bindings/csharp/Runtime/*.cs"), slashes, "csharp", "C#", of_csharp)
-    yield "Rust", "reference/rust.md", documented(source, files("bindings/rust/carom/src/*.rs"), slashes, "rust", "Rust", of_rust)
+    yield (
+        "npm",
+        "reference/npm.md",
+        documented(
+            source, files("web/npm/src/*.ts"), block, "ts", "npm", lambda line: of_npm(line, public)
+        ),
+    )
+    yield (
+        "C#",
+        "reference/csharp.md",
+        documented(
+            source, files("bindings/csharp/Runtime/*.cs"), slashes, "csharp", "C#", of_csharp
+        ),
+    )
+    yield (
+        "Rust",
+        "reference/rust.md",
+        documented(source, files("bindings/rust/carom/src/*.rs"), slashes, "rust", "Rust", of_rust),
+    )

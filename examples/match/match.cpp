@@ -1,7 +1,8 @@
-/* A whole game of nine-ball between two programs of unlike strength: match FILE keeps its recording.
- *
- * Each thinks in slices, beside the film of the shot before, errs as players of his rating do, and is
- * ruled by the library. Where FILE holds a game that was saved on its way, by whichever program, this
+/*
+ * A whole game of nine-ball between two programs of unlike strength: match FILE keeps its
+ * recording.  Each thinks in slices, beside the film of the shot before, errs as players of his
+ * rating do, and is ruled by the library. Where FILE holds a game that was saved on its way, by
+ * whichever program, this
  * one goes on. Match.cs, match.rs, match.mjs and match.py are the same game, byte for byte. */
 #include <carom.hpp>
 

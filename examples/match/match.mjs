@@ -1,4 +1,7 @@
-/* The game of match.cpp in JavaScript: node match.mjs FILE keeps its recording, and goes on with one that was saved. */
+/*
+ * The game of match.cpp in JavaScript: node match.mjs FILE keeps its recording, and goes on with
+ * one that was saved.
+ */
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { load } from "carom";
 
@@ -7,15 +10,25 @@ const table = carom.table("9ft");
 const players = [500, 600].map((fargo) => carom.player({ fargo }));
 const file = process.argv[2];
 const saved = existsSync(file) ? readFileSync(file, "utf8").trimEnd().split("\n") : [];
-const game = saved.length > 0 ? carom.record() : carom.record(table, carom.rack("nineball", table, { seed: 2 }));
-for (const line of saved) if (game.read(line)?.same === false) throw new Error("a shot has other bits than were recorded");
+const game =
+  saved.length > 0
+    ? carom.record()
+    : carom.record(table, carom.rack("nineball", table, { seed: 2 }));
+for (const line of saved)
+  if (game.read(line)?.same === false) throw new Error("a shot has other bits than were recorded");
 if (saved.length === 0) game.stand({ rules: "nineball", group: "open", opening: true }, 0);
 let [winner, frames, loudest] = [undefined, 0, 0]; // N s
 while (winner === undefined) {
-  // the game is kept; the player thinks, while the shot of the other is drawn: a page awaits a frame here
+  // the game is kept; the player thinks, while the shot of the other is drawn: a page awaits a
+  // frame here
   writeFileSync(file, game.lines.join(""));
   const { game: state, player } = game.standing;
-  const mind = carom.think(table, game.balls, { ...state, player: players[player], shots: 300, best: 1, inHand: game.inHand }, 500);
+  const mind = carom.think(
+    table,
+    game.balls,
+    { ...state, player: players[player], shots: 300, best: 1, inHand: game.inHand },
+    500,
+  );
   let slice;
   for (let frame = 0; !slice?.done; frame++, frames++) {
     slice = mind.next();
@@ -33,12 +46,16 @@ while (winner === undefined) {
   const ruling = carom.rule(game.last, state, best);
   console.log(`${player + 1}: ${ruling.text}`);
   game.settle(ruling);
-  if (ruling.turn === "win" || ruling.turn === "lose") winner = ruling.turn === "win" ? player : 1 - player;
+  if (ruling.turn === "win" || ruling.turn === "lose")
+    winner = ruling.turn === "win" ? player : 1 - player;
   else game.stand(ruling.game, ruling.turn === "pass" ? 1 - player : player);
 }
 const lines = game.end();
 writeFileSync(file, lines);
-console.log(`player ${winner + 1} wins; ${frames} frames, the hardest blow ${loudest.toFixed(4)} N s`);
+console.log(
+  `player ${winner + 1} wins; ${frames} frames, the hardest blow ${loudest.toFixed(4)} N s`,
+);
 
 // a reader plays every shot again, and compares its bits
-for (const { same } of carom.replay(lines)) if (!same) throw new Error("a shot has other bits than were recorded");
+for (const { same } of carom.replay(lines))
+  if (!same) throw new Error("a shot has other bits than were recorded");

@@ -1,4 +1,6 @@
-"""The game of match.cpp in Python: match.py FILE keeps its recording, and goes on with one that was saved."""
+"""The game of match.cpp in Python: match.py FILE keeps its recording, and goes on with one that was
+saved.
+"""
 
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -22,7 +24,17 @@ with ThreadPoolExecutor() as pool:
         # the game is kept; the player thinks, while the shot of the other is drawn
         file.write_text("".join(game.lines))
         _, state, player = game.standing
-        mind = pool.submit(carom.plan, table, game.balls, rules="nineball", player=players[player], shots=300, best=1, in_hand=game.in_hand, state=state)
+        mind = pool.submit(
+            carom.plan,
+            table,
+            game.balls,
+            rules="nineball",
+            player=players[player],
+            shots=300,
+            best=1,
+            in_hand=game.in_hand,
+            state=state,
+        )
         frame = 0
         while shot is not None and not mind.done():
             shot.states(min(frame / 60, shot.time), drawn=True)

@@ -1,4 +1,5 @@
-//! The game of match.cpp in Rust: `match FILE` keeps its recording, and goes on with one that was saved.
+//! The game of match.cpp in Rust: `match FILE` keeps its recording, and goes on with one that was
+//! saved.
 use carom::{sys, Call, Film, Position, Recording};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

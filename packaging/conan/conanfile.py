@@ -1,8 +1,9 @@
-"""The Conan 2 recipe of the library, without the command: conan create packaging/conan packs the tree; beside the conandata.yml of a release
-it packs the archive that this names.
+"""The Conan 2 recipe of the library, without the command: conan create packaging/conan packs the
+tree; beside the conandata.yml of a release it packs the archive that this names.
 
-A consumer finds what CMake installs: the targets carom::carom and, if the library is static, carom::static. There is no option fPIC, as
-carom's CMake files compile all code position-independent.
+A consumer finds what CMake installs: the targets carom::carom and, if the library is static,
+carom::static. There is no option fPIC, as carom's CMake files compile all code
+position-independent.
 """
 
 import re
@@ -32,12 +33,25 @@ class Carom(ConanFile):
             return
         # The version has one source, the public header.
         header = load(self, Path(self.recipe_folder, TREE, "include", "carom.h"))
-        self.version = ".".join(re.search(rf"^#define CAROM_VERSION_{part} (\d+)$", header, re.M)[1] for part in ("MAJOR", "MINOR", "PATCH"))
+        self.version = ".".join(
+            re.search(rf"^#define CAROM_VERSION_{part} (\d+)$", header, re.M)[1]
+            for part in ("MAJOR", "MINOR", "PATCH")
+        )
 
     def export_sources(self):
         if self.conan_data:
             return
-        for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "cmake/*", "include/*", "plan/CMakeLists.txt", "plan/include/*", "plan/src/*", "src/*"):
+        for part in (
+            "CMakeLists.txt",
+            "LICENSE",
+            "NOTICE",
+            "cmake/*",
+            "include/*",
+            "plan/CMakeLists.txt",
+            "plan/include/*",
+            "plan/src/*",
+            "src/*",
+        ):
             copy(self, part, Path(self.recipe_folder, TREE), self.export_sources_folder)
 
     def source(self):

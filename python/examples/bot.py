@@ -1,7 +1,8 @@
-"""A bot: it plans each stroke by playing shots with a player's errors, then errs as that player does.
+"""A bot: it plans each stroke by playing shots with a player's errors, then errs as that player
+does.
 
-`carom.plan` gives the strokes that pot most in a visit. The bot plays the first one on the table, with noise, and plans again from where
-the balls lie, until it misses or the table is empty.
+`carom.plan` gives the strokes that pot most in a visit. The bot plays the first one on the table,
+with noise, and plans again from where the balls lie, until it misses or the table is empty.
 
     python bot.py visit.svg
 """
@@ -24,7 +25,9 @@ while True:
     shot = carom.simulate(table, layout, cue)
     down = int((shot.final["label"][1:] == carom.Label.POCKETED).sum())
     scratch = shot.final["label"][0] == carom.Label.POCKETED
-    print(f"plans to pot {best['value'][0]:.0%} of the balls: {'a scratch' if scratch else f'{down} down'}")
+    print(
+        f"plans to pot {best['value'][0]:.0%} of the balls: {'a scratch' if scratch else f'{down} down'}"
+    )
     if scratch or down == 0:
         break
     potted += down
@@ -34,4 +37,6 @@ while True:
     if len(layout) == 1:
         break
 print(f"the visit pots {potted} balls")
-Path(sys.argv[1] if len(sys.argv) > 1 else "visit.svg").write_text(shot._repr_svg_(), encoding="utf-8")
+Path(sys.argv[1] if len(sys.argv) > 1 else "visit.svg").write_text(
+    shot._repr_svg_(), encoding="utf-8"
+)

@@ -1,13 +1,17 @@
-"""Agents play the games of carom.gymnasium: at random, greedy for the next stroke, and the library's planner with some numbers of shots.
+"""Agents play the games of carom.gymnasium: at random, greedy for the next stroke, and the
+library's planner with some numbers of shots.
 
-The greedy agent aims as players do: for each ball that it may meet first and each pocket at the ghost ball, the place where the cue ball
-must be when it touches the ball to drive it straight to the pocket. Friction throws the ball off that line, and other balls are in the way;
-so it tries each aim at some speeds and a little to both sides, all in one `carom.simulate_batch`, and takes the stroke that is worth most,
-and of those the one whose neighbours do best. In three-cushion it tries directions all around. It does not think of the stroke after. The
-planner does, and knows how strokes err.
+The greedy agent aims as players do: for each ball that it may meet first and each pocket at the
+ghost ball, the place where the cue ball must be when it touches the ball to drive it straight to
+the pocket. Friction throws the ball off that line, and other balls are in the way; so it tries each
+aim at some speeds and a little to both sides, all in one `carom.simulate_batch`, and takes the
+stroke that is worth most, and of those the one whose neighbours do best. In three-cushion it tries
+directions all around. It does not think of the stroke after. The planner does, and knows how
+strokes err.
 
-All begin each game with the same layout. What is printed is a table: the mean of the returns with its 95 % interval, and in how many games the agent
-did all that can be done: it potted all balls without a foul, scored with every stroke, or won. `--game all` plays the suite.
+All begin each game with the same layout. What is printed is a table: the mean of the returns with
+its 95 % interval, and in how many games the agent did all that can be done: it potted all balls
+without a foul, scored with every stroke, or won. `--game all` plays the suite.
 
     python game_agents.py --game carom/RunOutSix-v1 --games 400 --plans 300,2000
 """
@@ -36,8 +40,12 @@ Agent = Callable[[Rules, Doubles], Doubles]
 SPEEDS = np.array([1.5, 2.5, 4.0])  # m/s, of the cue
 SIDES = np.linspace(-1.5, 1.5, 13)  # degrees, to both sides of an aim
 MOST_CUT = 80.0  # degrees
-BEHIND = np.array([[x, 1.0] for x in (-0.8, -0.4, 0.0, 0.4, 0.8)])  # places of a cue ball in hand, as actions have them
-ANYWHERE = np.array([[x, y] for x in (-0.75, -0.25, 0.25, 0.75) for y in (-0.8, -0.4, 0.0, 0.4, 0.8)])
+BEHIND = np.array(
+    [[x, 1.0] for x in (-0.8, -0.4, 0.0, 0.4, 0.8)]
+)  # places of a cue ball in hand, as actions have them
+ANYWHERE = np.array(
+    [[x, y] for x in (-0.75, -0.25, 0.25, 0.75) for y in (-0.8, -0.4, 0.0, 0.4, 0.8)]
+)
 
 
 def random_agent(seed: int) -> Agent:
@@ -47,7 +55,9 @@ def random_agent(seed: int) -> Agent:
 
 
 def ghosts(table: carom.Table, radius: float, cue_ball: Doubles, balls: Doubles) -> Doubles:
-    """The directions, degrees, from the cue ball to the ghost balls of balls and all pockets, shape (aims,)."""
+    """The directions, degrees, from the cue ball to the ghost balls of balls and all pockets, shape
+    (aims,).
+    """
     way = table.pockets["centre"][np.newaxis] - balls[:, np.newaxis]
     way /= np.linalg.norm(way, axis=-1, keepdims=True)
     line = balls[:, np.newaxis] - 2.0 * radius * way - cue_ball
@@ -71,23 +81,38 @@ def candidates(rules: Rules, observation: Doubles) -> Doubles:
         hand = Hand.BEHIND
     if isinstance(rules, ThreeCushion):
         phi = np.linspace(-180.0, 180.0, 180, endpoint=False)[:, np.newaxis, np.newaxis]
-        return rules.actions(*np.broadcast_arrays(phi, np.array([3.0, 4.5, 6.0])[:, np.newaxis], np.array([-0.3, 0.0, 0.3]), 0.1))
+        return rules.actions(
+            *np.broadcast_arrays(
+                phi, np.array([3.0, 4.5, 6.0])[:, np.newaxis], np.array([-0.3, 0.0, 0.3]), 0.1
+            )
+        )
     # A cue ball in hand is tried at some places; a break goes straight at the nearest ball.
     places = {Hand.NOWHERE: np.zeros((1, 2)), Hand.BEHIND: BEHIND, Hand.ANYWHERE: ANYWHERE}[hand]
     made = []
     for place in places:
         cue_ball = seen[0, :2]
         if hand:
-            area = rules.pool.area(hand) if isinstance(rules, Match) else cast(Break, rules).corners()
+            area = (
+                rules.pool.area(hand) if isinstance(rules, Match) else cast(Break, rules).corners()
+            )
             cue_ball = area[0] + (area[1] - area[0]) * (place + 1.0) / 2.0
         balls = seen[on, :2]
         if hand is Hand.BEHIND:
             nearest = balls[np.hypot(*(balls - cue_ball).T).argmin()] - cue_ball
-            aims, speeds = np.degrees(np.arctan2(nearest[1:], nearest[:1])), np.array([6.0, 8.0, 10.0])
+            aims, speeds = (
+                np.degrees(np.arctan2(nearest[1:], nearest[:1])),
+                np.array([6.0, 8.0, 10.0]),
+            )
         else:
             aims = ghosts(base.table, base.radius, cue_ball, balls)
-        strokes = base.actions(*np.broadcast_arrays(aims[:, np.newaxis, np.newaxis] + sides, speeds[:, np.newaxis]))
-        made.append(np.concatenate([strokes, np.broadcast_to(place, (*strokes.shape[:-1], 2))], axis=-1)[..., : rules.acts])
+        strokes = base.actions(
+            *np.broadcast_arrays(aims[:, np.newaxis, np.newaxis] + sides, speeds[:, np.newaxis])
+        )
+        made.append(
+            np.concatenate([strokes, np.broadcast_to(place, (*strokes.shape[:-1], 2))], axis=-1)[
+                ..., : rules.acts
+            ]
+        )
     return np.concatenate(made)
 
 
@@ -108,7 +133,9 @@ def planner(shots: int) -> Agent:
 
 
 def play(agent: Agent, game: str, games: int, seed: int, **rules: Any) -> tuple[Doubles, str]:
-    """The return of each of many games, the layout of game k drawn from seed + k; and the picture of the best stroke."""
+    """The return of each of many games, the layout of game k drawn from seed + k; and the picture
+    of the best stroke.
+    """
     env: Any = gymnasium.make(game, render_mode="svg", **rules).unwrapped
     returns, most, best = np.zeros(games), -np.inf, ""
     for k in range(games):
@@ -123,7 +150,13 @@ def play(agent: Agent, game: str, games: int, seed: int, **rules: Any) -> tuple[
 
 def most_of(rules: Rules) -> int:
     """The return of a game in which the agent did all that can be done."""
-    return 1 if isinstance(rules, Match) else rules.strokes if isinstance(rules, ThreeCushion) else rules.balls
+    return (
+        1
+        if isinstance(rules, Match)
+        else rules.strokes
+        if isinstance(rules, ThreeCushion)
+        else rules.balls
+    )
 
 
 def score(returns: Doubles, most: int) -> str:
@@ -133,20 +166,39 @@ def score(returns: Doubles, most: int) -> str:
 
 
 def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
-    """Plays, prints, writes the picture; gives the returns of each agent in the last game, of shape (games,)."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    """Plays, prints, writes the picture; gives the returns of each agent in the last game, of shape
+    (games,).
+    """
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--game", default="carom/RunOutSix-v1", choices=["all", *GAMES])
     parser.add_argument("--games", type=int, default=100)
     parser.add_argument("--balls", type=int, help="instead of the game's own")
     parser.add_argument("--strokes", type=int, help="instead of the game's own")
-    parser.add_argument("--plans", default="300", help="shots a stroke of planners, with commas between")
-    parser.add_argument("--cushion", default="han", help="model of the cushions, as for carom.simulate")
+    parser.add_argument(
+        "--plans", default="300", help="shots a stroke of planners, with commas between"
+    )
+    parser.add_argument(
+        "--cushion", default="han", help="model of the cushions, as for carom.simulate"
+    )
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--out", default="potting.svg", help="the picture of the greedy agent's best stroke in the last game")
+    parser.add_argument(
+        "--out",
+        default="potting.svg",
+        help="the picture of the greedy agent's best stroke in the last game",
+    )
     given = parser.parse_args(arguments)
-    own = {name: getattr(given, name) for name in ("balls", "strokes") if getattr(given, name) is not None}
+    own = {
+        name: getattr(given, name)
+        for name in ("balls", "strokes")
+        if getattr(given, name) is not None
+    }
     agents = {"random": random_agent(given.seed), "greedy": greedy_agent}
-    agents |= {f"plan of {shots} shots": planner(int(shots)) for shots in filter(None, given.plans.split(","))}
+    agents |= {
+        f"plan of {shots} shots": planner(int(shots))
+        for shots in filter(None, given.plans.split(","))
+    }
     every = [name for name in GAMES if name != "carom/Potting-v1"]
     games = every if given.game == "all" else [given.game]
     found: dict[str, Doubles] = {}
@@ -160,8 +212,19 @@ def main(arguments: list[str] | None = None) -> dict[str, Doubles]:
             print(f"{game}, {name}: {cells[name][-1]}", file=sys.stderr)
             if name == "greedy":
                 Path(given.out).write_text(picture, encoding="utf-8")
-    print(f"Means of {given.games} games, seed {given.seed}; in brackets how many were perfect. {given.out} has a stroke of the greedy agent.\n")
-    print("\n".join(f"| {' | '.join(row)} |" for row in [["agent", *(game[6:-3] for game in games)], ["---"] * (len(games) + 1), *cells.values()]))
+    print(
+        f"Means of {given.games} games, seed {given.seed}; in brackets how many were perfect. {given.out} has a stroke of the greedy agent.\n"
+    )
+    print(
+        "\n".join(
+            f"| {' | '.join(row)} |"
+            for row in [
+                ["agent", *(game[6:-3] for game in games)],
+                ["---"] * (len(games) + 1),
+                *cells.values(),
+            ]
+        )
+    )
     return found
 
 

@@ -1,9 +1,11 @@
-"""What values and gradients cost in JAX and PyTorch, beside `carom.simulate`, `carom.tangents` and `carom.jacobian`: how far a ball rests from its goal.
+"""What values and gradients cost in JAX and PyTorch, beside `carom.simulate`, `carom.tangents` and
+`carom.jacobian`: how far a ball rests from its goal.
 
     python gradient_speed.py torch [ROUNDS]
 
-Each round plays 50 strokes one at a time, by simulate and tangents and by the library, then batches of 50 and 2000, by one `carom.jacobian` and by the
-library. The gradients are compared first. Printed are medians over the rounds (default 40): processor time of a stroke, and its ratio.
+Each round plays 50 strokes one at a time, by simulate and tangents and by the library, then batches
+of 50 and 2000, by one `carom.jacobian` and by the library. The gradients are compared first.
+Printed are medians over the rounds (default 40): processor time of a stroke, and its ratio.
 """
 
 from __future__ import annotations
@@ -18,7 +20,12 @@ import numpy as np
 
 import carom
 
-TABLE, BALLS, GOAL, NAMES = carom.tables.pool_9ft(), carom.balls([[0.4, 0.5], [0.6, 1.5]]), np.array([0.6, 1.8]), ["cue.speed", "cue.phi"]
+TABLE, BALLS, GOAL, NAMES = (
+    carom.tables.pool_9ft(),
+    carom.balls([[0.4, 0.5], [0.6, 1.5]]),
+    np.array([0.6, 1.8]),
+    ["cue.speed", "cue.phi"],
+)
 STROKES = np.array([1.5, 79.0]) + np.random.default_rng(1).uniform(-0.1, 0.1, (2000, 2))
 
 
@@ -35,7 +42,9 @@ def library(name: str) -> Callable[[Any], Any]:
     goal = GOAL if name == "jax" else of.from_numpy(GOAL)
 
     def miss(strokes: Any) -> Any:
-        ends = final(TABLE, BALLS, carom.cue(), {"cue.speed": strokes[..., 0], "cue.phi": strokes[..., 1]})
+        ends = final(
+            TABLE, BALLS, carom.cue(), {"cue.speed": strokes[..., 0], "cue.phi": strokes[..., 1]}
+        )
         return ((ends.r[..., 1, :] - goal) ** 2).sum(-1)
 
     def by_torch(strokes: Any) -> Any:
@@ -60,15 +69,31 @@ def spent(play: Callable[[Any], Any], given: Any, count: int) -> float:
 
 
 def main() -> None:
-    play, few, rounds = library(sys.argv[1]), STROKES[:50], int(sys.argv[2]) if len(sys.argv) > 2 else 40
+    play, few, rounds = (
+        library(sys.argv[1]),
+        STROKES[:50],
+        int(sys.argv[2]) if len(sys.argv) > 2 else 40,
+    )
     for stroke, *found in zip(few, *play(few)):
         for expected, *others in zip(by_hand(stroke), found, play(stroke)):
-            np.testing.assert_allclose([np.array(other.tolist()) for other in others], [expected] * 2, rtol=1e-9)
-    batch: Callable[[Any], Any] = lambda given: carom.jacobian(TABLE, BALLS, carom.cue(speed=given[:, 0], phi=given[:, 1]), NAMES)  # noqa: E731
-    for name, ours, given, count in (("one", by_hand, few, 50), ("batch of 50", batch, [few], 50), ("batch of 2000", batch, [STROKES], 2000)):
-        times = np.array([[spent(each, given, count) for each in (ours, play)] for _ in range(rounds)])
+            np.testing.assert_allclose(
+                [np.array(other.tolist()) for other in others], [expected] * 2, rtol=1e-9
+            )
+    batch: Callable[[Any], Any] = lambda given: carom.jacobian(
+        TABLE, BALLS, carom.cue(speed=given[:, 0], phi=given[:, 1]), NAMES
+    )  # noqa: E731
+    for name, ours, given, count in (
+        ("one", by_hand, few, 50),
+        ("batch of 50", batch, [few], 50),
+        ("batch of 2000", batch, [STROKES], 2000),
+    ):
+        times = np.array(
+            [[spent(each, given, count) for each in (ours, play)] for _ in range(rounds)]
+        )
         ratio = np.median(times[:, 1] / times[:, 0])
-        print(f"{name:14} {np.median(times[:, 0]):6.1f} us, by {sys.argv[1]} {np.median(times[:, 1]):6.1f} us, ratio {ratio:.2f}")
+        print(
+            f"{name:14} {np.median(times[:, 0]):6.1f} us, by {sys.argv[1]} {np.median(times[:, 1]):6.1f} us, ratio {ratio:.2f}"
+        )
 
 
 if __name__ == "__main__":

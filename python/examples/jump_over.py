@@ -1,7 +1,8 @@
 """A jump over a ball: the least speed of the cue by its elevation, found by bisection.
 
-A raised cue with a hard tip strikes the ball into the slate, which throws it up. A shot clears the ball in the way if its first contact is the one
-behind it, or none. Between a speed that fails and one that clears, each step halves the interval.
+A raised cue with a hard tip strikes the ball into the slate, which throws it up. A shot clears the
+ball in the way if its first contact is the one behind it, or none. Between a speed that fails and
+one that clears, each step halves the interval.
 
     python jump_over.py jump.svg
 """
@@ -17,7 +18,14 @@ layout = carom.balls([[0.635, 0.6], [0.635, 0.6 + 0.305]])  # 12 inches, centre 
 
 def play(speed: float, elevation: float) -> carom.Shot:
     """The shot straight at the ball, without side or height of the tip."""
-    return carom.simulate(table, layout, carom.cue(speed=speed, phi=90.0, theta=elevation, b=0.0, tip_time=0.0006, tip_restitution=0.85), t_final=1.0)
+    return carom.simulate(
+        table,
+        layout,
+        carom.cue(
+            speed=speed, phi=90.0, theta=elevation, b=0.0, tip_time=0.0006, tip_restitution=0.85
+        ),
+        t_final=1.0,
+    )
 
 
 def clears(shot: carom.Shot) -> bool:
@@ -35,4 +43,6 @@ for elevation in (30.0, 40.0, 45.0, 50.0, 60.0):
 
 best = min(least, key=lambda elevation: least[elevation])
 assert 40.0 <= best <= 60.0 and not clears(play(1.0, best))
-Path(sys.argv[1] if len(sys.argv) > 1 else "jump.svg").write_text(play(least[best] + 0.05, best)._repr_svg_(), encoding="utf-8")
+Path(sys.argv[1] if len(sys.argv) > 1 else "jump.svg").write_text(
+    play(least[best] + 0.05, best)._repr_svg_(), encoding="utf-8"
+)

@@ -1,7 +1,8 @@
 """A table of one's own: a hexagon with a pocket in the middle, and a shot that finds it.
 
-A rail is a line from p to q with a height, and the side on which balls lie. `check()` finds holes between rails and rails that are played
-from the wrong side. Corners need a jaw or none: here rails meet.
+A rail is a line from p to q with a height, and the side on which balls lie. `check()` finds holes
+between rails and rails that are played from the wrong side. Corners need a jaw or none: here rails
+meet.
 
     python own_table.py hexagon.svg
 """
@@ -36,7 +37,9 @@ shots = carom.simulate_batch(table, carom.balls([start]), cues, features=True)
 facts = shots.features
 assert facts is not None  # as it was asked for
 found = np.flatnonzero((facts.pocket[:, 0] == 0) & (facts.cushions[:, 0] >= 2))
-print(f"{len(found)} of {len(cues)} directions find the pocket after two rails or more, such as {cues['phi'][found[0]]:.1f} degrees")
+print(
+    f"{len(found)} of {len(cues)} directions find the pocket after two rails or more, such as {cues['phi'][found[0]]:.1f} degrees"
+)
 assert len(found) > 0
 Path(sys.argv[1] if len(sys.argv) > 1 else "hexagon.svg").write_text(
     carom.simulate(table, carom.balls([start]), cues[found[0]])._repr_svg_(), encoding="utf-8"

@@ -3,12 +3,14 @@
     python reality.py TRACKS.csv --table 2.84,1.42 --radius 0.03075 --pictures FOLDER
     python reality.py TRACKS.csv --table 2.84,1.42 --radius 0.03075 --few 7
 
-For each model of the cushion, constants are fitted to every second shot and used for the others, and the other way round. The first table
-has the RMSE of the shots that the constants were not fitted to, of both halves: of each shot only the strike, six numbers, is fitted, by one
-search and by the better of two with other seeds. Then
-follow the floor, which is the RMSE of a perfect model; how far single impacts are from each model, output by output; how the error grows
-with the part of a shot that the strike is fitted to; and the laws of single events. With --few N there is only what few shots tell of the
-table, over N draws of them. Markdown on standard output; the pictures are SVG.
+For each model of the cushion, constants are fitted to every second shot and used for the others,
+and the other way round. The first table has the RMSE of the shots that the constants were not
+fitted to, of both halves: of each shot only the strike, six numbers, is fitted, by one search and
+by the better of two with other seeds. Then follow the floor, which is the RMSE of a perfect model;
+how far single impacts are from each model, output by output; how the error grows with the part of a
+shot that the strike is fitted to; and the laws of single events. With --few N there is only what
+few shots tell of the table, over N draws of them. Markdown on standard output; the pictures are
+SVG.
 """
 
 import argparse
@@ -42,7 +44,12 @@ def law(values: Doubles, by: Doubles, edges: Sequence[float]) -> list[str]:
 
 
 def held_out(
-    recordings: Recordings, table: tuple[float, float], radius: float, models: Sequence[Any], free: Sequence[str], seed: int
+    recordings: Recordings,
+    table: tuple[float, float],
+    radius: float,
+    models: Sequence[Any],
+    free: Sequence[str],
+    seed: int,
 ) -> carom.tracks.fit.Fit:
     """The RMSE of unseen shots by each model; the fit of the first half by the best."""
     print(
@@ -54,11 +61,19 @@ def held_out(
         once, twice, spent = [], [], 0.0
         for fold in (0, 1):
             half = recordings[fold::2]
-            found = carom.tracks.fit.fit(half, table, radius, cushion_model=model, free=free, seed=seed)
+            found = carom.tracks.fit.fit(
+                half, table, radius, cushion_model=model, free=free, seed=seed
+            )
             begin = time.process_time()
             one, two = (
                 carom.tracks.fit.fit(
-                    recordings[1 - fold :: 2], table, radius, cushion_model=model, constants=found.constants, free="none", seed=own
+                    recordings[1 - fold :: 2],
+                    table,
+                    radius,
+                    cushion_model=model,
+                    constants=found.constants,
+                    free="none",
+                    seed=own,
                 )
                 for own in (seed, seed + SECOND)
             )
@@ -71,7 +86,10 @@ def held_out(
             both = np.concatenate(part)
             figures += [float(np.median(both)), float(np.percentile(both, 90)), float(both.mean())]
         shots = sum(map(len, once))
-        print(f"| {model} | {' | '.join(f'{value:.2f}' for value in figures)} | {shots} | {1e3 * spent / shots:.0f} |", flush=True)
+        print(
+            f"| {model} | {' | '.join(f'{value:.2f}' for value in figures)} | {shots} | {1e3 * spent / shots:.0f} |",
+            flush=True,
+        )
         if best is None or figures[0] < best[0]:
             best = figures[0], found
     assert best is not None
@@ -79,22 +97,41 @@ def held_out(
 
 
 def floor(fit: carom.tracks.fit.Fit, shots: int, seed: int) -> None:
-    """The RMSE that is left where the model is perfect: recordings of plays, with the noise of these."""
+    """The RMSE that is left where the model is perfect: recordings of plays, with the noise of
+    these.
+    """
     made = carom.tracks.synthetic(
-        shots, table=fit.table, radius=fit.radius, cushion_model=fit.cushion_model, constants=fit.constants, noise=fit.recordings[0].noise,
+        shots,
+        table=fit.table,
+        radius=fit.radius,
+        cushion_model=fit.cushion_model,
+        constants=fit.constants,
+        noise=fit.recordings[0].noise,
         seed=seed,
-    )  # fmt: skip
-    found = carom.tracks.fit.fit(
-        made.recordings, fit.table, fit.radius, cushion_model=fit.cushion_model, constants=made.constants, free="none", seed=seed
     )
-    print(f"\nThe floor: {100 * found.median_rmse:.2f} cm in the median, 9 in 10 below {100 * found.p90_rmse:.2f} cm, {shots} shots.")
+    found = carom.tracks.fit.fit(
+        made.recordings,
+        fit.table,
+        fit.radius,
+        cushion_model=fit.cushion_model,
+        constants=made.constants,
+        free="none",
+        seed=seed,
+    )
+    print(
+        f"\nThe floor: {100 * found.median_rmse:.2f} cm in the median, 9 in 10 below {100 * found.p90_rmse:.2f} cm, {shots} shots."
+    )
 
 
 def outputs(seen: carom.tracks.Events, radius: float, models: Sequence[Any], seed: int) -> None:
-    """How far the motion after single impacts is from each model with its best constants, in % of the speed before."""
+    """How far the motion after single impacts is from each model with its best constants, in % of
+    the speed before.
+    """
     good = _from_events.chosen(seen.impacts)
     speed = np.hypot(good["v_n"], good["v_t"])
-    print("\n| cushion | along | across | roll along | roll across | chi² | impacts |\n|---|--:|--:|--:|--:|--:|--:|")
+    print(
+        "\n| cushion | along | across | roll along | roll across | chi² | impacts |\n|---|--:|--:|--:|--:|--:|--:|"
+    )
     for model in models:
         values, _ = _from_events.measured(seen, radius, model, seed)
         if "restitution_cushion" not in values:
@@ -103,8 +140,14 @@ def outputs(seen: carom.tracks.Events, radius: float, models: Sequence[Any], see
         e, mu, height, loss = (values.get(name, 0.0) for name in names)
         made = _from_events.predicted(good, radius, model, e, mu, height or radius, loss)
         off = [made[:, 0] - good["w_t"], made[:, 1] - good["w_n"]]
-        off += [made[:, 0] - made[:, 2] - good["w_t"] + good["u_t"], made[:, 1] - made[:, 3] - good["w_n"] + good["u_n"]]
-        sizes = " | ".join(f"{148.26 * np.median(np.abs(values - np.median(values)) / speed):.2f}" for values in off)
+        off += [
+            made[:, 0] - made[:, 2] - good["w_t"] + good["u_t"],
+            made[:, 1] - made[:, 3] - good["w_n"] + good["u_n"],
+        ]
+        sizes = " | ".join(
+            f"{148.26 * np.median(np.abs(values - np.median(values)) / speed):.2f}"
+            for values in off
+        )
         chi2 = 9.0 * np.log1p(made[:, 4] / 9.0).sum()
         print(f"| {model} | {sizes} | {chi2:.0f} | {len(good)} |")
 
@@ -114,39 +157,80 @@ def growth(fit: carom.tracks.fit.Fit, seed: int) -> None:
     print("\n| strike fitted to the first | RMSE of these, median, cm |\n|---|--:|")
     for until in (0.5, 1.0, 2.0, 3.0, 5.0, 8.0):
         parts = [
-            replace(shot, tracks=tuple(track[(track[:, 0] <= shot.moves.min() + until) | (np.arange(len(track)) == 0)] for track in shot.tracks))
+            replace(
+                shot,
+                tracks=tuple(
+                    track[(track[:, 0] <= shot.moves.min() + until) | (np.arange(len(track)) == 0)]
+                    for track in shot.tracks
+                ),
+            )
             for shot in fit.recordings
-        ]  # fmt: skip
+        ]
         found = carom.tracks.fit.fit(
-            parts, fit.table, fit.radius, cushion_model=fit.cushion_model, constants=fit.constants, free="none", seed=seed
+            parts,
+            fit.table,
+            fit.radius,
+            cushion_model=fit.cushion_model,
+            constants=fit.constants,
+            free="none",
+            seed=seed,
         )
         print(f"| {until:g} s | {100 * found.median_rmse:.2f} |")
 
 
-def few_shots(recordings: Recordings, table: tuple[float, float], radius: float, draws: int, seed: int) -> None:
-    """Medians of draws of so many shots, by which the table's constants are fitted: the RMSE of up to 20 others."""
+def few_shots(
+    recordings: Recordings, table: tuple[float, float], radius: float, draws: int, seed: int
+) -> None:
+    """Medians of draws of so many shots, by which the table's constants are fitted: the RMSE of up
+    to 20 others.
+    """
     print("| shots fitted | RMSE of others: median, cm | 9 in 10 below, cm |\n|--:|--:|--:|")
     for count in (n for n in (0, 1, 3, 5, 10, 20) if n + 10 <= len(recordings)):
         figures = []
         for draw in range(draws):
-            drawn = [recordings[k] for k in np.random.default_rng((seed, draw)).permutation(len(recordings))[: count + 20]]
-            constants = carom.tracks.fit.fit(drawn[:count], table, radius, free="table", seed=seed).constants if count else None
-            found = carom.tracks.fit.fit(drawn[count:], table, radius, constants=constants, free="none", seed=seed)
+            drawn = [
+                recordings[k]
+                for k in np.random.default_rng((seed, draw)).permutation(len(recordings))[
+                    : count + 20
+                ]
+            ]
+            constants = (
+                carom.tracks.fit.fit(
+                    drawn[:count], table, radius, free="table", seed=seed
+                ).constants
+                if count
+                else None
+            )
+            found = carom.tracks.fit.fit(
+                drawn[count:], table, radius, constants=constants, free="none", seed=seed
+            )
             figures.append((100 * found.median_rmse, 100 * found.p90_rmse))
-        print(f"| {count} | {' | '.join(f'{value:.2f}' for value in np.median(figures, axis=0))} |", flush=True)
+        print(
+            f"| {count} | {' | '.join(f'{value:.2f}' for value in np.median(figures, axis=0))} |",
+            flush=True,
+        )
 
 
 def single_events(seen: carom.tracks.Events) -> None:
     (a, a_error), (b, b_error) = seen.roll
     print("\n| law | measured |\n|---|---|")
     print(f"| deceleration of sliding | {seen.slide[0]:.3f} ± {seen.slide[1]:.3f} m/s² |")
-    print(f"| deceleration of rolling | ({a:.4f} ± {a_error:.4f}) + ({b:.4f} ± {b_error:.4f}) v², m/s², v in m/s |")
-    hits = seen.hits[(seen.hits["chi2"] < 3) & (seen.hits["v_n"] > 0.5) & (seen.hits["w_error"] < 0.1) & (seen.hits["z_error"] < 0.1)]
+    print(
+        f"| deceleration of rolling | ({a:.4f} ± {a_error:.4f}) + ({b:.4f} ± {b_error:.4f}) v², m/s², v in m/s |"
+    )
+    hits = seen.hits[
+        (seen.hits["chi2"] < 3)
+        & (seen.hits["v_n"] > 0.5)
+        & (seen.hits["w_error"] < 0.1)
+        & (seen.hits["z_error"] < 0.1)
+    ]
     e = (hits["z_n"] - hits["w_n"]) / hits["v_n"]
     if len(e):
         print(f"| restitution of balls | {np.median(e):.3f}, {len(e)} hits |")
     good = _from_events.chosen(seen.impacts)
-    print("\n| speed into the cushion, m/s | speed out over speed in, rolling balls | impacts |\n|---|---|---|")
+    print(
+        "\n| speed into the cushion, m/s | speed out over speed in, rolling balls | impacts |\n|---|---|---|"
+    )
     print("\n".join(law(-good["w_n"] / good["v_n"], good["v_n"], [0.45, 0.8, 1.2, 1.8, 4.0])))
 
 
@@ -156,9 +240,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--table", type=carom.tracks.fit._extents, required=True, metavar="W,L")
     parser.add_argument("--radius", type=float, required=True, metavar="R")
     parser.add_argument("--models", default="smooth,han,stronge,mathavan")
-    parser.add_argument("--free", default="default", help="constants that are fitted, as in carom.fit")
+    parser.add_argument(
+        "--free", default="default", help="constants that are fitted, as in carom.fit"
+    )
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--few", type=int, metavar="N", help="only what few shots tell, over N draws of them")
+    parser.add_argument(
+        "--few", type=int, metavar="N", help="only what few shots tell, over N draws of them"
+    )
     parser.add_argument("--pictures", type=Path, metavar="FOLDER")
     given = parser.parse_args(arguments)
     recordings = carom.tracks.read(given.tracks, table=given.table, radius=given.radius)
@@ -177,7 +265,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if given.pictures:
         given.pictures.mkdir(parents=True, exist_ok=True)
         pictures = {"rmse": _summary.histogram(fit), "bands": _summary.bands(fit)}
-        pictures.update(zip(("rolling", "sliding", "cushion", "hits"), (svg for _, svg in _summary.laws(fit))))
+        pictures.update(
+            zip(("rolling", "sliding", "cushion", "hits"), (svg for _, svg in _summary.laws(fit)))
+        )
         for name, svg in pictures.items():
             (given.pictures / f"reality-{name}.svg").write_text(svg + "\n", encoding="utf-8")
     return 0

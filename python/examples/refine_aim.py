@@ -1,9 +1,11 @@
-"""Refining an aim: the strike by which both balls come to rest at chosen places, by derivatives of the shot.
+"""Refining an aim: the strike by which both balls come to rest at chosen places, by derivatives of
+the shot.
 
-Unknown are the four numbers of a strike, x = (speed, phi, a, b); the residuals r(x) are where the two balls end less where they
-should, in metres: four numbers too. Gauss and Newton's method takes steps dx = -(J^T J + l)^-1 J^T r with the Jacobian J of
-carom.tangents(), and halves a step that does not help. A derivative says nothing beyond its reach, where the balls meet
-something else; so the search starts near the solution, as a player who knows the shot does.
+Unknown are the four numbers of a strike, x = (speed, phi, a, b); the residuals r(x) are where the
+two balls end less where they should, in metres: four numbers too. Gauss and Newton's method takes
+steps dx = -(J^T J + l)^-1 J^T r with the Jacobian J of carom.tangents(), and halves a step that
+does not help. A derivative says nothing beyond its reach, where the balls meet something else; so
+the search starts near the solution, as a player who knows the shot does.
 
     python refine_aim.py --draws 40 --seed 1 --out refine_aim.svg
 """
@@ -31,7 +33,9 @@ table = carom.tables.pool_9ft()
 def play(x: Doubles, balls: carom.dtypes.Records) -> carom.Shot | None:
     """The shot of a strike; None where that is in error."""
     try:
-        return carom.simulate(table, balls, carom.cue(speed=x[0], phi=x[1], a=x[2], b=x[3]), cushion_model="han")
+        return carom.simulate(
+            table, balls, carom.cue(speed=x[0], phi=x[1], a=x[2], b=x[3]), cushion_model="han"
+        )
     except carom.CaromError:
         return None
 
@@ -41,7 +45,9 @@ def ends(shot: carom.Shot) -> Doubles:
     return np.asarray(shot.final["r"][:, :2].ravel(), dtype=np.float64)
 
 
-def refine(start: Doubles, balls: carom.dtypes.Records, goal: Doubles, steps: int = 12) -> tuple[Doubles, list[float]]:
+def refine(
+    start: Doubles, balls: carom.dtypes.Records, goal: Doubles, steps: int = 12
+) -> tuple[Doubles, list[float]]:
     """The strike found from `start`, and the largest miss, m, before and after each step."""
     x = start
     shot = play(x, balls)
@@ -75,7 +81,14 @@ def tasks(draws: int, seed: int) -> list[tuple[carom.dtypes.Records, Doubles, Do
         if np.hypot(*d) < 0.2:
             continue
         cut = random.uniform(-0.6, 0.6) * 0.05715 / np.hypot(*d)
-        x = np.array([random.uniform(0.8, 1.6), np.degrees(np.arctan2(d[1], d[0]) + cut), random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.3)])
+        x = np.array(
+            [
+                random.uniform(0.8, 1.6),
+                np.degrees(np.arctan2(d[1], d[0]) + cut),
+                random.uniform(-0.2, 0.2),
+                random.uniform(-0.2, 0.3),
+            ]
+        )
         balls = carom.balls(centres)
         shot = play(x, balls)
         if shot is not None and not (shot.final["label"] == carom.Label.POCKETED).any():
@@ -84,21 +97,35 @@ def tasks(draws: int, seed: int) -> list[tuple[carom.dtypes.Records, Doubles, Do
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--draws", type=int, default=40)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", default="refine_aim.svg")
     given = parser.parse_args()
-    runs = [refine(start, balls, goal)[1] for balls, _, goal, start in tasks(given.draws, given.seed)]
+    runs = [
+        refine(start, balls, goal)[1] for balls, _, goal, start in tasks(given.draws, given.seed)
+    ]
     solved = sum(misses[-1] < 1e-3 for misses in runs)
     counts = [len(misses) - 1 for misses in runs if misses[-1] < 1e-3]
-    print(f"{solved} of {len(runs)} aims end within 1 mm of both places, after {np.median(counts):.0f} steps in the median")
+    print(
+        f"{solved} of {len(runs)} aims end within 1 mm of both places, after {np.median(counts):.0f} steps in the median"
+    )
     figure, axes = plt.subplots(figsize=(6.0, 3.6), layout="constrained")
     for misses in runs:
-        axes.semilogy(np.maximum(misses, 1e-9), color="#0072b2" if misses[-1] < 1e-3 else "#d9d9d9", lw=0.9)
-    axes.set(xlabel="step", ylabel="largest miss of the two balls, m", title=f"{solved} of {len(runs)} within 1 mm (blue)")
+        axes.semilogy(
+            np.maximum(misses, 1e-9), color="#0072b2" if misses[-1] < 1e-3 else "#d9d9d9", lw=0.9
+        )
+    axes.set(
+        xlabel="step",
+        ylabel="largest miss of the two balls, m",
+        title=f"{solved} of {len(runs)} within 1 mm (blue)",
+    )
     plt.rcParams["svg.hashsalt"] = "carom"
-    figure.savefig(given.out, dpi=150, metadata={"Date": None} if given.out.endswith(".svg") else None)
+    figure.savefig(
+        given.out, dpi=150, metadata={"Date": None} if given.out.endswith(".svg") else None
+    )
     print(f"wrote {given.out}")
 
 

@@ -1,6 +1,9 @@
-"""A bot for a game of your own: ten-ball. The lowest ball is met first, ball and pocket are called, and the ten wins as the last ball.
+"""A bot for a game of your own: ten-ball.
 
-The rules are three methods; the library plans by them and judges by them. A ten that falls before comes back.
+The lowest ball is met first, ball and pocket are called, and the ten wins as the last ball.
+
+The rules are three methods; the library plans by them and judges by them. A ten that falls before
+comes back.
 
     python ten_ball.py
 """
@@ -25,7 +28,9 @@ class TenBall(carom.Rules):
     def left(self, state: list[int], in_play: frozenset[int]) -> tuple[int, int]:
         return len(in_play) - 1, len(in_play) - 1
 
-    def judge(self, state: list[int], in_play: frozenset[int], facts: carom.Facts, call: tuple[int, int]) -> carom.Turn:
+    def judge(
+        self, state: list[int], in_play: frozenset[int], facts: carom.Facts, call: tuple[int, int]
+    ) -> carom.Turn:
         foul = facts.foul(self.on(state, in_play))
         made = not foul and facts.potted.get(call[0]) == call[1]
         if made and in_play == {0, 10}:
@@ -43,16 +48,27 @@ players, stroke, player, ruling = (carom.player(fargo=750), carom.player(fargo=4
 for stroke in range(300):
     player = int(state[0])
     best = carom.plan(
-        table, layout, rules=TenBall(), state=state, player=players[player], opponent=players[1 - player], shots=300, seed=stroke,
+        table,
+        layout,
+        rules=TenBall(),
+        state=state,
+        player=players[player],
+        opponent=players[1 - player],
+        shots=300,
+        seed=stroke,
         in_hand=hand,
-    )[0]  # fmt: skip
+    )[0]
     if hand != "no":
         layout = carom.place_ball(table, layout, 0, *best["place"])
     cue = carom.with_errors(best["cue"], players[player], seed=1, number=stroke)
-    ruling = carom.referee(table, layout, cue, rules=TenBall(), state=state, call=(best["ball"], best["pocket"]))
+    ruling = carom.referee(
+        table, layout, cue, rules=TenBall(), state=state, call=(best["ball"], best["pocket"])
+    )
     layout, state, hand = ruling.balls, ruling.state, ruling.hand
     if ruling.turn == "win":
         break
-    print(f"{stroke + 1:2}. player {player}: {ruling.turn}, potted {ruling.potted}{', foul: ' + ruling.foul.text if ruling.foul else ''}")
+    print(
+        f"{stroke + 1:2}. player {player}: {ruling.turn}, potted {ruling.potted}{', foul: ' + ruling.foul.text if ruling.foul else ''}"
+    )
 print(f"after {stroke + 1} strokes: player {player} has won")
 assert ruling and ruling.turn == "win", "the game has not ended"

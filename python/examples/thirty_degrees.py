@@ -1,7 +1,9 @@
-"""The 30-degree rule: a rolling cue ball is turned by about 30 degrees, for hits from a quarter to three quarters of the ball.
+"""The 30-degree rule: a rolling cue ball is turned by about 30 degrees, for hits from a quarter to
+three quarters of the ball.
 
-The ball leaves along the tangent line, keeps nearly all of its forward spin, and the cloth turns its path until it rolls with
-5/7 v + 2/7 R (w_y, -w_x). The angle has its maximum near a half-ball hit, so it changes slowly around it. A stun shot has no such rule.
+The ball leaves along the tangent line, keeps nearly all of its forward spin, and the cloth turns
+its path until it rolls with 5/7 v + 2/7 R (w_y, -w_x). The angle has its maximum near a half-ball
+hit, so it changes slowly around it. A stun shot has no such rule.
 
     python thirty_degrees.py rule.svg
 """
@@ -22,7 +24,9 @@ centres = np.stack([np.cos(cuts), np.sin(cuts), np.zeros_like(cuts)], axis=-1)
 
 
 def turned(spin: float) -> np.ndarray:
-    """The angle by which the path is turned once the ball rolls, degrees; spin 1 is that of a rolling ball."""
+    """The angle by which the path is turned once the ball rolls, degrees; spin 1 is that of a
+    rolling ball.
+    """
     pairs = carom.impacts(v_a=(SPEED, 0.0, 0.0), w_a=(0.0, spin * SPEED / RADIUS, 0.0), r_b=centres)
     pairs["mu_ball"] = carom.mu_ball(pairs)
     after, _ = carom.collide(pairs)
@@ -33,7 +37,9 @@ def turned(spin: float) -> np.ndarray:
 
 follow, stun = turned(1.0), turned(0.0)
 middle = follow[(fraction >= 0.25) & (fraction <= 0.75)]
-print(f"rolling ball: {middle.min():.1f} to {middle.max():.1f} degrees from quarter to three-quarter hits")
+print(
+    f"rolling ball: {middle.min():.1f} to {middle.max():.1f} degrees from quarter to three-quarter hits"
+)
 assert 25 < middle.min() and middle.max() < 35 and (stun > follow).all()
 plt.plot(fraction, follow, label="rolling")
 plt.plot(fraction, stun, "--", label="stun")

@@ -1,8 +1,10 @@
-"""Throw: friction between the balls turns the object ball from the line of centres, by an angle that depends on cut and speed.
+"""Throw: friction between the balls turns the object ball from the line of centres, by an angle
+that depends on cut and speed.
 
-While the balls slip on each other, tan(throw) is their friction, which falls with the speed of slip (Alciatore's law). Where they stick
-before they part, tan(throw) = 2 tan(cut)/(7 (1 + e)). So throw grows with the cut up to a maximum and falls behind it, and slow shots are
-thrown most. One batch computes the whole picture.
+While the balls slip on each other, tan(throw) is their friction, which falls with the speed of slip
+(Alciatore's law). Where they stick before they part, tan(throw) = 2 tan(cut)/(7 (1 + e)). So throw
+grows with the cut up to a maximum and falls behind it, and slow shots are thrown most. One batch
+computes the whole picture.
 
     python throw_by_speed.py throw.svg
 """
@@ -27,7 +29,9 @@ throw = np.degrees(cuts + np.arctan2(velocity[..., 1], velocity[..., 0]))
 
 for speed, curve in zip(speeds, throw):
     plt.plot(np.degrees(cuts), curve, label=f"{speed:g} m/s")
-    print(f"{speed:g} m/s: most throw {curve.max():.2f} degrees, at a cut of {np.degrees(cuts)[curve.argmax()]:.0f}")
+    print(
+        f"{speed:g} m/s: most throw {curve.max():.2f} degrees, at a cut of {np.degrees(cuts)[curve.argmax()]:.0f}"
+    )
 assert (status == 0).all() and throw.max(axis=1)[0] > throw.max(axis=1)[1] > throw.max(axis=1)[2]
 # At small cuts the balls stick.
 assert np.allclose(np.tan(np.radians(throw[:, 4])), 2 * np.tan(cuts[4]) / (7 * 1.95), rtol=1e-3)

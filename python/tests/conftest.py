@@ -1,4 +1,6 @@
-"""The recorded references of the repository's data/, as arrays, a count of calls, and values of the wrong kind."""
+"""The recorded references of the repository's data/, as arrays, a count of calls, and values of the
+wrong kind.
+"""
 
 import csv
 import re
@@ -16,7 +18,9 @@ DATA = Path(__file__).parents[2] / "data"
 def columns(name: str, wanted: str) -> np.ndarray:
     """Columns of a file of data/, in the order wanted, as an array of rows."""
     with open(DATA / name, newline="", encoding="utf-8") as file:
-        return np.array([[float(row[key]) for key in wanted.split()] for row in csv.DictReader(file)])
+        return np.array(
+            [[float(row[key]) for key in wanted.split()] for row in csv.DictReader(file)]
+        )
 
 
 BALL = "r{0}x r{0}y r{0}z v{0}x v{0}y v{0}z w{0}x w{0}y w{0}z R M u_s{0} "
@@ -52,14 +56,34 @@ def calls():
 
 
 WRONG = [
-    "1", "x", b"1", {}, {"world": "pooltool"}, [], [None, 1.0], [[1, 2], [3]], (1, 2, 3), np.array(["a"]), np.zeros((0, 3)), object(), 1j,
-    np.nan, np.inf, -1, None, True, np.datetime64(0, "s"), len,
-]  # fmt: skip
+    "1",
+    "x",
+    b"1",
+    {},
+    {"world": "pooltool"},
+    [],
+    [None, 1.0],
+    [[1, 2], [3]],
+    (1, 2, 3),
+    np.array(["a"]),
+    np.zeros((0, 3)),
+    object(),
+    1j,
+    np.nan,
+    np.inf,
+    -1,
+    None,
+    True,
+    np.datetime64(0, "s"),
+    len,
+]
 TEXT = "game world ball_model cushion_model friction space simultaneous stop_at records rules group ball_set solver slip model convention law"
 
 
 def refused_by_name(call, good, names):
-    """A value of another kind in place of each argument in turn is refused, by the name of the argument."""
+    """A value of another kind in place of each argument in turn is refused, by the name of the
+    argument.
+    """
     for name in names.split():
         for wrong in WRONG:
             try:
@@ -70,4 +94,6 @@ def refused_by_name(call, good, names):
                 assert re.search(rf"\b{name}\b", str(error)), (name, wrong, error)
             else:
                 # of text and bytes none is read as a number
-                assert not isinstance(wrong, (str, bytes)) or (name in TEXT.split() and wrong == "x"), (name, wrong)
+                assert not isinstance(wrong, (str, bytes)) or (
+                    name in TEXT.split() and wrong == "x"
+                ), (name, wrong)

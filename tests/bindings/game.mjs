@@ -1,4 +1,5 @@
-// As game.c, in JavaScript: the recording is read here, by its page (docs/using/games.md), and played by the npm package.
+// As game.c, in JavaScript: the recording is read here, by its page (docs/using/games.md), and
+// played by the npm package.
 import { readFileSync } from "node:fs";
 import { load } from "../../web/npm/dist/index.js";
 
@@ -20,7 +21,10 @@ function bitsOf(number) {
   return bytes.getBigUint64(0);
 }
 
-/** The numbers of each kind of line in order, and those of the objects in its lists. Whole numbers end with "#", lists of n numbers with "*n". */
+/**
+ * The numbers of each kind of line in order, and those of the objects in its lists. Whole numbers
+ * end with "#", lists of n numbers with "*n".
+ */
 const keys = (text) => text.split(" ");
 const NUMBERS = {
   recording: keys("format# revision#"),
@@ -28,10 +32,17 @@ const NUMBERS = {
   rails: keys("p*2 q*2 height line*3 side# mu_cushion restitution"),
   jaws: keys("centre*2 radius height mu_cushion restitution"),
   pockets: keys("centre*2 radius depth"),
-  options: keys("world# ball_model# cushion_model# friction# steps# space# simultaneous# cluster_steps#"),
+  options: keys(
+    "world# ball_model# cushion_model# friction# steps# space# simultaneous# cluster_steps#",
+  ),
   balls: ["list"],
-  list: [...kindKeys.map((key) => key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)), ...keys("r*3 v*3 w*3 label#")],
-  shot: keys("speed phi theta a b mass end_mass tip_restitution tip_radius ball# miscue tip_time follow time_most stop_at# first_of# events_most# status# events# time hash"),
+  list: [
+    ...kindKeys.map((key) => key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)),
+    ...keys("r*3 v*3 w*3 label#"),
+  ],
+  shot: keys(
+    "speed phi theta a b mass end_mass tip_restitution tip_radius ball# miscue tip_time follow time_most stop_at# first_of# events_most# status# events# time hash",
+  ),
 };
 const LINES = { recording: 1n, table: 2n, options: 3n, balls: 4n, shot: 6n };
 
@@ -44,12 +55,21 @@ function stirObject(hash, kind, object) {
       place++;
       const list = object[key] ?? [];
       if (list.length > 0) hash = stir(stir(hash, place), BigInt(list.length));
-      list.forEach((_, k) => (hash = stirObject(hash, key, Object.assign({}, ...list.slice(0, k + 1)))));
+      list.forEach(
+        (_, k) => (hash = stirObject(hash, key, Object.assign({}, ...list.slice(0, k + 1)))),
+      );
       continue;
     }
     for (let k = 0; k < (Number(many) || 1); k++) {
       const value = many ? object[key]?.[k] : object[key];
-      const bits = value === undefined ? 0n : key === "hash" ? BigInt(`0x${value}`) : name.endsWith("#") ? word(BigInt(value)) : bitsOf(number(value));
+      const bits =
+        value === undefined
+          ? 0n
+          : key === "hash"
+            ? BigInt(`0x${value}`)
+            : name.endsWith("#")
+              ? word(BigInt(value))
+              : bitsOf(number(value));
       place++;
       if (bits !== 0n) hash = stir(stir(hash, place), bits);
     }
@@ -61,13 +81,17 @@ function stirObject(hash, kind, object) {
 function fingerprint(before, words) {
   const chains = [before, 1n, 2n, 3n];
   const whole = words.length - (words.length % 4);
-  words.forEach((bits, k) => (chains[k < whole ? k % 4 : 0] = stir(chains[k < whole ? k % 4 : 0], bits)));
+  words.forEach(
+    (bits, k) => (chains[k < whole ? k % 4 : 0] = stir(chains[k < whole ? k % 4 : 0], bits)),
+  );
   return chains.reduce(stir);
 }
 
 /** FNV-1a of the bits of numbers, the lowest byte first. */
 function add(hash, numbers) {
-  for (const number of numbers) for (let k = 0n; k < 64n; k += 8n) hash = word((hash ^ ((bitsOf(number) >> k) & 255n)) * 0x100000001b3n);
+  for (const number of numbers)
+    for (let k = 0n; k < 64n; k += 8n)
+      hash = word((hash ^ ((bitsOf(number) >> k) & 255n)) * 0x100000001b3n);
   return hash;
 }
 
@@ -79,14 +103,24 @@ function number(value) {
   return (sign ? -1 : 1) * (parseInt(first + more, 16) / 16 ** more.length) * 2 ** Number(power);
 }
 
-/** A value of a recording as the package has it: keys in camel case, hexadecimal numbers as numbers. */
+/**
+ * A value of a recording as the package has it: keys in camel case, hexadecimal numbers as numbers.
+ */
 function read(value) {
   if (Array.isArray(value)) {
     // In a list a key that is missing has the value of the object before.
     const list = value.map(read);
-    return typeof list[0] === "object" ? list.map((_, k) => Object.assign({}, ...list.slice(0, k + 1))) : list;
+    return typeof list[0] === "object"
+      ? list.map((_, k) => Object.assign({}, ...list.slice(0, k + 1)))
+      : list;
   }
-  if (typeof value === "object") return Object.fromEntries(Object.entries(value).map(([key, one]) => [key.replace(/_(.)/g, (_, c) => c.toUpperCase()), read(one)]));
+  if (typeof value === "object")
+    return Object.fromEntries(
+      Object.entries(value).map(([key, one]) => [
+        key.replace(/_(.)/g, (_, c) => c.toUpperCase()),
+        read(one),
+      ]),
+    );
   return number(value);
 }
 const hex = (hash) => hash.toString(16).padStart(16, "0");
@@ -100,29 +134,66 @@ for (const line of readFileSync(process.argv[2], "utf8").trim().split("\n")) {
   const before = game;
   if (kind !== "end") game = stirObject(stir(game, LINES[kind]), kind, value);
   const given = read(value);
-  if (kind === "recording" && given.revision !== carom.physicsRevision) throw new Error(`the recording is of revision ${given.revision}`);
-  else if (kind === "options" && Object.keys(given).length > 0) throw new Error("only the usual models are known here");
+  if (kind === "recording" && given.revision !== carom.physicsRevision)
+    throw new Error(`the recording is of revision ${given.revision}`);
+  else if (kind === "options" && Object.keys(given).length > 0)
+    throw new Error("only the usual models are known here");
   else if (kind === "table") {
-    const PART = { p: [0, 0], q: [0, 0], height: 0, line: [0, 0, 0], muCushion: 0, restitution: 0, side: 0 };
-    table = { ...given, rails: given.rails.map((one) => ({ ...PART, ...one })), jaws: given.jaws ?? [], pockets: given.pockets ?? [] };
+    const PART = {
+      p: [0, 0],
+      q: [0, 0],
+      height: 0,
+      line: [0, 0, 0],
+      muCushion: 0,
+      restitution: 0,
+      side: 0,
+    };
+    table = {
+      ...given,
+      rails: given.rails.map((one) => ({ ...PART, ...one })),
+      jaws: given.jaws ?? [],
+      pockets: given.pockets ?? [],
+    };
   } else if (kind === "balls") {
     const zero = [0, 0, 0];
     balls = given.list.map((one) => ({
       kind: Object.fromEntries(kindKeys.map((key) => [key, one[key] ?? 0])),
-      state: { r: one.r ?? zero, v: one.v ?? zero, w: one.w ?? zero, label: LABELS[one.label ?? 0] },
+      state: {
+        r: one.r ?? zero,
+        v: one.v ?? zero,
+        w: one.w ?? zero,
+        label: LABELS[one.label ?? 0],
+      },
     }));
   } else if (kind === "shot") {
     const { status, events, time, hash, ...cue } = given;
-    const shot = carom.simulate(table, balls, { miscue: 0, tipTime: 0, ball: 0, phi: 0, theta: 0, a: 0, b: 0, ...cue });
-    const words = shot.final.flatMap(({ r, v, w, label }) => [...[...r, ...v, ...w].map(bitsOf), BigInt(LABELS.indexOf(label))]);
+    const shot = carom.simulate(table, balls, {
+      miscue: 0,
+      tipTime: 0,
+      ball: 0,
+      phi: 0,
+      theta: 0,
+      a: 0,
+      b: 0,
+      ...cue,
+    });
+    const words = shot.final.flatMap(({ r, v, w, label }) => [
+      ...[...r, ...v, ...w].map(bitsOf),
+      BigInt(LABELS.indexOf(label)),
+    ]);
     const { status: _s, events: _e, time: _t, hash: _h, ...stroke } = value;
     const begun = stirObject(stir(before, LINES.shot), "shot", stroke);
-    const played = fingerprint(fingerprint(begun, [BigInt(status), BigInt(shot.events.length), bitsOf(shot.time)]), words);
-    if (shot.status !== "ok" || status !== 0 || hex(played) !== hash) throw new Error(`shot ${shots + 1} has other bits than were recorded`);
+    const played = fingerprint(
+      fingerprint(begun, [BigInt(status), BigInt(shot.events.length), bitsOf(shot.time)]),
+      words,
+    );
+    if (shot.status !== "ok" || status !== 0 || hex(played) !== hash)
+      throw new Error(`shot ${shots + 1} has other bits than were recorded`);
     shots++;
     game = played;
     balls = balls.map(({ kind: of }, k) => ({ kind: of, state: shot.final[k] }));
-  } else if (kind === "end" && (given.shots !== shots || given.hash !== hex(game))) throw new Error("the hash of the game is another one");
+  } else if (kind === "end" && (given.shots !== shots || given.hash !== hex(game)))
+    throw new Error("the hash of the game is another one");
 }
 console.log(`recording: ${shots} shots, ${hex(game)}`);
 
@@ -139,7 +210,8 @@ let frames = 0;
 for (; frames / 60 < shot.time; frames++) {
   if (frames / 60 > parts.time) parts = carom.continue(parts, { timeMost: frames / 60 + 0.2 });
   const { states, turned } = parts.frame(frames / 60);
-  for (let k = 0; k < shot.balls.length; k++) hash = add(add(hash, states.subarray(10 * k, 10 * k + 3)), turned.subarray(4 * k, 4 * k + 4));
+  for (let k = 0; k < shot.balls.length; k++)
+    hash = add(add(hash, states.subarray(10 * k, 10 * k + 3)), turned.subarray(4 * k, 4 * k + 4));
 }
 for (const { slip } of shot.events) hash = add(hash, [slip]);
 console.log(`film: ${frames} frames, ${hex(hash)}`);

@@ -1,7 +1,8 @@
 """rows.py SOURCE SHARED: the rows of numbers and words say what the headers and the library say.
 
-The comment of each member names the unit of its row, every number of its range, and its default. bindings/rows.py has the texts and the
-ranges that the library tells. Each value of an enumeration with words has one.
+The comment of each member names the unit of its row, every number of its range, and its default.
+bindings/rows.py has the texts and the ranges that the library tells. Each value of an enumeration
+with words has one.
 """
 
 import ctypes
@@ -23,7 +24,9 @@ faults = []
 
 
 def comment(struct, name):
-    """The comment of a member, with those of its neighbours where a sentence goes over several of them."""
+    """The comment of a member, with those of its neighbours where a sentence goes over several of
+    them.
+    """
     sentence, found = [], False
     for field in structs[struct]:
         sentence.append(field["comment"])
@@ -43,25 +46,43 @@ def said_of(struct, number):
 def compare(struct, one):
     """The unit, the range and the default of a row with the comment of its member."""
     text = said_of(struct, one)
-    wanted = [digits(x) for x in one.get("ends", [])] + re.findall(r"\b0: (-?[\d.]+(?:e\d+)?)", one["text"])
+    wanted = [digits(x) for x in one.get("ends", [])] + re.findall(
+        r"\b0: (-?[\d.]+(?:e\d+)?)", one["text"]
+    )
     named = re.sub(r"CAROM_\w+", lambda name: f"{constants.get(name[0], '')}", text)
     said = re.findall(r"-?\d[\d,]*(?:\.\d+)?(?:e-?\d+)?", named)
     said += [digits(float(value.replace(",", ""))) for value in said]
-    faults.extend(f"{struct}.{one['name']}: its row has {value}, which its comment does not name: {text}" for value in wanted if value not in said)
+    faults.extend(
+        f"{struct}.{one['name']}: its row has {value}, which its comment does not name: {text}"
+        for value in wanted
+        if value not in said
+    )
     unit = next(field.get("unit", "") for field in structs[struct] if field["name"] == one["name"])
     if unit and unit != one["unit"]:
-        faults.append(f"{struct}.{one['name']}: the unit is '{one['unit']}' in its row, '{unit}' in its comment")
+        faults.append(
+            f"{struct}.{one['name']}: the unit is '{one['unit']}' in its row, '{unit}' in its comment"
+        )
     if one["unit"] and not re.search(rf"\b{re.escape(one['unit'])}(?!\w)", text):
-        faults.append(f"{struct}.{one['name']}: its comment does not name the unit {one['unit']}: {text}")
+        faults.append(
+            f"{struct}.{one['name']}: its comment does not name the unit {one['unit']}: {text}"
+        )
 
 
 described = numbers()
 if [one["name"] for one in described] != [field["name"] for field in structs["carom_ball_kind"]]:
     faults.append("the rows are not in the order of carom_ball_kind")
-own = [field["name"] for field in structs[OPTIONS] if field["type"] == "double" and field["name"] != "least_step"]
+own = [
+    field["name"]
+    for field in structs[OPTIONS]
+    if field["type"] == "double" and field["name"] != "least_step"
+]
 if sorted(own) != sorted(one["name"] for one in described if one["of_cushion"]):
     faults.append("the rows of cushions are not the numbers of carom_cushion_options")
-every = [(struct, one) for struct, several in {"carom_ball_kind": described, **parts(), **options()}.items() for one in several]
+every = [
+    (struct, one)
+    for struct, several in {"carom_ball_kind": described, **parts(), **options()}.items()
+    for one in several
+]
 for struct, one in every:
     compare(struct, one)
 
@@ -81,7 +102,14 @@ for part in enums["carom_part_kind"]:
     for k, one in enumerate(rows_of):
         told, room = library.carom_number_of(part["value"], k), ctypes.create_string_buffer(100)
         library.carom_number_range(told, room, ctypes.c_size_t(100))
-        seen = [value.decode() for value in (told[0].name, told[0].key, told[0].unit, told[0].text, room.value)] if told else None
+        seen = (
+            [
+                value.decode()
+                for value in (told[0].name, told[0].key, told[0].unit, told[0].text, room.value)
+            ]
+            if told
+            else None
+        )
         expected = [one[key] for key in ("name", "key", "unit", "text", "range")]
         if seen != expected:
             faults.append(f"the library tells {seen}, bindings/rows.py {expected}")
@@ -92,7 +120,11 @@ for part in enums["carom_part_kind"]:
 library.carom_word.restype = ctypes.c_char_p
 for of in enums["carom_words"]:
     name = re.search(r"carom_\w+", of["comment"])[0]
-    faults += [f"{value['name']} has no word" for value in enums[name] if not library.carom_word(of["value"], value["value"])]
+    faults += [
+        f"{value['name']} has no word"
+        for value in enums[name]
+        if not library.carom_word(of["value"], value["value"])
+    ]
 
     told = iter(range(1 if of["name"] == "CAROM_WORDS_EVENT" else 0, 100))
     expected = words()[of["name"].removeprefix("CAROM_WORDS_")]
@@ -107,5 +139,8 @@ if os.environ.get("UPDATE"):
 if kept.read_text(encoding="utf-8") != text:
     faults.append(f"{kept.relative_to(ROOT)} is not that of the rows; UPDATE=1 writes it")
 
-print("\n".join(faults) or f"{len(every)} numbers and options have the unit, range and default of their comments")
+print(
+    "\n".join(faults)
+    or f"{len(every)} numbers and options have the unit, range and default of their comments"
+)
 sys.exit(bool(faults))

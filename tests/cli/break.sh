@@ -8,7 +8,7 @@ grep -c '<g class="others"' break.svg
 # Without errors the stroke is along the table, as the ball in front lies straight ahead but for a quarter of the gap.
 for gap in 0 0.3mm; do
   for seed in $(seq 40); do carom shoot --balls eightball --gap $gap --seed "$seed" --speed 8 --tip 0,0 --json; done > racks.jsonl
-  python - racks.jsonl > aimed.jsonl <<'PYTHON'
+  python - racks.jsonl > aimed.jsonl << 'PYTHON'
 import json, math, sys
 for line in open(sys.argv[1]):
     shot = json.loads(line)
@@ -19,7 +19,7 @@ for line in open(sys.argv[1]):
 PYTHON
   carom shoot aimed.jsonl > "played-$gap.jsonl"
 done
-python - <<'PYTHON'
+python - << 'PYTHON'
 import csv, json
 for row, gap in zip(csv.DictReader(open("rows.csv")), ("0", "0.3mm"), strict=True):
     makes = balls = scratch = wing = on = 0

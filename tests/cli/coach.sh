@@ -1,5 +1,5 @@
 # The words of players: speeds, parts of a ball, english, spots of snooker; the stroke that leaves the cue ball at a place.
-cat > words.py <<'PYTHON'
+cat > words.py << 'PYTHON'
 import csv, io, json, math, os, re, subprocess
 carom = os.environ["CAROM"]
 
@@ -84,7 +84,7 @@ carom shoot --cue 2d,2d --balls 3d,4d --pocket 1:foot-right --leave head-left,1d
 carom hit --cut half --side inside,outside --quantity throw | awk -F, 'NR == 1 { print; next } { printf "%s %.9f\n", $1, $2 }'
 echo "--- the stick over a cushion and a ball"
 for elevation in 0 least 20; do
-    carom shoot --cue 0.62,0.03 --balls 0.4,2.2 --pocket 1:foot-left --speed 3 --elevation $elevation | grep -E '^(9ft|stick)'
+  carom shoot --cue 0.62,0.03 --balls 0.4,2.2 --pocket 1:foot-left --speed 3 --elevation $elevation | grep -E '^(9ft|stick)'
 done
 try carom shoot --cue 0.62,1.6 --balls 0.4,2.2:0.6391,1.546 --pocket 1:foot-left --speed 3 --tip 0,-0.5 --elevation least
 try carom shoot --cue 0.62,1.6 --balls 0.4,2.2:0.63,1.56:0.63,1.56 --pocket 1:foot-left --speed 3 --elevation least

@@ -1,6 +1,6 @@
 # hit and rail over lists and ranges: questions of players and students, a line each, beside what is published.
 export CAROM_ISA=plain # for digits that are the same everywhere
-cat > questions.py <<'PYTHON'
+cat > questions.py << 'PYTHON'
 import csv, math, os, subprocess
 from curves import curves, shows
 carom, R = os.environ["CAROM"], 0.028575
@@ -73,10 +73,14 @@ carom hit --cut half --side 0:50:25% | cut -d, -f1-3
 echo "pictures:"
 for end in svg png pdf; do
   try carom hit --cut 0:80 --plot curve.$end
-  command -v rsvg-convert > /dev/null || [ $end = svg ] || { echo "exit 0"; continue; }
+  command -v rsvg-convert > /dev/null || [ $end = svg ] || {
+    echo "exit 0"
+    continue
+  }
   try carom rail --plot rail.$end -o /dev/null
 done
-head -c 4 curve.pdf; echo
+head -c 4 curve.pdf
+echo
 grep -c "at once\|normal<" rail.svg
 echo "refused:"
 for words in "--angle 90" "--angle 0:95" "--side 0.5" "--spin quick" "--restitution 2" "--height 0" "--quantity throw" "--speed 1:2 --angle 0:10"; do

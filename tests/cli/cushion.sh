@@ -1,5 +1,5 @@
 # --cushion: impacts of a ball on a cushion.
-cat > impacts.csv <<END
+cat > impacts.csv << END
 id,vx,vy,vz,wx,wy,wz,R,M,h,mu_s,mu_w,e
 side,0.5,1.2,0,0,0,30,0.028,0.17,0.036,0.2,0.2,0.85
 high,0.5,1,0,0,0,0,0.028,0.17,0.06,0.2,0.2,0.9
@@ -9,7 +9,10 @@ END
 echo "--- resolve"
 try carom resolve --cushion -o after.csv impacts.csv
 cut -d, -f1,8 after.csv
-{ printf '\357\273\277'; cat impacts.csv; } | carom resolve --cushion - 2> /dev/null | cmp - after.csv && echo "the same with a byte-order mark"
+{
+  printf '\357\273\277'
+  cat impacts.csv
+} | carom resolve --cushion - 2> /dev/null | cmp - after.csv && echo "the same with a byte-order mark"
 for model in stronge han mirror euler; do
   carom resolve --cushion --model $model impacts.csv 2> /dev/null | awk -F, -v model=$model '$1 == "side" { printf "%s %.4f %.4f %.3f\n", model, $2, $3, $7 }'
 done
@@ -24,7 +27,7 @@ cut -d, -f1 ids.csv > ids
 cut -d, -f1 ids.out | cmp - ids && echo "the ids are whole"
 echo "--- what collisions have: --derived, --summary, --strict, --precision, arrays"
 carom resolve --cushion --derived -o derived.csv impacts.csv 2> /dev/null || echo "exit $?"
-python - <<'PYTHON'
+python - << 'PYTHON'
 import csv, math
 before = {row["id"]: row for row in csv.DictReader(open("impacts.csv"))}
 after = {row["id"]: row for row in csv.DictReader(open("derived.csv"))}
@@ -42,7 +45,7 @@ try carom resolve --cushion --summary --model han -o /dev/null "$DATA/cushion-st
 awk -F, -v OFS=, '$1 == "side" { $8 *= 1000; $9 *= 1000; $10 *= 1000; print; $8 /= 1000; $9 /= 1000; $10 /= 1000; $1 = "fast"; $3 = 60; print; $3 = 1; $9 *= 1000; $1 = "heavy"; print; next } NR == 1' impacts.csv > units.csv
 try carom resolve --cushion -o /dev/null units.csv
 try carom resolve --cushion --strict units.csv
-python - <<'PYTHON'
+python - << 'PYTHON'
 import csv, numpy as np
 names = "vx vy vz wx wy wz nx ny h R M mu_s mu_w e rho".split()
 rows = list(csv.DictReader(open("impacts.csv")))
@@ -55,7 +58,7 @@ try carom resolve --cushion --precision single -o rounded.npy y.npy 2> /dev/null
 try carom resolve --cushion --precision double -o wide.npy y4.npy 2> /dev/null
 try carom resolve --cushion -o out.npy narrow.npy
 carom resolve --cushion -o many_out.npy many.npy 2> /dev/null || echo "exit $?"
-python - <<'PYTHON'
+python - << 'PYTHON'
 import csv, numpy as np
 out, single, rounded, wide = (np.load(name + ".npy") for name in ("out", "single", "rounded", "wide"))
 text = np.array([[float(x) for x in row[1:7]] for row in list(csv.reader(open("after.csv")))[1:] if row[0] != "word"])
@@ -65,7 +68,8 @@ print(rounded.dtype, np.array_equal(rounded, single, equal_nan=True), wide.dtype
 PYTHON
 echo "--- pooltool's records, largest difference"
 for name in stronge mathavan2010; do
-  model=stronge; [ $name = stronge ] || model=euler
+  model=stronge
+  [ $name = stronge ] || model=euler
   carom resolve --cushion --model $model --convention pooltool --least-step 0.001 "$DATA/cushion-$name.csv" > now.csv
   cut -d, -f17-22 "$DATA/cushion-$name.csv" | paste -d, now.csv - | awk -F, -v name=$name 'NR > 1 { worst = 0
     for (k = 2; k <= 7; k++) { d = $k - $(k + 7); if (d < 0) d = -d; if (k > 4) d *= 0.03; if (d > worst) worst = d }

@@ -3,7 +3,7 @@ export CAROM_ISA=plain # for digits that are the same everywhere
 head -n 4 "$DATA/collisions-204.csv" > few.csv
 # scaled FACTOR COLUMN...: the same with the columns that begin so multiplied
 scaled() {
-  python - "$@" <<'PYTHON'
+  python - "$@" << 'PYTHON'
 import csv, sys
 rows = list(csv.DictReader(open("few.csv")))
 out = csv.DictWriter(sys.stdout, rows[0], lineterminator="\n")
@@ -46,7 +46,10 @@ try carom shoot --strict --events none tips.jsonl | grep -c '"status": "ok"'
 echo "two values that look like one:"
 for words in "--speed 1,5" "--speed 1,5mph" "--restitution 0,90" "--radius 28,575mm" "--cut 22,5" "--cut 22,5deg" "--cut 0,40" "--speed 1,5,7" "--cut 20,30" "--cut 5,5.5" "--side 0,50%" "--speed 1.0,5.0" "--speed 1,5:7"; do
   # shellcheck disable=SC2086
-  { try carom hit $words; try carom hit --strict $words; } | grep exit
+  {
+    try carom hit $words
+    try carom hit --strict $words
+  } | grep exit
 done
 try carom shoot --speed 1,5 --strict
 try carom shoot --cue 1,1 --strict | head -n 1

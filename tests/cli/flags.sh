@@ -3,7 +3,7 @@ shot="--cue 0.6,0.8 --balls 0.5,1.6:8=0.9,1.2 --at-ball 1"
 # shellcheck disable=SC2086
 try carom shoot $shot --cut 20 --speed 2
 try carom shoot --cue 0.6,0.8 --aim 35 --speed 3 --tip 0.2,-0.3
-cat > flags.py <<'PYTHON'
+cat > flags.py << 'PYTHON'
 import csv, io, json, math, os, re, subprocess
 import xml.etree.ElementTree as tree
 from drawn import SVG

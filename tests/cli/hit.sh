@@ -4,7 +4,7 @@ try carom hit --spin draw,20rad/s --cut -40 --side gearing --speed 3 --friction 
 try carom hit --cut 0 --spin stun --restitution 1 --friction 0
 echo "--derived, of recorded collisions:"
 carom resolve --derived -o derived.csv "$DATA/collisions-204.csv"
-python - <<'PYTHON'
+python - << 'PYTHON'
 import csv, math, os
 
 def turned(a, b):
@@ -38,7 +38,7 @@ PYTHON
 echo "the row is what resolve reads:"
 carom hit --spin stun,follow,roll,draw,-7.5rad/s --csv > rows.csv
 carom resolve --derived rows.csv > out.csv
-python - <<'PYTHON'
+python - << 'PYTHON'
 import csv
 rows = {row["id"]: row for row in csv.DictReader(open("out.csv"))}
 print(list(rows), {row["status"] for row in rows.values()})
@@ -47,7 +47,7 @@ print(rows["follow"] == rows["roll"])
 print(f"{-float(rows['stun']['throw_deg']):.2f} {-float(rows['stun']['deflection_deg']):.2f} {100 * float(rows['stun']['energy_lost']):.2f}")
 PYTHON
 echo "words and pictures say what the numbers say:"
-cat > said.py <<'PYTHON'
+cat > said.py << 'PYTHON'
 import csv, math, os, re, subprocess
 from drawn import check_hit
 
@@ -108,7 +108,7 @@ for cut, spin, more in (
 PYTHON
 python said.py
 echo "textbooks:"
-cat > textbooks.py <<'PYTHON'
+cat > textbooks.py << 'PYTHON'
 import csv, math, os, subprocess
 carom, rad = os.environ["CAROM"], math.radians
 R = 0.028575

@@ -1,6 +1,6 @@
 # Memory is refused, at each allocation of a run in turn: that one and all that follow, or that one alone. Each time there is a message and the
 # code of an error, and no output, whole or in part, that a run without an error would have made; nothing is left beside it.
-python - <<'PYTHON'
+python - << 'PYTHON'
 import os, subprocess, sys
 from pathlib import Path
 

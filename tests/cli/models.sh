@@ -1,6 +1,8 @@
 # What there is, and its numbers: models and numbers by name, in impacts and in shots.
-carom models | head -n 3; carom models | sed -n '/^numbers/,$p' | head -n 3
-try carom models stronge; carom models smooth | grep -c smooth_q
+carom models | head -n 3
+carom models | sed -n '/^numbers/,$p' | head -n 3
+try carom models stronge
+carom models smooth | grep -c smooth_q
 try carom models constant
 try carom models u_b
 try carom models smoth

@@ -1,5 +1,5 @@
 # NumPy arrays in and out: files that NumPy writes are read, files that are written NumPy reads; the rest is refused.
-cat > make.py <<'PYTHON'
+cat > make.py << 'PYTHON'
 import csv, sys, numpy as np
 names = "r1x r1y r1z v1x v1y v1z w1x w1y w1z R M u_s1 r2x r2y r2z v2x v2y v2z w2x w2y w2z R M u_s2 u_b e_b".split()
 rows = list(csv.DictReader(open(sys.argv[1])))
@@ -24,7 +24,7 @@ python make.py "$DATA/collisions-204.csv"
 carom resolve --solver euler -o csv.csv "$DATA/collisions-204.csv"
 for name in f8 version2; do
   try carom resolve --solver euler -o out.npy $name.npy
-  cat > same.py <<'PYTHON'
+  cat > same.py << 'PYTHON'
 import csv, numpy as np
 out = np.load("out.npy")
 text = np.array([[float(x) for x in row[1:13]] for row in list(csv.reader(open("csv.csv")))[1:]])
@@ -40,7 +40,8 @@ try carom resolve --solver euler --precision single -o narrow_out.npy f8.npy
 python -c 'import numpy as np; a, b = np.load("single.npy"), np.load("narrow_out.npy"); print(b.dtype, (a == b).all())'
 try carom resolve --solver euler -o from_csv.npy "$DATA/collisions-204.csv"
 cmp from_csv.npy out.npy && echo "CSV to array: same"
-carom resolve --solver euler f8.npy | cut -d, -f2- > a; cut -d, -f2- csv.csv | cmp - a && echo "array to CSV: same"
+carom resolve --solver euler f8.npy | cut -d, -f2- > a
+cut -d, -f2- csv.csv | cmp - a && echo "array to CSV: same"
 try carom resolve -o empty_out.npy empty.npy
 python -c 'import numpy as np; print(np.load("empty_out.npy").shape)'
 try carom resolve -o bad_out.npy bad.npy

@@ -70,5 +70,7 @@ if [ "$(id -u)" = 0 ] && command -v setpriv > /dev/null; then
   for file in theirs mine sealed; do echo "$file $(stat -c %u $file.csv) $(wc -l < $file.csv)"; done
 else
   echo "carom: cannot write sealed.csv: Permission denied" > refused
-  printf 'exit 0\nexit 0\n'; cat refused; printf 'exit 2\nexit 0\nexit 0\ntheirs 0 205\nmine 65534 205\nsealed 0 0\n'
+  printf 'exit 0\nexit 0\n'
+  cat refused
+  printf 'exit 2\nexit 0\nexit 0\ntheirs 0 205\nmine 65534 205\nsealed 0 0\n'
 fi

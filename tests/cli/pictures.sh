@@ -3,14 +3,18 @@ mkdir bin temporary
 export TMPDIR="$PWD/temporary"
 # A gnuplot that says that it has begun, and goes on when it may.
 mkfifo begun go_on
-cat > bin/gnuplot <<'END'
+cat > bin/gnuplot << 'END'
 #!/bin/sh
 echo half
 echo > begun
 cat go_on
 END
 chmod +x bin/gnuplot
-nothing_else() { ls temporary; ls ./*.svg* | tr '\n' ' '; cat kept.svg; }
+nothing_else() {
+  ls temporary
+  ls ./*.svg* | tr '\n' ' '
+  cat kept.svg
+}
 for signal in TERM KILL; do
   for words in "hit --cut 0:60 --plot kept.svg" "rail --angle 0:60 --plot kept.svg"; do
     echo old > kept.svg
@@ -44,7 +48,10 @@ PATH="$PWD/bin" try "$CAROM" shoot --plot break.png -o kept.jsonl "$DATA/break-n
 PATH="$PWD/bin" try "$CAROM" shoot --plot break.pdf --cue 0.6,0.8
 ls kept.jsonl 2> /dev/null || echo "nothing was played"
 # shellcheck disable=SC1007
-(cp "$(command -v rsvg-convert)" . && PATH= try "$CAROM" shoot --events none --plot break.png -o /dev/null "$DATA/break-nineball.jsonl"; rm rsvg-convert)
+(
+  cp "$(command -v rsvg-convert)" . && PATH= try "$CAROM" shoot --events none --plot break.png -o /dev/null "$DATA/break-nineball.jsonl"
+  rm rsvg-convert
+)
 head -c 4 break.png | tail -c 3 && echo
 try carom shoot --events none --plot usual.png -o /dev/null "$DATA/break-nineball.jsonl"
 head -c 4 usual.png | tail -c 3 && echo
@@ -64,7 +71,7 @@ for closed in "<&-" ">&-" "2>&-" "<&- >&- 2>&-"; do
 done
 # Letters have 9 pixels in a picture that is 500 wide, and no label lies over a rail.
 carom hit --cut 0:80 --speed 1,3,7mph --plot curves.svg
-python - <<'PYTHON'
+python - << 'PYTHON'
 import os, random, subprocess
 from drawn import labels_on_rails, small_letters
 

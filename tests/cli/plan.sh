@@ -7,13 +7,15 @@ export CAROM_ISA
 try carom plan --rules potting --shots 300 layout.jsonl | cut -c 1-60 | grep -v chances
 try carom plan --rules nineball --shots 300 --plot best.svg layout.jsonl | sed -n 1p
 try carom plan --rules nineball --shots 300 --plot best.png layout.jsonl | sed -n 1p
-dd if=best.png bs=1 skip=1 count=3 2> dd.log; echo
+dd if=best.png bs=1 skip=1 count=3 2> dd.log
+echo
 grep -c "<svg" best.svg
 grep -c "M" best.svg | awk '{ print ($1 > 40) }'
 sed -n 's/.*\(Of 500 strokes with errors\) [0-9]* \(play on\).*/\1 \2/p' best.svg
 echo "balls that are down, beside the table:"
 carom plan --rules nineball --shots 300 --cue 0.4,0.9 --balls 1=0.3,1.9:9=0.9,1.7 --plot down.svg > down.txt
-sed -n '/Down:/,/class="band\|The best/p' down.svg | grep -o '>[0-9]<' | tr -d '<>' | tr '\n' ' '; grep -c 'class="ball"' down.svg
+sed -n '/Down:/,/class="band\|The best/p' down.svg | grep -o '>[0-9]<' | tr -d '<>' | tr '\n' ' '
+grep -c 'class="ball"' down.svg
 for cushion in "" "--cushion mirror"; do carom plan --rules potting --shots 300 --csv $cushion layout.jsonl; done | sort | uniq -u | grep -q . && echo "models count"
 echo "--- push-outs and passes"
 carom shoot --cue 0.4,0.9 --balls 0.9,1.7:0.9574,1.7:0.9287,1.74971:0.8713,1.74971:0.8426,1.7:0.8713,1.65029:0.9287,1.65029 --aim 90 --json > hidden.jsonl

@@ -13,7 +13,11 @@ carom record --models pooltool "$DATA/shots-pooltool.jsonl" > pooltool.jsonl
 grep -o '"options":.*' pooltool.jsonl
 carom verify pooltool.jsonl | sed 's/(.*//'
 echo "--- forged"
-forged() { sed "$1" game.jsonl > forged.jsonl; cmp -s game.jsonl forged.jsonl && echo "nothing was changed"; try carom verify forged.jsonl; }
+forged() {
+  sed "$1" game.jsonl > forged.jsonl
+  cmp -s game.jsonl forged.jsonl && echo "nothing was changed"
+  try carom verify forged.jsonl
+}
 forged '0,/"speed":9/ s//"speed":9.000001/'
 forged '3 s/"length":2.54/"length":0.54/'
 forged '3 s/"radius":0.00795/"radius":0.0795/'

@@ -3,7 +3,7 @@ try carom resolve --solver euler --slip pooltool -o out.csv "$DATA/collisions-20
 cut -d, -f1-13 "$DATA/reference-pooltool-n1000.csv" > expected.csv
 cut -d, -f1-13 out.csv > seen.csv
 same_doubles seen.csv expected.csv && echo "same doubles"
-python - <<'PYTHON'
+python - << 'PYTHON'
 import csv
 texts = [text for row in list(csv.reader(open("seen.csv")))[1:] for text in row[1:]]
 digits = lambda text: len(text.split("e")[0].replace(".", "").replace("-", "").strip("0"))
@@ -17,7 +17,7 @@ carom resolve --solver euler --slip pooltool --steps 999 "$DATA/collisions-204.c
 carom resolve --solver euler "$DATA/collisions-204.csv" | cmp -s - out.csv || echo "slip matters"
 echo "--- --friction replaces the column u_b by the speed law; the cases of pooltool were made with it"
 carom resolve --solver euler --slip pooltool --friction alciatore "$DATA/collisions-204.csv" > law.csv
-python - <<'PYTHON'
+python - << 'PYTHON'
 import csv
 near = lambda a, b: all(abs(float(x) - float(y)) < 1e-9 * (1 + abs(float(x))) for x, y in zip(a[1:13], b[1:13]))
 rows = list(zip(list(csv.reader(open("out.csv")))[1:], list(csv.reader(open("law.csv")))[1:]))
@@ -46,7 +46,13 @@ rows=1000000
 } > big.csv
 # The limit is on address space, of which the sanitizers need terabytes: with them only the result is tested.
 limit="ulimit -v 65536"
-(eval "$limit"; carom --version > /dev/null 2>&1) || limit=:
-(eval "$limit"; try carom resolve --solver euler -o big_out.csv big.csv 2> /dev/null)
+(
+  eval "$limit"
+  carom --version > /dev/null 2>&1
+) || limit=:
+(
+  eval "$limit"
+  try carom resolve --solver euler -o big_out.csv big.csv 2> /dev/null
+)
 wc -l < big_out.csv
 sed -n '2p;$p' big_out.csv | cut -d, -f14

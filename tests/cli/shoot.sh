@@ -14,7 +14,7 @@ tr -d ' ' < recorded.jsonl | grep -o '"n_events":[0-9]*' | cmp - ours && echo "a
 carom shoot --models pooltool --events brief recorded.jsonl | grep public-017 | sed 's/\[\([0-9.]*\), "/["/g; s/"final".*//; s/.*"events"/"events"/'
 echo "--- what is written of shots that pooltool recorded"
 carom shoot --models pooltool recorded.jsonl > written.jsonl
-python - <<'PYTHON'
+python - << 'PYTHON'
 import json, os
 
 def shots(name):
@@ -71,7 +71,7 @@ rail() { printf '{"id": "%s", "p1": [%s, 0.036], "p2": [%s, 0.036], "direction":
 carom shoot -o odd.out --plot odd.svg odd.jsonl
 grep -o '"status": "[a-z]*"' odd.out
 carom shoot -o pool.out --models pooltool --plot pool.svg --id public-000 recorded.jsonl
-python - <<'PYTHON'
+python - << 'PYTHON'
 from drawn import check_shots
 print(check_shots("odd.out", "odd.svg", 7), check_shots("pool.out", "pool.svg", "public-000"))
 PYTHON
@@ -83,7 +83,7 @@ for id in jump off draw masse; do # the pictures of the docs
   carom shoot --events none --plot figure.svg --id $id -o figure.out "$DATA/shots-jumps.jsonl"
   cmp figure.svg "$DATA/../docs/figures/shot-$id.svg" && echo "as in the docs: $id"
 done
-python - <<'PYTHON'
+python - << 'PYTHON'
 import json
 for name in ("jumps.out", "flat.out"):
     for shot in map(json.loads, open(name)):
@@ -96,7 +96,13 @@ grep -c "<circle" jump.svg flat.svg
 made() { printf '{"kind": "table", "id": "wide", "w": 2, "l": 2, %s "linear": [%s, %s, %s, %s]}\n' "$1" "$(rail left '0, 0' '0, 2' 0)" "$(rail right '2, 0' '2, 2' 1)" \
   "$(rail near '0, 0' '2, 0' 1)" "$(rail far '0, 2' '2, 2' 0)"; }
 shot() { printf '{"kind": "shot", "id": "%s", "table": "wide", "cue": {"ball": "cue", "V0": 3, "phi": 90, "theta": 45, "tip_time": -1, "b": 0.3%s}, "balls": [{"id": "cue", "params": {%s}, "state": [0, 1, 1.6, 0.028575, 0, 0, 0, 0, 0, 0]}]}\n' "$1" "$2" "$3"; }
-{ made '"rail_width": 0.5, "ball_radius": 0.028575, "pocket_back": 0.04,'; shot top '' ''; shot dead '' '"e_t": -1'; shot miscue ', "miscue": 0.25' ''; shot wrong '' '"e_t": 1.5'; } > numbers.jsonl
+{
+  made '"rail_width": 0.5, "ball_radius": 0.028575, "pocket_back": 0.04,'
+  shot top '' ''
+  shot dead '' '"e_t": -1'
+  shot miscue ', "miscue": 0.25' ''
+  shot wrong '' '"e_t": 1.5'
+} > numbers.jsonl
 try carom shoot --events brief -o numbers.out numbers.jsonl
 grep '"shot"' numbers.out | sed 's/.*"n_events"/.../; s/"final".*"pockets": {}}/.../' | cut -c 1-400
 echo "--- bad lines"
@@ -129,9 +135,15 @@ ball='{"id": "cue", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}'
 carom shoot -o bad.out bad.jsonl || echo "exit $?"
 sed 's/"table".*"final"/.../; s/"t": .*}, "pockets"/.../' bad.out
 echo "--- a byte-order mark"
-{ printf '\357\273\277'; cat "$DATA/break-nineball.jsonl"; } > mark.jsonl
+{
+  printf '\357\273\277'
+  cat "$DATA/break-nineball.jsonl"
+} > mark.jsonl
 carom shoot mark.jsonl | cmp - once.jsonl && echo "the same with one"
-{ printf '\357\273\277'; grep -m 1 '"kind": "table"' recorded.jsonl; } > mark.jsonl
+{
+  printf '\357\273\277'
+  grep -m 1 '"kind": "table"' recorded.jsonl
+} > mark.jsonl
 carom shoot mark.jsonl | head -c 15 && echo
 echo "--- bounds"
 try carom shoot --events-most 5 --events none - < "$DATA/break-nineball.jsonl" > bounds.out
@@ -154,10 +166,21 @@ shot threecushion '"game": 7' | final || true
 shot threecushion '"game": "billiard", "drag": 2' | final || true
 shot threecushion '"game": "billiard", "nose_height": 0.07' | final || true
 shot threecushion '"game": "billiard", "law_b": "x"' | final || true
-own() { printf '{"kind": "table", "id": "own", "w": 1.42, "l": 2.84, "linear": ['
+own() {
+  printf '{"kind": "table", "id": "own", "w": 1.42, "l": 2.84, "linear": ['
   printf '{"id": "%s", "p1": [%s, 0.037], "p2": [%s, 0.037], "direction": 1%s}%s' 3 '1.42, 0' '1.42, 2.84' "$1" ', ' 12 '1.42, 2.84' '0, 2.84' "$1" ', ' \
     9 '0, 2.84' '0, 0' "$1" ', ' 18 '0, 0' '1.42, 0' "$1" ']}'
-  echo; }
-{ own ''; shot own '"game": "billiard", "f_c": 0.3, "e_c": 0.7'; } | final
-{ own ', "f_c": 0.3, "e_c": 0.7'; shot own '"game": "billiard"'; } | final
-{ own ', "f_c": 0.3, "e_c": 7'; shot own '"game": "billiard"'; } | final || true
+  echo
+}
+{
+  own ''
+  shot own '"game": "billiard", "f_c": 0.3, "e_c": 0.7'
+} | final
+{
+  own ', "f_c": 0.3, "e_c": 0.7'
+  shot own '"game": "billiard"'
+} | final
+{
+  own ', "f_c": 0.3, "e_c": 7'
+  shot own '"game": "billiard"'
+} | final || true

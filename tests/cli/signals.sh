@@ -4,7 +4,7 @@ chmod 755 .. .
 cp "$CAROM" carom
 # The sanitizers have handlers of their own for some signals; here the command's are tested.
 export ASAN_OPTIONS="handle_segv=0:handle_sigbus=0:handle_sigfpe=0:${ASAN_OPTIONS:-}"
-python - <<'PYTHON'
+python - << 'PYTHON'
 import os, resource, signal, subprocess, time
 
 rows = open(f"{os.environ['DATA']}/collisions-204.csv", "rb").read().splitlines(True)

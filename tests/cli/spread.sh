@@ -15,7 +15,7 @@ carom shoot $bank --json > bank.jsonl
 carom shoot $hit --json > hit.jsonl
 carom shoot $hop --json > hop.jsonl
 echo "--- beside sampled shots"
-python - <<'PYTHON'
+python - << 'PYTHON'
 import json
 import os
 import subprocess
@@ -76,7 +76,7 @@ for file in bank.svg far.svg; do
 done
 carom shoot --table threecushion --cue 0.3,0.5 --balls 0.9,2.3:1.1,0.4 --aim 60 --ball-speed 4 --tip 0.4,0.2 --json > far.jsonl
 carom shoot --events none --spread 1%,0.05,0.01 -o far.out far.jsonl
-python - <<'PYTHON'
+python - << 'PYTHON'
 # Before `until` no standard deviation is beyond reach, and from then on one is.
 import json
 import os

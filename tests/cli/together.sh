@@ -13,7 +13,10 @@ for words in "hit --cut 0:60:0.01" "hit --cut $(seq -s , 0 0.01 12)" "hit --cut 
   try carom $words
 done
 echo "--- a list and a range of every option that takes a number: played, or refused in a sentence that says why"
-{ head -n 1 "$DATA/collisions-204.csv"; sed -n 2p "$DATA/collisions-204.csv"; } > row.csv
+{
+  head -n 1 "$DATA/collisions-204.csv"
+  sed -n 2p "$DATA/collisions-204.csv"
+} > row.csv
 carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --json > two.jsonl
 for all in "resolve row.csv" hit rail "shoot --balls 0.5,1.6" "ways --balls 0.5,1.6 --ball 1 --pocket foot-left" "plan --balls 0.5,1.6 --rules potting --shots 100" "break --racks 1" "record two.jsonl"; do
   for option in $(carom ${all%% *} --help | sed -n 's/^  *\(-., \)\{0,1\}--\([a-z-]*\) [^ ].*/\2/p'); do
@@ -24,13 +27,16 @@ for all in "resolve row.csv" hit rail "shoot --balls 0.5,1.6" "ways --balls 0.5,
       last=${one%:*}
       for list in "${one%%:*},${last#*:}" "$one"; do
         carom $all --$option "$list" > said 2>&1 && echo "${all%% *} --$option: lists" && continue
-        grep -q -- "--$option.*one value" said && echo "${all%% *} --$option: one value" || { echo "$all --$option $list"; cat said; }
+        grep -q -- "--$option.*one value" said && echo "${all%% *} --$option: one value" || {
+          echo "$all --$option $list"
+          cat said
+        }
       done
       break
     done
   done
 done | sort | uniq -c | sed 's/^ *[0-9]* //'
-for words in "shoot --tip-time 0,1" "break --seed 1:3:1" "ways --gap 0,0.3mm" "plan --gap 0:1mm:0.5mm" "shoot --with mu_ball=0.1,0.2" "shoot --with mu_ball=0.1:0.2:0.1" "hit --solver exact,euler" "rail --law han,constant"  "shoot --cushion han,mirror"; do
+for words in "shoot --tip-time 0,1" "break --seed 1:3:1" "ways --gap 0,0.3mm" "plan --gap 0:1mm:0.5mm" "shoot --with mu_ball=0.1,0.2" "shoot --with mu_ball=0.1:0.2:0.1" "hit --solver exact,euler" "rail --law han,constant" "shoot --cushion han,mirror"; do
   # shellcheck disable=SC2086
   try carom $words
 done
@@ -39,14 +45,16 @@ echo "--- lists of models, frictions, masses"
 carom rail --model han,mathavan --angle 30,60 --quantity rebound --csv | cut -c 1-16
 for model in han mathavan; do carom rail --model $model --angle 30,60 --quantity rebound --csv | cut -c 1-8; done
 carom hit --object-mass 150g,170g,same --friction 0.05 --quantity object-speed --csv | cut -c 1-14
-carom hit --friction 0 --restitution 1 --cut 10,30,60 --csv --quantity angle-between; carom hit --friction 0 --cut 10,30 --csv --quantity throw
+carom hit --friction 0 --restitution 1 --cut 10,30,60 --csv --quantity angle-between
+carom hit --friction 0 --cut 10,30 --csv --quantity throw
 echo "--- what --with takes of every number that is listed"
 carom shoot --cue 0.6,0.8 --json > line.jsonl
 for name in $(carom models | sed -n '/^numbers of/,$s/^  \([a-z_]*[0-9]*\) .*/\1/p' | sort -u) M; do
   for command in "rail" "resolve --cushion -" "shoot --cue 0.6,0.8" "shoot line.jsonl" "ways line.jsonl"; do
     # shellcheck disable=SC2086
     carom $command --with $name=nothing < /dev/null 2>&1 | sed -n "1{s/^.*must be .*/taken/;s/^carom: --with: $name//;p}"
-  done | uniq -c | tr -s ' \n' ' ' ; echo "$name"
+  done | uniq -c | tr -s ' \n' ' '
+  echo "$name"
 done
 leaves() { carom shoot --cue 0.6,0.8 --tip 0.4,0 "$@" --csv | sed -n 2p; }
 [ "$(leaves)" != "$(leaves --with end_mass=0.02)" ] && echo "squirt by the cue"
@@ -61,5 +69,9 @@ done
 echo "--- numbers of a fit"
 echo '{"constants": {"mu_slide": 0.3, "smooth_q": 0.0, "law_a": 0.02}, "radius": 0.03, "cushion_model": "mathavan", "bands": [[0, 0.01, 0.03], [2, 0.02, 0.05]]}' > fit.json
 for words in "fit.json" "fit.json,u_s=0.4"; do carom shoot --cue 0.3,0.5 --with $words --json | grep -o '"R": [0-9.]*\|"u_s": [0-9.]*\|"law_a[^,]*'; done
-carom shoot --cue 0.3,0.5 --with fit.json | tail -n 1; carom shoot --speed 0.3 --with fit.json | tail -n 1; [ "$(carom shoot --cue 0.3,0.5 --with fit.json | sed '$d')" = "$(carom shoot --cue 0.3,0.5 --with mu_slide=0.3,law_a=0.02,radius=0.03 --cushion mathavan)" ] && echo "its cushion"
-echo '{"constants": {"mu_slide": "0.3"}}' > text.json; echo '{"constants": [0.3]}' > other.json; for file in text other no; do carom shoot --cue 0.3,0.5 --with $file.json 2>&1 | head -n 1; done
+carom shoot --cue 0.3,0.5 --with fit.json | tail -n 1
+carom shoot --speed 0.3 --with fit.json | tail -n 1
+[ "$(carom shoot --cue 0.3,0.5 --with fit.json | sed '$d')" = "$(carom shoot --cue 0.3,0.5 --with mu_slide=0.3,law_a=0.02,radius=0.03 --cushion mathavan)" ] && echo "its cushion"
+echo '{"constants": {"mu_slide": "0.3"}}' > text.json
+echo '{"constants": [0.3]}' > other.json
+for file in text other no; do carom shoot --cue 0.3,0.5 --with $file.json 2>&1 | head -n 1; done

@@ -4,11 +4,11 @@ export CAROM_ISA
 layout="--cue 0.6,0.8 --balls 0.3,1.9:0.9,1.7"
 # shellcheck disable=SC2086
 {
-carom ways $layout --ball 1 --pocket foot-left --speed 1.5 --rails 1
-carom ways $layout --speed 1.5,2.5 --tip 0,0.2:0,-0.3 --rails 1 --scan 20000 --json > ways.jsonl
-carom ways $layout --speed 1.5,2.5 --tip 0,0.2:0,-0.3 --rails 1 --scan 20000 --csv --threads 1 -o ways.csv --plot ways.svg
-carom ways --table threecushion --balls threecushion --speed 3.0,5.0 --scan 10000 --json > points.jsonl
-carom ways --table threecushion --balls threecushion --speed 3.0,5.0 --scan 10000 > points.txt
+  carom ways $layout --ball 1 --pocket foot-left --speed 1.5 --rails 1
+  carom ways $layout --speed 1.5,2.5 --tip 0,0.2:0,-0.3 --rails 1 --scan 20000 --json > ways.jsonl
+  carom ways $layout --speed 1.5,2.5 --tip 0,0.2:0,-0.3 --rails 1 --scan 20000 --csv --threads 1 -o ways.csv --plot ways.svg
+  carom ways --table threecushion --balls threecushion --speed 3.0,5.0 --scan 10000 --json > points.jsonl
+  carom ways --table threecushion --balls threecushion --speed 3.0,5.0 --scan 10000 > points.txt
 }
 carom ways $layout --ball 1 --speed 1.5,2.5 --rails 1 -o none --plot figure.svg
 cmp figure.svg "$DATA/../docs/figures/ways.svg" && echo "as in the docs"
@@ -18,7 +18,7 @@ carom ways --cue 1d,2d --leave 0.2,0.3,0.2 --rails 1 --errors 0 --scan 8000 --js
 for name in leave place; do carom shoot $name.jsonl > $name.out; done
 carom shoot ways.jsonl > ways.out
 carom shoot points.jsonl > points.out
-python - <<'PYTHON'
+python - << 'PYTHON'
 import csv, json
 read = lambda name: [json.loads(line) for line in open(name, encoding="utf-8")]
 rows, ways, played = list(csv.DictReader(open("ways.csv"))), read("ways.jsonl"), read("ways.out")
@@ -100,15 +100,20 @@ carom ways --rails 0 a.jsonl | cut -c 1-30 | head -n 1
 echo "--- places in diamonds, ranges of tips"
 carom shoot --cue 1d,2d --balls 2,6d --table 8ft --aim 90 --json | grep -o '"state": \[0, [^,]*, [^,]*'
 for place in $(carom shoot --help | tr -s ' \n' ' ' | grep -o 'a place: [^(]*Corners' | grep -oE '[a-z]+-[a-z]+|centre|yellow|green|brown|blue|pink|black'); do
-  printf '%s ' $place; carom shoot --cue $place --table 8ft --json | grep -o '"state": \[0, [^,]*, [^,]*'; done
+  printf '%s ' $place
+  carom shoot --cue $place --table 8ft --json | grep -o '"state": \[0, [^,]*, [^,]*'
+done
 carom shoot --cue 1,1 --balls 8=foot-spot:centre --json | grep -o '"id": "[^"]*", "params\|"state": \[0, [^,]*, [^,]*'
 try carom shoot --cue foot-sot
 try carom shoot --tip foot-spot
 try carom ways --cue 0.6,0.8 --leave centre,1,2
-carom shoot --cue 0.5,0.5 --tip -0.2..0.2..0.2,0..0.4..0.2 --json | sed 's/.*"a": \([^,]*\), "b": \([^,]*\),.*/\1 \2/' | tr '\n' ';'; echo
+carom shoot --cue 0.5,0.5 --tip -0.2..0.2..0.2,0..0.4..0.2 --json | sed 's/.*"a": \([^,]*\), "b": \([^,]*\),.*/\1 \2/' | tr '\n' ';'
+echo
 echo "--- gaps and seeds of a rack"
 places() { carom shoot --balls nineball --aim 90 --json "$@" | grep -o '"state": [^]]*' | cksum; }
 [ "$(places)" = "$(places --gap 0.1mm --seed 1)" ] && [ "$(places)" != "$(places --seed 2)" ] && [ "$(places)" != "$(places --gap 0)" ] && echo "as asked"
 echo "--- a double hit is no way: a ball 5 mm ahead is cut, unless the cue stops"
 for follow in 0.03 0; do
-  carom shoot --cue 0.34395,2.19605 --balls 0.3,2.24 --aim 135 --speed 1.5 --with follow=$follow --json > a.jsonl; carom ways a.jsonl --pocket foot-left | grep direct; done
+  carom shoot --cue 0.34395,2.19605 --balls 0.3,2.24 --aim 135 --speed 1.5 --with follow=$follow --json > a.jsonl
+  carom ways a.jsonl --pocket foot-left | grep direct
+done

@@ -1,5 +1,7 @@
-"""No circle of includes, calls or imports, no arrow against the direction of CONTRIBUTING.md, and no source of the library without
-platform/arithmetic.h, which its bits need: python3 arrows.py SOURCE"""
+"""No circle of includes, calls or imports, no arrow against the direction of CONTRIBUTING.md, and
+no source of the library without platform/arithmetic.h, which its bits need: python3 arrows.py
+SOURCE
+"""
 
 import ast
 import re
@@ -22,16 +24,47 @@ ALLOWED = {
     "src/cluster": ("include", "src/platform", "src/about", "src/friction"),
     "src/motion": ("include", "src/platform", "src/about"),
     "src/table": ("include", "src/platform"),
-    "src/shot": ("include", "src/platform", "src/about", "src/friction", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/table"),
-    "src/tangent": ("include", "src/platform", "src/about", "src/friction", "src/impact", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/shot", "src/table"),
+    "src/shot": (
+        "include",
+        "src/platform",
+        "src/about",
+        "src/friction",
+        "src/ball_ball",
+        "src/cluster",
+        "src/cushion",
+        "src/motion",
+        "src/table",
+    ),
+    "src/tangent": (
+        "include",
+        "src/platform",
+        "src/about",
+        "src/friction",
+        "src/impact",
+        "src/ball_ball",
+        "src/cluster",
+        "src/cushion",
+        "src/motion",
+        "src/shot",
+        "src/table",
+    ),
     "plan/include": ("include",),
     "plan/src": ("include", "plan/include", "src/platform", "src/about", "src/shot", "src/table"),
     "src/record": ("include", "src/platform", "src/about"),
-    "src": ("include", "plan/include", "plan/src", "src/platform", "src/about", "src/cushion", "src/friction"),
+    "src": (
+        "include",
+        "plan/include",
+        "plan/src",
+        "src/platform",
+        "src/about",
+        "src/cushion",
+        "src/friction",
+    ),
     "cli": ("include", "plan/include"),
     "examples": ("include", "plan/include"),
 }
-# Of a room that has a header for the others, they may include that alone; but for the text that derivatives are made of.
+# Of a room that has a header for the others, they may include that alone; but for the text that
+# derivatives are made of.
 HEADER, TEXT = {"src/shot": "shot.h"}, "src/tangent/text.h"
 faults = []
 
@@ -56,37 +89,68 @@ def room_of(file):
 
 
 # C: a source and its header are one unit.
-files = [file for room in ROOMS for kind in ("h", "c", "cpp", "def") for file in (ROOT / room).rglob(f"*.{kind}")]
-named = {file.name: file for file in reversed(files)}  # of two with one name that of the earlier room
+files = [
+    file
+    for room in ROOMS
+    for kind in ("h", "c", "cpp", "def")
+    for file in (ROOT / room).rglob(f"*.{kind}")
+]
+named = {
+    file.name: file for file in reversed(files)
+}  # of two with one name that of the earlier room
 includes, units, rooms = defaultdict(set), defaultdict(set), defaultdict(set)
 for file in files:
     for name in re.findall(r'^\s*#\s*include\s+"([^"]+)"', file.read_text(encoding="utf-8"), re.M):
-        beside = [folder / name for folder in (file.parent, ROOT / "src", ROOT / "include", ROOT / "plan/include")]
+        beside = [
+            folder / name
+            for folder in (file.parent, ROOT / "src", ROOT / "include", ROOT / "plan/include")
+        ]
         found = next((path for path in beside if path.is_file()), named.get(Path(name).name))
         if found is None:
             continue  # of another package, or made by the build
         includes[file].add(found)
         if found.with_suffix("") != file.with_suffix(""):
-            units[str(file.with_suffix("").relative_to(ROOT))].add(str(found.with_suffix("").relative_to(ROOT)))
+            units[str(file.with_suffix("").relative_to(ROOT))].add(
+                str(found.with_suffix("").relative_to(ROOT))
+            )
         here, there = room_of(file), room_of(found)
         if here != there:
             rooms[here].add(there)
             if there not in ALLOWED.get(here, (there,)):
-                faults.append(f"{file.relative_to(ROOT)} includes {found.relative_to(ROOT)}: '{here}' must not know '{there}'")
+                faults.append(
+                    f"{file.relative_to(ROOT)} includes {found.relative_to(ROOT)}: '{here}' must not know '{there}'"
+                )
             if found.name != HEADER.get(there, found.name) and file != ROOT / TEXT:
-                faults.append(f"{file.relative_to(ROOT)} includes {found.relative_to(ROOT)}: other rooms include {HEADER[there]} of '{there}'")
+                faults.append(
+                    f"{file.relative_to(ROOT)} includes {found.relative_to(ROOT)}: other rooms include {HEADER[there]} of '{there}'"
+                )
 for file in files:
-    if file.suffix in (".c", ".cpp") and file.is_relative_to(ROOT / "src") | file.is_relative_to(ROOT / "plan/src") and ROOT / "src/platform/arithmetic.h" not in reach({file}, includes):
-        faults.append(f"{file.relative_to(ROOT)} does not include platform/arithmetic.h, which its bits need")
+    if (
+        file.suffix in (".c", ".cpp")
+        and file.is_relative_to(ROOT / "src") | file.is_relative_to(ROOT / "plan/src")
+        and ROOT / "src/platform/arithmetic.h" not in reach({file}, includes)
+    ):
+        faults.append(
+            f"{file.relative_to(ROOT)} does not include platform/arithmetic.h, which its bits need"
+        )
 no_circle("units", units)
 no_circle("rooms", rooms)
 
-# Calls in the library: an arrow from a source to that in which a function stands that it names, itself or in an inline function of a header.
+# Calls in the library: an arrow from a source to that in which a function stands that it names,
+# itself or in an inline function of a header.
 stands, through, bodies, calls = {}, {}, {}, {}
 words = lambda text: set(re.findall(r"\bcarom_\w+", text))
-for file in (file for file in files if file.is_relative_to(ROOT / "src") or file.is_relative_to(ROOT / "plan/src")):
+for file in (
+    file
+    for file in files
+    if file.is_relative_to(ROOT / "src") or file.is_relative_to(ROOT / "plan/src")
+):
     text = re.sub(r"/\*.*?\*/|//[^\n]*", "", file.read_text(encoding="utf-8"), flags=re.S)
-    found = re.findall(r"^(static inline )?[a-z_][^\n;{}=]*?\b(carom_\w+)\([^;{}]*\) ?\{(.*?)^\}", text, re.M | re.S)
+    found = re.findall(
+        r"^(static inline )?[a-z_][^\n;{}=]*?\b(carom_\w+)\([^;{}]*\) ?\{(.*?)^\}",
+        text,
+        re.M | re.S,
+    )
     if file.suffix in (".c", ".cpp"):
         stands |= {name: file for _, name, _ in found}
         bodies[file] = words("".join(re.findall(r"\{$.*?^\}", text, re.M | re.S)))
@@ -94,13 +158,20 @@ for file in (file for file in files if file.is_relative_to(ROOT / "src") or file
         through |= {name: words(body) for inline, name, body in found if inline}
 for file, found in bodies.items():
     reached = reach(found, through)
-    calls[str(file.relative_to(ROOT))] = {str(stands[name].relative_to(ROOT)) for name in reached if stands.get(name, file) != file}
-assert len(stands) > 200 and sum(map(len, calls.values())) > 100, f"only {len(stands)} functions, {sum(map(len, calls.values()))} calls found"
+    calls[str(file.relative_to(ROOT))] = {
+        str(stands[name].relative_to(ROOT)) for name in reached if stands.get(name, file) != file
+    }
+assert len(stands) > 200 and sum(map(len, calls.values())) > 100, (
+    f"only {len(stands)} functions, {sum(map(len, calls.values()))} calls found"
+)
 no_circle("calls", calls)
 
 # Python: every import, at the top, in a function or for annotations alone.
 PACKAGE = ROOT / "python" / "src"
-modules = {".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__"): path for path in PACKAGE.rglob("*.py")}
+modules = {
+    ".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__"): path
+    for path in PACKAGE.rglob("*.py")
+}
 imports = defaultdict(set)
 
 
@@ -109,7 +180,11 @@ def find_imports(module, node):
         names = [name.name for name in child.names] if isinstance(child, ast.Import) else []
         if isinstance(child, ast.ImportFrom):
             assert child.level == 0, f"{module}: imports are absolute"
-            names = [name for alias in child.names for name in (f"{child.module}.{alias.name}", child.module)]
+            names = [
+                name
+                for alias in child.names
+                for name in (f"{child.module}.{alias.name}", child.module)
+            ]
             names = names[:1] if names[0] in modules else names
         imports[module].update(name for name in names if name in modules and name != module)
         find_imports(module, child)
@@ -130,7 +205,12 @@ def folder_of(module):
 for module, names in imports.items():
     may = ("carom.games",) if module == "carom" else FOLDERS.get(folder_of(module), ())
     there = {folder_of(name) for name in names} - {folder_of(module), "the core", *may}
-    faults += [f"{module} imports {folder}, which {folder_of(module)} must not know" for folder in sorted(there)]
-assert len(files) > 100 and len(imports) > 10, f"only {len(files)} files, {len(imports)} modules found in {ROOT}"
+    faults += [
+        f"{module} imports {folder}, which {folder_of(module)} must not know"
+        for folder in sorted(there)
+    ]
+assert len(files) > 100 and len(imports) > 10, (
+    f"only {len(files)} files, {len(imports)} modules found in {ROOT}"
+)
 print("\n".join(faults))
 sys.exit(bool(faults))

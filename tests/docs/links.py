@@ -1,7 +1,9 @@
-"""links.py SOURCE: every link in a page of the tree leads to a file of the tree, and to a heading if it names one.
+"""links.py SOURCE: every link in a page of the tree leads to a file of the tree, and to a heading
+if it names one.
 
-Checked are the Markdown files, links and pictures alike, and the paths of pages (docs/.../page.md) that sources and tests name. Links
-to other sites are not followed. A page of docs/ says at its top for whom it is, and at its end where to go next. README has 120 lines at most.
+Checked are the Markdown files, links and pictures alike, and the paths of pages (docs/.../page.md)
+that sources and tests name. Links to other sites are not followed. A page of docs/ says at its top
+for whom it is, and at its end where to go next. README has 120 lines at most.
 """
 
 import re
@@ -17,12 +19,21 @@ TEXT = {".c", ".h", ".py", ".pyi", ".md", ".txt", ".cmake", ".sh", ".toml", ".de
 def anchors(page):
     """The names by which the headings of a page can be linked to."""
     text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
-    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)$", text, flags=re.M)}
+    return {
+        re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+        for heading in re.findall(r"^#+ (.*)$", text, flags=re.M)
+    }
 
 
 skipped = {"build", "dist", ".git", "__pycache__", "node_modules"}
-files = [path for path in sorted(SOURCE.rglob("*")) if path.is_file() and not any(part in skipped or part.startswith("build-")
-                                                                                for part in path.relative_to(SOURCE).parts)]
+files = [
+    path
+    for path in sorted(SOURCE.rglob("*"))
+    if path.is_file()
+    and not any(
+        part in skipped or part.startswith("build-") for part in path.relative_to(SOURCE).parts
+    )
+]
 wrong, links = [], 0
 for file in files:
     name = file.relative_to(SOURCE)
@@ -40,7 +51,9 @@ for file in files:
     if file.suffix == ".md" and name.parts[0] == "docs":
         paragraphs = file.read_text(encoding="utf-8").strip().split("\n\n")
         if not re.match(r"For (whoever|a) ", paragraphs[1]):
-            wrong.append(f"{name}: the first paragraph does not say for whom the page is ('For whoever ...')")
+            wrong.append(
+                f"{name}: the first paragraph does not say for whom the page is ('For whoever ...')"
+            )
         if not re.match(r"Next: \[", paragraphs[-1]):
             wrong.append(f"{name}: the last paragraph does not say where to go next ('Next: [...')")
     if file.suffix in TEXT and name.name not in ("links.py", "CHANGELOG.md"):

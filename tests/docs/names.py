@@ -5,10 +5,34 @@ import sys
 from pathlib import Path
 
 ROOT = Path(sys.argv[1]).resolve()
-ROOMS = ("include", "src", "plan", "cli", "lab", "tests", "examples", "python", "web/npm/src", "web/npm/test", "web/page/src", "web/page/test", "web/player", "tools", "cmake")
-# Functions of the C library, of compilers and of the sources of papers and other programs that comments may name.
-ELSEWHERE = set("""fmin fmax memcpy strtod exp cos sin atan2 pow sqrt printf fopen dup any abort mkstemp""".split())
-SOURCES = {path for room in ROOMS for path in (ROOT / room).rglob("*") if path.is_file() and "node_modules" not in path.parts}
+ROOMS = (
+    "include",
+    "src",
+    "plan",
+    "cli",
+    "lab",
+    "tests",
+    "examples",
+    "python",
+    "web/npm/src",
+    "web/npm/test",
+    "web/page/src",
+    "web/page/test",
+    "web/player",
+    "tools",
+    "cmake",
+)
+# Functions of the C library, of compilers and of the sources of papers and other programs that
+# comments may name.
+ELSEWHERE = set(
+    """fmin fmax memcpy strtod exp cos sin atan2 pow sqrt printf fopen dup any abort mkstemp""".split()
+)
+SOURCES = {
+    path
+    for room in ROOMS
+    for path in (ROOT / room).rglob("*")
+    if path.is_file() and "node_modules" not in path.parts
+}
 NAMES = {path.name for path in SOURCES}
 code, comments = [], []
 for path in sorted(SOURCES):
@@ -23,10 +47,16 @@ faults = []
 for path, comment in comments:
     if path.parts[0] not in ("src", "include", "plan", "cli"):
         continue
-    for name in re.findall(r"(?<![\w*<])((?:[\w-]+/)*[\w-]+\.(?:c|h|cpp|py|sh|expected))\b", comment):
+    for name in re.findall(
+        r"(?<![\w*<])((?:[\w-]+/)*[\w-]+\.(?:c|h|cpp|py|sh|expected))\b", comment
+    ):
         if "NAME" in name:
             continue
-        there = (ROOT / name).exists() or (ROOT / "src" / name).exists() if "/" in name else name in NAMES
+        there = (
+            (ROOT / name).exists() or (ROOT / "src" / name).exists()
+            if "/" in name
+            else name in NAMES
+        )
         if not there:
             faults.append(f"{path}: a comment names the file {name}, which does not exist")
     for name in re.findall(r"\b([a-z_]\w+)\(\)", comment):

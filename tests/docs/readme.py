@@ -1,9 +1,11 @@
-"""readme.py SOURCE BUILD CMAKE CC: runs the code blocks of README.md as a reader would who pastes them, in an empty folder.
+"""readme.py SOURCE BUILD CMAKE CC: runs the code blocks of README.md as a reader would who pastes
+them, in an empty folder.
 
-Blocks of sh run with `carom` on the path; the one that installs is built with one instruction set, to be quick, and
-what CMake fetches without optimisation too. The C program is built
-by the CMake files of docs/using/building.md and by the blocks `sh program` of both pages, against what has been installed, with nothing in
-the environment that the pages do not put there. blocks.py says what runs the others.
+Blocks of sh run with `carom` on the path; the one that installs is built with one instruction set,
+to be quick, and what CMake fetches without optimisation too. The C program is built by the CMake
+files of docs/using/building.md and by the blocks `sh program` of both pages, against what has been
+installed, with nothing in the environment that the pages do not put there. blocks.py says what runs
+the others.
 """
 
 import os
@@ -18,14 +20,29 @@ from sizes import check
 
 SOURCE, BUILD, CMAKE, CC = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], sys.argv[4]
 QUICK = "-DCAROM_ISAS=none"
-for variable in ("PKG_CONFIG_PATH", "LD_LIBRARY_PATH", "LD_RUN_PATH", "CPATH", "C_INCLUDE_PATH", "LIBRARY_PATH", "CMAKE_PREFIX_PATH"):
+for variable in (
+    "PKG_CONFIG_PATH",
+    "LD_LIBRARY_PATH",
+    "LD_RUN_PATH",
+    "CPATH",
+    "C_INCLUDE_PATH",
+    "LIBRARY_PATH",
+    "CMAKE_PREFIX_PATH",
+):
     os.environ.pop(variable, None)
 
 
 def run(command, folder, **more):
     """What it prints; the test fails where the command does."""
     environment = {**os.environ, "CMAKE_BUILD_PARALLEL_LEVEL": "2", "CC": CC, **more}
-    done = subprocess.run(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(
+        command,
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
     if done.returncode:
         sys.exit(f"{command}\n{done.stdout}exit {done.returncode}")
     return done.stdout
@@ -37,13 +54,25 @@ def shell(text, folder, **more):
 
 readme, building = blocks(SOURCE, "README.md"), blocks(SOURCE, "docs/using/building.md")
 kinds = [kind for kind, _ in readme + building]
-assert all(kinds.count(kind) == 1 for kind in ("c", "cmake fetch", "cmake package", "sh install")), kinds
-of, programs = dict(readme + building), [text for kind, text in readme + building if kind == "sh program"]
+assert all(
+    kinds.count(kind) == 1 for kind in ("c", "cmake fetch", "cmake package", "sh install")
+), kinds
+of, programs = (
+    dict(readme + building),
+    [text for kind, text in readme + building if kind == "sh program"],
+)
 assert len(programs) == 2, programs
 
 # The times of README are those of speed.md, rounded.
-rows = re.findall(r"^\|.*\| ([\d,]+) \| \d+ \| ", (SOURCE / "README.md").read_text(encoding="utf-8"), flags=re.M)
-measured = {round(float(number)) for number in re.findall(r"\b\d+\.\d+\b", (SOURCE / "docs/understanding/speed.md").read_text(encoding="utf-8"))}
+rows = re.findall(
+    r"^\|.*\| ([\d,]+) \| \d+ \| ", (SOURCE / "README.md").read_text(encoding="utf-8"), flags=re.M
+)
+measured = {
+    round(float(number))
+    for number in re.findall(
+        r"\b\d+\.\d+\b", (SOURCE / "docs/understanding/speed.md").read_text(encoding="utf-8")
+    )
+}
 assert len(rows) == 4 and all(int(row.replace(",", "")) in measured for row in rows), rows
 
 with tempfile.TemporaryDirectory() as work:
@@ -58,23 +87,45 @@ with tempfile.TemporaryDirectory() as work:
         if kind == "sh" and "build/" not in text:
             shell(text, reader, PATH=f"{BUILD}:{os.environ['PATH']}")
     for picture in ("throw", "shot", "break"):
-        assert (reader / f"{picture}.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>"), picture
+        assert (
+            (reader / f"{picture}.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>")
+        ), picture
 
     # Installing, from a copy of what a clone has.
-    for part in ("CMakeLists.txt", "LICENSE", "NOTICE", "README.md", "CHANGELOG.md", "cmake", "cli", "data", "docs", "examples", "include", "plan", "src"):
+    for part in (
+        "CMakeLists.txt",
+        "LICENSE",
+        "NOTICE",
+        "README.md",
+        "CHANGELOG.md",
+        "cmake",
+        "cli",
+        "data",
+        "docs",
+        "examples",
+        "include",
+        "plan",
+        "src",
+    ):
         (clone / part).symlink_to(SOURCE / part)
     (clone / "web").symlink_to(SOURCE / "web")
     kept = {name: (SOURCE / name).read_bytes() for name in ("README.md", "CHANGELOG.md")}
-    # Then the program, in the same shell, and in a new one; and by CMake, which finds what is beside a folder of the path.
+    # Then the program, in the same shell, and in a new one; and by CMake, which finds what is
+    # beside a folder of the path.
     assert "cmake -B b " in of["sh install"]
     (reader / "main.c").write_text(of["c"], encoding="utf-8")
     installing = of["sh install"].replace("cmake -B b ", f"cmake -B b {QUICK} ")
-    printed = [shell(f"{installing}cd {reader}\n{programs[0]}", clone, HOME=str(home)), shell(programs[1], reader, HOME=str(home))]
+    printed = [
+        shell(f"{installing}cd {reader}\n{programs[0]}", clone, HOME=str(home)),
+        shell(programs[1], reader, HOME=str(home)),
+    ]
     said = {text.splitlines()[-1] for text in printed}
     prefix = home / ".local"
     assert "carom 0." in run([prefix / "bin/carom", "--version"], reader)
     # The links of installed pages are made right there, not behind a link in the source.
-    assert all((SOURCE / name).read_bytes() == page for name, page in kept.items()), "installing changed the source"
+    assert all((SOURCE / name).read_bytes() == page for name, page in kept.items()), (
+        "installing changed the source"
+    )
     check(SOURCE, "installed", prefix)
     for way, more in (("fetch", [QUICK, "-DCMAKE_BUILD_TYPE=None"]), ("package", [])):
         folder = work / way

@@ -1,5 +1,6 @@
-"""reference.py SOURCE: the site's reference has every function of C, every name that Python's package gives, every method of npm's class, and every
-public call of C# and Rust."""
+"""reference.py SOURCE: the site's reference has every function of C, every name that Python's
+package gives, every method of npm's class, and every public call of C# and Rust.
+"""
 
 import ast
 import re
@@ -13,18 +14,39 @@ from reference import pages  # noqa: E402
 
 text = {name: page for name, _, page in pages(SOURCE)}
 listed = {name: set(re.findall(r"^### (.*)$", page, flags=re.M)) for name, page in text.items()}
-headers = "".join(path.read_text(encoding="utf-8") for room in ("include", "plan/include") for path in (SOURCE / room).glob("*.h"))
+headers = "".join(
+    path.read_text(encoding="utf-8")
+    for room in ("include", "plan/include")
+    for path in (SOURCE / room).glob("*.h")
+)
 package = ast.parse((SOURCE / "python/src/carom/__init__.py").read_text(encoding="utf-8"))
-names = next(node.value for node in package.body if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
+names = next(
+    node.value
+    for node in package.body
+    if isinstance(node, ast.Assign) and node.targets[0].id == "__all__"
+)
 modules = {path.stem for path in (SOURCE / "python/src/carom").glob("[a-z]*.py")}
-methods = re.findall(r"^  (?:get )?([a-z]\w*)\([^;]*\{$", (SOURCE / "web/npm/src/carom.ts").read_text(encoding="utf-8").split("export class Carom {")[1], flags=re.M)
+methods = re.findall(
+    r"^  (?:get )?([a-z]\w*)\([^;]*\{$",
+    (SOURCE / "web/npm/src/carom.ts").read_text(encoding="utf-8").split("export class Carom {")[1],
+    flags=re.M,
+)
 
 
 def calls(pattern, wanted):
-    return set(re.findall(wanted, "".join(path.read_text(encoding="utf-8") for path in sorted(SOURCE.glob(pattern))), flags=re.M))
+    return set(
+        re.findall(
+            wanted,
+            "".join(path.read_text(encoding="utf-8") for path in sorted(SOURCE.glob(pattern))),
+            flags=re.M,
+        )
+    )
 
 
-csharp = calls("bindings/csharp/Runtime/*.cs", r"^    (?:public|protected) (?!override)[\w\[\]<>. ]+ (\w+)(?:\(|[^;\n]*\{ get)") - {"Dispose"}
+csharp = calls(
+    "bindings/csharp/Runtime/*.cs",
+    r"^    (?:public|protected) (?!override)[\w\[\]<>. ]+ (\w+)(?:\(|[^;\n]*\{ get)",
+) - {"Dispose"}
 rust = calls("bindings/rust/carom/src/*.rs", r"^ *pub fn (\w+)")
 wanted = {
     "C": set(re.findall(r"^CAROM_API [^;(]*?(carom_\w+)\(", headers, flags=re.M)),
@@ -37,5 +59,7 @@ for name in ("C#", "Rust"):  # without the class
     listed[name] |= {re.split(r"\.|::", one)[-1] for one in listed[name]}
 for name, least in {"C": 80, "Python": 45, "npm": 25, "C#": 35, "Rust": 30}.items():
     missing = sorted(wanted[name] - listed[name])
-    assert not missing and len(wanted[name]) >= least, f"{name}: the reference lacks {missing} of {len(wanted[name])}"
+    assert not missing and len(wanted[name]) >= least, (
+        f"{name}: the reference lacks {missing} of {len(wanted[name])}"
+    )
 print(", ".join(f"{name} {len(found)}" for name, found in listed.items()), "names")

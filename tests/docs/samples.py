@@ -1,8 +1,10 @@
-"""samples.py SOURCE LIBRARY CC CXX: the samples of C in README, docs and the public headers, compiled as pasted, as C17, C++17 and C++20, without
-a warning, linked with the static library and run; and those of C++.
+"""samples.py SOURCE LIBRARY CC CXX: the samples of C in README, docs and the public headers,
+compiled as pasted, as C17, C++17 and C++20, without a warning, linked with the static library and
+run; and those of C++.
 
-README's block is a program. The blocks `c piece` of a page are together the main() of one, and so are the samples of headers, which are the
-indented paragraphs of their comments: a sample that declares a status begins a program, the others continue it.
+README's block is a program. The blocks `c piece` of a page are together the main() of one, and so
+are the samples of headers, which are the indented paragraphs of their comments: a sample that
+declares a status begins a program, the others continue it.
 """
 
 import re
@@ -37,13 +39,23 @@ def header_programs():
 
 
 # Name, compilers, text, and what it has to print.
-programs = [(f"headers, program {k}", C, program(pieces, "return status != CAROM_OK;"), "") for k, pieces in enumerate(header_programs(), 1)]
+programs = [
+    (f"headers, program {k}", C, program(pieces, "return status != CAROM_OK;"), "")
+    for k, pieces in enumerate(header_programs(), 1)
+]
 assert sum(map(len, header_programs())) >= 6, "a sample of the headers was not found"
 for page in pages(SOURCE):
-    found, shown = blocks(SOURCE, page), re.search("It prints `(.*?)`", Path(SOURCE, page).read_text(encoding="utf-8"))
+    found, shown = (
+        blocks(SOURCE, page),
+        re.search("It prints `(.*?)`", Path(SOURCE, page).read_text(encoding="utf-8")),
+    )
     pieces = [text for kind, text in found if kind == "c piece"]
     programs += [(page, C, text, "ball 1 is hit after") for kind, text in found if kind == "c"]
-    programs += [(page, C[2 if "carom.hpp" in text else 1 :], text, shown[1]) for kind, text in found if kind == "cpp"]
+    programs += [
+        (page, C[2 if "carom.hpp" in text else 1 :], text, shown[1])
+        for kind, text in found
+        if kind == "cpp"
+    ]
     if pieces:
         programs.append((page, C, program(pieces), "balls 0 and 4 meet after 0.129 s"))
 assert len(programs) >= 7, programs
@@ -54,9 +66,29 @@ with tempfile.TemporaryDirectory() as work:
             # The name of the file says which language it has, as a user's does.
             file = Path(work, f"{number}.{'cpp' if '++' in standard else 'c'}")
             file.write_text(text, encoding="utf-8")
-            built = subprocess.run([compiler, standard, *WARNINGS, f"-I{SOURCE}/include", f"-I{SOURCE}/plan/include", file, LIBRARY, "-lm", "-pthread", "-o", file.with_suffix("")],
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            built = subprocess.run(
+                [
+                    compiler,
+                    standard,
+                    *WARNINGS,
+                    f"-I{SOURCE}/include",
+                    f"-I{SOURCE}/plan/include",
+                    file,
+                    LIBRARY,
+                    "-lm",
+                    "-pthread",
+                    "-o",
+                    file.with_suffix(""),
+                ],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+            )
             assert built.returncode == 0, f"{name}, {compiler} {standard}:\n{built.stdout}"
-            said = subprocess.run([file.with_suffix("")], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-            assert said.returncode == 0 and shown in said.stdout, f"{name}, {standard}: exit {said.returncode}\n{said.stdout}"
+            said = subprocess.run(
+                [file.with_suffix("")], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+            )
+            assert said.returncode == 0 and shown in said.stdout, (
+                f"{name}, {standard}: exit {said.returncode}\n{said.stdout}"
+            )
 print(f"{len(programs)} programs")

@@ -1,7 +1,8 @@
-"""sessions.py SOURCE: runs the Python blocks of README and docs; each page is one session, as for a reader who pastes block by block.
+"""sessions.py SOURCE: runs the Python blocks of README and docs; each page is one session, as for a
+reader who pastes block by block.
 
-Runs in an environment that has the package. Blocks that need other packages are counted and left out where these are not
-installed, as their tests are.
+Runs in an environment that has the package. Blocks that need other packages are counted and left
+out where these are not installed, as their tests are.
 """
 
 import ast
@@ -12,7 +13,15 @@ import tempfile
 
 from blocks import blocks, pages
 
-NEEDS = {"python": [], "python pooltool": ["pooltool"], "python jax": ["jax"], "python torch": ["torch"], "python gymnasium": ["gymnasium"], "python pettingzoo": ["pettingzoo"], "python scale": ["dask", "xarray", "pyarrow"]}
+NEEDS = {
+    "python": [],
+    "python pooltool": ["pooltool"],
+    "python jax": ["jax"],
+    "python torch": ["torch"],
+    "python gymnasium": ["gymnasium"],
+    "python pettingzoo": ["pettingzoo"],
+    "python scale": ["dask", "xarray", "pyarrow"],
+}
 source = os.path.abspath(sys.argv[1])
 run, left_out, shown = 0, 0, 0
 
@@ -27,10 +36,20 @@ with tempfile.TemporaryDirectory() as work:
                 left_out += 1
                 continue
             where = f"{page}, block {number}"
-            # Statement by statement, as one who types them: an expression's value is shown, so it must show.
+            # Statement by statement, as one who types them: an expression's value is shown, so it
+            # must show.
             for statement in ast.parse(text).body:
                 if isinstance(statement, ast.Expr):
-                    shown += len(repr(eval(compile(ast.Expression(statement.value), where, "eval"), session))) > 0
+                    shown += (
+                        len(
+                            repr(
+                                eval(
+                                    compile(ast.Expression(statement.value), where, "eval"), session
+                                )
+                            )
+                        )
+                        > 0
+                    )
                 else:
                     exec(compile(ast.Module([statement], []), where, "exec"), session)
             run += 1

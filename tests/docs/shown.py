@@ -1,9 +1,11 @@
-"""shown.py SOURCE BUILD: runs the blocks of the kind `console` in README and docs, and compares what they print with the page.
+"""shown.py SOURCE BUILD: runs the blocks of the kind `console` in README and docs, and compares
+what they print with the page.
 
-A line that begins with `$ ` is a command, `> ` continues it; the lines up to the next one are its output, standard error included. A line `...` stands for
-any lines. Numbers may differ by 1e-6 of themselves, since instruction sets differ in the last digits. All blocks of a page share a folder
-that has `data`, and `carom` is on the path. `$?` is the exit code of the command before. UPDATE=1 writes the outputs into the pages;
-commands whose output has a `...` are left as they are.
+A line that begins with `$ ` is a command, `> ` continues it; the lines up to the next one are its
+output, standard error included. A line `...` stands for any lines. Numbers may differ by 1e-6 of
+themselves, since instruction sets differ in the last digits. All blocks of a page share a folder
+that has `data`, and `carom` is on the path. `$?` is the exit code of the command before. UPDATE=1
+writes the outputs into the pages; commands whose output has a `...` are left as they are.
 """
 
 import os
@@ -16,7 +18,11 @@ from pathlib import Path
 from blocks import blocks, pages
 
 SOURCE, BUILD = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-ENVIRONMENT = {**os.environ, "PATH": f"{BUILD}:{os.environ['PATH']}", "CAROM_DATA": str(SOURCE / "data")}
+ENVIRONMENT = {
+    **os.environ,
+    "PATH": f"{BUILD}:{os.environ['PATH']}",
+    "CAROM_DATA": str(SOURCE / "data"),
+}
 NUMBER = re.compile(r"-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?")
 
 
@@ -54,7 +60,11 @@ def commands(text):
 count, wrong = 0, []
 with tempfile.TemporaryDirectory() as work:
     for page in pages(SOURCE):
-        folder, code, text = Path(work, page.replace("/", "_")), 0, Path(SOURCE, page).read_text(encoding="utf-8")
+        folder, code, text = (
+            Path(work, page.replace("/", "_")),
+            0,
+            Path(SOURCE, page).read_text(encoding="utf-8"),
+        )
         folder.mkdir()
         (folder / "data").symlink_to(SOURCE / "data")
         for kind, block in blocks(SOURCE, page):
@@ -62,14 +72,26 @@ with tempfile.TemporaryDirectory() as work:
                 continue
             new = []
             for command, shown in commands(block):
-                done = subprocess.run(["sh", "-c", f"(exit {code})\n{command}"], cwd=folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
-                                      stderr=subprocess.STDOUT, text=True, stdin=subprocess.DEVNULL)
+                done = subprocess.run(
+                    ["sh", "-c", f"(exit {code})\n{command}"],
+                    cwd=folder,
+                    env=ENVIRONMENT,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT,
+                    text=True,
+                    stdin=subprocess.DEVNULL,
+                )
                 printed, code, count = done.stdout.splitlines(), done.returncode, count + 1
                 if code == 127:
                     sys.exit(f"{page}: $ {command}\n{done.stdout}")
                 if not matches(shown, printed):
-                    wrong.append("\n".join([f"{page}: $ {command}", "shown:", *shown, "printed:", *printed]))
-                new += ["$ " + command.replace("\n", "\n> "), *(shown if "..." in shown or matches(shown, printed) else printed)]
+                    wrong.append(
+                        "\n".join([f"{page}: $ {command}", "shown:", *shown, "printed:", *printed])
+                    )
+                new += [
+                    "$ " + command.replace("\n", "\n> "),
+                    *(shown if "..." in shown or matches(shown, printed) else printed),
+                ]
             text = text.replace(block, "".join(f"{line}\n" for line in new))
         if os.environ.get("UPDATE") == "1":
             Path(SOURCE, page).write_text(text, encoding="utf-8")

@@ -1,4 +1,5 @@
-// carom.hpp against the calls of C: a shot with more events than its first room, in parts, looked at; batches; what is thrown or returned.
+// carom.hpp against the calls of C: a shot with more events than its first room, in parts, looked
+// at; batches; what is thrown or returned.
 #include <carom.hpp>
 
 #include <cstdio>

@@ -3,7 +3,7 @@ wide='s/,(sse2|neon|avx2|avx512),/,WIDE,/' # any instruction set above plain: wh
 timed() {
   echo "--- $*"
   lab bench --budget 0.2 --csv -o out.csv "$@" 2>&1 | sed 's/is [0-9.e-]* off/is ... off/'
-  python - <<'PYTHON' | sed -E "$wide; s/ *$//" | awk '!seen[$0]++'
+  python - << 'PYTHON' | sed -E "$wide; s/ *$//" | awk '!seen[$0]++'
 import csv
 try:
     rows = list(csv.DictReader(line for line in open("out.csv") if not line.startswith("#")))

@@ -11,6 +11,9 @@ echo "--- the examples do what they show"
 cp "$DATA/collisions-204.csv" before.csv
 for command in "" kernels resolve verify bench trace experiments; do
   example=$(lab $command --help | tail -n 1 | sed -n 's/^  carom-lab //p' | sed 's/--budget [0-9]*/--budget 0.1/')
-  [ -n "$example" ] && eval "lab $example" > said 2>&1 || { echo "the example of '$command' fails:"; cat said; }
+  [ -n "$example" ] && eval "lab $example" > said 2>&1 || {
+    echo "the example of '$command' fails:"
+    cat said
+  }
 done
 ls

@@ -1,5 +1,8 @@
 # Racks that are played by plans, and the numbers of chances.c that are fitted to them.
-numbers() { sed 's/-\{0,1\}[0-9][0-9.]*/N/g; s/  */ /g' | tr '\n' ' ' | sed 's/ \*//g; s/  */ /g'; echo; }
+numbers() {
+  sed 's/-\{0,1\}[0-9][0-9.]*/N/g; s/  */ /g' | tr '\n' ' ' | sed 's/ \*//g; s/  */ /g'
+  echo
+}
 echo "--- what was counted does not depend on threads"
 lab plan --racks 2 --shots 100 | sed 's/, [0-9.]* ms a plan//' > one.txt
 lab plan --racks 2 --shots 100 --threads 2 | sed 's/, [0-9.]* ms a plan//' > two.txt

@@ -3,7 +3,10 @@ seed=${CAROM_TEST_SEED:-20141}
 kinds() { sed -n "/^precision /,/^$/p" | sed "s/  *[0-9].*//; s/  */ /g"; }
 for what in "--draws 1000" "--cushion 1000" "--coincidences 6"; do
   echo "--- $what"
-  lab stress $what --seed "$seed" > table || { echo "exit $?"; cat table; }
+  lab stress $what --seed "$seed" > table || {
+    echo "exit $?"
+    cat table
+  }
   grep -c "drawn .* with seed $seed" table
   kinds < table
 done

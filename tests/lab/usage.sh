@@ -1,5 +1,7 @@
 # Bad usage of the study's program: exit 2, and a message that says what would be right.
-try lab > said 2>&1; sed -n '1p;$p' said; rm said
+try lab > said 2>&1
+sed -n '1p;$p' said
+rm said
 try lab sweep
 try lab kernels now
 try lab kernels --csv -o nowhere/kernels.csv

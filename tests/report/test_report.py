@@ -1,4 +1,6 @@
-"""The report: from stored rows, the same page every time; the figures of the docs; and the whole way, measured as briefly as can be."""
+"""The report: from stored rows, the same page every time; the figures of the docs; and the whole
+way, measured as briefly as can be.
+"""
 
 import os
 import shutil
@@ -18,7 +20,12 @@ from lab.report import __main__ as report
 
 
 def make(folder, *words):
-    done = subprocess.run([sys.executable, "-m", "lab.report", *map(str, words), str(folder)], capture_output=True, text=True, cwd=ROOT)
+    done = subprocess.run(
+        [sys.executable, "-m", "lab.report", *map(str, words), str(folder)],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+    )
     return done, page_of(folder)
 
 
@@ -41,34 +48,68 @@ def table(page, name):
 
 
 def test_stored(tmp_path):
-    """From stored rows: whole, well-formed, without names that occur twice, of the same bytes each time, and with the cells of the rows;
-    what is not there is named."""
+    """From stored rows: whole, well-formed, without names that occur twice, of the same bytes each
+    time, and with the cells of the rows; what is not there is named.
+    """
     stored = tmp_path / "stored"
     stored.mkdir()
     for path in [*(DOCS / "data").glob("*.csv"), *STORED.glob("*.csv"), DOCS / "break.svg"]:
         shutil.copy(path, stored)
-    (one, page), (two, _) = make(tmp_path / "one", "--from", stored), make(tmp_path / "two", "--from", stored)
+    (one, page), (two, _) = (
+        make(tmp_path / "one", "--from", stored),
+        make(tmp_path / "two", "--from", stored),
+    )
     assert (one.returncode, one.stderr) == (0, "") and missing(page) == []
     ids = [e.get("id") for e in page.iter() if e.get("id")]
-    assert len(ids) == len(set(ids)) and {f"figure-{name}" for name in (*report.FIGURES, "break")} <= set(ids)
+    assert len(ids) == len(set(ids)) and {
+        f"figure-{name}" for name in (*report.FIGURES, "break")
+    } <= set(ids)
     for path in sorted((tmp_path / "one").iterdir()):
         assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes(), path.name
-    assert one.stdout.replace(str(tmp_path / "one"), "") == two.stdout.replace(str(tmp_path / "two"), "")
+    assert one.stdout.replace(str(tmp_path / "one"), "") == two.stdout.replace(
+        str(tmp_path / "two"), ""
+    )
 
-    bounds, base = report.Sheet(ROOT / "lab" / "report" / "bounds.csv").first(kernel="base", config="clang-zen2"), table(page, "operations")[0]
-    assert [base[name] for name in ("kernel", "flops amd", "paper flops", "chain cycles zen2", "paper bound")] == [
-        "base", f"{float(bounds['flops_amd']):,.0f}", "77,796", f"{float(bounds['chain_cycles_zen2']):,.0f}", "77,000"]  # fmt: skip
-    shown = next(line for line in (ROOT / "docs" / "study" / "bounds.md").read_text(encoding="utf-8").splitlines() if line.startswith("| base |"))
-    assert all(f" {float(bounds[name]):,.0f} " in shown for name in ("flops_total", "flops_amd", "chain_cycles_zen2")), shown
+    bounds, base = (
+        report.Sheet(ROOT / "lab" / "report" / "bounds.csv").first(
+            kernel="base", config="clang-zen2"
+        ),
+        table(page, "operations")[0],
+    )
+    assert [
+        base[name]
+        for name in ("kernel", "flops amd", "paper flops", "chain cycles zen2", "paper bound")
+    ] == [
+        "base",
+        f"{float(bounds['flops_amd']):,.0f}",
+        "77,796",
+        f"{float(bounds['chain_cycles_zen2']):,.0f}",
+        "77,000",
+    ]
+    shown = next(
+        line
+        for line in (ROOT / "docs" / "study" / "bounds.md").read_text(encoding="utf-8").splitlines()
+        if line.startswith("| base |")
+    )
+    assert all(
+        f" {float(bounds[name]):,.0f} " in shown
+        for name in ("flops_total", "flops_amd", "chain_cycles_zen2")
+    ), shown
     configs = report.Sheet(stored / "configs.csv")
     for row in table(page, "configurations"):
         for config in list(row)[1:]:
-            assert row[config] == report.shown(configs.first(kernel=row["kernel"], config=config).get("speedup")), (row, config)
+            assert row[config] == report.shown(
+                configs.first(kernel=row["kernel"], config=config).get("speedup")
+            ), (row, config)
     errors = {(row["kernel"], row["reference"]): row for row in table(page, "errors")}
     for row in report.Sheet(stored / "verify.csv").rows:
         assert float(errors[row["kernel"], row["reference"]]["max"]) >= 0.999 * float(row["max"])
-    performance = report.Sheet(tmp_path / "one" / "performance.csv").first(kernel="base", steps="1000")
-    assert float(performance["flops_per_cycle"]) == pytest.approx(float(performance["flops"]) / float(performance["cycles"]), rel=1e-3)
+    performance = report.Sheet(tmp_path / "one" / "performance.csv").first(
+        kernel="base", steps="1000"
+    )
+    assert float(performance["flops_per_cycle"]) == pytest.approx(
+        float(performance["flops"]) / float(performance["cycles"]), rel=1e-3
+    )
 
     for name in ("cycles.csv", "break.svg"):
         (stored / name).unlink()
@@ -80,23 +121,37 @@ def test_stored(tmp_path):
 
 
 def test_figures_of_the_docs(tmp_path):
-    """Each figure is what gnuplot draws from the CSV beside it, all were measured by one build on one machine, and the solver that
-    they show computes the same bits as this one."""
+    """Each figure is what gnuplot draws from the CSV beside it, all were measured by one build on
+    one machine, and the solver that they show computes the same bits as this one.
+    """
     make(tmp_path / "one", "--from", DOCS / "data")
-    sheets = {name: report.Sheet(DOCS / "data" / f"{report.FIGURES[name][0]}.csv") for name in report.OF_DOCS}
+    sheets = {
+        name: report.Sheet(DOCS / "data" / f"{report.FIGURES[name][0]}.csv")
+        for name in report.OF_DOCS
+    }
     for name in report.OF_DOCS:
-        assert (tmp_path / "one" / f"{name}.svg").read_bytes() == (DOCS / f"{name}.svg").read_bytes(), f"{name}.svg: {AGAIN}"
+        assert (tmp_path / "one" / f"{name}.svg").read_bytes() == (
+            DOCS / f"{name}.svg"
+        ).read_bytes(), f"{name}.svg: {AGAIN}"
     for what in ("processor", "compiler", "commit"):
         assert len({sheet.notes[what] for sheet in sheets.values()}) == 1, f"{what}: {AGAIN}"
     options = report.arguments([str(tmp_path / "two"), "--build", str(BUILD)])
     options.folder.mkdir()
-    assert sheets["cushion"].notes["solver"] == report.solver_bits(options), f"the solver has changed: {AGAIN}"
+    assert sheets["cushion"].notes["solver"] == report.solver_bits(options), (
+        f"the solver has changed: {AGAIN}"
+    )
     for name in ("cushion", "hops"):
         getattr(report, f"derive_{name}")(options, sheets["accuracy"].notes)
-        assert (options.folder / f"{name}.csv").read_bytes() == (DOCS / "data" / f"{name}.csv").read_bytes(), AGAIN
+        assert (options.folder / f"{name}.csv").read_bytes() == (
+            DOCS / "data" / f"{name}.csv"
+        ).read_bytes(), AGAIN
     for name, command in report.DRAWN.items():
-        report.run(command.format(options.folder / f"{name}.svg"), options, environment=report.PLAIN)
-        assert (options.folder / f"{name}.svg").read_bytes() == (DOCS / f"{name}.svg").read_bytes(), f"{name}.svg: {AGAIN}"
+        report.run(
+            command.format(options.folder / f"{name}.svg"), options, environment=report.PLAIN
+        )
+        assert (options.folder / f"{name}.svg").read_bytes() == (
+            DOCS / f"{name}.svg"
+        ).read_bytes(), f"{name}.svg: {AGAIN}"
 
 
 AGAIN = "make the figures anew: cmake --build build --target figures"
@@ -105,7 +160,11 @@ AGAIN = "make the figures anew: cmake --build build --target figures"
 def test_measured(tmp_path, monkeypatch, capsys):
     """Nothing is missing. Few numbers of steps are timed."""
     for name, (share, command) in report.DATA.items():
-        monkeypatch.setitem(report.DATA, name, (share, command.replace(report.STEPS, "100,1000").replace(",20000,50000", "")))
+        monkeypatch.setitem(
+            report.DATA,
+            name,
+            (share, command.replace(report.STEPS, "100,1000").replace(",20000,50000", "")),
+        )
     assert report.main([str(tmp_path / "one"), "--build", str(BUILD), "--budget", "1"]) == 0
     for name in report.DATA:
         assert report.Sheet(tmp_path / "one" / f"{name}.csv").rows, name

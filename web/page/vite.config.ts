@@ -9,27 +9,73 @@ const here = (path: string): string => fileURLToPath(new URL(path, import.meta.u
 /** The view in three dimensions as a module by itself, and the modules in it. */
 async function sceneModule(): Promise<{ code: string; modules: string[] }> {
   const lib = { entry: here("src/play/scene.ts"), formats: ["es" as const] };
-  const [made] = (await build({ configFile: false, logLevel: "warn", build: { lib, target: "es2022", write: false, minify: "esbuild", rollupOptions: { output: { inlineDynamicImports: true } } } })) as Rollup.RollupOutput[];
+  const [made] = (await build({
+    configFile: false,
+    logLevel: "warn",
+    build: {
+      lib,
+      target: "es2022",
+      write: false,
+      minify: "esbuild",
+      rollupOptions: { output: { inlineDynamicImports: true } },
+    },
+  })) as Rollup.RollupOutput[];
   const [chunk] = made!.output;
   // Vite leaves the space in modules of libraries.
-  return { code: (await transformWithEsbuild(chunk.code, "scene.js", { minify: true, target: "es2022" })).code, modules: Object.keys(chunk.modules) };
+  return {
+    code: (await transformWithEsbuild(chunk.code, "scene.js", { minify: true, target: "es2022" }))
+      .code,
+    modules: Object.keys(chunk.modules),
+  };
 }
 
-/** A text by gzip: by Zopfli of npm/build, which makes it 5 % smaller, or by Node's where that could not be had. */
+/**
+ * A text by gzip: by Zopfli of npm/build, which makes it 5 % smaller, or by Node's where that could
+ * not be had.
+ */
 function gzip(text: string): Buffer {
-  const zopfli = spawnSync(here("../../build/web/zopfli/bin/python3"), ["-c", "import sys, zopfli.gzip as z; sys.stdout.buffer.write(z.compress(sys.stdin.buffer.read()))"], { input: text });
+  const zopfli = spawnSync(
+    here("../../build/web/zopfli/bin/python3"),
+    [
+      "-c",
+      "import sys, zopfli.gzip as z; sys.stdout.buffer.write(z.compress(sys.stdin.buffer.read()))",
+    ],
+    { input: text },
+  );
   return zopfli.status === 0 ? zopfli.stdout : gzipSync(text, { level: 9 });
 }
 
-/** The page's licences, without their indents: that of carom, of the libraries in its WebAssembly, and of every package that was bundled. */
+/**
+ * The page's licences, without their indents: that of carom, of the libraries in its WebAssembly,
+ * and of every package that was bundled.
+ */
 function licences(modules: string[]): string {
-  const packages = new Set(modules.flatMap((name) => name.match(/^.*\/node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []));
-  const texts = [here("../../LICENSE"), here("../npm/NOTICES"), ...[...packages].map((folder) => `${folder}/LICENSE`)].map((file) => readFileSync(file, "utf8").trim().replaceAll(/^[ \t]+/gm, ""));
-  const named = ["carom", "In its WebAssembly", ...[...packages].map((folder) => folder.replace(/^.*\/node_modules\//, ""))];
-  return texts.map((text, k) => `${named[k]}\n\n${text}`).join("\n\n\n").replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+  const packages = new Set(
+    modules.flatMap((name) => name.match(/^.*\/node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []),
+  );
+  const texts = [
+    here("../../LICENSE"),
+    here("../npm/NOTICES"),
+    ...[...packages].map((folder) => `${folder}/LICENSE`),
+  ].map((file) =>
+    readFileSync(file, "utf8")
+      .trim()
+      .replaceAll(/^[ \t]+/gm, ""),
+  );
+  const named = [
+    "carom",
+    "In its WebAssembly",
+    ...[...packages].map((folder) => folder.replace(/^.*\/node_modules\//, "")),
+  ];
+  return texts
+    .map((text, k) => `${named[k]}\n\n${text}`)
+    .join("\n\n\n")
+    .replaceAll("&", "&amp;")
+    .replaceAll("<", "&lt;");
 }
 
-// The page is one file, so that it works from a folder: browsers load neither modules nor WebAssembly from file: addresses.
+// The page is one file, so that it works from a folder: browsers load neither modules nor
+// WebAssembly from file: addresses.
 function oneFile(): Plugin {
   return {
     name: "one-file",
@@ -42,26 +88,39 @@ function oneFile(): Plugin {
         let text = String(html.source);
         for (const [name, part] of Object.entries(bundle)) {
           if (part === html) continue;
-          // Vite's import() asks where the script lies, of which there is but one. Without that, a worker runs the script too, as a classic one:
-          // a page from a folder may not start others.
-          const source = part.type === "chunk" ? part.code.replaceAll("import.meta.url", '""').replaceAll("</script", "<\\/script") : String(part.source);
-          const tag = part.type === "chunk" ? `<script type="module">${source}</script>` : `<style>${source}</style>`;
-          const link = new RegExp(`<(script|link)[^>]*${name.replaceAll(/[.*+?^$()|[\]\\]/g, "\\$&")}[^>]*>(</script>)?`);
+          // Vite's import() asks where the script lies, of which there is but one. Without that, a
+          // worker runs the script too, as a classic one: a page from a folder may not start
+          // others.
+          const source =
+            part.type === "chunk"
+              ? part.code.replaceAll("import.meta.url", '""').replaceAll("</script", "<\\/script")
+              : String(part.source);
+          const tag =
+            part.type === "chunk"
+              ? `<script type="module">${source}</script>`
+              : `<style>${source}</style>`;
+          const link = new RegExp(
+            `<(script|link)[^>]*${name.replaceAll(/[.*+?^$()|[\]\\]/g, "\\$&")}[^>]*>(</script>)?`,
+          );
           if (!link.test(text)) throw new Error(`one-file: index.html does not refer to ${name}`);
           text = text.replace(link, () => tag);
           delete bundle[name];
         }
-        if (!text.includes("<!-- licences -->")) throw new Error("one-file: index.html has no place for the licences");
+        if (!text.includes("<!-- licences -->"))
+          throw new Error("one-file: index.html has no place for the licences");
         // It is text until it is asked for.
         const scene = await sceneModule();
         text = text.replace("<!-- scene -->", () => gzip(scene.code).toString("base64"));
-        html.source = text.replace("<!-- licences -->", () => licences([...this.getModuleIds(), ...scene.modules]));
+        html.source = text.replace("<!-- licences -->", () =>
+          licences([...this.getModuleIds(), ...scene.modules]),
+        );
       },
     },
   };
 }
 
-// The page has the library once: browsers without vectors in WebAssembly are older than 2023, and the build for them is a third of the page.
+// The page has the library once: browsers without vectors in WebAssembly are older than 2023, and
+// the build for them is a third of the page.
 function vectorsOnly(): Plugin {
   return {
     name: "vectors-only",

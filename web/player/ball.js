@@ -1,26 +1,40 @@
-// A ball as it is seen from above: its colour, its stripe, number or dots as it has turned, and the light on it.
+// A ball as it is seen from above: its colour, its stripe, number or dots as it has turned, and the
+// light on it.
 import { disc } from "./table.js";
 import { colourOf, IVORY, POOL } from "./words.js";
 
 /** @import { Point, Pose } from "./words.js" */
 /** @import { View } from "./table.js" */
 
-/** Radii of what is drawn on a ball, as angles seen from its middle: a white end of a striped ball, a number, a dot. */
+/**
+ * Radii of what is drawn on a ball, as angles seen from its middle: a white end of a striped ball,
+ * a number, a dot.
+ */
 const [END, NUMBER, DOT] = [0.9, 0.52, 0.2];
 
-/** A pixel beside another one, by a way on the table. @param {View} view @param {Point} at @param {number} x @param {number} y @returns {[number, number]} */
+/**
+ * A pixel beside another one, by a way on the table. @param {View} view @param {Point} at @param
+ * {number} x @param {number} y @returns {[number, number]}
+ */
 const onCanvas = (view, [px, py], x, y) => (view.upright ? [px + x, py - y] : [px + y, py + x]);
 
-/** A cap of a ball, around a direction on it, as it is seen from above. The part beyond the rim lies on the rim.
- * @param {CanvasRenderingContext2D} g @param {View} view @param {Point} at on the canvas @param {number} radius pixels
- * @param {readonly number[]} n towards the cap's middle @param {number} angle @param {string} fill */
+/**
+ * A cap of a ball, around a direction on it, as it is seen from above. The part beyond the rim lies
+ * on the rim.
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Point} at on the canvas @param
+ *   {number} radius pixels
+ * @param {readonly number[]} n towards the cap's middle @param {number} angle @param {string} fill
+ */
 function cap(g, view, at, radius, n, angle, fill) {
   const flat = Math.hypot(n[0], n[1]);
   if (n[2] <= 0 && flat <= Math.cos(angle)) return;
   const [ux, uy] = flat > 1e-9 ? [n[0] / flat, n[1] / flat] : [1, 0];
   g.beginPath();
   for (let k = 0; k < 28; k++) {
-    const [c, s] = [Math.sin(angle) * Math.cos((k * Math.PI) / 14), Math.sin(angle) * Math.sin((k * Math.PI) / 14)];
+    const [c, s] = [
+      Math.sin(angle) * Math.cos((k * Math.PI) / 14),
+      Math.sin(angle) * Math.sin((k * Math.PI) / 14),
+    ];
     // On the ball: the middle, and two directions across it, one of them level.
     const along = flat * Math.cos(angle) - n[2] * c;
     const [x, y, z] = [ux * along - uy * s, uy * along + ux * s, n[2] * Math.cos(angle) + flat * c];
@@ -31,7 +45,10 @@ function cap(g, view, at, radius, n, angle, fill) {
   g.fill();
 }
 
-/** The axes of a ball that has turned, by columns. @param {ArrayLike<number>} q @returns {[number, number, number][]} */
+/**
+ * The axes of a ball that has turned, by columns. @param {ArrayLike<number>} q @returns {[number,
+ * number, number][]}
+ */
 function axesOf({ 0: w, 1: i, 2: j, 3: n }) {
   return [
     [1 - 2 * (j * j + n * n), 2 * (i * j + w * n), 2 * (i * n - w * j)],
@@ -40,13 +57,20 @@ function axesOf({ 0: w, 1: i, 2: j, 3: n }) {
   ];
 }
 
-/** The number lies on the ball: its right and its lower side are axes of the ball, as they are seen.
- * @param {CanvasRenderingContext2D} g @param {View} view @param {Point} at @param {number} radius @param {string} name
+/**
+ * The number lies on the ball: its right and its lower side are axes of the ball, as they are seen.
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {Point} at @param {number} radius
+ *   @param {string} name
  * @param {readonly number[]} up @param {readonly number[]} right @param {readonly number[]} down */
 function drawNumber(g, view, at, radius, name, up, right, down) {
   g.save();
   g.translate(...onCanvas(view, at, radius * up[0], radius * up[1]));
-  g.transform(...onCanvas(view, [0, 0], right[0], right[1]), ...onCanvas(view, [0, 0], down[0], down[1]), 0, 0);
+  g.transform(
+    ...onCanvas(view, [0, 0], right[0], right[1]),
+    ...onCanvas(view, [0, 0], down[0], down[1]),
+    0,
+    0,
+  );
   g.fillStyle = "#16181b";
   g.font = `bold ${Math.round(radius * (Number(name) > 9 ? 0.7 : 0.85))}px sans-serif`;
   g.textAlign = "center";
@@ -78,7 +102,9 @@ function lightOf() {
   return light;
 }
 
-/** Draws ball k. @param {CanvasRenderingContext2D} g @param {View} view @param {{ name: string, radius: number }} ball @param {number} k @param {Pose} pose
+/**
+ * Draws ball k. @param {CanvasRenderingContext2D} g @param {View} view @param {{ name: string,
+ * radius: number }} ball @param {number} k @param {Pose} pose
  * @param {number} alpha @param {string} [ring] */
 export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring) {
   const at = view.place(r[0], r[1]);
@@ -91,17 +117,36 @@ export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring)
   for (const sign of [1, -1]) {
     const [x, y, z] = axes.map((axis) => axis.map((c) => sign * c));
     if (number > 8) cap(g, view, at, radius, x, END, IVORY);
-    if (!(number > 0)) for (const axis of [x, y, z]) cap(g, view, at, radius, axis, DOT, colour === IVORY ? POOL[2] : "#ffffff90");
+    if (!(number > 0))
+      for (const axis of [x, y, z])
+        cap(g, view, at, radius, axis, DOT, colour === IVORY ? POOL[2] : "#ffffff90");
     else {
       cap(g, view, at, radius, z, NUMBER, IVORY);
       if (z[2] < 0.2 || radius < 6) continue;
-      if (view.upright) drawNumber(g, view, at, radius, name, z, x, axes[1].map((c) => -c));
+      if (view.upright)
+        drawNumber(
+          g,
+          view,
+          at,
+          radius,
+          name,
+          z,
+          x,
+          axes[1].map((c) => -c),
+        );
       else drawNumber(g, view, at, radius, name, z, y, axes[0]);
     }
   }
   // The light, and the rim.
   if (radius >= 5) g.drawImage(lightOf(), at[0] - radius, at[1] - radius, 2 * radius, 2 * radius);
-  for (const [colour, beyond] of /** @type {[string, number][]} */ (ring ? [["#000a", 0], [ring, 1.5]] : [["#000a", 0]])) {
+  for (const [colour, beyond] of /** @type {[string, number][]} */ (
+    ring
+      ? [
+          ["#000a", 0],
+          [ring, 1.5],
+        ]
+      : [["#000a", 0]]
+  )) {
     g.strokeStyle = colour;
     g.lineWidth = beyond || 1;
     g.beginPath();

@@ -1,4 +1,5 @@
-// The pictures of a film: its trails and its balls at a time; and the film of a page that the command wrote.
+// The pictures of a film: its trails and its balls at a time; and the film of a page that the
+// command wrote.
 import { drawBall } from "./ball.js";
 import { colourOf, IVORY, POOL, product, wordsOf } from "./words.js";
 
@@ -6,11 +7,32 @@ import { colourOf, IVORY, POOL, product, wordsOf } from "./words.js";
 /** @import { View } from "./table.js" */
 
 /** Of trails, which have to be bright on the cloth. @type {Record<string, string>} */
-const BRIGHT = { [POOL[0]]: "#ffd84a", [POOL[1]]: "#8fc1ff", [POOL[2]]: "#ff8d80", [POOL[3]]: "#d3b3ff", [POOL[4]]: "#ffb466", [POOL[5]]: "#b6f09c", [POOL[6]]: "#f2a0bd", "#7b4a21": "#c9a27a" };
+const BRIGHT = {
+  [POOL[0]]: "#ffd84a",
+  [POOL[1]]: "#8fc1ff",
+  [POOL[2]]: "#ff8d80",
+  [POOL[3]]: "#d3b3ff",
+  [POOL[4]]: "#ffb466",
+  [POOL[5]]: "#b6f09c",
+  [POOL[6]]: "#f2a0bd",
+  "#7b4a21": "#c9a27a",
+};
 /** Of shots over each other, as in the picture below the film. */
-const SHOTS = ["#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"];
+const SHOTS = [
+  "#ffffff",
+  "#ffd84a",
+  "#8fc1ff",
+  "#ff8d80",
+  "#d3b3ff",
+  "#ffb466",
+  "#b6f09c",
+  "#f2a0bd",
+];
 
-/** The trails, to the pocket that takes the ball. @param {CanvasRenderingContext2D} g @param {View} view @param {Film} film */
+/**
+ * The trails, to the pocket that takes the ball. @param {CanvasRenderingContext2D} g @param {View}
+ * view @param {Film} film
+ */
 export function drawTrails(g, view, { balls, shots, apart = false }) {
   g.lineWidth = 1.6;
   g.lineJoin = g.lineCap = "round";
@@ -35,13 +57,29 @@ export function drawTrails(g, view, { balls, shots, apart = false }) {
  * @param {CanvasRenderingContext2D} g @param {View} view @param {Film} film @param {number} time */
 export function drawBalls(g, view, { balls, shots, apart = false }, time) {
   shots.forEach((shot, index) => {
-    shot.at(Math.min(time, shot.time)).forEach((pose, k) => pose.seen && drawBall(g, view, balls[k], k, pose, index === 0 || apart ? 1 : 0.6, apart ? SHOTS[index % 8] : undefined));
+    shot
+      .at(Math.min(time, shot.time))
+      .forEach(
+        (pose, k) =>
+          pose.seen &&
+          drawBall(
+            g,
+            view,
+            balls[k],
+            k,
+            pose,
+            index === 0 || apart ? 1 : 0.6,
+            apart ? SHOTS[index % 8] : undefined,
+          ),
+      );
   });
 }
 
-/** The film of a page that `carom shoot --animate` wrote. Of each ball it has 10 numbers at each time: its place, how it has turned, its spin, rad/s;
- * of one that lies still, once.
- * @param {{ table: Table, balls: [string, number][], shots: { times: number[], poses: number[][], events: [number, string, number, number][] }[] }} page
+/**
+ * The film of a page that `carom shoot --animate` wrote. Of each ball it has 10 numbers at each
+ * time: its place, how it has turned, its spin, rad/s; of one that lies still, once.
+ * @param {{ table: Table, balls: [string, number][], shots: { times: number[], poses: number[][],
+ *   events: [number, string, number, number][] }[] }} page
  * @returns {Film} */
 export function recorded({ table, balls, shots }) {
   const names = balls.map(([name]) => name);
@@ -59,13 +97,23 @@ export function recorded({ table, balls, shots }) {
         // It turns on by its spin.
         const spin = pose.slice(from + 7, from + 10);
         const rate = Math.hypot(...spin);
-        const [c, s] = [Math.cos((rate * since) / 2), rate > 0 ? Math.sin((rate * since) / 2) / rate : 0];
+        const [c, s] = [
+          Math.cos((rate * since) / 2),
+          rate > 0 ? Math.sin((rate * since) / 2) / rate : 0,
+        ];
         const q = product([c, ...spin.map((part) => part * s)], pose.slice(from + 3, from + 7));
         return { r, q, seen: pose[from + 2] >= 0 && (moves || index === 0) };
       });
     },
-    paths: poses.flatMap((pose, ball) => (pose.length > 10 ? [{ ball, xyz: pose.filter((_, k) => k % 10 < 3) }] : [])),
+    paths: poses.flatMap((pose, ball) =>
+      pose.length > 10 ? [{ ball, xyz: pose.filter((_, k) => k % 10 < 3) }] : [],
+    ),
     events: events.map(([time, type, a, b]) => ({ time, text: wordsOf(table, names, type, a, b) })),
   }));
-  return { table, balls: balls.map(([name, radius]) => ({ name, radius })), shots: filmed, apart: filmed.length > 1 };
+  return {
+    table,
+    balls: balls.map(([name, radius]) => ({ name, radius })),
+    shots: filmed,
+    apart: filmed.length > 1,
+  };
 }

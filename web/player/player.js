@@ -1,15 +1,22 @@
-// The player of films: a table seen from above, and a clock to play shots by. The page and what `carom shoot --animate` writes both show it.
+// The player of films: a table seen from above, and a clock to play shots by. The page and what
+// `carom shoot --animate` writes both show it.
 import { drawBall } from "./ball.js";
 import { drawBalls, drawTrails } from "./film.js";
 import { clothFor, fitTable, viewOf } from "./table.js";
 
 /** @import { Film, Hooks, Point, Pose } from "./words.js" */
 /** @typedef {ReturnType<typeof parts>} Parts */
-/** What a player shows, and when of it, s; `before` is when the last frame was drawn, ms, and `all` has the events of all shots.
- * @typedef {{ film: Film | undefined, time: number, end: number, playing: boolean, before: number, listing: number,
+/**
+ * What a player shows, and when of it, s; `before` is when the last frame was drawn, ms, and `all`
+ * has the events of all shots.
+ * @typedef {{ film: Film | undefined, time: number, end: number, playing: boolean, before: number,
+ *   listing: number,
  *   all: { time: number, text: string }[] }} Clock */
 
-/** @template {keyof HTMLElementTagNameMap} K @param {K} tag @param {Record<string, string>} attributes @param {(Node | string | undefined)[]} children */
+/**
+ * @template {keyof HTMLElementTagNameMap} K @param {K} tag @param {Record<string, string>}
+ * attributes @param {(Node | string | undefined)[]} children
+ */
 export function make(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
@@ -19,17 +26,47 @@ export function make(tag, attributes = {}, ...children) {
 
 /** The elements of a player. */
 function parts() {
-  const canvas = make("canvas", { class: "scene", id: "table-scene", role: "img", tabindex: "0", "aria-label": "A billiard table from above" });
+  const canvas = make("canvas", {
+    class: "scene",
+    id: "table-scene",
+    role: "img",
+    tabindex: "0",
+    "aria-label": "A billiard table from above",
+  });
   const play = make("button", { type: "button", id: "play" }, "Play");
   const back = make("button", { type: "button", id: "back", "aria-label": "Previous event" }, "◀");
-  const forward = make("button", { type: "button", id: "forward", "aria-label": "Next event" }, "▶");
-  const paces = /** @type {const} */ ([["1", "1 ×"], ["0.25", "1/4 ×"], ["0.1", "1/10 ×"], ["4", "4 ×"], ["1000", "at once"]]);
-  const pace = make("select", { id: "rate", "aria-label": "Speed of the film" }, ...paces.map(([value, text]) => make("option", { value }, text)));
-  const slider = make("input", { type: "range", id: "time", min: "0", step: "0.001", "aria-label": "Time of the film" });
+  const forward = make(
+    "button",
+    { type: "button", id: "forward", "aria-label": "Next event" },
+    "▶",
+  );
+  const paces = /** @type {const} */ ([
+    ["1", "1 ×"],
+    ["0.25", "1/4 ×"],
+    ["0.1", "1/10 ×"],
+    ["4", "4 ×"],
+    ["1000", "at once"],
+  ]);
+  const pace = make(
+    "select",
+    { id: "rate", "aria-label": "Speed of the film" },
+    ...paces.map(([value, text]) => make("option", { value }, text)),
+  );
+  const slider = make("input", {
+    type: "range",
+    id: "time",
+    min: "0",
+    step: "0.001",
+    "aria-label": "Time of the film",
+  });
   const said = make("output", { id: "time-value", for: "time" });
   const controls = make("div", { class: "row film" }, play, back, forward, pace, slider, said);
   const list = make("ol", {});
-  const events = make("div", { class: "events", tabindex: "0", role: "region", "aria-label": "Events" }, list);
+  const events = make(
+    "div",
+    { class: "events", tabindex: "0", role: "region", "aria-label": "Events" },
+    list,
+  );
   return { canvas, play, back, forward, pace, slider, said, controls, list, events };
 }
 
@@ -46,11 +83,19 @@ function tellTime({ slider, said, list, events }, { time, all }) {
   if (current instanceof HTMLElement) events.scrollTop = current.offsetTop - events.offsetTop - 60;
 }
 
-/** Lists the events; one that is pressed goes to its time. @param {Parts} of @param {Clock} clock @param {(to: number) => void} go */
+/**
+ * Lists the events; one that is pressed goes to its time. @param {Parts} of @param {Clock} clock
+ * @param {(to: number) => void} go
+ */
 function listEvents(of, clock, go) {
   of.list.replaceChildren(
     ...clock.all.map((event) => {
-      const row = make("button", { type: "button" }, make("span", {}, `${event.time.toFixed(3)} s`), make("span", {}, event.text));
+      const row = make(
+        "button",
+        { type: "button" },
+        make("span", {}, `${event.time.toFixed(3)} s`),
+        make("span", {}, event.text),
+      );
       row.addEventListener("click", () => go(event.time));
       return make("li", {}, row);
     }),
@@ -58,7 +103,10 @@ function listEvents(of, clock, go) {
   tellTime(of, clock);
 }
 
-/** What draws the film at the time of its clock. @param {Parts} of @param {Clock} clock @param {ReturnType<typeof viewOf>} view @param {Hooks} hooks */
+/**
+ * What draws the film at the time of its clock. @param {Parts} of @param {Clock} clock @param
+ * {ReturnType<typeof viewOf>} view @param {Hooks} hooks
+ */
 function drawing({ canvas }, clock, view, { over, hidden, sharp = 1 }) {
   const clothOf = clothFor(view, canvas);
   return () => {
@@ -74,7 +122,10 @@ function drawing({ canvas }, clock, view, { over, hidden, sharp = 1 }) {
   };
 }
 
-/** The hands of the clock: to a time, on with each frame, and stopped. @param {Parts} of @param {Clock} clock @param {Hooks} hooks @param {() => void} draw */
+/**
+ * The hands of the clock: to a time, on with each frame, and stopped. @param {Parts} of @param
+ * {Clock} clock @param {Hooks} hooks @param {() => void} draw
+ */
 function winding(of, clock, { ended, moved, still = () => false }, draw) {
   /** @param {number} to */
   function put(to) {
@@ -86,7 +137,8 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
   /** @param {number} now */
   function frame(now) {
     if (!clock.playing) return;
-    const step = Math.max(Math.min((now - clock.before) / 1000, 0.1), 0) * Number(of.pace.value); // the first frame may have begun before the start
+    // the first frame may have begun before the start
+    const step = Math.max(Math.min((now - clock.before) / 1000, 0.1), 0) * Number(of.pace.value);
     clock.before = now;
     put(Math.min(clock.time + step, clock.end));
     if (clock.time < clock.end) return void requestAnimationFrame(frame);
@@ -113,22 +165,37 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
   }
   /** To the next event, or the one before. @param {1 | -1} by */
   function step(by) {
-    const next = by > 0 ? clock.all.find((event) => event.time > clock.time + 1e-9) : clock.all.findLast((event) => event.time < clock.time - 1e-9);
+    const next =
+      by > 0
+        ? clock.all.find((event) => event.time > clock.time + 1e-9)
+        : clock.all.findLast((event) => event.time < clock.time - 1e-9);
     if (next) go(next.time);
   }
-  of.play.addEventListener("click", () => (!clock.playing ? start() : still() ? undefined : stop()));
+  of.play.addEventListener("click", () =>
+    !clock.playing ? start() : still() ? undefined : stop(),
+  );
   of.back.addEventListener("click", () => step(-1));
   of.forward.addEventListener("click", () => step(1));
   of.slider.addEventListener("input", () => go(of.slider.valueAsNumber));
   return { start, stop, go, step };
 }
 
-/** @param {Hooks} hooks `hidden` tells that nothing is seen of the table, `still` that the clock is not the reader's now;
+/**
+ * @param {Hooks} hooks `hidden` tells that nothing is seen of the table, `still` that the clock is
+ * not the reader's now;
  * `sharp` is how many pixels of the picture there are at least for one of the page. */
 export function player(hooks = {}) {
   const [of, view] = [parts(), viewOf()];
   /** @type {Clock} */
-  const clock = { film: undefined, time: 0, end: 0, playing: false, before: 0, listing: 0, all: [] };
+  const clock = {
+    film: undefined,
+    time: 0,
+    end: 0,
+    playing: false,
+    before: 0,
+    listing: 0,
+    all: [],
+  };
   const draw = drawing(of, clock, view, hooks);
   const hands = winding(of, clock, hooks, draw);
 
@@ -136,7 +203,12 @@ export function player(hooks = {}) {
   function show(next) {
     hands.stop();
     const end = Math.max(0, ...next.shots.map((shot) => shot.time));
-    Object.assign(clock, { film: next, time: 0, end, all: next.shots.flatMap((shot) => shot.events).sort((a, b) => a.time - b.time) });
+    Object.assign(clock, {
+      film: next,
+      time: 0,
+      end,
+      all: next.shots.flatMap((shot) => shot.events).sort((a, b) => a.time - b.time),
+    });
     of.slider.max = String(Math.max(end, 0.001));
     // The list waits until nothing has changed for a moment: it costs more than a shot.
     window.clearTimeout(clock.listing);
@@ -145,7 +217,10 @@ export function player(hooks = {}) {
     tellTime(of, clock);
     draw();
   }
-  /** Shows the table so many times larger, with a point of it in the middle, m. 1: all of it. @param {number} times @param {Point} [at] */
+  /**
+   * Shows the table so many times larger, with a point of it in the middle, m. 1: all of it. @param
+   * {number} times @param {Point} [at]
+   */
   function look(times, at) {
     view.zoom = Math.min(Math.max(times, 1), 6);
     if (at) view.middle = at;
@@ -153,13 +228,27 @@ export function player(hooks = {}) {
   }
 
   return {
-    ...{ canvas: of.canvas, controls: of.controls, events: of.events, play: of.play, pace: of.pace, show, draw, look, ...hands },
+    ...{
+      canvas: of.canvas,
+      controls: of.controls,
+      events: of.events,
+      play: of.play,
+      pace: of.pace,
+      show,
+      draw,
+      look,
+      ...hands,
+    },
     /** @param {number} x @param {number} y */
     place: (x, y) => view.place(x, y),
     /** @param {number} px @param {number} py */
     unplace: (px, py) => view.unplace(px, py),
-    /** Draws ball k of the film. @param {CanvasRenderingContext2D} g @param {number} k @param {Pose} pose @param {number} alpha */
-    drawBall: (g, k, pose, alpha) => drawBall(g, view, /** @type {Film} */ (clock.film).balls[k], k, pose, alpha),
+    /**
+     * Draws ball k of the film. @param {CanvasRenderingContext2D} g @param {number} k @param {Pose}
+     * pose @param {number} alpha
+     */
+    drawBall: (g, k, pose, alpha) =>
+      drawBall(g, view, /** @type {Film} */ (clock.film).balls[k], k, pose, alpha),
     get time() {
       return clock.time;
     },

@@ -6,8 +6,12 @@
 /** Wood around the noses of the cushions, m. */
 export const WOOD = 0.1;
 
-/** Where a table lies on a canvas: pixels for each m, where its corner is, and whether it stands. A table that lies has its length along the canvas'
- * width. The table may be larger than its place on the page by `zoom`; then `middle` of it is in the middle, m; undefined: its own middle. */
+/**
+ * Where a table lies on a canvas: pixels for each m, where its corner is, and whether it stands. A
+ * table that lies has its length along the canvas'
+ * width. The table may be larger than its place on the page by `zoom`; then `middle` of it is in
+ * the middle, m; undefined: its own middle.
+ */
 export function viewOf() {
   return {
     scale: 1,
@@ -17,21 +21,35 @@ export function viewOf() {
     zoom: 1,
     /** @type {Point | undefined} */
     middle: undefined,
-    /** From the table, m, to the canvas. @param {number} x @param {number} y @returns {[number, number]} */
+    /**
+     * From the table, m, to the canvas. @param {number} x @param {number} y @returns {[number,
+     * number]}
+     */
     place(x, y) {
       const { scale, offset } = this;
-      return this.upright ? [offset[0] + x * scale, offset[1] - y * scale] : [offset[0] + y * scale, offset[1] + x * scale];
+      return this.upright
+        ? [offset[0] + x * scale, offset[1] - y * scale]
+        : [offset[0] + y * scale, offset[1] + x * scale];
     },
-    /** From the canvas to the table. @param {number} px @param {number} py @returns {[number, number]} */
+    /**
+     * From the canvas to the table. @param {number} px @param {number} py @returns {[number,
+     * number]}
+     */
     unplace(px, py) {
       const { scale, offset } = this;
-      return this.upright ? [(px - offset[0]) / scale, (offset[1] - py) / scale] : [(py - offset[1]) / scale, (px - offset[0]) / scale];
+      return this.upright
+        ? [(px - offset[0]) / scale, (offset[1] - py) / scale]
+        : [(py - offset[1]) / scale, (px - offset[0]) / scale];
     },
   };
 }
 
-/** Makes a canvas as wide as its place is, and so much higher; returns its width and height, and pixels of the picture for one of the page.
- * @param {HTMLCanvasElement} canvas @param {number} ratio @param {number} [sharp] @returns {[number, number, number]} */
+/**
+ * Makes a canvas as wide as its place is, and so much higher; returns its width and height, and
+ * pixels of the picture for one of the page.
+ * @param {HTMLCanvasElement} canvas @param {number} ratio @param {number} [sharp] @returns
+ *   {[number, number, number]}
+ */
 export function fit(canvas, ratio, sharp = 1) {
   const width = Math.max(canvas.clientWidth, 50);
   const height = Math.round(width * ratio);
@@ -43,14 +61,17 @@ export function fit(canvas, ratio, sharp = 1) {
   return [width, height, dpr];
 }
 
-/** Fits a canvas with a table, no larger than the window is high. @param {View} view @param {HTMLCanvasElement} canvas @param {Table} table
+/**
+ * Fits a canvas with a table, no larger than the window is high. @param {View} view @param
+ * {HTMLCanvasElement} canvas @param {Table} table
  * @param {number} sharp */
 export function fitTable(view, canvas, table, sharp) {
   const [w, l] = [table.width + 2 * WOOD, table.length + 2 * WOOD];
   const upright = (view.upright = document.documentElement.clientWidth < 480);
   const ratio = upright ? l / w : w / l;
   // A browser that does not know dvh keeps vh.
-  for (const unit of ["vh", "dvh"]) canvas.style.maxWidth = `calc((100${unit} - var(--beside, 9rem)) * ${1 / ratio})`;
+  for (const unit of ["vh", "dvh"])
+    canvas.style.maxWidth = `calc((100${unit} - var(--beside, 9rem)) * ${1 / ratio})`;
   const [width, height, dpr] = fit(canvas, ratio, sharp);
   view.scale = width / (upright ? w : l);
   view.offset = [WOOD * view.scale, upright ? height - WOOD * view.scale : WOOD * view.scale];
@@ -59,25 +80,41 @@ export function fitTable(view, canvas, table, sharp) {
     // No further than the wood.
     const at = view.place(...middle);
     view.scale *= zoom;
-    view.offset = /** @type {[number, number]} */ ([width, height].map((size, k) => size / 2 - Math.min(Math.max(zoom * at[k], size / 2), (zoom - 0.5) * size) + zoom * view.offset[k]));
+    view.offset = /** @type {[number, number]} */ (
+      [width, height].map(
+        (size, k) =>
+          size / 2 -
+          Math.min(Math.max(zoom * at[k], size / 2), (zoom - 0.5) * size) +
+          zoom * view.offset[k],
+      )
+    );
   }
   return /** @type {const} */ ([width, height, dpr]);
 }
 
-/** @param {CanvasRenderingContext2D} g @param {Pick<View, "place">} view @param {readonly (readonly number[])[]} points */
+/**
+ * @param {CanvasRenderingContext2D} g @param {Pick<View, "place">} view @param {readonly (readonly
+ * number[])[]} points
+ */
 export const line = (g, view, points) => {
   g.beginPath();
   points.forEach(([x, y], k) => g[k === 0 ? "moveTo" : "lineTo"](...view.place(x, y)));
   g.stroke();
 };
-/** @param {CanvasRenderingContext2D} g @param {View} view @param {readonly number[]} centre @param {number} radius in pixels */
+/**
+ * @param {CanvasRenderingContext2D} g @param {View} view @param {readonly number[]} centre @param
+ * {number} radius in pixels
+ */
 export const disc = (g, view, [x, y], radius) => {
   g.beginPath();
   g.arc(...view.place(x, y), radius, 0, 7);
   g.fill();
 };
 
-/** Draws cloth, wood, pockets, noses and diamonds. @param {CanvasRenderingContext2D} g @param {View} view @param {Table} table @param {string} bed */
+/**
+ * Draws cloth, wood, pockets, noses and diamonds. @param {CanvasRenderingContext2D} g @param {View}
+ * view @param {Table} table @param {string} bed
+ */
 function drawCloth(g, view, table, bed) {
   g.fillStyle = bed;
   const [[x0, y0], [x1, y1]] = [view.place(0, 0), view.place(table.width, table.length)];
@@ -90,30 +127,59 @@ function drawCloth(g, view, table, bed) {
   for (const { p, q } of table.rails) line(g, view, [p, q]);
   // Of a jaw the part between the ends of the rails that it joins.
   for (const { centre, radius } of table.jaws) {
-    const ends = table.rails.flatMap(({ p, q }) => [p, q]).filter(([x, y]) => Math.abs(Math.hypot(x - centre[0], y - centre[1]) - radius) < 1e-3);
+    const ends = table.rails
+      .flatMap(({ p, q }) => [p, q])
+      .filter(([x, y]) => Math.abs(Math.hypot(x - centre[0], y - centre[1]) - radius) < 1e-3);
     if (ends.length !== 2) continue;
     const [from, to] = ends.map(([x, y]) => Math.atan2(y - centre[1], x - centre[0]));
     const turned = Math.atan2(Math.sin(to - from), Math.cos(to - from));
-    line(g, view, Array.from({ length: 9 }, (_, k) => [centre[0] + radius * Math.cos(from + (turned * k) / 8), centre[1] + radius * Math.sin(from + (turned * k) / 8)]));
+    line(
+      g,
+      view,
+      Array.from({ length: 9 }, (_, k) => [
+        centre[0] + radius * Math.cos(from + (turned * k) / 8),
+        centre[1] + radius * Math.sin(from + (turned * k) / 8),
+      ]),
+    );
   }
-  // Diamonds: the long cushions in eight parts, the short ones in four. None where a pocket is, none in snooker.
+  // Diamonds: the long cushions in eight parts, the short ones in four. None where a pocket is,
+  // none in snooker.
   if (table.length > 3) return;
   g.fillStyle = "#e8dcc0";
   for (const side of [0, 1]) {
     const out = side === 0 ? -0.8 * WOOD : 0.8 * WOOD;
-    for (let k = 1; k < 8; k++) if (k !== 4 || table.pockets.length === 0) disc(g, view, [side * table.width + out, (table.length * k) / 8], 0.008 * view.scale);
-    for (let k = 1; k < 4; k++) disc(g, view, [(table.width * k) / 4, side * table.length + out], 0.008 * view.scale);
+    for (let k = 1; k < 8; k++)
+      if (k !== 4 || table.pockets.length === 0)
+        disc(g, view, [side * table.width + out, (table.length * k) / 8], 0.008 * view.scale);
+    for (let k = 1; k < 4; k++)
+      disc(g, view, [(table.width * k) / 4, side * table.length + out], 0.008 * view.scale);
   }
 }
 
-/** The picture of a table without balls, which is drawn once for each size. @param {View} view @param {HTMLCanvasElement} canvas */
+/**
+ * The picture of a table without balls, which is drawn once for each size. @param {View} view
+ * @param {HTMLCanvasElement} canvas
+ */
 export function clothFor(view, canvas) {
   const cloth = document.createElement("canvas");
   let drawn = "";
   /** @param {Table} table @param {readonly [number, number, number]} size */
   return (table, [width, height, dpr]) => {
-    const [bed, wood] = ["--cloth", "--rail"].map((name) => getComputedStyle(canvas).getPropertyValue(name).trim());
-    const now = [width, height, dpr, bed, wood, table.width, table.length, table.pockets.length, view.scale, ...view.offset].join();
+    const [bed, wood] = ["--cloth", "--rail"].map((name) =>
+      getComputedStyle(canvas).getPropertyValue(name).trim(),
+    );
+    const now = [
+      width,
+      height,
+      dpr,
+      bed,
+      wood,
+      table.width,
+      table.length,
+      table.pockets.length,
+      view.scale,
+      ...view.offset,
+    ].join();
     if (now === drawn) return cloth;
     drawn = now;
     [cloth.width, cloth.height] = [canvas.width, canvas.height];

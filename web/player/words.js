@@ -1,19 +1,37 @@
-// Names of a film: the colour of a ball, a pocket, and an event in words. What a film is made of stands here for all modules of the player, which the
-// page imports, and which the command writes one behind the other into the pages of `carom shoot --animate`: no two of them have one name for two things.
+// Names of a film: the colour of a ball, a pocket, and an event in words. What a film is made of
+// stands here for all modules of the player, which the page imports, and which the command writes
+// one behind the other into the pages of `carom shoot --animate`: no two of them have one name for
+// two things.
 
 /** @typedef {readonly [number, number]} Point */
-/** @typedef {{ width: number, length: number, rails: { p: Point, q: Point, height?: number }[], jaws: { centre: Point, radius: number }[],
+/**
+ * @typedef {{ width: number, length: number, rails: { p: Point, q: Point, height?: number }[],
+ * jaws: { centre: Point, radius: number }[],
  *   pockets: { centre: Point, radius: number }[] }} Table */
-/** Where a ball is, m, and how it has turned: a unit quaternion w, x, y, z. It is not seen where it lies in a pocket or on the floor.
+/**
+ * Where a ball is, m, and how it has turned: a unit quaternion w, x, y, z. It is not seen where it
+ * lies in a pocket or on the floor.
  * @typedef {{ r: readonly number[], q: ArrayLike<number>, seen: boolean }} Pose */
-/** A shot: its poses at a time, s; x, y, z of the balls that move, point after point; what happens when.
- * @typedef {{ time: number, at(time: number): Pose[], paths: { ball: number, xyz: ArrayLike<number> }[], events: { time: number, text: string }[] }} Shot */
-/** Shots that are apart have a colour each: of trails, dashed but for the cue ball, and around balls. */
-/** @typedef {{ table: Table, balls: { name: string, radius: number }[], shots: Shot[], apart?: boolean }} Film */
+/**
+ * A shot: its poses at a time, s; x, y, z of the balls that move, point after point; what happens
+ * when.
+ * @typedef {{ time: number, at(time: number): Pose[], paths: { ball: number, xyz: ArrayLike<number>
+ *   }[], events: { time: number, text: string }[] }} Shot
+ */
+/**
+ * Shots that are apart have a colour each: of trails, dashed but for the cue ball, and around
+ * balls.
+ */
+/**
+ * @typedef {{ table: Table, balls: { name: string, radius: number }[], shots: Shot[], apart?:
+ * boolean }} Film
+ */
 /** @typedef {{ over?(g: CanvasRenderingContext2D): void, ended?(): void, moved?(): void,
  *   still?(): boolean, hidden?(): boolean, sharp?: number }} Hooks */
 
-/** The product of two rotations, w, x, y, z: first b, then a. @param {ArrayLike<number>} a @param {ArrayLike<number>} b
+/**
+ * The product of two rotations, w, x, y, z: first b, then a. @param {ArrayLike<number>} a @param
+ * {ArrayLike<number>} b
  * @returns {[number, number, number, number]} */
 export const product = ({ 0: w, 1: i, 2: j, 3: n }, { 0: c, 1: x, 2: y, 3: z }) => [
   w * c - i * x - j * y - n * z,
@@ -23,16 +41,38 @@ export const product = ({ 0: w, 1: i, 2: j, 3: n }, { 0: c, 1: x, 2: y, 3: z }) 
 ];
 
 export const IVORY = "#fbfaf5";
-export const POOL = ["#e3b505", "#1446a0", "#c8102e", "#5b2a86", "#e8702a", "#12664f", "#7a1f2b", "#16181b"];
+export const POOL = [
+  "#e3b505",
+  "#1446a0",
+  "#c8102e",
+  "#5b2a86",
+  "#e8702a",
+  "#12664f",
+  "#7a1f2b",
+  "#16181b",
+];
 /** @type {Record<string, string>} */
-const NAMED = { cue: IVORY, white: IVORY, yellow: POOL[0], green: POOL[5], brown: "#7b4a21", blue: POOL[1], pink: "#e58fa5", black: POOL[7], red: POOL[2] };
+const NAMED = {
+  cue: IVORY,
+  white: IVORY,
+  yellow: POOL[0],
+  green: POOL[5],
+  brown: "#7b4a21",
+  blue: POOL[1],
+  pink: "#e58fa5",
+  black: POOL[7],
+  red: POOL[2],
+};
 
 /** The colour of a ball, by its name. @param {string} name @param {number} k */
 export function colourOf(name, k) {
   return NAMED[name.split(" ")[0]] ?? (k === 0 ? IVORY : POOL[((Number(name) || k) - 1) % 8]);
 }
 
-/** Where a pocket of a rectangle is for a player at the head, as carom_pocket_name() says: "foot-left pocket". @param {Table} table @param {number} pocket */
+/**
+ * Where a pocket of a rectangle is for a player at the head, as carom_pocket_name() says:
+ * "foot-left pocket". @param {Table} table @param {number} pocket
+ */
 export function pocketName({ width, length, pockets }, pocket) {
   const [x, y] = pockets[pocket].centre;
   return `${y < 0.3 * length ? "head" : y < 0.7 * length ? "side" : "foot"}-${x > width / 2 ? "right" : "left"} pocket`;
@@ -50,7 +90,10 @@ const EVENTS = {
   rail_top: "falls on a rail",
   left_table: "leaves the table",
 };
-/** An event in words. @param {Table} table @param {readonly string[]} names @param {string} type @param {number} a @param {number} b */
+/**
+ * An event in words. @param {Table} table @param {readonly string[]} names @param {string} type
+ * @param {number} a @param {number} b
+ */
 export function wordsOf(table, names, type, a, b) {
   if (type === "stick_ball") return "the cue strikes";
   if (type === "ball_ball") return `${names[a]} hits ${names[b]}`;

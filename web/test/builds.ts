@@ -2,6 +2,12 @@
 import { afterEach } from "vitest";
 import { load } from "carom";
 
-export const builds = await Promise.all((["simd", "plain"] as const).map(async (build) => ({ name: build as string, carom: await load({ build }) })));
-// The worker answers after each test, so that Vitest does not take a file of long computations for one that hangs.
+export const builds = await Promise.all(
+  (["simd", "plain"] as const).map(async (build) => ({
+    name: build as string,
+    carom: await load({ build }),
+  })),
+);
+// The worker answers after each test, so that Vitest does not take a file of long computations for
+// one that hangs.
 afterEach(() => new Promise<void>((answers) => setImmediate(answers)));

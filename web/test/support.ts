@@ -1,4 +1,5 @@
-// What the tests of package and page share: the command `carom`, and the draws of tests/platforms/bits.c.
+// What the tests of package and page share: the command `carom`, and the draws of
+// tests/platforms/bits.c.
 import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { fileURLToPath } from "node:url";
@@ -8,10 +9,16 @@ export const root = fileURLToPath(new URL("../../", import.meta.url));
 /** The command of the native build; CAROM in the environment names another. */
 export const command = process.env.CAROM ?? `${root}build/carom`;
 export const thereIsACommand = existsSync(command);
-if (!thereIsACommand) console.log(`without the tests against the command: there is no ${command} (./run builds it)`);
+if (!thereIsACommand)
+  console.log(`without the tests against the command: there is no ${command} (./run builds it)`);
 
 export function run(args: string[], input = ""): string {
-  return execFileSync(command, args, { input, encoding: "utf8", maxBuffer: 1 << 28, env: { ...process.env, CAROM_ISA: "plain" } });
+  return execFileSync(command, args, {
+    input,
+    encoding: "utf8",
+    maxBuffer: 1 << 28,
+    env: { ...process.env, CAROM_ISA: "plain" },
+  });
 }
 
 const MASK = (1n << 64n) - 1n;

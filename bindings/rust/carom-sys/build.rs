@@ -1,4 +1,5 @@
-// Compiles the library, whose one file this crate has. Where CAROM_LIB_DIR names a folder, links libcarom from there instead.
+// Compiles the library, whose one file this crate has. Where CAROM_LIB_DIR names a folder, links
+// libcarom from there instead.
 use std::{env, path::Path, process::Command};
 
 fn main() {

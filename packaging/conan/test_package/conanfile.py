@@ -1,4 +1,6 @@
-"""Builds and runs the program of tests/install/consumer-cmake with the package that `conan create` has just made."""
+"""Builds and runs the program of tests/install/consumer-cmake with the package that `conan create`
+has just made.
+"""
 
 from pathlib import Path
 
@@ -19,7 +21,9 @@ class Consumer(ConanFile):
             return cmake_layout(self)
         # In the tree's build/, which git ignores.
         self.folders.root = "../../.."
-        cmake_layout(self, src_folder="tests/install/consumer-cmake", build_folder="build/conan-consumer")
+        cmake_layout(
+            self, src_folder="tests/install/consumer-cmake", build_folder="build/conan-consumer"
+        )
 
     def generate(self):
         toolchain = CMakeToolchain(self)

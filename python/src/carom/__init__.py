@@ -1,6 +1,7 @@
 """Billiards, computed: collisions of balls and cushions, whole shots, and millions of any of them.
 
-    collisions   impacts, cushion_impacts, collide, cushion, mu_ball, alciatore, Outcome; step by step: trace, cushion_trace
+    collisions   impacts, cushion_impacts, collide, cushion, mu_ball, alciatore, Outcome; step by
+                 step: trace, cushion_trace
     layouts      tables, Table, racks, balls, by_number, cue, struck, place_ball
     shots        simulate, simulate_batch, simulate_arrow, resume, Options, ALL_THREADS
     results      Shot, Shots, Features, EventType, Label, Status, CaromError
@@ -8,9 +9,11 @@
     plans        plan, player, with_errors, aim, value, chances, rating, Pot, Rating
     rules        referee, Rules, Ruling, Facts, Turn, Foul
     other        dtypes, the structured dtypes; cite, physics_revision, isa_in_force
-    modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches, gymnasium, pettingzoo
+    modules      record, tracks, fit, jax, torch, pooltool; games: potting, drills, pool, matches,
+                 gymnasium, pettingzoo
 
-`help(carom.simulate)` is the manual of a call. Units are SI; vectors are right-handed with z up. Every call that computes releases the GIL.
+`help(carom.simulate)` is the manual of a call. Units are SI; vectors are right-handed with z up.
+Every call that computes releases the GIL.
 """
 
 import importlib as _importlib
@@ -34,19 +37,72 @@ from carom.shots import cite, resume, simulate, simulate_arrow, simulate_batch
 from carom.status import CaromError, Status
 
 _sys.meta_path.append(_Finder())
-for _name in "collisions cushions derivatives dtypes layouts racks results shots status tables".split():
+for (
+    _name
+) in "collisions cushions derivatives dtypes layouts racks results shots status tables".split():
     setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))
 
 __dir__ = _listing(__name__)
 __version__: str = _ffi.string(_lib.carom_version()).decode()
 
 __all__ = [
-    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Hessian", "Label", "Options", "Outcome", "Pot",
-    "Rating", "Rules", "Ruling", "Shot", "Shots", "Status", "Table", "Tangents", "Turn", "aim", "aim_slope", "alciatore", "balls",
-    "by_number", "chances", "cite", "collide", "cue", "cushion", "cushion_impacts", "cushion_trace", "dtypes", "hessian", "impacts",
-    "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball", "plan", "player", "racks", "rating", "referee",
-    "resume", "simulate", "simulate_arrow", "simulate_batch", "struck", "tables", "tangents", "trace", "value", "with_errors",
-]  # fmt: skip
+    "ALL_THREADS",
+    "CaromError",
+    "EventType",
+    "Facts",
+    "Features",
+    "Flag",
+    "Foul",
+    "Hessian",
+    "Label",
+    "Options",
+    "Outcome",
+    "Pot",
+    "Rating",
+    "Rules",
+    "Ruling",
+    "Shot",
+    "Shots",
+    "Status",
+    "Table",
+    "Tangents",
+    "Turn",
+    "aim",
+    "aim_slope",
+    "alciatore",
+    "balls",
+    "by_number",
+    "chances",
+    "cite",
+    "collide",
+    "cue",
+    "cushion",
+    "cushion_impacts",
+    "cushion_trace",
+    "dtypes",
+    "hessian",
+    "impacts",
+    "isa_in_force",
+    "jacobian",
+    "mu_ball",
+    "physics_revision",
+    "place_ball",
+    "plan",
+    "player",
+    "racks",
+    "rating",
+    "referee",
+    "resume",
+    "simulate",
+    "simulate_arrow",
+    "simulate_batch",
+    "struck",
+    "tables",
+    "tangents",
+    "trace",
+    "value",
+    "with_errors",
+]
 
 if _TYPE_CHECKING:
     from carom.games import Facts, Foul, Pot, Rating, Rules, Ruling, Turn
@@ -56,7 +112,9 @@ else:
     del __all__
 
     def __getattr__(name: str) -> object:
-        """What lies in a folder: a module by its short name, or what `carom.games` gives. pydoc would print the whole of all that `__all__` has."""
+        """What lies in a folder: a module by its short name, or what `carom.games` gives. pydoc
+        would print the whole of all that `__all__` has.
+        """
         if name == "__all__" and _sys._getframe(1).f_code.co_name != "docmodule":
             return _names
         try:
@@ -70,10 +128,15 @@ else:
 
 
 def isa_in_force() -> str:
-    """The instruction set in use: "plain", "sse2", "neon", "avx2" or "avx512". The variable CAROM_ISA limits it."""
+    """The instruction set in use: "plain", "sse2", "neon", "avx2" or "avx512".
+
+    The variable CAROM_ISA limits it.
+    """
     return str(_ffi.string(_lib.carom_isa_name(_lib.carom_isa_in_force())).decode())
 
 
 def physics_revision() -> int:
-    """A number that changes whenever a result of any call has other bits than before: recordings play back alike with the same one."""
+    """A number that changes whenever a result of any call has other bits than before: recordings
+    play back alike with the same one.
+    """
     return int(_lib.carom_physics_revision())

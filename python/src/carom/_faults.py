@@ -1,4 +1,6 @@
-"""Which argument of a shot C refuses: the exception that names the field, the value given, and what would be right, as C tells them."""
+"""Which argument of a shot C refuses: the exception that names the field, the value given, and what
+would be right, as C tells them.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,11 @@ from carom._carom import ffi, lib
 from carom._rows import numbers_of
 from carom.status import CaromError, Status
 
-_TABLE = {lib.CAROM_PART_RAIL: "rails", lib.CAROM_PART_JAW: "jaws", lib.CAROM_PART_POCKET: "pockets"}
+_TABLE = {
+    lib.CAROM_PART_RAIL: "rails",
+    lib.CAROM_PART_JAW: "jaws",
+    lib.CAROM_PART_POCKET: "pockets",
+}
 
 
 def _numbers(part: int, status: int) -> list[str]:
@@ -17,12 +23,21 @@ def _numbers(part: int, status: int) -> list[str]:
     return [ffi.string(row.name).decode() for row in numbers_of(part) if row.error == status]
 
 
-def _fault(status: int, name: str, fields: list[str], record: dtypes.Records, must: str = "") -> CaromError:
+def _fault(
+    status: int, name: str, fields: list[str], record: dtypes.Records, must: str = ""
+) -> CaromError:
     """The exception for numbers of a record, called `name`."""
     where = [f"{name}.{field}" for field in fields]
     values = [record[field] if record[field].ndim else record[field].item() for field in fields]
-    text = f"it must be {must}" if must else Status(status).text.replace(f"{where[0]} must", "it must")
-    return CaromError(status, ", ".join(where), values[0] if len(values) == 1 else ", ".join(map(str, values)), text=text)
+    text = (
+        f"it must be {must}" if must else Status(status).text.replace(f"{where[0]} must", "it must")
+    )
+    return CaromError(
+        status,
+        ", ".join(where),
+        values[0] if len(values) == 1 else ", ".join(map(str, values)),
+        text=text,
+    )
 
 
 def strike_error(status: int, cue: dtypes.Records, kind: dtypes.Records) -> CaromError:
@@ -31,16 +46,32 @@ def strike_error(status: int, cue: dtypes.Records, kind: dtypes.Records) -> Caro
         return _fault(status, "cue", fields, cue)
     must = ffi.new("char[]", 100)
     number = lib.carom_ball_fault(ffi.from_buffer("carom_ball_kind[]", kind.tobytes()), must, 100)
-    return CaromError(status, "kind") if number == ffi.NULL else _fault(status, "kind", [ffi.string(number.name).decode()], kind, ffi.string(must).decode())
+    return (
+        CaromError(status, "kind")
+        if number == ffi.NULL
+        else _fault(
+            status, "kind", [ffi.string(number.name).decode()], kind, ffi.string(must).decode()
+        )
+    )
 
 
-def shot_arguments(table: Any, layout: dtypes.Records, cue: dtypes.Records | None, options: Any) -> tuple[Any, ...]:
+def shot_arguments(
+    table: Any, layout: dtypes.Records, cue: dtypes.Records | None, options: Any
+) -> tuple[Any, ...]:
     """The arguments of carom_shot_check() and carom_shoot()."""
     strike = ffi.NULL if cue is None else ffi.from_buffer("carom_cue[]", cue)
-    return ffi.from_buffer("carom_table[]", table.record), ffi.from_buffer("carom_shot_ball[]", layout), len(layout), strike, options
+    return (
+        ffi.from_buffer("carom_table[]", table.record),
+        ffi.from_buffer("carom_shot_ball[]", layout),
+        len(layout),
+        strike,
+        options,
+    )
 
 
-def argument_error(arguments: tuple[Any, ...], layout: dtypes.Records, cue: dtypes.Records | None) -> CaromError | None:
+def argument_error(
+    arguments: tuple[Any, ...], layout: dtypes.Records, cue: dtypes.Records | None
+) -> CaromError | None:
     """The exception for arguments that carom_shot_check() refuses; None if they are right."""
     where = ffi.new("int *", -1)
     if lib.carom_shot_check(*arguments, where) >= 0:
@@ -60,4 +91,8 @@ def argument_error(arguments: tuple[Any, ...], layout: dtypes.Records, cue: dtyp
             part = f"table.{_TABLE[kind]}[{index}]" if kind in _TABLE else "table"
             return CaromError(code, f"{part}.{name}", told.value, text=f"it must be {must}")
         return CaromError(code, "table")
-    return CaromError(code, "balls", len(layout)) if code == lib.CAROM_ERROR_BALLS else CaromError(code)
+    return (
+        CaromError(code, "balls", len(layout))
+        if code == lib.CAROM_ERROR_BALLS
+        else CaromError(code)
+    )

@@ -1,4 +1,6 @@
-"""Whole shots as functions of some of their numbers, with Jacobians, for libraries that differentiate: carom.jax and carom.torch."""
+"""Whole shots as functions of some of their numbers, with Jacobians, for libraries that
+differentiate: carom.jax and carom.torch.
+"""
 
 from __future__ import annotations
 
@@ -16,13 +18,27 @@ from carom._faults import shot_arguments
 from carom._rows import Array, broadcast, pointer
 from carom._shot_options import Options, shot_options
 from carom.derivatives import (
-    AT_ONCE, ELEMENTS, MOST, PARTS, STATE, Direction, by_steps, directions, numbers_of_direction, play, seeds_of, steps_of, tangent_options, tangents,
-)  # fmt: skip
+    AT_ONCE,
+    ELEMENTS,
+    MOST,
+    PARTS,
+    STATE,
+    Direction,
+    by_steps,
+    directions,
+    numbers_of_direction,
+    play,
+    seeds_of,
+    steps_of,
+    tangent_options,
+    tangents,
+)
 from carom.layouts import Table, of_record
 from carom.shots import simulate, simulate_batch
 from carom.status import CaromError, Status
 
-# The places of a state's numbers, x, y, v_x and so on, among those of r, v and w in `carom.dtypes.ball_state`.
+# The places of a state's numbers, x, y, v_x and so on, among those of r, v and w in
+# `carom.dtypes.ball_state`.
 _ORDER = np.argsort([*ELEMENTS["r"], *ELEMENTS["v"], *ELEMENTS["w"]])
 
 
@@ -38,7 +54,9 @@ class Final(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Shots:
-    """Shots that differ by some numbers: on a table, of layouts (..., balls) and cues (...), as bytes with their shapes."""
+    """Shots that differ by some numbers: on a table, of layouts (..., balls) and cues (...), as
+    bytes with their shapes.
+    """
 
     table: bytes
     balls: bytes
@@ -57,7 +75,9 @@ class Shots:
 
     @functools.cached_property
     def directions(self) -> list[Direction]:
-        return [direction for several in _directions(self.names, self.count) for direction in several]
+        return [
+            direction for several in _directions(self.names, self.count) for direction in several
+        ]
 
     @functools.cached_property
     def seeds(self) -> dict[str, dtypes.Doubles]:
@@ -70,7 +90,11 @@ class Shots:
     def records(self, x: dtypes.Doubles) -> tuple[dtypes.Records, dtypes.Records | None]:
         """Layouts and cues with these numbers, of shape (..., m)."""
         layouts: Array = np.frombuffer(self.balls, dtypes.shot_ball).reshape(self.balls_shape)
-        cues: Array | None = None if self.cues is None else np.frombuffer(self.cues, dtypes.cue).reshape(self.cues_shape)
+        cues: Array | None = (
+            None
+            if self.cues is None
+            else np.frombuffer(self.cues, dtypes.cue).reshape(self.cues_shape)
+        )
         arrays = {direction.array for direction in self.directions}
         if arrays & {"state", "kind"}:
             layouts = np.broadcast_to(layouts, (*x.shape[:-1], self.count)).copy()
@@ -87,37 +111,67 @@ class Shots:
     @functools.cached_property
     def one(self) -> _One | None:
         """Where a single shot can be played again and again."""
-        single = len(self.balls_shape) == 1 and self.cues_shape == () and len(self.directions) <= MOST
+        single = (
+            len(self.balls_shape) == 1 and self.cues_shape == () and len(self.directions) <= MOST
+        )
         return _One(self) if single and "kind.radius" not in self.names else None
 
     def states(self, x: Any) -> dtypes.Doubles:
         """The final states, of shape (..., balls, STATE)."""
         numbers = np.asarray(x)
-        if numbers.ndim == 1 and self.one is not None and (played := self.one.play(numbers, False)) is not None:
+        if (
+            numbers.ndim == 1
+            and self.one is not None
+            and (played := self.one.play(numbers, False)) is not None
+        ):
             return played[0]
         layouts, cues = self.records(numbers)
-        shots = simulate_batch(self.played_on, layouts, cues, threads=self.threads, options=self.options)
+        shots = simulate_batch(
+            self.played_on, layouts, cues, threads=self.threads, options=self.options
+        )
         return self.numbers(numbers, shots.final, shots.status)
 
     def both(self, x: Any) -> tuple[dtypes.Doubles, dtypes.Doubles]:
         """The final states and their derivatives, of shape (..., balls, STATE, m)."""
         numbers = np.asarray(x)
-        if numbers.ndim == 1 and self.one is not None and (found_alone := self.one.play(numbers, True)) is not None:
+        if (
+            numbers.ndim == 1
+            and self.one is not None
+            and (found_alone := self.one.play(numbers, True)) is not None
+        ):
             return found_alone
         layouts, cues = self.records(numbers)
-        found, codes, final = play(self.played_on, layouts, cues, self.seeds, np.zeros(0), ("final",), self.room, self.threads, self.options)
-        played = np.where(np.isin(codes, (Status.ERROR_TANGENT, Status.ERROR_EVENTS_LOST)), 0, codes) if self.nan else codes
+        found, codes, final = play(
+            self.played_on,
+            layouts,
+            cues,
+            self.seeds,
+            np.zeros(0),
+            ("final",),
+            self.room,
+            self.threads,
+            self.options,
+        )
+        played = (
+            np.where(np.isin(codes, (Status.ERROR_TANGENT, Status.ERROR_EVENTS_LOST)), 0, codes)
+            if self.nan
+            else codes
+        )
         return self.numbers(numbers, final, played), found["final"]
 
     def second(self, x: Any) -> dtypes.Doubles:
-        """The second derivatives of the final states, of shape (..., balls, STATE, m, m), as `carom.hessian` has them."""
+        """The second derivatives of the final states, of shape (..., balls, STATE, m, m), as
+        `carom.hessian` has them.
+        """
         slopes = self._along(x, np.eye(len(self.directions)))
         return (slopes + slopes.swapaxes(-1, -2)) / 2.0
 
     def along(self, x: Any, vectors: Array) -> dtypes.Doubles:
-        """The derivatives along vectors (..., p, m) of the derivatives of the final states: (..., balls, STATE, m, p); nan where unknown.
+        """The derivatives along vectors (..., p, m) of the derivatives of the final states: (...,
+        balls, STATE, m, p); nan where unknown.
 
-        As many as there are numbers are products with all second derivatives, which cost no more, and are symmetric.
+        As many as there are numbers are products with all second derivatives, which cost no more,
+        and are symmetric.
         """
         if vectors.shape[-2] < len(self.directions):
             return self._along(x, vectors)
@@ -129,17 +183,30 @@ class Shots:
         layouts, cues = self.records(numbers)
         layouts = np.broadcast_to(layouts, (*shape, self.count)).reshape(-1, self.count)
         cues = None if cues is None else np.broadcast_to(cues, shape).reshape(-1)
-        ways = np.broadcast_to(vectors, (*shape, *np.shape(vectors)[-2:])).reshape(len(layouts), -1, m)
+        ways = np.broadcast_to(vectors, (*shape, *np.shape(vectors)[-2:])).reshape(
+            len(layouts), -1, m
+        )
         found = np.full((len(layouts), self.count, STATE, m, ways.shape[1]), np.nan)
         for begin in range(0, len(layouts), AT_ONCE):
             part = slice(begin, begin + AT_ONCE)
             struck = None if cues is None else cues[part]
-            shots = simulate_batch(self.played_on, layouts[part], struck, room=self.room, threads=self.threads, options=self.options)
+            shots = simulate_batch(
+                self.played_on,
+                layouts[part],
+                struck,
+                room=self.room,
+                threads=self.threads,
+                options=self.options,
+            )
             known = (shots.status >= 0) & (shots.count <= self.room)
             if known.any():
                 some = shots[known]
-                steps = steps_of(self.directions, some, tangents(some, self.names, threads=self.threads).reach)
-                found[part][known] = by_steps(some, self.directions, steps, ways[part][known], self.threads)
+                steps = steps_of(
+                    self.directions, some, tangents(some, self.names, threads=self.threads).reach
+                )
+                found[part][known] = by_steps(
+                    some, self.directions, steps, ways[part][known], self.threads
+                )
         return found.reshape(*shape, *found.shape[1:])
 
     def numbers(self, x: dtypes.Doubles, final: dtypes.Records, status: Array) -> dtypes.Doubles:
@@ -165,19 +232,31 @@ class Shots:
         except CaromError as error:
             text = str(error)
         which = f"shot {list(where)} of the batch, " if where else ""
-        values = ", ".join(f"{direction.name} = {value:g}" for direction, value in zip(self.directions, x[where]))
+        values = ", ".join(
+            f"{direction.name} = {value:g}" for direction, value in zip(self.directions, x[where])
+        )
         raise CaromError(status, text=f"{which}{values}: {text}")
 
 
 class _One:
-    """A shot in memory that is used again: a single call else spends more time on making arguments than C on the shot and its derivatives."""
+    """A shot in memory that is used again: a single call else spends more time on making arguments
+    than C on the shot and its derivatives.
+    """
 
     def __init__(self, shots: Shots) -> None:
-        balls, cue, table = np.frombuffer(shots.balls, dtypes.shot_ball).copy(), None, shots.played_on
+        balls, cue, table = (
+            np.frombuffer(shots.balls, dtypes.shot_ball).copy(),
+            None,
+            shots.played_on,
+        )
         if shots.cues is not None:
             cue = np.frombuffer(shots.cues, dtypes.cue).reshape(()).copy()
-        simulate_batch(table, balls, cue, options=shots.options)  # which refuses, and warns of, what C does not
-        self.numbers = [numbers_of_direction(direction, balls, cue) for direction in shots.directions]
+        simulate_batch(
+            table, balls, cue, options=shots.options
+        )  # which refuses, and warns of, what C does not
+        self.numbers = [
+            numbers_of_direction(direction, balls, cue) for direction in shots.directions
+        ]
         self.final: Array = np.zeros(shots.count, dtypes.ball_state)
         self.slopes: Array = np.zeros((shots.count, STATE, len(self.numbers)))
         self.kept = np.empty(shots.room, dtypes.event), shots.seeds, table
@@ -186,12 +265,19 @@ class _One:
         seeds = {name: pointer("double[]", row) for name, row in shots.seeds.items()}
         self.seeds = ffi.new("carom_tangent_seeds *", {"directions": len(self.numbers), **seeds})
         self.tangent = ffi.new("carom_tangent *", {"final": pointer("double[]", self.slopes)})
-        events, final = pointer("carom_event[]", self.kept[0]), pointer("carom_ball_state[]", self.final)
+        events, final = (
+            pointer("carom_event[]", self.kept[0]),
+            pointer("carom_ball_state[]", self.final),
+        )
         self.shot = ffi.new("carom_shot *", {"events": events, "room": shots.room, "final": final})
         self.free = threading.Lock()
 
-    def play(self, x: dtypes.Doubles, differentiated: bool) -> tuple[dtypes.Doubles, dtypes.Doubles] | None:
-        """The final states and, where they are asked for, their derivatives; None where there are none, and the batch says why."""
+    def play(
+        self, x: dtypes.Doubles, differentiated: bool
+    ) -> tuple[dtypes.Doubles, dtypes.Doubles] | None:
+        """The final states and, where they are asked for, their derivatives; None where there are
+        none, and the batch says why.
+        """
         with self.free:
             for numbers, value in zip(self.numbers, x.tolist()):
                 for number in numbers:
@@ -199,9 +285,17 @@ class _One:
             self.shot.count, self.shot.time = 0, 0.0
             if lib.carom_shoot(*self.arguments, self.shot) < 0:
                 return None
-            if differentiated and lib.carom_shot_tangent(*self.differentiated, self.shot, self.seeds, self.tangent) < 0:
+            if (
+                differentiated
+                and lib.carom_shot_tangent(
+                    *self.differentiated, self.shot, self.seeds, self.tangent
+                )
+                < 0
+            ):
                 return None
-            return self.final.view(np.float64).reshape(len(self.final), -1)[:, _ORDER], self.slopes.copy()
+            return self.final.view(np.float64).reshape(len(self.final), -1)[
+                :, _ORDER
+            ], self.slopes.copy()
 
 
 _directions = functools.lru_cache(maxsize=256)(functools.partial(directions, argument="numbers"))
@@ -210,10 +304,19 @@ _shots = functools.lru_cache(maxsize=256)(Shots)
 
 
 def shots_of(
-    table: Table, balls: dtypes.Records, cue: dtypes.Records | None, numbers: Mapping[str, Any], array: Callable[[Any], Any],
-    room: int, errors: str, threads: int, options: Options
-) -> tuple[Shots, list[tuple[Any, tuple[int, ...]]], tuple[int, ...]]:  # fmt: skip
-    """The shots, each of their numbers as an `array` (...) or (..., elements) with the shape to which it is broadcast, and that of the batch."""
+    table: Table,
+    balls: dtypes.Records,
+    cue: dtypes.Records | None,
+    numbers: Mapping[str, Any],
+    array: Callable[[Any], Any],
+    room: int,
+    errors: str,
+    threads: int,
+    options: Options,
+) -> tuple[Shots, list[tuple[Any, tuple[int, ...]]], tuple[int, ...]]:
+    """The shots, each of their numbers as an `array` (...) or (..., elements) with the shape to
+    which it is broadcast, and that of the batch.
+    """
     if errors not in ("raise", "nan"):
         raise ValueError(f"errors: must be 'raise' or 'nan', not {errors!r}")
     layouts = of_record(balls, dtypes.shot_ball, "balls", "balls()")
@@ -222,22 +325,44 @@ def shots_of(
         raise ValueError("balls: the shape must be (..., balls), not ()")
     parts: list[Any] = []
     owns: list[tuple[int, ...]] = []  # () of a number, (elements,) of several
-    for (name, value), several in zip(numbers.items(), _directions(tuple(numbers), layouts.shape[-1])):
+    for (name, value), several in zip(
+        numbers.items(), _directions(tuple(numbers), layouts.shape[-1])
+    ):
         if several[0].array == "table":
-            raise ValueError(f"numbers: {name}: a batch has one table; kind.nose_height, kind.mu_cushion and kind.restitution_cushion can differ")
+            raise ValueError(
+                f"numbers: {name}: a batch has one table; kind.nose_height, kind.mu_cushion and kind.restitution_cushion can differ"
+            )
         if several[0].array == "cue" and cue is None:
             raise ValueError(f"numbers: {name}: there is no cue; give one of carom.cue()")
         part = array(value)
         if name != several[0].name and tuple(part.shape[-1:]) != (len(several),):
-            raise ValueError(f"numbers: {name}: the shape must be (..., {len(several)}), not {tuple(part.shape)}")
+            raise ValueError(
+                f"numbers: {name}: the shape must be (..., {len(several)}), not {tuple(part.shape)}"
+            )
         parts.append(part)
         owns.append(() if name == several[0].name else (len(several),))
     leading = {"balls": layouts.shape[:-1], "cue": () if cues is None else cues.shape}
-    batch = broadcast({**leading, **{name: tuple(part.shape[: part.ndim - len(own)]) for name, part, own in zip(numbers, parts, owns)}})
+    batch = broadcast(
+        {
+            **leading,
+            **{
+                name: tuple(part.shape[: part.ndim - len(own)])
+                for name, part, own in zip(numbers, parts, owns)
+            },
+        }
+    )
     shots = _shots(
-        table.record.tobytes(), layouts.tobytes(), layouts.shape, None if cues is None else cues.tobytes(), () if cues is None else cues.shape,
-        tuple(numbers), options, threads, room, errors == "nan",
-    )  # fmt: skip
+        table.record.tobytes(),
+        layouts.tobytes(),
+        layouts.shape,
+        None if cues is None else cues.tobytes(),
+        () if cues is None else cues.shape,
+        tuple(numbers),
+        options,
+        threads,
+        room,
+        errors == "nan",
+    )
     return shots, [(part, (*batch, *own)) for part, own in zip(parts, owns)], batch
 
 

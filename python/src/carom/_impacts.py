@@ -1,4 +1,6 @@
-"""Both kinds of impacts, of two balls and of a ball and a cushion: many at once, one on its way, and the exception for one in error."""
+"""Both kinds of impacts, of two balls and of a ball and a cushion: many at once, one on its way,
+and the exception for one in error.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,18 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import FLOAT32, FLOAT64, INT8, Array, apart, in_chunks, output, pointer, rows, whole
+from carom._rows import (
+    FLOAT32,
+    FLOAT64,
+    INT8,
+    Array,
+    apart,
+    in_chunks,
+    output,
+    pointer,
+    rows,
+    whole,
+)
 from carom.status import CaromError
 
 
@@ -33,29 +46,52 @@ class Kind(NamedTuple):
     trace: Callable[..., int]
     check: Callable[..., int]
     field_name: Callable[[int], Any]
-    one: Callable[..., int] | None = None  # a single call, with the bits of a batch and without filling lanes
+    one: Callable[..., int] | None = (
+        None  # a single call, with the bits of a batch and without filling lanes
+    )
     batch_f32: Callable[..., int] | None = None
 
 
 BALLS = Kind(
-    dtypes.impact, dtypes.result, dtypes.trace_point, ("carom_impact", "carom_result", "carom_trace_point"), lib.carom_collide_batch,
-    lib.carom_trace, lib.carom_check, lib.carom_field_name, lib.carom_collide, lib.carom_collide_batch_f32,
-)  # fmt: skip
+    dtypes.impact,
+    dtypes.result,
+    dtypes.trace_point,
+    ("carom_impact", "carom_result", "carom_trace_point"),
+    lib.carom_collide_batch,
+    lib.carom_trace,
+    lib.carom_check,
+    lib.carom_field_name,
+    lib.carom_collide,
+    lib.carom_collide_batch_f32,
+)
 CUSHION = Kind(
-    dtypes.cushion_impact, dtypes.motion, dtypes.cushion_point, ("carom_cushion_impact", "carom_motion", "carom_cushion_point"),
-    lib.carom_cushion_batch, lib.carom_cushion_trace, lib.carom_cushion_check, lib.carom_cushion_field_name,
-)  # fmt: skip
+    dtypes.cushion_impact,
+    dtypes.motion,
+    dtypes.cushion_point,
+    ("carom_cushion_impact", "carom_motion", "carom_cushion_point"),
+    lib.carom_cushion_batch,
+    lib.carom_cushion_trace,
+    lib.carom_cushion_check,
+    lib.carom_cushion_field_name,
+)
 
 
 def resolve(
-    kind: Kind, impacts: npt.ArrayLike, options: Any, seconds: float, threads: int, out: tuple[Array, Array] | None
+    kind: Kind,
+    impacts: npt.ArrayLike,
+    options: Any,
+    seconds: float,
+    threads: int,
+    out: tuple[Array, Array] | None,
 ) -> Outcome:
     """Resolves impacts, each of which takes so many seconds."""
     array = rows(impacts, kind.given, "impacts", single=kind.batch_f32 is not None)
     record = array.dtype.names is not None
     shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
     if out is not None and not (isinstance(out, tuple) and len(out) == 2):
-        raise TypeError(f"out: a tuple of two arrays is needed, those of an earlier result, not {reprlib.repr(out)}")
+        raise TypeError(
+            f"out: a tuple of two arrays is needed, those of an earlier result, not {reprlib.repr(out)}"
+        )
     motion, status = (None, None) if out is None else out
     if record:
         motion = output(motion, shape, kind.gives, "out[0]")
@@ -89,10 +125,14 @@ def trace(kind: Kind, impact: npt.ArrayLike, points: int, options: Any) -> dtype
     array = rows(impact, kind.given, "impact")
     if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
         width = kind.given.itemsize // 8
-        raise ValueError(f"impact: a trace is of one impact, of shape ({width},), or structured of shape ()")
+        raise ValueError(
+            f"impact: a trace is of one impact, of shape ({width},), or structured of shape ()"
+        )
     traced = np.zeros(whole(points, "points", least=2), kind.point)
     given, _, point = kind.names
-    code = kind.trace(pointer(f"{given}[]", array), options, traced.size, pointer(f"{point}[]", traced))
+    code = kind.trace(
+        pointer(f"{given}[]", array), options, traced.size, pointer(f"{point}[]", traced)
+    )
     if code < 0:
         raise _error(kind, code, array, options)
     return traced
@@ -100,7 +140,12 @@ def trace(kind: Kind, impact: npt.ArrayLike, points: int, options: Any) -> dtype
 
 def _error(kind: Kind, code: int, array: Array, options: Any) -> CaromError:
     """The exception for one impact, with the field at fault."""
-    numbers = np.ascontiguousarray(array).reshape(-1).view(FLOAT32 if array.dtype == FLOAT32 else FLOAT64).astype(np.float64)
+    numbers = (
+        np.ascontiguousarray(array)
+        .reshape(-1)
+        .view(FLOAT32 if array.dtype == FLOAT32 else FLOAT64)
+        .astype(np.float64)
+    )
     field = ffi.new("int *", -1)
     if kind.check(pointer(f"{kind.names[0]}[]", numbers), options, field) == code and field[0] >= 0:
         return CaromError(code, ffi.string(kind.field_name(field[0])).decode(), numbers[field[0]])

@@ -1,4 +1,6 @@
-"""Arrays as C takes them: rows of numbers without gaps, converted only where the layout does not fit."""
+"""Arrays as C takes them: rows of numbers without gaps, converted only where the layout does not
+fit.
+"""
 
 from __future__ import annotations
 
@@ -31,27 +33,38 @@ class Arrays:
     """A dataclass of arrays, which shows their shapes instead of their numbers."""
 
     def __repr__(self) -> str:
-        parts = (f"{name} {value.shape}" if isinstance(value, np.ndarray) else f"{name} {value!r}" for name, value in vars(self).items())
+        parts = (
+            f"{name} {value.shape}" if isinstance(value, np.ndarray) else f"{name} {value!r}"
+            for name, value in vars(self).items()
+        )
         return f"<carom.{type(self).__name__}: {', '.join(parts)}>"
 
 
 def as_array(values: npt.ArrayLike, name: str, dtype: npt.DTypeLike | None = None) -> Array:
-    """np.asarray(), but that what cannot be read is refused by its name, and so are masks and imaginary parts, which would be lost.
+    """np.asarray(), but that what cannot be read is refused by its name, and so are masks and
+    imaginary parts, which would be lost.
 
-    Of a dtype that numbers have, text and None are refused too, which NumPy would read as numbers and nan.
+    Of a dtype that numbers have, text and None are refused too, which NumPy would read as numbers
+    and nan.
     """
     if isinstance(values, np.ma.MaskedArray):
-        raise TypeError(f"{name}: masks are not read; give the rows that count alone (compressed), or the array's filled() values")
+        raise TypeError(
+            f"{name}: masks are not read; give the rows that count alone (compressed), or the array's filled() values"
+        )
     try:
         array = np.asarray(values)
         if dtype is None or array.dtype == dtype:
             return array
-        if array.dtype.kind in "biuf" or (array.dtype.kind == "O" and not any(_is_text(one) for one in array.flat)):
+        if array.dtype.kind in "biuf" or (
+            array.dtype.kind == "O" and not any(_is_text(one) for one in array.flat)
+        ):
             with np.errstate(all="ignore"):
                 return array.astype(dtype)
     except (TypeError, ValueError, OverflowError) as wrong:
         if dtype is None or isinstance(values, np.ndarray) or "shape" in str(wrong):
-            raise (TypeError if isinstance(wrong, TypeError) else ValueError)(f"{name}: {wrong}") from None
+            raise (TypeError if isinstance(wrong, TypeError) else ValueError)(
+                f"{name}: {wrong}"
+            ) from None
     raise TypeError(f"{name}: real numbers are needed, not {reprlib.repr(values)}")
 
 
@@ -79,13 +92,18 @@ def several(values: object, name: str, needed: str) -> list[Any]:
 
 
 def rows(values: npt.ArrayLike, record: np.dtype[Any], name: str, single: bool = False) -> Array:
-    """The values as an array in C order: of the record, of shape (..., width) in double, or in single precision if allowed."""
+    """The values as an array in C order: of the record, of shape (..., width) in double, or in
+    single precision if allowed.
+    """
     array = as_array(values, name)
     width = record.itemsize // 8
-    # The usual case is told by identity: comparing with a structured dtype takes longer than all else here.
+    # The usual case is told by identity: comparing with a structured dtype takes longer than all
+    # else here.
     if array.dtype is FLOAT64 or array.dtype != record:
         if array.dtype.names is not None:
-            raise TypeError(f"{name}: a structured array must have the dtype {described(record)}, not {described(array.dtype)}")
+            raise TypeError(
+                f"{name}: a structured array must have the dtype {described(record)}, not {described(array.dtype)}"
+            )
         if array.dtype is not FLOAT64 and not (single and array.dtype == FLOAT32):
             array = as_array(array, name, np.float64)
         if array.ndim == 0 or array.shape[-1] != width:
@@ -102,7 +120,9 @@ def output(given: Array | None, shape: tuple[int, ...], dtype: np.dtype[Any], na
         return np.empty(shape, dtype)
     as_array(given, name)
     if not isinstance(given, np.ndarray):
-        raise TypeError(f"{name}: an array of shape {shape} and dtype {described(dtype)} is needed, not {type(given).__name__}")
+        raise TypeError(
+            f"{name}: an array of shape {shape} and dtype {described(dtype)} is needed, not {type(given).__name__}"
+        )
     flags = given.flags
     right = given.shape == shape and (given.dtype is dtype or given.dtype == dtype)
     if not (right and flags.c_contiguous and flags.writeable and flags.aligned):
@@ -114,27 +134,36 @@ def output(given: Array | None, shape: tuple[int, ...], dtype: np.dtype[Any], na
 
 
 def apart(inputs: tuple[tuple[str, Array], ...], outputs: tuple[tuple[str, Array], ...]) -> None:
-    """Refuses arrays to be written to that overlap what is read, or each other. All are in C order, so their bounds tell."""
+    """Refuses arrays to be written to that overlap what is read, or each other.
+
+    All are in C order, so their bounds tell.
+    """
     taken = inputs
     for output in outputs:
         for other in taken:
             if np.may_share_memory(output[1], other[1]):
-                raise ValueError(f"{output[0]}: its memory overlaps that of {other[0]}; give an array of its own")
+                raise ValueError(
+                    f"{output[0]}: its memory overlaps that of {other[0]}; give an array of its own"
+                )
         taken += (output,)
 
 
 def workers(threads: int) -> int:
     """How many threads can be busy at once for an option `threads`."""
-    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    processors = (
+        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    )
     return processors if threads < 0 else max(min(threads, processors), 1)
 
 
 def in_chunks(n: int, seconds: float, threads: int, call: Callable[[int, int], int]) -> int:
-    """Calls call(first row, number of rows) for chunks of n rows, one after another, in each of which C computes without Python.
+    """Calls call(first row, number of rows) for chunks of n rows, one after another, in each of
+    which C computes without Python.
 
-    Between two chunks Python handles signals, so that Ctrl-C ends a long batch. The first chunk has as many rows as take 1 ms on
-    each thread by `seconds`, what a row usually takes; a batch of fewer is one call. By the time that a chunk took, the next is to
-    last 20 ms, or 100 ms where threads have to be started for each. Gives the status of the first chunk in error, or 0.
+    Between two chunks Python handles signals, so that Ctrl-C ends a long batch. The first chunk has
+    as many rows as take 1 ms on each thread by `seconds`, what a row usually takes; a batch of
+    fewer is one call. By the time that a chunk took, the next is to last 20 ms, or 100 ms where
+    threads have to be started for each. Gives the status of the first chunk in error, or 0.
     """
     count = max(64, int(0.001 / seconds))
     if n <= count:
@@ -154,7 +183,9 @@ def in_chunks(n: int, seconds: float, threads: int, call: Callable[[int, int], i
 
 
 def spread(threads: int, call: Callable[[int, int], int]) -> Callable[[int, int], int]:
-    """The same call, its rows shared among threads, for C that has none of its own: a call of C lets other threads run."""
+    """The same call, its rows shared among threads, for C that has none of its own: a call of C
+    lets other threads run.
+    """
     hands = workers(threads) if threads else 1
     if hands == 1:
         return call
@@ -177,7 +208,9 @@ def raw(records: Array) -> Array:
 
 
 def copied(records: Array) -> Array:
-    """A copy of structured records, in C order: by way of bytes, which takes a third of the time of copying every field."""
+    """A copy of structured records, in C order: by way of bytes, which takes a third of the time of
+    copying every field.
+    """
     return np.frombuffer(bytearray(records.tobytes()), records.dtype).reshape(records.shape)
 
 
@@ -187,9 +220,14 @@ def repeated(record: bytes, dtype: np.dtype[Any], shape: tuple[int, ...]) -> Arr
 
 
 def addresses(array: Array, leading: int) -> Array:
-    """Where each row of an array begins, of shape (rows,): what its first `leading` indices choose, in C order."""
+    """Where each row of an array begins, of shape (rows,): what its first `leading` indices choose,
+    in C order.
+    """
     if array.flags.c_contiguous and array.size > 0:
-        begin, rows = int(ffi.cast("uintptr_t", ffi.from_buffer(array))), math.prod(array.shape[:leading])
+        begin, rows = (
+            int(ffi.cast("uintptr_t", ffi.from_buffer(array))),
+            math.prod(array.shape[:leading]),
+        )
         return np.arange(begin, begin + array.nbytes, array.nbytes // rows)
     offsets: Array = np.zeros((), np.intp)
     for size, stride in zip(array.shape[:leading], array.strides[:leading], strict=True):
@@ -198,11 +236,18 @@ def addresses(array: Array, leading: int) -> Array:
 
 
 def one_or_all(array: Array, shape: tuple[int, ...], leading: int) -> tuple[Array, bool]:
-    """The rows of an array that is broadcast to a shape: the one row that all are, and True; or all of them, in C order."""
-    if array.flags.c_contiguous and (array.shape == shape or array.size == math.prod(shape[leading:])):
+    """The rows of an array that is broadcast to a shape: the one row that all are, and True; or all
+    of them, in C order.
+    """
+    if array.flags.c_contiguous and (
+        array.shape == shape or array.size == math.prod(shape[leading:])
+    ):
         return array, array.shape != shape
     wide = np.broadcast_to(array, shape)
-    if all(stride == 0 or size == 1 for size, stride in zip(wide.shape[:leading], wide.strides[:leading], strict=True)):
+    if all(
+        stride == 0 or size == 1
+        for size, stride in zip(wide.shape[:leading], wide.strides[:leading], strict=True)
+    ):
         return np.ascontiguousarray(wide[(slice(0, 1),) * leading]), True
     return np.ascontiguousarray(wide), False
 
@@ -219,7 +264,9 @@ def whole(value: object, name: str, least: int = 0, most: int = 2**31 - 1) -> in
         given = least - 1
     if least <= given <= most:
         return int(given)
-    raise ValueError(f"{name}: it must be a whole number from {least} to {most}, not {reprlib.repr(value)}")
+    raise ValueError(
+        f"{name}: it must be a whole number from {least} to {most}, not {reprlib.repr(value)}"
+    )
 
 
 _Made = TypeVar("_Made", bound=Callable[..., Any])
@@ -237,8 +284,13 @@ def cached(function: _Made) -> _Made:
             for name, value in zip(function.__code__.co_varnames, arguments):
                 given = zip(value._fields, value) if hasattr(value, "_fields") else [(name, value)]
                 for field, part in given:
-                    if not all(isinstance(one, Hashable) for one in (part if isinstance(part, tuple) else [part])):
-                        raise TypeError(f"{field}: {reprlib.repr(part)} is none of its values") from None
+                    if not all(
+                        isinstance(one, Hashable)
+                        for one in (part if isinstance(part, tuple) else [part])
+                    ):
+                        raise TypeError(
+                            f"{field}: {reprlib.repr(part)} is none of its values"
+                        ) from None
             raise
 
     return cast(_Made, call)
@@ -257,7 +309,10 @@ def needed(module: str, by: str) -> Any:
         return importlib.import_module(module)
     except ImportError as missing:
         package = module.partition(".")[0]
-        raise ImportError(f"{by} needs {package}, which is not installed here: pip install {package}", name=missing.name) from missing
+        raise ImportError(
+            f"{by} needs {package}, which is not installed here: pip install {package}",
+            name=missing.name,
+        ) from missing
 
 
 def listing(module: str) -> Callable[[], list[str]]:
@@ -265,7 +320,11 @@ def listing(module: str) -> Callable[[], list[str]]:
 
     def names() -> list[str]:
         given = sys.modules[module]
-        own = [name for name, value in vars(given).items() if name[0] != "_" and getattr(value, "__module__", None) == module]
+        own = [
+            name
+            for name, value in vars(given).items()
+            if name[0] != "_" and getattr(value, "__module__", None) == module
+        ]
         return sorted(getattr(given, "__all__", own))
 
     return names
@@ -290,17 +349,24 @@ def with_numbers(part: int) -> Callable[[_Made], _Made]:
 
     def written(function: _Made) -> _Made:
         if function.__doc__:
-            function.__doc__ = function.__doc__.replace("{fields}", "\n    ".join(map(told, numbers_of(part))))
+            function.__doc__ = function.__doc__.replace(
+                "{fields}", "\n    ".join(map(told, numbers_of(part)))
+            )
         return function
 
     return written
 
 
 def numbered(enum: str) -> dict[str, int]:
-    """The values of an enumeration of C by their names as options have them: carom_world has carom and pooltool."""
+    """The values of an enumeration of C by their names as options have them: carom_world has carom
+    and pooltool.
+    """
     values: dict[str, int] = ffi.typeof(enum).relements
     common = os.path.commonprefix(list(values)).rindex("_") + 1
-    return {name[common:].lower(): value for name, value in sorted(values.items(), key=operator.itemgetter(1))}
+    return {
+        name[common:].lower(): value
+        for name, value in sorted(values.items(), key=operator.itemgetter(1))
+    }
 
 
 def worded(of: str) -> dict[str, int]:
@@ -316,7 +382,9 @@ def choice(names: dict[str, int], value: str, option: str) -> int:
     try:
         return names[value]
     except (KeyError, TypeError):  # the second of what has no hash
-        raise ValueError(f"{option}: must be one of {', '.join(map(repr, names))}, not {value!r}") from None
+        raise ValueError(
+            f"{option}: must be one of {', '.join(map(repr, names))}, not {value!r}"
+        ) from None
 
 
 def broadcast(shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
@@ -328,11 +396,19 @@ def broadcast(shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
         return np.broadcast_shapes(*unlike)
     except ValueError:
         given = ", ".join(f"{name} {shape}" for name, shape in shapes.items() if shape)
-        raise ValueError(f"leading dimensions must be equal or 1, to be broadcast against each other, but are {given}") from None
+        raise ValueError(
+            f"leading dimensions must be equal or 1, to be broadcast against each other, but are {given}"
+        ) from None
 
 
-def fill(record: np.dtype[Any], vectors: dict[str, int], fields: Mapping[str, npt.ArrayLike | None], usual: bytes | None = None) -> Array:
-    """An array of the record from fields that are broadcast against each other; others are those of a usual record, or 0.
+def fill(
+    record: np.dtype[Any],
+    vectors: dict[str, int],
+    fields: Mapping[str, npt.ArrayLike | None],
+    usual: bytes | None = None,
+) -> Array:
+    """An array of the record from fields that are broadcast against each other; others are those of
+    a usual record, or 0.
 
     A field "a.v" is v of the part a; one that is None is not given.
     """
@@ -347,7 +423,11 @@ def fill(record: np.dtype[Any], vectors: dict[str, int], fields: Mapping[str, np
         part, _, last = name.rpartition(".")
         length = vectors.get(last)
         # as the caller calls it
-        shown = f"{last}_{part}" if part in ("a", "b") and (length is not None or (part == "b" and last != "radius")) else last
+        shown = (
+            f"{last}_{part}"
+            if part in ("a", "b") and (length is not None or (part == "b" and last != "radius"))
+            else last
+        )
         array = as_array(value, shown, np.float64)
         if length is not None and array.ndim > 0:
             if array.shape[-1] != length:

@@ -29,7 +29,9 @@ def _known(changes: Any) -> Any:
     """Options by their names; another name is refused."""
     unknown = changes.keys() - set(ShotOptions._fields)
     if unknown:
-        raise TypeError(f"options: there is no {min(unknown)!r}; known are {', '.join(ShotOptions._fields)}")
+        raise TypeError(
+            f"options: there is no {min(unknown)!r}; known are {', '.join(ShotOptions._fields)}"
+        )
     return changes
 
 
@@ -43,7 +45,11 @@ class Options(ShotOptions):
 
     def __repr__(self) -> str:
         """What differs from the defaults, which keeps signatures short."""
-        others = [f"{name}={value!r}" for name, value in zip(self._fields, self, strict=True) if value != self._field_defaults[name]]
+        others = [
+            f"{name}={value!r}"
+            for name, value in zip(self._fields, self, strict=True)
+            if value != self._field_defaults[name]
+        ]
         return f"Options({', '.join(others)})"
 
     def changed(self, changes: Any) -> Options:
@@ -53,7 +59,11 @@ class Options(ShotOptions):
             balls = several(made.first_of, "first_of", "the index of a ball is needed, or several")
             made = made._replace(first_of=tuple(whole(ball, "first_of", most=31) for ball in balls))
         if not isinstance(made.stop_at, (str, tuple)):
-            made = made._replace(stop_at=tuple(several(made.stop_at, "stop_at", "the name of an event is needed, or several")))
+            made = made._replace(
+                stop_at=tuple(
+                    several(made.stop_at, "stop_at", "the name of an event is needed, or several")
+                )
+            )
         return made
 
 
@@ -75,7 +85,12 @@ def chosen(options: object, changes: Any) -> Options:
 def shot_options(given: Options, threads: int = 0) -> Any:
     """The options of C; they are never written to."""
     t_final, stop_at, first_of = given.t_final, given.stop_at, given.first_of
-    if t_final is not None and not 0.0 < (t_final := number(t_final, "t_final", "a time in s is needed, or None")) < np.inf:
+    if (
+        t_final is not None
+        and not 0.0
+        < (t_final := number(t_final, "t_final", "a time in s is needed, or None"))
+        < np.inf
+    ):
         raise ValueError(f"t_final: it must be positive and finite, in s, or None, not {t_final:g}")
     stops = (stop_at,) if isinstance(stop_at, str) else tuple(stop_at)
     balls = (first_of,) if isinstance(first_of, int) else tuple(first_of)
@@ -85,4 +100,13 @@ def shot_options(given: Options, threads: int = 0) -> Any:
         "stop_at": sum({1 << choice(_STOPS, stop, "stop_at") for stop in stops}),
         "first_of": sum({1 << whole(ball, "first_of", most=31) for ball in balls}),
     }
-    return ffi.new("carom_shot_options *", {**named, **counts, **sets, "threads": whole(threads, "threads", least=-1), "time_most": t_final or 0.0})
+    return ffi.new(
+        "carom_shot_options *",
+        {
+            **named,
+            **counts,
+            **sets,
+            "threads": whole(threads, "threads", least=-1),
+            "time_most": t_final or 0.0,
+        },
+    )

@@ -13,7 +13,18 @@ from carom._described import Slip as Slip
 from carom._described import Solver as Solver
 from carom._impacts import BALLS, Outcome, resolve
 from carom._impacts import trace as follow
-from carom._rows import Array, as_array, cached, choice, fill, in_chunks, pointer, rows, whole, worded
+from carom._rows import (
+    Array,
+    as_array,
+    cached,
+    choice,
+    fill,
+    in_chunks,
+    pointer,
+    rows,
+    whole,
+    worded,
+)
 
 _SOLVERS, _SLIPS = worded("SOLVER"), worded("SLIP")
 
@@ -24,18 +35,37 @@ ALL_THREADS = -1
 @cached
 def _options(solver: str, slip: str, steps: int, threads: int, plain: bool) -> Any:
     """The options of C; they are never written to."""
-    numbers = {"solver": choice(_SOLVERS, solver, "solver"), "slip": choice(_SLIPS, slip, "slip"), "steps": whole(steps, "steps")}
-    numbers |= {"threads": whole(threads, "threads", least=ALL_THREADS), "plain": whole(plain, "plain", most=1)}
+    numbers = {
+        "solver": choice(_SOLVERS, solver, "solver"),
+        "slip": choice(_SLIPS, slip, "slip"),
+        "steps": whole(steps, "steps"),
+    }
+    numbers |= {
+        "threads": whole(threads, "threads", least=ALL_THREADS),
+        "plain": whole(plain, "plain", most=1),
+    }
     return ffi.new("carom_options *", numbers)
 
 
 def impacts(
-    *, r_a: npt.ArrayLike = (0.0, 0.0, 0.0), v_a: npt.ArrayLike, w_a: npt.ArrayLike = 0.0, r_b: npt.ArrayLike,
-    v_b: npt.ArrayLike = 0.0, w_b: npt.ArrayLike = 0.0, radius: npt.ArrayLike = 0.028575,
-    mass: npt.ArrayLike = 0.170097, mass_b: npt.ArrayLike | None = None, mu_cloth: npt.ArrayLike = 0.2,
-    mu_cloth_b: npt.ArrayLike | None = None, mu_ball: npt.ArrayLike = 0.05, restitution: npt.ArrayLike = 0.95
-) -> dtypes.Records:  # fmt: skip
-    """Build impacts for `collide`. The fields are broadcast against each other.
+    *,
+    r_a: npt.ArrayLike = (0.0, 0.0, 0.0),
+    v_a: npt.ArrayLike,
+    w_a: npt.ArrayLike = 0.0,
+    r_b: npt.ArrayLike,
+    v_b: npt.ArrayLike = 0.0,
+    w_b: npt.ArrayLike = 0.0,
+    radius: npt.ArrayLike = 0.028575,
+    mass: npt.ArrayLike = 0.170097,
+    mass_b: npt.ArrayLike | None = None,
+    mu_cloth: npt.ArrayLike = 0.2,
+    mu_cloth_b: npt.ArrayLike | None = None,
+    mu_ball: npt.ArrayLike = 0.05,
+    restitution: npt.ArrayLike = 0.95,
+) -> dtypes.Records:
+    """Build impacts for `collide`.
+
+    The fields are broadcast against each other.
 
     Parameters
     ----------
@@ -46,7 +76,8 @@ def impacts(
     w_a, w_b : array_like, shape (..., 3)
         Angular velocities, rad/s.
     radius : array_like, shape (...)
-        Radius of both balls, m. The defaults of this and all later arguments are those of pool balls.
+        Radius of both balls, m. The defaults of this and all later arguments are those of pool
+        balls.
     mass, mass_b : array_like, shape (...)
         Masses, kg; `mass_b` is `mass` if it is not given.
     mu_cloth, mu_cloth_b : array_like, shape (...)
@@ -56,29 +87,51 @@ def impacts(
     restitution : array_like, shape (...)
         0 to 1.
 
-    Returns an ndarray of `carom.dtypes.impact`, shape (...): `carom.dtypes.plain()` gives the numbers, of shape (..., 26).
+    Returns an ndarray of `carom.dtypes.impact`, shape (...): `carom.dtypes.plain()` gives the
+        numbers, of shape (..., 26).
     """
-    other = {"b.mass": mass if mass_b is None else mass_b, "b.mu_cloth": mu_cloth if mu_cloth_b is None else mu_cloth_b}
+    other = {
+        "b.mass": mass if mass_b is None else mass_b,
+        "b.mu_cloth": mu_cloth if mu_cloth_b is None else mu_cloth_b,
+    }
     return fill(
-        dtypes.impact, {"r": 3, "v": 3, "w": 3},
+        dtypes.impact,
+        {"r": 3, "v": 3, "w": 3},
         {
-            "a.r": r_a, "a.v": v_a, "a.w": w_a, "a.radius": radius, "a.mass": mass, "a.mu_cloth": mu_cloth,
-            "b.r": r_b, "b.v": v_b, "b.w": w_b, "b.radius": radius, **other, "mu_ball": mu_ball, "restitution": restitution,
+            "a.r": r_a,
+            "a.v": v_a,
+            "a.w": w_a,
+            "a.radius": radius,
+            "a.mass": mass,
+            "a.mu_cloth": mu_cloth,
+            "b.r": r_b,
+            "b.v": v_b,
+            "b.w": w_b,
+            "b.radius": radius,
+            **other,
+            "mu_ball": mu_ball,
+            "restitution": restitution,
         },
-    )  # fmt: skip
+    )
 
 
 def collide(
-    impacts: npt.ArrayLike, *, solver: Solver = "exact", slip: Slip = "paper", steps: int = 0, plain: bool = False,
-    threads: int = 0, out: tuple[Array, Array] | None = None
-) -> Outcome:  # fmt: skip
+    impacts: npt.ArrayLike,
+    *,
+    solver: Solver = "exact",
+    slip: Slip = "paper",
+    steps: int = 0,
+    plain: bool = False,
+    threads: int = 0,
+    out: tuple[Array, Array] | None = None,
+) -> Outcome:
     """Resolve collisions of two balls.
 
     Parameters
     ----------
     impacts : array_like, shape (..., 26), or structured of shape (...)
-        Rows of float64 or float32 (others are converted to float64), or of `carom.dtypes.impact`; see `carom.impacts`.
-        Not copied where they are in C order.
+        Rows of float64 or float32 (others are converted to float64), or of `carom.dtypes.impact`;
+        see `carom.impacts`. Not copied where they are in C order.
     solver : {"exact", "euler"}
         The limit of infinitely many steps of impulse, or Mathavan's N steps.
     slip : {"paper", "pooltool"}
@@ -86,41 +139,58 @@ def collide(
     steps : int
         Euler's N; 0 is 1000.
     plain : bool
-        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has the bits that all machines share.
+        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has
+        the bits that all machines share.
     threads : int
-        Most threads to use; 0 is the calling one alone, -1 all processors. Results do not depend on it.
+        Most threads to use; 0 is the calling one alone, -1 all processors. Results do not depend on
+        it.
     out : tuple of two arrays, optional
-        Where motion and status go: an earlier result, for example. They may not overlap each other or the impacts.
+        Where motion and status go: an earlier result, for example. They may not overlap each other
+        or the impacts.
 
     Returns
     -------
     motion : ndarray, shape (..., 12), or structured of shape (...)
-        v (m/s) and w (rad/s) of a, then of b, in the precision of the impacts, or as `carom.dtypes.result`. NaN in error.
+        v (m/s) and w (rad/s) of a, then of b, in the precision of the impacts, or as
+        `carom.dtypes.result`. NaN in error.
     status : ndarray of int8, shape (...)
-        0: resolved; 1: the balls do not approach each other, and motion is that before; negative: an error, see `Status`.
+        0: resolved; 1: the balls do not approach each other, and motion is that before; negative:
+        an error, see `Status`.
 
     Raises CaromError: One impact, of shape (26,) or (), that is in error.
     """
     options = _options(solver, slip, steps, threads, plain)
-    return resolve(BALLS, impacts, options, 2e-7 if solver == "exact" else 1e-8 * (steps or 1000), threads, out)
+    return resolve(
+        BALLS, impacts, options, 2e-7 if solver == "exact" else 1e-8 * (steps or 1000), threads, out
+    )
 
 
 def alciatore() -> tuple[float, float, float]:
-    """The usual law of friction between pool balls: a, b (dimensionless) and c (s/m) of mu = a + b exp(-c |u|)."""
+    """The usual law of friction between pool balls: a, b (dimensionless) and c (s/m) of mu = a + b
+    exp(-c |u|).
+    """
     law = lib.carom_alciatore()
     return (law.a, law.b, law.c)
 
 
-def mu_ball(impacts: npt.ArrayLike, law: tuple[float, float, float] | None = None) -> dtypes.Doubles:
-    """Friction between two balls from the speed of slip just before they collide: float64, shape (...).
+def mu_ball(
+    impacts: npt.ArrayLike, law: tuple[float, float, float] | None = None
+) -> dtypes.Doubles:
+    """Friction between two balls from the speed of slip just before they collide: float64, shape
+    (...).
 
-    Impacts are as for `collide`, and their own mu_ball is not read. The law of a, b, c is mu = a + b exp(-c |u|), |u| in m/s; without
-    one it is `alciatore()`. A law that leaves [0, 1] or motion that is not finite gives a number that `collide` refuses.
+    Impacts are as for `collide`, and their own mu_ball is not read. The law of a, b, c is mu = a +
+    b exp(-c |u|), |u| in m/s; without one it is `alciatore()`. A law that leaves [0, 1] or motion
+    that is not finite gives a number that `collide` refuses.
     """
     array = rows(impacts, dtypes.impact, "impacts")
     mu = np.empty(array.shape if array.dtype.names is not None else array.shape[:-1])
     a_b_c = alciatore() if law is None else as_array(law, "law", np.float64).tolist()
-    if not isinstance(a_b_c, (tuple, list)) or len(a_b_c) != 3 or not all(isinstance(one, float) for one in a_b_c):
+    if (
+        not isinstance(a_b_c, (tuple, list))
+        or len(a_b_c) != 3
+        or not all(isinstance(one, float) for one in a_b_c)
+    ):
         raise ValueError(f"law: three numbers a, b and c are needed, not {law!r}")
     source, target = pointer("carom_impact[]", array), pointer("double[]", mu)
 
@@ -133,14 +203,21 @@ def mu_ball(impacts: npt.ArrayLike, law: tuple[float, float, float] | None = Non
 
 
 def trace(
-    impact: npt.ArrayLike, points: int = 101, *, solver: Solver = "exact", slip: Slip = "paper", steps: int = 0,
-    plain: bool = False
-) -> dtypes.Records:  # fmt: skip
-    """Follow one collision, of shape (26,) or (), at `points` equal steps of normal impulse from 0 to its end.
+    impact: npt.ArrayLike,
+    points: int = 101,
+    *,
+    solver: Solver = "exact",
+    slip: Slip = "paper",
+    steps: int = 0,
+    plain: bool = False,
+) -> dtypes.Records:
+    """Follow one collision, of shape (26,) or (), at `points` equal steps of normal impulse from 0
+    to its end.
 
-    Options are as for `collide`; Euler's method gives the nearest whole steps. Returns an ndarray of `carom.dtypes.trace_point`, shape
-    (points,): normal (N s), work (J), phase (0 compression, 1 restitution), sticks, v_n and slips (m/s) in the frame of the
-    collision, state (both balls, along the axes of the table).
+    Options are as for `collide`; Euler's method gives the nearest whole steps. Returns an ndarray
+    of `carom.dtypes.trace_point`, shape (points,): normal (N s), work (J), phase (0 compression, 1
+    restitution), sticks, v_n and slips (m/s) in the frame of the collision, state (both balls,
+    along the axes of the table).
 
     Raises CaromError: The impact is in error.
     """

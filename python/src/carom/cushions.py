@@ -17,7 +17,11 @@ from carom._rows import Array, cached, choice, fill, number, whole, worded
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-_MODELS, _CONVENTIONS, _LAWS = worded("CUSHION_MODEL"), worded("CUSHION_CONVENTION"), worded("CUSHION_LAW")
+_MODELS, _CONVENTIONS, _LAWS = (
+    worded("CUSHION_MODEL"),
+    worded("CUSHION_CONVENTION"),
+    worded("CUSHION_LAW"),
+)
 _ROWS = iter((lib.carom_number_of(lib.CAROM_PART_BALL, k) for k in range(1000)).__next__, ffi.NULL)
 NUMBERS = [ffi.string(row.name).decode() for row in _ROWS if row.cushion_offset >= 0]
 
@@ -26,33 +30,69 @@ def _own(numbers: Any) -> tuple[tuple[str, float], ...]:
     """Numbers of the models by their names."""
     for name in numbers:
         if name not in NUMBERS:
-            raise TypeError(f"cushion() has no argument {name!r}; numbers of its models are {', '.join(NUMBERS)}")
+            raise TypeError(
+                f"cushion() has no argument {name!r}; numbers of its models are {', '.join(NUMBERS)}"
+            )
     return tuple((name, number(value, name)) for name, value in numbers.items())
 
 
 @cached
 def _options(
-    model: str, convention: str, law: str, steps: int, threads: int, least_step: float, plain: bool, own: tuple[tuple[str, float], ...]
+    model: str,
+    convention: str,
+    law: str,
+    steps: int,
+    threads: int,
+    least_step: float,
+    plain: bool,
+    own: tuple[tuple[str, float], ...],
 ) -> Any:
     """The options of C; they are never written to."""
-    if not 0.0 <= (least_step := number(least_step, "least_step", "a step in N s is needed")) < np.inf:
+    if (
+        not 0.0
+        <= (least_step := number(least_step, "least_step", "a step in N s is needed"))
+        < np.inf
+    ):
         raise ValueError(f"least_step: it must be 0 or more and finite, in N s, not {least_step!r}")
-    kind, must = ffi.new("carom_ball_kind *", lib.carom_ball_kind_of(lib.CAROM_GAME_POOL)), ffi.new("char[]", 100)
+    kind, must = (
+        ffi.new("carom_ball_kind *", lib.carom_ball_kind_of(lib.CAROM_GAME_POOL)),
+        ffi.new("char[]", 100),
+    )
     for name, value in own:
         setattr(kind, name, value)
     if (wrong := lib.carom_ball_fault(kind, must, 100)) != ffi.NULL:
         name = ffi.string(wrong.name).decode()
-        raise ValueError(f"{name}: it must be {ffi.string(must).decode()}, not {getattr(kind, name)!r}")
-    named = {"model": choice(_MODELS, model, "model"), "convention": choice(_CONVENTIONS, convention, "convention"), "law": choice(_LAWS, law, "law")}
-    numbers = {"steps": whole(steps, "steps"), "threads": whole(threads, "threads", least=-1), "plain": whole(plain, "plain", most=1)}
-    return ffi.new("carom_cushion_options *", {**named, **numbers, "least_step": least_step, **dict(own)})
+        raise ValueError(
+            f"{name}: it must be {ffi.string(must).decode()}, not {getattr(kind, name)!r}"
+        )
+    named = {
+        "model": choice(_MODELS, model, "model"),
+        "convention": choice(_CONVENTIONS, convention, "convention"),
+        "law": choice(_LAWS, law, "law"),
+    }
+    numbers = {
+        "steps": whole(steps, "steps"),
+        "threads": whole(threads, "threads", least=-1),
+        "plain": whole(plain, "plain", most=1),
+    }
+    return ffi.new(
+        "carom_cushion_options *", {**named, **numbers, "least_step": least_step, **dict(own)}
+    )
 
 
 def cushion_impacts(
-    *, v: npt.ArrayLike, w: npt.ArrayLike = 0.0, normal: npt.ArrayLike = (0.0, 1.0), height: npt.ArrayLike = 0.036576,
-    radius: npt.ArrayLike = 0.028575, mass: npt.ArrayLike = 0.170097, mu_cloth: npt.ArrayLike = 0.2,
-    mu_cushion: npt.ArrayLike = 0.2, restitution: npt.ArrayLike = 0.85, jaw_radius: npt.ArrayLike = 0.0
-) -> dtypes.Records:  # fmt: skip
+    *,
+    v: npt.ArrayLike,
+    w: npt.ArrayLike = 0.0,
+    normal: npt.ArrayLike = (0.0, 1.0),
+    height: npt.ArrayLike = 0.036576,
+    radius: npt.ArrayLike = 0.028575,
+    mass: npt.ArrayLike = 0.170097,
+    mu_cloth: npt.ArrayLike = 0.2,
+    mu_cushion: npt.ArrayLike = 0.2,
+    restitution: npt.ArrayLike = 0.85,
+    jaw_radius: npt.ArrayLike = 0.0,
+) -> dtypes.Records:
     """Impacts for `cushion`, from fields that are broadcast against each other.
 
     Parameters
@@ -62,7 +102,8 @@ def cushion_impacts(
     normal : array_like, shape (..., 2)
         Direction from the ball into the cushion, of any length but 0.
     height : array_like, shape (...)
-        Of the nose above the cloth, m, between 0 and 2 radius. The defaults are those of a pool table and its balls.
+        Of the nose above the cloth, m, between 0 and 2 radius. The defaults are those of a pool
+        table and its balls.
     radius, mass : array_like, shape (...)
         Of the ball, m and kg.
     mu_cloth, mu_cushion, restitution : array_like, shape (...)
@@ -72,22 +113,39 @@ def cushion_impacts(
 
     Returns an ndarray of `carom.dtypes.cushion_impact`, shape (...).
     """
-    fields = {"v": v, "w": w, "normal": normal, "height": height, "radius": radius, "mass": mass, "mu_cloth": mu_cloth}
+    fields = {
+        "v": v,
+        "w": w,
+        "normal": normal,
+        "height": height,
+        "radius": radius,
+        "mass": mass,
+        "mu_cloth": mu_cloth,
+    }
     fields |= {"mu_cushion": mu_cushion, "restitution": restitution, "jaw_radius": jaw_radius}
     return fill(dtypes.cushion_impact, {"v": 3, "w": 3, "normal": 2}, fields)
 
 
 def cushion(
-    impacts: npt.ArrayLike, *, model: CushionModel = "mathavan", convention: CushionConvention = "paper",
-    law: CushionLaw = "constant", steps: int = 0, least_step: float = 0.0,
-    plain: bool = False, threads: int = 0, out: tuple[Array, Array] | None = None, **numbers: Unpack[CushionNumbers]
-) -> Outcome:  # fmt: skip
+    impacts: npt.ArrayLike,
+    *,
+    model: CushionModel = "mathavan",
+    convention: CushionConvention = "paper",
+    law: CushionLaw = "constant",
+    steps: int = 0,
+    least_step: float = 0.0,
+    plain: bool = False,
+    threads: int = 0,
+    out: tuple[Array, Array] | None = None,
+    **numbers: Unpack[CushionNumbers],
+) -> Outcome:
     """Resolve impacts of a ball on a cushion.
 
     Parameters
     ----------
     impacts : array_like, shape (..., 15), or structured of shape (...)
-        Rows of float64 (others are converted), or of `carom.dtypes.cushion_impact`; see `carom.cushion_impacts`.
+        Rows of float64 (others are converted), or of `carom.dtypes.cushion_impact`; see
+        `carom.cushion_impacts`.
     model : {"mathavan", "stronge", "han", "mirror", "euler", "smooth"}
         Mathavan's model of 2010 in its exact limit, closed forms, or the steps of that model.
     convention : {"paper", "pooltool"}
@@ -101,7 +159,8 @@ def cushion(
     plain, threads, out
         As for `carom.collide`.
     **numbers : float
-        Numbers of the models, such as omega_ratio of stronge; `carom models` of the command lists them.
+        Numbers of the models, such as omega_ratio of stronge; `carom models` of the command lists
+        them.
 
     Returns
     -------
@@ -118,16 +177,28 @@ def cushion(
 
 
 def cushion_trace(
-    impact: npt.ArrayLike, points: int = 101, *, model: CushionModel = "mathavan",
-    convention: CushionConvention = "paper", law: CushionLaw = "constant", steps: int = 0, least_step: float = 0.0,
-    plain: bool = False
-) -> dtypes.Records:  # fmt: skip
-    """Follow one impact, of shape (15,) or (), by the model mathavan or euler, at `points` equal steps of normal impulse from 0 to its end.
+    impact: npt.ArrayLike,
+    points: int = 101,
+    *,
+    model: CushionModel = "mathavan",
+    convention: CushionConvention = "paper",
+    law: CushionLaw = "constant",
+    steps: int = 0,
+    least_step: float = 0.0,
+    plain: bool = False,
+) -> dtypes.Records:
+    """Follow one impact, of shape (15,) or (), by the model mathavan or euler, at `points` equal
+    steps of normal impulse from 0 to its end.
 
-    Options are as for `cushion`. Returns an ndarray of `carom.dtypes.cushion_point`, shape (points,).
+    Options are as for `cushion`. Returns an ndarray of `carom.dtypes.cushion_point`, shape
+    (points,).
 
     Raises CaromError: The impact is in error.
     """
     if not isinstance(model, str) or model not in ("mathavan", "euler"):
-        raise ValueError(f"model: must be 'mathavan' or 'euler', which can be followed, not {model!r}")
-    return follow(CUSHION, impact, points, _options(model, convention, law, steps, 0, least_step, plain, ()))
+        raise ValueError(
+            f"model: must be 'mathavan' or 'euler', which can be followed, not {model!r}"
+        )
+    return follow(
+        CUSHION, impact, points, _options(model, convention, law, steps, 0, least_step, plain, ())
+    )

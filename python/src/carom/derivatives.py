@@ -1,6 +1,8 @@
-"""Derivatives of shots: how final states, events and states at times change with the cue, the balls and their constants.
+"""Derivatives of shots: how final states, events and states at times change with the cue, the balls
+and their constants.
 
-A derivative is exact for small changes and says nothing about larger ones: see `Tangents.reach` and `Tangents.flags`.
+A derivative is exact for small changes and says nothing about larger ones: see `Tangents.reach` and
+`Tangents.flags`.
 """
 
 from __future__ import annotations
@@ -17,7 +19,18 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, addresses, as_array, broadcast, in_chunks, pointer, raw, several, whole, workers
+from carom._rows import (
+    Array,
+    addresses,
+    as_array,
+    broadcast,
+    in_chunks,
+    pointer,
+    raw,
+    several,
+    whole,
+    workers,
+)
 from carom._shot_options import Options, chosen, shot_options
 from carom.layouts import Table, of_record
 from carom.results import EventType, Shot, Shots
@@ -34,18 +47,38 @@ __all__ = ["Flag", "Hessian", "Tangents", "aim_slope", "hessian", "jacobian", "t
 MOST: int = lib.CAROM_DIRECTIONS_MOST
 """Directions of one call of C; more are given in parts."""
 STATE: int = lib.CAROM_STATE_NUMBERS
-AT_ONCE = 128  # shots of a thread whose events are kept at a time: more take longer for the memory than for the shots
+# shots of a thread whose events are kept at a time: more take longer for the memory than for the
+# shots
+AT_ONCE = 128
 _FEW = 64  # events of a shot for which there is memory at first: more of it is slower to touch
 CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass", "tip_restitution")
 KIND = tuple(dtypes.ball_kind.names or ())
-# A state is x, y, v_x, v_y, w_x, w_y, w_z, z, v_z: where its parts are, and the elements of r, v and w of a ball.
-PARTS: dict[str, slice | int] = {"r": slice(0, 2), "v": slice(2, 4), "w": slice(4, 7), "z": 7, "v_z": 8}
+# A state is x, y, v_x, v_y, w_x, w_y, w_z, z, v_z: where its parts are, and the elements of r, v
+# and w of a ball.
+PARTS: dict[str, slice | int] = {
+    "r": slice(0, 2),
+    "v": slice(2, 4),
+    "w": slice(4, 7),
+    "z": 7,
+    "v_z": 8,
+}
 ELEMENTS = {"r": (0, 1, 7), "v": (2, 3, 8), "w": (4, 5, 6)}
-# Steps of second derivatives: this share of the reach, and of a number as it is or of its unit. Of 100 shots of three balls a median of 5e-7
-# was found with them, 1e-7 and 7e-6 (most of the noise of the exact collision) with a third, 1e-6 with three times as much.
+# Steps of second derivatives: this share of the reach, and of a number as it is or of its unit. Of
+# 100 shots of three balls a median of 5e-7 was found with them, 1e-7 and 7e-6 (most of the noise of
+# the exact collision) with a third, 1e-6 with three times as much.
 _STEP, _STEP_MOST = 3e-3, 1e-3
 _TABLE = ("nose_height", "mu_cushion", "restitution")
-_UNITS = {"speed": "m/s", "phi": "deg", "theta": "deg", "a": "R", "b": "R", "mass": "kg", "end_mass": "kg", "radius": "m", "gravity": "m/s^2"}
+_UNITS = {
+    "speed": "m/s",
+    "phi": "deg",
+    "theta": "deg",
+    "a": "R",
+    "b": "R",
+    "mass": "kg",
+    "end_mass": "kg",
+    "radius": "m",
+    "gravity": "m/s^2",
+}
 _UNITS |= {"drag": "1/m", "law_c": "s/m", "nose_height": "m", "r": "m", "v": "m/s", "w": "rad/s"}
 
 
@@ -66,21 +99,26 @@ class Flag(enum.IntFlag):
 class Tangents:
     """Derivatives of a shot, or of many: the last dimension is that of the directions, m.
 
-    `final` has "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m), rad/s: of the final states. Of balls
-    that fly it has "z", m, and "v_z", m/s, of shape (..., balls, m), too. `at` has the same of the states at `times`, of shape
-    (..., times, balls, 2 or 3, m).
+    `final` has "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m),
+    rad/s: of the final states. Of balls that fly it has "z", m, and "v_z", m/s, of shape (...,
+    balls, m), too. `at` has the same of the states at `times`, of shape (..., times, balls, 2 or 3,
+    m).
     """
 
     names: tuple[str, ...]  # what changes in each direction,
     units: tuple[str, ...]  # and the unit that derivatives are per
     states: dtypes.Doubles  # all of `final`, (..., balls, 9, m)
     states_at: dtypes.Doubles  # all of `at`, (..., times, balls, 9, m)
-    time: dtypes.Doubles  # (..., events, m): of the times of the events, s; nan beyond the events of a shot
+    time: (
+        dtypes.Doubles
+    )  # (..., events, m): of the times of the events, s; nan beyond the events of a shot
     flags: npt.NDArray[np.int32]  # (..., events): sums of `Flag`; -1 beyond the events
-    # (..., m): the least change in each direction, in its unit, at which to first order a ball meets something else, or in
-    # another order
+    # (..., m): the least change in each direction, in its unit, at which to first order a ball
+    # meets something else, or in another order
     reach: dtypes.Doubles
-    error: dtypes.Doubles  # (...): the largest relative error of what had to be found by differences
+    error: (
+        dtypes.Doubles
+    )  # (...): the largest relative error of what had to be found by differences
     status: npt.NDArray[np.int8]  # (...): as `carom.Status`; derivatives of a shot in error are nan
 
     @property
@@ -98,7 +136,11 @@ class Tangents:
 
 
 def _tangents(
-    names: tuple[str, ...], units: tuple[str, ...], shape: tuple[int, ...], found: dict[str, Array], status: Array
+    names: tuple[str, ...],
+    units: tuple[str, ...],
+    shape: tuple[int, ...],
+    found: dict[str, Array],
+    status: Array,
 ) -> Tangents:
     parts = ("final", "at", "time", "flags", "reach", "error")
     given = {name: found[name].reshape((*shape, *found[name].shape[1:])) for name in parts}
@@ -120,10 +162,18 @@ class Direction(NamedTuple):
 
 
 def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[list[Direction]]:
-    """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both places, or balls[0].r[1]."""
+    """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both
+    places, or balls[0].r[1].
+    """
     found: list[list[Direction]] = []
-    for name in [wrt] if isinstance(wrt, str) else several(wrt, argument, "names of numbers are needed, such as 'cue.phi'"):
-        match = re.fullmatch(r"(cue|table|kind|balls\[(\d+)\])\.(?:(kind)\.)?(\w+)(?:\[(\d)\])?", str(name))
+    for name in (
+        [wrt]
+        if isinstance(wrt, str)
+        else several(wrt, argument, "names of numbers are needed, such as 'cue.phi'")
+    ):
+        match = re.fullmatch(
+            r"(cue|table|kind|balls\[(\d+)\])\.(?:(kind)\.)?(\w+)(?:\[(\d)\])?", str(name)
+        )
         group, ball, inner, field, index = match.groups() if match else ("", None, None, "", None)
         unit = _UNITS.get(field, "1")
         if group == "cue" and field in CUE and index is None and not inner:
@@ -131,13 +181,38 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
         elif group == "table" and field in _TABLE and index is None and not inner:
             found.append([Direction(name, unit, "table", ((_TABLE.index(field),),))])
         elif group == "kind" and field in KIND and index is None and not inner:
-            found.append([Direction(name, unit, "kind", tuple((i, KIND.index(field)) for i in range(balls)))])
-        elif ball is not None and int(ball) < balls and inner and field in KIND and field != "radius" and index is None:
+            found.append(
+                [Direction(name, unit, "kind", tuple((i, KIND.index(field)) for i in range(balls)))]
+            )
+        elif (
+            ball is not None
+            and int(ball) < balls
+            and inner
+            and field in KIND
+            and field != "radius"
+            and index is None
+        ):
             found.append([Direction(name, unit, "kind", ((int(ball), KIND.index(field)),))])
-        elif ball is not None and int(ball) < balls and not inner and field in ELEMENTS and int(index or 0) < 3:
+        elif (
+            ball is not None
+            and int(ball) < balls
+            and not inner
+            and field in ELEMENTS
+            and int(index or 0) < 3
+        ):
             # of a place and a velocity those along the cloth, unless the one upward is asked for
             ks = range(3 if field == "w" else 2) if index is None else [int(index)]
-            found.append([Direction(f"balls[{ball}].{field}[{k}]", unit, "state", ((int(ball), ELEMENTS[field][k]),)) for k in ks])
+            found.append(
+                [
+                    Direction(
+                        f"balls[{ball}].{field}[{k}]",
+                        unit,
+                        "state",
+                        ((int(ball), ELEMENTS[field][k]),),
+                    )
+                    for k in ks
+                ]
+            )
         else:
             raise ValueError(
                 f"{argument}: {name!r} is no number of a shot; such are cue.phi, kind.mu_slide (of all balls), balls[1].kind.mass, "
@@ -163,19 +238,28 @@ def seeds_of(given: Sequence[Direction], balls: int) -> dict[str, dtypes.Doubles
     return seeds
 
 
-def _seeds(wrt: Sequence[str], balls: int) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, dtypes.Doubles]]:
+def _seeds(
+    wrt: Sequence[str], balls: int
+) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, dtypes.Doubles]]:
     """Names, units and seeds of all directions of some names."""
     given = [direction for several in directions(wrt, balls) for direction in several]
     return tuple(d.name for d in given), tuple(d.unit for d in given), seeds_of(given, balls)
 
 
 def _differentiate(
-    job: Callable[[int, int], Any], n: int, balls: int, events: int, seeds: dict[str, dtypes.Doubles], times: Array,
-    wanted: Collection[str], threads: int
-) -> tuple[dict[str, Array], Array]:  # fmt: skip
+    job: Callable[[int, int], Any],
+    n: int,
+    balls: int,
+    events: int,
+    seeds: dict[str, dtypes.Doubles],
+    times: Array,
+    wanted: Collection[str],
+    threads: int,
+) -> tuple[dict[str, Array], Array]:
     """What is wanted of the tangents of n played shots, each of shape (n, ...), and their statuses.
 
-    `job` gives the carom_shot_job of some of the shots. Directions beyond what C takes are given in parts.
+    `job` gives the carom_shot_job of some of the shots. Directions beyond what C takes are given in
+    parts.
     """
     m = next(iter(seeds.values())).shape[-1]
     parts: list[dict[str, Array]] = []
@@ -184,11 +268,21 @@ def _differentiate(
         part = slice(first, min(first + MOST, m))
         width = part.stop - part.start
         rows = {name: np.ascontiguousarray(seed[..., part]) for name, seed in seeds.items()}
-        of_c = ffi.new("carom_tangent_seeds *", {"directions": width, **{name: pointer("double[]", row) for name, row in rows.items()}})
+        of_c = ffi.new(
+            "carom_tangent_seeds *",
+            {"directions": width, **{name: pointer("double[]", row) for name, row in rows.items()}},
+        )
         # C writes into arrays of all shots: what it does not write is nan, and -1 for flags
-        shapes = {"final": (balls, STATE, width), "at": (len(times), balls, STATE, width), "time": (events, width), "reach": (width,)}
+        shapes = {
+            "final": (balls, STATE, width),
+            "at": (len(times), balls, STATE, width),
+            "time": (events, width),
+            "reach": (width,),
+        }
         needed = {"final", *wanted} | ({"time"} if "reach" in wanted else set())
-        made: dict[str, Array] = {name: np.full((n, *shape), np.nan) for name, shape in shapes.items() if name in needed}
+        made: dict[str, Array] = {
+            name: np.full((n, *shape), np.nan) for name, shape in shapes.items() if name in needed
+        }
         if "flags" in wanted:
             made["flags"] = np.full((n, events), -1, np.int32)
         record: Array = np.zeros(n, dtypes.tangent)
@@ -199,7 +293,12 @@ def _differentiate(
         results, statuses = pointer("carom_tangent[]", record), pointer("int8_t[]", codes)
 
         def differentiate(begin: int, many: int) -> int:
-            given = {"played": job(begin, many), "seeds": of_c, "tangents": results + begin, "status": statuses + begin}
+            given = {
+                "played": job(begin, many),
+                "seeds": of_c,
+                "tangents": results + begin,
+                "status": statuses + begin,
+            }
             return int(lib.carom_shot_tangent_batch(ffi.new("carom_tangent_job *", given)))
 
         in_chunks(n, 1e-4, threads, differentiate)
@@ -214,9 +313,13 @@ def _differentiate(
 
 
 def _sorted_times(times: npt.ArrayLike | None) -> Array:
-    at = np.zeros(0) if times is None else np.ascontiguousarray(as_array(times, "times", np.float64))
+    at = (
+        np.zeros(0) if times is None else np.ascontiguousarray(as_array(times, "times", np.float64))
+    )
     if at.ndim != 1 or not (np.isfinite(at) & (at >= 0.0)).all() or (np.diff(at) < 0).any():
-        raise ValueError("times: finite numbers of seconds from the beginning of the shot, in ascending order, are needed, of shape (times,)")
+        raise ValueError(
+            "times: finite numbers of seconds from the beginning of the shot, in ascending order, are needed, of shape (times,)"
+        )
     return at
 
 
@@ -229,37 +332,57 @@ def _job_of_one(shot: Shot, options: Any) -> Callable[[int, int], Any]:
     """What `Shots.jobs` gives, of a single shot."""
     balls, events = np.ascontiguousarray(shot.balls), np.ascontiguousarray(shot.events)
     struck = ffi.NULL if shot.cue is None else pointer("carom_cue[]", shot.cue)
-    of_c = {"events": pointer("carom_event[]", events), "room": len(events), "count": shot.count, "time": shot.time}
+    of_c = {
+        "events": pointer("carom_event[]", events),
+        "room": len(events),
+        "count": shot.count,
+        "time": shot.time,
+    }
     played = {
-        "table": pointer("carom_table[]", shot.table.record), "balls": pointer("carom_shot_ball[]", balls), "cues": struck,
-        "count": len(balls), "n": 1, "options": options, "shots": ffi.new("carom_shot *", of_c),
-    }  # fmt: skip
+        "table": pointer("carom_table[]", shot.table.record),
+        "balls": pointer("carom_shot_ball[]", balls),
+        "cues": struck,
+        "count": len(balls),
+        "n": 1,
+        "options": options,
+        "shots": ffi.new("carom_shot *", of_c),
+    }
     return lambda begin, many: ffi.new("carom_shot_job *", played)
 
 
-def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | None = None, threads: int = 0) -> Tangents:
-    """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`. A shot knows its cue and its models.
+def tangents(
+    shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | None = None, threads: int = 0
+) -> Tangents:
+    """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`.
+
+    A shot knows its cue and its models.
 
     Parameters
     ----------
     shot : Shot or Shots
         With all of its events: many need a `room` that is large enough.
     wrt : sequence of str
-        By what: "cue.phi" and other numbers of the cue; "kind.mu_slide" of all balls, "balls[1].kind.mass" of one;
-        "balls[0].r" (two directions), "balls[0].r[1]", v, w, and "balls[0].v[2]" of a ball that flies; "table.nose_height",
-        "table.mu_cushion", "table.restitution".
+        By what: "cue.phi" and other numbers of the cue; "kind.mu_slide" of all balls,
+        "balls[1].kind.mass" of one; "balls[0].r" (two directions), "balls[0].r[1]", v, w, and
+        "balls[0].v[2]" of a ball that flies; "table.nose_height", "table.mu_cushion",
+        "table.restitution".
     times : array_like, shape (times,), optional
         s, ascending: for `Tangents.at`.
     threads : int
-        Most threads to use for many shots; 0 is the calling one alone, -1 all processors. No bit depends on it.
+        Most threads to use for many shots; 0 is the calling one alone, -1 all processors. No bit
+        depends on it.
 
-    Returns Tangents: Of many shots with the bits of each alone. One in error, or whose derivatives are not known, costs itself:
+    Returns Tangents: Of many shots with the bits of each alone. One in error, or whose derivatives
+        are not known, costs itself:
     see `status`.
-    Raises CaromError: Derivatives are not known for this shot: in the world pooltool, or by Euler's model of balls.
+    Raises CaromError: Derivatives are not known for this shot: in the world pooltool, or by Euler's
+        model of balls.
     Raises ValueError: Shots of a batch have more events than were kept.
     """
     if not isinstance(shot, (Shot, Shots)):
-        raise TypeError(f"shot: what carom.simulate() or carom.simulate_batch() gives is needed, not {type(shot).__name__}")
+        raise TypeError(
+            f"shot: what carom.simulate() or carom.simulate_batch() gives is needed, not {type(shot).__name__}"
+        )
     balls = shot.final.shape[-1]
     names, units, seeds = _seeds(wrt, balls)
     at = _sorted_times(times)
@@ -270,7 +393,9 @@ def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | N
     count, status, room = np.asarray(shot.count), np.asarray(shot.status), shot.events.shape[-1]
     lost = count[(status >= 0) & (count > room)]
     if lost.size:
-        raise ValueError(f"shot: room={room} does not keep all events of {lost.size} of {count.size} shots; room={lost.max()} does")
+        raise ValueError(
+            f"shot: room={room} does not keep all events of {lost.size} of {count.size} shots; room={lost.max()} does"
+        )
     events = int(np.minimum(count, room).max(initial=0))
     if isinstance(shot, Shots):
         job = shot._jobs(tangent_options(shot.options, threads))
@@ -287,14 +412,16 @@ def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | N
 class Hessian:
     """Second derivatives of the final states of a shot, or of many, by each two of m directions.
 
-    `final` has "r" of shape (..., balls, 2, m, m), m; "v", m/s; "w" (..., balls, 3, m, m), rad/s; "z" and "v_z" (..., balls, m, m).
-    Along a vector the last dimension is left out.
+    `final` has "r" of shape (..., balls, 2, m, m), m; "v", m/s; "w" (..., balls, 3, m, m), rad/s;
+    "z" and "v_z" (..., balls, m, m). Along a vector the last dimension is left out.
     """
 
-    first: Tangents  # first derivatives, with the names and units of the directions, their reach, and the flags of the events
+    # first derivatives, with the names and units of the directions, their reach, and the flags of
+    # the events
+    first: Tangents
     states: dtypes.Doubles  # all of `final`, (..., balls, 9, m, m)
-    # (...): the largest difference of d2/dx dy and d2/dy dx over the largest second derivative, each for changes in proportion to the
-    # steps; nan along a vector, where it is unknown
+    # (...): the largest difference of d2/dx dy and d2/dy dx over the largest second derivative,
+    # each for changes in proportion to the steps; nan along a vector, where it is unknown
     error: dtypes.Doubles
 
     @property
@@ -307,8 +434,12 @@ class Hessian:
         return f"<carom.Hessian: by {', '.join(self.first.names)}, error {np.max(self.error, initial=0.0):.1e}>"
 
 
-def numbers_of_direction(direction: Direction, layouts: dtypes.Records, cues: dtypes.Records | None) -> list[Array]:
-    """The numbers that a direction changes, as views into layouts (..., balls) and cues (...); none of a table."""
+def numbers_of_direction(
+    direction: Direction, layouts: dtypes.Records, cues: dtypes.Records | None
+) -> list[Array]:
+    """The numbers that a direction changes, as views into layouts (..., balls) and cues (...); none
+    of a table.
+    """
     found: list[Array] = []
     for place in direction.places:
         if direction.array == "cue" and cues is not None:
@@ -321,41 +452,67 @@ def numbers_of_direction(direction: Direction, layouts: dtypes.Records, cues: dt
     return found
 
 
-def hessian(shot: Shot | Shots, wrt: Sequence[str], *, along: npt.ArrayLike | None = None, threads: int = 0) -> Hessian:
-    """Second derivatives of the final states of shots that were played: central differences of their first ones.
+def hessian(
+    shot: Shot | Shots, wrt: Sequence[str], *, along: npt.ArrayLike | None = None, threads: int = 0
+) -> Hessian:
+    """Second derivatives of the final states of shots that were played: central differences of
+    their first ones.
 
-    It takes the time of two shots and their tangents for each direction, or for the vector. All shots of the differences have the events of
-    the shot, else the derivatives by that direction are nan: the steps are small beside its reach. `flags` and `reach` of the first
-    derivatives hold here, too.
+    It takes the time of two shots and their tangents for each direction, or for the vector. All
+    shots of the differences have the events of the shot, else the derivatives by that direction are
+    nan: the steps are small beside its reach. `flags` and `reach` of the first derivatives hold
+    here, too.
 
     Parameters
     ----------
     shot, wrt, threads
-        As for `tangents`, without numbers of the table: "kind.nose_height" is that of all noses for one ball.
+        As for `tangents`, without numbers of the table: "kind.nose_height" is that of all noses for
+        one ball.
     along : array_like, shape (..., m), optional
-        A vector for each shot, or one for all: only the Hessian's product with it is found, of shape (..., balls, 9, m).
+        A vector for each shot, or one for all: only the Hessian's product with it is found, of
+        shape (..., balls, 9, m).
 
     Returns Hessian.
     Raises CaromError: Derivatives are not known for this shot.
     """
-    first, given = tangents(shot, wrt, threads=threads), [d for several in directions(wrt, shot.final.shape[-1]) for d in several]
+    first, given = (
+        tangents(shot, wrt, threads=threads),
+        [d for several in directions(wrt, shot.final.shape[-1]) for d in several],
+    )
     shape, m = first.error.shape, len(given)
     if isinstance(shot, Shot):
-        shot = simulate_batch(shot.table, shot.balls, shot.cue, room=shot.count, options=shot.options)
+        shot = simulate_batch(
+            shot.table, shot.balls, shot.cue, room=shot.count, options=shot.options
+        )
     for direction in given:
         if direction.array == "table" or (direction.array == "cue" and shot.cues is None):
-            raise ValueError(f"wrt: {direction.name} has no second derivatives here: numbers of a cue that strikes, and of balls, have")
+            raise ValueError(
+                f"wrt: {direction.name} has no second derivatives here: numbers of a cue that strikes, and of balls, have"
+            )
     steps = steps_of(given, shot, first.reach)
     if along is None:
         d = by_steps(shot, given, steps, np.eye(m), threads)
         other, axes = d.swapaxes(-1, -2), (-4, -3, -2, -1)
-        weight = (steps[..., :, np.newaxis] * steps[..., np.newaxis, :])[..., np.newaxis, np.newaxis, :, :]
-        largest, apart = (np.fmax.reduce(np.abs(each) * weight, axis=axes, initial=0.0) for each in (d, d - other))
+        weight = (steps[..., :, np.newaxis] * steps[..., np.newaxis, :])[
+            ..., np.newaxis, np.newaxis, :, :
+        ]
+        largest, apart = (
+            np.fmax.reduce(np.abs(each) * weight, axis=axes, initial=0.0) for each in (d, d - other)
+        )
         return Hessian(first, (d + other) / 2.0, apart / np.where(largest > 0.0, largest, 1.0))
     vectors = as_array(along, "along", np.float64)
-    if vectors.shape[-1:] != (m,) or broadcast({"along": vectors.shape[:-1], "shots": shape}) != shape:
-        raise ValueError(f"along: the shape must be ({m},) or {(*shape, m)}, a number for each direction, not {vectors.shape}")
-    return Hessian(first, by_steps(shot, given, steps, vectors[..., np.newaxis, :], threads)[..., 0], np.full(shape, np.nan))
+    if (
+        vectors.shape[-1:] != (m,)
+        or broadcast({"along": vectors.shape[:-1], "shots": shape}) != shape
+    ):
+        raise ValueError(
+            f"along: the shape must be ({m},) or {(*shape, m)}, a number for each direction, not {vectors.shape}"
+        )
+    return Hessian(
+        first,
+        by_steps(shot, given, steps, vectors[..., np.newaxis, :], threads)[..., 0],
+        np.full(shape, np.nan),
+    )
 
 
 def _whole(shots: Shots) -> tuple[dtypes.Records, dtypes.Records | None]:
@@ -364,7 +521,9 @@ def _whole(shots: Shots) -> tuple[dtypes.Records, dtypes.Records | None]:
     if shots.kinds is not None:
         states, layouts = layouts, np.zeros(layouts.shape, dtypes.shot_ball)
         layouts["state"], layouts["kind"] = states, shots.kinds
-    return layouts, None if shots.cues is None else np.broadcast_to(shots.cues, shots.shape).reshape(-1)
+    return layouts, None if shots.cues is None else np.broadcast_to(
+        shots.cues, shots.shape
+    ).reshape(-1)
 
 
 def steps_of(given: Sequence[Direction], shots: Shots, reach: dtypes.Doubles) -> dtypes.Doubles:
@@ -373,20 +532,33 @@ def steps_of(given: Sequence[Direction], shots: Shots, reach: dtypes.Doubles) ->
     layouts = _whole(shots)[0]
     for j, direction in enumerate(given):
         if direction.array == "kind":
-            numbers = np.max(np.abs(numbers_of_direction(direction, layouts, None)), axis=0).reshape(shots.shape)
-            steps[..., j] = np.minimum(steps[..., j], _STEP_MOST * np.where(numbers > 0.0, numbers, 1.0))
+            numbers = np.max(
+                np.abs(numbers_of_direction(direction, layouts, None)), axis=0
+            ).reshape(shots.shape)
+            steps[..., j] = np.minimum(
+                steps[..., j], _STEP_MOST * np.where(numbers > 0.0, numbers, 1.0)
+            )
     return steps
 
 
-def by_steps(shots: Shots, given: Sequence[Direction], steps: dtypes.Doubles, vectors: Array, threads: int) -> dtypes.Doubles:
-    """Differences of the tangents of shots along vectors (..., p, m), for each unit of them: (..., balls, STATE, m, p)."""
+def by_steps(
+    shots: Shots, given: Sequence[Direction], steps: dtypes.Doubles, vectors: Array, threads: int
+) -> dtypes.Doubles:
+    """Differences of the tangents of shots along vectors (..., p, m), for each unit of them: (...,
+    balls, STATE, m, p).
+    """
     n, balls, m, p = shots.status.size, shots.final.shape[-1], len(given), vectors.shape[-2]
     ways = np.broadcast_to(vectors, (*shots.shape, p, m)).reshape(n, p, m)
     layouts, cues = _whole(shots)
-    events, count, status = shots.events.reshape(n, -1), shots.count.reshape(n), shots.status.reshape(n)
+    events, count, status = (
+        shots.events.reshape(n, -1),
+        shots.count.reshape(n),
+        shots.status.reshape(n),
+    )
     found = np.full((n, balls, STATE, m, p), np.nan)
 
-    # The longest step whose parts are no longer than those along each direction alone would be, together.
+    # The longest step whose parts are no longer than those along each direction alone would be,
+    # together.
     with np.errstate(divide="ignore", invalid="ignore"):
         slower = (np.abs(ways) / steps.reshape(n, 1, m)).sum(axis=-1)
         h = 1.0 / np.where(ways.any(axis=-1), slower, 1.0)
@@ -405,24 +577,35 @@ def by_steps(shots: Shots, given: Sequence[Direction], steps: dtypes.Doubles, ve
             for number in numbers_of_direction(direction, moved, struck):
                 number += changes[..., j]
         room = int(count[part].max())
-        others = simulate_batch(shots.table, moved, struck, room=room, threads=threads, options=shots.options)
+        others = simulate_batch(
+            shots.table, moved, struck, room=room, threads=threads, options=shots.options
+        )
 
         # Those with the events of their shot count.
-        same = (others.count == count[part, np.newaxis, np.newaxis]) & (others.status == status[part, np.newaxis, np.newaxis])
+        same = (others.count == count[part, np.newaxis, np.newaxis]) & (
+            others.status == status[part, np.newaxis, np.newaxis]
+        )
         beyond = np.arange(room) >= count[part, np.newaxis, np.newaxis, np.newaxis]
         for name in ("type", "a", "b"):
-            same &= ((others.events[name] == events[name][part, np.newaxis, np.newaxis, :room]) | beyond).all(axis=-1)
+            same &= (
+                (others.events[name] == events[name][part, np.newaxis, np.newaxis, :room]) | beyond
+            ).all(axis=-1)
         slopes = np.full((*same.shape, balls, STATE, m), np.nan)
         if same.any():
-            slopes[same] = tangents(others[same], [direction.name for direction in given], threads=threads).states
+            slopes[same] = tangents(
+                others[same], [direction.name for direction in given], threads=threads
+            ).states
         with np.errstate(invalid="ignore"):
-            change = (slopes[:, 0] - slopes[:, 1]) / (2.0 * h[part, :, np.newaxis, np.newaxis, np.newaxis])
+            change = (slopes[:, 0] - slopes[:, 1]) / (
+                2.0 * h[part, :, np.newaxis, np.newaxis, np.newaxis]
+            )
         found[part] = np.moveaxis(change, 1, -1)
     return found.reshape(*shots.shape, balls, STATE, m, p)
 
 
 def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi") -> dtypes.Doubles:
-    """How the direction of the cue must follow other numbers of a shot, so that a ball falls at the same place across its path.
+    """How the direction of the cue must follow other numbers of a shot, so that a ball falls at the
+    same place across its path.
 
     Parameters
     ----------
@@ -435,7 +618,8 @@ def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi")
     by : str
         The one number that follows.
 
-    Returns an ndarray of float64, shape (m,): d by / d wrt, degrees per m/s, per R, per m and so on, to first order.
+    Returns an ndarray of float64, shape (m,): d by / d wrt, degrees per m/s, per R, per m and so
+        on, to first order.
     Raises ValueError: The ball does not fall, or `by` does not turn its path.
     """
     if not isinstance(shot, Shot):
@@ -444,7 +628,8 @@ def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi")
     fell = events[(events["type"] == EventType.POCKET) & (events["a"] == whole(ball, "ball"))]
     if len(fell) == 0:
         raise ValueError(f"ball: ball {ball} does not fall in this shot")
-    # Across the path, a place at a time just before the fall is that of the fall, whenever it happens.
+    # Across the path, a place at a time just before the fall is that of the fall, whenever it
+    # happens.
     before = fell["time"][-1] * (1.0 - 1e-9)
     v_x, v_y, _ = shot.states(before)["v"][ball]
     d = tangents(shot, [by, *wrt], times=[before]).at["r"][0, ball]
@@ -456,32 +641,66 @@ def aim_slope(shot: Shot, ball: int, wrt: Sequence[str], *, by: str = "cue.phi")
 
 
 def play(
-    table: Table, layouts: dtypes.Records, cues: dtypes.Records | None, seeds: dict[str, dtypes.Doubles], times: Array,
-    wanted: Collection[str], room: int, threads: int, options: Options
-) -> tuple[dict[str, Array], Array, dtypes.Records]:  # fmt: skip
-    """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final states, of the shape of the batch."""
+    table: Table,
+    layouts: dtypes.Records,
+    cues: dtypes.Records | None,
+    seeds: dict[str, dtypes.Doubles],
+    times: Array,
+    wanted: Collection[str],
+    room: int,
+    threads: int,
+    options: Options,
+) -> tuple[dict[str, Array], Array, dtypes.Records]:
+    """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final
+    states, of the shape of the batch.
+    """
     whole(threads, "threads", least=-1)
     room = whole(room, "room")
-    balls, shape = layouts.shape[-1], np.broadcast_shapes(layouts.shape[:-1], () if cues is None else cues.shape)
+    balls, shape = (
+        layouts.shape[-1],
+        np.broadcast_shapes(layouts.shape[:-1], () if cues is None else cues.shape),
+    )
     n = math.prod(shape)
     one_layout, one_cue = layouts.size == balls, cues is None or cues.size == 1
-    rows = layouts.reshape(1, balls) if one_layout else np.broadcast_to(layouts, (*shape, balls)).reshape(n, balls)
-    strikes = cues if cues is None else cues.reshape(()) if one_cue else np.broadcast_to(cues, shape).reshape(n)
+    rows = (
+        layouts.reshape(1, balls)
+        if one_layout
+        else np.broadcast_to(layouts, (*shape, balls)).reshape(n, balls)
+    )
+    strikes = (
+        cues
+        if cues is None
+        else cues.reshape(())
+        if one_cue
+        else np.broadcast_to(cues, shape).reshape(n)
+    )
     parts: list[dict[str, Array]] = []
     codes: Array = np.empty(n, np.int8)
     final: Array = np.empty((n, balls), dtypes.ball_state)
     shots: Shots | None = None
     at_once = AT_ONCE * workers(threads)
-    at_once = max(-(-n // max(-(-n // at_once), 1)), 1)  # as many in each part, which then all use the memory of the first
+    at_once = max(
+        -(-n // max(-(-n // at_once), 1)), 1
+    )  # as many in each part, which then all use the memory of the first
     kept = min(room, _FEW)
     for begin in range(0, max(n, 1), at_once):
         part = slice(begin, min(begin + at_once, n))
         many = part.stop - part.start
         struck = strikes if strikes is None or one_cue else strikes[part]
         while True:
-            again = shots if shots is not None and shots.shape == (many,) and shots.events.shape[-1] == kept else None
+            again = (
+                shots
+                if shots is not None and shots.shape == (many,) and shots.events.shape[-1] == kept
+                else None
+            )
             shots = simulate_batch(
-                table, rows if one_layout else rows[part], struck, room=kept, threads=threads, out=again, options=options
+                table,
+                rows if one_layout else rows[part],
+                struck,
+                room=kept,
+                threads=threads,
+                out=again,
+                options=options,
             )
             longest = int(shots.count.max(initial=0))
             if longest <= kept or kept == room:
@@ -508,10 +727,18 @@ def play(
 
 
 def jacobian(
-    table: Table, layouts: dtypes.Records, cues: dtypes.Records | None, wrt: Sequence[str], *, of: str = "final.r",
-    times: npt.ArrayLike | None = None, room: int = 512, threads: int = 0, options: Options = Options(),
-    **changes: Unpack[Changes]
-) -> dtypes.Doubles:  # fmt: skip
+    table: Table,
+    layouts: dtypes.Records,
+    cues: dtypes.Records | None,
+    wrt: Sequence[str],
+    *,
+    of: str = "final.r",
+    times: npt.ArrayLike | None = None,
+    room: int = 512,
+    threads: int = 0,
+    options: Options = Options(),
+    **changes: Unpack[Changes],
+) -> dtypes.Doubles:
     """Play shots and give one derivative of each, with leading batch dimensions.
 
     Parameters
@@ -519,21 +746,35 @@ def jacobian(
     table, layouts, cues, wrt
         As for `carom.simulate_batch` and `tangents`.
     of : str
-        "final.r", "final.v", "final.w", "final.z", "final.v_z"; "at.r" and so on at `times`; "time" of the events; or "reach".
+        "final.r", "final.v", "final.w", "final.z", "final.v_z"; "at.r" and so on at `times`; "time"
+        of the events; or "reach".
     room : int
         Events of a shot at most; a shot with more has nan.
     threads, options, **changes
         As for `carom.simulate_batch`.
 
-    Returns an ndarray of float64: (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of `tangents`.
+    Returns an ndarray of float64: (..., balls, 2, m) for "final.r"; nan for shots in error. Each
+        shot has the bits of `tangents`.
     """
     group, _, field = str(of).partition(".")
     if (group not in ("final", "at") or field not in PARTS) and str(of) not in ("time", "reach"):
-        raise ValueError(f"of: must be final.r, v, w, z or v_z, at.r and so on, time or reach, not {of!r}")
+        raise ValueError(
+            f"of: must be final.r, v, w, z or v_z, at.r and so on, time or reach, not {of!r}"
+        )
     layouts = of_record(layouts, dtypes.shot_ball, "layouts", "balls()")
     cues = None if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
     if layouts.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
     seeds = _seeds(wrt, layouts.shape[-1])[2]
-    found = play(table, layouts, cues, seeds, _sorted_times(times), (group,), room, threads, chosen(options, changes))[0][group]
+    found = play(
+        table,
+        layouts,
+        cues,
+        seeds,
+        _sorted_times(times),
+        (group,),
+        room,
+        threads,
+        chosen(options, changes),
+    )[0][group]
     return _by_name(found)[field] if field else found

@@ -1,6 +1,8 @@
-"""NumPy dtypes with the layout and the field names of the C structs, read from the compiled headers.
+"""NumPy dtypes with the layout and the field names of the C structs, read from the compiled
+headers.
 
-An array of one of them is an array of the C struct, without conversion: `impacts["a"]["v"]` is a view of shape (..., 3).
+An array of one of them is an array of the C struct, without conversion: `impacts["a"]["v"]` is a
+view of shape (..., 3).
 """
 
 from __future__ import annotations
@@ -20,9 +22,31 @@ Records = npt.NDArray[np.void]
 Doubles = npt.NDArray[np.float64]
 
 __all__ = [
-    "ball_kind", "ball_state", "brief_event", "choice", "columns", "cue", "cushion_impact", "cushion_point", "event", "facts", "impact", "jaw",
-    "motion", "plain", "player", "pocket", "rail", "result", "rules_state", "shot", "shot_ball", "table", "tangent", "trace_point",
-]  # fmt: skip
+    "ball_kind",
+    "ball_state",
+    "brief_event",
+    "choice",
+    "columns",
+    "cue",
+    "cushion_impact",
+    "cushion_point",
+    "event",
+    "facts",
+    "impact",
+    "jaw",
+    "motion",
+    "plain",
+    "player",
+    "pocket",
+    "rail",
+    "result",
+    "rules_state",
+    "shot",
+    "shot_ball",
+    "table",
+    "tangent",
+    "trace_point",
+]
 
 _NOT_SHOWN = {"reserved", "unused"}  # fields that only keep room for later
 
@@ -33,8 +57,13 @@ def _dtype(ctype: Any) -> np.dtype[Any]:
         return np.dtype((_dtype(ctype.item), (ctype.length,)))
     if ctype.kind == "struct":
         fields, end = list[tuple[str, np.dtype[Any]]](), 0
-        for name, begin, kind in [*((name, field.offset, field.type) for name, field in ctype.fields), ("", ffi.sizeof(ctype), None)]:
-            fields += [(f"unused{end}", np.dtype((np.void, begin - end)))] if begin > end else []  # what the compiler leaves out
+        for name, begin, kind in [
+            *((name, field.offset, field.type) for name, field in ctype.fields),
+            ("", ffi.sizeof(ctype), None),
+        ]:
+            fields += (
+                [(f"unused{end}", np.dtype((np.void, begin - end)))] if begin > end else []
+            )  # what the compiler leaves out
             fields += [(name, _dtype(kind))] if kind else []
             end = begin + (ffi.sizeof(kind) if kind else 0)
         return np.dtype(fields)
@@ -42,7 +71,9 @@ def _dtype(ctype: Any) -> np.dtype[Any]:
         return np.dtype(np.uintp)
     if ctype.cname == "_Bool":
         return np.dtype(np.bool_)
-    letter = "f" if ctype.cname in ("double", "float") else "u" if ctype.cname.startswith("u") else "i"
+    letter = (
+        "f" if ctype.cname in ("double", "float") else "u" if ctype.cname.startswith("u") else "i"
+    )
     return np.dtype(f"{letter}{ffi.sizeof(ctype)}")
 
 
@@ -51,11 +82,13 @@ def _record(name: str) -> Record:
 
 
 # The headers in include/ have the fields of each, with their units.
-# Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_cloth), mu_ball, restitution. 26 doubles.
+# Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_cloth), mu_ball, restitution.
+# 26 doubles.
 impact: Record = _record("carom_impact")
 result: Record = _record("carom_result")  # Two balls after the collision: a, b (v, w). 12 doubles.
 motion: Record = _record("carom_motion")  # A ball's v (m/s) and w (rad/s). 6 doubles.
-# A ball at a cushion: v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution, jaw_radius. 15 doubles.
+# A ball at a cushion: v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution,
+# jaw_radius. 15 doubles.
 cushion_impact: Record = _record("carom_cushion_impact")
 trace_point: Record = _record("carom_trace_point")  # A point of `carom.trace`.
 cushion_point: Record = _record("carom_cushion_point")  # A point of `carom.cushion_trace`.
@@ -68,7 +101,8 @@ rail: Record = _record("carom_rail")  # A straight piece of cushion.
 jaw: Record = _record("carom_jaw")  # A rounded end of a cushion.
 pocket: Record = _record("carom_pocket")  # A pocket.
 table: Record = _record("carom_table")  # A table: any geometry.
-# An event of a shot: time (s), type (`carom.EventType`), a, b, impulse (N s), before and after (two ball states each).
+# An event of a shot: time (s), type (`carom.EventType`), a, b, impulse (N s), before and after (two
+# ball states each).
 event: Record = _record("carom_event")
 # An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b.
 brief_event: Record = _record("carom_brief_event")
@@ -76,10 +110,13 @@ brief_event: Record = _record("carom_brief_event")
 player: Record = _record("carom_player")
 choice: Record = _record("carom_choice")  # A shot that `carom.plan` proposes.
 facts: Record = _record("carom_facts")  # What happened in a shot, which `carom.Features` shows.
-# How a game stands for the player at the table: opening, group, fouls, score, lost, pocket, may, on, free_ball, target; user is of one's own rules.
+# How a game stands for the player at the table: opening, group, fouls, score, lost, pocket, may,
+# on, free_ball, target; user is of one's own rules.
 rules_state: Record = _record("carom_rules_state")
 turn: Record = _record("carom_turn")  # What a shot amounts to by rules.
-shot: Record = _record("carom_shot")  # What a shot gives, with the addresses of its arrays: for the calls of C.
+shot: Record = _record(
+    "carom_shot"
+)  # What a shot gives, with the addresses of its arrays: for the calls of C.
 # What derivatives of a shot give, with the addresses of their arrays: for the calls of C.
 tangent: Record = _record("carom_tangent")
 
@@ -90,7 +127,10 @@ def described(dtype: np.dtype[Any]) -> str:
         return str(dtype)
     fields = ", ".join(dtype.names[:3]) + (", ..." if len(dtype.names) > 3 else "")
     known = {name: value for name, value in globals().items() if isinstance(value, np.dtype)}
-    return next((f"carom.dtypes.{name}" for name, value in known.items() if value == dtype), f"a structured dtype of {fields}")
+    return next(
+        (f"carom.dtypes.{name}" for name, value in known.items() if value == dtype),
+        f"a structured dtype of {fields}",
+    )
 
 
 @functools.lru_cache(maxsize=64)
@@ -99,42 +139,67 @@ def _integers(dtype: np.dtype[Any], name: str = "") -> tuple[str, ...]:
     part = dtype.base
     if part.names is None:
         return () if part == np.float64 else (name,)
-    return tuple(found for field in part.names for found in _integers(part[field], f"{name}.{field}" if name else field))
+    return tuple(
+        found
+        for field in part.names
+        for found in _integers(part[field], f"{name}.{field}" if name else field)
+    )
 
 
 def plain(records: Records) -> Doubles:
-    """The numbers of records that are all doubles, of shape (..., width): a view, where they are in C order.
+    """The numbers of records that are all doubles, of shape (..., width): a view, where they are in
+    C order.
 
-    Records with integers, such as labels, event types or indices, are refused: their bytes would be read as doubles.
+    Records with integers, such as labels, event types or indices, are refused: their bytes would be
+    read as doubles.
 
     >>> plain(carom.impacts(v_a=velocities, r_b=(0.05715, 0, 0))).shape
     (1000, 26)
     """
     if records.dtype.names is None:
-        raise TypeError(f"records: a structured array is needed, such as carom.impacts() gives, not one of {described(records.dtype)}")
+        raise TypeError(
+            f"records: a structured array is needed, such as carom.impacts() gives, not one of {described(records.dtype)}"
+        )
     integers = _integers(records.dtype)
     if integers:
-        which = f"{integers[0]} and {len(integers) - 1} more hold" if len(integers) > 1 else f"{integers[0]} holds"
-        raise TypeError(f"records: {which} integers, but rows of float64 were asked for; take the fields by their names")
+        which = (
+            f"{integers[0]} and {len(integers) - 1} more hold"
+            if len(integers) > 1
+            else f"{integers[0]} holds"
+        )
+        raise TypeError(
+            f"records: {which} integers, but rows of float64 were asked for; take the fields by their names"
+        )
     numbers = np.ascontiguousarray(records).reshape(-1).view(np.float64)
     return numbers.reshape((*records.shape, records.dtype.itemsize // 8))
 
 
 def columns(records: Records) -> dict[str, npt.NDArray[Any]]:
-    """The numbers of records of shape (n,) as columns of shape (n,), for pandas and other tables: `DataFrame(columns(records))`.
+    """The numbers of records of shape (n,) as columns of shape (n,), for pandas and other tables:
+    `DataFrame(columns(records))`.
 
-    Fields that keep room for later are left out. The name of a column joins those of its parts: state_r_x, before_a_v_y. Vectors have x, y, z, pairs of states a, b.
+    Fields that keep room for later are left out. The name of a column joins those of its parts:
+    state_r_x, before_a_v_y. Vectors have x, y, z, pairs of states a, b.
     """
     if records.dtype.names is None or records.ndim != 1:
-        raise TypeError(f"records: a structured array of shape (n,) is needed, not of {described(records.dtype)} and shape {records.shape}")
+        raise TypeError(
+            f"records: a structured array of shape (n,) is needed, not of {described(records.dtype)} and shape {records.shape}"
+        )
     found: dict[str, npt.NDArray[Any]] = {}
-    for name in (name for name in records.dtype.names if name.rstrip("0123456789") not in _NOT_SHOWN):
+    for name in (
+        name for name in records.dtype.names if name.rstrip("0123456789") not in _NOT_SHOWN
+    ):
         field: npt.NDArray[Any] = records[name]
         parts = {name: field}
         if field.ndim == 2:
             letters = "xyz" if field.dtype.names is None else "ab"
-            parts = {f"{name}_{letter}": field[:, k] for k, letter in enumerate(letters[: field.shape[1]])}
+            parts = {
+                f"{name}_{letter}": field[:, k]
+                for k, letter in enumerate(letters[: field.shape[1]])
+            }
         for part, values in parts.items():
             inner = {part: values} if values.dtype.names is None else columns(values)
-            found |= {own if own == part else f"{part}_{own}": column for own, column in inner.items()}
+            found |= {
+                own if own == part else f"{part}_{own}": column for own, column in inner.items()
+            }
     return found

@@ -15,7 +15,20 @@ from carom._carom import ffi, lib
 from carom._described import BallNumbers, ShotCushion
 from carom._described import Game as Game
 from carom._faults import strike_error
-from carom._rows import Array, as_array, choice, copied, fill, number, pointer, raw, several, whole, with_numbers, worded
+from carom._rows import (
+    Array,
+    as_array,
+    choice,
+    copied,
+    fill,
+    number,
+    pointer,
+    raw,
+    several,
+    whole,
+    with_numbers,
+    worded,
+)
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -32,37 +45,60 @@ class Table:
     Parameters
     ----------
     width, length : float
-        m, for drawing and racks. The built-in tables have their surface at 0 <= x <= width, 0 <= y <= length.
+        m, for drawing and racks. The built-in tables have their surface at 0 <= x <= width, 0 <= y
+        <= length.
     rails : ndarray of `carom.dtypes.rail`, shape (up to 32,)
-        Straight pieces of cushion: p, q and height (m), side, and line, all 0 to have it derived; mu_cushion and restitution of its
-        own, 0 for those of the ball.
+        Straight pieces of cushion: p, q and height (m), side, and line, all 0 to have it derived;
+        mu_cushion and restitution of its own, 0 for those of the ball.
     jaws : ndarray of `carom.dtypes.jaw`, shape (up to 32,)
         Rounded ends: centre, radius, height (m); mu_cushion and restitution, as of rails.
     pockets : ndarray of `carom.dtypes.pocket`, shape (up to 8,)
         centre, radius, depth (m).
     ball_radius, rail_width, pocket_back : float
-        m; 0: as carom_shot.h says. The radius of the balls that the rails are meant for, the width of the tops of the rails, and the
-        height of the pockets' backs. They count for balls that fly, and for balls of other radii.
+        m; 0: as carom_shot.h says. The radius of the balls that the rails are meant for, the width
+        of the tops of the rails, and the height of the pockets' backs. They count for balls that
+        fly, and for balls of other radii.
     """
 
     def __init__(
-        self, width: float, length: float, *, rails: dtypes.Records, jaws: dtypes.Records | None = None,
-        pockets: dtypes.Records | None = None, ball_radius: float = 0.0, rail_width: float = 0.0,
-        pocket_back: float = 0.0
-    ) -> None:  # fmt: skip
+        self,
+        width: float,
+        length: float,
+        *,
+        rails: dtypes.Records,
+        jaws: dtypes.Records | None = None,
+        pockets: dtypes.Records | None = None,
+        ball_radius: float = 0.0,
+        rail_width: float = 0.0,
+        pocket_back: float = 0.0,
+    ) -> None:
         record: Array = np.zeros((), dtypes.table)
-        sizes = {"width": width, "length": length, "ball_radius": ball_radius, "rail_width": rail_width, "pocket_back": pocket_back}
+        sizes = {
+            "width": width,
+            "length": length,
+            "ball_radius": ball_radius,
+            "rail_width": rail_width,
+            "pocket_back": pocket_back,
+        }
         for name, size in sizes.items():
             record[name] = number(size, name, "a length in m is needed")
             if name in ("width", "length") and not 0.0 < record[name] < np.inf:
-                raise ValueError(f"{name}: it must be positive and finite, in m, not {record[name]:g}")
-        for name, part, values in (("rails", "rail", rails), ("jaws", "jaw", jaws), ("pockets", "pocket", pockets)):
+                raise ValueError(
+                    f"{name}: it must be positive and finite, in m, not {record[name]:g}"
+                )
+        for name, part, values in (
+            ("rails", "rail", rails),
+            ("jaws", "jaw", jaws),
+            ("pockets", "pocket", pockets),
+        ):
             if values is None:
                 continue
             values = as_array(values, name)
             room = record[part].shape[0]
             if values.dtype != getattr(dtypes, part) or values.ndim != 1 or len(values) > room:
-                raise ValueError(f"{name}: an array of carom.dtypes.{part} of shape (up to {room},) is needed")
+                raise ValueError(
+                    f"{name}: an array of carom.dtypes.{part} of shape (up to {room},) is needed"
+                )
             record[name] = len(values)
             raw(record[part])[: len(values)] = raw(np.ascontiguousarray(values))
         self.record: dtypes.Records = record
@@ -101,16 +137,22 @@ class Table:
 
     @property
     def rail_names(self) -> list[str | None]:
-        """Where each rail is for a player at the head, y = 0: "head", "foot", "left", "right"; None for a pocket's cut, and off rectangles."""
+        """Where each rail is for a player at the head, y = 0: "head", "foot", "left", "right"; None
+        for a pocket's cut, and off rectangles.
+        """
         return self._names(lib.carom_rail_name, "rails")
 
     @property
     def pocket_names(self) -> list[str | None]:
-        """The same of each pocket, such as "foot-left" or "side-right"; None on tables that are no rectangles."""
+        """The same of each pocket, such as "foot-left" or "side-right"; None on tables that are no
+        rectangles.
+        """
         return self._names(lib.carom_pocket_name, "pockets")
 
     def _names(self, name: Any, count: str) -> list[str | None]:
-        texts = (name(pointer("carom_table[]", self.record), k) for k in range(int(self.record[count])))
+        texts = (
+            name(pointer("carom_table[]", self.record), k) for k in range(int(self.record[count]))
+        )
         return [ffi.string(text).decode() if text != ffi.NULL else None for text in texts]
 
     def _parts(self, part: str, count: str) -> dtypes.Records:
@@ -118,14 +160,18 @@ class Table:
         return parts[: int(self.record[count])]
 
     def check(self, radius: float = 0.028575) -> None:
-        """Raise what is wrong with the table for balls of a radius, m: numbers, holes through which a ball can leave, sides of rails.
+        """Raise what is wrong with the table for balls of a radius, m: numbers, holes through which
+        a ball can leave, sides of rails.
 
-        The built-in tables are right. This takes some milliseconds; `simulate` checks the numbers only.
+        The built-in tables are right. This takes some milliseconds; `simulate` checks the numbers
+        only.
 
         Raises CaromError: Its `field` is the part at fault, its sentence says where the fault is.
         """
         fault = ffi.new("carom_table_fault *")
-        refuse_table(lib.carom_table_check(pointer("carom_table[]", self.record), radius, fault), fault)
+        refuse_table(
+            lib.carom_table_check(pointer("carom_table[]", self.record), radius, fault), fault
+        )
 
     def __eq__(self, other: object) -> bool:
         """Whether all numbers are the same."""
@@ -146,40 +192,70 @@ def refuse_table(code: int, fault: Any) -> None:
     if code < 0:
         other = "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
         gap = f", {fault.gap:.4g} m wide" if fault.gap > 0.0 else ""
-        where = f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{other})" if any(fault.place) else ""
+        where = (
+            f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{other})"
+            if any(fault.place)
+            else ""
+        )
         raise CaromError(code, _part(fault.part), text=Status(code).text + where)
 
 
 def check_table(table: object) -> None:
     """Refuses what is no table."""
     if not isinstance(table, Table):
-        raise TypeError(f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}")
+        raise TypeError(
+            f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}"
+        )
 
 
 _RADII = {lib.carom_ball_kind_of(number).radius: name for name, number in reversed(GAMES.items())}
-_CUSHION = ["mu_cushion", "restitution_cushion", "nose_height", "roll_loss", "restitution_log", "mu_log", "smooth_q"]
-SIZES = {(0.9906, 1.9812): 0.028575, (1.1176, 2.2352): 0.028575, (1.27, 2.54): 0.028575, (1.778, 3.569): 0.02619375, (1.42, 2.84): 0.03075}
+_CUSHION = [
+    "mu_cushion",
+    "restitution_cushion",
+    "nose_height",
+    "roll_loss",
+    "restitution_log",
+    "mu_log",
+    "smooth_q",
+]
+SIZES = {
+    (0.9906, 1.9812): 0.028575,
+    (1.1176, 2.2352): 0.028575,
+    (1.27, 2.54): 0.028575,
+    (1.778, 3.569): 0.02619375,
+    (1.42, 2.84): 0.03075,
+}
 
 
 @functools.lru_cache(maxsize=256)
 def _other_constants(kind: bytes, cushion_model: str) -> str:
     """What is to be said of a ball that has a game's constants of another model of the cushion."""
-    given, of_c = np.frombuffer(kind, dtypes.ball_kind)[_CUSHION].tobytes(), ffi.new("carom_ball_kind *")
+    given, of_c = (
+        np.frombuffer(kind, dtypes.ball_kind)[_CUSHION].tobytes(),
+        ffi.new("carom_ball_kind *"),
+    )
     for game, number in list(GAMES.items())[:3]:
         own = {}
         for model, of in _CUSHIONS.items():
             if lib.carom_ball_kind_for(number, of, of_c):
                 own[model] = np.frombuffer(ffi.buffer(of_c), dtypes.ball_kind)[_CUSHION].tobytes()
         if given in own.values() and own.get(cushion_model) != given:
-            return f"balls(game={game!r}, cushion_model={cushion_model!r}) have its own" if cushion_model in own else f"{game} has no constants for it"
+            return (
+                f"balls(game={game!r}, cushion_model={cushion_model!r}) have its own"
+                if cushion_model in own
+                else f"{game} has no constants for it"
+            )
     return ""
 
 
 def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
-    """Warns of balls of another game than that whose balls the table is made for, and of those with a game's constants of another model of
-    the cushion than that which is asked for by name."""
+    """Warns of balls of another game than that whose balls the table is made for, and of those with
+    a game's constants of another model of the cushion than that which is asked for by name.
+    """
     meant = table.record["ball_radius"].item() or SIZES.get((table.width, table.length))
-    first: Any = kinds[(0,) * kinds.ndim] if kinds.size else None  # of one record: kinds.flat[:1] copies it field by field
+    first: Any = (
+        kinds[(0,) * kinds.ndim] if kinds.size else None
+    )  # of one record: kinds.flat[:1] copies it field by field
     radius = meant if first is None else first["radius"]
     if radius != meant and meant in _RADII and radius in _RADII:
         warnings.warn(
@@ -188,15 +264,24 @@ def doubt_balls(table: Table, kinds: Array, cushion_model: object) -> None:
             stacklevel=3,
         )
     named = isinstance(cushion_model, str) and cushion_model != "default" and first is not None
-    if named and cushion_model in _CUSHIONS and (said := _other_constants(first.tobytes(), str(cushion_model))):
-        warnings.warn(f"cushion_model: {cushion_model!r} plays constants of another model: {said}", stacklevel=3)
+    if (
+        named
+        and cushion_model in _CUSHIONS
+        and (said := _other_constants(first.tobytes(), str(cushion_model)))
+    ):
+        warnings.warn(
+            f"cushion_model: {cushion_model!r} plays constants of another model: {said}",
+            stacklevel=3,
+        )
 
 
 def of_record(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
     """The values in C order, refused where they are not of the record, which carom.<builder> gives."""
     array = as_array(values, name)
     if array.dtype != record:
-        raise TypeError(f"{name}: an array of the dtype of carom.{builder} is needed, not of {dtypes.described(array.dtype)}")
+        raise TypeError(
+            f"{name}: an array of the dtype of carom.{builder} is needed, not of {dtypes.described(array.dtype)}"
+        )
     return np.asarray(array, order="C")
 
 
@@ -210,15 +295,23 @@ def one_cue(cue: dtypes.Records, name: str = "cue") -> Array:
 
 def _part(part: Any) -> str:
     """The name of a part of a table, or of a ball."""
-    names = {lib.CAROM_PART_RAIL: "table.rails", lib.CAROM_PART_JAW: "table.jaws", lib.CAROM_PART_POCKET: "table.pockets"}
+    names = {
+        lib.CAROM_PART_RAIL: "table.rails",
+        lib.CAROM_PART_JAW: "table.jaws",
+        lib.CAROM_PART_POCKET: "table.pockets",
+    }
     names[lib.CAROM_PART_BALL] = "balls"
     return f"{names[part.kind]}[{part.index}]" if part.kind in names else "table"
 
 
-def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: float) -> dtypes.Records:
-    """Ball in hand: a copy of a layout, in which the ball of this index lies at rest at (x, y), m, also one that was pocketed.
+def place_ball(
+    table: Table, balls: dtypes.Records, ball: int, x: float, y: float
+) -> dtypes.Records:
+    """Ball in hand: a copy of a layout, in which the ball of this index lies at rest at (x, y), m,
+    also one that was pocketed.
 
-    Raises CaromError: The place is not free: `field` is the ball or the part of the table that is in the way.
+    Raises CaromError: The place is not free: `field` is the ball or the part of the table that is
+        in the way.
     """
     placed = of_record(balls, dtypes.shot_ball, "balls", "balls()").copy()
     if placed.ndim != 1:
@@ -230,28 +323,42 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     x, y = number(x, "x", "a place in m is needed"), number(y, "y", "a place in m is needed")
     code = lib.carom_place_ball(of_table, layout, len(placed), index, x, y, way)
     if code in (lib.CAROM_ERROR_OVERLAP, lib.CAROM_ERROR_OFF_TABLE):
-        raise CaromError(code, _part(way), text=f"is in the way of ball {index} at x = {x} m, y = {y} m; a free place on the table is needed")
+        raise CaromError(
+            code,
+            _part(way),
+            text=f"is in the way of ball {index} at x = {x} m, y = {y} m; a free place on the table is needed",
+        )
     if code == lib.CAROM_ERROR_POSITION:
         raise CaromError(code, "x, y", f"{x}, {y}")
     if code == lib.CAROM_ERROR_RADIUS:
-        raise CaromError(code, f"balls[{index}].kind.radius", placed[index]["kind"]["radius"].item())
+        raise CaromError(
+            code, f"balls[{index}].kind.radius", placed[index]["kind"]["radius"].item()
+        )
     if code < 0:
         raise CaromError(code, "balls" if code == lib.CAROM_ERROR_BALLS else _part(way))
     return placed
 
 
-LAST = {ffi.string(about.name).decode(): about.last for k in range(99) if (about := lib.carom_rules_about_of(k)) and about.last}  # the highest number of a ball
+LAST = {
+    ffi.string(about.name).decode(): about.last
+    for k in range(99)
+    if (about := lib.carom_rules_about_of(k)) and about.last
+}  # the highest number of a ball
 _COLOURS = {"yellow": "16", "green": "17", "brown": "18", "blue": "19", "pink": "20", "black": "21"}
 
 
-def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: str, *, cue: int | str = "cue") -> dtypes.Records:
-    """A layout as `plan` and `referee` want it, in which ball k is number k, from balls in any order; those that are missing are down.
+def by_number(
+    balls: dtypes.Records, ids: Sequence[int | str], rules: str, *, cue: int | str = "cue"
+) -> dtypes.Records:
+    """A layout as `plan` and `referee` want it, in which ball k is number k, from balls in any
+    order; those that are missing are down.
 
     Parameters
     ----------
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
     ids : sequence of int or str
-        The number of each, as a line of `carom shoot` names its balls; in snooker also "red1" to "red15", and the names of the colours.
+        The number of each, as a line of `carom shoot` names its balls; in snooker also "red1" to
+        "red15", and the names of the colours.
     rules : str
         The game, as of `plan`: numbers are 1 to 15, 1 to 9, or 1 to 21, from 16 on the colours.
     cue : int or str
@@ -261,10 +368,14 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: str, *, cu
     Raises ValueError: A ball is none of the game, or there twice, or there is no cue ball.
     """
     given = of_record(balls, dtypes.shot_ball, "balls", "balls()")
-    names = list(map(str, several(ids, "ids", "the number of each ball is needed, and the cue ball's name")))
+    names = list(
+        map(str, several(ids, "ids", "the number of each ball is needed, and the cue ball's name"))
+    )
     last = choice(LAST, rules, "rules")
     if given.shape != (len(names),):
-        raise ValueError(f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {given.shape}")
+        raise ValueError(
+            f"ids: one for each ball of an array of shape (balls,) is needed, not {len(names)} for {given.shape}"
+        )
     if names.count(str(cue)) != 1:
         raise ValueError(f"cue: it must be one of the ids, once, not {cue!r}")
     at: dict[int, int] = {}
@@ -272,7 +383,9 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: str, *, cu
         number = _COLOURS.get(name, name.removeprefix("red")) if rules == "snooker" else name
         of_ball = 0 if name == str(cue) else int(number) if number.isdecimal() else -1
         if not 0 <= of_ball <= last or of_ball in at or (of_ball == 0 and name != str(cue)):
-            raise ValueError(f"ids: ball {name!r}: the balls of {rules} are the cue ball and 1 to {last}, each once")
+            raise ValueError(
+                f"ids: ball {name!r}: the balls of {rules} are the cue ball and 1 to {last}, each once"
+            )
         at[of_ball] = k
     made = given[[at.get(ball, at[0]) for ball in range(last + 1)]]
     down = [ball for ball in range(last + 1) if ball not in at]
@@ -283,9 +396,14 @@ def by_number(balls: dtypes.Records, ids: Sequence[int | str], rules: str, *, cu
 
 @with_numbers(lib.CAROM_PART_BALL)
 def balls(
-    r: npt.ArrayLike, *, v: npt.ArrayLike = 0.0, w: npt.ArrayLike = 0.0, game: Game = "pool",
-    cushion_model: ShotCushion = "default", **kind: Unpack[BallNumbers]
-) -> dtypes.Records:  # fmt: skip
+    r: npt.ArrayLike,
+    *,
+    v: npt.ArrayLike = 0.0,
+    w: npt.ArrayLike = 0.0,
+    game: Game = "pool",
+    cushion_model: ShotCushion = "default",
+    **kind: Unpack[BallNumbers],
+) -> dtypes.Records:
     """Balls on a table, from fields that are broadcast against each other.
 
     Parameters
@@ -295,41 +413,74 @@ def balls(
     v, w : array_like, shape (..., 3)
         Velocities, m/s, and angular velocities, rad/s.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
-        Whose balls they are: the defaults of the fields of `carom.dtypes.ball_kind`, which follow. docs/understanding/constants.md has the
-        source of each number: those of billiard are measured, with drag and loss of roll; pooltool_... are pooltool's figures.
+        Whose balls they are: the defaults of the fields of `carom.dtypes.ball_kind`, which follow.
+        docs/understanding/constants.md has the source of each number: those of billiard are
+        measured, with drag and loss of roll; pooltool_... are pooltool's figures.
     cushion_model
-        The model of the cushion whose constants they have, as of `simulate`. A warning tells where the game has none for it.
+        The model of the cushion whose constants they have, as of `simulate`. A warning tells where
+        the game has none for it.
     {fields}
 
     Returns an ndarray of `carom.dtypes.shot_ball`, shape (..., balls).
     """
     unknown = [name for name in kind if name not in (dtypes.ball_kind.names or ())]
     if unknown:
-        raise TypeError(f"balls: there is no field {unknown[0]!r}; known are {', '.join(dtypes.ball_kind.names or ())}")
-    fields = {f"kind.{name}": value for name, value in cast("dict[str, npt.ArrayLike | None]", kind).items()}
+        raise TypeError(
+            f"balls: there is no field {unknown[0]!r}; known are {', '.join(dtypes.ball_kind.names or ())}"
+        )
+    fields = {
+        f"kind.{name}": value
+        for name, value in cast("dict[str, npt.ArrayLike | None]", kind).items()
+    }
     centres = as_array(r, "r", np.float64)
     if centres.ndim < 2 or centres.shape[-1] not in (2, 3):
-        raise ValueError(f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}")
+        raise ValueError(
+            f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}"
+        )
     places = np.zeros((*centres.shape[:-1], 3))
     places[..., : centres.shape[-1]] = centres
     ball, number = ffi.new("carom_shot_ball *"), choice(GAMES, game, "game")
-    if not lib.carom_ball_kind_for(number, choice(_CUSHIONS, cushion_model, "cushion_model"), ffi.addressof(ball, "kind")):
-        warnings.warn(f"cushion_model: {game} has no constants for {cushion_model!r}; the balls have those for its default model", stacklevel=2)
+    if not lib.carom_ball_kind_for(
+        number, choice(_CUSHIONS, cushion_model, "cushion_model"), ffi.addressof(ball, "kind")
+    ):
+        warnings.warn(
+            f"cushion_model: {game} has no constants for {cushion_model!r}; the balls have those for its default model",
+            stacklevel=2,
+        )
     usual = bytes(ffi.buffer(ball))
-    made = fill(dtypes.shot_ball, {"r": 3, "v": 3, "w": 3}, {**fields, "state.r": places, "state.v": v, "state.w": w}, usual)
+    made = fill(
+        dtypes.shot_ball,
+        {"r": 3, "v": 3, "w": 3},
+        {**fields, "state.r": places, "state.v": v, "state.w": w},
+        usual,
+    )
     if centres.shape[-1] == 2:
         made["state"]["r"][..., 2] = made["kind"]["radius"]
     return made
 
 
 def cue(
-    *, speed: npt.ArrayLike | None = None, phi: npt.ArrayLike = 90.0, theta: npt.ArrayLike = 0.0, a: npt.ArrayLike | None = None,
-    b: npt.ArrayLike | None = None, ball: npt.ArrayLike = 0, game: Game = "pool", mass: npt.ArrayLike | None = None,
-    end_mass: npt.ArrayLike | None = None, tip_radius: npt.ArrayLike | None = None, miscue: npt.ArrayLike = 0.0,
-    tip_time: npt.ArrayLike = 0.0, tip_restitution: npt.ArrayLike | None = None, ball_speed: npt.ArrayLike | None = None,
-    tip: npt.ArrayLike | None = None, follow: npt.ArrayLike | None = None
-) -> dtypes.Records:  # fmt: skip
-    """Build a cue with its strike, or many. The fields are broadcast against each other.
+    *,
+    speed: npt.ArrayLike | None = None,
+    phi: npt.ArrayLike = 90.0,
+    theta: npt.ArrayLike = 0.0,
+    a: npt.ArrayLike | None = None,
+    b: npt.ArrayLike | None = None,
+    ball: npt.ArrayLike = 0,
+    game: Game = "pool",
+    mass: npt.ArrayLike | None = None,
+    end_mass: npt.ArrayLike | None = None,
+    tip_radius: npt.ArrayLike | None = None,
+    miscue: npt.ArrayLike = 0.0,
+    tip_time: npt.ArrayLike = 0.0,
+    tip_restitution: npt.ArrayLike | None = None,
+    ball_speed: npt.ArrayLike | None = None,
+    tip: npt.ArrayLike | None = None,
+    follow: npt.ArrayLike | None = None,
+) -> dtypes.Records:
+    """Build a cue with its strike, or many.
+
+    The fields are broadcast against each other.
 
     Parameters
     ----------
@@ -338,8 +489,8 @@ def cue(
     phi, theta : array_like, shape (...)
         Direction in the plane from +x towards +y, and elevation of the butt, degrees.
     a, b : array_like, shape (...)
-        Where the tip touches the ball, in units of its radius, with pooltool's sign: a > 0 left, b > 0 above the centre;
-        a^2 + b^2 < miscue^2. Default 0 and 0.25.
+        Where the tip touches the ball, in units of its radius, with pooltool's sign: a > 0 left, b
+        > 0 above the centre; a^2 + b^2 < miscue^2. Default 0 and 0.25.
     ball : array_like of int, shape (...)
         Index of the ball that is struck.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
@@ -347,30 +498,39 @@ def cue(
     mass, end_mass, tip_radius : array_like, shape (...)
         kg, kg, m.
     miscue : array_like, shape (...)
-        0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips reach 0.5.
+        0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips
+        reach 0.5.
     tip_time : array_like, shape (...)
-        s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.001, a leather tip. Hard resin, with which balls
-        jump, has 0.0008. -1: no time, so that the blow and the landing are two events, as before revision 8.
+        s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.001, a
+        leather tip. Hard resin, with which balls jump, has 0.0008. -1: no time, so that the blow
+        and the landing are two events, as before revision 8.
     tip_restitution : array_like, shape (...)
-        Restitution of the tip and the ball, 0 to 1; 0: 1, without loss. The speed of the ball is in proportion to 1 + tip_restitution. Default
+        Restitution of the tip and the ball, 0 to 1; 0: 1, without loss. The speed of the ball is in
+            proportion to 1 + tip_restitution. Default
         0.73, leather, and 1 for pooltool's games; phenolic resin has 0.85.
     ball_speed : array_like, shape (...)
         Instead of `speed`: that of a ball of `game` just after the strike of a level cue, m/s.
     tip : array_like, shape (..., 2)
-        Instead of `a` and `b`: where the tip touches, right of and above the centre, as `carom shoot --tip` has it.
+        Instead of `a` and `b`: where the tip touches, right of and above the centre, as `carom
+        shoot --tip` has it.
     follow : array_like, shape (...)
-        m, to 1: how far the cue goes on after it has touched the ball; 0: it stops. Default 0.03, a convention; 0 for pooltool's games.
+        m, to 1: how far the cue goes on after it has touched the ball; 0: it stops. Default 0.03, a
+        convention; 0 for pooltool's games.
 
     Returns an ndarray of `carom.dtypes.cue`, shape (...).
     """
     if speed is not None and ball_speed is not None:
-        raise ValueError("cue: speed is that of the cue, ball_speed that of the ball: one of both is needed")
+        raise ValueError(
+            "cue: speed is that of the cue, ball_speed that of the ball: one of both is needed"
+        )
     if tip is not None:
         if a is not None or b is not None:
             raise ValueError("cue: tip says what a and b say: one of both is needed")
         places = as_array(tip, "tip", np.float64)
         if places.ndim < 1 or places.shape[-1] != 2:
-            raise ValueError(f"tip: the shape must be (..., 2), right of and above the centre, not {places.shape}")
+            raise ValueError(
+                f"tip: the shape must be (..., 2), right of and above the centre, not {places.shape}"
+            )
         a, b = 0.0 - places[..., 0], places[..., 1]
     for name, angle in (("phi", phi), ("theta", theta)):
         _doubt_radians(name, angle)
@@ -378,12 +538,21 @@ def cue(
         numbers = as_array(ball, "ball", np.float64)
         whole_ones = (np.abs(numbers) < 2**31) & (np.trunc(numbers) == numbers)
         if not whole_ones.all():
-            raise ValueError(f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}")
+            raise ValueError(
+                f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}"
+            )
     usual = bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(GAMES, game, "game")))))
     if ball_speed is not None:
         speed = as_array(ball_speed, "ball_speed", np.float64)
     given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball}
-    more = {"miscue": miscue, "tip_time": tip_time, "tip_restitution": tip_restitution, "mass": mass, "end_mass": end_mass, "tip_radius": tip_radius}
+    more = {
+        "miscue": miscue,
+        "tip_time": tip_time,
+        "tip_restitution": tip_restitution,
+        "mass": mass,
+        "end_mass": end_mass,
+        "tip_radius": tip_radius,
+    }
     more["follow"] = follow
     made = fill(dtypes.cue, {}, {**given, **more}, usual)
     if ball_speed is not None:
@@ -392,13 +561,21 @@ def cue(
 
 
 def _strike_to(cues: dtypes.Records, game: Game) -> None:
-    """Gives cues, whose speeds are those of balls, the speeds that they need. The ball's speed is in proportion to the level cue's."""
+    """Gives cues, whose speeds are those of balls, the speeds that they need.
+
+    The ball's speed is in proportion to the level cue's.
+    """
     if (cues["theta"] != 0.0).any():
-        raise ValueError("ball_speed: it is that which a level cue gives the ball; with theta give speed, the speed of the cue")
+        raise ValueError(
+            "ball_speed: it is that which a level cue gives the ball; with theta give speed, the speed of the cue"
+        )
     kind = balls([[0.0, 0.0]], game=game)[0]["kind"]
     flat = cues.reshape(-1)
     wanted, phi = flat["speed"].copy(), flat["phi"].copy()
-    flat["speed"], flat["phi"] = 1.0, 0.0  # along x, and by a root, it has the same bits in other languages
+    flat["speed"], flat["phi"] = (
+        1.0,
+        0.0,
+    )  # along x, and by a root, it has the same bits in other languages
     for k in range(flat.size):
         x, y, _ = struck(flat[k : k + 1].reshape(()), kind)["v"]
         flat["speed"][k] = wanted[k] / np.sqrt(x * x + y * y)
@@ -406,7 +583,9 @@ def _strike_to(cues: dtypes.Records, game: Game) -> None:
 
 
 def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
-    """Warns of angles that are within a turn in radians, one of them a twelfth of pi or a multiple of it, as few degrees are."""
+    """Warns of angles that are within a turn in radians, one of them a twelfth of pi or a multiple
+    of it, as few degrees are.
+    """
     given = as_array(angle, name, np.float64)
     if not (np.abs(given) < 24.5 * np.pi / 12.0).all():
         return
@@ -422,11 +601,17 @@ def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
 
 
 def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
-    """The motion of a ball at rest after a strike: `carom.dtypes.motion` of a `carom.dtypes.cue` and a `carom.dtypes.ball_kind`, shapes ()."""
+    """The motion of a ball at rest after a strike: `carom.dtypes.motion` of a `carom.dtypes.cue`
+    and a `carom.dtypes.ball_kind`, shapes ().
+    """
     motion: Array = np.zeros((), dtypes.motion)
     strike = one_cue(cue)
     ball = of_record(kind, dtypes.ball_kind, "kind", "balls()['kind']").reshape(1)
-    code = lib.carom_strike(pointer("carom_cue[]", strike), pointer("carom_ball_kind[]", ball), pointer("carom_motion[]", motion))
+    code = lib.carom_strike(
+        pointer("carom_cue[]", strike),
+        pointer("carom_ball_kind[]", ball),
+        pointer("carom_motion[]", motion),
+    )
     if code < 0:
         raise strike_error(code, strike, ball[0])
     return motion

@@ -1,5 +1,8 @@
-"""Pictures of a table and a shot: as SVG, still, with the balls' paths, or moving; and as pixels. They are drawn for `carom.Table` and
-`carom.Shot`, which import this module; so these have no types here."""
+"""Pictures of a table and a shot: as SVG, still, with the balls' paths, or moving; and as pixels.
+
+They are drawn for `carom.Table` and `carom.Shot`, which import this module; so these have no types
+here.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,8 @@ __dir__ = listing(__name__)
 _SCALE = 300.0  # pixels a metre
 _MARGIN = 0.12  # m around the cushions, for pockets and the frame
 _CLOTH, _CUSHION, _WOOD, _POCKET, _MARK = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111", "#ffd166"
-# The balls in the order of the layout: the cue ball, then 1 to 15 in the colours of pool, and again.
+# The balls in the order of the layout: the cue ball, then 1 to 15 in the colours of pool, and
+# again.
 _COLOURS = (
     "#ffffff #f2c200 #1f4fd8 #d32f2f #6a1b9a #ef6c00 #2e9b3a #7b1c1c #222222 #f7dc6f #7fa3f5 #ef8a8a #b58ad4 #f7b27a #8fd19a #c58a8a"
 ).split()
@@ -57,19 +61,29 @@ class _Canvas:
     """Metres of the table to pixels of the picture."""
 
     def __init__(self, table: Any) -> None:
-        ends = np.concatenate([table.rails["p"], table.rails["q"]]) if len(table.rails) else np.zeros((1, 2))
+        ends = (
+            np.concatenate([table.rails["p"], table.rails["q"]])
+            if len(table.rails)
+            else np.zeros((1, 2))
+        )
         corners = np.array([[0.0, 0.0], [table.width, table.length]])
         everything = np.concatenate([ends, corners])
         self.low = everything.min(axis=0) - _MARGIN
         self.high = everything.max(axis=0) + _MARGIN
         size = (self.high - self.low) * _SCALE
-        self.turned = bool(size[1] > size[0])  # a long table lies on its side: y to the right, x downwards
+        self.turned = bool(
+            size[1] > size[0]
+        )  # a long table lies on its side: y to the right, x downwards
         self.size = size[::-1] if self.turned else size
 
     def at(self, r: npt.ArrayLike) -> tuple[float, float]:
         """A point of the table on the picture, in pixels."""
         x, y = (float(value) for value in np.asarray(r)[:2])
-        right, down = (y - self.low[1], x - self.low[0]) if self.turned else (x - self.low[0], self.high[1] - y)
+        right, down = (
+            (y - self.low[1], x - self.low[0])
+            if self.turned
+            else (x - self.low[0], self.high[1] - y)
+        )
         return float(right) * _SCALE, float(down) * _SCALE
 
     def point(self, r: npt.ArrayLike) -> str:
@@ -79,8 +93,17 @@ class _Canvas:
         x, y = map(_number, self.at(centre))
         return f'<circle cx="{x}" cy="{y}" r="{_number(radius * _SCALE)}" {rest}/>'
 
-    def ball(self, shot: Any, number: int, places: dtypes.Doubles, opacity: float = 1.0, duration: str = "") -> str:
-        """A ball of a shot, with its number unless it is the first: at a place, or moving over several, shape (n, 3)."""
+    def ball(
+        self,
+        shot: Any,
+        number: int,
+        places: dtypes.Doubles,
+        opacity: float = 1.0,
+        duration: str = "",
+    ) -> str:
+        """A ball of a shot, with its number unless it is the first: at a place, or moving over
+        several, shape (n, 3).
+        """
         points = [self.point(r) for r in places]
         radius = float(shot.balls["kind"]["radius"][number]) * _SCALE
         style = f'fill="{colour(number)}" fill-opacity="{opacity}" stroke="#000" stroke-width="0.5"'
@@ -91,45 +114,74 @@ class _Canvas:
             parts.append(f'<text {text} fill="{ink}" fill-opacity="{opacity}">{number}</text>')
         if len(set(points)) > 1:
             values = ";".join(points)
-            parts.append(f'<animateTransform attributeName="transform" type="translate" values="{values}" {duration}/>')
+            parts.append(
+                f'<animateTransform attributeName="transform" type="translate" values="{values}" {duration}/>'
+            )
         return "".join([*parts, "</g>"])
 
     def document(self, parts: list[str]) -> str:
         width, height = _number(float(self.size[0])), _number(float(self.size[1]))
         head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
-        return "\n".join([head, f'<rect width="{width}" height="{height}" rx="12" fill="{_WOOD}"/>', *parts, "</svg>", ""])
+        return "\n".join(
+            [
+                head,
+                f'<rect width="{width}" height="{height}" rx="12" fill="{_WOOD}"/>',
+                *parts,
+                "</svg>",
+                "",
+            ]
+        )
 
 
 def _table(canvas: _Canvas, table: Any) -> list[str]:
     corners = ((0.0, 0.0), (table.width, 0.0), (table.width, table.length), (0.0, table.length))
     parts = [f'<polygon points="{" ".join(map(canvas.point, corners))}" fill="{_CLOTH}"/>']
-    parts += [canvas.circle(pocket["centre"], float(pocket["radius"]), f'fill="{_POCKET}"') for pocket in table.pockets]
+    parts += [
+        canvas.circle(pocket["centre"], float(pocket["radius"]), f'fill="{_POCKET}"')
+        for pocket in table.pockets
+    ]
     parts += [
         f'<polyline points="{canvas.point(rail["p"])} {canvas.point(rail["q"])}" stroke="{_CUSHION}" stroke-width="4" fill="none"/>'
         for rail in table.rails
     ]
-    parts += [canvas.circle(jaw["centre"], float(jaw["radius"]), f'fill="{_CUSHION}"') for jaw in table.jaws]
+    parts += [
+        canvas.circle(jaw["centre"], float(jaw["radius"]), f'fill="{_CUSHION}"')
+        for jaw in table.jaws
+    ]
     return parts
 
 
 def colour(ball: int) -> str:
-    return _COLOURS[ball] if ball < len(_COLOURS) else _COLOURS[1 + (ball - 1) % (len(_COLOURS) - 1)]
+    return (
+        _COLOURS[ball] if ball < len(_COLOURS) else _COLOURS[1 + (ball - 1) % (len(_COLOURS) - 1)]
+    )
 
 
 def _paths(shot: Any) -> dtypes.Doubles:
-    """Places of the balls of a shot, (n, balls, 3). Paths are parabolas between events, so the events' times are among those looked at."""
+    """Places of the balls of a shot, (n, balls, 3).
+
+    Paths are parabolas between events, so the events' times are among those looked at.
+    """
     times = np.union1d(np.linspace(0.0, shot.time, _PATH_POINTS), shot.events["time"])
-    paths: dtypes.Doubles = shot.positions(times) if shot.count <= len(shot.events) else np.zeros((0, len(shot.balls), 3))
+    paths: dtypes.Doubles = (
+        shot.positions(times)
+        if shot.count <= len(shot.events)
+        else np.zeros((0, len(shot.balls), 3))
+    )
     return paths
 
 
 def picture(
-    table: Any, shot: Any = None, seen: Sequence[dtypes.Doubles] = (), marks: Sequence[tuple[npt.ArrayLike, float, str, str]] = ()
+    table: Any,
+    shot: Any = None,
+    seen: Sequence[dtypes.Doubles] = (),
+    marks: Sequence[tuple[npt.ArrayLike, float, str, str]] = (),
 ) -> str:
-    """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of an SVG.
+    """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of
+    an SVG.
 
-    `seen` are places of each ball, shapes (..., 2), that are drawn as dots. `marks` are circles: place, radius (m), a text for a pointer that
-    rests on it, and a text beside it.
+    `seen` are places of each ball, shapes (..., 2), that are drawn as dots. `marks` are circles:
+    place, radius (m), a text for a pointer that rests on it, and a text beside it.
     """
     canvas = _Canvas(table)
     parts = _table(canvas, table)
@@ -141,20 +193,34 @@ def picture(
                 line = f'points="{" ".join(points)}" stroke="{colour(ball)}" stroke-width="1.5" stroke-opacity="0.8" fill="none"'
                 parts.append(f"<polyline {line}/>")
         for states, opacity in ((shot.balls["state"], 0.35), (shot.final, 1.0)):
-            parts += [canvas.ball(shot, ball, state["r"][np.newaxis], opacity) for ball, state in enumerate(states)]
+            parts += [
+                canvas.ball(shot, ball, state["r"][np.newaxis], opacity)
+                for ball, state in enumerate(states)
+            ]
     for ball, places in enumerate(seen):
-        parts += [canvas.circle(r, _DOT, f'fill="{colour(ball)}" stroke="#000" stroke-width="0.3"') for r in places]
+        parts += [
+            canvas.circle(r, _DOT, f'fill="{colour(ball)}" stroke="#000" stroke-width="0.3"')
+            for r in places
+        ]
     texts: list[tuple[float, float]] = []
     for place, size, told, beside in marks:
         x, y = canvas.at(place)
-        circle = canvas.circle(place, size, f'fill="none" stroke="{_MARK}" stroke-width="1.5" pointer-events="all"')
+        circle = canvas.circle(
+            place, size, f'fill="none" stroke="{_MARK}" stroke-width="1.5" pointer-events="all"'
+        )
         # the text lies towards the middle of the picture, below others
-        anchor, x = ("start", x + size * _SCALE) if x < 0.5 * canvas.size[0] else ("end", x - size * _SCALE)
-        while beside and any(abs(x - other) < 140.0 and abs(y - below) < 13.0 for other, below in texts):
+        anchor, x = (
+            ("start", x + size * _SCALE) if x < 0.5 * canvas.size[0] else ("end", x - size * _SCALE)
+        )
+        while beside and any(
+            abs(x - other) < 140.0 and abs(y - below) < 13.0 for other, below in texts
+        ):
             y += 13.0
         texts += [(x, y)] if beside else []
         text = f'<text x="{_number(x)}" y="{_number(y)}" text-anchor="{anchor}" font-size="12" font-family="sans-serif" fill="#fff">'
-        parts.append(f"<g><title>{html.escape(told)}</title>{circle}{text}{html.escape(beside)}</text></g>")
+        parts.append(
+            f"<g><title>{html.escape(told)}</title>{circle}{text}{html.escape(beside)}</text></g>"
+        )
     return canvas.document(parts)
 
 
@@ -167,14 +233,21 @@ def animation(shot: Any, speed: float) -> Animation:
     canvas = _Canvas(shot.table)
     parts = _table(canvas, shot.table)
     duration = f'dur="{max(shot.time / speed, 0.01):.4g}s" repeatCount="indefinite"'
-    parts += [canvas.ball(shot, ball, paths[:, ball], duration=duration) for ball in range(len(shot.balls))]
+    parts += [
+        canvas.ball(shot, ball, paths[:, ball], duration=duration)
+        for ball in range(len(shot.balls))
+    ]
     return Animation(canvas.document(parts))
 
 
-# ---- Pixels ---------------------------------------------------------------------------------------------------------------
+# ---- Pixels
+# ---------------------------------------------------------------------------------------------------------------
 
 # The digits of the balls, 3 pixels wide and 5 high: a row of each is a number of three bits.
-_DIGITS = [[int(row) for row in digit] for digit in "75557 26227 71747 71717 55711 74717 74757 71111 75757 75717".split()]
+_DIGITS = [
+    [int(row) for row in digit]
+    for digit in "75557 26227 71747 71717 55711 74717 74757 71111 75757 75717".split()
+]
 
 
 class _Pixels:
@@ -187,11 +260,15 @@ class _Pixels:
         self.image: npt.NDArray[np.float64] = np.empty((height, width, 3))
         self.image[:] = _colour(_WOOD)
 
-    def _cover(self, low: dtypes.Doubles, high: dtypes.Doubles, distance: Any, ink: str, opacity: float) -> None:
+    def _cover(
+        self, low: dtypes.Doubles, high: dtypes.Doubles, distance: Any, ink: str, opacity: float
+    ) -> None:
         """Paints the pixels of a box, pixels, by how far they are outside a shape: distance(x, y)."""
         height, width = self.image.shape[:2]
         x_0, y_0 = (int(max(np.floor(value) - 1.0, 0.0)) for value in low)
-        x_1, y_1 = (int(min(np.ceil(value) + 2.0, size)) for value, size in zip(high, (width, height)))
+        x_1, y_1 = (
+            int(min(np.ceil(value) + 2.0, size)) for value, size in zip(high, (width, height))
+        )
         if x_0 >= x_1 or y_0 >= y_1:
             return
         x, y = np.arange(x_0, x_1) + 0.5, (np.arange(y_0, y_1) + 0.5)[:, np.newaxis]
@@ -202,9 +279,17 @@ class _Pixels:
     def disc(self, centre: npt.ArrayLike, radius: float, ink: str, opacity: float = 1.0) -> None:
         """A disc of a radius in pixels at a place of the table."""
         at = np.array(self.canvas.at(centre))
-        self._cover(at - radius, at + radius, lambda x, y: np.hypot(x - at[0], y - at[1]) - radius, ink, opacity)
+        self._cover(
+            at - radius,
+            at + radius,
+            lambda x, y: np.hypot(x - at[0], y - at[1]) - radius,
+            ink,
+            opacity,
+        )
 
-    def line(self, p: npt.ArrayLike, q: npt.ArrayLike, width: float, ink: str, opacity: float = 1.0) -> None:
+    def line(
+        self, p: npt.ArrayLike, q: npt.ArrayLike, width: float, ink: str, opacity: float = 1.0
+    ) -> None:
         """A line of a width in pixels between two places of the table."""
         a, b = np.array(self.canvas.at(p)), np.array(self.canvas.at(q))
         along = b - a
@@ -224,13 +309,18 @@ class _Pixels:
         if number == 0 or opacity < 1.0:
             return
         digits = [_DIGITS[int(digit)] for digit in str(number)]
-        x_0, y_0 = (int(round(value)) for value in np.array(self.canvas.at(centre)) - [2.0 * len(digits) - 0.5, 2.5])
+        x_0, y_0 = (
+            int(round(value))
+            for value in np.array(self.canvas.at(centre)) - [2.0 * len(digits) - 0.5, 2.5]
+        )
         for k, digit in enumerate(digits):
             for row, bits in enumerate(digit):
                 for column in (column for column in range(3) if bits >> (2 - column) & 1):
                     x, y = x_0 + 4 * k + column, y_0 + row
                     if 0 <= y < self.image.shape[0] and 0 <= x < self.image.shape[1]:
-                        self.image[y, x] = _colour("#ffffff" if colour(number) in _DARK else "#111111")
+                        self.image[y, x] = _colour(
+                            "#ffffff" if colour(number) in _DARK else "#111111"
+                        )
 
 
 def _colour(ink: str) -> dtypes.Doubles:
@@ -253,12 +343,22 @@ def rendered(shot: Any, mode: str) -> Any:
 
 
 def pixels(table: Any, shot: Any = None) -> npt.NDArray[np.uint8]:
-    """What `picture` draws as an image, of shape (height, width, 3): red, green and blue, both sizes even."""
+    """What `picture` draws as an image, of shape (height, width, 3): red, green and blue, both
+    sizes even.
+    """
     canvas = _Canvas(table)
     drawn = _Pixels(canvas)
     corners = np.array([canvas.at((0.0, 0.0)), canvas.at((table.width, table.length))])
     low, high = corners.min(axis=0), corners.max(axis=0)
-    drawn._cover(low, high, lambda x, y: np.maximum(np.maximum(low[0] - x, x - high[0]), np.maximum(low[1] - y, y - high[1])), _CLOTH, 1.0)
+    drawn._cover(
+        low,
+        high,
+        lambda x, y: np.maximum(
+            np.maximum(low[0] - x, x - high[0]), np.maximum(low[1] - y, y - high[1])
+        ),
+        _CLOTH,
+        1.0,
+    )
     for pocket in table.pockets:
         drawn.disc(pocket["centre"], float(pocket["radius"]) * _SCALE, _POCKET)
     for rail in table.rails:

@@ -1,7 +1,8 @@
 """The racks, with the cue ball first: `carom.racks.nineball(table)`.
 
-Each takes the table, the gap between neighbours (m; 0 is a frozen rack) and the seed that draws by how much each ball is moved, up
-to a quarter of the gap, and where the other balls of the rack go; and gives an ndarray of `carom.dtypes.shot_ball`.
+Each takes the table, the gap between neighbours (m; 0 is a frozen rack) and the seed that draws by
+how much each ball is moved, up to a quarter of the gap, and where the other balls of the rack go;
+and gives an ndarray of `carom.dtypes.shot_ball`.
 """
 
 from __future__ import annotations
@@ -29,7 +30,10 @@ def _maker(name: str) -> _Rack:
         size = int(lib.carom_rack_size(kind))
         balls: Array = np.zeros(size, dtypes.shot_ball)
         check_table(table)
-        of_table, drawn = pointer("carom_table[]", table.record), whole(seed, "seed", most=2**64 - 1)
+        of_table, drawn = (
+            pointer("carom_table[]", table.record),
+            whole(seed, "seed", most=2**64 - 1),
+        )
         gap = number(gap, "gap", "a distance in m is needed")
         code = lib.carom_rack(kind, of_table, gap, drawn, pointer("carom_shot_ball[]", balls), size)
         if code < 0:

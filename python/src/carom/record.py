@@ -1,7 +1,8 @@
-"""Recordings of games that verify themselves: `Recorder` plays and writes one, `replay` plays it again and compares every bit.
+"""Recordings of games that verify themselves: `Recorder` plays and writes one, `replay` plays it
+again and compares every bit.
 
-A recording is text, a line of JSON after the other; docs/using/games.md has the format. Shots are played with the instruction set plain,
-whose bits all machines share.
+A recording is text, a line of JSON after the other; docs/using/games.md has the format. Shots are
+played with the instruction set plain, whose bits all machines share.
 """
 
 from __future__ import annotations
@@ -71,7 +72,11 @@ def _refuse(game: Any, code: int) -> None:
     """Raises an error of a recording, with its line."""
     if code == lib.CAROM_ERROR_REVISION:
         revisions = f"{game.revision}, not {lib.carom_physics_revision()}"
-        raise CaromError(code, f"line {game.line}", text=f"the recording is of revision {revisions}: its shots have other bits here")
+        raise CaromError(
+            code,
+            f"line {game.line}",
+            text=f"the recording is of revision {revisions}: its shots have other bits here",
+        )
     if code == lib.CAROM_ERROR_RECORD:
         raise CaromError(code, f"line {game.line}", text=ffi.string(game.fault).decode())
 
@@ -79,7 +84,14 @@ def _refuse(game: Any, code: int) -> None:
 class Recorder:
     """A game on its way, and the text of it so far, `lines`."""
 
-    def __init__(self, table: Table, balls: dtypes.Records, *, options: Options = Options(), **changes: Unpack[Changes]) -> None:
+    def __init__(
+        self,
+        table: Table,
+        balls: dtypes.Records,
+        *,
+        options: Options = Options(),
+        **changes: Unpack[Changes],
+    ) -> None:
         """Begin with a table, a layout as for `carom.simulate`, and the models of all shots."""
         check_table(table)
         self.lines: list[str] = []
@@ -112,14 +124,19 @@ class Recorder:
     def balls(self, balls: dtypes.Records) -> None:
         layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
         if layout.ndim != 1 or not 1 <= len(layout) <= lib.CAROM_BALLS_MOST:
-            raise ValueError(f"balls: the shape must be (balls,) with 1 to {lib.CAROM_BALLS_MOST} balls, not {layout.shape}")
+            raise ValueError(
+                f"balls: the shape must be (balls,) with 1 to {lib.CAROM_BALLS_MOST} balls, not {layout.shape}"
+            )
         lib.carom_record_settle(self._game)
         self._game.count = len(layout)
         ffi.buffer(self._game.balls, layout.nbytes)[:] = layout.tobytes()
         self._write(lib.CAROM_RECORD_BALLS)
 
     def place(self, ball: int, x: float, y: float) -> None:
-        """Ball in hand, as `carom.place_ball`. A place that is not free is refused, and nothing is recorded."""
+        """Ball in hand, as `carom.place_ball`.
+
+        A place that is not free is refused, and nothing is recorded.
+        """
         self._put(ball, lib.carom_record_place(self._game, ball, x, y, ffi.NULL))
 
     def hand(self, ball: int = 0) -> None:
@@ -132,7 +149,9 @@ class Recorder:
         self._write(lib.CAROM_RECORD_PLACE)
 
     def stand(self, rules: str, state: Any, player: int = 0) -> None:
-        """How the game stands: its name, the state of a ruling of `carom.referee` or what differs from a new game, and who is at the table, 0 or 1."""
+        """How the game stands: its name, the state of a ruling of `carom.referee` or what differs
+        from a new game, and who is at the table, 0 or 1.
+        """
         game = self._game
         if player not in (0, 1):
             raise ValueError(f"player: must be 0 or 1, not {player!r}")
@@ -143,27 +162,37 @@ class Recorder:
             for name, value in state.items():
                 setattr(made, name, value)
         else:
-            ffi.buffer(ffi.addressof(made))[:] = of_record(state, dtypes.rules_state, "state", "referee().state").tobytes()
+            ffi.buffer(ffi.addressof(made))[:] = of_record(
+                state, dtypes.rules_state, "state", "referee().state"
+            ).tobytes()
         wrong = lib.carom_rules_fault(game.rules, ffi.addressof(made), limits := ffi.new("char **"))
         if wrong:
-            raise ValueError(f"{ffi.string(wrong).decode()}: by the rules {rules} it must be {ffi.string(limits[0]).decode()}")
+            raise ValueError(
+                f"{ffi.string(wrong).decode()}: by the rules {rules} it must be {ffi.string(limits[0]).decode()}"
+            )
         game.standing = made
         self._write(lib.CAROM_RECORD_GAME)
 
     @property
     def standing(self) -> tuple[str, dtypes.Records, int]:
         """What `stand` recorded last: the name of the game, its state, and who is at the table."""
-        state = np.frombuffer(bytearray(ffi.buffer(ffi.addressof(self._game, "standing"))), dtypes.rules_state).reshape(())
+        state = np.frombuffer(
+            bytearray(ffi.buffer(ffi.addressof(self._game, "standing"))), dtypes.rules_state
+        ).reshape(())
         return list(_GAMES)[self._game.rules], state, self._game.player
 
     @classmethod
     def load(cls, recording: str | os.PathLike[str] | Iterable[str]) -> Recorder:
-        """Go on with a game that was saved without its end, from a file or its lines: its shots are played again, as `replay` does."""
+        """Go on with a game that was saved without its end, from a file or its lines: its shots are
+        played again, as `replay` does.
+        """
         game = cls.__new__(cls)
         game.__setstate__(([], bytes(ffi.sizeof("carom_record"))))
         for shot in _replay(game._game, _lines(recording, game.lines)):
             if not shot.same:
-                raise CaromError(lib.CAROM_ERROR_RECORD, f"line {shot.line}", text="the shot has other bits here")
+                raise CaromError(
+                    lib.CAROM_ERROR_RECORD, f"line {shot.line}", text="the shot has other bits here"
+                )
         return game
 
     @property
@@ -178,13 +207,21 @@ class Recorder:
         if ruling.hand != "no":
             self.hand()
 
-    def shoot(self, cue: dtypes.Records, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()) -> End:
+    def shoot(
+        self,
+        cue: dtypes.Records,
+        *,
+        t_final: float | None = None,
+        stop_at: StopAt | Iterable[StopAt] = (),
+    ) -> End:
         """Play a stroke, up to when `carom.simulate` would stop it, and record it."""
         ffi.buffer(ffi.addressof(self._game, "cue"))[:] = one_cue(cue).tobytes()
         self._until(t_final, stop_at)
         return self._play(lib.CAROM_RECORD_SHOT)
 
-    def resume(self, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()) -> End:
+    def resume(
+        self, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()
+    ) -> End:
         """Go on with the shot that was stopped, and record it."""
         self._until(t_final, stop_at)
         return self._play(lib.CAROM_RECORD_CONTINUE)
@@ -195,7 +232,10 @@ class Recorder:
         return "".join(self.lines)
 
     def _until(self, t_final: float | None, stop_at: StopAt | Iterable[StopAt]) -> None:
-        until, options = shot_options(Options().changed({"t_final": t_final, "stop_at": stop_at})), self._game.options
+        until, options = (
+            shot_options(Options().changed({"t_final": t_final, "stop_at": stop_at})),
+            self._game.options,
+        )
         options.time_most, options.stop_at, options.first_of = until.time_most, until.stop_at, 0
 
     def _play(self, kind: int) -> End:
@@ -222,12 +262,17 @@ def replay(recording: str | os.PathLike[str] | Iterable[str]) -> Iterator[Replay
     recording : path, or lines
         A file, or its lines, as they come.
 
-    Raises CaromError: A line is wrong, by a key or a value; the recording is of another revision of the physics; it is cut off.
+    Raises CaromError: A line is wrong, by a key or a value; the recording is of another revision of
+        the physics; it is cut off.
     """
     game = ffi.new("carom_record *")
     yield from _replay(game, _lines(recording, []))
     if game.kind != lib.CAROM_RECORD_END:
-        raise CaromError(lib.CAROM_ERROR_RECORD, f"line {game.line}", text='cut off: there is no line {"end": ...}')
+        raise CaromError(
+            lib.CAROM_ERROR_RECORD,
+            f"line {game.line}",
+            text='cut off: there is no line {"end": ...}',
+        )
 
 
 def _lines(recording: str | os.PathLike[str] | Iterable[str], kept: list[str]) -> Iterator[str]:

@@ -16,7 +16,21 @@ from carom._carom import ffi, lib
 from carom._described import EventType as EventType
 from carom._described import Label as Label
 from carom._faults import argument_error, shot_arguments
-from carom._rows import INT8, Array, Arrays, addresses, as_array, fill, in_chunks, needed, one_or_all, pointer, several, spread, whole
+from carom._rows import (
+    INT8,
+    Array,
+    Arrays,
+    addresses,
+    as_array,
+    fill,
+    in_chunks,
+    needed,
+    one_or_all,
+    pointer,
+    several,
+    spread,
+    whole,
+)
 from carom._shot_options import Options, shot_options
 from carom.layouts import Table
 from carom.pictures import Animation
@@ -27,7 +41,9 @@ def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
     at = np.asarray(as_array(times, "times", np.float64), order="C")
     wrong = at[~((at >= 0.0) & (at < np.inf))]
     if wrong.size:
-        raise ValueError(f"times: each must be a finite number of seconds from the beginning of the shot, not {wrong.flat[0]}")
+        raise ValueError(
+            f"times: each must be a finite number of seconds from the beginning of the shot, not {wrong.flat[0]}"
+        )
     return at
 
 
@@ -50,7 +66,8 @@ class Shot:
     count : int
         Number of events, including those that were not kept.
     events : ndarray of `carom.dtypes.event`, shape (kept,)
-        In the order in which they happened. Of a batch with records="brief": `carom.dtypes.brief_event`.
+        In the order in which they happened. Of a batch with records="brief":
+        `carom.dtypes.brief_event`.
     final : ndarray of `carom.dtypes.ball_state`, shape (balls,)
     cue : ndarray of `carom.dtypes.cue`, shape (), or None
     options : Options
@@ -71,42 +88,59 @@ class Shot:
     state: Array | None = None
 
     def states(self, times: npt.ArrayLike, *, drawn: bool = False) -> dtypes.Records:
-        """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape (shape of the times..., balls).
+        """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape
+        (shape of the times..., balls).
 
-        After the end they are as at the end, where nothing moves any more. With `drawn` a pocketed ball falls in its
-        pocket until it lies at the depth or on others, and stays there; a shot of a batch then needs all its events: `simulate_batch(room=...)`.
+        After the end they are as at the end, where nothing moves any more. With `drawn` a pocketed
+        ball falls in its pocket until it lies at the depth or on others, and stays there; a shot of
+        a batch then needs all its events: `simulate_batch(room=...)`.
 
-        Raises CaromError: A time is after the end of a shot that was stopped, or that ended in an error, while balls moved.
+        Raises CaromError: A time is after the end of a shot that was stopped, or that ended in an
+            error, while balls moved.
         Raises ValueError: A time is before 0, or not finite.
         """
         at = _moments(times)
         states: Array = np.zeros((*at.shape, len(self.balls)), dtypes.ball_state)
-        look = functools.partial(lib.carom_shot_drawn, pointer("carom_table[]", self.table.record)) if drawn else lib.carom_shot_at_times
+        look = (
+            functools.partial(lib.carom_shot_drawn, pointer("carom_table[]", self.table.record))
+            if drawn
+            else lib.carom_shot_at_times
+        )
         self._at(at, states, 1, "carom_ball_state[]", look)
         return states
 
-    def _at(self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]) -> None:
+    def _at(
+        self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]
+    ) -> None:
         """Calls look(balls, count, shot, times, n, out), in chunks of the times."""
         if self.events.dtype != dtypes.event:
             raise CaromError(Status.ERROR_EVENTS_LOST)
         events = np.ascontiguousarray(self.events)
-        kept = {"events": pointer("carom_event[]", events), "room": len(events), "count": self.count, "time": self.time}
+        kept = {
+            "events": pointer("carom_event[]", events),
+            "room": len(events),
+            "count": self.count,
+            "time": self.time,
+        }
         shot = ffi.new("carom_shot *", kept)
         balls, count = pointer("carom_shot_ball[]", self.balls), len(self.balls)
         moments, target = pointer("double[]", at), pointer(ctype, out)
 
         def chunk(begin: int, many: int) -> int:
-            return int(look(balls, count, shot, moments + begin, many, target + begin * count * numbers))
+            return int(
+                look(balls, count, shot, moments + begin, many, target + begin * count * numbers)
+            )
 
         code = in_chunks(at.size, 1e-6, 0, chunk)
         if code < 0:
             raise CaromError(code)
 
     def orientations(self, times: npt.ArrayLike) -> dtypes.Doubles:
-        """How each ball has turned since the start of the shot, for drawing it: float64 of shape (..., balls, 4).
+        """How each ball has turned since the start of the shot, for drawing it: float64 of shape
+        (..., balls, 4).
 
-        These are unit quaternions (w, x, y, z), which take what is painted on a ball at the start to where it is then. Times and
-        errors are those of `states`.
+        These are unit quaternions (w, x, y, z), which take what is painted on a ball at the start
+        to where it is then. Times and errors are those of `states`.
         """
         at = _moments(times)
         turned: dtypes.Doubles = np.zeros((*at.shape, len(self.balls), 4))
@@ -115,18 +149,32 @@ class Shot:
 
     @property
     def slips(self) -> dtypes.Doubles:
-        """How fast surfaces pass each other in each event, m/s: with `impulse` it says how a contact sounds. 0 where nothing touches."""
-        table, balls = pointer("carom_table[]", self.table.record), pointer("carom_shot_ball[]", self.balls)
+        """How fast surfaces pass each other in each event, m/s: with `impulse` it says how a
+        contact sounds. 0 where nothing touches.
+        """
+        table, balls = (
+            pointer("carom_table[]", self.table.record),
+            pointer("carom_shot_ball[]", self.balls),
+        )
         events = pointer("carom_event[]", np.ascontiguousarray(self.events))
-        return np.array([lib.carom_event_slip(table, balls, len(self.balls), events + k) for k in range(len(self.events))])
+        return np.array(
+            [
+                lib.carom_event_slip(table, balls, len(self.balls), events + k)
+                for k in range(len(self.events))
+            ]
+        )
 
     def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
-        """The centres of all balls at any times: float64 of shape (..., balls, 3), m. Times and errors are those of `states`."""
+        """The centres of all balls at any times: float64 of shape (..., balls, 3), m.
+
+        Times and errors are those of `states`.
+        """
         return np.asarray(self.states(times)["r"], dtype=np.float64)
 
     def to_dataframe(self) -> Any:
-        """The events as a pandas DataFrame, a row an event: time, type (by name), a, b, before_a_r_x and so on. Where there is no second
-        ball, the numbers of one are nan, and its labels -1.
+        """The events as a pandas DataFrame, a row an event: time, type (by name), a, b,
+        before_a_r_x and so on. Where there is no second ball, the numbers of one are nan, and its
+        labels -1.
 
         Needs pandas. `carom.dtypes.columns` makes columns of any records.
         """
@@ -137,7 +185,9 @@ class Shot:
             events[side][events["type"] != EventType.BALL_BALL, 1] = UNKNOWN
         frame = pandas.DataFrame(dtypes.columns(events))
         frame.index.name = "event"
-        frame["type"] = pandas.Categorical([names[kind] for kind in self.events["type"].tolist()], list(names.values()))
+        frame["type"] = pandas.Categorical(
+            [names[kind] for kind in self.events["type"].tolist()], list(names.values())
+        )
         return frame
 
     def __repr__(self) -> str:
@@ -147,7 +197,9 @@ class Shot:
         return pictures.picture(self.table, self)
 
     def animate(self, speed: float = 1.0) -> Animation:
-        """A moving picture, for Jupyter or a file: `speed` 1 is that of the shot, and `svg` is the text, which moves in any browser."""
+        """A moving picture, for Jupyter or a file: `speed` 1 is that of the shot, and `svg` is the
+        text, which moves in any browser.
+        """
         return pictures.animation(self, speed)
 
 
@@ -172,7 +224,9 @@ class _OfBatch(Shot):
         return sorted({*super().__dir__(), *_ATTRIBUTES})
 
     def states(self, times: npt.ArrayLike, *, drawn: bool = False) -> dtypes.Records:
-        return super().states(times, drawn=True) if drawn else self._seen(times, dtypes.ball_state, ())
+        return (
+            super().states(times, drawn=True) if drawn else self._seen(times, dtypes.ball_state, ())
+        )
 
     def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
         return self._seen(times, np.dtype(np.float64), (3,))
@@ -181,10 +235,16 @@ class _OfBatch(Shot):
         index: tuple[Any, ...] = self._index if isinstance(self._index, tuple) else (self._index,)
         seen, codes = self._batch[(*index, ...)]._look_at(times, dtype, numbers, 0)
         if codes[0] < 0:
-            raise self._batch.error(self._index) if self.status < 0 and self.time == 0.0 else CaromError(int(codes[0]))
+            raise (
+                self._batch.error(self._index)
+                if self.status < 0 and self.time == 0.0
+                else CaromError(int(codes[0]))
+            )
         return seen
 
-    def _at(self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]) -> None:
+    def _at(
+        self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]
+    ) -> None:
         if self.count > len(self.events) or self.events.dtype != dtypes.event:
             raise CaromError(Status.ERROR_EVENTS_LOST)
         super()._at(at, out, numbers, ctype, look)
@@ -212,7 +272,9 @@ _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
     "count": lambda batch, index: int(batch.record["count"][index]),
     "events": _kept,
     "final": lambda batch, index: batch.final[index],
-    "cue": lambda batch, index: None if batch.cues is None else np.array(np.broadcast_to(batch.cues, batch.shape)[index]),
+    "cue": lambda batch, index: None
+    if batch.cues is None
+    else np.array(np.broadcast_to(batch.cues, batch.shape)[index]),
     "options": lambda batch, index: batch.options,
 }
 
@@ -221,14 +283,14 @@ _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
 class Features(Arrays):
     """What planners want of shots, besides `Shots.final`: arrays of the shape of the batch.
 
-    contact, contact_time: (..., 2), the first and the second of the different balls that the cue ball met; when, s
-    cushions_before: (..., 2), impacts of the cue ball on cushions before each of them; 0 without a contact
-    cushions_after: (...), impacts on cushions, of all balls, after the first contact
-    pocket, pocket_time: (..., balls), the pocket that took each ball, by its index in `table.pockets`; when, s
-    cushions: (..., balls), impacts of each ball on cushions
+    contact, contact_time: (..., 2), the first and the second of the different balls that the cue
+    ball met; when, s cushions_before: (..., 2), impacts of the cue ball on cushions before each of
+    them; 0 without a contact cushions_after: (...), impacts on cushions, of all balls, after the
+    first contact pocket, pocket_time: (..., balls), the pocket that took each ball, by its index in
+    `table.pockets`; when, s cushions: (..., balls), impacts of each ball on cushions
 
-    Indices are -1 and times inf where there is none. The cue ball is the ball struck, or ball 0 without a cue. A cushion is a rail
-    or its rounded end.
+    Indices are -1 and times inf where there is none. The cue ball is the ball struck, or ball 0
+    without a cue. A cushion is a rail or its rounded end.
     """
 
     contact: npt.NDArray[np.int32]
@@ -250,20 +312,22 @@ _OF_BALLS = {"pocket", "pocket_time", "cushions"}
 class Shots:
     """Many shots: arrays of the shape of the batch.
 
-    `shots[k]` is a `Shot`, whose attributes are made when they are first used; slices and arrays of indices are `Shots`, as NumPy
-    has them. An iteration gives every shot, in C order.
+    `shots[k]` is a `Shot`, whose attributes are made when they are first used; slices and arrays of
+    indices are `Shots`, as NumPy has them. An iteration gives every shot, in C order.
 
     Attributes
     ----------
     table, options
         As of a `Shot`.
-    layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls) or (1, balls); or of `carom.dtypes.ball_state`, beside
+    layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls) or (1, balls); or of
+        `carom.dtypes.ball_state`, beside
     kinds : ndarray of `carom.dtypes.ball_kind`, shape (balls,), or None
     cues : ndarray of `carom.dtypes.cue`, shape (...) or one, or None
     status : ndarray of int8, shape (...)
         As `Status`; a shot in error costs itself alone.
     time, count : ndarrays of float64 and int64, shape (...)
-        Time of the last event, or when the shot was stopped, s; events that happened, also beyond the room.
+        Time of the last event, or when the shot was stopped, s; events that happened, also beyond
+        the room.
     final : ndarray of `carom.dtypes.ball_state`, shape (..., balls)
         Where an argument was in error, all numbers are nan and labels -1, as in `states`.
     events : ndarray of `carom.dtypes.event` or `carom.dtypes.brief_event`, shape (..., room)
@@ -278,7 +342,12 @@ class Shots:
     options: Options
 
     def __init__(
-        self, table: Table, layouts: dtypes.Records, shape: tuple[int, ...], room: int, event: dtypes.Record = dtypes.event
+        self,
+        table: Table,
+        layouts: dtypes.Records,
+        shape: tuple[int, ...],
+        room: int,
+        event: dtypes.Record = dtypes.event,
     ) -> None:
         balls = layouts.shape[-1]
         self.table = table
@@ -311,11 +380,20 @@ class Shots:
     def features(self) -> Features:
         """What planners want of the shots, where `simulate_batch(features=True)` was asked for it."""
         if self._facts is None:
-            raise AttributeError("features: simulate_batch(features=True) tells them; these shots were played without")
+            raise AttributeError(
+                "features: simulate_batch(features=True) tells them; these shots were played without"
+            )
         names = {"contact": "first", "contact_time": "first_time"}
-        found = {each.name: self._facts[names.get(each.name, each.name)] for each in fields(Features)}
+        found = {
+            each.name: self._facts[names.get(each.name, each.name)] for each in fields(Features)
+        }
         count = self.final.shape[-1]
-        return Features(**{name: array[..., :count] if name in _OF_BALLS else array for name, array in found.items()})
+        return Features(
+            **{
+                name: array[..., :count] if name in _OF_BALLS else array
+                for name, array in found.items()
+            }
+        )
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -340,30 +418,46 @@ class Shots:
         if not isinstance(chosen, np.ndarray):
             return _OfBatch(self, index)
         if isinstance(index, (int, np.integer)):
-            raise IndexError(f"a shot of a batch of shape {self.shape} has {len(self.shape)} indices; [{index}, ...] are some")
+            raise IndexError(
+                f"a shot of a batch of shape {self.shape} has {len(self.shape)} indices; [{index}, ...] are some"
+            )
         part = Shots.__new__(Shots)
-        part.table, part.options, part.status, part.kinds = self.table, self.options, chosen, self.kinds
+        part.table, part.options, part.status, part.kinds = (
+            self.table,
+            self.options,
+            chosen,
+            self.kinds,
+        )
         part.layouts = np.broadcast_to(self.layouts, self.final.shape)[index]
         part.cues = None if self.cues is None else np.broadcast_to(self.cues, self.shape)[index]
-        part.final, part.events, part.record = self.final[index], self.events[index], self.record[index]
+        part.final, part.events, part.record = (
+            self.final[index],
+            self.events[index],
+            self.record[index],
+        )
         part._facts = None if self._facts is None else self._facts[index]
         return part
 
-    # ---- Trajectories ---------------------------------------------------------------------------------------------------
+    # ---- Trajectories
+    # ---------------------------------------------------------------------------------------------------
 
     def states(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Records:
-        """The states of all balls of all shots at any times, s: an ndarray of `carom.dtypes.ball_state`, shape (batch..., times..., balls).
+        """The states of all balls of all shots at any times, s: an ndarray of
+        `carom.dtypes.ball_state`, shape (batch..., times..., balls).
 
-        After the end they are as at the end, where nothing moves any more. Shots of which not all events were kept are
-        played again, which takes the time of playing them. Numbers are nan, and the label -1, where no state is known: of shots whose
-        arguments were in error, and after shots were stopped, or ended in an error, while balls moved. No bit depends on `threads`.
+        After the end they are as at the end, where nothing moves any more. Shots of which not all
+        events were kept are played again, which takes the time of playing them. Numbers are nan,
+        and the label -1, where no state is known: of shots whose arguments were in error, and after
+        shots were stopped, or ended in an error, while balls moved. No bit depends on `threads`.
 
-        Raises ValueError: A time is before 0, or not finite; or a shot has to be played again, and its layout or cue has been changed since.
+        Raises ValueError: A time is before 0, or not finite; or a shot has to be played again, and
+            its layout or cue has been changed since.
         """
         return self._look_at(times, dtypes.ball_state, (), threads)[0]
 
     def positions(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Doubles:
-        """The centres of all balls of all shots at any times: float64 of shape (batch..., times..., balls, 3), m.
+        """The centres of all balls of all shots at any times: float64 of shape (batch..., times...,
+        balls, 3), m.
 
         Parameters and errors are those of `states`.
         """
@@ -372,7 +466,9 @@ class Shots:
     def _look_at(
         self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...], threads: int
     ) -> tuple[Array, npt.NDArray[np.int8]]:
-        """For `states` and `positions`: the array, and of each shot, in C order, whether some of it is unknown."""
+        """For `states` and `positions`: the array, and of each shot, in C order, whether some of it
+        is unknown.
+        """
         given = _moments(times)
         order = np.argsort(given.reshape(-1), kind="stable")
         at = given.reshape(-1)[order]
@@ -382,7 +478,9 @@ class Shots:
         moments, row = pointer("double[]", at), at.size * count * (numbers[0] if numbers else 1)
 
         def look(job: Any, codes: Any, begin: int) -> int:
-            states, positions = (ffi.NULL, seen + begin * row) if numbers else (seen + begin * row, ffi.NULL)
+            states, positions = (
+                (ffi.NULL, seen + begin * row) if numbers else (seen + begin * row, ffi.NULL)
+            )
             return int(lib.carom_python_look(job, moments, at.size, states, positions, codes))
 
         codes = self._look(look, 5e-6 + 2e-8 * at.size * count, threads)
@@ -392,13 +490,22 @@ class Shots:
             out = out[:, back]
         return out.reshape((*self.shape, *given.shape, count, *numbers)), codes
 
-    def _look(self, look: Callable[[Any, Any, int], int], seconds: float, threads: int) -> npt.NDArray[np.int8]:
-        """Calls look(job, codes, first row) for all rows, which take so many seconds each; the codes."""
+    def _look(
+        self, look: Callable[[Any, Any, int], int], seconds: float, threads: int
+    ) -> npt.NDArray[np.int8]:
+        """Calls look(job, codes, first row) for all rows, which take so many seconds each; the
+        codes.
+        """
         whole(threads, "threads", least=-1)
         codes: npt.NDArray[np.int8] = np.zeros(self.status.size, INT8)
         flags = pointer("int8_t[]", codes)
         job = self._jobs(shot_options(self.options))
-        code = in_chunks(codes.size, seconds, threads, spread(threads, lambda begin, many: look(job(begin, many), flags + begin, begin)))
+        code = in_chunks(
+            codes.size,
+            seconds,
+            threads,
+            spread(threads, lambda begin, many: look(job(begin, many), flags + begin, begin)),
+        )
         if code < 0:
             raise MemoryError("no memory for the events of a shot")
         if (codes == Status.ERROR_STATE).any():
@@ -412,33 +519,53 @@ class Shots:
         """A function that gives the carom_shot_job of `many` rows from `begin` on."""
         lead, count = len(self.shape), self.final.shape[-1]
         layouts, one_layout = one_or_all(self.layouts, self.final.shape, lead)
-        cues, one_cue = (None, True) if self.cues is None else one_or_all(self.cues, self.shape, lead)
-        record, status = np.ascontiguousarray(self.record).reshape(-1), np.ascontiguousarray(self.status).reshape(-1)
+        cues, one_cue = (
+            (None, True) if self.cues is None else one_or_all(self.cues, self.shape, lead)
+        )
+        record, status = (
+            np.ascontiguousarray(self.record).reshape(-1),
+            np.ascontiguousarray(self.status).reshape(-1),
+        )
         room = self.events.shape[-1]
         record["room"] = room
         if room > 0:
-            record["events" if self.events.dtype == dtypes.event else "brief"] = addresses(self.events, lead)
+            record["events" if self.events.dtype == dtypes.event else "brief"] = addresses(
+                self.events, lead
+            )
         record["final"] = addresses(self.final, lead)
         record["facts"] = 0 if self._facts is None else addresses(self._facts, lead)
         table = pointer("carom_table[]", self.table.record)
-        balls = pointer("carom_shot_ball[]" if self.kinds is None else "carom_ball_state[]", layouts)
+        balls = pointer(
+            "carom_shot_ball[]" if self.kinds is None else "carom_ball_state[]", layouts
+        )
         kinds = ffi.NULL if self.kinds is None else pointer("carom_ball_kind[]", self.kinds)
         strikes = ffi.NULL if cues is None else pointer("carom_cue[]", cues)
         results, flags = pointer("carom_shot[]", record), pointer("int8_t[]", status)
 
         def job(begin: int, many: int) -> Any:
             given = {
-                "table": table, "balls" if self.kinds is None else "states": balls if one_layout else balls + begin * count,
-                "kinds": kinds, "cues": strikes if one_cue else strikes + begin,
-                "count": count, "ball_stride": 0 if one_layout else count, "cue_stride": 0 if one_cue else 1, "n": many,
-                "options": options, "shots": results + begin, "status": flags + begin,
-            }  # fmt: skip
+                "table": table,
+                "balls" if self.kinds is None else "states": balls
+                if one_layout
+                else balls + begin * count,
+                "kinds": kinds,
+                "cues": strikes if one_cue else strikes + begin,
+                "count": count,
+                "ball_stride": 0 if one_layout else count,
+                "cue_stride": 0 if one_cue else 1,
+                "n": many,
+                "options": options,
+                "shots": results + begin,
+                "status": flags + begin,
+            }
             return ffi.new("carom_shot_job *", given)
 
         return job
 
     def _columns(self) -> tuple[Array, list[str], dict[str, Array]]:
-        """The shots as columns, a row a shot: statuses, what each is called, and the other columns by their names."""
+        """The shots as columns, a row a shot: statuses, what each is called, and the other columns
+        by their names.
+        """
         count = self.final.shape[-1]
         found: dict[str, Array] = {"time": self.time.reshape(-1), "count": self.count.reshape(-1)}
         if self.cues is not None:
@@ -446,66 +573,148 @@ class Shots:
             found |= {f"cue_{name}": column for name, column in dtypes.columns(cues).items()}
         final = self.final.reshape(-1, count)
         for k in range(count):
-            found |= {f"ball_{k}_{name}": column for name, column in dtypes.columns(final[:, k]).items()}
+            found |= {
+                f"ball_{k}_{name}": column for name, column in dtypes.columns(final[:, k]).items()
+            }
         for name, values in vars(self.features).items() if self._facts is not None else ():
-            parts = [("", ())] if values.shape == self.shape else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
-            found |= {f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in parts}
+            parts = (
+                [("", ())]
+                if values.shape == self.shape
+                else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
+            )
+            found |= {
+                f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in parts
+            }
         known = sorted(Status)
-        return np.searchsorted(known, self.status.reshape(-1)), [status.name.lower() for status in known], found
+        return (
+            np.searchsorted(known, self.status.reshape(-1)),
+            [status.name.lower() for status in known],
+            found,
+        )
 
     def to_dataframe(self, dims: Sequence[str] | None = None) -> Any:
-        """The shots as a pandas DataFrame, a row a shot: status (by name), time, count, cue_speed and what else the cue has,
-        ball_0_r_x and what else is known of each ball at the end, and the features where they were asked for, such as pocket_3.
+        """The shots as a pandas DataFrame, a row a shot: status (by name), time, count, cue_speed
+        and what else the cue has, ball_0_r_x and what else is known of each ball at the end, and
+        the features where they were asked for, such as pocket_3.
 
-        Needs pandas. The index is that of the batch; `dims` names its levels, which are else "shot", or "shot_0", "shot_1" and so on.
+        Needs pandas. The index is that of the batch; `dims` names its levels, which are else
+        "shot", or "shot_0", "shot_1" and so on.
         """
-        pandas, dims, (codes, names, found) = needed("pandas", "to_dataframe()"), self._dims(dims), self._columns()
+        pandas, dims, (codes, names, found) = (
+            needed("pandas", "to_dataframe()"),
+            self._dims(dims),
+            self._columns(),
+        )
         columns = {"status": pandas.Categorical.from_codes(codes, names), **found}
         if len(self.shape) == 1:
             return pandas.DataFrame(columns, index=pandas.RangeIndex(len(codes), name=dims[0]))
-        index = pandas.MultiIndex.from_tuples(list(np.ndindex(self.shape)), names=dims) if self.shape else None
+        index = (
+            pandas.MultiIndex.from_tuples(list(np.ndindex(self.shape)), names=dims)
+            if self.shape
+            else None
+        )
         return pandas.DataFrame(columns, index=index)
 
     def to_arrow(self, first: int = 0) -> Any:
-        """The shots as a pyarrow Table with the columns of `to_dataframe`, after "shot", which counts from `first` on. Needs pyarrow."""
+        """The shots as a pyarrow Table with the columns of `to_dataframe`, after "shot", which
+        counts from `first` on. Needs pyarrow.
+        """
         arrow, (codes, names, found) = needed("pyarrow", "to_arrow()"), self._columns()
         status = arrow.DictionaryArray.from_arrays(codes.astype(np.int8), names)
-        return arrow.table({"shot": np.arange(first, first + len(codes)), "status": status, **found})
+        return arrow.table(
+            {"shot": np.arange(first, first + len(codes)), "status": status, **found}
+        )
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> Any:
-        """The shots as an xarray Dataset: status, time, count, cue_speed and what else the cue has; r, v, w and label of each ball at
-        the end; and the features where they were asked for. Numbers that have a unit tell it by the attribute "units".
+        """The shots as an xarray Dataset: status, time, count, cue_speed and what else the cue has;
+        r, v, w and label of each ball at the end; and the features where they were asked for.
+        Numbers that have a unit tell it by the attribute "units".
 
-        Needs xarray. The dimensions are those of the batch, named as in `to_dataframe`, "ball", "axis" (x, y, z) and, of first contacts,
-        "met"; each has coordinates: those of `dims` that are named as a field of the cue, which changes along it alone, have its values.
+        Needs xarray. The dimensions are those of the batch, named as in `to_dataframe`, "ball",
+        "axis" (x, y, z) and, of first contacts, "met"; each has coordinates: those of `dims` that
+        are named as a field of the cue, which changes along it alone, have its values.
         """
-        xarray, count, dims = needed("xarray", "to_xarray()"), self.final.shape[-1], self._dims(dims)
-        units = {"time": "s", "contact_time": "s", "pocket_time": "s", "cue_speed": "m/s", "cue_phi": "degree", "cue_theta": "degree"}
-        units |= {"cue_mass": "kg", "cue_end_mass": "kg", "cue_tip_radius": "m", "cue_tip_time": "s", "cue_follow": "m", "r": "m", "v": "m/s", "w": "rad/s"}
-        found: dict[str, tuple[tuple[str, ...], Array]] = {"status": (dims, self.status), "time": (dims, self.time), "count": (dims, self.count)}
+        xarray, count, dims = (
+            needed("xarray", "to_xarray()"),
+            self.final.shape[-1],
+            self._dims(dims),
+        )
+        units = {
+            "time": "s",
+            "contact_time": "s",
+            "pocket_time": "s",
+            "cue_speed": "m/s",
+            "cue_phi": "degree",
+            "cue_theta": "degree",
+        }
+        units |= {
+            "cue_mass": "kg",
+            "cue_end_mass": "kg",
+            "cue_tip_radius": "m",
+            "cue_tip_time": "s",
+            "cue_follow": "m",
+            "r": "m",
+            "v": "m/s",
+            "w": "rad/s",
+        }
+        found: dict[str, tuple[tuple[str, ...], Array]] = {
+            "status": (dims, self.status),
+            "time": (dims, self.time),
+            "count": (dims, self.count),
+        }
         if self.cues is not None:
             cues = np.broadcast_to(self.cues, self.shape)
             found |= {f"cue_{name}": (dims, cues[name]) for name in cues.dtype.names or ()}
         found |= {name: ((*dims, "ball", "axis"), self.final[name]) for name in "rvw"}
         found["label"] = (*dims, "ball"), self.final["label"]
         for name, values in vars(self.features).items() if self._facts is not None else ():
-            last = () if values.shape == self.shape else ("ball",) if name in _OF_BALLS else ("met",)
+            last = (
+                () if values.shape == self.shape else ("ball",) if name in _OF_BALLS else ("met",)
+            )
             found[name] = (*dims, *last), values
         # what codes mean, as the conventions of climate and forecast say it
         codes: dict[str, type[enum.IntEnum]] = {"status": Status, "label": Label}
-        of = {name: {"flag_values": [code.value for code in kind], "flag_meanings": " ".join(code.name.lower() for code in kind)}
-              for name, kind in codes.items()}  # fmt: skip
+        of = {
+            name: {
+                "flag_values": [code.value for code in kind],
+                "flag_meanings": " ".join(code.name.lower() for code in kind),
+            }
+            for name, kind in codes.items()
+        }
         variables = {
-            name: (names, np.array(values), {**of.get(name, {}), **({"units": units[name]} if name in units else {})})
+            name: (
+                names,
+                np.array(values),
+                {**of.get(name, {}), **({"units": units[name]} if name in units else {})},
+            )
             for name, (names, values) in found.items()
         }
-        sizes = {**dict(zip(dims, self.shape)), "ball": count, **({} if self._facts is None else {"met": 2})}
-        return xarray.Dataset(variables, {**{name: self._along(dims, name, size) for name, size in sizes.items()}, "axis": list("xyz")})
+        sizes = {
+            **dict(zip(dims, self.shape)),
+            "ball": count,
+            **({} if self._facts is None else {"met": 2}),
+        }
+        return xarray.Dataset(
+            variables,
+            {
+                **{name: self._along(dims, name, size) for name, size in sizes.items()},
+                "axis": list("xyz"),
+            },
+        )
 
     def _along(self, dims: tuple[str, ...], name: str, size: int) -> Array:
-        """The coordinates of a dimension: the cue's field of its name, where that changes along it alone, or else indices."""
-        if name in dims and self.cues is not None and name in (dtypes.cue.names or ()) and self.status.size:
-            values = np.moveaxis(np.broadcast_to(self.cues, self.shape)[name], dims.index(name), 0).reshape(size, -1)
+        """The coordinates of a dimension: the cue's field of its name, where that changes along it
+        alone, or else indices.
+        """
+        if (
+            name in dims
+            and self.cues is not None
+            and name in (dtypes.cue.names or ())
+            and self.status.size
+        ):
+            values = np.moveaxis(
+                np.broadcast_to(self.cues, self.shape)[name], dims.index(name), 0
+            ).reshape(size, -1)
             if (values == values[:, :1]).all() and len(np.unique(values[:, 0])) == size:
                 return values[:, 0]
         return np.arange(size)
@@ -513,21 +722,40 @@ class Shots:
     def _dims(self, dims: Sequence[str] | None) -> tuple[str, ...]:
         """The names of the dimensions of the batch."""
         if dims is None:
-            return ("shot",) if len(self.shape) == 1 else tuple(f"shot_{k}" for k in range(len(self.shape)))
-        names = tuple(map(str, several(dims, "dims", "a name for each dimension of the batch is needed")))
+            return (
+                ("shot",)
+                if len(self.shape) == 1
+                else tuple(f"shot_{k}" for k in range(len(self.shape)))
+            )
+        names = tuple(
+            map(str, several(dims, "dims", "a name for each dimension of the batch is needed"))
+        )
         if len(names) != len(self.shape) or len({*names, "ball", "axis", "met"}) != len(names) + 3:
-            raise ValueError(f"dims: {len(self.shape)} different names are needed, other than ball, axis and met, not {names}")
+            raise ValueError(
+                f"dims: {len(self.shape)} different names are needed, other than ball, axis and met, not {names}"
+            )
         return names
 
     def failures(self) -> list[tuple[tuple[int, ...], str]]:
         """The index of each shot that ended in an error, and the error."""
-        return [(index, str(self.error(index))) for index in (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))]
+        return [
+            (index, str(self.error(index)))
+            for index in (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))
+        ]
 
     def error(self, index: Any) -> CaromError:
-        """The exception for a shot that ended in an error, with the argument at fault if it was refused."""
+        """The exception for a shot that ended in an error, with the argument at fault if it was
+        refused.
+        """
         shot = self[index]
-        error = argument_error(shot_arguments(self.table, shot.balls, shot.cue, shot_options(self.options)), shot.balls, shot.cue)
-        return error if error is not None and error.status == shot.status else CaromError(shot.status)
+        error = argument_error(
+            shot_arguments(self.table, shot.balls, shot.cue, shot_options(self.options)),
+            shot.balls,
+            shot.cue,
+        )
+        return (
+            error if error is not None and error.status == shot.status else CaromError(shot.status)
+        )
 
     def __repr__(self) -> str:
         return f"<carom.Shots: {self.shape}, {int((self.status < 0).sum())} in error>"

@@ -9,9 +9,11 @@ from carom._carom import ffi, lib
 
 
 class _Status(enum.IntEnum):
-    """The outcome of a call: 0 is success, positive a valid result with a remark, negative an error. `text` explains it.
+    """The outcome of a call: 0 is success, positive a valid result with a remark, negative an
+    error. `text` explains it.
 
-    The names are those of carom.h without CAROM_, such as OK, STOPPED_AT_TIME and ERROR_MASS: `list(Status)` has them.
+    The names are those of carom.h without CAROM_, such as OK, STOPPED_AT_TIME and ERROR_MASS:
+    `list(Status)` has them.
     """
 
     @property
@@ -30,20 +32,31 @@ if TYPE_CHECKING:
     class Status(_Status, metaclass=_Named): ...
 
 else:
-    _values = sorted(ffi.typeof("carom_status").relements.items(), key=lambda item: (abs(item[1]), -item[1]))
-    Status = _Status("Status", {name.removeprefix("CAROM_"): value for name, value in _values}, module=__name__)
+    _values = sorted(
+        ffi.typeof("carom_status").relements.items(), key=lambda item: (abs(item[1]), -item[1])
+    )
+    Status = _Status(
+        "Status", {name.removeprefix("CAROM_"): value for name, value in _values}, module=__name__
+    )
     Status.__doc__ = _Status.__doc__
 
 
 class CaromError(ValueError):
     """A call that could not be served.
 
-    `status` is a Status; `field` is the name of the field at fault ("a.mass", "balls[3].state.r"), None where no single one is to
-    blame; `value` is the value of that field, None where nothing is to be shown; `shot` is the Shot until then, where one ended in an
-    error, or None.
+    `status` is a Status; `field` is the name of the field at fault ("a.mass", "balls[3].state.r"),
+    None where no single one is to blame; `value` is the value of that field, None where nothing is
+    to be shown; `shot` is the Shot until then, where one ended in an error, or None.
     """
 
-    def __init__(self, status: int, field: str | None = None, value: object = None, shot: Any = None, text: str | None = None) -> None:
+    def __init__(
+        self,
+        status: int,
+        field: str | None = None,
+        value: object = None,
+        shot: Any = None,
+        text: str | None = None,
+    ) -> None:
         self.status = Status(status)
         self.field = field
         self.value = value
@@ -53,5 +66,11 @@ class CaromError(ValueError):
         super().__init__(where + self._text)
 
     def __reduce__(self) -> tuple[object, ...]:
-        """What pickle and the pools of multiprocessing make it of again; by default they would call it with its sentence alone."""
-        return type(self), (self.status, self.field, self.value, self.shot, self._text), self.__dict__
+        """What pickle and the pools of multiprocessing make it of again; by default they would call
+        it with its sentence alone.
+        """
+        return (
+            type(self),
+            (self.status, self.field, self.value, self.shot, self._text),
+            self.__dict__,
+        )

@@ -1,4 +1,6 @@
-"""The built-in tables, `carom.tables.pool_9ft()`, and tables of any closed shape, `carom.tables.polygon(corners)`."""
+"""The built-in tables, `carom.tables.pool_9ft()`, and tables of any closed shape,
+`carom.tables.polygon(corners)`.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,17 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, as_array, called, choice, number, numbered, numbers_of, pointer, several
+from carom._rows import (
+    Array,
+    as_array,
+    called,
+    choice,
+    number,
+    numbered,
+    numbers_of,
+    pointer,
+    several,
+)
 from carom.layouts import SIZES, Table, refuse_table
 from carom.status import CaromError
 
@@ -18,7 +30,10 @@ _KEYS = {ffi.string(row.key).decode(): ffi.string(row.name).decode() for row in 
 
 
 def measures(table: str) -> dict[str, float]:
-    """The measures of a built-in table by its name, such as "pool_9ft": m, cuts in degrees. Each is an argument of that table's function."""
+    """The measures of a built-in table by its name, such as "pool_9ft": m, cuts in degrees.
+
+    Each is an argument of that table's function.
+    """
     of = ffi.new("carom_measures *")
     lib.carom_table_measures(choice(numbered("carom_table_kind"), table, "table"), of)
     return {key: getattr(of, name) for key, name in _KEYS.items()}
@@ -26,7 +41,12 @@ def measures(table: str) -> dict[str, float]:
 
 def _measured(name: str, changes: dict[str, float], record: Array) -> None:
     """Fills the record of a built-in table some of whose measures are changed."""
-    given, fault, text, keys = measures(name), ffi.new("carom_table_fault *"), ffi.new("char[]", 100), list(_KEYS)
+    given, fault, text, keys = (
+        measures(name),
+        ffi.new("carom_table_fault *"),
+        ffi.new("char[]", 100),
+        list(_KEYS),
+    )
     radius = SIZES[given["width"], given["length"]]
     for key, value in changes.items():
         if key not in _KEYS:
@@ -37,8 +57,14 @@ def _measured(name: str, changes: dict[str, float], record: Array) -> None:
     if fault.part.kind == lib.CAROM_PART_MEASURES:
         lib.carom_number_range(_ROWS[fault.part.index], text, 100)
         other = fault.other.kind == lib.CAROM_PART_MEASURES
-        must = f"below {fault.gap:.4g} m with this {keys[fault.other.index]}" if other else ffi.string(text).decode()
-        raise CaromError(code, keys[fault.part.index], given[keys[fault.part.index]], text=f"it must be {must}")
+        must = (
+            f"below {fault.gap:.4g} m with this {keys[fault.other.index]}"
+            if other
+            else ffi.string(text).decode()
+        )
+        raise CaromError(
+            code, keys[fault.part.index], given[keys[fault.part.index]], text=f"it must be {must}"
+        )
     refuse_table(code, fault)
 
 
@@ -55,7 +81,9 @@ def _maker(name: str) -> Callable[..., Table]:
 
     made, text = make(), ffi.string(lib.carom_word_text(lib.CAROM_WORDS_TABLE, kind)).decode()
     told = "Measures change it: corner=0.108 (m); carom.tables.measures() lists them."
-    return called(make, name, f"{text[0].upper()}{text[1:]}: {made.width:.4g} x {made.length:.5g} m. {told}")
+    return called(
+        make, name, f"{text[0].upper()}{text[1:]}: {made.width:.4g} x {made.length:.5g} m. {told}"
+    )
 
 
 pool_7ft = _maker("pool_7ft")
@@ -67,33 +95,57 @@ pooltool = _maker("pooltool")
 
 
 def polygon(
-    corners: Sequence[Sequence[float]], *, nose_height: float = 0.0366, jaw_radius: float = 0.01, ball_radius: float = 0.028575
+    corners: Sequence[Sequence[float]],
+    *,
+    nose_height: float = 0.0366,
+    jaw_radius: float = 0.01,
+    ball_radius: float = 0.028575,
 ) -> Table:
     """A table of any closed shape, from its corners in the order of a walk around it.
 
     Parameters
     ----------
     corners : sequence of (x, y) or (x, y, mouth)
-        Places, m, from 0, and the width of a pocket's mouth there, m. Without a mouth there is no pocket. A corner on a straight side makes
-        a side pocket.
+        Places, m, from 0, and the width of a pocket's mouth there, m. Without a mouth there is no
+        pocket. A corner on a straight side makes a side pocket.
     nose_height, jaw_radius, ball_radius : float
         Of all noses, of the rounded ends of rails at pockets, and of the balls, m.
 
-    Raises CaromError: The table is not closed, its middle has no room for a ball, or a number is out of range; the sentence says where.
+    Raises CaromError: The table is not closed, its middle has no room for a ball, or a number is
+        out of range; the sentence says where.
     """
     rows = []
-    for k, corner in enumerate(several(corners, "corners", "a list of (x, y) or (x, y, mouth) is needed")):
+    for k, corner in enumerate(
+        several(corners, "corners", "a list of (x, y) or (x, y, mouth) is needed")
+    ):
         rows.append(tuple(as_array(corner, f"corners[{k}]", np.float64).ravel().tolist()))
         if len(rows[k]) not in (2, 3):
-            raise ValueError(f"corners[{k}]: x, y and perhaps the mouth are needed, not {len(rows[k])} numbers")
+            raise ValueError(
+                f"corners[{k}]: x, y and perhaps the mouth are needed, not {len(rows[k])} numbers"
+            )
     if len(rows) < 3:
         raise ValueError(f"corners: at least 3 are needed, not {len(rows)}")
     nose_height, jaw_radius, ball_radius = (
         number(size, name, "a length in m is needed")
-        for name, size in (("nose_height", nose_height), ("jaw_radius", jaw_radius), ("ball_radius", ball_radius))
+        for name, size in (
+            ("nose_height", nose_height),
+            ("jaw_radius", jaw_radius),
+            ("ball_radius", ball_radius),
+        )
     )
     array = ffi.new("carom_corner[]", [row + (0.0,) * (3 - len(row)) for row in rows])
     record: Array = np.zeros((), dtypes.table)
     fault = ffi.new("carom_table_fault *")
-    refuse_table(lib.carom_table_polygon(array, len(rows), nose_height, jaw_radius, ball_radius, pointer("carom_table[]", record), fault), fault)
+    refuse_table(
+        lib.carom_table_polygon(
+            array,
+            len(rows),
+            nose_height,
+            jaw_radius,
+            ball_radius,
+            pointer("carom_table[]", record),
+            fault,
+        ),
+        fault,
+    )
     return Table.from_record(record)

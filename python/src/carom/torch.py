@@ -3,15 +3,19 @@
     import torch
     import carom.torch
 
-    aim = torch.tensor([1.5, 79.0], dtype=torch.float64, requires_grad=True)     # (speed, phi) of the cue, m/s and degrees
+    aim = torch.tensor([1.5, 79.0], dtype=torch.float64, requires_grad=True)     # (speed, phi) of
+        the cue, m/s and degrees
     ends = carom.torch.final(table, balls, cue, {"cue.speed": aim[0], "cue.phi": aim[1]})
     miss = ((ends.r[1] - goal) ** 2).sum()                                       # of ball 1, m^2
     miss.backward()
     aim.grad
 
-Shots are played and differentiated by C on the CPU: a call, or a function under `torch.func.vmap`, is one batch of `carom.simulate_batch`, or,
-where a number needs a gradient, one of `carom.jacobian`. `backward`, forward mode and `torch.func` use the Jacobian of `carom.tangents`, and
-second derivatives what `carom.hessian` finds, nan where that is; third ones are not known. `torch.compile` leaves shots as they are. docs/using/derivatives.md says what a derivative cannot tell: `carom.jacobian(..., of="reach")` has its reach.
+Shots are played and differentiated by C on the CPU: a call, or a function under `torch.func.vmap`,
+is one batch of `carom.simulate_batch`, or, where a number needs a gradient, one of
+`carom.jacobian`. `backward`, forward mode and `torch.func` use the Jacobian of `carom.tangents`,
+and second derivatives what `carom.hessian` finds, nan where that is; third ones are not known.
+`torch.compile` leaves shots as they are. docs/using/derivatives.md says what a derivative cannot
+tell: `carom.jacobian(..., of="reach")` has its reach.
 
 Its objects have no types here, so that carom can be checked without PyTorch.
 """
@@ -44,15 +48,22 @@ def _front(x: Any, dim: int | None, size: int) -> Any:
 def _forward_modes() -> int:
     """How many of torch.func are around."""
     around = _torch._C._functorch
-    return sum(level.key() == around.TransformType.Jvp for level in around.get_interpreter_stack() or ())
+    return sum(
+        level.key() == around.TransformType.Jvp for level in around.get_interpreter_stack() or ()
+    )
 
 
 def _refuse(*_: Any) -> Any:
-    raise NotImplementedError("carom.torch: third derivatives of shots are not known; torch.func.hessian and create_graph=True give second ones")
+    raise NotImplementedError(
+        "carom.torch: third derivatives of shots are not known; torch.func.hessian and create_graph=True give second ones"
+    )
 
 
 class _Known(_torch.autograd.Function):
-    """A function of shots and their numbers (..., m). What differentiates it is another one, so that it can be differentiated in turn."""
+    """A function of shots and their numbers (..., m).
+
+    What differentiates it is another one, so that it can be differentiated in turn.
+    """
 
     plain: Any = None
 
@@ -71,12 +82,18 @@ class _Known(_torch.autograd.Function):
 
 
 class _States(_Known):
-    """The final states (..., balls, STATE) with, where they are wanted at once, their derivatives (..., balls, STATE, m)."""
+    """The final states (..., balls, STATE) with, where they are wanted at once, their derivatives
+    (..., balls, STATE, m).
+    """
 
     @staticmethod
     def forward(shots: Any, x: Any, differentiated: bool) -> Any:
         numbers = x.detach().numpy()
-        states, slopes = shots.both(numbers) if differentiated else (shots.states(numbers), numbers[..., 0].copy())
+        states, slopes = (
+            shots.both(numbers)
+            if differentiated
+            else (shots.states(numbers), numbers[..., 0].copy())
+        )
         return _torch.from_numpy(states), _torch.from_numpy(slopes)
 
     @staticmethod
@@ -84,13 +101,21 @@ class _States(_Known):
         x, slopes = ctx.saved_tensors
         if _torch.is_grad_enabled() or slopes.ndim < x.ndim:
             slopes = _Slopes.of(ctx.shots, x, slopes)
-        return None, (cotangent.flatten(-2).unsqueeze(-2) @ slopes.flatten(-3, -2)).squeeze(-2), None
+        return (
+            None,
+            (cotangent.flatten(-2).unsqueeze(-2) @ slopes.flatten(-3, -2)).squeeze(-2),
+            None,
+        )
 
     @staticmethod
     def jvp(ctx: Any, _: Any, change: Any, __: Any) -> Any:
         if hasattr(_torch, "func") and _forward_modes() > 1:
-            raise NotImplementedError("carom.torch: PyTorch loses derivatives in forward mode of forward mode: use torch.func.hessian, or jacrev twice")
-        return _torch.einsum("...bsm,...m->...bs", _Slopes.of(ctx.shots, *ctx.saved_tensors), change), None
+            raise NotImplementedError(
+                "carom.torch: PyTorch loses derivatives in forward mode of forward mode: use torch.func.hessian, or jacrev twice"
+            )
+        return _torch.einsum(
+            "...bsm,...m->...bs", _Slopes.of(ctx.shots, *ctx.saved_tensors), change
+        ), None
 
     @staticmethod
     def vmap(info: Any, dims: Any, shots: Any, x: Any, differentiated: bool) -> Any:
@@ -102,11 +127,21 @@ class _Slopes(_Known):
 
     @staticmethod
     def forward(shots: Any, x: Any, slopes: Any) -> Any:
-        return slopes.detach() if slopes.ndim > x.ndim else _torch.from_numpy(shots.both(x.detach().numpy())[1])
+        return (
+            slopes.detach()
+            if slopes.ndim > x.ndim
+            else _torch.from_numpy(shots.both(x.detach().numpy())[1])
+        )
 
     @staticmethod
     def backward(ctx: Any, cotangent: Any) -> Any:
-        return None, _torch.einsum("...bsmk,...bsm->...k", _Second.of(ctx.shots, *ctx.saved_tensors), cotangent), None
+        return (
+            None,
+            _torch.einsum(
+                "...bsmk,...bsm->...k", _Second.of(ctx.shots, *ctx.saved_tensors), cotangent
+            ),
+            None,
+        )
 
     @staticmethod
     def jvp(ctx: Any, _: Any, change: Any, __: Any) -> Any:
@@ -114,7 +149,9 @@ class _Slopes(_Known):
 
     @staticmethod
     def vmap(info: Any, dims: Any, shots: Any, x: Any, slopes: Any) -> Any:
-        return _Slopes.of(shots, _front(x, dims[1], info.batch_size), _front(slopes, dims[2], info.batch_size)), 0
+        return _Slopes.of(
+            shots, _front(x, dims[1], info.batch_size), _front(slopes, dims[2], info.batch_size)
+        ), 0
 
 
 class _Second(_Known):
@@ -130,13 +167,17 @@ class _Second(_Known):
 
 
 class _Along(_Known):
-    """The change (several..., ..., balls, STATE, m) of the derivatives along vectors (several..., ..., m)."""
+    """The change (several..., ..., balls, STATE, m) of the derivatives along vectors (several...,
+    ..., m).
+    """
 
     @staticmethod
     def forward(shots: Any, x: Any, change: Any) -> Any:
         vectors = np.moveaxis(change.detach().numpy().reshape(-1, *x.shape), 0, -2)
         slopes = np.moveaxis(shots.along(x.detach().numpy(), vectors), -1, 0)
-        return _torch.from_numpy(slopes.reshape(*change.shape[: change.ndim - x.ndim], *slopes.shape[1:]))
+        return _torch.from_numpy(
+            slopes.reshape(*change.shape[: change.ndim - x.ndim], *slopes.shape[1:])
+        )
 
     @staticmethod
     def vmap(info: Any, dims: Any, shots: Any, x: Any, change: Any) -> Any:
@@ -147,14 +188,20 @@ class _Along(_Known):
 
 
 def _plain(kind: Any) -> Any:
-    """The same without setup_context, which PyTorch 1.13 does not know; and newer ones bind arguments by name at each call with it."""
+    """The same without setup_context, which PyTorch 1.13 does not know; and newer ones bind
+    arguments by name at each call with it.
+    """
 
     def forward(ctx: Any, *inputs: Any) -> Any:
         output = kind.forward(*inputs)
         kind.setup_context(ctx, inputs, output)
         return output
 
-    older = {"setup_context": staticmethod(base)} if (base := getattr(_torch.autograd.Function, "setup_context", None)) else {}
+    older = (
+        {"setup_context": staticmethod(base)}
+        if (base := getattr(_torch.autograd.Function, "setup_context", None))
+        else {}
+    )
     return type(kind.__name__, (kind,), {"forward": staticmethod(forward), **older})
 
 
@@ -163,49 +210,93 @@ for _kind in (_States, _Slopes, _Second, _Along):
     _kind.plain = _plain(_kind)
 
 
-def _play(table: Any, balls: Any, cue: Any, numbers: Any, room: int, errors: str, threads: int, options: Any, changes: Any) -> Final:
+def _play(
+    table: Any,
+    balls: Any,
+    cue: Any,
+    numbers: Any,
+    room: int,
+    errors: str,
+    threads: int,
+    options: Any,
+    changes: Any,
+) -> Final:
     shots, parts, batch = shots_of(
-        table, balls, cue, numbers, lambda value: _torch.as_tensor(value, dtype=_torch.float64, device="cpu"), room, errors, threads,
+        table,
+        balls,
+        cue,
+        numbers,
+        lambda value: _torch.as_tensor(value, dtype=_torch.float64, device="cpu"),
+        room,
+        errors,
+        threads,
         chosen(options, changes),
-    )  # fmt: skip
-    wide = [part if part.shape == shape else _torch.broadcast_to(part, shape) for part, shape in parts]
+    )
+    wide = [
+        part if part.shape == shape else _torch.broadcast_to(part, shape) for part, shape in parts
+    ]
     one = all(shape == batch for _, shape in parts)
-    x = _torch.stack(wide, -1) if one else _torch.cat([part[..., None] if part.ndim == len(batch) else part for part in wide], -1)
-    differentiated = (x.requires_grad and _torch.is_grad_enabled()) or _torch.autograd.forward_ad.unpack_dual(x).tangent is not None
+    x = (
+        _torch.stack(wide, -1)
+        if one
+        else _torch.cat([part[..., None] if part.ndim == len(batch) else part for part in wide], -1)
+    )
+    differentiated = (
+        x.requires_grad and _torch.is_grad_enabled()
+    ) or _torch.autograd.forward_ad.unpack_dual(x).tangent is not None
     r, v, w, z, v_z = _States.of(shots, x, differentiated)[0].split((2, 2, 3, 1, 1), -1)
     return Final(r, v, w, z[..., 0], v_z[..., 0])
 
 
-# torch.compile leaves the first out of its graphs; the second is true where it traces. It is a module that takes seconds to import.
-_left_out = _play if (_ways := getattr(_torch, "compiler", None)) is None else _torch._compile._disable_dynamo(_play)
+# torch.compile leaves the first out of its graphs; the second is true where it traces. It is a
+# module that takes seconds to import.
+_left_out = (
+    _play
+    if (_ways := getattr(_torch, "compiler", None)) is None
+    else _torch._compile._disable_dynamo(_play)
+)
 _compiling = getattr(_ways, "is_compiling", bool)
 
 
 def final(
-    table: Table, balls: dtypes.Records, cue: dtypes.Records | None, numbers: Mapping[str, Any], *, room: int = 512,
-    errors: Literal["raise", "nan"] = "raise", threads: int = 0, options: Options = Options(), **changes: Any
-) -> Final:  # fmt: skip
-    """The final states of shots, as a function of some of their numbers that PyTorch can differentiate.
+    table: Table,
+    balls: dtypes.Records,
+    cue: dtypes.Records | None,
+    numbers: Mapping[str, Any],
+    *,
+    room: int = 512,
+    errors: Literal["raise", "nan"] = "raise",
+    threads: int = 0,
+    options: Options = Options(),
+    **changes: Any,
+) -> Final:
+    """The final states of shots, as a function of some of their numbers that PyTorch can
+    differentiate.
 
     Parameters
     ----------
     table, balls, cue
-        The shots, as for `carom.simulate_batch`, where `numbers` say nothing else. Leading dimensions of balls, cue and numbers are broadcast against each other.
+        The shots, as for `carom.simulate_batch`, where `numbers` say nothing else. Leading
+        dimensions of balls, cue and numbers are broadcast against each other.
     numbers : mapping of str to tensor or array_like
-        The numbers of the shots that take part in derivatives, by the names of `carom.tangents`: "cue.phi", "kind.mu_slide" (of all
-        balls), "balls[1].kind.mass" and "balls[0].r[1]" of shape (...); "balls[0].r", "balls[0].v" (..., 2), "balls[0].w" (..., 3).
-        Tensors of other types and devices are converted to float64 on the CPU. Numbers of the table are left out, as a batch has one
-        table: the balls' own "kind.nose_height", "kind.mu_cushion" and "kind.restitution_cushion" are used instead.
+        The numbers of the shots that take part in derivatives, by the names of `carom.tangents`:
+        "cue.phi", "kind.mu_slide" (of all balls), "balls[1].kind.mass" and "balls[0].r[1]" of shape
+        (...); "balls[0].r", "balls[0].v" (..., 2), "balls[0].w" (..., 3). Tensors of other types
+        and devices are converted to float64 on the CPU. Numbers of the table are left out, as a
+        batch has one table: the balls' own "kind.nose_height", "kind.mu_cushion" and
+        "kind.restitution_cushion" are used instead.
     room : int
         Events of a shot at most, where it is differentiated.
     errors : {"raise", "nan"}
-        What a shot in error gives: an exception, or nan, so that the other shots of a batch are not lost.
+        What a shot in error gives: an exception, or nan, so that the other shots of a batch are not
+        lost.
     threads, options, **changes
         As for `carom.simulate_batch`. With t_final the states are those at that time.
 
     Returns Final: Tensors of float64 on the CPU.
     Raises ValueError: A name or a shape is wrong.
-    Raises CaromError: A shot is refused, ends in an error or cannot be differentiated: its numbers, and what is wrong with it.
+    Raises CaromError: A shot is refused, ends in an error or cannot be differentiated: its numbers,
+        and what is wrong with it.
     """
     play = _left_out if _compiling() or "torch._dynamo" in sys.modules else _play
     return play(table, balls, cue, numbers, room, errors, threads, options, changes)

@@ -27,7 +27,8 @@ GOOD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0))
 BAD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0), mass=-1.0)
 
 
-# ---- Bits --------------------------------------------------------------------------------------------------------------
+# ---- Bits
+# --------------------------------------------------------------------------------------------------------------
 
 PLAYS = """
 import numpy as np, sys
@@ -56,19 +57,31 @@ bits = {name: array.tobytes().hex() for name, array in bits.items()}
 def test_plain_has_the_bits_of_a_process_limited_to_plain():
     def bits(plain, isa):
         program = PLAYS + "import json; print(json.dumps(bits))"
-        environment = {**{name: value for name, value in os.environ.items() if name != "CAROM_ISA"}, **isa}
-        done = subprocess.run([sys.executable, "-c", program, repr(plain)], env=environment, capture_output=True, text=True)
+        environment = {
+            **{name: value for name, value in os.environ.items() if name != "CAROM_ISA"},
+            **isa,
+        }
+        done = subprocess.run(
+            [sys.executable, "-c", program, repr(plain)],
+            env=environment,
+            capture_output=True,
+            text=True,
+        )
         assert done.returncode == 0, done.stderr
         return json.loads(done.stdout)
 
-    limited, asked = bits(({}, {"fast": True}), {"CAROM_ISA": "plain"}), bits(({"plain": True}, {}), {})
+    limited, asked = (
+        bits(({}, {"fast": True}), {"CAROM_ISA": "plain"}),
+        bits(({"plain": True}, {}), {}),
+    )
     assert asked == limited and limited["shot"] == limited["shots"][: len(limited["shot"])]
     if carom.isa_in_force() not in ("plain", "sse2"):
         other = bits(({}, {"fast": True}), {})
         assert all(other[name] != limited[name] for name in ("batch", "shots"))
 
 
-# ---- Errors ------------------------------------------------------------------------------------------------------------
+# ---- Errors
+# ------------------------------------------------------------------------------------------------------------
 
 
 def stopped():
@@ -83,7 +96,9 @@ def test_errors_can_be_pickled():
     with pytest.raises(carom.CaromError) as caught:
         carom.collide(BAD)
     others = carom.CaromError(carom.Status.ERROR_TABLE), carom.CaromError(-80, "cue", text="odd")
-    assert stopped().status is carom.Status.ERROR_TOO_MANY_EVENTS and "than events_most" in str(stopped())
+    assert stopped().status is carom.Status.ERROR_TOO_MANY_EVENTS and "than events_most" in str(
+        stopped()
+    )
     shot = stopped().shot
     assert shot.states(shot.time).tobytes() == shot.final.tobytes()
     with pytest.raises(carom.CaromError, match="time"):
@@ -92,19 +107,33 @@ def test_errors_can_be_pickled():
         error.note = "kept"
         for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
             again = pickle.loads(pickle.dumps(error, protocol))
-            assert type(again) is carom.CaromError and str(again) == str(error) and again.note == "kept"
-            assert (again.status, again.field, again.value) == (error.status, error.field, error.value)
+            assert (
+                type(again) is carom.CaromError
+                and str(again) == str(error)
+                and again.note == "kept"
+            )
+            assert (again.status, again.field, again.value) == (
+                error.status,
+                error.field,
+                error.value,
+            )
             if error.shot is not None:
                 assert again.shot.count == error.shot.count == 15  # the break is one cluster
-                np.testing.assert_array_equal(again.shot.positions([0.0, 0.1]), error.shot.positions([0.0, 0.1]))
+                np.testing.assert_array_equal(
+                    again.shot.positions([0.0, 0.1]), error.shot.positions([0.0, 0.1])
+                )
 
 
 def test_errors_reach_the_process_that_asked():
-    """An exception that cannot be unpickled leaves a pool waiting for ever, so each call has its time."""
+    """An exception that cannot be unpickled leaves a pool waiting for ever, so each call has its
+    time.
+    """
     context = multiprocessing.get_context("spawn")
     with context.Pool(1) as pool:
         assert pool.map_async(carom.collide, [GOOD]).get(timeout=120)[0].status == 0
-        with pytest.raises(carom.CaromError, match=r"a\.mass = -1\.0: a mass must be positive") as caught:
+        with pytest.raises(
+            carom.CaromError, match=r"a\.mass = -1\.0: a mass must be positive"
+        ) as caught:
             pool.map_async(carom.collide, [GOOD, BAD]).get(timeout=120)
         assert caught.value.field == "a.mass" and caught.value.status is carom.Status.ERROR_MASS
     with concurrent.futures.ProcessPoolExecutor(1, mp_context=context) as executor:
@@ -114,23 +143,47 @@ def test_errors_reach_the_process_that_asked():
 
 
 def test_tab_completion_shows_what_a_module_offers():
-    found = (module.name for module in pkgutil.walk_packages(carom.__path__, "carom.", onerror=lambda name: None))
+    found = (
+        module.name
+        for module in pkgutil.walk_packages(carom.__path__, "carom.", onerror=lambda name: None)
+    )
     for name in ("carom", *(name for name in found if "._" not in name)):
         try:
             module = importlib.import_module(name)
         except ImportError:
             continue
         shown = {name for name in dir(module) if name[0] != "_"}
-        assert shown and not shown & {"np", "npt", "ffi", "lib", "annotations", "Any", "Literal", "dataclass", "Array", "pointer"}, module
+        assert shown and not shown & {
+            "np",
+            "npt",
+            "ffi",
+            "lib",
+            "annotations",
+            "Any",
+            "Literal",
+            "dataclass",
+            "Array",
+            "pointer",
+        }, module
         assert set(getattr(module, "__all__", ())) <= shown | {"__version__"}, module
 
 
 def test_the_package_shows_what_it_offers_and_short_signatures():
-    """help() of the package names all in a page or two; that of a call has its options by name, without the usual ones."""
-    assert dir(carom) == sorted(carom.__all__) and pydoc.render_doc(carom).count("\n") < 100 and set(carom.__all__) <= set(re.findall(r"\w+", carom.__doc__))
+    """help() of the package names all in a page or two; that of a call has its options by name,
+    without the usual ones.
+    """
+    assert (
+        dir(carom) == sorted(carom.__all__)
+        and pydoc.render_doc(carom).count("\n") < 100
+        and set(carom.__all__) <= set(re.findall(r"\w+", carom.__doc__))
+    )
     assert "options: 'Options' = Options(), **changes" in str(inspect.signature(carom.simulate))
     usual = carom.Options()
-    assert repr(usual) == "Options()" and repr(carom.Options("pooltool", stop_at=("contact",))) == "Options(world='pooltool', stop_at=('contact',))"
+    assert (
+        repr(usual) == "Options()"
+        and repr(carom.Options("pooltool", stop_at=("contact",)))
+        == "Options(world='pooltool', stop_at=('contact',))"
+    )
     assert eval(repr(usual), {"Options": carom.Options}) == usual
 
 
@@ -141,7 +194,10 @@ def test_racks_and_tables_are_those_of_the_library():
     assert dir(carom.racks) == sorted(worded("RACK"))
     for kind, name in enumerate(worded("RACK")):
         table = carom.tables.snooker() if name == "snooker" else carom.tables.pool_9ft()
-        made, text = getattr(carom.racks, name), ffi.string(lib.carom_word_text(lib.CAROM_WORDS_RACK, kind)).decode()
+        made, text = (
+            getattr(carom.racks, name),
+            ffi.string(lib.carom_word_text(lib.CAROM_WORDS_RACK, kind)).decode(),
+        )
         assert made.__doc__ == f"{len(made(table))} balls: {text}."
     assert dir(carom.tables) == sorted([*numbered("carom_table_kind"), "measures", "polygon"])
     for name in numbered("carom_table_kind"):
@@ -149,10 +205,20 @@ def test_racks_and_tables_are_those_of_the_library():
         assert f"{made().width:.4g} x {made().length:.5g} m" in made.__doc__
 
 
-@pytest.mark.parametrize(("module", "use"), [("jax", "import carom.jax"), ("pyarrow", "import carom; carom.simulate_arrow(0, 0)")])
+@pytest.mark.parametrize(
+    ("module", "use"),
+    [("jax", "import carom.jax"), ("pyarrow", "import carom; carom.simulate_arrow(0, 0)")],
+)
 def test_what_is_not_installed_is_asked_for(module, use):
-    done = subprocess.run([sys.executable, "-c", f"import sys; sys.modules['{module}'] = None; {use}"], capture_output=True, text=True)
-    assert done.returncode == 1 and f" needs {module}, which is not installed here: pip install {module}" in done.stderr
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys; sys.modules['{module}'] = None; {use}"],
+        capture_output=True,
+        text=True,
+    )
+    assert (
+        done.returncode == 1
+        and f" needs {module}, which is not installed here: pip install {module}" in done.stderr
+    )
 
 
 def test_objects_are_made_of_plain_classes_alone():
@@ -177,7 +243,8 @@ def test_objects_are_made_of_plain_classes_alone():
         make(Plain, -1, (), ())
 
 
-# ---- Arrays ------------------------------------------------------------------------------------------------------------
+# ---- Arrays
+# ------------------------------------------------------------------------------------------------------------
 
 
 def test_plain_takes_records_of_doubles_alone():
@@ -185,9 +252,16 @@ def test_plain_takes_records_of_doubles_alone():
         records = np.zeros((2, 3), getattr(carom.dtypes, name))
         assert carom.dtypes.plain(records).shape == (2, 3, records.dtype.itemsize // 8)
     for name, field in (
-        ("ball_state", "label"), ("shot_ball", r"state\.label"), ("event", r"type and \d+ more"), ("trace_point", "phase"),
-        ("cushion_point", "phase"), ("cue", "ball"), ("rail", "side"), ("table", ""), ("shot", ""),
-    ):  # fmt: skip
+        ("ball_state", "label"),
+        ("shot_ball", r"state\.label"),
+        ("event", r"type and \d+ more"),
+        ("trace_point", "phase"),
+        ("cushion_point", "phase"),
+        ("cue", "ball"),
+        ("rail", "side"),
+        ("table", ""),
+        ("shot", ""),
+    ):
         with pytest.raises(TypeError, match=rf"records: .*{field}.* integers.* by their names"):
             carom.dtypes.plain(np.zeros(2, getattr(carom.dtypes, name)))
     with pytest.raises(TypeError, match="a structured array is needed"):
@@ -210,15 +284,20 @@ def test_memory_that_overlaps_is_refused(impacts):
         with pytest.raises(ValueError, match=what):
             carom.collide(inside, out=out)
     np.testing.assert_array_equal(inside, impacts)
-    # Side by side in one block is as good as apart; and an input that is copied first may be written over.
+    # Side by side in one block is as good as apart; and an input that is copied first may be
+    # written over.
     expected = carom.collide(impacts).motion
-    np.testing.assert_array_equal(carom.collide(inside, out=(beside, bytes_from(38 * n))).motion, expected)
+    np.testing.assert_array_equal(
+        carom.collide(inside, out=(beside, bytes_from(38 * n))).motion, expected
+    )
     turned = np.asfortranarray(impacts)
     over = turned.T.reshape(-1)[: 12 * n].reshape(n, 12)
     assert np.may_share_memory(turned, over)
     np.testing.assert_array_equal(carom.collide(turned, out=(over, status)).motion, expected)
     with pytest.raises(ValueError, match=r"out\[0\]: .* impacts"):
-        carom.cushion(memory[: 15 * n].reshape(n, 15), out=(memory[10 * n : 16 * n].reshape(n, 6), status))
+        carom.cushion(
+            memory[: 15 * n].reshape(n, 15), out=(memory[10 * n : 16 * n].reshape(n, 6), status)
+        )
     table, rack, cues = shots_of(2)
     shots = carom.simulate_batch(table, rack, cues)
     shots.status = shots.record.view(np.int8)[:2]
@@ -226,19 +305,27 @@ def test_memory_that_overlaps_is_refused(impacts):
         carom.simulate_batch(table, rack, cues, out=shots)
 
 
-# ---- Chunks and Ctrl-C -------------------------------------------------------------------------------------------------
+# ---- Chunks and Ctrl-C
+# -------------------------------------------------------------------------------------------------
 
 
 @functools.cache
 def hard():
-    """Collisions under strong friction, which take the exact solver a hundred times as long as those of play."""
+    """Collisions under strong friction, which take the exact solver a hundred times as long as
+    those of play.
+    """
     rng = np.random.default_rng(1)
     n = 100_000
     angle = rng.uniform(0, 1.2, n)
     return carom.impacts(
-        v_a=rng.uniform(0.1, 3, (n, 1)) * [1, 0, 0], w_a=rng.uniform(-80, 80, (n, 3)), mass_b=2.0, mu_cloth=1.0, mu_ball=1.0,
-        r_b=np.stack([np.cos(angle), np.sin(angle), np.zeros(n)], axis=-1), restitution=0.1,
-    )  # fmt: skip
+        v_a=rng.uniform(0.1, 3, (n, 1)) * [1, 0, 0],
+        w_a=rng.uniform(-80, 80, (n, 3)),
+        mass_b=2.0,
+        mu_cloth=1.0,
+        mu_ball=1.0,
+        r_b=np.stack([np.cos(angle), np.sin(angle), np.zeros(n)], axis=-1),
+        restitution=0.1,
+    )
 
 
 def shots_of(n):
@@ -300,7 +387,9 @@ def test_chunks_have_the_bits_of_one_call(impacts, monkeypatch):
     def calls():
         many = np.tile(impacts, (70, 1))
         many[12345, 10] = -1.0
-        walls = carom.cushion_impacts(v=np.linspace(0.1, 2, 3000)[:, None] * [0.3, 1, 0], w=(0, 0, 30))
+        walls = carom.cushion_impacts(
+            v=np.linspace(0.1, 2, 3000)[:, None] * [0.3, 1, 0], w=(0, 0, 30)
+        )
         table, rack, cues = shots_of(200)
         several = carom.simulate_batch(table, np.tile(rack, (200, 1)), cues, room=20, threads=2)
         one = carom.simulate(table, rack, cues[-1])
@@ -309,7 +398,10 @@ def test_chunks_have_the_bits_of_one_call(impacts, monkeypatch):
         yield from carom.collide(many.astype(np.float32))
         yield from carom.cushion(walls)
         yield from (several.final, several.events["time"], several.status, several.count)
-        yield from (carom.mu_ball(np.tile(many, (4, 1))), one.states(np.linspace(0, one.time, 5000)))
+        yield from (
+            carom.mu_ball(np.tile(many, (4, 1))),
+            one.states(np.linspace(0, one.time, 5000)),
+        )
 
     seen = [array.tobytes() for array in calls()]
     for module in (_impacts, collisions, results, shots):
@@ -335,19 +427,30 @@ def test_chunks_cover_every_row_once(monkeypatch):
             for n in (0, 1, 63, 64, 1000, 5001, 100_000):
                 seen.clear()
                 assert _rows.in_chunks(n, 2e-7, threads, call) == -7
-                assert [begin for begin, _ in seen] == list(np.cumsum([0, *(count for _, count in seen[:-1])]))
-                assert sum(count for _, count in seen) == n and all(count > 0 for _, count in seen) == (n > 0)
+                assert [begin for begin, _ in seen] == list(
+                    np.cumsum([0, *(count for _, count in seen[:-1])])
+                )
+                assert sum(count for _, count in seen) == n and all(
+                    count > 0 for _, count in seen
+                ) == (n > 0)
 
 
-# ---- The manual ---------------------------------------------------------------------------------------------------------
+# ---- The manual
+# ---------------------------------------------------------------------------------------------------------
 
 
 def test_a_dtype_is_called_as_its_struct():
     """docs/using/python.md says so: a header has the fields of each, with their units."""
-    headers = "".join(header.read_text(encoding="utf-8") for room in ("include", "plan/include") for header in (Path(__file__).parents[3] / room).glob("*.h"))
+    headers = "".join(
+        header.read_text(encoding="utf-8")
+        for room in ("include", "plan/include")
+        for header in (Path(__file__).parents[3] / room).glob("*.h")
+    )
     for name, record in vars(carom.dtypes).items():
         if isinstance(record, np.dtype):
-            found = re.search(rf"^typedef struct (?:carom_\w+ )?\{{([^}}]*)\}} carom_{name};", headers, flags=re.M)
+            found = re.search(
+                rf"^typedef struct (?:carom_\w+ )?\{{([^}}]*)\}} carom_{name};", headers, flags=re.M
+            )
             assert found and set(record.names) <= set(re.findall(r"\w+", found[1])), name
 
 
@@ -361,5 +464,10 @@ def test_what_to_cite():
 
 
 def test_the_revision_of_the_physics():
-    golden = Path(__file__).parents[3] / "tests" / "platforms" / f"bits-{carom.physics_revision()}.expected"
+    golden = (
+        Path(__file__).parents[3]
+        / "tests"
+        / "platforms"
+        / f"bits-{carom.physics_revision()}.expected"
+    )
     assert golden.is_file()

@@ -1,4 +1,6 @@
-"""carom.collide and carom.cushion, their impacts, mu_ball and traces, against recorded references and the C calls' promises."""
+"""carom.collide and carom.cushion, their impacts, mu_ball and traces, against recorded references
+and the C calls' promises.
+"""
 
 import pickle
 import re
@@ -40,7 +42,9 @@ def test_pooltools_bits(impacts, reference):
 
 def test_cushions():
     """Recorded impacts of pooltool; the exact model as the limit of its steps; a mirror by hand."""
-    impacts, expected = (columns("cushion-stronge.csv", wanted) for wanted in (IMPACT, "avx avy avz awx awy awz"))
+    impacts, expected = (
+        columns("cushion-stronge.csv", wanted) for wanted in (IMPACT, "avx avy avz awx awy awz")
+    )
     motion, status = carom.cushion(impacts, model="stronge", convention="pooltool")
     assert motion.shape == (479, 6) and not status.any()
     fastest = np.abs(impacts[:, :6] * SCALE).max(axis=1, keepdims=True)
@@ -51,13 +55,23 @@ def test_cushions():
     smooth = {"model": "smooth", "smooth_q": 0.35, "smooth_x": 1.3, "smooth_t": 1.2}
     for name in NUMBERS:
         usual = smooth if name.startswith("smooth") else {"model": "stronge"}
-        near = {"smooth_q": 0.2, "smooth_x": 1.0, "smooth_t": 1.0, "omega_ratio": 1.2}.get(name, 0.1)
-        assert (carom.cushion(impacts, **usual).motion != carom.cushion(impacts, **(usual | {name: near})).motion).any(), name
+        near = {"smooth_q": 0.2, "smooth_x": 1.0, "smooth_t": 1.0, "omega_ratio": 1.2}.get(
+            name, 0.1
+        )
+        assert (
+            carom.cushion(impacts, **usual).motion
+            != carom.cushion(impacts, **(usual | {name: near})).motion
+        ).any(), name
     impact = carom.cushion_impacts(v=(0.4, 1.5, 0), w=(-20.0, 0, 30.0))
     exact = carom.cushion(impact).motion["v"]
-    errors = [np.abs(carom.cushion(impact, model="euler", steps=n).motion["v"] - exact).max() for n in (1000, 100000)]
+    errors = [
+        np.abs(carom.cushion(impact, model="euler", steps=n).motion["v"] - exact).max()
+        for n in (1000, 100000)
+    ]
     assert errors[1] < errors[0] / 10 and errors[1] < 1e-4
-    motion, _ = carom.cushion(carom.cushion_impacts(v=(0.3, 2, 0), w=(1, 2, 3), restitution=[0.5, 1.0]), model="mirror")
+    motion, _ = carom.cushion(
+        carom.cushion_impacts(v=(0.3, 2, 0), w=(1, 2, 3), restitution=[0.5, 1.0]), model="mirror"
+    )
     np.testing.assert_allclose(motion["v"], [[0.3, -1.0, 0], [0.3, -2.0, 0]], atol=1e-15)
     np.testing.assert_array_equal(motion["w"], [[1, 2, 3]] * 2)
 
@@ -112,41 +126,119 @@ def test_a_bad_row_costs_itself(impacts):
 
 
 def test_impacts_broadcast_and_have_their_places_and_defaults():
-    built = carom.impacts(v_a=np.ones((5, 1, 3)) * [1, 0, 0], r_b=[0.05715, 0, 0], mu_ball=np.linspace(0, 0.1, 4))
+    built = carom.impacts(
+        v_a=np.ones((5, 1, 3)) * [1, 0, 0], r_b=[0.05715, 0, 0], mu_ball=np.linspace(0, 0.1, 4)
+    )
     assert built.shape == (5, 4) and built.dtype == carom.dtypes.impact
     assert carom.collide(built).motion.shape == (5, 4)
-    assert carom.dtypes.plain(built).shape == (5, 4, 26) and carom.dtypes.plain(built[0, 0]).shape == (26,)
-    np.testing.assert_array_equal(carom.collide(carom.dtypes.plain(built)).motion, carom.dtypes.plain(carom.collide(built).motion))
+    assert carom.dtypes.plain(built).shape == (5, 4, 26) and carom.dtypes.plain(
+        built[0, 0]
+    ).shape == (26,)
+    np.testing.assert_array_equal(
+        carom.collide(carom.dtypes.plain(built)).motion,
+        carom.dtypes.plain(carom.collide(built).motion),
+    )
     ball = [0.028575, 0.170097, 0.2]  # radius, mass, friction with the cloth, of a pool ball
     built = carom.impacts(v_a=(1, 2, 0), r_b=(0.05715, 0, 0))
-    assert carom.dtypes.plain(built).tolist() == [0, 0, 0, 1, 2, 0, 0, 0, 0, *ball, 0.05715, *[0] * 8, *ball, 0.05, 0.95]
-    vectors = {name: np.arange(3) + 3 * k for k, name in enumerate(("r_a", "v_a", "w_a", "r_b", "v_b", "w_b"))}
-    built = carom.impacts(**vectors, radius=20, mass=21, mu_cloth=22, mass_b=23, mu_cloth_b=24, mu_ball=25, restitution=26)
-    assert carom.dtypes.plain(built).tolist() == [*range(9), 20, 21, 22, *range(9, 18), 20, 23, 24, 25, 26]
+    assert carom.dtypes.plain(built).tolist() == [
+        0,
+        0,
+        0,
+        1,
+        2,
+        0,
+        0,
+        0,
+        0,
+        *ball,
+        0.05715,
+        *[0] * 8,
+        *ball,
+        0.05,
+        0.95,
+    ]
+    vectors = {
+        name: np.arange(3) + 3 * k
+        for k, name in enumerate(("r_a", "v_a", "w_a", "r_b", "v_b", "w_b"))
+    }
+    built = carom.impacts(
+        **vectors,
+        radius=20,
+        mass=21,
+        mu_cloth=22,
+        mass_b=23,
+        mu_cloth_b=24,
+        mu_ball=25,
+        restitution=26,
+    )
+    assert carom.dtypes.plain(built).tolist() == [
+        *range(9),
+        20,
+        21,
+        22,
+        *range(9, 18),
+        20,
+        23,
+        24,
+        25,
+        26,
+    ]
     numbers = carom.dtypes.plain(carom.cushion_impacts(v=(1, 2, 0)))
-    assert numbers.tolist() == [1, 2, 0, 0, 0, 0, 0, 1, 0.036576, 0.028575, 0.170097, 0.2, 0.2, 0.85, 0]
+    assert numbers.tolist() == [
+        1,
+        2,
+        0,
+        0,
+        0,
+        0,
+        0,
+        1,
+        0.036576,
+        0.028575,
+        0.170097,
+        0.2,
+        0.2,
+        0.85,
+        0,
+    ]
     names = ("height", "radius", "mass", "mu_cloth", "mu_cushion", "restitution", "jaw_radius")
-    built = carom.cushion_impacts(v=(0, 1, 2), w=(3, 4, 5), normal=(6, 7), **{name: 8 + k for k, name in enumerate(names)})
+    built = carom.cushion_impacts(
+        v=(0, 1, 2), w=(3, 4, 5), normal=(6, 7), **{name: 8 + k for k, name in enumerate(names)}
+    )
     assert carom.dtypes.plain(built).tolist() == [*range(15)]
 
 
 def test_mu_ball(impacts):
     a, b, c = carom.alciatore()
     shot = carom.impacts(v_a=[(0, 0, 0), (0, 3, 0)], r_b=(0.05715, 0, 0))
-    np.testing.assert_allclose(carom.mu_ball(shot), a + b * np.exp(-c * np.array([0.0, 3.0])), rtol=1e-14)
-    assert carom.mu_ball(impacts).shape == (204,) and carom.mu_ball(impacts[0], law=(0.1, 0, 1)) == 0.1
+    np.testing.assert_allclose(
+        carom.mu_ball(shot), a + b * np.exp(-c * np.array([0.0, 3.0])), rtol=1e-14
+    )
+    assert (
+        carom.mu_ball(impacts).shape == (204,) and carom.mu_ball(impacts[0], law=(0.1, 0, 1)) == 0.1
+    )
 
 
 def test_traces(impacts):
     points = carom.trace(impacts[0], 11)
-    assert points.shape == (11,) and points["normal"][0] == 0 and (np.diff(points["normal"]) > 0).all()
-    np.testing.assert_allclose(points["state"][-1]["a"]["v"], carom.collide(impacts[0]).motion[:3], atol=1e-5)
+    assert (
+        points.shape == (11,) and points["normal"][0] == 0 and (np.diff(points["normal"]) > 0).all()
+    )
+    np.testing.assert_allclose(
+        points["state"][-1]["a"]["v"], carom.collide(impacts[0]).motion[:3], atol=1e-5
+    )
     impact = carom.cushion_impacts(v=(0.4, 1.5, 0), w=(0, 0, 30.0))
-    np.testing.assert_allclose(carom.cushion_trace(impact, 21)["state"]["v"][-1], carom.cushion(impact).motion["v"], atol=1e-7)
+    np.testing.assert_allclose(
+        carom.cushion_trace(impact, 21)["state"]["v"][-1],
+        carom.cushion(impact).motion["v"],
+        atol=1e-7,
+    )
 
 
 def test_the_lock_of_the_interpreter_is_released(impacts):
-    """While one call computes, this thread counts on: with the lock held it could not before the call has ended."""
+    """While one call computes, this thread counts on: with the lock held it could not before the
+    call has ended.
+    """
     many = np.tile(impacts, (20, 1))
     done, found = threading.Event(), []
 
@@ -169,9 +261,21 @@ def test_statuses_and_labels_are_those_of_c():
 
     header = (Path(__file__).parents[3] / "include" / "carom.h").read_text(encoding="utf-8")
     enumerators = header[header.index("enum carom_status") :].partition("}")[0]
-    names = {int(value): name for name, value in re.findall(r"^  CAROM_(\w+) = (-?\d+),?", enumerators, re.M)}
+    names = {
+        int(value): name
+        for name, value in re.findall(r"^  CAROM_(\w+) = (-?\d+),?", enumerators, re.M)
+    }
     assert {status.value: status.name for status in carom.Status} == names and len(names) > 50
-    assert list(carom.Status)[:3] == [0, 1, -1] and pickle.loads(pickle.dumps(carom.Status.ERROR_CUE_BALL)) is carom.Status.ERROR_CUE_BALL
-    for kind, enumeration, prefix in ((carom.Label, "carom_label", "CAROM_BALL_"), (carom.EventType, "carom_event_type", "CAROM_EVENT_")):
-        names = {value: name.removeprefix(prefix) for value, name in ffi.typeof(enumeration).elements.items()}
+    assert (
+        list(carom.Status)[:3] == [0, 1, -1]
+        and pickle.loads(pickle.dumps(carom.Status.ERROR_CUE_BALL)) is carom.Status.ERROR_CUE_BALL
+    )
+    for kind, enumeration, prefix in (
+        (carom.Label, "carom_label", "CAROM_BALL_"),
+        (carom.EventType, "carom_event_type", "CAROM_EVENT_"),
+    ):
+        names = {
+            value: name.removeprefix(prefix)
+            for value, name in ffi.typeof(enumeration).elements.items()
+        }
         assert {member.value: member.name for member in kind} == names

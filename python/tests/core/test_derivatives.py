@@ -12,14 +12,24 @@ CLOSED = {"ball_model": "inelastic", "cushion_model": "han"}
 
 
 def layout():
-    return carom.balls(np.array([[0.4, 0.5], [0.6, 1.5], [0.9, 2.0]])), carom.cue(speed=1.5, phi=79.0, a=0.1, b=0.1)
+    return carom.balls(np.array([[0.4, 0.5], [0.6, 1.5], [0.9, 2.0]])), carom.cue(
+        speed=1.5, phi=79.0, a=0.1, b=0.1
+    )
 
 
 def test_tangents_are_differences():
     balls, cue = layout()
     shot = carom.simulate(TABLE, balls, cue, **CLOSED)
-    found = carom.tangents(shot, ["cue.speed", "cue.phi", "balls[1].r", "kind.mu_slide"], times=[0.5, 1.0])
-    assert found.names == ("cue.speed", "cue.phi", "balls[1].r[0]", "balls[1].r[1]", "kind.mu_slide")
+    found = carom.tangents(
+        shot, ["cue.speed", "cue.phi", "balls[1].r", "kind.mu_slide"], times=[0.5, 1.0]
+    )
+    assert found.names == (
+        "cue.speed",
+        "cue.phi",
+        "balls[1].r[0]",
+        "balls[1].r[1]",
+        "kind.mu_slide",
+    )
     assert found.units == ("m/s", "deg", "m", "m", "1")
     assert found.final["r"].shape == (3, 2, 5) and found.final["w"].shape == (3, 3, 5)
     assert found.at["v"].shape == (2, 3, 2, 5) and found.time.shape == (shot.count, 5)
@@ -41,9 +51,15 @@ def test_tangents_are_differences():
         for name in "rvw":
             wide = 3 if name == "w" else 2
             difference = (more.final[name] - less.final[name])[:, :wide] / (2 * h)
-            np.testing.assert_allclose(found.final[name][..., j], difference, atol=1e-5 * np.abs(found.states[..., j]).max())
+            np.testing.assert_allclose(
+                found.final[name][..., j],
+                difference,
+                atol=1e-5 * np.abs(found.states[..., j]).max(),
+            )
         difference = (more.positions([0.5, 1.0]) - less.positions([0.5, 1.0]))[..., :2] / (2 * h)
-        np.testing.assert_allclose(found.at["r"][..., j], difference, atol=1e-5 * np.abs(found.states_at[..., j]).max())
+        np.testing.assert_allclose(
+            found.at["r"][..., j], difference, atol=1e-5 * np.abs(found.states_at[..., j]).max()
+        )
 
 
 WRT = ["cue.speed", "cue.phi", "cue.a", "cue.b"]
@@ -57,24 +73,40 @@ def second_differences(balls, cue, h, models):
     for k, (i, j, s, t) in enumerate(signs):
         cues[fields[i]][k] += s * h[i]
         cues[fields[j]][k] += t * h[j]
-    ends = carom.simulate_batch(TABLE, balls, cues, **models).final["r"][..., :2].reshape(4, 4, 2, 2, -1, 2)
+    ends = (
+        carom.simulate_batch(TABLE, balls, cues, **models)
+        .final["r"][..., :2]
+        .reshape(4, 4, 2, 2, -1, 2)
+    )
     mixed = ends[:, :, 0, 0] - ends[:, :, 0, 1] - ends[:, :, 1, 0] + ends[:, :, 1, 1]
-    return np.moveaxis(mixed / (4.0 * h[:, np.newaxis] * h)[..., np.newaxis, np.newaxis], (0, 1), (-2, -1))
+    return np.moveaxis(
+        mixed / (4.0 * h[:, np.newaxis] * h)[..., np.newaxis, np.newaxis], (0, 1), (-2, -1)
+    )
 
 
 def test_second_derivatives_are_differences_of_values():
-    """On 100 shots, compared for changes of a hundredth of the reach: those of values have errors of their own, in fourth derivatives."""
+    """On 100 shots, compared for changes of a hundredth of the reach: those of values have errors
+    of their own, in fourth derivatives.
+    """
     random, shots, met, errors, off = np.random.default_rng(5), 0, 0, [], []
     while shots < 100:
         balls = carom.balls(random.uniform([0.15, 0.3], [1.1, 2.2], (3, 2)))
         at = np.degrees(np.arctan2(*(balls["state"]["r"][1] - balls["state"]["r"][0])[1::-1]))
-        cue = carom.cue(speed=random.uniform(1.0, 3.0), phi=at + random.uniform(-10.0, 10.0), a=random.uniform(-0.2, 0.2), b=random.uniform(-0.2, 0.3))
+        cue = carom.cue(
+            speed=random.uniform(1.0, 3.0),
+            phi=at + random.uniform(-10.0, 10.0),
+            a=random.uniform(-0.2, 0.2),
+            b=random.uniform(-0.2, 0.3),
+        )
         try:
             shot = carom.simulate(TABLE, balls, cue, **CLOSED)
         except carom.CaromError:
             continue  # balls overlap
         found = carom.hessian(shot, WRT)
-        if not found.states.any() or (found.first.flags & (carom.Flag.SIMULTANEOUS | carom.Flag.KINK)).any():
+        if (
+            not found.states.any()
+            or (found.first.flags & (carom.Flag.SIMULTANEOUS | carom.Flag.KINK)).any()
+        ):
             continue
         shots += 1
         met += (shot.events["type"] == carom.EventType.BALL_BALL).any()
@@ -83,50 +115,97 @@ def test_second_derivatives_are_differences_of_values():
         errors.append(found.error)
         h = 1e-2 * np.minimum(found.first.reach, 0.1)
         second, weight = second_differences(balls, cue, h, CLOSED), h[:, np.newaxis] * h
-        off.append(np.abs((found.final["r"] - second) * weight).max() / np.abs(second * weight).max())
-    assert met > 50 and np.median(errors) < 1e-6 and np.quantile(errors, 0.9) < 1e-4, np.quantile(errors, [0.5, 0.9, 1.0])
+        off.append(
+            np.abs((found.final["r"] - second) * weight).max() / np.abs(second * weight).max()
+        )
+    assert met > 50 and np.median(errors) < 1e-6 and np.quantile(errors, 0.9) < 1e-4, np.quantile(
+        errors, [0.5, 0.9, 1.0]
+    )
     assert np.median(off) < 1e-4 and np.quantile(off, 0.9) < 1e-2, np.quantile(off, [0.5, 0.9, 1.0])
 
 
 def test_second_derivatives_of_a_ball_that_rolls():
-    """It rolls v^2/(2 mu g), v in proportion to the speed of the cue, so that d2/dv2 = 2 y/v^2, and y falls like 1/mu."""
+    """It rolls v^2/(2 mu g), v in proportion to the speed of the cue, so that d2/dv2 = 2 y/v^2, and
+    y falls like 1/mu.
+    """
     balls = carom.balls([[0.6, 0.3]])
     speed, mu = 0.5, float(balls["kind"]["mu_roll"][0])
     shot = carom.simulate(TABLE, balls, carom.cue(speed=speed, b=0.4), **CLOSED)
-    found, far = carom.hessian(shot, ["cue.speed", "kind.mu_roll", "balls[0].r[1]"]), shot.final["r"][0, 1] - 0.3
-    expected = far * np.array([[2.0 / speed**2, -2.0 / speed / mu, 0.0], [-2.0 / speed / mu, 2.0 / mu**2, 0.0], [0.0, 0.0, 0.0]])
+    found, far = (
+        carom.hessian(shot, ["cue.speed", "kind.mu_roll", "balls[0].r[1]"]),
+        shot.final["r"][0, 1] - 0.3,
+    )
+    expected = far * np.array(
+        [
+            [2.0 / speed**2, -2.0 / speed / mu, 0.0],
+            [-2.0 / speed / mu, 2.0 / mu**2, 0.0],
+            [0.0, 0.0, 0.0],
+        ]
+    )
     np.testing.assert_allclose(found.final["r"][0, 1], expected, rtol=1e-5, atol=1e-6)
     for wrt, along, words in (
-        (["table.nose_height"], None, "wrt: table.nose_height has no second"), ([], None, "wrt: name at least one"),
-        (["cue.phi"], [1.0, 2.0], r"along: the shape must be \(1,\)"), (["cue.phi"], [[1.0]], "along: the shape"),
-    ):  # fmt: skip
+        (["table.nose_height"], None, "wrt: table.nose_height has no second"),
+        ([], None, "wrt: name at least one"),
+        (["cue.phi"], [1.0, 2.0], r"along: the shape must be \(1,\)"),
+        (["cue.phi"], [[1.0]], "along: the shape"),
+    ):
         with pytest.raises(ValueError, match=words):
             carom.hessian(shot, wrt, along=along)
     # of a radius, with the height of the balls
-    by_radius = [carom.tangents(carom.simulate(TABLE, carom.balls([[0.6, 0.3]], radius=balls["kind"]["radius"] + h), carom.cue(speed=2.0), **CLOSED),
-                                ["kind.radius"]).final["r"] for h in (1e-7, -1e-7)]  # fmt: skip
-    found = carom.hessian(carom.simulate(TABLE, balls, carom.cue(speed=2.0), **CLOSED), ["kind.radius"])
-    np.testing.assert_allclose(found.final["r"][..., 0], (by_radius[0] - by_radius[1]) / 2e-7, rtol=1e-5, atol=1e-3)
+    by_radius = [
+        carom.tangents(
+            carom.simulate(
+                TABLE,
+                carom.balls([[0.6, 0.3]], radius=balls["kind"]["radius"] + h),
+                carom.cue(speed=2.0),
+                **CLOSED,
+            ),
+            ["kind.radius"],
+        ).final["r"]
+        for h in (1e-7, -1e-7)
+    ]
+    found = carom.hessian(
+        carom.simulate(TABLE, balls, carom.cue(speed=2.0), **CLOSED), ["kind.radius"]
+    )
+    np.testing.assert_allclose(
+        found.final["r"][..., 0], (by_radius[0] - by_radius[1]) / 2e-7, rtol=1e-5, atol=1e-3
+    )
 
 
 def test_second_derivatives_of_batches(monkeypatch):
-    """They have the bits of single shots, also some at a time and with kinds apart; along a vector they are products with it."""
+    """They have the bits of single shots, also some at a time and with kinds apart; along a vector
+    they are products with it.
+    """
     balls, cue = layout()
     cues = carom.cue(speed=1.5, phi=np.linspace(76.0, 81.0, 6).reshape(2, 3), a=0.1, b=0.1)
     cues["b"][1, 0] = 2.0
     wrt = [*WRT, "balls[1].r", "kind.mu_roll"]
-    shots = carom.simulate_batch(TABLE, balls["state"], cues, kinds=balls["kind"], room=99, **CLOSED)
-    found, vectors = carom.hessian(shots, wrt), np.random.default_rng(1).normal(size=(2, 3, 7)) * [0.1, 0.1, 0.01, 0.01, 0.01, 0.01, 1e-3]
+    shots = carom.simulate_batch(
+        TABLE, balls["state"], cues, kinds=balls["kind"], room=99, **CLOSED
+    )
+    found, vectors = (
+        carom.hessian(shots, wrt),
+        np.random.default_rng(1).normal(size=(2, 3, 7)) * [0.1, 0.1, 0.01, 0.01, 0.01, 0.01, 1e-3],
+    )
     monkeypatch.setattr(carom.derivatives, "AT_ONCE", 5)
     along, again = carom.hessian(shots, wrt, along=vectors), carom.hessian(shots, wrt)
-    assert found.states.shape == (2, 3, 3, 9, 7, 7) and found.final["z"].shape == (2, 3, 3, 7, 7) and along.final["w"].shape == (2, 3, 3, 3, 7)
+    assert (
+        found.states.shape == (2, 3, 3, 9, 7, 7)
+        and found.final["z"].shape == (2, 3, 3, 7, 7)
+        and along.final["w"].shape == (2, 3, 3, 3, 7)
+    )
     assert np.isnan(found.states[1, 0]).all() and np.isnan(along.error).all()
     for k in np.ndindex(2, 3):
         if k != (1, 0):
             one = carom.hessian(shots[k], wrt)
-            assert found.states[k].tobytes() == again.states[k].tobytes() == one.states.tobytes() and found.error[k] == one.error
+            assert (
+                found.states[k].tobytes() == again.states[k].tobytes() == one.states.tobytes()
+                and found.error[k] == one.error
+            )
             expected = one.states @ vectors[k]
-            np.testing.assert_allclose(along.states[k], expected, rtol=0.0, atol=1e-5 * np.abs(expected).max())
+            np.testing.assert_allclose(
+                along.states[k], expected, rtol=0.0, atol=1e-5 * np.abs(expected).max()
+            )
     with pytest.raises(TypeError, match="^shot: "):
         carom.hessian(TABLE, ["cue.phi"])
 
@@ -139,15 +218,22 @@ def test_jacobian_has_the_batch_in_front():
     found = carom.jacobian(TABLE, balls, cues, ["cue.speed", "kind.mu_roll"], **CLOSED)
     assert found.shape == (2, 3, 3, 2, 2)
     assert np.isnan(found[1, 2]).all() and np.isfinite(found[:, :2]).all()
-    one = carom.tangents(carom.simulate(TABLE, balls, cues[0, 1], **CLOSED), ["cue.speed", "kind.mu_roll"])
+    one = carom.tangents(
+        carom.simulate(TABLE, balls, cues[0, 1], **CLOSED), ["cue.speed", "kind.mu_roll"]
+    )
     np.testing.assert_array_equal(found[0, 1], one.final["r"])
 
 
-@pytest.mark.parametrize("models", [CLOSED, {}, {"cushion_model": "mathavan"}, {"t_final": 0.7, **CLOSED}])
+@pytest.mark.parametrize(
+    "models", [CLOSED, {}, {"cushion_model": "mathavan"}, {"t_final": 0.7, **CLOSED}]
+)
 @pytest.mark.parametrize("threads", [0, 3])
 def test_batches_have_the_bits_of_single_shots(models, threads):
     table, random = carom.tables.pool_9ft(), np.random.default_rng(11)
-    layouts = carom.balls(random.uniform([0.1, 0.2], [0.5, 0.8], (9, 1, 2)) + np.array([[0.0, 0.0], [0.2, 0.9], [0.5, 1.4]]))
+    layouts = carom.balls(
+        random.uniform([0.1, 0.2], [0.5, 0.8], (9, 1, 2))
+        + np.array([[0.0, 0.0], [0.2, 0.9], [0.5, 1.4]])
+    )
     cues = carom.cue(speed=random.uniform(0.8, 3.0, 9), phi=random.uniform(60.0, 85.0, 9), a=0.1)
     cues["b"][4] = 2.0
     names = ["cue.speed", "cue.phi", "balls[1].r", "kind.restitution", "table.nose_height"]
@@ -155,21 +241,49 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
     found = carom.tangents(shots, names, times=[0.1, 0.4], threads=threads)
     assert found.status[4] == carom.Status.ERROR_MISCUE and (found.status != 0).sum() == 1
     assert found.states.shape == (9, 3, carom.derivatives.STATE, 6) and found.reach.shape == (9, 6)
-    ofs = {of: carom.jacobian(table, layouts, cues, names, of=of, times=[0.1, 0.4], room=200, threads=threads, **models)
-           for of in ("final.r", "at.w", "time", "reach")}  # fmt: skip
+    ofs = {
+        of: carom.jacobian(
+            table,
+            layouts,
+            cues,
+            names,
+            of=of,
+            times=[0.1, 0.4],
+            room=200,
+            threads=threads,
+            **models,
+        )
+        for of in ("final.r", "at.w", "time", "reach")
+    }
     for k in range(9):
         if k == 4:
-            assert np.isnan(found.states[k]).all() and np.isnan(found.reach[k]).all() and (found.flags[k] == -1).all()
+            assert (
+                np.isnan(found.states[k]).all()
+                and np.isnan(found.reach[k]).all()
+                and (found.flags[k] == -1).all()
+            )
             assert all(np.isnan(array[k]).all() for array in ofs.values())
             continue
-        one = carom.tangents(carom.simulate(table, layouts[k], cues[k], **models), names, times=[0.1, 0.4])
+        one = carom.tangents(
+            carom.simulate(table, layouts[k], cues[k], **models), names, times=[0.1, 0.4]
+        )
         events = len(one.time)
         for batch, single in (
-            (found.states[k], one.states), (found.states_at[k], one.states_at), (found.time[k, :events], one.time),
-            (found.flags[k, :events], one.flags), (found.reach[k], one.reach), (found.error[k], one.error),
-            (ofs["final.r"][k], one.final["r"]), (ofs["at.w"][k], one.at["w"]), (ofs["time"][k, :events], one.time), (ofs["reach"][k], one.reach),
-        ):  # fmt: skip
-            assert np.isfinite(single).any() and batch.tobytes() == np.ascontiguousarray(single).tobytes()
+            (found.states[k], one.states),
+            (found.states_at[k], one.states_at),
+            (found.time[k, :events], one.time),
+            (found.flags[k, :events], one.flags),
+            (found.reach[k], one.reach),
+            (found.error[k], one.error),
+            (ofs["final.r"][k], one.final["r"]),
+            (ofs["at.w"][k], one.at["w"]),
+            (ofs["time"][k, :events], one.time),
+            (ofs["reach"][k], one.reach),
+        ):
+            assert (
+                np.isfinite(single).any()
+                and batch.tobytes() == np.ascontiguousarray(single).tobytes()
+            )
         assert np.isnan(found.time[k, events:]).all() and (found.flags[k, events:] == -1).all()
         # a shot that is taken out of the batch knows how it was played
         again = carom.tangents(shots[k], names)
@@ -179,14 +293,27 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
 def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
     balls, _ = layout()
     cues = carom.cue(speed=1.5, phi=np.linspace(76.0, 81.0, 23))
-    names = ["cue.phi", *(f"balls[{i}].kind.{field}" for i in range(3) for field in carom.dtypes.ball_kind.names if field != "radius")]
+    names = [
+        "cue.phi",
+        *(
+            f"balls[{i}].kind.{field}"
+            for i in range(3)
+            for field in carom.dtypes.ball_kind.names
+            if field != "radius"
+        ),
+    ]
     names = names[: carom.derivatives.MOST - 1]
-    whole = {of: carom.jacobian(TABLE, balls, cues, names, of=of, **CLOSED) for of in ("final.v", "final.r", "time", "reach")}
+    whole = {
+        of: carom.jacobian(TABLE, balls, cues, names, of=of, **CLOSED)
+        for of in ("final.v", "final.r", "time", "reach")
+    }
     monkeypatch.setattr(carom.derivatives, "AT_ONCE", 5)
     monkeypatch.setattr(carom.derivatives, "MOST", 20)
     for of, array in whole.items():
         part = carom.jacobian(TABLE, np.broadcast_to(balls, (23, 3)), cues, names, of=of, **CLOSED)
-        np.testing.assert_allclose(part, array, rtol=1e-9, atol=1e-9 * np.nanmax(np.abs(array[np.isfinite(array)])))
+        np.testing.assert_allclose(
+            part, array, rtol=1e-9, atol=1e-9 * np.nanmax(np.abs(array[np.isfinite(array)]))
+        )
         assert part.shape == array.shape and np.isfinite(part).sum() == np.isfinite(array).sum() > 0
     # none, one, and one of too many events for its room
     assert carom.jacobian(TABLE, balls, cues[:0], names, **CLOSED).shape == (0, 3, 2, len(names))
@@ -197,10 +324,15 @@ def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
 
 
 def test_a_shot_knows_what_it_was_played_with():
-    """Its cue, its table and its models, also in a pickle; what is changed afterwards is not the shot's."""
+    """Its cue, its table and its models, also in a pickle; what is changed afterwards is not the
+    shot's.
+    """
     table = carom.tables.pool_9ft()
     balls, cue = layout()
-    shot, names = carom.simulate(table, balls, cue, t_final=2.0, **CLOSED), ["cue.phi", "kind.mu_slide"]
+    shot, names = (
+        carom.simulate(table, balls, cue, t_final=2.0, **CLOSED),
+        ["cue.phi", "kind.mu_slide"],
+    )
     expected = carom.tangents(shot, names).states.tobytes()
     assert shot.options.cushion_model == "han" and shot.options.t_final == 2.0 and shot.cue == cue
     again = carom.resume(shot, t_final=3.0)
@@ -224,14 +356,22 @@ def test_events_that_were_not_kept():
     for room in (0, 4):
         shots = carom.simulate_batch(TABLE, balls, cues, room=room)
         most = shots.count.max()
-        with pytest.raises(ValueError, match=f"^shot: room={room} does not keep all events of 2 of 3 shots; room={most} does"):
+        with pytest.raises(
+            ValueError,
+            match=f"^shot: room={room} does not keep all events of 2 of 3 shots; room={most} does",
+        ):
             carom.tangents(shots, ["cue.phi"])
-        with pytest.raises(ValueError, match=f"^shot: room={room} does not keep all events of 1 of 1 shots; room={most} does"):
+        with pytest.raises(
+            ValueError,
+            match=f"^shot: room={room} does not keep all events of 1 of 1 shots; room={most} does",
+        ):
             carom.tangents(shots[2], ["cue.phi"])
     found = carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=most), ["cue.phi"])
     assert np.isfinite(found.states[[0, 2]]).all() and np.isnan(found.states[1]).all()
     with pytest.raises(ValueError, match='records="full"'):
-        carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=99, records="brief"), ["cue.phi"])
+        carom.tangents(
+            carom.simulate_batch(TABLE, balls, cues, room=99, records="brief"), ["cue.phi"]
+        )
 
 
 def test_what_is_not_known():

@@ -1,4 +1,6 @@
-"""carom.jax: values are those of shots, derivatives those of carom.tangents and of differences; batches, compiled code, errors."""
+"""carom.jax: values are those of shots, derivatives those of carom.tangents and of differences;
+batches, compiled code, errors.
+"""
 
 import subprocess
 import sys
@@ -34,7 +36,12 @@ def miss(aim, **models):
 
 
 def played(aim, **models):
-    return carom.simulate(TABLE, BALLS, carom.cue(**dict(zip(("speed", "phi", "a", "b"), map(float, aim)))), **{**CLOSED, **models})
+    return carom.simulate(
+        TABLE,
+        BALLS,
+        carom.cue(**dict(zip(("speed", "phi", "a", "b"), map(float, aim)))),
+        **{**CLOSED, **models},
+    )
 
 
 def test_a_ball_in_the_air():
@@ -42,17 +49,26 @@ def test_a_ball_in_the_air():
     cue = carom.cue(phi=80.0, speed=4.0, theta=35.0, tip_time=0.0006)
     shot = carom.simulate(TABLE, BALLS, cue, **jump)
     found = carom.jax.final(TABLE, BALLS, cue, numbers, **jump)
-    assert found.z[0] > 0.03 and np.array_equal(found.z, shot.final["r"][:, 2]) and np.array_equal(found.v_z, shot.final["v"][:, 2])
+    assert (
+        found.z[0] > 0.03
+        and np.array_equal(found.z, shot.final["r"][:, 2])
+        and np.array_equal(found.v_z, shot.final["v"][:, 2])
+    )
     slopes = jax.jacrev(lambda given: carom.jax.final(TABLE, BALLS, cue, given, **jump).z)(numbers)
     tangents = carom.tangents(shot, list(numbers)).final["z"]
-    assert (tangents[0] != 0.0).all() and np.array_equal(np.stack(list(slopes.values()), axis=-1), tangents)
+    assert (tangents[0] != 0.0).all() and np.array_equal(
+        np.stack(list(slopes.values()), axis=-1), tangents
+    )
 
 
 @pytest.mark.parametrize("models", [{}, {"ball_model": "exact"}, {"t_final": 0.9}])
 def test_values_are_those_of_shots_and_derivatives_those_of_tangents(models):
     shot, found = played(AIM, **models), ends(AIM, **models)
     tangents = carom.tangents(shot, NAMES)
-    forward, reverse = jax.jacfwd(lambda aim: ends(aim, **models))(AIM), jax.jacrev(lambda aim: ends(aim, **models))(AIM)
+    forward, reverse = (
+        jax.jacfwd(lambda aim: ends(aim, **models))(AIM),
+        jax.jacrev(lambda aim: ends(aim, **models))(AIM),
+    )
     for name, numbers in (("r", 2), ("v", 2), ("w", 3)):
         assert np.array_equal(getattr(found, name), shot.final[name][:, :numbers])
         expected = tangents.final[name]
@@ -71,16 +87,28 @@ def test_gradients_are_differences_of_shots():
     for k in range(4):
         more, less = (miss(AIM.at[k].add(sign * h)) for sign in (1, -1))
         assert float(slope[k]) == pytest.approx(float(more - less) / (2 * h), rel=1e-5)
-    # places, constants of all balls and of one, the radius with the heights of the balls, spin: each against a layout of its own
+    # places, constants of all balls and of one, the radius with the heights of the balls, spin:
+    # each against a layout of its own
     start = carom.balls([[0.4, 0.5], [0.6, 1.5]], v=[[0.3, 1.4, 0.0], [0.0, 0.0, 0.0]])
     numbers = {
-        "balls[1].r": jnp.array([0.6, 1.5]), "balls[0].r[1]": 0.5, "balls[0].v": jnp.array([0.3, 1.4]), "balls[0].w": jnp.array([2.0, 1.0, 9.0]),
-        "kind.mu_slide": 0.2, "balls[1].kind.restitution": 0.94, "kind.radius": 0.0286, "kind.restitution_cushion": 0.85,
-    }  # fmt: skip
+        "balls[1].r": jnp.array([0.6, 1.5]),
+        "balls[0].r[1]": 0.5,
+        "balls[0].v": jnp.array([0.3, 1.4]),
+        "balls[0].w": jnp.array([2.0, 1.0, 9.0]),
+        "kind.mu_slide": 0.2,
+        "balls[1].kind.restitution": 0.94,
+        "kind.radius": 0.0286,
+        "kind.restitution_cushion": 0.85,
+    }
 
     def layout(given):
-        made = carom.balls([[0.4, given["balls[0].r[1]"]], given["balls[1].r"]], radius=given["kind.radius"], mu_slide=given["kind.mu_slide"],
-                           restitution_cushion=given["kind.restitution_cushion"], restitution=[0.95, given["balls[1].kind.restitution"]])  # fmt: skip
+        made = carom.balls(
+            [[0.4, given["balls[0].r[1]"]], given["balls[1].r"]],
+            radius=given["kind.radius"],
+            mu_slide=given["kind.mu_slide"],
+            restitution_cushion=given["kind.restitution_cushion"],
+            restitution=[0.95, given["balls[1].kind.restitution"]],
+        )
         made["state"]["v"][0, :2], made["state"]["w"][0] = given["balls[0].v"], given["balls[0].w"]
         return carom.simulate(TABLE, made, **CLOSED)
 
@@ -88,7 +116,9 @@ def test_gradients_are_differences_of_shots():
     expected = layout(numbers)
     assert expected.count > 5 and (expected.events["type"] == carom.EventType.BALL_BALL).any()
     assert np.array_equal(found.r, expected.final["r"][:, :2])
-    slopes = jax.jacrev(lambda given: carom.jax.final(TABLE, start, None, given, **CLOSED).r)(numbers)
+    slopes = jax.jacrev(lambda given: carom.jax.final(TABLE, start, None, given, **CLOSED).r)(
+        numbers
+    )
     tangents = carom.tangents(expected, list(numbers)).final["r"]
     flat = np.concatenate([np.asarray(slopes[name]).reshape(2, 2, -1) for name in numbers], axis=-1)
     np.testing.assert_allclose(flat, tangents, rtol=1e-13, atol=1e-13 * np.abs(tangents).max())
@@ -101,26 +131,52 @@ def test_second_derivatives_are_those_of_hessian():
     first = found.first.final["r"][1]
     expected = 2.0 * (first.T @ first + np.einsum("i,ijk->jk", off, found.final["r"][1]))
     rev, fwd = jax.jacrev, jax.jacfwd
-    for second in (jax.hessian(miss), jax.jit(jax.hessian(miss)), rev(rev(miss)), fwd(fwd(miss)), rev(fwd(miss))):
+    for second in (
+        jax.hessian(miss),
+        jax.jit(jax.hessian(miss)),
+        rev(rev(miss)),
+        fwd(fwd(miss)),
+        rev(fwd(miss)),
+    ):
         np.testing.assert_allclose(second(AIM), expected, rtol=1e-9)
     along = jnp.array([0.1, 0.2, 0.3, 0.4])
-    np.testing.assert_allclose(jax.jvp(jax.grad(miss), (AIM,), (along,))[1], expected @ along, rtol=1e-9)
+    np.testing.assert_allclose(
+        jax.jvp(jax.grad(miss), (AIM,), (along,))[1], expected @ along, rtol=1e-9
+    )
     many = jax.vmap(jax.hessian(miss))(jnp.stack([AIM + 0.01, AIM]))
     np.testing.assert_allclose(many[1], expected, rtol=1e-9)
     assert np.abs(many[0] - many[1]).max() > 1e-3
 
 
 def test_clusters_banks_and_raised_strikes():
-    """300 shots in one batch have the derivatives of tangents: strikes into three balls that touch, off a rail, and with a raised cue."""
-    rack, random = [[0.635, 1.5], [0.635 + 0.05715, 1.5], [0.635 + 0.028575, 1.5 + 0.0494934]], np.random.default_rng(1)
-    cues = carom.cue(speed=random.uniform(2.0, 3.0, 300), phi=[88.0, 20.0, 85.0] * 100 + random.normal(0.0, 1.0, 300), theta=[0.0, 0.0, 30.0] * 100, b=0.1)
+    """300 shots in one batch have the derivatives of tangents: strikes into three balls that touch,
+    off a rail, and with a raised cue.
+    """
+    rack, random = (
+        [[0.635, 1.5], [0.635 + 0.05715, 1.5], [0.635 + 0.028575, 1.5 + 0.0494934]],
+        np.random.default_rng(1),
+    )
+    cues = carom.cue(
+        speed=random.uniform(2.0, 3.0, 300),
+        phi=[88.0, 20.0, 85.0] * 100 + random.normal(0.0, 1.0, 300),
+        theta=[0.0, 0.0, 30.0] * 100,
+        b=0.1,
+    )
     names, balls = ["cue.speed", "cue.phi", "cue.theta", "cue.b"], carom.balls([[0.6, 0.5], *rack])
-    found = jax.jacfwd(lambda given: carom.jax.final(TABLE, balls, cues, given).r.sum(axis=0))({name: jnp.asarray(cues[name[4:]]) for name in names})
+    found = jax.jacfwd(lambda given: carom.jax.final(TABLE, balls, cues, given).r.sum(axis=0))(
+        {name: jnp.asarray(cues[name[4:]]) for name in names}
+    )
     for k, cue in enumerate(cues):
         expected = carom.tangents(carom.simulate(TABLE, balls, cue), names)
-        assert [(expected.flags & carom.Flag.CLUSTER).any(), True, np.abs(expected.final["r"][..., 2]).max() > 0.0][k % 3]
+        assert [
+            (expected.flags & carom.Flag.CLUSTER).any(),
+            True,
+            np.abs(expected.final["r"][..., 2]).max() > 0.0,
+        ][k % 3]
         slopes = np.stack([found[name][..., k] for name in names], axis=-1)
-        np.testing.assert_allclose(slopes, expected.final["r"], rtol=0.0, atol=1e-9 * np.abs(expected.final["r"]).max())
+        np.testing.assert_allclose(
+            slopes, expected.final["r"], rtol=0.0, atol=1e-9 * np.abs(expected.final["r"]).max()
+        )
 
 
 def test_vmap_is_one_batch_and_jit_changes_no_bit(monkeypatch):
@@ -142,27 +198,43 @@ def test_vmap_is_one_batch_and_jit_changes_no_bit(monkeypatch):
     assert batches == [(6,)]
     # of a function of two batches: all pairs of speeds and directions; and without derivatives
     speeds, directions = aims[:, 0], aims[:4, 1]
-    grid = jax.vmap(jax.vmap(lambda speed, phi: ends(jnp.stack([speed, phi, 0.1, 0.1])).r, (None, 0)), (0, None))(speeds, directions)
+    grid = jax.vmap(
+        jax.vmap(lambda speed, phi: ends(jnp.stack([speed, phi, 0.1, 0.1])).r, (None, 0)), (0, None)
+    )(speeds, directions)
     assert batches[1:] == [(6, 4)]
     for i, j in np.ndindex(6, 4):
-        assert np.array_equal(grid[i, j], played([speeds[i], directions[j], 0.1, 0.1]).final["r"][:, :2])
+        assert np.array_equal(
+            grid[i, j], played([speeds[i], directions[j], 0.1, 0.1]).final["r"][:, :2]
+        )
     # a batch of derivatives in many directions plays once
     jax.block_until_ready(jax.vmap(jax.jacfwd(lambda aim: ends(aim).r))(aims))
     assert batches[2:] == [(6,)]
 
 
 def test_batches_of_layouts_cues_and_numbers():
-    """Broadcast against each other, compiled and mapped, with the bits of single shots and the derivatives of tangents."""
-    layouts = carom.balls([[[0.4, 0.5], [0.6, 1.5]], [[0.4, 0.6], [0.62, 1.4]], [[0.45, 0.5], [0.63, 1.45]]])
+    """Broadcast against each other, compiled and mapped, with the bits of single shots and the
+    derivatives of tangents.
+    """
+    layouts = carom.balls(
+        [[[0.4, 0.5], [0.6, 1.5]], [[0.4, 0.6], [0.62, 1.4]], [[0.45, 0.5], [0.63, 1.45]]]
+    )
     cues = carom.cue(speed=[[1.5], [1.9]], phi=79.0, b=0.1)
     places = layouts["state"]["r"][:, 1, :2]
-    numbers = {"cue.phi": jnp.linspace(78.5, 79.5, 6).reshape(2, 3), "balls[1].r": jnp.asarray(places), "kind.mu_slide": 0.21}
+    numbers = {
+        "cue.phi": jnp.linspace(78.5, 79.5, 6).reshape(2, 3),
+        "balls[1].r": jnp.asarray(places),
+        "kind.mu_slide": 0.21,
+    }
     layouts["kind"]["mu_slide"] = 0.21
 
     def play(given):
         return carom.jax.final(TABLE, layouts, cues, given, **CLOSED).r
 
-    found, compiled, slopes = play(numbers), jax.jit(play)(numbers), jax.jacrev(lambda given: play(given).sum(axis=(0, 1)))(numbers)
+    found, compiled, slopes = (
+        play(numbers),
+        jax.jit(play)(numbers),
+        jax.jacrev(lambda given: play(given).sum(axis=(0, 1)))(numbers),
+    )
     assert found.shape == (2, 3, 2, 2) and np.array_equal(found, compiled)
     expected = {name: [] for name in numbers}
     for i, j in np.ndindex(2, 3):
@@ -173,18 +245,29 @@ def test_batches_of_layouts_cues_and_numbers():
         tangents = carom.tangents(shot, list(numbers)).final["r"]
         for name, part in zip(numbers, (tangents[..., 0], tangents[..., 1:3], tangents[..., 3])):
             expected[name].append(part)
-    # of a sum over the batch, each shot has its own slope by its own number, and all of them one by a number for all
+    # of a sum over the batch, each shot has its own slope by its own number, and all of them one by
+    # a number for all
     own = {"kind.mu_slide": np.sum(expected["kind.mu_slide"], axis=0)}
     own["cue.phi"] = np.moveaxis(np.reshape(expected["cue.phi"], (2, 3, 2, 2)), (0, 1), (2, 3))
-    own["balls[1].r"] = np.moveaxis(np.reshape(expected["balls[1].r"], (2, 3, 2, 2, 2)).sum(axis=0), 0, 2)
+    own["balls[1].r"] = np.moveaxis(
+        np.reshape(expected["balls[1].r"], (2, 3, 2, 2, 2)).sum(axis=0), 0, 2
+    )
     for name, slope in slopes.items():
         assert np.abs(slope).max() > 0.0
-        np.testing.assert_allclose(slope, own[name], rtol=1e-12, atol=1e-12 * np.abs(own[name]).max(), err_msg=name)
+        np.testing.assert_allclose(
+            slope, own[name], rtol=1e-12, atol=1e-12 * np.abs(own[name]).max(), err_msg=name
+        )
     # a batch that is mapped is a batch of batches
-    more = jax.vmap(lambda phi: play({**numbers, "cue.phi": phi}))(jnp.stack([numbers["cue.phi"], numbers["cue.phi"] + 0.1]))
+    more = jax.vmap(lambda phi: play({**numbers, "cue.phi": phi}))(
+        jnp.stack([numbers["cue.phi"], numbers["cue.phi"] + 0.1])
+    )
     assert np.array_equal(more[0], found) and not np.array_equal(more[1], found)
-    with pytest.raises((ValueError, RuntimeError), match=r"shot \[1, 2\] of the batch, cue\.b = 2: .*cue"):
-        carom.jax.final(TABLE, layouts, cues, {"cue.b": jnp.zeros((2, 3)).at[1, 2].set(2.0)}, **CLOSED)
+    with pytest.raises(
+        (ValueError, RuntimeError), match=r"shot \[1, 2\] of the batch, cue\.b = 2: .*cue"
+    ):
+        carom.jax.final(
+            TABLE, layouts, cues, {"cue.b": jnp.zeros((2, 3)).at[1, 2].set(2.0)}, **CLOSED
+        )
 
 
 def test_a_search_in_compiled_code_improves_an_aim():
@@ -195,7 +278,9 @@ def test_a_search_in_compiled_code_improves_an_aim():
 
     @jax.jit
     def search(aim):
-        return jax.lax.fori_loop(0, 6, lambda _, x: x - jnp.linalg.solve(jax.jacfwd(off)(x), off(x)), aim)
+        return jax.lax.fori_loop(
+            0, 6, lambda _, x: x - jnp.linalg.solve(jax.jacfwd(off)(x), off(x)), aim
+        )
 
     start = AIM[:2] + jnp.array([2e-3, 1e-2])
     found = search(start)
@@ -206,10 +291,15 @@ def test_a_search_in_compiled_code_improves_an_aim():
 def test_shots_that_are_refused_say_why():
     bad = AIM.at[3].set(2.0)
     for call in (ends, jax.jit(ends), jax.grad(miss), jax.jit(jax.grad(miss))):
-        with pytest.raises((ValueError, RuntimeError), match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1"):
+        with pytest.raises(
+            (ValueError, RuntimeError),
+            match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1",
+        ):
             jax.block_until_ready(call(bad))
     both = jnp.stack([AIM, AIM, bad])
-    with pytest.raises((ValueError, RuntimeError), match=r"shot \[2\] of the batch, cue\.speed = 1\.5"):
+    with pytest.raises(
+        (ValueError, RuntimeError), match=r"shot \[2\] of the batch, cue\.speed = 1\.5"
+    ):
         jax.block_until_ready(jax.vmap(ends)(both))
     found = jax.vmap(lambda aim: ends(aim, errors="nan").r)(both)
     slopes = jax.vmap(jax.grad(lambda aim: miss(aim, errors="nan")))(both)
@@ -217,8 +307,19 @@ def test_shots_that_are_refused_say_why():
         assert np.isfinite(numbers[:2]).all() and np.isnan(numbers[2]).all()
     # what can be played, but not differentiated
     with pytest.raises((ValueError, RuntimeError), match="derivative"):
-        jax.block_until_ready(jax.grad(lambda aim: miss(aim, world="pooltool", ball_model="default", cushion_model="default"))(AIM))
-    pooltool = {"world": "pooltool", "ball_model": "default", "cushion_model": "default", "errors": "nan"}
+        jax.block_until_ready(
+            jax.grad(
+                lambda aim: miss(
+                    aim, world="pooltool", ball_model="default", cushion_model="default"
+                )
+            )(AIM)
+        )
+    pooltool = {
+        "world": "pooltool",
+        "ball_model": "default",
+        "cushion_model": "default",
+        "errors": "nan",
+    }
     value, slope = jax.value_and_grad(lambda aim: miss(aim, **pooltool))(AIM)
     assert np.isfinite(value) and np.isnan(slope).all()
     with pytest.raises((ValueError, RuntimeError), match="too little room"):
@@ -232,14 +333,31 @@ def test_arguments_that_are_wrong():
     for error, match, balls, cue, numbers in (
         (ValueError, "numbers: name at least one", BALLS, CUE, {}),
         (ValueError, "numbers: 'cue.mu' is no number of a shot", BALLS, CUE, {"cue.mu": 1.0}),
-        (ValueError, r"leading dimensions .* but are cue\.phi \(3,\), cue\.a \(2,\)", BALLS, CUE,
-         {"cue.phi": jnp.ones(3), "cue.a": jnp.ones(2)}),
-        (ValueError, rf"numbers: balls\[1\]\.r: {shape} \(\.\.\., 2\), not \(3,\)", BALLS, CUE, {"balls[1].r": jnp.ones(3)}),
-        (ValueError, r"numbers: table\.nose_height: a batch has one table", BALLS, CUE, {"table.nose_height": 0.036}),
+        (
+            ValueError,
+            r"leading dimensions .* but are cue\.phi \(3,\), cue\.a \(2,\)",
+            BALLS,
+            CUE,
+            {"cue.phi": jnp.ones(3), "cue.a": jnp.ones(2)},
+        ),
+        (
+            ValueError,
+            rf"numbers: balls\[1\]\.r: {shape} \(\.\.\., 2\), not \(3,\)",
+            BALLS,
+            CUE,
+            {"balls[1].r": jnp.ones(3)},
+        ),
+        (
+            ValueError,
+            r"numbers: table\.nose_height: a batch has one table",
+            BALLS,
+            CUE,
+            {"table.nose_height": 0.036},
+        ),
         (ValueError, r"numbers: cue\.phi: there is no cue", BALLS, None, phi),
         (TypeError, "^balls: an array of the dtype of carom", CUE, CUE, phi),
         (TypeError, "^cue: an array of the dtype of carom", BALLS, BALLS, phi),
-    ):  # fmt: skip
+    ):
         with pytest.raises(error, match=match):
             carom.jax.final(TABLE, balls, cue, numbers)
     with pytest.raises(ValueError, match="errors: must be"):

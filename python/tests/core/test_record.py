@@ -1,4 +1,6 @@
-"""Recordings: a game recorded and replayed, what is refused, and the command's verdict on the same text."""
+"""Recordings: a game recorded and replayed, what is refused, and the command's verdict on the same
+text.
+"""
 
 import os
 import subprocess
@@ -13,7 +15,10 @@ TABLE = carom.tables.pool_9ft()
 
 def a_game() -> Recorder:
     game = Recorder(TABLE, carom.racks.nineball(TABLE), cushion_model="stronge")
-    assert game.shoot(carom.cue(speed=8.0, phi=90.2), t_final=0.5).status == carom.Status.STOPPED_AT_TIME
+    assert (
+        game.shoot(carom.cue(speed=8.0, phi=90.2), t_final=0.5).status
+        == carom.Status.STOPPED_AT_TIME
+    )
     assert game.resume().status == carom.Status.OK
     game.place(0, 0.6, 0.5)
     assert game.shoot(carom.cue(speed=2.5, phi=70.0)).status == carom.Status.OK
@@ -30,20 +35,26 @@ def test_a_game_is_replayed_with_the_same_bits(tmp_path):
     assert [shot.shot for shot in shots] == [1, 2, 3]
     assert shots[-1].final.tobytes() == game.balls["state"].tobytes()
     # As carom.simulate() plays it.
-    whole = carom.simulate(TABLE, carom.racks.nineball(TABLE), carom.cue(speed=8.0, phi=90.2), cushion_model="stronge")
+    whole = carom.simulate(
+        TABLE, carom.racks.nineball(TABLE), carom.cue(speed=8.0, phi=90.2), cushion_model="stronge"
+    )
     assert shots[1].final.tobytes() == whole.final.tobytes()
     assert (shots[1].played.events, shots[1].played.time) == (whole.count, whole.time)
     assert list(replay(text.splitlines())) != []
     command = os.path.join(os.environ.get("CAROM_BUILD", ""), "carom")
     if os.access(command, os.X_OK) and not os.path.isdir(command):
-        said = subprocess.run([command, "verify", str(path)], capture_output=True, text=True, check=True).stdout
+        said = subprocess.run(
+            [command, "verify", str(path)], capture_output=True, text=True, check=True
+        ).stdout
         assert "3 shots, every bit agrees" in said
 
 
 def test_a_forged_stroke_ends_otherwise():
     text = a_game().end()
     assert text.count('"speed":2.5') == 1
-    assert [shot.same for shot in replay(text.replace('"speed":2.5', '"speed":2.6').splitlines())] == [True, True, False]
+    assert [
+        shot.same for shot in replay(text.replace('"speed":2.5', '"speed":2.6').splitlines())
+    ] == [True, True, False]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""The recipes of docs/using/scale.md: Dask and xarray over collide, and a batch of shots over clusters of two worker processes."""
+"""The recipes of docs/using/scale.md: Dask and xarray over collide, and a batch of shots over
+clusters of two worker processes.
+"""
 
 import importlib.util
 import subprocess
@@ -19,11 +21,19 @@ def test_dask_and_xarray(impacts):
     array = pytest.importorskip("dask.array", reason="Dask is not installed")
     xarray = pytest.importorskip("xarray", reason="xarray is not installed")
     expected, chunked = carom.collide(impacts), array.from_array(impacts, chunks=(50, 26))
-    motion, status = array.apply_gufunc(carom.collide, "(i)->(j),()", chunked, output_sizes={"j": 12}, output_dtypes=[float, np.int8])
+    motion, status = array.apply_gufunc(
+        carom.collide,
+        "(i)->(j),()",
+        chunked,
+        output_sizes={"j": 12},
+        output_dtypes=[float, np.int8],
+    )
     np.testing.assert_array_equal(motion.compute(), expected.motion)
     np.testing.assert_array_equal(status.compute(), expected.status)
     given = xarray.DataArray(impacts.reshape(4, 51, 26), dims=("speed", "angle", "field"))
-    motion, status = xarray.apply_ufunc(carom.collide, given, input_core_dims=[["field"]], output_core_dims=[["motion"], []])
+    motion, status = xarray.apply_ufunc(
+        carom.collide, given, input_core_dims=[["field"]], output_core_dims=[["motion"], []]
+    )
     assert motion.dims == ("speed", "angle", "motion") and status.dims == ("speed", "angle")
     np.testing.assert_array_equal(motion.values.reshape(204, 12), expected.motion)
 
@@ -31,15 +41,27 @@ def test_dask_and_xarray(impacts):
 def test_tables_of_arrow_in_bounded_memory():
     """A batch in parts has the rows of one; ten times the shots need no more memory."""
     pytest.importorskip("pyarrow", reason="pyarrow is not installed")
-    pandas, layout, cues = pytest.importorskip("pandas"), carom.balls([[0.6, 0.8]]), carom.cue(speed=[[1.0], [9e9]], phi=[70.0, 80.0, 90.0])
+    pandas, layout, cues = (
+        pytest.importorskip("pandas"),
+        carom.balls([[0.6, 0.8]]),
+        carom.cue(speed=[[1.0], [9e9]], phi=[70.0, 80.0, 90.0]),
+    )
     rows = carom.simulate_arrow(TABLE, layout, cues, at_once=4, features=True).read_pandas()
     assert rows.pop("shot").tolist() == [*range(6)] and rows["status"][4] == "error_cue_speed"
-    pandas.testing.assert_frame_equal(rows, carom.simulate_batch(TABLE, layout, cues, features=True).to_dataframe().reset_index(drop=True))
+    pandas.testing.assert_frame_equal(
+        rows,
+        carom.simulate_batch(TABLE, layout, cues, features=True)
+        .to_dataframe()
+        .reset_index(drop=True),
+    )
 
     def peak(parts):
         drawn = (carom.cue(speed=np.linspace(0.5, 2.0, 2000)) for _ in range(parts))
         tracemalloc.start()
-        assert sum(batch.num_rows for batch in carom.simulate_arrow(TABLE, layout, drawn, at_once=500)) == 2000 * parts
+        assert (
+            sum(batch.num_rows for batch in carom.simulate_arrow(TABLE, layout, drawn, at_once=500))
+            == 2000 * parts
+        )
         most = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         return most

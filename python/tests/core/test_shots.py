@@ -1,4 +1,6 @@
-"""Whole shots: the command's output, batches, times between events, stopped shots, pictures, frames."""
+"""Whole shots: the command's output, batches, times between events, stopped shots, pictures,
+frames.
+"""
 
 import json
 import os
@@ -20,8 +22,14 @@ RACK = carom.racks.nineball(TABLE)
     [
         ("", {}),
         ("--speed 3 --aim 95 --tip 0.2,-0.3", {"speed": 3.0, "phi": 95.0, "tip": (0.2, -0.3)}),
-        ("--ball-speed 3 --aim 80 --tip -0.1,0.1", {"ball_speed": 3.0, "phi": 80.0, "tip": (-0.1, 0.1)}),
-        ("--speed 3 --aim 80 --tip -0.1,0.1 --elevation 20", {"speed": 3.0, "phi": 80.0, "a": 0.1, "b": 0.1, "theta": 20.0}),
+        (
+            "--ball-speed 3 --aim 80 --tip -0.1,0.1",
+            {"ball_speed": 3.0, "phi": 80.0, "tip": (-0.1, 0.1)},
+        ),
+        (
+            "--speed 3 --aim 80 --tip -0.1,0.1 --elevation 20",
+            {"speed": 3.0, "phi": 80.0, "a": 0.1, "b": 0.1, "theta": 20.0},
+        ),
     ],
 )
 def test_a_shot_has_one_meaning(words, fields):
@@ -29,10 +37,28 @@ def test_a_shot_has_one_meaning(words, fields):
     command = os.path.join(os.environ.get("CAROM_BUILD", ""), "carom")
     if not os.access(command, os.X_OK) or os.path.isdir(command):
         pytest.skip("CAROM_BUILD names no build with the command carom")
-    given = [command, "shoot", "--cue", "0.6,0.8", "--balls", "0.5,1.6", *words.split(), "--events", "none"]
-    theirs = json.loads(subprocess.run(given, capture_output=True, text=True, check=True).stdout.splitlines()[-1])
+    given = [
+        command,
+        "shoot",
+        "--cue",
+        "0.6,0.8",
+        "--balls",
+        "0.5,1.6",
+        *words.split(),
+        "--events",
+        "none",
+    ]
+    theirs = json.loads(
+        subprocess.run(given, capture_output=True, text=True, check=True).stdout.splitlines()[-1]
+    )
     cue = carom.cue(**fields)
-    for theirs_name, name in (("V0", "speed"), ("phi", "phi"), ("theta", "theta"), ("a", "a"), ("b", "b")):
+    for theirs_name, name in (
+        ("V0", "speed"),
+        ("phi", "phi"),
+        ("theta", "theta"),
+        ("a", "a"),
+        ("b", "b"),
+    ):
         assert theirs["cue"][theirs_name] == cue[name], name
     shot = carom.simulate(TABLE, carom.balls([[0.6, 0.8], [0.5, 1.6]]), cue)
     for name, state in zip(("cue", "1"), shot.final, strict=True):
@@ -41,7 +67,9 @@ def test_a_shot_has_one_meaning(words, fields):
 
 def test_the_speed_of_a_ball():
     """`ball_speed` is what a ball of the game gets, for many cues too."""
-    cues = carom.cue(ball_speed=[[1.0], [4.0]], tip=[[0.0, 0.0], [0.3, -0.2], [-0.4, 0.1]], game="snooker")
+    cues = carom.cue(
+        ball_speed=[[1.0], [4.0]], tip=[[0.0, 0.0], [0.3, -0.2], [-0.4, 0.1]], game="snooker"
+    )
     kind = carom.balls([[0.5, 0.5]], game="snooker")[0]["kind"]
     speeds = [[np.hypot(*carom.struck(cue, kind)["v"][:2]) for cue in row] for row in cues]
     np.testing.assert_allclose(speeds, [[1.0] * 3, [4.0] * 3], rtol=1e-14)
@@ -62,20 +90,38 @@ def test_a_batch_has_the_bits_of_single_shots():
     finals = carom.simulate_batch(TABLE, RACK, cues, **options)
     assert finals.final.tobytes() == shots.final.tobytes()
     # Where events were not kept, the shot is played again.
-    np.testing.assert_array_equal(finals[1, 2].positions([0.3, 1.0]), shots[1, 2].positions([0.3, 1.0]))
+    np.testing.assert_array_equal(
+        finals[1, 2].positions([0.3, 1.0]), shots[1, 2].positions([0.3, 1.0])
+    )
 
 
 @pytest.fixture(scope="module")
 def breaks():
-    """Breaks of which every 3rd is in error: the batch, and each shot alone, None in place of those."""
-    cues = carom.cue(speed=9.0, phi=np.linspace(85.0, 95.0, 12), a=np.where(np.arange(12) % 3 == 2, 1.0, 0.0), b=0.1)
-    alone = [carom.simulate(TABLE, RACK, cue, cushion_model="han") if k % 3 != 2 else None for k, cue in enumerate(cues)]
-    return lambda **options: carom.simulate_batch(TABLE, RACK, cues, cushion_model="han", **options), alone
+    """Breaks of which every 3rd is in error: the batch, and each shot alone, None in place of
+    those.
+    """
+    cues = carom.cue(
+        speed=9.0,
+        phi=np.linspace(85.0, 95.0, 12),
+        a=np.where(np.arange(12) % 3 == 2, 1.0, 0.0),
+        b=0.1,
+    )
+    alone = [
+        carom.simulate(TABLE, RACK, cue, cushion_model="han") if k % 3 != 2 else None
+        for k, cue in enumerate(cues)
+    ]
+    return lambda **options: carom.simulate_batch(
+        TABLE, RACK, cues, cushion_model="han", **options
+    ), alone
 
 
-@pytest.mark.parametrize("options", [{}, {"room": 1000}, {"room": 40}, {"room": 1000, "records": "brief"}])
+@pytest.mark.parametrize(
+    "options", [{}, {"room": 1000}, {"room": 40}, {"room": 1000, "records": "brief"}]
+)
 def test_trajectories_of_a_batch(breaks, options):
-    """Those of single shots, bit for bit, whatever was kept, in any order of times, on any number of threads."""
+    """Those of single shots, bit for bit, whatever was kept, in any order of times, on any number
+    of threads.
+    """
     play, alone = breaks
     shots = play(**options)
     times = np.array([[0.0, 0.7, 0.31], [99.0, 0.31, 0.0]])
@@ -85,7 +131,11 @@ def test_trajectories_of_a_batch(breaks, options):
     for k, one in enumerate(alone):
         if one is None:
             assert shots.record["count"][k] == 0 and shots.record["time"][k] == 0.0
-            assert np.isnan(positions[k]).all() and np.isnan(states["w"][k]).all() and (states["label"][k] == -1).all()
+            assert (
+                np.isnan(positions[k]).all()
+                and np.isnan(states["w"][k]).all()
+                and (states["label"][k] == -1).all()
+            )
             with pytest.raises(carom.CaromError, match="miscue|a\\^2"):
                 shots[k].states(0.5)
         else:
@@ -95,7 +145,9 @@ def test_trajectories_of_a_batch(breaks, options):
     np.testing.assert_array_equal(shots[3:9:2].positions(times), positions[3:9:2])
     np.testing.assert_array_equal(shots[[7, 1]].positions(0.5), shots.positions(0.5)[[7, 1]])
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(shots)).positions(times), positions)
-    assert shots.positions(np.zeros(0)).shape == (12, 0, 10, 3) and shots[:0].positions(1.0).shape == (0, 10, 3)
+    assert shots.positions(np.zeros(0)).shape == (12, 0, 10, 3) and shots[:0].positions(
+        1.0
+    ).shape == (0, 10, 3)
 
 
 def test_shots_that_were_changed_are_not_played_again():
@@ -110,40 +162,66 @@ def test_shots_that_were_changed_are_not_played_again():
 def test_slices_and_iteration(breaks):
     play, alone = breaks
     shots = play(room=300, features=True)
-    assert [shot.count for shot in shots] == shots.count.tolist() and len(list(shots)) == len(shots) == 12
+    assert [shot.count for shot in shots] == shots.count.tolist() and len(list(shots)) == len(
+        shots
+    ) == 12
     part = shots[1:8:3]
-    assert isinstance(part, carom.Shots) and part.shape == (3,) and part.time.tolist() == shots.time[1:8:3].tolist()
-    assert np.array_equal(part[1].events, alone[4].events) and np.array_equal(shots[4].events, alone[4].events)
+    assert (
+        isinstance(part, carom.Shots)
+        and part.shape == (3,)
+        and part.time.tolist() == shots.time[1:8:3].tolist()
+    )
+    assert np.array_equal(part[1].events, alone[4].events) and np.array_equal(
+        shots[4].events, alone[4].events
+    )
     assert part.features.pocket.tolist() == shots.features.pocket[1:8:3].tolist()
     assert [index for index, _ in shots[shots.status < 0].failures()] == [(0,), (1,), (2,), (3,)]
     one = shots[-2]
-    assert one.count == alone[10].count and one.balls.tobytes() == alone[10].balls.tobytes() and one.status is carom.Status.OK
+    assert (
+        one.count == alone[10].count
+        and one.balls.tobytes() == alone[10].balls.tobytes()
+        and one.status is carom.Status.OK
+    )
     again = pickle.loads(pickle.dumps(one))
     assert np.array_equal(again.events, one.events) and repr(again) == repr(one)
     assert not hasattr(one, "colour")
     with pytest.raises(IndexError):
         shots[12]
-    grid = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[[5.0], [6.0]], phi=[89.0, 90.0, 91.0]), cushion_model="han")
+    grid = carom.simulate_batch(
+        TABLE, RACK, carom.cue(speed=[[5.0], [6.0]], phi=[89.0, 90.0, 91.0]), cushion_model="han"
+    )
     assert grid[1, :].shape == (3,) and grid[:, 2].time.tolist() == grid.time[:, 2].tolist()
     np.testing.assert_array_equal(grid[:, 1:].positions(0.4), grid.positions(0.4)[:, 1:])
     assert [shot.time for shot in grid] == grid.time.reshape(-1).tolist()
     with pytest.raises(IndexError, match="2 indices"):
         grid[0]
     single = carom.simulate_batch(TABLE, RACK, carom.cue(speed=5.0), features=True)
-    assert single.shape == () and single.features.contact[0] == 1 and single.positions([0.1, 0.2]).shape == (2, 10, 3) and single.time > 1.0
+    assert (
+        single.shape == ()
+        and single.features.contact[0] == 1
+        and single.positions([0.1, 0.2]).shape == (2, 10, 3)
+        and single.time > 1.0
+    )
 
 
 def test_a_shot_of_a_batch_is_made_in_few_calls(calls):
     """shots[k] makes the arrays of a shot when they are asked for."""
     cues = carom.cue(speed=3.0, phi=np.linspace(60.0, 120.0, 100))
-    shots = carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6], [0.7, 1.5]]), cues, cushion_model="han")
+    shots = carom.simulate_batch(
+        TABLE, carom.balls([[0.5, 0.6], [0.7, 1.5]]), cues, cushion_model="han"
+    )
     assert calls(lambda: [shots[k] for k in range(100)]) <= 5 * 100
 
 
 def features_of(shot, cue):
     """By a plain walk over the events of one shot."""
     count = len(shot.balls)
-    found = {"contact": [-1, -1], "contact_time": [np.inf, np.inf], "cushions_before": [0, 0], "cushions_after": 0}
+    found = {
+        "contact": [-1, -1],
+        "contact_time": [np.inf, np.inf],
+        "cushions_before": [0, 0],
+        "cushions_after": 0,
+    }
     found |= {"pocket": [-1] * count, "pocket_time": [np.inf] * count, "cushions": [0] * count}
     met = []
     for event in shot.events:
@@ -156,17 +234,28 @@ def features_of(shot, cue):
         elif kind == "BALL_BALL" and cue in (a, b) and len(met) < 2 and a + b - cue not in met:
             k = len(met)
             met.append(a + b - cue)
-            found["contact"][k], found["contact_time"][k], found["cushions_before"][k] = a + b - cue, event["time"], found["cushions"][cue]
+            found["contact"][k], found["contact_time"][k], found["cushions_before"][k] = (
+                a + b - cue,
+                event["time"],
+                found["cushions"][cue],
+            )
     return found
 
 
-@pytest.mark.parametrize("options", [{}, {"room": 500, "threads": 3}, {"room": 20}, {"room": 500, "records": "brief"}])
+@pytest.mark.parametrize(
+    "options", [{}, {"room": 500, "threads": 3}, {"room": 20}, {"room": 500, "records": "brief"}]
+)
 def test_features(breaks, options):
     play, alone = breaks
     shots = play(features=True, **options)
     plain = play(**{**options, "features": False})
-    assert shots.final.tobytes() == plain.final.tobytes() and shots.status.tobytes() == plain.status.tobytes()
-    assert shots.record[["time", "count"]].tolist() == plain.record[["time", "count"]].tolist() and not hasattr(plain, "features")
+    assert (
+        shots.final.tobytes() == plain.final.tobytes()
+        and shots.status.tobytes() == plain.status.tobytes()
+    )
+    assert shots.record[["time", "count"]].tolist() == plain.record[
+        ["time", "count"]
+    ].tolist() and not hasattr(plain, "features")
     seen = []
     for k, one in enumerate(alone):
         if one is None:
@@ -177,17 +266,29 @@ def test_features(breaks, options):
         for name, value in features_of(one, 0).items():
             assert getattr(shots.features, name)[k].tolist() == value, name
         seen.append(features_of(one, 0))
-    assert sum(max(found["pocket"]) >= 0 for found in seen) > 1 and any(found["contact"][1] > 0 for found in seen)
+    assert sum(max(found["pocket"]) >= 0 for found in seen) > 1 and any(
+        found["contact"][1] > 0 for found in seen
+    )
 
 
 def test_stops_unless_the_first_is_of_a_set():
-    """Legal shots have the bits that they have without the option; the others stop at their first contact."""
-    layout, cues = carom.balls([[0.5, 0.6], [0.7, 1.5], [0.4, 1.6]]), carom.cue(speed=3.0, phi=np.linspace(60.0, 120.0, 60))
+    """Legal shots have the bits that they have without the option; the others stop at their first
+    contact.
+    """
+    layout, cues = (
+        carom.balls([[0.5, 0.6], [0.7, 1.5], [0.4, 1.6]]),
+        carom.cue(speed=3.0, phi=np.linspace(60.0, 120.0, 60)),
+    )
     whole = carom.simulate_batch(TABLE, layout, cues, features=True)
     shots = carom.simulate_batch(TABLE, layout, cues, features=True, first_of=2)
     stops = whole.features.contact[:, 0] == 1
-    assert 5 < stops.sum() < 40 and (shots.status == np.where(stops, carom.Status.STOPPED_AT_EVENT, carom.Status.OK)).all()
-    assert (shots.final[~stops] == whole.final[~stops]).all() and (shots.time[stops] == whole.features.contact_time[stops, 0]).all()
+    assert (
+        5 < stops.sum() < 40
+        and (shots.status == np.where(stops, carom.Status.STOPPED_AT_EVENT, carom.Status.OK)).all()
+    )
+    assert (shots.final[~stops] == whole.final[~stops]).all() and (
+        shots.time[stops] == whole.features.contact_time[stops, 0]
+    ).all()
     assert (carom.simulate_batch(TABLE, layout, cues, first_of=[1, 2]).final == whole.final).all()
     with pytest.raises(ValueError, match="first_of"):
         carom.simulate(TABLE, layout, cues[0], first_of=32)
@@ -197,10 +298,18 @@ def test_features_of_three_cushions():
     """Cushions before the second ball, of another cue ball than the first of the layout."""
     table = carom.tables.threecushion()
     cues = carom.cue(speed=5.0, phi=np.linspace(0.0, 360.0, 90), a=0.3, ball=1, game="billiard")
-    shots = carom.simulate_batch(table, carom.racks.threecushion(table), cues, features=True, room=300)
-    assert 0 < ((shots.features.contact[:, 1] >= 0) & (shots.features.cushions_before[:, 1] >= 3)).sum() < 45
+    shots = carom.simulate_batch(
+        table, carom.racks.threecushion(table), cues, features=True, room=300
+    )
+    assert (
+        0
+        < ((shots.features.contact[:, 1] >= 0) & (shots.features.cushions_before[:, 1] >= 3)).sum()
+        < 45
+    )
     for shot, found in zip(shots, (shots.features[k] for k in range(90))):
-        assert all(getattr(found, name).tolist() == value for name, value in features_of(shot, 1).items())
+        assert all(
+            getattr(found, name).tolist() == value for name, value in features_of(shot, 1).items()
+        )
 
 
 def test_shots_that_are_stopped():
@@ -208,7 +317,11 @@ def test_shots_that_are_stopped():
     cue = carom.cue(speed=8.0)
     whole = carom.simulate(TABLE, RACK, cue)
     shot = carom.simulate(TABLE, RACK, cue, t_final=0.9)
-    assert shot.status is carom.Status.STOPPED_AT_TIME and shot.time == 0.9 and (shot.events["time"] <= 0.9).all()
+    assert (
+        shot.status is carom.Status.STOPPED_AT_TIME
+        and shot.time == 0.9
+        and (shot.events["time"] <= 0.9).all()
+    )
     assert shot.final["r"].tobytes() == whole.states(0.9)["r"].tobytes()
     with pytest.raises(carom.CaromError) as caught:
         shot.states([0.5, 1.0])
@@ -217,29 +330,57 @@ def test_shots_that_are_stopped():
         shot = carom.resume(shot, t_final=t_final)
         assert shot.status is carom.Status.STOPPED_AT_TIME and shot.time == t_final
     kept = carom.resume(shot, stop_at=("rail", "pocket"))
-    assert kept.status is carom.Status.STOPPED_AT_EVENT and kept.events["type"][-1] in (carom.EventType.RAIL, carom.EventType.POCKET)
+    assert kept.status is carom.Status.STOPPED_AT_EVENT and kept.events["type"][-1] in (
+        carom.EventType.RAIL,
+        carom.EventType.POCKET,
+    )
     end = carom.resume(shot)
-    assert end.status is carom.Status.OK and np.array_equal(end.events, whole.events) and end.final.tobytes() == whole.final.tobytes()
+    assert (
+        end.status is carom.Status.OK
+        and np.array_equal(end.events, whole.events)
+        and end.final.tobytes() == whole.final.tobytes()
+    )
     assert np.array_equal(carom.resume(kept).events, whole.events)
     with pytest.raises(ValueError, match="t_final: it must not be before 1.5 s"):
         carom.resume(shot, t_final=1.0)
     # A shot that ends before t_final is no other than without it.
     assert carom.simulate(TABLE, RACK, cue, t_final=900.0).status is carom.Status.OK
-    assert carom.simulate(TABLE, RACK, cue, stop_at=["jaw", "contact"]).events["type"][-1] == carom.EventType.BALL_BALL
-    shots = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[0.05, 8.0, 9.0]), t_final=0.9, cushion_model="han")
-    assert shots.status.tolist() == [0, 2, 2] and not shots.failures() and shots.time[1:].tolist() == [0.9, 0.9]
+    assert (
+        carom.simulate(TABLE, RACK, cue, stop_at=["jaw", "contact"]).events["type"][-1]
+        == carom.EventType.BALL_BALL
+    )
+    shots = carom.simulate_batch(
+        TABLE, RACK, carom.cue(speed=[0.05, 8.0, 9.0]), t_final=0.9, cushion_model="han"
+    )
+    assert (
+        shots.status.tolist() == [0, 2, 2]
+        and not shots.failures()
+        and shots.time[1:].tolist() == [0.9, 0.9]
+    )
     seen = shots.positions([0.9, 1.0])
-    assert np.isfinite(seen[:, 0]).all() and np.isfinite(seen[0]).all() and np.isnan(seen[1:, 1]).all()
+    assert (
+        np.isfinite(seen[:, 0]).all() and np.isfinite(seen[0]).all() and np.isnan(seen[1:, 1]).all()
+    )
 
 
 def test_orientations():
     """A ball that rolls in a straight line turns by its way over its radius, about the axis across."""
-    balls = carom.balls([[0.3, 0.3], [0.9, 2.0]], v=[[0.0, 0.5, 0.0], [0.0] * 3], w=[[-0.5 / 0.028575, 0.0, 0.0], [0.0] * 3])
+    balls = carom.balls(
+        [[0.3, 0.3], [0.9, 2.0]],
+        v=[[0.0, 0.5, 0.0], [0.0] * 3],
+        w=[[-0.5 / 0.028575, 0.0, 0.0], [0.0] * 3],
+    )
     shot = carom.simulate(TABLE, balls)
     times = np.array([[0.0, 0.1], [0.2, 0.4]])
     turned, half = shot.orientations(times), (shot.positions(times)[..., 0, 1] - 0.3) / 0.028575 / 2
-    assert turned.shape == (2, 2, 2, 4) and half[1, 1] > 2.6 and (turned[..., 1, :] == [1, 0, 0, 0]).all()
-    np.testing.assert_allclose(turned[..., 0, :2], np.stack([np.cos(half), -np.sin(half)], axis=-1), atol=1e-12)
+    assert (
+        turned.shape == (2, 2, 2, 4)
+        and half[1, 1] > 2.6
+        and (turned[..., 1, :] == [1, 0, 0, 0]).all()
+    )
+    np.testing.assert_allclose(
+        turned[..., 0, :2], np.stack([np.cos(half), -np.sin(half)], axis=-1), atol=1e-12
+    )
 
 
 def test_kinds_apart_are_the_same_balls():
@@ -251,7 +392,10 @@ def test_kinds_apart_are_the_same_balls():
         whole = carom.simulate_batch(TABLE, racks, breaks, room=room)
         apart = carom.simulate_batch(TABLE, states, breaks, kinds=kinds, room=room, threads=2)
         assert apart.layouts.nbytes * 3 < whole.layouts.nbytes
-        assert apart.final.tobytes() == whole.final.tobytes() and apart[1].balls.tobytes() == whole[1].balls.tobytes()
+        assert (
+            apart.final.tobytes() == whole.final.tobytes()
+            and apart[1].balls.tobytes() == whole[1].balls.tobytes()
+        )
         assert apart[:2].states([0.1, 0.5]).tobytes() == whole[:2].states([0.1, 0.5]).tobytes()
     there, here = (carom.tangents(shots, ["cue.phi"]).final["r"] for shots in (apart, whole))
     assert there.tobytes() == here.tobytes()
@@ -260,7 +404,9 @@ def test_kinds_apart_are_the_same_balls():
     assert one.final.tobytes() == carom.simulate_batch(TABLE, RACK, breaks).final.tobytes()
     states["r"][1, 2, 0] = -1.0
     again = carom.simulate_batch(TABLE, states, breaks, kinds=kinds, room=200, out=apart)
-    assert [index for index, _ in again.failures()] == [(1,)] and again.error(1).field == "balls[2].state.r"
+    assert [index for index, _ in again.failures()] == [(1,)] and again.error(
+        1
+    ).field == "balls[2].state.r"
 
 
 def test_broadcasting_and_out():
@@ -270,7 +416,9 @@ def test_broadcasting_and_out():
     shots = carom.simulate_batch(table, layouts[:, np.newaxis], cues, cushion_model="han")
     assert shots.shape == (3, 2) and shots.final.shape == (3, 2, 3)
     kept = shots.final.copy()
-    again = carom.simulate_batch(table, layouts[:, np.newaxis], cues, cushion_model="han", out=shots)
+    again = carom.simulate_batch(
+        table, layouts[:, np.newaxis], cues, cushion_model="han", out=shots
+    )
     assert again is shots and again.final.tobytes() == kept.tobytes()
     one_cue = carom.simulate_batch(table, layouts, cues[1], cushion_model="han")
     assert one_cue.final.tobytes() == kept[:, 1].tobytes()
@@ -283,33 +431,77 @@ def test_a_bad_shot_costs_itself():
     cues = carom.cue(speed=5.0, a=[0.0, 0.9, 0.1], b=0.5)
     shots = carom.simulate_batch(TABLE, RACK, cues, cushion_model="han")
     assert shots.status.tolist() == [0, carom.Status.ERROR_MISCUE, 0]
-    assert shots.failures() == [((1,), f"cue.a, cue.b = 0.9, 0.5: {carom.Status.ERROR_MISCUE.text}")]
-    assert shots.final[2].tobytes() == carom.simulate(TABLE, RACK, cues[2], cushion_model="han").final.tobytes()
+    assert shots.failures() == [
+        ((1,), f"cue.a, cue.b = 0.9, 0.5: {carom.Status.ERROR_MISCUE.text}")
+    ]
+    assert (
+        shots.final[2].tobytes()
+        == carom.simulate(TABLE, RACK, cues[2], cushion_model="han").final.tobytes()
+    )
 
 
 def test_a_refused_shot_has_no_numbers():
-    """Neither zeros nor those of an earlier batch whose memory is used again; one that ended in an error later keeps its own."""
-    before = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[8.0, 7.0, 6.0, 5.0], phi=90.3), cushion_model="han", features=True)
+    """Neither zeros nor those of an earlier batch whose memory is used again; one that ended in an
+    error later keeps its own.
+    """
+    before = carom.simulate_batch(
+        TABLE,
+        RACK,
+        carom.cue(speed=[8.0, 7.0, 6.0, 5.0], phi=90.3),
+        cushion_model="han",
+        features=True,
+    )
     other = before.final["r"].copy()
     for out in (None, before):
-        shots = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[8.0, -1.0, np.nan, 5.0], phi=90.3), cushion_model="han", features=True, out=out)
-        assert shots.refused.tolist() == [False, True, True, False] and np.array_equal(shots.final["r"][::3], other[::3])
-        assert all(np.isnan(shots.final[name][1:3]).all() for name in "rvw") and (shots.final["label"][1:3] == -1).all()
+        shots = carom.simulate_batch(
+            TABLE,
+            RACK,
+            carom.cue(speed=[8.0, -1.0, np.nan, 5.0], phi=90.3),
+            cushion_model="han",
+            features=True,
+            out=out,
+        )
+        assert shots.refused.tolist() == [False, True, True, False] and np.array_equal(
+            shots.final["r"][::3], other[::3]
+        )
+        assert (
+            all(np.isnan(shots.final[name][1:3]).all() for name in "rvw")
+            and (shots.final["label"][1:3] == -1).all()
+        )
         assert np.isnan(shots[1].final["r"]).all() and (shots.features.pocket[1:3] == -1).all()
-    ended = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[8.0]), cushion_model="han", events_most=40)
-    assert ended.status.tolist() == [carom.Status.ERROR_TOO_MANY_EVENTS] and not ended.refused.any() and np.isfinite(ended.final["r"]).all()
+    ended = carom.simulate_batch(
+        TABLE, RACK, carom.cue(speed=[8.0]), cushion_model="han", events_most=40
+    )
+    assert (
+        ended.status.tolist() == [carom.Status.ERROR_TOO_MANY_EVENTS]
+        and not ended.refused.any()
+        and np.isfinite(ended.final["r"]).all()
+    )
     pytest.importorskip("pandas")
     frame = before.to_dataframe()
-    assert frame["ball_3_r_x"].isna().tolist() == [False, True, True, False] and frame["ball_0_label"][1] == -1
+    assert (
+        frame["ball_3_r_x"].isna().tolist() == [False, True, True, False]
+        and frame["ball_0_label"][1] == -1
+    )
 
 
 def test_games_and_terms():
-    """The measured balls of billiard, the terms by themselves, each shot of a batch with its own; rails of their own."""
+    """The measured balls of billiard, the terms by themselves, each shot of a batch with its own;
+    rails of their own.
+    """
     table = carom.tables.threecushion()
     r, v = [[0.7, 1.0]], [0.6, 1.2, 0.0]
-    measured, plain = carom.balls(r, v=v, game="billiard"), carom.balls(r, v=v, game="billiard", drag=0.0, roll_loss=0.0)
+    measured, plain = (
+        carom.balls(r, v=v, game="billiard"),
+        carom.balls(r, v=v, game="billiard", drag=0.0, roll_loss=0.0),
+    )
     kind = measured["kind"][0]
-    assert kind["drag"] == 0.0118 and kind["roll_loss"] == 0.091 and kind["law_a"] == 0.049 and kind["smooth_q"] == 0.35
+    assert (
+        kind["drag"] == 0.0118
+        and kind["roll_loss"] == 0.091
+        and kind["law_a"] == 0.049
+        and kind["smooth_q"] == 0.35
+    )
     named = carom.simulate(table, measured, cushion_model="smooth")
     assert carom.simulate(table, measured).final.tobytes() == named.final.tobytes()
     for game in ("pool", "snooker", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"):
@@ -318,11 +510,17 @@ def test_games_and_terms():
         assert given == (["nose_height"] if game == "snooker" else [])
     shots = carom.simulate_batch(table, np.stack([measured, plain]))
     assert shots.time[0] < shots.time[1]
-    assert all(shots.final[k].tobytes() == carom.simulate(table, one).final.tobytes() for k, one in enumerate((measured, plain)))
+    assert all(
+        shots.final[k].tobytes() == carom.simulate(table, one).final.tobytes()
+        for k, one in enumerate((measured, plain))
+    )
     own = carom.Table.from_record(table.record)
     own.rails["mu_cushion"], own.rails["restitution"] = 0.3, 0.7
     other = carom.balls(r, v=v, game="billiard", mu_cushion=0.3, restitution_cushion=0.7)
-    assert carom.simulate(own, measured).final.tobytes() == carom.simulate(table, other).final.tobytes()
+    assert (
+        carom.simulate(own, measured).final.tobytes()
+        == carom.simulate(table, other).final.tobytes()
+    )
 
 
 def test_states_between_events():
@@ -331,8 +529,12 @@ def test_states_between_events():
     times = np.linspace(0.0, 0.1, 7).reshape(7, 1)
     at = shot.positions(times)
     assert at.shape == (7, 1, 1, 3) and shot.events["type"][0] == carom.EventType.SLIDING_ROLLING
-    np.testing.assert_allclose(at[:, 0, 0, 1], 0.3 + times[:, 0] - 0.5 * 0.2 * 9.81 * times[:, 0] ** 2, rtol=1e-14)
-    assert shot.states(1e9).tobytes() == shot.final.tobytes() and shot.states(0.0)["r"].tolist() == [[0.6, 0.3, 0.028575]]
+    np.testing.assert_allclose(
+        at[:, 0, 0, 1], 0.3 + times[:, 0] - 0.5 * 0.2 * 9.81 * times[:, 0] ** 2, rtol=1e-14
+    )
+    assert shot.states(1e9).tobytes() == shot.final.tobytes() and shot.states(0.0)[
+        "r"
+    ].tolist() == [[0.6, 0.3, 0.028575]]
 
 
 def test_more_events_than_the_first_room(monkeypatch):
@@ -340,26 +542,56 @@ def test_more_events_than_the_first_room(monkeypatch):
     shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0))
     small = carom.simulate_batch(TABLE, RACK, carom.cue(speed=8.0), room=10)
     monkeypatch.setattr(carom.shots, "_FIRST_ROOM", 20)
-    assert shot.count > 40 and carom.simulate(TABLE, RACK, carom.cue(speed=8.0)).events.tobytes() == shot.events.tobytes()
+    assert (
+        shot.count > 40
+        and carom.simulate(TABLE, RACK, carom.cue(speed=8.0)).events.tobytes()
+        == shot.events.tobytes()
+    )
     assert small.count == shot.count and np.array_equal(small.events, shot.events[:10])
 
 
 def test_tables_and_racks():
-    racks = (carom.racks.nineball, carom.racks.eightball, carom.racks.tenball, carom.racks.snooker, carom.racks.threecushion)
+    racks = (
+        carom.racks.nineball,
+        carom.racks.eightball,
+        carom.racks.tenball,
+        carom.racks.snooker,
+        carom.racks.threecushion,
+    )
     for rack, size in zip(racks, (10, 16, 11, 22, 3)):
-        table = carom.tables.snooker() if size == 22 else carom.tables.threecushion() if size == 3 else carom.tables.pool_8ft()
-        assert rack(table).shape == (size,) and rack(table).tobytes() == rack(table, 1e-4, 1).tobytes()
+        table = (
+            carom.tables.snooker()
+            if size == 22
+            else carom.tables.threecushion()
+            if size == 3
+            else carom.tables.pool_8ft()
+        )
+        assert (
+            rack(table).shape == (size,) and rack(table).tobytes() == rack(table, 1e-4, 1).tobytes()
+        )
         # The opening of three-cushion has its balls on their spots, whatever the gap and the seed.
-        assert all((rack(table).tobytes() == rack(table, *other).tobytes()) == (size == 3) for other in ((2e-4, 1), (1e-4, 2)))
+        assert all(
+            (rack(table).tobytes() == rack(table, *other).tobytes()) == (size == 3)
+            for other in ((2e-4, 1), (1e-4, 2))
+        )
     table = carom.tables.pool_7ft()
     assert (table.width, table.length) == (0.9906, 1.9812) and len(table.pockets) == 6
-    copy = carom.Table(table.width, table.length, rails=table.rails, jaws=table.jaws, pockets=table.pockets)
+    copy = carom.Table(
+        table.width, table.length, rails=table.rails, jaws=table.jaws, pockets=table.pockets
+    )
     assert copy.record.tobytes() == table.record.tobytes() and "6 pockets" in repr(copy)
     assert not len(carom.tables.threecushion().pockets)
     assert carom.tables.pool_9ft() == TABLE != carom.tables.pool_8ft() and TABLE != "table"
     tight = carom.tables.pool_9ft(corner=0.108, side_cut=103)
-    assert tight != TABLE == carom.tables.pool_9ft(**carom.tables.measures("pool_9ft")) and tight.width == 1.27
-    for wrong, said in (({"corner": 2.0}, "it must be 0.01 to 1, in m"), ({"width": 0.17}, "must be below .* with this width"), ({"side_hole": 0.01}, "can leave")):
+    assert (
+        tight != TABLE == carom.tables.pool_9ft(**carom.tables.measures("pool_9ft"))
+        and tight.width == 1.27
+    )
+    for wrong, said in (
+        ({"corner": 2.0}, "it must be 0.01 to 1, in m"),
+        ({"width": 0.17}, "must be below .* with this width"),
+        ({"side_hole": 0.01}, "can leave"),
+    ):
         with pytest.raises(carom.CaromError, match=said):
             carom.tables.pool_9ft(**wrong)
     with pytest.raises(TypeError, match="there are width, length"):
@@ -367,11 +599,21 @@ def test_tables_and_racks():
 
 
 def test_strike():
-    """A blow at the centre with no elevation: no spin, and the speed of an impact with squirt's end mass, in proportion to 1 + e of the tip."""
-    motion = carom.struck(carom.cue(speed=3.0, b=0.0, phi=0.0), carom.balls([[0.5, 0.5]])[0]["kind"])
+    """A blow at the centre with no elevation: no spin, and the speed of an impact with squirt's end
+    mass, in proportion to 1 + e of the tip.
+    """
+    motion = carom.struck(
+        carom.cue(speed=3.0, b=0.0, phi=0.0), carom.balls([[0.5, 0.5]])[0]["kind"]
+    )
     assert motion["v"][0] > 3.0 and abs(motion["v"][1]) < 1e-12 and not motion["w"].any()
-    resin = carom.struck(carom.cue(speed=3.0, b=0.0, phi=0.0, tip_restitution=0.85), carom.balls([[0.5, 0.5]])[0]["kind"])
-    assert abs(resin["v"][0] / motion["v"][0] - 1.85 / 1.73) < 1e-15 and carom.cue(game="pooltool_pool")["tip_restitution"] == 1.0
+    resin = carom.struck(
+        carom.cue(speed=3.0, b=0.0, phi=0.0, tip_restitution=0.85),
+        carom.balls([[0.5, 0.5]])[0]["kind"],
+    )
+    assert (
+        abs(resin["v"][0] / motion["v"][0] - 1.85 / 1.73) < 1e-15
+        and carom.cue(game="pooltool_pool")["tip_restitution"] == 1.0
+    )
 
 
 def test_pictures():
@@ -379,43 +621,74 @@ def test_pictures():
     name = "{http://www.w3.org/2000/svg}"
     still = ElementTree.fromstring(shot._repr_svg_())
     moved = int((np.abs(shot.final["r"] - shot.balls["state"]["r"]).max(axis=-1) > 1e-3).sum())
-    lines = [line for line in still.iter(name + "polyline") if line.get("stroke") not in ("#1b5e42",)]
+    lines = [
+        line for line in still.iter(name + "polyline") if line.get("stroke") not in ("#1b5e42",)
+    ]
     assert len(lines) >= moved > 3
     assert len(list(still.iter(name + "circle"))) == len(TABLE.pockets) + len(TABLE.jaws) + 20
     # A long table lies on its side, and every ball but the cue ball has its number.
     assert float(still.get("width")) > float(still.get("height"))
     balls = [part for part in still.iter(name + "g")]
-    assert [[text.text for text in ball.iter(name + "text")] for ball in balls] == 2 * [[], *([str(k)] for k in range(1, 10))]
-    # The balls of the moving picture go from where they lie in the still one to where they end there.
+    assert [[text.text for text in ball.iter(name + "text")] for ball in balls] == 2 * [
+        [],
+        *([str(k)] for k in range(1, 10)),
+    ]
+    # The balls of the moving picture go from where they lie in the still one to where they end
+    # there.
     animation = shot.animate()
     moving = list(ElementTree.fromstring(animation.svg).iter(name + "g"))
     for k, ball in enumerate(moving):
-        ways = [part.get("values").split(";") for part in ball.iter(name + "animateTransform")] or [[ball.get("transform")[10:-1]]]
-        assert [f"translate({ways[0][0]})", f"translate({ways[0][-1]})"] == [balls[k].get("transform"), balls[k + 10].get("transform")]
+        ways = [part.get("values").split(";") for part in ball.iter(name + "animateTransform")] or [
+            [ball.get("transform")[10:-1]]
+        ]
+        assert [f"translate({ways[0][0]})", f"translate({ways[0][-1]})"] == [
+            balls[k].get("transform"),
+            balls[k + 10].get("transform"),
+        ]
     assert len(moving) == 10 and len(repr(animation)) < 80
-    assert len(list(ElementTree.fromstring(TABLE._repr_svg_()).iter(name + "circle"))) == len(TABLE.pockets) + len(TABLE.jaws)
+    assert len(list(ElementTree.fromstring(TABLE._repr_svg_()).iter(name + "circle"))) == len(
+        TABLE.pockets
+    ) + len(TABLE.jaws)
 
 
 def test_balls_that_fly():
-    balls, lossless = carom.balls([[0.5, 0.6], [0.5, 0.905]]), {"speed": 3.0, "theta": 45.0, "b": 0.0, "tip_restitution": 1.0}
+    balls, lossless = (
+        carom.balls([[0.5, 0.6], [0.5, 0.905]]),
+        {"speed": 3.0, "theta": 45.0, "b": 0.0, "tip_restitution": 1.0},
+    )
     cue = carom.cue(**lossless, tip_time=-1.0)
     over = carom.simulate(TABLE, balls, cue)
     assert over.events["type"][:2].tolist() == [carom.EventType.STRIKE, carom.EventType.SLATE]
-    assert abs(over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max() - 0.028575 - 0.135695) < 1e-4
+    assert (
+        abs(over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max() - 0.028575 - 0.135695) < 1e-4
+    )
     flat = carom.simulate(TABLE, balls, cue, space="flat")
-    assert flat.events["type"][1] == carom.EventType.BALL_BALL and (flat.events["after"]["v"][..., 2] == 0).all()
-    # a tip that touches for a while presses the ball on the slate: the longer it does, the less the ball jumps
+    assert (
+        flat.events["type"][1] == carom.EventType.BALL_BALL
+        and (flat.events["after"]["v"][..., 2] == 0).all()
+    )
+    # a tip that touches for a while presses the ball on the slate: the longer it does, the less the
+    # ball jumps
     for tip_time, height in ((0.0006, 0.1), (0.002, 0.0), (0.0, 0.103)):
         pressed = carom.simulate(TABLE, balls, carom.cue(**lossless, tip_time=tip_time))
         top = pressed.positions(np.linspace(0.0, 0.3, 301))[:, 0, 2].max() - 0.028575
         assert height - 1e-3 < top < height + 6e-3 and (pressed.events["after"]["v"][0, 0, 2] > 0.0)
-    # off the table, which is no error; the batch takes the same options, as keywords or as one object
-    balls, cue = carom.balls([[0.4, 2.14], [0.8, 1.8]]), carom.cue(**lossless, miscue=0.5, tip_time=-1.0)
+    # off the table, which is no error; the batch takes the same options, as keywords or as one
+    # object
+    balls, cue = (
+        carom.balls([[0.4, 2.14], [0.8, 1.8]]),
+        carom.cue(**lossless, miscue=0.5, tip_time=-1.0),
+    )
     gone = carom.simulate(TABLE, balls, cue)
-    assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE and gone.final["label"].tolist() == [carom.Label.OFF, 0]
+    assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE and gone.final[
+        "label"
+    ].tolist() == [carom.Label.OFF, 0]
     for space, label in (("3d", carom.Label.OFF), ("flat", carom.Label.STATIONARY)):
         given, chosen = carom.Options(space=space, ball_model="mirror"), carom.Options(space=space)
-        shots = carom.simulate_batch(TABLE, balls, cue, space=space), carom.simulate_batch(TABLE, balls, cue, options=given, ball_model="default")
+        shots = (
+            carom.simulate_batch(TABLE, balls, cue, space=space),
+            carom.simulate_batch(TABLE, balls, cue, options=given, ball_model="default"),
+        )
         assert all(one.final[0]["label"] == label and one.options == chosen for one in shots)
 
 
@@ -424,7 +697,10 @@ def test_tables_are_checked():
         table.check(0.026 if len(table.pockets) == 6 and table.length > 3 else 0.028575)
     holed = carom.tables.threecushion()
     holed.rails["q"][1] = (holed.rails["p"][1] + holed.rails["q"][1]) / 2.0
-    with pytest.raises(carom.CaromError, match=r"table\.rails\[\d\]: .* \(at x = .* m wide, beside table\.rails\[\d\]\)") as caught:
+    with pytest.raises(
+        carom.CaromError,
+        match=r"table\.rails\[\d\]: .* \(at x = .* m wide, beside table\.rails\[\d\]\)",
+    ) as caught:
         holed.check(0.0307)
     assert caught.value.status is carom.Status.ERROR_TABLE_OPEN
 
@@ -434,10 +710,18 @@ def test_ball_in_hand():
     rack["state"]["label"][0] = carom.Label.POCKETED
     kept = rack.copy()
     placed = carom.place_ball(TABLE, rack, 0, 0.4, 0.5)
-    assert placed["state"]["r"][0].tolist() == [0.4, 0.5, 0.028575] and placed["state"]["label"][0] == carom.Label.STATIONARY
+    assert (
+        placed["state"]["r"][0].tolist() == [0.4, 0.5, 0.028575]
+        and placed["state"]["label"][0] == carom.Label.STATIONARY
+    )
     assert rack.tobytes() == kept.tobytes() and placed[1:].tobytes() == rack[1:].tobytes()
     one = RACK["state"]["r"][1]
-    for place, field in (((one[0], one[1] - 0.04), "balls[1]"), ((0.01, 0.7), "table.rails"), ((0.0, 0.0), "table.pockets"), ((-1.0, 1.0), "table")):
+    for place, field in (
+        ((one[0], one[1] - 0.04), "balls[1]"),
+        ((0.01, 0.7), "table.rails"),
+        ((0.0, 0.0), "table.pockets"),
+        ((-1.0, 1.0), "table"),
+    ):
         with pytest.raises(carom.CaromError, match="is in the way of ball 0") as caught:
             carom.place_ball(TABLE, RACK, 0, *place)
         assert caught.value.field is not None and caught.value.field.startswith(field)
@@ -451,31 +735,53 @@ def test_columns_and_frames():
     np.testing.assert_array_equal(columns["after_b_w_z"], shot.events["after"]["w"][:, 1, 2])
     np.testing.assert_array_equal(columns["time"], shot.events["time"])
     assert set(carom.dtypes.columns(TABLE.rails)) >= {"p_x", "q_y", "height", "line_z"}
-    assert "state_label" in carom.dtypes.columns(shot.balls) and "kind_mass" in carom.dtypes.columns(shot.balls)
+    assert "state_label" in carom.dtypes.columns(
+        shot.balls
+    ) and "kind_mass" in carom.dtypes.columns(shot.balls)
     pytest.importorskip("pandas")
     frame = shot.to_dataframe()
     assert list(frame) == list(columns) and frame["type"][0] == "strike"
     pair = (frame["type"] == "ball_ball").to_numpy()
     assert pair.tolist() == (shot.events["type"] == carom.EventType.BALL_BALL).tolist()
     for side in ("before", "after"):
-        assert frame[f"{side}_b_r_x"][pair].notna().all() and frame[f"{side}_b_r_x"][~pair].isna().all()
+        assert (
+            frame[f"{side}_b_r_x"][pair].notna().all()
+            and frame[f"{side}_b_r_x"][~pair].isna().all()
+        )
         assert set(frame[f"{side}_b_label"][~pair]) == {-1} and frame[f"{side}_a_r_x"].notna().all()
 
 
 def test_a_batch_as_a_frame(breaks):
-    """A row a shot, with what it was played with, what became of the balls, and features; an index of many dimensions has as many."""
+    """A row a shot, with what it was played with, what became of the balls, and features; an index
+    of many dimensions has as many.
+    """
     pandas = pytest.importorskip("pandas")
     shots = breaks[0](features=True)
     frame = shots.to_dataframe()
-    assert len(frame) == 12 and frame["status"].tolist().count("error_miscue") == 4 and frame["status"][0] == "ok"
+    assert (
+        len(frame) == 12
+        and frame["status"].tolist().count("error_miscue") == 4
+        and frame["status"][0] == "ok"
+    )
     for column, values in (
-        ("time", shots.time), ("count", shots.count), ("cue_phi", shots.cues["phi"]), ("ball_3_r_y", shots.final["r"][:, 3, 1]),
-        ("ball_0_label", shots.final["label"][:, 0]), ("contact_1", shots.features.contact[:, 1]), ("pocket_9", shots.features.pocket[:, 9]),
+        ("time", shots.time),
+        ("count", shots.count),
+        ("cue_phi", shots.cues["phi"]),
+        ("ball_3_r_y", shots.final["r"][:, 3, 1]),
+        ("ball_0_label", shots.final["label"][:, 0]),
+        ("contact_1", shots.features.contact[:, 1]),
+        ("pocket_9", shots.features.pocket[:, 9]),
         ("cushions_after", shots.features.cushions_after),
-    ):  # fmt: skip
+    ):
         np.testing.assert_array_equal(frame[column], values, err_msg=column)
-    grid = carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6]], v=[0.0, 0.5, 0.0]), carom.cue(speed=[[0.0], [0.0]], phi=[0.0, 1.0, 2.0]))
-    assert grid.to_dataframe().loc[(1, 2), "cue_phi"] == 2.0 and isinstance(grid.to_dataframe().index, pandas.MultiIndex)
+    grid = carom.simulate_batch(
+        TABLE,
+        carom.balls([[0.5, 0.6]], v=[0.0, 0.5, 0.0]),
+        carom.cue(speed=[[0.0], [0.0]], phi=[0.0, 1.0, 2.0]),
+    )
+    assert grid.to_dataframe().loc[(1, 2), "cue_phi"] == 2.0 and isinstance(
+        grid.to_dataframe().index, pandas.MultiIndex
+    )
     assert "cue_phi" not in carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6]])).to_dataframe()
     # each level has a name
     assert (shots[0].to_dataframe().index.name, frame.index.name) == ("event", "shot")
@@ -491,19 +797,37 @@ def test_a_batch_as_a_dataset(breaks):
     data = shots.to_xarray()
     assert dict(data.sizes) == {"shot": 12, "ball": 10, "axis": 3, "met": 2}
     for name, values in (
-        ("time", shots.time), ("cue_phi", shots.cues["phi"]), ("r", shots.final["r"]), ("label", shots.final["label"]),
-        ("contact", shots.features.contact), ("pocket", shots.features.pocket), ("cushions_after", shots.features.cushions_after),
-    ):  # fmt: skip
+        ("time", shots.time),
+        ("cue_phi", shots.cues["phi"]),
+        ("r", shots.final["r"]),
+        ("label", shots.final["label"]),
+        ("contact", shots.features.contact),
+        ("pocket", shots.features.pocket),
+        ("cushions_after", shots.features.cushions_after),
+    ):
         np.testing.assert_array_equal(data[name], values, err_msg=name)
     assert data.sel(axis="y", ball=3)["r"].dims == ("shot",) and data["v"].attrs == {"units": "m/s"}
-    assert dict(zip(data["label"].attrs["flag_meanings"].split(), data["label"].attrs["flag_values"])) == {
-        label.name.lower(): label.value for label in carom.Label
-    }
-    grid = carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6]]), carom.cue(speed=[[1.0], [2.0]], phi=[0.0, 1.0, 2.0]))
+    assert dict(
+        zip(data["label"].attrs["flag_meanings"].split(), data["label"].attrs["flag_values"])
+    ) == {label.name.lower(): label.value for label in carom.Label}
+    grid = carom.simulate_batch(
+        TABLE, carom.balls([[0.5, 0.6]]), carom.cue(speed=[[1.0], [2.0]], phi=[0.0, 1.0, 2.0])
+    )
     named = grid.to_xarray(("speed", "phi"))
-    assert named["time"].dims == ("speed", "phi") and "contact" not in grid.to_xarray() and set(data.coords) == set(data.dims)
-    assert [named.coords[name].values.tolist() for name in ("speed", "phi")] == [[1.0, 2.0], [0.0, 1.0, 2.0]]
-    assert grid.to_xarray(("phi", "b")).coords["b"].values.tolist() == [0, 1, 2]  # which do not change along these
+    assert (
+        named["time"].dims == ("speed", "phi")
+        and "contact" not in grid.to_xarray()
+        and set(data.coords) == set(data.dims)
+    )
+    assert [named.coords[name].values.tolist() for name in ("speed", "phi")] == [
+        [1.0, 2.0],
+        [0.0, 1.0, 2.0],
+    ]
+    assert grid.to_xarray(("phi", "b")).coords["b"].values.tolist() == [
+        0,
+        1,
+        2,
+    ]  # which do not change along these
 
 
 def test_what_is_shown_is_short(breaks):
@@ -516,7 +840,11 @@ def test_what_is_shown_is_short(breaks):
 
 def test_a_batch_of_one_makes_few_calls(calls):
     """Those of C included."""
-    TABLE, balls, cue = carom.tables.pool_9ft(), carom.balls([[0.5, 0.6], [0.7, 1.5]]), carom.cue(speed=3.0, phi=79.0)
+    TABLE, balls, cue = (
+        carom.tables.pool_9ft(),
+        carom.balls([[0.5, 0.6], [0.7, 1.5]]),
+        carom.cue(speed=3.0, phi=79.0),
+    )
     carom.simulate_batch(TABLE, balls, cue)
     assert calls(lambda: carom.simulate_batch(TABLE, balls, cue)) <= 80
 
@@ -524,26 +852,58 @@ def test_a_batch_of_one_makes_few_calls(calls):
 def test_tables_of_any_shape():
     corners = [(1, 0, 0.12), (2, 0.5, 0.12), (2, 1.5, 0.12), (1, 2, 0.12), (0, 1.5, 0.12), (0, 0.5)]
     table = carom.tables.polygon(corners)
-    assert (len(table.rails), len(table.jaws), len(table.pockets), table.width, table.length) == (6, 10, 5, 2.0, 2.0)
+    assert (len(table.rails), len(table.jaws), len(table.pockets), table.width, table.length) == (
+        6,
+        10,
+        5,
+        2.0,
+        2.0,
+    )
     ends = np.array([0, np.pi]) + np.linspace(0, 6, 40)[:, None]
-    shots = carom.simulate_batch(table, carom.balls([[1.0, 1.0]]), carom.cue(speed=4.0, phi=np.degrees(ends.ravel())))
+    shots = carom.simulate_batch(
+        table, carom.balls([[1.0, 1.0]]), carom.cue(speed=4.0, phi=np.degrees(ends.ravel()))
+    )
     assert (shots.status == 0).all() and (table.pockets["radius"] == 0.06).all()
-    bent = carom.tables.polygon([(0, 0), (2, 0), (2, 0.5), (0.5, 0.5), (0.5, 2), (0, 2)])  # its middle is outside
-    assert carom.simulate(bent, carom.balls([[0.3, 0.3]]), carom.cue(speed=4.0, phi=20.0)).status == carom.Status.OK
-    with pytest.raises(ValueError, match=r"corners\[1\]: x, y and perhaps the mouth are needed, not 4"):
+    bent = carom.tables.polygon(
+        [(0, 0), (2, 0), (2, 0.5), (0.5, 0.5), (0.5, 2), (0, 2)]
+    )  # its middle is outside
+    assert (
+        carom.simulate(bent, carom.balls([[0.3, 0.3]]), carom.cue(speed=4.0, phi=20.0)).status
+        == carom.Status.OK
+    )
+    with pytest.raises(
+        ValueError, match=r"corners\[1\]: x, y and perhaps the mouth are needed, not 4"
+    ):
         carom.tables.polygon([(0, 0), (1, 0, 0.1, 2), (0, 1)])
 
 
 def test_pocketed_balls_fall():
-    shot = next(shot for shot in (carom.simulate(TABLE, carom.racks.nineball(TABLE, seed=k), carom.cue(speed=9.0)) for k in range(30)) if (shot.events["type"] == 5).any())
+    shot = next(
+        shot
+        for shot in (
+            carom.simulate(TABLE, carom.racks.nineball(TABLE, seed=k), carom.cue(speed=9.0))
+            for k in range(30)
+        )
+        if (shot.events["type"] == 5).any()
+    )
     fall = shot.events[shot.events["type"] == 5][0]
     times = fall["time"] + np.linspace(0, 0.05, 6)
     drawn, told = shot.states(times, drawn=True), shot.states(times)
     ball, others = fall["a"], np.flatnonzero(shot.final["label"] != carom.Label.POCKETED)
-    assert (np.diff(drawn["r"][:, ball, 2]) < 0).all() and drawn["r"][0, ball, 2] == fall["before"]["r"][0, 2]
-    assert (told["r"][:, ball, 2] < drawn["r"][:, ball, 2]).all() and (drawn[:, others] == told[:, others]).all()
-    lies = shot.states(fall["time"] + 1.0, drawn=True)[ball]  # where its fall ends, at the depth of its pocket
-    assert lies["r"][2] == pytest.approx(shot.final["r"][ball, 2]) and not lies["v"].any() and lies["label"] == shot.final["label"][ball]
+    assert (np.diff(drawn["r"][:, ball, 2]) < 0).all() and drawn["r"][0, ball, 2] == fall["before"][
+        "r"
+    ][0, 2]
+    assert (told["r"][:, ball, 2] < drawn["r"][:, ball, 2]).all() and (
+        drawn[:, others] == told[:, others]
+    ).all()
+    lies = shot.states(fall["time"] + 1.0, drawn=True)[
+        ball
+    ]  # where its fall ends, at the depth of its pocket
+    assert (
+        lies["r"][2] == pytest.approx(shot.final["r"][ball, 2])
+        and not lies["v"].any()
+        and lies["label"] == shot.final["label"][ball]
+    )
     assert shot.states(fall["time"] + 2.0, drawn=True)[ball] == lies
     of_batch = carom.simulate_batch(TABLE, shot.balls, shot.cue[None], room=500)[0]
     assert (of_batch.states(times, drawn=True) == drawn).all()

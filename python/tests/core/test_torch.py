@@ -1,4 +1,6 @@
-"""carom.torch: values are those of shots, gradients those of carom.tangents and of differences; batches, errors."""
+"""carom.torch: values are those of shots, gradients those of carom.tangents and of differences;
+batches, errors.
+"""
 
 import numpy as np
 import pytest
@@ -22,7 +24,9 @@ def ends(aim, **models):
 
 
 def played(aim, **models):
-    return carom.simulate(TABLE, BALLS, carom.cue(**dict(zip(("speed", "phi", "a", "b"), map(float, aim)))), **models)
+    return carom.simulate(
+        TABLE, BALLS, carom.cue(**dict(zip(("speed", "phi", "a", "b"), map(float, aim)))), **models
+    )
 
 
 @pytest.mark.parametrize("models", [{}, CLOSED, {"t_final": 0.9}])
@@ -32,8 +36,12 @@ def test_values_are_those_of_shots_and_jacobians_those_of_tangents(models):
     for name, numbers in (("r", 2), ("v", 2), ("w", 3)):
         assert np.array_equal(getattr(found, name).numpy(), shot.final[name][:, :numbers])
         expected = tangents.final[name]
-        jacobian = torch.autograd.functional.jacobian(lambda aim: getattr(ends(aim, **models), name), AIM)
-        np.testing.assert_allclose(jacobian.numpy(), expected, rtol=1e-13, atol=1e-13 * np.abs(expected).max())
+        jacobian = torch.autograd.functional.jacobian(
+            lambda aim: getattr(ends(aim, **models), name), AIM
+        )
+        np.testing.assert_allclose(
+            jacobian.numpy(), expected, rtol=1e-13, atol=1e-13 * np.abs(expected).max()
+        )
 
 
 def test_gradients_are_differences_of_shots():
@@ -46,11 +54,15 @@ def test_gradients_are_differences_of_shots():
     single = torch.tensor(1.5, requires_grad=True)
     carom.torch.final(TABLE, BALLS, CUE, {"cue.speed": single}).r[1].sum().backward()
     assert single.grad.dtype == torch.float32
-    assert float(single.grad) == pytest.approx(carom.tangents(played(AIM), ["cue.speed"]).final["r"][1].sum(), rel=1e-6)
+    assert float(single.grad) == pytest.approx(
+        carom.tangents(played(AIM), ["cue.speed"]).final["r"][1].sum(), rel=1e-6
+    )
 
 
 def test_batches_are_broadcast_and_have_the_bits_of_single_shots():
-    layouts = carom.balls([[[0.4, 0.5], [0.6, 1.5]], [[0.4, 0.6], [0.62, 1.4]], [[0.45, 0.5], [0.63, 1.45]]])
+    layouts = carom.balls(
+        [[[0.4, 0.5], [0.6, 1.5]], [[0.4, 0.6], [0.62, 1.4]], [[0.45, 0.5], [0.63, 1.45]]]
+    )
     cues = carom.cue(speed=[[1.5], [1.9]], phi=79.0, b=0.1)
     phi = torch.linspace(78.5, 79.5, 6, dtype=torch.float64).reshape(2, 3).requires_grad_()
     places = torch.tensor(layouts["state"]["r"][:, 1, :2], requires_grad=True)
@@ -73,13 +85,22 @@ def test_shots_that_are_refused_say_why():
     bad = AIM.clone()
     bad[3] = 2.0
     for given in (bad, bad.clone().requires_grad_()):
-        with pytest.raises(carom.CaromError, match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1"):
+        with pytest.raises(
+            carom.CaromError,
+            match=r"cue\.speed = 1\.5, cue\.phi = 79, cue\.a = 0\.1, cue\.b = 2: .*must be -1 to 1",
+        ):
             ends(given)
     both = torch.stack([AIM, bad]).requires_grad_()
     found = ends(both, errors="nan").r
     found[0].sum().backward()
-    assert torch.isfinite(found[0]).all() and torch.isnan(found[1]).all() and torch.isfinite(both.grad[0]).all()
-    with pytest.raises(ValueError, match=r"numbers: balls\[1\]\.r: the shape must be \(\.\.\., 2\), not \(3,\)"):
+    assert (
+        torch.isfinite(found[0]).all()
+        and torch.isnan(found[1]).all()
+        and torch.isfinite(both.grad[0]).all()
+    )
+    with pytest.raises(
+        ValueError, match=r"numbers: balls\[1\]\.r: the shape must be \(\.\.\., 2\), not \(3,\)"
+    ):
         carom.torch.final(TABLE, BALLS, CUE, {"balls[1].r": torch.ones(3)})
 
 
@@ -90,19 +111,31 @@ def test_second_derivatives_are_those_of_hessian():
     found, off = carom.hessian(shot, NAMES), shot.final["r"][1, :2] - goal.numpy()
     first = found.first.final["r"][1]
     expected = 2.0 * (first.T @ first + np.einsum("i,ijk->jk", off, found.final["r"][1]))
-    close = lambda found, rtol=1e-9: np.testing.assert_allclose(found.detach().numpy(), expected, rtol=rtol, atol=rtol)  # noqa: E731
+    close = lambda found, rtol=1e-9: np.testing.assert_allclose(
+        found.detach().numpy(), expected, rtol=rtol, atol=rtol
+    )  # noqa: E731
     close(torch.autograd.functional.hessian(miss, AIM))
     aim = AIM.clone().requires_grad_()
     (slope,) = torch.autograd.grad(miss(aim), aim, create_graph=True)
     (second,) = torch.autograd.grad(slope[0], aim, create_graph=True)
     close(torch.stack([second, *second.new_tensor(expected[1:])]))
-    with pytest.raises((NotImplementedError, RuntimeError), match="third derivatives of shots are not known"):
+    with pytest.raises(
+        (NotImplementedError, RuntimeError), match="third derivatives of shots are not known"
+    ):
         torch.autograd.grad(second.sum(), aim)
     if not hasattr(torch, "func"):
         return
     func, aims = torch.func, torch.stack([AIM + 0.01, AIM])
-    slopes, (hessian, rev, fwd) = expected @ [1.0, 0.1, 1.0, 1.0], (func.hessian, func.jacrev, func.jacfwd)
-    for second in (hessian(miss)(AIM), rev(rev(miss))(AIM), rev(fwd(miss))(AIM), func.vmap(hessian(miss))(aims)[1]):
+    slopes, (hessian, rev, fwd) = (
+        expected @ [1.0, 0.1, 1.0, 1.0],
+        (func.hessian, func.jacrev, func.jacfwd),
+    )
+    for second in (
+        hessian(miss)(AIM),
+        rev(rev(miss))(AIM),
+        rev(fwd(miss))(AIM),
+        func.vmap(hessian(miss))(aims)[1],
+    ):
         close(second)
     # Along one vector the product alone is found, by differences of its own.
     along = func.jvp(func.grad(miss), (AIM,), (AIM.new_tensor([1.0, 0.1, 1.0, 1.0]),))
@@ -116,20 +149,35 @@ def test_second_derivatives_are_those_of_hessian():
 
 @pytest.mark.skipif(not hasattr(torch, "func"), reason="PyTorch is older than 2.0")
 def test_functions_of_torch_func(monkeypatch):
-    """vmap is one batch, and each transformation has the derivatives of tangents; so has compiled code."""
+    """vmap is one batch, and each transformation has the derivatives of tangents; so has compiled
+    code.
+    """
     played_at, func = [], torch.func
     simulate, total = carom.derivatives.simulate_batch, lambda aim: ends(aim).r.sum((-1, -2))
-    monkeypatch.setattr(carom.derivatives, "simulate_batch", lambda *given, **more: played_at.append(1) or simulate(*given, **more))
+    monkeypatch.setattr(
+        carom.derivatives,
+        "simulate_batch",
+        lambda *given, **more: played_at.append(1) or simulate(*given, **more),
+    )
     aims = AIM + torch.linspace(0.0, 0.1, 5, dtype=torch.float64)[:, None]
     singly = np.stack([carom.tangents(played(aim), NAMES).final["r"].sum((0, 1)) for aim in aims])
-    for slopes in (func.vmap(func.grad(total)), func.vmap(func.jacrev(total)), func.vmap(func.jacfwd(total)), func.grad(lambda x: func.vmap(total)(x).sum())):
+    for slopes in (
+        func.vmap(func.grad(total)),
+        func.vmap(func.jacrev(total)),
+        func.vmap(func.jacfwd(total)),
+        func.grad(lambda x: func.vmap(total)(x).sum()),
+    ):
         played_at.clear()
         np.testing.assert_allclose(slopes(aims), singly, rtol=1e-11)
         assert len(played_at) == 1
     # one number is mapped, one is not; nested
     speeds, phis = aims[:3, 0], aims[:2, 1]
-    grid = func.vmap(func.vmap(lambda s, p: total(torch.stack([s, p, AIM[2], AIM[3]])), (None, 0)), (0, None))(speeds, phis)
-    assert float(grid[2, 1]) == pytest.approx(float(total(torch.stack([speeds[2], phis[1], AIM[2], AIM[3]]))), rel=1e-13)
+    grid = func.vmap(
+        func.vmap(lambda s, p: total(torch.stack([s, p, AIM[2], AIM[3]])), (None, 0)), (0, None)
+    )(speeds, phis)
+    assert float(grid[2, 1]) == pytest.approx(
+        float(total(torch.stack([speeds[2], phis[1], AIM[2], AIM[3]]))), rel=1e-13
+    )
     try:
         compiled = torch.compile(total, backend="eager")
     except RuntimeError as error:
@@ -142,12 +190,24 @@ def test_functions_of_torch_func(monkeypatch):
 
 
 def test_clusters_banks_and_raised_strikes():
-    """300 shots in one batch have the derivatives of tangents: strikes into three balls that touch, off a rail, and with a raised cue."""
-    rack, random = [[0.635, 1.5], [0.635 + 0.05715, 1.5], [0.635 + 0.028575, 1.5 + 0.0494934]], np.random.default_rng(1)
-    cues = carom.cue(speed=random.uniform(2.0, 3.0, 300), phi=[88.0, 20.0, 85.0] * 100 + random.normal(0.0, 1.0, 300), theta=[0.0, 0.0, 30.0] * 100, b=0.1)
+    """300 shots in one batch have the derivatives of tangents: strikes into three balls that touch,
+    off a rail, and with a raised cue.
+    """
+    rack, random = (
+        [[0.635, 1.5], [0.635 + 0.05715, 1.5], [0.635 + 0.028575, 1.5 + 0.0494934]],
+        np.random.default_rng(1),
+    )
+    cues = carom.cue(
+        speed=random.uniform(2.0, 3.0, 300),
+        phi=[88.0, 20.0, 85.0] * 100 + random.normal(0.0, 1.0, 300),
+        theta=[0.0, 0.0, 30.0] * 100,
+        b=0.1,
+    )
     names, balls = ["cue.speed", "cue.phi", "cue.theta", "cue.b"], carom.balls([[0.6, 0.5], *rack])
     given = [torch.tensor(cues[name[4:]].copy(), requires_grad=True) for name in names]
     carom.torch.final(TABLE, balls, cues, dict(zip(names, given))).r.sum().backward()
     for k, cue in enumerate(cues):
         expected = carom.tangents(carom.simulate(TABLE, balls, cue), names).final["r"].sum((0, 1))
-        np.testing.assert_allclose([each.grad[k] for each in given], expected, rtol=0.0, atol=1e-9 * np.abs(expected).max())
+        np.testing.assert_allclose(
+            [each.grad[k] for each in given], expected, rtol=0.0, atol=1e-9 * np.abs(expected).max()
+        )

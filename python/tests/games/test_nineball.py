@@ -1,4 +1,6 @@
-"""Pool for two players: the rules on positions made by hand, and the environment by PettingZoo's own tests."""
+"""Pool for two players: the rules on positions made by hand, and the environment by PettingZoo's
+own tests.
+"""
 
 from dataclasses import replace
 
@@ -17,7 +19,9 @@ AT_POCKET = RULES.base.actions(-135.0, 2.0, b=-0.3)
 
 
 def position_of(places, rules=RULES, fouls=(0, 0), group=0, player=0, **changes):
-    """A position in play: where balls lie, the others are pocketed; fouls of the players, and the group of the one at the table."""
+    """A position in play: where balls lie, the others are pocketed; fouls of the players, and the
+    group of the one at the table.
+    """
     begun = rules.begin(1)
     state = begun.state.copy()
     state["opening"], state["group"], state["fouls"] = 0, group, (fouls[player], fouls[1 - player])
@@ -25,7 +29,9 @@ def position_of(places, rules=RULES, fouls=(0, 0), group=0, player=0, **changes)
     balls["state"]["label"] = carom.Label.POCKETED
     for ball, place in places.items():
         balls["state"]["r"][ball, :2], balls["state"]["label"][ball] = place, carom.Label.STATIONARY
-    return replace(begun, **{"balls": balls, "hand": Hand.NOWHERE, "player": player, "state": state, **changes})
+    return replace(
+        begun, **{"balls": balls, "hand": Hand.NOWHERE, "player": player, "state": state, **changes}
+    )
 
 
 def action(stroke, place=(0.0, 0.0)):
@@ -36,9 +42,17 @@ def test_a_legal_pot_keeps_the_turn_and_a_miss_passes_it():
     before = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)}, fouls=(2, 1))
     after, turn = RULES.play(before, action(AT_POCKET))
     assert (turn.foul, turn.first, turn.potted) == ("", 3, (3,))
-    assert (after.player, after.hand, after.fouls, after.strokes, after.winner) == (0, Hand.NOWHERE, (0, 1), 1, None)
+    assert (after.player, after.hand, after.fouls, after.strokes, after.winner) == (
+        0,
+        Hand.NOWHERE,
+        (0, 1),
+        1,
+        None,
+    )
     # The same stroke from a little beside drives the ball to a cushion.
-    missed, turn = RULES.play(position_of({0: CUE + [0.03, 0.0], 3: NEAR, 9: (0.6, 2.0)}, player=1), action(AT_POCKET))
+    missed, turn = RULES.play(
+        position_of({0: CUE + [0.03, 0.0], 3: NEAR, 9: (0.6, 2.0)}, player=1), action(AT_POCKET)
+    )
     assert (turn.foul, turn.potted, missed.player, missed.hand) == ("", (), 0, Hand.NOWHERE)
     assert before.strokes == 0 and before.balls["state"]["label"][3] == carom.Label.STATIONARY
 
@@ -51,13 +65,24 @@ def test_the_nine_wins():
         with pytest.raises(ValueError, match="the game has ended"):
             RULES.play(after, action(AT_POCKET))
     after, turn = RULES.play(position_of({0: CUE, 4: (0.6, 2.0), 9: NEAR}), action(AT_POCKET))
-    assert turn.foul == "the cue ball met another ball first than one that is on" and turn.potted == (9,) and after.winner is None
+    assert (
+        turn.foul == "the cue ball met another ball first than one that is on"
+        and turn.potted == (9,)
+        and after.winner is None
+    )
     nine = after.balls["state"][9]
-    assert nine["label"] == carom.Label.STATIONARY and nine["r"].tolist() == [0.635, 1.905, 0.028575]
+    assert nine["label"] == carom.Label.STATIONARY and nine["r"].tolist() == [
+        0.635,
+        1.905,
+        0.028575,
+    ]
     assert (after.player, after.hand, after.fouls) == (1, Hand.ANYWHERE, (1, 0))
     # The spot is taken: behind it, on the long string.
     after, _ = RULES.play(position_of({0: CUE, 4: (0.635, 1.905), 9: NEAR}), action(AT_POCKET))
-    assert after.balls["state"]["r"][9, 0] == 0.635 and 0.0571 < after.balls["state"]["r"][9, 1] - 1.905 < 0.06
+    assert (
+        after.balls["state"]["r"][9, 0] == 0.635
+        and 0.0571 < after.balls["state"]["r"][9, 1] - 1.905 < 0.06
+    )
 
 
 def test_fouls():
@@ -66,20 +91,32 @@ def test_fouls():
     far = {9: (0.6, 2.0)}
     for places, stroke, foul in (
         ({0: CUE, 1: NEAR, **far}, away, "the cue ball met no ball"),
-        ({0: CUE, 1: (0.6, 2.3), 2: NEAR, **far}, AT_POCKET, "the cue ball met another ball first than one that is on"),
+        (
+            {0: CUE, 1: (0.6, 2.3), 2: NEAR, **far},
+            AT_POCKET,
+            "the cue ball met another ball first than one that is on",
+        ),
         ({0: CUE, 1: (0.6, 2.3), **far}, AT_POCKET, "the cue ball fell or left the table"),
-        ({0: (0.635, 0.3), 1: (0.635, 1.27), 9: (0.3, 2.0)}, soft, "nothing fell, and nothing met a cushion after the first contact"),
+        (
+            {0: (0.635, 0.3), 1: (0.635, 1.27), 9: (0.3, 2.0)},
+            soft,
+            "nothing fell, and nothing met a cushion after the first contact",
+        ),
     ):
         after, turn = RULES.play(position_of(places), action(stroke))
         assert turn.foul == foul
-        assert (after.player, after.hand, after.fouls, after.winner) == (1, Hand.ANYWHERE, (1, 0), None)
+        assert (after.player, after.hand, after.fouls, after.winner) == (
+            1,
+            Hand.ANYWHERE,
+            (1, 0),
+            None,
+        )
     # The third in consecutive strokes of a player loses; those of the other do not count.
     lost, _ = RULES.play(position_of({0: CUE, 1: NEAR, **far}, fouls=(2, 2)), action(away))
     assert lost.winner == 1
 
 
 def test_a_ball_that_leaves_the_table_is_a_foul_and_stays_down(monkeypatch):
-
     def off(*arguments, **options):
         shots = carom.simulate_batch(*arguments, **options)
         shots.final["label"][0, 3], shots._facts["off"][0] = carom.Label.OFF, 1 << 3
@@ -89,7 +126,10 @@ def test_a_ball_that_leaves_the_table_is_a_foul_and_stays_down(monkeypatch):
     before = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)})
     after, turn = RULES.play(before, action(AT_POCKET))
     assert turn.foul == "a ball left the table" and (after.player, after.hand) == (1, Hand.ANYWHERE)
-    assert after.balls["state"]["label"][3] == carom.Label.POCKETED and before.balls["state"]["label"][3] == carom.Label.STATIONARY
+    assert (
+        after.balls["state"]["label"][3] == carom.Label.POCKETED
+        and before.balls["state"]["label"][3] == carom.Label.STATIONARY
+    )
 
 
 def test_the_break():
@@ -102,7 +142,11 @@ def test_the_break():
         _, turn = RULES.play(begun, action(RULES.base.actions(90.0, 9.0), place))
         assert 0.02 < turn.shot.balls["state"]["r"][0, 1] <= RULES.table.length / 4.0
     soft, turn = RULES.play(begun, action(RULES.base.actions(90.0, 1.2)))
-    assert turn.first == 1 and turn.foul == "the break potted nothing, and drove too few balls to cushions" and soft.player == 1
+    assert (
+        turn.first == 1
+        and turn.foul == "the break potted nothing, and drove too few balls to cushions"
+        and soft.player == 1
+    )
     hard, turn = RULES.play(begun, action(RULES.base.actions(90.0, 9.0)))
     assert not turn.foul.startswith("the break") and turn.shot.count > 40
 
@@ -110,10 +154,20 @@ def test_the_break():
 def test_ball_in_hand():
     before = position_of({0: CUE, 1: (0.6, 1.8), 9: (0.6, 2.0)}, hand=Hand.ANYWHERE)
     _, turn = RULES.play(before, action(RULES.base.actions(90.0, 2.0), (-0.5, 0.0)))
-    np.testing.assert_allclose(turn.shot.balls["state"]["r"][0, :2], [0.635 - 0.5 * (0.635 - 0.029575), 1.27], atol=1e-9)
+    np.testing.assert_allclose(
+        turn.shot.balls["state"]["r"][0, :2], [0.635 - 0.5 * (0.635 - 0.029575), 1.27], atol=1e-9
+    )
     # A place that another ball takes becomes one that is free, always the same.
-    taken = [2.0 * (0.6 - 0.029575) / (1.27 - 0.05915) - 1.0, 2.0 * (1.8 - 0.029575) / (2.54 - 0.05915) - 1.0]
-    places = [RULES.play(before, action(RULES.base.actions(90.0, 2.0), taken))[1].shot.balls["state"]["r"][0].tolist() for _ in range(2)]
+    taken = [
+        2.0 * (0.6 - 0.029575) / (1.27 - 0.05915) - 1.0,
+        2.0 * (1.8 - 0.029575) / (2.54 - 0.05915) - 1.0,
+    ]
+    places = [
+        RULES.play(before, action(RULES.base.actions(90.0, 2.0), taken))[1]
+        .shot.balls["state"]["r"][0]
+        .tolist()
+        for _ in range(2)
+    ]
     assert places[0] == places[1] and np.hypot(*(np.array(places[0][:2]) - [0.6, 1.8])) > 0.05715
     for bad in (np.zeros(5), np.full(6, np.nan)):
         with pytest.raises(ValueError, match="action: six finite numbers"):
@@ -130,33 +184,58 @@ def test_observations_are_within_bounds():
             assert seen.shape == low.shape == (33,) and (low <= seen).all() and (seen <= high).all()
             position, turn = rules.play(position, generator.uniform(-1.0, 1.0, 6))
             assert (turn.shot.events["time"] >= 0).all()
-    assert rules.observe(position, 0)[31:].tolist() == rules.observe(position, 1)[31:].tolist()[::-1]
+    assert (
+        rules.observe(position, 0)[31:].tolist() == rules.observe(position, 1)[31:].tolist()[::-1]
+    )
 
 
-# ---- Eight-ball -----------------------------------------------------------------------------------------------------------
+# ---- Eight-ball
+# -----------------------------------------------------------------------------------------------------------
 
 
 EIGHT = Pool("eightball", cushion_model="han")
 
 
 def test_eightball_by_hand():
-    """The stroke calls what it pots without noise; the first ball decides the groups; the eight wins as the last, and loses before."""
+    """The stroke calls what it pots without noise; the first ball decides the groups; the eight
+    wins as the last, and loses before.
+    """
     far = {5: (0.6, 2.0), 12: (0.7, 2.2), 8: (0.3, 2.3)}
     after, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT), action(AT_POCKET))
-    assert (turn.foul, turn.potted, after.player, after.hand, after.state["group"]) == ("", (3,), 0, Hand.NOWHERE, 1)
+    assert (turn.foul, turn.potted, after.player, after.hand, after.state["group"]) == (
+        "",
+        (3,),
+        0,
+        Hand.NOWHERE,
+        1,
+    )
     after, _ = EIGHT.play(position_of({0: CUE, 11: NEAR, **far}, EIGHT), action(AT_POCKET))
     assert after.state["group"] == 2 and after.player == 0
     # A ball of the other group met first is a foul; the other then has his own group.
-    after, turn = EIGHT.play(position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2), action(AT_POCKET))
-    assert turn.code == carom.Foul.FIRST and (after.player, after.hand, after.state["group"]) == (1, Hand.ANYWHERE, 1)
-    for group, places, winner in ((1, {8: NEAR, 12: (0.7, 2.2)}, 0), (1, {8: NEAR, 5: (0.6, 2.0)}, 1)):
-        after, _ = EIGHT.play(position_of({0: CUE, **places}, EIGHT, group=group), action(AT_POCKET))
+    after, turn = EIGHT.play(
+        position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2), action(AT_POCKET)
+    )
+    assert turn.code == carom.Foul.FIRST and (after.player, after.hand, after.state["group"]) == (
+        1,
+        Hand.ANYWHERE,
+        1,
+    )
+    for group, places, winner in (
+        (1, {8: NEAR, 12: (0.7, 2.2)}, 0),
+        (1, {8: NEAR, 5: (0.6, 2.0)}, 1),
+    ):
+        after, _ = EIGHT.play(
+            position_of({0: CUE, **places}, EIGHT, group=group), action(AT_POCKET)
+        )
         assert after.winner == winner
     assert EIGHT.on(position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2)) == (12,)
     # What an observation tells is the position again, for whoever is at the table.
     position = position_of({0: CUE, 3: NEAR, **far}, EIGHT, group=2, player=1)
     again = EIGHT.seen(EIGHT.observe(position, 1))
-    assert again.balls[[0, 3, 5, 12, 8]].tobytes() == position.balls[[0, 3, 5, 12, 8]].tobytes() and (again.state == position.state).all()
+    assert (
+        again.balls[[0, 3, 5, 12, 8]].tobytes() == position.balls[[0, 3, 5, 12, 8]].tobytes()
+        and (again.state == position.state).all()
+    )
     assert EIGHT.observe(position, 0)[-1] == 1.0 and EIGHT.observe(position, 1)[-1] == 2.0
     assert EIGHT.observe(EIGHT.begin(1), 0)[-3:].tolist() == [1.0, 1.0, 0.0]
 
@@ -166,18 +245,32 @@ def test_what_strokes_are_worth():
     generator = np.random.default_rng(5)
     for rules in (RULES, EIGHT):
         seen = set()
-        for before in (position_of({0: CUE, 3: NEAR, 5: (0.6, 2.0), 8: (0.3, 2.3), 9: (0.9, 1.2)}, rules), rules.begin(2)):
+        for before in (
+            position_of({0: CUE, 3: NEAR, 5: (0.6, 2.0), 8: (0.3, 2.3), 9: (0.9, 1.2)}, rules),
+            rules.begin(2),
+        ):
             actions = generator.uniform(-1.0, 1.0, (60, 6))
             actions[:5, :4] = AT_POCKET
             for worth, one in zip(rules.tried(before, actions), actions):
                 after, turn = rules.play(before, one)
-                expected = 1.0 if after.winner == 0 else -1.0 if after.winner == 1 else -0.5 if turn.foul else 0.5 if after.player == 0 else 0.0
+                expected = (
+                    1.0
+                    if after.winner == 0
+                    else -1.0
+                    if after.winner == 1
+                    else -0.5
+                    if turn.foul
+                    else 0.5
+                    if after.player == 0
+                    else 0.0
+                )
                 assert worth == expected
                 seen.add(expected)
         assert seen >= {-0.5, 0.0, 0.5}
 
 
-# ---- PettingZoo -----------------------------------------------------------------------------------------------------------
+# ---- PettingZoo
+# -----------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -200,7 +293,10 @@ def test_a_game_of_the_environment(environment):
     game.reset(seed=3, options={"position": position_of({0: CUE, 9: NEAR}, player=1)})
     assert game.agent_selection == "player_1"
     game.step(action(AT_POCKET))
-    assert game.terminations == {"player_0": True, "player_1": True} and game.rewards == {"player_0": -1.0, "player_1": 1.0}
+    assert game.terminations == {"player_0": True, "player_1": True} and game.rewards == {
+        "player_0": -1.0,
+        "player_1": 1.0,
+    }
     assert game.infos["player_0"] == {"foul": "", "first": 9, "potted": [9], "hand": 0}
     assert game.render().startswith("<svg")
     for agent in game.agent_iter():
@@ -219,7 +315,9 @@ def test_a_game_of_the_environment(environment):
 
 
 def test_the_planner_is_an_opponent():
-    """It wins against strokes at random, also in hand and at the break, and its actions are those of the space."""
+    """It wins against strokes at random, also in hand and at the break, and its actions are those
+    of the space.
+    """
     pytest.importorskip("pettingzoo", reason="PettingZoo is not installed")
     from carom.games.pettingzoo import PoolEnv
 
@@ -232,7 +330,9 @@ def test_the_planner_is_an_opponent():
             ended = game.terminations[agent] or game.truncations[agent]
             if agent == "player_0" and not ended:
                 chosen = game.rules.best(game.position, shots=200, seed=game.position.strokes)
-                assert chosen.shape == (6,) and game.action_space(agent).contains(chosen.astype(np.float32))
+                assert chosen.shape == (6,) and game.action_space(agent).contains(
+                    chosen.astype(np.float32)
+                )
             else:
                 chosen = game.action_space(agent).sample()
             game.step(None if ended else chosen)

@@ -1,4 +1,6 @@
-"""Plans: the choices are those of C whatever the threads, win more with smaller errors, and arguments in error are named."""
+"""Plans: the choices are those of C whatever the threads, win more with smaller errors, and
+arguments in error are named.
+"""
 
 import os
 import runpy
@@ -20,7 +22,11 @@ LAYOUT = carom.balls([[0.4, 0.9], [0.3, 1.9], [0.9, 1.7], [0.7, 0.5]])
 def test_plan():
     best = carom.plan(TABLE, LAYOUT, rules="potting", shots=300)
     again = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, threads=2)
-    assert best.dtype == carom.dtypes.choice and 1 <= len(best) <= 5 and best.tobytes() == again.tobytes()
+    assert (
+        best.dtype == carom.dtypes.choice
+        and 1 <= len(best) <= 5
+        and best.tobytes() == again.tobytes()
+    )
     assert best["ball"][0] in (1, 2, 3) and 0.3 < best["value"][0] <= 1.0 and best["keep"][0] > 0.5
     # the stroke pots the ball that it says
     shots = carom.simulate_batch(TABLE, LAYOUT, best["cue"][:1], features=True)
@@ -51,12 +57,22 @@ def test_points_of_three_cushion():
     table = carom.tables.threecushion()
     layout, cue = carom.racks.threecushion(table), carom.cue(game="billiard")
     best = carom.plan(table, layout, cue, rules="threecushion", shots=600)
-    assert abs(best["value"][0] - best["keep"][0] + 0.75 * best["error"][0]) < 1e-12 and best["keep"][0] > 0.2
+    assert (
+        abs(best["value"][0] - best["keep"][0] + 0.75 * best["error"][0]) < 1e-12
+        and best["keep"][0] > 0.2
+    )
     assert set(best["pocket"]) == {-1} and best["ball"][0] in (1, 2)
     for rules in ("threecushion", Points()):
-        hit = [carom.referee(table, layout, carom.with_errors(best["cue"][0], carom.player(), 1, k), rules=rules) for k in range(40)]
+        hit = [
+            carom.referee(
+                table, layout, carom.with_errors(best["cue"][0], carom.player(), 1, k), rules=rules
+            )
+            for k in range(40)
+        ]
         points = [ruling.points for ruling in hit]
-        assert abs(np.mean(points) - best["keep"][0]) < 0.35 and [ruling.turn == "keep" for ruling in hit] == [point == 1.0 for point in points]
+        assert abs(np.mean(points) - best["keep"][0]) < 0.35 and [
+            ruling.turn == "keep" for ruling in hit
+        ] == [point == 1.0 for point in points]
     with pytest.raises(ValueError, match="table: threecushion needs one without pockets"):
         carom.plan(TABLE, LAYOUT, rules="threecushion", shots=100)
     with pytest.raises(ValueError, match="balls: threecushion needs three"):
@@ -64,23 +80,45 @@ def test_points_of_three_cushion():
 
 
 def test_a_layout_is_planned_by_the_numbers_of_its_balls():
-    """Not by their order, as the command does: the lowest ball is on, wherever it stands in the list."""
+    """Not by their order, as the command does: the lowest ball is on, wherever it stands in the
+    list.
+    """
     places = {"5": [0.3, 1.9], "cue": [0.4, 0.9], "2": [0.9, 1.7], "9": [0.7, 0.5]}
     layout = carom.by_number(carom.balls(list(places.values())), list(places), "nineball")
-    assert layout.shape == (10,) and all(layout["state"]["r"][int(name.replace("cue", "0")), :2].tolist() == at for name, at in places.items())
-    assert np.flatnonzero(layout["state"]["label"] == carom.Label.POCKETED).tolist() == [1, 3, 4, 6, 7, 8]
+    assert layout.shape == (10,) and all(
+        layout["state"]["r"][int(name.replace("cue", "0")), :2].tolist() == at
+        for name, at in places.items()
+    )
+    assert np.flatnonzero(layout["state"]["label"] == carom.Label.POCKETED).tolist() == [
+        1,
+        3,
+        4,
+        6,
+        7,
+        8,
+    ]
     best = carom.plan(TABLE, layout, rules="nineball", shots=300, best=1)[0]
     shot = carom.simulate_batch(TABLE, layout, best["cue"][np.newaxis], features=True)
     assert shot.features.contact[0, 0] == 2
-    assert carom.by_number(layout[[0, 9, 5, 2]], [0, 9, 5, 2], "nineball", cue=0).tobytes() == layout.tobytes()
+    assert (
+        carom.by_number(layout[[0, 9, 5, 2]], [0, 9, 5, 2], "nineball", cue=0).tobytes()
+        == layout.tobytes()
+    )
     assert carom.by_number(layout, range(10), "eightball", cue=0).shape == (16,)
     for ids, rules, told in (
-        (["cue", "5", "5", "9"], "nineball", "ball '5': the balls of nineball are the cue ball and 1 to 9, each once"),
-        (["cue", "5", "10", "9"], "nineball", "ball '10'"), (["cue", "5", "red", "9"], "eightball", "'red': .* 1 to 15"),
-        (["cue", "0", "1", "9"], "nineball", "ball '0'"), (["1", "2", "3", "9"], "nineball", "cue: it must be one of the ids"),
-        (["cue", "5"], "nineball", "ids: one for each ball"), (["cue", "5", "2", "9"], "tenball", "rules: must be one of"),
+        (
+            ["cue", "5", "5", "9"],
+            "nineball",
+            "ball '5': the balls of nineball are the cue ball and 1 to 9, each once",
+        ),
+        (["cue", "5", "10", "9"], "nineball", "ball '10'"),
+        (["cue", "5", "red", "9"], "eightball", "'red': .* 1 to 15"),
+        (["cue", "0", "1", "9"], "nineball", "ball '0'"),
+        (["1", "2", "3", "9"], "nineball", "cue: it must be one of the ids"),
+        (["cue", "5"], "nineball", "ids: one for each ball"),
+        (["cue", "5", "2", "9"], "tenball", "rules: must be one of"),
         (["cue", "red5", "pink", "red20"], "snooker", "ball 'red20'"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(ValueError, match=told):
             carom.by_number(LAYOUT, ids, rules)
 
@@ -90,24 +128,54 @@ def test_aim():
     for tip in ((0.0, 0.25), (0.4, 0.0), (-0.3, -0.2)):
         pot = carom.aim(TABLE, layout, carom.cue(tip=tip), ball=1, pocket="foot-left")
         shot = carom.simulate(TABLE, layout, pot.cue)
-        assert (1, 2) in [(event["a"], event["b"]) for event in shot.events if event["type"] == carom.EventType.POCKET]
-        assert pot.phi[0] < pot.cue["phi"] < pot.phi[1] and pot.speed[0] < pot.cue["speed"] < pot.speed[1]
+        assert (1, 2) in [
+            (event["a"], event["b"])
+            for event in shot.events
+            if event["type"] == carom.EventType.POCKET
+        ]
+        assert (
+            pot.phi[0] < pot.cue["phi"] < pot.phi[1]
+            and pot.speed[0] < pot.cue["speed"] < pot.speed[1]
+        )
         assert 5.0 < pot.cut < 20.0 and pot.margin > 1.0
 
 
 def test_aim_by_a_way():
     bank, combination = [[0.9, 1.5]], [[0.55, 1.3], [0.4, 1.8]]
-    ways = ((bank, 1, "foot-left", ["right"]), (combination, 2, 2, [1]), (combination, 2, "foot-right", [1, "left"]), (bank, 1, "foot-right", ["left", 1]))
+    ways = (
+        (bank, 1, "foot-left", ["right"]),
+        (combination, 2, 2, [1]),
+        (combination, 2, "foot-right", [1, "left"]),
+        (bank, 1, "foot-right", ["left", 1]),
+    )
     for places, ball, pocket, via in ways:
         layout = carom.balls([[0.6, 0.8], *places])
         pot = carom.aim(TABLE, layout, carom.cue(speed=3.0), ball=ball, pocket=pocket, via=via)
         events = carom.simulate(TABLE, layout, pot.cue).events
-        fallen = next(k for k, event in enumerate(events) if event["type"] == carom.EventType.POCKET and event["a"] == ball)
-        of_ball = [event for event in events[:fallen] if event["type"] in (carom.EventType.BALL_BALL, carom.EventType.RAIL) and ball in (event["a"], event["b"])]
-        met = [event["a"] + event["b"] - ball if event["type"] == carom.EventType.BALL_BALL else TABLE.rail_names[event["b"]] for event in of_ball]
+        fallen = next(
+            k
+            for k, event in enumerate(events)
+            if event["type"] == carom.EventType.POCKET and event["a"] == ball
+        )
+        of_ball = [
+            event
+            for event in events[:fallen]
+            if event["type"] in (carom.EventType.BALL_BALL, carom.EventType.RAIL)
+            and ball in (event["a"], event["b"])
+        ]
+        met = [
+            event["a"] + event["b"] - ball
+            if event["type"] == carom.EventType.BALL_BALL
+            else TABLE.rail_names[event["b"]]
+            for event in of_ball
+        ]
         way = [0] if ball in via else ([] if 1 in via else [0]) + via
         if ball in via:  # a kick: the cue ball meets the rail first
-            assert [TABLE.rail_names[event["b"]] for event in events[:fallen] if event["type"] == carom.EventType.RAIL][0] == via[0]
+            assert [
+                TABLE.rail_names[event["b"]]
+                for event in events[:fallen]
+                if event["type"] == carom.EventType.RAIL
+            ][0] == via[0]
         assert met[: len(way)] == way, met  # then it may touch what is beside the pocket
         assert TABLE.pocket_names[events[fallen]["b"]] == ("foot-left" if pocket == 2 else pocket)
 
@@ -115,29 +183,50 @@ def test_aim_by_a_way():
 @pytest.mark.parametrize(
     ("changes", "match"),
     [
-        ({"pocket": "head-right"}, "pocket: no such aim at head-right: no direction of the cue sends ball 1 there"),
+        (
+            {"pocket": "head-right"},
+            "pocket: no such aim at head-right: no direction of the cue sends ball 1 there",
+        ),
         ({"ball": 2}, "ball: there are 2, not 3"),
-        ({"pocket": "foot"}, "pocket: it must be one of foot-left, foot-right, head-left, head-right, side-left, side-right, not 'foot'"),
+        (
+            {"pocket": "foot"},
+            "pocket: it must be one of foot-left, foot-right, head-left, head-right, side-left, side-right, not 'foot'",
+        ),
         ({"via": ["top"]}, "via: it must be one of foot, head, left, right, not 'top'"),
-        ({"via": [1, "left", 1]}, "via: it must be up to 4 names of rails and indices of balls, each once, not the cue ball, and 1 last"),
+        (
+            {"via": [1, "left", 1]},
+            "via: it must be up to 4 names of rails and indices of balls, each once, not the cue ball, and 1 last",
+        ),
         ({"speed": 0.6}, "pocket: no such aim at foot-left: ball 1 comes to rest on its way"),
     ],
 )
 def test_no_such_aim(changes, match):
     given = {"ball": 1, "pocket": "foot-left", "speed": 2.0} | changes
     with pytest.raises(ValueError, match=match):
-        carom.aim(TABLE, carom.balls([[0.6, 0.8], [0.4, 1.7]]), carom.cue(speed=given.pop("speed")), **given)
+        carom.aim(
+            TABLE,
+            carom.balls([[0.6, 0.8], [0.4, 1.7]]),
+            carom.cue(speed=given.pop("speed")),
+            **given,
+        )
 
 
 def test_elevation_of_an_aim():
     layout = carom.balls([[0.62, 0.03], [0.4, 2.2]])
     level = carom.aim(TABLE, layout, carom.cue(speed=3.0), ball=1, pocket="foot-left")
-    raised = carom.aim(TABLE, layout, carom.cue(speed=3.0, theta=np.nan), ball=1, pocket="foot-left")
+    raised = carom.aim(
+        TABLE, layout, carom.cue(speed=3.0, theta=np.nan), ball=1, pocket="foot-left"
+    )
     assert level.cue["theta"] == 0.0 and 10.0 < level.elevation < 20.0
     assert raised.cue["theta"] == raised.elevation == pytest.approx(level.elevation, abs=0.1)
     behind = carom.balls([[0.62, 1.6], [0.4, 2.2], [0.6391, 1.546]])
-    with pytest.raises(ValueError, match="the stick would be raised by 6.* degrees over what is behind the cue ball"):
-        carom.aim(TABLE, behind, carom.cue(speed=3.0, theta=np.nan, b=-0.5), ball=1, pocket="foot-left")
+    with pytest.raises(
+        ValueError,
+        match="the stick would be raised by 6.* degrees over what is behind the cue ball",
+    ):
+        carom.aim(
+            TABLE, behind, carom.cue(speed=3.0, theta=np.nan, b=-0.5), ball=1, pocket="foot-left"
+        )
 
 
 def test_chances_of_strokes():
@@ -146,10 +235,17 @@ def test_chances_of_strokes():
     cues = np.array([best["cue"][0], away])
     told = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7)
     again = carom.chances(TABLE, LAYOUT, cues, rules="potting", shots=2000, seed=7, threads=2)
-    assert told.dtype == carom.dtypes.choice and told.shape == (2,) and told.tobytes() == again.tobytes() and told["seen"].tolist() == [1000, 1000]
+    assert (
+        told.dtype == carom.dtypes.choice
+        and told.shape == (2,)
+        and told.tobytes() == again.tobytes()
+        and told["seen"].tolist() == [1000, 1000]
+    )
     assert abs(told["keep"][0] - best["keep"][0]) < 0.1 and told["keep"][1] < told["keep"][0] - 0.3
     assert (told["ball"][0], told["pocket"][0]) == (best["ball"][0], best["pocket"][0])
-    one = carom.chances(TABLE, LAYOUT, best["cue"][0], rules="potting", shots=100, player=carom.player(0.0))
+    one = carom.chances(
+        TABLE, LAYOUT, best["cue"][0], rules="potting", shots=100, player=carom.player(0.0)
+    )
     assert one.shape == () and one["keep"] in (0.0, 1.0) and one["error"] < 1e-6
     with pytest.raises(ValueError, match="cues: 1 to 1000 are needed, not 0"):
         carom.chances(TABLE, LAYOUT, cues[:0], rules="potting")
@@ -177,18 +273,34 @@ def test_ball_in_hand():
     layout = LAYOUT.copy()
     layout["state"]["label"][0] = carom.Label.POCKETED
     best = carom.plan(TABLE, layout, rules="nineball", shots=200, in_hand=True)
-    assert np.ptp(best["place"], axis=0).max() == 0.0 and (best["place"][0] > 0.0).all() and best["ball"][0] >= 1
+    assert (
+        np.ptp(best["place"], axis=0).max() == 0.0
+        and (best["place"][0] > 0.0).all()
+        and best["ball"][0] >= 1
+    )
 
 
 def test_ball_in_hand_in_a_part():
-    best = carom.plan(TABLE, LAYOUT, rules="potting", shots=200, in_hand=[[0.0, 0.0], [TABLE.width, 0.4]])
+    best = carom.plan(
+        TABLE, LAYOUT, rules="potting", shots=200, in_hand=[[0.0, 0.0], [TABLE.width, 0.4]]
+    )
     assert 0.0 < best["place"][0, 1] < 0.4
 
 
 def test_the_opponent_counts():
     # whoever misses against a weak opponent gets another turn
-    values = [carom.plan(TABLE, LAYOUT, rules="nineball", shots=300, player=carom.player(2.0), opponent=carom.player(e), best=1)["value"][0]
-              for e in (0.2, 8.0)]  # fmt: skip
+    values = [
+        carom.plan(
+            TABLE,
+            LAYOUT,
+            rules="nineball",
+            shots=300,
+            player=carom.player(2.0),
+            opponent=carom.player(e),
+            best=1,
+        )["value"][0]
+        for e in (0.2, 8.0)
+    ]
     assert values[1] > values[0] + 0.05
 
 
@@ -204,13 +316,18 @@ def test_strokes_with_errors():
     player = carom.player(2.0)
     made = np.array([carom.with_errors(cue, player, 5, k) for k in range(4000)])
     np.testing.assert_allclose([made["speed"].mean(), made["phi"].mean()], [2.0, 40.0], atol=0.02)
-    np.testing.assert_allclose([made["speed"].std(), made["phi"].std(), made["a"].std()], [0.2, 0.2, 0.006], rtol=0.06)
+    np.testing.assert_allclose(
+        [made["speed"].std(), made["phi"].std(), made["a"].std()], [0.2, 0.2, 0.006], rtol=0.06
+    )
     # a leather tip takes a faster cue, and the same speeds of the ball
     cue["speed"], cue["tip_restitution"] = 4.0 / 1.73, 0.73
     leather = np.array([carom.with_errors(cue, player, 5, k) for k in range(100)])
     np.testing.assert_allclose(leather["speed"] * 1.73 / 2.0, made["speed"][:100], rtol=1e-14)
     cue["speed"], cue["tip_restitution"] = 2.0, 1.0
-    assert made[7].tobytes() == carom.with_errors(cue, player, 5, 7).tobytes() and made["theta"].min() >= 0.0
+    assert (
+        made[7].tobytes() == carom.with_errors(cue, player, 5, 7).tobytes()
+        and made["theta"].min() >= 0.0
+    )
     player["phi"] = 0.0
     assert carom.with_errors(cue, player, 5)["phi"] == 40.0
 
@@ -251,40 +368,74 @@ RACK = carom.racks.eightball(TABLE)
 @pytest.mark.parametrize(
     ("given", "match"),
     [
-        ({"state": [0] * 8, "group": "open"}, "state, group: the state says the group, too: give one of both"),
+        (
+            {"state": [0] * 8, "group": "open"},
+            "state, group: the state says the group, too: give one of both",
+        ),
         ({"state": [0] * 8, "opening": True}, "state, opening: the state says the opening, too"),
-        ({"rules": "nineball", "group": "solids", "balls": RACK[:10]}, "group: by the rules nineball it must be 0, as the game has none"),
-        ({"rules": "potting", "opening": True}, "opening: by the rules potting it must be 0, as the game has none"),
+        (
+            {"rules": "nineball", "group": "solids", "balls": RACK[:10]},
+            "group: by the rules nineball it must be 0, as the game has none",
+        ),
+        (
+            {"rules": "potting", "opening": True},
+            "opening: by the rules potting it must be 0, as the game has none",
+        ),
         ({"rules": "nineball"}, "balls: the balls of nineball are the cue ball and 1 to 9, not 10"),
-        ({"balls": _down(RACK, slice(1, None))}, "balls: no ball is left to be played: all that count are down, or the eight is"),
-        ({"balls": _down(RACK, slice(1, None)), "rules": "potting"}, "no ball is left to be played"),
+        (
+            {"balls": _down(RACK, slice(1, None))},
+            "balls: no ball is left to be played: all that count are down, or the eight is",
+        ),
+        (
+            {"balls": _down(RACK, slice(1, None)), "rules": "potting"},
+            "no ball is left to be played",
+        ),
         ({"balls": _down(RACK, 8)}, "no ball is left to be played"),
         ({"player": _player(phi=-1.0)}, "player: phi: it must be 0 to 1000, not -1.0"),
         ({"opponent": _player(tip_most=3.0)}, "opponent: tip_most: it must be 0 to 1, not 3.0"),
-        ({"table": carom.tables.threecushion(), "balls": carom.racks.threecushion(carom.tables.threecushion()), "rules": "potting"},
-         "table: it has no pockets, which potting needs"),
+        (
+            {
+                "table": carom.tables.threecushion(),
+                "balls": carom.racks.threecushion(carom.tables.threecushion()),
+                "rules": "potting",
+            },
+            "table: it has no pockets, which potting needs",
+        ),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_planned(given, match):
     with pytest.raises(ValueError, match=match):
         carom.plan(given.pop("table", TABLE), given.pop("balls", RACK), shots=100, **given)
 
 
 def test_a_player_has_one_strength():
-    with pytest.raises(ValueError, match="errors, fargo: a player has errors or a rating, not both"):
+    with pytest.raises(
+        ValueError, match="errors, fargo: a player has errors or a rating, not both"
+    ):
         carom.player(1.0, fargo=500)
 
 
-# ---- Rules ----------------------------------------------------------------------------------------------------------------
+# ---- Rules
+# ----------------------------------------------------------------------------------------------------------------
 
-ORDER = carom.balls([[0.4, 0.4], [0.15, 0.15], [0.9, 1.7], [0.7, 2.2]])  # the one before the pocket at the origin
+ORDER = carom.balls(
+    [[0.4, 0.4], [0.15, 0.15], [0.9, 1.7], [0.7, 2.2]]
+)  # the one before the pocket at the origin
 
 
 def test_a_referee():
     best = carom.plan(TABLE, ORDER, rules="nineball", shots=300)[0]
     ruling = carom.referee(TABLE, ORDER, best["cue"], rules="nineball")
-    assert (ruling.turn, ruling.foul, ruling.hand, ruling.potted, ruling.first) == ("keep", carom.Foul.NONE, "no", (1,), 1)
-    assert ruling.balls["state"].tobytes() == carom.simulate(TABLE, ORDER, best["cue"]).final.tobytes() and not any(ruling.state.tobytes())
+    assert (ruling.turn, ruling.foul, ruling.hand, ruling.potted, ruling.first) == (
+        "keep",
+        carom.Foul.NONE,
+        "no",
+        (1,),
+        1,
+    )
+    assert ruling.balls["state"].tobytes() == carom.simulate(
+        TABLE, ORDER, best["cue"]
+    ).final.tobytes() and not any(ruling.state.tobytes())
     # eight-ball without a call passes the turn, with it the groups are known
     passed = carom.referee(TABLE, ORDER, best["cue"])
     called = carom.referee(TABLE, ORDER, best["cue"], call=(1, int(best["pocket"])))
@@ -292,15 +443,29 @@ def test_a_referee():
     # a foul, and the third of a player
     away = carom.cue(speed=1.0, phi=90.0)
     foul = carom.referee(TABLE, ORDER, away, rules="nineball", state={"fouls": (1, 2)})
-    assert (foul.turn, foul.foul, foul.hand, foul.state["fouls"].tolist()) == ("pass", carom.Foul.NO_BALL, "anywhere", [2, 2])
+    assert (foul.turn, foul.foul, foul.hand, foul.state["fouls"].tolist()) == (
+        "pass",
+        carom.Foul.NO_BALL,
+        "anywhere",
+        [2, 2],
+    )
     assert foul.foul.text == "the cue ball met no ball"
     assert carom.referee(TABLE, ORDER, away, rules="nineball", state=foul.state).turn == "lose"
 
 
 def test_a_push_out_may_be_passed():
-    pushed = carom.referee(TABLE, ORDER, carom.cue(speed=0.5, phi=0.0), rules="nineball", state={"may": 2}, call=(-2, -1))
+    pushed = carom.referee(
+        TABLE,
+        ORDER,
+        carom.cue(speed=0.5, phi=0.0),
+        rules="nineball",
+        state={"may": 2},
+        call=(-2, -1),
+    )
     assert (pushed.turn, pushed.foul, int(pushed.state["may"])) == ("pass", carom.Foul.NONE, 1)
-    passed = carom.referee(TABLE, pushed.balls, carom.cue(), rules="nineball", state=pushed.state, call=(-3, -1))
+    passed = carom.referee(
+        TABLE, pushed.balls, carom.cue(), rules="nineball", state=pushed.state, call=(-3, -1)
+    )
     assert (passed.turn, passed.foul, int(passed.state["may"])) == ("pass", carom.Foul.NONE, 0)
     assert passed.balls["state"]["r"].tobytes() == pushed.balls["state"]["r"].tobytes()
 
@@ -324,21 +489,37 @@ class Corner(carom.Rules):
         state[1] += len(good)
         if facts.foul(self.on(state, in_play)) == carom.Foul.CUE_BALL:
             return carom.Turn("pass", "kitchen", carom.Foul.CUE_BALL)
-        return carom.Turn("keep" if good else "pass", spot=facts.potted.keys() - set(good), points=len(good))
+        return carom.Turn(
+            "keep" if good else "pass", spot=facts.potted.keys() - set(good), points=len(good)
+        )
 
 
 def test_rules_of_ones_own():
     for pocket in range(6):
-        best = carom.plan(TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300)
+        best = carom.plan(
+            TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300
+        )
         assert set(best["pocket"]) <= {pocket, -1}
-        again = carom.plan(TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300, threads=2)
+        again = carom.plan(
+            TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300, threads=2
+        )
         assert best.tobytes() == again.tobytes()
     best = carom.plan(TABLE, ORDER, rules="nineball", shots=300)[0]
     corner, pot = int(best["pocket"]), best["cue"]
     here = carom.referee(TABLE, ORDER, pot, rules=Corner(), state=[corner, 5, 0, 0, 0, 0, 0, 0])
-    assert (here.turn, here.points, here.potted, here.state[:2].tolist()) == ("keep", 1.0, (1,), [corner, 6])
-    there = carom.referee(TABLE, ORDER, pot, rules=Corner(), state=[(corner + 1) % 6, 5, 0, 0, 0, 0, 0, 0])
-    assert there.turn == "pass" and there.balls["state"]["r"][1, :2].tolist() == [TABLE.width / 2, 0.75 * TABLE.length]
+    assert (here.turn, here.points, here.potted, here.state[:2].tolist()) == (
+        "keep",
+        1.0,
+        (1,),
+        [corner, 6],
+    )
+    there = carom.referee(
+        TABLE, ORDER, pot, rules=Corner(), state=[(corner + 1) % 6, 5, 0, 0, 0, 0, 0, 0]
+    )
+    assert there.turn == "pass" and there.balls["state"]["r"][1, :2].tolist() == [
+        TABLE.width / 2,
+        0.75 * TABLE.length,
+    ]
 
 
 def test_a_plan_is_stopped():
@@ -369,13 +550,29 @@ def test_a_plan_is_stopped():
     ("method", "gives", "match"),
     [
         ("judge", None, "judge: it must return a carom.Turn, not None"),
-        ("judge", carom.Turn("passes"), "Turn.turn: must be one of 'keep', 'pass', 'win', 'lose', not 'passes'"),
-        ("judge", carom.Turn("pass", spot=[99]), "Turn.spot: it must be a whole number from 0 to 31, not 99"),
+        (
+            "judge",
+            carom.Turn("passes"),
+            "Turn.turn: must be one of 'keep', 'pass', 'win', 'lose', not 'passes'",
+        ),
+        (
+            "judge",
+            carom.Turn("pass", spot=[99]),
+            "Turn.spot: it must be a whole number from 0 to 31, not 99",
+        ),
         ("judge", carom.Turn("pass", spot=[30]), "Turn.spot: there are 16 balls, none is 30"),
-        ("judge", carom.Turn("pass", spot=[0, 1]), r"Turn.spot: balls come back that are down or off the table, not the cue ball, and not \[0, 1\]"),
+        (
+            "judge",
+            carom.Turn("pass", spot=[0, 1]),
+            r"Turn.spot: balls come back that are down or off the table, not the cue ball, and not \[0, 1\]",
+        ),
         ("left", (-1, 8), "left: it must be a whole number from 0"),
         ("pockets", {9}, "pockets: it must be a whole number from 0 to 7, not 9"),
-        ("pockets", {"foot-left"}, "pockets: it must be a whole number from 0 to 7, not 'foot-left'"),
+        (
+            "pockets",
+            {"foot-left"},
+            "pockets: it must be a whole number from 0 to 7, not 'foot-left'",
+        ),
         ("on", {-1}, "on: it must be a whole number from 0 to 31, not -1"),
     ],
 )
@@ -392,7 +589,9 @@ def test_what_rules_cannot_say(method, gives, match):
 def test_the_bot_for_ten_ball(capsys):
     runpy.run_path(str(Path(__file__).parents[2] / "examples" / "ten_ball.py"))
     told = capsys.readouterr().out.splitlines()
-    assert len(told) > 5 and told[-1] == f"after {len(told)} strokes: player 0 has won"  # the one with a rating of 750
+    assert (
+        len(told) > 5 and told[-1] == f"after {len(told)} strokes: player 0 has won"
+    )  # the one with a rating of 750
 
 
 def test_errors_of_rules():
@@ -418,8 +617,13 @@ def test_errors_of_rules():
         carom.plan(TABLE, LAYOUT, in_hand="head", shots=100)
     with pytest.raises(ValueError, match="state: 8 whole numbers"):
         carom.plan(TABLE, LAYOUT, rules=Corner(), state=[1, 2])
-    for state, match in (({"grup": 1}, "state: there is no 'grup'; there are opening, group"), ({"group": "reds"}, "state: group: must be one of 'open'"),
-                         ({"group": 3}, "group: by the rules eightball it must be 0, 1 or 2"), ({"group": 0.5}, "state: group: "), ([0] * 8, "state: an array")):  # fmt: skip
+    for state, match in (
+        ({"grup": 1}, "state: there is no 'grup'; there are opening, group"),
+        ({"group": "reds"}, "state: group: must be one of 'open'"),
+        ({"group": 3}, "group: by the rules eightball it must be 0, 1 or 2"),
+        ({"group": 0.5}, "state: group: "),
+        ([0] * 8, "state: an array"),
+    ):
         with pytest.raises((TypeError, ValueError), match=match):
             carom.plan(TABLE, LAYOUT, state=state)
     with pytest.raises(carom.CaromError):
@@ -427,25 +631,54 @@ def test_errors_of_rules():
 
 
 def test_one_pocket():
-    """Plans play into the pocket of the player; a ball there counts, one elsewhere comes back; a foul costs a ball, which may be owed."""
+    """Plans play into the pocket of the player; a ball there counts, one elsewhere comes back; a
+    foul costs a ball, which may be owed.
+    """
     table = carom.tables.pool_9ft()
-    layout = carom.by_number(carom.balls([[0.6, 1.4], [0.95, 2.1], [0.3, 2.1]]), ["cue", 3, 9], "onepocket")
+    layout = carom.by_number(
+        carom.balls([[0.6, 1.4], [0.95, 2.1], [0.3, 2.1]]), ["cue", 3, 9], "onepocket"
+    )
     right, left = (table.pocket_names.index(name) for name in ("foot-right", "foot-left"))
     for own, other, ball in ((right, left, 3), (left, right, 9)):
         state = {"pocket": (own, other), "score": (5, 6)}
         best = carom.plan(table, layout, rules="onepocket", state=state, shots=600)
-        assert set(best["pocket"]) <= {own, -1} and (best["ball"][0], best["pocket"][0]) == (ball, own)
+        assert set(best["pocket"]) <= {own, -1} and (best["ball"][0], best["pocket"][0]) == (
+            ball,
+            own,
+        )
         made = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
-        assert made.turn == "keep" and made.potted == (ball,) and made.score == (6, 6) and made.points == 1.0
+        assert (
+            made.turn == "keep"
+            and made.potted == (ball,)
+            and made.score == (6, 6)
+            and made.points == 1.0
+        )
         # the same ball in the pocket of the other
         state["pocket"] = (other, own)
         given = carom.referee(table, layout, best["cue"][0], rules="onepocket", state=state)
-        assert given.turn == "pass" and given.score == (7, 5) and given.state["pocket"].tolist() == [own, other]
+        assert (
+            given.turn == "pass"
+            and given.score == (7, 5)
+            and given.state["pocket"].tolist() == [own, other]
+        )
     # no ball is met: one that counted comes back; who has none owes one
     for balls in (5, 0):
-        missed = carom.referee(table, layout, carom.cue(speed=0.5, phi=180.0), rules="onepocket", state={"pocket": (own, other), "score": (balls, 0)})
-        assert missed.turn == "pass" and missed.foul == carom.Foul.NO_BALL and missed.score == (0, balls - 1) and missed.hand == "no"
-        assert np.count_nonzero(missed.balls["state"]["label"] == carom.Label.STATIONARY) == (12 if balls else 16)
+        missed = carom.referee(
+            table,
+            layout,
+            carom.cue(speed=0.5, phi=180.0),
+            rules="onepocket",
+            state={"pocket": (own, other), "score": (balls, 0)},
+        )
+        assert (
+            missed.turn == "pass"
+            and missed.foul == carom.Foul.NO_BALL
+            and missed.score == (0, balls - 1)
+            and missed.hand == "no"
+        )
+        assert np.count_nonzero(missed.balls["state"]["label"] == carom.Label.STATIONARY) == (
+            12 if balls else 16
+        )
     with pytest.raises(ValueError, match="balls: onepocket has the cue ball and 1 to 15"):
         carom.plan(table, layout[:10], rules="onepocket")
     with pytest.raises(ValueError, match="opening: by the rules onepocket it must be 0"):
@@ -453,17 +686,40 @@ def test_one_pocket():
 
 
 def test_straight_pool_and_snooker():
-    """A called ball counts; a foul costs, and gives the other the table; colours come back to their own spots; the D."""
+    """A called ball counts; a foul costs, and gives the other the table; colours come back to their
+    own spots; the D.
+    """
     table, pool = carom.tables.pool_9ft(), carom.racks.eightball(carom.tables.pool_9ft())
-    layout = carom.by_number(carom.balls([[0.4, 0.9], [0.3, 1.9], [0.9, 1.7]]), ["cue", 3, 9], "straight")
+    layout = carom.by_number(
+        carom.balls([[0.4, 0.9], [0.3, 1.9], [0.9, 1.7]]), ["cue", 3, 9], "straight"
+    )
     best = carom.plan(table, layout, rules="straight", shots=600)[0]
-    ruling = carom.referee(table, layout, best["cue"], rules="straight", call=(best["ball"], best["pocket"]))
-    assert ruling.facts.first == ruling.first == best["ball"] and ruling.facts.potted == {best["ball"]: best["pocket"]}
-    assert ruling.turn == "keep" and ruling.score == (1, 0) and ruling.points == 1.0 and ruling.hand == "no"
+    ruling = carom.referee(
+        table, layout, best["cue"], rules="straight", call=(best["ball"], best["pocket"])
+    )
+    assert ruling.facts.first == ruling.first == best["ball"] and ruling.facts.potted == {
+        best["ball"]: best["pocket"]
+    }
+    assert (
+        ruling.turn == "keep"
+        and ruling.score == (1, 0)
+        and ruling.points == 1.0
+        and ruling.hand == "no"
+    )
     # one ball is left: the others are racked
-    assert np.count_nonzero(ruling.balls["state"]["label"] == carom.Label.STATIONARY) == 16 and ruling.state["target"] == 100
-    missed = carom.referee(table, layout, carom.cue(speed=0.5, phi=180.0), rules="straight", state=ruling.state)
-    assert missed.turn == "pass" and missed.foul == carom.Foul.NO_BALL and missed.score == (0, 0) and missed.state["lost"][1] == 1
+    assert (
+        np.count_nonzero(ruling.balls["state"]["label"] == carom.Label.STATIONARY) == 16
+        and ruling.state["target"] == 100
+    )
+    missed = carom.referee(
+        table, layout, carom.cue(speed=0.5, phi=180.0), rules="straight", state=ruling.state
+    )
+    assert (
+        missed.turn == "pass"
+        and missed.foul == carom.Foul.NO_BALL
+        and missed.score == (0, 0)
+        and missed.state["lost"][1] == 1
+    )
     with pytest.raises(ValueError, match="balls: straight has the cue ball and 1 to 15"):
         carom.plan(table, pool[:10], rules="straight")
     opening = carom.plan(table, pool, rules="straight", opening=True, in_hand="kitchen", shots=200)
@@ -472,34 +728,75 @@ def test_straight_pool_and_snooker():
     table = carom.tables.snooker()
     rack, cue = carom.racks.snooker(table), carom.cue(game="snooker")
     first = carom.plan(table, rack, cue, rules="snooker", in_hand="d", shots=300)[0]
-    assert np.hypot(first["place"][0] - table.width / 2, first["place"][1] - 0.737) < 0.2921 and first["place"][1] < 0.7371
+    assert (
+        np.hypot(first["place"][0] - table.width / 2, first["place"][1] - 0.737) < 0.2921
+        and first["place"][1] < 0.7371
+    )
     names = ["white", "red1", *("yellow", "green", "brown", "blue", "pink", "black")]
     spots = rack["state"]["r"][16:, :2]
-    layout = carom.by_number(carom.balls([[1.4, 3.2], [0.3, 1.2], *spots], game="snooker"), names, "snooker", cue="white")
-    assert carom.value(table, layout, rules="snooker") < carom.value(table, layout, rules="snooker", state={"score": (30, 0)})
+    layout = carom.by_number(
+        carom.balls([[1.4, 3.2], [0.3, 1.2], *spots], game="snooker"), names, "snooker", cue="white"
+    )
+    assert carom.value(table, layout, rules="snooker") < carom.value(
+        table, layout, rules="snooker", state={"score": (30, 0)}
+    )
     black = {"on": 1}  # a colour is on
-    best = carom.plan(table, layout, cue, rules="snooker", state=black, shots=1000, player=carom.player(errors=0.2))[0]
+    best = carom.plan(
+        table,
+        layout,
+        cue,
+        rules="snooker",
+        state=black,
+        shots=1000,
+        player=carom.player(errors=0.2),
+    )[0]
     assert best["ball"] == 21
     ruling = carom.referee(table, layout, best["cue"], rules="snooker", state=black, call=(21, -1))
-    assert ruling.turn == "keep" and ruling.score == (7, 0) and ruling.potted == (21,) and ruling.balls["state"]["r"][21, :2].tolist() == spots[5].tolist()
+    assert (
+        ruling.turn == "keep"
+        and ruling.score == (7, 0)
+        and ruling.potted == (21,)
+        and ruling.balls["state"]["r"][21, :2].tolist() == spots[5].tolist()
+    )
     # no ball is met: four points for the other, who may let the offender play again
-    scratch = carom.referee(table, layout, carom.cue(game="snooker", speed=0.1, phi=0.0), rules="snooker")
-    assert scratch.foul == carom.Foul.NO_BALL and scratch.score == (4, 0) and int(scratch.state["may"]) & 1
-    again = carom.referee(table, scratch.balls, cue, rules="snooker", state=scratch.state, call=(-3, -1))
-    assert again.turn == "pass" and again.foul == carom.Foul.NONE and again.score == (0, 4) and again.state["may"] == 0
+    scratch = carom.referee(
+        table, layout, carom.cue(game="snooker", speed=0.1, phi=0.0), rules="snooker"
+    )
+    assert (
+        scratch.foul == carom.Foul.NO_BALL
+        and scratch.score == (4, 0)
+        and int(scratch.state["may"]) & 1
+    )
+    again = carom.referee(
+        table, scratch.balls, cue, rules="snooker", state=scratch.state, call=(-3, -1)
+    )
+    assert (
+        again.turn == "pass"
+        and again.foul == carom.Foul.NONE
+        and again.score == (0, 4)
+        and again.state["may"] == 0
+    )
     with pytest.raises(ValueError, match="balls: snooker has the cue ball and 1 to 21"):
         carom.referee(table, layout[:5], cue, rules="snooker")
 
 
 def test_an_aim_that_follows_keeps_the_place_across_the_path():
-    """Of what is moved by h, the place where the ball falls stays within h^2; without following it moves by h."""
-    random, wrt, pots = np.random.default_rng(7), ["cue.speed", "cue.b", "balls[1].r[0]", "balls[0].r[1]"], 0
+    """Of what is moved by h, the place where the ball falls stays within h^2; without following it
+    moves by h.
+    """
+    random, wrt, pots = (
+        np.random.default_rng(7),
+        ["cue.speed", "cue.b", "balls[1].r[0]", "balls[0].r[1]"],
+        0,
+    )
     closed = {"cushion_model": "han", "ball_model": "inelastic"}
     while pots < 8:
         layout = carom.balls(random.uniform([0.2, 0.4], [1.07, 2.1], (2, 2)))
         try:
             wanted = carom.cue(speed=random.uniform(1.5, 3.0), b=random.uniform(-0.2, 0.3))
-            cue = carom.aim(TABLE, layout, wanted, ball=1, pocket=int(random.integers(6)), **closed).cue
+            cue = carom.aim(
+                TABLE, layout, wanted, ball=1, pocket=int(random.integers(6)), **closed
+            ).cue
             shot = carom.simulate(TABLE, layout, cue, **closed)
             slope = carom.aim_slope(shot, 1, wrt)
         except ValueError:
@@ -518,12 +815,23 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
             else:
                 balls["state"]["r"][1 - (j - 2), j - 2] += h
             other = carom.simulate(TABLE, balls, stroke, **closed)
-            return across @ (other.events[other.events["type"] == carom.EventType.POCKET][0]["before"][0]["r"] - fell["r"])[:2]
+            return (
+                across
+                @ (
+                    other.events[other.events["type"] == carom.EventType.POCKET][0]["before"][0][
+                        "r"
+                    ]
+                    - fell["r"]
+                )[:2]
+            )
 
         for j in range(4):
             # central differences of the place, whose error is of the order of h^2
             h = 1e-5
-            still, off = ((moved(j, h, follow) - moved(j, -h, follow)) / (2 * h) for follow in (slope[j], slope[j] + 1.0))
+            still, off = (
+                (moved(j, h, follow) - moved(j, -h, follow)) / (2 * h)
+                for follow in (slope[j], slope[j] + 1.0)
+            )
             assert abs(still) < 1e-4 * abs(off) + 1e-7 and abs(off) > 1e-4, (j, still, off)
     with pytest.raises(ValueError, match="ball 0 does not fall"):
         carom.aim_slope(shot, 0, wrt)
@@ -534,17 +842,33 @@ def test_an_aim_that_follows_keeps_the_place_across_the_path():
 
 
 CALLS = [
-    (carom.plan, {"table": TABLE, "balls": LAYOUT, "rules": "potting", "shots": 100},
-     "table balls rules group state player opponent shots seconds in_hand best seed threads stop options"),
-    (carom.aim, {"table": TABLE, "balls": LAYOUT, "cue": carom.cue(), "ball": 1, "pocket": 0},
-     "table balls cue ball pocket options"),
+    (
+        carom.plan,
+        {"table": TABLE, "balls": LAYOUT, "rules": "potting", "shots": 100},
+        "table balls rules group state player opponent shots seconds in_hand best seed threads stop options",
+    ),
+    (
+        carom.aim,
+        {"table": TABLE, "balls": LAYOUT, "cue": carom.cue(), "ball": 1, "pocket": 0},
+        "table balls cue ball pocket options",
+    ),
     (carom.player, {}, "errors fargo"),
-    (carom.with_errors, {"cue": carom.cue(), "player": carom.player(), "seed": 1}, "cue player seed number"),
-    (Potting, {}, "balls strokes table ball_set noise parameters reward speeds cushion_model threads"),
-]  # fmt: skip
+    (
+        carom.with_errors,
+        {"cue": carom.cue(), "player": carom.player(), "seed": 1},
+        "cue player seed number",
+    ),
+    (
+        Potting,
+        {},
+        "balls strokes table ball_set noise parameters reward speeds cushion_model threads",
+    ),
+]
 
 
-@pytest.mark.parametrize(("call", "good", "names"), CALLS, ids=[case[0].__qualname__ for case in CALLS])
+@pytest.mark.parametrize(
+    ("call", "good", "names"), CALLS, ids=[case[0].__qualname__ for case in CALLS]
+)
 def test_a_value_of_another_kind_is_refused_by_the_name_of_its_argument(call, good, names):
     refused_by_name(call, good, names)
 
@@ -553,9 +877,16 @@ def test_rating():
     """A rating by games is that of a fine sum over all ratings; a score in error is named."""
     random, r = np.random.default_rng(7), np.linspace(300, 850, 200_001)
     for rows in [[], *(random.uniform(0, [1000, 30, 30], (n, 3)) for n in (1, 2, 5))]:
-        logs = -((r - 400) ** 2) / 45000 - sum(w * np.logaddexp(0, x) + n * np.logaddexp(0, -x) for d, w, n in rows for x in [(d - r) * np.log(2) / 100])
+        logs = -((r - 400) ** 2) / 45000 - sum(
+            w * np.logaddexp(0, x) + n * np.logaddexp(0, -x)
+            for d, w, n in rows
+            for x in [(d - r) * np.log(2) / 100]
+        )
         mass = np.cumsum(np.exp(logs - logs.max()))
-        wanted = [np.average(r, weights=np.diff(mass, prepend=0)), *np.interp([0.025 * mass[-1], 0.975 * mass[-1]], mass, r)]
+        wanted = [
+            np.average(r, weights=np.diff(mass, prepend=0)),
+            *np.interp([0.025 * mass[-1], 0.975 * mass[-1]], mass, r),
+        ]
         assert np.allclose(carom.rating(rows), wanted, rtol=0, atol=0.01)
     with pytest.raises(carom.CaromError, match=r"scores\[1\] = .*games won and lost 0 to 1e9"):
         carom.rating([(500, 1, 1), (500, -1, 1)])

@@ -1,4 +1,6 @@
-"""The game of carom.potting by its rules, and its environments of gymnasium by gymnasium's checker and against each other."""
+"""The game of carom.potting by its rules, and its environments of gymnasium by gymnasium's checker
+and against each other.
+"""
 
 import importlib.util
 import warnings
@@ -23,11 +25,14 @@ def gymnasium():
     return gymnasium
 
 
-# ---- The rules ------------------------------------------------------------------------------------------------------------
+# ---- The rules
+# ------------------------------------------------------------------------------------------------------------
 
 
 def lined_up(rules, distance=0.3):
-    """Centres of a cue ball, a ball and a corner pocket in one line, the other balls far away; and the direction, degrees."""
+    """Centres of a cue ball, a ball and a corner pocket in one line, the other balls far away; and
+    the direction, degrees.
+    """
     pocket = rules.table.pockets["centre"][np.argmin(rules.table.pockets["centre"].sum(axis=1))]
     way = np.array([1.0, 1.0]) / np.sqrt(2.0)
     line = [pocket + (0.2 + distance) * way, pocket + 0.2 * way]
@@ -36,13 +41,17 @@ def lined_up(rules, distance=0.3):
 
 
 def test_draws_are_those_of_splitmix64():
-    """The first numbers of the key 1234567, as implementations of SplitMix64 are checked by; a seed is where a game stands."""
+    """The first numbers of the key 1234567, as implementations of SplitMix64 are checked by; a seed
+    is where a game stands.
+    """
     first = [6457827717110365317, 3203168211198807973, 9817491932198370423, 4593380528125082431]
     u = [(z >> 11) / 2**53 for z in first]
     draws, games = Draws([1234567, 7]), np.array([0])
     assert draws.seeds(games).tolist() == [1234567]
     draws.begin(games, [1234567])
-    assert draws.uniform(games, 3).tolist() == [u[:3]] and draws.uniform(games, 1).tolist() == [u[3:]]
+    assert draws.uniform(games, 3).tolist() == [u[:3]] and draws.uniform(games, 1).tolist() == [
+        u[3:]
+    ]
     draws.begin(games, [1234567])
     assert draws.uniform(np.array([1, 0]), 2)[1].tolist() == u[:2]
 
@@ -54,7 +63,8 @@ def test_a_pot_and_a_scratch_by_hand():
     stroke = rules.play(layout, rules.actions(phi, 2.0, b=-0.2))
     assert (stroke.potted, stroke.scratch, stroke.rewards, stroke.status) == (1, False, 1.0, 0)
     assert stroke.cleared
-    # Without the other ball in its way the cue ball goes down instead; put back, it lies on the table, clear of the other.
+    # Without the other ball in its way the cue ball goes down instead; put back, it lies on the
+    # table, clear of the other.
     moved = rules.layout([centres[0], [0.6, 2.0]])
     foul = rules.play(moved, rules.actions(phi, 2.0))
     assert (foul.potted, foul.scratch, foul.rewards, foul.cleared) == (0, True, -1.0, False)
@@ -70,8 +80,15 @@ def test_a_ball_that_leaves_the_table_is_a_foul_and_taken_back():
     layout = rules.layout([[0.5, 1.0], [0.9, 0.5], [0.9, 1.0], [0.9, 1.5]])
     cues = carom.cue(phi=180.0, speed=[12.0, 3.0], theta=[20.0, 0.0])
     strokes = rules._played(layout, cues)
-    assert carom.simulate_batch(rules.table, layout, cues).final["label"][:, 0].tolist() == [carom.Label.OFF, carom.Label.STATIONARY]
-    assert strokes.foul[0] != 0 and strokes.rewards[0] == -1.0 and strokes.layouts[0].tobytes() == layout.tobytes() != strokes.layouts[1].tobytes()
+    assert carom.simulate_batch(rules.table, layout, cues).final["label"][:, 0].tolist() == [
+        carom.Label.OFF,
+        carom.Label.STATIONARY,
+    ]
+    assert (
+        strokes.foul[0] != 0
+        and strokes.rewards[0] == -1.0
+        and strokes.layouts[0].tobytes() == layout.tobytes() != strokes.layouts[1].tobytes()
+    )
 
 
 def test_strokes_are_those_of_simulate():
@@ -83,7 +100,11 @@ def test_strokes_are_those_of_simulate():
         shot = rules.shot(layout, rules.cues(action))
         assert strokes.layouts["state"][k].tobytes() == shot.final.tobytes()
         alone = carom.simulate(
-            rules.table, layout, carom.cue(phi=180 * action[0], speed=3.75 + 3.25 * action[1], a=[0.3, 0, -0.1][k], b=0.2)
+            rules.table,
+            layout,
+            carom.cue(
+                phi=180 * action[0], speed=3.75 + 3.25 * action[1], a=[0.3, 0, -0.1][k], b=0.2
+            ),
         )
         np.testing.assert_allclose(shot.final["r"], alone.final["r"], atol=1e-9)
 
@@ -92,7 +113,9 @@ def test_a_stroke_in_error_is_taken_back():
     table = carom.tables.pool_9ft()
     # Without the cushions of one long side a ball can leave the table.
     there = (table.rails["p"][:, 0] > 0.1) | (table.rails["q"][:, 0] > 0.1)
-    opened = carom.Table(table.width, table.length, rails=table.rails[there], jaws=table.jaws, pockets=table.pockets)
+    opened = carom.Table(
+        table.width, table.length, rails=table.rails[there], jaws=table.jaws, pockets=table.pockets
+    )
     rules = Potting(balls=1, table=opened)
     layout = rules.layout([[0.4, 0.9], [1.0, 2.0]])
     stroke = rules.play(layout, rules.actions(180.0, 4.0))
@@ -136,26 +159,38 @@ def test_any_game_keeps_the_rules():
 def test_what_the_rules_refuse():
     # a table that says that its bed is wider than it is: balls would be dealt beyond its rails
     pool = carom.tables.pool_9ft()
-    wider = carom.Table(pool.width + 0.1, pool.length, rails=pool.rails, jaws=pool.jaws, pockets=pool.pockets)
+    wider = carom.Table(
+        pool.width + 0.1, pool.length, rails=pool.rails, jaws=pool.jaws, pockets=pool.pockets
+    )
     for arguments, words in (
-        ({"balls": 0}, "balls: it must be a whole number from 1 to 15"), ({"strokes": 0}, "strokes: it must be a whole number from 1"),
-        ({"speeds": (2.0, 1.0)}, "speeds: must be the least and the most"), ({"noise": (1.0, -1.0, 0.0)}, "noise: must be three standard deviations"),
+        ({"balls": 0}, "balls: it must be a whole number from 1 to 15"),
+        ({"strokes": 0}, "strokes: it must be a whole number from 1"),
+        ({"speeds": (2.0, 1.0)}, "speeds: must be the least and the most"),
+        ({"noise": (1.0, -1.0, 0.0)}, "noise: must be three standard deviations"),
         ({"table": carom.tables.threecushion()}, "table: must have pockets"),
-        ({"table": wider}, r"table: its rails must lie around 0 <= x <= width = 1\.37 m, .* there is one at x = 1\.27 m"),
-        ({"parameters": {"mu": (0, 1)}}, "parameters: must give"), ({"parameters": {"mass": (2, 1)}}, "'mass'"),
+        (
+            {"table": wider},
+            r"table: its rails must lie around 0 <= x <= width = 1\.37 m, .* there is one at x = 1\.27 m",
+        ),
+        ({"parameters": {"mu": (0, 1)}}, "parameters: must give"),
+        ({"parameters": {"mass": (2, 1)}}, "'mass'"),
         ({"parameters": {"mu_slide": (-1, 1)}}, "mu_slide"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(ValueError, match=words):
             Potting(**arguments)
     rules = Potting(balls=1)
     for call, words in (
-        (lambda: rules.layout([[0.5, 0.5]]), r"layout: the shape must be \(2, 2\)"), (lambda: rules.layout([[0.5, 0.5], [0.5, 0.51]]), "overlap"),
+        (lambda: rules.layout([[0.5, 0.5]]), r"layout: the shape must be \(2, 2\)"),
+        (lambda: rules.layout([[0.5, 0.5], [0.5, 0.51]]), "overlap"),
         (lambda: rules.cues([0.0, np.nan, 0.0, 0.0]), "actions: finite numbers"),
         (lambda: rules.actions(np.inf, 1.0), "phi, speed, a, b: finite numbers"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(ValueError, match=words):
             call()
-    with pytest.raises(TypeError, match="^noise: three standard deviations are needed, of degrees, m/s and radii, not True"):
+    with pytest.raises(
+        TypeError,
+        match="^noise: three standard deviations are needed, of degrees, m/s and radii, not True",
+    ):
         Potting(noise=True)
 
 
@@ -166,14 +201,26 @@ def test_noise_of_execution():
     games = np.arange(4000)
     done = rules.cues(wanted, Draws(games).seeds(games))
     turn = (done["phi"] - 179.0 + 180.0) % 360.0 - 180.0
-    for deviation, values in ((2.0, turn), (0.3, done["speed"] - 2.0), (0.05, done["a"] - 0.1), (0.05, done["b"])):
+    for deviation, values in (
+        (2.0, turn),
+        (0.3, done["speed"] - 2.0),
+        (0.05, done["a"] - 0.1),
+        (0.05, done["b"]),
+    ):
         assert abs(values.mean()) < 4 * deviation / 63 and abs(values.std() / deviation - 1) < 0.05
     layout = rules.deal(Draws([1]), np.arange(1))[0]
     exact, game = Potting(), Draws([5])
-    strokes = exact.turn(layout[np.newaxis], np.zeros((1, 0), np.uint64), wanted[:1], game, games[:1])
-    assert strokes.cues.tobytes() == exact.cues(wanted[:1]).tobytes() and strokes.strokes.layouts.tobytes() == rules.play(layout, wanted[:1]).layouts.tobytes()
+    strokes = exact.turn(
+        layout[np.newaxis], np.zeros((1, 0), np.uint64), wanted[:1], game, games[:1]
+    )
+    assert (
+        strokes.cues.tobytes() == exact.cues(wanted[:1]).tobytes()
+        and strokes.strokes.layouts.tobytes() == rules.play(layout, wanted[:1]).layouts.tobytes()
+    )
     # One of a seed is that of carom.with_errors.
-    assert done[7].tobytes() == carom.with_errors(exact.cues(wanted[7]), rules.player(), 7).tobytes()
+    assert (
+        done[7].tobytes() == carom.with_errors(exact.cues(wanted[7]), rules.player(), 7).tobytes()
+    )
 
 
 def test_random_parameters_ball_sets_and_rewards():
@@ -181,17 +228,33 @@ def test_random_parameters_ball_sets_and_rewards():
     layouts = rules.deal(Draws(np.arange(500)), np.arange(500))
     for name, low, high in (("mu_slide", 0.1, 0.3), ("restitution_cushion", 0.7, 0.9)):
         drawn = layouts["kind"][name]
-        assert (drawn == drawn[:, :1]).all() and low <= drawn.min() < low + 0.02 and high - 0.02 < drawn.max() < high
+        assert (
+            (drawn == drawn[:, :1]).all()
+            and low <= drawn.min() < low + 0.02
+            and high - 0.02 < drawn.max() < high
+        )
     strokes = rules.play(layouts[:, :], rules.actions(30.0, 3.0))
-    assert len(np.unique(strokes.time)) == 500 and strokes.layouts["kind"].tobytes() == layouts["kind"].tobytes()
+    assert (
+        len(np.unique(strokes.time)) == 500
+        and strokes.layouts["kind"].tobytes() == layouts["kind"].tobytes()
+    )
     snooker = Potting(ball_set="snooker")
-    assert snooker.radius == carom.racks.snooker(carom.tables.snooker())["kind"]["radius"][0] and snooker.table == carom.tables.snooker()
-    near = Potting(balls=1, reward=lambda balls, strokes: -np.linalg.norm(strokes.layouts["state"]["r"][..., 0, :2], axis=-1))
+    assert (
+        snooker.radius == carom.racks.snooker(carom.tables.snooker())["kind"]["radius"][0]
+        and snooker.table == carom.tables.snooker()
+    )
+    near = Potting(
+        balls=1,
+        reward=lambda balls, strokes: -np.linalg.norm(
+            strokes.layouts["state"]["r"][..., 0, :2], axis=-1
+        ),
+    )
     played = near.play(near.layout([[0.5, 0.5], [0.9, 1.5]]), near.actions([0.0, 90.0], 1.0))
     np.testing.assert_allclose(played.rewards, -np.hypot(*played.layouts["state"]["r"][:, 0, :2].T))
 
 
-# ---- The environments -----------------------------------------------------------------------------------------------------
+# ---- The environments
+# -----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("render_mode", [None, "svg", "rgb_array"])
@@ -201,7 +264,12 @@ def test_gymnasiums_checkers(gymnasium, render_mode):
 
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        env = gymnasium.make("carom/Potting-v1", render_mode=render_mode, cushion_model="han", disable_env_checker=False)
+        env = gymnasium.make(
+            "carom/Potting-v1",
+            render_mode=render_mode,
+            cushion_model="han",
+            disable_env_checker=False,
+        )
         check_env(env.unwrapped)
         env.reset(seed=1)
         env.step(env.action_space.sample())
@@ -211,18 +279,37 @@ def test_gymnasiums_checkers(gymnasium, render_mode):
 
 @pytest.mark.parametrize("threads", [0, 2])
 def test_many_games_are_single_games(gymnasium, threads):
-    """Against gymnasium's own vector of single environments: observations, rewards, ends and infos to the bit, over many games."""
+    """Against gymnasium's own vector of single environments: observations, rewards, ends and infos
+    to the bit, over many games.
+    """
     seed = int(np.random.SeedSequence().generate_state(1)[0] // 2)
     print(f"seed {seed}")
-    arguments = {"balls": 3, "strokes": 4, "cushion_model": "han", "noise": (0.5, 0.1, 0.02), "parameters": {"mu_roll": (0.005, 0.015)}}
+    arguments = {
+        "balls": 3,
+        "strokes": 4,
+        "cushion_model": "han",
+        "noise": (0.5, 0.1, 0.02),
+        "parameters": {"mu_roll": (0.005, 0.015)},
+    }
     envs = gymnasium.make_vec("carom/Potting-v1", num_envs=7, threads=threads, **arguments)
-    singles = gymnasium.make_vec("carom/Potting-v1", num_envs=7, vectorization_mode="sync", **arguments)
-    assert type(envs.unwrapped).__name__ == "GameVectorEnv" and type(singles).__name__ == "SyncVectorEnv"
-    assert envs.observation_space == singles.observation_space and envs.action_space == singles.action_space
+    singles = gymnasium.make_vec(
+        "carom/Potting-v1", num_envs=7, vectorization_mode="sync", **arguments
+    )
+    assert (
+        type(envs.unwrapped).__name__ == "GameVectorEnv"
+        and type(singles).__name__ == "SyncVectorEnv"
+    )
+    assert (
+        envs.observation_space == singles.observation_space
+        and envs.action_space == singles.action_space
+    )
     assert envs.metadata["autoreset_mode"] == singles.metadata["autoreset_mode"]
     generator = np.random.default_rng(seed)
     ended = 0
-    for got, expected in ((envs.reset(seed=seed), singles.reset(seed=seed)), (envs.reset(), singles.reset())):
+    for got, expected in (
+        (envs.reset(seed=seed), singles.reset(seed=seed)),
+        (envs.reset(), singles.reset()),
+    ):
         assert got[0].tobytes() == expected[0].tobytes() and got[1] == expected[1] == {}
     for _ in range(40):
         actions = generator.uniform(-1.0, 1.0, (7, 4))
@@ -241,7 +328,10 @@ def test_many_games_are_single_games(gymnasium, threads):
 
 
 def test_a_step_before_a_reset_says_what_is_needed(gymnasium):
-    for env, action in ((carom.gymnasium.GameEnv(), np.zeros(4)), (carom.gymnasium.GameVectorEnv(3), np.zeros((3, 4)))):
+    for env, action in (
+        (carom.gymnasium.GameEnv(), np.zeros(4)),
+        (carom.gymnasium.GameVectorEnv(3), np.zeros((3, 4))),
+    ):
         with pytest.raises(gymnasium.error.ResetNeeded, match=r"call reset\(\)"):
             env.step(action)
         env.reset(seed=1)
@@ -249,7 +339,10 @@ def test_a_step_before_a_reset_says_what_is_needed(gymnasium):
 
 
 def test_a_step_of_one_game_makes_few_calls(gymnasium, calls):
-    """Those of C included. A shot takes some microseconds, and so does every few calls of Python."""
+    """Those of C included.
+
+    A shot takes some microseconds, and so does every few calls of Python.
+    """
     env = gymnasium.make("carom/Potting-v1").unwrapped
     env.reset(seed=1)
     action = env.rules.actions(10.0, 1.0)
@@ -258,10 +351,14 @@ def test_a_step_of_one_game_makes_few_calls(gymnasium, calls):
 
 
 def test_many_games_are_one_batch(gymnasium, calls):
-    """A step of many games, resets included, makes hardly more calls than one of few: no game has a loop of its own in Python."""
+    """A step of many games, resets included, makes hardly more calls than one of few: no game has a
+    loop of its own in Python.
+    """
     most = []
     for count in (8, 256):
-        envs = gymnasium.make_vec("carom/Potting-v1", num_envs=count, strokes=5, cushion_model="han")
+        envs = gymnasium.make_vec(
+            "carom/Potting-v1", num_envs=count, strokes=5, cushion_model="han"
+        )
         envs.reset(seed=1)
         actions = np.random.default_rng(1).uniform(-1.0, 1.0, (6, count, 4))
         most.append(max(calls(lambda: envs.step(action)) for action in actions))  # noqa: B023: it is called at once
@@ -300,12 +397,18 @@ def test_a_film_is_recorded(gymnasium, tmp_path):
     pytest.importorskip("moviepy")
     from gymnasium.wrappers import RecordVideo
 
-    env = RecordVideo(gymnasium.make("carom/Potting-v1", render_mode="rgb_array", balls=2, strokes=3), str(tmp_path / "films"), episode_trigger=lambda k: True)
+    env = RecordVideo(
+        gymnasium.make("carom/Potting-v1", render_mode="rgb_array", balls=2, strokes=3),
+        str(tmp_path / "films"),
+        episode_trigger=lambda k: True,
+    )
     env.reset(seed=1)
     for _ in range(3):
         env.step(env.action_space.sample())
     env.close()
-    assert [path.suffix for path in (tmp_path / "films").iterdir() if path.stat().st_size > 1000] == [".mp4"]
+    assert [
+        path.suffix for path in (tmp_path / "films").iterdir() if path.stat().st_size > 1000
+    ] == [".mp4"]
 
 
 def test_pictures(gymnasium):
@@ -314,9 +417,15 @@ def test_pictures(gymnasium):
     still = envs.render()
     envs.step(np.full((2, 4), 0.3))
     for before, after in zip(still, envs.render()):
-        assert ElementTree.fromstring(before).tag == ElementTree.fromstring(after).tag == "{http://www.w3.org/2000/svg}svg"
+        assert (
+            ElementTree.fromstring(before).tag
+            == ElementTree.fromstring(after).tag
+            == "{http://www.w3.org/2000/svg}svg"
+        )
         assert after.count("polyline") > before.count("polyline")
-    images = gymnasium.make_vec("carom/Potting-v1", num_envs=2, balls=2, strokes=5, render_mode="rgb_array")
+    images = gymnasium.make_vec(
+        "carom/Potting-v1", num_envs=2, balls=2, strokes=5, render_mode="rgb_array"
+    )
     images.reset(seed=4)
     still = images.render()
     images.step(np.full((2, 4), 0.3))
@@ -324,39 +433,65 @@ def test_pictures(gymnasium):
         assert before.dtype == np.uint8 and before.shape == after.shape == (484, 864, 3)
         # the cue ball is white where it lay, and elsewhere afterwards
         assert (before == 255).all(axis=-1).any() and (before != after).any(axis=-1).sum() > 200
-    with pytest.raises(ValueError, match="render_mode: must be None, 'svg' or 'rgb_array', not 'human'"):
+    with pytest.raises(
+        ValueError, match="render_mode: must be None, 'svg' or 'rgb_array', not 'human'"
+    ):
         carom.gymnasium.GameEnv(render_mode="human")
 
 
 def test_the_greedy_agent_does_better_than_chance(gymnasium, tmp_path):
-    """Paired over 40 games with the same layouts: the mean difference is above 0 by ten of its standard errors."""
+    """Paired over 40 games with the same layouts: the mean difference is above 0 by ten of its
+    standard errors.
+    """
     spec = importlib.util.spec_from_file_location("game_agents", EXAMPLE)
     example = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(example)
     picture = tmp_path / "potting.svg"
-    line = ["--game", "carom/Potting-v1", "--strokes", "3", "--games", "40", "--seed", "7", "--out", str(picture)]
+    line = [
+        "--game",
+        "carom/Potting-v1",
+        "--strokes",
+        "3",
+        "--games",
+        "40",
+        "--seed",
+        "7",
+        "--out",
+        str(picture),
+    ]
     played = example.main([*line, "--plans", "100"])
     by_chance, by_greed, planned = played.values()
     more = by_greed - by_chance
     assert more.mean() > 10.0 * more.std(ddof=1) / np.sqrt(len(more))
     assert by_greed.mean() > 3.0 and by_greed.max() <= 5.0
     assert ElementTree.parse(picture).getroot().tag.endswith("svg")
-    assert list(played) == ["random", "greedy", "plan of 100 shots"] and planned.mean() > 1.0 + by_chance.mean()
+    assert (
+        list(played) == ["random", "greedy", "plan of 100 shots"]
+        and planned.mean() > 1.0 + by_chance.mean()
+    )
     np.testing.assert_array_equal(example.main([*line, "--plans", ""])["random"], by_chance)
 
 
-@pytest.mark.parametrize("name", ["PotOne", "RunOutSix", "ThreeCushion", "Break", "NineBall", "EightBall"])
+@pytest.mark.parametrize(
+    "name", ["PotOne", "RunOutSix", "ThreeCushion", "Break", "NineBall", "EightBall"]
+)
 def test_games_with_fixed_rules(gymnasium, name):
-    """Each id is a game that both makers know, with the errors of a player of 600; one that is the vector's first is its own, to its end."""
+    """Each id is a game that both makers know, with the errors of a player of 600; one that is the
+    vector's first is its own, to its end.
+    """
     from gymnasium.utils.env_checker import check_env
 
     name = f"carom/{name}-v1"
     rules = carom.gymnasium.GAMES[name]
     player = carom.player(fargo=600)
-    np.testing.assert_allclose(rules["noise"], [float(player[field]) for field in ("phi", "speed", "a")], rtol=0.01)
+    np.testing.assert_allclose(
+        rules["noise"], [float(player[field]) for field in ("phi", "speed", "a")], rtol=0.01
+    )
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        check_env(gymnasium.make(name, render_mode="rgb_array", disable_env_checker=False).unwrapped)
+        check_env(
+            gymnasium.make(name, render_mode="rgb_array", disable_env_checker=False).unwrapped
+        )
         alone = gymnasium.make(name, render_mode="svg", disable_env_checker=False)
     many = gymnasium.make_vec(name, num_envs=3)
     seen, _ = alone.reset(seed=5)
@@ -365,12 +500,20 @@ def test_games_with_fixed_rules(gymnasium, name):
     assert alone.observation_space.shape == seen.shape and own.noise == rules["noise"]
     for k in range(4):
         # A planner's stroke of few shots, and strokes at random.
-        action = own.best_seen(seen, shots=100) if k == 0 else generator.uniform(-1.0, 1.0, own.acts)
-        assert alone.action_space.contains(action.astype(np.float32)) and own.tried(seen, action[np.newaxis]).shape == (1,)
+        action = (
+            own.best_seen(seen, shots=100) if k == 0 else generator.uniform(-1.0, 1.0, own.acts)
+        )
+        assert alone.action_space.contains(action.astype(np.float32)) and own.tried(
+            seen, action[np.newaxis]
+        ).shape == (1,)
         seen, reward, ended, truncated, info = alone.step(action)
         of_many = many.step(np.tile(action, (3, 1)))
         np.testing.assert_array_equal(seen, of_many[0][0])
-        assert (reward, ended, truncated) == (of_many[1][0], of_many[2][0], False) and seen in alone.observation_space
+        assert (reward, ended, truncated) == (
+            of_many[1][0],
+            of_many[2][0],
+            False,
+        ) and seen in alone.observation_space
         assert {key: values[0] for key, values in of_many[4].items() if key[0] != "_"} == info
         assert alone.render().startswith("<svg")
         if ended:
@@ -386,7 +529,10 @@ def test_points_of_three_cushion(gymnasium):
     cues = rules.cues(actions)
     for k in range(200):
         ruling = carom.referee(rules.table, layouts[k], cues[k], rules="threecushion")
-        assert strokes.rewards[k] == ruling.points and (strokes.potted[k], strokes.scratch[k]) == (0, False)
+        assert strokes.rewards[k] == ruling.points and (strokes.potted[k], strokes.scratch[k]) == (
+            0,
+            False,
+        )
         assert strokes.layouts["state"]["r"][k].tobytes() == ruling.balls["state"]["r"].tobytes()
     best = np.stack([rules.best(layout, shots=300) for layout in layouts[:20]])
     assert rules.play(layouts[:20], best).rewards.sum() >= 10 > strokes.rewards[:20].sum()
@@ -395,11 +541,15 @@ def test_points_of_three_cushion(gymnasium):
 
 
 def test_the_break(gymnasium):
-    """The cue ball lies where the action says, behind the head string; rewards are those of the rules of nine-ball."""
+    """The cue ball lies where the action says, behind the head string; rewards are those of the
+    rules of nine-ball.
+    """
     rules = carom.gymnasium.RULES["break"]()
     layouts = rules.deal(Draws(range(40)), np.arange(40))
     assert np.unique(layouts["state"]["r"], axis=0).shape[0] == 40
-    actions = np.concatenate([np.tile(rules.actions(90.0, 9.0), (40, 1)), np.zeros((40, 2))], axis=1)
+    actions = np.concatenate(
+        [np.tile(rules.actions(90.0, 9.0), (40, 1)), np.zeros((40, 2))], axis=1
+    )
     actions[:, 4] = np.linspace(-1.0, 1.0, 40)
     actions[20:, 1] = -0.9
     strokes = rules.play(layouts, actions)
@@ -408,13 +558,21 @@ def test_the_break(gymnasium):
     np.testing.assert_allclose(laid["state"]["r"][[0, 39], 0, 0], [low[0], high[0]], rtol=1e-15)
     assert (strokes.rewards[20:] == -1.0).all()
     for k in range(40):
-        ruling = carom.referee(rules.table, laid[k], rules.cues(actions[k]), rules="nineball", opening=True)
-        assert strokes.rewards[k] == len([ball for ball in ruling.potted if ball]) - bool(ruling.foul)
-    assert rules.tried(rules.observe(layouts, 1)[0], rules.best(layouts[0], shots=100)) in range(-1, 10)
+        ruling = carom.referee(
+            rules.table, laid[k], rules.cues(actions[k]), rules="nineball", opening=True
+        )
+        assert strokes.rewards[k] == len([ball for ball in ruling.potted if ball]) - bool(
+            ruling.foul
+        )
+    assert rules.tried(rules.observe(layouts, 1)[0], rules.best(layouts[0], shots=100)) in range(
+        -1, 10
+    )
 
 
 def test_a_match(gymnasium):
-    """The agent plays until a foul or a miss; then the opponent does until the agent plays again, by the rules of pool, or has won."""
+    """The agent plays until a foul or a miss; then the opponent does until the agent plays again,
+    by the rules of pool, or has won.
+    """
     from carom.games.matches import Match
 
     env = carom.gymnasium.GameEnv("nineball", strokes=30)
@@ -423,7 +581,8 @@ def test_a_match(gymnasium):
     for _ in range(30):
         position = env.rules.seen(observation)
         assert position.player == 0 and position.winner is None
-        # a soft stroke away from the rack is always a foul: three of them lose, and the opponent plays between
+        # a soft stroke away from the rack is always a foul: three of them lose, and the opponent
+        # plays between
         observation, reward, ended, _, info = env.step([-0.5, -1.0, 0.0, 0.0, 0.0, 0.0])
         assert info["foul"] != 0
         if ended:
@@ -443,9 +602,17 @@ def test_the_planner_plays_the_level_cue_of_the_game():
     """The stroke is that of the plan, whose cue would be raised over the cushion behind the ball."""
     rules = Potting(1, 1)
     layout = rules.layout([[0.04, 1.0], [0.3, 0.6]])
-    raised, level = (carom.plan(rules.table, layout, rules="potting", player=rules.player(), shots=200, best=1, level=k)[0]["cue"] for k in (False, True))
+    raised, level = (
+        carom.plan(
+            rules.table, layout, rules="potting", player=rules.player(), shots=200, best=1, level=k
+        )[0]["cue"]
+        for k in (False, True)
+    )
     assert raised["theta"] > 5.0 and level["theta"] == 0.0
-    np.testing.assert_array_equal(rules.best(layout, shots=200), rules.actions(level["phi"], level["speed"], level["a"], level["b"]))
+    np.testing.assert_array_equal(
+        rules.best(layout, shots=200),
+        rules.actions(level["phi"], level["speed"], level["a"], level["b"]),
+    )
 
 
 def test_the_planner_pots_more_than_chance():

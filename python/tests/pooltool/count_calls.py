@@ -1,7 +1,9 @@
-"""A plugin of pytest: pooltool's own tests with carom in place of its simulate(), and who played the shots of each test.
+"""A plugin of pytest: pooltool's own tests with carom in place of its simulate(), and who played
+the shots of each test.
 
-Of each test it counts the calls of simulate(), the shots that carom played, and the runs of pooltool's own loop. The run passes if
-carom played every shot that simulate() was asked for, and no test failed, but for those named here.
+Of each test it counts the calls of simulate(), the shots that carom played, and the runs of
+pooltool's own loop. The run passes if carom played every shot that simulate() was asked for, and no
+test failed, but for those named here.
 """
 
 import collections
@@ -10,13 +12,23 @@ import importlib
 import carom.pooltool as bridge
 import pytest
 
-# This fails, for a reason: simulate_with_snapshots() steps pooltool's own loop, and == of floats is asked of its result and carom's.
+# This fails, for a reason: simulate_with_snapshots() steps pooltool's own loop, and == of floats is
+# asked of its result and carom's.
 FAIL = {"test_introspection.py::test_simulate_with_snapshots_equivalence_with_simulate"}
-# Only these run pooltool's own loop: the tests of simulate_with_snapshots(), and in the head what needs balls in the air.
-OWN = ("test_introspection.py::", "test_ball_pocket.py::test_airborne_ball_above_pocket_is_pocketed")
+# Only these run pooltool's own loop: the tests of simulate_with_snapshots(), and in the head what
+# needs balls in the air.
+OWN = (
+    "test_introspection.py::",
+    "test_ball_pocket.py::test_airborne_ball_above_pocket_is_pocketed",
+)
 LEAST = 12  # tests that simulate
 
-asked, played, own, failed = collections.Counter(), collections.Counter(), collections.Counter(), set()
+asked, played, own, failed = (
+    collections.Counter(),
+    collections.Counter(),
+    collections.Counter(),
+    set(),
+)
 running = [""]
 
 
@@ -49,12 +61,16 @@ def pytest_runtest_logreport(report):
 def pytest_sessionfinish(session, exitstatus):
     tests = asked.keys() | played.keys() | own.keys()
     by_carom = {name for name in tests if played[name] == asked[name] > 0}
-    wrong = {name for name in tests if (name not in by_carom or own[name]) and not name.startswith(OWN)}
+    wrong = {
+        name for name in tests if (name not in by_carom or own[name]) and not name.startswith(OWN)
+    }
     good = failed == FAIL and not wrong and len(by_carom) >= LEAST and exitstatus in (0, 1)
     session.exitstatus = 0 if good else 1
     print(f"\n{'asked':>6} {'carom':>6} {'own':>6}  test")
     for name in sorted(tests):
         print(f"{asked[name]:6} {played[name]:6} {own[name]:6}  {name}")
-    print(f"{len(by_carom)} tests that simulate have all shots from carom, {sum(played.values())} of {sum(asked.values())} shots")
+    print(
+        f"{len(by_carom)} tests that simulate have all shots from carom, {sum(played.values())} of {sum(asked.values())} shots"
+    )
     if not good:
         print(f"wrong: failed {sorted(failed ^ FAIL)}, not by carom {sorted(wrong)}")

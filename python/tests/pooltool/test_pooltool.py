@@ -1,4 +1,5 @@
-"""carom.pooltool beside the real pooltool, in one process: recorded and random shots, what it refuses, its place in pooltool.
+"""carom.pooltool beside the real pooltool, in one process: recorded and random shots, what it
+refuses, its place in pooltool.
 
 CAROM_TEST_SEED replays a run, CAROM_TEST_SHOTS is the number of random shots of each family.
 """
@@ -41,7 +42,8 @@ SEED = int(os.environ.get("CAROM_TEST_SEED", "1"))
 SHOTS = int(os.environ.get("CAROM_TEST_SHOTS", "12"))
 
 
-# ---- Systems -----------------------------------------------------------------------------------------------------------
+# ---- Systems
+# -----------------------------------------------------------------------------------------------------------
 
 
 def rack(game, rng, spacing=1e-3):
@@ -68,7 +70,12 @@ def scattered(rng, count, game=None):
 def struck(system, rng, V0, phi=(0, 360), **more):
     """The system, struck with these numbers, or numbers drawn between bounds."""
     given = {"V0": V0, "phi": phi, **more}
-    system.strike(**{name: rng.uniform(*value) if isinstance(value, tuple) else value for name, value in given.items()})
+    system.strike(
+        **{
+            name: rng.uniform(*value) if isinstance(value, tuple) else value
+            for name, value in given.items()
+        }
+    )
     return system
 
 
@@ -94,18 +101,35 @@ def moving(rng):
 NINE, EIGHT, THREE = pt.GameType.NINEBALL, pt.GameType.EIGHTBALL, pt.GameType.THREECUSHION
 WIDE = {"a": (-0.5, 0.5), "b": (-0.5, 0.5)}
 FAMILIES = {
-    "nineball": lambda rng: struck(rack(NINE, rng, rng.uniform(1e-4, 1e-2)), rng, (4.5, 10), (85, 95), a=(-0.2, 0.2), b=(-0.2, 0.3)),
-    "eightball": lambda rng: struck(rack(EIGHT, rng, rng.uniform(1e-4, 1e-2)), rng, (4.5, 10), (85, 95), theta=(0, 6), b=(-0.2, 0.3)),
+    "nineball": lambda rng: struck(
+        rack(NINE, rng, rng.uniform(1e-4, 1e-2)),
+        rng,
+        (4.5, 10),
+        (85, 95),
+        a=(-0.2, 0.2),
+        b=(-0.2, 0.3),
+    ),
+    "eightball": lambda rng: struck(
+        rack(EIGHT, rng, rng.uniform(1e-4, 1e-2)),
+        rng,
+        (4.5, 10),
+        (85, 95),
+        theta=(0, 6),
+        b=(-0.2, 0.3),
+    ),
     "threecushion": lambda rng: struck(rack(THREE, rng), rng, (2, 6), a=(-0.5, 0.5), b=(-0.4, 0.4)),
     "layout": lambda rng: struck(scattered(rng, int(rng.integers(2, 6))), rng, (0.5, 5), **WIDE),
-    "bank": lambda rng: struck(scattered(rng, int(rng.integers(1, 4))), rng, (3, 7), a=(-0.2, 0.2), b=(0, 0.3)),
+    "bank": lambda rng: struck(
+        scattered(rng, int(rng.integers(1, 4))), rng, (3, 7), a=(-0.2, 0.2), b=(0, 0.3)
+    ),
     "spin": lambda rng: struck(scattered(rng, 2), rng, (1, 4), theta=(0, 70), a=(-0.5, 0.5), b=0.3),
     "pot": pot,
     "moving": moving,
 }
 
 
-# ---- Comparing ---------------------------------------------------------------------------------------------------------
+# ---- Comparing
+# ---------------------------------------------------------------------------------------------------------
 
 
 def flat(rvw):
@@ -113,25 +137,42 @@ def flat(rvw):
 
 
 def amplification(system, engine):
-    """For each event: by how much a change of 1e-13 moves its time and states, over that change; as far as events are the same."""
-    table, balls, cue = bridge.table_of(system.table), bridge.balls_of(system), bridge.cue_of(system)
+    """For each event: by how much a change of 1e-13 moves its time and states, over that change; as
+    far as events are the same.
+    """
+    table, balls, cue = (
+        bridge.table_of(system.table),
+        bridge.balls_of(system),
+        bridge.cue_of(system),
+    )
     one = carom.simulate(table, balls, cue, options=bridge._options_of(engine, table, balls))
     same, change = one.count, np.ones(one.count)
     for k in range(4):
         moved, struck = balls.copy(), cue.copy()
-        moved["state"]["r"][..., :2] += np.random.default_rng(k).uniform(-1e-13, 1e-13, (len(balls), 2))
+        moved["state"]["r"][..., :2] += np.random.default_rng(k).uniform(
+            -1e-13, 1e-13, (len(balls), 2)
+        )
         struck["speed"] *= 1 + 1e-13
         struck["phi"] += 1e-13
-        other = carom.simulate(table, moved, struck, options=bridge._options_of(engine, table, moved))
+        other = carom.simulate(
+            table, moved, struck, options=bridge._options_of(engine, table, moved)
+        )
         count = min(same, other.count)
         mine, theirs = one.events[:count], other.events[:count]
-        differ = (mine["type"] != theirs["type"]) | (mine["a"] != theirs["a"]) | (mine["b"] != theirs["b"])
+        differ = (
+            (mine["type"] != theirs["type"])
+            | (mine["a"] != theirs["a"])
+            | (mine["b"] != theirs["b"])
+        )
         same = int(np.argmax(differ)) if differ.any() else count
         for k in range(same):
-            difference = flat(np.stack([mine[k]["after"][f] - theirs[k]["after"][f] for f in "rvw"], axis=-2))
+            difference = flat(
+                np.stack([mine[k]["after"][f] - theirs[k]["after"][f] for f in "rvw"], axis=-2)
+            )
             largest = max(np.abs(difference).max(), abs(mine[k]["time"] - theirs[k]["time"]))
             change[k] = max(change[k], largest / 1e-13)
-    # Event k + 1 of pooltool is event k here. A later event may have a smaller amplification by luck of the few samples.
+    # Event k + 1 of pooltool is event k here. A later event may have a smaller amplification by
+    # luck of the few samples.
     return same, np.maximum.accumulate(change)
 
 
@@ -144,19 +185,27 @@ def same_ball(mine, theirs, allowed):
 
 def apart(ours, event):
     """The largest difference of the states that an event leaves."""
-    agents = [(a.final, b.final) for a, b in zip(ours.agents, event.agents) if a.agent_type == b.agent_type == "ball"]
-    return max((np.abs(flat(a.state.rvw) - flat(b.state.rvw)).max() for a, b in agents), default=0.0)
+    agents = [
+        (a.final, b.final)
+        for a, b in zip(ours.agents, event.agents)
+        if a.agent_type == b.agent_type == "ball"
+    ]
+    return max(
+        (np.abs(flat(a.state.rvw) - flat(b.state.rvw)).max() for a, b in agents), default=0.0
+    )
 
 
 def compare(system, engine=bridge._simulate.DEFAULT_ENGINE, jump=0.0):
     """How many events were compared, of how many.
 
-    A model of so many steps may take one step more or less by rounding: the first difference up to `jump` ends the comparison.
+    A model of so many steps may take one step more or less by rounding: the first difference up to
+    `jump` ends the comparison.
     """
     before = system.copy()
     try:
         theirs = pt.simulate(system, engine)
-    except ValueError as error:  # the head of pooltool's repository has no answer for two balls that slow down alike
+    # the head of pooltool's repository has no answer for two balls that slow down alike
+    except ValueError as error:
         assert "Leading coefficient" in str(error)
         return 0, 0
     mine = bridge.simulate(system, engine)
@@ -183,7 +232,8 @@ def compare(system, engine=bridge._simulate.DEFAULT_ENGINE, jump=0.0):
         for name, ball in theirs.balls.items():
             ours, state = mine.balls[name].history[k], ball.history[k]
             assert ours.s == state.s and abs(ours.t - state.t) <= allowed
-            # Between its events a ball is evolved by other steps, so rounding alone differs: but its label and time do not.
+            # Between its events a ball is evolved by other steps, so rounding alone differs: but
+            # its label and time do not.
             assert np.abs(flat(ours.rvw) - flat(state.rvw)).max() <= 2 * allowed
     if whole:
         assert mine.events[-1].event_type == "none" and mine.t == mine.events[-1].time
@@ -214,24 +264,48 @@ def engine(ball_ball=None, **cushions):
     return made
 
 
-new_engine = getattr(pt.evolution, "SimulationEngine", None) or pt.physics.PhysicsEngine  # the second in pooltool 0.6
+new_engine = (
+    getattr(pt.evolution, "SimulationEngine", None) or pt.physics.PhysicsEngine
+)  # the second in pooltool 0.6
 of_friction = importlib.import_module("pooltool.physics.resolve.ball_ball.friction")
-inelastic = importlib.import_module("pooltool.physics.resolve.ball_ball.frictional_inelastic").FrictionalInelastic
-mathavan = importlib.import_module("pooltool.physics.resolve.ball_ball.frictional_mathavan").FrictionalMathavan
-frictionless = importlib.import_module("pooltool.physics.resolve.ball_ball.frictionless_elastic").FrictionlessElastic
+inelastic = importlib.import_module(
+    "pooltool.physics.resolve.ball_ball.frictional_inelastic"
+).FrictionalInelastic
+mathavan = importlib.import_module(
+    "pooltool.physics.resolve.ball_ball.frictional_mathavan"
+).FrictionalMathavan
+frictionless = importlib.import_module(
+    "pooltool.physics.resolve.ball_ball.frictionless_elastic"
+).FrictionlessElastic
 stronge = importlib.import_module("pooltool.physics.resolve.ball_cushion.stronge_compliant.model")
 han = importlib.import_module("pooltool.physics.resolve.ball_cushion.han_2005.model")
 steps = importlib.import_module("pooltool.physics.resolve.ball_cushion.mathavan_2010.model")
 mirror = importlib.import_module("pooltool.physics.resolve.ball_cushion.unrealistic")
 ENGINES = {
-    "frictionless": lambda: engine(frictionless(), linear=mirror.UnrealisticLinear(), circular=mirror.UnrealisticCircular(True)),
+    "frictionless": lambda: engine(
+        frictionless(), linear=mirror.UnrealisticLinear(), circular=mirror.UnrealisticCircular(True)
+    ),
     "average friction": lambda: engine(inelastic(friction=of_friction.AverageBallBallFriction())),
-    "own law": lambda: engine(inelastic(friction=of_friction.AlciatoreBallBallFriction(0.02, 0.2, 0.5))),
-    "no friction": lambda: engine(inelastic(friction=of_friction.AlciatoreBallBallFriction(0.0, 0.0, 0.0))),
-    "own ratio": lambda: engine(linear=stronge.StrongeCompliantLinear(1.5), circular=stronge.StrongeCompliantCircular(1.5)),
+    "own law": lambda: engine(
+        inelastic(friction=of_friction.AlciatoreBallBallFriction(0.02, 0.2, 0.5))
+    ),
+    "no friction": lambda: engine(
+        inelastic(friction=of_friction.AlciatoreBallBallFriction(0.0, 0.0, 0.0))
+    ),
+    "own ratio": lambda: engine(
+        linear=stronge.StrongeCompliantLinear(1.5), circular=stronge.StrongeCompliantCircular(1.5)
+    ),
     "han": lambda: engine(linear=han.Han2005Linear(), circular=han.Han2005Circular()),
-    "steps": lambda: engine(mathavan(num_iterations=400), linear=steps.Mathavan2010Linear(400), circular=steps.Mathavan2010Circular(400)),
-    "exact": lambda: engine(bridge.ExactBallBall(), linear=bridge.ExactLinearCushion(), circular=bridge.ExactCircularCushion()),
+    "steps": lambda: engine(
+        mathavan(num_iterations=400),
+        linear=steps.Mathavan2010Linear(400),
+        circular=steps.Mathavan2010Circular(400),
+    ),
+    "exact": lambda: engine(
+        bridge.ExactBallBall(),
+        linear=bridge.ExactLinearCushion(),
+        circular=bridge.ExactCircularCushion(),
+    ),
 }
 
 
@@ -241,7 +315,11 @@ def test_engines(name):
     print(f"CAROM_TEST_SEED={SEED}")
     rng = np.random.default_rng([SEED, 100 + list(ENGINES).index(name)])
     jump = 1e-3 if name == "steps" else 0.0
-    played = [compare(FAMILIES[family](rng), ENGINES[name](), jump) for family in ("layout", "bank", "pot", "nineball") for _ in range(3)]
+    played = [
+        compare(FAMILIES[family](rng), ENGINES[name](), jump)
+        for family in ("layout", "bank", "pot", "nineball")
+        for _ in range(3)
+    ]
     compared = np.array(played).sum(axis=0)
     assert compared[0] >= (0.2 if jump else 0.5) * compared[1], played
 
@@ -265,7 +343,11 @@ def test_recorded_shots():
         given = line["cue"]
         numbers = {key: given[key] for key in ("M", "end_mass", "tip_radius")}
         specs = attrs.evolve(pt.objects.CueSpecs.default(), **numbers)
-        cue = pt.Cue(specs=specs, cue_ball_id=given["ball"], **{key: given[key] for key in ("V0", "phi", "theta", "a", "b")})
+        cue = pt.Cue(
+            specs=specs,
+            cue_ball_id=given["ball"],
+            **{key: given[key] for key in ("V0", "phi", "theta", "a", "b")},
+        )
         compared += compare(pt.System(cue=cue, table=tables[kind].copy(), balls=balls))[0]
     assert compared > 1000
 
@@ -277,8 +359,13 @@ def test_tables_have_the_size_of_their_bed(game):
     table = bridge.table_of(theirs)
     np.testing.assert_allclose([table.width, table.length], [theirs.w, theirs.l], rtol=1e-12)
     if len(table.pockets):
-        rules = Potting(balls=5, table=table, ball_set="snooker" if game is pt.GameType.SNOOKER else "pool")
-        assert (carom.simulate_batch(table, rules.deal(Draws(np.arange(500)), np.arange(500))).status == 0).all()
+        rules = Potting(
+            balls=5, table=table, ball_set="snooker" if game is pt.GameType.SNOOKER else "pool"
+        )
+        assert (
+            carom.simulate_batch(table, rules.deal(Draws(np.arange(500)), np.arange(500))).status
+            == 0
+        ).all()
 
 
 def test_continuized():
@@ -294,14 +381,24 @@ def test_continuized():
 
 def test_ends():
     """t_final and max_events end where pooltool ends."""
-    for options in ({"t_final": 0.7}, {"t_final": 0.0}, {"max_events": 4}, {"max_events": 1}, {"max_events": 500}):
+    for options in (
+        {"t_final": 0.7},
+        {"t_final": 0.0},
+        {"max_events": 4},
+        {"max_events": 1},
+        {"max_events": 500},
+    ):
         system = pt.System.example()
         theirs, mine = pt.simulate(system, **options), bridge.simulate(system, **options)
-        assert [(e.event_type, e.ids) for e in mine.events] == [(e.event_type, e.ids) for e in theirs.events], options
+        assert [(e.event_type, e.ids) for e in mine.events] == [
+            (e.event_type, e.ids) for e in theirs.events
+        ], options
         for name, ball in theirs.balls.items():
             assert mine.balls[name].state.s == ball.state.s
             np.testing.assert_allclose(mine.balls[name].state.rvw, ball.state.rvw, atol=1e-9)
-            np.testing.assert_allclose(mine.balls[name].history[-2].rvw, ball.history[-2].rvw, atol=1e-9)
+            np.testing.assert_allclose(
+                mine.balls[name].history[-2].rvw, ball.history[-2].rvw, atol=1e-9
+            )
 
 
 def test_in_place_and_saved(tmp_path):
@@ -333,7 +430,12 @@ def test_objects_made_when_first_looked_at_are_pooltools():
     assert repr(fresh.events[1].agents[1]) == repr(expected.events[1].agents[1])
     assert {type(agent) for event in expected.events for agent in event.agents} == {pt.events.Agent}
     assert {type(ball.history) for ball in expected.balls.values()} == {pt.objects.BallHistory}
-    for look in (lambda s: s, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s)), lambda s: s.copy()):
+    for look in (
+        lambda s: s,
+        copy.deepcopy,
+        lambda s: pickle.loads(pickle.dumps(s)),
+        lambda s: s.copy(),
+    ):
         got = look(bridge.simulate(system))
         assert got.balls == expected.balls and expected.balls == got.balls
         assert [e.time for e in got.events] == [e.time for e in expected.events]
@@ -356,13 +458,17 @@ def test_nothing_to_simulate():
     system.strike(V0=0.0)
     theirs, mine = pt.simulate(system), bridge.simulate(system)
     assert [e.event_type for e in mine.events] == [e.event_type for e in theirs.events]
-    assert {n: len(b.history) for n, b in mine.balls.items()} == {n: len(b.history) for n, b in theirs.balls.items()}
+    assert {n: len(b.history) for n, b in mine.balls.items()} == {
+        n: len(b.history) for n, b in theirs.balls.items()
+    }
 
 
 def test_carom_models():
     system = pt.System.example()
     mine = bridge.simulate(system, models="carom")
-    shot = carom.simulate(bridge.table_of(system.table), bridge.balls_of(system), bridge.cue_of(system))
+    shot = carom.simulate(
+        bridge.table_of(system.table), bridge.balls_of(system), bridge.cue_of(system)
+    )
     assert [e.time for e in mine.events[1:-1]] == shot.events["time"].tolist()
 
 
@@ -376,12 +482,17 @@ def test_what_it_refuses_and_the_fallback():
     ):
         usual = getattr(getattr(engine.resolver, part), number)
         setattr(getattr(engine.resolver, part), number, value)
-        with pytest.raises(bridge.UnsupportedError, match=f"{number.partition('_')[2]}|builtins.object"):
+        with pytest.raises(
+            bridge.UnsupportedError, match=f"{number.partition('_')[2]}|builtins.object"
+        ):
             bridge.simulate(system, engine=engine)
         setattr(getattr(engine.resolver, part), number, usual)
     engine.resolver.ball_linear_cushion.omega_ratio = 1.5
     with pytest.warns(bridge.FallbackWarning, match="omega_ratio"):
-        theirs, mine = pt.simulate(system, engine), bridge.simulate(system, engine=engine, fallback=True)
+        theirs, mine = (
+            pt.simulate(system, engine),
+            bridge.simulate(system, engine=engine, fallback=True),
+        )
     assert [e.time for e in theirs.events] == [e.time for e in mine.events]
     with pytest.raises(bridge.UnsupportedError, match="include"):
         bridge.simulate(system, include={pt.EventType.BALL_BALL})
@@ -418,28 +529,45 @@ def test_installed(installed, played):
     assert pt.simulate is not installed is bridge.original and pt.evolution.simulate is pt.simulate
     system = pt.simulate(pt.System.example())
     assert len(played) == 1
-    assert [e.ids for e in bridge.original(pt.System.example()).events] == [e.ids for e in system.events] and len(played) == 1
-    assert [e.time for e in system.events] == [e.time for e in bridge.simulate(pt.System.example()).events]
+    assert [e.ids for e in bridge.original(pt.System.example()).events] == [
+        e.ids for e in system.events
+    ] and len(played) == 1
+    assert [e.time for e in system.events] == [
+        e.time for e in bridge.simulate(pt.System.example()).events
+    ]
 
 
 def test_installed_wherever_it_was_imported(played, monkeypatch):
-    """In the module that defines it, from which pooltool's own tests take it, and in every module that has it by any name."""
+    """In the module that defines it, from which pooltool's own tests take it, and in every module
+    that has it by any name.
+    """
     defining = importlib.import_module("pooltool.evolution.event_based.simulate")
     original, user = pt.simulate, types.ModuleType("a_users_module")
-    exec("from pooltool.evolution.event_based.simulate import simulate\nfrom pooltool import simulate as play", vars(user))
+    exec(
+        "from pooltool.evolution.event_based.simulate import simulate\nfrom pooltool import simulate as play",
+        vars(user),
+    )
     monkeypatch.setitem(sys.modules, user.__name__, user)
-    names = [(name, key, value) for name, module in sys.modules.items() for key, value in getattr(module, "__dict__", {}).items()]
+    names = [
+        (name, key, value)
+        for name, module in sys.modules.items()
+        for key, value in getattr(module, "__dict__", {}).items()
+    ]
     holders = [(name, key) for name, key, value in names if value is original]
     bridge.install()
     try:
         ours = pt.simulate
         for name, key in holders:
-            assert vars(sys.modules[name])[key] is (original if name == bridge.__name__ else ours), (name, key)
+            assert vars(sys.modules[name])[key] is (
+                original if name == bridge.__name__ else ours
+            ), (name, key)
         for simulate in (defining.simulate, user.simulate, user.play):
             simulate(pt.System.example())
         exec("from pooltool.evolution.event_based.simulate import simulate as late", vars(user))
         user.late(pt.System.example())
-        assert len(played) == 4 and {"pooltool", "pooltool.evolution", defining.__name__} <= {name for name, _ in holders}
+        assert len(played) == 4 and {"pooltool", "pooltool.evolution", defining.__name__} <= {
+            name for name, _ in holders
+        }
     finally:
         bridge.uninstall()
     assert {user.simulate, user.play, user.late, defining.simulate} == {original} == {pt.simulate}
@@ -451,7 +579,9 @@ def test_what_pooltool_plays_is_told_once(installed, played):
     throttled.resolver.stick_ball.english_throttle = 0.5
     other = new_engine()
     other.resolver.ball_linear_cushion.omega_ratio = 1.5
-    without = set(importlib.import_module("pooltool.evolution.event_based.config").INCLUDED_EVENTS) - {pt.EventType.BALL_POCKET}
+    without = set(
+        importlib.import_module("pooltool.evolution.event_based.config").INCLUDED_EVENTS
+    ) - {pt.EventType.BALL_POCKET}
     overlapping = pt.System.example()
     overlapping.balls["cue"].state.rvw[0] = overlapping.balls["1"].state.rvw[0] + [0.01, 0, 0]
     for _ in range(2):
@@ -464,10 +594,17 @@ def test_what_pooltool_plays_is_told_once(installed, played):
                 pt.simulate(overlapping, max_events=1)
                 pt.simulate(pt.System.example())
         texts = [str(warning.message) for warning in told]
-        assert all(warning.category is bridge.FallbackWarning and warning.filename == __file__ for warning in told)
-        assert all(text.startswith("pooltool plays this system instead of carom: ") for text in texts)
+        assert all(
+            warning.category is bridge.FallbackWarning and warning.filename == __file__
+            for warning in told
+        )
+        assert all(
+            text.startswith("pooltool plays this system instead of carom: ") for text in texts
+        )
         parts = ("throttles", "omega_ratio", "include", "overlap")
-        assert [sum(part in text for text in texts) for part in parts] == [1, 1, 1, 1] and len(texts) == 4, texts
+        assert [sum(part in text for text in texts) for part in parts] == [1, 1, 1, 1] and len(
+            texts
+        ) == 4, texts
         bridge.install()
     assert len(played) == 8  # the overlapping ones are refused by carom, the last ones played
 
@@ -475,7 +612,12 @@ def test_what_pooltool_plays_is_told_once(installed, played):
 def test_speed():
     """The example that compares the times finds the same events and histories, and prints its rows."""
     script = Path(__file__).parents[2] / "examples" / "pooltool_speed.py"
-    ran = subprocess.run([sys.executable, str(script), "3"], capture_output=True, text=True, env={**os.environ, "HOME": home})
+    ran = subprocess.run(
+        [sys.executable, str(script), "3"],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "HOME": home},
+    )
     assert ran.returncode == 0, ran.stderr
     print(ran.stdout)
     times = [[float(word) for word in line[32:].split()] for line in ran.stdout.splitlines()[3:]]
@@ -483,35 +625,57 @@ def test_speed():
 
 
 def test_notebooks(tmp_path):
-    """Both simulators are called, as often; a cell that fails is told, and so are texts that differ."""
+    """Both simulators are called, as often; a cell that fails is told, and so are texts that
+    differ.
+    """
     shot = "import pooltool as pt\nsystem = pt.simulate(pt.System.example())\nprint(len(system.events))"
-    for name, last in (("same", "1 / 0"), ("other", "import os, carom.pooltool\nprint(pt.simulate.__closure__)")):
-        cells = [{"cell_type": "markdown", "source": ["-"]}, *({"cell_type": "code", "source": [text]} for text in (shot, last))]
+    for name, last in (
+        ("same", "1 / 0"),
+        ("other", "import os, carom.pooltool\nprint(pt.simulate.__closure__)"),
+    ):
+        cells = [
+            {"cell_type": "markdown", "source": ["-"]},
+            *({"cell_type": "code", "source": [text]} for text in (shot, last)),
+        ]
         (tmp_path / f"{name}.ipynb").write_text(json.dumps({"cells": cells}), encoding="utf-8")
     script = Path(__file__).parents[2] / "examples" / "pooltool_speed.py"
     paths = [str(tmp_path / f"{name}.ipynb") for name in ("same", "other")]
-    ran = subprocess.run([sys.executable, str(script), *paths], capture_output=True, text=True, env={**os.environ, "HOME": home})
+    ran = subprocess.run(
+        [sys.executable, str(script), *paths],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "HOME": home},
+    )
     assert ran.returncode == 0, ran.stderr
     same, text, failed, other, differs = ran.stdout.splitlines()
-    assert same.startswith("same: 1 calls, ") and text.endswith("printed text the same") and "cell 2 failed: ZeroDivisionError" in failed
+    assert (
+        same.startswith("same: 1 calls, ")
+        and text.endswith("printed text the same")
+        and "cell 2 failed: ZeroDivisionError" in failed
+    )
     assert other.startswith("other: 1 calls, ") and differs.endswith("printed text differs")
 
 
-# ---- The agent ---------------------------------------------------------------------------------------------------------
+# ---- The agent
+# ---------------------------------------------------------------------------------------------------------
 
 GAMES = {"eightball": pt.GameType.EIGHTBALL, "nineball": pt.GameType.NINEBALL}
 
 
 @pytest.mark.parametrize("name", GAMES)
 def test_games_against_pooltools_easiest_pot(name):
-    """pooltool's own rules find a winner, and the agent wins; its calls are those that the rules ask for."""
+    """pooltool's own rules find a winner, and the agent wins; its calls are those that the rules
+    ask for.
+    """
     sys.path.insert(0, str(Path(__file__).parents[2] / "examples"))
     game = importlib.import_module("pooltool_game")
     print(f"CAROM_TEST_SEED={SEED}")
     won = 0
     for seed in range(SEED, SEED + 3):
         player = carom.player(1.0)
-        ended, lines = game.play(name, [bridge.Agent(player, shots=500, seed=seed), game.Easiest(player, seed + 1)], seed)
+        ended, lines = game.play(
+            name, [bridge.Agent(player, shots=500, seed=seed), game.Easiest(player, seed + 1)], seed
+        )
         print(*lines, sep="\n")
         assert ended.shot_info.game_over and ended.shot_info.winner is not None
         assert not any("called" in line for line in lines if line.startswith("Agent"))
@@ -536,18 +700,26 @@ def end_game(name, places, group=None):
 
 
 def test_the_agent_pots_its_own_balls():
-    """Of two balls in the jaws it takes that which the rules allow; without errors its stroke does what it calls."""
+    """Of two balls in the jaws it takes that which the rules allow; without errors its stroke does
+    what it calls.
+    """
     places = {"cue": (0.5, 1.0), "3": (0.06, 0.06), "11": (0.93, 0.06), "8": (0.5, 1.9)}
     for group, wanted in ((range(1, 8), "3"), (range(9, 16), "11")):
         system, game = end_game("eightball", places, group)
         agent = bridge.Agent(carom.player(0.3), exact=True, shots=300)
         told = []
         action = agent.decide(system, game, told.append)
-        assert told == [action] and game.shot_constraints.ball_call == wanted and game.shot_constraints.can_shoot()
+        assert (
+            told == [action]
+            and game.shot_constraints.ball_call == wanted
+            and game.shot_constraints.can_shoot()
+        )
         agent.apply(system, action)
         assert (system.cue.V0, system.cue.phi) == (action.V0, action.phi)
         pt.simulate(system, inplace=True)
-        assert pt.ruleset.is_ball_pocketed_in_pocket(system, wanted, game.shot_constraints.pocket_call)
+        assert pt.ruleset.is_ball_pocketed_in_pocket(
+            system, wanted, game.shot_constraints.pocket_call
+        )
         game.process_and_advance(system)
         assert game.shot_info.legal and not game.shot_info.turn_over
         # the eight is all that is left
@@ -557,7 +729,9 @@ def test_the_agent_pots_its_own_balls():
 
 
 def test_ball_in_hand_of_the_agent():
-    """It puts the cue ball to a free place, also where pooltool has respotted it into another ball; behind the line alone if it must."""
+    """It puts the cue ball to a free place, also where pooltool has respotted it into another ball;
+    behind the line alone if it must.
+    """
     for hand in ("ANYWHERE", "BEHIND_LINE"):
         system, game = end_game("nineball", {"cue": (0.5, 0.5), "1": (0.51, 0.5), "9": (0.3, 1.5)})
         game.shot_constraints.ball_in_hand = pt.ruleset.BallInHandOptions[hand]
@@ -576,7 +750,13 @@ def test_a_stroke_without_a_game():
     assert system == before and best["ball"] == 11
     # the same seed, so the same errors
     action = bridge.Agent(shots=200).decide(system, game)
-    assert [best["cue"][name] for name in ("speed", "phi", "theta", "a", "b")] == [action.V0, action.phi, action.theta, action.a, action.b]
+    assert [best["cue"][name] for name in ("speed", "phi", "theta", "a", "b")] == [
+        action.V0,
+        action.phi,
+        action.theta,
+        action.a,
+        action.b,
+    ]
     with pytest.raises(bridge.UnsupportedError, match="eightball and nineball, not 'snooker'"):
         bridge.Agent().stroke(system, ["11"], rules="snooker")
     with pytest.raises(bridge.UnsupportedError, match="hand: .* not 'kitchen'"):

@@ -1,4 +1,6 @@
-"""What cameras do to recordings: rest before the strike, a clock of their own, lost and false rows, swapped names, a crooked table."""
+"""What cameras do to recordings: rest before the strike, a clock of their own, lost and false rows,
+swapped names, a crooked table.
+"""
 
 from dataclasses import replace
 
@@ -6,11 +8,26 @@ import numpy as np
 
 
 def spoiled(
-    recordings, seed=0, *, lead_in=0.0, rate=50.0, noise=0.35e-3, clock=0.0, lost=0.0, false=0.0, swaps=0, angle=0.0, scale=1.0,
-    bend=(0.0, 0.0, 0.0), table=(2.84, 1.42),
-):  # fmt: skip
-    """Recordings with `lead_in` s of rows at rest in front, their clock later by `clock` s, a share of rows `lost`, a share `false`,
-    that is anywhere on the table, names of two balls exchanged `swaps` times, and turned by `angle` (degrees), scaled and bent, by k |q|^2 q (1/m^2) and (g q) q (1/m), q from the middle."""
+    recordings,
+    seed=0,
+    *,
+    lead_in=0.0,
+    rate=50.0,
+    noise=0.35e-3,
+    clock=0.0,
+    lost=0.0,
+    false=0.0,
+    swaps=0,
+    angle=0.0,
+    scale=1.0,
+    bend=(0.0, 0.0, 0.0),
+    table=(2.84, 1.42),
+):
+    """Recordings with `lead_in` s of rows at rest in front, their clock later by `clock` s, a share
+    of rows `lost`, a share `false`, that is anywhere on the table, names of two balls exchanged
+    `swaps` times, and turned by `angle` (degrees), scaled and bent, by k |q|^2 q (1/m^2) and (g q)
+    q (1/m), q from the middle.
+    """
     random = np.random.default_rng(seed)
     made = []
     for shot in recordings:
@@ -18,8 +35,12 @@ def spoiled(
         for track in shot.tracks:
             # rest in front, with the noise of the camera
             times = np.arange(0.0, lead_in, 1.0 / rate)
-            rest = np.column_stack([times, track[0, 1:] + random.normal(0.0, noise, (len(times), 2))])
-            track = np.vstack([rest, track + (times[-1] + 1.0 / rate if len(times) else 0.0, 0.0, 0.0)])
+            rest = np.column_stack(
+                [times, track[0, 1:] + random.normal(0.0, noise, (len(times), 2))]
+            )
+            track = np.vstack(
+                [rest, track + (times[-1] + 1.0 / rate if len(times) else 0.0, 0.0, 0.0)]
+            )
             # rows that are lost and rows that are anywhere
             track = track[(random.uniform(size=len(track)) >= lost) | (np.arange(len(track)) == 0)]
             wrong = random.uniform(size=len(track)) < false
@@ -31,8 +52,23 @@ def spoiled(
             one, other = tracks[a], tracks[b]
             tracks[a] = np.vstack([one[one[:, 0] < time], other[other[:, 0] >= time]])
             tracks[b] = np.vstack([other[other[:, 0] < time], one[one[:, 0] >= time]])
-        turn = scale * np.array([[np.cos(np.radians(angle)), -np.sin(np.radians(angle))], [np.sin(np.radians(angle)), np.cos(np.radians(angle))]])
+        turn = scale * np.array(
+            [
+                [np.cos(np.radians(angle)), -np.sin(np.radians(angle))],
+                [np.sin(np.radians(angle)), np.cos(np.radians(angle))],
+            ]
+        )
         places = [t[:, 1:] - np.array(table) / 2 for t in tracks]
-        places = [q * (1.0 + bend[0] * (q * q).sum(axis=1) + q @ bend[1:])[:, None] + np.array(table) / 2 for q in places]
-        made.append(replace(shot, tracks=tuple(np.column_stack([t[:, 0] + clock, r @ turn.T]) for t, r in zip(tracks, places))))
+        places = [
+            q * (1.0 + bend[0] * (q * q).sum(axis=1) + q @ bend[1:])[:, None] + np.array(table) / 2
+            for q in places
+        ]
+        made.append(
+            replace(
+                shot,
+                tracks=tuple(
+                    np.column_stack([t[:, 0] + clock, r @ turn.T]) for t, r in zip(tracks, places)
+                ),
+            )
+        )
     return made

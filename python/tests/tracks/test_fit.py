@@ -1,4 +1,6 @@
-"""Fits: the sums of C against plays in Python, strikes found again in synthetic recordings, the command and its errors."""
+"""Fits: the sums of C against plays in Python, strikes found again in synthetic recordings, the
+command and its errors.
+"""
 
 import importlib
 import json
@@ -21,11 +23,27 @@ from carom import _described, tracks
 from carom._carom import ffi, lib
 from carom._rows import numbered, numbers_of
 from carom.cushions import NUMBERS
-from carom.tracks import _constants, _from_events, _joint, _kicks, _recordings, _strikes, _summary, fit
+from carom.tracks import (
+    _constants,
+    _from_events,
+    _joint,
+    _kicks,
+    _recordings,
+    _strikes,
+    _summary,
+    fit,
+)
 
 # Before a release more matches are fitted.
 MATCHES = int(os.environ.get("CAROM_MATCHES", "0"))
-HAN = {"mu_slide": 0.21, "mu_roll": 0.005, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "law_a": 0.05}
+HAN = {
+    "mu_slide": 0.21,
+    "mu_roll": 0.005,
+    "mu_spin": 0.005,
+    "mu_cushion": 0.22,
+    "restitution_cushion": 0.88,
+    "law_a": 0.05,
+}
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +61,17 @@ def distances(made, constants, k, strike, until, stride=1):
     shot = made.recordings[k]
     strikes = np.zeros((len(made.recordings), 6))
     strikes[k] = strike
-    found = fit.Fit(made.recordings, TABLE, RADIUS, "han", constants, {}, strikes, ["ok"] * len(strikes), strikes[:, 0])
+    found = fit.Fit(
+        made.recordings,
+        TABLE,
+        RADIUS,
+        "han",
+        constants,
+        {},
+        strikes,
+        ["ok"] * len(strikes),
+        strikes[:, 0],
+    )
     apart = []
     for ball, track in enumerate(shot.tracks):
         rows = track[::stride]
@@ -52,7 +80,10 @@ def distances(made, constants, k, strike, until, stride=1):
     return np.concatenate(apart)
 
 
-@pytest.mark.parametrize(("until", "stride", "drag"), [(1.3, 1, 0.0), (np.inf, 1, 0.0), (3.0, 3, 0.0), (np.inf, 1, 0.013)])
+@pytest.mark.parametrize(
+    ("until", "stride", "drag"),
+    [(1.3, 1, 0.0), (np.inf, 1, 0.0), (3.0, 3, 0.0), (np.inf, 1, 0.013)],
+)
 def test_sums_are_those_of_plays_in_python(made, until, stride, drag):
     # with drag the ways are cubics that are right to some micrometres, and carom_shoot's to one
     near, nearer, shape = (1e-3, 1e-3, 1e-2) if drag else (1e-9, 1e-7, 1e-5)
@@ -81,7 +112,12 @@ def test_sums_are_those_of_plays_in_python(made, until, stride, drag):
         lower = np.tril_indices(6)
         assert (np.abs(sums[k, 9:] - square[lower]) <= shape * scale[lower]).all()
         gradient = np.einsum("anx,nx,n->a", J, d, 1 / root)
-        assert np.allclose(sums[k, 3:9], gradient, rtol=shape, atol=shape * np.sqrt(square.diagonal() * (d**2).sum()))
+        assert np.allclose(
+            sums[k, 3:9],
+            gradient,
+            rtol=shape,
+            atol=shape * np.sqrt(square.diagonal() * (d**2).sum()),
+        )
 
 
 def test_rows_that_are_not_better_have_no_derivatives_and_threads_change_no_bit(made, plays):
@@ -113,11 +149,28 @@ def test_a_start_is_near_the_strike_however_few_rows_tell_it(made, rows):
     for strike, shot in zip(made.strikes, made.recordings, strict=True):
         track = shot.tracks[shot.cue]
         last = np.searchsorted(track[:, 0], shot.moves[shot.cue]) + rows - 1
-        moves = [own if ball == shot.cue else track[last, 0] + 0.021 for ball, own in enumerate(shot.moves)]
-        found = _strikes.starts(SimpleNamespace(cue=shot.cue, tracks=shot.tracks, rest=shot.rest, moves=moves, noise=shot.noise))
+        moves = [
+            own if ball == shot.cue else track[last, 0] + 0.021
+            for ball, own in enumerate(shot.moves)
+        ]
+        found = _strikes.starts(
+            SimpleNamespace(
+                cue=shot.cue, tracks=shot.tracks, rest=shot.rest, moves=moves, noise=shot.noise
+            )
+        )
         share = np.hypot(found[:, 0], found[:, 1]) / np.hypot(*strike[:2])
-        turn = np.abs(np.angle(np.exp(1j * (np.arctan2(found[:, 1], found[:, 0]) - np.arctan2(strike[1], strike[0])))))
-        assert ((share > (0.75 if rows < 3 else 0.9)) & (share < (1.35 if rows < 3 else 1.0)) & (turn < 0.012)).any()
+        turn = np.abs(
+            np.angle(
+                np.exp(
+                    1j * (np.arctan2(found[:, 1], found[:, 0]) - np.arctan2(strike[1], strike[0]))
+                )
+            )
+        )
+        assert (
+            (share > (0.75 if rows < 3 else 0.9))
+            & (share < (1.35 if rows < 3 else 1.0))
+            & (turn < 0.012)
+        ).any()
 
 
 def test_known_constants_give_the_strikes_back(made):
@@ -129,26 +182,39 @@ def test_known_constants_give_the_strikes_back(made):
     assert np.median(found.rmse) < 0.6e-3 and (found.rmse < 2e-3).sum() >= 11
     good = found.rmse < 2e-3
     halves = replace(found, train=[True, False] * 6)
-    assert (found.covered(found.bands()) >= (0.68, 0.95)).all() and (halves.covered(halves.bands(True), False) > (0.5, 0.85)).all()
+    assert (found.covered(found.bands()) >= (0.68, 0.95)).all() and (
+        halves.covered(halves.bands(True), False) > (0.5, 0.85)
+    ).all()
     error = np.abs(found.strikes - made.strikes)[good]
     assert np.median(error, axis=0)[:5].max() < 0.02 and np.median(error[:, 5]) < 1e-3
     # rmse is that of the positions, whose rolling against drag is within 1e-5 m
     told = made.recordings[3]
     moving = [track[rows] for track, rows in zip(told.tracks, told.moving)]
-    places = [found.positions(3, track[:, 0])[:, ball] - track[:, 1:] for ball, track in enumerate(moving)]
+    places = [
+        found.positions(3, track[:, 0])[:, ball] - track[:, 1:] for ball, track in enumerate(moving)
+    ]
     assert found.noise == found.recordings[0].noise and 0.3e-3 < found.noise < 0.4e-3
-    assert found.rmse[3] == pytest.approx(np.sqrt((np.concatenate(places) ** 2).sum(axis=1).mean()), abs=5e-6)
+    assert found.rmse[3] == pytest.approx(
+        np.sqrt((np.concatenate(places) ** 2).sum(axis=1).mean()), abs=5e-6
+    )
     assert found.plot(3).svg.count("<circle") > sum(map(len, made.recordings[3].tracks))
 
 
 @pytest.mark.parametrize(
     ("how", "spoil"),
     [
-        ({}, {"lead_in": 0.05}), ({}, {"lead_in": 3.0, "clock": 3600.0}), ({}, {"clock": 37.0}), ({"rate": 25.0}, {"lead_in": 0.5}),
-        ({"rate": 240.0, "thin": 0.0}, {"lead_in": 0.2}), ({"noise": 0.2e-3}, {"lead_in": 1.0}), ({"noise": 1e-3}, {"lead_in": 0.5}),
-        ({"noise": 3e-3, "thin": 0.0}, {"lead_in": 0.5}), ({"noise": 2e-3}, {}), ({"thin": 0.0}, {"lost": 0.08, "lead_in": 0.3}),
+        ({}, {"lead_in": 0.05}),
+        ({}, {"lead_in": 3.0, "clock": 3600.0}),
+        ({}, {"clock": 37.0}),
+        ({"rate": 25.0}, {"lead_in": 0.5}),
+        ({"rate": 240.0, "thin": 0.0}, {"lead_in": 0.2}),
+        ({"noise": 0.2e-3}, {"lead_in": 1.0}),
+        ({"noise": 1e-3}, {"lead_in": 0.5}),
+        ({"noise": 3e-3, "thin": 0.0}, {"lead_in": 0.5}),
+        ({"noise": 2e-3}, {}),
+        ({"thin": 0.0}, {"lost": 0.08, "lead_in": 0.3}),
     ],
-)  # fmt: skip
+)
 def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
     made = synthetic(12, constants=HAN, seed=2, **how)
     camera = {name: value for name, value in how.items() if name != "thin"}
@@ -158,12 +224,20 @@ def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
     assert found.recordings[0].noise == pytest.approx(noise, rel=0.15)
     assert all(shot.cue == 0 for shot in found.recordings) and found.status.count("ok") >= 9
     # twice the noise of both coordinates, but for an unlucky strike
-    assert np.median(found.rmse) < 1.3 * np.sqrt(2) * noise and (found.rmse < 2 * np.sqrt(2) * noise).sum() >= 9
+    assert (
+        np.median(found.rmse) < 1.3 * np.sqrt(2) * noise
+        and (found.rmse < 2 * np.sqrt(2) * noise).sum() >= 9
+    )
     late = recordings[0].tracks[0][-1, 0] - made.recordings[0].tracks[0][-1, 0]
     assert np.median(np.abs(found.strikes[:, 5] - made.strikes[:, 5] - late)) < 2e-3
     # the covariance of a strike does not depend on the clock
-    later = [replace(shot, tracks=tuple(track + (64.0, 0.0, 0.0) for track in shot.tracks)) for shot in found.recordings]
-    again = replace(found, recordings=later, strikes=found.strikes + [0.0, 0.0, 0.0, 0.0, 0.0, 64.0])
+    later = [
+        replace(shot, tracks=tuple(track + (64.0, 0.0, 0.0) for track in shot.tracks))
+        for shot in found.recordings
+    ]
+    again = replace(
+        found, recordings=later, strikes=found.strikes + [0.0, 0.0, 0.0, 0.0, 0.0, 64.0]
+    )
     assert np.allclose(again.strike_covariance(1), found.strike_covariance(1), rtol=1e-5)
 
 
@@ -172,21 +246,42 @@ def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
     [
         ({"false": 0.01, "lead_in": 0.5}, "mended: .* % false detections, left out"),
         ({"swaps": 1}, "mended: balls . and . swapped from .* s on"),
-        ({"false": 0.01, "swaps": 1, "lost": 0.08, "clock": 600.0}, "mended: balls . and . swapped from .* s on; .* % false detections, left out"),
+        (
+            {"false": 0.01, "swaps": 1, "lost": 0.08, "clock": 600.0},
+            "mended: balls . and . swapped from .* s on; .* % false detections, left out",
+        ),
     ],
-)  # fmt: skip
+)
 @pytest.mark.parametrize("thin", [0.0, 0.016])
 def test_false_rows_and_swapped_names_are_mended_and_told(spoil, status, thin):
     made = synthetic(12, constants=HAN, seed=2, thin=thin)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = fitted(spoiled(made.recordings, 2, **spoil), TABLE, RADIUS, constants=made.constants, free="none")
-    assert sum(re.fullmatch(status, text) is not None for text in found.status) >= (8 if thin == 0.0 else 4)
-    assert all(text == "ok" or text.startswith("mended") for text in found.status if not text.startswith(("doubtful", "rough")))
+        found = fitted(
+            spoiled(made.recordings, 2, **spoil),
+            TABLE,
+            RADIUS,
+            constants=made.constants,
+            free="none",
+        )
+    assert sum(re.fullmatch(status, text) is not None for text in found.status) >= (
+        8 if thin == 0.0 else 4
+    )
+    assert all(
+        text == "ok" or text.startswith("mended")
+        for text in found.status
+        if not text.startswith(("doubtful", "rough"))
+    )
     # of most shots nothing is left of it, and what is left is told
     limit = 2 * np.sqrt(2) * tracks.NOISE
-    assert np.median(found.rmse) < 1.3 * np.sqrt(2) * tracks.NOISE and (found.rmse < limit).sum() >= 8
-    assert all(text.startswith("doubtful") for text, rmse in zip(found.status, found.rmse) if rmse > 2.02 * RADIUS)
+    assert (
+        np.median(found.rmse) < 1.3 * np.sqrt(2) * tracks.NOISE and (found.rmse < limit).sum() >= 8
+    )
+    assert all(
+        text.startswith("doubtful")
+        for text, rmse in zip(found.status, found.rmse)
+        if rmse > 2.02 * RADIUS
+    )
     assert len(found.counted()) == 12
 
 
@@ -194,31 +289,56 @@ def told_and_mended(**how):
     """Fits of a table that lies crooked, as it is and calibrated."""
     made = synthetic(20, constants=HAN, seed=2)
     recordings = spoiled(made.recordings, 2, lead_in=0.5, **how)
-    return (fitted(recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=calibrate) for calibrate in (False, True))
+    return (
+        fitted(
+            recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=calibrate
+        )
+        for calibrate in (False, True)
+    )
 
 
-@pytest.mark.parametrize(("angle", "scale"), [(-0.5, 0.99), (0.5, 1.0), (0.0, 1.01)][: None if MATCHES else 1])
+@pytest.mark.parametrize(
+    ("angle", "scale"), [(-0.5, 0.99), (0.5, 1.0), (0.0, 1.01)][: None if MATCHES else 1]
+)
 def test_a_crooked_or_scaled_table_is_told_and_calibrated(angle, scale):
     told, mended = told_and_mended(angle=angle, scale=scale)
-    number = re.match(r"the tracks lie turned by (\S+) degrees, (\S+) times .*--calibrate puts them right", told.warnings[0])
-    assert float(number[1]) == pytest.approx(angle, abs=0.04) and float(number[2]) == pytest.approx(scale, abs=1e-3)
+    number = re.match(
+        r"the tracks lie turned by (\S+) degrees, (\S+) times .*--calibrate puts them right",
+        told.warnings[0],
+    )
+    assert float(number[1]) == pytest.approx(angle, abs=0.04) and float(number[2]) == pytest.approx(
+        scale, abs=1e-3
+    )
     assert "times that of the noise" in told.warnings[1] and told.median_rmse > 5e-3
-    assert mended.warnings[0].endswith("put right") and mended.median_rmse < 2 * np.sqrt(2) * tracks.NOISE
+    assert (
+        mended.warnings[0].endswith("put right")
+        and mended.median_rmse < 2 * np.sqrt(2) * tracks.NOISE
+    )
 
 
 def test_a_straight_table_stays_as_it_is():
     made = synthetic(20, constants=HAN, seed=2)
-    straight = fitted(made.recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=True)
+    straight = fitted(
+        made.recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=True
+    )
     assert list(straight.warnings) == [] and straight.median_rmse < 1.3 * np.sqrt(2) * tracks.NOISE
 
 
-@pytest.mark.parametrize("bend", [(-0.003, 0.003, -0.002), (0.004, 0.0, 0.0)][: None if MATCHES else 1])
+@pytest.mark.parametrize(
+    "bend", [(-0.003, 0.003, -0.002), (0.004, 0.0, 0.0)][: None if MATCHES else 1]
+)
 def test_a_bent_picture_is_told_and_calibrated(bend):
     """By a lens or a camera that looks askew, as it bends the edges; corners are up to 2 cm off."""
     told, mended = told_and_mended(angle=0.2, bend=bend)
-    assert re.match(r"the tracks lie turned by .* times as large as the table, bent by up to (1|2)\d\.\d mm, and", told.warnings[0])
+    assert re.match(
+        r"the tracks lie turned by .* times as large as the table, bent by up to (1|2)\d\.\d mm, and",
+        told.warnings[0],
+    )
     assert told.median_rmse > 5e-3
-    assert mended.warnings[0].endswith("put right") and mended.median_rmse < 2 * np.sqrt(2) * tracks.NOISE
+    assert (
+        mended.warnings[0].endswith("put right")
+        and mended.median_rmse < 2 * np.sqrt(2) * tracks.NOISE
+    )
 
 
 @pytest.mark.parametrize("seed", range(2 if MATCHES else 1))
@@ -226,30 +346,75 @@ def test_noise_does_not_turn_the_table(seed):
     """Noise of 3 mm at 240 pictures a second turns a coordinate round in every third row."""
     made = synthetic(20, constants=HAN, noise=3e-3, rate=240.0, thin=0.0, seed=seed)
     lie = _recordings.lie_of(_recordings.sound(made.recordings, 3e-3)[0], TABLE, RADIUS)
-    assert lie.far < 4.0 * lie.error and lie.error < 4e-3 and lie.bent == 0.0 and 50 < lie.impacts < 400
+    assert (
+        lie.far < 4.0 * lie.error
+        and lie.error < 4e-3
+        and lie.bent == 0.0
+        and 50 < lie.impacts < 400
+    )
 
 
 def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
-    """Frames as a camera has them, of shots on the built-in table: constants are found, with no word on them or on the strikes."""
-    other = {"mu_slide": 0.2, "mu_roll": 0.0046, "mu_spin": 0.005, "law_a": 0.06, "mu_cushion": 0.21, "restitution_cushion": 0.89}
+    """Frames as a camera has them, of shots on the built-in table: constants are found, with no
+    word on them or on the strikes.
+    """
+    other = {
+        "mu_slide": 0.2,
+        "mu_roll": 0.0046,
+        "mu_spin": 0.005,
+        "law_a": 0.06,
+        "mu_cushion": 0.21,
+        "restitution_cushion": 0.89,
+    }
     random, lead_in, noise = np.random.default_rng(1), 1.5, 5e-4
     table, lines, shots = carom.tables.threecushion(), ["shot,ball,t,x,y"], []
     for k in range(24):
-        places = [[random.uniform(0.2, 1.2), y + random.uniform(-0.2, 0.2)] for y in (0.7, 1.6, 2.3)]
-        strike = {"speed": random.uniform(2, 4), "phi": random.uniform(40, 140), "tip": random.uniform((-0.3, -0.2), (0.3, 0.3))}
+        places = [
+            [random.uniform(0.2, 1.2), y + random.uniform(-0.2, 0.2)] for y in (0.7, 1.6, 2.3)
+        ]
+        strike = {
+            "speed": random.uniform(2, 4),
+            "phi": random.uniform(40, 140),
+            "tip": random.uniform((-0.3, -0.2), (0.3, 0.3)),
+        }
         kind = {**_constants.usual("han"), **other}
-        shots.append(carom.simulate(table, carom.balls(places, radius=RADIUS, **kind), carom.cue(**strike, tip_restitution=1.0), cushion_model="han"))
+        shots.append(
+            carom.simulate(
+                table,
+                carom.balls(places, radius=RADIUS, **kind),
+                carom.cue(**strike, tip_restitution=1.0),
+                cushion_model="han",
+            )
+        )
         times = np.arange(0.0, lead_in + shots[-1].time, 0.02)
         frames = shots[-1].positions(np.maximum(times - lead_in, 0.0))[..., :2]
         seen = frames + random.normal(0.0, noise, frames.shape)
-        lines += [f"{k},{ball},{t:.3f},{x:.5f},{y:.5f}" for t, frame in zip(times, seen) for ball, (x, y) in enumerate(frame)]
+        lines += [
+            f"{k},{ball},{t:.3f},{x:.5f},{y:.5f}"
+            for t, frame in zip(times, seen)
+            for ball, (x, y) in enumerate(frame)
+        ]
     (tmp_path / "frames.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    given = [str(tmp_path / "frames.csv"), "--table", "1.42,2.84", "--radius", "0.03075", "--cushion-model", "han"]
+    given = [
+        str(tmp_path / "frames.csv"),
+        "--table",
+        "1.42,2.84",
+        "--radius",
+        "0.03075",
+        "--cushion-model",
+        "han",
+    ]
     assert fit.main([*given, "-o", str(tmp_path / "fit.json")]) == 0
     found = json.loads((tmp_path / "fit.json").read_text(encoding="utf-8"))
-    assert "warning" not in capsys.readouterr().err and found["noise"] == pytest.approx(noise, rel=0.1)
-    assert sum(shot["status"] == "ok" for shot in found["shots"]) >= 20 and found["median_rmse"] < 1.3 * np.sqrt(2) * noise
-    # the strike: when, and how fast the ball left the tip, of which the time of a first hit leaves a part open
+    assert "warning" not in capsys.readouterr().err and found["noise"] == pytest.approx(
+        noise, rel=0.1
+    )
+    assert (
+        sum(shot["status"] == "ok" for shot in found["shots"]) >= 20
+        and found["median_rmse"] < 1.3 * np.sqrt(2) * noise
+    )
+    # the strike: when, and how fast the ball left the tip, of which the time of a first hit leaves
+    # a part open
     cues = [shot["cue"] for shot in found["shots"]]
     assert [cue["start"] for cue in cues] == pytest.approx([lead_in] * 24, abs=2e-3)
     left = np.array([played.states([0.0])[0, 0]["v"][:2] for played in shots])
@@ -260,7 +425,10 @@ def test_frames_of_played_shots_are_fitted_by_the_command(tmp_path, capsys):
     assert {name: found["constants"][name] for name in truth if name != "law_b"} == pytest.approx(
         {name: value for name, value in truth.items() if name != "law_b"}, rel=0.03
     )
-    off = [abs(found["constants"][name] - value) / found["spread"][name] for name, value in truth.items()]
+    off = [
+        abs(found["constants"][name] - value) / found["spread"][name]
+        for name, value in truth.items()
+    ]
     assert len(off) >= 10 and np.mean(np.array(off) < 2) > 0.8, off
 
 
@@ -271,44 +439,90 @@ def test_no_shot_is_ok_whose_rmse_is_three_times_the_noise():
     above = found.rmse / (np.sqrt(2) * found.recordings[0].noise)
     kinds = [text.partition(":")[0] for text in found.status]
     assert "rough" in kinds and all(ratio < 2 for kind, ratio in zip(kinds, above) if kind == "ok")
-    assert all(2 < ratio and rmse < 2 * RADIUS for kind, ratio, rmse in zip(kinds, above, found.rmse) if kind == "rough")
+    assert all(
+        2 < ratio and rmse < 2 * RADIUS
+        for kind, ratio, rmse in zip(kinds, above, found.rmse)
+        if kind == "rough"
+    )
     assert len(found.counted()) == 12
     # many are told in one line
     found.status[:] = [f"rough: {k}" for k in range(12)]
-    assert [line for line in _summary.told(found) if "rough" in line][0].startswith("12 of 12 shots are rough: RMSE ")
+    assert [line for line in _summary.told(found) if "rough" in line][0].startswith(
+        "12 of 12 shots are rough: RMSE "
+    )
 
 
 @pytest.mark.parametrize("model", ["smooth", "han", "mathavan"])
 def test_shots_of_a_game_are_fitted_by_the_recipe_of_the_page(model):
-    """Which has no constants for the smooth cushion, and those of the balls for others; the figure is the page's."""
+    """Which has no constants for the smooth cushion, and those of the balls for others; the figure
+    is the page's.
+    """
     page = (Path(__file__).parents[3] / "docs/using/tracks.md").read_text(encoding="utf-8")
     recipe = 'carom.balls([[0, 0]], game="billiard", cushion_model="han")["kind"][0]'
-    assert f"constants={recipe}`. With noise of 0.5 mm both come to 0.71 mm" in page and "mu_ball" not in page
+    assert (
+        f"constants={recipe}`. With noise of 0.5 mm both come to 0.71 mm" in page
+        and "mu_ball" not in page
+    )
     random, recordings = np.random.default_rng(4), []
     kind = eval(recipe.replace("han", model))
-    table = carom.tables.polygon([(0, 0), (2.84, 0), TABLE, (0, 1.42)], nose_height=float(kind["nose_height"]), ball_radius=RADIUS)
+    table = carom.tables.polygon(
+        [(0, 0), (2.84, 0), TABLE, (0, 1.42)],
+        nose_height=float(kind["nose_height"]),
+        ball_radius=RADIUS,
+    )
     for shot in range(4):
-        balls = carom.balls([[0.7, 0.7], [2.0, 0.4 + 0.2 * shot], [2.3, 1.2]], game="billiard", cushion_model=model)
+        balls = carom.balls(
+            [[0.7, 0.7], [2.0, 0.4 + 0.2 * shot], [2.3, 1.2]], game="billiard", cushion_model=model
+        )
         way = balls["state"]["r"][1] - balls["state"]["r"][0]
-        cue = carom.cue(speed=2.5, phi=float(np.degrees(np.arctan2(way[1], way[0]))) + 0.7, b=0.2, a=0.1, game="billiard")
+        cue = carom.cue(
+            speed=2.5,
+            phi=float(np.degrees(np.arctan2(way[1], way[0]))) + 0.7,
+            b=0.2,
+            a=0.1,
+            game="billiard",
+        )
         shot = carom.simulate(table, balls, cue, cushion_model=model)
         at = np.arange(-0.5, shot.time + 0.1, 0.02)
-        seen = shot.positions(np.maximum(at, 0.0))[..., :2] + random.normal(0.0, 0.5e-3, (len(at), 3, 2))
-        recordings.append(tracks.Recording(len(recordings), (1, 2, 3), tuple(np.column_stack([at, seen[:, ball]]) for ball in range(3))))
-    found = fitted(recordings, TABLE, RADIUS, cushion_model=model, free="none", **({} if model == "smooth" else {"constants": kind}))
+        seen = shot.positions(np.maximum(at, 0.0))[..., :2] + random.normal(
+            0.0, 0.5e-3, (len(at), 3, 2)
+        )
+        recordings.append(
+            tracks.Recording(
+                len(recordings),
+                (1, 2, 3),
+                tuple(np.column_stack([at, seen[:, ball]]) for ball in range(3)),
+            )
+        )
+    found = fitted(
+        recordings,
+        TABLE,
+        RADIUS,
+        cushion_model=model,
+        free="none",
+        **({} if model == "smooth" else {"constants": kind}),
+    )
     assert 0.65e-3 < found.median_rmse < 0.8e-3 and found.status == ["ok"] * 4
 
 
 def test_an_rmse_does_not_depend_on_how_long_balls_are_seen_at_rest(made, plays):
     """Nor much on how often they are seen."""
+
     def rmse(recordings):
         other = {**made.constants, "restitution_cushion": 0.9}
         strikes = made.strikes - np.eye(6)[5] * plays.origins[:, None]
         return _strikes.Plays(recordings, TABLE, RADIUS, other, "han").rmse(strikes)
 
     rest = np.arange(0.1, 20.0, 0.02)[:, None]
-    longer = [replace(shot, tracks=tuple(np.concatenate([track, track[-1] + rest * (1.0, 0.0, 0.0)]) for track in shot.tracks))
-              for shot in made.recordings]  # fmt: skip
+    longer = [
+        replace(
+            shot,
+            tracks=tuple(
+                np.concatenate([track, track[-1] + rest * (1.0, 0.0, 0.0)]) for track in shot.tracks
+            ),
+        )
+        for shot in made.recordings
+    ]
     whole = rmse(made.recordings)
     assert np.median(whole) > 5e-3 and rmse(longer) == pytest.approx(whole, rel=1e-4)
     often = synthetic(12, constants=HAN, thin=0.0, seed=2).recordings
@@ -319,9 +533,18 @@ def test_what_no_play_explains_is_doubtful_and_counts(made):
     other = {**made.constants, "mu_cushion": 0.05, "restitution_cushion": 0.6}
     found = fitted(made.recordings, TABLE, RADIUS, constants=other, free="none")
     doubtful = [text.startswith("doubtful: RMSE") for text in found.status]
-    assert sum(doubtful) >= 6 and len(found.counted()) == 12 and "times that of the noise" in found.warnings[0]
-    assert found.to_dict()["warnings"] == list(found.warnings) and found.to_dict()["noise"] == found.recordings[0].noise
-    assert any("doubtful" in line for line in _summary.told(found)) and "doubtful" in _summary.page(found, "a")
+    assert (
+        sum(doubtful) >= 6
+        and len(found.counted()) == 12
+        and "times that of the noise" in found.warnings[0]
+    )
+    assert (
+        found.to_dict()["warnings"] == list(found.warnings)
+        and found.to_dict()["noise"] == found.recordings[0].noise
+    )
+    assert any("doubtful" in line for line in _summary.told(found)) and "doubtful" in _summary.page(
+        found, "a"
+    )
     # a strike at the bound of its time: the ball is seen to move long before it moves
     assert _strikes.at_bound(np.array([2.0, 0.0, 0.0, 1.0, 0.5, _strikes.EARLIEST])) == "time"
     assert _strikes.at_bound(np.array([2.0, 0.0, 0.0, 1.0, 4.2, 0.0])) == "spin"
@@ -333,16 +556,38 @@ def test_a_recording_that_begins_after_the_strike_does_not_count(made):
     for shot in made.recordings:
         # from 0.3 s after the first hit
         begin = np.sort(shot.moves)[1] + 0.3
-        cut.append(replace(shot, tracks=tuple(track[track[:, 0] >= min(begin, track[-2, 0])] for track in shot.tracks)))
+        cut.append(
+            replace(
+                shot,
+                tracks=tuple(
+                    track[track[:, 0] >= min(begin, track[-2, 0])] for track in shot.tracks
+                ),
+            )
+        )
     found = fitted(cut, TABLE, RADIUS, constants=made.constants, free="none")
     wrong = [rmse > 5e-3 for rmse in found.rmse]
-    assert sum(wrong) >= 6 and sum(text.startswith("begins after the strike") for text in found.status) >= 6
+    assert (
+        sum(wrong) >= 6
+        and sum(text.startswith("begins after the strike") for text in found.status) >= 6
+    )
     assert all(text != "ok" for text, rmse in zip(found.status, found.rmse) if rmse > 2.02 * RADIUS)
 
 
 def test_derivatives_of_shots_give_the_normal_equations(made, plays):
-    """J^T W J by tangents of whole shots against that of C, by differences, which see the rounding of single precision."""
-    names = ["mu_slide", "mu_roll", "mu_spin", "law_a", "law_b", "restitution", "restitution_cushion", "mu_cushion", "nose_height"]
+    """J^T W J by tangents of whole shots against that of C, by differences, which see the rounding
+    of single precision.
+    """
+    names = [
+        "mu_slide",
+        "mu_roll",
+        "mu_spin",
+        "law_a",
+        "law_b",
+        "restitution",
+        "restitution_cushion",
+        "mu_cushion",
+        "nose_height",
+    ]
     plays = plays.some(range(len(made.strikes)))
     plays.set(made.constants, dict.fromkeys(names, 1e-5))
     rows = np.arange(len(made.strikes), dtype=np.int32)
@@ -350,14 +595,25 @@ def test_derivatives_of_shots_give_the_normal_equations(made, plays):
     off = []
     for row in rows:
         d, X, C, R = _strikes.derivatives(plays, int(row), made.strikes[row], names)
-        J, W = np.concatenate([X, C], axis=1), np.repeat(1 / np.sqrt(1 + (d.reshape(-1, 2) ** 2).sum(axis=1) / _strikes.HUBER**2), 2)
+        J, W = (
+            np.concatenate([X, C], axis=1),
+            np.repeat(1 / np.sqrt(1 + (d.reshape(-1, 2) ** 2).sum(axis=1) / _strikes.HUBER**2), 2),
+        )
         size = np.sqrt(square[row].diagonal()) + 1e-9
-        off.append(max(np.abs((J.T @ (W[:, None] * J) - square[row]) / np.outer(size, size)).max(),
-                       np.abs((J.T @ (W * d) - gradient[row]) / size).max() / np.sqrt(d @ d)))  # fmt: skip
+        off.append(
+            max(
+                np.abs((J.T @ (W[:, None] * J) - square[row]) / np.outer(size, size)).max(),
+                np.abs((J.T @ (W * d) - gradient[row]) / size).max() / np.sqrt(d @ d),
+            )
+        )
         # the place of rest of a ball that is never met moves its own samples alone, by as much
         for ball in np.flatnonzero(~np.isfinite(made.recordings[row].moves)):
-            assert np.isclose((R[:, 2 * ball : 2 * ball + 2] ** 2).sum(axis=0), len(made.recordings[row].tracks[ball])).all()
-    # the noise of single precision over the step is some thousandths, and more where a shot magnifies it
+            assert np.isclose(
+                (R[:, 2 * ball : 2 * ball + 2] ** 2).sum(axis=0),
+                len(made.recordings[row].tracks[ball]),
+            ).all()
+    # the noise of single precision over the step is some thousandths, and more where a shot
+    # magnifies it
     assert np.median(off) < 6e-3 and np.sum(np.array(off) < 0.02) >= 10, off
 
 
@@ -365,7 +621,9 @@ def test_strikes_are_off_by_what_their_covariance_says():
     off, within = [], []
     for seed in (2, 6):
         made = synthetic(24, constants=HAN, seed=seed)
-        found = fitted(made.recordings, TABLE, RADIUS, constants=made.constants, free="none", threads=-1)
+        found = fitted(
+            made.recordings, TABLE, RADIUS, constants=made.constants, free="none", threads=-1
+        )
         for k in np.flatnonzero(found.rmse < 1e-3):
             covariance = found.strike_covariance(int(k))
             assert np.isfinite(covariance).all() and (np.linalg.eigvalsh(covariance) > 0).all()
@@ -373,13 +631,29 @@ def test_strikes_are_off_by_what_their_covariance_says():
             # draws end about where the shot did: which share of them is nearer to their middle
             table, layouts, starts = found.draws(int(k), 100)
             ends = carom.simulate_batch(table, layouts, cushion_model="han").final["r"][..., :2]
-            apart = ends - np.median(ends, axis=0), made.shots[k].final["r"][:, :2] - np.median(ends, axis=0)
-            within += (np.hypot(*apart[0].T).T < np.hypot(*apart[1].T)).mean(axis=0)[np.isfinite(made.recordings[k].moves)].tolist()
-            assert np.isclose(starts.std(), np.sqrt(covariance[5, 5]), rtol=0.5) and found.draws(int(k), 100)[1].tobytes() == layouts.tobytes()
+            apart = (
+                ends - np.median(ends, axis=0),
+                made.shots[k].final["r"][:, :2] - np.median(ends, axis=0),
+            )
+            within += (
+                (np.hypot(*apart[0].T).T < np.hypot(*apart[1].T))
+                .mean(axis=0)[np.isfinite(made.recordings[k].moves)]
+                .tolist()
+            )
+            assert (
+                np.isclose(starts.std(), np.sqrt(covariance[5, 5]), rtol=0.5)
+                and found.draws(int(k), 100)[1].tobytes() == layouts.tobytes()
+            )
     off, within = np.abs(off), np.array(within)
-    assert 0.55 < (within < 0.68).mean() < 0.95 and (within < 0.95).mean() > 0.9, ((within < 0.68).mean(), (within < 0.95).mean())
+    assert 0.55 < (within < 0.68).mean() < 0.95 and (within < 0.95).mean() > 0.9, (
+        (within < 0.68).mean(),
+        (within < 0.95).mean(),
+    )
     # of normal errors 68 % and 95 %
-    assert len(off) > 30 and 0.55 < (off < 1).mean() < 0.85 and (off < 2).mean() > 0.85, ((off < 1).mean(), (off < 2).mean())
+    assert len(off) > 30 and 0.55 < (off < 1).mean() < 0.85 and (off < 2).mean() > 0.85, (
+        (off < 1).mean(),
+        (off < 2).mean(),
+    )
     still = tuple(track[[0, 0]] + [[0, 0, 0], [1, 0, 0]] for track in made.recordings[0].tracks)
     none = fitted([tracks.Recording(1, (1, 2, 3), still)], TABLE, RADIUS, free="none")
     with pytest.raises(ValueError, match="no strike was found"):
@@ -387,9 +661,18 @@ def test_strikes_are_off_by_what_their_covariance_says():
 
 
 TRUTH = {
-    "mu_slide": 0.21, "mu_roll": 0.0046, "drag": 0.011, "mu_spin": 0.006, "mu_cushion": 0.21, "restitution_cushion": 0.89, "law_a": 0.04,
-    "law_b": 0.4, "restitution": 0.94, "nose_height": 0.0362, "roll_loss": 0.06,
-}  # fmt: skip
+    "mu_slide": 0.21,
+    "mu_roll": 0.0046,
+    "drag": 0.011,
+    "mu_spin": 0.006,
+    "mu_cushion": 0.21,
+    "restitution_cushion": 0.89,
+    "law_a": 0.04,
+    "law_b": 0.4,
+    "restitution": 0.94,
+    "nose_height": 0.0362,
+    "roll_loss": 0.06,
+}
 
 
 def test_unknown_constants_are_found_within_their_spread():
@@ -397,24 +680,43 @@ def test_unknown_constants_are_found_within_their_spread():
     for seed in (4, 6) if MATCHES else (4,):
         made = synthetic(24, constants=TRUTH, seed=seed)
         told = []
-        found = fitted(made.recordings, TABLE, RADIUS, seed=1, threads=-1, progress=lambda what, part: told.append((what, part)))
-        off += [(found.constants[name] - value) / found.spread[name] for name, value in TRUTH.items()]
+        found = fitted(
+            made.recordings,
+            TABLE,
+            RADIUS,
+            seed=1,
+            threads=-1,
+            progress=lambda what, part: told.append((what, part)),
+        )
+        off += [
+            (found.constants[name] - value) / found.spread[name] for name, value in TRUTH.items()
+        ]
         # all of them together: chi^2 of 11 numbers has the mean 11
-        assert set(found.fitted) == set(TRUTH) and found.to_dict()["covariance"]["constants"] == list(found.fitted)
-        np.testing.assert_allclose(np.sqrt(found.covariance.diagonal()), [found.spread[name] for name in found.fitted])
+        assert set(found.fitted) == set(TRUTH) and found.to_dict()["covariance"][
+            "constants"
+        ] == list(found.fitted)
+        np.testing.assert_allclose(
+            np.sqrt(found.covariance.diagonal()), [found.spread[name] for name in found.fitted]
+        )
         together = np.array([found.constants[name] - TRUTH[name] for name in found.fitted])
         correlation = found.covariance / np.outer(*2 * [np.sqrt(found.covariance.diagonal())])
         assert 0.3 < together @ np.linalg.solve(found.covariance, together) < 60.0
-        assert np.linalg.eigvalsh(correlation).min() > 0.0 and np.abs(correlation - np.eye(11)).max() > 0.1
+        assert (
+            np.linalg.eigvalsh(correlation).min() > 0.0
+            and np.abs(correlation - np.eye(11)).max() > 0.1
+        )
         # the spreads are no excuse, and shots are off by hardly more than the noise
         assert all(found.spread[name] < 0.15 * value for name, value in TRUTH.items()), found.spread
         assert found.median_rmse < 2e-3
-    # 19 in 20 within two standard deviations, less the chance of one match: of seeds 1 to 12 one had 8 of 11 and four had 10; by the rounding
-    # of another NumPy or processor a fit may end elsewhere
+    # 19 in 20 within two standard deviations, less the chance of one match: of seeds 1 to 12 one
+    # had 8 of 11 and four had 10; by the rounding of another NumPy or processor a fit may end
+    # elsewhere
     assert sum(abs(z) < 2 for z in off) >= 0.6 * len(off) and max(map(abs, off)) < 5, off
     usual = fitted(made.recordings, TABLE, RADIUS, free="none")
     assert found.median_rmse < 0.3 * usual.median_rmse
-    assert {what for what, _ in told} == {"events", "strikes", "constants", "spread"} and all(0 <= part <= 1 for _, part in told)
+    assert {what for what, _ in told} == {"events", "strikes", "constants", "spread"} and all(
+        0 <= part <= 1 for _, part in told
+    )
 
 
 def billiard(seed):
@@ -428,7 +730,9 @@ def test_a_friction_without_slip_is_found(seed):
     made = billiard(seed)
     found = fitted(made.recordings, TABLE, RADIUS, seed=1)
     assert found.median_rmse < 1.5 * np.sqrt(2) * 0.5e-3
-    assert "law_b" not in found.fitted and found.constants["law_b"] == found.constants["law_c"] == 0.0
+    assert (
+        "law_b" not in found.fitted and found.constants["law_b"] == found.constants["law_c"] == 0.0
+    )
     assert found.constants["law_a"] == pytest.approx(0.08, abs=0.002)
 
 
@@ -436,58 +740,130 @@ def test_matches_far_from_the_usual_are_fitted_within_their_spread():
     """Matches whose constants are up to 1.8 deviations from the usual, by cameras of all kinds."""
     matches, off, sound = MATCHES, [], 0
     if matches == 0:
-        pytest.skip("CAROM_MATCHES says how many matches are fitted, each in some 15 s: 24 before a release")
+        pytest.skip(
+            "CAROM_MATCHES says how many matches are fitted, each in some 15 s: 24 before a release"
+        )
     for seed in range(matches):
         model = ("han", "smooth")[seed // 8 % 2]
         random, usual = np.random.default_rng(1000 + seed), _constants.usual(model)
         truth = {
-            name: float(np.clip(usual[name] + size * random.uniform(-1.8, 1.8), max(low, 0.15 * usual[name]), min(high, 0.99)))
+            name: float(
+                np.clip(
+                    usual[name] + size * random.uniform(-1.8, 1.8),
+                    max(low, 0.15 * usual[name]),
+                    min(high, 0.99),
+                )
+            )
             for name, (size, low, high) in _joint.PRIORS.items()
             if not name.endswith("_log")
         }
-        noise, rate = (0.35e-3, 0.2e-3, 1e-3, 3e-3)[seed % 4], (50.0, 25.0, 120.0, 240.0)[seed // 2 % 4]
-        made = synthetic(
-            24, cushion_model=model, constants=truth, noise=noise, rate=rate, thin=(0.016, 0.0)[seed // 4 % 2], seed=seed
+        noise, rate = (
+            (0.35e-3, 0.2e-3, 1e-3, 3e-3)[seed % 4],
+            (50.0, 25.0, 120.0, 240.0)[seed // 2 % 4],
         )
-        crooked = {"angle": random.uniform(-0.5, 0.5), "scale": random.uniform(0.99, 1.01)} if seed % 3 == 1 else {}
+        made = synthetic(
+            24,
+            cushion_model=model,
+            constants=truth,
+            noise=noise,
+            rate=rate,
+            thin=(0.016, 0.0)[seed // 4 % 2],
+            seed=seed,
+        )
+        crooked = (
+            {"angle": random.uniform(-0.5, 0.5), "scale": random.uniform(0.99, 1.01)}
+            if seed % 3 == 1
+            else {}
+        )
         recordings = spoiled(
-            made.recordings, seed, lead_in=random.uniform(0.0, 3.0), rate=rate, noise=noise, clock=random.uniform(0.0, 3600.0),
-            lost=0.08 * (seed % 2), false=0.01 * (seed // 2 % 2), swaps=seed // 3 % 2, **crooked,
-        )  # fmt: skip
+            made.recordings,
+            seed,
+            lead_in=random.uniform(0.0, 3.0),
+            rate=rate,
+            noise=noise,
+            clock=random.uniform(0.0, 3600.0),
+            lost=0.08 * (seed % 2),
+            false=0.01 * (seed // 2 % 2),
+            swaps=seed // 3 % 2,
+            **crooked,
+        )
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            found = fitted(recordings, TABLE, RADIUS, cushion_model=model, seed=1, threads=-1, calibrate=bool(crooked))
-        best = fitted(made.recordings, TABLE, RADIUS, cushion_model=model, constants=made.constants, free="none")
-        # a friction that hardly changes with the slip may be found without the change, whose numbers then have no spread
-        told = [abs(found.constants[name] - value) / found.spread[name] for name, value in truth.items() if name in found.spread]
+            found = fitted(
+                recordings,
+                TABLE,
+                RADIUS,
+                cushion_model=model,
+                seed=1,
+                threads=-1,
+                calibrate=bool(crooked),
+            )
+        best = fitted(
+            made.recordings,
+            TABLE,
+            RADIUS,
+            cushion_model=model,
+            constants=made.constants,
+            free="none",
+        )
+        # a friction that hardly changes with the slip may be found without the change, whose
+        # numbers then have no spread
+        told = [
+            abs(found.constants[name] - value) / found.spread[name]
+            for name, value in truth.items()
+            if name in found.spread
+        ]
         off += told
         sound += found.median_rmse < 2 * np.sqrt(2) * noise
-        print(f"match {seed}: noise {1e3 * noise:.2f} mm, rate {rate:g}, RMSE {1e3 * found.median_rmse:.2f} mm, with the true constants "
-              f"{1e3 * best.median_rmse:.2f} mm, constants within one spread {np.mean(np.array(told) < 1):.2f}")  # fmt: skip
+        print(
+            f"match {seed}: noise {1e3 * noise:.2f} mm, rate {rate:g}, RMSE {1e3 * found.median_rmse:.2f} mm, with the true constants "
+            f"{1e3 * best.median_rmse:.2f} mm, constants within one spread {np.mean(np.array(told) < 1):.2f}"
+        )
     off = np.array(off)
-    print(f"{matches} matches: within one spread {(off < 1).mean():.2f}, within two {(off < 2).mean():.2f}, "
-          f"{(off > 3).sum()} of {len(off)} beyond three, sound {sound}")  # fmt: skip
+    print(
+        f"{matches} matches: within one spread {(off < 1).mean():.2f}, within two {(off < 2).mean():.2f}, "
+        f"{(off > 3).sum()} of {len(off)} beyond three, sound {sound}"
+    )
     if matches < 8:
         assert (off < 2).mean() > 0.7 and found.median_rmse < 4 * np.sqrt(2) * noise
     else:
-        assert (off < 1).mean() > 0.55 and (off < 2).mean() > 0.9 and (off > 3).mean() < 0.04 and sound > 0.6 * matches
+        assert (
+            (off < 1).mean() > 0.55
+            and (off < 2).mean() > 0.9
+            and (off > 3).mean() < 0.04
+            and sound > 0.6 * matches
+        )
 
 
 def test_few_shots_tell_a_table():
     """Five shots of a table unlike the usual one, by the law of the game's cushion."""
-    table = {"restitution_cushion": 0.74, "mu_cushion": 0.21, "nose_height": 0.0355, "mu_slide": 0.22, "mu_roll": 0.0052, "drag": 0.009}
+    table = {
+        "restitution_cushion": 0.74,
+        "mu_cushion": 0.21,
+        "nose_height": 0.0355,
+        "mu_slide": 0.22,
+        "mu_roll": 0.0052,
+        "drag": 0.009,
+    }
     made = tracks.synthetic(5, constants=table, noise=0.5e-3, seed=3)
     found = fit.fit(made.recordings, TABLE, RADIUS, free="table")
     usual = _constants.usual("smooth")
     assert found.cushion_model == "smooth" and set(found.fitted) == set(table)
     assert all(found.constants[name] == usual[name] for name in usual if name not in table)
     # half as far from the table as the usual one, all of them
-    assert all(abs(found.constants[name] - value) < 0.5 * abs(usual[name] - value) for name, value in table.items()), found.constants
+    assert all(
+        abs(found.constants[name] - value) < 0.5 * abs(usual[name] - value)
+        for name, value in table.items()
+    ), found.constants
 
 
 def test_a_search_that_stopped_far_above_the_noise_has_a_larger_spread():
     def at(times):
-        found = _joint.left(SimpleNamespace(names=["mu_spin"], scale=np.array([3e-3]), noise=1e-3, middle=4e-6 * times**2))
+        found = _joint.left(
+            SimpleNamespace(
+                names=["mu_spin"], scale=np.array([3e-3]), noise=1e-3, middle=4e-6 * times**2
+            )
+        )
         return float(found[0]) / _joint._SHAPE["mu_spin"]
 
     assert at(1.0) == pytest.approx(0.1) and at(3.0) == pytest.approx(2.1) and at(60.0) == at(6.0)
@@ -509,27 +885,41 @@ def test_named_constants_follow_their_priors_and_threads_change_no_bit():
     part, alone = found(made.recordings, train=range(5)), found(made.recordings[:5], threads=2)
     assert part.constants == alone.constants and len(part.rmse) == 8
     # eight shots tell how far a constant may be off, and five do not
-    assert first.covariance.shape == (1, 1) and abs(first.constants["mu_spin"] - 0.006) < 3 * first.spread["mu_spin"] < 1e-3
+    assert (
+        first.covariance.shape == (1, 1)
+        and abs(first.constants["mu_spin"] - 0.006) < 3 * first.spread["mu_spin"] < 1e-3
+    )
     assert part.covariance is None and part.spread == {} and part.to_dict()["covariance"] is None
 
 
 def test_one_number_of_friction_between_balls_is_a_law_without_slip():
     values = _constants.complete({"mu_ball": 0.07}, "han")
-    assert (values["law_a"], values["law_b"], values["law_c"]) == (0.07, 0.0, 0.0) and "mu_ball" not in values
+    assert (values["law_a"], values["law_b"], values["law_c"]) == (
+        0.07,
+        0.0,
+        0.0,
+    ) and "mu_ball" not in values
     both = _constants.complete({"mu_ball": 0.07, "law_a": 0.05}, "han")
     assert both["law_a"] == 0.05 and both["law_b"] > 0
 
 
-IMPACT = [(name, float) for name in ("v_n", "v_t", "w_t", "w_n", "u_t", "u_n", "w_error", "u_error", "first")]
+IMPACT = [
+    (name, float)
+    for name in ("v_n", "v_t", "w_t", "w_n", "u_t", "u_n", "w_error", "u_error", "first")
+]
 
 
 def test_the_smooth_law_is_fitted_with_its_change_by_speed():
     usual = _constants.usual("smooth")
     assert usual["restitution_log"] == 0.0 and usual["mu_log"] < 0.0 and usual["smooth_q"] == 0.35
-    assert "mu_log" in fit._priors(["default"], {}, usual, "smooth") and "mu_log" not in fit._priors(["default"], {}, _constants.usual("han"), "han")
+    assert "mu_log" in fit._priors(
+        ["default"], {}, usual, "smooth"
+    ) and "mu_log" not in fit._priors(["default"], {}, _constants.usual("han"), "han")
     impacts = np.zeros(2, IMPACT)
     impacts["v_n"], impacts["v_t"], impacts["first"] = (0.5, 3.0), (0.3, 1.8), 1.0
-    slow, fast = _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)[:, 1] / impacts["v_n"]
+    slow, fast = (
+        _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)[:, 1] / impacts["v_n"]
+    )
     # of two that are alike, the faster one rebounds less
     assert -0.89 < slow < fast - 0.01 < -0.82
 
@@ -539,9 +929,20 @@ def test_events_are_predicted_by_the_laws_of_the_library(monkeypatch):
     impacts["v_n"], impacts["v_t"], impacts["first"] = 2.5, 0.8, 1.0
     usual = _constants.usual("smooth")
     before = _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)
-    for name, value in (("restitution_log", -0.1), ("restitution_log2", -0.05), ("mu_log", 0.2), ("smooth_q", 0.1), ("smooth_g", 0.3)):
-        monkeypatch.setattr(_from_events, "usual", lambda model, name=name, value=value: usual | {name: value})
-        assert (_from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)[:, :4] != before[:, :4]).any(), name
+    for name, value in (
+        ("restitution_log", -0.1),
+        ("restitution_log2", -0.05),
+        ("mu_log", 0.2),
+        ("smooth_q", 0.1),
+        ("smooth_g", 0.3),
+    ):
+        monkeypatch.setattr(
+            _from_events, "usual", lambda model, name=name, value=value: usual | {name: value}
+        )
+        assert (
+            _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.25, 0.036)[:, :4]
+            != before[:, :4]
+        ).any(), name
 
 
 def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name():
@@ -551,11 +952,18 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
         usual = _constants.usual(model)
         found = fit._priors(["default"], {}, usual, model)
         assert ("mu_cushion" in found) == (usual["mu_cushion"] > 0.0) == ("nose_height" in found)
-        carom.cushion(carom.cushion_impacts(v=(0.5, 1.0, 0.0)), model=model, **{name: usual[name] for name in NUMBERS})
+        carom.cushion(
+            carom.cushion_impacts(v=(0.5, 1.0, 0.0)),
+            model=model,
+            **{name: usual[name] for name in NUMBERS},
+        )
         # a number of its own is free by its name alone, without a value or a prior
         for row in numbers_of(lib.CAROM_PART_BALL):
             name = ffi.string(row.name).decode()
-            if row.reader == lib.CAROM_READ_BY_CUSHION and row.model == numbered("carom_cushion_model")[model]:
+            if (
+                row.reader == lib.CAROM_READ_BY_CUSHION
+                and row.model == numbered("carom_cushion_model")[model]
+            ):
                 mean, deviation = fit._priors([name], {}, usual, model)[name]
                 assert row.low <= mean == usual[name] <= row.high and deviation > 0.0, (model, name)
     usual = _constants.usual("smooth")
@@ -564,31 +972,66 @@ def test_each_model_with_a_start_is_fitted_and_each_number_is_free_by_its_name()
         mean, deviation = fit._priors([name], {}, own, "smooth")[name]
         assert mean == own[name] and 0.0 < deviation <= 0.2
     assert fit._priors(["law_c"], {"law_c": (1.0, 0.1)}, usual, "smooth") == {"law_c": (1.0, 0.1)}
-    for name, message in (("law_c", "law_c needs its mean and deviation"), ("omega_ratio", "omega_ratio must begin at 1 to 2"), ("radius", "no constant")):
+    for name, message in (
+        ("law_c", "law_c needs its mean and deviation"),
+        ("omega_ratio", "omega_ratio must begin at 1 to 2"),
+        ("radius", "no constant"),
+    ):
         with pytest.raises(ValueError, match=message):
             fit._priors([name], {}, {**usual, "law_c": 0.0}, "smooth")
-    assert fit._priors(["law_c"], {}, usual, "smooth") == {"law_c": (usual["law_c"], 0.5 * usual["law_c"])}
+    assert fit._priors(["law_c"], {}, usual, "smooth") == {
+        "law_c": (usual["law_c"], 0.5 * usual["law_c"])
+    }
 
 
 def test_a_number_of_the_cushion_is_found_by_whole_shots():
     made = synthetic(6, seed=5, cushion_model="smooth", constants={"smooth_x": 1.1})
-    found = fitted(made.recordings, TABLE, RADIUS, cushion_model="smooth", constants={**made.constants, "smooth_x": 1.3}, free=["smooth_x"], seed=1)
-    assert found.constants["smooth_x"] == pytest.approx(1.1, abs=0.05) and found.fitted == ("smooth_x",)
+    found = fitted(
+        made.recordings,
+        TABLE,
+        RADIUS,
+        cushion_model="smooth",
+        constants={**made.constants, "smooth_x": 1.3},
+        free=["smooth_x"],
+        seed=1,
+    )
+    assert found.constants["smooth_x"] == pytest.approx(1.1, abs=0.05) and found.fitted == (
+        "smooth_x",
+    )
 
 
 def test_an_impact_loses_roll_as_in_a_shot():
     usual = _constants.usual("smooth")
-    impact = carom.cushion_impacts(v=(1.0, 2.0, 0.0), w=(-2.0 / RADIUS, 1.0 / RADIUS, 0.0), radius=RADIUS, mass=0.21, height=0.0365)
+    impact = carom.cushion_impacts(
+        v=(1.0, 2.0, 0.0),
+        w=(-2.0 / RADIUS, 1.0 / RADIUS, 0.0),
+        radius=RADIUS,
+        mass=0.21,
+        height=0.0365,
+    )
     share = usual["roll_loss"] + usual["roll_loss_log"] * np.log(2.0)
     without, lost, none = (
         carom.cushion(impact, model="smooth", **numbers)[0]["w"][1] * RADIUS
-        for numbers in ({}, {name: usual[name] for name in ("roll_loss", "roll_loss_log")}, {"roll_loss": 1.0})
+        for numbers in (
+            {},
+            {name: usual[name] for name in ("roll_loss", "roll_loss_log")},
+            {"roll_loss": 1.0},
+        )
     )
-    assert without - lost == pytest.approx(share, rel=1e-12) and none == pytest.approx(0.0, abs=1e-15)
+    assert without - lost == pytest.approx(share, rel=1e-12) and none == pytest.approx(
+        0.0, abs=1e-15
+    )
 
 
 def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(made):
-    few = fitted(made.recordings[:2], TABLE, RADIUS, cushion_model="mirror", constants={"mu_slide": 0.19, "mu_ball": 0.05}, free="events")
+    few = fitted(
+        made.recordings[:2],
+        TABLE,
+        RADIUS,
+        cushion_model="mirror",
+        constants={"mu_slide": 0.19, "mu_ball": 0.05},
+        free="events",
+    )
     assert "restitution" not in few.spread and few.constants["restitution"] == 0.951
     assert few.constants["mu_slide"] != 0.19 and "mu_cushion" not in few.spread
     with pytest.raises(ValueError, match="no constant 'all' to fit"):
@@ -601,9 +1044,15 @@ def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given
 
 def test_shots_that_are_no_shots_have_a_status(made):
     still = tuple(track[[0, 0]] + [[0, 0, 0], [1, 0, 0]] for track in made.recordings[0].tracks)
-    moving = np.array([[0, 0.5, 0.5], [0.02, 0.54, 0.5], [0.04, 0.58, 0.5], [0.06, 0.62, 0.5], [2, 1, 0.5]])
+    moving = np.array(
+        [[0, 0.5, 0.5], [0.02, 0.54, 0.5], [0.04, 0.58, 0.5], [0.06, 0.62, 0.5], [2, 1, 0.5]]
+    )
     both = (moving, moving + [0, 1, 0.3], np.array([[0, 2.5, 0.2], [2, 2.5, 0.2]]))
-    shots = [tracks.Recording(1, (1, 2, 3), still), tracks.Recording(2, (1, 2, 3), both), made.recordings[2]]
+    shots = [
+        tracks.Recording(1, (1, 2, 3), still),
+        tracks.Recording(2, (1, 2, 3), both),
+        made.recordings[2],
+    ]
     found = fitted(shots, TABLE, RADIUS, constants=made.constants, free="none")
     assert found.status[0] == "no ball moves" and np.isnan(found.rmse[0])
     assert found.status[1].startswith("begins after the strike: balls")
@@ -623,30 +1072,61 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
     (tmp_path / "priors.json").write_text(json.dumps({"mu_spin": [0.0045, 0.002]}))
     out, again, page = (tmp_path / name for name in ("out.json", "again.json", "page.html"))
     usual = [
-        str(tmp_path / "tracks.csv"), "--table", "2.84,1.42", "--radius", "0.03075", "--cushion-model", "han", "--constants", str(tmp_path / "in.json"),
-        "--free", "mu_spin", "--priors", str(tmp_path / "priors.json"), "--split",
-    ]  # fmt: skip
+        str(tmp_path / "tracks.csv"),
+        "--table",
+        "2.84,1.42",
+        "--radius",
+        "0.03075",
+        "--cushion-model",
+        "han",
+        "--constants",
+        str(tmp_path / "in.json"),
+        "--free",
+        "mu_spin",
+        "--priors",
+        str(tmp_path / "priors.json"),
+        "--split",
+    ]
     assert fit.main([*usual, "--summary", str(page), "-o", str(out)]) == 0
     written = json.loads(out.read_text())
     assert [shot["train"] for shot in written["shots"]] == [True, False] * 4
-    assert written["constants"]["mu_spin"] == pytest.approx(0.005, rel=0.05) and written["constants"]["mu_slide"] == HAN["mu_slide"]
+    assert (
+        written["constants"]["mu_spin"] == pytest.approx(0.005, rel=0.05)
+        and written["constants"]["mu_slide"] == HAN["mu_slide"]
+    )
     assert [shot["id"] for shot in written["shots"]] == [*range(1, 9)]
     rmse = [shot["rmse"] for shot in written["shots"]]
-    assert written["median_rmse"] == pytest.approx(np.median(rmse)) and written["p90_rmse"] == pytest.approx(np.percentile(rmse, 90))
+    assert written["median_rmse"] == pytest.approx(np.median(rmse)) and written[
+        "p90_rmse"
+    ] == pytest.approx(np.percentile(rmse, 90))
     assert set(written["shots"][0]["cue"]) == {"ball", "v_x", "v_y", "w_x", "w_y", "w_z", "start"}
     told = capsys.readouterr().out
-    assert "fitted, 4 of 8 shots: RMSE median" in told and "predicted, 4 of 8 shots" in told and "% are within the bands of 68 and 95 %" in told
-    assert written["bands"][0][0] == 0 and all(0.0 < near <= far for _, near, far in written["bands"])
+    assert (
+        "fitted, 4 of 8 shots: RMSE median" in told
+        and "predicted, 4 of 8 shots" in told
+        and "% are within the bands of 68 and 95 %" in told
+    )
+    assert written["bands"][0][0] == 0 and all(
+        0.0 < near <= far for _, near, far in written["bands"]
+    )
     # one file, with the pictures in it
     text = page.read_text()
     chart = ElementTree.fromstring(text[text.index("<svg") : text.index("</svg>") + 6])
-    width, axes = float(chart.get("viewBox", "").split()[2]), next(path for path in chart.iter() if path.tag.endswith("path")).get("d", "")
+    width, axes = (
+        float(chart.get("viewBox", "").split()[2]),
+        next(path for path in chart.iter() if path.tag.endswith("path")).get("d", ""),
+    )
     assert 0.0 < float(axes.split("H")[1]) < width
     # the ends of an axis have ticks, also where rounding puts them just beside
     assert _summary._ticks(0.07, 0.1) == pytest.approx([0.07, 0.08, 0.09, 0.1])
     assert _summary._ticks(0.0, 0.3) == pytest.approx([0.0, 0.1, 0.2, 0.3])
-    assert text.count("<svg") == 9 and "http" not in text.replace("http://www.w3.org/2000/svg", "") and "mu_spin" in text
-    # interrupted in the second of the searches, the same command goes on with the third, and has the same bits
+    assert (
+        text.count("<svg") == 9
+        and "http" not in text.replace("http://www.w3.org/2000/svg", "")
+        and "mu_spin" in text
+    )
+    # interrupted in the second of the searches, the same command goes on with the third, and has
+    # the same bits
     stages, done = _joint.Search.stage, []
 
     def interrupted(self, number, seed):
@@ -668,20 +1148,44 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
     reality = importlib.import_module("reality")
     made = synthetic(16, seed=5)
     (tmp_path / "tracks.csv").write_text(csv_of(made.recordings))
-    reality.main([
-        str(tmp_path / "tracks.csv"), "--table", "2.84,1.42", "--radius", "0.03075", "--models", "han", "--pictures", str(tmp_path / "p"),
-    ])  # fmt: skip
+    reality.main(
+        [
+            str(tmp_path / "tracks.csv"),
+            "--table",
+            "2.84,1.42",
+            "--radius",
+            "0.03075",
+            "--models",
+            "han",
+            "--pictures",
+            str(tmp_path / "p"),
+        ]
+    )
     told = capsys.readouterr().out
-    outputs, rmse = ([cell.strip() for cell in line.split("|")] for line in told.splitlines() if line.startswith("| han"))
-    # shots of Han's own model are predicted to some millimetres, and its outputs are right to what the events' errors leave
-    assert 0.05 < float(rmse[2]) < 1.0 and int(rmse[8]) == 16 and all(float(better) <= float(one) for one, better in zip(rmse[2:5], rmse[5:8]))
+    outputs, rmse = (
+        [cell.strip() for cell in line.split("|")]
+        for line in told.splitlines()
+        if line.startswith("| han")
+    )
+    # shots of Han's own model are predicted to some millimetres, and its outputs are right to what
+    # the events' errors leave
+    assert (
+        0.05 < float(rmse[2]) < 1.0
+        and int(rmse[8]) == 16
+        and all(float(better) <= float(one) for one, better in zip(rmse[2:5], rmse[5:8]))
+    )
     assert all(0.0 < float(off) < 2.5 for off in outputs[2:6])
     assert f"({made.constants['mu_roll'] * 9.81:.3f}"[:5] in told and "m/s² |" in told
-    # the floor is the noise; strikes of the first seconds are off by that of both coordinates, too, as a picture of the shot is left
+    # the floor is the noise; strikes of the first seconds are off by that of both coordinates, too,
+    # as a picture of the shot is left
     floor = re.search(r"The floor: (\S+) cm in the median, 9 in 10 below (\S+) cm, 16 shots", told)
-    assert 0.04 < float(floor[1]) < 0.1 and len(re.findall(r"^\| \S+ s \| (\S+) \|$", told, re.M)) == 6
+    assert (
+        0.04 < float(floor[1]) < 0.1 and len(re.findall(r"^\| \S+ s \| (\S+) \|$", told, re.M)) == 6
+    )
     names = sorted(path.name for path in (tmp_path / "p").iterdir())
-    assert names == [f"reality-{name}.svg" for name in ("cushion", "hits", "rmse", "rolling", "sliding")]
+    assert names == [
+        f"reality-{name}.svg" for name in ("cushion", "hits", "rmse", "rolling", "sliding")
+    ]
     assert all((tmp_path / "p" / name).read_text().startswith("<svg") for name in names)
 
 

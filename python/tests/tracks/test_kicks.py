@@ -1,4 +1,6 @@
-"""Kicks: what they are, how large they are where the model is true, and where they show a wrong constant."""
+"""Kicks: what they are, how large they are where the model is true, and where they show a wrong
+constant.
+"""
 
 import json
 import re
@@ -36,8 +38,11 @@ def test_without_kicks_a_play_in_parts_is_that_of_a_shot(made):
     parts = plays.misfit(rows, with_kicks(made.strikes), plays.ends, np.inf)
     assert np.allclose(parts[:, :9], whole[:, :9], rtol=1e-5, atol=1e-8)
     square, gradient = _strikes.normal(parts)
-    assert np.allclose(square[:, :6, :6], _strikes.normal(whole)[0], rtol=1e-2, atol=1e-5 * square[:, :6, :6].max())
-    # derivatives by kicks, against sums at kicks that are changed; those of contacts that do not happen are 0
+    assert np.allclose(
+        square[:, :6, :6], _strikes.normal(whole)[0], rtol=1e-2, atol=1e-5 * square[:, :6, :6].max()
+    )
+    # derivatives by kicks, against sums at kicks that are changed; those of contacts that do not
+    # happen are 0
     for k in range(4):
         met = _kicks.contacts(plays, k, with_kicks(made.strikes)[k])
         assert (square[k].diagonal()[6 + 5 * len(met) :] == 0.0).all() and len(met) > 3
@@ -46,14 +51,20 @@ def test_without_kicks_a_play_in_parts_is_that_of_a_shot(made):
             for step in (-1e-5, 1e-5):
                 numbers = with_kicks(made.strikes)
                 numbers[k, number] = step
-                cost.append(plays.misfit(rows[k : k + 1], numbers[k : k + 1], plays.ends[k : k + 1], -np.inf)[0, 0])
+                cost.append(
+                    plays.misfit(
+                        rows[k : k + 1], numbers[k : k + 1], plays.ends[k : k + 1], -np.inf
+                    )[0, 0]
+                )
             size = np.sqrt(square[k, number, number] * parts[k, 0]) + 1e-9
             assert abs((cost[1] - cost[0]) / 4e-5 - gradient[k, number]) < 0.03 * size
 
 
 @pytest.mark.parametrize("kind", [EventType.BALL_BALL, EventType.RAIL])
 def test_a_kick_is_the_change_of_motion_that_is_told(made, kind):
-    """By single calls: a shot that stops at the contact, the change in words, and a shot from there."""
+    """By single calls: a shot that stops at the contact, the change in words, and a shot from
+    there.
+    """
     plays = plays_of(made, drag=0.0)
     kicks = np.array([0.011, 0.007, -0.013, 0.02, 0.017])
     seen = 0
@@ -61,7 +72,9 @@ def test_a_kick_is_the_change_of_motion_that_is_told(made, kind):
         strike, cue = made.strikes[k], made.recordings[k].cue
         balls = plays.layouts[0, k].copy()
         balls["state"]["v"][cue, :2], balls["state"]["w"][cue] = strike[:2], strike[2:5] / RADIUS
-        stopped = carom.simulate(plays.table, balls, cushion_model="han", stop_at=["ball_ball", "rail"])
+        stopped = carom.simulate(
+            plays.table, balls, cushion_model="han", stop_at=["ball_ball", "rail"]
+        )
         event = stopped.events[-1]
         if event["type"] != kind or event["cluster"]:
             continue
@@ -70,19 +83,30 @@ def test_a_kick_is_the_change_of_motion_that_is_told(made, kind):
         before = event["before"]
         if kind == EventType.RAIL:
             x, y = before[0]["r"][:2]
-            n = np.array([[0, -1], [1, 0], [0, 1], [-1, 0]][int(np.argmin([y, TABLE[0] - x, TABLE[1] - y, x]))], float)
+            n = np.array(
+                [[0, -1], [1, 0], [0, 1], [-1, 0]][
+                    int(np.argmin([y, TABLE[0] - x, TABLE[1] - y, x]))
+                ],
+                float,
+            )
             t, V = np.array([n[1], -n[0]]), np.hypot(*before[0]["v"][:2])
             balls["state"]["v"][a, :2] += V * (kicks[0] * t - kicks[1] * n)
-            balls["state"]["w"][a] += V / RADIUS * np.array([*(kicks[2] * n + kicks[3] * t), kicks[4]])
+            balls["state"]["w"][a] += (
+                V / RADIUS * np.array([*(kicks[2] * n + kicks[3] * t), kicks[4]])
+            )
         else:
             n = (before[1]["r"] - before[0]["r"])[:2] / (2 * RADIUS)
             t, V = np.array([n[1], -n[0]]), (before[0]["v"] - before[1]["v"])[:2] @ n
             balls["state"]["v"][a, :2] += V * (kicks[1] * t - kicks[0] * n)
             balls["state"]["v"][b, :2] -= V * (kicks[1] * t - kicks[0] * n)
-            balls["state"]["w"][[a, b]] += V / RADIUS * np.array([[*(kicks[2] * t), kicks[3]], [*(kicks[2] * t), kicks[4]]])
+            balls["state"]["w"][[a, b]] += (
+                V / RADIUS * np.array([[*(kicks[2] * t), kicks[3]], [*(kicks[2] * t), kicks[4]]])
+            )
         on = carom.simulate(plays.table, balls, cushion_model="han")
         times = np.linspace(0.0, 1.5, 40)
-        _, places = plays.played(k, with_kicks(strike[None], *kicks)[0], times + stopped.time + strike[5])
+        _, places = plays.played(
+            k, with_kicks(strike[None], *kicks)[0], times + stopped.time + strike[5]
+        )
         assert np.abs(places.transpose(1, 0, 2) - on.positions(times)[..., :2]).max() < 1e-9
         seen += 1
     assert seen >= 2
@@ -101,7 +125,10 @@ def test_kicks_of_the_true_model_are_as_large_as_the_noise(made):
     moved = kicks.contacts["error"] > 0.0
     off = np.abs(kicks.contacts["kick"][moved] / kicks.contacts["error"][moved])
     # of normal errors 68 % and 95 %
-    assert 0.55 < (off < 1).mean() < 0.85 and (off < 2).mean() > 0.88, ((off < 1).mean(), (off < 2).mean())
+    assert 0.55 < (off < 1).mean() < 0.85 and (off < 2).mean() > 0.88, (
+        (off < 1).mean(),
+        (off < 2).mean(),
+    )
     means, errors = told(kicks.tables[0])
     assert (np.abs(means) < 0.1).all() and (np.abs(means) < 4 * errors + 0.02).all()
     assert np.median(kicks.contacts["effect"]) < 0.4e-3
@@ -109,32 +136,67 @@ def test_kicks_of_the_true_model_are_as_large_as_the_noise(made):
 
 @pytest.mark.parametrize(
     ("constant", "off", "cushion", "output", "mean"),
-    [("restitution_cushion", -0.01, True, 1, 0.8), ("roll_loss", 0.01, True, 2, 0.6), ("restitution", -0.01, False, 0, 0.5),
-     ("law_a", 0.01, False, 2, -0.9)],
-)  # fmt: skip
-def test_a_wrong_constant_shows_at_its_contacts_in_its_output(made, constant, off, cushion, output, mean):
+    [
+        ("restitution_cushion", -0.01, True, 1, 0.8),
+        ("roll_loss", 0.01, True, 2, 0.6),
+        ("restitution", -0.01, False, 0, 0.5),
+        ("law_a", 0.01, False, 2, -0.9),
+    ],
+)
+def test_a_wrong_constant_shows_at_its_contacts_in_its_output(
+    made, constant, off, cushion, output, mean
+):
     value = made.constants[constant] + off
-    found = fitted(made.recordings, TABLE, RADIUS, constants={**made.constants, constant: value}, free="none")
+    found = fitted(
+        made.recordings, TABLE, RADIUS, constants={**made.constants, constant: value}, free="none"
+    )
     kicks = found.kicks()
     assert np.median(kicks.rmse) < 0.7 * found.median_rmse
     means, errors = told(kicks.tables[0 if cushion else 1])
     others, spread = told(kicks.tables[1 if cushion else 0])
     assert means[output] == pytest.approx(mean, rel=0.5) and abs(means[output]) > 4 * errors[output]
     # at a cushion nothing else is wrong
-    rest, error = (np.delete(means, output), np.delete(errors, output)) if cushion else (others, spread)
+    rest, error = (
+        (np.delete(means, output), np.delete(errors, output)) if cushion else (others, spread)
+    )
     assert (np.abs(rest) < 0.3 * abs(means[output]) + 3 * error).all()
 
 
 def test_the_command_tells_kicks(made, tmp_path, capsys):
     (tmp_path / "tracks.csv").write_text(csv_of(made.recordings[:12]))
     (tmp_path / "in.json").write_text(json.dumps({**made.constants, "restitution_cushion": 0.85}))
-    given = [str(tmp_path / "tracks.csv"), "--table", "2.84,1.42", "--radius", "0.03075", "--constants", str(tmp_path / "in.json")]
-    given += ["--cushion-model", "han", "--free", "none", "--kicks", "--summary", str(tmp_path / "page.html"), "-o", str(tmp_path / "out.json")]
+    given = [
+        str(tmp_path / "tracks.csv"),
+        "--table",
+        "2.84,1.42",
+        "--radius",
+        "0.03075",
+        "--constants",
+        str(tmp_path / "in.json"),
+    ]
+    given += [
+        "--cushion-model",
+        "han",
+        "--free",
+        "none",
+        "--kicks",
+        "--summary",
+        str(tmp_path / "page.html"),
+        "-o",
+        str(tmp_path / "out.json"),
+    ]
     assert fit.main(given) == 0
     words = capsys.readouterr().out
-    assert re.search(r"with kicks: RMSE median \S+ cm", words) and "| cushions | contacts | effect, mm | along, % |" in words
+    assert (
+        re.search(r"with kicks: RMSE median \S+ cm", words)
+        and "| cushions | contacts | effect, mm | along, % |" in words
+    )
     written = json.loads((tmp_path / "out.json").read_text(), parse_constant=pytest.fail)
     assert set(written["kicks"][0]) == set(_kicks.contact.names) and len(written["kicks"]) > 60
     # a picture of a shot marks the contacts; all rebounds are too slow here
     page = (tmp_path / "page.html").read_text()
-    assert page.count("<title>contact ") > 12 and re.search(r">away \+\d\.\d %</text>", page) and "<h2>Kicks</h2>" in page
+    assert (
+        page.count("<title>contact ") > 12
+        and re.search(r">away \+\d\.\d %</text>", page)
+        and "<h2>Kicks</h2>" in page
+    )

@@ -15,7 +15,9 @@ from carom.tracks import _constants, fit
 
 TABLE, RADIUS = (2.84, 1.42), 0.03075
 # most tests play the cushion of Han, whose constants differ from the usual ones of the game
-synthetic, fitted = (functools.partial(call, cushion_model="han") for call in (tracks.synthetic, fit.fit))
+synthetic, fitted = (
+    functools.partial(call, cushion_model="han") for call in (tracks.synthetic, fit.fit)
+)
 
 
 def csv_of(recordings):
@@ -29,7 +31,10 @@ def csv_of(recordings):
 
 
 def jsonl_of(recordings):
-    lines = [{"id": s.id, "tracks": {str(b): t.tolist() for b, t in zip(s.balls, s.tracks)}} for s in recordings]
+    lines = [
+        {"id": s.id, "tracks": {str(b): t.tolist() for b, t in zip(s.balls, s.tracks)}}
+        for s in recordings
+    ]
     return "".join(json.dumps(line) + "\n" for line in lines)
 
 
@@ -45,7 +50,9 @@ def test_every_format_gives_the_recordings_back(made, tmp_path, name):
     with opened(tmp_path / name, "wt", encoding="utf-8") as file:
         file.write(text)
     read = tracks.read(tmp_path / name, table=TABLE, radius=RADIUS)
-    assert [(shot.id, shot.balls) for shot in read] == [(shot.id, shot.balls) for shot in made.recordings]
+    assert [(shot.id, shot.balls) for shot in read] == [
+        (shot.id, shot.balls) for shot in made.recordings
+    ]
     for one, other in zip(read, made.recordings):
         assert all(np.array_equal(a, b) for a, b in zip(one.tracks, other.tracks))
 
@@ -57,14 +64,34 @@ def test_every_format_gives_the_recordings_back(made, tmp_path, name):
         ("a.csv", "shot,ball,t,x\n", "line 1: no column y; the first line must name"),
         ("a.csv", "shot,ball,t,x,y\n", "no samples"),
         ("a.csv", "shot,ball,t,x,y\n1,1,0,1\n", "line 2: 4 fields, but the first line names 5"),
-        ("a.csv", "shot,ball,t,x,y\n1,1,0,1,?\n", "line 2: y is '[?]'; a finite number is needed, in m"),
-        ("a.csv", "shot,ball,t,x,y\n1,1,nan,1,1\n", "line 2: t is 'nan'; a finite number is needed, in s"),
-        ("a.csv", "shot,ball,t,x,y\n1,1,0,1,1\n1,1,0,1,1\n", "line 3: shot 1, ball 1: t = 0 s comes after t = 0 s"),
-        ("a.csv", "shot,ball,t,x,y\n1,1,0,1000,700\n", "line 2: x = 1000 m; centres .* 0.03075 to 2.80925 m"),
+        (
+            "a.csv",
+            "shot,ball,t,x,y\n1,1,0,1,?\n",
+            "line 2: y is '[?]'; a finite number is needed, in m",
+        ),
+        (
+            "a.csv",
+            "shot,ball,t,x,y\n1,1,nan,1,1\n",
+            "line 2: t is 'nan'; a finite number is needed, in s",
+        ),
+        (
+            "a.csv",
+            "shot,ball,t,x,y\n1,1,0,1,1\n1,1,0,1,1\n",
+            "line 3: shot 1, ball 1: t = 0 s comes after t = 0 s",
+        ),
+        (
+            "a.csv",
+            "shot,ball,t,x,y\n1,1,0,1000,700\n",
+            "line 2: x = 1000 m; centres .* 0.03075 to 2.80925 m",
+        ),
         ("a.csv", "shot,ball,t,x,y\n1,1,0,0.7,2\n", "line 2: y = 2 m; .* in the order of x and y"),
         ("a.csv.xz", "shot,ball,t,x,y\n1,1,0,1,1\n", "compressed only if its name ends in"),
         ("a.jsonl", '{"id": 1}\n', "line 1: each line must be"),
-        ("a.jsonl", '{"id": 1, "tracks": {"1": [[0, 1]]}}\n', r"tracks.1\[0\]: \[0, 1\] must be \[t, x, y\]"),
+        (
+            "a.jsonl",
+            '{"id": 1, "tracks": {"1": [[0, 1]]}}\n',
+            r"tracks.1\[0\]: \[0, 1\] must be \[t, x, y\]",
+        ),
         ("a.jsonl", '{"id": 1, "tracks": {"1": [[0, 1, true]]}}\n', "y is True; a finite number"),
         ("a.jsonl", "{\n", "line 1, column 1: no JSON"),
     ],
@@ -83,7 +110,9 @@ def test_synthetic_tracks_have_the_traps_of_real_ones(made):
         for track in shot.tracks:
             # thinned by displacement, but for the last row, and clamped to the cushions
             assert (np.hypot(*np.diff(track[:-1, 1:], axis=0).T) >= 0.016).all()
-            assert (track[:, 1:] >= RADIUS).all() and (track[:, 1:] <= np.array(TABLE) - RADIUS).all()
+            assert (track[:, 1:] >= RADIUS).all() and (
+                track[:, 1:] <= np.array(TABLE) - RADIUS
+            ).all()
     places = np.concatenate([track[:, 1:] for shot in made.recordings for track in shot.tracks])
     assert ((places == RADIUS) | (places == np.array(TABLE) - RADIUS)).any()
     again, other = synthetic(20, seed=5), synthetic(20, seed=6)
@@ -100,11 +129,18 @@ def test_a_recording_without_motion_has_no_strike():
 
 
 def test_the_struck_ball_is_told_from_one_that_it_touches_at_once():
-    """Whatever the noise, and however near the other ball lies: it goes on farther, but away from the struck one."""
+    """Whatever the noise, and however near the other ball lies: it goes on farther, but away from
+    the struck one.
+    """
     random, wrong = np.random.default_rng(5), 0
     values = _constants.complete({}, "han")
     world = _constants.rectangle(TABLE, values["nose_height"])
-    for gap, rate, noise in ((0.002, 50.0, 0.35e-3), (0.01, 50.0, 1e-3), (0.03, 25.0, 1e-3), (0.1, 240.0, 3e-3)):
+    for gap, rate, noise in (
+        (0.002, 50.0, 0.35e-3),
+        (0.01, 50.0, 1e-3),
+        (0.03, 25.0, 1e-3),
+        (0.1, 240.0, 3e-3),
+    ):
         shots = []
         for _ in range(20):
             angle, speed = random.uniform(0.0, 6.28), random.uniform(0.7, 4.0)
@@ -115,7 +151,16 @@ def test_the_struck_ball_is_told_from_one_that_it_touches_at_once():
             balls["state"]["v"][0, :2] = speed * np.cos(angle), speed * np.sin(angle)
             shot = simulate(world, balls, cushion_model="han")
             start = random.uniform(0.0, 1.0 / rate)
-            seen = tracks._record(lambda t: shot.positions(np.maximum(t - start, 0.0))[..., :2], 2.0, rate, 0.0, RADIUS, np.array(TABLE) - RADIUS, noise, random)
+            seen = tracks._record(
+                lambda t: shot.positions(np.maximum(t - start, 0.0))[..., :2],
+                2.0,
+                rate,
+                0.0,
+                RADIUS,
+                np.array(TABLE) - RADIUS,
+                noise,
+                random,
+            )
             shots.append(tracks.Recording(1, (1, 2, 3), seen, noise))
         wrong += sum(shot.cue != 0 for shot in spoiled(shots, lead_in=0.5, rate=rate, noise=noise))
     assert wrong <= 6
@@ -134,7 +179,11 @@ def test_pieces_tell_the_friction_of_the_cloth(made, seen):
     assert abs(a - made.constants["mu_roll"] * gravity) < max(3 * a_error, 1e-3) and a_error < 2e-3
     assert abs(b - made.constants["drag"]) < max(3 * b_error, 2e-3) and b_error < 3e-3
     pieces = seen.pieces
-    assert not (pieces["sliding"] & pieces["rolling"]).any() and pieces["sliding"].sum() > 20 and pieces["rolling"].sum() > 60
+    assert (
+        not (pieces["sliding"] & pieces["rolling"]).any()
+        and pieces["sliding"].sum() > 20
+        and pieces["rolling"].sum() > 60
+    )
     # the misfit is the noise of both coordinates, where a piece is long
     long = pieces["samples"] >= 20
     assert np.median(pieces["rms"][long]) == pytest.approx(tracks.NOISE * np.sqrt(2), rel=0.1)
@@ -148,15 +197,27 @@ def test_pieces_tell_the_friction_of_the_cloth(made, seen):
 def test_impacts_have_the_numbers_of_the_play(made, seen):
     truth, errors, missed = [], [], 0
     for k, shot in enumerate(made.shots):
-        rails = shot.events[(shot.events["type"] == 3) & (np.hypot(*shot.events["before"][:, 0]["v"][:, :2].T) > 0.5)]
+        rails = shot.events[
+            (shot.events["type"] == 3)
+            & (np.hypot(*shot.events["before"][:, 0]["v"][:, :2].T) > 0.5)
+        ]
         truth.append(len(rails))
         for event in rails:
             # rails of the play: y = 0, x = W, y = L, x = 0
             own = seen.impacts
-            own = own[(own["shot"] == k) & (own["ball"] == event["a"]) & (own["rail"] == (2, 1, 3, 0)[event["b"]])]
+            own = own[
+                (own["shot"] == k)
+                & (own["ball"] == event["a"])
+                & (own["rail"] == (2, 1, 3, 0)[event["b"]])
+            ]
             late = np.abs(own["time"] - event["time"] - made.strikes[k, 5])
             own = own[np.argsort(late)][: (late < 0.03).sum()]
-            if len(own) == 0 or own["chi2"][0] > 2.5 or own["w_error"][0] > 0.05 or own["v_error"][0] > 0.05:
+            if (
+                len(own) == 0
+                or own["chi2"][0] > 2.5
+                or own["w_error"][0] > 0.05
+                or own["v_error"][0] > 0.05
+            ):
                 missed += 1
                 continue
             found = own[0]
@@ -164,7 +225,12 @@ def test_impacts_have_the_numbers_of_the_play(made, seen):
             t = np.array([n[1], -n[0]])
             before, after = event["before"][0]["v"][:2], event["after"][0]["v"][:2]
             size = np.hypot(*before)
-            parts = [before @ n - found["v_n"], before @ t - found["v_t"], after @ n - found["w_n"], after @ t - found["w_t"]]
+            parts = [
+                before @ n - found["v_n"],
+                before @ t - found["v_t"],
+                after @ n - found["w_n"],
+                after @ t - found["w_t"],
+            ]
             errors.append(np.abs(parts) / size)
     # half of the fast impacts are well known, and their velocities right to a per cent
     assert missed < 0.5 * sum(truth)
@@ -172,7 +238,9 @@ def test_impacts_have_the_numbers_of_the_play(made, seen):
 
 
 def test_hits_have_the_restitution_of_the_play(made, seen):
-    good = seen.hits[(seen.hits["chi2"] < 3) & (seen.hits["v_n"] > 0.5) & (seen.hits["w_error"] < 0.1)]
+    good = seen.hits[
+        (seen.hits["chi2"] < 3) & (seen.hits["v_n"] > 0.5) & (seen.hits["w_error"] < 0.1)
+    ]
     assert len(good) >= 5
     e = (good["z_n"] - good["w_n"]) / good["v_n"]
     assert np.median(e) == pytest.approx(made.constants["restitution"], abs=0.02)
@@ -183,7 +251,11 @@ def test_hits_have_the_restitution_of_the_play(made, seen):
 def test_no_motion_has_no_events():
     still = np.array([[0.0, 1.0, 0.5], [2.0, 1.001, 0.5]])
     none = tracks.events([tracks.Recording(7, (1,), (still,))], TABLE, RADIUS)
-    assert len(none.pieces) == len(none.impacts) == len(none.hits) == 0 and np.isnan(none.slide[0]) and np.isnan(none.roll[1][0])
+    assert (
+        len(none.pieces) == len(none.impacts) == len(none.hits) == 0
+        and np.isnan(none.slide[0])
+        and np.isnan(none.roll[1][0])
+    )
     assert len(tracks.events([], TABLE, RADIUS).pieces) == 0
 
 

@@ -1,9 +1,9 @@
-/* How exactly must one aim? The directions of the cue by which a ball falls into a corner pocket, for three distances.
- *
- * The ghost ball gives a first direction: the cue ball's centre must arrive one diameter behind the object ball, on the line from the
- * pocket. Throw turns the object ball off that line, so the directions that pot are not centred on it. Bisection finds their ends.
- *
- *     node pot_window.mjs
+/*
+ * How exactly must one aim? The directions of the cue by which a ball falls into a corner pocket,
+ * for three distances.  The ghost ball gives a first direction: the cue ball's centre must arrive
+ * one diameter behind the object ball, on the line from the pocket. Throw turns the object ball off
+ * that line, so the directions that pot are not centred on it. Bisection finds their ends.  node
+ * pot_window.mjs
  */
 import { load } from "carom";
 
@@ -11,7 +11,9 @@ const carom = await load();
 const table = carom.table("9ft");
 const kind = carom.kind("pool");
 const DEGREE = Math.PI / 180;
-const [px, py] = table.pockets.map((pocket) => pocket.centre).reduce((far, at) => (at[0] + at[1] > far[0] + far[1] ? at : far));
+const [px, py] = table.pockets
+  .map((pocket) => pocket.centre)
+  .reduce((far, at) => (at[0] + at[1] > far[0] + far[1] ? at : far));
 
 /** Does ball 1 fall, with the cue ball behind it for a cut of 30 degrees? */
 function pots(distance, phi) {
@@ -19,7 +21,10 @@ function pots(distance, phi) {
   return carom.simulate(table, balls, { speed: 2.9, phi }).final[1].label === "pocketed";
 }
 
-/** Both balls, and the direction by the ghost ball, degrees. Ball 1 lies on the diagonal of the pocket. */
+/**
+ * Both balls, and the direction by the ghost ball, degrees. Ball 1 lies on the diagonal of the
+ * pocket.
+ */
 function layout(distance) {
   const [dx, dy] = [Math.SQRT1_2, Math.SQRT1_2]; // towards the pocket
   const [x, y] = [px - distance * dx, py - distance * dy];
@@ -42,11 +47,16 @@ function edge(distance, inside, outside) {
 let before = Infinity;
 for (const distance of [0.3, 0.6, 0.9]) {
   const { phi } = layout(distance);
-  const inside = Array.from({ length: 401 }, (_, k) => phi - 2 + k / 100).find((at) => pots(distance, at));
+  const inside = Array.from({ length: 401 }, (_, k) => phi - 2 + k / 100).find((at) =>
+    pots(distance, at),
+  );
   if (inside === undefined) throw new Error(`no direction pots from ${distance} m`);
   const [from, to] = [edge(distance, inside, inside - 0.02), edge(distance, inside, inside + 4)];
   const middle = (from + to) / 2 - phi;
-  console.log(`${distance} m: ${(to - from).toFixed(2)} degrees wide, its middle ${middle.toFixed(2)} degrees from the ghost ball's direction`);
-  if (!(to - from > 0 && to - from < before)) throw new Error("the window should shrink with the distance");
+  console.log(
+    `${distance} m: ${(to - from).toFixed(2)} degrees wide, its middle ${middle.toFixed(2)} degrees from the ghost ball's direction`,
+  );
+  if (!(to - from > 0 && to - from < before))
+    throw new Error("the window should shrink with the distance");
   before = to - from;
 }

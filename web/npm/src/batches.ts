@@ -1,4 +1,5 @@
-// Many collisions, or many shots, in the module's memory: what is written here is read by the library without a copy.
+// Many collisions, or many shots, in the module's memory: what is written here is read by the
+// library without a copy.
 import { layout } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
 import { type Shot } from "./shot.js";
@@ -19,13 +20,21 @@ export interface Library {
 }
 
 /** Memory of the module that is given back by free(), or when nothing refers to it any more. */
-const owned = new FinalizationRegistry<{ memory: Memory; at: Pointer[] }>(({ memory, at }) => at.forEach((one) => memory.free(one)));
+const owned = new FinalizationRegistry<{ memory: Memory; at: Pointer[] }>(({ memory, at }) =>
+  at.forEach((one) => memory.free(one)),
+);
 
 class Owner {
   readonly #held: { memory: Memory; at: Pointer[] };
 
-  constructor(protected readonly library: Library, sizes: number[]) {
-    this.#held = { memory: library.memory, at: sizes.map((bytes) => library.memory.allocate(bytes)) };
+  constructor(
+    protected readonly library: Library,
+    sizes: number[],
+  ) {
+    this.#held = {
+      memory: library.memory,
+      at: sizes.map((bytes) => library.memory.allocate(bytes)),
+    };
     owned.register(this, this.#held, this.#held);
   }
   /** @internal */
@@ -34,7 +43,10 @@ class Owner {
     if (at === undefined) throw new Error("carom: this batch has been freed");
     return at;
   }
-  /** Gives the memory back. Views of it are not valid any more. Without this call the garbage collector does it, later. */
+  /**
+   * Gives the memory back. Views of it are not valid any more. Without this call the garbage
+   * collector does it, later.
+   */
   free(): void {
     owned.unregister(this.#held);
     this.#held.at.splice(0).forEach((one) => this.#held.memory.free(one));
@@ -42,12 +54,14 @@ class Owner {
 }
 
 function rows(n: number, name: string): number {
-  if (!Number.isInteger(n) || n < 0) throw new RangeError(`${name}: it must be a whole number, 0 or more, not ${n}`);
+  if (!Number.isInteger(n) || n < 0)
+    throw new RangeError(`${name}: it must be a whole number, 0 or more, not ${n}`);
   return n;
 }
 
 /**
- * Many collisions for `collideBatch`. `in`, `out` and `status` are views of WebAssembly memory. Get them anew after creating other
+ * Many collisions for `collideBatch`. `in`, `out` and `status` are views of WebAssembly memory. Get
+ * them anew after creating other
  * batches or playing shots: the memory may have grown by that, and older views are then empty.
  */
 export class Collisions extends Owner {
@@ -59,11 +73,17 @@ export class Collisions extends Owner {
     super(library, [rows(n, "n") * IMPACT.size, n * RESULT.size, n]);
     this.n = n;
   }
-  /** 26 doubles for each collision, those of carom_impact: r, v, w, radius, mass, mu_cloth of both balls; mu_ball, restitution. */
+  /**
+   * 26 doubles for each collision, those of carom_impact: r, v, w, radius, mass, mu_cloth of both
+   * balls; mu_ball, restitution.
+   */
   get in(): Float64Array {
     return new Float64Array(this.library.memory.buffer, this.at(0), (this.n * IMPACT.size) / 8);
   }
-  /** 12 doubles for each collision, those of carom_result: v and w of both balls. NaN where the status is an error. */
+  /**
+   * 12 doubles for each collision, those of carom_result: v and w of both balls. NaN where the
+   * status is an error.
+   */
   get out(): Float64Array {
     return new Float64Array(this.library.memory.buffer, this.at(1), (this.n * RESULT.size) / 8);
   }
@@ -86,12 +106,16 @@ export class Collisions extends Owner {
     };
   }
   #row(k: number): number {
-    if (!Number.isInteger(k) || k < 0 || k >= this.n) throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
+    if (!Number.isInteger(k) || k < 0 || k >= this.n)
+      throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
     return k;
   }
 }
 
-/** Where the fields of a cue are among its numbers, `cueSize` for each. The ball's index is set by `setCue`. */
+/**
+ * Where the fields of a cue are among its numbers, `cueSize` for each. The ball's index is set by
+ * `setCue`.
+ */
 export const cueFields = Object.fromEntries(
   Object.entries(CUE.offset)
     .filter(([key]) => key !== "ball")
@@ -101,7 +125,10 @@ export const cueFields = Object.fromEntries(
 /** How many numbers a cue has in `Shots.cues`. */
 export const cueSize = CUE.size / 8;
 
-/** Many shots on one table for `simulateBatch`. `cues`, `final` and `status` are views of WebAssembly memory, as in `Collisions`. */
+/**
+ * Many shots on one table for `simulateBatch`. `cues`, `final` and `status` are views of
+ * WebAssembly memory, as in `Collisions`.
+ */
 export class Shots extends Owner {
   /** Balls of a shot. */
   readonly count: number;
@@ -118,8 +145,10 @@ export class Shots extends Owner {
     readonly room: number,
   ) {
     const count = layouts[0]?.length ?? 0;
-    if (layouts.length !== 1 && layouts.length !== n) throw new RangeError(`balls: 1 layout or ${n} of them are needed, not ${layouts.length}`);
-    if (layouts.some((balls) => balls.length !== count)) throw new RangeError("balls: all layouts must have the same number of balls");
+    if (layouts.length !== 1 && layouts.length !== n)
+      throw new RangeError(`balls: 1 layout or ${n} of them are needed, not ${layouts.length}`);
+    if (layouts.some((balls) => balls.length !== count))
+      throw new RangeError("balls: all layouts must have the same number of balls");
     const sizes = [
       layout.carom_table.size,
       layouts.length * count * layout.carom_shot_ball.size,
@@ -133,45 +162,76 @@ export class Shots extends Owner {
     super(library, sizes);
     this.count = count;
     writeTable(library.memory, this.at(0), table);
-    layouts.forEach((balls, k) => writeBalls(library.memory, this.at(1) + k * count * layout.carom_shot_ball.size, balls));
+    layouts.forEach((balls, k) =>
+      writeBalls(library.memory, this.at(1) + k * count * layout.carom_shot_ball.size, balls),
+    );
   }
   /** `cueSize` numbers for each shot, those of carom_cue; `cueFields` says where each is. */
   get cues(): Float64Array {
     return new Float64Array(this.library.memory.buffer, this.at(2), (this.n * CUE.size) / 8);
   }
-  /** 10 numbers for each ball of each shot: r, v, w at the end; the tenth is the label, an integer, for `label()`. */
+  /**
+   * 10 numbers for each ball of each shot: r, v, w at the end; the tenth is the label, an integer,
+   * for `label()`.
+   */
   get final(): Float64Array {
-    return new Float64Array(this.library.memory.buffer, this.at(4), (this.n * this.count * STATE.size) / 8);
+    return new Float64Array(
+      this.library.memory.buffer,
+      this.at(4),
+      (this.n * this.count * STATE.size) / 8,
+    );
   }
-  /** One status for each shot: 0 came to rest, positive stopped as asked, negative an error of carom.h. */
+  /**
+   * One status for each shot: 0 came to rest, positive stopped as asked, negative an error of
+   * carom.h.
+   */
   get status(): Int8Array {
     return new Int8Array(this.library.memory.buffer, this.at(5), this.n);
   }
   /** Sets the cue of shot k. */
   setCue(k: number, cue: Cue): void {
-    writeStruct(this.library.memory, this.at(2) + this.#shot(k) * CUE.size, "carom_cue", cue, "cue");
+    writeStruct(
+      this.library.memory,
+      this.at(2) + this.#shot(k) * CUE.size,
+      "carom_cue",
+      cue,
+      "cue",
+    );
   }
   /** The state of a ball at the end of shot k. */
   state(k: number, ball: number): BallState {
-    if (!(ball >= 0 && ball < this.count)) throw new RangeError(`ball: it must be 0 to ${this.count - 1}, not ${ball}`);
-    return readState(this.library.memory, this.at(4) + (this.#shot(k) * this.count + ball) * STATE.size);
+    if (!(ball >= 0 && ball < this.count))
+      throw new RangeError(`ball: it must be 0 to ${this.count - 1}, not ${ball}`);
+    return readState(
+      this.library.memory,
+      this.at(4) + (this.#shot(k) * this.count + ball) * STATE.size,
+    );
   }
   /** How long shot k lasts, s. */
   time(k: number): number {
-    return this.library.memory.f64[(this.at(3) + this.#shot(k) * layout.carom_shot.size + layout.carom_shot.offset.time) / 8]!;
+    return this.library.memory.f64[
+      (this.at(3) + this.#shot(k) * layout.carom_shot.size + layout.carom_shot.offset.time) / 8
+    ]!;
   }
   /** How many events shot k has. */
   events(k: number): number {
-    return Number(this.library.memory.i64[(this.at(3) + this.#shot(k) * layout.carom_shot.size + layout.carom_shot.offset.count) / 8]);
+    return Number(
+      this.library.memory.i64[
+        (this.at(3) + this.#shot(k) * layout.carom_shot.size + layout.carom_shot.offset.count) / 8
+      ],
+    );
   }
   /** Shot k with its events, copied. Needs `room` for all of them. */
   shot(k: number): Shot {
     if (this.events(k) > this.room)
-      throw new RangeError(`room: shot ${k} has ${this.events(k)} events, and there is room for ${this.room} of them`);
+      throw new RangeError(
+        `room: shot ${k} has ${this.events(k)} events, and there is room for ${this.room} of them`,
+      );
     return this.library.shotOf(this, k);
   }
   #shot(k: number): number {
-    if (!Number.isInteger(k) || k < 0 || k >= this.n) throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
+    if (!Number.isInteger(k) || k < 0 || k >= this.n)
+      throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
     return k;
   }
 }

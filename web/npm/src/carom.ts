@@ -8,9 +8,59 @@ import type { Build, Memory, Pointer } from "./memory.js";
 import { Plans } from "./plans.js";
 import { type Host as RecordingHost, Recording, type Replayed, replayed } from "./recording.js";
 import { type Kept, type Reader, Shot } from "./shot.js";
-import { readBalls, readEvent, readMotion, readState, readStruct, readTable, refuseUnknownOf, setStruct, value, vec3, whole, writeBalls, writeOptions, writeStates, writeStruct, writeTable } from "./structs.js";
-import type { Aim, AimOf, BallKind, BallState, Call, Choice, Collided, CollideOptions, Contact, Cue, CushionImpact, CushionOptions, Detail, Frame, Game } from "./types.js";
-import type { GameState, Impact, Measures, Motion, PlanOptions, Player, RackName, Rating, Ruling, Score, ShotBall, ShotOptions, StopOptions, Table, TableName, TracePoint } from "./types.js";
+import {
+  readBalls,
+  readEvent,
+  readMotion,
+  readState,
+  readStruct,
+  readTable,
+  refuseUnknownOf,
+  setStruct,
+  value,
+  vec3,
+  whole,
+  writeBalls,
+  writeOptions,
+  writeStates,
+  writeStruct,
+  writeTable,
+} from "./structs.js";
+import type {
+  Aim,
+  AimOf,
+  BallKind,
+  BallState,
+  Call,
+  Choice,
+  Collided,
+  CollideOptions,
+  Contact,
+  Cue,
+  CushionImpact,
+  CushionOptions,
+  Detail,
+  Frame,
+  Game,
+} from "./types.js";
+import type {
+  GameState,
+  Impact,
+  Measures,
+  Motion,
+  PlanOptions,
+  Player,
+  RackName,
+  Rating,
+  Ruling,
+  Score,
+  ShotBall,
+  ShotOptions,
+  StopOptions,
+  Table,
+  TableName,
+  TracePoint,
+} from "./types.js";
 
 const IMPACT = layout.carom_impact;
 const RESULT = layout.carom_result;
@@ -27,12 +77,33 @@ const FAULT = layout.carom_fault;
 const BALLS_MOST = values.CAROM_BALLS_MOST;
 
 const STICK = ["never", "in compression", "in restitution"] as const;
-const BALL = { r: [0, 0, 0], v: [0, 0, 0], w: [0, 0, 0], radius: 0.028575, mass: 0.17, muCloth: 0.2 } as const;
-const RAIL = { w: [0, 0, 0], height: 0.0365, radius: 0.028575, mass: 0.17, muCloth: 0.2, muCushion: 0.2, restitution: 0.85, jawRadius: 0 } as const;
+const BALL = {
+  r: [0, 0, 0],
+  v: [0, 0, 0],
+  w: [0, 0, 0],
+  radius: 0.028575,
+  mass: 0.17,
+  muCloth: 0.2,
+} as const;
+const RAIL = {
+  w: [0, 0, 0],
+  height: 0.0365,
+  radius: 0.028575,
+  mass: 0.17,
+  muCloth: 0.2,
+  muCushion: 0.2,
+  restitution: 0.85,
+  jawRadius: 0,
+} as const;
 
 /** How continue() refuses arguments, with nothing played. */
 const REFUSED: readonly number[] = [
-  ...[values.CAROM_ERROR_STATE, values.CAROM_ERROR_STATE_TABLE, values.CAROM_ERROR_STATE_BALLS, values.CAROM_ERROR_STATE_OPTIONS],
+  ...[
+    values.CAROM_ERROR_STATE,
+    values.CAROM_ERROR_STATE_TABLE,
+    values.CAROM_ERROR_STATE_BALLS,
+    values.CAROM_ERROR_STATE_OPTIONS,
+  ],
   ...[values.CAROM_ERROR_TIME_MOST, values.CAROM_ERROR_STOP_AT, values.CAROM_ERROR_EVENTS_MOST],
 ];
 
@@ -48,7 +119,10 @@ function arena(memory: Memory): (bytes: number) => Pointer {
   };
 }
 
-/** The library carom, loaded. Calls may be made from any thread that has loaded it; each has a memory of its own. */
+/**
+ * The library carom, loaded. Calls may be made from any thread that has loaded it; each has a
+ * memory of its own.
+ */
 export class Carom {
   /** The build that runs. */
   readonly build: Build;
@@ -57,14 +131,36 @@ export class Carom {
   readonly #reader: Reader;
   readonly #plans: Plans;
   readonly #recordings: RecordingHost;
-  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number" | "fault" | "text" | "frame" | "facts", Pointer>;
+  readonly #at: Record<
+    | "impact"
+    | "options"
+    | "result"
+    | "detail"
+    | "table"
+    | "balls"
+    | "cue"
+    | "shot"
+    | "final"
+    | "state"
+    | "motion"
+    | "number"
+    | "fault"
+    | "text"
+    | "frame"
+    | "facts",
+    Pointer
+  >;
   #points: Pointer = 0;
   #pointRoom = 0;
   #events: Pointer = 0;
   #room = 0;
   /** The shot whose balls and events are in the module's memory. */
   #resident: Shot | undefined;
-  #frame: Frame = { states: new Float64Array(), turned: new Float64Array(), label: () => "stationary" };
+  #frame: Frame = {
+    states: new Float64Array(),
+    turned: new Float64Array(),
+    label: () => "stationary",
+  };
 
   /** @internal */
   constructor(memory: Memory, build: Build) {
@@ -125,7 +221,15 @@ export class Carom {
         this.#reside(shot);
         return Array.from({ length: shot.count }, (_, k) => {
           const at = this.#events + k * EVENT.size;
-          return { ...readEvent(this.#memory, at), slip: this.#call.carom_event_slip(this.#at.table, this.#at.balls, shot.balls.length, at) };
+          return {
+            ...readEvent(this.#memory, at),
+            slip: this.#call.carom_event_slip(
+              this.#at.table,
+              this.#at.balls,
+              shot.balls.length,
+              at,
+            ),
+          };
         });
       },
       states: (shot, time, drawn) => {
@@ -152,7 +256,8 @@ export class Carom {
           this.#statesAt(shot, at, n, states, drawn, "times");
           const f64 = this.#memory.f64;
           const into = new Float64Array(3 * n * count);
-          for (let k = 0; k < n * count; k++) into.set(f64.subarray((states + k * size) / 8, (states + k * size) / 8 + 3), 3 * k);
+          for (let k = 0; k < n * count; k++)
+            into.set(f64.subarray((states + k * size) / 8, (states + k * size) / 8 + 3), 3 * k);
           return into;
         } finally {
           this.#memory.free(at);
@@ -164,14 +269,27 @@ export class Carom {
         const { table, balls, shot: at, number, frame: states } = this.#at;
         const turned = states + BALLS_MOST * STATE.size;
         this.#memory.f64[number / 8] = time;
-        this.#refuse(this.#call.carom_shot_frames(balls, count, at, number, 1, turned + BALLS_MOST * 32, states, turned), `time ${time}`);
+        this.#refuse(
+          this.#call.carom_shot_frames(
+            balls,
+            count,
+            at,
+            number,
+            1,
+            turned + BALLS_MOST * 32,
+            states,
+            turned,
+          ),
+          `time ${time}`,
+        );
         this.#refuse(this.#call.carom_shot_falls(table, balls, count, at, number, 1, states));
         const { f64, i32 } = this.#memory;
         if (this.#frame.states.buffer !== f64.buffer || this.#frame.turned.length !== 4 * count)
           this.#frame = {
             states: f64.subarray(states / 8, (states + count * STATE.size) / 8),
             turned: f64.subarray(turned / 8, turned / 8 + 4 * count),
-            label: (ball) => names.carom_label[i32[(states + ball * STATE.size + STATE.offset.label) / 4]!]!,
+            label: (ball) =>
+              names.carom_label[i32[(states + ball * STATE.size + STATE.offset.label) / 4]!]!,
           };
         return this.#frame;
       },
@@ -182,14 +300,17 @@ export class Carom {
     return this.#memory.exports;
   }
 
-  // ---- Texts and errors ----------------------------------------------------------------------------------------------------
+  // ---- Texts and errors -------------------------------------------------------------------------
 
   /** The version of the library, such as "0.3.0". */
   get version(): string {
     return this.#memory.text(this.#call.carom_version())!;
   }
 
-  /** A number that changes whenever a result has other bits than before: equal numbers are needed for replays and lockstep. */
+  /**
+   * A number that changes whenever a result has other bits than before: equal numbers are needed
+   * for replays and lockstep.
+   */
   get physicsRevision(): number {
     return this.#call.carom_physics_revision();
   }
@@ -204,19 +325,32 @@ export class Carom {
     return this.#memory.text(this.#call.carom_status_name(code))!;
   }
 
-  #error(code: number, field?: string, shot?: Shot, text = this.#memory.text(this.#call.carom_status_string(code))!): CaromError {
-    // The text of a field's own status begins with the field, by its name in C: "cue.end_mass must be positive and finite".
-    const [, of, name, must] = (field === undefined && /^(cue\.|options\.)(\w+) (must .*)/.exec(text)) || [];
+  #error(
+    code: number,
+    field?: string,
+    shot?: Shot,
+    text = this.#memory.text(this.#call.carom_status_string(code))!,
+  ): CaromError {
+    // The text of a field's own status begins with the field, by its name in C: "cue.end_mass must
+    // be positive and finite".
+    const [, of, name, must] =
+      (field === undefined && /^(cue\.|options\.)(\w+) (must .*)/.exec(text)) || [];
     if (name === undefined) return new CaromError(code, this.statusName(code), text, field, shot);
     const key = name.replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());
-    return new CaromError(code, this.statusName(code), `it ${must}`, of === "cue." ? of + key : key, shot);
+    return new CaromError(
+      code,
+      this.statusName(code),
+      `it ${must}`,
+      of === "cue." ? of + key : key,
+      shot,
+    );
   }
 
   #refuse(code: number, field?: string): void {
     if (code < 0) throw this.#error(code, field);
   }
 
-  // ---- Two balls -----------------------------------------------------------------------------------------------------------
+  // ---- Two balls --------------------------------------------------------------------------------
 
   #writeImpact(at: Pointer, impact: Impact): void {
     const { a, b } = IMPACT.offset;
@@ -248,10 +382,17 @@ export class Carom {
   #collided(code: number): Collided {
     const f64 = this.#memory.f64;
     const { result } = this.#at;
-    return { status: this.statusName(code), a: readMotion(f64, result + RESULT.offset.a), b: readMotion(f64, result + RESULT.offset.b) };
+    return {
+      status: this.statusName(code),
+      a: readMotion(f64, result + RESULT.offset.a),
+      b: readMotion(f64, result + RESULT.offset.b),
+    };
   }
 
-  /** Resolves one collision of two balls. Throws a CaromError that names the field where something is out of range. */
+  /**
+   * Resolves one collision of two balls. Throws a CaromError that names the field where something
+   * is out of range.
+   */
   collide(impact: Impact, options: CollideOptions = {}): Collided {
     const { impact: at, result } = this.#at;
     this.#writeImpact(at, impact);
@@ -268,11 +409,18 @@ export class Carom {
     const opt = this.#writeOptions(options);
     const code = this.#call.carom_collide_detail(at, opt, result, detail);
     if (code < 0) throw this.#impactError(code, opt);
-    const told = readStruct<Omit<C.Detail, "stick"> & { stick: number }>(this.#memory, detail, "carom_detail");
+    const told = readStruct<Omit<C.Detail, "stick"> & { stick: number }>(
+      this.#memory,
+      detail,
+      "carom_detail",
+    );
     return { ...this.#collided(code), detail: { ...told, stick: STICK[told.stick]! } };
   }
 
-  /** Follows one collision through n >= 2 points at equal steps of normal impulse. It takes about a millisecond. */
+  /**
+   * Follows one collision through n >= 2 points at equal steps of normal impulse. It takes about a
+   * millisecond.
+   */
   trace(impact: Impact, n: number, options: CollideOptions = {}): TracePoint[] {
     if (whole(n, "n") < 2) throw new RangeError(`n: at least 2 points are needed, not ${n}`);
     const { impact: at } = this.#at;
@@ -286,12 +434,16 @@ export class Carom {
     const code = this.#call.carom_trace(at, opt, n, this.#points);
     if (code < 0) throw this.#impactError(code, opt);
     return Array.from({ length: n }, (_, k) => {
-      const { dX, dY, bX, bY, sticks, ...point } = readStruct<Omit<C.TracePoint, "phase"> & { phase: number }>(this.#memory, this.#points + k * POINT.size, "carom_trace_point");
+      const { dX, dY, bX, bY, sticks, ...point } = readStruct<
+        Omit<C.TracePoint, "phase"> & { phase: number }
+      >(this.#memory, this.#points + k * POINT.size, "carom_trace_point");
       return { ...point, sticks: sticks === 1, d: [dX, dY], b: [bX, bY] };
     });
   }
 
-  /** Friction between pool balls that slip on each other as those of the impact, by Alciatore's law. */
+  /**
+   * Friction between pool balls that slip on each other as those of the impact, by Alciatore's law.
+   */
   muBall(impact: Impact): number {
     this.#writeImpact(this.#at.impact, { ...impact, muBall: 0 });
     return this.#alciatore(this.#at.impact);
@@ -313,15 +465,18 @@ export class Carom {
   }
 
   /**
-   * Resolves all collisions of a batch, each with the bits of `collide`. A bad row gets NaN and its status, and changes nothing for the
+   * Resolves all collisions of a batch, each with the bits of `collide`. A bad row gets NaN and its
+   * status, and changes nothing for the
    * others. Returns "ok", or the name of the first error.
    */
   collideBatch(batch: Collisions, options: CollideOptions = {}): string {
     const opt = this.#writeOptions(options);
-    return this.statusName(this.#call.carom_collide_batch(batch.at(0), batch.n, opt, batch.at(1), batch.at(2)));
+    return this.statusName(
+      this.#call.carom_collide_batch(batch.at(0), batch.n, opt, batch.at(1), batch.at(2)),
+    );
   }
 
-  // ---- A ball and a cushion --------------------------------------------------------------------------------------------------
+  // ---- A ball and a cushion ---------------------------------------------------------------------
 
   /** Resolves one impact of a ball on a cushion. */
   cushion(impact: CushionImpact, options: CushionOptions = {}): Motion & { status: string } {
@@ -332,35 +487,58 @@ export class Carom {
     const code = this.#call.carom_cushion(at, opt, motion);
     if (code < 0) {
       this.#call.carom_cushion_check(at, opt, number);
-      throw this.#error(code, this.#memory.text(this.#call.carom_cushion_field_name(this.#memory.i32[number / 4]!)));
+      throw this.#error(
+        code,
+        this.#memory.text(this.#call.carom_cushion_field_name(this.#memory.i32[number / 4]!)),
+      );
     }
     return { status: this.statusName(code), ...readMotion(this.#memory.f64, motion) };
   }
 
-  // ---- Tables, racks, balls, cues --------------------------------------------------------------------------------------------
+  // ---- Tables, racks, balls, cues ---------------------------------------------------------------
 
-  /** A built-in table, some of whose measures may be others, m and degrees: table("9ft", { cornerMouth: 0.108 }). */
+  /**
+   * A built-in table, some of whose measures may be others, m and degrees: table("9ft", {
+   * cornerMouth: 0.108 }).
+   */
   table(name: TableName, measures: Partial<Measures> = {}): Table {
-    const { table, balls, detail } = this.#at, kind = value("carom_table_kind", name, "table");
+    const { table, balls, detail } = this.#at,
+      kind = value("carom_table_kind", name, "table");
     this.#refuse(this.#call.carom_table_make(kind, table), "table");
     this.#resident = undefined;
     if (Object.keys(measures).length > 0) {
       this.#call.carom_table_measures(kind, balls);
-      const usual = Object.fromEntries(MEASURES.map((key, k) => [key, this.#memory.f64[balls / 8 + k]!]));
+      const usual = Object.fromEntries(
+        MEASURES.map((key, k) => [key, this.#memory.f64[balls / 8 + k]!]),
+      );
       writeStruct(this.#memory, balls, "carom_measures", measures, "measures", usual);
-      const code = this.#call.carom_table_measured(balls, name === "snooker" ? 0.02619375 : 0.028575, table, detail);
-      if (code < 0) throw this.#error(code, this.#part(detail + layout.carom_table_fault.offset.part));
+      const code = this.#call.carom_table_measured(
+        balls,
+        name === "snooker" ? 0.02619375 : 0.028575,
+        table,
+        detail,
+      );
+      if (code < 0)
+        throw this.#error(code, this.#part(detail + layout.carom_table_fault.offset.part));
     }
     return readTable(this.#memory, table);
   }
 
   /**
-   * A table of any closed shape, from its corners in the order of a walk around it: x, y, and the width of a pocket's mouth there (none: 0), m.
-   * A corner on a straight side makes a side pocket. Throws a CaromError that says which part is wrong.
+   * A table of any closed shape, from its corners in the order of a walk around it: x, y, and the
+   * width of a pocket's mouth there (none: 0), m.
+   * A corner on a straight side makes a side pocket. Throws a CaromError that says which part is
+   * wrong.
    */
-  polygon(corners: { x: number; y: number; mouth?: number }[], options: { noseHeight?: number; jawRadius?: number; ballRadius?: number } = {}): Table {
+  polygon(
+    corners: { x: number; y: number; mouth?: number }[],
+    options: { noseHeight?: number; jawRadius?: number; ballRadius?: number } = {},
+  ): Table {
     refuseUnknown(options, KEYS.polygon);
-    if (corners.length > values.CAROM_RAILS_MOST) throw new RangeError(`corners: at most ${values.CAROM_RAILS_MOST} are allowed, not ${corners.length}`);
+    if (corners.length > values.CAROM_RAILS_MOST)
+      throw new RangeError(
+        `corners: at most ${values.CAROM_RAILS_MOST} are allowed, not ${corners.length}`,
+      );
     const { noseHeight = 0.0366, jawRadius = 0.01, ballRadius = 0.028575 } = options;
     const { table, balls, detail } = this.#at;
     corners.forEach((corner, k) => {
@@ -368,13 +546,23 @@ export class Carom {
       this.#memory.f64.set([corner.x, corner.y, corner.mouth ?? 0], balls / 8 + 3 * k);
     });
     this.#resident = undefined;
-    const code = this.#call.carom_table_polygon(balls, corners.length, noseHeight, jawRadius, ballRadius, table, detail);
-    if (code < 0) throw this.#error(code, this.#part(detail + layout.carom_table_fault.offset.part));
+    const code = this.#call.carom_table_polygon(
+      balls,
+      corners.length,
+      noseHeight,
+      jawRadius,
+      ballRadius,
+      table,
+      detail,
+    );
+    if (code < 0)
+      throw this.#error(code, this.#part(detail + layout.carom_table_fault.offset.part));
     return readTable(this.#memory, table);
   }
 
   /**
-   * Checks a table of one's own for balls of a radius (m): that each part is in range, and that no ball can leave it. Throws a CaromError
+   * Checks a table of one's own for balls of a radius (m): that each part is in range, and that no
+   * ball can leave it. Throws a CaromError
    * that says which part is wrong.
    */
   checkTable(table: Table, radius = 0.028575): void {
@@ -391,29 +579,58 @@ export class Carom {
     const name = names.carom_part_kind[kind]!;
     if (name === "ball" || name === "state") return `balls[${index}]`;
     if (name === "measures") return `measures.${MEASURES[index]}`;
-    return name === "cue" ? name : name === "options" ? "" : name === "none" || name === "table" ? "table" : `table.${name}s[${index}]`;
+    return name === "cue"
+      ? name
+      : name === "options"
+        ? ""
+        : name === "none" || name === "table"
+          ? "table"
+          : `table.${name}s[${index}]`;
   }
 
   /**
-   * The balls of a rack; the cue ball is the first. Neighbours are `gap` apart, m (default 1e-4; 0 is a frozen rack). `seed` draws how they
+   * The balls of a rack; the cue ball is the first. Neighbours are `gap` apart, m (default 1e-4; 0
+   * is a frozen rack). `seed` draws how they
    * lie within it.
    */
-  rack(name: RackName, table: Table, options: { gap?: number; seed?: number | bigint } = {}): ShotBall[] {
+  rack(
+    name: RackName,
+    table: Table,
+    options: { gap?: number; seed?: number | bigint } = {},
+  ): ShotBall[] {
     refuseUnknown(options, KEYS.rack);
     const { gap = 1e-4, seed = 1 } = options;
     const kind = value("carom_rack_kind", name, "rack");
     this.#resident = undefined;
     writeTable(this.#memory, this.#at.table, table);
     const { table: of, balls } = this.#at;
-    const drawn = typeof seed === "bigint" ? seed : Number.isSafeInteger(seed) && seed >= 0 ? BigInt(seed) : undefined;
-    if (drawn === undefined) throw new RangeError(`seed: it must be a whole number, 0 or more, not ${seed}`);
-    this.#refuse(this.#call.carom_rack(kind, of, gap, drawn, balls, BALLS_MOST), `rack "${name}", gap ${gap}`);
+    const drawn =
+      typeof seed === "bigint"
+        ? seed
+        : Number.isSafeInteger(seed) && seed >= 0
+          ? BigInt(seed)
+          : undefined;
+    if (drawn === undefined)
+      throw new RangeError(`seed: it must be a whole number, 0 or more, not ${seed}`);
+    this.#refuse(
+      this.#call.carom_rack(kind, of, gap, drawn, balls, BALLS_MOST),
+      `rack "${name}", gap ${gap}`,
+    );
     return readBalls(this.#memory, balls, this.#call.carom_rack_size(kind));
   }
 
-  /** The constants of a game's balls for a model of the cushion, which has its own; throws a RangeError where the game has none for it. */
+  /**
+   * The constants of a game's balls for a model of the cushion, which has its own; throws a
+   * RangeError where the game has none for it.
+   */
   kind(game: Game, cushion: ShotOptions["cushionModel"] = "default"): BallKind {
-    if (!this.#call.carom_ball_kind_for(value("carom_game", game, "game"), value("carom_shot_cushion", cushion, "cushion"), this.#at.detail))
+    if (
+      !this.#call.carom_ball_kind_for(
+        value("carom_game", game, "game"),
+        value("carom_shot_cushion", cushion, "cushion"),
+        this.#at.detail,
+      )
+    )
       throw new RangeError(`cushion: ${game} has no constants for "${cushion}"`);
     return readStruct(this.#memory, this.#at.detail, "carom_ball_kind");
   }
@@ -422,21 +639,37 @@ export class Carom {
   ball(x: number, y: number, kind: Game | BallKind = "pool"): ShotBall {
     const constants = typeof kind === "string" ? this.kind(kind) : kind;
     refuseUnknownOf("carom_ball_kind", constants, "kind");
-    return { kind: constants, state: { r: [x, y, constants.radius], v: [0, 0, 0], w: [0, 0, 0], label: "stationary" } };
+    return {
+      kind: constants,
+      state: { r: [x, y, constants.radius], v: [0, 0, 0], w: [0, 0, 0], label: "stationary" },
+    };
   }
 
   /**
-   * Ball in hand: the layout with a ball at rest at x, y (m), also one that was pocketed. Throws a CaromError where the place is not free, whose
+   * Ball in hand: the layout with a ball at rest at x, y (m), also one that was pocketed. Throws a
+   * CaromError where the place is not free, whose
    * `field` is the ball or the part of the table that is in the way.
    */
-  placeBall(table: Table, balls: readonly ShotBall[], ball: number, x: number, y: number): ShotBall[] {
-    if (!Number.isInteger(ball) || ball < 0 || ball >= balls.length) throw new RangeError(`ball: it must be 0 to ${balls.length - 1}, not ${ball}`);
+  placeBall(
+    table: Table,
+    balls: readonly ShotBall[],
+    ball: number,
+    x: number,
+    y: number,
+  ): ShotBall[] {
+    if (!Number.isInteger(ball) || ball < 0 || ball >= balls.length)
+      throw new RangeError(`ball: it must be 0 to ${balls.length - 1}, not ${ball}`);
     this.#writeLayout(table, balls);
     const { table: of, balls: at, detail } = this.#at;
     const code = this.#call.carom_place_ball(of, at, balls.length, ball, x, y, detail);
     if (code === values.CAROM_ERROR_OVERLAP || code === values.CAROM_ERROR_OFF_TABLE) {
       const part = this.#part(detail);
-      throw this.#error(code, part, undefined, `${part === "table" ? "outside of it" : "in the way"} at ${x}, ${y} m; a free place is needed`);
+      throw this.#error(
+        code,
+        part,
+        undefined,
+        `${part === "table" ? "outside of it" : "in the way"} at ${x}, ${y} m; a free place is needed`,
+      );
     }
     this.#refuse(code, `ball ${ball} at ${x}, ${y}`);
     const placed = readBalls(this.#memory, at, balls.length)[ball]!;
@@ -444,16 +677,28 @@ export class Carom {
   }
 
   /**
-   * A cue: that of the game with the fields given. By default 2 m/s along the table, 0.25 radii above the centre, ball 0. `tip` says `a` and
-   * `b` as a player does, to the right and above; `ballSpeed` is the speed that a level cue gives a ball of the game, instead of `speed`.
+   * A cue: that of the game with the fields given. By default 2 m/s along the table, 0.25 radii
+   * above the centre, ball 0. `tip` says `a` and
+   * `b` as a player does, to the right and above; `ballSpeed` is the speed that a level cue gives a
+   * ball of the game, instead of `speed`.
    */
-  cue(fields: Partial<Cue> & { ballSpeed?: number; tip?: readonly [number, number] } = {}, game: Game = "pool"): Cue {
+  cue(
+    fields: Partial<Cue> & { ballSpeed?: number; tip?: readonly [number, number] } = {},
+    game: Game = "pool",
+  ): Cue {
     const { ballSpeed, tip, ...rest } = fields;
-    if (tip !== undefined && (rest.a !== undefined || rest.b !== undefined)) throw new TypeError("cue.tip: it says what a and b say; one of both is needed");
+    if (tip !== undefined && (rest.a !== undefined || rest.b !== undefined))
+      throw new TypeError("cue.tip: it says what a and b say; one of both is needed");
     const cue = this.#cue(tip === undefined ? rest : { ...rest, a: 0 - tip[0], b: tip[1] }, game);
     if (ballSpeed === undefined) return cue;
-    if (rest.speed !== undefined) throw new TypeError("cue.ballSpeed: speed is that of the cue, ballSpeed that of the ball; one of both is needed");
-    if (cue.theta !== 0) throw new RangeError("cue.ballSpeed: it is that which a level cue gives the ball; with theta give speed, the speed of the cue");
+    if (rest.speed !== undefined)
+      throw new TypeError(
+        "cue.ballSpeed: speed is that of the cue, ballSpeed that of the ball; one of both is needed",
+      );
+    if (cue.theta !== 0)
+      throw new RangeError(
+        "cue.ballSpeed: it is that which a level cue gives the ball; with theta give speed, the speed of the cue",
+      );
     // Along x, and by a root, it has the same bits in other languages.
     const [x, y] = this.strike({ ...cue, speed: 1, phi: 0 }, this.kind(game)).v;
     return { ...cue, speed: ballSpeed / Math.sqrt(x * x + y * y) };
@@ -463,10 +708,13 @@ export class Carom {
     this.#call.carom_cue_of(this.#at.detail, value("carom_game", game, "game"));
     const cue = readStruct<Cue>(this.#memory, this.#at.detail, "carom_cue");
     refuseUnknownOf("carom_cue", fields, "cue");
-    return { ...cue, ...Object.fromEntries(Object.entries(fields).filter(([, given]) => given !== undefined)) };
+    return {
+      ...cue,
+      ...Object.fromEntries(Object.entries(fields).filter(([, given]) => given !== undefined)),
+    };
   }
 
-  // ---- Shots -----------------------------------------------------------------------------------------------------------------
+  // ---- Shots ------------------------------------------------------------------------------------
 
   #writeShotOptions(options: ShotOptions): Pointer {
     refuseUnknown(options, KEYS.shot);
@@ -482,7 +730,14 @@ export class Carom {
 
   #writeShot(count: number): void {
     const { shot: at, final, state, facts } = this.#at;
-    setStruct(this.#memory, at, "carom_shot", { events: this.#events, final, state, facts, room: this.#room, count });
+    setStruct(this.#memory, at, "carom_shot", {
+      events: this.#events,
+      final,
+      state,
+      facts,
+      room: this.#room,
+      count,
+    });
   }
 
   #count(): number {
@@ -491,17 +746,25 @@ export class Carom {
 
   /** Table and balls into the module's memory. */
   #writeLayout(table: Table, balls: readonly ShotBall[]): void {
-    if (balls.length < 1 || balls.length > BALLS_MOST) throw new RangeError(`balls: there must be 1 to ${BALLS_MOST}, not ${balls.length}`);
+    if (balls.length < 1 || balls.length > BALLS_MOST)
+      throw new RangeError(`balls: there must be 1 to ${BALLS_MOST}, not ${balls.length}`);
     this.#resident = undefined;
     writeTable(this.#memory, this.#at.table, table);
     writeBalls(this.#memory, this.#at.balls, balls);
   }
 
   /**
-   * Plays a shot until nothing moves. Without a cue, or if a ball moves already, there is no strike. Throws a CaromError that names the ball
-   * where something is out of range; where the shot ends in an error later, its `shot` has what had happened.
+   * Plays a shot until nothing moves. Without a cue, or if a ball moves already, there is no
+   * strike. Throws a CaromError that names the ball
+   * where something is out of range; where the shot ends in an error later, its `shot` has what had
+   * happened.
    */
-  simulate(table: Table, balls: readonly ShotBall[], cue?: Partial<Cue>, options: ShotOptions = {}): Shot {
+  simulate(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue?: Partial<Cue>,
+    options: ShotOptions = {},
+  ): Shot {
     const at = this.#at;
     const struck = cue === undefined ? undefined : this.#cue(cue);
     this.#writeLayout(table, balls);
@@ -510,27 +773,39 @@ export class Carom {
     const opt = this.#writeShotOptions(options);
     this.#needRoom(256);
     let code: number;
-    // A shot that has more events than there is room for is played again with enough of it: it has the same bits.
+    // A shot that has more events than there is room for is played again with enough of it: it has
+    // the same bits.
     for (;;) {
       this.#writeShot(0);
       code = this.#call.carom_shoot(at.table, at.balls, balls.length, cueAt, opt, at.shot);
       if (this.#count() <= this.#room) break;
       this.#needRoom(this.#count());
     }
-    if (code < 0 && this.#count() === 0) throw this.#shotError(at.table, at.balls, balls.length, cueAt, opt);
-    return this.#ended(table, balls.map((ball) => ({ ...ball, kind: { ...ball.kind }, state: { ...ball.state } })), code);
+    if (code < 0 && this.#count() === 0)
+      throw this.#shotError(at.table, at.balls, balls.length, cueAt, opt);
+    return this.#ended(
+      table,
+      balls.map((ball) => ({ ...ball, kind: { ...ball.kind }, state: { ...ball.state } })),
+      code,
+    );
   }
 
   /**
-   * Goes on with a shot that was stopped, by `timeMost`, `stopAt` or a bound, as if it had not been: every event and state has the bits of the
-   * unbroken shot, however often it is stopped. The options say when to stop again; table, balls and models are those that the shot began
-   * with. The shot that is given does not change; the new one has all events from the beginning. A shot at rest stays as it is.
+   * Goes on with a shot that was stopped, by `timeMost`, `stopAt` or a bound, as if it had not
+   * been: every event and state has the bits of the
+   * unbroken shot, however often it is stopped. The options say when to stop again; table, balls
+   * and models are those that the shot began
+   * with. The shot that is given does not change; the new one has all events from the beginning. A
+   * shot at rest stays as it is.
    */
   continue(shot: Shot, options: StopOptions = {}): Shot {
     refuseUnknown(options, KEYS.stop);
     if (shot.status === "ok") return shot;
     const kept = shot.kept;
-    if (kept === undefined) throw new TypeError(`shot: only what simulate() or continue() stopped can go on, not a shot "${shot.status}", or one of a batch`);
+    if (kept === undefined)
+      throw new TypeError(
+        `shot: only what simulate() or continue() stopped can go on, not a shot "${shot.status}", or one of a batch`,
+      );
     const at = this.#at;
     let code: number;
     // As in simulate(), if there is too little room: what was there before is put back.
@@ -538,9 +813,16 @@ export class Carom {
       this.#resident = undefined;
       this.#reside(shot);
       this.#resident = undefined;
-      for (const part of ["table", "options", "state"] as const) this.#memory.u8.set(kept[part], at[part]);
+      for (const part of ["table", "options", "state"] as const)
+        this.#memory.u8.set(kept[part], at[part]);
       writeOptions(this.#memory, at.options, "carom_shot_options", options, true);
-      code = this.#call.carom_shot_continue(at.table, at.balls, shot.balls.length, at.options, at.shot);
+      code = this.#call.carom_shot_continue(
+        at.table,
+        at.balls,
+        shot.balls.length,
+        at.options,
+        at.shot,
+      );
       if (REFUSED.includes(code)) throw this.#error(code);
       if (this.#count() <= this.#room) break;
       this.#needRoom(this.#count());
@@ -548,13 +830,25 @@ export class Carom {
     return this.#ended(shot.table, shot.balls, code);
   }
 
-  /** The shot that has just been played or continued in the module's memory. Throws where it ended in an error. */
+  /**
+   * The shot that has just been played or continued in the module's memory. Throws where it ended
+   * in an error.
+   */
   #ended(table: Table, balls: readonly ShotBall[], code: number): Shot {
     const { shot: at, final } = this.#at;
     let kept: Kept | undefined;
-    if (code > 0 || code === values.CAROM_ERROR_TOO_MANY_EVENTS || code === values.CAROM_ERROR_TOO_LONG) {
-      const copy = (part: keyof Kept, size: number): Uint8Array => this.#memory.u8.slice(this.#at[part], this.#at[part] + size);
-      kept = { table: copy("table", layout.carom_table.size), options: copy("options", SHOT_OPTIONS.size), state: copy("state", layout.carom_shot_state.size) };
+    if (
+      code > 0 ||
+      code === values.CAROM_ERROR_TOO_MANY_EVENTS ||
+      code === values.CAROM_ERROR_TOO_LONG
+    ) {
+      const copy = (part: keyof Kept, size: number): Uint8Array =>
+        this.#memory.u8.slice(this.#at[part], this.#at[part] + size);
+      kept = {
+        table: copy("table", layout.carom_table.size),
+        options: copy("options", SHOT_OPTIONS.size),
+        state: copy("state", layout.carom_shot_state.size),
+      };
     }
     const shot = this.#played(table, balls, code, at, final, this.#events, this.#at.facts, kept);
     this.#resident = shot;
@@ -562,27 +856,71 @@ export class Carom {
     return shot;
   }
 
-  /** What carom_shot_fault() says of arguments that it refuses: the number at fault, its value, and what it must be. */
-  #shotError(...args: [table: Pointer, balls: Pointer, count: number, cue: Pointer, options: Pointer]): CaromError {
+  /**
+   * What carom_shot_fault() says of arguments that it refuses: the number at fault, its value, and
+   * what it must be.
+   */
+  #shotError(
+    ...args: [table: Pointer, balls: Pointer, count: number, cue: Pointer, options: Pointer]
+  ): CaromError {
     const { fault, text } = this.#at;
     const code = this.#call.carom_shot_fault(...args, fault, text, 128);
     const row = this.#memory.u32[(fault + FAULT.offset.row) / 4]!;
     const part = this.#part(fault + FAULT.offset.part);
     if (code === values.CAROM_ERROR_MISCUE) return this.#error(code, "cue.a, cue.b");
-    if (row === 0) return this.#error(code, part === "table" && code !== values.CAROM_ERROR_TABLE ? undefined : part);
+    if (row === 0)
+      return this.#error(
+        code,
+        part === "table" && code !== values.CAROM_ERROR_TABLE ? undefined : part,
+      );
     const kind = names.carom_part_kind[this.#memory.i32[(fault + FAULT.offset.part) / 4]!];
-    const name = this.#memory.text(this.#memory.u32[(row + layout.carom_number.offset.name) / 4]!)!.replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());
-    const field = [part, kind === "ball" ? "kind" : kind === "state" ? kind : "", name].filter(Boolean).join(".");
+    const name = this.#memory
+      .text(this.#memory.u32[(row + layout.carom_number.offset.name) / 4]!)!
+      .replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());
+    const field = [part, kind === "ball" ? "kind" : kind === "state" ? kind : "", name]
+      .filter(Boolean)
+      .join(".");
     const must = this.#memory.text(text);
-    if (must) return this.#error(code, field, undefined, `it must be ${must}, not ${this.#memory.f64[(fault + FAULT.offset.value) / 8]}`);
-    return this.#error(code, field, undefined, this.#memory.text(this.#call.carom_status_string(code))!.replace(/^\w+\.\w+ must/, "it must"));
+    if (must)
+      return this.#error(
+        code,
+        field,
+        undefined,
+        `it must be ${must}, not ${this.#memory.f64[(fault + FAULT.offset.value) / 8]}`,
+      );
+    return this.#error(
+      code,
+      field,
+      undefined,
+      this.#memory.text(this.#call.carom_status_string(code))!.replace(/^\w+\.\w+ must/, "it must"),
+    );
   }
 
-  #played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer, facts?: Pointer, kept?: Kept): Shot {
+  #played(
+    table: Table,
+    balls: readonly ShotBall[],
+    code: number,
+    shot: Pointer,
+    final: Pointer,
+    events: Pointer,
+    facts?: Pointer,
+    kept?: Kept,
+  ): Shot {
     const count = Number(this.#memory.i64[(shot + SHOT.offset.count) / 8]);
     const bytes = this.#memory.u8.slice(events, events + count * EVENT.size);
     const states = balls.map((_, k): BallState => readState(this.#memory, final + k * STATE.size));
-    return new Shot(this.#reader, table, balls, this.statusName(code), this.#memory.f64[(shot + SHOT.offset.time) / 8]!, states, count, bytes, facts ? this.#memory.u8.slice(facts, facts + layout.carom_facts.size) : undefined, kept);
+    return new Shot(
+      this.#reader,
+      table,
+      balls,
+      this.statusName(code),
+      this.#memory.f64[(shot + SHOT.offset.time) / 8]!,
+      states,
+      count,
+      bytes,
+      facts ? this.#memory.u8.slice(facts, facts + layout.carom_facts.size) : undefined,
+      kept,
+    );
   }
 
   /** Puts balls and events of a shot into the module's memory, if others are there. */
@@ -603,13 +941,26 @@ export class Carom {
     this.#memory.f64[this.#at.number / 8] = time;
     this.#statesAt(shot, this.#at.number, 1, this.#at.final, drawn, `time ${time}`);
   }
-  #statesAt(shot: Shot, times: Pointer, n: number, states: Pointer, drawn: boolean, field: string): void {
+  #statesAt(
+    shot: Shot,
+    times: Pointer,
+    n: number,
+    states: Pointer,
+    drawn: boolean,
+    field: string,
+  ): void {
     const { balls, shot: at, table } = this.#at;
     const rest = [balls, shot.balls.length, at, times, n, states];
-    this.#refuse(drawn ? this.#call.carom_shot_drawn(table, ...rest) : this.#call.carom_shot_at_times(...rest), field);
+    this.#refuse(
+      drawn ? this.#call.carom_shot_drawn(table, ...rest) : this.#call.carom_shot_at_times(...rest),
+      field,
+    );
   }
 
-  /** Begins a recording, of a game on this table with these models, that verifies itself; without them one whose lines are read at first. */
+  /**
+   * Begins a recording, of a game on this table with these models, that verifies itself; without
+   * them one whose lines are read at first.
+   */
   record(): Recording;
   record(table: Table, balls: readonly ShotBall[], options?: ShotOptions): Recording;
   record(table?: Table, balls: readonly ShotBall[] = [], options: ShotOptions = {}): Recording {
@@ -619,15 +970,24 @@ export class Carom {
   }
 
   /**
-   * Plays a recording again, a text or its lines as they come, and yields each of its shots. Throws a CaromError with the line where it is wrong,
+   * Plays a recording again, a text or its lines as they come, and yields each of its shots. Throws
+   * a CaromError with the line where it is wrong,
    * cut off, or of another revision of the physics.
    */
   replay(recording: string | Iterable<string>): Generator<Replayed, void> {
     return replayed(this.#recordings, recording);
   }
 
-  /** What the cue ball touches first, or undefined. The shot is followed until then only, but its state is kept: this costs as much as `simulate`. */
-  firstContact(table: Table, balls: readonly ShotBall[], cue?: Partial<Cue>, options: Omit<ShotOptions, "stopAt"> = {}): Contact | undefined {
+  /**
+   * What the cue ball touches first, or undefined. The shot is followed until then only, but its
+   * state is kept: this costs as much as `simulate`.
+   */
+  firstContact(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue?: Partial<Cue>,
+    options: Omit<ShotOptions, "stopAt"> = {},
+  ): Contact | undefined {
     return this.simulate(table, balls, cue, { ...options, stopAt: "contact" }).firstContact;
   }
 
@@ -638,37 +998,66 @@ export class Carom {
     writeStruct(this.#memory, at, "carom_cue", this.#cue(cue), "cue");
     writeStruct(this.#memory, detail, "carom_ball_kind", kind, "kind");
     const code = this.#call.carom_strike(at, detail, motion);
-    if (code < 0) throw this.#error(code, code === values.CAROM_ERROR_MISCUE ? "cue.a, cue.b" : undefined);
+    if (code < 0)
+      throw this.#error(code, code === values.CAROM_ERROR_MISCUE ? "cue.a, cue.b" : undefined);
     return readMotion(this.#memory.f64, motion);
   }
 
   /**
-   * Memory for n shots on a table: of one layout of balls for all, or one for each. `room` is how many events of each are kept; 0, the
+   * Memory for n shots on a table: of one layout of balls for all, or one for each. `room` is how
+   * many events of each are kept; 0, the
    * default: none, only final states. All cues are at first those of `cue()`.
    */
-  shots(table: Table, balls: readonly ShotBall[] | readonly (readonly ShotBall[])[], n: number, options: { room?: number } = {}): Shots {
+  shots(
+    table: Table,
+    balls: readonly ShotBall[] | readonly (readonly ShotBall[])[],
+    n: number,
+    options: { room?: number } = {},
+  ): Shots {
     refuseUnknown(options, KEYS.room);
     const layouts = (Array.isArray(balls[0]) ? balls : [balls]) as readonly (readonly ShotBall[])[];
-    const shots = new Shots(this.#library, structuredClone(table), structuredClone(layouts), n, options.room ?? 0);
+    const shots = new Shots(
+      this.#library,
+      structuredClone(table),
+      structuredClone(layouts),
+      n,
+      options.room ?? 0,
+    );
     const cue = this.#cue();
     for (let k = 0; k < n; k++) shots.setCue(k, cue);
     return shots;
   }
 
-  /** Plays all shots of a batch, each with the bits of `simulate`. Returns "ok", or the name of the first error. */
+  /**
+   * Plays all shots of a batch, each with the bits of `simulate`. Returns "ok", or the name of the
+   * first error.
+   */
   simulateBatch(shots: Shots, options: ShotOptions = {}): string {
     const opt = this.#writeShotOptions(options);
     const { u32, i64, u8 } = this.#memory;
     for (let k = 0; k < shots.n; k++) {
       const shot = shots.at(3) + k * SHOT.size;
       u8.fill(0, shot, shot + SHOT.size);
-      u32[(shot + SHOT.offset.events) / 4] = shots.room === 0 ? 0 : shots.at(6) + k * shots.room * EVENT.size;
+      u32[(shot + SHOT.offset.events) / 4] =
+        shots.room === 0 ? 0 : shots.at(6) + k * shots.room * EVENT.size;
       u32[(shot + SHOT.offset.final) / 4] = shots.at(4) + k * shots.count * STATE.size;
       i64[(shot + SHOT.offset.room) / 8] = BigInt(shots.room);
     }
     const job = setStruct(this.#memory, shots.at(7), "carom_shot_job", {
-      ...{ table: shots.at(0), balls: shots.at(1), cues: shots.at(2), shots: shots.at(3), status: shots.at(5), options: opt },
-      ...{ count: shots.count, ballStride: shots.layouts.length === 1 ? 0 : shots.count, cueStride: 1, n: shots.n },
+      ...{
+        table: shots.at(0),
+        balls: shots.at(1),
+        cues: shots.at(2),
+        shots: shots.at(3),
+        status: shots.at(5),
+        options: opt,
+      },
+      ...{
+        count: shots.count,
+        ballStride: shots.layouts.length === 1 ? 0 : shots.count,
+        cueStride: 1,
+        n: shots.n,
+      },
     });
     return this.statusName(this.#call.carom_shoot_batch(job));
   }
@@ -677,13 +1066,21 @@ export class Carom {
     const balls = shots.layouts[shots.layouts.length === 1 ? 0 : k]!;
     const shot = shots.at(3) + k * SHOT.size;
     const final = shots.at(4) + k * shots.count * STATE.size;
-    return this.#played(shots.table, balls, shots.status[k]!, shot, final, shots.at(6) + k * shots.room * EVENT.size);
+    return this.#played(
+      shots.table,
+      balls,
+      shots.status[k]!,
+      shot,
+      final,
+      shots.at(6) + k * shots.room * EVENT.size,
+    );
   }
 
-  // ---- Plans and games -------------------------------------------------------------------------------------------------------
+  // ---- Plans and games --------------------------------------------------------------------------
 
   /**
-   * A player by his errors: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each way, times `errors`. Or by a Fargo rating,
+   * A player by his errors: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each
+   * way, times `errors`. Or by a Fargo rating,
    * 300 to 850, such as 500.
    */
   player(of: { errors?: number; fargo?: number } = {}): Player {
@@ -691,27 +1088,44 @@ export class Carom {
     return this.#plans.player(of);
   }
 
-  /** The Fargo rating of a player by games won and lost, 300 to 850, with its interval of 95 %. Without games it is a guess. */
+  /**
+   * The Fargo rating of a player by games won and lost, 300 to 850, with its interval of 95 %.
+   * Without games it is a guess.
+   */
   rating(scores: readonly Score[]): Rating {
     return this.#plans.rating(scores);
   }
 
-  /** The stroke that a player makes of the one that he means, with errors drawn from a seed and the number of the stroke. */
+  /**
+   * The stroke that a player makes of the one that he means, with errors drawn from a seed and the
+   * number of the stroke.
+   */
   withErrors(cue: Partial<Cue>, player: Player, seed: number, number = 0): Cue {
     this.#resident = undefined;
     return this.#plans.withErrors(cue, player, seed, number);
   }
 
   /**
-   * Aims a pot: the direction of the cue in which a ball goes to the middle of a pocket's mouth, by a bank, a kick or a combination where `via` says so, with
-   * squirt, swerve, throw and the model of the cushion. Where `is` is "no_way", the direction of the cue stays.
+   * Aims a pot: the direction of the cue in which a ball goes to the middle of a pocket's mouth, by
+   * a bank, a kick or a combination where `via` says so, with
+   * squirt, swerve, throw and the model of the cushion. Where `is` is "no_way", the direction of
+   * the cue stays.
    */
-  aim(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, of: AimOf, options: ShotOptions = {}): Aim {
+  aim(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    of: AimOf,
+    options: ShotOptions = {},
+  ): Aim {
     refuseUnknown(of, KEYS.aim, "aim");
     return this.#plans.aim(table, balls, cue, of, options);
   }
 
-  /** Where pockets are for a player at the head, y = 0: "head-left", "side-left", "foot-left" and so on; undefined on tables that are no rectangles. */
+  /**
+   * Where pockets are for a player at the head, y = 0: "head-left", "side-left", "foot-left" and so
+   * on; undefined on tables that are no rectangles.
+   */
   pocketNames(table: Table): (string | undefined)[] {
     return this.#names(table, "pocket");
   }
@@ -728,7 +1142,8 @@ export class Carom {
   }
 
   /**
-   * The shots that win most often from a layout, the best first. It takes some 20 µs a shot, so a worker is the place for large plans. The choice
+   * The shots that win most often from a layout, the best first. It takes some 20 µs a shot, so a
+   * worker is the place for large plans. The choice
    * depends on the arguments alone.
    */
   plan(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}): Choice[] {
@@ -736,16 +1151,30 @@ export class Carom {
   }
 
   /**
-   * A plan in slices of so many events, some 2 µs each, for an opponent who thinks between frames: `next()` plays a slice, and the last one returns
+   * A plan in slices of so many events, some 2 µs each, for an opponent who thinks between frames:
+   * `next()` plays a slice, and the last one returns
    * the choices of `plan`, bit for bit. Table, balls and options are not changed meanwhile.
    */
-  think(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}, slice = 1000): Generator<undefined, Choice[]> {
+  think(
+    table: Table,
+    balls: readonly ShotBall[],
+    options: PlanOptions = {},
+    slice = 1000,
+  ): Generator<undefined, Choice[]> {
     if (whole(slice, "slice") < 1) throw new RangeError("slice: at least 1 event is needed, not 0");
     return this.#plans.think(table, balls, undefined, options, slice);
   }
 
-  /** The chances of strokes that are given, each played shots / cues.length times with errors, at least 10 times. */
-  chances(table: Table, balls: readonly ShotBall[], cues: readonly Partial<Cue>[], options: PlanOptions = {}): Choice[] {
+  /**
+   * The chances of strokes that are given, each played shots / cues.length times with errors, at
+   * least 10 times.
+   */
+  chances(
+    table: Table,
+    balls: readonly ShotBall[],
+    cues: readonly Partial<Cue>[],
+    options: PlanOptions = {},
+  ): Choice[] {
     return this.#plans.plan(table, balls, cues, options);
   }
 
@@ -755,13 +1184,26 @@ export class Carom {
     return this.#plans.on(game, balls);
   }
 
-  /** Plays a shot as `simulate` does, and rules what it amounts to. Eight-ball needs a call, but for the break and a safety. */
-  referee(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, game: GameState, call?: Call, options: ShotOptions = {}): Ruling {
+  /**
+   * Plays a shot as `simulate` does, and rules what it amounts to. Eight-ball needs a call, but for
+   * the break and a safety.
+   */
+  referee(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    game: GameState,
+    call?: Call,
+    options: ShotOptions = {},
+  ): Ruling {
     refuseUnknown(game, KEYS.game, "game");
     return this.#plans.referee(table, balls, cue, game, call, options);
   }
 
-  /** The same of a shot that was played, which is not played again; `cueBall` is the index of the cue ball. */
+  /**
+   * The same of a shot that was played, which is not played again; `cueBall` is the index of the
+   * cue ball.
+   */
   rule(shot: Shot, game: GameState, call?: Call, cueBall = 0): Ruling {
     refuseUnknown(game, KEYS.game, "game");
     if (shot.facts === undefined) throw new TypeError("shot: one of a batch has no facts");

@@ -1,5 +1,6 @@
 /**
- * carom: collisions of two billiard balls, balls and cushions, and whole shots, by the C library of the same name as WebAssembly.
+ * carom: collisions of two billiard balls, balls and cushions, and whole shots, by the C library of
+ * the same name as WebAssembly.
  *
  *     import { load } from "carom";
  *     const carom = await load();
@@ -7,7 +8,8 @@
  *     const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
  *     console.log(shot.time, shot.firstContact?.ball, shot.positions(1.5));
  *
- * Units are SI; directions of a cue are in degrees. All results have the bits of the C library's instruction set `plain`.
+ * Units are SI; directions of a cue are in degrees. All results have the bits of the C library's
+ * instruction set `plain`.
  * @packageDocumentation
  */
 import { Carom } from "./carom.js";
@@ -27,11 +29,17 @@ export { words } from "./generated/words.js";
 
 /** Options of `load`. */
 export interface LoadOptions {
-  /** The build to run; by default "simd" where the machine has 128-bit vectors, else "plain". Both have the same bits. */
+  /**
+   * The build to run; by default "simd" where the machine has 128-bit vectors, else "plain". Both
+   * have the same bits.
+   */
   build?: Build;
 }
 
-/** Compiles the WebAssembly module and returns the library. Each call gives a library with a memory of its own. */
+/**
+ * Compiles the WebAssembly module and returns the library. Each call gives a library with a memory
+ * of its own.
+ */
 export async function load(options: LoadOptions = {}): Promise<Carom> {
   refuseUnknown(options, KEYS.build);
   const { build = simdAvailable() ? "simd" : "plain" } = options;

@@ -21,8 +21,13 @@ export interface Line {
 const PARAMS: readonly (readonly [string, keyof BallKind])[] = NUMBERS.carom_ball_kind;
 const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = NUMBERS.carom_cue;
 
-/** The line of a shot, without a line break. `carom shoot` plays it with the same bits under CAROM_ISA=plain. */
-export function toLine(shot: Pick<Line, "tableName" | "balls" | "cue"> & { id?: string; names?: string[] }): string {
+/**
+ * The line of a shot, without a line break. `carom shoot` plays it with the same bits under
+ * CAROM_ISA=plain.
+ */
+export function toLine(
+  shot: Pick<Line, "tableName" | "balls" | "cue"> & { id?: string; names?: string[] },
+): string {
   refuseUnknown(shot, KEYS.line, "shot");
   const names = shot.names ?? shot.balls.map(({ id }, k) => id ?? (k === 0 ? "cue" : String(k)));
   const cue: Record<string, number | string> = {};
@@ -31,7 +36,10 @@ export function toLine(shot: Pick<Line, "tableName" | "balls" | "cue"> & { id?: 
   const balls = shot.balls.map(({ kind, state }, k) => ({
     id: names[k],
     state: [NAMES.carom_label.indexOf(state.label), ...state.r, ...state.v, ...state.w],
-    params: { game: "pool", ...Object.fromEntries(PARAMS.map(([key, field]) => [key, kind[field]])) },
+    params: {
+      game: "pool",
+      ...Object.fromEntries(PARAMS.map(([key, field]) => [key, kind[field]])),
+    },
   }));
   return JSON.stringify({ kind: "shot", id: shot.id ?? "shot", table: shot.tableName, cue, balls });
 }
@@ -41,21 +49,36 @@ function refuse(key: string, right: string): never {
 }
 
 function numbers(from: unknown, key: string, count: number): number[] {
-  const good = Array.isArray(from) && from.length === count && from.every((x) => typeof x === "number" && Number.isFinite(x));
+  const good =
+    Array.isArray(from) &&
+    from.length === count &&
+    from.every((x) => typeof x === "number" && Number.isFinite(x));
   return good ? (from as number[]) : refuse(key, `${count} numbers are needed`);
 }
 
 /** Numbers by their keys; `other` is the key of what is no number. */
-function fill<Key extends string>(into: Record<Key, number>, keys: readonly (readonly [string, Key])[], from: Record<string, unknown>, other: string, name: string): void {
+function fill<Key extends string>(
+  into: Record<Key, number>,
+  keys: readonly (readonly [string, Key])[],
+  from: Record<string, unknown>,
+  other: string,
+  name: string,
+): void {
   refuseUnknown(from, [...keys.map(([key]) => key), other], name);
   for (const [key, field] of keys) {
     const given = from[key];
     if (given === undefined) continue;
-    into[field] = typeof given === "number" && Number.isFinite(given) ? given : refuse(`${name}.${key}`, "a number is needed");
+    into[field] =
+      typeof given === "number" && Number.isFinite(given)
+        ? given
+        : refuse(`${name}.${key}`, "a number is needed");
   }
 }
 
-/** Reads a line of `carom shoot`, with a built-in table. Throws a TypeError that names the key where something is wrong. */
+/**
+ * Reads a line of `carom shoot`, with a built-in table. Throws a TypeError that names the key where
+ * something is wrong.
+ */
 export function fromLine(carom: Carom, text: string): Line {
   let line: Record<string, unknown>;
   try {
@@ -65,23 +88,37 @@ export function fromLine(carom: Carom, text: string): Line {
   }
   if (line?.kind !== "shot") return refuse("kind", 'it must be "shot"');
   const tableName = line.table as TableName;
-  if (typeof tableName !== "string") return refuse("table", "the name of a built-in table is needed");
+  if (typeof tableName !== "string")
+    return refuse("table", "the name of a built-in table is needed");
   const table = carom.table(tableName);
-  if (!Array.isArray(line.balls) || line.balls.length < 1 || line.balls.length > 32) return refuse("balls", "a list of 1 to 32 balls is needed");
+  if (!Array.isArray(line.balls) || line.balls.length < 1 || line.balls.length > 32)
+    return refuse("balls", "a list of 1 to 32 balls is needed");
   const names: string[] = [];
   const balls = line.balls.map((ball: Record<string, unknown>, k): ShotBall => {
     const params = (ball.params ?? {}) as Record<string, unknown>;
-    names.push(typeof ball.id === "string" ? ball.id : refuse(`balls[${k}].id`, "a text is needed"));
-    // Missing numbers are those of the game, or pooltool's, whose friction of spinning depends on the radius.
+    names.push(
+      typeof ball.id === "string" ? ball.id : refuse(`balls[${k}].id`, "a text is needed"),
+    );
+    // Missing numbers are those of the game, or pooltool's, whose friction of spinning depends on
+    // the radius.
     const kind = carom.kind((params.game ?? "pooltool_pool") as Game);
     fill(kind as unknown as Record<string, number>, PARAMS, params, "game", `balls[${k}].params`);
-    if (params.game === undefined && params.u_sp === undefined) kind.muSpin = ((10.0 * 2.0) / 5.0 / 9.0) * kind.radius;
-    const [label, x, y, z, ...motion] = numbers(ball.state, `balls[${k}].state`, 10) as [number, number, number, number, ...number[]];
+    if (params.game === undefined && params.u_sp === undefined)
+      kind.muSpin = ((10.0 * 2.0) / 5.0 / 9.0) * kind.radius;
+    const [label, x, y, z, ...motion] = numbers(ball.state, `balls[${k}].state`, 10) as [
+      number,
+      number,
+      number,
+      number,
+      ...number[],
+    ];
     return {
       id: names[k]!,
       kind,
       state: {
-        label: NAMES.carom_label[label] ?? refuse(`balls[${k}].state`, "the label, its first number, must be 0 to 6"),
+        label:
+          NAMES.carom_label[label] ??
+          refuse(`balls[${k}].state`, "the label, its first number, must be 0 to 6"),
         r: [x, y, z],
         v: [motion[0]!, motion[1]!, motion[2]!],
         w: [motion[3]!, motion[4]!, motion[5]!],
@@ -90,17 +127,30 @@ export function fromLine(carom: Carom, text: string): Line {
   });
   const given = (line.cue ?? {}) as Record<string, unknown>;
   const ball = given.ball === undefined ? 0 : names.indexOf(given.ball as string);
-  if (ball < 0) return refuse("cue.ball", `it must be the id of a ball, not ${JSON.stringify(given.ball)}`);
+  if (ball < 0)
+    return refuse("cue.ball", `it must be the id of a ball, not ${JSON.stringify(given.ball)}`);
   const cue = carom.cue({ ball, phi: 0 }, "pooltool_pool");
   fill(cue as unknown as Record<string, number>, CUE, given, "ball", "cue");
   // A strike says how high it is: the cue's usual b is not the centre.
   if (given.b === undefined && Object.keys(given).some((key) => key !== "ball"))
-    return refuse("cue.b", "how far above the centre the tip touches, in radii, is missing; 0 is the centre");
-  return { id: typeof line.id === "string" ? line.id : "shot", tableName, table, names, balls, cue };
+    return refuse(
+      "cue.b",
+      "how far above the centre the tip touches, in radii, is missing; 0 is the centre",
+    );
+  return {
+    id: typeof line.id === "string" ? line.id : "shot",
+    tableName,
+    table,
+    names,
+    balls,
+    cue,
+  };
 }
 
 /** The highest number of a ball of the games whose rules know balls by their numbers. */
-export const LAST: Partial<Record<RulesKind, number>> = Object.fromEntries(Object.entries(games).flatMap(([name, { last }]) => (last > 0 ? [[name, last]] : [])));
+export const LAST: Partial<Record<RulesKind, number>> = Object.fromEntries(
+  Object.entries(games).flatMap(([name, { last }]) => (last > 0 ? [[name, last]] : [])),
+);
 const COLOURS = ["yellow", "green", "brown", "blue", "pink", "black"] as const;
 
 /** The number of a ball by its name in a line; 0 for what has none. */
@@ -111,7 +161,8 @@ function numberOf(name: string, rules: RulesKind): number {
 }
 
 /**
- * The layout of a line as plans and rulings want it: ball k of the list is ball k of the game, and balls that are missing are down. Throws a
+ * The layout of a line as plans and rulings want it: ball k of the list is ball k of the game, and
+ * balls that are missing are down. Throws a
  * TypeError where the names are not the cue ball and numbers of the game, each once.
  */
 export function byNumber(line: Line, rules: RulesKind): Line {
@@ -121,12 +172,20 @@ export function byNumber(line: Line, rules: RulesKind): Line {
   for (const [k, name] of line.names.entries()) {
     const number = k === line.cue.ball ? 0 : numberOf(name, rules);
     if ((number === 0 && k !== line.cue.ball) || number > last || at[number] !== undefined)
-      return refuse(`balls[${k}].id`, `the balls of ${rules} are the cue ball and 1 to ${last}, each once, not ${JSON.stringify(name)}`);
+      return refuse(
+        `balls[${k}].id`,
+        `the balls of ${rules} are the cue ball and 1 to ${last}, each once, not ${JSON.stringify(name)}`,
+      );
     at[number] = k;
   }
   const balls = Array.from(at, (k, number): ShotBall => {
-    if (k !== undefined) return { ...line.balls[k]!, id: number === 0 ? line.names[k]! : String(number) };
-    return { id: String(number), kind: line.balls[line.cue.ball]!.kind, state: { r: [0, 0, -0.1], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" } };
+    if (k !== undefined)
+      return { ...line.balls[k]!, id: number === 0 ? line.names[k]! : String(number) };
+    return {
+      id: String(number),
+      kind: line.balls[line.cue.ball]!.kind,
+      state: { r: [0, 0, -0.1], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" },
+    };
   });
   return { ...line, balls, names: balls.map(({ id }) => id!), cue: { ...line.cue, ball: 0 } };
 }
@@ -135,5 +194,9 @@ export function byNumber(line: Line, rules: RulesKind): Line {
 export function refuseOrder(balls: readonly ShotBall[], rules: RulesKind): void {
   if (LAST[rules] === undefined) return;
   for (const [k, { id }] of balls.entries())
-    if (k > 0 && id !== undefined && numberOf(id, rules) !== k) refuse(`balls[${k}].id`, `ball ${k} of ${rules} belongs here, not ${JSON.stringify(id)}; byNumber(line, "${rules}") puts the balls in order`);
+    if (k > 0 && id !== undefined && numberOf(id, rules) !== k)
+      refuse(
+        `balls[${k}].id`,
+        `ball ${k} of ${rules} belongs here, not ${JSON.stringify(id)}; byNumber(line, "${rules}") puts the balls in order`,
+      );
 }

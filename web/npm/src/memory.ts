@@ -15,10 +15,11 @@ export interface Exports {
   [name: `carom_${string}`]: (...numbers: (number | bigint)[]) => number;
 }
 
-// A function whose body is one instruction on vectors: v128.const 0, i32x4.extract_lane 0. It validates where SIMD128 is known.
+// A function whose body is one instruction on vectors: v128.const 0, i32x4.extract_lane 0. It
+// validates where SIMD128 is known.
 const VECTORS = new Uint8Array([
-  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 127, 3, 2, 1, 0, 10, 25, 1, 23, 0, 253, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 253, 27,
-  0, 11,
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 127, 3, 2, 1, 0, 10, 25, 1, 23, 0, 253, 12, 0, 0,
+  0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 253, 27, 0, 11,
 ]);
 
 /** Whether this machine runs the build with 128-bit vectors. */
@@ -26,10 +27,15 @@ export function simdAvailable(): boolean {
   return WebAssembly.validate(VECTORS);
 }
 
-/** The bytes of a module, which are compressed by gzip before they become text: base64 alone compresses badly. */
+/**
+ * The bytes of a module, which are compressed by gzip before they become text: base64 alone
+ * compresses badly.
+ */
 function bytesOf(base64: string): Promise<ArrayBuffer> {
   const compressed = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-  return new Response(new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  return new Response(
+    new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip")),
+  ).arrayBuffer();
 }
 
 /** Memory of the module, with views that are renewed after it has grown. */
@@ -104,18 +110,26 @@ export class Memory {
 
 /** Compiles and starts a build of the library. */
 export async function start(build: Build): Promise<Memory> {
-  const base64 = build === "simd" ? (await import("./generated/simd.js")).default : (await import("./generated/plain.js")).default;
+  const base64 =
+    build === "simd"
+      ? (await import("./generated/simd.js")).default
+      : (await import("./generated/plain.js")).default;
   const module = await WebAssembly.compile(await bytesOf(base64));
-  // The library asks the system for nothing but the time, and the environment, in which it finds nothing.
+  // The library asks the system for nothing but the time, and the environment, in which it finds
+  // nothing.
   let memory: WebAssembly.Memory | undefined;
   const empty = (count: number, size: number): number => {
-    if (memory) new Uint32Array(memory.buffer)[count >>> 2] = new Uint32Array(memory.buffer)[size >>> 2] = 0;
+    if (memory)
+      new Uint32Array(memory.buffer)[count >>> 2] = new Uint32Array(memory.buffer)[size >>> 2] = 0;
     return 0;
   };
   const known: Record<string, (...numbers: number[]) => number | void> = {
     environ_sizes_get: empty as (...numbers: number[]) => number,
     environ_get: () => 0,
-    clock_time_get: (_clock, _precision, at) => ((new BigUint64Array(memory!.buffer)[at! >>> 3] = BigInt(Math.round(1e6 * performance.now()))), 0),
+    clock_time_get: (_clock, _precision, at) => (
+      (new BigUint64Array(memory!.buffer)[at! >>> 3] = BigInt(Math.round(1e6 * performance.now()))),
+      0
+    ),
     emscripten_notify_memory_growth: () => undefined,
   };
   const imports: WebAssembly.Imports = {};

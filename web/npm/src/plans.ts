@@ -4,8 +4,35 @@ import type * as C from "./generated/structs.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import { LAST, refuseOrder } from "./lines.js";
 import type { Memory, Pointer } from "./memory.js";
-import { indexOf, readBalls, readStruct, refuseName, setStruct, value, whole, writeOptions, writeStruct } from "./structs.js";
-import type { Aim, AimOf, Call, Choice, Cue, EventType, GameState, PlanOptions, Player, Rating, Ruling, Score, ShotBall, ShotFacts, ShotOptions, Table } from "./types.js";
+import {
+  indexOf,
+  readBalls,
+  readStruct,
+  refuseName,
+  setStruct,
+  value,
+  whole,
+  writeOptions,
+  writeStruct,
+} from "./structs.js";
+import type {
+  Aim,
+  AimOf,
+  Call,
+  Choice,
+  Cue,
+  EventType,
+  GameState,
+  PlanOptions,
+  Player,
+  Rating,
+  Ruling,
+  Score,
+  ShotBall,
+  ShotFacts,
+  ShotOptions,
+  Table,
+} from "./types.js";
 
 const PLAYER = layout.carom_player;
 const RULES = layout.carom_plan_rules;
@@ -21,7 +48,10 @@ const MAY = ["pass", "push", "free_ball", "place"] as const;
 const HANDS = ["no", "no", "anywhere", "kitchen", "d"] as const;
 /** The members of a state that are numbers here, too. */
 const MEMBERS = ["fouls", "score", "lost", "pocket", "on", "freeBall", "target"] as const;
-const of = (state: object, keys: readonly string[]): object => Object.fromEntries(Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined));
+const of = (state: object, keys: readonly string[]): object =>
+  Object.fromEntries(
+    Object.entries(state).filter(([key, value]) => keys.includes(key) && value !== undefined),
+  );
 const SCORE = layout.carom_score;
 const BOUNDS = { speedShare: 0, speedLeast: 0, speedMost: 0, tipMost: 0, reserved: [0, 0, 0] };
 
@@ -41,24 +71,57 @@ type Method = (...numbers: Pointer[]) => number;
 /** Refuses what is no layout of a game, for a plan. */
 function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: string): void {
   const pool = rules !== "threecushion";
-  if (pool && pockets.length === 0) throw new TypeError(`table: it has no pockets, which ${rules} needs`);
-  if (!pool && pockets.length > 0) throw new TypeError("table: threecushion needs one without pockets");
+  if (pool && pockets.length === 0)
+    throw new TypeError(`table: it has no pockets, which ${rules} needs`);
+  if (!pool && pockets.length > 0)
+    throw new TypeError("table: threecushion needs one without pockets");
   if (!pool && balls.length < 3) throw new TypeError("balls: threecushion needs three");
   const last = LAST[rules as C.RulesKind] ?? balls.length;
-  const beyond = balls.findIndex(({ state }, k) => k > last && state.label !== "pocketed" && state.label !== "off");
-  if (beyond >= 0) throw new TypeError(`balls: the balls of ${rules} are the cue ball and 1 to ${last}, not ${beyond}`);
+  const beyond = balls.findIndex(
+    ({ state }, k) => k > last && state.label !== "pocketed" && state.label !== "off",
+  );
+  if (beyond >= 0)
+    throw new TypeError(
+      `balls: the balls of ${rules} are the cue ball and 1 to ${last}, not ${beyond}`,
+    );
 }
 
 export class Plans {
   readonly #host: Host;
-  readonly #at: Record<"player" | "opponent" | "rules" | "options" | "job" | "ruling" | "text" | "call" | "corners" | "found" | "pot", Pointer>;
+  readonly #at: Record<
+    | "player"
+    | "opponent"
+    | "rules"
+    | "options"
+    | "job"
+    | "ruling"
+    | "text"
+    | "call"
+    | "corners"
+    | "found"
+    | "pot",
+    Pointer
+  >;
 
   constructor(host: Host) {
     this.#host = host;
     const room = (bytes: number): Pointer => host.memory.allocate(bytes);
     this.#at = {
-      ...{ player: room(PLAYER.size), opponent: room(PLAYER.size), rules: room(RULES.size), options: room(OPTIONS.size), job: room(JOB.size) },
-      ...{ ruling: room(layout.carom_ruling.size), text: room(256), call: room(8), corners: room(32), found: room(8), pot: room(POT.size) },
+      ...{
+        player: room(PLAYER.size),
+        opponent: room(PLAYER.size),
+        rules: room(RULES.size),
+        options: room(OPTIONS.size),
+        job: room(JOB.size),
+      },
+      ...{
+        ruling: room(layout.carom_ruling.size),
+        text: room(256),
+        call: room(8),
+        corners: room(32),
+        found: room(8),
+        pot: room(POT.size),
+      },
     };
   }
 
@@ -67,13 +130,20 @@ export class Plans {
   }
 
   player({ errors: given, fargo }: { errors?: number; fargo?: number }): Player {
-    if (given !== undefined && fargo !== undefined) throw new TypeError("errors, fargo: a player has errors or a rating, not both");
+    if (given !== undefined && fargo !== undefined)
+      throw new TypeError("errors, fargo: a player has errors or a rating, not both");
     const errors = given ?? 1;
-    if (!(errors >= 0 && errors < Infinity)) throw new RangeError(`errors: it must be finite and at least 0, not ${errors}`);
-    if (fargo !== undefined && !(fargo >= 300 && fargo <= 850)) throw new RangeError(`fargo: it must be 300 to 850, not ${fargo}`);
+    if (!(errors >= 0 && errors < Infinity))
+      throw new RangeError(`errors: it must be finite and at least 0, not ${errors}`);
+    if (fargo !== undefined && !(fargo >= 300 && fargo <= 850))
+      throw new RangeError(`fargo: it must be 300 to 850, not ${fargo}`);
     if (fargo === undefined) this.#memory.exports.carom_player_of(this.#at.player, errors);
     else this.#memory.exports.carom_player_fargo(this.#at.player, fargo);
-    const { reserved: _, ...player } = readStruct<Player & { reserved: number[] }>(this.#memory, this.#at.player, "carom_player");
+    const { reserved: _, ...player } = readStruct<Player & { reserved: number[] }>(
+      this.#memory,
+      this.#at.player,
+      "carom_player",
+    );
     return player;
   }
 
@@ -81,7 +151,8 @@ export class Plans {
     const memory = this.#memory;
     const [rows, made] = [memory.allocate(scores.length * SCORE.size + 8), this.#at.corners];
     try {
-      for (const [k, one] of scores.entries()) writeStruct(memory, rows + k * SCORE.size, "carom_score", one, `scores[${k}]`);
+      for (const [k, one] of scores.entries())
+        writeStruct(memory, rows + k * SCORE.size, "carom_score", one, `scores[${k}]`);
       const code = memory.exports.carom_rating_of(rows, BigInt(scores.length), made);
       const { row, ...rating } = readStruct<Rating & { row: number }>(memory, made, "carom_rating");
       this.#host.refuse(code, `scores[${row}]`);
@@ -95,26 +166,46 @@ export class Plans {
     const { cue: at } = this.#host.at;
     this.#writePlayer(this.#at.player, player, "player");
     writeStruct(this.#memory, at, "carom_cue", this.#host.cue(cue), "cue");
-    this.#memory.exports.carom_player_strike(this.#at.player, BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER)), BigInt(whole(number, "number")), at);
+    this.#memory.exports.carom_player_strike(
+      this.#at.player,
+      BigInt(whole(seed, "seed", Number.MAX_SAFE_INTEGER)),
+      BigInt(whole(number, "number")),
+      at,
+    );
     return readStruct<Cue>(this.#memory, at, "carom_cue");
   }
 
-  plan(table: Table, balls: readonly ShotBall[], cues: readonly Partial<Cue>[] | undefined, options: PlanOptions): Choice[] {
+  plan(
+    table: Table,
+    balls: readonly ShotBall[],
+    cues: readonly Partial<Cue>[] | undefined,
+    options: PlanOptions,
+  ): Choice[] {
     const { done, value } = this.think(table, balls, cues, options, 0).next();
     if (!done) throw new RangeError("carom: a plan at once has not ended");
     return value;
   }
 
   /** A plan in slices of so many events; 0: at once. */
-  *think(table: Table, balls: readonly ShotBall[], cues: readonly Partial<Cue>[] | undefined, options: PlanOptions, slice: number): Generator<undefined, Choice[]> {
+  *think(
+    table: Table,
+    balls: readonly ShotBall[],
+    cues: readonly Partial<Cue>[] | undefined,
+    options: PlanOptions,
+    slice: number,
+  ): Generator<undefined, Choice[]> {
     refuseUnknown(options, KEYS.plan);
     const { best = 5, inHand = false } = options;
     const memory = this.#memory;
     const most = cues?.length ?? best;
-    if (!Number.isInteger(most) || most < 1 || most > 1000) throw new RangeError(`${cues ? "cues: there" : "best: it"} must be 1 to 1000, not ${most}`);
+    if (!Number.isInteger(most) || most < 1 || most > 1000)
+      throw new RangeError(`${cues ? "cues: there" : "best: it"} must be 1 to 1000, not ${most}`);
     this.#writeJob(table, balls, options);
     const size = memory.exports.carom_plan_memory(this.#at.options);
-    if (size === 0) throw new RangeError(`shots: it must be a whole number from 100 to 1000000, not ${options.shots}`);
+    if (size === 0)
+      throw new RangeError(
+        `shots: it must be a whole number from 100 to 1000000, not ${options.shots}`,
+      );
     const room = memory.allocate(size);
     const choices = memory.allocate(most * CHOICE.size);
     const strokes = memory.allocate(most * layout.carom_cue.size);
@@ -129,7 +220,14 @@ export class Plans {
         let code: number;
         if (begun) code = memory.exports.carom_plan_continue(job, choices, best, found);
         else if (cues !== undefined) {
-          for (const [k, cue] of cues.entries()) writeStruct(memory, strokes + k * layout.carom_cue.size, "carom_cue", this.#host.cue(cue), `cues[${k}]`);
+          for (const [k, cue] of cues.entries())
+            writeStruct(
+              memory,
+              strokes + k * layout.carom_cue.size,
+              "carom_cue",
+              this.#host.cue(cue),
+              `cues[${k}]`,
+            );
           code = memory.exports.carom_plan_try(job, strokes, most, choices);
         } else if (inHand === false) code = memory.exports.carom_plan(job, choices, best, found);
         else {
@@ -139,7 +237,10 @@ export class Plans {
         }
         this.#host.refuse(code, "plan");
         const many = memory.i32[found / 4]!;
-        if (many > 0) return Array.from({ length: many }, (_, k) => this.#readChoice(choices + k * CHOICE.size));
+        if (many > 0)
+          return Array.from({ length: many }, (_, k) =>
+            this.#readChoice(choices + k * CHOICE.size),
+          );
         yield undefined;
       }
     } finally {
@@ -151,10 +252,20 @@ export class Plans {
   names(of: "rail" | "pocket", count: number): (string | undefined)[] {
     const { exports } = this.#memory;
     const { table } = this.#host.at;
-    return Array.from({ length: count }, (_, k) => this.#memory.text(of === "rail" ? exports.carom_rail_name(table, k) : exports.carom_pocket_name(table, k)));
+    return Array.from({ length: count }, (_, k) =>
+      this.#memory.text(
+        of === "rail" ? exports.carom_rail_name(table, k) : exports.carom_pocket_name(table, k),
+      ),
+    );
   }
 
-  aim(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, { ball, pocket, via = [] }: AimOf, options: ShotOptions): Aim {
+  aim(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    { ball, pocket, via = [] }: AimOf,
+    options: ShotOptions,
+  ): Aim {
     const { at } = this.#host;
     const memory = this.#memory;
     const { pot } = this.#at;
@@ -167,38 +278,82 @@ export class Plans {
     const pockets = this.names("pocket", table.pockets.length);
     const index = (name: string, of: string, names: readonly (string | undefined)[]): number => {
       const found = names.indexOf(name);
-      return found >= 0 ? found : refuseName(of, name, [...new Set(names)].filter((one) => one !== undefined));
+      return found >= 0
+        ? found
+        : refuseName(
+            of,
+            name,
+            [...new Set(names)].filter((one) => one !== undefined),
+          );
     };
-    if (via.length > values.CAROM_VIA_MOST) throw new RangeError(`via: at most ${values.CAROM_VIA_MOST}, not ${via.length}`);
+    if (via.length > values.CAROM_VIA_MOST)
+      throw new RangeError(`via: at most ${values.CAROM_VIA_MOST}, not ${via.length}`);
     memory.u8.fill(0, pot, pot + POT.size);
-    const write = (offset: number, number: number): void => void (memory.i32[(pot + offset) / 4] = number);
+    const write = (offset: number, number: number): void =>
+      void (memory.i32[(pot + offset) / 4] = number);
     write(POT.offset.ball, ball);
-    write(POT.offset.pocket, typeof pocket === "string" ? index(pocket, "pocket", pockets) : pocket);
+    write(
+      POT.offset.pocket,
+      typeof pocket === "string" ? index(pocket, "pocket", pockets) : pocket,
+    );
     write(POT.offset.vias, via.length);
     for (const [k, one] of via.entries()) {
       const part = POT.offset.via + k * PART.size;
-      write(part + PART.offset.kind, typeof one === "string" ? values.CAROM_PART_RAIL : values.CAROM_PART_BALL);
+      write(
+        part + PART.offset.kind,
+        typeof one === "string" ? values.CAROM_PART_RAIL : values.CAROM_PART_BALL,
+      );
       write(part + PART.offset.index, typeof one === "string" ? index(one, "via", rails) : one);
     }
-    this.#host.refuse(memory.exports.carom_aim(at.table, at.balls, balls.length, shot, pot, at.cue), "aim");
+    this.#host.refuse(
+      memory.exports.carom_aim(at.table, at.balls, balls.length, shot, pot, at.cue),
+      "aim",
+    );
 
-    const { is: outcome, elevation, cut, margin, phi, speed, met } = readStruct<C.Pot>(memory, pot, "carom_pot");
+    const {
+      is: outcome,
+      elevation,
+      cut,
+      margin,
+      phi,
+      speed,
+      met,
+    } = readStruct<C.Pot>(memory, pot, "carom_pot");
     const is = names.carom_pot_is[outcome]!;
     const { type, a, b } = met;
     return {
-      ...{ is, cue: readStruct<Cue>(memory, at.cue, "carom_cue"), elevation, cut, margin, phi, speed },
-      ...(is === "barred" || is === "short" ? { met: { type: names.carom_event_type[type] as EventType, a, b } } : {}),
+      ...{
+        is,
+        cue: readStruct<Cue>(memory, at.cue, "carom_cue"),
+        elevation,
+        cut,
+        margin,
+        phi,
+        speed,
+      },
+      ...(is === "barred" || is === "short"
+        ? { met: { type: names.carom_event_type[type] as EventType, a, b } }
+        : {}),
     };
   }
 
   on(game: GameState, balls: readonly ShotBall[]): number[] {
     this.#writeRules(game, balls);
     // A function of the rules, by the module's table of functions.
-    const on = this.#memory.exports.__indirect_function_table.get(this.#memory.u32[(this.#at.rules + RULES.offset.on) / 4]!) as Method;
+    const on = this.#memory.exports.__indirect_function_table.get(
+      this.#memory.u32[(this.#at.rules + RULES.offset.on) / 4]!,
+    ) as Method;
     return members(on(this.#at.rules + RULES.offset.state, inPlay(balls)), balls.length);
   }
 
-  referee(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, game: GameState, call: Call | undefined, options: ShotOptions): Ruling {
+  referee(
+    table: Table,
+    balls: readonly ShotBall[],
+    cue: Partial<Cue>,
+    game: GameState,
+    call: Call | undefined,
+    options: ShotOptions,
+  ): Ruling {
     const { at } = this.#host;
     const memory = this.#memory;
     // The shot once more, with its facts.
@@ -207,39 +362,98 @@ export class Plans {
     writeStruct(memory, at.cue, "carom_cue", struck, "cue");
     const optionsAt = this.#host.writeShotOptions(options);
     this.#host.writeShot();
-    const code = call === "pass" ? -1 : memory.exports.carom_shoot(at.table, at.balls, balls.length, at.cue, optionsAt, at.shot);
+    const code =
+      call === "pass"
+        ? -1
+        : memory.exports.carom_shoot(at.table, at.balls, balls.length, at.cue, optionsAt, at.shot);
     return this.rule(balls, code < 0 ? 0 : at.shot, game, call, struck.ball);
   }
 
-  /** What a shot comes to, which is in the module's memory with its table, balls, facts and last states; 0: none was played. */
-  rule(balls: readonly ShotBall[], shot: Pointer, game: GameState, call: Call | undefined, cueBall: number): Ruling {
+  /**
+   * What a shot comes to, which is in the module's memory with its table, balls, facts and last
+   * states; 0: none was played.
+   */
+  rule(
+    balls: readonly ShotBall[],
+    shot: Pointer,
+    game: GameState,
+    call: Call | undefined,
+    cueBall: number,
+  ): Ruling {
     const { at } = this.#host;
     const memory = this.#memory;
     const { call: callAt, rules, ruling, text } = this.#at;
     this.#writeRules(game, balls);
-    memory.i32[callAt / 4] = call === "push" ? values.CAROM_CALL_PUSH : call === "pass" ? values.CAROM_CALL_PASS : (call?.ball ?? -1);
+    memory.i32[callAt / 4] =
+      call === "push"
+        ? values.CAROM_CALL_PUSH
+        : call === "pass"
+          ? values.CAROM_CALL_PASS
+          : (call?.ball ?? -1);
     memory.i32[callAt / 4 + 1] = typeof call === "object" ? call.pocket : -1;
-    this.#host.refuse(memory.exports.carom_referee(rules, at.table, at.balls, balls.length, cueBall, shot, callAt, ruling), "balls");
+    this.#host.refuse(
+      memory.exports.carom_referee(
+        rules,
+        at.table,
+        at.balls,
+        balls.length,
+        cueBall,
+        shot,
+        callAt,
+        ruling,
+      ),
+      "balls",
+    );
     memory.exports.carom_ruling_string(ruling, text, 256);
 
-    const turn = readStruct<Omit<C.Turn, "is" | "leave"> & { is: number; leave: number }>(memory, ruling + RULING.turn, "carom_turn");
+    const turn = readStruct<Omit<C.Turn, "is" | "leave"> & { is: number; leave: number }>(
+      memory,
+      ruling + RULING.turn,
+      "carom_turn",
+    );
     const reason = names.carom_foul[turn.foul]!;
     const state = this.readState(ruling + RULING.state, game.rules);
-    const { score, lost } = readStruct<C.RulesState>(memory, ruling + RULING.state, "carom_rules_state");
+    const { score, lost } = readStruct<C.RulesState>(
+      memory,
+      ruling + RULING.state,
+      "carom_rules_state",
+    );
     return {
-      ...{ turn: names.carom_turn_is[turn.is]!, foul: reason !== "none", reason, hand: HANDS[turn.leave]!, points: turn.points, text: memory.text(text)! },
+      ...{
+        turn: names.carom_turn_is[turn.is]!,
+        foul: reason !== "none",
+        reason,
+        hand: HANDS[turn.leave]!,
+        points: turn.points,
+        text: memory.text(text)!,
+      },
       score: [score[0] - lost[0], score[1] - lost[1]],
       facts: this.#readFacts(ruling + RULING.facts, balls.length),
-      balls: readBalls(memory, ruling + RULING.balls, balls.length).map((ball, k) => ({ ...balls[k], ...ball })),
+      balls: readBalls(memory, ruling + RULING.balls, balls.length).map((ball, k) => ({
+        ...balls[k],
+        ...ball,
+      })),
       put: members(memory.u32[(ruling + RULING.put) / 4]!, balls.length),
       game: state,
     };
   }
 
-  /** A carom_rules_state in the module's memory; and one that is written there, once it is checked. */
+  /**
+   * A carom_rules_state in the module's memory; and one that is written there, once it is checked.
+   */
   readState(at: Pointer, rules: GameState["rules"]): GameState {
-    const { group, opening, may, ...state } = readStruct<C.RulesState & { group: number }>(this.#memory, at, "carom_rules_state");
-    return { rules, group: names.carom_group[group]!, opening: opening !== 0, may: MAY.filter((_, k) => (may >> k) & 1), ...of(state, MEMBERS) };
+    const { group, opening, may, ...state } = readStruct<C.RulesState & { group: number }>(
+      this.#memory,
+      at,
+      "carom_rules_state",
+    );
+    return {
+      rules,
+      group: names.carom_group[group]!,
+      opening: opening !== 0,
+      may: MAY.filter((_, k) => (may >> k) & 1),
+      ...of(state, MEMBERS),
+    };
   }
 
   writeState(game: GameState, balls: readonly ShotBall[]): Pointer {
@@ -247,9 +461,12 @@ export class Plans {
     return this.#at.rules + RULES.offset.state;
   }
 
-  // ---- Structs ---------------------------------------------------------------------------------------------------------------
+  // ---- Structs ----------------------------------------------------------------------------------
 
-  /** Whether the rules do more with the places of balls than to put some back; all their balls are in the list then. */
+  /**
+   * Whether the rules do more with the places of balls than to put some back; all their balls are
+   * in the list then.
+   */
   get #settles(): boolean {
     return this.#memory.u32[(this.#at.rules + RULES.offset.settle) / 4] !== 0;
   }
@@ -267,12 +484,33 @@ export class Plans {
     const kind = value("carom_rules_kind", rules, "rules");
     memory.exports.carom_plan_rules_of(at, kind);
     const last = LAST[rules];
-    if (this.#settles && last !== undefined && balls.length <= last) throw new TypeError(`balls: ${rules} has the cue ball and 1 to ${last}, of which some may be down`);
+    if (this.#settles && last !== undefined && balls.length <= last)
+      throw new TypeError(
+        `balls: ${rules} has the cue ball and 1 to ${last}, of which some may be down`,
+      );
     const stateAt = at + RULES.offset.state;
-    const words = { group: value("carom_group", group, "group"), opening: Number(opening), may: may.reduce((sum, one) => sum | (1 << indexOf(MAY, one, "may")), 0) };
-    writeStruct(memory, stateAt, "carom_rules_state", { ...readStruct<object>(memory, stateAt, "carom_rules_state"), ...of(game, MEMBERS), ...words, user: Array(8).fill(0) }, "game");
+    const words = {
+      group: value("carom_group", group, "group"),
+      opening: Number(opening),
+      may: may.reduce((sum, one) => sum | (1 << indexOf(MAY, one, "may")), 0),
+    };
+    writeStruct(
+      memory,
+      stateAt,
+      "carom_rules_state",
+      {
+        ...readStruct<object>(memory, stateAt, "carom_rules_state"),
+        ...of(game, MEMBERS),
+        ...words,
+        user: Array(8).fill(0),
+      },
+      "game",
+    );
     const wrong = memory.text(memory.exports.carom_rules_fault(kind, stateAt, this.#at.found));
-    if (wrong !== undefined) throw new RangeError(`${wrong}: by the rules ${rules} it must be ${memory.text(memory.u32[this.#at.found / 4]!)}`);
+    if (wrong !== undefined)
+      throw new RangeError(
+        `${wrong}: by the rules ${rules} it must be ${memory.text(memory.u32[this.#at.found / 4]!)}`,
+      );
   }
 
   #writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {
@@ -286,15 +524,43 @@ export class Plans {
     this.#writeRules(options, balls);
     refuseLayout(table, balls, options.rules ?? "eightball");
     writeOptions(memory, optionsAt, "carom_plan_options", options);
-    if (options.opponent) setStruct(memory, optionsAt, "carom_plan_options", { opponent: this.#writePlayer(opponent, options.opponent, "opponent") }, false);
-    return setStruct(memory, job, "carom_plan_job", { table: at.table, balls: at.balls, cue: at.cue, player, rules, shot, options: optionsAt, count: balls.length });
+    if (options.opponent)
+      setStruct(
+        memory,
+        optionsAt,
+        "carom_plan_options",
+        { opponent: this.#writePlayer(opponent, options.opponent, "opponent") },
+        false,
+      );
+    return setStruct(memory, job, "carom_plan_job", {
+      table: at.table,
+      balls: at.balls,
+      cue: at.cue,
+      player,
+      rules,
+      shot,
+      options: optionsAt,
+      count: balls.length,
+    });
   }
 
   #readFacts(at: Pointer, count: number): ShotFacts {
-    const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime, touches } = readStruct<C.Facts>(this.#memory, at, "carom_facts");
-    const all = (field: "down" | "off" | "frozen" | "pushed"): number[] => members(this.#memory.u32[(at + FACTS.offset[field]) / 4]!, count);
+    const { first, cushionsBefore, cushionsAfter, cushions, pocket, pocketTime, touches } =
+      readStruct<C.Facts>(this.#memory, at, "carom_facts");
+    const all = (field: "down" | "off" | "frozen" | "pushed"): number[] =>
+      members(this.#memory.u32[(at + FACTS.offset[field]) / 4]!, count);
     const potted = all("down").sort((a, b) => pocketTime[a]! - pocketTime[b]!);
-    return { first, cushionsBefore, cushionsAfter, cushions: cushions.slice(0, count), potted: potted.map((ball) => ({ ball, pocket: pocket[ball]!, time: pocketTime[ball]! })), off: all("off"), frozen: all("frozen"), pushed: all("pushed"), touches };
+    return {
+      first,
+      cushionsBefore,
+      cushionsAfter,
+      cushions: cushions.slice(0, count),
+      potted: potted.map((ball) => ({ ball, pocket: pocket[ball]!, time: pocketTime[ball]! })),
+      off: all("off"),
+      frozen: all("frozen"),
+      pushed: all("pushed"),
+      touches,
+    };
   }
 
   #readChoice(at: Pointer): Choice {
@@ -309,5 +575,11 @@ function members(set: number, count: number): number[] {
 }
 
 function inPlay(balls: readonly ShotBall[]): number {
-  return balls.reduce((set, { state }, k) => (state.label === "pocketed" || state.label === "off" ? set : set | (1 << k)), 0) >>> 0;
+  return (
+    balls.reduce(
+      (set, { state }, k) =>
+        state.label === "pocketed" || state.label === "off" ? set : set | (1 << k),
+      0,
+    ) >>> 0
+  );
 }

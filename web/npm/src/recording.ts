@@ -1,10 +1,27 @@
-// Recordings of games that verify themselves: the calls of carom_record.h. docs/using/games.md has the format.
+// Recordings of games that verify themselves: the calls of carom_record.h. docs/using/games.md has
+// the format.
 import { CaromError } from "./error.js";
 import { layout, names, values } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
 import type { Shot } from "./shot.js";
-import { readBalls, readStruct, readTable, writeBalls, writeStruct, writeTable } from "./structs.js";
-import type { BallState, Cue, GameState, Ruling, ShotBall, ShotOptions, StopOptions, Table } from "./types.js";
+import {
+  readBalls,
+  readStruct,
+  readTable,
+  writeBalls,
+  writeStruct,
+  writeTable,
+} from "./structs.js";
+import type {
+  BallState,
+  Cue,
+  GameState,
+  Ruling,
+  ShotBall,
+  ShotOptions,
+  StopOptions,
+  Table,
+} from "./types.js";
 
 const RECORD = layout.carom_record.offset;
 const END = layout.carom_record_end.offset;
@@ -40,7 +57,10 @@ export interface Replayed {
   /** Whether every bit of its end agrees. */
   same: boolean;
   final: BallState[];
-  /** What was played, with its events and places at any time; of one that continues, from the start of the shot. */
+  /**
+   * What was played, with its events and places at any time; of one that continues, from the start
+   * of the shot.
+   */
   film: Shot;
 }
 
@@ -52,7 +72,15 @@ export interface Host {
   statusName(code: number): string;
   cue(fields: Partial<Cue>): Cue;
   writeShotOptions(options: ShotOptions): Pointer;
-  played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer, facts: Pointer): Shot;
+  played(
+    table: Table,
+    balls: readonly ShotBall[],
+    code: number,
+    shot: Pointer,
+    final: Pointer,
+    events: Pointer,
+    facts: Pointer,
+  ): Shot;
   readState(at: Pointer, rules: GameState["rules"]): GameState;
   writeState(game: GameState, balls: readonly ShotBall[]): Pointer;
   refuse(code: number, field?: string): void;
@@ -87,7 +115,12 @@ class Game {
   refuse(code: number): void {
     const line = `line ${this.number(RECORD.line)}`;
     if (code === values.CAROM_ERROR_RECORD)
-      throw new CaromError(code, this.#host.statusName(code), this.#host.memory.text(this.at + RECORD.fault)!, line);
+      throw new CaromError(
+        code,
+        this.#host.statusName(code),
+        this.#host.memory.text(this.at + RECORD.fault)!,
+        line,
+      );
     if (code === values.CAROM_ERROR_REVISION) {
       const own = this.#host.memory.exports.carom_physics_revision();
       const text = `the recording is of revision ${this.number(RECORD.revision)} of the physics, not ${own}: its shots have other bits here`;
@@ -111,7 +144,10 @@ class Game {
   /** The last shot that was played. */
   film: Shot | undefined;
 
-  /** Plays a shot with all of its events. Where they need more memory, it is played again: it has the same bits. */
+  /**
+   * Plays a shot with all of its events. Where they need more memory, it is played again: it has
+   * the same bits.
+   */
   play(kind: number): number {
     const { memory } = this.#host;
     if (this.#shot === 0) this.#shot = memory.allocate(SHOT.size);
@@ -125,7 +161,16 @@ class Game {
       if (count <= this.#room) {
         const table = readTable(memory, this.at + RECORD.table);
         const balls = readBalls(memory, this.at + RECORD.balls, this.number(RECORD.count));
-        if (this.number(RECORD.pending) === 2) this.film = this.#host.played(table, balls, code, this.#shot, this.at + RECORD.final, this.#events, this.at + RECORD.facts);
+        if (this.number(RECORD.pending) === 2)
+          this.film = this.#host.played(
+            table,
+            balls,
+            code,
+            this.#shot,
+            this.at + RECORD.final,
+            this.#events,
+            this.at + RECORD.facts,
+          );
         return code;
       }
       // Those of a shot that goes on stay.
@@ -147,11 +192,14 @@ class Game {
     }
     memory.u8.set(bytes, this.#line);
     // Blank lines are lines too, but for the end of a text.
-    this.refuse(bytes.length === 0 ? 0 : memory.exports.carom_record_read(this.at, this.#line, bytes.length));
+    this.refuse(
+      bytes.length === 0 ? 0 : memory.exports.carom_record_read(this.at, this.#line, bytes.length),
+    );
     if (this.number(RECORD.pending) !== 1) return undefined;
     const kind = this.number(RECORD.kind);
     const code = this.play(kind);
-    if (this.number(RECORD.pending) === 1) this.#host.refuse(code, `line ${this.number(RECORD.line)}`);
+    if (this.number(RECORD.pending) === 1)
+      this.#host.refuse(code, `line ${this.number(RECORD.line)}`);
     const recorded = this.end(RECORD.recorded);
     const played = this.end(RECORD.played);
     const film = this.film!;
@@ -164,14 +212,17 @@ class Game {
       cue: readStruct<Cue>(memory, this.at + RECORD.cue, "carom_cue"),
       recorded,
       played,
-      same: (Object.keys(played) as (keyof ShotEnd)[]).every((key) => Object.is(played[key], recorded[key])),
+      same: (Object.keys(played) as (keyof ShotEnd)[]).every((key) =>
+        Object.is(played[key], recorded[key]),
+      ),
       final: [...film.final],
       film,
     };
   }
 
   free(): void {
-    for (const at of [this.at, this.text, this.#shot, this.#events, this.#line]) this.#host.memory.free(at);
+    for (const at of [this.at, this.text, this.#shot, this.#events, this.#line])
+      this.#host.memory.free(at);
   }
 }
 
@@ -202,7 +253,8 @@ export class Recording {
   }
 
   /**
-   * Reads a line that another program wrote, and plays its shot if it has one: `same` tells whether every bit agrees. Throws a CaromError where the
+   * Reads a line that another program wrote, and plays its shot if it has one: `same` tells whether
+   * every bit agrees. Throws a CaromError where the
    * line is wrong.
    */
   read(line: string): Replayed | undefined {
@@ -228,12 +280,19 @@ export class Recording {
   /** The layout after the last shot. */
   get balls(): ShotBall[] {
     this.#host.memory.exports.carom_record_settle(this.#game.at);
-    return readBalls(this.#host.memory, this.#game.at + RECORD.balls, this.#game.number(RECORD.count));
+    return readBalls(
+      this.#host.memory,
+      this.#game.at + RECORD.balls,
+      this.#game.number(RECORD.count),
+    );
   }
 
   /** Another layout, which is recorded. */
   setBalls(balls: readonly ShotBall[]): void {
-    if (balls.length < 1 || balls.length > values.CAROM_BALLS_MOST) throw new RangeError(`balls: 1 to ${values.CAROM_BALLS_MOST} are needed, not ${balls.length}`);
+    if (balls.length < 1 || balls.length > values.CAROM_BALLS_MOST)
+      throw new RangeError(
+        `balls: 1 to ${values.CAROM_BALLS_MOST} are needed, not ${balls.length}`,
+      );
     this.#host.memory.exports.carom_record_settle(this.#game.at);
     writeBalls(this.#host.memory, this.#game.at + RECORD.balls, balls);
     this.#host.memory.i64[(this.#game.at + RECORD.count) / 8] = BigInt(balls.length);
@@ -242,13 +301,19 @@ export class Recording {
 
   /** Ball in hand, at x, y (m). A place that is not free is refused, and nothing is recorded. */
   place(ball: number, x: number, y: number): void {
-    this.#host.refuse(this.#host.memory.exports.carom_record_place(this.#game.at, ball, x, y, 0), `ball ${ball} at ${x}, ${y}`);
+    this.#host.refuse(
+      this.#host.memory.exports.carom_record_place(this.#game.at, ball, x, y, 0),
+      `ball ${ball} at ${x}, ${y}`,
+    );
     this.#write(values.CAROM_RECORD_PLACE);
   }
 
   /** A ball comes in hand, and is out of play until it is placed. */
   hand(ball: number): void {
-    this.#host.refuse(this.#host.memory.exports.carom_record_hand(this.#game.at, ball), `ball ${ball}`);
+    this.#host.refuse(
+      this.#host.memory.exports.carom_record_hand(this.#game.at, ball),
+      `ball ${ball}`,
+    );
     this.#write(values.CAROM_RECORD_PLACE);
   }
 
@@ -262,8 +327,14 @@ export class Recording {
   stand(game: GameState, player = 0): void {
     const { memory } = this.#host;
     const from = this.#host.writeState(game, this.balls);
-    memory.u8.copyWithin(this.#game.at + RECORD.standing, from, from + layout.carom_rules_state.size);
-    memory.i64[(this.#game.at + RECORD.rules) / 8] = BigInt(names.carom_rules_kind.indexOf(game.rules));
+    memory.u8.copyWithin(
+      this.#game.at + RECORD.standing,
+      from,
+      from + layout.carom_rules_state.size,
+    );
+    memory.i64[(this.#game.at + RECORD.rules) / 8] = BigInt(
+      names.carom_rules_kind.indexOf(game.rules),
+    );
     memory.i64[(this.#game.at + RECORD.player) / 8] = BigInt(player);
     this.#write(values.CAROM_RECORD_GAME);
   }
@@ -271,7 +342,10 @@ export class Recording {
   /** What \`stand\` recorded last, or was read. */
   get standing(): { game: GameState; player: number } {
     const rules = names.carom_rules_kind[this.#game.number(RECORD.rules)] as GameState["rules"];
-    return { game: this.#host.readState(this.#game.at + RECORD.standing, rules), player: this.#game.number(RECORD.player) };
+    return {
+      game: this.#host.readState(this.#game.at + RECORD.standing, rules),
+      player: this.#game.number(RECORD.player),
+    };
   }
 
   /** Whether the cue ball is in hand, and not placed yet. */
@@ -279,14 +353,22 @@ export class Recording {
     return this.#game.number(RECORD.hand) === 1;
   }
 
-  /** The last shot that was played or read, with its events; of one that went on, from its start. */
+  /**
+   * The last shot that was played or read, with its events; of one that went on, from its start.
+   */
   get last(): Shot | undefined {
     return this.#game.film;
   }
 
   /** Plays a stroke, up to where the options stop it, and records it. */
   shoot(cue: Partial<Cue>, options: StopOptions = {}): ShotEnd {
-    writeStruct(this.#host.memory, this.#game.at + RECORD.cue, "carom_cue", this.#host.cue(cue), "cue");
+    writeStruct(
+      this.#host.memory,
+      this.#game.at + RECORD.cue,
+      "carom_cue",
+      this.#host.cue(cue),
+      "cue",
+    );
     this.#until(options);
     return this.#play(values.CAROM_RECORD_SHOT);
   }
@@ -309,7 +391,8 @@ export class Recording {
     const at = this.#game.at + RECORD.options;
     const { timeMost, stopAt, eventsMost } = OPTIONS.offset;
     const given = this.#host.writeShotOptions(options);
-    for (const offset of [timeMost, stopAt]) memory.i64[(at + offset) / 8] = memory.i64[(given + offset) / 8]!;
+    for (const offset of [timeMost, stopAt])
+      memory.i64[(at + offset) / 8] = memory.i64[(given + offset) / 8]!;
     memory.i32[(at + eventsMost) / 4] = memory.i32[(given + eventsMost) / 4]!;
   }
 
@@ -325,14 +408,24 @@ export class Recording {
 
   #write(kind: number): void {
     const { memory } = this.#host;
-    if (memory.exports.carom_record_write(this.#game.at, kind, this.#game.text, values.CAROM_RECORD_TEXT) === 0)
+    if (
+      memory.exports.carom_record_write(
+        this.#game.at,
+        kind,
+        this.#game.text,
+        values.CAROM_RECORD_TEXT,
+      ) === 0
+    )
       throw new RangeError("the recording has ended, or a number in it is not finite");
     this.lines.push(memory.text(this.#game.text)!);
   }
 }
 
 /** The shots of a recording, played again. */
-export function* replayed(host: Host, recording: string | Iterable<string>): Generator<Replayed, void> {
+export function* replayed(
+  host: Host,
+  recording: string | Iterable<string>,
+): Generator<Replayed, void> {
   const game = new Game(host);
   try {
     for (const line of typeof recording === "string" ? recording.split("\n") : recording) {
@@ -341,7 +434,12 @@ export function* replayed(host: Host, recording: string | Iterable<string>): Gen
     }
     if (!game.ended) {
       const code = values.CAROM_ERROR_RECORD;
-      throw new CaromError(code, host.statusName(code), 'cut off: there is no line {"end": ...}', `line ${game.number(RECORD.line)}`);
+      throw new CaromError(
+        code,
+        host.statusName(code),
+        'cut off: there is no line {"end": ...}',
+        `line ${game.number(RECORD.line)}`,
+      );
     }
   } finally {
     game.free();

@@ -24,7 +24,9 @@ export class Shot {
     readonly table: Table,
     /** The balls at the start. */
     readonly balls: readonly ShotBall[],
-    /** "ok" where everything came to rest; "stopped_at_time", "stopped_at_event"; or how it failed. */
+    /**
+     * "ok" where everything came to rest; "stopped_at_time", "stopped_at_event"; or how it failed.
+     */
     readonly status: string,
     /** How long it lasts, s. */
     readonly time: number,
@@ -47,38 +49,56 @@ export class Shot {
     return (this.#events ??= this.#reader.events(this));
   }
 
-  /** The first contact of the cue ball, which is the one that the cue struck or ball 0, with another ball; or undefined. */
+  /**
+   * The first contact of the cue ball, which is the one that the cue struck or ball 0, with another
+   * ball; or undefined.
+   */
   get firstContact(): Contact | undefined {
     const struck = this.events[0]?.type === "stick_ball" ? this.events[0].a : 0;
-    const event = this.events.find((event) => event.type === "ball_ball" && (event.a === struck || event.b === struck));
+    const event = this.events.find(
+      (event) => event.type === "ball_ball" && (event.a === struck || event.b === struck),
+    );
     if (event === undefined) return undefined;
     return { time: event.time, ball: event.a === struck ? event.b : event.a, event };
   }
 
-  /** x, y, z of every ball at a time (s), m: 3 numbers for each ball. Pass an array to use its memory. */
+  /**
+   * x, y, z of every ball at a time (s), m: 3 numbers for each ball. Pass an array to use its
+   * memory.
+   */
   positions(time: number, into = new Float64Array(3 * this.balls.length)): Float64Array {
     this.#reader.positions(this, time, into);
     return into;
   }
 
-  /** x, y, z of every ball at many times (s), m: 3 numbers for each ball, time after time. Ascending times cost least. `drawn` as of `states`. */
+  /**
+   * x, y, z of every ball at many times (s), m: 3 numbers for each ball, time after time. Ascending
+   * times cost least. `drawn` as of `states`.
+   */
   positionsAt(times: ArrayLike<number>, drawn = false): Float64Array {
     return this.#reader.positionsAt(this, times, drawn);
   }
 
-  /** The states of all balls at a time, s. With `drawn` a pocketed ball falls in its pocket until it lies at the depth: it is lower than there. */
+  /**
+   * The states of all balls at a time, s. With `drawn` a pocketed ball falls in its pocket until it
+   * lies at the depth: it is lower than there.
+   */
   states(time: number, drawn = false): BallState[] {
     return this.#reader.states(this, time, drawn);
   }
 
-  /** How each ball has turned since the start, as unit quaternions w, x, y, z: 4 numbers for each ball. */
+  /**
+   * How each ball has turned since the start, as unit quaternions w, x, y, z: 4 numbers for each
+   * ball.
+   */
   orientations(time: number, into = new Float64Array(4 * this.balls.length)): Float64Array {
     into.set(this.#reader.frame(this, time).turned);
     return into;
   }
 
   /**
-   * The states of all balls at a time, s, and how they have turned, for drawing. It goes on from the frame before, where that was of this shot and
+   * The states of all balls at a time, s, and how they have turned, for drawing. It goes on from
+   * the frame before, where that was of this shot and
    * earlier, and nothing is copied: the arrays are those of the next frame, too.
    */
   frame(time: number): Frame {

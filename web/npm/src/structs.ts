@@ -1,5 +1,11 @@
 // Objects to structs in the module's memory, and back.
-import { layout, names as NAMES, numbers as NUMBERS, options as OPTIONS, values } from "./generated/layout.js";
+import {
+  layout,
+  names as NAMES,
+  numbers as NUMBERS,
+  options as OPTIONS,
+  values,
+} from "./generated/layout.js";
 import { KEYS, meant, refuseUnknown } from "./keys.js";
 import type { Memory, Pointer } from "./memory.js";
 import type { BallState, EventType, Motion, ShotBall, ShotEvent, Table, Vec3 } from "./types.js";
@@ -19,7 +25,9 @@ export function value(of: keyof typeof NAMES, word: unknown, option: string): nu
 
 /** Throws because a name is none of a list. */
 export function refuseName(option: string, name: string, names: readonly string[]): never {
-  throw new TypeError(`${option}: it must be one of ${names.join(", ")}, not ${JSON.stringify(name)}${meant(String(name), names)}`);
+  throw new TypeError(
+    `${option}: it must be one of ${names.join(", ")}, not ${JSON.stringify(name)}${meant(String(name), names)}`,
+  );
 }
 
 type Type = "f64" | "i64" | "i32" | StructName | "";
@@ -30,7 +38,8 @@ interface Field {
   type: Type;
   size: number;
 }
-const bytesOf = (type: Type): number => (type === "i32" ? 4 : type === "f64" || type === "i64" || type === "" ? 8 : layout[type].size);
+const bytesOf = (type: Type): number =>
+  type === "i32" ? 4 : type === "f64" || type === "i64" || type === "" ? 8 : layout[type].size;
 const FIELDS = Object.fromEntries(
   Object.entries(layout).map(([struct, { offset, bytes, type }]) => [
     struct,
@@ -40,23 +49,48 @@ const FIELDS = Object.fromEntries(
     }),
   ]),
 ) as Record<StructName, Field[]>;
-const KEYS_OF = Object.fromEntries(Object.entries(FIELDS).map(([struct, fields]) => [struct, fields.map(({ key }) => key)])) as Record<StructName, string[]>;
+const KEYS_OF = Object.fromEntries(
+  Object.entries(FIELDS).map(([struct, fields]) => [struct, fields.map(({ key }) => key)]),
+) as Record<StructName, string[]>;
 
 /** Refuses what a struct does not have. */
 export function refuseUnknownOf(struct: StructName, from: object, name: string): void {
   refuseUnknown(from, KEYS_OF[struct], name);
 }
 
-/** A struct of numbers and arrays of them, from an object whose keys are the fields; `defaults` has those that may be missing. */
-export function writeStruct(memory: Memory, at: Pointer, struct: StructName, from: object, name: string, defaults?: object): void {
+/**
+ * A struct of numbers and arrays of them, from an object whose keys are the fields; `defaults` has
+ * those that may be missing.
+ */
+export function writeStruct(
+  memory: Memory,
+  at: Pointer,
+  struct: StructName,
+  from: object,
+  name: string,
+  defaults?: object,
+): void {
   refuseUnknownOf(struct, from, name);
   const { f64, i64, i32 } = memory;
   for (const { key, begin, size, type } of FIELDS[struct]) {
-    const given = (from as Record<string, unknown>)[key] ?? (defaults as Record<string, unknown> | undefined)?.[key];
+    const given =
+      (from as Record<string, unknown>)[key] ??
+      (defaults as Record<string, unknown> | undefined)?.[key];
     const whole = type === "i64" || type === "i32";
-    const list = (size === 1 ? [given] : typeof given === "object" ? given : undefined) as ArrayLike<number> | null | undefined;
-    if (list?.length !== size || (size === 1 || whole) && !Array.from(list).every((one) => (whole ? Number.isSafeInteger(one) : typeof one === "number")))
-      throw new TypeError(`${name}.${key}: it must be ${whole ? "a whole number" : size === 1 ? "a number" : `${size} numbers`}, not ${JSON.stringify(given)}`);
+    const list = (size === 1 ? [given] : typeof given === "object" ? given : undefined) as
+      | ArrayLike<number>
+      | null
+      | undefined;
+    if (
+      list?.length !== size ||
+      ((size === 1 || whole) &&
+        !Array.from(list).every((one) =>
+          whole ? Number.isSafeInteger(one) : typeof one === "number",
+        ))
+    )
+      throw new TypeError(
+        `${name}.${key}: it must be ${whole ? "a whole number" : size === 1 ? "a number" : `${size} numbers`}, not ${JSON.stringify(given)}`,
+      );
     for (let k = 0; k < size; k++)
       if (type === "i64") i64[(at + begin) / 8 + k] = BigInt(list[k]!);
       else if (type === "i32") i32[(at + begin) / 4 + k] = list[k]!;
@@ -65,7 +99,13 @@ export function writeStruct(memory: Memory, at: Pointer, struct: StructName, fro
 }
 
 /** Sets some fields of a struct, which is cleared before: numbers, enumerators and addresses. */
-export function setStruct<S extends StructName>(memory: Memory, at: Pointer, struct: S, from: { [key in keyof (typeof layout)[S]["offset"]]?: number | bigint }, clear = true): Pointer {
+export function setStruct<S extends StructName>(
+  memory: Memory,
+  at: Pointer,
+  struct: S,
+  from: { [key in keyof (typeof layout)[S]["offset"]]?: number | bigint },
+  clear = true,
+): Pointer {
   if (clear) memory.u8.fill(0, at, at + layout[struct].size);
   const { f64, i64, i32 } = memory;
   for (const { key, begin, type, size } of FIELDS[struct]) {
@@ -81,21 +121,50 @@ export function setStruct<S extends StructName>(memory: Memory, at: Pointer, str
 /** A number of a count or a seed. */
 export function whole(number: number | undefined, option: string, most = 0x7fffffff): number {
   if (number === undefined) return 0;
-  if (!Number.isSafeInteger(number) || number < 0 || number > most) throw new RangeError(`${option}: it must be a whole number, 0 or more, not ${number}`);
+  if (!Number.isSafeInteger(number) || number < 0 || number > most)
+    throw new RangeError(`${option}: it must be a whole number, 0 or more, not ${number}`);
   return number;
 }
 
-/** Options of a call by their rows; each that is missing is 0, its default. With `stops` only when to stop. */
-export function writeOptions(memory: Memory, at: Pointer, struct: keyof typeof OPTIONS, from: object, stops = false): Pointer {
+/**
+ * Options of a call by their rows; each that is missing is 0, its default. With `stops` only when
+ * to stop.
+ */
+export function writeOptions(
+  memory: Memory,
+  at: Pointer,
+  struct: keyof typeof OPTIONS,
+  from: object,
+  stops = false,
+): Pointer {
   const fields: Record<string, number | bigint> = {};
   for (const { key, form, of, stop } of OPTIONS[struct]) {
     if (stops && !stop) continue;
     const given = (from as Record<string, unknown>)[key] ?? 0;
-    const bit = (one: unknown): bigint => 1n << BigInt(of === "" ? whole(one as number, key, 63) : indexOf(["contact", ...NAMES[of].slice(1)], one, key));
-    if (form === "words") fields[key] = given === 0 ? 0 : value(of as keyof typeof NAMES, given, key);
-    else if (form === "set") fields[key] = given === 0 ? 0n : (Array.isArray(given) ? given : [given]).reduce((set: bigint, one) => set | bit(one), 0n);
-    else if (form === "number" && typeof given !== "number") throw new TypeError(`${key}: it must be a number, not ${JSON.stringify(given)}`);
-    else fields[key] = form === "number" ? (given as number) : whole(given as number, key, form === "seed" ? Number.MAX_SAFE_INTEGER : undefined);
+    const bit = (one: unknown): bigint =>
+      1n <<
+      BigInt(
+        of === ""
+          ? whole(one as number, key, 63)
+          : indexOf(["contact", ...NAMES[of].slice(1)], one, key),
+      );
+    if (form === "words")
+      fields[key] = given === 0 ? 0 : value(of as keyof typeof NAMES, given, key);
+    else if (form === "set")
+      fields[key] =
+        given === 0
+          ? 0n
+          : (Array.isArray(given) ? given : [given]).reduce(
+              (set: bigint, one) => set | bit(one),
+              0n,
+            );
+    else if (form === "number" && typeof given !== "number")
+      throw new TypeError(`${key}: it must be a number, not ${JSON.stringify(given)}`);
+    else
+      fields[key] =
+        form === "number"
+          ? (given as number)
+          : whole(given as number, key, form === "seed" ? Number.MAX_SAFE_INTEGER : undefined);
   }
   return setStruct(memory, at, struct, fields, !stops);
 }
@@ -104,8 +173,19 @@ export function writeOptions(memory: Memory, at: Pointer, struct: keyof typeof O
 export function readStruct<T>(memory: Memory, at: Pointer, struct: StructName): T {
   const { f64, i64, i32 } = memory;
   const one = (type: Type, at: Pointer): unknown =>
-    type === "f64" ? f64[at / 8] : type === "i64" ? Number(i64[at / 8]) : type === "i32" ? i32[at / 4] : readStruct(memory, at, type as StructName);
-  const read = ({ key, begin, type, size }: Field): [string, unknown] => [key, size === 1 ? one(type, at + begin) : Array.from({ length: size }, (_, k) => one(type, at + begin + k * bytesOf(type)))];
+    type === "f64"
+      ? f64[at / 8]
+      : type === "i64"
+        ? Number(i64[at / 8])
+        : type === "i32"
+          ? i32[at / 4]
+          : readStruct(memory, at, type as StructName);
+  const read = ({ key, begin, type, size }: Field): [string, unknown] => [
+    key,
+    size === 1
+      ? one(type, at + begin)
+      : Array.from({ length: size }, (_, k) => one(type, at + begin + k * bytesOf(type))),
+  ];
   return Object.fromEntries(FIELDS[struct].filter(({ type }) => type !== "").map(read)) as T;
 }
 
@@ -115,7 +195,10 @@ export function vec3(f64: Float64Array, at: Pointer): Vec3 {
 }
 
 export function readMotion(f64: Float64Array, at: Pointer): Motion {
-  return { v: vec3(f64, at + layout.carom_motion.offset.v), w: vec3(f64, at + layout.carom_motion.offset.w) };
+  return {
+    v: vec3(f64, at + layout.carom_motion.offset.v),
+    w: vec3(f64, at + layout.carom_motion.offset.w),
+  };
 }
 
 const STATE = layout.carom_ball_state.offset;
@@ -123,12 +206,23 @@ const STATE = layout.carom_ball_state.offset;
 export function readState(memory: Memory, at: Pointer): BallState {
   const f64 = memory.f64;
   const label = NAMES.carom_label[memory.i32[(at + STATE.label) / 4]!]!;
-  return { r: vec3(f64, at + STATE.r), v: vec3(f64, at + STATE.v), w: vec3(f64, at + STATE.w), label };
+  return {
+    r: vec3(f64, at + STATE.r),
+    v: vec3(f64, at + STATE.v),
+    w: vec3(f64, at + STATE.w),
+    label,
+  };
 }
 
 export function writeStates(memory: Memory, at: Pointer, states: readonly BallState[]): void {
   for (const [k, state] of states.entries())
-    writeStruct(memory, at + k * layout.carom_ball_state.size, "carom_ball_state", { ...state, label: value("carom_label", state.label, "label") }, "state");
+    writeStruct(
+      memory,
+      at + k * layout.carom_ball_state.size,
+      "carom_ball_state",
+      { ...state, label: value("carom_label", state.label, "label") },
+      "state",
+    );
 }
 
 export function writeBalls(memory: Memory, at: Pointer, balls: readonly ShotBall[]): void {
@@ -139,7 +233,13 @@ export function writeBalls(memory: Memory, at: Pointer, balls: readonly ShotBall
     refuseUnknown(ball, KEYS.ball, name);
     writeStruct(memory, ballAt + kind, "carom_ball_kind", ball.kind, `${name}.kind`);
     const label = value("carom_label", ball.state.label ?? "stationary", `${name}.state.label`);
-    writeStruct(memory, ballAt + state, "carom_ball_state", { ...ball.state, label }, `${name}.state`);
+    writeStruct(
+      memory,
+      ballAt + state,
+      "carom_ball_state",
+      { ...ball.state, label },
+      `${name}.state`,
+    );
   }
 }
 
@@ -147,7 +247,10 @@ export function readBalls(memory: Memory, at: Pointer, count: number): ShotBall[
   const { kind, state } = layout.carom_shot_ball.offset;
   return Array.from({ length: count }, (_, k) => {
     const ball = at + k * layout.carom_shot_ball.size;
-    return { kind: readStruct(memory, ball + kind, "carom_ball_kind"), state: readState(memory, ball + state) };
+    return {
+      kind: readStruct(memory, ball + kind, "carom_ball_kind"),
+      state: readState(memory, ball + state),
+    };
   });
 }
 
@@ -168,17 +271,29 @@ export function writeTable(memory: Memory, at: Pointer, table: Table): void {
   for (const key of TABLE_NUMBERS) memory.f64[(at + TABLE[key]) / 8] = table[key] ?? 0;
   for (const [name, count, struct, first, most] of PARTS) {
     const parts = table[name];
-    if (!Array.isArray(parts)) throw new TypeError(`table.${name}: a list is needed, not ${JSON.stringify(parts)}`);
-    if (parts.length > most) throw new RangeError(`table.${name}: at most ${most}, not ${parts.length}`);
+    if (!Array.isArray(parts))
+      throw new TypeError(`table.${name}: a list is needed, not ${JSON.stringify(parts)}`);
+    if (parts.length > most)
+      throw new RangeError(`table.${name}: at most ${most}, not ${parts.length}`);
     memory.i64[(at + count) / 8] = BigInt(parts.length);
-    for (const [k, part] of parts.entries()) writeStruct(memory, at + first + k * layout[struct].size, struct, part, `table.${name}[${k}]`, PART);
+    for (const [k, part] of parts.entries())
+      writeStruct(
+        memory,
+        at + first + k * layout[struct].size,
+        struct,
+        part,
+        `table.${name}[${k}]`,
+        PART,
+      );
   }
 }
 
 export function readTable(memory: Memory, at: Pointer): Table {
   const parts = PARTS.map(([name, count, struct, first]) => [
     name,
-    Array.from({ length: Number(memory.i64[(at + count) / 8]) }, (_, k) => readStruct(memory, at + first + k * layout[struct].size, struct)),
+    Array.from({ length: Number(memory.i64[(at + count) / 8]) }, (_, k) =>
+      readStruct(memory, at + first + k * layout[struct].size, struct),
+    ),
   ]);
   const numbers = TABLE_NUMBERS.map((key) => [key, memory.f64[(at + TABLE[key]) / 8]!]);
   return { ...Object.fromEntries(numbers), ...Object.fromEntries(parts) } as Table;
@@ -191,7 +306,9 @@ export function readEvent(memory: Memory, at: Pointer): Omit<ShotEvent, "slip"> 
   const type = i32[(at + EVENT.type) / 4]!;
   const sides = type === values.CAROM_EVENT_BALL_BALL ? 2 : 1;
   const states = (begin: number): BallState[] =>
-    Array.from({ length: sides }, (_, k) => readState(memory, at + begin + k * layout.carom_ball_state.size));
+    Array.from({ length: sides }, (_, k) =>
+      readState(memory, at + begin + k * layout.carom_ball_state.size),
+    );
   return {
     time: memory.f64[(at + EVENT.time) / 8]!,
     type: NAMES.carom_event_type[type] as EventType,

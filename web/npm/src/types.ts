@@ -1,5 +1,6 @@
-// What users hand in and get back. Units are SI: metres, kilograms, seconds, rad/s for spins. Directions of a cue are in degrees. The
-// table is the plane x, y; z points up; vectors are right-handed. Field names are those of carom.h and carom_shot.h in camel case.
+// What users hand in and get back. Units are SI: metres, kilograms, seconds, rad/s for spins.
+// Directions of a cue are in degrees. The table is the plane x, y; z points up; vectors are
+// right-handed. Field names are those of carom.h and carom_shot.h in camel case.
 
 import type * as C from "./generated/structs.js";
 
@@ -11,7 +12,10 @@ export type Vec3 = readonly [number, number, number];
 /** x, y. */
 export type Vec2 = readonly [number, number];
 
-/** One ball just before a collision. What is missing is at rest in the origin, of radius 0.028575 m and mass 0.17 kg, with muCloth 0.2. */
+/**
+ * One ball just before a collision. What is missing is at rest in the origin, of radius 0.028575 m
+ * and mass 0.17 kg, with muCloth 0.2.
+ */
 export type Ball = Partial<C.Ball>;
 
 /** Two touching balls. */
@@ -20,7 +24,9 @@ export interface Impact {
   a: Ball;
   /** The second ball. */
   b: Ball;
-  /** Sliding friction between the balls, 0 to 1. Default: by Alciatore's law from the speed of slip. */
+  /**
+   * Sliding friction between the balls, 0 to 1. Default: by Alciatore's law from the speed of slip.
+   */
   muBall?: number;
   /** Coefficient of restitution, 0 to 1. Default 0.95. */
   restitution?: number;
@@ -46,8 +52,12 @@ export interface Detail extends Omit<C.Detail, "stick"> {
   stick: "never" | "in compression" | "in restitution";
 }
 
-/** One point of a collision. Frame: y from the first ball's centre to the second's, z up, x = y cross z. */
-export interface TracePoint extends Omit<C.TracePoint, "phase" | "sticks" | "dX" | "dY" | "bX" | "bY"> {
+/**
+ * One point of a collision. Frame: y from the first ball's centre to the second's, z up, x = y
+ * cross z.
+ */
+export interface TracePoint
+  extends Omit<C.TracePoint, "phase" | "sticks" | "dX" | "dY" | "bX" | "bY"> {
   /** 0 compression, 1 restitution. */
   phase: number;
   /** Whether the balls no longer slip on each other. */
@@ -58,14 +68,23 @@ export interface TracePoint extends Omit<C.TracePoint, "phase" | "sticks" | "dX"
   b: Vec2;
 }
 
-/** A ball that touches a cushion. What is missing: no spin, the ball of a collision, height 0.0365, muCushion 0.2, restitution 0.85, jawRadius 0. */
-export type CushionImpact = Optional<C.CushionImpact, Exclude<keyof C.CushionImpact, "v" | "normal">>;
+/**
+ * A ball that touches a cushion. What is missing: no spin, the ball of a collision, height 0.0365,
+ * muCushion 0.2, restitution 0.85, jawRadius 0.
+ */
+export type CushionImpact = Optional<
+  C.CushionImpact,
+  Exclude<keyof C.CushionImpact, "v" | "normal">
+>;
 
 export type CushionModel = C.CushionModel;
 
 export type CushionOptions = C.CushionOptions;
 
-/** A game: whose balls, cloth and cue. docs/understanding/constants.md has the source of each number. */
+/**
+ * A game: whose balls, cloth and cue. docs/understanding/constants.md has the source of each
+ * number.
+ */
 export type Game = C.Game;
 
 export type BallKind = C.BallKind;
@@ -73,11 +92,20 @@ export type BallKind = C.BallKind;
 /** How a ball moves. */
 export type Label = C.Label;
 
-/** A frame of a shot, in which pocketed balls fall: views into the module's memory, which hold until the next frame, or until that memory grows. */
+/**
+ * A frame of a shot, in which pocketed balls fall: views into the module's memory, which hold until
+ * the next frame, or until that memory grows.
+ */
 export interface Frame {
-  /** Place, velocity and spin of each ball, SI: 10 numbers, of which the last is no number: its label. */
+  /**
+   * Place, velocity and spin of each ball, SI: 10 numbers, of which the last is no number: its
+   * label.
+   */
   readonly states: Float64Array;
-  /** How each ball has turned since the start of the shot, as unit quaternions w, x, y, z: 4 numbers. */
+  /**
+   * How each ball has turned since the start of the shot, as unit quaternions w, x, y, z: 4
+   * numbers.
+   */
   readonly turned: Float64Array;
   label(ball: number): Label;
 }
@@ -91,11 +119,17 @@ export interface BallState extends Omit<C.BallState, "label"> {
 export interface ShotBall {
   kind: BallKind;
   state: BallState;
-  /** Its name in a line: the number of a ball of eight-ball or nine-ball, which plans and rulings compare with its place in the list. */
+  /**
+   * Its name in a line: the number of a ball of eight-ball or nine-ball, which plans and rulings
+   * compare with its place in the list.
+   */
   id?: string;
 }
 
-/** A straight piece of cushion. Without a line it is derived; without muCushion or restitution it has those of the ball. */
+/**
+ * A straight piece of cushion. Without a line it is derived; without muCushion or restitution it
+ * has those of the ball.
+ */
 export type Rail = Optional<C.Rail, "line" | "muCushion" | "restitution">;
 
 /** A rounded end of a cushion, as a rail. */
@@ -103,8 +137,12 @@ export type Jaw = Optional<C.Jaw, "muCushion" | "restitution">;
 
 export type Pocket = C.Pocket;
 
-/** A table of any geometry. The playing surface of the built-in ones is 0 <= x <= width, 0 <= y <= length, in m. */
-export interface Table extends Optional<Omit<C.Table, Counted>, Exclude<keyof C.Table, Counted | "width" | "length">> {
+/**
+ * A table of any geometry. The playing surface of the built-in ones is 0 <= x <= width, 0 <= y <=
+ * length, in m.
+ */
+export interface Table
+  extends Optional<Omit<C.Table, Counted>, Exclude<keyof C.Table, Counted | "width" | "length">> {
   rails: Rail[];
   jaws: Jaw[];
   pockets: Pocket[];
@@ -133,11 +171,20 @@ export interface ShotEvent {
   before: BallState[];
   /** States after. */
   after: BallState[];
-  /** Of the contact of two balls: how many contacts its cluster has, whose events follow each other; 0: it is alone. */
+  /**
+   * Of the contact of two balls: how many contacts its cluster has, whose events follow each other;
+   * 0: it is alone.
+   */
   cluster: number;
-  /** N s, for sounds: the size of what ball a got from cue, ball, cushion or slate; in a cluster from ball b alone. 0 of every other event. */
+  /**
+   * N s, for sounds: the size of what ball a got from cue, ball, cushion or slate; in a cluster
+   * from ball b alone. 0 of every other event.
+   */
   impulse: number;
-  /** m/s, for sounds: how fast surfaces pass each other as they meet; 0 of the strike, of pockets and of events without a contact. */
+  /**
+   * m/s, for sounds: how fast surfaces pass each other as they meet; 0 of the strike, of pockets
+   * and of events without a contact.
+   */
   slip: number;
 }
 
@@ -163,8 +210,14 @@ export type Score = C.Score;
 /** A rating by games: the mean of the likely ones, and the interval that has 95 % of them. */
 export type Rating = Omit<C.Rating, "row">;
 
-/** A game between two strokes, as the player at the table sees it. Ball k is ball k of the game, ball 0 the cue ball. What is missing is that of a new game. */
-export interface GameState extends Partial<Pick<C.RulesState, "fouls" | "score" | "lost" | "pocket" | "on" | "freeBall" | "target">> {
+/**
+ * A game between two strokes, as the player at the table sees it. Ball k is ball k of the game,
+ * ball 0 the cue ball. What is missing is that of a new game.
+ */
+export interface GameState
+  extends Partial<
+    Pick<C.RulesState, "fouls" | "score" | "lost" | "pocket" | "on" | "freeBall" | "target">
+  > {
   /** A game of `words.rules`, which says by whose rules. Default "eightball". */
   rules: C.RulesKind;
   /** Whose balls the player has. Default "open". */
@@ -180,21 +233,31 @@ export interface AimOf {
   ball: number;
   pocket: number | string;
   /**
-   * The way there, up to four contacts: indices of balls and names of rails, "head", "foot", "left", "right", that the ball before them meets. ["left"] is a
-   * bank, [2] a combination, ["head", ball] a kick: where `ball` is not named, it comes after the last other ball.
+   * The way there, up to four contacts: indices of balls and names of rails, "head", "foot",
+   * "left", "right", that the ball before them meets. ["left"] is a
+   * bank, [2] a combination, ["head", ball] a kick: where `ball` is not named, it comes after the
+   * last other ball.
    */
   via?: readonly (number | string)[];
 }
 
 /** A stroke that pots a ball, or why there is none. */
 export interface Aim {
-  /** "no_way": no direction sends the ball there; "barred": something is met first; "short": a ball comes to rest; "rejected": by the jaws;
+  /**
+   * "no_way": no direction sends the ball there; "barred": something is met first; "short": a ball
+   * comes to rest; "rejected": by the jaws;
    * "stick": a stick over what is behind the cue ball is raised by more than 60 degrees. */
   is: "falls" | "no_way" | "barred" | "short" | "rejected" | "stick";
   cue: Cue;
-  /** Degrees: the least elevation with which the stick is over the cushions and balls behind the cue ball; a stroke with less cannot be played. */
+  /**
+   * Degrees: the least elevation with which the stick is over the cushions and balls behind the cue
+   * ball; a stroke with less cannot be played.
+   */
   elevation: number;
-  /** Degrees, of the cue ball on the first ball, which goes to the left of its way where this is above 0. */
+  /**
+   * Degrees, of the cue ball on the first ball, which goes to the left of its way where this is
+   * above 0.
+   */
   cut: number;
   /** Degrees by which the way of the ball into the pocket may turn, to either jaw. */
   margin: number;
@@ -211,7 +274,10 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
   player?: Player;
   /** Default: as the player. */
   opponent?: Player;
-  /** Whether the cue ball is in hand: `place` says where to put it. Two corners of a rectangle, m: there alone. */
+  /**
+   * Whether the cue ball is in hand: `place` says where to put it. Two corners of a rectangle, m:
+   * there alone.
+   */
   inHand?: boolean | readonly [Vec2, Vec2];
   /** How many choices at most; default 5. */
   best?: number;
@@ -223,11 +289,17 @@ export interface PlanOptions extends Partial<GameState>, C.PlanOptions {
 
 /** A stroke, and what is known of it. */
 export interface Choice extends Omit<C.Choice, "kind"> {
-  /** What happens: "pot" is a direct one; "scan": by several ways; "foul": nothing better was found; "given" was asked for; "push", "pass": as of a call. */
+  /**
+   * What happens: "pot" is a direct one; "scan": by several ways; "foul": nothing better was found;
+   * "given" was asked for; "push", "pass": as of a call.
+   */
   kind: C.PlanKind;
 }
 
-/** The ball and the pocket that are called; or a push-out; or that the player does not play, so that the stroke is not read. */
+/**
+ * The ball and the pocket that are called; or a push-out; or that the player does not play, so that
+ * the stroke is not read.
+ */
 export type Call = C.Call | "push" | "pass";
 
 /** What happened in a shot, by indices of balls; -1 where there is none. */
@@ -265,9 +337,14 @@ export interface Ruling {
   hand: "no" | "anywhere" | "kitchen" | "d";
   /** Of the shot, in games of points; of three-cushion and of the drill too. */
   points: number;
-  /** Points, or balls, of whoever plays next, and of the other, less those that they lost or owe. */
+  /**
+   * Points, or balls, of whoever plays next, and of the other, less those that they lost or owe.
+   */
   score: [number, number];
-  /** The layout of the next stroke: all that come back are there. A cue ball in hand is where the shot left it, or down. */
+  /**
+   * The layout of the next stroke: all that come back are there. A cue ball in hand is where the
+   * shot left it, or down.
+   */
   balls: ShotBall[];
   /** The balls that lie elsewhere than the shot left them. */
   put: number[];

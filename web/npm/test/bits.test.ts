@@ -1,4 +1,5 @@
-// The bits of `plain` on every machine: the golden hashes of tests/platforms/bits.expected, of collisions and of whole shots.
+// The bits of `plain` on every machine: the golden hashes of tests/platforms/bits.expected, of
+// collisions and of whole shots.
 import { describe, expect, test } from "vitest";
 import type { BallState, Carom, Game, RackName, ShotOptions, TableName } from "../dist/index.js";
 import { builds, Draws, golden, Hash } from "./support.js";
@@ -34,7 +35,24 @@ function drawCollision(draws: Draws, k: number): number[] {
   const muBall = draws.between(0, wild ? 1 : 0.12);
   let restitution = draws.between(wild ? 0 : 0.8, 1);
   if (k % 97 === 50) restitution = 2;
-  return [0, 0, 0, ...av, ...aw, radius, 0.17, aCloth, ...r, ...bv, ...bw, radius, bMass, bCloth, muBall, restitution];
+  return [
+    0,
+    0,
+    0,
+    ...av,
+    ...aw,
+    radius,
+    0.17,
+    aCloth,
+    ...r,
+    ...bv,
+    ...bw,
+    radius,
+    bMass,
+    bCloth,
+    muBall,
+    restitution,
+  ];
 }
 
 function collisions(carom: Carom, solver: "exact" | "euler", slip: "paper" | "pooltool"): string {
@@ -49,9 +67,16 @@ function collisions(carom: Carom, solver: "exact" | "euler", slip: "paper" | "po
   return hash.text;
 }
 
-const addState = (hash: Hash, s: BallState): Hash => hash.numbers([...s.r, ...s.v, ...s.w]).whole(LABELS.indexOf(s.label));
+const addState = (hash: Hash, s: BallState): Hash =>
+  hash.numbers([...s.r, ...s.v, ...s.w]).whole(LABELS.indexOf(s.label));
 
-const TYPES = ["stick_ball", "ball_ball", "ball_linear_cushion", "ball_circular_cushion", "ball_pocket"];
+const TYPES = [
+  "stick_ball",
+  "ball_ball",
+  "ball_linear_cushion",
+  "ball_circular_cushion",
+  "ball_pocket",
+];
 const LATER = ["sliding_rolling", "rolling_spinning", "rolling_stationary", "spinning_stationary"];
 
 /** shots() of bits.c, up to and with the combinations asked for. */
@@ -82,13 +107,18 @@ function shots(carom: Carom, wanted: string[]): Map<string, string> {
         const theta = k === 3 ? draws.between(0, 60) : 2;
         const a = draws.between(-0.4, 0.4);
         const b = draws.between(-0.4, 0.4);
-        const shot = carom.simulate(table, balls, carom.cue({ speed, phi, theta, a, b }, game), { ...options, space: "flat" });
+        const shot = carom.simulate(table, balls, carom.cue({ speed, phi, theta, a, b }, game), {
+          ...options,
+          space: "flat",
+        });
         hash.whole(0).whole(shot.count);
         for (const event of shot.events) {
           const type = [...TYPES, ...LATER].indexOf(event.type) + 1;
           if (type === 0) throw new Error(`an event of an unknown type: ${event.type}`);
           hash.number(event.time).whole(type * 10000 + event.a * 100 + event.b);
-          event.before.forEach((before, side) => addState(addState(hash, before), event.after[side]!));
+          event.before.forEach((before, side) =>
+            addState(addState(hash, before), event.after[side]!),
+          );
         }
         for (const state of shot.final) addState(hash, state);
         hash.number(shot.time);
@@ -108,12 +138,16 @@ describe.each(builds)("bits of $name", ({ carom }) => {
     ["euler", "paper"],
     ["euler", "pooltool"],
   ] as const)("collisions: %s, slip %s", (solver, slip) => {
-    expect(collisions(carom, solver, slip)).toBe(golden(`collisions: ${solver}, slip ${slip}, double`));
+    expect(collisions(carom, solver, slip)).toBe(
+      golden(`collisions: ${solver}, slip ${slip}, double`),
+    );
   });
 
   test("whole shots: four games by three models of cushions", () => {
     const wanted = ["default", "stronge", "han"].flatMap((model) =>
-      ["nine-ball", "eight-ball", "snooker", "three-cushion"].map((game) => `shots: ${game}, ${model}`),
+      ["nine-ball", "eight-ball", "snooker", "three-cushion"].map(
+        (game) => `shots: ${game}, ${model}`,
+      ),
     );
     const found = shots(carom, wanted);
     for (const what of wanted) expect(`${what} ${found.get(what)}`).toBe(`${what} ${golden(what)}`);

@@ -1,6 +1,13 @@
 // The 204 reference collisions, cushions, and what is refused.
 import { describe, expect, test } from "vitest";
-import { CaromError, type CushionImpact, type Impact, load, toLine, type Vec3 } from "../dist/index.js";
+import {
+  CaromError,
+  type CushionImpact,
+  type Impact,
+  load,
+  toLine,
+  type Vec3,
+} from "../dist/index.js";
 import { builds, cases, csv, references, run, thereIsACommand } from "./support.js";
 
 const { ids, rows } = cases();
@@ -20,7 +27,14 @@ function deviation(out: Float64Array, reference: Float64Array, k: number): numbe
 
 function impactOf(row: Float64Array): Impact {
   const at = (k: number): Vec3 => [row[k]!, row[k + 1]!, row[k + 2]!];
-  const ball = (k: number): Impact["a"] => ({ r: at(k), v: at(k + 3), w: at(k + 6), radius: row[k + 9]!, mass: row[k + 10]!, muCloth: row[k + 11]! });
+  const ball = (k: number): Impact["a"] => ({
+    r: at(k),
+    v: at(k + 3),
+    w: at(k + 6),
+    radius: row[k + 9]!,
+    mass: row[k + 10]!,
+    muCloth: row[k + 11]!,
+  });
   return { a: ball(0), b: ball(12), muBall: row[24]!, restitution: row[25]! };
 }
 
@@ -40,7 +54,9 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
     // A row of a batch has the bits of a single call.
     ids.forEach((_, k) => {
       const single = carom.collide(impactOf(rows.subarray(26 * k, 26 * k + 26)), { slip });
-      expect([...single.a.v, ...single.a.w, ...single.b.v, ...single.b.w]).toEqual([...out.subarray(12 * k, 12 * k + 12)]);
+      expect([...single.a.v, ...single.a.w, ...single.b.v, ...single.b.w]).toEqual([
+        ...out.subarray(12 * k, 12 * k + 12),
+      ]);
     });
     batch.free();
   });
@@ -69,7 +85,10 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
   });
 
   test("defaults: Alciatore's friction, a pool ball", () => {
-    const rolls: Impact = { a: { v: [1.5, 0, 0], w: [0, 1.5 / 0.028575, 0] }, b: { r: [0.866 * 0.05715, 0.5 * 0.05715, 0] } };
+    const rolls: Impact = {
+      a: { v: [1.5, 0, 0], w: [0, 1.5 / 0.028575, 0] },
+      b: { r: [0.866 * 0.05715, 0.5 * 0.05715, 0] },
+    };
     const mu = carom.muBall(rolls);
     const slip = Math.hypot(1.5 * 0.5, 1.5 * Math.hypot(0.866, 0.5) * 0.866);
     expect(mu).toBeCloseTo(0.009951 + 0.108 * Math.exp(-1.088 * slip), 3);
@@ -88,7 +107,15 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
     const table = csv("cushion-stronge.csv");
     const number = (row: Record<string, string>, key: string): number => Number(row[key]);
     for (const model of ["mathavan", "stronge", "han", "mirror"] as const) {
-      const [head, ...lines] = run(["resolve", "--cushion", "--model", model, `${new URL("../../../data/cushion-stronge.csv", import.meta.url).pathname}`]).trim().split("\n");
+      const [head, ...lines] = run([
+        "resolve",
+        "--cushion",
+        "--model",
+        model,
+        `${new URL("../../../data/cushion-stronge.csv", import.meta.url).pathname}`,
+      ])
+        .trim()
+        .split("\n");
       const columns = head!.split(",");
       expect(lines).toHaveLength(table.length);
       lines.forEach((line, k) => {
@@ -107,7 +134,9 @@ describe.each(builds)("collisions by $name", ({ carom }) => {
         };
         const out = carom.cushion(impact, { model });
         const cells = line.split(",");
-        const expected = ["vx", "vy", "vz", "wx", "wy", "wz"].map((column) => Number(cells[columns.indexOf(column)]));
+        const expected = ["vx", "vy", "vz", "wx", "wy", "wz"].map((column) =>
+          Number(cells[columns.indexOf(column)]),
+        );
         expect([...out.v, ...out.w]).toEqual(expected);
       });
     }
@@ -153,11 +182,17 @@ describe("what is refused", () => {
   });
 
   test("words, shapes, fields and sizes that are not there", () => {
-    expect(() => carom.collide(good, { solver: "magic" as never })).toThrow("solver: it must be one of exact, euler");
+    expect(() => carom.collide(good, { solver: "magic" as never })).toThrow(
+      "solver: it must be one of exact, euler",
+    );
     expect(() => carom.collide(good, { steps: -1 })).toThrow("steps: it must be a whole number");
-    expect(() => carom.collide({ ...good, a: { v: [1, 0] as never } })).toThrow("a.v: it must be 3 numbers, not [1,0]");
+    expect(() => carom.collide({ ...good, a: { v: [1, 0] as never } })).toThrow(
+      "a.v: it must be 3 numbers, not [1,0]",
+    );
     expect(() => carom.cushion({ v: [1, 0, 0], normal: [0, 0] })).toThrow("normal");
-    expect(() => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { model: "wood" as never })).toThrow("model: it must be one of mathavan, stronge, han, mirror, euler, smooth");
+    expect(() =>
+      carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { model: "wood" as never }),
+    ).toThrow("model: it must be one of mathavan, stronge, han, mirror, euler, smooth");
     expect(() => carom.trace(good, 1)).toThrow("at least 2");
     expect(() => carom.collisions(-1)).toThrow("0 or more");
     expect(() => carom.collisions(2).set(2, good)).toThrow("k: it must be 0 to 1");
@@ -174,51 +209,141 @@ describe("what is refused", () => {
   const cue = carom.cue();
   test.each([
     [() => carom.collide({ ...good, mu_ball: 0.1 } as never), "impact.mu_ball", "muBall"],
-    [() => carom.collide({ ...good, b: { ...good.b, raduis: 0.03 } } as never), "b.raduis", "radius"],
+    [
+      () => carom.collide({ ...good, b: { ...good.b, raduis: 0.03 } } as never),
+      "b.raduis",
+      "radius",
+    ],
     [() => carom.collide({ ...good, a: { speed: 3 } } as never), "a.speed", undefined],
     [() => carom.collide(good, { step: 10 } as never), "step", "steps"],
     [() => carom.collideDetail(good, { solvr: "exact" } as never), "solvr", "solver"],
     [() => carom.trace(good, 3, { Slip: "paper" } as never), "Slip", "slip"],
     [() => carom.collideBatch(carom.collisions(1), { threads: 2 } as never), "threads", undefined],
-    [() => carom.collisions(1).set(0, { ...good, restitutoin: 0.9 } as never), "impact.restitutoin", "restitution"],
+    [
+      () => carom.collisions(1).set(0, { ...good, restitutoin: 0.9 } as never),
+      "impact.restitutoin",
+      "restitution",
+    ],
     [() => carom.muBall({ ...good, c: 1 } as never), "impact.c", undefined],
-    [() => carom.rollingVelocity({ v: [1, 0, 0], w: [0, 0, 0], r: [0, 0, 0] } as never, 0.03), "motion.r", undefined],
-    [() => carom.cushion({ v: [1, 0, 0], normal: [1, 0], mu_cushion: 0.2 } as never), "impact.mu_cushion", "muCushion"],
-    [() => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { modle: "han" } as never), "modle", "model"],
+    [
+      () => carom.rollingVelocity({ v: [1, 0, 0], w: [0, 0, 0], r: [0, 0, 0] } as never, 0.03),
+      "motion.r",
+      undefined,
+    ],
+    [
+      () => carom.cushion({ v: [1, 0, 0], normal: [1, 0], mu_cushion: 0.2 } as never),
+      "impact.mu_cushion",
+      "muCushion",
+    ],
+    [
+      () => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { modle: "han" } as never),
+      "modle",
+      "model",
+    ],
     [() => carom.rack("nineball", table, { sed: 3 } as never), "sed", "seed"],
-    [() => carom.rack("nineball", { ...table, ball_radius: 0.03 } as never), "table.ball_radius", "ballRadius"],
-    [() => carom.checkTable({ ...table, rails: [{ ...table.rails[0]!, heigth: 0.03 }] } as never), "table.rails[0].heigth", "height"],
-    [() => carom.checkTable({ ...table, jaws: [{ ...table.jaws[0]!, center: [0, 0] }] } as never), "table.jaws[0].center", "centre"],
-    [() => carom.checkTable({ ...table, pockets: [{ ...table.pockets[0]!, side: 1 }] } as never), "table.pockets[0].side", undefined],
+    [
+      () => carom.rack("nineball", { ...table, ball_radius: 0.03 } as never),
+      "table.ball_radius",
+      "ballRadius",
+    ],
+    [
+      () => carom.checkTable({ ...table, rails: [{ ...table.rails[0]!, heigth: 0.03 }] } as never),
+      "table.rails[0].heigth",
+      "height",
+    ],
+    [
+      () => carom.checkTable({ ...table, jaws: [{ ...table.jaws[0]!, center: [0, 0] }] } as never),
+      "table.jaws[0].center",
+      "centre",
+    ],
+    [
+      () => carom.checkTable({ ...table, pockets: [{ ...table.pockets[0]!, side: 1 }] } as never),
+      "table.pockets[0].side",
+      undefined,
+    ],
     [() => carom.ball(0.5, 0.5, { ...ball.kind, muRol: 0.01 } as never), "kind.muRol", "muRoll"],
     [() => carom.cue({ spead: 3 } as never), "cue.spead", "speed"],
     [() => carom.strike({ tipradius: 3 } as never, ball.kind), "cue.tipradius", "tipRadius"],
     [() => carom.strike({}, { ...ball.kind, gravty: 9.81 } as never), "kind.gravty", "gravity"],
     [() => carom.simulate(table, [ball], { V0: 3 } as never), "cue.V0", undefined],
-    [() => carom.simulate(table, [ball], {}, { cushion: "han" } as never), "cushion", "cushionModel"],
-    [() => carom.simulate(table, [ball], {}, { stopAtContact: true } as never), "stopAtContact", "stopAt"],
-    [() => carom.simulate(table, [{ ...ball, name: "eight" }] as never), "balls[0].name", undefined],
-    [() => carom.simulate(table, [ball, { ...ball, state: { ...ball.state, lable: "off" } }] as never), "balls[1].state.lable", "label"],
-    [() => carom.simulate(table, [{ ...ball, kind: { ...ball.kind, mu_slide: 0.2 } }] as never), "balls[0].kind.mu_slide", "muSlide"],
+    [
+      () => carom.simulate(table, [ball], {}, { cushion: "han" } as never),
+      "cushion",
+      "cushionModel",
+    ],
+    [
+      () => carom.simulate(table, [ball], {}, { stopAtContact: true } as never),
+      "stopAtContact",
+      "stopAt",
+    ],
+    [
+      () => carom.simulate(table, [{ ...ball, name: "eight" }] as never),
+      "balls[0].name",
+      undefined,
+    ],
+    [
+      () =>
+        carom.simulate(table, [ball, { ...ball, state: { ...ball.state, lable: "off" } }] as never),
+      "balls[1].state.lable",
+      "label",
+    ],
+    [
+      () => carom.simulate(table, [{ ...ball, kind: { ...ball.kind, mu_slide: 0.2 } }] as never),
+      "balls[0].kind.mu_slide",
+      "muSlide",
+    ],
     [() => carom.firstContact(table, [ball], {}, { timemost: 1 } as never), "timemost", "timeMost"],
-    [() => carom.continue(carom.simulate(table, [ball]), { tiemMost: 1 } as never), "tiemMost", "timeMost"],
-    [() => carom.placeBall(table, [{ ...ball, stat: 1 }] as never, 0, 0.5, 0.5), "balls[0].stat", "state"],
+    [
+      () => carom.continue(carom.simulate(table, [ball]), { tiemMost: 1 } as never),
+      "tiemMost",
+      "timeMost",
+    ],
+    [
+      () => carom.placeBall(table, [{ ...ball, stat: 1 }] as never, 0, 0.5, 0.5),
+      "balls[0].stat",
+      "state",
+    ],
     [() => carom.shots(table, [ball], 1, { events: 5 } as never), "events", undefined],
-    [() => carom.shots(table, [ball], 1).setCue(0, { ...cue, endmass: 0.005 } as never), "cue.endmass", "endMass"],
-    [() => carom.simulateBatch(carom.shots(table, [ball], 1), { eventMost: 5 } as never), "eventMost", "eventsMost"],
-    [() => toLine({ table: "9ft", balls: [ball], cue, tablename: "9ft" } as never), "shot.tablename", "tableName"],
+    [
+      () => carom.shots(table, [ball], 1).setCue(0, { ...cue, endmass: 0.005 } as never),
+      "cue.endmass",
+      "endMass",
+    ],
+    [
+      () => carom.simulateBatch(carom.shots(table, [ball], 1), { eventMost: 5 } as never),
+      "eventMost",
+      "eventsMost",
+    ],
+    [
+      () => toLine({ table: "9ft", balls: [ball], cue, tablename: "9ft" } as never),
+      "shot.tablename",
+      "tableName",
+    ],
   ] as [() => unknown, string, string | undefined][])("an unknown key: %#", (call, key, better) => {
     const { message } = refusal(call) as Error;
-    expect(message.startsWith(`${key}: there is no such key${better === undefined ? "; there are " : `; did you mean "${better}"?`}`), message).toBe(true);
+    expect(
+      message.startsWith(
+        `${key}: there is no such key${better === undefined ? "; there are " : `; did you mean "${better}"?`}`,
+      ),
+      message,
+    ).toBe(true);
   });
 
   test("an unknown key of load(), and keys that are missing", async () => {
-    await expect(load({ bild: "plain" } as never)).rejects.toThrow('bild: there is no such key; did you mean "build"?');
+    await expect(load({ bild: "plain" } as never)).rejects.toThrow(
+      'bild: there is no such key; did you mean "build"?',
+    );
     // What is missing is neither that of the call before, nor undefined.
     expect(carom.cue({ speed: undefined })).toEqual(cue);
     const { mass: _, ...kind } = ball.kind;
-    expect(() => carom.simulate(table, [{ ...ball, kind }] as never)).toThrow("balls[0].kind.mass: it must be a number, not undefined");
-    expect(() => carom.cushion({ normal: [1, 0] } as never)).toThrow("impact.v: it must be 3 numbers, not undefined");
-    expect(() => carom.collide({ a: { v: [1, 0, 0] } } as never)).toThrow("b: an object is needed, not undefined");
+    expect(() => carom.simulate(table, [{ ...ball, kind }] as never)).toThrow(
+      "balls[0].kind.mass: it must be a number, not undefined",
+    );
+    expect(() => carom.cushion({ normal: [1, 0] } as never)).toThrow(
+      "impact.v: it must be 3 numbers, not undefined",
+    );
+    expect(() => carom.collide({ a: { v: [1, 0, 0] } } as never)).toThrow(
+      "b: an object is needed, not undefined",
+    );
   });
 });

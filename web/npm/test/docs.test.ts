@@ -1,28 +1,53 @@
-// The blocks of the kind `js` in README and docs: each page is a session that is run; what a line prints is in the comment behind it.
+// The blocks of the kind `js` in README and docs: each page is a session that is run; what a line
+// prints is in the comment behind it.
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { expect, test, vi } from "vitest";
 import { root } from "./support.js";
 
-test.each(["README.md", "docs/using/web.md", "web/npm/README.md"])("JavaScript of %s", async (page) => {
-  const blocks = [...readFileSync(`${root}${page}`, "utf8").matchAll(/^```js\n(.*?)^```$/gms)].map((match) => match[1]!);
-  if (page !== "README.md") expect(blocks.length).toBeGreaterThan(0);
-  if (blocks.length === 0) return;
-  const text = blocks.join("\n");
-  const expected = [...text.matchAll(/^\s*console\.log\(.*\);\s*\/\/ (.*)$/gm)].map((match) => match[1]!);
-  const printed: string[] = [];
-  const spy = vi.spyOn(console, "log").mockImplementation((...all: unknown[]) => void printed.push(all.join(" ")));
-  const session = text.replaceAll('from "carom"', `from ${JSON.stringify(`file://${root}web/npm/dist/index.js`)}`);
-  await import(/* @vite-ignore */ `data:text/javascript,${encodeURIComponent(`${session}// ${page}`)}`);
-  spy.mockRestore();
-  expect(printed).toEqual(expected);
-});
+test.each(["README.md", "docs/using/web.md", "web/npm/README.md"])(
+  "JavaScript of %s",
+  async (page) => {
+    const blocks = [
+      ...readFileSync(`${root}${page}`, "utf8").matchAll(/^```js\n(.*?)^```$/gms),
+    ].map((match) => match[1]!);
+    if (page !== "README.md") expect(blocks.length).toBeGreaterThan(0);
+    if (blocks.length === 0) return;
+    const text = blocks.join("\n");
+    const expected = [...text.matchAll(/^\s*console\.log\(.*\);\s*\/\/ (.*)$/gm)].map(
+      (match) => match[1]!,
+    );
+    const printed: string[] = [];
+    const spy = vi
+      .spyOn(console, "log")
+      .mockImplementation((...all: unknown[]) => void printed.push(all.join(" ")));
+    const session = text.replaceAll(
+      'from "carom"',
+      `from ${JSON.stringify(`file://${root}web/npm/dist/index.js`)}`,
+    );
+    await import(
+      /* @vite-ignore */ `data:text/javascript,${encodeURIComponent(`${session}// ${page}`)}`
+    );
+    spy.mockRestore();
+    expect(printed).toEqual(expected);
+  },
+);
 
 test("the tarball has its licences, and the WebAssembly once", () => {
-  const [packed] = JSON.parse(execFileSync("npm", ["pack", "--dry-run", "--json"], { cwd: `${root}web/npm`, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] })) as [{ size: number; files: { path: string; size: number }[] }];
-  expect(packed.files.map(({ path }) => path)).toEqual(expect.arrayContaining(["LICENSE", "NOTICES", "README.md", "dist/index.js"]));
-  expect(packed.files.filter(({ path, size }) => path.endsWith(".d.ts") && size > 100_000)).toEqual([]);
+  const [packed] = JSON.parse(
+    execFileSync("npm", ["pack", "--dry-run", "--json"], {
+      cwd: `${root}web/npm`,
+      encoding: "utf8",
+      stdio: ["ignore", "pipe", "ignore"],
+    }),
+  ) as [{ size: number; files: { path: string; size: number }[] }];
+  expect(packed.files.map(({ path }) => path)).toEqual(
+    expect.arrayContaining(["LICENSE", "NOTICES", "README.md", "dist/index.js"]),
+  );
+  expect(packed.files.filter(({ path, size }) => path.endsWith(".d.ts") && size > 100_000)).toEqual(
+    [],
+  );
   // Its two modules are most of it, compressed, as text.
   const modules = packed.files.filter(({ path }) => /generated\/(plain|simd)\.js$/.test(path));
   expect(modules.length).toBe(2);
@@ -34,12 +59,18 @@ test("the tarball has its licences, and the WebAssembly once", () => {
 const examples = readdirSync(`${root}web/npm/examples`).filter((name) => name.endsWith(".mjs"));
 test.each(examples)("the example %s", (name) => {
   const work = mkdtempSync(`${tmpdir()}/carom-`);
-  const { status, stdout, stderr } = spawnSync(process.execPath, [`${root}web/npm/examples/${name}`], { cwd: work, encoding: "utf8" });
+  const { status, stdout, stderr } = spawnSync(
+    process.execPath,
+    [`${root}web/npm/examples/${name}`],
+    { cwd: work, encoding: "utf8" },
+  );
   expect(stderr).toBe("");
   expect(status).toBe(0);
   expect(stdout.split("\n").length).toBeGreaterThan(1);
   if (name === "break_paths.mjs") {
-    expect(readFileSync(`${work}/break.svg`, "utf8")).toBe(readFileSync(`${root}docs/figures/example-break-paths.svg`, "utf8"));
+    expect(readFileSync(`${work}/break.svg`, "utf8")).toBe(
+      readFileSync(`${root}docs/figures/example-break-paths.svg`, "utf8"),
+    );
   }
   rmSync(work, { recursive: true });
 });

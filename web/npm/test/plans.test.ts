@@ -1,4 +1,5 @@
-// Plans, players and rules beside the command, between both builds, and by shots whose ruling is known.
+// Plans, players and rules beside the command, between both builds, and by shots whose ruling is
+// known.
 import { expect, test } from "vitest";
 import type { Carom, GameState, ShotBall, Vec2 } from "../dist/index.js";
 import { pocketName } from "../../player/words.js";
@@ -6,10 +7,20 @@ import { byNumber, fromLine, toLine } from "../dist/index.js";
 import { builds, run, thereIsACommand } from "./support.js";
 
 /** Some balls of a game where they are put; the others are down. */
-function lay(carom: Carom, game: "eightball" | "nineball", places: Record<number, Vec2>): { table: ReturnType<Carom["table"]>; balls: ShotBall[] } {
+function lay(
+  carom: Carom,
+  game: "eightball" | "nineball",
+  places: Record<number, Vec2>,
+): { table: ReturnType<Carom["table"]>; balls: ShotBall[] } {
   const table = carom.table("9ft");
-  let balls = carom.rack(game, table).map(({ kind, state }): ShotBall => ({ kind, state: { ...state, r: [0, 0, -0.1], label: "pocketed" } }));
-  for (const [k, [x, y]] of Object.entries(places)) balls = carom.placeBall(table, balls, Number(k), x, y);
+  let balls = carom.rack(game, table).map(
+    ({ kind, state }): ShotBall => ({
+      kind,
+      state: { ...state, r: [0, 0, -0.1], label: "pocketed" },
+    }),
+  );
+  for (const [k, [x, y]] of Object.entries(places))
+    balls = carom.placeBall(table, balls, Number(k), x, y);
   return { table, balls };
 }
 const PLACES: Record<number, Vec2> = { 0: [0.4, 0.9], 1: [0.3, 1.9], 2: [0.9, 1.7], 9: [0.7, 0.5] };
@@ -17,17 +28,35 @@ const PLACES: Record<number, Vec2> = { 0: [0.4, 0.9], 1: [0.3, 1.9], 2: [0.9, 1.
 test.runIf(thereIsACommand)("both builds choose the shots that the command chooses", () => {
   const rows = builds.map(({ carom }) => {
     const { table, balls } = lay(carom, "nineball", PLACES);
-    return carom.plan(table, balls, { rules: "nineball", shots: 400, player: carom.player({ errors: 2 }) });
+    return carom.plan(table, balls, {
+      rules: "nineball",
+      shots: 400,
+      player: carom.player({ errors: 2 }),
+    });
   });
   expect(rows[1]).toEqual(rows[0]);
   const { balls } = lay(builds[0]!.carom, "nineball", PLACES);
-  const here = balls.flatMap((ball, k) => (ball.state.label === "pocketed" ? [] : [[k === 0 ? "cue" : String(k), ball] as const]));
-  const line = toLine({ tableName: "9ft", balls: here.map(([, ball]) => ball), names: here.map(([name]) => name), cue: builds[0]!.carom.cue() });
-  const [head, ...told] = run(["plan", "--rules", "nineball", "--shots", "400", "--errors", "2", "--csv", "-"], line).trim().split("\n").map((row) => row.split(","));
+  const here = balls.flatMap((ball, k) =>
+    ball.state.label === "pocketed" ? [] : [[k === 0 ? "cue" : String(k), ball] as const],
+  );
+  const line = toLine({
+    tableName: "9ft",
+    balls: here.map(([, ball]) => ball),
+    names: here.map(([name]) => name),
+    cue: builds[0]!.carom.cue(),
+  });
+  const [head, ...told] = run(
+    ["plan", "--rules", "nineball", "--shots", "400", "--errors", "2", "--csv", "-"],
+    line,
+  )
+    .trim()
+    .split("\n")
+    .map((row) => row.split(","));
   expect(told.length).toBe(rows[0]!.length);
   told.forEach((row, k) => {
     const one = rows[0]![k]!;
-    for (const key of ["speed", "phi", "a", "b"] as const) expect(Number(row[head!.indexOf(key)])).toBe(one.cue[key]);
+    for (const key of ["speed", "phi", "a", "b"] as const)
+      expect(Number(row[head!.indexOf(key)])).toBe(one.cue[key]);
     expect(row[head!.indexOf("kind")]).toBe(one.kind);
     expect(Number(row[head!.indexOf("value")])).toBeCloseTo(one.value, 5);
   });
@@ -42,7 +71,8 @@ test("a plan in slices has the choices of one call, whatever is computed between
     let slices = 1;
     let slice = thinking.next();
     for (; !slice.done; slice = thinking.next()) {
-      if (slices++ % 5 === 0) carom.simulate(carom.table("snooker"), [carom.ball(1, 1)], { speed: 1 });
+      if (slices++ % 5 === 0)
+        carom.simulate(carom.table("snooker"), [carom.ball(1, 1)], { speed: 1 });
     }
     expect(slice.value).toEqual(carom.plan(table, balls, options));
     expect(slices).toBeGreaterThan(8);
@@ -55,78 +85,151 @@ test("a plan in slices has the choices of one call, whatever is computed between
   expect(() => carom.think(table, balls, {}, 0)).toThrow("slice");
 });
 
-test.runIf(thereIsACommand)("a layout is planned by the numbers of its balls, in whatever order a line has them", () => {
-  const { carom } = builds[0]!;
-  const { balls } = lay(carom, "nineball", { 0: [0.4, 0.9], 2: [0.9, 1.7], 5: [0.3, 1.9], 9: [0.7, 0.5] });
-  const order = [0, 5, 2, 9];
-  const line = toLine({ tableName: "9ft", balls: order.map((k) => balls[k]!), names: order.map((k) => (k === 0 ? "cue" : String(k))), cue: carom.cue() });
-  const options = { rules: "nineball", shots: 400, best: 1 } as const;
-  const [head, best] = run(["plan", "--rules", "nineball", "--shots", "400", "--csv", "-"], line).trim().split("\n").map((row) => row.split(","));
-  const read = fromLine(carom, line);
-  const game: GameState = { rules: "nineball", group: "open", opening: false };
-  const ordered = byNumber(read, "nineball");
-  expect(ordered.balls.map(({ state }) => state.label === "pocketed")).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map((k) => !order.includes(k)));
-  expect(carom.ballsOn(game, ordered.balls)).toEqual([2]);
-  const [one] = carom.plan(read.table, ordered.balls, options);
-  expect(String(one!.ball)).toBe(best![head!.indexOf("ball")]);
-  expect(one!.value).toBeCloseTo(Number(best![head!.indexOf("value")]), 5);
-  // Its balls keep their numbers, and a list in another order is refused.
-  expect(carom.referee(read.table, ordered.balls, one!.cue, game).balls.map(({ id }) => id)).toEqual(ordered.names);
-  expect(toLine({ ...read, names: undefined })).toBe(toLine(read));
-  const wrong = /^balls\[1\].id: ball 1 of nineball belongs here, not "5"; byNumber\(line, "nineball"\) puts the balls in order$/;
-  expect(() => carom.plan(read.table, read.balls, options)).toThrow(wrong);
-  expect(() => carom.chances(read.table, read.balls, [{}], options)).toThrow(wrong);
-  expect(() => carom.ballsOn(game, read.balls)).toThrow(wrong);
-  expect(() => carom.referee(read.table, read.balls, {}, game)).toThrow(wrong);
-  expect(carom.plan(read.table, read.balls, { ...options, rules: "potting" }).length).toBe(1);
-  for (const [of, name] of [["5", "10"], ["5", "2"], ["9", "red 1"]] as const)
-    expect(() => byNumber(fromLine(carom, line.replace(`"id":"${of}"`, `"id":"${name}"`)), "nineball")).toThrow(`.id: the balls of nineball are the cue ball and 1 to 9, each once, not "${name}"`);
-});
+test.runIf(thereIsACommand)(
+  "a layout is planned by the numbers of its balls, in whatever order a line has them",
+  () => {
+    const { carom } = builds[0]!;
+    const { balls } = lay(carom, "nineball", {
+      0: [0.4, 0.9],
+      2: [0.9, 1.7],
+      5: [0.3, 1.9],
+      9: [0.7, 0.5],
+    });
+    const order = [0, 5, 2, 9];
+    const line = toLine({
+      tableName: "9ft",
+      balls: order.map((k) => balls[k]!),
+      names: order.map((k) => (k === 0 ? "cue" : String(k))),
+      cue: carom.cue(),
+    });
+    const options = { rules: "nineball", shots: 400, best: 1 } as const;
+    const [head, best] = run(["plan", "--rules", "nineball", "--shots", "400", "--csv", "-"], line)
+      .trim()
+      .split("\n")
+      .map((row) => row.split(","));
+    const read = fromLine(carom, line);
+    const game: GameState = { rules: "nineball", group: "open", opening: false };
+    const ordered = byNumber(read, "nineball");
+    expect(ordered.balls.map(({ state }) => state.label === "pocketed")).toEqual(
+      [0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map((k) => !order.includes(k)),
+    );
+    expect(carom.ballsOn(game, ordered.balls)).toEqual([2]);
+    const [one] = carom.plan(read.table, ordered.balls, options);
+    expect(String(one!.ball)).toBe(best![head!.indexOf("ball")]);
+    expect(one!.value).toBeCloseTo(Number(best![head!.indexOf("value")]), 5);
+    // Its balls keep their numbers, and a list in another order is refused.
+    expect(
+      carom.referee(read.table, ordered.balls, one!.cue, game).balls.map(({ id }) => id),
+    ).toEqual(ordered.names);
+    expect(toLine({ ...read, names: undefined })).toBe(toLine(read));
+    const wrong =
+      /^balls\[1\].id: ball 1 of nineball belongs here, not "5"; byNumber\(line, "nineball"\) puts the balls in order$/;
+    expect(() => carom.plan(read.table, read.balls, options)).toThrow(wrong);
+    expect(() => carom.chances(read.table, read.balls, [{}], options)).toThrow(wrong);
+    expect(() => carom.ballsOn(game, read.balls)).toThrow(wrong);
+    expect(() => carom.referee(read.table, read.balls, {}, game)).toThrow(wrong);
+    expect(carom.plan(read.table, read.balls, { ...options, rules: "potting" }).length).toBe(1);
+    for (const [of, name] of [
+      ["5", "10"],
+      ["5", "2"],
+      ["9", "red 1"],
+    ] as const)
+      expect(() =>
+        byNumber(fromLine(carom, line.replace(`"id":"${of}"`, `"id":"${name}"`)), "nineball"),
+      ).toThrow(`.id: the balls of nineball are the cue ball and 1 to 9, each once, not "${name}"`);
+  },
+);
 
-test.runIf(thereIsACommand)("aims are those of the command, by a bank and a combination too", () => {
-  for (const { carom } of builds) {
-    const table = carom.table("9ft");
-    const one: Vec2[] = [[0.9, 1.5]];
-    const two: Vec2[] = [[0.55, 1.3], [0.4, 1.8]];
-    const asked = [[one, 1, "foot-right", []], [one, 1, "foot-left", ["right"]], [two, 2, "foot-left", [1]], [two, 2, "foot-right", [1, "left"]]] as const;
-    const balls = [[0.6, 0.8], ...one].map(([x, y]) => carom.ball(x!, y!));
-    for (const [places, ball, pocket, via] of asked) {
-      const balls = [[0.6, 0.8], ...places].map(([x, y]) => carom.ball(x!, y!));
-      const aimed = carom.aim(table, balls, { speed: 3 }, { ball, pocket, via });
-      expect(aimed.is).toBe("falls");
-      const words = ["shoot", "--cue", "0.6,0.8", "--balls", places.map((place) => place.join(",")).join(":"), "--speed", "3", "--pocket", `${ball}:${pocket}`, ...(via.length > 0 ? ["--via", via.join(",")] : [])];
-      expect(aimed.cue.phi).toBeCloseTo(JSON.parse(run([...words, "--json"], "")).cue.phi, 9);
-      const fall = carom.simulate(table, balls, aimed.cue).events.find(({ type, a }) => type === "ball_pocket" && a === ball);
-      expect(carom.pocketNames(table)[fall!.b]).toBe(pocket);
-      const told = run(words, "");
-      expect(told).toContain(`turn by ${aimed.margin.toFixed(2)} degrees to either jaw`);
-      expect(told).toContain(`aims of ${aimed.phi[0].toFixed(2)} to ${aimed.phi[1].toFixed(2)} degrees`);
+test.runIf(thereIsACommand)(
+  "aims are those of the command, by a bank and a combination too",
+  () => {
+    for (const { carom } of builds) {
+      const table = carom.table("9ft");
+      const one: Vec2[] = [[0.9, 1.5]];
+      const two: Vec2[] = [
+        [0.55, 1.3],
+        [0.4, 1.8],
+      ];
+      const asked = [
+        [one, 1, "foot-right", []],
+        [one, 1, "foot-left", ["right"]],
+        [two, 2, "foot-left", [1]],
+        [two, 2, "foot-right", [1, "left"]],
+      ] as const;
+      const balls = [[0.6, 0.8], ...one].map(([x, y]) => carom.ball(x!, y!));
+      for (const [places, ball, pocket, via] of asked) {
+        const balls = [[0.6, 0.8], ...places].map(([x, y]) => carom.ball(x!, y!));
+        const aimed = carom.aim(table, balls, { speed: 3 }, { ball, pocket, via });
+        expect(aimed.is).toBe("falls");
+        const words = [
+          "shoot",
+          "--cue",
+          "0.6,0.8",
+          "--balls",
+          places.map((place) => place.join(",")).join(":"),
+          "--speed",
+          "3",
+          "--pocket",
+          `${ball}:${pocket}`,
+          ...(via.length > 0 ? ["--via", via.join(",")] : []),
+        ];
+        expect(aimed.cue.phi).toBeCloseTo(JSON.parse(run([...words, "--json"], "")).cue.phi, 9);
+        const fall = carom
+          .simulate(table, balls, aimed.cue)
+          .events.find(({ type, a }) => type === "ball_pocket" && a === ball);
+        expect(carom.pocketNames(table)[fall!.b]).toBe(pocket);
+        const told = run(words, "");
+        expect(told).toContain(`turn by ${aimed.margin.toFixed(2)} degrees to either jaw`);
+        expect(told).toContain(
+          `aims of ${aimed.phi[0].toFixed(2)} to ${aimed.phi[1].toFixed(2)} degrees`,
+        );
+      }
+      const rail = [
+        [0.62, 0.03],
+        [0.4, 2.2],
+      ].map(([x, y]) => carom.ball(x!, y!));
+      const [level, raised] = [0, NaN].map((theta) =>
+        carom.aim(table, rail, { speed: 3, theta }, { ball: 1, pocket: "foot-left" }),
+      );
+      expect([level!.cue.theta, raised!.cue.theta]).toEqual([0, raised!.elevation]);
+      expect(raised!.elevation).toBeCloseTo(level!.elevation, 1);
+      expect(level!.elevation).toBeGreaterThan(10);
+      const none = carom.aim(table, balls, { speed: 0.5 }, { ball: 1, pocket: "foot-right" });
+      expect([none.is, none.met]).toEqual(["short", { type: "rolling_stationary", a: 1, b: -1 }]);
+      expect(() => carom.aim(table, balls, {}, { ball: 1, pocket: "top-right" })).toThrow(
+        /pocket: it must be one of head-left/,
+      );
+      expect(() => carom.aim(table, balls, {}, { ball: 1, pocket: 2, via: ["lft"] })).toThrow(
+        /via: .*did you mean "left"/,
+      );
     }
-    const rail = [[0.62, 0.03], [0.4, 2.2]].map(([x, y]) => carom.ball(x!, y!));
-    const [level, raised] = [0, NaN].map((theta) => carom.aim(table, rail, { speed: 3, theta }, { ball: 1, pocket: "foot-left" }));
-    expect([level!.cue.theta, raised!.cue.theta]).toEqual([0, raised!.elevation]);
-    expect(raised!.elevation).toBeCloseTo(level!.elevation, 1);
-    expect(level!.elevation).toBeGreaterThan(10);
-    const none = carom.aim(table, balls, { speed: 0.5 }, { ball: 1, pocket: "foot-right" });
-    expect([none.is, none.met]).toEqual(["short", { type: "rolling_stationary", a: 1, b: -1 }]);
-    expect(() => carom.aim(table, balls, {}, { ball: 1, pocket: "top-right" })).toThrow(/pocket: it must be one of head-left/);
-    expect(() => carom.aim(table, balls, {}, { ball: 1, pocket: 2, via: ["lft"] })).toThrow(/via: .*did you mean "left"/);
-  }
-});
+  },
+);
 
 test("one set of names for pockets", () => {
   const { carom } = builds[0]!;
   for (const name of ["7ft", "8ft", "9ft", "snooker"] as const) {
     const table = carom.table(name);
-    expect(carom.pocketNames(table).map((pocket) => `${pocket} pocket`)).toEqual(table.pockets.map((_, k) => pocketName(table, k)));
-    expect(new Set(carom.railNames(table))).toEqual(new Set(["left", "right", "head", "foot", undefined]));
+    expect(carom.pocketNames(table).map((pocket) => `${pocket} pocket`)).toEqual(
+      table.pockets.map((_, k) => pocketName(table, k)),
+    );
+    expect(new Set(carom.railNames(table))).toEqual(
+      new Set(["left", "right", "head", "foot", undefined]),
+    );
   }
 });
 
 test("ball in hand, chances and errors", () => {
   const { carom } = builds[0]!;
   const { table, balls } = lay(carom, "nineball", PLACES);
-  const [one] = carom.plan(table, balls, { rules: "nineball", shots: 200, inHand: [[0, 0], [table.width, 0.4]] });
+  const [one] = carom.plan(table, balls, {
+    rules: "nineball",
+    shots: 200,
+    inHand: [
+      [0, 0],
+      [table.width, 0.4],
+    ],
+  });
   expect(one!.place[1]).toBeLessThan(0.4);
   const weak = carom.player({ errors: 6 });
   const [sure, unsure] = [carom.player({ errors: 0.2 }), weak].map((player) => {
@@ -135,7 +238,10 @@ test("ball in hand, chances and errors", () => {
   });
   expect(sure!.kind).toBe("given");
   expect(sure!.seen).toBe(300);
-  const strokes = Array.from({ length: 500 }, (_, k) => carom.withErrors({ speed: 2, phi: 40 }, weak, 3, k).phi - 40);
+  const strokes = Array.from(
+    { length: 500 },
+    (_, k) => carom.withErrors({ speed: 2, phi: 40 }, weak, 3, k).phi - 40,
+  );
   const spread = Math.sqrt(strokes.reduce((sum, x) => sum + x * x, 0) / strokes.length);
   expect(spread).toBeGreaterThan(0.5);
   expect(spread).toBeLessThan(0.7);
@@ -149,31 +255,82 @@ test("rulings of shots", () => {
   for (const { carom } of builds) {
     const game: GameState = { rules: "eightball", group: "open", opening: false };
     // 3 hangs in the corner at 0, 0; 11 and the eight lie elsewhere
-    const { table, balls } = lay(carom, "eightball", { 0: [0.3, 0.3], 3: [0.04, 0.04], 11: [0.6, 0.6], 8: [0.6, 1.6] });
+    const { table, balls } = lay(carom, "eightball", {
+      0: [0.3, 0.3],
+      3: [0.04, 0.04],
+      11: [0.6, 0.6],
+      8: [0.6, 1.6],
+    });
     const pocket = table.pockets.findIndex(({ centre }) => centre[0] < 0.1 && centre[1] < 0.1);
     expect(carom.ballsOn(game, balls)).toEqual([3, 11]);
-    const pot = carom.referee(table, balls, { speed: 1.2, phi: 225, b: -0.3 }, game, { ball: 3, pocket });
+    const pot = carom.referee(table, balls, { speed: 1.2, phi: 225, b: -0.3 }, game, {
+      ball: 3,
+      pocket,
+    });
     expect([pot.turn, pot.foul, pot.hand, pot.game.group]).toEqual(["keep", false, "no", "solids"]);
     expect(pot.balls[3]!.state.label).toBe("pocketed");
-    expect(carom.rule(carom.simulate(table, balls, { speed: 1.2, phi: 225, b: -0.3 }), game, { ball: 3, pocket })).toEqual(pot);
+    expect(
+      carom.rule(carom.simulate(table, balls, { speed: 1.2, phi: 225, b: -0.3 }), game, {
+        ball: 3,
+        pocket,
+      }),
+    ).toEqual(pot);
     // the wrong ball first
     const foul = carom.referee(table, balls, { speed: 2, phi: 45 }, { ...game, group: "solids" });
-    expect([foul.turn, foul.foul, foul.hand, foul.game.group]).toEqual(["pass", true, "anywhere", "stripes"]);
+    expect([foul.turn, foul.foul, foul.hand, foul.game.group]).toEqual([
+      "pass",
+      true,
+      "anywhere",
+      "stripes",
+    ]);
     // nine-ball: the nine that falls by a foul comes back
     const nine = lay(carom, "nineball", { 0: [0.3, 0.3], 9: [0.04, 0.04], 1: [0.6, 1.6] });
-    const back = carom.referee(nine.table, nine.balls, { speed: 1.2, phi: 225, b: -0.3 }, { ...game, rules: "nineball" });
+    const back = carom.referee(
+      nine.table,
+      nine.balls,
+      { speed: 1.2, phi: 225, b: -0.3 },
+      { ...game, rules: "nineball" },
+    );
     expect([back.turn, back.foul]).toEqual(["pass", true]);
-    expect(back.balls[9]!.state.r.slice(0, 2)).toEqual([0.5 * nine.table.width, 0.75 * nine.table.length]);
+    expect(back.balls[9]!.state.r.slice(0, 2)).toEqual([
+      0.5 * nine.table.width,
+      0.75 * nine.table.length,
+    ]);
     expect([foul.reason, back.reason, pot.reason]).toEqual(["cue_ball", "first", "none"]);
     // after the break a push-out, which is no foul; then the other passes
-    const pushed = carom.referee(nine.table, nine.balls, { speed: 0.1, phi: 0 }, { ...game, rules: "nineball", may: ["push"], fouls: [1, 2] }, "push");
-    expect([pushed.turn, pushed.foul, pushed.game.may, pushed.game.fouls]).toEqual(["pass", false, ["pass"], [2, 1]]);
+    const pushed = carom.referee(
+      nine.table,
+      nine.balls,
+      { speed: 0.1, phi: 0 },
+      { ...game, rules: "nineball", may: ["push"], fouls: [1, 2] },
+      "push",
+    );
+    expect([pushed.turn, pushed.foul, pushed.game.may, pushed.game.fouls]).toEqual([
+      "pass",
+      false,
+      ["pass"],
+      [2, 1],
+    ]);
     const passed = carom.referee(nine.table, pushed.balls, { speed: 5 }, pushed.game, "pass");
-    expect([passed.turn, passed.foul, passed.game.may, passed.balls]).toEqual(["pass", false, [], pushed.balls]);
+    expect([passed.turn, passed.foul, passed.game.may, passed.balls]).toEqual([
+      "pass",
+      false,
+      [],
+      pushed.balls,
+    ]);
     // the third foul in succession loses
-    const third = carom.referee(nine.table, nine.balls, { speed: 0.1, phi: 0 }, { ...game, rules: "nineball", fouls: [2, 0] });
+    const third = carom.referee(
+      nine.table,
+      nine.balls,
+      { speed: 0.1, phi: 0 },
+      { ...game, rules: "nineball", fouls: [2, 0] },
+    );
     expect([third.turn, third.reason]).toEqual(["lose", "no_ball"]);
-    expect(carom.plan(nine.table, nine.balls, { rules: "nineball", may: ["pass"], best: 50 }).some(({ kind }) => kind === "pass")).toBe(true);
+    expect(
+      carom
+        .plan(nine.table, nine.balls, { rules: "nineball", may: ["pass"], best: 50 })
+        .some(({ kind }) => kind === "pass"),
+    ).toBe(true);
   }
 });
 
@@ -184,11 +341,19 @@ test("points of three-cushion", () => {
   const best = carom.plan(table, balls, { rules: "threecushion", shots: 600 });
   expect(best[0]!.value).toBeCloseTo(best[0]!.keep - 0.75 * best[0]!.error, 12);
   expect(["carom", "kick"]).toContain(best[0]!.kind);
-  const { turn, facts } = carom.referee(table, balls, best[0]!.cue, { rules: "threecushion", group: "open", opening: false });
+  const { turn, facts } = carom.referee(table, balls, best[0]!.cue, {
+    rules: "threecushion",
+    group: "open",
+    opening: false,
+  });
   expect(facts.first[1] > 0 && facts.cushionsBefore[1] >= 3).toBe(turn === "keep");
   expect(["keep", "pass"]).toContain(turn);
-  expect(() => carom.plan(table, balls.slice(0, 2), { rules: "threecushion" })).toThrow("balls: threecushion needs three");
-  expect(() => carom.plan(carom.table("9ft"), balls, { rules: "threecushion" })).toThrow("table: threecushion needs one without pockets");
+  expect(() => carom.plan(table, balls.slice(0, 2), { rules: "threecushion" })).toThrow(
+    "balls: threecushion needs three",
+  );
+  expect(() => carom.plan(carom.table("9ft"), balls, { rules: "threecushion" })).toThrow(
+    "table: threecushion needs one without pockets",
+  );
 });
 
 test("arguments in error", () => {
@@ -197,24 +362,53 @@ test("arguments in error", () => {
   expect(() => carom.plan(table, balls, { rules: "croquet" as "nineball" })).toThrow(/rules/);
   expect(() => carom.plan(table, balls, { shots: 10 })).toThrow(/shots/);
   expect(() => carom.plan(table, balls, { shot: { space: "wide" as "flat" } })).toThrow(/space/);
-  expect(() => carom.plan(table, balls, { oponent: carom.player() } as object)).toThrow(/did you mean "opponent"/);
+  expect(() => carom.plan(table, balls, { oponent: carom.player() } as object)).toThrow(
+    /did you mean "opponent"/,
+  );
   expect(() => carom.player({ fargo: 50 })).toThrow(/fargo/);
   expect(() => carom.player({ errors: -1 })).toThrow(/errors/);
-  expect(() => carom.player({ errors: 1, fargo: 500 })).toThrow("errors, fargo: a player has errors or a rating, not both");
-  expect(() => carom.plan(table, balls, { rules: "nineball", group: "solids" })).toThrow("group: by the rules nineball it must be 0, as the game has none");
-  expect(() => carom.plan(table, balls, { rules: "potting", may: ["push"] })).toThrow("may: by the rules potting it must be 0, as the game has none");
-  expect(() => carom.plan(carom.table("threecushion"), balls.slice(0, 3), {})).toThrow("table: it has no pockets, which eightball needs");
+  expect(() => carom.player({ errors: 1, fargo: 500 })).toThrow(
+    "errors, fargo: a player has errors or a rating, not both",
+  );
+  expect(() => carom.plan(table, balls, { rules: "nineball", group: "solids" })).toThrow(
+    "group: by the rules nineball it must be 0, as the game has none",
+  );
+  expect(() => carom.plan(table, balls, { rules: "potting", may: ["push"] })).toThrow(
+    "may: by the rules potting it must be 0, as the game has none",
+  );
+  expect(() => carom.plan(carom.table("threecushion"), balls.slice(0, 3), {})).toThrow(
+    "table: it has no pockets, which eightball needs",
+  );
   const more = carom.rack("eightball", table, { seed: 1 });
-  expect(() => carom.plan(table, more, { rules: "nineball" })).toThrow("balls: the balls of nineball are the cue ball and 1 to 9, not 10");
-  const down = balls.map((ball, k) => (k === 0 ? ball : { ...ball, state: { ...ball.state, label: "pocketed" as const } }));
-  expect(() => carom.plan(table, down, { rules: "nineball" })).toThrow(/no ball is left to be played/);
-  expect(() => carom.ballsOn({ rules: "nineball", group: "stripe" as "open", opening: false }, balls)).toThrow(/group/);
+  expect(() => carom.plan(table, more, { rules: "nineball" })).toThrow(
+    "balls: the balls of nineball are the cue ball and 1 to 9, not 10",
+  );
+  const down = balls.map((ball, k) =>
+    k === 0 ? ball : { ...ball, state: { ...ball.state, label: "pocketed" as const } },
+  );
+  expect(() => carom.plan(table, down, { rules: "nineball" })).toThrow(
+    /no ball is left to be played/,
+  );
+  expect(() =>
+    carom.ballsOn({ rules: "nineball", group: "stripe" as "open", opening: false }, balls),
+  ).toThrow(/group/);
 });
 
 test("one-pocket: the pocket of the player, balls that come back, a ball that is owed", () => {
   const { carom } = builds[0]!;
   const pool = carom.table("9ft");
-  let balls = carom.rack("eightball", pool).map((ball, k) => (k < 2 ? ball : { ...ball, state: { ...ball.state, r: [0, 0, -0.1] as [number, number, number], label: "pocketed" as const } }));
+  let balls = carom.rack("eightball", pool).map((ball, k) =>
+    k < 2
+      ? ball
+      : {
+          ...ball,
+          state: {
+            ...ball.state,
+            r: [0, 0, -0.1] as [number, number, number],
+            label: "pocketed" as const,
+          },
+        },
+  );
   balls = carom.placeBall(pool, carom.placeBall(pool, balls, 0, 0.6, 1.4), 1, 0.95, 2.1);
   const own = carom.pocketNames(pool).indexOf("foot-right");
   const [best] = carom.plan(pool, balls, { rules: "onepocket", shots: 200 });
@@ -224,45 +418,117 @@ test("one-pocket: the pocket of the player, balls that come back, a ball that is
   const given = carom.referee(pool, balls, best!.cue, { ...game, pocket: [2, own], score: [3, 6] });
   expect([given.turn, given.score]).toEqual(["pass", [7, 3]]);
   const missed = carom.referee(pool, balls, carom.cue({ speed: 0.5, phi: 180 }), game);
-  expect([missed.turn, missed.reason, missed.score, missed.game.pocket, missed.game.lost]).toEqual(["pass", "no_ball", [0, -1], [2, own], [0, 1]]);
-  expect(() => carom.plan(pool, balls.slice(0, 5), { rules: "onepocket" })).toThrow("balls: onepocket has the cue ball and 1 to 15");
+  expect([missed.turn, missed.reason, missed.score, missed.game.pocket, missed.game.lost]).toEqual([
+    "pass",
+    "no_ball",
+    [0, -1],
+    [2, own],
+    [0, 1],
+  ]);
+  expect(() => carom.plan(pool, balls.slice(0, 5), { rules: "onepocket" })).toThrow(
+    "balls: onepocket has the cue ball and 1 to 15",
+  );
 });
 
 test("straight pool and snooker: points, colours on their own spots, a foul, the other who plays again", () => {
   const { carom } = builds[0]!;
   const pool = carom.table("9ft");
-  const down = (balls: ShotBall[], ...up: number[]): ShotBall[] => balls.map((ball, k) => (up.includes(k) ? ball : { ...ball, state: { ...ball.state, r: [0, 0, -0.1], label: "pocketed" as const } }));
+  const down = (balls: ShotBall[], ...up: number[]): ShotBall[] =>
+    balls.map((ball, k) =>
+      up.includes(k)
+        ? ball
+        : { ...ball, state: { ...ball.state, r: [0, 0, -0.1], label: "pocketed" as const } },
+    );
   let balls = down(carom.rack("eightball", pool), 0, 3, 9);
-  balls = carom.placeBall(pool, carom.placeBall(pool, carom.placeBall(pool, balls, 0, 0.4, 0.9), 3, 0.3, 1.9), 9, 0.9, 1.7);
+  balls = carom.placeBall(
+    pool,
+    carom.placeBall(pool, carom.placeBall(pool, balls, 0, 0.4, 0.9), 3, 0.3, 1.9),
+    9,
+    0.9,
+    1.7,
+  );
   const [best] = carom.plan(pool, balls, { rules: "straight", shots: 600 });
-  const made = carom.referee(pool, balls, best!.cue, { rules: "straight", group: "open", opening: false }, { ball: best!.ball, pocket: best!.pocket });
+  const made = carom.referee(
+    pool,
+    balls,
+    best!.cue,
+    { rules: "straight", group: "open", opening: false },
+    { ball: best!.ball, pocket: best!.pocket },
+  );
   expect([made.turn, made.score, made.points, made.hand]).toEqual(["keep", [1, 0], 1, "no"]);
   expect(made.balls.every(({ state }) => state.label === "stationary")).toBe(true); // racked again
-  expect([made.facts.first[0], made.facts.potted]).toMatchObject([best!.ball, [{ ball: best!.ball, pocket: best!.pocket }]]);
+  expect([made.facts.first[0], made.facts.potted]).toMatchObject([
+    best!.ball,
+    [{ ball: best!.ball, pocket: best!.pocket }],
+  ]);
   const missed = carom.referee(pool, balls, carom.cue({ speed: 0.5, phi: 180 }), made.game);
   expect([missed.turn, missed.reason, missed.score]).toEqual(["pass", "no_ball", [0, 0]]);
-  expect(missed.game).toMatchObject({ target: 100, opening: false, score: [0, 1], lost: [0, 1], fouls: [0, 1], may: [] });
+  expect(missed.game).toMatchObject({
+    target: 100,
+    opening: false,
+    score: [0, 1],
+    lost: [0, 1],
+    fouls: [0, 1],
+    may: [],
+  });
 
   const table = carom.table("snooker");
   const rack = carom.rack("snooker", table);
   const spot = rack[21]!.state.r;
-  const layout = carom.placeBall(table, carom.placeBall(table, down(rack, 0, 1, 16, 17, 18, 19, 20, 21), 1, 0.3, 1.2), 0, 1.4, 3.2);
-  const [black] = carom.plan(table, layout, { rules: "snooker", on: 1, shots: 1000, player: carom.player({ errors: 0.2 }), cue: carom.cue({}, "snooker") });
+  const layout = carom.placeBall(
+    table,
+    carom.placeBall(table, down(rack, 0, 1, 16, 17, 18, 19, 20, 21), 1, 0.3, 1.2),
+    0,
+    1.4,
+    3.2,
+  );
+  const [black] = carom.plan(table, layout, {
+    rules: "snooker",
+    on: 1,
+    shots: 1000,
+    player: carom.player({ errors: 0.2 }),
+    cue: carom.cue({}, "snooker"),
+  });
   expect(black!.ball).toBe(21);
-  const seven = carom.referee(table, layout, black!.cue, { rules: "snooker", group: "open", opening: false, on: 1 }, { ball: 21, pocket: -1 });
+  const seven = carom.referee(
+    table,
+    layout,
+    black!.cue,
+    { rules: "snooker", group: "open", opening: false, on: 1 },
+    { ball: 21, pocket: -1 },
+  );
   expect([seven.turn, seven.score, seven.balls[21]!.state.r]).toEqual(["keep", [7, 0], spot]);
-  const foul = carom.referee(table, layout, carom.cue({ speed: 0.1, phi: 0 }, "snooker"), { rules: "snooker", group: "open", opening: false });
+  const foul = carom.referee(table, layout, carom.cue({ speed: 0.1, phi: 0 }, "snooker"), {
+    rules: "snooker",
+    group: "open",
+    opening: false,
+  });
   expect([foul.reason, foul.score]).toEqual(["no_ball", [4, 0]]);
   const again = carom.referee(table, foul.balls, carom.cue({}, "snooker"), foul.game, "pass");
-  expect([again.turn, again.foul, again.score, again.game.may]).toEqual(["pass", false, [0, 4], []]);
-  expect(() => carom.plan(table, layout.slice(0, 5), { rules: "snooker" })).toThrow("balls: snooker has the cue ball and 1 to 21");
-  expect(() => carom.plan(pool, balls, { rules: "straight", score: 3 as never })).toThrow("game.score: it must be a whole number");
+  expect([again.turn, again.foul, again.score, again.game.may]).toEqual([
+    "pass",
+    false,
+    [0, 4],
+    [],
+  ]);
+  expect(() => carom.plan(table, layout.slice(0, 5), { rules: "snooker" })).toThrow(
+    "balls: snooker has the cue ball and 1 to 21",
+  );
+  expect(() => carom.plan(pool, balls, { rules: "straight", score: 3 as never })).toThrow(
+    "game.score: it must be a whole number",
+  );
   const [first] = carom.plan(table, rack, { rules: "snooker", inHand: true, shots: 300 });
-  expect(Math.hypot(first!.place[0] - table.width / 2, first!.place[1] - 0.737)).toBeLessThan(0.2921);
+  expect(Math.hypot(first!.place[0] - table.width / 2, first!.place[1] - 0.737)).toBeLessThan(
+    0.2921,
+  );
 });
 
 test("a rating grows with what is won, by both builds; a score in error is named", () => {
-  const [plain, simd] = builds.map(({ carom }) => (won: number) => carom.rating([{ against: 500, won, lost: 3 }]));
+  const [plain, simd] = builds.map(
+    ({ carom }) =>
+      (won: number) =>
+        carom.rating([{ against: 500, won, lost: 3 }]),
+  );
   expect(plain!(7).mean).toBeCloseTo(560.89336, 4);
   expect(plain!(7)).toEqual(simd!(7));
   expect(plain!(8).low).toBeGreaterThan(plain!(7).low);

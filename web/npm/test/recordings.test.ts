@@ -18,10 +18,16 @@ test.each(builds)("a game is replayed with the same bits, by $name", ({ carom })
   const { balls } = game;
   const text = game.end();
   const shots = [...carom.replay(text)];
-  expect(shots.map(({ shot, same, continues }) => [shot, same, continues])).toEqual([[1, true, false], [2, true, true], [3, true, false]]);
+  expect(shots.map(({ shot, same, continues }) => [shot, same, continues])).toEqual([
+    [1, true, false],
+    [2, true, true],
+    [3, true, false],
+  ]);
   expect(shots[2]!.final).toEqual(balls.map(({ state }) => state));
   // The film of each shot; that of the one that continues has the whole shot.
-  const whole = carom.simulate(shots[0]!.table, shots[0]!.balls, shots[0]!.cue, { cushionModel: "stronge" });
+  const whole = carom.simulate(shots[0]!.table, shots[0]!.balls, shots[0]!.cue, {
+    cushionModel: "stronge",
+  });
   expect(shots.map(({ film }) => film.time)).toEqual([0.5, whole.time, shots[2]!.played.time]);
   expect(shots[1]!.film.events).toEqual(whole.events);
   expect(shots[0]!.film.events).toEqual(whole.events.filter(({ time }) => time <= 0.5));
@@ -29,13 +35,18 @@ test.each(builds)("a game is replayed with the same bits, by $name", ({ carom })
   // As simulate() plays them.
   const third = shots[2]!;
   const again = carom.simulate(third.table, third.balls, third.cue, { cushionModel: "stronge" });
-  expect([again.time, again.count, again.final]).toEqual([third.played.time, third.played.events, third.final]);
+  expect([again.time, again.count, again.final]).toEqual([
+    third.played.time,
+    third.played.events,
+    third.final,
+  ]);
   if (thereIsACommand) expect(run(["verify", "-"], text)).toContain("3 shots, every bit agrees");
 });
 
 test.runIf(thereIsACommand)("what the command records is replayed here", () => {
   const text = run(["record", `${root}data/shots-pooltool.jsonl`]);
-  for (const { carom } of builds) expect([...carom.replay(text)].filter(({ same }) => same).length).toBe(30);
+  for (const { carom } of builds)
+    expect([...carom.replay(text)].filter(({ same }) => same).length).toBe(30);
 });
 
 test("two programs read each other's lines", () => {
@@ -58,7 +69,9 @@ test("two programs read each other's lines", () => {
 test("a forged stroke, damage and other revisions are told", () => {
   const { carom } = builds[0]!;
   const text = aGame(carom).end();
-  expect([...carom.replay(text.replace('"speed":2.5', '"speed":2.6'))].map(({ same }) => same)).toEqual([true, true, false]);
+  expect(
+    [...carom.replay(text.replace('"speed":2.5', '"speed":2.6'))].map(({ same }) => same),
+  ).toEqual([true, true, false]);
   const refused = (damaged: string, said: RegExp): void => {
     expect(() => [...carom.replay(damaged)]).toThrow(CaromError);
     expect(() => [...carom.replay(damaged)]).toThrow(said);

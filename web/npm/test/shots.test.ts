@@ -1,14 +1,28 @@
 // Whole shots: against the command `carom shoot`, batches, times, lines, and what is refused.
 import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
-import { type BallState, type Build, type Carom, CaromError, type EventType, fromLine, load, type Shot, toLine } from "../dist/index.js";
+import {
+  type BallState,
+  type Build,
+  type Carom,
+  CaromError,
+  type EventType,
+  fromLine,
+  load,
+  type Shot,
+  toLine,
+} from "../dist/index.js";
 import { builds, root, run, thereIsACommand } from "./support.js";
 
 const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
 const flat = (s: BallState): number[] => [LABELS.indexOf(s.label), ...s.r, ...s.v, ...s.w];
 const break9 = readFileSync(`${root}data/break-nineball.jsonl`, "utf8").trim();
 const layouts = readFileSync(`${root}data/shots-layouts.jsonl`, "utf8").trim().split("\n");
-const named = layouts.filter((line) => /"kind": "shot"/.test(line) && /"table": "(pooltool|7ft|8ft|9ft|snooker|threecushion)"/.test(line));
+const named = layouts.filter(
+  (line) =>
+    /"kind": "shot"/.test(line) &&
+    /"table": "(pooltool|7ft|8ft|9ft|snooker|threecushion)"/.test(line),
+);
 
 function played(carom: Carom, line: string): Shot {
   const { table, balls, cue } = fromLine(carom, line);
@@ -29,24 +43,35 @@ function expectFinal(shot: Shot, names: string[], recorded: Recorded): void {
 }
 
 describe.each(builds)("shots by $name", ({ carom, name }) => {
-  test.runIf(thereIsACommand)("a shot has one meaning: what is typed to the command is the same stroke", () => {
-    const typed = (...words: string[]) => fromLine(carom, run(["shoot", "--cue", "0.6,0.8", ...words, "--json"])).cue;
-    expect(carom.cue()).toMatchObject({ speed: 2, phi: 90, theta: 0, a: 0, b: 0.25 });
-    for (const [words, fields] of [
-      [[], {}],
-      [["--speed", "3", "--aim", "95", "--tip", "0.2,-0.3"], { speed: 3, phi: 95, tip: [0.2, -0.3] }],
-      [["--ball-speed", "3", "--tip", "-0.1,0.1"], { ballSpeed: 3, tip: [-0.1, 0.1] }],
-    ] as const) {
-      const { speed, phi, theta, a, b } = carom.cue(fields);
-      expect(typed(...words)).toMatchObject({ speed, phi, theta, a, b });
-    }
-    expect(() => carom.cue({ speed: 1, ballSpeed: 1 })).toThrow("cue.ballSpeed");
-    expect(() => carom.cue({ theta: 5, ballSpeed: 1 })).toThrow("level cue");
-    expect(() => carom.cue({ tip: [0, 0], b: 0 })).toThrow("cue.tip");
-  });
+  test.runIf(thereIsACommand)(
+    "a shot has one meaning: what is typed to the command is the same stroke",
+    () => {
+      const typed = (...words: string[]) =>
+        fromLine(carom, run(["shoot", "--cue", "0.6,0.8", ...words, "--json"])).cue;
+      expect(carom.cue()).toMatchObject({ speed: 2, phi: 90, theta: 0, a: 0, b: 0.25 });
+      for (const [words, fields] of [
+        [[], {}],
+        [
+          ["--speed", "3", "--aim", "95", "--tip", "0.2,-0.3"],
+          { speed: 3, phi: 95, tip: [0.2, -0.3] },
+        ],
+        [["--ball-speed", "3", "--tip", "-0.1,0.1"], { ballSpeed: 3, tip: [-0.1, 0.1] }],
+      ] as const) {
+        const { speed, phi, theta, a, b } = carom.cue(fields);
+        expect(typed(...words)).toMatchObject({ speed, phi, theta, a, b });
+      }
+      expect(() => carom.cue({ speed: 1, ballSpeed: 1 })).toThrow("cue.ballSpeed");
+      expect(() => carom.cue({ theta: 5, ballSpeed: 1 })).toThrow("level cue");
+      expect(() => carom.cue({ tip: [0, 0], b: 0 })).toThrow("cue.tip");
+    },
+  );
 
   test.runIf(thereIsACommand)("the break of data/, event by event: the command's doubles", () => {
-    const recorded = run(["shoot", "-"], break9).trim().split("\n").map((line) => JSON.parse(line) as Recorded).find((line) => line.kind === "shot")!;
+    const recorded = run(["shoot", "-"], break9)
+      .trim()
+      .split("\n")
+      .map((line) => JSON.parse(line) as Recorded)
+      .find((line) => line.kind === "shot")!;
     const shot = played(carom, break9);
     expect(shot.status).toBe(recorded.status);
     // The file has events of no type before and after the others, as pooltool's have.
@@ -55,27 +80,38 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     shot.events.forEach((event, k) => {
       const [time, type, , before, after] = events[k]!;
       expect([event.time, event.type]).toEqual([time, type]);
-      expect(event.before.map(flat).slice(0, before.length)).toEqual(before.slice(0, event.before.length));
-      expect(event.after.map(flat).slice(0, after.length)).toEqual(after.slice(0, event.after.length));
+      expect(event.before.map(flat).slice(0, before.length)).toEqual(
+        before.slice(0, event.before.length),
+      );
+      expect(event.after.map(flat).slice(0, after.length)).toEqual(
+        after.slice(0, event.after.length),
+      );
     });
     expectFinal(shot, fromLine(carom, break9).names, recorded);
   });
 
-  test.runIf(thereIsACommand)("lines that are written are read by the command, with the same final states", () => {
-    const table = carom.table("snooker");
-    const balls = carom.rack("snooker", table, { seed: 5 });
-    const cue = carom.cue({ speed: 6.5, phi: 88.5, a: 0.3, b: -0.2, theta: 4 }, "snooker");
-    const line = toLine({ tableName: "snooker", balls, cue });
-    const shot = carom.simulate(table, balls, cue);
-    const recorded = JSON.parse(run(["shoot", "--events", "none", "-"], line).trim().split("\n").at(-1)!) as Recorded;
-    expect(recorded.status).toBe("ok");
-    const read = fromLine(carom, line);
-    expectFinal(shot, read.names, recorded);
-    expect(read.balls).toEqual(balls.map((ball, k) => ({ ...ball, id: k === 0 ? "cue" : String(k) })));
-    expect(read.cue).toEqual(cue);
-    expect(read.table).toEqual(table);
-    expect(toLine(read)).toBe(line);
-  });
+  test.runIf(thereIsACommand)(
+    "lines that are written are read by the command, with the same final states",
+    () => {
+      const table = carom.table("snooker");
+      const balls = carom.rack("snooker", table, { seed: 5 });
+      const cue = carom.cue({ speed: 6.5, phi: 88.5, a: 0.3, b: -0.2, theta: 4 }, "snooker");
+      const line = toLine({ tableName: "snooker", balls, cue });
+      const shot = carom.simulate(table, balls, cue);
+      const recorded = JSON.parse(
+        run(["shoot", "--events", "none", "-"], line).trim().split("\n").at(-1)!,
+      ) as Recorded;
+      expect(recorded.status).toBe("ok");
+      const read = fromLine(carom, line);
+      expectFinal(shot, read.names, recorded);
+      expect(read.balls).toEqual(
+        balls.map((ball, k) => ({ ...ball, id: k === 0 ? "cue" : String(k) })),
+      );
+      expect(read.cue).toEqual(cue);
+      expect(read.table).toEqual(table);
+      expect(toLine(read)).toBe(line);
+    },
+  );
 
   test.runIf(thereIsACommand)("a jump over a ball, with the command's doubles", () => {
     const table = carom.table("9ft");
@@ -83,10 +119,16 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const cue = carom.cue({ speed: 3.5, theta: 45, phi: 90, b: 0, tipTime: 6e-4 });
     const shot = carom.simulate(table, balls, cue);
     expect(shot.events.map((event) => event.type)).toContain("slate");
-    expect(Math.max(...[...Array(50).keys()].map((k) => shot.positions(k / 50)[2]!))).toBeGreaterThan(0.08);
+    expect(
+      Math.max(...[...Array(50).keys()].map((k) => shot.positions(k / 50)[2]!)),
+    ).toBeGreaterThan(0.08);
     // It flies over the ball, and meets it on its way back from the cushion only.
-    expect(shot.firstContact!.time).toBeGreaterThan(shot.events.find((event) => event.type === "ball_linear_cushion")!.time);
-    const recorded = JSON.parse(run(["shoot", "--events", "none", "-"], toLine({ tableName: "9ft", balls, cue }))) as Recorded;
+    expect(shot.firstContact!.time).toBeGreaterThan(
+      shot.events.find((event) => event.type === "ball_linear_cushion")!.time,
+    );
+    const recorded = JSON.parse(
+      run(["shoot", "--events", "none", "-"], toLine({ tableName: "9ft", balls, cue })),
+    ) as Recorded;
     expectFinal(shot, ["cue", "1"], recorded);
     const flat = carom.simulate(table, balls, cue, { space: "flat" });
     expect(flat.firstContact?.ball).toBe(1);
@@ -96,7 +138,9 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const table = carom.table("9ft");
     const balls = carom.rack("nineball", table);
     const batch = carom.shots(table, balls, 7, { room: 300 });
-    const cues = [...Array(7).keys()].map((k) => carom.cue({ speed: 2 + k, phi: 88 + k / 2, a: 0.05 * k }));
+    const cues = [...Array(7).keys()].map((k) =>
+      carom.cue({ speed: 2 + k, phi: 88 + k / 2, a: 0.05 * k }),
+    );
     cues.forEach((cue, k) => batch.setCue(k, cue));
     expect(carom.simulateBatch(batch, { cushionModel: "han" })).toBe("ok");
     cues.forEach((cue, k) => {
@@ -104,7 +148,11 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
       const one = batch.shot(k);
       expect(one.bytes).toEqual(single.bytes);
       expect(one.final).toEqual(single.final);
-      expect([batch.time(k), batch.events(k), batch.status[k]]).toEqual([single.time, single.count, 0]);
+      expect([batch.time(k), batch.events(k), batch.status[k]]).toEqual([
+        single.time,
+        single.count,
+        0,
+      ]);
       expect(batch.state(k, 3)).toEqual(single.final[3]);
       expect(one.states(1.25)).toEqual(single.states(1.25));
     });
@@ -129,19 +177,29 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const early = shot.states(shot.events[5]!.time - 1e-9);
     expect(early[shot.events[5]!.a]!.r[0]).toBeCloseTo(shot.events[5]!.before[0]!.r[0], 6);
     const times = [0, 0.3, 1.5];
-    expect([...shot.positionsAt(times)]).toEqual(times.flatMap((time) => [...shot.positions(time)]));
+    expect([...shot.positionsAt(times)]).toEqual(
+      times.flatMap((time) => [...shot.positions(time)]),
+    );
     const turned = shot.orientations(2);
-    for (let k = 0; k < shot.balls.length; k++) expect(Math.hypot(...turned.subarray(4 * k, 4 * k + 4))).toBeCloseTo(1, 12);
+    for (let k = 0; k < shot.balls.length; k++)
+      expect(Math.hypot(...turned.subarray(4 * k, 4 * k + 4))).toBeCloseTo(1, 12);
     expect([...shot.orientations(0).subarray(0, 4)]).toEqual([1, 0, 0, 0]);
     // Frames, onward and back, are those of single calls, in the same memory.
     const first = shot.frame(0);
     for (const time of [0.3, 1.5, 0.7, shot.time]) {
       const turned = other.orientations(0.1) && shot.orientations(time);
       const frame = shot.frame(time);
-      expect(frame.states.buffer === first.states.buffer && frame.states.byteOffset === first.states.byteOffset).toBe(true);
+      expect(
+        frame.states.buffer === first.states.buffer &&
+          frame.states.byteOffset === first.states.byteOffset,
+      ).toBe(true);
       expect([...frame.turned]).toEqual([...turned]);
       shot.states(time, true).forEach((state, k) => {
-        expect([...frame.states.subarray(10 * k, 10 * k + 9)]).toEqual([...state.r, ...state.v, ...state.w]);
+        expect([...frame.states.subarray(10 * k, 10 * k + 9)]).toEqual([
+          ...state.r,
+          ...state.v,
+          ...state.w,
+        ]);
         expect(frame.label(k)).toBe(state.label);
       });
     }
@@ -157,7 +215,9 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect(contact).toEqual(whole);
     expect(contact.ball).toBe(1);
     expect(carom.firstContact(table, balls, { speed: 0.1, phi: 180 })).toBeUndefined();
-    expect(carom.simulate(table, balls, { speed: 8 }, { stopAt: "contact" }).status).toBe("stopped_at_event");
+    expect(carom.simulate(table, balls, { speed: 8 }, { stopAt: "contact" }).status).toBe(
+      "stopped_at_event",
+    );
     const stopped = carom.simulate(table, balls, { speed: 8 }, { timeMost: 1 });
     expect([stopped.status, stopped.time]).toEqual(["stopped_at_time", 1]);
     expect(() => stopped.positions(1.5)).toThrow("time 1.5");
@@ -167,46 +227,98 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const table = carom.table("9ft");
     const balls = carom.rack("nineball", table);
     const whole = carom.simulate(table, balls, { speed: 8 });
-    const types: EventType[] = ["stick_ball", "ball_ball", "ball_linear_cushion", "ball_circular_cushion", "ball_pocket", "sliding_rolling"];
-    types.push("rolling_spinning", "rolling_stationary", "spinning_stationary", "slate", "rail_top", "left_table");
-    for (const stopAt of [...types, [], ["ball_pocket", "ball_linear_cushion"], ["contact", "ball_linear_cushion"]] as const) {
+    const types: EventType[] = [
+      "stick_ball",
+      "ball_ball",
+      "ball_linear_cushion",
+      "ball_circular_cushion",
+      "ball_pocket",
+      "sliding_rolling",
+    ];
+    types.push(
+      "rolling_spinning",
+      "rolling_stationary",
+      "spinning_stationary",
+      "slate",
+      "rail_top",
+      "left_table",
+    );
+    for (const stopAt of [
+      ...types,
+      [],
+      ["ball_pocket", "ball_linear_cushion"],
+      ["contact", "ball_linear_cushion"],
+    ] as const) {
       const set: readonly string[] = typeof stopAt === "string" ? [stopAt] : stopAt;
       const stopped = carom.simulate(table, balls, { speed: 8 }, { stopAt });
-      const first = whole.events.findIndex(({ type, a, b }) => set.includes(type) || (set.includes("contact") && type === "ball_ball" && (a === 0 || b === 0)));
+      const first = whole.events.findIndex(
+        ({ type, a, b }) =>
+          set.includes(type) ||
+          (set.includes("contact") && type === "ball_ball" && (a === 0 || b === 0)),
+      );
       // The events of a cluster are not parted.
       let end = first + 1;
-      while (whole.events[first]?.cluster && whole.events[end]!.cluster > 0 && whole.events[end]!.time === whole.events[first]!.time) end++;
-      expect([stopped.status, stopped.count]).toEqual(first < 0 ? ["ok", whole.count] : ["stopped_at_event", end]);
+      while (
+        whole.events[first]?.cluster &&
+        whole.events[end]!.cluster > 0 &&
+        whole.events[end]!.time === whole.events[first]!.time
+      )
+        end++;
+      expect([stopped.status, stopped.count]).toEqual(
+        first < 0 ? ["ok", whole.count] : ["stopped_at_event", end],
+      );
     }
-    expect(() => carom.simulate(table, balls, {}, { stopAt: ["pocket"] as never })).toThrow(/^stopAt: it must be one of contact, stick_ball, .*, not "pocket"; did you mean "ball_pocket"\?$/);
+    expect(() => carom.simulate(table, balls, {}, { stopAt: ["pocket"] as never })).toThrow(
+      /^stopAt: it must be one of contact, stick_ball, .*, not "pocket"; did you mean "ball_pocket"\?$/,
+    );
   });
 
   test("a stopped shot goes on with the bits of the unbroken one", async () => {
-    // Without pockets and with little loss there are more events than a new library has room for: it grows while the shot goes on.
+    // Without pockets and with little loss there are more events than a new library has room for:
+    // it grows while the shot goes on.
     const carom = await load({ build: name as Build });
     const table = carom.table("threecushion");
     const kind = { ...carom.kind("pool"), restitution: 1, restitutionCushion: 1, muSlide: 0.05 };
-    const balls = [...Array(24).keys()].map((k) => carom.ball(0.2 + 0.25 * (k % 4), 0.3 + 0.3 * Math.floor(k / 4), kind));
+    const balls = [...Array(24).keys()].map((k) =>
+      carom.ball(0.2 + 0.25 * (k % 4), 0.3 + 0.3 * Math.floor(k / 4), kind),
+    );
     const options = { space: "flat", friction: "constant", cushionModel: "mirror" } as const;
     const whole = carom.simulate(table, balls, { speed: 20, phi: 77 }, options);
     expect(whole.count).toBeGreaterThan(256);
-    let parts = carom.simulate(table, balls, { speed: 20, phi: 77 }, { ...options, timeMost: 1 / 15 });
+    let parts = carom.simulate(
+      table,
+      balls,
+      { speed: 20, phi: 77 },
+      { ...options, timeMost: 1 / 15 },
+    );
     const first = parts;
     for (let frame = 2; parts.status === "stopped_at_time"; frame++) {
       parts = carom.continue(parts, { timeMost: frame / 15 });
       // Another call between two frames, which uses the same memory.
-      if (frame % 25 === 0) carom.simulate(carom.table("snooker"), [carom.ball(1, 1)], { speed: 1 });
+      if (frame % 25 === 0)
+        carom.simulate(carom.table("snooker"), [carom.ball(1, 1)], { speed: 1 });
       if (frame < 5) expect(parts.final).toEqual(whole.states(frame / 15));
     }
-    expect([parts.status, parts.time, parts.final]).toEqual([whole.status, whole.time, whole.final]);
+    expect([parts.status, parts.time, parts.final]).toEqual([
+      whole.status,
+      whole.time,
+      whole.final,
+    ]);
     expect(parts.bytes).toEqual(whole.bytes);
     expect(parts.states(1.25)).toEqual(whole.states(1.25));
-    expect([first.time, first.status, first.final]).toEqual([1 / 15, "stopped_at_time", whole.states(1 / 15)]);
+    expect([first.time, first.status, first.final]).toEqual([
+      1 / 15,
+      "stopped_at_time",
+      whole.states(1 / 15),
+    ]);
     // Any of them once more, until the end; by events; and past a bound.
     expect(carom.continue(first).bytes).toEqual(whole.bytes);
     expect(carom.continue(whole)).toBe(whole);
     const rail = carom.continue(first, { stopAt: ["ball_pocket", "ball_linear_cushion"] });
-    expect([rail.status, rail.events.at(-1)!.type]).toEqual(["stopped_at_event", "ball_linear_cushion"]);
+    expect([rail.status, rail.events.at(-1)!.type]).toEqual([
+      "stopped_at_event",
+      "ball_linear_cushion",
+    ]);
     expect(carom.continue(rail).final).toEqual(whole.final);
     let error: unknown;
     try {
@@ -214,16 +326,27 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     } catch (thrown) {
       error = thrown;
     }
-    expect([(error as CaromError).status, (error as CaromError).shot!.count]).toEqual(["too_many_events", 50]);
+    expect([(error as CaromError).status, (error as CaromError).shot!.count]).toEqual([
+      "too_many_events",
+      50,
+    ]);
     expect(carom.continue((error as CaromError).shot!).bytes).toEqual(whole.bytes);
-    expect(() => carom.continue(rail, { timeMost: rail.time / 2 })).toThrow(/^timeMost: it must be .* not before the time of a shot that goes on$/);
+    expect(() => carom.continue(rail, { timeMost: rail.time / 2 })).toThrow(
+      /^timeMost: it must be .* not before the time of a shot that goes on$/,
+    );
     const changed = carom.simulate(table, balls, { speed: 20 }, { timeMost: 0.01 });
     (changed.balls[1]!.kind as { mass: number }).mass *= 1.1;
-    expect(() => carom.continue(changed)).toThrow(expect.objectContaining({ status: "other_balls", shot: undefined }));
-    expect(() => carom.continue(first, { cushionModel: "han" } as never)).toThrow("cushionModel: there is no such key; there are timeMost, stopAt, firstOf, eventsMost");
+    expect(() => carom.continue(changed)).toThrow(
+      expect.objectContaining({ status: "other_balls", shot: undefined }),
+    );
+    expect(() => carom.continue(first, { cushionModel: "han" } as never)).toThrow(
+      "cushionModel: there is no such key; there are timeMost, stopAt, firstOf, eventsMost",
+    );
     const batch = carom.shots(table, balls, 1, { room: 64 });
     carom.simulateBatch(batch, { timeMost: 0.01 });
-    expect(() => carom.continue(batch.shot(0))).toThrow(/^shot: only what simulate\(\) or continue\(\) stopped can go on, .*"stopped_at_time"/);
+    expect(() => carom.continue(batch.shot(0))).toThrow(
+      /^shot: only what simulate\(\) or continue\(\) stopped can go on, .*"stopped_at_time"/,
+    );
     batch.free();
   });
 
@@ -252,9 +375,13 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
       expect(error).toBeInstanceOf(CaromError);
       expect((error as CaromError).status).toBe(status);
       expect((error as CaromError).field).toMatch(field);
-      expect((error as CaromError).message).toContain(`at ${at[0]}, ${at[1]} m; a free place is needed`);
+      expect((error as CaromError).message).toContain(
+        `at ${at[0]}, ${at[1]} m; a free place is needed`,
+      );
     }
-    expect(() => carom.placeBall(table, balls, 10, 0.6, 0.5)).toThrow("ball: it must be 0 to 9, not 10");
+    expect(() => carom.placeBall(table, balls, 10, 0.6, 0.5)).toThrow(
+      "ball: it must be 0 to 9, not 10",
+    );
     expect(() => carom.placeBall(table, balls, 0, NaN, 0.5)).toThrow(/^ball 0 at NaN, 0.5: /);
   });
 
@@ -267,38 +394,89 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect(carom.simulate(mine, balls, { speed: 8 }).count).toBeGreaterThan(20);
     mine.rails.splice(2, 1);
     expect(() => carom.checkTable(mine)).toThrow(CaromError);
-    const hexagon = carom.polygon([1, 2, 2, 1, 0, 0].map((x, k) => ({ x, y: [0, 0.5, 1.5, 2, 1.5, 0.5][k]!, mouth: 0.12 })));
-    expect([hexagon.rails.length, hexagon.jaws.length, hexagon.pockets.length, hexagon.width, hexagon.length]).toEqual([6, 12, 6, 2, 2]);
+    const hexagon = carom.polygon(
+      [1, 2, 2, 1, 0, 0].map((x, k) => ({ x, y: [0, 0.5, 1.5, 2, 1.5, 0.5][k]!, mouth: 0.12 })),
+    );
+    expect([
+      hexagon.rails.length,
+      hexagon.jaws.length,
+      hexagon.pockets.length,
+      hexagon.width,
+      hexagon.length,
+    ]).toEqual([6, 12, 6, 2, 2]);
     expect(carom.simulate(hexagon, [carom.ball(1, 1)], { speed: 3, phi: 20 }).status).toBe("ok");
-    expect(carom.table("9ft", { cornerMouth: 0.108 }).jaws[0]!.centre[0]).toBeLessThan(carom.table("9ft").jaws[0]!.centre[0]);
+    expect(carom.table("9ft", { cornerMouth: 0.108 }).jaws[0]!.centre[0]).toBeLessThan(
+      carom.table("9ft").jaws[0]!.centre[0],
+    );
     expect(() => carom.table("9ft", { sideMouth: 2 })).toThrow(/^measures.sideMouth: /);
     expect(() => carom.table("9ft", { corner: 0.1 } as never)).toThrow(/corner.*cornerMouth/);
-    expect(() => carom.polygon([{ x: 0, y: 0 }, { x: 1, y: 0, mouth: 3 }, { x: 0, y: 1 }])).toThrow(/^table: /);
+    expect(() =>
+      carom.polygon([
+        { x: 0, y: 0 },
+        { x: 1, y: 0, mouth: 3 },
+        { x: 0, y: 1 },
+      ]),
+    ).toThrow(/^table: /);
     expect(() => carom.polygon([{ x: 0, y: 0, moth: 1 } as never])).toThrow(/moth.*mouth/);
   });
 
   test("what is refused", () => {
     const table = carom.table("9ft");
     const balls = carom.rack("nineball", table);
-    const bad = structuredClone(balls) as unknown as { kind: { radius: number }; state: { r: number[] } }[];
+    const bad = structuredClone(balls) as unknown as {
+      kind: { radius: number };
+      state: { r: number[] };
+    }[];
     bad[3]!.state.r[0] = NaN;
-    expect(() => carom.simulate(table, bad as never, {})).toThrow("balls[3].state.r: it must be -1e6 to 1e6, in m, not NaN");
-    expect(() => carom.simulate(table, balls, { a: 0.9, b: 0.9 })).toThrow(/^cue\.a, cue\.b: the tip misses the ball: /);
+    expect(() => carom.simulate(table, bad as never, {})).toThrow(
+      "balls[3].state.r: it must be -1e6 to 1e6, in m, not NaN",
+    );
+    expect(() => carom.simulate(table, balls, { a: 0.9, b: 0.9 })).toThrow(
+      /^cue\.a, cue\.b: the tip misses the ball: /,
+    );
     const out = structuredClone(balls) as unknown as { state: { label: string } }[];
     out[3]!.state.label = "pocketed";
-    for (const [key, wrong] of [["speed", -1], ["phi", Infinity], ["theta", 91], ["mass", 0], ["endMass", NaN], ["miscue", 1.1], ["tipRestitution", 1.1], ["tipTime", 0.02], ["ball", 12], ["ball", 3]] as const) {
+    for (const [key, wrong] of [
+      ["speed", -1],
+      ["phi", Infinity],
+      ["theta", 91],
+      ["mass", 0],
+      ["endMass", NaN],
+      ["miscue", 1.1],
+      ["tipRestitution", 1.1],
+      ["tipTime", 0.02],
+      ["ball", 12],
+      ["ball", 3],
+    ] as const) {
       const calls = [() => carom.simulate(table, out as never, { [key]: wrong })];
       // A strike alone has no layout.
       if (key !== "ball") calls.push(() => carom.strike({ [key]: wrong }, balls[0]!.kind) as never);
-      const status = expect.stringContaining(`cue_${key.replace(/[A-Z]/, (letter) => `_${letter.toLowerCase()}`)}`);
-      for (const call of calls) expect(call).toThrow(expect.objectContaining({ field: `cue.${key}`, status, message: expect.stringMatching(/: it must be /) }));
+      const status = expect.stringContaining(
+        `cue_${key.replace(/[A-Z]/, (letter) => `_${letter.toLowerCase()}`)}`,
+      );
+      for (const call of calls)
+        expect(call).toThrow(
+          expect.objectContaining({
+            field: `cue.${key}`,
+            status,
+            message: expect.stringMatching(/: it must be /),
+          }),
+        );
     }
-    expect(() => carom.simulate(table, balls, {}, { timeMost: -1 })).toThrow(/^timeMost: it must be 0 or more/);
-    expect(() => carom.simulate(table, balls, {}, { eventsMost: -1 })).toThrow(/^eventsMost: it must be a whole number, 0 or more, not -1/);
+    expect(() => carom.simulate(table, balls, {}, { timeMost: -1 })).toThrow(
+      /^timeMost: it must be 0 or more/,
+    );
+    expect(() => carom.simulate(table, balls, {}, { eventsMost: -1 })).toThrow(
+      /^eventsMost: it must be a whole number, 0 or more, not -1/,
+    );
     expect(() => carom.simulate(table, balls, { ball: 0.5 })).toThrow(/^cue.ball: /);
     expect(() => carom.simulate(table, [], {})).toThrow("1 to 32");
-    expect(() => carom.simulate(table, balls, {}, { cushionModel: "wood" as never })).toThrow("cushionModel: it must be one of ");
-    expect(() => carom.simulate({ ...table, rails: Array(33).fill(table.rails[0]) }, balls, {})).toThrow("at most 32");
+    expect(() => carom.simulate(table, balls, {}, { cushionModel: "wood" as never })).toThrow(
+      "cushionModel: it must be one of ",
+    );
+    expect(() =>
+      carom.simulate({ ...table, rails: Array(33).fill(table.rails[0]) }, balls, {}),
+    ).toThrow("at most 32");
     let error: unknown;
     try {
       carom.simulate(table, balls, { speed: 8 }, { eventsMost: 10, simultaneous: "pairs" });
@@ -318,12 +496,30 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     ['{"kind": "table"}', "kind"],
     ['{"kind": "shot"}', "table"],
     ['{"kind": "shot", "table": "9ft"}', "balls"],
-    ['{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 1]}]}', "balls[0].state"],
-    ['{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"ball": "9"}}', "cue.ball"],
-    ['{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"V0": "x"}}', "cue.V0"],
-    ['{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"V0": 1, "b": 0, "fi": 90}}', "cue.fi"],
-    ['{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"V0": 1}}', "cue.b"],
-    ['{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0], "params": {"u_ss": 0.2}}]}', "balls[0].params.u_ss"],
+    [
+      '{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 1]}]}',
+      "balls[0].state",
+    ],
+    [
+      '{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"ball": "9"}}',
+      "cue.ball",
+    ],
+    [
+      '{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"V0": "x"}}',
+      "cue.V0",
+    ],
+    [
+      '{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"V0": 1, "b": 0, "fi": 90}}',
+      "cue.fi",
+    ],
+    [
+      '{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"V0": 1}}',
+      "cue.b",
+    ],
+    [
+      '{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0], "params": {"u_ss": 0.2}}]}',
+      "balls[0].params.u_ss",
+    ],
   ])("a line that is wrong: %#", (line, key) => {
     expect(() => fromLine(carom, line)).toThrow(`${key}: `);
   });
@@ -333,7 +529,11 @@ test("memory stays flat over a hundred thousand calls", () => {
   const { carom } = builds[0]!;
   const table = carom.table("9ft");
   const balls = carom.rack("nineball", table);
-  const impact = { a: { v: [1.5, 0, 0] as const }, b: { r: [0.05, 0.02767, 0] as const }, muBall: 0.06 };
+  const impact = {
+    a: { v: [1.5, 0, 0] as const },
+    b: { r: [0.05, 0.02767, 0] as const },
+    muBall: 0.06,
+  };
   const cycle = (calls: number): void => {
     for (let k = 0; k < calls; k++) {
       carom.collide(impact);
@@ -358,11 +558,15 @@ test("memory stays flat over a hundred thousand calls", () => {
 
 test.each(builds)("pocketed balls fall where they are drawn, by $name", ({ carom }) => {
   const table = carom.table("7ft");
-  const shots = Array.from({ length: 20 }, (_, seed) => carom.simulate(table, carom.rack("nineball", table, { seed }), { speed: 9 }));
+  const shots = Array.from({ length: 20 }, (_, seed) =>
+    carom.simulate(table, carom.rack("nineball", table, { seed }), { speed: 9 }),
+  );
   const shot = shots.find(({ events }) => events.some(({ type }) => type === "ball_pocket"))!;
   const { time, a, before, after } = shot.events.find(({ type }) => type === "ball_pocket")!;
   const heights = [0, 0.02, 0.04, 0.06].map((later) => shot.states(time + later, true)[a]!.r[2]);
-  heights.forEach((height, k) => expect(height).toBeCloseTo(before[0]!.r[2] - 0.5 * 9.81 * (0.02 * k) ** 2, 3));
+  heights.forEach((height, k) =>
+    expect(height).toBeCloseTo(before[0]!.r[2] - 0.5 * 9.81 * (0.02 * k) ** 2, 3),
+  );
   // it lies where its fall ends, at the depth of its pocket
   const lies = shot.states(time + 1, true)[a]!;
   expect(lies.r[2]).toBeCloseTo(after[0]!.r[2], 12);

@@ -1,4 +1,5 @@
-// What tests of the package share besides: the tree's data, and the hashes of tests/platforms/bits.c.
+// What tests of the package share besides: the tree's data, and the hashes of
+// tests/platforms/bits.c.
 import { readFileSync } from "node:fs";
 import { root } from "../../test/support.js";
 
@@ -9,7 +10,9 @@ export * from "../../test/support.js";
 export function csv(name: string): Record<string, string>[] {
   const [head, ...lines] = readFileSync(`${root}data/${name}`, "utf8").trim().split("\n");
   const columns = head!.split(",");
-  return lines.map((line) => Object.fromEntries(line.split(",").map((cell, k) => [columns[k]!, cell])));
+  return lines.map((line) =>
+    Object.fromEntries(line.split(",").map((cell, k) => [columns[k]!, cell])),
+  );
 }
 
 /** FNV-1a over 8 bytes for each number; every NaN counts as 1. */
@@ -60,12 +63,20 @@ export function golden(what: string): string {
 /** The 204 reference collisions, 26 numbers each. */
 export function cases(): { ids: string[]; rows: Float64Array } {
   const table = csv("collisions-204.csv");
-  const columns = "r1x r1y r1z v1x v1y v1z w1x w1y w1z R M u_s1 r2x r2y r2z v2x v2y v2z w2x w2y w2z R M u_s2 u_b e_b".split(" ");
-  return { ids: table.map((row) => row.id!), rows: Float64Array.from(table.flatMap((row) => columns.map((column) => Number(row[column])))) };
+  const columns =
+    "r1x r1y r1z v1x v1y v1z w1x w1y w1z R M u_s1 r2x r2y r2z v2x v2y v2z w2x w2y w2z R M u_s2 u_b e_b".split(
+      " ",
+    );
+  return {
+    ids: table.map((row) => row.id!),
+    rows: Float64Array.from(table.flatMap((row) => columns.map((column) => Number(row[column])))),
+  };
 }
 
 /** The results of a reference file, 12 numbers each. */
 export function references(name: string): Float64Array {
   const columns = "v1x v1y v1z w1x w1y w1z v2x v2y v2z w2x w2y w2z".split(" ");
-  return Float64Array.from(csv(name).flatMap((row) => columns.map((column) => Number(row[column]))));
+  return Float64Array.from(
+    csv(name).flatMap((row) => columns.map((column) => Number(row[column]))),
+  );
 }

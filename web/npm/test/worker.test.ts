@@ -14,17 +14,26 @@ test("a worker computes the same bits", async () => {
     const choices = carom.plan(table, carom.rack("nineball", table), { rules: "nineball", opening: true, shots: 100 });
     parentPort.postMessage([carom.build, shot.time, shot.final, choices]);`;
   const worker = new Worker(new URL(`data:text/javascript,${encodeURIComponent(source)}`));
-  const said = await new Promise((resolve, reject) => worker.once("message", resolve).once("error", reject));
+  const said = await new Promise((resolve, reject) =>
+    worker.once("message", resolve).once("error", reject),
+  );
   await worker.terminate();
   const { carom } = builds[0]!;
   const table = carom.table("9ft");
   const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
-  const choices = carom.plan(table, carom.rack("nineball", table), { rules: "nineball", opening: true, shots: 100 });
+  const choices = carom.plan(table, carom.rack("nineball", table), {
+    rules: "nineball",
+    opening: true,
+    shots: 100,
+  });
   expect(said).toEqual(["simd", shot.time, shot.final, choices]);
 });
 
 test("the package has the library's version, and no dependency at run time", () => {
-  const described = JSON.parse(readFileSync(`${root}web/npm/package.json`, "utf8")) as Record<string, unknown>;
+  const described = JSON.parse(readFileSync(`${root}web/npm/package.json`, "utf8")) as Record<
+    string,
+    unknown
+  >;
   expect(described.version).toBe(builds[0]!.carom.version);
   expect(described.dependencies).toBeUndefined();
   const lock = readFileSync(`${root}web/package-lock.json`, "utf8");
@@ -34,8 +43,14 @@ test("the package has the library's version, and no dependency at run time", () 
 test("the compressed size is at most 300 kB", async () => {
   const { gzipSync } = await import("node:zlib");
   const { readdirSync } = await import("node:fs");
-  const size = (names: string[]): number => gzipSync(Buffer.concat(names.map((name) => readFileSync(`${root}web/npm/dist/${name}`))), { level: 9 }).length;
-  const common = [...readdirSync(`${root}web/npm/dist`).filter((name) => name.endsWith(".js")), "generated/layout.js"];
+  const size = (names: string[]): number =>
+    gzipSync(Buffer.concat(names.map((name) => readFileSync(`${root}web/npm/dist/${name}`))), {
+      level: 9,
+    }).length;
+  const common = [
+    ...readdirSync(`${root}web/npm/dist`).filter((name) => name.endsWith(".js")),
+    "generated/layout.js",
+  ];
   for (const build of ["simd", "plain"]) {
     const bytes = size([...common, `generated/${build}.js`]);
     console.log(`what a user of the build ${build} loads: ${bytes} bytes compressed`);

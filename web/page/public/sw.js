@@ -1,7 +1,9 @@
 // The page without a network: what was loaded is kept, and asked for again wherever there is one.
 const KEPT = "carom-explorer";
 self.addEventListener("install", (event) => {
-  event.waitUntil(caches.open(KEPT).then((kept) => kept.addAll(["./", "manifest.webmanifest", "icon.svg"])));
+  event.waitUntil(
+    caches.open(KEPT).then((kept) => kept.addAll(["./", "manifest.webmanifest", "icon.svg"])),
+  );
   self.skipWaiting();
 });
 self.addEventListener("activate", (event) => event.waitUntil(self.clients.claim()));
@@ -16,5 +18,6 @@ async function answer(request) {
   }
 }
 self.addEventListener("fetch", (event) => {
-  if (event.request.method === "GET" && new URL(event.request.url).origin === location.origin) event.respondWith(answer(event.request));
+  if (event.request.method === "GET" && new URL(event.request.url).origin === location.origin)
+    event.respondWith(answer(event.request));
 });

@@ -1,5 +1,6 @@
-// The library in workers, for calls that take longer than a frame. The page is one file, so a worker runs the page's own script, which serves where
-// there is no document. Each kind of call has a worker: the chance of a stroke does not wait for a plan.
+// The library in workers, for calls that take longer than a frame. The page is one file, so a
+// worker runs the page's own script, which serves where there is no document. Each kind of call has
+// a worker: the chance of a stroke does not wait for a plan.
 import { type Carom, load } from "carom";
 import { wrong } from "./ui.js";
 
@@ -9,13 +10,16 @@ type Name = keyof Calls;
 /** Answers calls, in the worker. */
 export async function serve(): Promise<void> {
   const library = load();
-  self.addEventListener("message", async ({ data: [number, name, args] }: MessageEvent<[number, Name, never]>) => {
-    try {
-      self.postMessage([number, ((await library)[name] as (...args: never) => unknown)(...args)]);
-    } catch (error) {
-      self.postMessage([number, undefined, wrong(error)]);
-    }
-  });
+  self.addEventListener(
+    "message",
+    async ({ data: [number, name, args] }: MessageEvent<[number, Name, never]>) => {
+      try {
+        self.postMessage([number, ((await library)[name] as (...args: never) => unknown)(...args)]);
+      } catch (error) {
+        self.postMessage([number, undefined, wrong(error)]);
+      }
+    },
+  );
 }
 
 interface Lane {
@@ -29,14 +33,18 @@ function open(name: Name): Lane {
   const script = document.querySelector('script[type="module"]')!.textContent!;
   const worker = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
   const lane: Lane = { worker, waiting: new Map() };
-  worker.addEventListener("message", ({ data: [number, value, error] }: MessageEvent<[number, never, string?]>) => {
-    const { done, failed } = lane.waiting.get(number)!;
-    lane.waiting.delete(number);
-    if (error === undefined) done(value);
-    else failed(new Error(error));
-  });
+  worker.addEventListener(
+    "message",
+    ({ data: [number, value, error] }: MessageEvent<[number, never, string?]>) => {
+      const { done, failed } = lane.waiting.get(number)!;
+      lane.waiting.delete(number);
+      if (error === undefined) done(value);
+      else failed(new Error(error));
+    },
+  );
   worker.addEventListener("error", (event) => {
-    for (const { failed } of lane.waiting.values()) failed(new Error(`The worker that plans did not start: ${event.message}`));
+    for (const { failed } of lane.waiting.values())
+      failed(new Error(`The worker that plans did not start: ${event.message}`));
     lanes.delete(name);
   });
   lanes.set(name, lane);
@@ -44,7 +52,10 @@ function open(name: Name): Lane {
 }
 
 /** Calls the library in a worker. */
-export function far<K extends Name>(name: K, ...args: Parameters<Calls[K]>): Promise<ReturnType<Calls[K]>> {
+export function far<K extends Name>(
+  name: K,
+  ...args: Parameters<Calls[K]>
+): Promise<ReturnType<Calls[K]>> {
   const { worker, waiting } = lanes.get(name) ?? open(name);
   return new Promise((done, failed) => {
     waiting.set(count, { done, failed });
@@ -52,7 +63,10 @@ export function far<K extends Name>(name: K, ...args: Parameters<Calls[K]>): Pro
   });
 }
 
-/** Ends the calls of a kind that are on their way, whose promises never settle: what comes next does not wait for them. */
+/**
+ * Ends the calls of a kind that are on their way, whose promises never settle: what comes next does
+ * not wait for them.
+ */
 export function drop(name: Name): void {
   const lane = lanes.get(name);
   if (!lane || lane.waiting.size === 0) return;

@@ -28,7 +28,11 @@ async function begin(main: HTMLElement): Promise<void> {
   };
   dress(dark.matches);
   const carom = await load({ build: "simd" }).catch((error: unknown) => {
-    throw error instanceof WebAssembly.CompileError ? new Error("this page needs WebAssembly with vectors: Chrome 91, Firefox 113, Safari 16.4, or newer") : error;
+    throw error instanceof WebAssembly.CompileError
+      ? new Error(
+          "this page needs WebAssembly with vectors: Chrome 91, Firefox 113, Safari 16.4, or newer",
+        )
+      : error;
   });
   document.getElementById("about")!.append(` carom ${carom.version}.`);
   solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
@@ -45,7 +49,10 @@ async function begin(main: HTMLElement): Promise<void> {
     }
     view?.close?.();
     main.setAttribute("aria-busy", "false");
-    view = name === "play" ? playView(carom, main) : (name === "lab" ? laboratory : collisionView)(carom, chosen, main);
+    view =
+      name === "play"
+        ? playView(carom, main)
+        : (name === "lab" ? laboratory : collisionView)(carom, chosen, main);
   };
   show();
   window.addEventListener("hashchange", show);
@@ -65,7 +72,11 @@ else {
   // A page that is served can be installed, and then needs no network.
   if (location.protocol !== "file:") {
     document.head.append(el("link", { rel: "manifest", href: "manifest.webmanifest" }));
-    navigator.serviceWorker?.register("sw.js").catch((error: unknown) => console.error("sw.js, which keeps the page for use without a network:", error));
+    navigator.serviceWorker
+      ?.register("sw.js")
+      .catch((error: unknown) =>
+        console.error("sw.js, which keeps the page for use without a network:", error),
+      );
   }
   const main = document.getElementById("main")!;
   begin(main).catch((error: unknown) => {

@@ -5,12 +5,28 @@ import { make as el } from "../../player/player.js";
 export { el };
 
 /** What went wrong, in words. */
-export const wrong = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+export const wrong = (error: unknown): string =>
+  error instanceof Error ? error.message : String(error);
 
 export type Slider = ReturnType<typeof slider>;
 /** A labelled slider with its value and unit. */
-export function slider(id: string, text: string, min: number, max: number, step: number, unit: string, onInput: () => void, show = (x: number) => String(x)) {
-  const input = el("input", { type: "range", id, min: String(min), max: String(max), step: String(step) });
+export function slider(
+  id: string,
+  text: string,
+  min: number,
+  max: number,
+  step: number,
+  unit: string,
+  onInput: () => void,
+  show = (x: number) => String(x),
+) {
+  const input = el("input", {
+    type: "range",
+    id,
+    min: String(min),
+    max: String(max),
+    step: String(step),
+  });
   const output = el("output", { for: id, id: `${id}-value` });
   // A value that was set is kept as it is; the slider itself rounds to its steps.
   let exact: number | undefined;
@@ -37,27 +53,46 @@ export function slider(id: string, text: string, min: number, max: number, step:
   };
 }
 
-/** Follows a pointer that is held on an element: calls for where it goes down, which comes first, and where it moves to. */
+/**
+ * Follows a pointer that is held on an element: calls for where it goes down, which comes first,
+ * and where it moves to.
+ */
 export function drags(on: HTMLElement, over: (event: PointerEvent, first: boolean) => void): void {
   on.addEventListener("pointerdown", (event) => {
     on.setPointerCapture(event.pointerId);
     over(event, true);
   });
-  on.addEventListener("pointermove", (event) => on.hasPointerCapture(event.pointerId) && over(event, false));
+  on.addEventListener(
+    "pointermove",
+    (event) => on.hasPointerCapture(event.pointerId) && over(event, false),
+  );
 }
 
 /** What sliders are set to. */
-export const valuesOf = <K extends string>(sliders: Record<K, Slider>): Record<K, number> => Object.fromEntries(Object.entries<Slider>(sliders).map(([key, one]) => [key, one.value])) as Record<K, number>;
+export const valuesOf = <K extends string>(sliders: Record<K, Slider>): Record<K, number> =>
+  Object.fromEntries(
+    Object.entries<Slider>(sliders).map(([key, one]) => [key, one.value]),
+  ) as Record<K, number>;
 
-/** A ball as whoever strikes sees it, with the tip on it: right and up in radii, at most 0.7 from the middle. The sliders do the same by keys. */
-export function pad(id: string, text: string, onInput: (right: number, up: number) => void): { root: HTMLElement; set(right: number, up: number): void } {
+/**
+ * A ball as whoever strikes sees it, with the tip on it: right and up in radii, at most 0.7 from
+ * the middle. The sliders do the same by keys.
+ */
+export function pad(
+  id: string,
+  text: string,
+  onInput: (right: number, up: number) => void,
+): { root: HTMLElement; set(right: number, up: number): void } {
   const root = el("div", { id, class: "pad", role: "img", "aria-label": text });
   root.innerHTML =
     '<svg viewBox="-1.05 -1.05 2.1 2.1"><circle r="1" fill="#fbfaf5" stroke="#000a" stroke-width="0.03"/><circle r="0.5" fill="none" stroke="#0006" stroke-width="0.02" stroke-dasharray="0.06 0.05"/>' +
     '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle class="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
   drags(root, (event, first) => {
     const box = root.getBoundingClientRect();
-    const [x, y] = [(2.1 * (event.clientX - box.left)) / box.width - 1.05, 1.05 - (2.1 * (event.clientY - box.top)) / box.height];
+    const [x, y] = [
+      (2.1 * (event.clientX - box.left)) / box.width - 1.05,
+      1.05 - (2.1 * (event.clientY - box.top)) / box.height,
+    ];
     const most = Math.min(1, 0.7 / Math.hypot(x, y));
     onInput(Math.round(100 * most * x) / 100, Math.round(100 * most * y) / 100);
     if (!first) return;
@@ -65,23 +100,45 @@ export function pad(id: string, text: string, onInput: (right: number, up: numbe
     root.style.transformOrigin = `${event.clientX - box.left}px ${event.clientY - box.top}px`;
     root.classList.add("held");
   });
-  for (const type of ["pointerup", "pointercancel"]) root.addEventListener(type, () => root.classList.remove("held"));
-  return { root, set: (right, up) => root.querySelector(".tip")!.setAttribute("transform", `translate(${right} ${-up})`) };
+  for (const type of ["pointerup", "pointercancel"])
+    root.addEventListener(type, () => root.classList.remove("held"));
+  return {
+    root,
+    set: (right, up) =>
+      root.querySelector(".tip")!.setAttribute("transform", `translate(${right} ${-up})`),
+  };
 }
 
-export function button(text: string, onClick: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
+export function button(
+  text: string,
+  onClick: () => void,
+  attributes: Record<string, string> = {},
+): HTMLButtonElement {
   const made = el("button", { type: "button", ...attributes }, text);
   made.addEventListener("click", onClick);
   return made;
 }
 
-export function choice(id: string, text: string, options: readonly (readonly [string, string])[], onChange: () => void): { root: HTMLElement; select: HTMLSelectElement } {
-  const select = el("select", { id }, ...options.map(([value, label]) => el("option", { value }, label)));
+export function choice(
+  id: string,
+  text: string,
+  options: readonly (readonly [string, string])[],
+  onChange: () => void,
+): { root: HTMLElement; select: HTMLSelectElement } {
+  const select = el(
+    "select",
+    { id },
+    ...options.map(([value, label]) => el("option", { value }, label)),
+  );
   select.addEventListener("change", onChange);
   return { root: el("label", { class: "inline" }, text, select), select };
 }
 
-export function check(id: string, text: string, onChange: () => void): { root: HTMLElement; input: HTMLInputElement } {
+export function check(
+  id: string,
+  text: string,
+  onChange: () => void,
+): { root: HTMLElement; input: HTMLInputElement } {
   const input = el("input", { type: "checkbox", id });
   input.addEventListener("change", onChange);
   return { root: el("label", { class: "check" }, input, text), input };
@@ -105,7 +162,15 @@ export function color(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-export function arrow(g: CanvasRenderingContext2D, x: number, y: number, dx: number, dy: number, stroke: string, dashed = false): void {
+export function arrow(
+  g: CanvasRenderingContext2D,
+  x: number,
+  y: number,
+  dx: number,
+  dy: number,
+  stroke: string,
+  dashed = false,
+): void {
   const length = Math.hypot(dx, dy);
   if (length < 2) return;
   const head = Math.min(10, length);
@@ -134,11 +199,28 @@ let writing: number | undefined;
 /** Writes the state behind the # a little later, so that dragging does not flood the history. */
 export function keep(state: Record<string, string>): void {
   window.clearTimeout(writing);
-  writing = window.setTimeout(() => history.replaceState(null, "", `#${new URLSearchParams(state)}`), 150);
+  writing = window.setTimeout(
+    () => history.replaceState(null, "", `#${new URLSearchParams(state)}`),
+    150,
+  );
 }
 
 /** A dialog with a heading, which closes by its button or Escape. */
-export function dialog(id: string, title: string, ...children: (Node | string)[]): HTMLDialogElement {
-  const made = el("dialog", { id, "aria-label": title }, el("div", { class: "row head" }, el("h2", {}, title), button("Close", () => made.close(), { class: "close" })), ...children);
+export function dialog(
+  id: string,
+  title: string,
+  ...children: (Node | string)[]
+): HTMLDialogElement {
+  const made = el(
+    "dialog",
+    { id, "aria-label": title },
+    el(
+      "div",
+      { class: "row head" },
+      el("h2", {}, title),
+      button("Close", () => made.close(), { class: "close" }),
+    ),
+    ...children,
+  );
   return made;
 }

@@ -1,10 +1,22 @@
 // A pinhole camera, for pictures whose camera is known.
 import type { Pixel } from "../src/play/photo.js";
 
-/** A camera at a place that looks at another, with a focal length in pixels: where a point of space is seen. */
-export function pinhole(size: Pixel, from: number[], to: number[], focal: number): (x: number, y: number, z: number) => Pixel {
+/**
+ * A camera at a place that looks at another, with a focal length in pixels: where a point of space
+ * is seen.
+ */
+export function pinhole(
+  size: Pixel,
+  from: number[],
+  to: number[],
+  focal: number,
+): (x: number, y: number, z: number) => Pixel {
   const minus = (a: number[], b: number[]): number[] => a.map((x, k) => x - b[k]!);
-  const cross = ([a, b, c]: number[], [x, y, z]: number[]): number[] => [b! * z! - c! * y!, c! * x! - a! * z!, a! * y! - b! * x!];
+  const cross = ([a, b, c]: number[], [x, y, z]: number[]): number[] => [
+    b! * z! - c! * y!,
+    c! * x! - a! * z!,
+    a! * y! - b! * x!,
+  ];
   const unit = (a: number[]): number[] => a.map((x) => x / Math.hypot(...a));
   const dot = (a: number[], b: number[]): number => a.reduce((sum, x, k) => sum + x * b[k]!, 0);
   const ahead = unit(minus(to, from));
@@ -13,6 +25,9 @@ export function pinhole(size: Pixel, from: number[], to: number[], focal: number
   return (x, y, z) => {
     const at = minus([x, y, z], from);
     const far = dot(at, ahead);
-    return [size[0] / 2 + (focal * dot(at, right)) / far, size[1] / 2 + (focal * dot(at, down)) / far];
+    return [
+      size[0] / 2 + (focal * dot(at, right)) / far,
+      size[1] / 2 + (focal * dot(at, down)) / far,
+    ];
   };
 }

@@ -7,19 +7,42 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
 
   test("the coach tells chances before a stroke, what it cost after it, and keeps a log to print", async () => {
     // A straight pot, and the nine for the game.
-    const one = await open("", { width: 390, height: 844, touch: true }, { game: "nineball", against: "person", own: "0", seed: 7, at: "0.635,1.2 0.3,2.2 in in in in in in in 0.9,1.9", entries: [] });
+    const one = await open(
+      "",
+      { width: 390, height: 844, touch: true },
+      {
+        game: "nineball",
+        against: "person",
+        own: "0",
+        seed: 7,
+        at: "0.635,1.2 0.3,2.2 in in in in in in in 0.9,1.9",
+        entries: [],
+      },
+    );
     await one.locator("#new-game").click();
     await one.locator("#coach").check();
     await one.locator("#rate").selectOption("1000");
     await one.locator("#menu .close").click();
     await one.locator("#hint").click();
-    await expect.poll(() => text(one, "said")).toMatch(/^Hint: ball [19] into the .*\. A \d+, as you are, keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/);
+    await expect
+      .poll(() => text(one, "said"))
+      .toMatch(
+        /^Hint: ball [19] into the .*\. A \d+, as you are, keeps the turn in \d+ %, wins the game in \d+ %, fouls in \d+ % of tries\. This stroke errs like his\.$/,
+      );
     // A stroke that meets nothing: a foul, which the chances and the review tell.
     await turnTo(one, 200);
     await set(one, "power", 0.6);
-    await expect.poll(() => text(one, "said")).toMatch(/^By this stroke a \d+, as you are, keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/);
+    await expect
+      .poll(() => text(one, "said"))
+      .toMatch(
+        /^By this stroke a \d+, as you are, keeps the turn in 0 %, wins the game in \d+ %, fouls in 100 % of tries\.$/,
+      );
     await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said")).toMatch(/^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/);
+    await expect
+      .poll(() => text(one, "said"))
+      .toMatch(
+        /^That stroke wins in \d+ % of tries; the best one, .*, in \d+ %\. It cost \d+ %\.$/,
+      );
     await one.locator("#new-game").click();
     await one.locator("#open-log").click();
     expect(await one.locator("#log tbody tr").count()).toBe(1);
@@ -39,7 +62,8 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await one.locator("#scene").waitFor();
     expect(await violations(one)).toEqual([]);
     // What is seen changes with the aim and with the balls.
-    const seen = async (): Promise<string> => (await one.locator("#scene").screenshot()).toString("base64");
+    const seen = async (): Promise<string> =>
+      (await one.locator("#scene").screenshot()).toString("base64");
     const before = await seen();
     const box = (await one.locator("#scene").boundingBox())!;
     await one.mouse.move(box.x + 100, box.y + 100);
@@ -59,7 +83,18 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
 
   test("behind the cue the table fills the view of a phone, the aim is on the cloth, and balls have their numbers", async () => {
     // The 1 lies before the camera, its number up.
-    const one = await open("", { width: 390, height: 844, touch: true }, { game: "nineball", against: "person", own: "0", seed: 7, at: "0.635,0.635 0.75,0.4 in in in in in in in in", entries: [] });
+    const one = await open(
+      "",
+      { width: 390, height: 844, touch: true },
+      {
+        game: "nineball",
+        against: "person",
+        own: "0",
+        seed: 7,
+        at: "0.635,0.635 0.75,0.4 in in in in in in in in",
+        entries: [],
+      },
+    );
     await turnTo(one, 90);
     await one.locator("#space").click();
     await one.locator("#scene").waitFor();
@@ -73,34 +108,94 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
       [copy.width, copy.height] = [image.width, image.height];
       const g = copy.getContext("2d")!;
       g.drawImage(image, 0, 0);
-      return { width: image.width, height: image.height, letters: Array.from(g.getImageData(0, 0, image.width, image.height).data, (byte) => String.fromCharCode(byte)).join("") };
+      return {
+        width: image.width,
+        height: image.height,
+        letters: Array.from(g.getImageData(0, 0, image.width, image.height).data, (byte) =>
+          String.fromCharCode(byte),
+        ).join(""),
+      };
     }, png);
     const bytes = Buffer.from(letters, "latin1");
     /** The places in a rectangle whose colour is so. */
-    const where = ([x0, y0, x1, y1]: readonly number[], is: (r: number, g: number, b: number) => boolean): [number, number][] =>
-      Array.from({ length: (y1! - y0!) * (x1! - x0!) }, (_, k) => [x0! + (k % (x1! - x0!)), y0! + Math.floor(k / (x1! - x0!))] as [number, number]).filter(([x, y]) => is(...([...bytes.subarray(4 * (width * y + x), 4 * (width * y + x) + 3)] as [number, number, number])));
+    const where = (
+      [x0, y0, x1, y1]: readonly number[],
+      is: (r: number, g: number, b: number) => boolean,
+    ): [number, number][] =>
+      Array.from(
+        { length: (y1! - y0!) * (x1! - x0!) },
+        (_, k) => [x0! + (k % (x1! - x0!)), y0! + Math.floor(k / (x1! - x0!))] as [number, number],
+      ).filter(([x, y]) =>
+        is(
+          ...([...bytes.subarray(4 * (width * y + x), 4 * (width * y + x) + 3)] as [
+            number,
+            number,
+            number,
+          ]),
+        ),
+      );
     // Its number is beside it, too.
-    expect(await one.locator(".over-scene").evaluate((over: HTMLCanvasElement) => over.getContext("2d")!.getImageData(0, 0, over.width, over.height).data.filter((byte) => byte > 250).length)).toBeGreaterThan(20);
+    expect(
+      await one.locator(".over-scene").evaluate(
+        (over: HTMLCanvasElement) =>
+          over
+            .getContext("2d")!
+            .getImageData(0, 0, over.width, over.height)
+            .data.filter((byte) => byte > 250).length,
+      ),
+    ).toBeGreaterThan(20);
     // Of the room around the table there is little.
-    const room = where([0, 0, width, height], (r, g, b) => Math.max(r, g, b) < 34).length / (width * height);
+    const room =
+      where([0, 0, width, height], (r, g, b) => Math.max(r, g, b) < 34).length / (width * height);
     expect(room).toBeLessThan(0.3);
     // The aim: a light line before the cue ball, which is in the middle, to the far cushion.
     const [middle, far] = [Math.round(width / 2), Math.round(0.15 * height)];
-    const line = where([middle - 3, far, middle + 3, far + 100], (r, g, b) => Math.min(r, g, b) > 80);
+    const line = where(
+      [middle - 3, far, middle + 3, far + 100],
+      (r, g, b) => Math.min(r, g, b) > 80,
+    );
     expect(new Set(line.map(([, y]) => y)).size).toBeGreaterThan(60);
     // The number: dark on white in the upper half of the yellow ball; its shadow is below.
     const yellow = where([0, 0, width, height], (r, g, b) => r > 120 && g > 80 && b < 0.5 * g);
     const [xs, ys] = [yellow.map(([x]) => x), yellow.map(([, y]) => y)];
-    const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-    console.log(`behind the cue: ${(100 * room).toFixed(0)} % of the view is room; the 1 has ${right - left + 1} x ${bottom - top + 1} pixels`);
-    const upper = [left + Math.round((right - left) / 4), top, right - Math.round((right - left) / 4), Math.round((top + bottom) / 2)];
+    const [left, right, top, bottom] = [
+      Math.min(...xs),
+      Math.max(...xs),
+      Math.min(...ys),
+      Math.max(...ys),
+    ];
+    console.log(
+      `behind the cue: ${(100 * room).toFixed(0)} % of the view is room; the 1 has ${right - left + 1} x ${bottom - top + 1} pixels`,
+    );
+    const upper = [
+      left + Math.round((right - left) / 4),
+      top,
+      right - Math.round((right - left) / 4),
+      Math.round((top + bottom) / 2),
+    ];
     expect(where(upper, (r, g, b) => Math.min(r, g, b) > 150).length).toBeGreaterThan(8);
-    expect(where(upper, (r, g, b) => Math.max(r, g, b) < 200 && Math.max(r, g, b) - Math.min(r, g, b) < 40).length).toBeGreaterThan(3);
+    expect(
+      where(
+        upper,
+        (r, g, b) => Math.max(r, g, b) < 200 && Math.max(r, g, b) - Math.min(r, g, b) < 40,
+      ).length,
+    ).toBeGreaterThan(3);
     await one.close();
   });
 
   test("behind the cue a finger calls another pocket, and moves the cue ball that is in hand", async () => {
-    const one = await open("", { width: 390, height: 844, touch: true }, { game: "eightball", own: "0", seed: 7, against: "person", at: "0.635,0.6 0.635,1.6 in in in in in in 1.0,2.0 0.3,0.5 in in in in in in", entries: [] });
+    const one = await open(
+      "",
+      { width: 390, height: 844, touch: true },
+      {
+        game: "eightball",
+        own: "0",
+        seed: 7,
+        against: "person",
+        at: "0.635,0.6 0.635,1.6 in in in in in in 1.0,2.0 0.3,0.5 in in in in in in",
+        entries: [],
+      },
+    );
     await turnTo(one, 88.5);
     await one.locator("#space").click();
     await one.locator("#scene").waitFor();
@@ -112,9 +207,17 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
         [copy.width, copy.height] = [over.width, over.height];
         copy.getContext("2d")!.drawImage(over, 0, 0);
         const { data } = copy.getContext("2d")!.getImageData(0, 0, over.width, over.height);
-        return Array.from({ length: over.width * over.height }, (_, k) => k).filter((k) => data[4 * k]! > 240 && data[4 * k + 3]! > 240 && Math.abs(data[4 * k + 2]! - 138) < 20).map((k) => `${k % over.width},${Math.floor(k / over.width)}`);
+        return Array.from({ length: over.width * over.height }, (_, k) => k)
+          .filter(
+            (k) =>
+              data[4 * k]! > 240 && data[4 * k + 3]! > 240 && Math.abs(data[4 * k + 2]! - 138) < 20,
+          )
+          .map((k) => `${k % over.width},${Math.floor(k / over.width)}`);
       });
-    const middle = (all: string[]): [number, number] => [0, 1].map((c) => all.reduce((sum, at) => sum + Number(at.split(",")[c]), 0) / all.length) as [number, number];
+    const middle = (all: string[]): [number, number] =>
+      [0, 1].map(
+        (c) => all.reduce((sum, at) => sum + Number(at.split(",")[c]), 0) / all.length,
+      ) as [number, number];
     const next = async (pocket: string): Promise<void> => {
       for (let k = 0; k < 6 && !(await text(one, "turn")).includes(pocket); k++) {
         await one.locator("#scene").press("c");
@@ -137,29 +240,55 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     await expect.poll(() => text(one, "turn")).toMatch(/Cue ball in hand: drag it/);
     // The mark that is nearest to whoever aims.
     const all = await marks();
-    const from = middle(all.filter((at) => Number(at.split(",")[1]) > Math.max(...all.map((one) => Number(one.split(",")[1]))) - 40));
+    const from = middle(
+      all.filter(
+        (at) =>
+          Number(at.split(",")[1]) > Math.max(...all.map((one) => Number(one.split(",")[1]))) - 40,
+      ),
+    );
     const devtools = await one.context().newCDPSession(one);
-    const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...to: number[]): Promise<unknown> => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: to.length ? [{ x: box.x + to[0]!, y: box.y + to[1]! }] : [] });
+    const touch = (
+      type: "touchStart" | "touchMove" | "touchEnd",
+      ...to: number[]
+    ): Promise<unknown> =>
+      devtools.send("Input.dispatchTouchEvent", {
+        type,
+        touchPoints: to.length ? [{ x: box.x + to[0]!, y: box.y + to[1]! }] : [],
+      });
     await touch("touchStart", ...from);
     for (let k = 10; k <= 60; k += 10) await touch("touchMove", from[0] + k, from[1]);
     await touch("touchEnd");
     await one.locator("#shoot").click();
-    const { entries } = JSON.parse((await one.evaluate(() => localStorage.getItem("carom-game")))!) as { entries: { place: number[] }[] };
+    const { entries } = JSON.parse(
+      (await one.evaluate(() => localStorage.getItem("carom-game")))!,
+    ) as { entries: { place: number[] }[] };
     // It lay on the head spot.
-    expect(Math.hypot(entries[1]!.place[0]! - 0.635, entries[1]!.place[1]! - 0.635)).toBeGreaterThan(0.1);
+    expect(
+      Math.hypot(entries[1]!.place[0]! - 0.635, entries[1]!.place[1]! - 0.635),
+    ).toBeGreaterThan(0.1);
     await one.close();
   });
 
   test("without WebGL the flat view stays, and the page says why", async () => {
     const one = await open("");
     await one.evaluate(() => {
-      const get = HTMLCanvasElement.prototype.getContext as (this: HTMLCanvasElement, kind: string, ...rest: unknown[]) => unknown;
-      HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest: unknown[]) {
+      const get = HTMLCanvasElement.prototype.getContext as (
+        this: HTMLCanvasElement,
+        kind: string,
+        ...rest: unknown[]
+      ) => unknown;
+      HTMLCanvasElement.prototype.getContext = function (
+        this: HTMLCanvasElement,
+        kind: string,
+        ...rest: unknown[]
+      ) {
         return kind === "webgl2" ? null : get.call(this, kind, ...rest);
       } as typeof HTMLCanvasElement.prototype.getContext;
     });
     await one.locator("#space").click();
-    await expect.poll(() => text(one, "said")).toBe("This browser does not show three dimensions (it has no WebGL 2).");
+    await expect
+      .poll(() => text(one, "said"))
+      .toBe("This browser does not show three dimensions (it has no WebGL 2).");
     expect(await one.locator("#table-scene").isVisible()).toBe(true);
     await one.close();
   });

@@ -7,68 +7,106 @@ import { browserPath, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("a diagram", () => {
   const { open, text, set, turnTo } = pages();
-  const picture = (one: Page): Promise<string> => one.locator("#diagram-scene").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+  const picture = (one: Page): Promise<string> =>
+    one.locator("#diagram-scene").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
   async function opened(one: Page): Promise<void> {
     await one.locator("#new-game").click();
     await one.locator("#open-diagram").click();
   }
   const kept = (game: object, how: object): Promise<Page> => open("", how, game);
-  const PRACTICE = { game: "eightball", against: "practice", own: "0", seed: 1, at: "0.4,0.6 0.635,1.27 0.9,1.9 in in in in in 1.0,2.2 in in in in in in in", entries: [] };
+  const PRACTICE = {
+    game: "eightball",
+    against: "practice",
+    own: "0",
+    seed: 1,
+    at: "0.4,0.6 0.635,1.27 0.9,1.9 in in in in in 1.0,2.2 in in in in in in in",
+    entries: [],
+  };
   const NOTES = "Stop the cue ball.\n<b>Aim</b> at the left half & wait.";
 
-  test.each(sizes)("balls before and after a stroke, its path and notes are printed, and a link keeps them: %s", async (_, how) => {
-    const one = await kept(PRACTICE, how);
-    await turnTo(one, 70);
-    await set(one, "power", 3);
-    await opened(one);
-    expect(await one.locator("#diagram-which option").allTextContents()).toEqual(["the stroke that is aimed", "the balls as they lie"]);
-    expect(await text(one, "diagram-words")).toBe("Eight-ball. Cue: 3.0 m/s, direction 70.00°, tip in the middle.");
-    // Each choice draws something else.
-    const drawn = [await picture(one)];
-    await one.locator("#diagram-path").uncheck();
-    drawn.push(await picture(one));
-    await one.locator("#diagram-after").check();
-    drawn.push(await picture(one));
-    await one.locator("#diagram-path").check();
-    drawn.push(await picture(one));
-    expect(new Set(drawn).size).toBe(4);
-    expect(await violations(one)).toEqual([]);
-    await one.locator("#notes").fill(NOTES);
-    await one.locator("#link-diagram").click();
-    await expect.poll(() => text(one, "diagram-said")).toBe("The link to this diagram is copied.");
-    const link = await one.evaluate(() => navigator.clipboard.readText());
+  test.each(sizes)(
+    "balls before and after a stroke, its path and notes are printed, and a link keeps them: %s",
+    async (_, how) => {
+      const one = await kept(PRACTICE, how);
+      await turnTo(one, 70);
+      await set(one, "power", 3);
+      await opened(one);
+      expect(await one.locator("#diagram-which option").allTextContents()).toEqual([
+        "the stroke that is aimed",
+        "the balls as they lie",
+      ]);
+      expect(await text(one, "diagram-words")).toBe(
+        "Eight-ball. Cue: 3.0 m/s, direction 70.00°, tip in the middle.",
+      );
+      // Each choice draws something else.
+      const drawn = [await picture(one)];
+      await one.locator("#diagram-path").uncheck();
+      drawn.push(await picture(one));
+      await one.locator("#diagram-after").check();
+      drawn.push(await picture(one));
+      await one.locator("#diagram-path").check();
+      drawn.push(await picture(one));
+      expect(new Set(drawn).size).toBe(4);
+      expect(await violations(one)).toEqual([]);
+      await one.locator("#notes").fill(NOTES);
+      await one.locator("#link-diagram").click();
+      await expect
+        .poll(() => text(one, "diagram-said"))
+        .toBe("The link to this diagram is copied.");
+      const link = await one.evaluate(() => navigator.clipboard.readText());
 
-    // On paper there are the table as wide as it is on the screen or wider, the words and the notes, and nothing to press.
-    await one.emulateMedia({ media: "print" });
-    for (const [what, is] of [["#diagram-scene", true], ["#diagram-words", true], ["#diagram .on-paper", true], ["#notes", false], ["#print-diagram", false], ["#table-scene", false], ["header", false]] as const) expect(await one.locator(what).isVisible(), what).toBe(is);
-    expect(await one.locator("#diagram .on-paper").textContent()).toBe(NOTES);
-    const box = (await one.locator("#diagram-scene").boundingBox())!;
-    const [long, short] = [Math.max(box.width, box.height), Math.min(box.width, box.height)];
-    expect(long / short).toBeCloseTo((2.54 + 0.2) / (1.27 + 0.2), 1);
-    const pdf = `${tmpdir()}/carom-diagram-${process.pid}.pdf`;
-    await one.pdf({ path: pdf });
-    expect(readFileSync(pdf, "latin1").match(/\/Type \/Page\b/g)).toHaveLength(1);
-    await one.emulateMedia({ media: "screen" });
+      // On paper there are the table as wide as it is on the screen or wider, the words and the
+      // notes, and nothing to press.
+      await one.emulateMedia({ media: "print" });
+      for (const [what, is] of [
+        ["#diagram-scene", true],
+        ["#diagram-words", true],
+        ["#diagram .on-paper", true],
+        ["#notes", false],
+        ["#print-diagram", false],
+        ["#table-scene", false],
+        ["header", false],
+      ] as const)
+        expect(await one.locator(what).isVisible(), what).toBe(is);
+      expect(await one.locator("#diagram .on-paper").textContent()).toBe(NOTES);
+      const box = (await one.locator("#diagram-scene").boundingBox())!;
+      const [long, short] = [Math.max(box.width, box.height), Math.min(box.width, box.height)];
+      expect(long / short).toBeCloseTo((2.54 + 0.2) / (1.27 + 0.2), 1);
+      const pdf = `${tmpdir()}/carom-diagram-${process.pid}.pdf`;
+      await one.pdf({ path: pdf });
+      expect(readFileSync(pdf, "latin1").match(/\/Type \/Page\b/g)).toHaveLength(1);
+      await one.emulateMedia({ media: "screen" });
 
-    // Another page shows the same, and keeps the game that it had.
-    const other = await open("", how);
-    const game = await other.evaluate(() => localStorage.getItem("carom-game"));
-    await other.evaluate((hash) => (location.hash = hash), new URL(link).hash);
-    await expect.poll(() => other.locator("#diagram").isVisible()).toBe(true);
-    expect(await other.locator("#notes").inputValue()).toBe(NOTES);
-    expect(await text(other, "diagram-words")).toBe(await text(one, "diagram-words"));
-    expect(await other.locator("#diagram-after").isChecked()).toBe(true);
-    await expect.poll(() => picture(other)).toBe(await picture(one));
-    expect(await other.locator("#diagram-which").isVisible()).toBe(false);
-    await other.locator("#diagram .close").click();
-    await expect.poll(() => other.evaluate(() => location.hash)).toBe("#view=play");
-    expect(await other.evaluate(() => localStorage.getItem("carom-game"))).toBe(game);
-    await one.close();
-    await other.close();
-  });
+      // Another page shows the same, and keeps the game that it had.
+      const other = await open("", how);
+      const game = await other.evaluate(() => localStorage.getItem("carom-game"));
+      await other.evaluate((hash) => (location.hash = hash), new URL(link).hash);
+      await expect.poll(() => other.locator("#diagram").isVisible()).toBe(true);
+      expect(await other.locator("#notes").inputValue()).toBe(NOTES);
+      expect(await text(other, "diagram-words")).toBe(await text(one, "diagram-words"));
+      expect(await other.locator("#diagram-after").isChecked()).toBe(true);
+      await expect.poll(() => picture(other)).toBe(await picture(one));
+      expect(await other.locator("#diagram-which").isVisible()).toBe(false);
+      await other.locator("#diagram .close").click();
+      await expect.poll(() => other.evaluate(() => location.hash)).toBe("#view=play");
+      expect(await other.evaluate(() => localStorage.getItem("carom-game"))).toBe(game);
+      await one.close();
+      await other.close();
+    },
+  );
 
   test("in a game it shows the last stroke, and never where the aim leads", async () => {
-    const one = await kept({ game: "nineball", against: "person", own: "0", seed: 7, at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9", entries: [] }, {});
+    const one = await kept(
+      {
+        game: "nineball",
+        against: "person",
+        own: "0",
+        seed: 7,
+        at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
+        entries: [],
+      },
+      {},
+    );
     await opened(one);
     expect(await text(one, "diagram-words")).toBe("Nine-ball. ");
     expect(await one.locator("#diagram-path").isVisible()).toBe(false);
@@ -80,7 +118,10 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
     await one.locator("#shoot").click();
     await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
     await opened(one);
-    expect(await one.locator("#diagram-which option").allTextContents()).toEqual(["the last stroke", "the balls as they lie"]);
+    expect(await one.locator("#diagram-which option").allTextContents()).toEqual([
+      "the last stroke",
+      "the balls as they lie",
+    ]);
     expect(await text(one, "diagram-words")).toMatch(/^Nine-ball\. Cue: 2\.5 m\/s/);
     expect(await picture(one)).not.toBe(lie);
     await one.close();
@@ -90,8 +131,15 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
     const one = await open("");
     const packed = (text: string): Promise<string> =>
       one.evaluate(async (text) => {
-        const bytes = new Uint8Array(await new Response(new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"))).arrayBuffer());
-        return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+        const bytes = new Uint8Array(
+          await new Response(
+            new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw")),
+          ).arrayBuffer(),
+        );
+        return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))
+          .replaceAll("+", "-")
+          .replaceAll("/", "_")
+          .replace(/=+$/, "");
       }, text);
     const good = { game: PRACTICE.game, at: PRACTICE.at, cue: [3, 70, 0, 0, 0], notes: "" };
     for (const [d, why] of [
@@ -99,7 +147,10 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
       [await packed(JSON.stringify({ ...good, game: "chess" })), 'game: there is no game "chess"'],
       [await packed(JSON.stringify({ ...good, at: "0.5,0.5" })), "at: 16 places x,y are needed"],
       [await packed(JSON.stringify({ ...good, cue: [3, 70] })), "cue: 5 numbers are needed"],
-      [await packed(JSON.stringify({ ...good, cue: [3, 70, 0, 0, 95] })), "the stroke cannot be played: "],
+      [
+        await packed(JSON.stringify({ ...good, cue: [3, 70, 0, 0, 95] })),
+        "the stroke cannot be played: ",
+      ],
       [await packed(JSON.stringify({ ...good, notes: 1 })), "notes and at: texts are needed"],
     ] as const) {
       await one.evaluate((d) => (location.hash = `#view=play&d=${d}`), d);

@@ -1,4 +1,5 @@
-// Drills of the page: each can be made, by a stroke that a search finds, and a stroke that does nothing makes none.
+// Drills of the page: each can be made, by a stroke that a search finds, and a stroke that does
+// nothing makes none.
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import type { Carom, Cue, ShotBall, Shot } from "carom";
@@ -10,9 +11,17 @@ import { Draws, root } from "../../test/support.js";
 const drills = drillsOf(readFileSync(`${root}data/drills.csv`, "utf8"));
 const OPTIONS = { cushionModel: "han" } as const;
 
-function layout(carom: Carom, { balls }: Drill): { table: ReturnType<Carom["table"]>; balls: ShotBall[] } {
+function layout(
+  carom: Carom,
+  { balls }: Drill,
+): { table: ReturnType<Carom["table"]>; balls: ShotBall[] } {
   const table = carom.table("9ft");
-  let lie = carom.rack("eightball", table).map(({ kind, state }): ShotBall => ({ kind, state: { ...state, r: [0, 0, -0.1], label: "pocketed" } }));
+  let lie = carom.rack("eightball", table).map(
+    ({ kind, state }): ShotBall => ({
+      kind,
+      state: { ...state, r: [0, 0, -0.1], label: "pocketed" },
+    }),
+  );
   for (const [ball, [x, y]] of balls) lie = carom.placeBall(table, lie, ball, x, y);
   return { table, balls: lie };
 }
@@ -24,12 +33,23 @@ function* strokes(carom: Carom, drill: Drill, most: number): Generator<Partial<C
   for (const [word, value] of drill.goal) {
     const ball = parseInt(value);
     const into = value.split("@")[1];
-    if (word === "pot") ways.push({ ball, into }, ...[1, 2].filter((one) => one !== ball && drill.balls.has(one)).map((one) => ({ ball, via: [one] })));
-    if (word === "bank") for (const rail of ["head", "foot", "left", "right"]) ways.push({ ball, via: [rail] });
+    if (word === "pot")
+      ways.push(
+        { ball, into },
+        ...[1, 2]
+          .filter((one) => one !== ball && drill.balls.has(one))
+          .map((one) => ({ ball, via: [one] })),
+      );
+    if (word === "bank")
+      for (const rail of ["head", "foot", "left", "right"]) ways.push({ ball, via: [rail] });
     if (word === "clear") ways.push(...[1, 2, 3].map((ball) => ({ ball })));
   }
   for (let k = 0; k < most; k++) {
-    const stroke = { speed: draws.between(0.5, 5), a: draws.between(-0.3, 0.3), b: draws.between(-0.5, 0.5) };
+    const stroke = {
+      speed: draws.between(0.5, 5),
+      a: draws.between(-0.3, 0.3),
+      b: draws.between(-0.5, 0.5),
+    };
     if (ways.length === 0) yield { ...stroke, phi: draws.between(0, 360) };
     else
       for (const { into, ...way } of ways)
@@ -45,40 +65,82 @@ test("there are twenty, with names of their own", () => {
   expect(new Set(drills.map(({ name }) => name)).size).toBe(20);
 });
 
-// For new drills: CAROM_DRILLS=1 tells each rating, by the best of 200 strokes; three balls fall by three such strokes.
+// For new drills: CAROM_DRILLS=1 tells each rating, by the best of 200 strokes; three balls fall by
+// three such strokes.
 test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the tries", () => {
   const { carom } = builds[0]!;
   for (const drill of drills) {
     const { table, balls } = layout(carom, drill);
-    const good = (cue: Partial<Cue>): boolean => judge(drill, carom.simulate(table, balls, cue, OPTIONS)).is !== "missed";
+    const good = (cue: Partial<Cue>): boolean =>
+      judge(drill, carom.simulate(table, balls, cue, OPTIONS)).is !== "missed";
     const made: Partial<Cue>[] = [];
     for (const cue of strokes(carom, drill, 4000)) if (good(cue) && made.push(cue) === 200) break;
-    const share = (cue: Partial<Cue>, fargo: number, count: number): number => Array.from({ length: count }, (_, k) => good(carom.withErrors(cue, carom.player({ fargo }), count, k))).filter(Boolean).length / count;
-    const best = (fargo: number): number => Math.max(...made.map((cue) => [share(cue, fargo, 25), cue] as const).sort(([a], [b]) => b - a).slice(0, 8).map(([, cue]) => share(cue, fargo, 300))) ** (drill.name === "Clear the line" ? 3 : 1);
-    console.log(drill.name, drill.rating, [300, 400, 500, 600, 700, 800].map((fargo) => `${fargo}: ${best(fargo).toFixed(2)}`).join(", "));
+    const share = (cue: Partial<Cue>, fargo: number, count: number): number =>
+      Array.from({ length: count }, (_, k) =>
+        good(carom.withErrors(cue, carom.player({ fargo }), count, k)),
+      ).filter(Boolean).length / count;
+    const best = (fargo: number): number =>
+      Math.max(
+        ...made
+          .map((cue) => [share(cue, fargo, 25), cue] as const)
+          .sort(([a], [b]) => b - a)
+          .slice(0, 8)
+          .map(([, cue]) => share(cue, fargo, 300)),
+      ) ** (drill.name === "Clear the line" ? 3 : 1);
+    console.log(
+      drill.name,
+      drill.rating,
+      [300, 400, 500, 600, 700, 800]
+        .map((fargo) => `${fargo}: ${best(fargo).toFixed(2)}`)
+        .join(", "),
+    );
   }
 });
 
-test.each(drills.map((drill) => [drill.name, drill] as const))("%s can be made, and is not made by itself", (_, drill) => {
-  const { carom } = builds[0]!;
-  const { table, balls } = layout(carom, drill);
-  const play = (cue: Partial<Cue>): Shot => carom.simulate(table, balls, cue, OPTIONS);
-  expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ is: "missed" });
-  // Where three balls are to fall, the stroke goes on.
-  for (const cue of strokes(carom, drill, 1000)) if (judge(drill, play(cue)).is !== "missed") return;
-  expect.fail(`${drill.name}: no stroke of 1000 makes it`);
-});
+test.each(drills.map((drill) => [drill.name, drill] as const))(
+  "%s can be made, and is not made by itself",
+  (_, drill) => {
+    const { carom } = builds[0]!;
+    const { table, balls } = layout(carom, drill);
+    const play = (cue: Partial<Cue>): Shot => carom.simulate(table, balls, cue, OPTIONS);
+    expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ is: "missed" });
+    // Where three balls are to fall, the stroke goes on.
+    for (const cue of strokes(carom, drill, 1000))
+      if (judge(drill, play(cue)).is !== "missed") return;
+    expect.fail(`${drill.name}: no stroke of 1000 makes it`);
+  },
+);
 
 test("a game of pool is played on the table that it names, with the pockets of that table", () => {
   const { carom } = builds[0]!;
-  const on = (table?: string, game = "nineball"): Play => new Play(carom, { game, against: "practice", own: "0", seed: 1, ...(table !== undefined && { table }) });
-  expect(["9ft", "8ft", "7ft", "tight"].map((name) => on(name).table.width)).toEqual([1.27, 1.1176, 0.9906, 1.27]);
+  const on = (table?: string, game = "nineball"): Play =>
+    new Play(carom, {
+      game,
+      against: "practice",
+      own: "0",
+      seed: 1,
+      ...(table !== undefined && { table }),
+    });
+  expect(["9ft", "8ft", "7ft", "tight"].map((name) => on(name).table.width)).toEqual([
+    1.27, 1.1176, 0.9906, 1.27,
+  ]);
   expect(on().table).toEqual(on("9ft").table);
   // Of balls side by side that run at a corner, fewer fall into the tight one.
   const into = ({ table, balls }: Play): number => {
-    const lie = balls.map(({ kind, state }): ShotBall => ({ kind, state: { ...state, r: [0, 0, -0.1], label: "pocketed" } }));
-    const line = Array.from({ length: 41 }, (_, k) => carom.placeBall(table, lie, 0, 0.4, 0.4 + 0.002 * k));
-    return line.filter((all) => carom.simulate(table, all, carom.cue({ speed: 2, phi: 225 }), OPTIONS).final[0]!.label === "pocketed").length;
+    const lie = balls.map(
+      ({ kind, state }): ShotBall => ({
+        kind,
+        state: { ...state, r: [0, 0, -0.1], label: "pocketed" },
+      }),
+    );
+    const line = Array.from({ length: 41 }, (_, k) =>
+      carom.placeBall(table, lie, 0, 0.4, 0.4 + 0.002 * k),
+    );
+    return line.filter(
+      (all) =>
+        carom.simulate(table, all, carom.cue({ speed: 2, phi: 225 }), OPTIONS).final[0]!.label ===
+        "pocketed",
+    ).length;
   };
   const [usual, tight] = [into(on("9ft")), into(on("tight"))];
   expect(tight).toBeGreaterThan(2);

@@ -1,4 +1,5 @@
-// The laboratory and the view of collisions, in a browser. Numbers are compared with the command `carom`.
+// The laboratory and the view of collisions, in a browser. Numbers are compared with the command
+// `carom`.
 import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
 import { toLine } from "carom";
@@ -9,33 +10,53 @@ import { root, run, thereIsACommand } from "../../test/support.js";
 describe.runIf(browserPath !== undefined)("the laboratory", () => {
   const { open, on, drag, click, lies, colour, text, set, frames } = pages();
 
-  test.runIf(thereIsACommand)("sliders of a collision give the command's throw, deflection and speeds", async () => {
-    const one = await open("#view=collision");
-    for (const [speed, cut, side, tip] of [
-      [1.5, 30, 0, 0.4],
-      [3.2, -42.5, 0.31, -0.2],
-      [0.7, 15, -0.5, 0],
-    ] as const) {
-      await set(one, "speed", speed);
-      await set(one, "cut", cut);
-      await set(one, "side", side);
-      await set(one, "tip", tip);
-      const spin = `${(2.5 * speed * tip) / 0.028575}rad/s`;
-      const english = `${(2.5 * speed * side) / 0.028575}rad/s`;
-      const told = run(["hit", "--speed", String(speed), "--cut", String(cut), `--spin=${spin}`, `--side=${english}`, "--friction", "alciatore", "--csv"]);
-      const derived = run(["resolve", "--derived", "-"], told).trim().split("\n").map((line) => line.split(","));
-      const number = (column: string): number => Number(derived[1]![derived[0]!.indexOf(column)]);
-      const v = (ball: number): [number, number] => [number(`v${ball}x`), number(`v${ball}y`)];
-      const angle = ([x, y]: [number, number]): string => `${Math.abs((Math.atan2(y, x) * 180) / Math.PI).toFixed(2)}° ${y > 0 ? "left" : "right"}`;
-      const speedOf = ([x, y]: [number, number]): string => `${Math.hypot(x, y).toFixed(3)} m/s`;
-      expect(await text(one, "n-object")).toBe(`${angle(v(2))}, ${speedOf(v(2))}`);
-      expect(await text(one, "n-deflection")).toBe(`${angle(v(1))}, ${speedOf(v(1))}`);
-      const thrown = (Math.atan2(v(2)[1], v(2)[0]) * 180) / Math.PI - cut;
-      expect(await text(one, "n-throw")).toBe(`${Math.abs(thrown).toFixed(2)}° ${thrown > 0 ? "left" : "right"}`);
-      expect(await text(one, "n-spin")).toBe(`${number("w2z").toFixed(2)} rad/s`);
-    }
-    await one.close();
-  });
+  test.runIf(thereIsACommand)(
+    "sliders of a collision give the command's throw, deflection and speeds",
+    async () => {
+      const one = await open("#view=collision");
+      for (const [speed, cut, side, tip] of [
+        [1.5, 30, 0, 0.4],
+        [3.2, -42.5, 0.31, -0.2],
+        [0.7, 15, -0.5, 0],
+      ] as const) {
+        await set(one, "speed", speed);
+        await set(one, "cut", cut);
+        await set(one, "side", side);
+        await set(one, "tip", tip);
+        const spin = `${(2.5 * speed * tip) / 0.028575}rad/s`;
+        const english = `${(2.5 * speed * side) / 0.028575}rad/s`;
+        const told = run([
+          "hit",
+          "--speed",
+          String(speed),
+          "--cut",
+          String(cut),
+          `--spin=${spin}`,
+          `--side=${english}`,
+          "--friction",
+          "alciatore",
+          "--csv",
+        ]);
+        const derived = run(["resolve", "--derived", "-"], told)
+          .trim()
+          .split("\n")
+          .map((line) => line.split(","));
+        const number = (column: string): number => Number(derived[1]![derived[0]!.indexOf(column)]);
+        const v = (ball: number): [number, number] => [number(`v${ball}x`), number(`v${ball}y`)];
+        const angle = ([x, y]: [number, number]): string =>
+          `${Math.abs((Math.atan2(y, x) * 180) / Math.PI).toFixed(2)}° ${y > 0 ? "left" : "right"}`;
+        const speedOf = ([x, y]: [number, number]): string => `${Math.hypot(x, y).toFixed(3)} m/s`;
+        expect(await text(one, "n-object")).toBe(`${angle(v(2))}, ${speedOf(v(2))}`);
+        expect(await text(one, "n-deflection")).toBe(`${angle(v(1))}, ${speedOf(v(1))}`);
+        const thrown = (Math.atan2(v(2)[1], v(2)[0]) * 180) / Math.PI - cut;
+        expect(await text(one, "n-throw")).toBe(
+          `${Math.abs(thrown).toFixed(2)}° ${thrown > 0 ? "left" : "right"}`,
+        );
+        expect(await text(one, "n-spin")).toBe(`${number("w2z").toFixed(2)} rad/s`);
+      }
+      await one.close();
+    },
+  );
 
   test("dragging the cue ball, keys and the address", async () => {
     const one = await open("#view=collision&speed=2&cut=10");
@@ -45,7 +66,9 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     const box = (await scene.boundingBox())!;
     await one.mouse.move(box.x + box.width * 0.4, box.y + box.height * 0.5);
     await one.mouse.down();
-    await one.mouse.move(box.x + box.width * 0.5 - 100, box.y + box.height * 0.5 + 100, { steps: 5 });
+    await one.mouse.move(box.x + box.width * 0.5 - 100, box.y + box.height * 0.5 + 100, {
+      steps: 5,
+    });
     await one.mouse.up();
     expect(await one.locator("#cut").inputValue()).toBe("45");
     await scene.press("ArrowRight");
@@ -58,34 +81,50 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     await one.close();
   });
 
-  test.runIf(thereIsACommand)("a break plays to its end, with the command's final state", async () => {
-    const one = await open("#view=lab&phi=89.3&right=-0.1");
-    await one.locator("main summary").click();
-    await one.locator("#export").click();
-    const line = await one.locator("#line").inputValue();
-    const played = JSON.parse(run(["shoot", "-"], line)) as { status: string; events: unknown[][]; final: { t: number; balls: Record<string, number[]> } };
-    expect(await text(one, "s-status")).toBe(played.status);
-    expect(await text(one, "s-time")).toBe(`${played.final.t.toFixed(3)} s`);
-    expect(await text(one, "s-count")).toBe(String(played.events.filter(([, type]) => type !== "none").length));
-    const cue = played.final.balls.cue!;
-    expect(await text(one, "s-cue-ball")).toBe(cue[0] === 4 ? "in a pocket" : `${cue[1]!.toFixed(4)}, ${cue[2]!.toFixed(4)} m`);
-    const fell = Object.entries(played.final.balls).filter(([, state]) => state[0] === 4).map(([name]) => name);
-    expect(await text(one, "s-pocketed")).toBe(fell.join(", ") || "none");
-    // The film, from some time before its end, so that a busy machine does not miss it.
-    await set(one, "time", Math.floor(1000 * (played.final.t - 3)) / 1000);
-    await one.locator("#play").click();
-    expect(await text(one, "play")).toBe("Pause");
-    await expect.poll(() => text(one, "play")).toBe("Play");
-    expect(Number(await one.locator("#time").inputValue())).toBeCloseTo(played.final.t, 2);
-    expect(await one.locator('.events li[aria-current="true"] + li').count()).toBe(0);
-    // From event to event.
-    await one.locator(".events button").first().click();
-    await one.locator("#forward").click();
-    expect(Number(await one.locator("#time").inputValue())).toBeCloseTo(Number(await text(one, "s-contact").then((t) => t.match(/after ([\d.]+)/)![1])), 2);
-    await one.locator("#back").click();
-    expect(Number(await one.locator("#time").inputValue())).toBe(0);
-    await one.close();
-  });
+  test.runIf(thereIsACommand)(
+    "a break plays to its end, with the command's final state",
+    async () => {
+      const one = await open("#view=lab&phi=89.3&right=-0.1");
+      await one.locator("main summary").click();
+      await one.locator("#export").click();
+      const line = await one.locator("#line").inputValue();
+      const played = JSON.parse(run(["shoot", "-"], line)) as {
+        status: string;
+        events: unknown[][];
+        final: { t: number; balls: Record<string, number[]> };
+      };
+      expect(await text(one, "s-status")).toBe(played.status);
+      expect(await text(one, "s-time")).toBe(`${played.final.t.toFixed(3)} s`);
+      expect(await text(one, "s-count")).toBe(
+        String(played.events.filter(([, type]) => type !== "none").length),
+      );
+      const cue = played.final.balls.cue!;
+      expect(await text(one, "s-cue-ball")).toBe(
+        cue[0] === 4 ? "in a pocket" : `${cue[1]!.toFixed(4)}, ${cue[2]!.toFixed(4)} m`,
+      );
+      const fell = Object.entries(played.final.balls)
+        .filter(([, state]) => state[0] === 4)
+        .map(([name]) => name);
+      expect(await text(one, "s-pocketed")).toBe(fell.join(", ") || "none");
+      // The film, from some time before its end, so that a busy machine does not miss it.
+      await set(one, "time", Math.floor(1000 * (played.final.t - 3)) / 1000);
+      await one.locator("#play").click();
+      expect(await text(one, "play")).toBe("Pause");
+      await expect.poll(() => text(one, "play")).toBe("Play");
+      expect(Number(await one.locator("#time").inputValue())).toBeCloseTo(played.final.t, 2);
+      expect(await one.locator('.events li[aria-current="true"] + li').count()).toBe(0);
+      // From event to event.
+      await one.locator(".events button").first().click();
+      await one.locator("#forward").click();
+      expect(Number(await one.locator("#time").inputValue())).toBeCloseTo(
+        Number(await text(one, "s-contact").then((t) => t.match(/after ([\d.]+)/)![1])),
+        2,
+      );
+      await one.locator("#back").click();
+      expect(Number(await one.locator("#time").inputValue())).toBe(0);
+      await one.close();
+    },
+  );
 
   test("a line is read back, and a bad one is refused with its key", async () => {
     const one = await open("#view=lab");
@@ -95,7 +134,9 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     expect(await text(one, "message")).toBe("");
     expect(await one.locator("#speed").inputValue()).toBe("9");
     if (thereIsACommand) {
-      const played = JSON.parse(run(["shoot", "--events", "none", `${root}data/break-nineball.jsonl`])) as { final: { t: number; balls: Record<string, number[]> } };
+      const played = JSON.parse(
+        run(["shoot", "--events", "none", `${root}data/break-nineball.jsonl`]),
+      ) as { final: { t: number; balls: Record<string, number[]> } };
       const [, x, y] = played.final.balls.cue!;
       expect(await text(one, "s-time")).toBe(`${played.final.t.toFixed(3)} s`);
       expect(await text(one, "s-cue-ball")).toBe(`${x!.toFixed(4)}, ${y!.toFixed(4)} m`);
@@ -111,48 +152,70 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     await one.close();
   });
 
-  test.runIf(thereIsACommand)("an imported layout has its balls by their numbers, in the game that its file or the page names", async () => {
-    const { carom } = builds[0]!;
-    const places: Record<string, [number, number]> = { cue: [0.4, 0.9], 5: [0.3, 1.9], 2: [0.9, 1.7], 9: [0.7, 0.5], 8: [1.0, 1.1], 12: [0.2, 0.4] };
-    const of = (...names: string[]): string => toLine({ id: "a layout", tableName: "9ft", names, balls: names.map((name) => carom.ball(...places[name]!)), cue: carom.cue({ speed: 2 }) });
-    const one = await open("#view=lab");
-    await one.locator("main summary").click();
-    const take = async (game: string, line: string): Promise<void> => {
-      await one.locator("#game").selectOption(game);
-      await one.locator("#line").fill(line);
-      await one.locator("#import").click();
-    };
-    const nine = of("cue", "5", "2", "9");
-    await take("nineball", nine);
-    expect(await text(one, "message")).toBe("");
-    // Ball 12 is of eight-ball alone, and without ball 9 there is no nine-ball.
-    for (const line of [of("cue", "5", "12", "8", "9"), of("cue", "8", "2")]) {
-      await take("nineball", line);
-      expect(await one.locator("#game").inputValue()).toBe("eightball");
+  test.runIf(thereIsACommand)(
+    "an imported layout has its balls by their numbers, in the game that its file or the page names",
+    async () => {
+      const { carom } = builds[0]!;
+      const places: Record<string, [number, number]> = {
+        cue: [0.4, 0.9],
+        5: [0.3, 1.9],
+        2: [0.9, 1.7],
+        9: [0.7, 0.5],
+        8: [1.0, 1.1],
+        12: [0.2, 0.4],
+      };
+      const of = (...names: string[]): string =>
+        toLine({
+          id: "a layout",
+          tableName: "9ft",
+          names,
+          balls: names.map((name) => carom.ball(...places[name]!)),
+          cue: carom.cue({ speed: 2 }),
+        });
+      const one = await open("#view=lab");
+      await one.locator("main summary").click();
+      const take = async (game: string, line: string): Promise<void> => {
+        await one.locator("#game").selectOption(game);
+        await one.locator("#line").fill(line);
+        await one.locator("#import").click();
+      };
+      const nine = of("cue", "5", "2", "9");
+      await take("nineball", nine);
       expect(await text(one, "message")).toBe("");
-    }
-    // Two games fit: the one that was chosen, which the page says, or none.
-    const both = of("cue", "8", "9", "2");
-    await take("eightball", both);
-    expect(await text(one, "message")).toBe("The balls are read as those of Eight-ball. If they are of Nine-ball, choose this game and import again.");
-    await take("nineball", both);
-    expect(await text(one, "message")).toContain("read as those of Nine-ball");
-    await take("eightball", both.replace("a layout", "nineball"));
-    expect(await one.locator("#game").inputValue()).toBe("nineball");
-    await take("snooker", both);
-    expect(await text(one, "message")).toBe("balls: they fit Nine-ball and Eight-ball; choose one of these games, then import again");
-    // Neither: it can be played.
-    await take("nineball", of("cue", "5", "2"));
-    expect(await text(one, "message")).toBe("");
-    await one.close();
-  });
+      // Ball 12 is of eight-ball alone, and without ball 9 there is no nine-ball.
+      for (const line of [of("cue", "5", "12", "8", "9"), of("cue", "8", "2")]) {
+        await take("nineball", line);
+        expect(await one.locator("#game").inputValue()).toBe("eightball");
+        expect(await text(one, "message")).toBe("");
+      }
+      // Two games fit: the one that was chosen, which the page says, or none.
+      const both = of("cue", "8", "9", "2");
+      await take("eightball", both);
+      expect(await text(one, "message")).toBe(
+        "The balls are read as those of Eight-ball. If they are of Nine-ball, choose this game and import again.",
+      );
+      await take("nineball", both);
+      expect(await text(one, "message")).toContain("read as those of Nine-ball");
+      await take("eightball", both.replace("a layout", "nineball"));
+      expect(await one.locator("#game").inputValue()).toBe("nineball");
+      await take("snooker", both);
+      expect(await text(one, "message")).toBe(
+        "balls: they fit Nine-ball and Eight-ball; choose one of these games, then import again",
+      );
+      // Neither: it can be played.
+      await take("nineball", of("cue", "5", "2"));
+      expect(await text(one, "message")).toBe("");
+      await one.close();
+    },
+  );
 
   test("aiming: a drag on the cloth, the cue ball moved, every game", async () => {
     const one = await open("#view=lab&game=eightball");
     const box = (await one.locator("#table-scene").boundingBox())!;
     await one.mouse.move(box.x + box.width * 0.7, box.y + box.height * 0.3);
     await one.mouse.down();
-    for (let k = 0; k < 60; k++) await one.mouse.move(box.x + box.width * 0.7, box.y + box.height * (0.3 + 0.005 * k));
+    for (let k = 0; k < 60; k++)
+      await one.mouse.move(box.x + box.width * 0.7, box.y + box.height * (0.3 + 0.005 * k));
     console.log(`an eight-ball break is aimed: ${await text(one, "cost")}`);
     await one.mouse.up();
     expect(await one.locator("#phi").inputValue()).not.toBe("90");
@@ -161,7 +224,11 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       expect(await text(one, "s-status")).toBe("ok");
       expect(Number(await text(one, "s-count"))).toBeGreaterThan(5);
     }
-    const cushions = (JSON.parse(readFileSync(`${root}build/web/rows.json`, "utf8")) as { words: Record<string, [string, string][]> }).words.CUSHION_MODEL!;
+    const cushions = (
+      JSON.parse(readFileSync(`${root}build/web/rows.json`, "utf8")) as {
+        words: Record<string, [string, string][]>;
+      }
+    ).words.CUSHION_MODEL!;
     expect(await one.locator("#cushion option").allTextContents()).toHaveLength(cushions.length);
     for (const [cushion] of cushions) {
       await one.locator("#cushion").selectOption(cushion);
@@ -180,152 +247,217 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
       await one.locator("#cushion").selectOption(cushionModel);
       const kind = carom.kind("billiard", cushionModel);
       const balls = carom.rack("threecushion", table).map(({ state }) => ({ kind, state }));
-      const shot = carom.simulate(table, balls, carom.cue({ speed: 4, phi: 62, b: 0.25 }, "billiard"), { cushionModel });
-      expect(await text(one, "s-cue-ball"), cushionModel).toBe(`${shot.final[0]!.r[0].toFixed(4)}, ${shot.final[0]!.r[1].toFixed(4)} m`);
+      const shot = carom.simulate(
+        table,
+        balls,
+        carom.cue({ speed: 4, phi: 62, b: 0.25 }, "billiard"),
+        { cushionModel },
+      );
+      expect(await text(one, "s-cue-ball"), cushionModel).toBe(
+        `${shot.final[0]!.r[0].toFixed(4)}, ${shot.final[0]!.r[1].toFixed(4)} m`,
+      );
       expect(await one.locator("#message").textContent()).toBe("");
     }
     await one.locator("#game").selectOption("snooker");
     await one.locator("#cushion").selectOption("stronge");
-    expect(await one.locator("#message").textContent()).toContain('snooker has no constants for "stronge"; it plays those of its own cushions');
+    expect(await one.locator("#message").textContent()).toContain(
+      'snooker has no constants for "stronge"; it plays those of its own cushions',
+    );
     await one.close();
   });
 
-  test.each(sizes)("balls are dragged, wait in a pocket, come back, and stay beside each other: %s", async (_, how) => {
-    const touch = "touch" in how;
-    const one = await open("#view=lab", how);
-    const before = await lies(one);
-    const [, x, y] = before["1"]! as [number, number, number];
-    await drag(one, [x, y], [0.4, 1.1], touch);
-    const after = await lies(one);
-    expect(after["1"]![1]).toBeCloseTo(0.4, 1);
-    expect(after["1"]![2]).toBeCloseTo(1.1, 1);
-    expect({ ...after, 1: 0 }).toEqual({ ...before, 1: 0 });
-    // onto the place of the cue ball: it lies against it
-    const cue = after.cue!.slice(1) as [number, number];
-    await drag(one, after["1"]!.slice(1) as [number, number], [cue[0] + 0.01, cue[1] + 0.02], touch);
-    const beside = (await lies(one))["1"]!;
-    expect(Math.hypot(beside[1]! - cue[0], beside[2]! - cue[1])).toBeCloseTo(0.05717, 4);
-    // off the table, and back from the wood
-    await drag(one, beside.slice(1) as [number, number], [0.3, -0.09], touch);
-    expect((await lies(one))["1"]![0]).toBe(4);
-    await drag(one, [-0.045, 0.12], [0.9, 0.5], touch);
-    expect((await lies(one))["1"]!.map((x) => Math.round(100 * x) / 100)).toEqual([0, 0.9, 0.5].map((x, k) => (k ? expect.closeTo(x, 1) : x)));
-    expect(await one.evaluate(() => scrollY)).toBe(0);
-    // turned in place by the wheel, or by the handle of a ball that is picked
-    if (!touch) {
-      await one.mouse.move(...(await on(one, before["9"]![1]!, before["9"]![2]!)));
-      for (let k = 0; k < 9; k++) await one.mouse.wheel(0, 100);
-      await expect.poll(() => colour(one, before["9"]![1]! + 0.021, before["9"]![2]!).then((c) => c[2])).toBeLessThan(80);
-      expect(await lies(one)).toMatchObject({ 9: before["9"]! });
-      await one.waitForURL(/%2C90/);
-    }
-    await click(one, 0.9, 0.5, touch);
-    const box = (await one.locator("#table-scene").boundingBox())!;
-    const reach = 36 / ((box.height > box.width ? box.width : box.height) / 1.47);
-    const [, px, py] = (await lies(one))["1"]! as [number, number, number];
-    await drag(one, [px + reach, py], [px, py + reach], touch);
-    await one.waitForURL(/%2C(89|90|91)(\+|&|$)/);
-    expect((await lies(one))["1"]!.slice(1)).toEqual([px, py]);
-    expect(await one.evaluate(() => scrollY)).toBe(0);
-    await one.close();
-  });
+  test.each(sizes)(
+    "balls are dragged, wait in a pocket, come back, and stay beside each other: %s",
+    async (_, how) => {
+      const touch = "touch" in how;
+      const one = await open("#view=lab", how);
+      const before = await lies(one);
+      const [, x, y] = before["1"]! as [number, number, number];
+      await drag(one, [x, y], [0.4, 1.1], touch);
+      const after = await lies(one);
+      expect(after["1"]![1]).toBeCloseTo(0.4, 1);
+      expect(after["1"]![2]).toBeCloseTo(1.1, 1);
+      expect({ ...after, 1: 0 }).toEqual({ ...before, 1: 0 });
+      // onto the place of the cue ball: it lies against it
+      const cue = after.cue!.slice(1) as [number, number];
+      await drag(
+        one,
+        after["1"]!.slice(1) as [number, number],
+        [cue[0] + 0.01, cue[1] + 0.02],
+        touch,
+      );
+      const beside = (await lies(one))["1"]!;
+      expect(Math.hypot(beside[1]! - cue[0], beside[2]! - cue[1])).toBeCloseTo(0.05717, 4);
+      // off the table, and back from the wood
+      await drag(one, beside.slice(1) as [number, number], [0.3, -0.09], touch);
+      expect((await lies(one))["1"]![0]).toBe(4);
+      await drag(one, [-0.045, 0.12], [0.9, 0.5], touch);
+      expect((await lies(one))["1"]!.map((x) => Math.round(100 * x) / 100)).toEqual(
+        [0, 0.9, 0.5].map((x, k) => (k ? expect.closeTo(x, 1) : x)),
+      );
+      expect(await one.evaluate(() => scrollY)).toBe(0);
+      // turned in place by the wheel, or by the handle of a ball that is picked
+      if (!touch) {
+        await one.mouse.move(...(await on(one, before["9"]![1]!, before["9"]![2]!)));
+        for (let k = 0; k < 9; k++) await one.mouse.wheel(0, 100);
+        await expect
+          .poll(() => colour(one, before["9"]![1]! + 0.021, before["9"]![2]!).then((c) => c[2]))
+          .toBeLessThan(80);
+        expect(await lies(one)).toMatchObject({ 9: before["9"]! });
+        await one.waitForURL(/%2C90/);
+      }
+      await click(one, 0.9, 0.5, touch);
+      const box = (await one.locator("#table-scene").boundingBox())!;
+      const reach = 36 / ((box.height > box.width ? box.width : box.height) / 1.47);
+      const [, px, py] = (await lies(one))["1"]! as [number, number, number];
+      await drag(one, [px + reach, py], [px, py + reach], touch);
+      await one.waitForURL(/%2C(89|90|91)(\+|&|$)/);
+      expect((await lies(one))["1"]!.slice(1)).toEqual([px, py]);
+      expect(await one.evaluate(() => scrollY)).toBe(0);
+      await one.close();
+    },
+  );
 
-  test.each(sizes)("a recording is opened or dropped, verified, and played shot by shot: %s", async (_, how) => {
-    const { carom } = builds[0]!;
-    const table = carom.table("9ft");
-    const game = carom.record(table, carom.rack("nineball", table), { cushionModel: "stronge" });
-    const ends = [game.shoot({ speed: 8, phi: 90.2 }, { timeMost: 0.5 }), game.continue()];
-    game.place(0, 0.6, 0.5);
-    ends.push(game.shoot({ speed: 2.5, phi: 70 }));
-    const whole = game.end();
-    const give = (name: string, of: string): Promise<void> => one.locator("#recording").setInputFiles({ name, mimeType: "application/jsonl", buffer: Buffer.from(of) });
-    const one = await open("#view=lab", how);
-    await give("game.jsonl", whole);
-    await expect.poll(() => text(one, "reel-file")).toBe("game.jsonl: 3 shots, every bit agrees.");
-    expect(await text(one, "reel-shot")).toBe("Shot 1 of 3: as recorded.");
-    expect(await text(one, "s-time")).toBe(`${ends[0]!.time.toFixed(3)} s`);
-    expect(await text(one, "s-status")).toBe("stopped_at_time");
-    expect(await one.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0);
-    // The film goes on from shot to shot.
-    await one.locator("#rate").selectOption("1000");
-    await one.locator("#play").click();
-    await expect.poll(() => text(one, "reel-shot")).toBe("Shot 3 of 3: as recorded.");
-    await expect.poll(() => text(one, "play")).toBe("Play");
-    expect(await text(one, "s-count")).toBe(String(ends[2]!.events));
-    // Back to the one that continues: it begins where the other was stopped. What is changed is recorded no longer.
-    await one.locator("#reel-back").click();
-    expect(Number(await one.locator("#time").inputValue())).toBe(0.5);
-    expect(await text(one, "s-time")).toBe(`${ends[1]!.time.toFixed(3)} s`);
-    await one.locator("#speed").fill("3");
-    expect(await text(one, "reel-shot")).toBe("Shot 2 of 3 was changed.");
-    // A forged stroke, dropped: its shot is shown.
-    const dropped = await one.evaluateHandle((of) => {
-      const data = new DataTransfer();
-      data.items.add(new File([of], "forged.jsonl"));
-      return data;
-    }, whole.replace('"speed":2.5', '"speed":2.6'));
-    await one.dispatchEvent(".table-view", "drop", { dataTransfer: dropped });
-    await expect.poll(() => text(one, "reel-file")).toContain("forged.jsonl: 3 shots, 1 ends otherwise than recorded, first shot 3 (line 8).");
-    expect(await text(one, "reel-shot")).toContain(`Shot 3 of 3, line 8: recorded ok, ${ends[2]!.events} events, ${ends[2]!.time.toFixed(6)} s, hash ${ends[2]!.hash}; played ok, `);
-    // Damage is refused by its line; without a shot before it, nothing changes.
-    await give("damaged.jsonl", whole.replace('"place"', '"plaice"'));
-    await expect.poll(() => text(one, "reel-file")).toContain("damaged.jsonl: 2 shots, every bit agrees. The rest is refused: line 7: ");
-    await give("other.jsonl", whole.replace('"revision":', '"revision":9'));
-    await expect.poll(() => text(one, "message")).toContain("other.jsonl: line 1: the recording is of revision 9");
-    expect(await text(one, "reel-file")).toContain("damaged.jsonl");
-    await one.locator("#rack").click();
-    expect(await one.locator("#reel").isVisible()).toBe(false);
-    await one.close();
-  });
+  test.each(sizes)(
+    "a recording is opened or dropped, verified, and played shot by shot: %s",
+    async (_, how) => {
+      const { carom } = builds[0]!;
+      const table = carom.table("9ft");
+      const game = carom.record(table, carom.rack("nineball", table), { cushionModel: "stronge" });
+      const ends = [game.shoot({ speed: 8, phi: 90.2 }, { timeMost: 0.5 }), game.continue()];
+      game.place(0, 0.6, 0.5);
+      ends.push(game.shoot({ speed: 2.5, phi: 70 }));
+      const whole = game.end();
+      const give = (name: string, of: string): Promise<void> =>
+        one
+          .locator("#recording")
+          .setInputFiles({ name, mimeType: "application/jsonl", buffer: Buffer.from(of) });
+      const one = await open("#view=lab", how);
+      await give("game.jsonl", whole);
+      await expect
+        .poll(() => text(one, "reel-file"))
+        .toBe("game.jsonl: 3 shots, every bit agrees.");
+      expect(await text(one, "reel-shot")).toBe("Shot 1 of 3: as recorded.");
+      expect(await text(one, "s-time")).toBe(`${ends[0]!.time.toFixed(3)} s`);
+      expect(await text(one, "s-status")).toBe("stopped_at_time");
+      expect(
+        await one.evaluate(
+          () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
+        ),
+      ).toBeLessThanOrEqual(0);
+      // The film goes on from shot to shot.
+      await one.locator("#rate").selectOption("1000");
+      await one.locator("#play").click();
+      await expect.poll(() => text(one, "reel-shot")).toBe("Shot 3 of 3: as recorded.");
+      await expect.poll(() => text(one, "play")).toBe("Play");
+      expect(await text(one, "s-count")).toBe(String(ends[2]!.events));
+      // Back to the one that continues: it begins where the other was stopped. What is changed is
+      // recorded no longer.
+      await one.locator("#reel-back").click();
+      expect(Number(await one.locator("#time").inputValue())).toBe(0.5);
+      expect(await text(one, "s-time")).toBe(`${ends[1]!.time.toFixed(3)} s`);
+      await one.locator("#speed").fill("3");
+      expect(await text(one, "reel-shot")).toBe("Shot 2 of 3 was changed.");
+      // A forged stroke, dropped: its shot is shown.
+      const dropped = await one.evaluateHandle(
+        (of) => {
+          const data = new DataTransfer();
+          data.items.add(new File([of], "forged.jsonl"));
+          return data;
+        },
+        whole.replace('"speed":2.5', '"speed":2.6'),
+      );
+      await one.dispatchEvent(".table-view", "drop", { dataTransfer: dropped });
+      await expect
+        .poll(() => text(one, "reel-file"))
+        .toContain("forged.jsonl: 3 shots, 1 ends otherwise than recorded, first shot 3 (line 8).");
+      expect(await text(one, "reel-shot")).toContain(
+        `Shot 3 of 3, line 8: recorded ok, ${ends[2]!.events} events, ${ends[2]!.time.toFixed(6)} s, hash ${ends[2]!.hash}; played ok, `,
+      );
+      // Damage is refused by its line; without a shot before it, nothing changes.
+      await give("damaged.jsonl", whole.replace('"place"', '"plaice"'));
+      await expect
+        .poll(() => text(one, "reel-file"))
+        .toContain("damaged.jsonl: 2 shots, every bit agrees. The rest is refused: line 7: ");
+      await give("other.jsonl", whole.replace('"revision":', '"revision":9'));
+      await expect
+        .poll(() => text(one, "message"))
+        .toContain("other.jsonl: line 1: the recording is of revision 9");
+      expect(await text(one, "reel-file")).toContain("damaged.jsonl");
+      await one.locator("#rack").click();
+      expect(await one.locator("#reel").isVisible()).toBe(false);
+      await one.close();
+    },
+  );
 
-  test.each(sizes)("the stick, the drawn ball, a pocket, the next shot, undo, and the link: %s", async (_, how) => {
-    const touch = "touch" in how;
-    const one = await open("#view=lab&game=nineball&speed=3&at=0.635,0.6 0.5,1.6 in in in in in in in 1,2", how);
-    expect(await text(one, "message")).toBe("");
-    // the stick is drawn back: 0.04 m for each m/s
-    await drag(one, [0.635, 0.6 - 0.35], [0.635, 0.6 - 0.43], touch);
-    expect(Number(await one.locator("#speed").inputValue())).toBeCloseTo(5, 0);
-    await one.locator("#speed").fill("2.5");
-    const ball = (await one.locator("#spin").boundingBox())!;
-    const at = [ball.x + ball.width * (0.5 + 0.2 / 1.05), ball.y + ball.height * (0.5 + 0.1 / 1.05)] as const;
-    await (touch ? one.touchscreen.tap(...at) : one.mouse.click(...at));
-    expect(Number(await one.locator("#right").inputValue())).toBeCloseTo(0.4, 1);
-    expect(Number(await one.locator("#up").inputValue())).toBeCloseTo(-0.2, 1);
-    await click(one, 0.5, 1.6, touch);
-    const inPocket = async (): Promise<number> => Math.max(...(await colour(one, -0.0295, 2.5695, touch ? 11 : 25)));
-    expect(await inPocket()).toBeLessThan(60);
-    // every corner at the foot takes the ball, with squirt and throw
-    for (const [x, y, name] of [[1.27, 2.54, "right"], [0, 2.54, "left"]] as const) {
-      await click(one, x, y, touch);
-      expect(await text(one, "message")).toContain(`Aimed: ball 1 into the foot-${name} pocket`);
-      expect(await text(one, "s-pocketed")).toBe("1");
-      expect(await text(one, "s-status")).toBe("ok");
-    }
-    // its trail ends in the pocket, where the ball lies
-    expect(await inPocket()).toBeGreaterThan(60);
-    // one that is picked, and hidden behind the other
-    await click(one, 1, 2, touch);
-    await click(one, 0, 0, touch);
-    expect(await text(one, "message")).toContain("No such aim: no direction sends ball 9 into the head-left pocket.");
-    const phi = Number(await one.locator("#phi").inputValue());
-    await one.waitForURL(({ hash }) => Math.abs(Number(new URLSearchParams(hash.slice(1)).get("phi")) - phi) < 0.05); // the address follows
-    const aimed = one.url();
-    const shot = await text(one, "s-time");
-    await one.locator("#next").click();
-    const lie = await lies(one);
-    expect(lie["1"]![0]).toBe(4);
-    expect(await text(one, "s-time")).not.toBe(shot);
-    await one.locator("#undo").click();
-    expect(await text(one, "s-time")).toBe(shot);
-    await one.waitForURL(({ href }) => href === aimed);
-    await one.locator("#copy").click();
-    await expect.poll(() => text(one, "message")).toContain("copied");
-    const again = await open(new URL(await one.evaluate(() => navigator.clipboard.readText())).hash, how);
-    expect(await text(again, "s-time")).toBe(shot);
-    expect(await text(again, "s-pocketed")).toBe("1");
-    await again.close();
-    await one.close();
-  });
+  test.each(sizes)(
+    "the stick, the drawn ball, a pocket, the next shot, undo, and the link: %s",
+    async (_, how) => {
+      const touch = "touch" in how;
+      const one = await open(
+        "#view=lab&game=nineball&speed=3&at=0.635,0.6 0.5,1.6 in in in in in in in 1,2",
+        how,
+      );
+      expect(await text(one, "message")).toBe("");
+      // the stick is drawn back: 0.04 m for each m/s
+      await drag(one, [0.635, 0.6 - 0.35], [0.635, 0.6 - 0.43], touch);
+      expect(Number(await one.locator("#speed").inputValue())).toBeCloseTo(5, 0);
+      await one.locator("#speed").fill("2.5");
+      const ball = (await one.locator("#spin").boundingBox())!;
+      const at = [
+        ball.x + ball.width * (0.5 + 0.2 / 1.05),
+        ball.y + ball.height * (0.5 + 0.1 / 1.05),
+      ] as const;
+      await (touch ? one.touchscreen.tap(...at) : one.mouse.click(...at));
+      expect(Number(await one.locator("#right").inputValue())).toBeCloseTo(0.4, 1);
+      expect(Number(await one.locator("#up").inputValue())).toBeCloseTo(-0.2, 1);
+      await click(one, 0.5, 1.6, touch);
+      const inPocket = async (): Promise<number> =>
+        Math.max(...(await colour(one, -0.0295, 2.5695, touch ? 11 : 25)));
+      expect(await inPocket()).toBeLessThan(60);
+      // every corner at the foot takes the ball, with squirt and throw
+      for (const [x, y, name] of [
+        [1.27, 2.54, "right"],
+        [0, 2.54, "left"],
+      ] as const) {
+        await click(one, x, y, touch);
+        expect(await text(one, "message")).toContain(`Aimed: ball 1 into the foot-${name} pocket`);
+        expect(await text(one, "s-pocketed")).toBe("1");
+        expect(await text(one, "s-status")).toBe("ok");
+      }
+      // its trail ends in the pocket, where the ball lies
+      expect(await inPocket()).toBeGreaterThan(60);
+      // one that is picked, and hidden behind the other
+      await click(one, 1, 2, touch);
+      await click(one, 0, 0, touch);
+      expect(await text(one, "message")).toContain(
+        "No such aim: no direction sends ball 9 into the head-left pocket.",
+      );
+      const phi = Number(await one.locator("#phi").inputValue());
+      await one.waitForURL(
+        ({ hash }) => Math.abs(Number(new URLSearchParams(hash.slice(1)).get("phi")) - phi) < 0.05,
+      ); // the address follows
+      const aimed = one.url();
+      const shot = await text(one, "s-time");
+      await one.locator("#next").click();
+      const lie = await lies(one);
+      expect(lie["1"]![0]).toBe(4);
+      expect(await text(one, "s-time")).not.toBe(shot);
+      await one.locator("#undo").click();
+      expect(await text(one, "s-time")).toBe(shot);
+      await one.waitForURL(({ href }) => href === aimed);
+      await one.locator("#copy").click();
+      await expect.poll(() => text(one, "message")).toContain("copied");
+      const again = await open(
+        new URL(await one.evaluate(() => navigator.clipboard.readText())).hash,
+        how,
+      );
+      expect(await text(again, "s-time")).toBe(shot);
+      expect(await text(again, "s-pocketed")).toBe("1");
+      await again.close();
+      await one.close();
+    },
+  );
 
   test("a finger on the cloth scrolls the page, and turns the aim on its line", async () => {
     const one = await open("#view=lab", { width: 390, height: 844, touch: true });
@@ -354,10 +486,15 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(89.1, 1);
     expect(Number(await one.locator("#speed").inputValue())).toBeCloseTo(3.1, 6);
     await one.waitForURL(/phi=89.1/);
-    // The cue ball, and then the one that is picked, by 1 and 10 mm as one sees them: the table lies.
+    // The cue ball, and then the one that is picked, by 1 and 10 mm as one sees them: the table
+    // lies.
     await scene.press("Alt+ArrowRight");
     const told = (begins: string): Promise<void> =>
-      one.waitForURL(({ hash }) => (new URLSearchParams(hash.slice(1)).get("at") ?? "").replace(/\d+\.\d+/g, (x) => String(Number(Number(x).toFixed(6)))).startsWith(`${begins} `));
+      one.waitForURL(({ hash }) =>
+        (new URLSearchParams(hash.slice(1)).get("at") ?? "")
+          .replace(/\d+\.\d+/g, (x) => String(Number(Number(x).toFixed(6))))
+          .startsWith(`${begins} `),
+      );
     await told("0.635,0.601 0.5,1.6");
     await click(one, 0.5, 1.6);
     await scene.press("Alt+Shift+ArrowDown");
@@ -365,7 +502,10 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     await scene.press(".");
     await told("0.635,0.601 0.51,1.6,10");
     const moved = await lies(one);
-    expect([moved.cue, moved["1"]].map((ball) => ball!.map((x) => Number(x.toFixed(6))))).toEqual([[0, 0.635, 0.601], [0, 0.51, 1.6]]);
+    expect([moved.cue, moved["1"]].map((ball) => ball!.map((x) => Number(x.toFixed(6))))).toEqual([
+      [0, 0.635, 0.601],
+      [0, 0.51, 1.6],
+    ]);
     // What has stood in the address is a step back: the turn, then the move.
     for (const x of [0.51, 0.5]) {
       await scene.press("Control+z");
@@ -381,11 +521,13 @@ describe.runIf(browserPath !== undefined)("the laboratory", () => {
     const box = (await one.locator("#table-scene").boundingBox())!;
     expect((box.width * box.height) / (how.width * how.height)).toBeGreaterThan(0.48);
     expect(box.y + box.height).toBeLessThan(how.height);
-    // Diamonds are bright on the wood, beside a quarter of the head cushion; ball 9 is yellow between white ends.
+    // Diamonds are bright on the wood, beside a quarter of the head cushion; ball 9 is yellow
+    // between white ends.
     expect(Math.min(...(await colour(one, 1.27 / 4, -0.08)))).toBeGreaterThan(150);
     const [, x, y] = (await lies(one))["9"]!;
     expect((await colour(one, x! + 0.02, y!))[2]).toBeGreaterThan(200);
-    if (how.width > 1000) expect((await colour(one, x!, y! + 0.021))[2]).toBeLessThan(80); // on the phone it is two pixels wide
+    // on the phone it is two pixels wide
+    if (how.width > 1000) expect((await colour(one, x!, y! + 0.021))[2]).toBeLessThan(80);
     await one.close();
   });
 });

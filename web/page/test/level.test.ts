@@ -1,51 +1,90 @@
-// What a level is: one's own rating by games and drills, the lines of the table, the part of a ball that is met, and the price of a hint.
+// What a level is: one's own rating by games and drills, the lines of the table, the part of a ball
+// that is met, and the price of a hint.
 import { describe, expect, test } from "vitest";
 import { browserPath, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("by level", () => {
   const { open, bright, frames, struck, text, turnTo } = pages();
-  test.each(sizes)("lines and the part of the ball that is met, by setting and by rating; the wheel turns by its step: %s", async (_, how) => {
-    const one = await open("", how, { game: "nineball", against: "300", own: "800", seed: 7, at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9", entries: [] });
-    /** Bright pixels of the way of the 1, after a cut by which it goes to the left, near it and farther on. */
-    const seen = async (lines: string, games: object): Promise<boolean[]> => {
-      await one.evaluate(([lines, games]) => {
-        localStorage.setItem("carom-settings", JSON.stringify({ lines }));
-        localStorage.setItem("carom-ladder", games!);
-      }, [lines, JSON.stringify(games)] as const);
-      await one.reload();
-      await one.waitForSelector("main[aria-busy=false]");
-      await turnTo(one, (Math.atan2(1.9 - 0.635, 0.318 - 0.635) * 180) / Math.PI);
-      await frames(one, 4);
-      return [(await bright(one, [0.12, 2.03], [0.24, 2.13])) > 4, (await bright(one, [0.02, 2.2], [0.12, 2.4])) > 4];
-    };
-    for (const [lines, games, near] of [["none", {}, false], ["short", {}, true], ["full", {}, true], ["level", {}, true], ["level", { 800: [30, 3] }, false]] as const) {
-      const [one_, far] = await seen(lines, games);
-      expect([lines, one_]).toEqual([lines, near]);
-      if (lines === "short") expect(far).toBe(false);
-      expect(await one.locator("#part").isVisible()).toBe(near);
-    }
-    await seen("full", {});
-    expect(Number((await text(one, "part")).split(" ")[0])).toBeGreaterThan(40);
-    const before = Number(await one.locator("#phi").inputValue());
-    expect(await text(one, "wheel")).toBe("↺ 0.02° ↻");
-    const box = (await one.locator("#wheel").boundingBox())!;
-    await one.mouse.move(box.x + 20, box.y + 20);
-    await one.mouse.down();
-    await one.mouse.move(box.x + 70, box.y + 20);
-    await one.mouse.up();
-    expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(before - 1, 1);
-    await one.mouse.click(box.x + 5, box.y + 20);
-    await one.locator("#wheel").press("ArrowLeft");
-    expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(before - 0.95, 1);
-    expect(await violations(one)).toEqual([]);
-    await one.close();
-  });
+  test.each(sizes)(
+    "lines and the part of the ball that is met, by setting and by rating; the wheel turns by its step: %s",
+    async (_, how) => {
+      const one = await open("", how, {
+        game: "nineball",
+        against: "300",
+        own: "800",
+        seed: 7,
+        at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
+        entries: [],
+      });
+      /**
+       * Bright pixels of the way of the 1, after a cut by which it goes to the left, near it and
+       * farther on.
+       */
+      const seen = async (lines: string, games: object): Promise<boolean[]> => {
+        await one.evaluate(
+          ([lines, games]) => {
+            localStorage.setItem("carom-settings", JSON.stringify({ lines }));
+            localStorage.setItem("carom-ladder", games!);
+          },
+          [lines, JSON.stringify(games)] as const,
+        );
+        await one.reload();
+        await one.waitForSelector("main[aria-busy=false]");
+        await turnTo(one, (Math.atan2(1.9 - 0.635, 0.318 - 0.635) * 180) / Math.PI);
+        await frames(one, 4);
+        return [
+          (await bright(one, [0.12, 2.03], [0.24, 2.13])) > 4,
+          (await bright(one, [0.02, 2.2], [0.12, 2.4])) > 4,
+        ];
+      };
+      for (const [lines, games, near] of [
+        ["none", {}, false],
+        ["short", {}, true],
+        ["full", {}, true],
+        ["level", {}, true],
+        ["level", { 800: [30, 3] }, false],
+      ] as const) {
+        const [one_, far] = await seen(lines, games);
+        expect([lines, one_]).toEqual([lines, near]);
+        if (lines === "short") expect(far).toBe(false);
+        expect(await one.locator("#part").isVisible()).toBe(near);
+      }
+      await seen("full", {});
+      expect(Number((await text(one, "part")).split(" ")[0])).toBeGreaterThan(40);
+      const before = Number(await one.locator("#phi").inputValue());
+      expect(await text(one, "wheel")).toBe("↺ 0.02° ↻");
+      const box = (await one.locator("#wheel").boundingBox())!;
+      await one.mouse.move(box.x + 20, box.y + 20);
+      await one.mouse.down();
+      await one.mouse.move(box.x + 70, box.y + 20);
+      await one.mouse.up();
+      expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(before - 1, 1);
+      await one.mouse.click(box.x + 5, box.y + 20);
+      await one.locator("#wheel").press("ArrowLeft");
+      expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(before - 0.95, 1);
+      expect(await violations(one)).toEqual([]);
+      await one.close();
+    },
+  );
 
   test("a game that is won against the page's player counts, and a stroke with a hint errs like one's rating", async () => {
     // The nine hangs in the corner.
-    const one = await open("", {}, { game: "nineball", against: "500", own: "800", seed: 7, at: "0.4,0.4 in in in in in in in in 0.06,0.06", entries: [] });
+    const one = await open(
+      "",
+      {},
+      {
+        game: "nineball",
+        against: "500",
+        own: "800",
+        seed: 7,
+        at: "0.4,0.4 in in in in in in in in 0.06,0.06",
+        entries: [],
+      },
+    );
     await one.locator("#new-game").click();
-    expect(await text(one, "new-note")).toMatch(/Your rating is about 4\d\d \(95 %: 3\d\d to \d+\), a guess before the first game\./);
+    expect(await text(one, "new-note")).toMatch(
+      /Your rating is about 4\d\d \(95 %: 3\d\d to \d+\), a guess before the first game\./,
+    );
     await one.locator("#rate").selectOption("1000");
     await one.locator("#menu .close").click();
     await one.locator("#hint").click();
@@ -55,7 +94,9 @@ describe.runIf(browserPath !== undefined)("by level", () => {
     await expect.poll(() => text(one, "turn")).toMatch(/have won\.$/);
     // The errors of an 800 are below 0.2 degrees.
     expect(Math.abs((await struck(one, "phi")) - meant)).toBeGreaterThan(0.2);
-    expect(await text(one, "said")).toMatch(/^Your rating is about \d+ \(95 %: 3\d\d to \d+\), by 1 : 0 against a 500\.$/);
+    expect(await text(one, "said")).toMatch(
+      /^Your rating is about \d+ \(95 %: 3\d\d to \d+\), by 1 : 0 against a 500\.$/,
+    );
     await one.close();
   });
 });

@@ -1,4 +1,5 @@
-// Games of two pages, in a browser: by a channel between two tabs, and by the link that one page makes and the other one verifies.
+// Games of two pages, in a browser: by a channel between two tabs, and by the link that one page
+// makes and the other one verifies.
 import { readFileSync } from "node:fs";
 import { createServer, type Server } from "node:http";
 import type { AddressInfo } from "node:net";
@@ -8,7 +9,10 @@ import type { BrowserContext, Page } from "playwright-core";
 import { browserPath, page, pages, sizes } from "./page.js";
 
 const packed = (text: string): string => deflateRawSync(text).toString("base64url");
-const unpacked = (url: string): string => inflateRawSync(Buffer.from(new URLSearchParams(new URL(url).hash.slice(1)).get("g")!, "base64url")).toString();
+const unpacked = (url: string): string =>
+  inflateRawSync(
+    Buffer.from(new URLSearchParams(new URL(url).hash.slice(1)).get("g")!, "base64url"),
+  ).toString();
 
 describe.runIf(browserPath !== undefined)("a game by link", () => {
   const { browser, text, said } = pages();
@@ -28,11 +32,26 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     server.close();
     server.closeAllConnections();
   });
-  const contextOf = (how: { width: number; height: number; touch?: boolean }): Promise<BrowserContext> =>
-    browser().newContext({ viewport: { width: how.width, height: how.height }, hasTouch: how.touch ?? false, serviceWorkers: "block", permissions: ["clipboard-read", "clipboard-write"] });
+  const contextOf = (how: {
+    width: number;
+    height: number;
+    touch?: boolean;
+  }): Promise<BrowserContext> =>
+    browser().newContext({
+      viewport: { width: how.width, height: how.height },
+      hasTouch: how.touch ?? false,
+      serviceWorkers: "block",
+      permissions: ["clipboard-read", "clipboard-write"],
+    });
   async function open(context: BrowserContext, hash = ""): Promise<Page> {
     const one = await context.newPage();
-    one.on("console", (message) => ["error", "warning"].includes(message.type()) && !/404|Service Worker registration blocked/.test(message.text()) && said.push(message.text()));
+    one.on(
+      "console",
+      (message) =>
+        ["error", "warning"].includes(message.type()) &&
+        !/404|Service Worker registration blocked/.test(message.text()) &&
+        said.push(message.text()),
+    );
     one.on("pageerror", (error) => said.push(error.message));
     await one.goto(`${address}${hash}`);
     await one.waitForSelector("main[aria-busy=false]");
@@ -69,7 +88,10 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     for (; strokes < 150; strokes++) {
       if (/won/.test(await turn(one))) break;
       // Whoever may shoot does; the other one's page hears of it.
-      const [plays, hears] = (await one.locator("#shoot[aria-disabled=false]").count()) > 0 ? [one, other] : [other, one];
+      const [plays, hears] =
+        (await one.locator("#shoot[aria-disabled=false]").count()) > 0
+          ? [one, other]
+          : [other, one];
       await plays.bringToFront();
       if (strokes > 0) {
         await plays.locator("#hint").click();
@@ -77,14 +99,26 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       }
       await plays.locator("#shoot").click();
       await hears.bringToFront();
-      await expect.poll(() => text(hears, "said")).toBe(`Stroke ${strokes + 1} was repeated; every bit agrees.`);
+      await expect
+        .poll(() => text(hears, "said"))
+        .toBe(`Stroke ${strokes + 1} was repeated; every bit agrees.`);
       heard++;
       // Then somebody may play, or has won.
-      await expect.poll(async () => /won/.test(await turn(one)) || (await one.locator("#shoot[aria-disabled=false]").count()) + (await other.locator("#shoot[aria-disabled=false]").count()) === 1).toBe(true);
+      await expect
+        .poll(
+          async () =>
+            /won/.test(await turn(one)) ||
+            (await one.locator("#shoot[aria-disabled=false]").count()) +
+              (await other.locator("#shoot[aria-disabled=false]").count()) ===
+              1,
+        )
+        .toBe(true);
     }
     expect(heard).toBe(strokes);
     const [mine, yours] = [await turn(one), await turn(other)];
-    expect([mine, yours].map((told) => told.match(/(You have|The other player has) won/)![1]).sort()).toEqual(["The other player has", "You have"]);
+    expect(
+      [mine, yours].map((told) => told.match(/(You have|The other player has) won/)![1]).sort(),
+    ).toEqual(["The other player has", "You have"]);
     // Both have the same game, which a reload keeps.
     expect(unpacked(one.url())).toBe(unpacked(other.url()));
     await other.reload();
@@ -96,16 +130,38 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
 
   test("whoever keeps the turn is told that the other one waits, who knows for what", async () => {
     const [here, there] = [await contextOf(sizes[1][1]), await contextOf(sizes[0][1])];
-    const one = await open(here, `#view=play&seat=0&g=${packed(JSON.stringify({ game: "nineball", against: "link", own: "0", seed: 7, at: "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9", entries: [] }))}`);
-    for (const [id, value] of [["phi", "225"], ["up", "-0.35"], ["power", "1.2"]] as const) await one.locator(`#${id}`).evaluate((input: HTMLInputElement, value) => ((input.value = value), input.dispatchEvent(new Event("input"))), value);
+    const one = await open(
+      here,
+      `#view=play&seat=0&g=${packed(JSON.stringify({ game: "nineball", against: "link", own: "0", seed: 7, at: "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9", entries: [] }))}`,
+    );
+    for (const [id, value] of [
+      ["phi", "225"],
+      ["up", "-0.35"],
+      ["power", "1.2"],
+    ] as const)
+      await one
+        .locator(`#${id}`)
+        .evaluate(
+          (input: HTMLInputElement, value) => (
+            (input.value = value),
+            input.dispatchEvent(new Event("input"))
+          ),
+          value,
+        );
     await one.locator("#shoot").click();
     await one.locator("#skip").click();
     await expect.poll(() => turn(one)).toMatch(/^Your turn/);
     const other = await open(there, new URL(await link(one)).hash);
-    expect(await text(one, "said")).toMatch(/You are still at the table: send it again after your turn/);
-    expect(await turn(other)).toBe("The other player plays: wait for the link that comes after this turn.");
+    expect(await text(one, "said")).toMatch(
+      /You are still at the table: send it again after your turn/,
+    );
+    expect(await turn(other)).toBe(
+      "The other player plays: wait for the link that comes after this turn.",
+    );
     await other.locator("#shoot").evaluate((button: HTMLElement) => button.click());
-    expect(await text(other, "said")).toBe("The other player is at the table: open the link that comes after his turn.");
+    expect(await text(other, "said")).toBe(
+      "The other player is at the table: open the link that comes after his turn.",
+    );
     await here.close();
     await there.close();
   });
@@ -122,11 +178,28 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     const game = JSON.parse(unpacked(url)) as { entries: { line: string }[] };
     expect(game.entries).toHaveLength(1);
     // The speed; a hash; a stroke out of turn; a link that was cut off.
-    const forged = (change: (line: string) => string): string => packed(JSON.stringify({ ...game, entries: [{ ...game.entries[0], line: change(game.entries[0]!.line) }] }));
+    const forged = (change: (line: string) => string): string =>
+      packed(
+        JSON.stringify({
+          ...game,
+          entries: [{ ...game.entries[0], line: change(game.entries[0]!.line) }],
+        }),
+      );
     for (const [g, why] of [
-      [forged((line) => line.replace(/"speed":("[^"]*"|[\d.]+)/, '"speed":7.5')), "stroke 1 ends otherwise than it was recorded"],
-      [forged((line) => line.replace(/"hash":"(.)/, (_, first: string) => `"hash":"${first === "a" ? "b" : "a"}`)), "stroke 1 ends otherwise than it was recorded"],
-      [packed(JSON.stringify({ ...game, entries: [{ line: game.entries[0]!.line }] })), "stroke 1: the place of the cue ball is missing"],
+      [
+        forged((line) => line.replace(/"speed":("[^"]*"|[\d.]+)/, '"speed":7.5')),
+        "stroke 1 ends otherwise than it was recorded",
+      ],
+      [
+        forged((line) =>
+          line.replace(/"hash":"(.)/, (_, first: string) => `"hash":"${first === "a" ? "b" : "a"}`),
+        ),
+        "stroke 1 ends otherwise than it was recorded",
+      ],
+      [
+        packed(JSON.stringify({ ...game, entries: [{ line: game.entries[0]!.line }] })),
+        "stroke 1: the place of the cue ball is missing",
+      ],
       [packed(JSON.stringify(game)).slice(0, -40), "the link is cut off or damaged"],
     ] as const) {
       const bad = await open(there, `#view=play&seat=1&g=${g}`);
@@ -146,8 +219,12 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     await own.locator("#new-game").click();
     await own.locator("#copy-game").click();
     await expect.poll(() => text(own, "said")).toBe("The link to this game is copied.");
-    const again = await open(there, new URL(await own.evaluate(() => navigator.clipboard.readText())).hash);
-    const kept = (page: Page): Promise<string | null> => page.evaluate(() => localStorage.getItem("carom-game"));
+    const again = await open(
+      there,
+      new URL(await own.evaluate(() => navigator.clipboard.readText())).hash,
+    );
+    const kept = (page: Page): Promise<string | null> =>
+      page.evaluate(() => localStorage.getItem("carom-game"));
     expect(await kept(again)).toBe(await kept(own));
     await here.close();
     await there.close();

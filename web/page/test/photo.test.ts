@@ -1,4 +1,5 @@
-// Places of balls from a photo, beside cameras that are known: pinhole pictures of the table, with corners and balls marked to a pixel.
+// Places of balls from a photo, beside cameras that are known: pinhole pictures of the table, with
+// corners and balls marked to a pixel.
 import { expect, test } from "vitest";
 import { cameraOf, type Pixel, radiusAt, suggest } from "../src/play/photo.js";
 import { discOf, type Picture, snapCorners, snapDisc } from "../src/play/snap.js";
@@ -7,32 +8,50 @@ import { Draws } from "../../test/support.js";
 
 const [W, L, NOSE, R] = [1.27, 2.54, 0.0366, 0.028575];
 const SIZE: Pixel = [4032, 3024];
-const COLOURS = ["#e3b505", "#1446a0", "#c8102e", "#5b2a86", "#e8702a", "#12664f", "#7a1f2b", "#16181b"];
+const COLOURS = [
+  "#e3b505",
+  "#1446a0",
+  "#c8102e",
+  "#5b2a86",
+  "#e8702a",
+  "#12664f",
+  "#7a1f2b",
+  "#16181b",
+];
 
-const pinhole = (from: number[], to: number[], focal: number): ReturnType<typeof camera> => camera(SIZE, from, to, focal);
-const corners = (see: ReturnType<typeof pinhole>): Pixel[] => [see(0, 0, NOSE), see(W, 0, NOSE), see(W, L, NOSE), see(0, L, NOSE)];
+const pinhole = (from: number[], to: number[], focal: number): ReturnType<typeof camera> =>
+  camera(SIZE, from, to, focal);
+const corners = (see: ReturnType<typeof pinhole>): Pixel[] => [
+  see(0, 0, NOSE),
+  see(W, 0, NOSE),
+  see(W, L, NOSE),
+  see(0, L, NOSE),
+];
 
 test.each([
   ["from the head, standing", [0.5, -1.0, 1.3], [0.635, 1.1, 0], 3000],
   ["from a corner", [2.1, -0.7, 1.4], [0.6, 1.2, 0], 2800],
   ["from the side, a tele lens", [3.6, 1.6, 2.2], [0.6, 1.25, 0], 5200],
   ["from the foot", [0.7, 3.5, 1.5], [0.6, 1.2, 0], 3100],
-] as const)("balls are within 1 cm with marks that are off by a pixel: %s", (_, from, to, focal) => {
-  const see = pinhole([...from], [...to], focal);
-  const draws = new Draws(7n);
-  const off = ([u, v]: Pixel): Pixel => [u + draws.between(-1, 1), v + draws.between(-1, 1)];
-  let worst = 0;
-  for (let picture = 0; picture < 20; picture++) {
-    const camera = cameraOf(SIZE, corners(see).map(off), [W, L], NOSE - R);
-    for (let k = 0; k < 16; k++) {
-      const [x, y] = [draws.between(R, W - R), draws.between(R, L - R)];
-      const [px, py] = camera.place(off(see(x, y, R)));
-      worst = Math.max(worst, Math.hypot(px - x, py - y));
+] as const)(
+  "balls are within 1 cm with marks that are off by a pixel: %s",
+  (_, from, to, focal) => {
+    const see = pinhole([...from], [...to], focal);
+    const draws = new Draws(7n);
+    const off = ([u, v]: Pixel): Pixel => [u + draws.between(-1, 1), v + draws.between(-1, 1)];
+    let worst = 0;
+    for (let picture = 0; picture < 20; picture++) {
+      const camera = cameraOf(SIZE, corners(see).map(off), [W, L], NOSE - R);
+      for (let k = 0; k < 16; k++) {
+        const [x, y] = [draws.between(R, W - R), draws.between(R, L - R)];
+        const [px, py] = camera.place(off(see(x, y, R)));
+        worst = Math.max(worst, Math.hypot(px - x, py - y));
+      }
     }
-  }
-  console.log(`places from a photo: off by at most ${(1000 * worst).toFixed(1)} mm`);
-  expect(worst).toBeLessThan(0.01);
-});
+    console.log(`places from a photo: off by at most ${(1000 * worst).toFixed(1)} mm`);
+    expect(worst).toBeLessThan(0.01);
+  },
+);
 
 test("exact marks give the focal length, and places to a tenth of a millimetre; the height of balls counts", () => {
   const see = pinhole([0.5, -1.0, 1.3], [0.635, 1.1, 0], 3000);
@@ -40,7 +59,13 @@ test("exact marks give the focal length, and places to a tenth of a millimetre; 
   expect(camera.focal).toBeCloseTo(3000, 3);
   const flat = cameraOf(SIZE, corners(see), [W, L], 0);
   let [worst, without] = [0, 0];
-  for (const [x, y] of [[0.1, 0.2], [1.2, 0.4], [0.6, 1.3], [0.05, 2.4], [1.2, 2.5]] as const) {
+  for (const [x, y] of [
+    [0.1, 0.2],
+    [1.2, 0.4],
+    [0.6, 1.3],
+    [0.05, 2.4],
+    [1.2, 2.5],
+  ] as const) {
     const [[px, py], [fx, fy]] = [camera.place(see(x, y, R)), flat.place(see(x, y, R))];
     worst = Math.max(worst, Math.hypot(px - x, py - y));
     without = Math.max(without, Math.hypot(fx - x, fy - y));
@@ -61,12 +86,21 @@ test("from right above the focal length stays unknown, and places are within 1 c
 test("corners that are no table are refused", () => {
   const see = pinhole([0.5, -1.0, 1.3], [0.635, 1.1, 0], 3000);
   const [a, b, c, d] = corners(see) as [Pixel, Pixel, Pixel, Pixel];
-  for (const bad of [[a, d, c, b], [a, c, b, d], [a, b, b, d]]) expect(() => cameraOf(SIZE, bad, [W, L])).toThrow("corners: ");
+  for (const bad of [
+    [a, d, c, b],
+    [a, c, b, d],
+    [a, b, b, d],
+  ])
+    expect(() => cameraOf(SIZE, bad, [W, L])).toThrow("corners: ");
 });
 
 test("a patch suggests its ball, or the balls that it may be", () => {
   const patch = (white: number, hex: string, light: number): number[] =>
-    Array.from({ length: 100 }, (_, k) => (k < 100 * white ? [235, 232, 225, 255] : [...[1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16) * light), 255])).flat();
+    Array.from({ length: 100 }, (_, k) =>
+      k < 100 * white
+        ? [235, 232, 225, 255]
+        : [...[1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16) * light), 255],
+    ).flat();
   for (const light of [0.8, 1, 1.15]) {
     expect(suggest(patch(0.95, COLOURS[0]!, light), COLOURS)).toEqual([0]);
     COLOURS.forEach((hex, k) => {
@@ -78,24 +112,58 @@ test("a patch suggests its ball, or the balls that it may be", () => {
 });
 
 /** A photo: wood, cloth, and balls with caps or number, in a light, with noise. */
-function photo(see: ReturnType<typeof camera>, [w, h]: Pixel, balls: readonly (readonly [number, number, number])[], light: readonly number[], draws: Draws): Picture {
+function photo(
+  see: ReturnType<typeof camera>,
+  [w, h]: Pixel,
+  balls: readonly (readonly [number, number, number])[],
+  light: readonly number[],
+  draws: Draws,
+): Picture {
   const data = new Uint8ClampedArray(4 * w * h);
   let state = draws.between(0, 2 ** 31) | 0;
   const rgb = (hex: string): number[] => [1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16));
   const corners = [see(0, 0, NOSE), see(W, 0, NOSE), see(W, L, NOSE), see(0, L, NOSE)];
-  const discs = balls.map(([ball, x, y]) => ({ ball, at: see(x, y, R), r: Math.max(...[see(x + R, y, R), see(x, y + R, R)].map(([u, v]) => Math.hypot(u - see(x, y, R)[0], v - see(x, y, R)[1]))) }));
+  const discs = balls.map(([ball, x, y]) => ({
+    ball,
+    at: see(x, y, R),
+    r: Math.max(
+      ...[see(x + R, y, R), see(x, y + R, R)].map(([u, v]) =>
+        Math.hypot(u - see(x, y, R)[0], v - see(x, y, R)[1]),
+      ),
+    ),
+  }));
   const [wood, cloth, white] = [rgb("#5b3a24"), rgb("#1f6f5c"), rgb("#f4f2ea")];
   const paint = (x: number, y: number, colour: number[]): void => {
     state = Math.imul(state, 1664525) + 1013904223; // draws of 64 bits would take most of the time
-    for (let c = 0; c < 4; c++) data[4 * (w * y + x) + c] = c === 3 ? 255 : colour[c]! * light[c]! + state / 2 ** 28;
+    for (let c = 0; c < 4; c++)
+      data[4 * (w * y + x) + c] = c === 3 ? 255 : colour[c]! * light[c]! + state / 2 ** 28;
   };
-  const edges = corners.map(([u, v], k) => [u, v, corners[(k + 1) % 4]![0] - u, corners[(k + 1) % 4]![1] - v] as const);
-  for (let y = 0; y < h; y++) for (let x = 0; x < w; x++) paint(x, y, edges.every((edge) => edge[2] * (y - edge[1]) < edge[3] * (x - edge[0])) ? cloth : wood);
-  for (const { ball, at: [u, v], r } of discs)
+  const edges = corners.map(
+    ([u, v], k) => [u, v, corners[(k + 1) % 4]![0] - u, corners[(k + 1) % 4]![1] - v] as const,
+  );
+  for (let y = 0; y < h; y++)
+    for (let x = 0; x < w; x++)
+      paint(
+        x,
+        y,
+        edges.every((edge) => edge[2] * (y - edge[1]) < edge[3] * (x - edge[0])) ? cloth : wood,
+      );
+  for (const {
+    ball,
+    at: [u, v],
+    r,
+  } of discs)
     for (let y = Math.ceil(v - r); y < v + r; y++)
       for (let x = Math.ceil(u - r); x < u + r; x++) {
         const [a, b] = [(x - u) / r, (y - v) / r];
-        if (a * a + b * b < 1) paint(x, y, ball === 0 || (ball > 8 && Math.abs(b) > 0.45) || (ball < 9 && a * a + b * b < 0.08) ? white : rgb(COLOURS[(ball - 1) % 8]!));
+        if (a * a + b * b < 1)
+          paint(
+            x,
+            y,
+            ball === 0 || (ball > 8 && Math.abs(b) > 0.45) || (ball < 9 && a * a + b * b < 0.08)
+              ? white
+              : rgb(COLOURS[(ball - 1) % 8]!),
+          );
       }
   return { data, width: w, height: h };
 }
@@ -111,27 +179,44 @@ test.each([
   [[2.4, 3.1, 1.8], [0.6, 1.2, 0], 1300, [0.6, 0.6, 0.6]],
   [[0.2, -1.4, 1.7], [0.635, 1.1, 0], 1500, [0.9, 0.85, 0.8]],
   [[2.9, 0.4, 1.5], [0.6, 1.2, 0], 1300, [1, 1, 0.95]],
-] as const)("a finger that errs by 2 pixels of a phone lays balls within 1 cm, and no ball gets a wrong number in silence: from %j", (from, to, focal, light) => {
-  const size: Pixel = [1600, 1200];
-  const draws = new Draws(11n);
-  const see = camera(size, [...from], [...to], focal);
-  expect(Math.max(...corners(see).flatMap(([u, v]) => [-u, u - size[0], -v, v - size[1]]))).toBeLessThan(0);
-  const balls = [0, 1, 2, 3, 4, 5, 8, 9, 13, 15].map((ball, k) => [ball, 0.15 + 0.97 * ((k * 0.37) % 1), 0.2 + 0.22 * k] as const);
-  const picture = photo(see, size, balls, light, draws);
-  const scale = size[0] / 344; // on a phone of 390 pixels
-  const finger = ([u, v]: Pixel): Pixel => [u + scale * draws.between(-2, 2), v + scale * draws.between(-2, 2)];
-  const of = cameraOf(size, snapCorners(picture, corners(see).map(finger), 4 * scale), [W, L], NOSE - R);
-  let [worst, asked] = [0, 0];
-  for (const [ball, x, y] of balls) {
-    const mark = finger(see(x, y, R));
-    const radius = radiusAt(of, mark);
-    const snapped = snapDisc(picture, mark, radius, 3 * scale);
-    const [px, py] = of.place(snapped);
-    worst = Math.max(worst, Math.hypot(px - x, py - y));
-    const may = suggest(discOf(picture, snapped, radius), COLOURS);
-    expect(may.length === 1 ? may : [...may, ball], `${ball}: ${may}`).toContain(ball);
-    asked += Number(may.length > 1);
-  }
-  console.log(`a finger on a photo: off by at most ${(1000 * worst).toFixed(1)} mm, asked of ${asked} of ${balls.length}`);
-  expect(worst).toBeLessThan(0.01);
-});
+] as const)(
+  "a finger that errs by 2 pixels of a phone lays balls within 1 cm, and no ball gets a wrong number in silence: from %j",
+  (from, to, focal, light) => {
+    const size: Pixel = [1600, 1200];
+    const draws = new Draws(11n);
+    const see = camera(size, [...from], [...to], focal);
+    expect(
+      Math.max(...corners(see).flatMap(([u, v]) => [-u, u - size[0], -v, v - size[1]])),
+    ).toBeLessThan(0);
+    const balls = [0, 1, 2, 3, 4, 5, 8, 9, 13, 15].map(
+      (ball, k) => [ball, 0.15 + 0.97 * ((k * 0.37) % 1), 0.2 + 0.22 * k] as const,
+    );
+    const picture = photo(see, size, balls, light, draws);
+    const scale = size[0] / 344; // on a phone of 390 pixels
+    const finger = ([u, v]: Pixel): Pixel => [
+      u + scale * draws.between(-2, 2),
+      v + scale * draws.between(-2, 2),
+    ];
+    const of = cameraOf(
+      size,
+      snapCorners(picture, corners(see).map(finger), 4 * scale),
+      [W, L],
+      NOSE - R,
+    );
+    let [worst, asked] = [0, 0];
+    for (const [ball, x, y] of balls) {
+      const mark = finger(see(x, y, R));
+      const radius = radiusAt(of, mark);
+      const snapped = snapDisc(picture, mark, radius, 3 * scale);
+      const [px, py] = of.place(snapped);
+      worst = Math.max(worst, Math.hypot(px - x, py - y));
+      const may = suggest(discOf(picture, snapped, radius), COLOURS);
+      expect(may.length === 1 ? may : [...may, ball], `${ball}: ${may}`).toContain(ball);
+      asked += Number(may.length > 1);
+    }
+    console.log(
+      `a finger on a photo: off by at most ${(1000 * worst).toFixed(1)} mm, asked of ${asked} of ${balls.length}`,
+    );
+    expect(worst).toBeLessThan(0.01);
+  },
+);

@@ -27,21 +27,26 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   const SHOOT = "#shoot[aria-disabled=false]";
   const NINE = { game: "nineball", own: "0", seed: 7 };
 
-  test.each(sizes)("it opens on a game, with all that a stroke needs within one screen: %s", async (_, how) => {
-    const one = await open("", how);
-    const paint = await one.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]!.startTime);
-    console.log(`first paint after ${paint.toFixed(0)} ms`);
-    expect(await turn(one)).toContain("You break");
-    for (const id of ["table-scene", "power", "tip-ball", "shoot", "hint", "turn", "said"]) {
-      const box = (await one.locator(`#${id}`).boundingBox())!;
-      expect(box.x, id).toBeGreaterThanOrEqual(0);
-      expect(box.x + box.width, id).toBeLessThanOrEqual(how.width);
-      expect(box.y + box.height, id).toBeLessThanOrEqual(how.height);
-    }
-    const box = (await one.locator("#table-scene").boundingBox())!;
-    expect((box.width * box.height) / (how.width * how.height)).toBeGreaterThan(0.48);
-    await one.close();
-  });
+  test.each(sizes)(
+    "it opens on a game, with all that a stroke needs within one screen: %s",
+    async (_, how) => {
+      const one = await open("", how);
+      const paint = await one.evaluate(
+        () => performance.getEntriesByName("first-contentful-paint")[0]!.startTime,
+      );
+      console.log(`first paint after ${paint.toFixed(0)} ms`);
+      expect(await turn(one)).toContain("You break");
+      for (const id of ["table-scene", "power", "tip-ball", "shoot", "hint", "turn", "said"]) {
+        const box = (await one.locator(`#${id}`).boundingBox())!;
+        expect(box.x, id).toBeGreaterThanOrEqual(0);
+        expect(box.x + box.width, id).toBeLessThanOrEqual(how.width);
+        expect(box.y + box.height, id).toBeLessThanOrEqual(how.height);
+      }
+      const box = (await one.locator("#table-scene").boundingBox())!;
+      expect((box.width * box.height) / (how.width * how.height)).toBeGreaterThan(0.48);
+      await one.close();
+    },
+  );
 
   test("on a phone a drag aims and scrolls nothing, a tap aims at a ball, two fingers show a part larger, and the tip is touched", async () => {
     const one = await open("", { width: 390, height: 844, touch: true });
@@ -49,13 +54,18 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     expect(before).toBe(90);
     await drag(one, [1.0, 1.4], [0.8, 1.4], true);
     // The aim turns by as much as the finger goes around the cue ball.
-    const around = (Math.atan2(1.4 - 0.635, 0.8 - 0.635) - Math.atan2(1.4 - 0.635, 1.0 - 0.635)) * (180 / Math.PI);
+    const around =
+      (Math.atan2(1.4 - 0.635, 0.8 - 0.635) - Math.atan2(1.4 - 0.635, 1.0 - 0.635)) *
+      (180 / Math.PI);
     expect(await phi(one)).toBeCloseTo(90 + around, 0);
     expect(await one.evaluate(() => scrollY)).toBe(0);
     await click(one, 0.3, 1.5, true);
     expect(await phi(one)).toBeCloseTo((Math.atan2(1.5 - 0.635, 0.3 - 0.635) * 180) / Math.PI, 0);
     const ball = (await one.locator("#tip-ball").boundingBox())!;
-    await one.touchscreen.tap(ball.x + ball.width * (0.5 + 0.3 / 2.1), ball.y + ball.height * (0.5 + 0.4 / 2.1));
+    await one.touchscreen.tap(
+      ball.x + ball.width * (0.5 + 0.3 / 2.1),
+      ball.y + ball.height * (0.5 + 0.4 / 2.1),
+    );
     expect(Number(await one.locator("#right").inputValue())).toBeCloseTo(0.3, 1);
     expect(Number(await one.locator("#up").inputValue())).toBeCloseTo(-0.4, 1);
     // Two fingers go apart: what was between them stays there, and the aim stays.
@@ -65,8 +75,17 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     const beside = async (): Promise<number> => Math.min(...(await pixel(one, x + 10, y - 10)));
     expect(await beside()).toBeLessThan(60);
     const devtools = await one.context().newCDPSession(one);
-    const send = (type: "touchStart" | "touchMove" | "touchEnd", apart: number[]): Promise<unknown> =>
-      devtools.send("Input.dispatchTouchEvent", { type, touchPoints: apart.flatMap((d) => [{ x: x - d, y, id: 0 }, { x: x + d, y, id: 1 }]) });
+    const send = (
+      type: "touchStart" | "touchMove" | "touchEnd",
+      apart: number[],
+    ): Promise<unknown> =>
+      devtools.send("Input.dispatchTouchEvent", {
+        type,
+        touchPoints: apart.flatMap((d) => [
+          { x: x - d, y, id: 0 },
+          { x: x + d, y, id: 1 },
+        ]),
+      });
     await send("touchStart", [20]);
     for (let d = 24; d <= 60; d += 4) await send("touchMove", [d]);
     await send("touchEnd", []);
@@ -89,8 +108,16 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     // The times of events count. A finger that lets go does not press Skip, which is there by then.
     const devtools = await one.context().newCDPSession(one);
     const now = Date.now() / 1000;
-    await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x: box.x + 20, y: box.y + 20 }], timestamp: now });
-    await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [], timestamp: now + 0.45 });
+    await devtools.send("Input.dispatchTouchEvent", {
+      type: "touchStart",
+      touchPoints: [{ x: box.x + 20, y: box.y + 20 }],
+      timestamp: now,
+    });
+    await devtools.send("Input.dispatchTouchEvent", {
+      type: "touchEnd",
+      touchPoints: [],
+      timestamp: now + 0.45,
+    });
     await expect.poll(() => one.locator("#skip").isVisible()).toBe(true);
     await frames(one, 20);
     expect(await one.locator("#skip").isVisible()).toBe(true);
@@ -101,7 +128,9 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.locator("#skip").click();
     await expect.poll(() => turn(one)).toMatch(/thinks/);
     await one.locator("#shoot").evaluate((button: HTMLElement) => button.click());
-    expect(await text(one, "said")).toBe("The other player thinks: your turn comes after his stroke.");
+    expect(await text(one, "said")).toBe(
+      "The other player thinks: your turn comes after his stroke.",
+    );
     await one.reload();
     await one.waitForSelector("main[aria-busy=false]");
     await begin(one, "nineball", "person");
@@ -126,13 +155,31 @@ describe.runIf(browserPath !== undefined)("a game", () => {
           const { x, y, width, height } = element.getBoundingClientRect();
           return [x, y, width, height];
         };
-        const strike = ["shoot", "skip"].map((id) => document.getElementById(id)!).find(({ hidden }) => !hidden)!;
-        return { strike: box(strike), ...Object.fromEntries([...["new-game", "hint", "replay", "space"].map((id) => document.getElementById(id)!), document.getElementById("wheel")!].map((one) => [one.textContent, box(one)])) };
+        const strike = ["shoot", "skip"]
+          .map((id) => document.getElementById(id)!)
+          .find(({ hidden }) => !hidden)!;
+        return {
+          strike: box(strike),
+          ...Object.fromEntries(
+            [
+              ...["new-game", "hint", "replay", "space"].map((id) => document.getElementById(id)!),
+              document.getElementById("wheel")!,
+            ].map((one) => [one.textContent, box(one)]),
+          ),
+        };
       });
     await pace(one, "4");
     const first = await seen();
     for (const id of ["turn", "said"]) {
-      await one.locator(`#${id}`).evaluate((words) => (words.textContent = words.id === "turn" ? "The 300 fouls: the break drove fewer than four balls to cushions. Your turn. Cue ball in hand: drag it." : "Words of two lines. ".repeat(5)));
+      await one
+        .locator(`#${id}`)
+        .evaluate(
+          (words) =>
+            (words.textContent =
+              words.id === "turn"
+                ? "The 300 fouls: the break drove fewer than four balls to cushions. Your turn. Cue ball in hand: drag it."
+                : "Words of two lines. ".repeat(5)),
+        );
       expect(await seen(), id).toEqual(first);
     }
     const phases = new Set<string>();
@@ -151,7 +198,12 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   });
 
   test("whoever comes to the table has his own power, the tip in the middle, and the aim at the nearest ball that is on", async () => {
-    const one = await kept({ ...NINE, against: "person", at: "0.635,0.635 0.3,1.9 0.6,0.9 in in in in in in 0.9,1.9", entries: [] });
+    const one = await kept({
+      ...NINE,
+      against: "person",
+      at: "0.635,0.635 0.3,1.9 0.6,0.9 in in in in in in 0.9,1.9",
+      entries: [],
+    });
     await pace(one, "1000");
     await turnTo(one, 200);
     await one.locator(".numbers-of summary").click();
@@ -182,7 +234,14 @@ describe.runIf(browserPath !== undefined)("a game", () => {
           g.drawImage(canvas, 0, 0);
           const { data } = g.getImageData(0, 0, copy.width, copy.height);
           let count = 0;
-          for (let k = 0; k < data.length; k += 4) if (Math.abs(data[k]! - 0xd9) + Math.abs(data[k + 1]! - 0xb0) + Math.abs(data[k + 2]! - 0x77) < 12) count++;
+          for (let k = 0; k < data.length; k += 4)
+            if (
+              Math.abs(data[k]! - 0xd9) +
+                Math.abs(data[k + 1]! - 0xb0) +
+                Math.abs(data[k + 2]! - 0x77) <
+              12
+            )
+              count++;
           seen.sticks = Math.max(seen.sticks, count);
         }
         requestAnimationFrame(look);
@@ -199,43 +258,66 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       await one.locator("#shoot").click();
       await expect.poll(() => turn(one)).toMatch(/…/);
     }
-    await expect.poll(() => one.evaluate(() => (window as unknown as { sticks: number }).sticks)).toBeGreaterThan(100);
+    await expect
+      .poll(() => one.evaluate(() => (window as unknown as { sticks: number }).sticks))
+      .toBeGreaterThan(100);
     await expect.poll(() => turn(one)).toMatch(/Your turn|won/);
     expect(await one.locator("#power").inputValue()).toBe("1");
-    expect(await text(one, "said")).toMatch(/^The 300 pocketed (no ball|the \d+( and the \d+)*)\.$/);
+    expect(await text(one, "said")).toMatch(
+      /^The 300 pocketed (no ball|the \d+( and the \d+)*)\.$/,
+    );
     await one.close();
   }, 180_000);
 
-  test.each(sizes)("the call follows the aim to the eight, whatever was tapped before: %s", async (_, how) => {
-    const touch = "touch" in how;
-    // The 1, the last of the solids, lies before a corner, the eight before another one, the 9 of the other one beside.
-    const at = "0.3,0.3 0.1,0.1 in in in in in in 1.226,2.424 0.3,1.9 in in in in in in";
-    const one = await kept({ game: "eightball", own: "0", seed: 7, against: "person", at, entries: [] }, how);
-    await pace(one, "1000");
-    await click(one, 0.1, 0.1, touch);
-    await expect.poll(() => turn(one)).toContain("Call: the 1, head-left pocket.");
-    // The cue ball does not follow it.
-    await one.locator(".numbers-of summary").click();
-    await set(one, "up", -0.35);
-    await set(one, "power", 1.2);
-    await one.locator("#shoot").click();
-    await expect.poll(() => turn(one)).toMatch(/^Player 1's turn, solids/);
-    // The aim begins at the only ball that is on. A tap at another one aims there, and calls nothing that is not on.
-    const aims = phi(one);
-    await click(one, 0.3, 1.9, touch);
-    await expect.poll(() => turn(one)).toMatch(/Nothing is called: aim at a ball, or tap a pocket\.$/);
-    await click(one, -0.03, 1.27, touch);
-    await expect.poll(() => turn(one)).toMatch(/Call: the 8, side-left pocket\.$/);
-    await turnTo(one, await aims);
-    await expect.poll(() => turn(one)).toMatch(/Call: the 8, foot-right pocket\.$/);
-    await one.locator("#shoot").click();
-    const { entries } = JSON.parse((await one.evaluate(() => localStorage.getItem("carom-game")))!) as { entries: { call: { ball: number } }[] };
-    expect(entries.map(({ call }) => call.ball)).toEqual([1, 8]);
-    await one.close();
-  });
+  test.each(sizes)(
+    "the call follows the aim to the eight, whatever was tapped before: %s",
+    async (_, how) => {
+      const touch = "touch" in how;
+      // The 1, the last of the solids, lies before a corner, the eight before another one, the 9 of
+      // the other one beside.
+      const at = "0.3,0.3 0.1,0.1 in in in in in in 1.226,2.424 0.3,1.9 in in in in in in";
+      const one = await kept(
+        { game: "eightball", own: "0", seed: 7, against: "person", at, entries: [] },
+        how,
+      );
+      await pace(one, "1000");
+      await click(one, 0.1, 0.1, touch);
+      await expect.poll(() => turn(one)).toContain("Call: the 1, head-left pocket.");
+      // The cue ball does not follow it.
+      await one.locator(".numbers-of summary").click();
+      await set(one, "up", -0.35);
+      await set(one, "power", 1.2);
+      await one.locator("#shoot").click();
+      await expect.poll(() => turn(one)).toMatch(/^Player 1's turn, solids/);
+      // The aim begins at the only ball that is on. A tap at another one aims there, and calls
+      // nothing that is not on.
+      const aims = phi(one);
+      await click(one, 0.3, 1.9, touch);
+      await expect
+        .poll(() => turn(one))
+        .toMatch(/Nothing is called: aim at a ball, or tap a pocket\.$/);
+      await click(one, -0.03, 1.27, touch);
+      await expect.poll(() => turn(one)).toMatch(/Call: the 8, side-left pocket\.$/);
+      await turnTo(one, await aims);
+      await expect.poll(() => turn(one)).toMatch(/Call: the 8, foot-right pocket\.$/);
+      await one.locator("#shoot").click();
+      const { entries } = JSON.parse(
+        (await one.evaluate(() => localStorage.getItem("carom-game")))!,
+      ) as { entries: { call: { ball: number } }[] };
+      expect(entries.map(({ call }) => call.ball)).toEqual([1, 8]);
+      await one.close();
+    },
+  );
 
   test("a pocket that was tapped is called as long as the aim is at its ball; the call is that of the aim at the stroke", async () => {
-    const one = await kept({ game: "eightball", own: "0", seed: 7, against: "person", at: "0.6,1.2 0.9,1.8 0.3,1.87 in in in in in 1.17,2.44 0.1,0.5 in in in in in in", entries: [] });
+    const one = await kept({
+      game: "eightball",
+      own: "0",
+      seed: 7,
+      against: "person",
+      at: "0.6,1.2 0.9,1.8 0.3,1.87 in in in in in 1.17,2.44 0.1,0.5 in in in in in in",
+      entries: [],
+    });
     await turnTo(one, 63.2);
     await expect.poll(() => turn(one)).toContain("Call: the 1, foot-right pocket.");
     await click(one, -0.03, 1.27);
@@ -244,7 +326,11 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await frames(one, 6);
     expect(await turn(one)).toContain("Call: the 1, side-left pocket.");
     // A safety is a call, too, which a second press takes back.
-    for (const [told, is] of [["a safety.", "true"], ["the 1, foot-right pocket.", "false"], ["a safety.", "true"]] as const) {
+    for (const [told, is] of [
+      ["a safety.", "true"],
+      ["the 1, foot-right pocket.", "false"],
+      ["a safety.", "true"],
+    ] as const) {
       await one.locator("#push").click();
       await expect.poll(() => turn(one)).toContain(`Call: ${told}`);
       expect(await one.locator("#push").getAttribute("aria-pressed")).toBe(is);
@@ -258,13 +344,24 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.locator("#phi").evaluate((input: HTMLInputElement) => {
       input.value = "63.45";
       input.dispatchEvent(new Event("input"));
-      document.getElementById("table-scene")!.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
+      document
+        .getElementById("table-scene")!
+        .dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
     });
-    const { entries } = JSON.parse((await one.evaluate(() => localStorage.getItem("carom-game")))!) as { entries: { call: { ball: number } }[] };
+    const { entries } = JSON.parse(
+      (await one.evaluate(() => localStorage.getItem("carom-game")))!,
+    ) as { entries: { call: { ball: number } }[] };
     expect(entries[0]!.call.ball).toBe(1);
     await one.close();
     // A ball that is called a safety falls, and the turn passes; of a bank nothing is guessed.
-    const other = await kept({ game: "bank", own: "0", seed: 7, against: "person", at: "0.3,0.3 0.1,0.1 0.9,1.8 in in in in in in in in in in in in in", entries: [] });
+    const other = await kept({
+      game: "bank",
+      own: "0",
+      seed: 7,
+      against: "person",
+      at: "0.3,0.3 0.1,0.1 0.9,1.8 in in in in in in in in in in in in in",
+      entries: [],
+    });
     await pace(other, "1000");
     await click(other, 0.1, 0.1);
     await expect.poll(() => turn(other)).toContain("Nothing is called");
@@ -275,50 +372,84 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await other.close();
   });
 
-  test.each(sizes)("each ball has its number beside it, upright; a double tap shows the table larger, and aims at nothing: %s", async (_, how) => {
-    const one = await kept({ ...NINE, against: "person", at: "0.635,0.635 0.3,1.9 0.9,1.9 in in in in in in 0.6,1.4", entries: [] }, how);
-    for (const [x, y] of [[0.3, 1.9], [0.9, 1.9], [0.6, 1.4]] as const) {
-      const [px, py] = await on(one, x, y);
-      const upright = how.width < 480;
-      const reach = upright ? 6 : 11;
-      // Above the ball.
-      const box = await one.locator("#table-scene").evaluate(
-        (canvas, [x, y, far]) => {
-          const box = canvas.getBoundingClientRect();
-          const ratio = (canvas as HTMLCanvasElement).width / box.width;
-          const copy = document.createElement("canvas").getContext("2d")!;
-          copy.drawImage(canvas as HTMLCanvasElement, -Math.round((x - 4 - box.left) * ratio), -Math.round((y - far - 15 - box.top) * ratio));
-          const { data } = copy.getImageData(0, 0, 16, 14);
-          return [...data].filter((_, k) => k % 4 === 0 && Math.min(data[k]!, data[k + 1]!, data[k + 2]!) > 230).length;
+  test.each(sizes)(
+    "each ball has its number beside it, upright; a double tap shows the table larger, and aims at nothing: %s",
+    async (_, how) => {
+      const one = await kept(
+        {
+          ...NINE,
+          against: "person",
+          at: "0.635,0.635 0.3,1.9 0.9,1.9 in in in in in in 0.6,1.4",
+          entries: [],
         },
-        [px, py, reach] as const,
+        how,
       );
-      expect(box, `${x}, ${y}`).toBeGreaterThan(10);
-    }
-    if ("touch" in how) {
-      const aim = await phi(one);
-      const [x, y] = await on(one, 0.635, 0.635);
-      const beside = async (): Promise<number> => Math.min(...(await pixel(one, x + 13, y - 6)));
-      expect(await beside()).toBeLessThan(120);
-      const twice = async (): Promise<void> => {
-        const devtools = await one.context().newCDPSession(one);
-        const now = Date.now() / 1000;
-        for (const after of [0, 0.2]) {
-          await devtools.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }], timestamp: now + after });
-          await devtools.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [], timestamp: now + after + 0.05 });
-        }
-      };
-      await twice();
-      await expect.poll(beside).toBeGreaterThan(150);
-      expect(await phi(one)).toBe(aim);
-      await twice();
-      await expect.poll(beside).toBeLessThan(120);
-    }
-    await one.close();
-  });
+      for (const [x, y] of [
+        [0.3, 1.9],
+        [0.9, 1.9],
+        [0.6, 1.4],
+      ] as const) {
+        const [px, py] = await on(one, x, y);
+        const upright = how.width < 480;
+        const reach = upright ? 6 : 11;
+        // Above the ball.
+        const box = await one.locator("#table-scene").evaluate(
+          (canvas, [x, y, far]) => {
+            const box = canvas.getBoundingClientRect();
+            const ratio = (canvas as HTMLCanvasElement).width / box.width;
+            const copy = document.createElement("canvas").getContext("2d")!;
+            copy.drawImage(
+              canvas as HTMLCanvasElement,
+              -Math.round((x - 4 - box.left) * ratio),
+              -Math.round((y - far - 15 - box.top) * ratio),
+            );
+            const { data } = copy.getImageData(0, 0, 16, 14);
+            return [...data].filter(
+              (_, k) => k % 4 === 0 && Math.min(data[k]!, data[k + 1]!, data[k + 2]!) > 230,
+            ).length;
+          },
+          [px, py, reach] as const,
+        );
+        expect(box, `${x}, ${y}`).toBeGreaterThan(10);
+      }
+      if ("touch" in how) {
+        const aim = await phi(one);
+        const [x, y] = await on(one, 0.635, 0.635);
+        const beside = async (): Promise<number> => Math.min(...(await pixel(one, x + 13, y - 6)));
+        expect(await beside()).toBeLessThan(120);
+        const twice = async (): Promise<void> => {
+          const devtools = await one.context().newCDPSession(one);
+          const now = Date.now() / 1000;
+          for (const after of [0, 0.2]) {
+            await devtools.send("Input.dispatchTouchEvent", {
+              type: "touchStart",
+              touchPoints: [{ x, y }],
+              timestamp: now + after,
+            });
+            await devtools.send("Input.dispatchTouchEvent", {
+              type: "touchEnd",
+              touchPoints: [],
+              timestamp: now + after + 0.05,
+            });
+          }
+        };
+        await twice();
+        await expect.poll(beside).toBeGreaterThan(150);
+        expect(await phi(one)).toBe(aim);
+        await twice();
+        await expect.poll(beside).toBeLessThan(120);
+      }
+      await one.close();
+    },
+  );
 
   test("words: one ball is one ball, and a rack is new", async () => {
-    const one = await kept({ ...NINE, against: "practice", at: "0.635,0.635 0.3,1.9 in in in in in in in in", entries: [] });
+    const one = await kept({
+      ...NINE,
+      against: "practice",
+      at: "0.635,0.635 0.3,1.9 in in in in in in in in",
+      entries: [],
+    });
     expect(await text(one, "score")).toBe("1 ball");
     expect(await text(one, "rack-up")).toBe("New rack");
     await one.close();
@@ -336,7 +467,12 @@ describe.runIf(browserPath !== undefined)("a game", () => {
   });
 
   test("after a scratch the other one has the cue ball in hand, and nothing internal is told", async () => {
-    const one = await kept({ ...NINE, against: "person", at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9", entries: [] });
+    const one = await kept({
+      ...NINE,
+      against: "person",
+      at: "0.635,0.635 0.3,1.9 in in in in in in in 0.9,1.9",
+      entries: [],
+    });
     await begin(one, "nineball", "person");
     // The cue ball is put near a corner, and played into it.
     await drag(one, [0.635, 0.635], [0.2, 0.2]);
@@ -344,7 +480,9 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await turnTo(one, 225);
     await set(one, "power", 2);
     await one.locator("#shoot").click();
-    await expect.poll(() => turn(one)).toMatch(/^Player 1 fouls: .*Player 2's turn.* Cue ball in hand/);
+    await expect
+      .poll(() => turn(one))
+      .toMatch(/^Player 1 fouls: .*Player 2's turn.* Cue ball in hand/);
     expect(await text(one, "said")).toBe("");
     await one.close();
   });
@@ -364,7 +502,11 @@ describe.runIf(browserPath !== undefined)("a game", () => {
         await one.locator("#skip").click();
         await expect.poll(() => one.locator("#undo-stroke").isEnabled()).toBe(true);
         await one.locator("#undo-stroke").click();
-        expect(await one.evaluate(() => (JSON.parse(localStorage.getItem("carom-game")!) as { at: string }).at)).toBe(at);
+        expect(
+          await one.evaluate(
+            () => (JSON.parse(localStorage.getItem("carom-game")!) as { at: string }).at,
+          ),
+        ).toBe(at);
       }
       await one.close();
       return count;
@@ -390,44 +532,79 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.close();
   });
 
-  // One, unless CAROM_GAMES names a folder, as before a release: then every game, at two sizes, with pictures in it.
+  // One, unless CAROM_GAMES names a folder, as before a release: then every game, at two sizes,
+  // with pictures in it.
   const folder = process.env.CAROM_GAMES;
-  const whole: (readonly [string, object])[] = words.rules.flatMap(([game]) => (game === "potting" ? [] : [{ width: 1440, height: 900 }, sizes[1][1]].map((how) => [game, how] as const)));
-  test.each(folder ? whole : [["nineball", sizes[0][1]]] as const)("a game of %s against a 700 is played to its end by taps: %o", async (game, how) => {
-    const one = await open("", how);
-    await begin(one, game, "700");
-    const tap = (id: string): Promise<void> => ("touch" in how ? one.locator(`#${id}`).tap() : one.locator(`#${id}`).click());
-    for (let k = 0; k < 400; k++) {
-      await expect.poll(() => turn(one)).toMatch(/Your turn|You break|has won|have won/);
-      if (folder && k % 4 === 0) await one.screenshot({ path: `${folder}/${game}-${one.viewportSize()!.width}-${k}.png` });
-      if (/won/.test(await turn(one))) break;
-      await tap("hint");
-      await expect.poll(() => text(one, "said")).toMatch(/^Hint: /);
-      if (folder && k % 4 === 1) await one.screenshot({ path: `${folder}/${game}-${one.viewportSize()!.width}-${k}-hint.png` });
-      await tap("shoot");
-      await expect.poll(async () => /won/.test(await turn(one)) || !(await text(one, "said")).startsWith("Hint")).toBe(true);
-    }
-    expect(await turn(one)).toMatch(/(You have|The 700 has) won\.$/);
-    console.log(`${game} against a 700: ${await turn(one)} ${await text(one, "score")}`);
-    expect(await one.locator("#rack-up").isVisible()).toBe(true);
-    expect(await violations(one)).toEqual([]);
-    await one.close();
-  });
+  const whole: (readonly [string, object])[] = words.rules.flatMap(([game]) =>
+    game === "potting"
+      ? []
+      : [{ width: 1440, height: 900 }, sizes[1][1]].map((how) => [game, how] as const),
+  );
+  test.each(folder ? whole : ([["nineball", sizes[0][1]]] as const))(
+    "a game of %s against a 700 is played to its end by taps: %o",
+    async (game, how) => {
+      const one = await open("", how);
+      await begin(one, game, "700");
+      const tap = (id: string): Promise<void> =>
+        "touch" in how ? one.locator(`#${id}`).tap() : one.locator(`#${id}`).click();
+      for (let k = 0; k < 400; k++) {
+        await expect.poll(() => turn(one)).toMatch(/Your turn|You break|has won|have won/);
+        if (folder && k % 4 === 0)
+          await one.screenshot({ path: `${folder}/${game}-${one.viewportSize()!.width}-${k}.png` });
+        if (/won/.test(await turn(one))) break;
+        await tap("hint");
+        await expect.poll(() => text(one, "said")).toMatch(/^Hint: /);
+        if (folder && k % 4 === 1)
+          await one.screenshot({
+            path: `${folder}/${game}-${one.viewportSize()!.width}-${k}-hint.png`,
+          });
+        await tap("shoot");
+        await expect
+          .poll(
+            async () =>
+              /won/.test(await turn(one)) || !(await text(one, "said")).startsWith("Hint"),
+          )
+          .toBe(true);
+      }
+      expect(await turn(one)).toMatch(/(You have|The 700 has) won\.$/);
+      console.log(`${game} against a 700: ${await turn(one)} ${await text(one, "score")}`);
+      expect(await one.locator("#rack-up").isVisible()).toBe(true);
+      expect(await violations(one)).toEqual([]);
+      await one.close();
+    },
+  );
 
   test("every game whose rules the library has begins, is ruled and is kept, and every table can be practised on", async () => {
     const one = await open("", { width: 390, height: 844, touch: true });
     await one.locator("#new-game").click();
-    const games = await one.locator("#new-which option").evaluateAll((options) => options.map((option) => [(option as HTMLOptionElement).value, option.textContent!] as const));
+    const games = await one
+      .locator("#new-which option")
+      .evaluateAll((options) =>
+        options.map(
+          (option) => [(option as HTMLOptionElement).value, option.textContent!] as const,
+        ),
+      );
     await one.locator("#menu .close").click();
-    expect(games.map(([game]) => game)).toEqual(expect.arrayContaining(["eightball", "nineball", "threecushion", "snooker", "onepocket"]));
+    expect(games.map(([game]) => game)).toEqual(
+      expect.arrayContaining(["eightball", "nineball", "threecushion", "snooker", "onepocket"]),
+    );
     for (const [game, name] of games)
       for (const against of name.includes("(practice)") ? ["practice"] : ["person", "practice"]) {
         await begin(one, game, against);
-        if (game === "onepocket" && against === "person") expect(await turn(one)).toBe("Player 1 breaks, into the foot-right pocket. Cue ball in hand behind the line: drag it.");
+        if (game === "onepocket" && against === "person")
+          expect(await turn(one)).toBe(
+            "Player 1 breaks, into the foot-right pocket. Cue ball in hand behind the line: drag it.",
+          );
         let played = 0;
         for (; played < 3; played++) {
           // A ball that ends the game may fall.
-          await expect.poll(async () => (await one.locator("#shoot").isEnabled()) || /won\.$/.test(await turn(one)), { message: `${game} ${await turn(one)} ${await text(one, "said")}` }).toBe(true);
+          await expect
+            .poll(
+              async () =>
+                (await one.locator("#shoot").isEnabled()) || /won\.$/.test(await turn(one)),
+              { message: `${game} ${await turn(one)} ${await text(one, "said")}` },
+            )
+            .toBe(true);
           if (!(await one.locator("#shoot").isEnabled())) break;
           await one.locator("#shoot").click();
         }
@@ -445,12 +622,19 @@ describe.runIf(browserPath !== undefined)("a game", () => {
 
   test("pool is played on the table that is chosen, which a new rack, a link and a diagram keep", async () => {
     const one = await open("", { width: 390, height: 844, touch: true });
-    const setup = async (): Promise<{ table?: string; seed: number }> => one.evaluate(() => JSON.parse(localStorage.getItem("carom-game")!) as { table?: string; seed: number });
+    const setup = async (): Promise<{ table?: string; seed: number }> =>
+      one.evaluate(
+        () => JSON.parse(localStorage.getItem("carom-game")!) as { table?: string; seed: number },
+      );
     await one.locator("#new-game").click();
     await one.locator("#new-which").selectOption("snooker");
     expect(await one.locator("#new-table").isVisible()).toBe(false);
     await one.locator("#new-which").selectOption("nineball");
-    expect(await one.locator("#new-table option").evaluateAll((all) => all.map((option) => (option as HTMLOptionElement).value))).toEqual(["9ft", "8ft", "7ft", "tight"]);
+    expect(
+      await one
+        .locator("#new-table option")
+        .evaluateAll((all) => all.map((option) => (option as HTMLOptionElement).value)),
+    ).toEqual(["9ft", "8ft", "7ft", "tight"]);
     await one.locator("#new-table").selectOption("tight");
     await one.locator("#new-against").selectOption("practice");
     await one.locator("#start").click();
@@ -471,13 +655,17 @@ describe.runIf(browserPath !== undefined)("a game", () => {
       const page = window as unknown as { drawn: number[] };
       page.drawn = [];
       const ask = window.requestAnimationFrame.bind(window);
-      window.requestAnimationFrame = (draw) => ask((now) => {
-        page.drawn.push(0);
-        draw(now);
-      });
+      window.requestAnimationFrame = (draw) =>
+        ask((now) => {
+          page.drawn.push(0);
+          draw(now);
+        });
       for (const name of ["beginPath", "drawImage", "fillText"] as const) {
         const draw = CanvasRenderingContext2D.prototype[name] as (...args: unknown[]) => void;
-        CanvasRenderingContext2D.prototype[name] = function (this: CanvasRenderingContext2D, ...args: unknown[]) {
+        CanvasRenderingContext2D.prototype[name] = function (
+          this: CanvasRenderingContext2D,
+          ...args: unknown[]
+        ) {
           page.drawn[page.drawn.length - 1]!++;
           draw.apply(this, args);
         };
@@ -486,36 +674,45 @@ describe.runIf(browserPath !== undefined)("a game", () => {
     await one.locator("#shoot").click();
     await frames(one, 40);
     // What other frames wait for draws nothing.
-    const drawn = (await one.evaluate(() => (window as unknown as { drawn: number[] }).drawn)).filter((parts) => parts > 0);
+    const drawn = (
+      await one.evaluate(() => (window as unknown as { drawn: number[] }).drawn)
+    ).filter((parts) => parts > 0);
     console.log(`a frame of a break: at most ${Math.max(...drawn)} parts are drawn`);
-    // 16 balls of at most 10 parts each, and the cloth, which is one picture; a busy browser draws a frame in ten twice.
+    // 16 balls of at most 10 parts each, and the cloth, which is one picture; a busy browser draws
+    // a frame in ten twice.
     expect(drawn.length).toBeGreaterThan(20);
     expect(drawn.sort((a, b) => a - b)[Math.floor(0.9 * drawn.length)]).toBeLessThanOrEqual(161);
     await one.close();
   });
 
-  test.each(sizes)("a break sounds where sound is on, which it is not on a phone: %s", async (_, how) => {
-    const one = await open("", how);
-    await one.evaluate(() => {
-      const heard = window as unknown as { heard: number[] };
-      heard.heard = [];
-      const connect = AudioNode.prototype.connect as (this: AudioNode, to: AudioNode) => AudioNode;
-      AudioNode.prototype.connect = function (this: AudioNode, to: AudioNode) {
-        if (this instanceof GainNode) heard.heard.push(this.gain.value);
-        return connect.call(this, to);
-      } as typeof AudioNode.prototype.connect;
-    });
-    await pace(one, "4");
-    await one.locator("#shoot").click();
-    await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
-    const heard = await one.evaluate(() => (window as unknown as { heard: number[] }).heard);
-    if ("touch" in how) expect(heard).toEqual([]);
-    else {
-      // The break is louder than what comes after it.
-      expect(heard.length).toBeGreaterThan(15);
-      const sorted = heard.sort((a, b) => a - b);
-      expect(sorted.at(-1)).toBeGreaterThan(1.5 * sorted[sorted.length >> 2]!);
-    }
-    await one.close();
-  });
+  test.each(sizes)(
+    "a break sounds where sound is on, which it is not on a phone: %s",
+    async (_, how) => {
+      const one = await open("", how);
+      await one.evaluate(() => {
+        const heard = window as unknown as { heard: number[] };
+        heard.heard = [];
+        const connect = AudioNode.prototype.connect as (
+          this: AudioNode,
+          to: AudioNode,
+        ) => AudioNode;
+        AudioNode.prototype.connect = function (this: AudioNode, to: AudioNode) {
+          if (this instanceof GainNode) heard.heard.push(this.gain.value);
+          return connect.call(this, to);
+        } as typeof AudioNode.prototype.connect;
+      });
+      await pace(one, "4");
+      await one.locator("#shoot").click();
+      await expect.poll(() => one.locator("#skip").isVisible()).toBe(false);
+      const heard = await one.evaluate(() => (window as unknown as { heard: number[] }).heard);
+      if ("touch" in how) expect(heard).toEqual([]);
+      else {
+        // The break is louder than what comes after it.
+        expect(heard.length).toBeGreaterThan(15);
+        const sorted = heard.sort((a, b) => a - b);
+        expect(sorted.at(-1)).toBeGreaterThan(1.5 * sorted[sorted.length >> 2]!);
+      }
+      await one.close();
+    },
+  );
 });

@@ -18,12 +18,16 @@ describe.runIf(browserPath !== undefined)("practice", () => {
     expect(await text(one, "turn")).toBe("Short straight pot");
     await turnTo(one, 151.2);
     await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said")).toBe("Missed: 0 of 1. The cue ball fell or left the table.");
+    await expect
+      .poll(() => text(one, "said"))
+      .toBe("Missed: 0 of 1. The cue ball fell or left the table.");
     // So little off its pocket that the page tells by how much.
     await turnTo(one, 48);
     await set(one, "power", 1.5);
     await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said")).toMatch(/^Missed: 0 of 2\. The 1 did not fall\. Turn the aim [23]\.\d\d° to the right\.$/);
+    await expect
+      .poll(() => text(one, "said"))
+      .toMatch(/^Missed: 0 of 2\. The 1 did not fall\. Turn the aim [23]\.\d\d° to the right\.$/);
     await turnTo(one, 45);
     await set(one, "power", 1.5);
     await one.locator("#shoot").click();
@@ -42,93 +46,136 @@ describe.runIf(browserPath !== undefined)("practice", () => {
     await turnTo(one, 63.43);
     await set(one, "power", 1.2);
     await one.locator("#shoot").click();
-    await expect.poll(() => text(one, "said")).toMatch(/The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/);
+    await expect
+      .poll(() => text(one, "said"))
+      .toMatch(/The cue ball came back \d+ cm of 40 cm: strike it lower or faster\.$/);
     await one.locator("#new-game").click();
     await one.locator("#open-log").click();
     expect(await one.locator("#log tbody tr").count()).toBe(4);
-    expect(await one.locator("#log tbody tr").nth(2).textContent()).toMatch(/Short straight pot.*[23]\.\d\d/);
+    expect(await one.locator("#log tbody tr").nth(2).textContent()).toMatch(
+      /Short straight pot.*[23]\.\d\d/,
+    );
     expect(await text(one, "log-sum")).toMatch(/Practise next: .*\(/);
     expect(await violations(one)).toEqual([]);
     await one.close();
   });
 
-  test.each(sizes)("four corners and taps on a photo that are off by 2 pixels lay the balls within 1 cm: %s", async (_, how) => {
-    const one = await open("", how);
-    const size = [1600, 1200] as const;
-    const see = pinhole(size, [0.5, -1.0, 1.3], [0.635, 1.1, 0], 1200);
-    const balls: [number, number, number, string][] = [[0, 0.4, 0.7, "#f4f2ea"], [1, 0.9, 1.6, "#d8aa08"], [3, 0.3, 2.1, "#bb1330"], [8, 1.1, 1.0, "#191b1e"]];
-    // The photo: cloth and balls as that camera sees them.
-    const picture = await one.evaluate(
-      ({ size, cloth, balls }) => {
-        const canvas = document.createElement("canvas");
-        [canvas.width, canvas.height] = size;
-        const g = canvas.getContext("2d")!;
-        g.fillStyle = "#443322";
-        g.fillRect(0, 0, ...size);
-        g.fillStyle = "#1f6f5c";
-        g.beginPath();
-        for (const at of cloth) g.lineTo(...at);
-        g.fill();
-        for (const { at, radius, hex } of balls) {
-          g.fillStyle = hex;
+  test.each(sizes)(
+    "four corners and taps on a photo that are off by 2 pixels lay the balls within 1 cm: %s",
+    async (_, how) => {
+      const one = await open("", how);
+      const size = [1600, 1200] as const;
+      const see = pinhole(size, [0.5, -1.0, 1.3], [0.635, 1.1, 0], 1200);
+      const balls: [number, number, number, string][] = [
+        [0, 0.4, 0.7, "#f4f2ea"],
+        [1, 0.9, 1.6, "#d8aa08"],
+        [3, 0.3, 2.1, "#bb1330"],
+        [8, 1.1, 1.0, "#191b1e"],
+      ];
+      // The photo: cloth and balls as that camera sees them.
+      const picture = await one.evaluate(
+        ({ size, cloth, balls }) => {
+          const canvas = document.createElement("canvas");
+          [canvas.width, canvas.height] = size;
+          const g = canvas.getContext("2d")!;
+          g.fillStyle = "#443322";
+          g.fillRect(0, 0, ...size);
+          g.fillStyle = "#1f6f5c";
           g.beginPath();
-          g.arc(...at, radius, 0, 7);
+          for (const at of cloth) g.lineTo(...at);
           g.fill();
-        }
-        return canvas.toDataURL("image/png").split(",")[1]!;
-      },
-      {
-        size: [...size] as [number, number],
-        cloth: [see(0, 0, NOSE), see(W, 0, NOSE), see(W, L, NOSE), see(0, L, NOSE)].map(([u, v]) => [u, v] as [number, number]),
-        balls: balls.map(([, x, y, hex]) => ({ at: [...see(x, y, R)] as [number, number], radius: Math.hypot(see(x, y, R)[0] - see(x + R, y, R)[0], 1), hex })),
-      },
-    );
-    await one.locator("#new-game").click();
-    await one.locator("#open-photo").click();
-    expect(await violations(one)).toEqual([]);
-    await one.locator("#photo-file").setInputFiles({ name: "table.png", mimeType: "image/png", buffer: Buffer.from(picture, "base64") });
-    await expect.poll(() => text(one, "photo-said")).toContain("Mark the corner head left");
-    const box = (await one.locator("#photo").boundingBox())!;
-    const draws = new Draws(5n);
-    const tap = async (x: number, y: number, z: number): Promise<void> => {
-      const [u, v] = see(x, y, z);
-      const at = [box.x + (u * box.width) / size[0] + draws.between(-2, 2), box.y + (v * box.height) / size[1] + draws.between(-2, 2)] as const;
-      await ("touch" in how ? one.touchscreen.tap(...at) : one.mouse.click(...at));
-    };
-    for (const [x, y] of [[0, 0], [W, 0], [W, L], [0, L]] as const) await tap(x, y, NOSE);
-    await expect.poll(() => text(one, "photo-said")).toContain("Tap the middle of each ball");
-    for (const [ball, x, y] of balls) {
-      await tap(x, y, R);
-      // Where the colour does not tell the ball, the page asks.
-      const answer = one.locator("#photo-ask button", { hasText: new RegExp(`^${ball}$`) });
-      if ((await answer.count()) > 0) await answer.click();
-      expect(await one.locator("#photo-ask button").count()).toBe(0);
-    }
-    // A finger that is held sees what is under it, and two fingers a part larger.
-    if ("touch" in how) {
-      const devtools = await one.context().newCDPSession(one);
-      const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...at: number[][]): Promise<unknown> => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: at.map(([x, y], id) => ({ x: box.x + x!, y: box.y + y!, id })) });
-      const seen = (): Promise<string> => one.locator("#photo").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
-      const before = await seen();
-      await touch("touchStart", [150, 100]);
-      await expect.poll(seen).not.toBe(before);
-      await touch("touchStart", [150, 100], [200, 100]);
-      await touch("touchMove", [130, 100], [220, 100]);
-      await touch("touchEnd");
-      expect((await one.locator("#photo").boundingBox())!.width).toBeGreaterThan(1.5 * box.width);
-    }
-    expect(await text(one, "photo-said")).toContain("4 balls");
-    await one.locator("#photo-use").click();
-    const { at } = await one.evaluate(() => JSON.parse(localStorage.getItem("carom-game")!) as { at: string });
-    const places = at.split(" ");
-    let worst = 0;
-    for (const [ball, x, y] of balls) {
-      const [px, py] = places[ball]!.split(",").map(Number) as [number, number];
-      worst = Math.max(worst, Math.hypot(px - x, py - y));
-    }
-    console.log(`a photo of ${Math.round(box.width)} pixels on the page: balls off by at most ${(1000 * worst).toFixed(1)} mm`);
-    expect(places.filter((place) => place !== "in")).toHaveLength(4);
-    expect(worst).toBeLessThan(0.01);
-    await one.close();
-  });
+          for (const { at, radius, hex } of balls) {
+            g.fillStyle = hex;
+            g.beginPath();
+            g.arc(...at, radius, 0, 7);
+            g.fill();
+          }
+          return canvas.toDataURL("image/png").split(",")[1]!;
+        },
+        {
+          size: [...size] as [number, number],
+          cloth: [see(0, 0, NOSE), see(W, 0, NOSE), see(W, L, NOSE), see(0, L, NOSE)].map(
+            ([u, v]) => [u, v] as [number, number],
+          ),
+          balls: balls.map(([, x, y, hex]) => ({
+            at: [...see(x, y, R)] as [number, number],
+            radius: Math.hypot(see(x, y, R)[0] - see(x + R, y, R)[0], 1),
+            hex,
+          })),
+        },
+      );
+      await one.locator("#new-game").click();
+      await one.locator("#open-photo").click();
+      expect(await violations(one)).toEqual([]);
+      await one.locator("#photo-file").setInputFiles({
+        name: "table.png",
+        mimeType: "image/png",
+        buffer: Buffer.from(picture, "base64"),
+      });
+      await expect.poll(() => text(one, "photo-said")).toContain("Mark the corner head left");
+      const box = (await one.locator("#photo").boundingBox())!;
+      const draws = new Draws(5n);
+      const tap = async (x: number, y: number, z: number): Promise<void> => {
+        const [u, v] = see(x, y, z);
+        const at = [
+          box.x + (u * box.width) / size[0] + draws.between(-2, 2),
+          box.y + (v * box.height) / size[1] + draws.between(-2, 2),
+        ] as const;
+        await ("touch" in how ? one.touchscreen.tap(...at) : one.mouse.click(...at));
+      };
+      for (const [x, y] of [
+        [0, 0],
+        [W, 0],
+        [W, L],
+        [0, L],
+      ] as const)
+        await tap(x, y, NOSE);
+      await expect.poll(() => text(one, "photo-said")).toContain("Tap the middle of each ball");
+      for (const [ball, x, y] of balls) {
+        await tap(x, y, R);
+        // Where the colour does not tell the ball, the page asks.
+        const answer = one.locator("#photo-ask button", { hasText: new RegExp(`^${ball}$`) });
+        if ((await answer.count()) > 0) await answer.click();
+        expect(await one.locator("#photo-ask button").count()).toBe(0);
+      }
+      // A finger that is held sees what is under it, and two fingers a part larger.
+      if ("touch" in how) {
+        const devtools = await one.context().newCDPSession(one);
+        const touch = (
+          type: "touchStart" | "touchMove" | "touchEnd",
+          ...at: number[][]
+        ): Promise<unknown> =>
+          devtools.send("Input.dispatchTouchEvent", {
+            type,
+            touchPoints: at.map(([x, y], id) => ({ x: box.x + x!, y: box.y + y!, id })),
+          });
+        const seen = (): Promise<string> =>
+          one.locator("#photo").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+        const before = await seen();
+        await touch("touchStart", [150, 100]);
+        await expect.poll(seen).not.toBe(before);
+        await touch("touchStart", [150, 100], [200, 100]);
+        await touch("touchMove", [130, 100], [220, 100]);
+        await touch("touchEnd");
+        expect((await one.locator("#photo").boundingBox())!.width).toBeGreaterThan(1.5 * box.width);
+      }
+      expect(await text(one, "photo-said")).toContain("4 balls");
+      await one.locator("#photo-use").click();
+      const { at } = await one.evaluate(
+        () => JSON.parse(localStorage.getItem("carom-game")!) as { at: string },
+      );
+      const places = at.split(" ");
+      let worst = 0;
+      for (const [ball, x, y] of balls) {
+        const [px, py] = places[ball]!.split(",").map(Number) as [number, number];
+        worst = Math.max(worst, Math.hypot(px - x, py - y));
+      }
+      console.log(
+        `a photo of ${Math.round(box.width)} pixels on the page: balls off by at most ${(1000 * worst).toFixed(1)} mm`,
+      );
+      expect(places.filter((place) => place !== "in")).toHaveLength(4);
+      expect(worst).toBeLessThan(0.01);
+      await one.close();
+    },
+  );
 });

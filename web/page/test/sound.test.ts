@@ -7,10 +7,17 @@ test("a harder stroke is louder, by the impulses of its events", () => {
   const { carom } = builds[0]!;
   const table = carom.table("9ft");
   const balls = carom.rack("nineball", table);
-  const loudest = (speed: number, type: string): number => Math.max(...carom.simulate(table, balls, { speed, phi: 90 }).events.filter((event) => event.type === type).map(loudness));
+  const loudest = (speed: number, type: string): number =>
+    Math.max(
+      ...carom
+        .simulate(table, balls, { speed, phi: 90 })
+        .events.filter((event) => event.type === type)
+        .map(loudness),
+    );
   for (const type of ["stick_ball", "ball_ball"]) {
     const heard = [0.5, 1, 2, 4].map((speed) => loudest(speed, type));
-    for (const [k, loud] of heard.entries()) if (k > 0) expect(loud).toBeGreaterThanOrEqual(heard[k - 1]!);
+    for (const [k, loud] of heard.entries())
+      if (k > 0) expect(loud).toBeGreaterThanOrEqual(heard[k - 1]!);
     expect(heard[0]).toBeLessThan(0.7 * heard[3]!);
   }
   expect(loudness({ type: "rolling_stationary", impulse: 0 })).toBe(0);
@@ -19,7 +26,11 @@ test("a harder stroke is louder, by the impulses of its events", () => {
 test("a wave decays, and has its tone", () => {
   const rate = 48_000;
   const samples = wave({ tones: [[1000, 0.5, 0.02]], noise: [0, 0.001, 0.5], full: 1 }, rate);
-  const level = (from: number, to: number): number => Math.sqrt(samples.slice(from * rate, to * rate).reduce((sum, x) => sum + x * x, 0) / ((to - from) * rate));
+  const level = (from: number, to: number): number =>
+    Math.sqrt(
+      samples.slice(from * rate, to * rate).reduce((sum, x) => sum + x * x, 0) /
+        ((to - from) * rate),
+    );
   expect(level(0.04, 0.05) / level(0, 0.01)).toBeLessThan(0.25);
   let crossings = 0;
   for (let k = 1; k < 0.02 * rate; k++) if (samples[k - 1]! < 0 !== samples[k]! < 0) crossings++;

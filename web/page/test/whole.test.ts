@@ -1,4 +1,5 @@
-// The page as a whole, in a browser: accessibility of every state, the page as it is served, its licences, its size, and the film that it shares.
+// The page as a whole, in a browser: accessibility of every state, the page as it is served, its
+// licences, its size, and the film that it shares.
 import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
@@ -19,13 +20,28 @@ describe.runIf(browserPath !== undefined)("the page", () => {
   // States one after another, by what is pressed; ".close" is none by itself.
   test.each([
     ["play", "", {}, ["", "#new-game", ".close", "#shoot"]],
-    ["play, dark, phone", "", { dark: true, width: 390, height: 844, touch: true }, ["", "#new-game", ".close", ".numbers-of summary", "#shoot"]],
+    [
+      "play, dark, phone",
+      "",
+      { dark: true, width: 390, height: 844, touch: true },
+      ["", "#new-game", ".close", ".numbers-of summary", "#shoot"],
+    ],
     ["play, phone on its side", "", { width: 844, height: 390, touch: true }, [""]],
     ["collision", "#view=collision", {}, [""]],
     ["collision, dark, phone", "#view=collision", { dark: true, width: 390, height: 844 }, [""]],
     ["laboratory", "#view=lab", {}, ["main summary"]],
-    ["laboratory, dark, phone", "#view=lab&game=snooker", { dark: true, width: 390, height: 844 }, ["main summary"]],
-    ["laboratory, phone on its side", "#view=lab", { width: 844, height: 390, touch: true }, ["main summary"]],
+    [
+      "laboratory, dark, phone",
+      "#view=lab&game=snooker",
+      { dark: true, width: 390, height: 844 },
+      ["main summary"],
+    ],
+    [
+      "laboratory, phone on its side",
+      "#view=lab",
+      { width: 844, height: 390, touch: true },
+      ["main summary"],
+    ],
   ] as const)("axe finds nothing: %s", async (_, hash, how, presses) => {
     const one = await open(hash, how);
     for (const press of presses) {
@@ -33,13 +49,23 @@ describe.runIf(browserPath !== undefined)("the page", () => {
       if (press === ".close") continue;
       expect(await violations(one), press).toEqual([]);
       // Nothing is wider than the screen.
-      expect(await one.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth), press).toBeLessThanOrEqual(0);
+      expect(
+        await one.evaluate(
+          () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
+        ),
+        press,
+      ).toBeLessThanOrEqual(0);
     }
     await one.close();
   });
 
   test("a page that is served can be installed, and works without a network", async () => {
-    const types: Record<string, string> = { html: "text/html", js: "text/javascript", svg: "image/svg+xml", webmanifest: "application/manifest+json" };
+    const types: Record<string, string> = {
+      html: "text/html",
+      js: "text/javascript",
+      svg: "image/svg+xml",
+      webmanifest: "application/manifest+json",
+    };
     const server = createServer((request, response) => {
       const name = request.url === "/" ? "index.html" : request.url!.slice(1);
       response.writeHead(200, { "content-type": types[name.split(".").at(-1)!] ?? "text/plain" });
@@ -48,15 +74,26 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await new Promise<void>((listens) => server.listen(0, "127.0.0.1", listens));
     const context = await browser().newContext({ viewport: { width: 390, height: 844 } });
     const one = await context.newPage();
-    one.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(`served: ${message.text()}`));
+    one.on(
+      "console",
+      (message) =>
+        ["error", "warning"].includes(message.type()) && said.push(`served: ${message.text()}`),
+    );
     await one.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/`);
     await one.waitForSelector("main[aria-busy=false]");
     await one.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
     const devtools = await context.newCDPSession(one);
     const manifest = await devtools.send("Page.getAppManifest");
     expect(manifest.errors).toEqual([]);
-    expect(JSON.parse(manifest.data!)).toMatchObject({ name: "carom explorer", display: "standalone" });
-    expect((await devtools.send("Page.getInstallabilityErrors")).installabilityErrors.filter(({ errorId }) => errorId !== "in-incognito")).toEqual([]);
+    expect(JSON.parse(manifest.data!)).toMatchObject({
+      name: "carom explorer",
+      display: "standalone",
+    });
+    expect(
+      (await devtools.send("Page.getInstallabilityErrors")).installabilityErrors.filter(
+        ({ errorId }) => errorId !== "in-incognito",
+      ),
+    ).toEqual([]);
     // No network, and no server either.
     await context.setOffline(true);
     await new Promise((closed) => {
@@ -71,19 +108,30 @@ describe.runIf(browserPath !== undefined)("the page", () => {
 
   test.runIf(thereIsACommand)("a page of carom shoot --animate shows the same player", async () => {
     const folder = mkdtempSync(`${tmpdir()}/carom-`);
-    const told = JSON.parse(run(["shoot", "--animate", `${folder}/break.html`, `${root}data/break-nineball.jsonl`])) as { final: { t: number; balls: Record<string, number[]> }; events: unknown[][] };
+    const told = JSON.parse(
+      run(["shoot", "--animate", `${folder}/break.html`, `${root}data/break-nineball.jsonl`]),
+    ) as { final: { t: number; balls: Record<string, number[]> }; events: unknown[][] };
     const one = await open("#view=lab");
     await one.locator("main summary").click();
     await one.locator("#line").fill(readFileSync(`${root}data/break-nineball.jsonl`, "utf8"));
     await one.locator("#import").click();
     const other = await browser().newPage({ viewport: { width: 1300, height: 800 } });
-    other.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(`animate: ${message.text()}`));
+    other.on(
+      "console",
+      (message) =>
+        ["error", "warning"].includes(message.type()) && said.push(`animate: ${message.text()}`),
+    );
     other.on("pageerror", (error) => said.push(`animate: ${error.message}`));
     await other.goto(`file://${folder}/break.html`);
     expect(await text(other, "play")).toBe("Pause");
     await other.locator("#play").click();
-    for (const page of [one, other]) await expect.poll(() => page.locator(".events li").count()).toBe(told.events.filter(([, type]) => type !== "none").length);
-    expect(await other.locator(".events li").allTextContents()).toEqual(await one.locator(".events li").allTextContents());
+    for (const page of [one, other])
+      await expect
+        .poll(() => page.locator(".events li").count())
+        .toBe(told.events.filter(([, type]) => type !== "none").length);
+    expect(await other.locator(".events li").allTextContents()).toEqual(
+      await one.locator(".events li").allTextContents(),
+    );
     // At the end ball 8 lies at the command's place, on both tables, which differ in size.
     const end = Number(await other.locator("#time").getAttribute("max"));
     expect(end).toBeCloseTo(told.final.t, 3);
@@ -91,7 +139,8 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     const [, x, y] = told.final.balls["8"]!;
     for (const page of [one, other]) {
       await page.evaluate(() => scrollTo(0, 0));
-      expect(Math.max(...(await colour(page, x!, y! + 0.0245)))).toBeLessThan(60); // the cloth is brighter, and the number
+      // the cloth is brighter, and the number
+      expect(Math.max(...(await colour(page, x!, y! + 0.0245)))).toBeLessThan(60);
     }
     expect(await violations(other)).toEqual([]);
     await one.close();
@@ -103,7 +152,14 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     const one = await open("#view=lab");
     await one.locator("#licences summary").click();
     const words = await text(one, "licences");
-    for (const name of ["Apache License\n", "Copyright (c) 2005-2020 Rich Felker, et al.", "The Emscripten Authors", "uplot\n\nThe MIT License (MIT)\n\nCopyright (c) 2022 Leon Sorokin", "three\n\nThe MIT License\n\nCopyright © 2010-2025 three.js authors"]) expect(words).toContain(name);
+    for (const name of [
+      "Apache License\n",
+      "Copyright (c) 2005-2020 Rich Felker, et al.",
+      "The Emscripten Authors",
+      "uplot\n\nThe MIT License (MIT)\n\nCopyright (c) 2022 Leon Sorokin",
+      "three\n\nThe MIT License\n\nCopyright © 2010-2025 three.js authors",
+    ])
+      expect(words).toContain(name);
     await one.close();
   });
 });

@@ -1,4 +1,5 @@
-//! Billiards by the C library carom: tables, racks, whole shots, plans and recordings. `sys` has every other function of the library.
+//! Billiards by the C library carom: tables, racks, whole shots, plans and recordings. `sys` has
+//! every other function of the library.
 //!
 //! ```
 //! use carom::{sys, Error};
@@ -12,7 +13,8 @@
 //! # }
 //! ```
 //!
-//! Units are SI; directions of a cue are in degrees. A shot has the same bits on all machines, unless `fast` is set.
+//! Units are SI; directions of a cue are in degrees. A shot has the same bits on all machines,
+//! unless `fast` is set.
 mod plan;
 mod record;
 
@@ -63,7 +65,8 @@ fn text(from: *const c_char) -> String {
         .into_owned()
 }
 
-/// A number of a ball, a cue or a table, or an option: its names, unit, range in words, default, and what it is.
+/// A number of a ball, a cue or a table, or an option: its names, unit, range in words, default,
+/// and what it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     pub name: String,
@@ -77,7 +80,8 @@ pub struct Row {
     pub other: f64,
 }
 
-/// The numbers of a part, such as `sys::CAROM_PART_BALL`, or the options of a call, as the library describes them.
+/// The numbers of a part, such as `sys::CAROM_PART_BALL`, or the options of a call, as the library
+/// describes them.
 pub fn rows(part: sys::carom_part_kind) -> Vec<Row> {
     let row = |k| unsafe { sys::carom_number_of(part, k).as_ref() };
     let told = |one: &sys::carom_number| {
@@ -165,7 +169,8 @@ pub fn measures(kind: sys::carom_table_kind) -> Result<Measures, Error> {
     Ok(measures)
 }
 
-/// A table by its measures, checked for balls of a radius, m. The error names the measure that is wrong.
+/// A table by its measures, checked for balls of a radius, m. The error names the measure that is
+/// wrong.
 pub fn table_measured(measures: &Measures, radius: f64) -> Result<Table, Error> {
     let (mut table, mut at) = (Table::default(), sys::carom_table_fault::default());
     let status = unsafe { sys::carom_table_measured(measures, radius, &mut table, &mut at) };
@@ -195,7 +200,8 @@ pub fn cue(game: sys::carom_game) -> Cue {
     unsafe { sys::carom_cue_of(game) }
 }
 
-/// Ball in hand: puts a ball at rest at x, y (m). `Ok(Err(part))` where that place is not free: the part is there, and the ball stays.
+/// Ball in hand: puts a ball at rest at x, y (m). `Ok(Err(part))` where that place is not free: the
+/// part is there, and the ball stays.
 pub fn place(
     table: &Table,
     balls: &mut [ShotBall],
@@ -214,8 +220,8 @@ pub fn place(
     Ok(Ok(()))
 }
 
-/// Aims a pot: `cue.phi` becomes the direction in which `pot.ball` goes to the middle of `pot.pocket`, by way of `pot.via`.
-/// `pot.is` tells what the other balls and the jaws make of it.
+/// Aims a pot: `cue.phi` becomes the direction in which `pot.ball` goes to the middle of
+/// `pot.pocket`, by way of `pot.via`. `pot.is` tells what the other balls and the jaws make of it.
 pub fn aim(
     table: &Table,
     balls: &[ShotBall],
@@ -307,8 +313,8 @@ impl Shot {
         &self.facts
     }
 
-    /// Goes on with a shot that its options stopped, with the bits of the unbroken one; `options` say when to stop again. After
-    /// an error the shot is as before.
+    /// Goes on with a shot that its options stopped, with the bits of the unbroken one; `options`
+    /// say when to stop again. After an error the shot is as before.
     pub fn resume(&mut self, table: &Table, options: &Options) -> Result<sys::carom_status, Error> {
         if self.state.is_none() {
             return check(sys::CAROM_ERROR_STATE);
@@ -326,7 +332,8 @@ impl Shot {
         })
     }
 
-    /// Plays from where the shot is, with room for so many events; once more from there where there were more.
+    /// Plays from where the shot is, with room for so many events; once more from there where there
+    /// were more.
     fn follow(
         &mut self,
         mut room: usize,
@@ -424,7 +431,8 @@ impl Shot {
     }
 }
 
-/// A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the one before, where that was of the same shot and earlier.
+/// A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the one
+/// before, where that was of the same shot and earlier.
 #[derive(Default)]
 pub struct Film {
     onward: Box<sys::carom_frames>,
@@ -433,7 +441,8 @@ pub struct Film {
 }
 
 impl Film {
-    /// The states of all balls at a time, s, and how they have turned since the start of the shot: w, x, y, z.
+    /// The states of all balls at a time, s, and how they have turned since the start of the shot:
+    /// w, x, y, z.
     pub fn at(&mut self, shot: &Shot, time: f64) -> Result<(&[BallState], &[[f64; 4]]), Error> {
         self.states.resize(shot.balls.len(), BallState::default());
         self.turned.resize(shot.balls.len(), [0.0; 4]);

@@ -6,8 +6,9 @@ use crate::{
 use std::os::raw::{c_char, c_int};
 use std::panic::{catch_unwind, AssertUnwindSafe};
 
-/// Rules of a game. Sets of balls have bit k for ball k. The functions may be called from several threads at once, and depend on
-/// their arguments only; `user` are the eight words of the state that are theirs, as the player at the table has them. A function that panics ends the program.
+/// Rules of a game. Sets of balls have bit k for ball k. The functions may be called from several
+/// threads at once, and depend on their arguments only; `user` are the eight words of the state
+/// that are theirs, as the player at the table has them. A function that panics ends the program.
 pub trait Game {
     /// The balls that may be met first, and potted.
     fn on(user: &[u64; 8], in_play: u32) -> u32;
@@ -62,7 +63,8 @@ pub fn words(of: &Ruling) -> String {
     text(words.as_ptr())
 }
 
-/// The stroke that a player makes who means `cue`: with errors drawn from `seed` and the number of the stroke.
+/// The stroke that a player makes who means `cue`: with errors drawn from `seed` and the number of
+/// the stroke.
 pub fn strike(player: &Player, seed: u64, number: u64, cue: &Cue) -> Cue {
     let mut made = *cue;
     unsafe { sys::carom_player_strike(player, seed, number, &mut made) };
@@ -109,7 +111,8 @@ impl Position {
         Ok(all.choices)
     }
 
-    /// A plan that is made in slices of so many events, about (500 take 1 ms), between the frames of a game.
+    /// A plan that is made in slices of so many events, about (500 take 1 ms), between the frames
+    /// of a game.
     pub fn think(self, slice: i64, most: usize, in_hand: bool) -> Result<Thinking, Error> {
         let mut of = Box::new(self);
         of.options.slice = slice;

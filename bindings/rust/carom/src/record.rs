@@ -1,6 +1,7 @@
 //! Recordings: games that verify themselves. docs/using/games.md has the format.
 use crate::{
-    check, count_of, sys, text, Cue, Error, Facts, Options, RulesState, Ruling, Shot, ShotBall, Table,
+    check, count_of, sys, text, Cue, Error, Facts, Options, RulesState, Ruling, Shot, ShotBall,
+    Table,
 };
 use std::os::raw::c_char;
 
@@ -67,7 +68,8 @@ impl Recording {
         self.line(sys::CAROM_RECORD_GAME)
     }
 
-    /// The state of the last line of `stand`; with it the rules, a carom_rules_kind, and who is at the table.
+    /// The state of the last line of `stand`; with it the rules, a carom_rules_kind, and who is at
+    /// the table.
     pub fn standing(&self) -> (i64, &RulesState, i64) {
         (self.record.rules, &self.record.standing, self.record.player)
     }
@@ -77,7 +79,8 @@ impl Recording {
         self.last.as_ref()
     }
 
-    /// The layout of the next stroke as a ruling has it. Returns the lines of balls that come back, and of a cue ball in hand.
+    /// The layout of the next stroke as a ruling has it. Returns the lines of balls that come back,
+    /// and of a cue ball in hand.
     pub fn settle(&mut self, by: &Ruling, cue_ball: usize) -> Result<String, Error> {
         let mut lines = String::new();
         check(unsafe { sys::carom_record_settle(&mut *self.record) })?;
@@ -145,7 +148,8 @@ impl Recording {
         Ok(String::from_utf8(line).expect("a recording is ASCII"))
     }
 
-    /// Reads a line, and plays its shot if it has one. Returns whether every bit is the recorded one.
+    /// Reads a line, and plays its shot if it has one. Returns whether every bit is the recorded
+    /// one.
     pub fn read(&mut self, line: &str) -> Result<bool, Error> {
         let record = &mut *self.record;
         let status =
@@ -168,7 +172,8 @@ impl Recording {
                 == (was.status, was.events, was.time.to_bits(), was.hash))
     }
 
-    /// Reads lines up to a shot with other bits than were recorded, and returns false there. A game that was saved without its end goes on.
+    /// Reads lines up to a shot with other bits than were recorded, and returns false there. A game
+    /// that was saved without its end goes on.
     pub fn load(&mut self, lines: &str) -> Result<bool, Error> {
         let mut all = lines.lines();
         all.try_fold(true, |same, line| Ok(same && self.read(line)?))

@@ -1,6 +1,8 @@
-"""Random numbers of many games at once, each game with its own: the same whatever games are beside it.
+"""Random numbers of many games at once, each game with its own: the same whatever games are beside
+it.
 
-Draw i of a game is SplitMix64 at key + i steps (Steele, Lea, Flood, OOPSLA 2014): all games are drawn in a few array operations.
+Draw i of a game is SplitMix64 at key + i steps (Steele, Lea, Flood, OOPSLA 2014): all games are
+drawn in a few array operations.
 """
 
 from __future__ import annotations
@@ -14,7 +16,10 @@ import numpy.typing as npt
 from carom import dtypes
 
 Games = npt.NDArray[np.int64]
-_MIX = ((np.uint64(30), np.uint64(0xBF58476D1CE4E5B9)), (np.uint64(27), np.uint64(0x94D049BB133111EB)))
+_MIX = (
+    (np.uint64(30), np.uint64(0xBF58476D1CE4E5B9)),
+    (np.uint64(27), np.uint64(0x94D049BB133111EB)),
+)
 _11, _31 = np.uint64(11), np.uint64(31)
 
 

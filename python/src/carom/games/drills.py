@@ -1,4 +1,6 @@
-"""Games for agents of the same form as `carom.potting.Potting`: points of three-cushion, and the break of nine-ball."""
+"""Games for agents of the same form as `carom.potting.Potting`: points of three-cushion, and the
+break of nine-ball.
+"""
 
 from __future__ import annotations
 
@@ -19,11 +21,14 @@ __dir__ = listing(__name__)
 
 
 class ThreeCushion(Potting):
-    """Points of three-cushion: three balls lie at random on a table without pockets, and a number of strokes is to score.
+    """Points of three-cushion: three balls lie at random on a table without pockets, and a number
+    of strokes is to score.
 
-    Actions, observations and options are those of `Potting` with two balls besides the cue ball. A stroke earns 1 where the cue ball meets three
-    cushions before it meets the second ball, whether it scored before or not; the balls then stay where they came to rest. A stroke in which
-    a ball leaves the table earns nothing and is taken back. `Strokes.potted` is 0. The game ends with the last stroke.
+    Actions, observations and options are those of `Potting` with two balls besides the cue ball. A
+    stroke earns 1 where the cue ball meets three cushions before it meets the second ball, whether
+    it scored before or not; the balls then stay where they came to rest. A stroke in which a ball
+    leaves the table earns nothing and is taken back. `Strokes.potted` is 0. The game ends with the
+    last stroke.
     """
 
     _game: ClassVar[RulesGame] = "threecushion"
@@ -33,11 +38,13 @@ class ThreeCushion(Potting):
 
 
 class Break(Potting):
-    """The break of nine-ball, one stroke: each game draws its rack, of which balls lie 0.1 mm apart in the mean.
+    """The break of nine-ball, one stroke: each game draws its rack, of which balls lie 0.1 mm apart
+    in the mean.
 
-    An action has two numbers more than that of `Potting`: where the cue ball lies, along the width and along the length of the part behind the
-    head string. A break earns the balls that it pots, less 1 for a foul by the rules of nine-ball: the cue ball falls, a ball leaves the
-    table, or nothing falls and fewer than four balls meet cushions. Options are those of `Potting`.
+    An action has two numbers more than that of `Potting`: where the cue ball lies, along the width
+    and along the length of the part behind the head string. A break earns the balls that it pots,
+    less 1 for a foul by the rules of nine-ball: the cue ball falls, a ball leaves the table, or
+    nothing falls and fewer than four balls meet cushions. Options are those of `Potting`.
     """
 
     acts: ClassVar[int] = 6
@@ -60,19 +67,42 @@ class Break(Potting):
         return made
 
     def placed(self, balls: dtypes.Records, actions: npt.ArrayLike) -> dtypes.Records:
-        """The layouts, broadcast against the actions, with the cue balls where the actions put them."""
+        """The layouts, broadcast against the actions, with the cue balls where the actions put
+        them.
+        """
         given = np.asarray(actions, np.float64)
         low, high = self.corners()
-        laid = copied(np.broadcast_to(balls, (*np.broadcast_shapes(balls.shape[:-1], given.shape[:-1]), balls.shape[-1])))
-        laid["state"]["r"][..., 0, :2] = low + (high - low) * (np.clip(given[..., 4:], -1.0, 1.0) + 1.0) / 2.0
+        laid = copied(
+            np.broadcast_to(
+                balls, (*np.broadcast_shapes(balls.shape[:-1], given.shape[:-1]), balls.shape[-1])
+            )
+        )
+        laid["state"]["r"][..., 0, :2] = (
+            low + (high - low) * (np.clip(given[..., 4:], -1.0, 1.0) + 1.0) / 2.0
+        )
         return laid
 
     def best(self, balls: dtypes.Records, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
-        """The action, of shape (6,), of the planner, which wants to win the game of nine-ball against a player with the same errors."""
+        """The action, of shape (6,), of the planner, which wants to win the game of nine-ball
+        against a player with the same errors.
+        """
         low, high = self.corners()
         found = plans.plan(
-            self.table, balls, rules="nineball", opening=True, player=self.player(), shots=shots, seed=seed, best=1, in_hand=[low, high],
-            threads=self.threads, level=True, cushion_model=self.cushion_model,
-        )[0]  # fmt: skip
-        cue, place = found["cue"], np.clip(2.0 * (found["place"] - low) / (high - low) - 1.0, -1.0, 1.0)
+            self.table,
+            balls,
+            rules="nineball",
+            opening=True,
+            player=self.player(),
+            shots=shots,
+            seed=seed,
+            best=1,
+            in_hand=[low, high],
+            threads=self.threads,
+            level=True,
+            cushion_model=self.cushion_model,
+        )[0]
+        cue, place = (
+            found["cue"],
+            np.clip(2.0 * (found["place"] - low) / (high - low) - 1.0, -1.0, 1.0),
+        )
         return np.concatenate([self.actions(cue["phi"], cue["speed"], cue["a"], cue["b"]), place])

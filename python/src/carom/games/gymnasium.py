@@ -6,10 +6,12 @@
     game = gymnasium.make("carom/RunOutSix-v1", render_mode="svg")
     games = gymnasium.make_vec("carom/Potting-v1", num_envs=64, cushion_model="han", threads=-1)
 
-`GAMES` has the ids. What an id with a version gives for an action and a seed changes only with `carom.physics_revision()`; other rules get another version.
+`GAMES` has the ids. What an id with a version gives for an action and a seed changes only with
+`carom.physics_revision()`; other rules get another version.
 
-Actions, observations, rewards and ends are those of the rules, `RULES`, whose arguments both take; `rules` is that object. Game k of many with
-the seed s is the game alone with the seed s + k, to the bit. Needs gymnasium 1.1 or later.
+Actions, observations, rewards and ends are those of the rules, `RULES`, whose arguments both take;
+`rules` is that object. Game k of many with the seed s is the game alone with the seed s + k, to the
+bit. Needs gymnasium 1.1 or later.
 """
 
 from __future__ import annotations
@@ -44,9 +46,12 @@ __dir__ = listing(__name__)
 RenderMode = Literal["svg", "rgb_array"]
 Rules = Potting | Match
 RULES: dict[str, Callable[..., Rules]] = {
-    "potting": Potting, "threecushion": ThreeCushion, "break": Break,
-    "nineball": functools.partial(Match, "nineball"), "eightball": functools.partial(Match, "eightball"),
-}  # fmt: skip
+    "potting": Potting,
+    "threecushion": ThreeCushion,
+    "break": Break,
+    "nineball": functools.partial(Match, "nineball"),
+    "eightball": functools.partial(Match, "eightball"),
+}
 """The rules of an environment by the word `game`: classes, and `Match` of both games of pool."""
 _OPTIONS = {"layout", "strokes"}
 _Bools = npt.NDArray[np.bool_]
@@ -54,7 +59,10 @@ _ONE: Games = np.zeros(1, np.int64)
 
 
 class _Games:
-    """The state of games, and what both environments do with it. Each game has random numbers of its own."""
+    """The state of games, and what both environments do with it.
+
+    Each game has random numbers of its own.
+    """
 
     def __init__(self, rules: Rules, games: int, render_mode: str | None) -> None:
         pictures.check_render_mode(render_mode)
@@ -72,11 +80,19 @@ class _Games:
         self.cues: dtypes.Records = np.zeros(games, dtypes.cue)
         self.struck: _Bools = np.zeros(games, np.bool_)
 
-    def begin(self, games: Games, layouts: Sequence[Any] | None = None, strokes: int | None = None) -> None:
-        """Begin some games, at random or with the centres of balls; each goes on with its own random numbers."""
+    def begin(
+        self, games: Games, layouts: Sequence[Any] | None = None, strokes: int | None = None
+    ) -> None:
+        """Begin some games, at random or with the centres of balls; each goes on with its own
+        random numbers.
+        """
         if strokes is not None and not 1 <= strokes <= self.rules.strokes:
-            raise ValueError(f"strokes: must be 1 to {self.rules.strokes}, that of the environment, not {strokes}")
-        given = None if layouts is None else np.stack([self.rules.layout(layout) for layout in layouts])
+            raise ValueError(
+                f"strokes: must be 1 to {self.rules.strokes}, that of the environment, not {strokes}"
+            )
+        given = (
+            None if layouts is None else np.stack([self.rules.layout(layout) for layout in layouts])
+        )
         dealt = self.rules.deal(self.draws, games)
         if given is not None:
             dealt["state"] = given["state"]
@@ -116,13 +132,20 @@ class _Games:
         """The picture of one game: its balls and the paths of its last stroke."""
         if self.render_mode is None:
             return None
-        return pictures.rendered(self.rules.shot(self.before[game], self.cues[game] if self.struck[game] else None), self.render_mode)
+        return pictures.rendered(
+            self.rules.shot(self.before[game], self.cues[game] if self.struck[game] else None),
+            self.render_mode,
+        )
 
 
 def _spaces(rules: Rules) -> tuple[Any, Any]:
-    """Of one game: that of observations, and that of actions in single precision, as libraries of policies want them."""
+    """Of one game: that of observations, and that of actions in single precision, as libraries of
+    policies want them.
+    """
     low, high = rules.bounds()
-    return spaces.Box(low, high, dtype=np.float64), spaces.Box(-1.0, 1.0, (rules.acts,), dtype=np.float32)
+    return spaces.Box(low, high, dtype=np.float64), spaces.Box(
+        -1.0, 1.0, (rules.acts,), dtype=np.float32
+    )
 
 
 def _rules(game: str, rules: dict[str, Any]) -> Rules:
@@ -135,29 +158,40 @@ def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
     """The options of a reset, none of them unknown."""
     given = {} if options is None else options
     if not given.keys() <= _OPTIONS:
-        raise ValueError(f"options: 'layout' and 'strokes' are known, not {', '.join(map(repr, sorted(given.keys() - _OPTIONS)))}")
+        raise ValueError(
+            f"options: 'layout' and 'strokes' are known, not {', '.join(map(repr, sorted(given.keys() - _OPTIONS)))}"
+        )
     return given
 
 
 class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
     """One game: `game` names the rules, of `RULES`, and **rules are their arguments.
 
-    `render` gives a picture of the last stroke, from where the balls lay (faint) to where they came to rest: with `render_mode="svg"` its
-    text, with "rgb_array" an image of shape (height, width, 3), of which `gymnasium.wrappers.RecordVideo` makes a film. `info` after a stroke: potted (int), scratch (bool), foul (int, as `carom.Foul`), status (int, as `carom.Status`), time (s). Options of `reset`:
-    layout, the centres (m) of shape (balls + 1, 2), the cue ball first, which matches refuse; strokes, at most those of the environment. There
-    is no truncation: the observation contains the number of strokes left.
+    `render` gives a picture of the last stroke, from where the balls lay (faint) to where they came
+    to rest: with `render_mode="svg"` its text, with "rgb_array" an image of shape (height, width,
+    3), of which `gymnasium.wrappers.RecordVideo` makes a film. `info` after a stroke: potted (int),
+    scratch (bool), foul (int, as `carom.Foul`), status (int, as `carom.Status`), time (s). Options
+    of `reset`: layout, the centres (m) of shape (balls + 1, 2), the cue ball first, which matches
+    refuse; strokes, at most those of the environment. There is no truncation: the observation
+    contains the number of strokes left.
     """
 
     metadata: dict[str, Any] = {"render_modes": list(pictures.RENDER_MODES), "render_fps": 1}
 
-    def __init__(self, game: str = "potting", *, render_mode: RenderMode | None = None, **rules: Any) -> None:
+    def __init__(
+        self, game: str = "potting", *, render_mode: RenderMode | None = None, **rules: Any
+    ) -> None:
         self.rules = _rules(game, rules)
         self.render_mode = render_mode
         self.observation_space, self.action_space = _spaces(self.rules)
         self._games = _Games(self.rules, 1, render_mode)
 
-    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dtypes.Doubles, dict[str, Any]]:
-        """Begin a game: a layout drawn from the seed, or from the game's random numbers as they stand."""
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dtypes.Doubles, dict[str, Any]]:
+        """Begin a game: a layout drawn from the seed, or from the game's random numbers as they
+        stand.
+        """
         super().reset(seed=seed)
         given = _checked(options)
         layout = given.get("layout")
@@ -166,14 +200,27 @@ class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         self._games.begin(_ONE, None if layout is None else [layout], given.get("strokes"))
         return self._games.observe()[0], {}
 
-    def step(self, action: npt.ArrayLike) -> tuple[dtypes.Doubles, float, bool, bool, dict[str, Any]]:
+    def step(
+        self, action: npt.ArrayLike
+    ) -> tuple[dtypes.Doubles, float, bool, bool, dict[str, Any]]:
         """Play a stroke: observation, reward, terminated, truncated, info."""
         if self._games.ended[0]:
             raise gymnasium.error.ResetNeeded("the game has ended, or has not begun: call reset()")
         strokes = self._games.play(_ONE, np.asarray(action, np.float64)[np.newaxis])
-        info = {"potted": int(strokes.potted[0]), "scratch": bool(strokes.scratch[0]), "foul": int(strokes.foul[0]), "status": int(strokes.status[0])}
+        info = {
+            "potted": int(strokes.potted[0]),
+            "scratch": bool(strokes.scratch[0]),
+            "foul": int(strokes.foul[0]),
+            "status": int(strokes.status[0]),
+        }
         info["time"] = float(strokes.time[0])  # type: ignore[assignment]
-        return self._games.observe()[0], float(strokes.rewards[0]), bool(self._games.ended[0]), False, info
+        return (
+            self._games.observe()[0],
+            float(strokes.rewards[0]),
+            bool(self._games.ended[0]),
+            False,
+            info,
+        )
 
     def render(self) -> Any:
         """The picture, as `render_mode` says."""
@@ -181,18 +228,31 @@ class GameEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
 
 
 class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]]):
-    """Many games, all strokes of a step in one `carom.simulate_batch`, but for matches, which are played one after another.
+    """Many games, all strokes of a step in one `carom.simulate_batch`, but for matches, which are
+    played one after another.
 
-    Arguments are those of `GameEnv`, after the number of games; `threads` plays the strokes of a step side by side, and `render`
-    gives a tuple of pictures. A game that has ended begins anew with the next step, whose action for it is not played
-    (AutoresetMode.NEXT_STEP, gymnasium's default). Seeds are as for gymnasium's SyncVectorEnv: s is s, s + 1, ...; a list has one for
-    each game. Options of `reset` are as for `GameEnv`; layout may be of shape (num_envs, balls + 1, 2). `infos` has arrays, and
-    under "_" + name where they are set.
+    Arguments are those of `GameEnv`, after the number of games; `threads` plays the strokes of a
+    step side by side, and `render` gives a tuple of pictures. A game that has ended begins anew
+    with the next step, whose action for it is not played (AutoresetMode.NEXT_STEP, gymnasium's
+    default). Seeds are as for gymnasium's SyncVectorEnv: s is s, s + 1, ...; a list has one for
+    each game. Options of `reset` are as for `GameEnv`; layout may be of shape (num_envs, balls + 1,
+    2). `infos` has arrays, and under "_" + name where they are set.
     """
 
-    metadata: dict[str, Any] = {"render_modes": list(pictures.RENDER_MODES), "render_fps": 1, "autoreset_mode": AutoresetMode.NEXT_STEP}
+    metadata: dict[str, Any] = {
+        "render_modes": list(pictures.RENDER_MODES),
+        "render_fps": 1,
+        "autoreset_mode": AutoresetMode.NEXT_STEP,
+    }
 
-    def __init__(self, num_envs: int = 1, game: str = "potting", *, render_mode: RenderMode | None = None, **rules: Any) -> None:
+    def __init__(
+        self,
+        num_envs: int = 1,
+        game: str = "potting",
+        *,
+        render_mode: RenderMode | None = None,
+        **rules: Any,
+    ) -> None:
         if num_envs < 1:
             raise ValueError(f"num_envs: must be at least 1, not {num_envs}")
         self.rules = _rules(game, rules)
@@ -200,11 +260,17 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         self.render_mode = render_mode
         observed, acted = _spaces(self.rules)
         self.single_observation_space, self.single_action_space = observed, acted
-        self.observation_space, self.action_space = batch_space(observed, num_envs), batch_space(acted, num_envs)
+        self.observation_space, self.action_space = (
+            batch_space(observed, num_envs),
+            batch_space(acted, num_envs),
+        )
         self._games = _Games(self.rules, num_envs, render_mode)
 
     def reset(
-        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: dict[str, Any] | None = None,
     ) -> tuple[dtypes.Doubles, dict[str, Any]]:
         """Begin all games anew."""
         seeds = [None] * self.num_envs if seed is None else seed
@@ -221,19 +287,29 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
                 raise ValueError(f"layout: one or {self.num_envs} are needed, not {len(layouts)}")
         for game, own in enumerate(seeds):
             if own is not None:
-                self._games.draws.begin(np.array([game]), int(seeding.np_random(own)[0].integers(2**63)))
+                self._games.draws.begin(
+                    np.array([game]), int(seeding.np_random(own)[0].integers(2**63))
+                )
         self._games.begin(np.arange(self.num_envs), layouts, given.get("strokes"))
         return self._games.observe(), {}
 
     def step(
         self, actions: npt.ArrayLike
-    ) -> tuple[dtypes.Doubles, npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any], dict[str, Any]]:
-        """Play a stroke of each game, or begin it anew: observations (num_envs, ...); rewards, terminated, truncated (num_envs,); infos."""
+    ) -> tuple[
+        dtypes.Doubles, npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any], dict[str, Any]
+    ]:
+        """Play a stroke of each game, or begin it anew: observations (num_envs, ...); rewards,
+        terminated, truncated (num_envs,); infos.
+        """
         given = np.asarray(actions, dtype=np.float64)
         if given.shape != (self.num_envs, self.rules.acts):
-            raise ValueError(f"actions: the shape must be ({self.num_envs}, {self.rules.acts}), not {given.shape}")
+            raise ValueError(
+                f"actions: the shape must be ({self.num_envs}, {self.rules.acts}), not {given.shape}"
+            )
         if not self._games.begun:
-            raise gymnasium.error.ResetNeeded("no game has begun: call reset() before the first step()")
+            raise gymnasium.error.ResetNeeded(
+                "no game has begun: call reset() before the first step()"
+            )
         playing = ~self._games.ended
         if not playing.all():
             self._games.begin(np.flatnonzero(~playing))
@@ -242,13 +318,23 @@ class GameVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]])
         if playing.any():
             strokes = self._games.play(np.flatnonzero(playing), given[playing])
             rewards[playing] = strokes.rewards
-            told: dict[str, npt.NDArray[Any]] = {"potted": strokes.potted, "scratch": strokes.scratch, "foul": strokes.foul.astype(np.int64)}
+            told: dict[str, npt.NDArray[Any]] = {
+                "potted": strokes.potted,
+                "scratch": strokes.scratch,
+                "foul": strokes.foul.astype(np.int64),
+            }
             told |= {"status": strokes.status.astype(np.int64), "time": strokes.time}
             for name, values in told.items():
                 infos[name] = np.zeros(self.num_envs, values.dtype)
                 infos[name][playing] = values
                 infos["_" + name] = playing.copy()
-        return self._games.observe(), rewards, self._games.ended.copy(), np.zeros(self.num_envs, np.bool_), infos
+        return (
+            self._games.observe(),
+            rewards,
+            self._games.ended.copy(),
+            np.zeros(self.num_envs, np.bool_),
+            infos,
+        )
 
     def render(self) -> tuple[Any, ...] | None:
         """The pictures of all games, as `render_mode` says."""
@@ -267,10 +353,16 @@ GAMES: dict[str, dict[str, Any]] = {
     "carom/NineBall-v1": {"game": "nineball", "strokes": 60, "noise": _ERRORS},
     "carom/EightBall-v1": {"game": "eightball", "strokes": 60, "noise": _ERRORS},
 }
-"""The ids, and the arguments of `GameEnv` that they have. But in the first, strokes err as those of a player with a Fargo rating of 600; the opponent
-of the last two is the planner with 300 shots and the errors of a 500."""
+"""The ids, and the arguments of `GameEnv` that they have.
+
+But in the first, strokes err as those of a player with a Fargo rating of 600; the opponent of the
+last two is the planner with 300 shots and the errors of a 500.
+"""
 _registry = cast("Any", gymnasium)
 for _id, _arguments in GAMES.items():
     if _id not in _registry.registry:
-        entry = {"entry_point": "carom.gymnasium:GameEnv", "vector_entry_point": "carom.gymnasium:GameVectorEnv"}
+        entry = {
+            "entry_point": "carom.gymnasium:GameEnv",
+            "vector_entry_point": "carom.gymnasium:GameVectorEnv",
+        }
         _registry.register(_id, kwargs=_arguments, **entry)

@@ -1,4 +1,6 @@
-"""Games of pool of an agent against the library's planner, in the form that `carom.gymnasium` plays."""
+"""Games of pool of an agent against the library's planner, in the form that `carom.gymnasium`
+plays.
+"""
 
 from __future__ import annotations
 
@@ -31,11 +33,15 @@ def _state(words: npt.NDArray[np.uint64]) -> State:
 
 
 class Match:
-    """A game of nine-ball or eight-ball: the agent breaks, and the library's planner plays whenever it is the opponent's turn.
+    """A game of nine-ball or eight-ball: the agent breaks, and the library's planner plays whenever
+    it is the opponent's turn.
 
-    **Actions** are those of `carom.pool.Pool`, six numbers. An **observation** is that of `Pool.observe` and the number of strokes left. It is
-    all that there is to know. A step is one stroke of the agent and all strokes of the opponent until the agent plays again. The **reward** is
-    1 for a won game, -1 for a lost one, and else 0. The game also ends with the agent's last stroke.
+    **Actions** are those of `carom.pool.Pool`, six numbers. An **observation** is that of
+        `Pool.observe` and the number of strokes left. It is
+    all that there is to know. A step is one stroke of the agent and all strokes of the opponent
+        until the agent plays again. The **reward** is
+    1 for a won game, -1 for a lost one, and else 0. The game also ends with the agent's last
+        stroke.
 
     Parameters
     ----------
@@ -51,17 +57,29 @@ class Match:
     """
 
     acts: ClassVar[int] = 6
-    words: ClassVar[tuple[int, ...]] = (*_words(Made("nineball", None, opening=True).state), int(Hand.BEHIND))
+    words: ClassVar[tuple[int, ...]] = (
+        *_words(Made("nineball", None, opening=True).state),
+        int(Hand.BEHIND),
+    )
 
     def __init__(
-        self, game: Literal["nineball", "eightball"] = "nineball", strokes: int = 60, *, opponent: dtypes.Records | None = None,
-        opponent_shots: int = 300, **rules: Any
-    ) -> None:  # fmt: skip
+        self,
+        game: Literal["nineball", "eightball"] = "nineball",
+        strokes: int = 60,
+        *,
+        opponent: dtypes.Records | None = None,
+        opponent_shots: int = 300,
+        **rules: Any,
+    ) -> None:
         self.pool = Pool(game, **rules)
         self.strokes = whole(strokes, "strokes", least=1)
         self.opponent = player(fargo=500) if opponent is None else opponent
         self.opponent_shots = whole(opponent_shots, "opponent_shots", least=100, most=1_000_000)
-        self.balls, self.table, self.noise = self.pool.base.balls, self.pool.table, self.pool.base.noise
+        self.balls, self.table, self.noise = (
+            self.pool.base.balls,
+            self.pool.table,
+            self.pool.base.noise,
+        )
         self._agent = self.pool.base.player()
 
     def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
@@ -69,14 +87,23 @@ class Match:
         low, high = self.pool.bounds()
         return np.append(low, 0.0), np.append(high, self.strokes)
 
-    def observe(self, balls: dtypes.Records, strokes_left: npt.ArrayLike, words: npt.NDArray[np.uint64]) -> dtypes.Doubles:
+    def observe(
+        self, balls: dtypes.Records, strokes_left: npt.ArrayLike, words: npt.NDArray[np.uint64]
+    ) -> dtypes.Doubles:
         """What the agent sees of games, of shape (games, ...)."""
         left = np.broadcast_to(np.asarray(strokes_left, np.float64), len(balls))
         none = Draws([0])
-        return np.stack([
-            np.append(self.pool.observe(Position(layout, 0, Hand(int(own[-1])), _state(own), 0, None, none), 0), now)
-            for layout, own, now in zip(balls, words, left, strict=True)
-        ])  # fmt: skip
+        return np.stack(
+            [
+                np.append(
+                    self.pool.observe(
+                        Position(layout, 0, Hand(int(own[-1])), _state(own), 0, None, none), 0
+                    ),
+                    now,
+                )
+                for layout, own, now in zip(balls, words, left, strict=True)
+            ]
+        )
 
     def deal(self, draws: Draws, games: Games) -> dtypes.Records:
         """The racks of some games, of shape (len(games), balls + 1)."""
@@ -86,20 +113,43 @@ class Match:
         """Refuses layouts: a match begins with its break."""
         raise ValueError("layout: a match begins with the break, and takes no layout")
 
-    def turn(self, balls: dtypes.Records, words: npt.NDArray[np.uint64], actions: npt.ArrayLike, draws: Draws, games: Games) -> Turned:
-        """A stroke of the agent and the visit of the opponent, in each of some games. `words` is written to."""
+    def turn(
+        self,
+        balls: dtypes.Records,
+        words: npt.NDArray[np.uint64],
+        actions: npt.ArrayLike,
+        draws: Draws,
+        games: Games,
+    ) -> Turned:
+        """A stroke of the agent and the visit of the opponent, in each of some games.
+
+        `words` is written to.
+        """
         given = np.asarray(actions, np.float64)
         n = len(games)
         struck, after, cues = balls.copy(), balls.copy(), np.zeros(n, dtypes.cue)
         strokes = Strokes(
-            after, np.zeros(n), np.zeros(n, np.int64), np.zeros(n, np.bool_), np.zeros(n, np.int32), np.zeros(n, np.int8), np.zeros(n), np.zeros(n, np.bool_)
-        )  # fmt: skip
+            after,
+            np.zeros(n),
+            np.zeros(n, np.int64),
+            np.zeros(n, np.bool_),
+            np.zeros(n, np.int32),
+            np.zeros(n, np.int8),
+            np.zeros(n),
+            np.zeros(n, np.bool_),
+        )
         ended = np.zeros(n, np.bool_)
         for k, game in enumerate(games.tolist()):
-            before = Position(balls[k], 0, Hand(int(words[k, -1])), _state(words[k]), 0, None, draws.of(game))
+            before = Position(
+                balls[k], 0, Hand(int(words[k, -1])), _state(words[k]), 0, None, draws.of(game)
+            )
             position, turn = self.pool.play(before, given[k])
             struck[k], cues[k] = turn.shot.balls, turn.shot.cue
-            strokes.potted[k], strokes.scratch[k], strokes.foul[k] = len(turn.potted), turn.shot.final["label"][0] == Label.POCKETED, turn.code
+            strokes.potted[k], strokes.scratch[k], strokes.foul[k] = (
+                len(turn.potted),
+                turn.shot.final["label"][0] == Label.POCKETED,
+                turn.code,
+            )
             strokes.status[k], strokes.time[k] = int(turn.shot.status), turn.shot.time
             position = self._visit(position)
             after[k], words[k] = position.balls, [*_words(position.state), int(position.hand)]
@@ -112,21 +162,29 @@ class Match:
         """The position when the agent plays again, or the game has ended."""
         while position.player == 1 and position.winner is None:
             key = position.draws.key(0)
-            found = self.pool.planned(position, self.opponent, self._agent, self.opponent_shots, key % 2**31)
+            found = self.pool.planned(
+                position, self.opponent, self._agent, self.opponent_shots, key % 2**31
+            )
             laid: Array = position.balls.copy()
             if position.hand:
                 self.pool.lay(laid, found["place"])
             stroke = with_errors(found["cue"], self.opponent, key)
-            position, _ = self.pool.struck(replace(position, balls=laid), stroke, (int(found["ball"]), int(found["pocket"])))
+            position, _ = self.pool.struck(
+                replace(position, balls=laid), stroke, (int(found["ball"]), int(found["pocket"]))
+            )
         return position
 
     def shot(self, balls: dtypes.Records, cue: dtypes.Records | None) -> Shot:
         """A stroke of the agent with its events, for looking at; without a cue the balls lie still."""
         return self.pool.base.shot(balls, cue)
 
-    def best_seen(self, observation: npt.ArrayLike, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
+    def best_seen(
+        self, observation: npt.ArrayLike, *, shots: int = 500, seed: int = 0
+    ) -> dtypes.Doubles:
         """The action, of shape (6,), of the library's planner for an observation."""
-        return self.pool.best(self.seen(observation), opponent=self.opponent, shots=shots, seed=seed)
+        return self.pool.best(
+            self.seen(observation), opponent=self.opponent, shots=shots, seed=seed
+        )
 
     def seen(self, observation: npt.ArrayLike) -> Position:
         """The position of an observation."""

@@ -1,4 +1,5 @@
-"""Nine-ball and eight-ball (`carom.pool`) as an environment of PettingZoo, in which two agents take turns.
+"""Nine-ball and eight-ball (`carom.pool`) as an environment of PettingZoo, in which two agents take
+turns.
 
     from carom.pettingzoo import PoolEnv
 
@@ -8,7 +9,8 @@
         observation, reward, terminated, truncated, info = game.last()
         game.step(None if terminated or truncated else game.action_space(agent).sample())
 
-Actions, observations and rules are those of `carom.pool.Pool`. The winner gets 1, the other -1. Needs PettingZoo.
+Actions, observations and rules are those of `carom.pool.Pool`. The winner gets 1, the other -1.
+Needs PettingZoo.
 """
 
 from __future__ import annotations
@@ -34,15 +36,29 @@ _PLAYERS = ("player_0", "player_1")
 
 
 class PoolEnv(AECEnv):
-    """One game of pool, whose rules are `Pool(game, **options)`. After so many `strokes`, both players together, it is truncated.
+    """One game of pool, whose rules are `Pool(game, **options)`.
 
-    `render_mode` is as for `carom.gymnasium.GameEnv`. `infos` of both players, after a stroke: foul (why, or empty), first (the ball
-    touched first, 0 for none), potted (a list), hand.
+    After so many `strokes`, both players together, it is truncated.
+
+    `render_mode` is as for `carom.gymnasium.GameEnv`. `infos` of both players, after a stroke: foul
+    (why, or empty), first (the ball touched first, 0 for none), potted (a list), hand.
     """
 
-    metadata: dict[str, Any] = {"name": "carom_pool_v2", "render_modes": list(pictures.RENDER_MODES), "render_fps": 1, "is_parallelizable": False}
+    metadata: dict[str, Any] = {
+        "name": "carom_pool_v2",
+        "render_modes": list(pictures.RENDER_MODES),
+        "render_fps": 1,
+        "is_parallelizable": False,
+    }
 
-    def __init__(self, game: Literal["nineball", "eightball"] = "nineball", strokes: int = 200, *, render_mode: Literal["svg", "rgb_array"] | None = None, **options: Any) -> None:
+    def __init__(
+        self,
+        game: Literal["nineball", "eightball"] = "nineball",
+        strokes: int = 200,
+        *,
+        render_mode: Literal["svg", "rgb_array"] | None = None,
+        **options: Any,
+    ) -> None:
         super().__init__()
         pictures.check_render_mode(render_mode)
         self.rules = Pool(game, **options)
@@ -63,11 +79,15 @@ class PoolEnv(AECEnv):
         return self._acted[agent]
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
-        """Begin a game with the break of player_0; options: "position", a `carom.pool.Position` to begin with."""
+        """Begin a game with the break of player_0; options: "position", a `carom.pool.Position` to
+        begin with.
+        """
         if seed is not None:
             self._generator = seeding.np_random(seed)[0]
         given = {} if options is None else options
-        self.position = given.get("position") or self.rules.begin(int(self._generator.integers(2**63)))
+        self.position = given.get("position") or self.rules.begin(
+            int(self._generator.integers(2**63))
+        )
         self.stroke: Stroke | None = None
         self.agents = list(_PLAYERS)
         self.agent_selection = _PLAYERS[self.position.player]
@@ -92,7 +112,12 @@ class PoolEnv(AECEnv):
             raise ValueError("action: six numbers are needed while the game goes on")
         self.position, self.stroke = self.rules.play(self.position, action)
         winner = self.position.winner
-        told = {"foul": self.stroke.foul, "first": self.stroke.first or 0, "potted": list(self.stroke.potted), "hand": int(self.position.hand)}
+        told = {
+            "foul": self.stroke.foul,
+            "first": self.stroke.first or 0,
+            "potted": list(self.stroke.potted),
+            "hand": int(self.position.hand),
+        }
         for k, name in enumerate(_PLAYERS):
             self.rewards[name] = 0.0 if winner is None else 1.0 if k == winner else -1.0
             self.terminations[name] = winner is not None
@@ -105,7 +130,12 @@ class PoolEnv(AECEnv):
         """The text of a picture: the balls and the paths of the last stroke."""
         if self.render_mode is None:
             return None
-        return pictures.rendered(self.rules.base.shot(self.position.balls, None) if self.stroke is None else self.stroke.shot, self.render_mode)
+        return pictures.rendered(
+            self.rules.base.shot(self.position.balls, None)
+            if self.stroke is None
+            else self.stroke.shot,
+            self.render_mode,
+        )
 
     def close(self) -> None:
         """Nothing is held open."""

@@ -33,30 +33,43 @@ _USUAL = Options()
 
 
 def player(errors: float | None = None, *, fargo: float | None = None) -> dtypes.Records:
-    """A player whose strokes err, as an array of `carom.dtypes.player`, shape (). Its fields may be changed.
+    """A player whose strokes err, as an array of `carom.dtypes.player`, shape ().
+
+    Its fields may be changed.
 
     Parameters
     ----------
     errors : float
-        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each way, times errors. Default: 1.
-        The speed is that of a cue whose tip loses nothing; others err by 2/(1 + tip_restitution) times as much.
+        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and
+        0.003 radii each way, times errors. Default: 1. The speed is that of a cue whose tip loses
+        nothing; others err by 2/(1 + tip_restitution) times as much.
     fargo : float, optional
-        A Fargo rating, 300 to 850, instead: the errors with which plans of 300 shots run out eight-ball as often as players of this rating
-        are said to (docs/understanding/plan.md). More shots make him stronger.
+        A Fargo rating, 300 to 850, instead: the errors with which plans of 300 shots run out
+        eight-ball as often as players of this rating are said to (docs/understanding/plan.md). More
+        shots make him stronger.
     """
     if errors is not None and fargo is not None:
         raise ValueError("errors, fargo: a player has errors or a rating, not both")
     if not 0.0 <= (errors := 1.0 if errors is None else number(errors, "errors")) < np.inf:
         raise ValueError(f"errors: it must be finite and at least 0, not {errors}")
-    if fargo is not None and not 300.0 <= (fargo := number(fargo, "fargo", "a rating of 300 to 850 is needed")) <= 850.0:
+    if (
+        fargo is not None
+        and not 300.0
+        <= (fargo := number(fargo, "fargo", "a rating of 300 to 850 is needed"))
+        <= 850.0
+    ):
         raise ValueError(f"fargo: it must be 300 to 850, not {fargo}")
     made: Array = np.zeros((), dtypes.player)
-    pointer("carom_player[]", made)[0] = lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
+    pointer("carom_player[]", made)[0] = (
+        lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
+    )
     return made
 
 
 class Rating(NamedTuple):
-    """A Fargo rating by games: the mean of the likely ones, and the interval that has 95 % of them, 2.5 % on each side."""
+    """A Fargo rating by games: the mean of the likely ones, and the interval that has 95 % of them,
+    2.5 % on each side.
+    """
 
     mean: float
     low: float
@@ -66,25 +79,37 @@ class Rating(NamedTuple):
 def rating(scores: npt.ArrayLike) -> Rating:
     """The Fargo rating of a player by games, 300 to 850.
 
-    `scores` has a row (against, won, lost) for each opponent: the rating, 0 to 1000, and the games won and lost. Of ratings r and d, the
-    odds that r wins a game are 2^((r - d) / 100) : 1; before the first game ratings are normal around 400 with a spread of 150.
+    `scores` has a row (against, won, lost) for each opponent: the rating, 0 to 1000, and the games
+    won and lost. Of ratings r and d, the odds that r wins a game are 2^((r - d) / 100) : 1; before
+    the first game ratings are normal around 400 with a spread of 150.
     """
     given = np.ascontiguousarray(as_array(scores, "scores", np.float64))
     if given.size and (given.ndim != 2 or given.shape[1] != 3):
-        raise ValueError(f"scores: rows of 3 numbers are needed: against, won, lost; not the shape {given.shape}")
+        raise ValueError(
+            f"scores: rows of 3 numbers are needed: against, won, lost; not the shape {given.shape}"
+        )
     made = ffi.new("carom_rating *")
     if (code := lib.carom_rating_of(pointer("carom_score[]", given), len(given), made)) < 0:
         raise CaromError(code, f"scores[{made.row}]", given[made.row].tolist())
     return Rating(made.mean, made.low, made.high)
 
 
-def with_errors(cue: dtypes.Records, player: dtypes.Records, seed: int, number: int = 0) -> dtypes.Records:
-    """The stroke that a player makes of the one that he means, with errors drawn from a seed and the number of the stroke.
+def with_errors(
+    cue: dtypes.Records, player: dtypes.Records, seed: int, number: int = 0
+) -> dtypes.Records:
+    """The stroke that a player makes of the one that he means, with errors drawn from a seed and
+    the number of the stroke.
 
-    Returns an array of `carom.dtypes.cue`, shape (): the same for the same arguments, on every machine.
+    Returns an array of `carom.dtypes.cue`, shape (): the same for the same arguments, on every
+        machine.
     """
     made = copied(one_cue(cue))
-    lib.carom_player_strike(_one_player(player), whole(seed, "seed", most=2**63 - 1), whole(number, "number"), pointer("carom_cue[]", made))
+    lib.carom_player_strike(
+        _one_player(player),
+        whole(seed, "seed", most=2**63 - 1),
+        whole(number, "number"),
+        pointer("carom_cue[]", made),
+    )
     return made
 
 
@@ -95,7 +120,9 @@ class Pot(Arrays):
     cue: dtypes.Records
     """An array of `carom.dtypes.cue`, shape ()."""
     cut: float
-    """Degrees, of the cue ball on the first ball, which goes to the left of its way where this is above 0."""
+    """Degrees, of the cue ball on the first ball, which goes to the left of its way where this is
+    above 0.
+    """
     margin: float
     """Degrees by which the way of the ball into the pocket may turn, to either jaw."""
     phi: tuple[float, float]
@@ -103,8 +130,9 @@ class Pot(Arrays):
     speed: tuple[float, float]
     """Speeds of the cue, m/s, between which it falls in the cue's direction."""
     elevation: float
-    """Degrees: the least elevation with which the stick is over the cushions and balls behind the cue ball. A stroke with a lower
-    `cue["theta"]` cannot be played."""
+    """Degrees: the least elevation with which the stick is over the cushions and balls behind the
+    cue ball. A stroke with a lower `cue["theta"]` cannot be played.
+    """
 
 
 _WHY_NOT = {
@@ -117,24 +145,34 @@ _WHY_NOT = {
 
 
 def aim(
-    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, ball: int, pocket: int | str, via: Sequence[int | str] = (),
-    options: Options = _USUAL, **changes: Unpack[Changes],
-) -> Pot:  # fmt: skip
-    """Aim a pot: the direction in which `ball` goes to the middle of a pocket's mouth, with squirt, swerve, throw and the cushion's model.
+    table: Table,
+    balls: dtypes.Records,
+    cue: dtypes.Records,
+    *,
+    ball: int,
+    pocket: int | str,
+    via: Sequence[int | str] = (),
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
+) -> Pot:
+    """Aim a pot: the direction in which `ball` goes to the middle of a pocket's mouth, with squirt,
+    swerve, throw and the cushion's model.
 
     Parameters
     ----------
     table, balls, cue, options, **changes
-        As for `simulate`. The speed, the tip and the elevation of the cue count. A `theta` of nan becomes the least one with which the
-        stick is over the cushions and balls behind the cue ball.
+        As for `simulate`. The speed, the tip and the elevation of the cue count. A `theta` of nan
+        becomes the least one with which the stick is over the cushions and balls behind the cue
+        ball.
     ball : int
         Index of the ball.
     pocket : int or str
         Index of the table's pocket, or its name: "foot-left"; `table.pocket_names` has all.
     via : sequence of int or str
-        The way there, up to four contacts: indices of balls and names of rails, "head", "foot", "left" or "right", that the ball before
-        them meets. `["left"]` is a bank of `ball`, `[2]` a combination by ball 2, `["head", ball]` a kick: where `ball` is not named, it
-        comes after the last other ball.
+        The way there, up to four contacts: indices of balls and names of rails, "head", "foot",
+        "left" or "right", that the ball before them meets. `["left"]` is a bank of `ball`, `[2]` a
+        combination by ball 2, `["head", ball]` a kick: where `ball` is not named, it comes after
+        the last other ball.
 
     Raises
     ------
@@ -153,7 +191,9 @@ def aim(
     def index(one: int | str, name: str, names: list[str | None], most: int) -> int:
         if isinstance(one, str):
             if one not in names:
-                raise ValueError(f"{name}: it must be one of {', '.join(sorted({known for known in names if known}))}, not {one!r}")
+                raise ValueError(
+                    f"{name}: it must be one of {', '.join(sorted({known for known in names if known}))}, not {one!r}"
+                )
             return names.index(one)
         if whole(one, name, least=0) >= most:
             raise ValueError(f"{name}: there are {most}, not {one + 1}")
@@ -161,26 +201,61 @@ def aim(
 
     rails, pockets = table.rail_names, table.pocket_names
     via = several(via, "via", "names of rails and indices of balls are needed")
-    way = [(lib.CAROM_PART_RAIL if isinstance(one, str) else lib.CAROM_PART_BALL, index(one, "via", rails, len(layout))) for one in via]
+    way = [
+        (
+            lib.CAROM_PART_RAIL if isinstance(one, str) else lib.CAROM_PART_BALL,
+            index(one, "via", rails, len(layout)),
+        )
+        for one in via
+    ]
     met = [one for one in via if not isinstance(one, str)]
     if len(way) > lib.CAROM_VIA_MOST or len({0, *met}) <= len(met) or ball in met[:-1]:
         raise ValueError(
             f"via: it must be up to {lib.CAROM_VIA_MOST} names of rails and indices of balls, each once, not the cue ball, and {ball} last, not {list(via)}"
         )
-    pot = ffi.new("carom_pot *", {
-        "ball": index(ball, "ball", [], len(layout)), "pocket": index(pocket, "pocket", pockets, len(pockets)), "vias": len(way), "via": way,
-    })  # fmt: skip
+    pot = ffi.new(
+        "carom_pot *",
+        {
+            "ball": index(ball, "ball", [], len(layout)),
+            "pocket": index(pocket, "pocket", pockets, len(pockets)),
+            "vias": len(way),
+            "via": way,
+        },
+    )
     shot = shot_options(chosen(options, changes))
     code = lib.carom_aim(
-        pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), shot, pot, pointer("carom_cue[]", made)
+        pointer("carom_table[]", table.record),
+        pointer("carom_shot_ball[]", layout),
+        len(layout),
+        shot,
+        pot,
+        pointer("carom_cue[]", made),
     )
     if code < 0:
-        raise argument_error(shot_arguments(table, layout, made, shot), layout, made) or CaromError(code, "balls")
+        raise argument_error(shot_arguments(table, layout, made, shot), layout, made) or CaromError(
+            code, "balls"
+        )
     if reason := getattr(pot, "is"):
-        part = f"ball {pot.met.b}" if pot.met.type == lib.CAROM_EVENT_BALL_BALL else "a part of the table"
-        why = _WHY_NOT[reason].format(ball=ball, at_rest=pot.met.a, met=f"ball {pot.met.a} meets {part}", elevation=pot.elevation)
+        part = (
+            f"ball {pot.met.b}"
+            if pot.met.type == lib.CAROM_EVENT_BALL_BALL
+            else "a part of the table"
+        )
+        why = _WHY_NOT[reason].format(
+            ball=ball,
+            at_rest=pot.met.a,
+            met=f"ball {pot.met.a} meets {part}",
+            elevation=pot.elevation,
+        )
         raise ValueError(f"pocket: no such aim at {pocket}: {why}")
-    return Pot(made, pot.cut, pot.margin, (pot.phi[0], pot.phi[1]), (pot.speed[0], pot.speed[1]), pot.elevation)
+    return Pot(
+        made,
+        pot.cut,
+        pot.margin,
+        (pot.phi[0], pot.phi[1]),
+        (pot.speed[0], pot.speed[1]),
+        pot.elevation,
+    )
 
 
 _usual_player = player
@@ -207,12 +282,16 @@ def _corners(in_hand: bool | Hand | npt.ArrayLike, table: Table) -> dtypes.Doubl
         return None
     corners: dtypes.Doubles = np.ascontiguousarray(as_array(in_hand, "in_hand", np.float64))
     if corners.shape != (2, 2) or not (corners[0] <= corners[1]).all():
-        raise ValueError(f"in_hand: True, False, the hand of a ruling or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}")
+        raise ValueError(
+            f"in_hand: True, False, the hand of a ruling or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}"
+        )
     return corners
 
 
 def _stoppable(call: Callable[[], int], flag: Any, stop: threading.Event | None) -> int:
-    """What C gives, which a thread of its own calls, so that Python handles signals meanwhile and looks at `stop`."""
+    """What C gives, which a thread of its own calls, so that Python handles signals meanwhile and
+    looks at `stop`.
+    """
     if stop is None and threading.current_thread() is not threading.main_thread():
         return call()
     with ThreadPoolExecutor(1) as pool:
@@ -230,9 +309,22 @@ class _Job:
     """What a plan is made for, checked, as C has it; and what has to live as long."""
 
     def __init__(
-        self, table: Table, balls: dtypes.Records, cue: dtypes.Records | None, game: Made, own: dtypes.Records | None, opponent: dtypes.Records | None,
-        shots: int | None, seed: int, threads: int, unsure: float, stop: threading.Event | None, options: Options, level: bool = False, seconds: float = 0.0,
-    ) -> None:  # fmt: skip
+        self,
+        table: Table,
+        balls: dtypes.Records,
+        cue: dtypes.Records | None,
+        game: Made,
+        own: dtypes.Records | None,
+        opponent: dtypes.Records | None,
+        shots: int | None,
+        seed: int,
+        threads: int,
+        unsure: float,
+        stop: threading.Event | None,
+        options: Options,
+        level: bool = False,
+        seconds: float = 0.0,
+    ) -> None:
         check_table(table)
         self.layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
         if self.layout.ndim != 1:
@@ -243,7 +335,13 @@ class _Job:
         self.shot = shot_options(options)
         if stop is not None and not hasattr(stop, "is_set"):
             raise TypeError(f"stop: a threading.Event is needed, not {stop!r}")
-        wanted = ffi.new("carom_plan_options *", {"shots": 0 if shots is None else whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
+        wanted = ffi.new(
+            "carom_plan_options *",
+            {
+                "shots": 0 if shots is None else whole(shots, "shots", least=100, most=1_000_000),
+                "seed": whole(seed, "seed"),
+            },
+        )
         wanted.threads = whole(threads, "threads", least=-1)
         wanted.level = whole(level, "level", most=1)
         wanted.unsure = number(unsure, "unsure")
@@ -260,19 +358,38 @@ class _Job:
         game.check_layout(table, self.layout)
         memory: Array = np.empty(lib.carom_plan_memory(wanted) // 8 + 1, np.float64)
         record = table.record
-        self.c = ffi.new("carom_plan_job *", {
-            "table": pointer("carom_table[]", record), "balls": pointer("carom_shot_ball[]", self.layout), "count": len(self.layout),
-            "cue": pointer("carom_cue[]", self.strike), "player": player, "rules": game.c, "shot": self.shot, "options": wanted,
-            "memory": pointer("double[]", memory), "memory_size": memory.nbytes,
-        })  # fmt: skip
-        self.table, self.game, self.stop, self.kept = table, game, stop, (wanted, other, player, memory, record)
+        self.c = ffi.new(
+            "carom_plan_job *",
+            {
+                "table": pointer("carom_table[]", record),
+                "balls": pointer("carom_shot_ball[]", self.layout),
+                "count": len(self.layout),
+                "cue": pointer("carom_cue[]", self.strike),
+                "player": player,
+                "rules": game.c,
+                "shot": self.shot,
+                "options": wanted,
+                "memory": pointer("double[]", memory),
+                "memory_size": memory.nbytes,
+            },
+        )
+        self.table, self.game, self.stop, self.kept = (
+            table,
+            game,
+            stop,
+            (wanted, other, player, memory, record),
+        )
 
     def call(self, function: Callable[..., int], *arguments: Any, field: str = "balls") -> None:
         """Calls a function of C with the job; raises what it refuses, by its argument."""
         code = _stoppable(lambda: function(self.c, *arguments), self.game.stop, self.stop)
         self.game.check()
         if code < 0:
-            wrong = argument_error(shot_arguments(self.table, self.layout, self.strike, self.shot), self.layout, self.strike)
+            wrong = argument_error(
+                shot_arguments(self.table, self.layout, self.strike, self.shot),
+                self.layout,
+                self.strike,
+            )
             raise wrong or CaromError(code, field)
 
 
@@ -306,20 +423,24 @@ def plan(
     table : Table
         With pockets.
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
-        2 to 32 of them at rest, with the cue ball first. For eight-ball and nine-ball a ball's index is its number.
+        2 to 32 of them at rest, with the cue ball first. For eight-ball and nine-ball a ball's
+        index is its number.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
-        Its masses, its tip and its miscue count; the stroke does not. Default: that of `carom.cue()`.
+        Its masses, its tip and its miscue count; the stroke does not. Default: that of
+        `carom.cue()`.
     rules : str or Rules
-        The game, by its name in `carom plan --help`; of "potting", a drill, the value is the share of the balls that one visit pots, of
-        "threecushion" the chance of the point, on a table without pockets with the balls of `racks.threecushion`; or a game of your own.
-        Games of 15 balls have those of `racks.eightball`, snooker those of `racks.snooker`.
+        The game, by its name in `carom plan --help`; of "potting", a drill, the value is the share
+        of the balls that one visit pots, of "threecushion" the chance of the point, on a table
+        without pockets with the balls of `racks.threecushion`; or a game of your own. Games of 15
+        balls have those of `racks.eightball`, snooker those of `racks.snooker`.
     group : {"open", "solids", "stripes"}
         The balls of the player, where each has a group. Default: "open".
     opening : bool
         Whether the stroke is the break, where the rules have one.
     state : dict or ndarray of `carom.dtypes.rules_state`, optional
-        How the game stands, instead of `group` and `opening`: that of a ruling of `referee`, or what differs from a new game, such as
-        `{"score": (5, 6), "target": 50}`. Of each pair the first is the player's. Of rules of your own eight whole numbers.
+        How the game stands, instead of `group` and `opening`: that of a ruling of `referee`, or
+        what differs from a new game, such as `{"score": (5, 6), "target": 50}`. Of each pair the
+        first is the player's. Of rules of your own eight whole numbers.
     player : ndarray of `carom.dtypes.player`, shape (), optional
         Default: `carom.player()`.
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
@@ -327,10 +448,11 @@ def plan(
     shots : int, optional
         That the plan plays, about: 100 to 1,000,000. Default: 2,000, and 200,000 with `seconds`.
     seconds : float
-        At which the plan ends, if it has not played its shots by then; 0 is never. It then has one choice, the best so far.
+        At which the plan ends, if it has not played its shots by then; 0 is never. It then has one
+        choice, the best so far.
     in_hand : bool, {"no", "anywhere", "kitchen", "d"} or array_like, shape (2, 2)
-        Whether the cue ball is in hand, as `hand` of a ruling: `place` of the choices then says where to put it. Two corners (m) of a
-        rectangle: there alone.
+        Whether the cue ball is in hand, as `hand` of a ruling: `place` of the choices then says
+        where to put it. Two corners (m) of a rectangle: there alone.
     best : int
         How many choices at most.
     seed : int
@@ -338,13 +460,16 @@ def plan(
     threads : int
         Most threads to use; 0 is one alone, -1 all processors. No bit depends on it.
     unsure : float
-        How little the player knows of the table, 0 to 1. Above 0 restitution and friction of its cushions, rolling resistance and sliding
-        friction are drawn with the errors of strokes; 1 stands for all tables that there are.
+        How little the player knows of the table, 0 to 1. Above 0 restitution and friction of its
+        cushions, rolling resistance and sliding friction are drawn with the errors of strokes; 1
+        stands for all tables that there are.
     level : bool
-        Whether strokes are by a level cue, whose stick may be in cushions and balls. By default the cue is raised over them.
+        Whether strokes are by a level cue, whose stick may be in cushions and balls. By default the
+        cue is raised over them.
     stop : threading.Event, optional
-        Ends the plan early when another thread, or a handler of a signal, sets it: the plan then has one choice, the best so far. Without a
-        handler of yours Ctrl-C ends the plan, too, and raises KeyboardInterrupt.
+        Ends the plan early when another thread, or a handler of a signal, sets it: the plan then
+        has one choice, the best so far. Without a handler of yours Ctrl-C ends the plan, too, and
+        raises KeyboardInterrupt.
     options, **changes
         As for `simulate`; t_final, stop_at and first_of are not read.
 
@@ -362,12 +487,31 @@ def plan(
     in_hand = False if isinstance(in_hand, str) and in_hand == "no" else in_hand
     corners = None if in_hand is False else _corners(in_hand, table)
     game = Made(rules, state, group, opening)
-    job = _Job(table, balls, cue, game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes), level, seconds)
+    job = _Job(
+        table,
+        balls,
+        cue,
+        game,
+        player,
+        opponent,
+        shots,
+        seed,
+        threads,
+        unsure,
+        stop,
+        chosen(options, changes),
+        level,
+        seconds,
+    )
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
     rows = pointer("carom_choice[]", choices)
     if in_hand is not False:
-        low, high = (ffi.NULL, ffi.NULL) if corners is None else (pointer("double[]", corners[0]), pointer("double[]", corners[1]))
+        low, high = (
+            (ffi.NULL, ffi.NULL)
+            if corners is None
+            else (pointer("double[]", corners[0]), pointer("double[]", corners[1]))
+        )
         job.call(lib.carom_plan_hand, low, high, rows, len(choices), found)
     else:
         job.call(lib.carom_plan, rows, len(choices), found)
@@ -375,10 +519,24 @@ def plan(
 
 
 def chances(
-    table: Table, balls: dtypes.Records, cues: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
-    state: GivenState | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, shots: int = 2000, seed: int = 0,
-    threads: int = 0, unsure: float = 0.0, stop: threading.Event | None = None, options: Options = _USUAL, **changes: Unpack[Changes],
-) -> dtypes.Records:  # fmt: skip
+    table: Table,
+    balls: dtypes.Records,
+    cues: dtypes.Records,
+    *,
+    rules: Game | Rules = "eightball",
+    group: Group | None = None,
+    opening: bool = False,
+    state: GivenState | None = None,
+    player: dtypes.Records | None = None,
+    opponent: dtypes.Records | None = None,
+    shots: int = 2000,
+    seed: int = 0,
+    threads: int = 0,
+    unsure: float = 0.0,
+    stop: threading.Event | None = None,
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
+) -> dtypes.Records:
     """How likely strokes of yours are to win: the chances of each, played with a player's errors.
 
     Parameters
@@ -386,7 +544,8 @@ def chances(
     table, balls
         As for `plan`.
     cues : ndarray of `carom.dtypes.cue`, of any shape
-        Up to 1,000 strokes. Speed, direction, elevation and tip of each count; the rest is that of the first.
+        Up to 1,000 strokes. Speed, direction, elevation and tip of each count; the rest is that of
+        the first.
     rules, group, opening, state, player, opponent, seed, threads, unsure, options, **changes
         As for `plan`.
     shots : int
@@ -397,7 +556,8 @@ def chances(
     Returns
     -------
     ndarray of `carom.dtypes.choice`, of the shape of `cues`
-        In their order. `value` is the chance to win, `keep` that to play on; `ball` and `pocket` are what falls without errors.
+        In their order. `value` is the chance to win, `keep` that to play on; `ball` and `pocket`
+        are what falls without errors.
 
     Raises
     ------
@@ -408,28 +568,70 @@ def chances(
     if not 1 <= strokes.size <= 1000:
         raise ValueError(f"cues: 1 to 1000 are needed, not {strokes.size}")
     game = Made(rules, state, group, opening)
-    job = _Job(table, balls, strokes.reshape(-1)[0], game, player, opponent, shots, seed, threads, unsure, stop, chosen(options, changes))
+    job = _Job(
+        table,
+        balls,
+        strokes.reshape(-1)[0],
+        game,
+        player,
+        opponent,
+        shots,
+        seed,
+        threads,
+        unsure,
+        stop,
+        chosen(options, changes),
+    )
     choices: Array = np.zeros(strokes.shape, dtypes.choice)
-    job.call(lib.carom_plan_try, pointer("carom_cue[]", strokes), strokes.size, pointer("carom_choice[]", choices), field="cues")
+    job.call(
+        lib.carom_plan_try,
+        pointer("carom_cue[]", strokes),
+        strokes.size,
+        pointer("carom_choice[]", choices),
+        field="cues",
+    )
     return choices
 
 
 def value(
-    table: Table, balls: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
-    state: GivenState | None = None, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, in_hand: bool = False,
-    options: Options = _USUAL, **changes: Unpack[Changes],
-) -> float:  # fmt: skip
-    """The chance that the player at the table wins from a layout, 0 to 1: an estimate that plays no shot, in some 20 us.
+    table: Table,
+    balls: dtypes.Records,
+    *,
+    rules: Game | Rules = "eightball",
+    group: Group | None = None,
+    opening: bool = False,
+    state: GivenState | None = None,
+    player: dtypes.Records | None = None,
+    opponent: dtypes.Records | None = None,
+    in_hand: bool = False,
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
+) -> float:
+    """The chance that the player at the table wins from a layout, 0 to 1: an estimate that plays no
+    shot, in some 20 us.
 
-    Without an opponent it is the share of the balls that one visit pots. The arguments are those of `plan`; `in_hand` says whether the cue
-    ball may be put anywhere.
+    Without an opponent it is the share of the balls that one visit pots. The arguments are those of
+    `plan`; `in_hand` says whether the cue ball may be put anywhere.
 
     Raises
     ------
     CaromError
         The layout or an option is in error.
     """
-    job = _Job(table, balls, None, Made(rules, state, group, opening), player, opponent, 100, 0, 0, 0.0, None, chosen(options, changes))
+    job = _Job(
+        table,
+        balls,
+        None,
+        Made(rules, state, group, opening),
+        player,
+        opponent,
+        100,
+        0,
+        0,
+        0.0,
+        None,
+        chosen(options, changes),
+    )
     found = ffi.new("double *")
     job.call(lib.carom_plan_value, bool(in_hand), found)
     return float(found[0])

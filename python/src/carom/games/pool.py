@@ -1,12 +1,15 @@
-"""Eight-ball and nine-ball for two players: the rules, over whole shots. `carom.pettingzoo` and `carom.gymnasium` are environments for agents.
+"""Eight-ball and nine-ball for two players: the rules, over whole shots.
+
+`carom.pettingzoo` and `carom.gymnasium` are environments for agents.
 
     rules = Pool("nineball")
     position = rules.begin(seed=1)
     position, stroke = rules.play(position, [0.5, 0.9, 0, 0.2, 0, 0])
 
-The rules are those of `carom.referee`, the World Pool-Billiard Association's (wpapool.com, 2016, sections 2, 3 and 6), with the following left
-out: there is no push out and no lag, and player 0 breaks. In eight-ball
-the call of a stroke is the ball and the pocket that it would pot without noise: the first ball that the player may pot.
+The rules are those of `carom.referee`, the World Pool-Billiard Association's (wpapool.com, 2016,
+sections 2, 3 and 6), with the following left out: there is no push out and no lag, and player 0
+breaks. In eight-ball the call of a stroke is the ball and the pocket that it would pot without
+noise: the first ball that the player may pot.
 """
 
 from __future__ import annotations
@@ -34,7 +37,9 @@ __dir__ = listing(__name__)
 
 _ONE = np.zeros(1, np.int64)
 _GAMES = {"nineball": 9, "eightball": 15}
-_WORTH = np.array([0.5, 0.0, 1.0, -1.0])  # of a stroke that keeps the turn, passes it, wins and loses
+_WORTH = np.array(
+    [0.5, 0.0, 1.0, -1.0]
+)  # of a stroke that keeps the turn, passes it, wins and loses
 
 
 class Hand(enum.IntEnum):
@@ -56,11 +61,14 @@ class Position(Arrays):
     state: State  # (): Of the rules, as that player has it, for `carom.plan` and `carom.referee`
     strokes: int  # Played until now
     winner: int | None
-    draws: Draws  # The random numbers of the game: noise, and places that a player chose but that were not free
+    # The random numbers of the game: noise, and places that a player chose but that were not free
+    draws: Draws
 
     @property
     def fouls(self) -> tuple[int, int]:
-        """Of player 0 and of player 1 in nine-ball, in consecutive strokes of that player; three lose the game."""
+        """Of player 0 and of player 1 in nine-ball, in consecutive strokes of that player; three
+        lose the game.
+        """
         own, other = self.state["fouls"].tolist()
         return (own, other) if self.player == 0 else (other, own)
 
@@ -79,9 +87,10 @@ class Stroke:
 class Pool:
     """The rules of a game.
 
-    An **action** is six numbers from -1 to 1: direction, speed and place of the tip as in `carom.potting.Potting`, then where the cue ball
-    is put, if it is in hand: along the width and the length of the table, or of the part behind the head string. A place that is
-    not free becomes a random one that is.
+    An **action** is six numbers from -1 to 1: direction, speed and place of the tip as in
+    `carom.potting.Potting`, then where the cue ball is put, if it is in hand: along the width and
+    the length of the table, or of the part behind the head string. A place that is not free becomes
+    a random one that is.
 
     Parameters
     ----------
@@ -91,25 +100,43 @@ class Pool:
     """
 
     def __init__(
-        self, game: Literal["nineball", "eightball"] = "nineball", *, table: Table | None = None, noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        parameters: Mapping[str, tuple[float, float]] | None = None, speeds: tuple[float, float] = (0.5, 10.5),
-        cushion_model: ShotCushion = "default"
-    ) -> None:  # fmt: skip
+        self,
+        game: Literal["nineball", "eightball"] = "nineball",
+        *,
+        table: Table | None = None,
+        noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        parameters: Mapping[str, tuple[float, float]] | None = None,
+        speeds: tuple[float, float] = (0.5, 10.5),
+        cushion_model: ShotCushion = "default",
+    ) -> None:
         choice(_GAMES, game, "game")
         self.game = game
-        self.base = Potting(_GAMES[game], 1, table=table, noise=noise, parameters=parameters, speeds=speeds, cushion_model=cushion_model)
+        self.base = Potting(
+            _GAMES[game],
+            1,
+            table=table,
+            noise=noise,
+            parameters=parameters,
+            speeds=speeds,
+            cushion_model=cushion_model,
+        )
         self.table = self.base.table
 
     def begin(self, seed: int) -> Position:
-        """The position before the break: the rack drawn from a seed, the cue ball in hand behind the head string."""
+        """The position before the break: the rack drawn from a seed, the cue ball in hand behind
+        the head string.
+        """
         draws = Draws([seed])
         rack = getattr(racks, self.game)(self.table, seed=seed)
         balls = self.base.deal(draws, _ONE)[0]
         balls["state"]["r"] = rack["state"]["r"]
         balls["state"]["r"][:, 2] = self.base.radius
-        return Position(balls, 0, Hand.BEHIND, Made(self.game, None, opening=True).state, 0, None, draws)
+        return Position(
+            balls, 0, Hand.BEHIND, Made(self.game, None, opening=True).state, 0, None, draws
+        )
 
-    # ---- The cue ball in hand -------------------------------------------------------------------------------------------
+    # ---- The cue ball in hand
+    # -------------------------------------------------------------------------------------------
 
     def area(self, hand: Hand) -> tuple[dtypes.Doubles, dtypes.Doubles]:
         """The lower and the upper corner, m, of the rectangle in which a cue ball in hand is put."""
@@ -117,23 +144,54 @@ class Pool:
         length = self.table.length / 4.0 if hand is Hand.BEHIND else self.table.length - low[1]
         return low, np.array([self.table.width - low[0], length])
 
-    def best(self, position: Position, *, opponent: dtypes.Records | None = None, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
-        """The action, of shape (6,), of the library's planner: a baseline and an opponent for agents. It allows for the noise.
+    def best(
+        self,
+        position: Position,
+        *,
+        opponent: dtypes.Records | None = None,
+        shots: int = 500,
+        seed: int = 0,
+    ) -> dtypes.Doubles:
+        """The action, of shape (6,), of the library's planner: a baseline and an opponent for
+        agents. It allows for the noise.
 
-        `opponent` is a `carom.player()`; by default he errs as the noise says. The plan has so many `shots`.
+        `opponent` is a `carom.player()`; by default he errs as the noise says. The plan has so many
+        `shots`.
         """
         low, high = self.area(position.hand)
         found = self.planned(position, self.base.player(), opponent, shots, seed, level=True)
         cue = found["cue"]
         place = np.clip(2.0 * (found["place"] - low) / (high - low) - 1.0, -1.0, 1.0)
-        return np.concatenate([self.base.actions(cue["phi"], cue["speed"], cue["a"], cue["b"]), place])
+        return np.concatenate(
+            [self.base.actions(cue["phi"], cue["speed"], cue["a"], cue["b"]), place]
+        )
 
-    def planned(self, position: Position, player: dtypes.Records, opponent: dtypes.Records | None, shots: int, seed: int, level: bool = False) -> dtypes.Records:
-        """The best choice of `carom.plan`, of shape (), for a player; actions are strokes of a level cue."""
+    def planned(
+        self,
+        position: Position,
+        player: dtypes.Records,
+        opponent: dtypes.Records | None,
+        shots: int,
+        seed: int,
+        level: bool = False,
+    ) -> dtypes.Records:
+        """The best choice of `carom.plan`, of shape (), for a player; actions are strokes of a
+        level cue.
+        """
         found: Array = plan(
-            self.table, position.balls, rules=self.game, state=position.state, player=player, opponent=opponent, shots=shots, seed=seed,
-            in_hand=[*self.area(position.hand)] if position.hand else False, best=1, level=level, cushion_model=self.base.cushion_model,
-        )[0]  # fmt: skip
+            self.table,
+            position.balls,
+            rules=self.game,
+            state=position.state,
+            player=player,
+            opponent=opponent,
+            shots=shots,
+            seed=seed,
+            in_hand=[*self.area(position.hand)] if position.hand else False,
+            best=1,
+            level=level,
+            cushion_model=self.base.cushion_model,
+        )[0]
         return found
 
     def on(self, position: Position) -> tuple[int, ...]:
@@ -141,7 +199,9 @@ class Pool:
         return on_of(Made(self.game, position.state), position.balls)
 
     def put(self, balls: dtypes.Records, hand: Hand, wanted: npt.ArrayLike, draws: Draws) -> None:
-        """Put the cue ball of a layout where it is wanted, two numbers from -1 to 1, or where that is not free, at random."""
+        """Put the cue ball of a layout where it is wanted, two numbers from -1 to 1, or where that
+        is not free, at random.
+        """
         low, high = self.area(hand)
         part = (np.clip(wanted, -1.0, 1.0) + 1.0) / 2.0
         self.lay(balls, low + (high - low) * part)
@@ -154,7 +214,8 @@ class Pool:
         state["r"][:2], state["r"][2], state["v"], state["w"] = place, self.base.radius, 0.0, 0.0
         balls["state"]["label"][0] = Label.STATIONARY
 
-    # ---- Strokes --------------------------------------------------------------------------------------------------------
+    # ---- Strokes
+    # --------------------------------------------------------------------------------------------------------
 
     def play(self, position: Position, action: npt.ArrayLike) -> tuple[Position, Stroke]:
         """Play a stroke: the position after it, and what it was."""
@@ -173,9 +234,21 @@ class Pool:
         done = self.base.cues(given[:4], draws.seeds(_ONE) if any(self.base.noise) else None)
         return self.struck(replace(position, balls=balls, draws=draws), done, call)
 
-    def struck(self, position: Position, cue: dtypes.Records, call: tuple[int, int] = (-1, -1)) -> tuple[Position, Stroke]:
-        """The position after a stroke of a cue, without noise, and what it was; the cue ball has been put on the table."""
-        ruled = referee(self.table, position.balls, cue, rules=self.game, state=position.state, call=call, cushion_model=self.base.cushion_model)
+    def struck(
+        self, position: Position, cue: dtypes.Records, call: tuple[int, int] = (-1, -1)
+    ) -> tuple[Position, Stroke]:
+        """The position after a stroke of a cue, without noise, and what it was; the cue ball has
+        been put on the table.
+        """
+        ruled = referee(
+            self.table,
+            position.balls,
+            cue,
+            rules=self.game,
+            state=position.state,
+            call=call,
+            cushion_model=self.base.cushion_model,
+        )
 
         # Balls that left the table are out of play as those that were potted; nobody pushes out.
         ruled.balls["state"]["label"][ruled.balls["state"]["label"] == Label.OFF] = Label.POCKETED
@@ -183,19 +256,39 @@ class Pool:
         keeps = ruled.turn in ("keep", "win")
         player = position.player if keeps else 1 - position.player
         after = replace(
-            position, balls=ruled.balls, player=player, hand={"no": Hand.NOWHERE, "kitchen": Hand.BEHIND, "anywhere": Hand.ANYWHERE}[ruled.hand],
-            state=ruled.state, strokes=position.strokes + 1, winner=player if ruled.turn in ("win", "lose") else None,
-        )  # fmt: skip
-        failed = f"the stroke ended in an error: {ruled.shot.status.text}" if ruled.shot.status < 0 else ""
+            position,
+            balls=ruled.balls,
+            player=player,
+            hand={"no": Hand.NOWHERE, "kitchen": Hand.BEHIND, "anywhere": Hand.ANYWHERE}[
+                ruled.hand
+            ],
+            state=ruled.state,
+            strokes=position.strokes + 1,
+            winner=player if ruled.turn in ("win", "lose") else None,
+        )
+        failed = (
+            f"the stroke ended in an error: {ruled.shot.status.text}"
+            if ruled.shot.status < 0
+            else ""
+        )
         potted = tuple(ball for ball in ruled.potted if ball != 0)
-        return after, Stroke(failed or ruled.foul.text, int(ruled.foul), ruled.first if ruled.first >= 0 else None, potted, ruled.shot)
+        return after, Stroke(
+            failed or ruled.foul.text,
+            int(ruled.foul),
+            ruled.first if ruled.first >= 0 else None,
+            potted,
+            ruled.shot,
+        )
 
     def _played(self, layouts: dtypes.Records, cues: dtypes.Records) -> Shots:
-        return simulate_batch(self.table, layouts, cues, features=True, cushion_model=self.base.cushion_model)
+        return simulate_batch(
+            self.table, layouts, cues, features=True, cushion_model=self.base.cushion_model
+        )
 
     def tried(self, position: Position, actions: npt.ArrayLike) -> dtypes.Doubles:
-        """What actions of shape (n, 6) give without noise, of shape (n,): 1 for a win, 0.5 where the player goes on, 0 where the other
-        plays, -0.5 for a foul, -1 for a loss."""
+        """What actions of shape (n, 6) give without noise, of shape (n,): 1 for a win, 0.5 where
+        the player goes on, 0 where the other plays, -0.5 for a foul, -1 for a loss.
+        """
         given = np.asarray(actions, dtype=np.float64)
         layouts = np.repeat(position.balls[np.newaxis], len(given), axis=0)
         if position.hand:
@@ -204,31 +297,54 @@ class Pool:
                 self.put(layout, position.hand, wanted, draws)
         made = Made(self.game, position.state)
         shots = self._played(layouts, self.base.cues(given[:, :4]))
-        turns = judge(made, layouts, shots, calls=calls_of(made, position.balls, shots) if self.game == "eightball" else None)
+        turns = judge(
+            made,
+            layouts,
+            shots,
+            calls=calls_of(made, position.balls, shots) if self.game == "eightball" else None,
+        )
         return np.where((turns["foul"] != 0) & (turns["is"] != 3), -0.5, _WORTH[turns["is"]])
 
-    # ---- Observations ---------------------------------------------------------------------------------------------------
+    # ---- Observations
+    # ---------------------------------------------------------------------------------------------------
 
     def observe(self, position: Position, player: int) -> dtypes.Doubles:
-        """What a player sees: x, y (m) and 1 in play of each ball, the cue ball first, 30 or 48 numbers; then three more.
+        """What a player sees: x, y (m) and 1 in play of each ball, the cue ball first, 30 or 48
+        numbers; then three more.
 
-        They are the hand, and in nine-ball fouls of his and of the other; in eight-ball 1 before the break, and the group: 0 open, 1 he has
-        the solids, 2 the stripes.
+        They are the hand, and in nine-ball fouls of his and of the other; in eight-ball 1 before
+        the break, and the group: 0 open, 1 he has the solids, 2 the stripes.
         """
         seen = self.base.observe(position.balls, 0.0)[:-1]
         if self.game == "nineball":
-            return np.concatenate([seen, np.array([position.hand, position.fouls[player], position.fouls[1 - player]], np.float64)])
+            return np.concatenate(
+                [
+                    seen,
+                    np.array(
+                        [position.hand, position.fouls[player], position.fouls[1 - player]],
+                        np.float64,
+                    ),
+                ]
+            )
         group = int(position.state["group"])
         own = group if player == position.player or group == 0 else 3 - group
-        return np.concatenate([seen, np.array([position.hand, position.state["opening"], own], np.float64)])
+        return np.concatenate(
+            [seen, np.array([position.hand, position.state["opening"], own], np.float64)]
+        )
 
     def seen(self, observation: npt.ArrayLike) -> Position:
         """The position, with player 0 at the table, of an observation of the player at the table."""
         given = np.asarray(observation, np.float64)
         hand, second, third = (int(number) for number in given[-3:])
-        given_state = {"opening": hand == Hand.BEHIND, "fouls": (second, third)} if self.game == "nineball" else {"opening": second, "group": third}
+        given_state = (
+            {"opening": hand == Hand.BEHIND, "fouls": (second, third)}
+            if self.game == "nineball"
+            else {"opening": second, "group": third}
+        )
         state = Made(self.game, given_state).state
-        return Position(self.base.layouts(np.append(given[:-3], 0.0)), 0, Hand(hand), state, 0, None, Draws([0]))
+        return Position(
+            self.base.layouts(np.append(given[:-3], 0.0)), 0, Hand(hand), state, 0, None, Draws([0])
+        )
 
     def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
         """The least and the most of each number of an observation."""

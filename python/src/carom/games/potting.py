@@ -1,9 +1,12 @@
-"""A game for agents: pot as many balls of a random layout as you can within a number of strokes. `carom.gymnasium` plays it.
+"""A game for agents: pot as many balls of a random layout as you can within a number of strokes.
+
+`carom.gymnasium` plays it.
 
 `carom.drills` has others of the same form, `carom.matches` those against an opponent.
 
-This module does not need gymnasium. `Potting` has the rules, as functions of arrays over many games. An agent that plans can use them:
-it plays a thousand strokes from its observation, and then chooses one.
+This module does not need gymnasium. `Potting` has the rules, as functions of arrays over many
+games. An agent that plans can use them: it plays a thousand strokes from its observation, and then
+chooses one.
 """
 
 from __future__ import annotations
@@ -17,7 +20,20 @@ import numpy.typing as npt
 
 from carom import dtypes, layouts, tables
 from carom._carom import ffi, lib
-from carom._rows import Arrays, broadcast, choice, in_chunks, listing, number, one_or_all, pointer, raw, repeated, several, whole
+from carom._rows import (
+    Arrays,
+    broadcast,
+    choice,
+    in_chunks,
+    listing,
+    number,
+    one_or_all,
+    pointer,
+    raw,
+    repeated,
+    several,
+    whole,
+)
 from carom._shot_options import Options, ShotCushion, shot_options
 from carom.games import plans
 from carom.games._draws import Draws, Games
@@ -30,7 +46,10 @@ from carom.status import CaromError
 
 __dir__ = listing(__name__)
 
-_STATIONARY, _POCKETED = int(Label.STATIONARY), int(Label.POCKETED)  # with which NumPy compares in half the time
+_STATIONARY, _POCKETED = (
+    int(Label.STATIONARY),
+    int(Label.POCKETED),
+)  # with which NumPy compares in half the time
 _STROKE = dtypes._record("carom_python_stroke")
 
 
@@ -38,13 +57,17 @@ _STROKE = dtypes._record("carom_python_stroke")
 class Strokes(Arrays):
     """Results of strokes; each is an array over the games."""
 
-    layouts: dtypes.Records  # (..., balls + 1): The balls at rest after the stroke. A cue ball that was potted is still down.
-    rewards: dtypes.Doubles  # (...): Balls that were potted, less 1 for a foul; or the result of `reward` of the rules
+    # (..., balls + 1): The balls at rest after the stroke. A cue ball that was potted is still
+    # down.
+    layouts: dtypes.Records
+    rewards: (
+        dtypes.Doubles
+    )  # (...): Balls that were potted, less 1 for a foul; or the result of `reward` of the rules
     potted: npt.NDArray[np.int64]  # (...): Balls that were potted, without the cue ball
     scratch: npt.NDArray[np.bool_]  # (...): Whether the cue ball was potted
     foul: npt.NDArray[np.int32]  # (...): As `carom.Foul`; 0 for none
-    # (...): As `carom.Status`. After an error, or where a ball left the table, the stroke is a foul, and the balls stay where
-    # they were.
+    # (...): As `carom.Status`. After an error, or where a ball left the table, the stroke is a
+    # foul, and the balls stay where they were.
     status: npt.NDArray[np.int8]
     time: dtypes.Doubles  # (...): How long the balls moved, s
     cleared: npt.NDArray[np.bool_]  # (...): Whether all balls but the cue ball are down
@@ -60,34 +83,43 @@ class Turned(NamedTuple):
 
 
 class Potting:
-    """The rules: balls lie at random on a table of pool, the cue ball among them, and a number of strokes is to pot them.
+    """The rules: balls lie at random on a table of pool, the cue ball among them, and a number of
+    strokes is to pot them.
 
-    An **action** is four numbers from -1 to 1 (what is beyond is taken as the bound): the direction, 180 degrees times it, from +x
-    towards +y; the speed of the cue, from the least to the most; and where the tip touches the ball, to the left and above the
-    centre, 0.35 radii times them, so that it never slips off. The cue is level: its stick may be in cushions and balls.
+    An **action** is four numbers from -1 to 1 (what is beyond is taken as the bound): the
+    direction, 180 degrees times it, from +x towards +y; the speed of the cue, from the least to the
+    most; and where the tip touches the ball, to the left and above the centre, 0.35 radii times
+    them, so that it never slips off. The cue is level: its stick may be in cushions and balls.
 
-    An **observation** is 3 (balls + 1) + 1 numbers: x (m), y (m) and whether it is in play (1 or 0, with x = y = 0) of each ball, the
-    cue ball first; then how many strokes are left. It is all that there is to know: `layouts()` makes the same balls of it, to the bit.
+    An **observation** is 3 (balls + 1) + 1 numbers: x (m), y (m) and whether it is in play (1 or 0,
+    with x = y = 0) of each ball, the cue ball first; then how many strokes are left. It is all that
+    there is to know: `layouts()` makes the same balls of it, to the bit.
 
-    The **reward** of a stroke is how many balls it pots, less 1 for a foul: the cue ball goes down too (it is then put back at
-    random) or meets no ball, a ball leaves the table, or the stroke ends in an error (these two are taken back). The game ends when all balls are down, or with the last stroke.
+    The **reward** of a stroke is how many balls it pots, less 1 for a foul: the cue ball goes down
+    too (it is then put back at random) or meets no ball, a ball leaves the table, or the stroke
+    ends in an error (these two are taken back). The game ends when all balls are down, or with the
+    last stroke.
 
     Parameters
     ----------
     balls, strokes : int
         Besides the cue ball, 1 to 15; and at least 1.
     table : Table, optional
-        A rectangular one with pockets, of which 0 <= x <= width, 0 <= y <= length is the bed; by default `carom.tables.snooker()` for
-        balls of snooker, otherwise `pool_9ft()`.
-    ball_set : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
+        A rectangular one with pockets, of which 0 <= x <= width, 0 <= y <= length is the bed; by
+        default `carom.tables.snooker()` for balls of snooker, otherwise `pool_9ft()`.
+    ball_set : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker",
+        "pooltool_billiard"}
         Whose balls they are, as for `carom.balls`.
     noise : tuple of three floats
-        How exactly an agent plays: standard deviations of the direction (degrees), of the speed (m/s) and of the place of the tip
-        (radii, each way). The environments add it to every action; `play` does not.
+        How exactly an agent plays: standard deviations of the direction (degrees), of the speed
+        (m/s) and of the place of the tip (radii, each way). The environments add it to every
+        action; `play` does not.
     parameters : mapping of a field of `carom.dtypes.ball_kind` to two floats
-        Bounds between which each game draws the field for all its balls, for example `{"mu_slide": (0.15, 0.25)}`. Agents do not see it.
+        Bounds between which each game draws the field for all its balls, for example `{"mu_slide":
+        (0.15, 0.25)}`. Agents do not see it.
     reward : callable, optional
-        reward(balls, strokes) gives the rewards, of shape (...): `balls` are the layouts before, `strokes` what they gave.
+        reward(balls, strokes) gives the rewards, of shape (...): `balls` are the layouts before,
+        `strokes` what they gave.
     speeds : tuple of two floats
         The least and the most speed of the cue, m/s.
     cushion_model, threads
@@ -102,32 +134,59 @@ class Potting:
     _state: ClassVar[dict[str, Any] | None] = None
 
     def __init__(
-        self, balls: int = 5, strokes: int = 5, *, table: Table | None = None, ball_set: Game = "pool",
+        self,
+        balls: int = 5,
+        strokes: int = 5,
+        *,
+        table: Table | None = None,
+        ball_set: Game = "pool",
         noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
         parameters: Mapping[str, tuple[float, float]] | None = None,
         reward: Callable[[dtypes.Records, Strokes], npt.ArrayLike] | None = None,
-        speeds: tuple[float, float] = (0.5, 7.0), cushion_model: ShotCushion = "default", threads: int = 0
-    ) -> None:  # fmt: skip
+        speeds: tuple[float, float] = (0.5, 7.0),
+        cushion_model: ShotCushion = "default",
+        threads: int = 0,
+    ) -> None:
         whole(balls, "balls", least=1, most=15)
         whole(strokes, "strokes", least=1)
         wanted = "two speeds are needed, the least and the most, m/s"
-        speeds_given = [number(speed, "speeds", wanted) for speed in several(speeds, "speeds", wanted)]
+        speeds_given = [
+            number(speed, "speeds", wanted) for speed in several(speeds, "speeds", wanted)
+        ]
         if len(speeds_given) != 2 or not 0.0 < speeds_given[0] <= speeds_given[1] < np.inf:
-            raise ValueError(f"speeds: must be the least and the most, positive and finite, not {speeds}")
+            raise ValueError(
+                f"speeds: must be the least and the most, positive and finite, not {speeds}"
+            )
         wanted = "three standard deviations are needed, of degrees, m/s and radii"
-        deviations = [number(deviation, "noise", wanted) for deviation in several(noise, "noise", wanted)]
+        deviations = [
+            number(deviation, "noise", wanted) for deviation in several(noise, "noise", wanted)
+        ]
         if len(deviations) != 3 or not all(0.0 <= deviation < np.inf for deviation in deviations):
-            raise ValueError(f"noise: must be three standard deviations, of degrees, m/s and radii, not {noise}")
+            raise ValueError(
+                f"noise: must be three standard deviations, of degrees, m/s and radii, not {noise}"
+            )
         if reward is not None and not callable(reward):
-            raise TypeError(f"reward: a function of the layouts and what the strokes gave is needed, not {reward!r}")
+            raise TypeError(
+                f"reward: a function of the layouts and what the strokes gave is needed, not {reward!r}"
+            )
         choice(layouts.GAMES, ball_set, "ball_set")
         pockets = self._game != "threecushion"
-        usual = tables.snooker if "snooker" in ball_set else tables.pool_9ft if pockets else tables.threecushion
+        usual = (
+            tables.snooker
+            if "snooker" in ball_set
+            else tables.pool_9ft
+            if pockets
+            else tables.threecushion
+        )
         self.table = usual() if table is None else table
         layouts.check_table(self.table)
         if (len(self.table.pockets) > 0) != pockets:
             raise ValueError(f"table: must have {'' if pockets else 'no '}pockets")
-        size, p, q = np.array([self.table.width, self.table.length]), self.table.rails["p"], self.table.rails["q"]
+        size, p, q = (
+            np.array([self.table.width, self.table.length]),
+            self.table.rails["p"],
+            self.table.rails["q"],
+        )
         for place in np.concatenate([p, q, (p + q) / 2.0]):
             if (place > 1e-6).all() and (place < size - 1e-6).all():
                 raise ValueError(
@@ -146,21 +205,39 @@ class Potting:
         self.radius = float(ball["kind"]["radius"][0])
         self._for_c()
         if not isinstance({} if parameters is None else parameters, Mapping):
-            raise TypeError(f"parameters: bounds by the names of fields are needed, such as {{'mu_slide': (0.15, 0.25)}}, not {parameters!r}")
+            raise TypeError(
+                f"parameters: bounds by the names of fields are needed, such as {{'mu_slide': (0.15, 0.25)}}, not {parameters!r}"
+            )
         self.parameters = dict({} if parameters is None else parameters)
         self._check_parameters()
 
     def _for_c(self) -> None:
         """The game as C has it, with what it points to."""
         self._rules = Made(self._game, self._state)
-        record, of_c, cue, player = self._kept = (self.table.record, shot_options(Options(cushion_model=self.cushion_model), self.threads), layouts.cue(), self.player())
-        self._c = ffi.new("carom_python_game *", {
-            "table": pointer("carom_table[]", record), "options": of_c, "rules": self._rules.c, "cue": pointer("carom_cue[]", cue)[0],
-            "player": pointer("carom_player[]", player)[0], "balls": self.balls + 1,
-        })  # fmt: skip
+        record, of_c, cue, player = self._kept = (
+            self.table.record,
+            shot_options(Options(cushion_model=self.cushion_model), self.threads),
+            layouts.cue(),
+            self.player(),
+        )
+        self._c = ffi.new(
+            "carom_python_game *",
+            {
+                "table": pointer("carom_table[]", record),
+                "options": of_c,
+                "rules": self._rules.c,
+                "cue": pointer("carom_cue[]", cue)[0],
+                "player": pointer("carom_player[]", player)[0],
+                "balls": self.balls + 1,
+            },
+        )
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in vars(self).items() if name not in ("_rules", "_kept", "_c")}
+        return {
+            name: value
+            for name, value in vars(self).items()
+            if name not in ("_rules", "_kept", "_c")
+        }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         vars(self).update(state)
@@ -172,21 +249,33 @@ class Potting:
         ends["state"]["r"][:, :2] = 0.3 * self.table.width, 0.3 * self.table.length
         for name, bounds in self.parameters.items():
             if name not in known or len(bounds) != 2 or not bounds[0] <= bounds[1]:
-                raise ValueError(f"parameters: must give the least and the most of one of {', '.join(known)}, not {name!r}: {bounds}")
+                raise ValueError(
+                    f"parameters: must give the least and the most of one of {', '.join(known)}, not {name!r}: {bounds}"
+                )
             ends["kind"][name] = bounds
         for k in range(2):
-            simulate(self.table, ends[k : k + 1])  # raises CaromError where a bound is out of the field's range
+            simulate(
+                self.table, ends[k : k + 1]
+            )  # raises CaromError where a bound is out of the field's range
 
-    # ---- Actions and observations ---------------------------------------------------------------------------------------
+    # ---- Actions and observations
+    # ---------------------------------------------------------------------------------------
 
     def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
-        """The least and the most of each number of an observation; balls may rest in the mouth of a pocket, beyond the cushions."""
+        """The least and the most of each number of an observation; balls may rest in the mouth of a
+        pocket, beyond the cushions.
+        """
         beyond = 0.2
         low = np.append(np.tile([-beyond, -beyond, 0.0], self.balls + 1), 0.0)
-        high = np.append(np.tile([self.table.width + beyond, self.table.length + beyond, 1.0], self.balls + 1), self.strokes)
+        high = np.append(
+            np.tile([self.table.width + beyond, self.table.length + beyond, 1.0], self.balls + 1),
+            self.strokes,
+        )
         return low, high
 
-    def cues(self, actions: npt.ArrayLike, seeds: npt.NDArray[np.uint64] | None = None) -> dtypes.Records:
+    def cues(
+        self, actions: npt.ArrayLike, seeds: npt.NDArray[np.uint64] | None = None
+    ) -> dtypes.Records:
         """The strikes of actions, of shape (..., acts): `carom.dtypes.cue` of shape (...).
 
         With seeds, of shape (...), they err by the noise, as `carom.with_errors` has it.
@@ -195,26 +284,59 @@ class Potting:
         if given.shape[-1] == self.acts:
             cues: dtypes.Records = np.empty(given.shape[:-1], dtypes.cue)
             drawn = ffi.NULL if seeds is None else pointer("uint64_t[]", seeds)
-            if lib.carom_python_cues(self._c, cues.size, pointer("double[]", given), self.acts, drawn, pointer("carom_cue[]", cues)):
+            if lib.carom_python_cues(
+                self._c,
+                cues.size,
+                pointer("double[]", given),
+                self.acts,
+                drawn,
+                pointer("carom_cue[]", cues),
+            ):
                 return cues
-        raise ValueError(f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {given.shape}: {given}")
+        raise ValueError(
+            f"actions: finite numbers of shape (..., {self.acts}) are needed, not of shape {given.shape}: {given}"
+        )
 
-    def actions(self, phi: npt.ArrayLike, speed: npt.ArrayLike, a: npt.ArrayLike = 0.0, b: npt.ArrayLike = 0.0) -> dtypes.Doubles:
-        """The actions, of shape (..., 4), of directions (degrees), speeds (m/s) and places of the tip (radii), of shape (...)."""
+    def actions(
+        self,
+        phi: npt.ArrayLike,
+        speed: npt.ArrayLike,
+        a: npt.ArrayLike = 0.0,
+        b: npt.ArrayLike = 0.0,
+    ) -> dtypes.Doubles:
+        """The actions, of shape (..., 4), of directions (degrees), speeds (m/s) and places of the
+        tip (radii), of shape (...).
+        """
         least, most = self.speeds
         if not all(np.isfinite(part).all() for part in (phi, speed, a, b)):
-            raise ValueError(f"phi, speed, a, b: finite numbers are needed, not {phi!r}, {speed!r}, {a!r}, {b!r}")
+            raise ValueError(
+                f"phi, speed, a, b: finite numbers are needed, not {phi!r}, {speed!r}, {a!r}, {b!r}"
+            )
         turn = (np.asarray(phi, dtype=np.float64) + 180.0) % 360.0 / 180.0 - 1.0
         hard = 2.0 * (np.asarray(speed, dtype=np.float64) - least) / max(most - least, 1e-12) - 1.0
-        parts = np.broadcast_arrays(turn, hard, np.asarray(a, dtype=np.float64) / 0.35, np.asarray(b, dtype=np.float64) / 0.35)
+        parts = np.broadcast_arrays(
+            turn,
+            hard,
+            np.asarray(a, dtype=np.float64) / 0.35,
+            np.asarray(b, dtype=np.float64) / 0.35,
+        )
         return np.stack(parts, axis=-1)
 
-    def observe(self, balls: dtypes.Records, strokes_left: npt.ArrayLike, words: object = None) -> dtypes.Doubles:
-        """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) + 1)."""
+    def observe(
+        self, balls: dtypes.Records, strokes_left: npt.ArrayLike, words: object = None
+    ) -> dtypes.Doubles:
+        """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) +
+        1).
+        """
         given = np.ascontiguousarray(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
         count = given.shape[-1]
         seen = np.empty((*given.shape[:-1], 3 * count + 1))
-        lib.carom_python_seen(pointer("carom_shot_ball[]", given), given.size // count, count, pointer("double[]", seen))
+        lib.carom_python_seen(
+            pointer("carom_shot_ball[]", given),
+            given.size // count,
+            count,
+            pointer("double[]", seen),
+        )
         seen[..., -1] = strokes_left
         return seen
 
@@ -241,25 +363,40 @@ class Potting:
         return made
 
     def best(self, balls: dtypes.Records, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
-        """The action, of shape (4,), of the library's planner for a layout of shape (balls + 1,): a baseline for agents.
+        """The action, of shape (4,), of the library's planner for a layout of shape (balls + 1,): a
+        baseline for agents.
 
-        It looks for the stroke that pots the largest share of the balls in one visit, by a plan of so many `shots`.
+        It looks for the stroke that pots the largest share of the balls in one visit, by a plan of
+        so many `shots`.
         """
         found = plans.plan(
-            self.table, balls, rules=self._game, player=self.player(), shots=shots, seed=seed, best=1, threads=self.threads, level=True,
+            self.table,
+            balls,
+            rules=self._game,
+            player=self.player(),
+            shots=shots,
+            seed=seed,
+            best=1,
+            threads=self.threads,
+            level=True,
             cushion_model=self.cushion_model,
-        )["cue"][0]  # fmt: skip
+        )["cue"][0]
         return self.actions(found["phi"], found["speed"], found["a"], found["b"])
 
-    def best_seen(self, observation: npt.ArrayLike, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
+    def best_seen(
+        self, observation: npt.ArrayLike, *, shots: int = 500, seed: int = 0
+    ) -> dtypes.Doubles:
         """The action, of shape (acts,), of the library's planner for an observation."""
         return self.best(self.layouts(observation), shots=shots, seed=seed)
 
     def tried(self, observation: npt.ArrayLike, actions: npt.ArrayLike) -> dtypes.Doubles:
-        """What actions of shape (..., acts) are worth for the next stroke alone, without noise, of shape (...): here their rewards."""
+        """What actions of shape (..., acts) are worth for the next stroke alone, without noise, of
+        shape (...): here their rewards.
+        """
         return self.play(self.layouts(observation), actions).rewards
 
-    # ---- The game -------------------------------------------------------------------------------------------------------
+    # ---- The game
+    # -------------------------------------------------------------------------------------------------------
 
     def deal(self, draws: Draws, games: Games) -> dtypes.Records:
         """Random layouts of some games, of shape (len(games), balls + 1), with random parameters."""
@@ -270,23 +407,41 @@ class Potting:
         return made
 
     def layout(self, centres: npt.ArrayLike) -> dtypes.Records:
-        """A layout of shape (balls + 1,) with centres (m) of shape (balls + 1, 2), which are checked."""
+        """A layout of shape (balls + 1,) with centres (m) of shape (balls + 1, 2), which are
+        checked.
+        """
         given = np.asarray(centres, dtype=np.float64)
         if given.shape != (self.balls + 1, 2):
-            raise ValueError(f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {given.shape}")
+            raise ValueError(
+                f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {given.shape}"
+            )
         layout = self._balls(given, np.ones(self.balls + 1, np.bool_))
-        simulate(self.table, layout)  # without a strike: raises CaromError where balls overlap or are not on the table
+        simulate(
+            self.table, layout
+        )  # without a strike: raises CaromError where balls overlap or are not on the table
         return layout
 
     def put_back(self, balls: dtypes.Records, draws: Draws, games: Games) -> None:
-        """Put the cue balls of some games, layouts of shape (len(games), balls + 1), back on the table, at random."""
+        """Put the cue balls of some games, layouts of shape (len(games), balls + 1), back on the
+        table, at random.
+        """
         self._place(balls, draws, games, 1)
 
     def _place(self, balls: dtypes.Records, draws: Draws, games: Games, many: int) -> None:
-        """Place the first balls of layouts, drawn together until all are clear of each other, of what is fixed, and of the others in play."""
+        """Place the first balls of layouts, drawn together until all are clear of each other, of
+        what is fixed, and of the others in play.
+        """
         at = draws.at[games]
-        if not lib.carom_python_place(self._c, len(games), pointer("uint64_t[]", at), many, pointer("carom_shot_ball[]", balls)):
-            raise ValueError(f"table: no free places for {many} balls in 10,000 draws: it is too small for {self.balls}")
+        if not lib.carom_python_place(
+            self._c,
+            len(games),
+            pointer("uint64_t[]", at),
+            many,
+            pointer("carom_shot_ball[]", balls),
+        ):
+            raise ValueError(
+                f"table: no free places for {many} balls in 10,000 draws: it is too small for {self.balls}"
+            )
         draws.at[games] = at
 
     def free(self, balls: dtypes.Records) -> bool:
@@ -304,7 +459,8 @@ class Potting:
         ----------
         balls : ndarray of `carom.dtypes.shot_ball`, shape (..., balls + 1)
         actions : array_like, shape (..., 4)
-            Broadcast against the leading dimensions of the balls: many actions from one layout, or one for each of many.
+            Broadcast against the leading dimensions of the balls: many actions from one layout, or
+            one for each of many.
 
         Returns Strokes: Of the broadcast shape. Each stroke has the bits that it has alone.
         """
@@ -313,27 +469,66 @@ class Potting:
 
     def _played(self, balls: dtypes.Records, cues: dtypes.Records) -> Strokes:
         """Strikes from layouts, which are broadcast against each other."""
-        shape = cues.shape if balls.shape[:-1] == cues.shape else broadcast({"balls": balls.shape[:-1], "actions": cues.shape})
+        shape = (
+            cues.shape
+            if balls.shape[:-1] == cues.shape
+            else broadcast({"balls": balls.shape[:-1], "actions": cues.shape})
+        )
         lead, count = len(shape), balls.shape[-1]
         if count != self.balls + 1:
             raise ValueError(f"balls: the shape must be (..., {self.balls + 1}), not {balls.shape}")
         before, one = one_or_all(balls, (*shape, count), lead)
         strikes, one_cue = one_or_all(cues, shape, lead)
         after, made = np.empty((*shape, count), dtypes.shot_ball), np.empty(shape, _STROKE)
-        given = (pointer("carom_shot_ball[]", before), 0 if one else count, pointer("carom_cue[]", strikes), 0 if one_cue else 1)
+        given = (
+            pointer("carom_shot_ball[]", before),
+            0 if one else count,
+            pointer("carom_cue[]", strikes),
+            0 if one_cue else 1,
+        )
         written = (pointer("carom_shot_ball[]", after), pointer("carom_python_stroke[]", made))
-        code = in_chunks(made.size, 5e-5, self.threads, lambda begin, many: int(lib.carom_python_strokes(self._c, begin, many, *given, *written)))
+        code = in_chunks(
+            made.size,
+            5e-5,
+            self.threads,
+            lambda begin, many: int(
+                lib.carom_python_strokes(self._c, begin, many, *given, *written)
+            ),
+        )
         if code < 0 and not (made["status"] < 0).any():
             raise CaromError(code, "table")
-        strokes = Strokes(after, made["reward"], made["potted"], made["scratch"], made["foul"], made["status"], made["time"], made["cleared"])
+        strokes = Strokes(
+            after,
+            made["reward"],
+            made["potted"],
+            made["scratch"],
+            made["foul"],
+            made["status"],
+            made["time"],
+            made["cleared"],
+        )
         if self.reward is not None:
-            own = np.asarray(self.reward(np.broadcast_to(balls, after.shape), strokes), dtype=np.float64)
+            own = np.asarray(
+                self.reward(np.broadcast_to(balls, after.shape), strokes), dtype=np.float64
+            )
             strokes = replace(strokes, rewards=np.broadcast_to(own, shape).copy())
         return strokes
 
-    def turn(self, balls: dtypes.Records, words: npt.NDArray[np.uint64], actions: npt.ArrayLike, draws: Draws, games: Games) -> Turned:
-        """One stroke of each of some games with their noise, of which a cue ball that fell lies on the table again. `words` is written to."""
-        struck, cues = self.placed(balls, actions), self.cues(actions, draws.seeds(games) if any(self.noise) else None)
+    def turn(
+        self,
+        balls: dtypes.Records,
+        words: npt.NDArray[np.uint64],
+        actions: npt.ArrayLike,
+        draws: Draws,
+        games: Games,
+    ) -> Turned:
+        """One stroke of each of some games with their noise, of which a cue ball that fell lies on
+        the table again. `words` is written to.
+        """
+        struck, cues = (
+            self.placed(balls, actions),
+            self.cues(actions, draws.seeds(games) if any(self.noise) else None),
+        )
         strokes = self._played(struck, cues)
         if np.count_nonzero(strokes.scratch):
             back = np.flatnonzero(strokes.scratch)

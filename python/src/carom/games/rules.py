@@ -1,4 +1,6 @@
-"""Rules of games: what a shot amounts to, by the library's rules of eight-ball, nine-ball and a drill, or by those of a game of one's own."""
+"""Rules of games: what a shot amounts to, by the library's rules of eight-ball, nine-ball and a
+drill, or by those of a game of one's own.
+"""
 
 from __future__ import annotations
 
@@ -78,8 +80,12 @@ class Facts:
 
     first: int  # The ball that the cue ball met first, -1 for none, also after an error
     second: int  # The next other ball that it met, or -1
-    cushions_before: tuple[int, int]  # Impacts of the cue ball on cushions before it met each of both
-    potted: Mapping[int, int]  # The pocket that took each ball that fell, the cue ball 0 among them, in their order
+    cushions_before: tuple[
+        int, int
+    ]  # Impacts of the cue ball on cushions before it met each of both
+    potted: Mapping[
+        int, int
+    ]  # The pocket that took each ball that fell, the cue ball 0 among them, in their order
     off: frozenset[int]  # Balls that left the table
     cushions: tuple[int, ...]  # Impacts of each ball on cushions
     cushions_after: int  # Those of all balls after the first contact
@@ -89,8 +95,12 @@ class Facts:
     _record: bytes = field(repr=False)  # Of C, which copies and pickles as they are
 
     def foul(self, on: Collection[int]) -> Foul:
-        """The foul that it is in any game whose balls `on` may be met first: up to `Foul.CUSHION`, or `Foul.NONE`."""
-        return Foul(lib.carom_foul_of(ffi.from_buffer("carom_facts[]", self._record), _set_of(on), 0))
+        """The foul that it is in any game whose balls `on` may be met first: up to `Foul.CUSHION`,
+        or `Foul.NONE`.
+        """
+        return Foul(
+            lib.carom_foul_of(ffi.from_buffer("carom_facts[]", self._record), _set_of(on), 0)
+        )
 
 
 def _facts(record: Any) -> Facts:
@@ -99,17 +109,30 @@ def _facts(record: Any) -> Facts:
     first, second = record.first
     before = (record.cushions_before[0], record.cushions_before[1])
     sets = [_of_set(of) for of in (record.off, record.frozen, record.pushed)]
-    return Facts(first, second, before, potted, sets[0], tuple(record.cushions), record.cushions_after, sets[1], sets[2], record.touches, bytes(ffi.buffer(record)))
+    return Facts(
+        first,
+        second,
+        before,
+        potted,
+        sets[0],
+        tuple(record.cushions),
+        record.cushions_after,
+        sets[1],
+        sets[2],
+        record.touches,
+        bytes(ffi.buffer(record)),
+    )
 
 
 @dataclass(frozen=True)
 class Turn:
     """What a shot amounts to, from `Rules.judge`: the fields are its arguments.
 
-    `turn`: who plays, or how the game ends; "pass": the other plays. `leave`: his layout: as it is "after" the shot, as "before" it, or with
-    the cue ball in hand, "anywhere", in the "kitchen" behind the head string or in the "d" of a snooker table. `foul`: a `Foul`. `spot`: balls
-    that come back to the foot spot: any that are down or off the table, but the cue ball. `points`: of the shot; a plan reads them without an
-    opponent only.
+    `turn`: who plays, or how the game ends; "pass": the other plays. `leave`: his layout: as it is
+    "after" the shot, as "before" it, or with the cue ball in hand, "anywhere", in the "kitchen"
+    behind the head string or in the "d" of a snooker table. `foul`: a `Foul`. `spot`: balls that
+    come back to the foot spot: any that are down or off the table, but the cue ball. `points`: of
+    the shot; a plan reads them without an opponent only.
     """
 
     turn: Literal["keep", "pass", "win", "lose"]
@@ -120,71 +143,108 @@ class Turn:
 
 
 class Rules:
-    """A game of one's own, for `plan` and `referee`: a subclass says its rules. The cue ball is ball 0.
+    """A game of one's own, for `plan` and `referee`: a subclass says its rules.
 
-    `state` are eight numbers, as a list, for whatever the rules have to know: always as the player at the table has them. `judge` may
-    change them, and leaves them as the next player has them. Balls in play are a frozenset of their indices.
+    The cue ball is ball 0.
+
+    `state` are eight numbers, as a list, for whatever the rules have to know: always as the player
+    at the table has them. `judge` may change them, and leaves them as the next player has them.
+    Balls in play are a frozenset of their indices.
     """
 
     race: Literal["own", "shared", "alone", "points"] = "own"
-    """Whose balls are to be potted: each player has his own, both have the same, or there is no opponent. "points": both make points, and `left`
-    says how many each needs."""
+    """Whose balls are to be potted: each player has his own, both have the same, or there is no
+    opponent. "points": both make points, and `left` says how many each needs.
+    """
     calls: bool = False
     """Whether ball and pocket are called."""
     first_decides: bool = False
-    """Whether a shot that first meets a ball that is not on is a foul, whatever else happens: it is not played to its end."""
+    """Whether a shot that first meets a ball that is not on is a foul, whatever else happens: it is
+    not played to its end.
+    """
 
     def on(self, state: list[int], in_play: frozenset[int]) -> Collection[int]:
         """The balls that may be met first, and potted."""
         raise NotImplementedError(f"{type(self).__name__} needs the method on(state, in_play)")
 
-    def judge(self, state: list[int], in_play: frozenset[int], facts: Facts, call: tuple[int, int]) -> Turn:
-        """What a shot amounts to; `in_play` were the balls before it, `call` is a ball and its pocket, or (-1, -1)."""
-        raise NotImplementedError(f"{type(self).__name__} needs the method judge(state, in_play, facts, call)")
+    def judge(
+        self, state: list[int], in_play: frozenset[int], facts: Facts, call: tuple[int, int]
+    ) -> Turn:
+        """What a shot amounts to; `in_play` were the balls before it, `call` is a ball and its
+        pocket, or (-1, -1).
+        """
+        raise NotImplementedError(
+            f"{type(self).__name__} needs the method judge(state, in_play, facts, call)"
+        )
 
     def left(self, state: list[int], in_play: frozenset[int]) -> tuple[int, int]:
         """How many balls the player at the table, and the other, have to pot to win."""
         raise NotImplementedError(f"{type(self).__name__} needs the method left(state, in_play)")
 
     def pockets(self, state: list[int]) -> Collection[int]:
-        """The pockets in which balls count, by their indices in `table.pocket_names`. Default: all."""
+        """The pockets in which balls count, by their indices in `table.pocket_names`.
+
+        Default: all.
+        """
         return range(8)
 
 
 class Made:
     """The rules for C, with what has to live as long; and the first exception of a method of Rules."""
 
-    def __init__(self, rules: Game | Rules, state: GivenState | None, group: Group | None = None, opening: bool = False) -> None:
+    def __init__(
+        self,
+        rules: Game | Rules,
+        state: GivenState | None,
+        group: Group | None = None,
+        opening: bool = False,
+    ) -> None:
         self.raised: BaseException | None = None
         self.rules = rules
         self.stop = ffi.new("int32_t *")
         """Of plans; set by an exception."""
         if isinstance(rules, type) and issubclass(rules, Rules):
-            raise ValueError(f"rules: give a game, {rules.__name__}(), not the class {rules.__name__}")
+            raise ValueError(
+                f"rules: give a game, {rules.__name__}(), not the class {rules.__name__}"
+            )
         if isinstance(rules, Rules):
             self.c = ffi.new("carom_plan_rules *")
             self._functions(rules)
-            self.c.race, self.c.calls, self.c.first_decides = choice(_RACES, rules.race, "rules.race"), bool(rules.calls), bool(rules.first_decides)
+            self.c.race, self.c.calls, self.c.first_decides = (
+                choice(_RACES, rules.race, "rules.race"),
+                bool(rules.calls),
+                bool(rules.first_decides),
+            )
         else:
-            self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules")))
+            self.c = ffi.new(
+                "carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules"))
+            )
         self.last = None if isinstance(rules, Rules) else LAST.get(rules)
         """The highest number of a ball."""
         if state is not None:
             for is_given, name in ((group is not None, "group"), (opening, "opening")):
                 if is_given:
-                    raise ValueError(f"state, {name}: the state says the {name}, too: give one of both")
+                    raise ValueError(
+                        f"state, {name}: the state says the {name}, too: give one of both"
+                    )
             self._stand(state)
         self.c.state.group += choice(_GROUPS, "open" if group is None else group, "group")
         self.c.state.opening |= bool(opening)
         if not isinstance(rules, Rules):
-            wrong = lib.carom_rules_fault(_GAMES[rules], ffi.addressof(self.c, "state"), limits := ffi.new("char **"))
+            wrong = lib.carom_rules_fault(
+                _GAMES[rules], ffi.addressof(self.c, "state"), limits := ffi.new("char **")
+            )
             if wrong:
-                raise ValueError(f"{ffi.string(wrong).decode()}: by the rules {rules} it must be {ffi.string(limits[0]).decode()}")
+                raise ValueError(
+                    f"{ffi.string(wrong).decode()}: by the rules {rules} it must be {ffi.string(limits[0]).decode()}"
+                )
 
     @property
     def state(self) -> State:
         """A copy of the state, of shape ()."""
-        return np.frombuffer(bytearray(ffi.buffer(ffi.addressof(self.c, "state"))), dtypes.rules_state).reshape(())
+        return np.frombuffer(
+            bytearray(ffi.buffer(ffi.addressof(self.c, "state"))), dtypes.rules_state
+        ).reshape(())
 
     def _stand(self, given: Any) -> None:
         """A record; or of a game some members by their names, of rules of one's own eight words."""
@@ -192,7 +252,9 @@ class Made:
         if isinstance(self.rules, Rules):
             words = as_array(given, "state")
             if words.shape != (_WORDS,) or words.dtype.kind not in "iu" or (words < 0).any():
-                raise ValueError(f"state: {_WORDS} whole numbers, at least 0, are needed, not {given!r}")
+                raise ValueError(
+                    f"state: {_WORDS} whole numbers, at least 0, are needed, not {given!r}"
+                )
             members = {"user": words}
         elif not isinstance(given, Mapping):
             record = of_record(given, dtypes.rules_state, "state", "referee().state")
@@ -201,7 +263,13 @@ class Made:
             if not hasattr(self.c.state, name):
                 raise ValueError(f"state: there is no {name!r}; there are {', '.join(_MEMBERS)}")
             try:
-                setattr(self.c.state, name, choice(_GROUPS, value, "state: group") if isinstance(value, str) else np.asarray(value).tolist())
+                setattr(
+                    self.c.state,
+                    name,
+                    choice(_GROUPS, value, "state: group")
+                    if isinstance(value, str)
+                    else np.asarray(value).tolist(),
+                )
             except (TypeError, OverflowError, IndexError) as wrong:
                 raise ValueError(f"state: {name}: {wrong}") from None
 
@@ -220,12 +288,26 @@ class Made:
             turn = rules.judge(state, _of_set(in_play), _facts(facts), (call.ball, call.pocket))
             if not isinstance(turn, Turn):
                 raise TypeError(f"judge: it must return a carom.Turn, not {turn!r}")
-            game.user = [whole(word, f"judge: state[{k}]", most=2**64 - 1) for k, word in enumerate(state)]
-            made = ffi.new("carom_turn *", {"is": choice(_TURNS, turn.turn, "Turn.turn"), "leave": choice(_LEAVES, turn.leave, "Turn.leave")})
-            made.foul, made.spot, made.points = int(turn.foul), _set_of(turn.spot, "Turn.spot"), turn.points
+            game.user = [
+                whole(word, f"judge: state[{k}]", most=2**64 - 1) for k, word in enumerate(state)
+            ]
+            made = ffi.new(
+                "carom_turn *",
+                {
+                    "is": choice(_TURNS, turn.turn, "Turn.turn"),
+                    "leave": choice(_LEAVES, turn.leave, "Turn.leave"),
+                },
+            )
+            made.foul, made.spot, made.points = (
+                int(turn.foul),
+                _set_of(turn.spot, "Turn.spot"),
+                turn.points,
+            )
             there = _of_set(made.spot & (in_play & ~(facts.down | facts.off) | 1))
             if there:
-                raise ValueError(f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(there)}")
+                raise ValueError(
+                    f"Turn.spot: balls come back that are down or off the table, not the cue ball, and not {sorted(there)}"
+                )
             return made[0]
 
         def left(game: Any, in_play: int, out: Any) -> None:
@@ -240,28 +322,38 @@ class Made:
 
         lost = ffi.new("carom_turn *", {"is": lib.CAROM_TURN_LOSE})[0]
         self.kept = (
-            guarded("carom_rules_judge *", judge, lost), guarded("carom_rules_left *", left, None),
-            guarded("carom_rules_on *", on, 0), guarded("carom_rules_pockets *", pockets, 0),
-        )  # fmt: skip
+            guarded("carom_rules_judge *", judge, lost),
+            guarded("carom_rules_left *", left, None),
+            guarded("carom_rules_on *", on, 0),
+            guarded("carom_rules_pockets *", pockets, 0),
+        )
         self.c.judge, self.c.left, self.c.on, self.c.pockets = self.kept
 
     def check_layout(self, table: Table, layout: dtypes.Records) -> None:
         """Refuses what is no layout of the game, for a plan."""
         pockets = len(table.pocket_names)
         if self.rules == "threecushion" and (pockets or len(layout) < 3):
-            raise ValueError("table: threecushion needs one without pockets" if pockets else "balls: threecushion needs three")
+            raise ValueError(
+                "table: threecushion needs one without pockets"
+                if pockets
+                else "balls: threecushion needs three"
+            )
         if isinstance(self.rules, str) and self.rules != "threecushion" and not pockets:
             raise ValueError(f"table: it has no pockets, which {self.rules} needs")
         label = layout["state"]["label"]
         for ball in range(len(layout) if self.last is None else self.last + 1, len(layout)):
             if label[ball] not in (_POCKETED, _OFF):
-                raise ValueError(f"balls: the balls of {self.rules} are the cue ball and 1 to {self.last}, not {ball}")
+                raise ValueError(
+                    f"balls: the balls of {self.rules} are the cue ball and 1 to {self.last}, not {ball}"
+                )
         self.check_count(len(layout))
 
     def check_count(self, count: int) -> None:
         """Refuses a layout in which balls are missing that may come back."""
         if not isinstance(self.rules, Rules) and self.c.settle and count <= (self.last or 0):
-            raise ValueError(f"balls: {self.rules} has the cue ball and 1 to {self.last}, of which some may be down, not {count} balls")
+            raise ValueError(
+                f"balls: {self.rules} has the cue ball and 1 to {self.last}, of which some may be down, not {count} balls"
+            )
 
     def check(self) -> None:
         """Raises what a method of the rules raised."""
@@ -272,19 +364,32 @@ class Made:
 _bits: npt.NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
 
 
-def judge(made: Made, before: dtypes.Records, shots: Shots, states: State | None = None, calls: Array | None = None) -> Array:
-    """What shots with facts amount to, as `carom.dtypes.turn`, from the layouts before them, of shape (..., balls).
+def judge(
+    made: Made,
+    before: dtypes.Records,
+    shots: Shots,
+    states: State | None = None,
+    calls: Array | None = None,
+) -> Array:
+    """What shots with facts amount to, as `carom.dtypes.turn`, from the layouts before them, of
+    shape (..., balls).
 
-    `states` are changed; by default each shot has that of the rules. `calls` are int32 of shape (..., 2); by default none.
+    `states` are changed; by default each shot has that of the rules. `calls` are int32 of shape
+    (..., 2); by default none.
     """
     label = before["state"]["label"]
     in_play = ((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]
     turns: Array = np.zeros(shots.shape, dtypes.turn)
     lib.carom_python_judge(
-        made.c, turns.size, pointer("int8_t[]", shots.status), pointer("carom_facts[]", shots._facts), pointer("uint32_t[]", in_play),
-        ffi.NULL if calls is None else pointer("carom_call[]", calls), ffi.NULL if states is None else pointer("carom_rules_state[]", states),
+        made.c,
+        turns.size,
+        pointer("int8_t[]", shots.status),
+        pointer("carom_facts[]", shots._facts),
+        pointer("uint32_t[]", in_play),
+        ffi.NULL if calls is None else pointer("carom_call[]", calls),
+        ffi.NULL if states is None else pointer("carom_rules_state[]", states),
         pointer("carom_turn[]", turns),
-    )  # fmt: skip
+    )
     made.check()
     return turns
 
@@ -292,11 +397,24 @@ def judge(made: Made, before: dtypes.Records, shots: Shots, states: State | None
 def on_of(made: Made, layout: dtypes.Records) -> tuple[int, ...]:
     """The balls of a layout, of shape (balls,), that may be met first."""
     label = layout["state"]["label"]
-    return tuple(sorted(_of_set(int(made.c.on(ffi.addressof(made.c, "state"), int(((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]))))))
+    return tuple(
+        sorted(
+            _of_set(
+                int(
+                    made.c.on(
+                        ffi.addressof(made.c, "state"),
+                        int(((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]),
+                    )
+                )
+            )
+        )
+    )
 
 
 def calls_of(made: Made, layout: dtypes.Records, shots: Shots) -> Array:
-    """The calls of shots with facts from a layout, int32 of shape (..., 2): the first ball on that falls, and its pocket; or -1, -1."""
+    """The calls of shots with facts from a layout, int32 of shape (..., 2): the first ball on that
+    falls, and its pocket; or -1, -1.
+    """
     facts: Any = shots._facts
     falls = np.full(facts["pocket_time"].shape, np.inf)
     on = [*on_of(made, layout)]
@@ -312,25 +430,45 @@ def calls_of(made: Made, layout: dtypes.Records, shots: Shots) -> Array:
 class Ruling(Arrays):
     """What a stroke was, and what comes next."""
 
-    turn: str  # "keep": the player plays on; "pass": the other plays; "win", "lose": the game has ended
+    # "keep": the player plays on; "pass": the other plays; "win", "lose": the game has ended
+    turn: str
     foul: Foul
-    hand: Hand  # Whether the next player has the cue ball in hand: anywhere, behind the head string, or in the D of a snooker table
+    # Whether the next player has the cue ball in hand: anywhere, behind the head string, or in the
+    # D of a snooker table
+    hand: Hand
     potted: tuple[int, ...]  # Balls that fell, the cue ball among them, in their order
     first: int  # The ball that the cue ball met first, -1 for none
     points: float
-    balls: dtypes.Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
+    balls: (
+        dtypes.Records
+    )  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
     put: frozenset[int]  # Balls that lie elsewhere than the shot left them
-    state: State  # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own eight numbers
-    score: tuple[int, int]  # Points, or balls, of the next player and of the other, less those that they lost or owe
-    facts: Facts  # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was met in one that ended in an error
+    # (): How the game stands for the next player, `carom.dtypes.rules_state`; of rules of one's own
+    # eight numbers
+    state: State
+    score: tuple[
+        int, int
+    ]  # Points, or balls, of the next player and of the other, less those that they lost or owe
+    # Of the shot: both balls that the cue ball met, its cushions before each, and more; no ball was
+    # met in one that ended in an error
+    facts: Facts
     text: str  # All of that in words
     shot: Shot
 
 
 def referee(
-    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group | None = None, opening: bool = False,
-    state: GivenState | None = None, call: tuple[int, int] = (-1, -1), options: Options = _USUAL, **changes: Unpack[Changes]
-) -> Ruling:  # fmt: skip
+    table: Table,
+    balls: dtypes.Records,
+    cue: dtypes.Records,
+    *,
+    rules: Game | Rules = "eightball",
+    group: Group | None = None,
+    opening: bool = False,
+    state: GivenState | None = None,
+    call: tuple[int, int] = (-1, -1),
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
+) -> Ruling:
     """Play a stroke and judge it by the rules of a game.
 
     Parameters
@@ -342,14 +480,16 @@ def referee(
     rules, group, opening, state
         As for `plan`. The `state` of a ruling is that for the next stroke.
     call : tuple of two ints
-        The ball and the pocket that are called: `ball` and `pocket` of a choice of `plan`, which say a push-out and a pass, too.
+        The ball and the pocket that are called: `ball` and `pocket` of a choice of `plan`, which
+        say a push-out and a pass, too.
     options, **changes
         As for `simulate`.
 
     Raises
     ------
     CaromError
-        The layout or the cue is in error. A shot that ends in an error is a foul, whose layout is taken back.
+        The layout or the cue is in error. A shot that ends in an error is a foul, whose layout is
+        taken back.
     """
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
     made = Made(rules, state, group, opening)
@@ -357,15 +497,38 @@ def referee(
     strike = one_cue(cue).copy()
     if call[0] == lib.CAROM_CALL_PASS:
         strike["speed"] = 0.0
-    shots = simulate_batch(table, layout[np.newaxis], strike[np.newaxis], room=512, features=True, options=options, **changes)
+    shots = simulate_batch(
+        table,
+        layout[np.newaxis],
+        strike[np.newaxis],
+        room=512,
+        features=True,
+        options=options,
+        **changes,
+    )
     failed = shots.status[0] < 0
     if shots.refused[0]:
         raise CaromError(int(shots.status[0]), "balls, cue")
     ruling = ffi.new("carom_ruling *")
-    seen = ffi.new("carom_shot *", {"facts": pointer("carom_facts *", shots._facts), "final": pointer("carom_ball_state[]", shots.final)})
-    called = ffi.new("carom_call *", [whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)])
+    seen = ffi.new(
+        "carom_shot *",
+        {
+            "facts": pointer("carom_facts *", shots._facts),
+            "final": pointer("carom_ball_state[]", shots.final),
+        },
+    )
+    called = ffi.new(
+        "carom_call *", [whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]
+    )
     code = lib.carom_referee(
-        made.c, pointer("carom_table *", table.record), pointer("carom_shot_ball[]", layout), len(layout), 0, ffi.NULL if failed else seen, called[0], ruling
+        made.c,
+        pointer("carom_table *", table.record),
+        pointer("carom_shot_ball[]", layout),
+        len(layout),
+        0,
+        ffi.NULL if failed else seen,
+        called[0],
+        ruling,
     )
     made.check()
     facts, turn = _facts(ffi.addressof(ruling, "facts")), ruling.turn
@@ -375,11 +538,30 @@ def referee(
     if code < 0:
         raise CaromError(code, "Turn.spot", text="there is no room for a ball that comes back")
     after = np.frombuffer(ffi.buffer(ruling.balls, layout.nbytes), dtypes.shot_ball).copy()
-    state = np.frombuffer(ffi.buffer(ffi.addressof(ruling, "state")), dtypes.rules_state).copy().reshape(())
+    state = (
+        np.frombuffer(ffi.buffer(ffi.addressof(ruling, "state")), dtypes.rules_state)
+        .copy()
+        .reshape(())
+    )
     words = ffi.new("char[]", 256)
     lib.carom_ruling_string(ruling, words, 256)
-    hands: dict[int, Hand] = {lib.CAROM_LEAVE_HAND: "anywhere", lib.CAROM_LEAVE_KITCHEN: "kitchen", lib.CAROM_LEAVE_D: "d"}
+    hands: dict[int, Hand] = {
+        lib.CAROM_LEAVE_HAND: "anywhere",
+        lib.CAROM_LEAVE_KITCHEN: "kitchen",
+        lib.CAROM_LEAVE_D: "d",
+    }
     return Ruling(
-        tuple(_TURNS)[getattr(turn, "is")], Foul(turn.foul), hands.get(turn.leave, "no"), tuple(facts.potted), facts.first, turn.points, after, _of_set(ruling.put),
-        state["user"] if isinstance(rules, Rules) else state, tuple((state["score"] - state["lost"]).tolist()), facts, ffi.string(words).decode(), shots[0],
-    )  # fmt: skip
+        tuple(_TURNS)[getattr(turn, "is")],
+        Foul(turn.foul),
+        hands.get(turn.leave, "no"),
+        tuple(facts.potted),
+        facts.first,
+        turn.points,
+        after,
+        _of_set(ruling.put),
+        state["user"] if isinstance(rules, Rules) else state,
+        tuple((state["score"] - state["lost"]).tolist()),
+        facts,
+        ffi.string(words).decode(),
+        shots[0],
+    )

@@ -1,10 +1,13 @@
-"""Shots of the simulator pooltool, played by carom: takes a pooltool System and fills it as pooltool's own `simulate` does.
+"""Shots of the simulator pooltool, played by carom: takes a pooltool System and fills it as
+pooltool's own `simulate` does.
 
     import pooltool as pt
     import carom.pooltool
-    system = carom.pooltool.simulate(pt.System.example())      # or carom.pooltool.install(), and pt.simulate as before
+    system = carom.pooltool.simulate(pt.System.example())      # or carom.pooltool.install(), and
+        pt.simulate as before
 
-Needs pooltool 0.6 (pooltool-billiards), or the head of its repository. Its objects have no types here, so that carom can be checked without it.
+Needs pooltool 0.6 (pooltool-billiards), or the head of its repository. Its objects have no types
+here, so that carom can be checked without it.
 """
 
 from __future__ import annotations
@@ -34,9 +37,20 @@ from carom.shots import simulate as _play
 from carom.status import CaromError
 
 __all__ = [
-    "Agent", "ExactBallBall", "ExactCircularCushion", "ExactLinearCushion", "FallbackWarning", "UnsupportedError", "balls_of", "cue_of", "install",
-    "original", "simulate", "table_of", "uninstall",
-]  # fmt: skip
+    "Agent",
+    "ExactBallBall",
+    "ExactCircularCushion",
+    "ExactLinearCushion",
+    "FallbackWarning",
+    "UnsupportedError",
+    "balls_of",
+    "cue_of",
+    "install",
+    "original",
+    "simulate",
+    "table_of",
+    "uninstall",
+]
 __dir__ = listing(__name__)
 
 Models = Literal["pooltool", "carom"]
@@ -48,19 +62,30 @@ _action: Any = importlib.import_module("pooltool.ai.action")
 original: Any = _simulate.simulate
 """pooltool's own `simulate`, whatever is installed: to compare with."""
 
-# What carom plays of pooltool's engines, and of its own strategies in them: repository HEAD has InstantaneousPoint2D.
+# What carom plays of pooltool's engines, and of its own strategies in them: repository HEAD has
+# InstantaneousPoint2D.
 _FIXED = {
     "stick_ball": ("InstantaneousPoint", "InstantaneousPoint2D"),
     "ball_pocket": ("CanonicalBallPocket",),
     "transition": ("CanonicalTransition",),
 }
 _PAIRS: dict[str, BallModel] = {
-    "FrictionalInelastic": "inelastic", "FrictionalMathavan": "euler", "FrictionlessElastic": "mirror", "ExactBallBall": "exact",
-}  # fmt: skip
+    "FrictionalInelastic": "inelastic",
+    "FrictionalMathavan": "euler",
+    "FrictionlessElastic": "mirror",
+    "ExactBallBall": "exact",
+}
 _CUSHIONS: dict[str, ShotCushion] = {
-    "StrongeCompliant": "stronge", "Han2005": "han", "Mathavan2010": "euler", "Unrealistic": "mirror", "ExactCushion": "mathavan",
-}  # fmt: skip
-_FRICTIONS: dict[str, Friction] = {"AlciatoreBallBallFriction": "alciatore", "AverageBallBallFriction": "constant"}
+    "StrongeCompliant": "stronge",
+    "Han2005": "han",
+    "Mathavan2010": "euler",
+    "Unrealistic": "mirror",
+    "ExactCushion": "mathavan",
+}
+_FRICTIONS: dict[str, Friction] = {
+    "AlciatoreBallBallFriction": "alciatore",
+    "AverageBallBallFriction": "constant",
+}
 _ALCIATORE = alciatore()
 
 
@@ -69,10 +94,14 @@ class UnsupportedError(ValueError):
 
 
 class FallbackWarning(UserWarning):
-    """pooltool plays a system, at the speed of pooltool, because carom cannot. Each reason is reported once."""
+    """pooltool plays a system, at the speed of pooltool, because carom cannot.
+
+    Each reason is reported once.
+    """
 
 
-# ---- What goes in -------------------------------------------------------------------------------------------------------
+# ---- What goes in
+# -------------------------------------------------------------------------------------------------------
 
 
 def table_of(table: Any) -> Table:
@@ -80,8 +109,14 @@ def table_of(table: Any) -> Table:
     segments = table.cushion_segments
     linear, circular = tuple(segments.linear.values()), tuple(segments.circular.values())
     pockets = tuple((p.center, p.radius, p.depth) for p in table.pockets.values())
-    # Segments and centres of pockets never change, and tables share them with their copies. A cached table keeps them, so an id stays theirs.
-    key = (*map(id, linear), None, *map(id, circular), *((id(centre), radius, depth) for centre, radius, depth in pockets))
+    # Segments and centres of pockets never change, and tables share them with their copies. A
+    # cached table keeps them, so an id stays theirs.
+    key = (
+        *map(id, linear),
+        None,
+        *map(id, circular),
+        *((id(centre), radius, depth) for centre, radius, depth in pockets),
+    )
     cached = _tables.get(key)
     if cached is None:
         if len(_tables) >= 16:
@@ -97,8 +132,12 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
     rails = []
     for segment in linear:
         if segment.direction not in (0, 1):
-            raise UnsupportedError(f"cushion {segment.id!r} has balls on both sides: carom takes direction 0 or 1")
-        (x, y, height), (other_x, other_y, _) = (np.asarray(end, np.float64).tolist() for end in (segment.p1, segment.p2))
+            raise UnsupportedError(
+                f"cushion {segment.id!r} has balls on both sides: carom takes direction 0 or 1"
+            )
+        (x, y, height), (other_x, other_y, _) = (
+            np.asarray(end, np.float64).tolist() for end in (segment.p1, segment.p2)
+        )
         # The line as pooltool has it, lx, ly and l0, whose signs say what `side` means.
         slope = (other_y - y) / (other_x - x) if other_x != x else None
         line = (1.0, 0.0, -x) if slope is None else (-slope, 1.0, slope * x - y)
@@ -106,14 +145,16 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
     # Plain numbers: arrays as small as these take ten times as long.
     jaws = [(c.center[:2].tolist(), c.radius, c.center[2], 0.0, 0.0) for c in circular]
     pockets = [(centre[:2].tolist(), radius, depth) for centre, radius, depth in holes]
-    # The bed reaches from rail to rail, those in the mouths of pockets left out, which are oblique. (A System's own table.w and table.l
-    # need segments with the names of pooltool's tables.)
+    # The bed reaches from rail to rail, those in the mouths of pockets left out, which are oblique.
+    # (A System's own table.w and table.l need segments with the names of pooltool's tables.)
     size = []
     for axis in range(2):
         across = [rail for rail in rails if abs(rail[0][axis] - rail[1][axis]) < 1e-9] or rails
         at = [end[axis] for rail in across for end in rail[:2]]
         size.append(max(at) - min(at) if at else 1.0)
-    pieces: list[dtypes.Records] = [np.array(*of) for of in ((rails, dtypes.rail), (jaws, dtypes.jaw), (pockets, dtypes.pocket))]
+    pieces: list[dtypes.Records] = [
+        np.array(*of) for of in ((rails, dtypes.rail), (jaws, dtypes.jaw), (pockets, dtypes.pocket))
+    ]
     return Table(size[0], size[1], rails=pieces[0], jaws=pieces[1], pockets=pieces[2])
 
 
@@ -122,11 +163,16 @@ def balls_of(system: Any) -> dtypes.Records:
     kinds: dict[int, bytes] = {}
     records = bytearray()
     for ball in system.balls.values():
-        # Balls of a rack share their constants. What pooltool has not, drag and what follows it, stays 0.
+        # Balls of a rack share their constants. What pooltool has not, drag and what follows it,
+        # stays 0.
         p, state = ball.params, ball.state
         if id(p) not in kinds:
-            kinds[id(p)] = struct.pack("10d", p.m, p.R, p.u_s, p.u_r, p.u_sp, p.u_b, p.e_b, p.f_c, p.e_c, p.g).ljust(dtypes.ball_kind.itemsize, b"\0")
-        records += kinds[id(p)] + np.asarray(state.rvw, np.float64).tobytes() + struct.pack("q", state.s)
+            kinds[id(p)] = struct.pack(
+                "10d", p.m, p.R, p.u_s, p.u_r, p.u_sp, p.u_b, p.e_b, p.f_c, p.e_c, p.g
+            ).ljust(dtypes.ball_kind.itemsize, b"\0")
+        records += (
+            kinds[id(p)] + np.asarray(state.rvw, np.float64).tobytes() + struct.pack("q", state.s)
+        )
     return np.frombuffer(records, dtypes.shot_ball)
 
 
@@ -134,7 +180,21 @@ def cue_of(system: Any) -> dtypes.Records:
     """The cue of a System, for `carom.simulate`."""
     cue, specs = system.cue, system.cue.specs
     ball = list(system.balls).index(cue.cue_ball_id)
-    numbers = (cue.V0, cue.phi, cue.theta, cue.a, cue.b, specs.M, specs.end_mass, 1.0, specs.tip_radius, ball, 0.0, 0.0, 0.0)
+    numbers = (
+        cue.V0,
+        cue.phi,
+        cue.theta,
+        cue.a,
+        cue.b,
+        specs.M,
+        specs.end_mass,
+        1.0,
+        specs.tip_radius,
+        ball,
+        0.0,
+        0.0,
+        0.0,
+    )
     return np.array(numbers, dtype=dtypes.cue)
 
 
@@ -158,11 +218,14 @@ def _one_of(known: Collection[str], name: str, part: str) -> None:
 def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> Options:
     """The models of an engine of pooltool's, or an error that says what of it carom does not know.
 
-    Numbers that pooltool has in its models carom has in the balls, rails and jaws, which are changed.
+    Numbers that pooltool has in its models carom has in the balls, rails and jaws, which are
+    changed.
     """
     resolver, kinds = engine.resolver, balls["kind"]
     if getattr(engine, "is_3d", False):
-        raise UnsupportedError("engine: carom knows is_3d=False alone, balls that stay on the cloth")
+        raise UnsupportedError(
+            "engine: carom knows is_3d=False alone, balls that stay on the cloth"
+        )
     for part, known in _FIXED.items():
         _one_of(known, _name(getattr(resolver, part)), part)
     if (resolver.stick_ball.english_throttle, resolver.stick_ball.squirt_throttle) != (1.0, 1.0):
@@ -179,7 +242,10 @@ def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> Options:
         friction = _FRICTIONS[_name(pair.friction)]
     if ball_model == "euler":
         steps.add(int(pair.num_iterations))
-    if friction == "alciatore" and (law := (pair.friction.a, pair.friction.b, pair.friction.c)) != _ALCIATORE:
+    if (
+        friction == "alciatore"
+        and (law := (pair.friction.a, pair.friction.b, pair.friction.c)) != _ALCIATORE
+    ):
         kinds["law_a"], kinds["law_b"], kinds["law_c"] = law
         if not any(law):  # which would be the usual law
             friction, kinds["mu_ball"] = "constant", 0.0
@@ -187,13 +253,19 @@ def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> Options:
     linear, circular = resolver.ball_linear_cushion, resolver.ball_circular_cushion
     name = _name(linear).replace("Linear", "")
     if _name(circular).replace("Circular", "") != name:
-        raise UnsupportedError(f"engine: carom knows the same model for both kinds of cushions, not {name} and {_name(circular)}")
+        raise UnsupportedError(
+            f"engine: carom knows the same model for both kinds of cushions, not {name} and {_name(circular)}"
+        )
     _one_of(_CUSHIONS, name, "cushions")
     cushion_model = _CUSHIONS[name]
-    numbers = {"stronge": ("omega_ratio",), "euler": ("max_steps", "delta_p")}.get(cushion_model, ())
+    numbers = {"stronge": ("omega_ratio",), "euler": ("max_steps", "delta_p")}.get(
+        cushion_model, ()
+    )
     for number in numbers:
         if getattr(linear, number) != getattr(circular, number):
-            raise UnsupportedError(f"engine: carom knows the same {number} for both kinds of cushions")
+            raise UnsupportedError(
+                f"engine: carom knows the same {number} for both kinds of cushions"
+            )
     if cushion_model == "stronge":
         kinds["omega_ratio"] = linear.omega_ratio
     elif cushion_model == "mirror":
@@ -202,17 +274,30 @@ def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> Options:
     elif cushion_model == "euler":
         steps.add(int(linear.max_steps))
         if linear.delta_p != 0.001:
-            raise UnsupportedError("engine: carom knows a delta_p of 0.001 N s alone for Mathavan2010")
+            raise UnsupportedError(
+                "engine: carom knows a delta_p of 0.001 N s alone for Mathavan2010"
+            )
     if len(steps) > 1:
-        raise UnsupportedError("engine: carom knows the same number of steps for FrictionalMathavan and Mathavan2010")
+        raise UnsupportedError(
+            "engine: carom knows the same number of steps for FrictionalMathavan and Mathavan2010"
+        )
     return Options("pooltool", ball_model, cushion_model, friction, steps=next(iter(steps), 0))
 
 
 def simulate(
-    shot: Any, engine: Any = None, inplace: bool = False, continuous: bool = False, dt: float | None = None,
-    t_final: float | None = None, include: Any = _simulate.INCLUDED_EVENTS, max_events: int = 0, *,
-    models: Models = "pooltool", cushion_model: ShotCushion = "default", fallback: bool = False
-) -> Any:  # fmt: skip
+    shot: Any,
+    engine: Any = None,
+    inplace: bool = False,
+    continuous: bool = False,
+    dt: float | None = None,
+    t_final: float | None = None,
+    include: Any = _simulate.INCLUDED_EVENTS,
+    max_events: int = 0,
+    *,
+    models: Models = "pooltool",
+    cushion_model: ShotCushion = "default",
+    fallback: bool = False,
+) -> Any:
     """pooltool's `simulate`, by carom.
 
     Parameters
@@ -220,23 +305,27 @@ def simulate(
     shot : pooltool.System
         Simulated as a copy, unless `inplace`.
     engine : pooltool.physics.PhysicsEngine, optional
-        None: pooltool's default. Ball and ball FrictionalInelastic, FrictionalMathavan, FrictionlessElastic or `ExactBallBall`;
-        cushions StrongeCompliant, Han2005, Mathavan2010, Unrealistic or `ExactLinearCushion` and `ExactCircularCushion`.
+        None: pooltool's default. Ball and ball FrictionalInelastic, FrictionalMathavan,
+        FrictionlessElastic or `ExactBallBall`; cushions StrongeCompliant, Han2005, Mathavan2010,
+        Unrealistic or `ExactLinearCushion` and `ExactCircularCushion`.
     inplace, continuous, dt, t_final, max_events
         As for pooltool's.
     include : set of pooltool.EventType
         All of them.
     models : {"pooltool", "carom"}
-        The rules and models of pooltool's engine, for the same history but for rounding; or carom's, without an engine: exact
-        collisions and contacts.
+        The rules and models of pooltool's engine, for the same history but for rounding; or
+        carom's, without an engine: exact collisions and contacts.
     cushion_model : str
         With models="carom" only; a word as for `carom.simulate`.
     fallback : bool
-        What carom cannot do is played by pooltool instead of an error. A `FallbackWarning` says why, once for each reason.
+        What carom cannot do is played by pooltool instead of an error. A `FallbackWarning` says
+        why, once for each reason.
 
-    Returns a System as pooltool leaves it: events with their agents, states, histories, pockets with their contents.
+    Returns a System as pooltool leaves it: events with their agents, states, histories, pockets
+        with their contents.
     Raises UnsupportedError: An engine, a table or an `include` that is pooltool's alone.
-    Raises CaromError: A System that carom refuses (overlapping balls, a ball off the table, more than 32 balls), or a shot that
+    Raises CaromError: A System that carom refuses (overlapping balls, a ball off the table, more
+        than 32 balls), or a shot that
     ends in an error.
     """
     try:
@@ -246,11 +335,18 @@ def simulate(
             raise UnsupportedError("include: carom resolves all types of events")
         table, balls, cue = table_of(shot.table), balls_of(shot), cue_of(shot)
         if models == "pooltool":
-            played = _play(table, balls, cue, options=_options_of(engine or _simulate.DEFAULT_ENGINE, table, balls))
+            played = _play(
+                table,
+                balls,
+                cue,
+                options=_options_of(engine or _simulate.DEFAULT_ENGINE, table, balls),
+            )
         else:
             if engine is not None:
                 raise UnsupportedError("engine: with models='carom' the models are carom's")
-            played = _play(table, balls, cue, cushion_model=cushion_model, space="flat")  # as pooltool's 2D engine
+            played = _play(
+                table, balls, cue, cushion_model=cushion_model, space="flat"
+            )  # as pooltool's 2D engine
     except (UnsupportedError, CaromError) as reason:
         if not fallback:
             raise
@@ -280,10 +376,13 @@ def _tell(reason: UnsupportedError | CaromError) -> None:
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_globals is globals():
         level, frame = level + 1, frame.f_back
-    warnings.warn(f"pooltool plays this system instead of carom: {reason}", FallbackWarning, stacklevel=level)
+    warnings.warn(
+        f"pooltool plays this system instead of carom: {reason}", FallbackWarning, stacklevel=level
+    )
 
 
-# ---- A player -----------------------------------------------------------------------------------------------------------
+# ---- A player
+# -----------------------------------------------------------------------------------------------------------
 
 
 PooltoolGame = Literal["eightball", "nineball"]
@@ -291,7 +390,8 @@ _GAMES: dict[str, PooltoolGame] = {"_EightBall": "eightball", "_NineBall": "nine
 
 
 class Agent:
-    """Plays eight-ball and nine-ball in pooltool, by pooltool's rules: an `ai` of pooltool's `Player`, or a stroke for a System.
+    """Plays eight-ball and nine-ball in pooltool, by pooltool's rules: an `ai` of pooltool's
+    `Player`, or a stroke for a System.
 
     Parameters
     ----------
@@ -300,7 +400,8 @@ class Agent:
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
         Default: as the player.
     exact : bool
-        Its strokes are those that it means, where whoever plays them adds the errors. Its plans allow for errors all the same.
+        Its strokes are those that it means, where whoever plays them adds the errors. Its plans
+        allow for errors all the same.
     engine : pooltool.physics.PhysicsEngine, optional
         By which the shots of a plan are played. Default: pooltool's.
     shots, seed, threads
@@ -308,50 +409,90 @@ class Agent:
     """
 
     def __init__(
-        self, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, *, exact: bool = False, engine: Any = None,
-        shots: int = 2000, seed: int = 0, threads: int = 0
-    ) -> None:  # fmt: skip
+        self,
+        player: dtypes.Records | None = None,
+        opponent: dtypes.Records | None = None,
+        *,
+        exact: bool = False,
+        engine: Any = None,
+        shots: int = 2000,
+        seed: int = 0,
+        threads: int = 0,
+    ) -> None:
         self.player = usual_player() if player is None else player
-        self.opponent, self.exact, self.engine, self.shots, self.seed, self.threads = opponent, exact, engine, shots, seed, threads
+        self.opponent, self.exact, self.engine, self.shots, self.seed, self.threads = (
+            opponent,
+            exact,
+            engine,
+            shots,
+            seed,
+            threads,
+        )
         self.strokes = 0
 
     def decide(self, system: Any, game: Any, callback: Any = None) -> Any:
         """The stroke for a System in a game, a `pooltool.ai.action.Action`.
 
-        A cue ball in hand is put to its place in the System, and the game is told the ball and the pocket that are called. A safety calls
-        a ball that does not fall, since pooltool's eight-ball asks for a call. `callback` is called with the stroke.
+        A cue ball in hand is put to its place in the System, and the game is told the ball and the
+        pocket that are called. A safety calls a ball that does not fall, since pooltool's
+        eight-ball asks for a call. `callback` is called with the stroke.
 
         Raises UnsupportedError: Another game, or an engine or a table that is pooltool's alone.
         """
         kind = next((its.__name__ for its in type(game).__mro__ if its.__name__ in _GAMES), None)
         if kind is None:
-            raise UnsupportedError(f"game: the agent plays pooltool's eight-ball and nine-ball, not {type(game).__name__}")
+            raise UnsupportedError(
+                f"game: the agent plays pooltool's eight-ball and nine-ball, not {type(game).__name__}"
+            )
         constraints = game.shot_constraints
         hand = str(constraints.ball_in_hand)
-        best = self.stroke(system, constraints.hittable, rules=_GAMES[kind], opening=game.shot_number == 0, hand=hand)
+        best = self.stroke(
+            system,
+            constraints.hittable,
+            rules=_GAMES[kind],
+            opening=game.shot_number == 0,
+            hand=hand,
+        )
         if hand != "none":
             ball = system.balls["cue"]
             ball.state.rvw[:] = 0.0
             ball.state.rvw[0] = (*best["place"], ball.params.R)
             ball.state.s = int(Label.STATIONARY)
         if constraints.call_shot:
-            on = [name for name in constraints.hittable if name in system.balls and system.balls[name].state.s != Label.POCKETED]
+            on = [
+                name
+                for name in constraints.hittable
+                if name in system.balls and system.balls[name].state.s != Label.POCKETED
+            ]
             constraints.ball_call = str(best["ball"]) if best["ball"] > 0 else on[0]
             constraints.pocket_call = list(system.table.pockets)[best["pocket"]]
-        action = _action.Action(*(float(best["cue"][name]) for name in ("speed", "phi", "theta", "a", "b")))
+        action = _action.Action(
+            *(float(best["cue"][name]) for name in ("speed", "phi", "theta", "a", "b"))
+        )
         if callback is not None:
             callback(action)
         return action
 
-    def stroke(self, system: Any, targets: Collection[str], *, rules: PooltoolGame = "eightball", opening: bool = False, hand: str = "none") -> dtypes.Records:
-        """The stroke for a System without a game of pooltool's: the balls and the cue of the System stay as they are.
+    def stroke(
+        self,
+        system: Any,
+        targets: Collection[str],
+        *,
+        rules: PooltoolGame = "eightball",
+        opening: bool = False,
+        hand: str = "none",
+    ) -> dtypes.Records:
+        """The stroke for a System without a game of pooltool's: the balls and the cue of the System
+        stay as they are.
 
         Parameters
         ----------
         system : pooltool.System
-            The ball "cue" and balls named by their numbers; those that are missing or pocketed are down.
+            The ball "cue" and balls named by their numbers; those that are missing or pocketed are
+            down.
         targets : collection of str
-            The balls that the player may meet first. In eight-ball they tell his group; in nine-ball the lowest ball is on.
+            The balls that the player may meet first. In eight-ball they tell his group; in
+            nine-ball the lowest ball is on.
         rules : {"eightball", "nineball"}
         opening : bool
             The stroke is the break.
@@ -362,15 +503,23 @@ class Agent:
         Raises UnsupportedError: Another word, or an engine or a table that is pooltool's alone.
         """
         if rules not in _GAMES.values():
-            raise UnsupportedError(f"rules: the agent plays {' and '.join(_GAMES.values())}, not {rules!r}")
+            raise UnsupportedError(
+                f"rules: the agent plays {' and '.join(_GAMES.values())}, not {rules!r}"
+            )
         if hand not in ("none", "anywhere", "behind_line"):
-            raise UnsupportedError(f"hand: the agent knows a cue ball in hand anywhere or behind_line, or none, not {hand!r}")
+            raise UnsupportedError(
+                f"hand: the agent knows a cue ball in hand anywhere or behind_line, or none, not {hand!r}"
+            )
 
         # The layout by numbers; a cue ball in hand is nowhere yet.
         table, names = table_of(system.table), ["cue", *map(str, range(1, LAST[rules] + 1))]
         given = dict(zip(system.balls, balls_of(system), strict=True))
-        layout: Array = np.array([given.get(name, given["cue"]) for name in names], dtype=dtypes.shot_ball)
-        down = [k for k, name in enumerate(names) if name not in given] + ([0] if hand != "none" else [])
+        layout: Array = np.array(
+            [given.get(name, given["cue"]) for name in names], dtype=dtypes.shot_ball
+        )
+        down = [k for k, name in enumerate(names) if name not in given] + (
+            [0] if hand != "none" else []
+        )
         layout["state"]["label"][down] = Label.POCKETED
         options = _options_of(self.engine or _simulate.DEFAULT_ENGINE, table, layout)
         cue = cue_of(system)
@@ -380,10 +529,21 @@ class Agent:
         if hand == "behind_line":
             where = [[0.0, 0.0], [table.width, table.length / 4.0]]
         best: dtypes.Records = plan(
-            table, layout, cue, rules=rules, group=_group(targets, given) if rules == "eightball" else None, opening=opening,
-            player=self.player, opponent=self.opponent, shots=self.shots, in_hand=where, best=1, seed=self.seed + self.strokes,
-            threads=self.threads, options=options,
-        )[0].copy()  # fmt: skip
+            table,
+            layout,
+            cue,
+            rules=rules,
+            group=_group(targets, given) if rules == "eightball" else None,
+            opening=opening,
+            player=self.player,
+            opponent=self.opponent,
+            shots=self.shots,
+            in_hand=where,
+            best=1,
+            seed=self.seed + self.strokes,
+            threads=self.threads,
+            options=options,
+        )[0].copy()
         if not self.exact:
             best["cue"] = with_errors(best["cue"], self.player, self.seed, self.strokes)
         self.strokes += 1
@@ -398,7 +558,10 @@ def _group(hittable: Collection[str], balls: dict[str, Any]) -> Group:
     """Whose balls the player has, by the balls that he may meet."""
 
     def are_in_play(low: int, high: int) -> bool:
-        return any(name.isdigit() and low <= int(name) <= high and ball["state"]["label"] != Label.POCKETED for name, ball in balls.items())
+        return any(
+            name.isdigit() and low <= int(name) <= high and ball["state"]["label"] != Label.POCKETED
+            for name, ball in balls.items()
+        )
 
     numbers = set(map(int, hittable))
     if numbers == {8}:
@@ -406,7 +569,8 @@ def _group(hittable: Collection[str], balls: dict[str, Any]) -> Group:
     return "solids" if max(numbers) < 8 else "stripes" if min(numbers) > 8 else "open"
 
 
-# ---- In its place -------------------------------------------------------------------------------------------------------
+# ---- In its place
+# -------------------------------------------------------------------------------------------------------
 
 
 def _replace(old: Any, new: Any) -> None:
@@ -420,9 +584,11 @@ def _replace(old: Any, new: Any) -> None:
 
 
 def install() -> None:
-    """Put carom in place of `pooltool.simulate`: in pooltool, and in every module that has imported it by now under any name.
+    """Put carom in place of `pooltool.simulate`: in pooltool, and in every module that has imported
+    it by now under any name.
 
-    What carom cannot do is then played by pooltool; a `FallbackWarning` says why, once for each reason.
+    What carom cannot do is then played by pooltool; a `FallbackWarning` says why, once for each
+    reason.
     """
     _told.clear()
     _replace(original, _installed)

@@ -1,9 +1,11 @@
 """Writes a shot into a System of pooltool's: events with their agents, states, histories, pockets.
 
-Most of the time would go into objects that nobody looks at: for a nine-ball break some 1,000 states of histories and 250 balls of
-agents, and ten times as many states of continuous histories. So they are made when they are first looked at: the states of a
-history at once, and the balls of all agents at once, in C (`carom._objects`). Until then histories and agents are of a subclass
-without fields of its own, whose one field holds what makes them; then they become what pooltool's are, class and all.
+Most of the time would go into objects that nobody looks at: for a nine-ball break some 1,000 states
+of histories and 250 balls of agents, and ten times as many states of continuous histories. So they
+are made when they are first looked at: the states of a history at once, and the balls of all agents
+at once, in C (`carom._objects`). Until then histories and agents are of a subclass without fields
+of its own, whose one field holds what makes them; then they become what pooltool's are, class and
+all.
 """
 
 from __future__ import annotations
@@ -29,29 +31,51 @@ _CUE: Any = _events.AgentType.CUE
 _POCKET_AGENT: Any = _events.AgentType.POCKET
 _LINEAR: Any = _events.AgentType.LINEAR_CUSHION_SEGMENT
 _CIRCULAR: Any = _events.AgentType.CIRCULAR_CUSHION_SEGMENT
-_OWN_FIELDS = ("id", "params", "ballset", "initial_orientation")  # of a ball: the same in every state
+_OWN_FIELDS = (
+    "id",
+    "params",
+    "ballset",
+    "initial_orientation",
+)  # of a ball: the same in every state
 
 # As plain numbers, which compare ten times as fast.
 _STRIKE, _BALL_BALL = int(EventType.STRIKE), int(EventType.BALL_BALL)
 _RAIL, _JAW, _POCKET = int(EventType.RAIL), int(EventType.JAW), int(EventType.POCKET)
 _TYPES: dict[int, Any] = {
-    EventType.STRIKE: _PoolType.STICK_BALL, EventType.BALL_BALL: _PoolType.BALL_BALL, EventType.RAIL: _PoolType.BALL_LINEAR_CUSHION,
-    EventType.JAW: _PoolType.BALL_CIRCULAR_CUSHION, EventType.POCKET: _PoolType.BALL_POCKET,
-    **{EventType[name]: getattr(_PoolType, name) for name in
-       ("SLIDING_ROLLING", "ROLLING_SPINNING", "ROLLING_STATIONARY", "SPINNING_STATIONARY")},
-}  # fmt: skip
+    EventType.STRIKE: _PoolType.STICK_BALL,
+    EventType.BALL_BALL: _PoolType.BALL_BALL,
+    EventType.RAIL: _PoolType.BALL_LINEAR_CUSHION,
+    EventType.JAW: _PoolType.BALL_CIRCULAR_CUSHION,
+    EventType.POCKET: _PoolType.BALL_POCKET,
+    **{
+        EventType[name]: getattr(_PoolType, name)
+        for name in (
+            "SLIDING_ROLLING",
+            "ROLLING_SPINNING",
+            "ROLLING_STATIONARY",
+            "SPINNING_STATIONARY",
+        )
+    },
+}
 
 
-# ---- Made when first looked at ------------------------------------------------------------------------------------------
+# ---- Made when first looked at
+# ------------------------------------------------------------------------------------------
 
 _states_of: Any = _BallHistory.__dict__["states"]
-_BALL_FIELDS = [_balls.Ball.__dict__[name] for name in ("history", "history_cts", "state")]  # to set, without attrs' setters
+_BALL_FIELDS = [
+    _balls.Ball.__dict__[name] for name in ("history", "history_cts", "state")
+]  # to set, without attrs' setters
 _time_of = _balls.BallState.__dict__["t"]
-_id_of, _type_of, _initial_of, _final_of = (_Agent.__dict__[name] for name in ("id", "agent_type", "initial", "final"))
+_id_of, _type_of, _initial_of, _final_of = (
+    _Agent.__dict__[name] for name in ("id", "agent_type", "initial", "final")
+)
 
 
 class _LaterHistory(_BallHistory):  # type: ignore[misc]
-    """A BallHistory whose states are made when they are first looked at, by the function in their place; without one it is empty."""
+    """A BallHistory whose states are made when they are first looked at, by the function in their
+    place; without one it is empty.
+    """
 
     __slots__ = ()
     __qualname__ = "BallHistory"  # for repr()
@@ -84,7 +108,8 @@ class _LaterHistory(_BallHistory):  # type: ignore[misc]
 
 
 class _LaterAgent(_Agent):  # type: ignore[misc]
-    """An Agent whose balls are made when they are first looked at, by the function in the place of its initial state.
+    """An Agent whose balls are made when they are first looked at, by the function in the place of
+    its initial state.
 
     That function makes the balls of all agents of the shot, which become Agents.
     """
@@ -133,7 +158,8 @@ def _later_history(states: Callable[[], list[Any]]) -> Any:
     return history
 
 
-# ---- States ------------------------------------------------------------------------------------------------------------
+# ---- States
+# ------------------------------------------------------------------------------------------------------------
 
 
 def after_each_event(shot: Shot) -> dtypes.Records:
@@ -144,7 +170,8 @@ def after_each_event(shot: Shot) -> dtypes.Records:
     each = np.arange(len(events))
     states[each, events["a"]] = events["after"][:, 0]
     states[each[pair], events["b"][pair]] = events["after"][pair, 1]
-    # A state at a time is that after everything of the time. Events at the same instant are taken apart here, the last first.
+    # A state at a time is that after everything of the time. Events at the same instant are taken
+    # apart here, the last first.
     for k in np.flatnonzero(times[1:] == times[:-1])[::-1]:
         states[k] = states[k + 1]
         for side in range(1 + int(pair[k + 1])):
@@ -162,12 +189,16 @@ def _rvw(states: dtypes.Records) -> dtypes.Doubles:
 
 def _states(rvws: dtypes.Doubles, labels: list[int], times: list[float]) -> list[Any]:
     """States of pooltool's, of (n, 3, 3) numbers."""
-    states: list[Any] = make(_balls.BallState, len(labels), ("rvw", "s", "t"), (list(rvws), labels, times))
+    states: list[Any] = make(
+        _balls.BallState, len(labels), ("rvw", "s", "t"), (list(rvws), labels, times)
+    )
     return states
 
 
 class _Histories:
-    """What the histories of all balls are made of, computed once for all balls: states at times, between the first and the last."""
+    """What the histories of all balls are made of, computed once for all balls: states at times,
+    between the first and the last.
+    """
 
     def __init__(self, look: Callable[[], tuple[dtypes.Records, dtypes.Doubles]]) -> None:
         self.look = look
@@ -184,7 +215,8 @@ class _Histories:
         return [*first, *_states(rvws[index], labels[index], times), *last]
 
 
-# ---- Events ------------------------------------------------------------------------------------------------------------
+# ---- Events
+# ------------------------------------------------------------------------------------------------------------
 
 
 class _Filler:
@@ -197,13 +229,20 @@ class _Filler:
         self.linear = list(system.table.cushion_segments.linear.values())
         self.circular = list(system.table.cushion_segments.circular.values())
         self.pockets = list(system.table.pockets.values())
-        # The balls of agents: the first of each event, then the second where there is one. Event k has rows 2 k and 2 k + 1.
-        self.types, self.others, first = events["type"].tolist(), events["b"].tolist(), events["a"].tolist()
+        # The balls of agents: the first of each event, then the second where there is one. Event k
+        # has rows 2 k and 2 k + 1.
+        self.types, self.others, first = (
+            events["type"].tolist(),
+            events["b"].tolist(),
+            events["a"].tolist(),
+        )
         pairs = [k for k, kind in enumerate(self.types) if kind == _BALL_BALL]
         self.rows = [*range(0, 2 * len(first), 2), *(2 * k + 1 for k in pairs)]
         self.numbers = [*first, *(self.others[k] for k in pairs)]
         ids = [self.balls[number].id for number in self.numbers]
-        self.agents = make(_Agent, len(ids), ("id", "agent_type", "initial"), (ids, _BALL, self.settle))
+        self.agents = make(
+            _Agent, len(ids), ("id", "agent_type", "initial"), (ids, _BALL, self.settle)
+        )
         turn(self.agents, _LaterAgent, (), ())
 
     def settle(self) -> None:
@@ -214,17 +253,24 @@ class _Filler:
         columns = []
         for side in ("before", "after"):
             states = self.events[side]
-            rvws, labels = _rvw(states).reshape(-1, 3, 3)[self.rows], states["label"].ravel()[self.rows].tolist()
+            rvws, labels = (
+                _rvw(states).reshape(-1, 3, 3)[self.rows],
+                states["label"].ravel()[self.rows].tolist(),
+            )
             empty, empty_cts = (make(_LaterHistory, n, (), ()) for _ in range(2))
             made = (*own, _states(rvws, labels, when), empty, empty_cts)
-            columns.append(make(_balls.Ball, n, (*_OWN_FIELDS, "state", "history", "history_cts"), made))
+            columns.append(
+                make(_balls.Ball, n, (*_OWN_FIELDS, "state", "history", "history_cts"), made)
+            )
         turn(self.agents, _Agent, ("initial", "final"), tuple(columns))
 
     def happened(self) -> list[Any]:
         """The events with their agents; pockets take their balls."""
         seconds = iter(self.agents[len(self.types) :])
         who: list[tuple[Any, ...]] = []
-        for kind, a, b, ball in zip(self.types, self.numbers, self.others, self.agents, strict=False):
+        for kind, a, b, ball in zip(
+            self.types, self.numbers, self.others, self.agents, strict=False
+        ):
             if kind == _BALL_BALL:
                 # A pair is named in the order of the System, as pooltool names it.
                 second = next(seconds)
@@ -251,8 +297,8 @@ class _Filler:
 def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) -> None:
     """Writes the first `kept` events of a shot into the System.
 
-    `stopped`: its balls are then stopped, as max_events does. With a `dt` it gets the continuous histories that pooltool's
-    `continuize` gives, a state each dt.
+    `stopped`: its balls are then stopped, as max_events does. With a `dt` it gets the continuous
+    histories that pooltool's `continuize` gives, a state each dt.
     """
     events = shot.events[:kept]
     filler = _Filler(system, events)
@@ -261,7 +307,11 @@ def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) ->
     system.events = [_events.null_event(time=0), *happened, _events.null_event(time=end)]
     system.t = end
     final = shot.final if kept == shot.count else after_each_event(shot)[kept - 1]
-    lasts = _states(_rvw(final), final["label"].tolist(), [end] * len(final)) if kept else [b.state for b in filler.balls]
+    lasts = (
+        _states(_rvw(final), final["label"].tolist(), [end] * len(final))
+        if kept
+        else [b.state for b in filler.balls]
+    )
     histories = _Histories(lambda: (after_each_event(shot)[: kept - 1], events["time"][: kept - 1]))
     continuous = None
     if dt is not None:
@@ -272,8 +322,12 @@ def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) ->
         # The last state is the ball's own, and stands twice: after the last event and at the end.
         first, last = ball.state, lasts[index]
         _time_of.__set__(first, 0.0)
-        history = _later_history(functools.partial(histories.of, index, [first], [last, last] if kept else [last]))
-        made = list if continuous is None else functools.partial(continuous.of, index, [first], [last])
+        history = _later_history(
+            functools.partial(histories.of, index, [first], [last, last] if kept else [last])
+        )
+        made = (
+            list if continuous is None else functools.partial(continuous.of, index, [first], [last])
+        )
         for slot, value in zip(_BALL_FIELDS, (history, _later_history(made), last), strict=True):
             slot.__set__(ball, value)
     if stopped:

@@ -63,14 +63,27 @@ def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> tuple[Any, A
     if jaw_radius > 0.0 or np.dot(normal, ball.state.rvw[1][:2]) < 0.0:
         normal = -normal
     p = ball.params
-    numbers = (*ball.state.rvw[1], *ball.state.rvw[2], *normal, cushion.height, p.R, p.m, p.u_s, p.f_c, p.e_c, jaw_radius)
+    numbers = (
+        *ball.state.rvw[1],
+        *ball.state.rvw[2],
+        *normal,
+        cushion.height,
+        p.R,
+        p.m,
+        p.u_s,
+        p.f_c,
+        p.e_c,
+        jaw_radius,
+    )
     motion, _ = resolve_cushion(np.array(numbers), plain=True)
     _set_motion(ball, motion)
     return ball, cushion
 
 
 class ExactLinearCushion(_ball_cushion_core.CoreBallLCushionCollision):  # type: ignore[misc]
-    """A ball and a rail by the exact limit of Mathavan's model of 2010: `Resolver.ball_linear_cushion`."""
+    """A ball and a rail by the exact limit of Mathavan's model of 2010:
+    `Resolver.ball_linear_cushion`.
+    """
 
     model = "carom_exact"
 
@@ -80,7 +93,9 @@ class ExactLinearCushion(_ball_cushion_core.CoreBallLCushionCollision):  # type:
 
 
 class ExactCircularCushion(_ball_cushion_core.CoreBallCCushionCollision):  # type: ignore[misc]
-    """A ball and a jaw by the exact limit of Mathavan's model of 2010: `Resolver.ball_circular_cushion`."""
+    """A ball and a jaw by the exact limit of Mathavan's model of 2010:
+    `Resolver.ball_circular_cushion`.
+    """
 
     model = "carom_exact"
 

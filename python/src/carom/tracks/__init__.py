@@ -1,16 +1,20 @@
 """Recorded paths of balls: reading them, making them, and what happened on them.
 
-A recording is one shot: for each ball rows of time and place, s and m, in the order of time. The table is 0 <= x <= W, 0 <= y <= L,
-so a ball's centre stays a radius inside. The files of cameras have four traps, which this module takes into account:
+A recording is one shot: for each ball rows of time and place, s and m, in the order of time. The
+table is 0 <= x <= W, 0 <= y <= L, so a ball's centre stays a radius inside. The files of cameras
+have four traps, which this module takes into account:
 
 - the first rows of a ball, often one, are its place at rest, whenever it starts to move;
-- later rows may be thinned by displacement: a row is written once the ball is far enough from the last one written, and the last row
+- later rows may be thinned by displacement: a row is written once the ball is far enough from the
+    last one written, and the last row
   is the place of rest, at the end of the recording;
 - places may be clamped to the cushions: a coordinate that is exactly R or W - R tells little;
 - the strike happened at some time before the first row of the moving ball, and not at time 0.
 
-`read` reads files; `events` finds pieces of rolling and sliding, impacts on cushions and hits, each with its numbers and errors, as
-structured arrays of the dtypes `piece`, `impact` and `hit`; `synthetic` plays shots with known strikes and records them with the traps and the noise of real ones.
+`read` reads files; `events` finds pieces of rolling and sliding, impacts on cushions and hits, each
+with its numbers and errors, as structured arrays of the dtypes `piece`, `impact` and `hit`;
+`synthetic` plays shots with known strikes and records them with the traps and the noise of real
+ones.
 """
 
 from __future__ import annotations
@@ -38,12 +42,25 @@ from carom.tracks._events import Events, events, hit, impact, piece
 from carom.tracks._recordings import MOVED, NOISE, Recording, TrackError
 
 __all__ = [
-    "MOVED", "NOISE", "Events", "Recording", "Synthetic", "TrackError", "events", "hit", "impact", "piece", "read", "synthetic",
+    "MOVED",
+    "NOISE",
+    "Events",
+    "Recording",
+    "Synthetic",
+    "TrackError",
+    "events",
+    "hit",
+    "impact",
+    "piece",
+    "read",
+    "synthetic",
 ]
-__dir__ = listing(__name__)  # fmt: skip
+__dir__ = listing(__name__)
 
 _COLUMNS = ("shot", "ball", "t", "x", "y")
-_OUTSIDE = 0.06  # m: a centre that is farther outside its bounds was measured in other units or on another table; a crooked one is nearer
+# m: a centre that is farther outside its bounds was measured in other units or on another table; a
+# crooked one is nearer
+_OUTSIDE = 0.06
 
 
 def _name(text: str) -> int | str:
@@ -72,7 +89,9 @@ def _numbers(values: Iterable[Any], where: str) -> tuple[float, float, float]:
         except (TypeError, ValueError):
             number = math.nan
         if not math.isfinite(number):
-            raise TrackError(f"{where}: {name} is {value!r}; a finite number is needed, in {'s' if name == 't' else 'm'}")
+            raise TrackError(
+                f"{where}: {name} is {value!r}; a finite number is needed, in {'s' if name == 't' else 'm'}"
+            )
         found.append(number)
     return found[0], found[1], found[2]
 
@@ -92,13 +111,17 @@ def _csv_rows(file: io.TextIOBase, path: Path) -> _Rows:
             continue
         where = f"{path}, line {lines.line_num}"
         if len(row) != len(header):
-            raise TrackError(f"{where}: {len(row)} fields, but the first line names {len(header)} columns")
+            raise TrackError(
+                f"{where}: {len(row)} fields, but the first line names {len(header)} columns"
+            )
         shot, ball, *numbers = (row[k].strip() for k in at)
         yield (where, shot, ball, *_numbers(numbers, where))
 
 
 def _json_rows(file: io.TextIOBase, path: Path) -> _Rows:
-    """(where, shot, ball, t, x, y) of each sample of JSON Lines: {"id": ..., "tracks": {ball: [[t, x, y], ...], ...}}."""
+    """(where, shot, ball, t, x, y) of each sample of JSON Lines: {"id": ..., "tracks": {ball: [[t,
+    x, y], ...], ...}}.
+    """
     for number, line in enumerate(file, 1):
         if not line.strip():
             continue
@@ -106,9 +129,17 @@ def _json_rows(file: io.TextIOBase, path: Path) -> _Rows:
         try:
             shot = json.loads(line)
         except json.JSONDecodeError as error:
-            raise TrackError(f"{where}, column {error.colno}: no JSON ({error.msg}); each line must be one object") from None
-        if not isinstance(shot, dict) or not isinstance(shot.get("tracks"), dict) or "id" not in shot:
-            raise TrackError(f'{where}: each line must be {{"id": ..., "tracks": {{"ball": [[t, x, y], ...], ...}}}}')
+            raise TrackError(
+                f"{where}, column {error.colno}: no JSON ({error.msg}); each line must be one object"
+            ) from None
+        if (
+            not isinstance(shot, dict)
+            or not isinstance(shot.get("tracks"), dict)
+            or "id" not in shot
+        ):
+            raise TrackError(
+                f'{where}: each line must be {{"id": ..., "tracks": {{"ball": [[t, x, y], ...], ...}}}}'
+            )
         for ball, rows in shot["tracks"].items():
             if not isinstance(rows, list):
                 raise TrackError(f"{where}: tracks.{ball} must be a list of [t, x, y]")
@@ -119,20 +150,23 @@ def _json_rows(file: io.TextIOBase, path: Path) -> _Rows:
                 yield (place, str(shot["id"]), ball, *_numbers(row, place))
 
 
-def read(path: str | Path, *, table: tuple[float, float] | None = None, radius: float | None = None) -> list[Recording]:
+def read(
+    path: str | Path, *, table: tuple[float, float] | None = None, radius: float | None = None
+) -> list[Recording]:
     """Read recorded shots, in the order of the file.
 
     Parameters
     ----------
     path : path
-        A long CSV with the columns shot, ball, t, x, y (s and m), a row a sample, in any order of shots and balls; or, if the name
-        has .jsonl or .ndjson in it, JSON Lines, a shot a line: {"id": 1, "tracks": {"1": [[t, x, y], ...], ...}}. Either may be
-        compressed (.xz, .gz).
+        A long CSV with the columns shot, ball, t, x, y (s and m), a row a sample, in any order of
+        shots and balls; or, if the name has .jsonl or .ndjson in it, JSON Lines, a shot a line:
+        {"id": 1, "tracks": {"1": [[t, x, y], ...], ...}}. Either may be compressed (.xz, .gz).
     table, radius : optional
-        The extents (W, L) of x and y, and the radius of the balls, m: with both, a centre that is more than 60 mm outside its
-        bounds is an error.
+        The extents (W, L) of x and y, and the radius of the balls, m: with both, a centre that is
+        more than 60 mm outside its bounds is an error.
 
-    Raises TrackError: the message says where, and what would be right. Raises OSError: The file cannot be read.
+    Raises TrackError: the message says where, and what would be right. Raises OSError: The file
+        cannot be read.
     """
     path = Path(path)
     rows: Callable[[io.TextIOBase, Path], _Rows] = _csv_rows
@@ -158,11 +192,17 @@ def read(path: str | Path, *, table: tuple[float, float] | None = None, radius: 
                             )
                 track.append((t, x, y))
     except (UnicodeDecodeError, lzma.LZMAError, EOFError, gzip.BadGzipFile) as error:
-        raise TrackError(f"{path}: {error}; a text file is needed, compressed only if its name ends in .xz or .gz") from None
+        raise TrackError(
+            f"{path}: {error}; a text file is needed, compressed only if its name ends in .xz or .gz"
+        ) from None
     if not shots:
         raise TrackError(f"{path}: no samples; a row {','.join(_COLUMNS)} for each is needed")
     return [
-        Recording(_name(shot), tuple(map(_name, tracks)), tuple(np.array(rows) for rows in tracks.values()))
+        Recording(
+            _name(shot),
+            tuple(map(_name, tracks)),
+            tuple(np.array(rows) for rows in tracks.values()),
+        )
         for shot, tracks in shots.items()
     ]
 
@@ -177,8 +217,16 @@ class Synthetic:
     constants: dict[str, float]
 
 
-def _record(positions: Callable[[Doubles], Doubles], end: float, rate: float, thin: float, low: float, high: Doubles,
-            noise: float, random: np.random.Generator) -> tuple[Doubles, ...]:  # fmt: skip
+def _record(
+    positions: Callable[[Doubles], Doubles],
+    end: float,
+    rate: float,
+    thin: float,
+    low: float,
+    high: Doubles,
+    noise: float,
+    random: np.random.Generator,
+) -> tuple[Doubles, ...]:
     """The tracks that a camera gives of balls at positions(times), with the traps."""
     times: Doubles = np.arange(0.0, end + 1.0 / rate, 1.0 / rate, dtype=np.float64)
     seen = positions(times)
@@ -197,29 +245,51 @@ def _record(positions: Callable[[Doubles], Doubles], end: float, rate: float, th
 
 
 def synthetic(
-    shots: int, *, table: tuple[float, float] = (2.84, 1.42), radius: float = 0.03075,
-    cushion_model: ShotCushion = "smooth", constants: Mapping[str, float] | None = None,
-    speeds: tuple[float, float] = (1.5, 5.0), noise: float = NOISE, rate: float = 50.0, thin: float = 0.016,
-    seed: int = 0
-) -> Synthetic:  # fmt: skip
+    shots: int,
+    *,
+    table: tuple[float, float] = (2.84, 1.42),
+    radius: float = 0.03075,
+    cushion_model: ShotCushion = "smooth",
+    constants: Mapping[str, float] | None = None,
+    speeds: tuple[float, float] = (1.5, 5.0),
+    noise: float = NOISE,
+    rate: float = 50.0,
+    thin: float = 0.016,
+    seed: int = 0,
+) -> Synthetic:
     """Play shots of three balls with strikes drawn at random, and record them as a camera does.
 
-    `table` has the extents of x and y and `radius` is that of the balls, m; `constants` are those of `carom.fit`, the usual ones where
-    none is given; `speeds` are the least and the greatest of a strike, m/s. The camera takes `rate` pictures a second, each coordinate has
-    the standard deviation `noise`, m, and a row of a ball is kept once the ball is `thin` m from the last row kept. The same seed gives
-    the same recordings.
+    `table` has the extents of x and y and `radius` is that of the balls, m; `constants` are those
+    of `carom.fit`, the usual ones where none is given; `speeds` are the least and the greatest of a
+    strike, m/s. The camera takes `rate` pictures a second, each coordinate has the standard
+    deviation `noise`, m, and a row of a ball is kept once the ball is `thin` m from the last row
+    kept. The same seed gives the same recordings.
     """
     whole(shots, "shots")
     random = np.random.default_rng(whole(seed, "seed", most=2**64 - 1))
     values = _constants.complete({} if constants is None else constants, cushion_model)
-    radius, noise, rate, thin = number(radius, "radius"), number(noise, "noise"), number(rate, "rate"), number(thin, "thin")
+    radius, noise, rate, thin = (
+        number(radius, "radius"),
+        number(noise, "noise"),
+        number(rate, "rate"),
+        number(thin, "thin"),
+    )
     for name, value, unit in (("radius", radius, "m"), ("rate", rate, "pictures a second")):
         if not 0.0 < value < np.inf:
             raise ValueError(f"{name}: it must be positive and finite, in {unit}, not {value:g}")
-    for name, pair, least, what in (("table", table, 6.0 * radius, "six times the radius, "), ("speeds", speeds, 0.0, "")):
+    for name, pair, least, what in (
+        ("table", table, 6.0 * radius, "six times the radius, "),
+        ("speeds", speeds, 0.0, ""),
+    ):
         given = as_array(pair, name, np.float64)
-        if given.shape != (2,) or not (np.isfinite(given) & (given > least)).all() or (name == "speeds" and given[0] > given[1]):
-            raise ValueError(f"{name}: two finite numbers above {what}{least:g} are needed, not {pair!r}")
+        if (
+            given.shape != (2,)
+            or not (np.isfinite(given) & (given > least)).all()
+            or (name == "speeds" and given[0] > given[1])
+        ):
+            raise ValueError(
+                f"{name}: two finite numbers above {what}{least:g} are needed, not {pair!r}"
+            )
     for name, value in (("noise", noise), ("thin", thin)):
         if not 0.0 <= value < np.inf:
             raise ValueError(f"{name}: it must be finite and at least 0, in m, not {value:g}")
@@ -248,9 +318,17 @@ def synthetic(
         balls["state"]["v"][0, :2], balls["state"]["w"][0] = strike[:2], strike[2:5] / radius
         shot = simulate(world, balls, cushion_model=cushion_model)
         tracks = _record(
-            lambda times, shot=shot, start=start: shot.positions(np.maximum(times - start, 0.0))[..., :2],  # type: ignore[misc]
-            start + shot.time + 0.5, rate, thin, low, high, noise, random,
-        )  # fmt: skip
+            lambda times, shot=shot, start=start: shot.positions(np.maximum(times - start, 0.0))[
+                ..., :2
+            ],  # type: ignore[misc]
+            start + shot.time + 0.5,
+            rate,
+            thin,
+            low,
+            high,
+            noise,
+            random,
+        )
         recordings.append(Recording(index + 1, (1, 2, 3), tracks))
         shots_played.append(shot)
         strikes.append(strike)

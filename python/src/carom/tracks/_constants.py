@@ -1,7 +1,8 @@
-"""What recorded shots are played with: named constants, and the table and balls that follow from them.
+"""What recorded shots are played with: named constants, and the table and balls that follow from
+them.
 
-A constant is a field of `carom.dtypes.ball_kind`, but for the radius. Friction between balls is the law of law_a, law_b and law_c; mu_ball
-stands for a law that does not depend on the slip.
+A constant is a field of `carom.dtypes.ball_kind`, but for the radius. Friction between balls is the
+law of law_a, law_b and law_c; mu_ball stands for a law that does not depend on the slip.
 """
 
 from __future__ import annotations
@@ -20,9 +21,16 @@ from carom.layouts import Table, balls
 
 Constants = dict[str, float]
 
-# The constants of the game were fitted to whole shots with the smooth law. For the others these are what single events say, and
-# what a cushion has besides is 0.
-_SINGLE = {"mu_slide": 2.02 / 9.81, "mu_roll": 0.0418 / 9.81, "drag": 0.0129, "mu_spin": 0.004, "restitution": 0.951, "roll_loss": 0.087}
+# The constants of the game were fitted to whole shots with the smooth law. For the others these are
+# what single events say, and what a cushion has besides is 0.
+_SINGLE = {
+    "mu_slide": 2.02 / 9.81,
+    "mu_roll": 0.0418 / 9.81,
+    "drag": 0.0129,
+    "mu_spin": 0.004,
+    "restitution": 0.951,
+    "roll_loss": 0.087,
+}
 # Friction between balls over their slip: Alciatore's law, 4.5 times.
 _LAW = {"law_a": 0.0448, "law_b": 0.486, "law_c": 1.088}
 KINDS = tuple(name for name in dtypes.ball_kind.names or () if name != "radius")
@@ -30,7 +38,9 @@ _START = ("restitution_cushion", "mu_cushion", "nose_height")
 
 
 def _own(model: int) -> Constants:
-    """The numbers that this model of the cushion alone reads and whose 0 stands for another value, which their texts name: "...; 0: 1.8"."""
+    """The numbers that this model of the cushion alone reads and whose 0 stands for another value,
+    which their texts name: "...; 0: 1.8".
+    """
     found = {}
     for row in numbers_of(lib.CAROM_PART_BALL):
         default = re.search(r"\b0: ([\d.]+(?:e-?\d+)?)", ffi.string(row.text).decode())
@@ -40,8 +50,10 @@ def _own(model: int) -> Constants:
 
 
 def _starts() -> dict[str, Constants]:
-    """What a fit begins with, by the models of the cushion: single impacts on the table of CAROM_GAME_BILLIARD told it
-    (docs/understanding/constants.md), whose other constants stand in for what a recording does not tell."""
+    """What a fit begins with, by the models of the cushion: single impacts on the table of
+    CAROM_GAME_BILLIARD told it (docs/understanding/constants.md), whose other constants stand in
+    for what a recording does not tell.
+    """
     found, kind = {}, ffi.new("carom_ball_kind *")
     for word, model in numbered("carom_cushion_model").items():
         if lib.carom_cushion_start(model, kind):
@@ -55,7 +67,9 @@ STARTS = _starts()
 def usual(cushion_model: ShotCushion) -> Constants:
     """The constants to begin with, for a model of the cushion."""
     if not isinstance(cushion_model, str) or cushion_model not in STARTS:
-        raise ValueError(f"cushion_model: must be one of {', '.join(map(repr, STARTS))}, which a fit can begin with, not {cushion_model!r}")
+        raise ValueError(
+            f"cushion_model: must be one of {', '.join(map(repr, STARTS))}, which a fit can begin with, not {cushion_model!r}"
+        )
     kind = balls(np.zeros((1, 2)), game="billiard")["kind"][0]
     own = {name: float(kind[name]) for name in KINDS if name != "mu_ball"}
     if cushion_model == "smooth":
@@ -64,15 +78,27 @@ def usual(cushion_model: ShotCushion) -> Constants:
     return made if made["mu_cushion"] else {**made, "roll_loss": 0.0}
 
 
-def complete(given: Mapping[str, float] | Array | np.void, cushion_model: ShotCushion, where: str = "constants") -> Constants:
+def complete(
+    given: Mapping[str, float] | Array | np.void,
+    cushion_model: ShotCushion,
+    where: str = "constants",
+) -> Constants:
     """The given constants, and the usual ones for those that are not given."""
-    if isinstance(given, (np.ndarray, np.void)) and given.dtype == dtypes.ball_kind and given.shape == ():
+    if (
+        isinstance(given, (np.ndarray, np.void))
+        and given.dtype == dtypes.ball_kind
+        and given.shape == ()
+    ):
         given = {name: float(given[name]) for name in KINDS if given[name] or name != "nose_height"}
     if not isinstance(given, Mapping):
-        raise TypeError(f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {given!r}")
+        raise TypeError(
+            f"{where}: numbers by the names of constants are needed, such as {{'mu_slide': 0.2}}, not {given!r}"
+        )
     for name, value in given.items():
         if name not in KINDS:
-            raise ValueError(f"{where}: there is no constant {name!r}; known are {', '.join(KINDS)}")
+            raise ValueError(
+                f"{where}: there is no constant {name!r}; known are {', '.join(KINDS)}"
+            )
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
             raise ValueError(f"{where}: {name} must be a finite number, not {value!r}")
     values = {**usual(cushion_model), **{name: float(value) for name, value in given.items()}}
@@ -84,7 +110,9 @@ def complete(given: Mapping[str, float] | Array | np.void, cushion_model: ShotCu
 
 
 def rectangle(size: tuple[float, float], nose_height: float) -> Table:
-    """A table without pockets, 0 to size[0] along x and 0 to size[1] along y, m, with noses so high above the cloth."""
+    """A table without pockets, 0 to size[0] along x and 0 to size[1] along y, m, with noses so high
+    above the cloth.
+    """
     width, length = size
     corners = np.array([[0.0, 0.0], [width, 0.0], [width, length], [0.0, length]])
     rails: Array = np.zeros(4, dtypes.rail)
@@ -93,7 +121,9 @@ def rectangle(size: tuple[float, float], nose_height: float) -> Table:
     return Table(width, length, rails=rails)
 
 
-def layout(centres: dtypes.Doubles, radius: float, constants: Mapping[str, float]) -> dtypes.Records:
+def layout(
+    centres: dtypes.Doubles, radius: float, constants: Mapping[str, float]
+) -> dtypes.Records:
     """Balls at rest at centres of shape (..., balls, 2), of shape (..., balls)."""
     made = balls(centres, game="billiard", radius=radius)
     for name, value in constants.items():

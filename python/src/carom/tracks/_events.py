@@ -1,16 +1,21 @@
-"""What happened on recorded tracks, event by event: pieces of rolling and sliding, impacts on cushions, hits. No shot is simulated.
+"""What happened on recorded tracks, event by event: pieces of rolling and sliding, impacts on
+cushions, hits. No shot is simulated.
 
-Pieces. On a cloth with constant friction a ball's way is quadratic in time while it slides, and nearly so while it rolls. Each track is
-cut into pieces by dynamic programming: the cuts minimise the sum over pieces of chi^2 of a quadratic, and a penalty for each piece. The
-standard deviation of a coordinate is s(v) = hypot(s_0, s_t v): noise of the places, and of the times for a fast ball.
+Pieces. On a cloth with constant friction a ball's way is quadratic in time while it slides, and
+nearly so while it rolls. Each track is cut into pieces by dynamic programming: the cuts minimise
+the sum over pieces of chi^2 of a quadratic, and a penalty for each piece. The standard deviation of
+a coordinate is s(v) = hypot(s_0, s_t v): noise of the places, and of the times for a fast ball.
 
-Impacts and hits. At a cut where a ball is at a cushion and turns, or touches a ball and changes its velocity, a local model is fitted
-to the samples around it, by least squares: before, a path of constant deceleration; after, sliding from velocity w with slip u,
+Impacts and hits. At a cut where a ball is at a cushion and turns, or touches a ball and changes its
+velocity, a local model is fitted to the samples around it, by least squares: before, a path of
+constant deceleration; after, sliding from velocity w with slip u,
 
-    r(t) = r_c + w t - (mu_s g/2) u/|u| t^2      until t_s = 2|u|/(7 mu_s g), then rolling with w - (2/7) u.
+    r(t) = r_c + w t - (mu_s g/2) u/|u| t^2      until t_s = 2|u|/(7 mu_s g), then rolling with w -
+        (2/7) u.
 
-A ball leaves a cushion some milliseconds after it came, so the normal part of the way begins late: the delay is fitted with a prior of
-3 +- 6 ms, as 50 pictures a second hardly tell it. Standard errors are those of the least squares.
+A ball leaves a cushion some milliseconds after it came, so the normal part of the way begins late:
+the delay is fitted with a prior of 3 +- 6 ms, as 50 pictures a second hardly tell it. Standard
+errors are those of the least squares.
 """
 
 from __future__ import annotations
@@ -29,8 +34,9 @@ from carom.dtypes import Doubles, Records
 from carom.tracks._recordings import Recording
 
 _NOISE, _JITTER = 1.3, 0.25e-3  # s_0 over the noise of the recording, and s_t (s)
-# Penalty of a piece, in chi^2; 18 is the log of how many cuts there could be, doubled, for its 7 numbers. Half of it cuts noise, twice
-# of it leaves out the end of sliding where little slip was left.
+# Penalty of a piece, in chi^2; 18 is the log of how many cuts there could be, doubled, for its 7
+# numbers. Half of it cuts noise, twice of it leaves out the end of sliding where little slip was
+# left.
 _PENALTY = 18.0
 _LONGEST = 150  # samples of a piece
 _SLIDES, _ROLLS = 1.0, 0.5  # m/s^2: a piece slides above, rolls below
@@ -39,34 +45,90 @@ _TOUCH = 0.02  # m: at a cut a ball is this close to what it met
 _TURN = 0.03  # m/s: least change of velocity in a hit
 _BEFORE, _AFTER = 0.6, 0.9  # s: samples of an impact, at most
 
-piece = np.dtype([
-    ("shot", "i8"), ("ball", "i8"), ("begin", "f8"), ("end", "f8"), ("samples", "i8"), ("time", "f8"), ("r", "f8", 2), ("v", "f8", 2),
-    ("a", "f8", 2), ("v_error", "f8"), ("a_error", "f8"), ("rms", "f8"), ("sliding", "?"), ("rolling", "?"),
-])  # fmt: skip
-"""A piece of a track: index of the recording and of the ball; first and last time (s); place, velocity and acceleration at `time`;
-errors of a component; root of the mean squared distance of the samples (m); whether the ball slides or rolls (neither: not known)."""
+piece = np.dtype(
+    [
+        ("shot", "i8"),
+        ("ball", "i8"),
+        ("begin", "f8"),
+        ("end", "f8"),
+        ("samples", "i8"),
+        ("time", "f8"),
+        ("r", "f8", 2),
+        ("v", "f8", 2),
+        ("a", "f8", 2),
+        ("v_error", "f8"),
+        ("a_error", "f8"),
+        ("rms", "f8"),
+        ("sliding", "?"),
+        ("rolling", "?"),
+    ]
+)
+"""A piece of a track: index of the recording and of the ball; first and last time (s); place,
+velocity and acceleration at `time`; errors of a component; root of the mean squared distance of the
+samples (m); whether the ball slides or rolls (neither: not known).
+"""
 
-impact = np.dtype([
-    ("shot", "i8"), ("ball", "i8"), ("rail", "i8"), ("time", "f8"), ("r", "f8", 2), ("v_n", "f8"), ("v_t", "f8"), ("w_n", "f8"),
-    ("w_t", "f8"), ("u_n", "f8"), ("u_t", "f8"), ("delay", "f8"), ("v_error", "f8"), ("w_error", "f8"), ("u_error", "f8"),
-    ("chi2", "f8"), ("rolling", "?"), ("first", "?"),
-])  # fmt: skip
-"""An impact on rail 0 (x = 0), 1 (x = W), 2 (y = 0) or 3 (y = L). Along n, into the cushion, and t = (n_y, -n_x), m/s: velocity v before,
-w after, slip over the cloth u after; errors of a component; chi^2 over its degrees of freedom; whether the ball rolled before, and
-whether it is a ball that was not struck before its first cushion, which has hardly any side spin."""
+impact = np.dtype(
+    [
+        ("shot", "i8"),
+        ("ball", "i8"),
+        ("rail", "i8"),
+        ("time", "f8"),
+        ("r", "f8", 2),
+        ("v_n", "f8"),
+        ("v_t", "f8"),
+        ("w_n", "f8"),
+        ("w_t", "f8"),
+        ("u_n", "f8"),
+        ("u_t", "f8"),
+        ("delay", "f8"),
+        ("v_error", "f8"),
+        ("w_error", "f8"),
+        ("u_error", "f8"),
+        ("chi2", "f8"),
+        ("rolling", "?"),
+        ("first", "?"),
+    ]
+)
+"""An impact on rail 0 (x = 0), 1 (x = W), 2 (y = 0) or 3 (y = L).
 
-hit = np.dtype([
-    ("shot", "i8"), ("a", "i8"), ("b", "i8"), ("time", "f8"), ("n", "f8", 2), ("v_n", "f8"), ("v_t", "f8"), ("w_n", "f8"), ("w_t", "f8"),
-    ("z_n", "f8"), ("z_t", "f8"), ("v_error", "f8"), ("w_error", "f8"), ("z_error", "f8"), ("chi2", "f8"),
-])  # fmt: skip
-"""A hit of ball a on ball b at rest. Along n, from a to b, and t = (n_y, -n_x), m/s: velocity of a before (v) and after (w), and of b
-after (z); errors of a component; chi^2 over its degrees of freedom."""
+Along n, into the cushion, and t = (n_y, -n_x), m/s: velocity v before, w after, slip over the cloth
+u after; errors of a component; chi^2 over its degrees of freedom; whether the ball rolled before,
+and whether it is a ball that was not struck before its first cushion, which has hardly any side
+spin.
+"""
+
+hit = np.dtype(
+    [
+        ("shot", "i8"),
+        ("a", "i8"),
+        ("b", "i8"),
+        ("time", "f8"),
+        ("n", "f8", 2),
+        ("v_n", "f8"),
+        ("v_t", "f8"),
+        ("w_n", "f8"),
+        ("w_t", "f8"),
+        ("z_n", "f8"),
+        ("z_t", "f8"),
+        ("v_error", "f8"),
+        ("w_error", "f8"),
+        ("z_error", "f8"),
+        ("chi2", "f8"),
+    ]
+)
+"""A hit of ball a on ball b at rest.
+
+Along n, from a to b, and t = (n_y, -n_x), m/s: velocity of a before (v) and after (w), and of b
+after (z); errors of a component; chi^2 over its degrees of freedom.
+"""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Events(Arrays):
-    """What happened on recorded tracks, as structured arrays: `pieces`, `impacts`, `hits` with the dtypes of their names in
-    `carom.tracks`, and the friction on the cloth that was found on the way.
+    """What happened on recorded tracks, as structured arrays: `pieces`, `impacts`, `hits` with the
+    dtypes of their names in `carom.tracks`, and the friction on the cloth that was found on the
+    way.
     """
 
     pieces: Records  # (n,)
@@ -83,9 +145,11 @@ class Events(Arrays):
 def least_squares(
     residuals: Callable[[Doubles], Doubles], start: Doubles, scale: Doubles, iterations: int = 40
 ) -> tuple[Doubles, float, Doubles]:
-    """Levenberg and Marquardt's method: the numbers found, the sum of squares there, and their standard errors.
+    """Levenberg and Marquardt's method: the numbers found, the sum of squares there, and their
+    standard errors.
 
-    `residuals` takes many sets of numbers at once, (k, p) to (k, m). Differences are 1e-5 of the scale.
+    `residuals` takes many sets of numbers at once, (k, p) to (k, m). Differences are 1e-5 of the
+    scale.
     """
     x: Doubles = start.copy()
     damping = 1e-3
@@ -127,9 +191,14 @@ def _cuts(track: Doubles, weight: Doubles) -> list[tuple[int, int]]:
     n = len(track)
     best, back = np.empty(n + 1), np.zeros(n + 1, np.int32)
     lib.carom_python_cuts(
-        pointer("double[]", np.ascontiguousarray(track)), pointer("double[]", np.ascontiguousarray(weight)), n, _LONGEST, _PENALTY,
-        pointer("double[]", best), pointer("int32_t[]", back),
-    )  # fmt: skip
+        pointer("double[]", np.ascontiguousarray(track)),
+        pointer("double[]", np.ascontiguousarray(weight)),
+        n,
+        _LONGEST,
+        _PENALTY,
+        pointer("double[]", best),
+        pointer("int32_t[]", back),
+    )
     cuts: list[tuple[int, int]] = []
     j = n
     while j > 0:
@@ -139,7 +208,9 @@ def _cuts(track: Doubles, weight: Doubles) -> list[tuple[int, int]]:
 
 
 def _free(track: Doubles, moves: float, low: float, high: Doubles) -> Doubles:
-    """The rows of a track that tell of the motion: since it moves, before the last one, and not clamped to a cushion."""
+    """The rows of a track that tell of the motion: since it moves, before the last one, and not
+    clamped to a cushion.
+    """
     rows = track[track[:, 0] >= moves][:-1]
     clamped = (np.abs(rows[:, 1:] - low) < 1e-5) | (np.abs(rows[:, 1:] - high) < 1e-5)
     kept: Doubles = rows[~clamped.any(axis=1)]
@@ -171,10 +242,24 @@ def _pieces(shot: int, ball: int, rows: Doubles, noise: float) -> list[Any]:
         a, a_error = 2.0 * c[2], 2.0 * math.sqrt(covariance[2, 2])
         size = float(np.hypot(a[0], a[1]))
         sure = n >= 8 and a_error < 0.3
-        found.append((
-            shot, ball, t[0], t[-1], n, middle, c[0], c[1], a, math.sqrt(covariance[1, 1]), a_error,
-            math.sqrt(float((misfit**2).sum(axis=1).mean())), sure and size > _SLIDES, sure and size < _ROLLS,
-        ))  # fmt: skip
+        found.append(
+            (
+                shot,
+                ball,
+                t[0],
+                t[-1],
+                n,
+                middle,
+                c[0],
+                c[1],
+                a,
+                math.sqrt(covariance[1, 1]),
+                a_error,
+                math.sqrt(float((misfit**2).sum(axis=1).mean())),
+                sure and size > _SLIDES,
+                sure and size < _ROLLS,
+            )
+        )
     return found
 
 
@@ -184,13 +269,19 @@ def _state(of: Any, time: npt.ArrayLike) -> tuple[Doubles, Doubles]:
     return of["r"] + u * (of["v"] + 0.5 * u * of["a"]), of["v"] + u * of["a"]
 
 
-def _cloth(pieces: Records) -> tuple[tuple[float, float], tuple[tuple[float, float], tuple[float, float]]]:
-    """Deceleration of sliding, and a, b of a + b v^2 of rolling, each with its error; NaN where no piece tells."""
+def _cloth(
+    pieces: Records,
+) -> tuple[tuple[float, float], tuple[tuple[float, float], tuple[float, float]]]:
+    """Deceleration of sliding, and a, b of a + b v^2 of rolling, each with its error; NaN where no
+    piece tells.
+    """
     slides = pieces[pieces["sliding"] & (pieces["a_error"] < 0.15)]
     size = np.hypot(*slides["a"].T)
     slide = median(size)
     # rolling: along the way, weighted, with far-off pieces counted less
-    rolls = pieces[pieces["rolling"] & (pieces["a_error"] < 0.03) & (pieces["end"] - pieces["begin"] > 0.4)]
+    rolls = pieces[
+        pieces["rolling"] & (pieces["a_error"] < 0.03) & (pieces["end"] - pieces["begin"] > 0.4)
+    ]
     speed = np.hypot(*rolls["v"].T)
     nothing = (math.nan, math.nan)
     if len(rolls) < 8:
@@ -214,11 +305,20 @@ def median(values: Doubles) -> tuple[float, float]:
     if len(values) < 3:
         return math.nan, math.nan
     middle = float(np.median(values))
-    return middle, 1.2533 * 1.4826 * float(np.median(np.abs(values - middle))) / math.sqrt(len(values))
+    return middle, 1.2533 * 1.4826 * float(np.median(np.abs(values - middle))) / math.sqrt(
+        len(values)
+    )
 
 
-def halves(n: int, splits: int, random: np.random.Generator, find: Callable[[npt.NDArray[np.intp]], Doubles]) -> Doubles:
-    """The standard errors of what `find` gives of all n rows, by random halves: the difference of two halves is twice that error."""
+def halves(
+    n: int,
+    splits: int,
+    random: np.random.Generator,
+    find: Callable[[npt.NDArray[np.intp]], Doubles],
+) -> Doubles:
+    """The standard errors of what `find` gives of all n rows, by random halves: the difference of
+    two halves is twice that error.
+    """
     parts = [np.array_split(random.permutation(n), 2) for _ in range(splits)]
     apart = np.array([find(first) - find(second) for first, second in parts])
     return np.asarray(0.5 * np.sqrt((apart**2).mean(axis=0)))
@@ -234,7 +334,9 @@ def _unit(vectors: Doubles) -> tuple[Doubles, Doubles]:
 
 
 class _Motion:
-    """The local models of motion, vectorised over sets of numbers: (k, 2) vectors and (k, m) times give (k, m, 2) places."""
+    """The local models of motion, vectorised over sets of numbers: (k, 2) vectors and (k, m) times
+    give (k, m, 2) places.
+    """
 
     def __init__(self, slide: float, roll: tuple[float, float]) -> None:
         self.slide, self.roll = slide, roll
@@ -258,9 +360,17 @@ class _Motion:
 
 
 def _cushion(
-    rows: Doubles, window: tuple[float, float, float], before: Any, after: Any, n: Doubles, motion: _Motion, noise: float
+    rows: Doubles,
+    window: tuple[float, float, float],
+    before: Any,
+    after: Any,
+    n: Doubles,
+    motion: _Motion,
+    noise: float,
 ) -> Any:
-    """Numbers of one impact on a cushion at about window[1], from the samples between window[0] and window[2]; None with too few."""
+    """Numbers of one impact on a cushion at about window[1], from the samples between window[0] and
+    window[2]; None with too few.
+    """
     begin, time, end = window
     first = (rows[:, 0] >= begin) & (rows[:, 0] < time - 0.004)
     second = (rows[:, 0] > time + 0.009) & (rows[:, 0] <= end)
@@ -277,7 +387,15 @@ def _cushion(
     slides = bool(np.hypot(*before["a"]) > _ROLLS)
 
     def residuals(q: Doubles) -> Doubles:
-        at, r, v, a, w, u, delay = q[:, :1], q[:, 1:3], q[:, 3:5], q[:, 5:7], q[:, 7:9], q[:, 9:11], q[:, 11:]
+        at, r, v, a, w, u, delay = (
+            q[:, :1],
+            q[:, 1:3],
+            q[:, 3:5],
+            q[:, 5:7],
+            q[:, 7:9],
+            q[:, 9:11],
+            q[:, 11:],
+        )
         if not slides:
             speed, way = _unit(v)
             a = a - motion.slowing(speed) * way
@@ -293,7 +411,19 @@ def _cushion(
     scale = np.array([0.005, 0.005, 0.005, 0.1, 0.1, 0.5, 0.5, 0.1, 0.1, 0.2, 0.2, 0.005])
     best: tuple[Doubles, float, Doubles] | None = None
     for slip in (-1.15, -0.4):
-        start = np.array([0.0, 0.0, 0.0, *v, *(before["a"] @ frame.T if slides else (0.0, 0.0)), *w, 0.0, slip * v[1], _DELAY])
+        start = np.array(
+            [
+                0.0,
+                0.0,
+                0.0,
+                *v,
+                *(before["a"] @ frame.T if slides else (0.0, 0.0)),
+                *w,
+                0.0,
+                slip * v[1],
+                _DELAY,
+            ]
+        )
         found = least_squares(residuals, start, scale)
         if best is None or found[1] < best[1]:
             best = found
@@ -301,16 +431,36 @@ def _cushion(
     q, cost, error = best
     freedom = 2 * int(first.sum() + second.sum()) - 10
     return (
-        time + q[0], place + q[1:3] @ frame, q[4], q[3], q[8], q[7], q[10], q[9], q[11], float(np.hypot(*error[3:5])),
-        float(np.hypot(*error[7:9])), float(np.hypot(*error[9:11])), cost / freedom, not slides,
-    )  # fmt: skip
+        time + q[0],
+        place + q[1:3] @ frame,
+        q[4],
+        q[3],
+        q[8],
+        q[7],
+        q[10],
+        q[9],
+        q[11],
+        float(np.hypot(*error[3:5])),
+        float(np.hypot(*error[7:9])),
+        float(np.hypot(*error[9:11])),
+        cost / freedom,
+        not slides,
+    )
 
 
 def _hit(
-    rows: Doubles, others: Doubles, rest: Doubles, window: tuple[float, float, float, float], radius: float, motion: _Motion, noise: float
+    rows: Doubles,
+    others: Doubles,
+    rest: Doubles,
+    window: tuple[float, float, float, float],
+    radius: float,
+    motion: _Motion,
+    noise: float,
 ) -> Any:
-    """Numbers of one hit on a ball at rest that is first seen to move at window[1]: of the samples from window[0] to window[2] of the
-    ball that hits, and to window[3] of the other; None with too few."""
+    """Numbers of one hit on a ball at rest that is first seen to move at window[1]: of the samples
+    from window[0] to window[2] of the ball that hits, and to window[3] of the other; None with too
+    few.
+    """
     begin, time, end, other_end = window
     first = (rows[:, 0] >= begin) & (rows[:, 0] < time - 0.021)
     second = (rows[:, 0] > time + 0.003) & (rows[:, 0] < end)
@@ -338,18 +488,38 @@ def _hit(
         ]
         # the balls touch; the other lay where it was seen
         touch = (np.hypot(*(o - r).T)[:, None] - 2.0 * radius) / 3e-4
-        return np.concatenate([np.concatenate(near, axis=1).reshape(len(q), -1) / sigma, touch, (o - rest) / max(5e-4, noise), a / 1.5], axis=1)
+        return np.concatenate(
+            [
+                np.concatenate(near, axis=1).reshape(len(q), -1) / sigma,
+                touch,
+                (o - rest) / max(5e-4, noise),
+                a / 1.5,
+            ],
+            axis=1,
+        )
 
     start = np.concatenate([at[k : k + 1], ways[k], v, np.zeros(2), w, v - w, 1.1 * z, z, rest])
-    scale = np.array([0.003, 0.003, 0.003, 0.1, 0.1, 0.5, 0.5, *[0.1, 0.1, 0.2, 0.2] * 2, 0.001, 0.001])
+    scale = np.array(
+        [0.003, 0.003, 0.003, 0.1, 0.1, 0.5, 0.5, *[0.1, 0.1, 0.2, 0.2] * 2, 0.001, 0.001]
+    )
     q, cost, error = least_squares(residuals, start, scale, 60)
     n = _unit(q[15:17] - q[1:3])[1]
     t = np.array([n[1], -n[0]])
     freedom = 2 * int(first.sum() + second.sum() + third.sum()) - 14
     return (
-        time + q[0], n, q[3:5] @ n, q[3:5] @ t, q[7:9] @ n, q[7:9] @ t, q[11:13] @ n, q[11:13] @ t, float(np.hypot(*error[3:5])),
-        float(np.hypot(*error[7:9])), float(np.hypot(*error[11:13])), cost / freedom,
-    )  # fmt: skip
+        time + q[0],
+        n,
+        q[3:5] @ n,
+        q[3:5] @ t,
+        q[7:9] @ n,
+        q[7:9] @ t,
+        q[11:13] @ n,
+        q[11:13] @ t,
+        float(np.hypot(*error[3:5])),
+        float(np.hypot(*error[7:9])),
+        float(np.hypot(*error[11:13])),
+        cost / freedom,
+    )
 
 
 _NORMALS = np.array([[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]])
@@ -357,7 +527,9 @@ _NORMALS = np.array([[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]])
 
 @dataclass(frozen=True)
 class _Cut:
-    """A cut between two pieces: its time, its kind ("cushion", "ball", "other", "smooth"), the rail, and the pieces."""
+    """A cut between two pieces: its time, its kind ("cushion", "ball", "other", "smooth"), the
+    rail, and the pieces.
+    """
 
     time: float
     kind: str
@@ -366,7 +538,9 @@ class _Cut:
     after: Any
 
 
-def _cuts_of(shot: Recording, pieces: Records, ball: int, radius: float, table: tuple[float, float]) -> list[_Cut]:
+def _cuts_of(
+    shot: Recording, pieces: Records, ball: int, radius: float, table: tuple[float, float]
+) -> list[_Cut]:
     """The cuts between a ball's pieces, told apart."""
     found: list[_Cut] = []
     for before, after in zip(pieces[:-1], pieces[1:]):
@@ -375,13 +549,19 @@ def _cuts_of(shot: Recording, pieces: Records, ball: int, radius: float, table: 
         (r_0, v_0), (r_1, v_1) = _state(before, times), _state(after, times)
         k = int(np.argmin(np.hypot(*(r_0 - r_1).T)))
         r, turn = 0.5 * (r_0[k] + r_1[k]), float(np.hypot(*(v_1[k] - v_0[k])))
-        walls = np.array([r[0] - radius, table[0] - radius - r[0], r[1] - radius, table[1] - radius - r[1]])
+        walls = np.array(
+            [r[0] - radius, table[0] - radius - r[0], r[1] - radius, table[1] - radius - r[1]]
+        )
         rail = int(np.argmin(walls))
         n = _NORMALS[rail]
         gaps = [
-            math.hypot(np.interp(times[k], other[:, 0], other[:, 1]) - r[0], np.interp(times[k], other[:, 0], other[:, 2]) - r[1])
-            for number, other in enumerate(shot.tracks) if number != ball
-        ]  # fmt: skip
+            math.hypot(
+                np.interp(times[k], other[:, 0], other[:, 1]) - r[0],
+                np.interp(times[k], other[:, 0], other[:, 2]) - r[1],
+            )
+            for number, other in enumerate(shot.tracks)
+            if number != ball
+        ]
         kind = "smooth"
         if walls[rail] < _TOUCH and v_0[k] @ n > 0.02 and v_1[k] @ n < 0.0:
             kind = "cushion"
@@ -394,18 +574,36 @@ def _cuts_of(shot: Recording, pieces: Records, ball: int, radius: float, table: 
 
 
 def events(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Events:
-    """Find what happened on recorded tracks; `table` has the extents of x and y and `radius` is that of the balls, m.
+    """Find what happened on recorded tracks; `table` has the extents of x and y and `radius` is
+    that of the balls, m.
 
-    Returns the pieces of all tracks, and the impacts and hits that enough samples tell of. Nothing is left out for being improbable:
+    Returns the pieces of all tracks, and the impacts and hits that enough samples tell of. Nothing
+        is left out for being improbable:
     select by chi2 and errors.
     """
     low, high = radius, np.array(table) - radius
-    rows = [[_free(*of, low, high) for of in zip(shot.tracks, shot.moves.tolist())] for shot in recordings]
-    by_track = [[np.array(_pieces(s, b, track, recordings[s].noise), piece) for b, track in enumerate(tracks)] for s, tracks in enumerate(rows)]
-    pieces = np.concatenate([of for tracks in by_track for of in tracks]) if by_track else np.zeros(0, piece)
+    rows = [
+        [_free(*of, low, high) for of in zip(shot.tracks, shot.moves.tolist())]
+        for shot in recordings
+    ]
+    by_track = [
+        [
+            np.array(_pieces(s, b, track, recordings[s].noise), piece)
+            for b, track in enumerate(tracks)
+        ]
+        for s, tracks in enumerate(rows)
+    ]
+    pieces = (
+        np.concatenate([of for tracks in by_track for of in tracks])
+        if by_track
+        else np.zeros(0, piece)
+    )
     slide, roll = _cloth(pieces)
     # where nothing tells the friction, impacts are fitted with that of an ordinary cloth
-    usual = (2.0 if math.isnan(slide[0]) else slide[0], (0.05, 0.01) if math.isnan(roll[0][0]) else (roll[0][0], roll[1][0]))
+    usual = (
+        2.0 if math.isnan(slide[0]) else slide[0],
+        (0.05, 0.01) if math.isnan(roll[0][0]) else (roll[0][0], roll[1][0]),
+    )
     motion = _Motion(*usual)
     impacts: list[Any] = []
     hits: list[Any] = []
@@ -421,10 +619,21 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
                     continue
                 # samples up to the neighbouring events, and before the impact of one phase alone
                 smooth = [c.time for c in of if c.kind == "smooth" and c.time < cut.time - 0.02]
-                past, next_ones = hard[ball][hard[ball] < cut.time - 1e-9], hard[ball][hard[ball] > cut.time + 1e-9]
+                past, next_ones = (
+                    hard[ball][hard[ball] < cut.time - 1e-9],
+                    hard[ball][hard[ball] > cut.time + 1e-9],
+                )
                 begin = max(cut.time - _BEFORE, *(past + 0.015), *smooth[-1:], track[0, 0] - 1e-9)
                 end = min(cut.time + _AFTER, *(next_ones - 0.015), track[-1, 0] + 1e-9)
-                numbers = _cushion(track, (begin, cut.time, end), cut.before, cut.after, _NORMALS[cut.rail], motion, shot.noise)
+                numbers = _cushion(
+                    track,
+                    (begin, cut.time, end),
+                    cut.before,
+                    cut.after,
+                    _NORMALS[cut.rail],
+                    motion,
+                    shot.noise,
+                )
                 if numbers is not None:
                     first = ball != shot.cue and not any(c.kind == "cushion" for c in of[:number])
                     impacts.append((s, ball, cut.rail, *numbers, first))
@@ -439,7 +648,15 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
             smooth = [c.time for c in cuts[cue] if c.kind == "smooth" and c.time < time - 0.06]
             begin = max([time - 0.35, *(past + 0.015), *smooth[-1:]])
             ends = [min([time + 0.6, *(of - 0.012)]) for of in later]
-            numbers = _hit(track, rows[s][ball], rest[ball], (begin, time, ends[0], ends[1]), radius, motion, shot.noise)
+            numbers = _hit(
+                track,
+                rows[s][ball],
+                rest[ball],
+                (begin, time, ends[0], ends[1]),
+                radius,
+                motion,
+                shot.noise,
+            )
             if numbers is not None:
                 hits.append((s, cue, ball, *numbers))
     return Events(pieces, np.array(impacts, impact), np.array(hits, hit), slide, roll)

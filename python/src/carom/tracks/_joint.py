@@ -1,17 +1,21 @@
 """Constants from whole shots, all of them together.
 
-The cost of a set of constants is the sum over shots of n m log(1 + c/(n m)), where c is the least cost that a strike gives (`_strikes`), n
-the number of its samples and m twice the median of c/n, so that shots whose events are missed do not decide; and the constants' priors,
-((c - c_0)/s)^2 each. As the fit comes nearer to the noise, m falls and the priors count less. With J_c and J_p the derivatives of the
-distances by the constants and by one shot's strike, the strike follows a step dc of the constants by -(J_p^T W J_p)^-1 J_p^T W J_c dc,
-which is put into the normal equations of dc and leaves (variable projection)
+The cost of a set of constants is the sum over shots of n m log(1 + c/(n m)), where c is the least
+cost that a strike gives (`_strikes`), n the number of its samples and m twice the median of c/n, so
+that shots whose events are missed do not decide; and the constants' priors, ((c - c_0)/s)^2 each.
+As the fit comes nearer to the noise, m falls and the priors count less. With J_c and J_p the
+derivatives of the distances by the constants and by one shot's strike, the strike follows a step dc
+of the constants by -(J_p^T W J_p)^-1 J_p^T W J_c dc, which is put into the normal equations of dc
+and leaves (variable projection)
 
-    sum over shots of (J_c^T W J_c - J_c^T W J_p (J_p^T W J_p)^-1 J_p^T W J_c) dc = - sum of (J_c^T W d - J_c^T W J_p (...)^-1 J_p^T W d).
+    sum over shots of (J_c^T W J_c - J_c^T W J_p (J_p^T W J_p)^-1 J_p^T W J_c) dc = - sum of (J_c^T
+    W d - J_c^T W J_p (...)^-1 J_p^T W d).
 
-A step of Levenberg and Marquardt's method is taken where the cost falls after every strike has descended. The first seconds come first:
-later samples follow from earlier events, and small errors of the constants have grown there beyond what a descent brings back. As a
-shot's cost jumps where events appear and vanish, all strikes are searched anew now and then. At the end Newton's steps by derivatives in
-double precision lead into the minimum (`finish`).
+A step of Levenberg and Marquardt's method is taken where the cost falls after every strike has
+descended. The first seconds come first: later samples follow from earlier events, and small errors
+of the constants have grown there beyond what a descent brings back. As a shot's cost jumps where
+events appear and vanish, all strikes are searched anew now and then. At the end Newton's steps by
+derivatives in double precision lead into the minimum (`finish`).
 """
 
 from __future__ import annotations
@@ -30,43 +34,79 @@ from carom.layouts import balls
 from carom.status import CaromError
 from carom.tracks._strikes import HUBER, Plays, derivatives, descend, find, normal
 
-MOST = 1.4e-3  # m^2: a shot whose cost a sample is more does not count; that of samples that are 8 cm off
-# What one deviation of a prior costs, m^2: the variance of the noise, and so many times what a sample is off by beyond the noise, as
-# the misfits of a shot that follow from one error are no independent evidence; at most that of samples that are 2 cm off.
+# m^2: a shot whose cost a sample is more does not count; that of samples that are 8 cm off
+MOST = 1.4e-3
+# What one deviation of a prior costs, m^2: the variance of the noise, and so many times what a
+# sample is off by beyond the noise, as the misfits of a shot that follow from one error are no
+# independent evidence; at most that of samples that are 2 cm off.
 ALIKE, PRIOR_MOST = 300.0, 0.1
-# Of each constant: the deviation of its prior, about the value that single events gave, and its bounds.
+# Of each constant: the deviation of its prior, about the value that single events gave, and its
+# bounds.
 PRIORS = {
-    "mu_slide": (0.02, 0.01, 1.0), "mu_roll": (5e-4, 1e-4, 0.1), "drag": (4e-3, 0.0, 0.2), "mu_spin": (3e-3, 1e-4, 0.5),
-    "law_a": (0.03, 0.0, 0.4), "law_b": (0.2, 0.0, 0.6), "restitution": (0.03, 0.3, 1.0), "restitution_cushion": (0.03, 0.2, 1.0),
-    "mu_cushion": (0.06, 0.0, 1.0), "roll_loss": (0.06, 0.0, 0.5), "nose_height": (1.8e-3, 0.0, np.inf),
-    "restitution_log": (0.01, -0.2, 0.2), "mu_log": (0.01, -0.2, 0.2),
-}  # fmt: skip
+    "mu_slide": (0.02, 0.01, 1.0),
+    "mu_roll": (5e-4, 1e-4, 0.1),
+    "drag": (4e-3, 0.0, 0.2),
+    "mu_spin": (3e-3, 1e-4, 0.5),
+    "law_a": (0.03, 0.0, 0.4),
+    "law_b": (0.2, 0.0, 0.6),
+    "restitution": (0.03, 0.3, 1.0),
+    "restitution_cushion": (0.03, 0.2, 1.0),
+    "mu_cushion": (0.06, 0.0, 1.0),
+    "roll_loss": (0.06, 0.0, 0.5),
+    "nose_height": (1.8e-3, 0.0, np.inf),
+    "restitution_log": (0.01, -0.2, 0.2),
+    "mu_log": (0.01, -0.2, 0.2),
+}
 # What a table is, and not a law: with deviations so wide that five shots tell more than these.
-TABLE = {"restitution_cushion": 0.12, "mu_cushion": 0.12, "nose_height": 1.8e-3, "mu_slide": 0.04, "mu_roll": 1e-3, "drag": 8e-3}
+TABLE = {
+    "restitution_cushion": 0.12,
+    "mu_cushion": 0.12,
+    "nose_height": 1.8e-3,
+    "mu_slide": 0.04,
+    "mu_roll": 1e-3,
+    "drag": 8e-3,
+}
 # How large errors are beside each other on synthetic recordings, whose truth is known.
 _SHAPE = {
-    "mu_slide": 1.2e-3, "mu_roll": 1.5e-5, "drag": 6e-4, "mu_spin": 6e-5, "law_a": 4e-3, "law_b": 0.03, "restitution": 3e-3,
-    "restitution_cushion": 9e-4, "mu_cushion": 9e-4, "roll_loss": 3e-3, "nose_height": 8e-5,
-    "restitution_log": 2e-3, "mu_log": 2e-3,
-}  # fmt: skip
+    "mu_slide": 1.2e-3,
+    "mu_roll": 1.5e-5,
+    "drag": 6e-4,
+    "mu_spin": 6e-5,
+    "law_a": 4e-3,
+    "law_b": 0.03,
+    "restitution": 3e-3,
+    "restitution_cushion": 9e-4,
+    "mu_cushion": 9e-4,
+    "roll_loss": 3e-3,
+    "nose_height": 8e-5,
+    "restitution_log": 2e-3,
+    "mu_log": 2e-3,
+}
 _WIDE = 10.0  # a range that is wider says nothing of the deviation of a constant
-_OTHER = 0.1  # the deviation of a prior of other constants over the width of their range, and _SHAPE over the deviation
+# the deviation of a prior of other constants over the width of their range, and _SHAPE over the
+# deviation
+_OTHER = 0.1
 _ABOUT = 0.5  # and over the value that a constant begins with, where its range is wide
 _STEP = 1e-3  # of the differences, in deviations
 _FARTHEST = 0.3  # m: what one deviation of the priors moves farther counts less
-ROUNDS, _NEAR = 4, 0.1  # Newton's steps at the end, at most; and one so many standard errors long is the last
+ROUNDS, _NEAR = (
+    4,
+    0.1,
+)  # Newton's steps at the end, at most; and one so many standard errors long is the last
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
 _ELSEWHERE = 4  # the stage before which a search may begin again
 _AT_NOISE = 4.0  # variances of a coordinate: twice the cost a sample that noise alone gives
 _STEPS = 12  # at most, of each
-# What a search leaves of each constant, over _SHAPE and the misfit over that of the noise: above _CLEAR times the noise it stopped early,
-# and so much more for each time.
+# What a search leaves of each constant, over _SHAPE and the misfit over that of the noise: above
+# _CLEAR times the noise it stopped early, and so much more for each time.
 _LEFT, _CLEAR, _STOPPED = 0.1, 1.2, 1.0
 LEAST = 8  # shots, that errors follow from
 
 
 def prior(name: str, begin: float = 0.0) -> tuple[float | None, float, float]:
-    """The deviation of the prior of a constant that begins with a value, None where it has to be given, and its bounds."""
+    """The deviation of the prior of a constant that begins with a value, None where it has to be
+    given, and its bounds.
+    """
     if name in PRIORS:
         return PRIORS[name]
     row = lib.carom_number_of(lib.CAROM_PART_BALL, list(dtypes.ball_kind.names or ()).index(name))
@@ -75,9 +115,11 @@ def prior(name: str, begin: float = 0.0) -> tuple[float | None, float, float]:
 
 
 def damped(square: Doubles) -> Doubles:
-    """J_p^T W J_p, (..., 6, 6), made so much larger that it can be inverted where no sample tells a number of the strike.
+    """J_p^T W J_p, (..., 6, 6), made so much larger that it can be inverted where no sample tells a
+    number of the strike.
 
-    More would hold the strikes back, whose numbers depend on each other: constants then creep along a valley, and stop in it.
+    More would hold the strikes back, whose numbers depend on each other: constants then creep along
+    a valley, and stop in it.
     """
     diagonal, larger = np.arange(6), square.copy()
     larger[..., diagonal, diagonal] = square[..., diagonal, diagonal] * (1.0 + 1e-8) + 1e-12
@@ -90,7 +132,13 @@ class Search:
     `priors` has the mean and the deviation of each constant to find.
     """
 
-    def __init__(self, plays: Plays, strikes: Doubles, rows: Sequence[int], priors: Mapping[str, tuple[float, float]]) -> None:
+    def __init__(
+        self,
+        plays: Plays,
+        strikes: Doubles,
+        rows: Sequence[int],
+        priors: Mapping[str, tuple[float, float]],
+    ) -> None:
         self.rows = np.array([row for row in rows if np.isfinite(strikes[row]).all()], np.int32)
         self.plays, self.names = plays, list(priors)
         self.values = np.array([plays.constants[name] for name in priors])
@@ -108,10 +156,14 @@ class Search:
         self.plays.set(self.constants(values))
         strikes, sums = descend(self.plays, self.rows, strikes, self.until, iterations)
         prior = self.prior_cost * float((((values - self.first) / self.scale) ** 2).sum())
-        return float(self.counts @ (self.middle * np.log1p(sums[:, 0] / self.counts / self.middle))) + prior, strikes
+        return float(
+            self.counts @ (self.middle * np.log1p(sums[:, 0] / self.counts / self.middle))
+        ) + prior, strikes
 
     def step(self, damping: float, cost: float) -> tuple[float, float]:
-        """A step; the cost after it, which is that before where none was found, and the damping for the next."""
+        """A step; the cost after it, which is that before where none was found, and the damping for
+        the next.
+        """
         self.plays.set(self.constants(self.values), dict(zip(self.names, _STEP * self.scale)))
         most = MOST * self.counts
         sums = self.plays.misfit(self.rows, self.strikes, self.until, most)
@@ -127,14 +179,20 @@ class Search:
         P, X, C = damped(square[:, :6, :6]), square[:, :6, 6:], square[:, 6:, 6:]
         follow = np.linalg.solve(P, np.concatenate([X, gradient[:, :6, None]], axis=2))
         whole = (C - np.swapaxes(X, 1, 2) @ follow[..., :-1])[counted].sum(axis=0)
-        slope = (gradient[:, 6:] - (np.swapaxes(X, 1, 2) @ follow[..., -1:])[..., 0])[counted].sum(axis=0)
+        slope = (gradient[:, 6:] - (np.swapaxes(X, 1, 2) @ follow[..., -1:])[..., 0])[counted].sum(
+            axis=0
+        )
         whole[np.diag_indices(len(whole))] += self.prior_cost
         slope = slope + self.prior_cost * (self.values - self.first) / self.scale
         for _ in range(6):
             shorter = whole + damping * np.diag(whole.diagonal())
-            values = np.clip(self.values - self.scale * np.linalg.solve(shorter, slope), self.low, self.high)
+            values = np.clip(
+                self.values - self.scale * np.linalg.solve(shorter, slope), self.low, self.high
+            )
             moved = (values - self.values) / self.scale
-            strikes = self.strikes - np.where(counted[:, None], follow[..., :-1] @ moved + follow[..., -1], 0.0)
+            strikes = self.strikes - np.where(
+                counted[:, None], follow[..., :-1] @ moved + follow[..., -1], 0.0
+            )
             # a strike follows, or stays where that is better
             self.plays.set(self.constants(values))
             both = np.stack([strikes, self.strikes])
@@ -156,19 +214,24 @@ class Search:
         self.strikes[better] = found[better]
 
     def weigh(self) -> float:
-        """What the samples are off by says how much a shot and a prior count: the median over the shots of the cost of a sample."""
+        """What the samples are off by says how much a shot and a prior count: the median over the
+        shots of the cost of a sample.
+        """
         sums = self.plays.misfit(self.rows, self.strikes, self.until, -np.inf)
         self.counts = np.maximum(sums[:, 2], 1.0)
         middle = float(np.median(sums[:, 0] / self.counts)) if len(sums) else MOST
         self.middle = min(max(2.0 * middle, _AT_NOISE * self.noise**2), MOST)
-        self.prior_cost = min(self.noise**2 + ALIKE * max(middle - 2.5 * self.noise**2, 0.0), PRIOR_MOST)
+        self.prior_cost = min(
+            self.noise**2 + ALIKE * max(middle - 2.5 * self.noise**2, 0.0), PRIOR_MOST
+        )
         return middle
 
     def equations(self) -> tuple[Doubles, Doubles, dict[int, Doubles]]:
-        """The normal equations of all shots by derivatives in double precision, from which the strikes are eliminated, in deviations.
+        """The normal equations of all shots by derivatives in double precision, from which the
+        strikes are eliminated, in deviations.
 
-        Their matrix, (n, n), with the priors; each shot's gradient, (shots, n); and by the shot how its strike follows, (6, n + 1): by the
-        constants, and for itself.
+        Their matrix, (n, n), with the priors; each shot's gradient, (shots, n); and by the shot how
+        its strike follows, (6, n + 1): by the constants, and for itself.
         """
         plays, n = self.plays, len(self.names)
         plays.set(self.constants(self.values))
@@ -187,7 +250,9 @@ class Search:
             root = root * (1.0 + size_of_cost / self.middle)
             # a derivative says nothing beyond its reach
             moved = (C.reshape(len(size), -1) ** 2).sum(axis=1)
-            W = np.repeat(np.minimum(1.0, _FARTHEST**2 / np.maximum(moved, 1e-12)) / root, 2)[:, None]
+            W = np.repeat(np.minimum(1.0, _FARTHEST**2 / np.maximum(moved, 1e-12)) / root, 2)[
+                :, None
+            ]
             follow[at] = np.linalg.solve(damped(X.T @ (W * X)), X.T @ (W * np.column_stack([C, d])))
             A = C - X @ follow[at][:, :-1]
             whole += C.T @ (W * A)
@@ -195,7 +260,9 @@ class Search:
         return whole, np.array(gradients).reshape(-1, n), follow
 
     def moved(self, part: float, step: Doubles, follow: Mapping[int, Doubles], seed: int) -> Search:
-        """The search a part of a Newton step farther, where each strike follows, or stays where that is better, or is found anew."""
+        """The search a part of a Newton step farther, where each strike follows, or stays where
+        that is better, or is found anew.
+        """
         other = copy.copy(self)
         other.values = np.clip(self.values + part * self.scale * step, self.low, self.high)
         strikes = self.strikes.copy()
@@ -209,16 +276,20 @@ class Search:
         return other
 
     def finish(self, seed: int, rounds: int) -> list[Any]:
-        """Newton's steps by derivatives in double precision, as long as half of the shots come nearer by them.
+        """Newton's steps by derivatives in double precision, as long as half of the shots come
+        nearer by them.
 
-        The differences of `step` have the noise of single precision, and creep where a small change of a strike moves a shot far: on
-        synthetic recordings they end up to seven standard errors from the truth, and one to three of these steps end within one.
+        The differences of `step` have the noise of single precision, and creep where a small change
+        of a strike moves a shot far: on synthetic recordings they end up to seven standard errors
+        from the truth, and one to three of these steps end within one.
         """
         self.until = self.plays.ends[self.rows]
         middle = self.weigh()
         for number in range(rounds):
             whole, gradients, follow = self.equations()
-            slope = gradients.sum(axis=0) + self.prior_cost * (self.values - self.first) / self.scale
+            slope = (
+                gradients.sum(axis=0) + self.prior_cost * (self.values - self.first) / self.scale
+            )
             step = -np.linalg.solve(whole, slope)
             for part in (1.0, 0.3):
                 other = self.moved(part, step, follow, seed + number)
@@ -230,18 +301,28 @@ class Search:
             self.resume([other.values, other.strikes, other.middle, other.prior_cost])
             self.counts = other.counts
             inverse = np.linalg.inv(whole)
-            if (np.abs(step) < _NEAR * np.sqrt((inverse @ (gradients.T @ gradients) @ inverse).diagonal())).all():
+            if (
+                np.abs(step)
+                < _NEAR * np.sqrt((inverse @ (gradients.T @ gradients) @ inverse).diagonal())
+            ).all():
                 break
         return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]
 
     def stage(self, number: int, seed: int) -> list[Any]:
         """One of STAGES searches: the constants and the strikes, as `resume` takes them."""
         if number >= len(_HORIZONS) and self.middle < 1.1 * _AT_NOISE * self.noise**2:
-            return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]  # nothing is left to find
+            return [
+                self.values.tolist(),
+                self.strikes.tolist(),
+                self.middle,
+                self.prior_cost,
+            ]  # nothing is left to find
         if number == _ELSEWHERE and self.middle > 2.5 * _AT_NOISE * self.noise**2:
             # a search that stopped early begins again elsewhere
             other = copy.copy(self)
-            moved = self.values + 0.5 * self.scale * np.random.default_rng(seed).normal(size=len(self.values))
+            moved = self.values + 0.5 * self.scale * np.random.default_rng(seed).normal(
+                size=len(self.values)
+            )
             other.values, other.strikes = np.clip(moved, self.low, self.high), self.strikes.copy()
             for earlier in range(1, len(_HORIZONS)):
                 other.stage(earlier, seed + _ELSEWHERE)
@@ -249,7 +330,9 @@ class Search:
                 self.resume([other.values, other.strikes, other.middle, other.prior_cost])
         if number:
             self.anew(seed + number)
-        self.until = np.minimum(_HORIZONS[min(number, len(_HORIZONS) - 1)], self.plays.ends[self.rows])
+        self.until = np.minimum(
+            _HORIZONS[min(number, len(_HORIZONS) - 1)], self.plays.ends[self.rows]
+        )
         _, self.strikes = self.cost(self.values, self.strikes, 4)
         self.weigh()
         cost, _ = self.cost(self.values, self.strikes, 0)
@@ -268,11 +351,17 @@ class Search:
 
 
 def without_slip(search: Search) -> Search:
-    """The same search before its first stage, for a friction between balls that does not change with the slip: law_a alone.
+    """The same search before its first stage, for a friction between balls that does not change
+    with the slip: law_a alone.
 
-    From a law with slip a search may stop at several times the noise where the friction has none, since law_a and law_b follow each other.
+    From a law with slip a search may stop at several times the noise where the friction has none,
+    since law_a and law_b follow each other.
     """
-    priors = {name: (mean, scale) for name, mean, scale in zip(search.names, search.first.tolist(), search.scale.tolist()) if name != "law_b"}
+    priors = {
+        name: (mean, scale)
+        for name, mean, scale in zip(search.names, search.first.tolist(), search.scale.tolist())
+        if name != "law_b"
+    }
     kind = balls([[0.0, 0.0]], game="billiard")["kind"][0]
     priors["law_a"] = (float(kind["mu_ball"]), PRIORS["law_a"][0])
     plays = search.plays.some(range(len(search.plays.recordings)))
@@ -286,7 +375,14 @@ STAGES = 5  # the last horizon is searched again and again
 
 
 def left(search: Search) -> Doubles:
-    """What a search leaves of each constant: the more the farther the misfit is above that of the noise."""
+    """What a search leaves of each constant: the more the farther the misfit is above that of the
+    noise.
+    """
     above = min(math.sqrt(0.25 * search.middle) / search.noise, 6.0)
-    shape = np.array([_SHAPE.get(name, _OTHER * scale) for name, scale in zip(search.names, search.scale.tolist())])
+    shape = np.array(
+        [
+            _SHAPE.get(name, _OTHER * scale)
+            for name, scale in zip(search.names, search.scale.tolist())
+        ]
+    )
     return (_LEFT * above + _STOPPED * max(above - _CLEAR, 0.0)) * shape

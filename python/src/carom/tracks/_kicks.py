@@ -1,13 +1,15 @@
 """Kicks: what the models get wrong at each contact of recorded shots.
 
-A kick is a small change of the motion just after a contact, five numbers over the speed V before it, as loops.h has them. The cost of a
-shot with kicks y is that of `_strikes`, and PRICE (y/s)^2 for each: s are the deviations of _CUSHION and _BALLS. From the strikes that are
-known Levenberg and Marquardt's method descends over the strike and the kicks of the first 16 contacts, with more and more of the samples.
-No chaos is left, as the track pins the balls at every contact.
+A kick is a small change of the motion just after a contact, five numbers over the speed V before
+it, as loops.h has them. The cost of a shot with kicks y is that of `_strikes`, and PRICE (y/s)^2
+for each: s are the deviations of _CUSHION and _BALLS. From the strikes that are known Levenberg and
+Marquardt's method descends over the strike and the kicks of the first 16 contacts, with more and
+more of the samples. No chaos is left, as the track pins the balls at every contact.
 
-There the cost is c + 2 g d + d^T H d for a change d of strike and kicks, with g = J^T W d and H = J^T W J. So the noise of the samples
-moves the kicks by (H + D)^-1 J^T noise, where D is diag(PRICE/s^2), and 0 for the strike. The noise of the places of rest, which are held,
-moves them as in `_covariance`.
+There the cost is c + 2 g d + d^T H d for a change d of strike and kicks, with g = J^T W d and H =
+J^T W J. So the noise of the samples moves the kicks by (H + D)^-1 J^T noise, where D is
+diag(PRICE/s^2), and 0 for the strike. The noise of the places of rest, which are held, moves them
+as in `_covariance`.
 
 Strikes without kicks may be found through them: `eased`.
 """
@@ -30,10 +32,18 @@ from carom.tracks._strikes import KICKS, Plays
 
 CONTACTS = 16  # of a shot, at most, that have kicks
 PRICE = 1e-4  # m^2
-_CUSHION, _BALLS = np.array([0.01, 0.01, 0.03, 0.03, 0.03]), np.array([0.01, 0.01, 0.01, 0.02, 0.02])
+_CUSHION, _BALLS = (
+    np.array([0.01, 0.01, 0.03, 0.03, 0.03]),
+    np.array([0.01, 0.01, 0.01, 0.02, 0.02]),
+)
 _HORIZONS, _STEPS = (2.0, 4.0, 8.0, np.inf), 8  # samples up to a time, s, and iterations with them
-_DEARER, _ALONE = (1e1, 1e2, 1e3, 1e4), 20  # prices of kicks that are eased away, over PRICE, and iterations without them
-_NORMALS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])  # of the rails of `_constants.rectangle`, into them
+_DEARER, _ALONE = (
+    (1e1, 1e2, 1e3, 1e4),
+    20,
+)  # prices of kicks that are eased away, over PRICE, and iterations without them
+_NORMALS = np.array(
+    [[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]
+)  # of the rails of `_constants.rectangle`, into them
 _FEWEST = 8  # contacts of a row of a table
 _WORST = 0.02  # m: a shot that is so far off, with kicks, does not count
 _REST = 1e-5  # m: step of the differences by the places of rest
@@ -45,7 +55,9 @@ def contacts(plays: Plays, row: int, numbers: Doubles) -> Records:
         events, _ = plays.played(row, numbers)
     except CaromError:
         events = np.zeros(0, dtypes.event)
-    met: Records = events[(events["type"] == lib.CAROM_EVENT_BALL_BALL) | (events["type"] == lib.CAROM_EVENT_RAIL)]
+    met: Records = events[
+        (events["type"] == lib.CAROM_EVENT_BALL_BALL) | (events["type"] == lib.CAROM_EVENT_RAIL)
+    ]
     return met[:CONTACTS]
 
 
@@ -67,14 +79,18 @@ def find(plays: Plays, strikes: Doubles) -> Doubles:
     ends = plays.ends
     for horizon in _HORIZONS:
         held = _held([contacts(plays, int(k), numbers[k]) for k in rows])
-        numbers, _ = _strikes.descend(plays, rows, numbers, np.minimum(horizon, ends), _STEPS, held=held)
+        numbers, _ = _strikes.descend(
+            plays, rows, numbers, np.minimum(horizon, ends), _STEPS, held=held
+        )
     return numbers
 
 
 def eased(plays: Plays, strikes: Doubles) -> Doubles:
-    """Strikes on the plays' clocks that are found by way of kicks, which cost more and more until there are none.
+    """Strikes on the plays' clocks that are found by way of kicks, which cost more and more until
+    there are none.
 
-    A search of strikes alone stops where a ball would have to miss another, or to meet it, on the way to a better one. With kicks it goes on.
+    A search of strikes alone stops where a ball would have to miss another, or to meet it, on the
+    way to a better one. With kicks it goes on.
     """
     rows = np.arange(len(strikes), dtype=np.int32)
     numbers = find(plays, strikes)
@@ -90,7 +106,9 @@ def eased(plays: Plays, strikes: Doubles) -> Doubles:
 
 @dataclass(frozen=True)
 class Quadratic:
-    """The cost of a shot near the strike and the kicks that were found; the numbers of contacts that did not happen are left out."""
+    """The cost of a shot near the strike and the kicks that were found; the numbers of contacts
+    that did not happen are left out.
+    """
 
     row: int
     met: Records  # (contacts,), as `contacts` gives
@@ -111,7 +129,10 @@ class Quadratic:
         """Of H and a price of each number; what no sample tells stays where it is."""
         M = self.H + np.diag(price)
         scale = np.sqrt(M.diagonal()) + 1e-30
-        return np.asarray(np.linalg.inv(M / np.outer(scale, scale) + 1e-11 * np.eye(len(M))) / np.outer(scale, scale))
+        return np.asarray(
+            np.linalg.inv(M / np.outer(scale, scale) + 1e-11 * np.eye(len(M)))
+            / np.outer(scale, scale)
+        )
 
 
 def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
@@ -137,15 +158,27 @@ def quadratics(plays: Plays, numbers: Doubles) -> list[Quadratic]:
         m = 6 + KICKS * len(met)
         if len(met) == 0 or not np.isfinite(sums[k, 0]) or not square[k].any():
             continue
-        found.append(Quadratic(
-            int(k), met, float(numbers[k, 5]), numbers[k, 6:m], float(sums[k, 0]), float(sums[k, 2]), gradient[k, :m], square[k, :m, :m],
-            square[k, :m, numbers.shape[1] :] * sign[k], _held([met])[0, :m],
-        ))  # fmt: skip
+        found.append(
+            Quadratic(
+                int(k),
+                met,
+                float(numbers[k, 5]),
+                numbers[k, 6:m],
+                float(sums[k, 0]),
+                float(sums[k, 2]),
+                gradient[k, :m],
+                square[k, :m, :m],
+                square[k, :m, numbers.shape[1] :] * sign[k],
+                _held([met])[0, :m],
+            )
+        )
     return found
 
 
 def _frame(impacts: Records) -> tuple[Doubles, Doubles, Doubles, Doubles]:
-    """Of impacts on cushions: the normal into it, (n, 2), velocity (n, 2), spin (n, 3) and speed (n,) before."""
+    """Of impacts on cushions: the normal into it, (n, 2), velocity (n, 2), spin (n, 3) and speed
+    (n,) before.
+    """
     state = impacts["before"][:, 0]
     v = state["v"][:, :2]
     return _NORMALS[impacts["b"]], v, state["w"], np.hypot(v[:, 0], v[:, 1])
@@ -153,17 +186,37 @@ def _frame(impacts: Records) -> tuple[Doubles, Doubles, Doubles, Doubles]:
 
 # ---- The report
 
-contact = np.dtype([
-    ("shot", "i8"), ("contact", "i8"), ("time", "f8"), ("r", "f8", 2), ("a", "i8"), ("b", "i8"), ("rail", "i8"), ("struck", "?"), ("v", "f8"), ("v_n", "f8"),
-    ("angle", "f8"), ("side", "f8"), ("kick", "f8", KICKS), ("error", "f8", KICKS), ("share", "f8", KICKS), ("effect", "f8"),
-])  # fmt: skip
-"""A contact: index of the recording and the number of the contact, both from 0; when, on the recording's clock (s); where ball a was (m);
-indices of ball a, and of ball b or -1; whether one of them is the struck ball; the rail, 0 to 3 for y = 0, x = W, y = L, x = 0, or -1. Before it: the speed V that kicks are over,
-that of ball a at a cushion, that of closing of two balls (m/s); the speed into the cushion, or V; the angle to the normal (degrees), and
-R w_z (m/s) of ball a. The kicks, over V: at a cushion velocity along and away from it, roll along and away from it, R w_z, where `along` is
-the direction in which the ball moves along the cushion, and w_z is positive where the ball rolls that way on the cushion; of balls those of
-loops.h, with t the direction in which the surface of a slips along b. Their errors, by the noise of the recording alone; which share of a kick
-the track tells, 0 to 1; and what the RMSE of the shot owes to the kicks of this contact alone, m."""
+contact = np.dtype(
+    [
+        ("shot", "i8"),
+        ("contact", "i8"),
+        ("time", "f8"),
+        ("r", "f8", 2),
+        ("a", "i8"),
+        ("b", "i8"),
+        ("rail", "i8"),
+        ("struck", "?"),
+        ("v", "f8"),
+        ("v_n", "f8"),
+        ("angle", "f8"),
+        ("side", "f8"),
+        ("kick", "f8", KICKS),
+        ("error", "f8", KICKS),
+        ("share", "f8", KICKS),
+        ("effect", "f8"),
+    ]
+)
+"""A contact: index of the recording and the number of the contact, both from 0; when, on the
+recording's clock (s); where ball a was (m); indices of ball a, and of ball b or -1; whether one of
+them is the struck ball; the rail, 0 to 3 for y = 0, x = W, y = L, x = 0, or -1. Before it: the
+speed V that kicks are over, that of ball a at a cushion, that of closing of two balls (m/s); the
+speed into the cushion, or V; the angle to the normal (degrees), and R w_z (m/s) of ball a. The
+kicks, over V: at a cushion velocity along and away from it, roll along and away from it, R w_z,
+where `along` is the direction in which the ball moves along the cushion, and w_z is positive where
+the ball rolls that way on the cushion; of balls those of loops.h, with t the direction in which the
+surface of a slips along b. Their errors, by the noise of the recording alone; which share of a kick
+the track tells, 0 to 1; and what the RMSE of the shot owes to the kicks of this contact alone, m.
+"""
 
 OUTPUTS = {
     True: ("along", "away", "roll along", "roll away", "side spin"),
@@ -178,9 +231,12 @@ class Kicks(Arrays):
 
     contacts: Records  # (n,) of `contact`
     rmse: Doubles  # (shots,): with kicks, m; NaN of shots without a play
-    numbers: Doubles  # (shots, 86): strike, on the clock of the plays, and kicks as loops.h has them
-    # Of cushions and of balls, by rail, ball, speed and angle, the names of the columns first: how many contacts, the median effect, and
-    # what all kicks of the row have in common, in % of V, with its error
+    numbers: (
+        Doubles  # (shots, 86): strike, on the clock of the plays, and kicks as loops.h has them
+    )
+    # Of cushions and of balls, by rail, ball, speed and angle, the names of the columns first: how
+    # many contacts, the median effect, and what all kicks of the row have in common, in % of V,
+    # with its error
     tables: tuple[list[list[str]], list[list[str]]]
 
     def to_list(self) -> list[dict[str, Any]]:
@@ -192,19 +248,33 @@ class Kicks(Arrays):
         lines = []
         for table in self.tables:
             lines += [f"| {' | '.join(cells)} |" for cells in table]
-            lines[1 - len(table) : 1 - len(table)] = ["|---|" + "--:|" * (len(table[0]) - 1)] if len(table) > 1 else []
+            lines[1 - len(table) : 1 - len(table)] = (
+                ["|---|" + "--:|" * (len(table[0]) - 1)] if len(table) > 1 else []
+            )
             lines.append("")
         return "\n".join(lines)
 
     def marks(self, shot: int) -> list[tuple[Doubles, float, str, str]]:
-        """Of the contacts of a shot: where, how large (m), and in words which kick stands out, at length and for a picture."""
+        """Of the contacts of a shot: where, how large (m), and in words which kick stands out, at
+        length and for a picture.
+        """
         made = []
         for one in self.contacts[self.contacts["shot"] == shot]:
             cushion = one["rail"] >= 0
             largest = int(np.argmax(np.abs(one["kick"]) / (_CUSHION if cushion else _BALLS)))
             short = f"{OUTPUTS[bool(cushion)][largest]} {100.0 * one['kick'][largest]:+.1f} %"
-            long = ", ".join(f"{name} {100.0 * kick:+.2f} ± {100.0 * error:.2f} %" for name, kick, error in zip(OUTPUTS[bool(cushion)], one["kick"], one["error"]))
-            made.append((one["r"], float(one["effect"]), f"contact {one['contact'] + 1} at {one['time']:.2f} s, {1e3 * one['effect']:.1f} mm: {long}", short))
+            long = ", ".join(
+                f"{name} {100.0 * kick:+.2f} ± {100.0 * error:.2f} %"
+                for name, kick, error in zip(OUTPUTS[bool(cushion)], one["kick"], one["error"])
+            )
+            made.append(
+                (
+                    one["r"],
+                    float(one["effect"]),
+                    f"contact {one['contact'] + 1} at {one['time']:.2f} s, {1e3 * one['effect']:.1f} mm: {long}",
+                    short,
+                )
+            )
         return made
 
 
@@ -214,26 +284,49 @@ def report(plays: Plays, strikes: Doubles, shots: Sequence[int], count: int) -> 
     numbers, rmse = np.full((count, found.shape[1]), np.nan), np.full(count, np.nan)
     numbers[shots], rmse[shots] = found, plays.rmse(found)
     near = quadratics(plays, found)
-    told, turns = (list(part) for part in zip(*(_contacts(one, plays, shots[one.row]) for one in near))) if near else ([], [])
+    told, turns = (
+        (list(part) for part in zip(*(_contacts(one, plays, shots[one.row]) for one in near)))
+        if near
+        else ([], [])
+    )
     # shots that kicks do not explain either say nothing of their contacts
     good = [k for k, one in enumerate(near) if one.good]
-    tables = [_table([near[k] for k in good], [told[k] for k in good], [turns[k] for k in good], cushion) for cushion in (True, False)]
-    return Kicks(np.concatenate([np.zeros(0, contact), *told]), rmse, numbers, (tables[0], tables[1]))
+    tables = [
+        _table([near[k] for k in good], [told[k] for k in good], [turns[k] for k in good], cushion)
+        for cushion in (True, False)
+    ]
+    return Kicks(
+        np.concatenate([np.zeros(0, contact), *told]), rmse, numbers, (tables[0], tables[1])
+    )
 
 
 def _contacts(one: Quadratic, plays: Plays, number: int) -> tuple[Records, Doubles]:
-    """The contacts of a shot, of that number, and the signs, (n, 5), that turn their kicks into those of loops.h."""
+    """The contacts of a shot, of that number, and the signs, (n, 5), that turn their kicks into
+    those of loops.h.
+    """
     shot, n = plays.recordings[one.row], len(one.met)
     made: Array = np.zeros(n, contact)
-    made["shot"], made["contact"], made["time"] = number, np.arange(n), one.met["time"] + one.start + plays.origins[one.row]
+    made["shot"], made["contact"], made["time"] = (
+        number,
+        np.arange(n),
+        one.met["time"] + one.start + plays.origins[one.row],
+    )
     cushion = one.met["type"] == lib.CAROM_EVENT_RAIL
     a, b = one.met["before"][:, 0], one.met["before"][:, 1]
-    made["r"], made["a"], made["b"] = a["r"][:, :2], one.met["a"], np.where(cushion, -1, one.met["b"])
+    made["r"], made["a"], made["b"] = (
+        a["r"][:, :2],
+        one.met["a"],
+        np.where(cushion, -1, one.met["b"]),
+    )
     made["struck"] = (made["a"] == shot.cue) | (made["b"] == shot.cue)
     made["rail"], made["side"] = np.where(cushion, one.met["b"], -1), plays.radius * a["w"][:, 2]
     # the normal, and the direction along it
     line = b["r"][:, :2] - a["r"][:, :2]
-    normal = np.where(cushion[:, None], _NORMALS[np.where(cushion, one.met["b"], 0)], line / np.maximum(np.hypot(*line.T), 1e-9)[:, None])
+    normal = np.where(
+        cushion[:, None],
+        _NORMALS[np.where(cushion, one.met["b"], 0)],
+        line / np.maximum(np.hypot(*line.T), 1e-9)[:, None],
+    )
     v = a["v"][:, :2] - np.where(cushion[:, None], 0.0, b["v"][:, :2])
     into, along = (v * normal).sum(axis=1), v[:, 0] * normal[:, 1] - v[:, 1] * normal[:, 0]
     slip = along - np.where(cushion, 0.0, plays.radius * (a["w"][:, 2] + b["w"][:, 2]))
@@ -246,29 +339,43 @@ def _contacts(one: Quadratic, plays: Plays, number: int) -> tuple[Records, Doubl
     seen = one.H[6:, 6:] - one.H[6:, :6] @ np.linalg.pinv(one.H[:6, :6]) @ one.H[:6, 6:]
     y = one.kicks.reshape(n, KICKS)
     own = [slice(KICKS * j, KICKS * (j + 1)) for j in range(n)]
-    made["effect"] = [np.sqrt(max(float(k @ seen[at, at] @ k), 0.0) / one.count) for k, at in zip(y, own)]
-    made["error"] = shot.noise * np.sqrt(spread.diagonal().clip(0.0)).reshape(-1)[6:].reshape(n, KICKS)
+    made["effect"] = [
+        np.sqrt(max(float(k @ seen[at, at] @ k), 0.0) / one.count) for k, at in zip(y, own)
+    ]
+    made["error"] = shot.noise * np.sqrt(spread.diagonal().clip(0.0)).reshape(-1)[6:].reshape(
+        n, KICKS
+    )
     made["share"] = np.clip((inverse @ one.H).diagonal()[6:].reshape(n, KICKS), 0.0, 1.0)
     # the mirror image of a contact has the same numbers
     turned = np.where(np.where(cushion, along, slip) < 0.0, -1.0, 1.0)[:, None]
-    odd = np.where(cushion[:, None], np.array([1, 0, 1, 0, 1]), np.array([0, 1, 0, 1, 1])).astype(bool)
+    odd = np.where(cushion[:, None], np.array([1, 0, 1, 0, 1]), np.array([0, 1, 0, 1, 1])).astype(
+        bool
+    )
     made["side"] *= turned[:, 0]
     turn = np.where(odd, turned, 1.0)
     made["kick"] = turn * y
     return made, turn
 
 
-def _means(found: Sequence[Quadratic], chosen: Sequence[Array], turns: Sequence[Doubles]) -> tuple[Doubles, Doubles]:
-    """What all chosen contacts have in common: five kicks, beside those of each one by itself, and their errors by the scatter of the shots.
+def _means(
+    found: Sequence[Quadratic], chosen: Sequence[Array], turns: Sequence[Doubles]
+) -> tuple[Doubles, Doubles]:
+    """What all chosen contacts have in common: five kicks, beside those of each one by itself, and
+    their errors by the scatter of the shots.
 
     A kick that a track tells in part alone is too small, and its mean with it; this one is not.
     """
     middle = 2.0 * float(np.median([one.cost / one.count for one in found]))
     whole, slopes = np.zeros((KICKS, KICKS)), []
     for one, picked, turn in zip(found, chosen, turns):
-        J = np.concatenate([np.zeros((6, KICKS)), *(picked[j] * np.diag(turn[j]) for j in range(len(picked)))])
+        J = np.concatenate(
+            [np.zeros((6, KICKS)), *(picked[j] * np.diag(turn[j]) for j in range(len(picked)))]
+        )
         inverse = one.inverse(one.price)
-        Q, l = np.diag(one.price) - one.price[:, None] * inverse * one.price, one.price * (inverse @ one.g)
+        Q, l = (
+            np.diag(one.price) - one.price[:, None] * inverse * one.price,
+            one.price * (inverse @ one.g),
+        )
         y = np.concatenate([np.zeros(6), one.kicks])
         weight = 1.0 / (one.count * middle + one.cost)
         whole += weight * J.T @ Q @ J
@@ -283,24 +390,48 @@ _RAILS = ("y = 0", "x = W", "y = L", "x = 0")
 _SPEEDS, _ANGLES = (0.0, 0.5, 1.0, 2.0, np.inf), (0.0, 30.0, 60.0, 90.0)
 
 
-def _table(found: Sequence[Quadratic], told: Sequence[Records], turns: Sequence[Doubles], cushion: bool) -> list[list[str]]:
+def _table(
+    found: Sequence[Quadratic], told: Sequence[Records], turns: Sequence[Doubles], cushion: bool
+) -> list[list[str]]:
     """What the kicks of cushions or of balls have in common, the names of the columns first."""
     kicks: Records = np.concatenate([np.zeros(0, contact), *told])
     of_kind = (kicks["rail"] >= 0) == cushion
     groups = [("all", of_kind)]
     if cushion:
         groups += [(f"rail {name}", kicks["rail"] == k) for k, name in enumerate(_RAILS)]
-    groups += [("struck ball", kicks["struck"]), ("other balls" if cushion else "two others", ~kicks["struck"])]
-    for name, unit, field, edges in (("speed", "m/s", "v_n", _SPEEDS), ("angle", "degrees", "angle", _ANGLES)):
+    groups += [
+        ("struck ball", kicks["struck"]),
+        ("other balls" if cushion else "two others", ~kicks["struck"]),
+    ]
+    for name, unit, field, edges in (
+        ("speed", "m/s", "v_n", _SPEEDS),
+        ("angle", "degrees", "angle", _ANGLES),
+    ):
         for low, high in zip(edges[:-1], edges[1:]):
             part = (kicks[field] >= low) & (kicks[field] < high)
-            groups.append((f"{name} above {low:g} {unit}" if high == np.inf else f"{name} {low:g} to {high:g} {unit}", part))
-    made = [["cushions" if cushion else "balls", "contacts", "effect, mm", *(f"{name}, %" for name in OUTPUTS[cushion])]]
+            groups.append(
+                (
+                    f"{name} above {low:g} {unit}"
+                    if high == np.inf
+                    else f"{name} {low:g} to {high:g} {unit}",
+                    part,
+                )
+            )
+    made = [
+        [
+            "cushions" if cushion else "balls",
+            "contacts",
+            "effect, mm",
+            *(f"{name}, %" for name in OUTPUTS[cushion]),
+        ]
+    ]
     cuts = np.cumsum([0, *map(len, told)])
     for name, part in groups:
         part = part & of_kind
         if part.sum() >= _FEWEST:
             means = _means(found, [part[a:b] for a, b in zip(cuts[:-1], cuts[1:])], turns)
             cells = [f"{100.0 * value:+.2f} ± {100.0 * error:.2f}" for value, error in zip(*means)]
-            made.append([name, str(part.sum()), f"{1e3 * np.median(kicks['effect'][part]):.1f}", *cells])
+            made.append(
+                [name, str(part.sum()), f"{1e3 * np.median(kicks['effect'][part]):.1f}", *cells]
+            )
     return made

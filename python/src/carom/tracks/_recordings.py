@@ -1,8 +1,10 @@
-"""Recorded shots, and what a camera does to them: the noise of the places, false detections, balls that change names.
+"""Recorded shots, and what a camera does to them: the noise of the places, false detections, balls
+that change names.
 
-All of it is told from the rows alone: no shot is simulated. A ball goes no faster than it was seen to go just before or after a row. So a
-row is false that neither the rows before it nor those after it reach, while these reach each other; and where two balls at once go to
-places that they cannot reach, each to the other's, their names were swapped.
+All of it is told from the rows alone: no shot is simulated. A ball goes no faster than it was seen
+to go just before or after a row. So a row is false that neither the rows before it nor those after
+it reach, while these reach each other; and where two balls at once go to places that they cannot
+reach, each to the other's, their names were swapped.
 """
 
 from __future__ import annotations
@@ -19,14 +21,24 @@ import numpy.typing as npt
 from carom.dtypes import Doubles
 
 NOISE = 0.35e-3
-"""m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real tracks."""
+"""m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real
+tracks.
+"""
 MOVED = 3e-3
-"""m: a ball that is farther than this from its place of rest has moved; more where the noise is large."""
+"""m: a ball that is farther than this from its place of rest has moved; more where the noise is
+large.
+"""
 
-_BENT = 40.0  # the least square, in errors, of three numbers of a bent picture; of straight ones it is 3 in the mean
-_NOISY = 7e-4  # m: noise above which places are averaged over bins of time before turns are looked for,
+# the least square, in errors, of three numbers of a bent picture; of straight ones it is 3 in the
+# mean
+_BENT = 40.0
+_NOISY = (
+    7e-4  # m: noise above which places are averaged over bins of time before turns are looked for,
+)
 _BIN = 0.016  # s
-_NOISES = 5.5  # standard deviations from its place of rest where a ball has moved: noise goes so far in 3 of ten million rows
+# standard deviations from its place of rest where a ball has moved: noise goes so far in 3 of ten
+# million rows
+_NOISES = 5.5
 _FASTER = 1.5  # a ball goes so many times as fast as it was seen to, at most
 _THINNED = 0.03  # m: a ball goes so far without a row, at most
 _SLIDING = 2.0  # m/s^2: about how fast a ball that slides away from a cushion slows down
@@ -53,31 +65,57 @@ class Recording:
 
     @functools.cached_property
     def rest(self) -> Doubles:
-        """Where the balls lay before the strike, m, shape (balls, 2): the mean of a ball's rows before it moved."""
-        return np.array([track[:still, 1:].mean(axis=0) for track, still in zip(self.tracks, self.still)])
+        """Where the balls lay before the strike, m, shape (balls, 2): the mean of a ball's rows
+        before it moved.
+        """
+        return np.array(
+            [track[:still, 1:].mean(axis=0) for track, still in zip(self.tracks, self.still)]
+        )
 
     @functools.cached_property
     def moves(self) -> Doubles:
-        """The time of each ball's first row away from its place of rest, s, shape (balls,); inf if it never moves."""
-        return np.array([(*track[still:, 0], math.inf)[0] for track, still in zip(self.tracks, self.still)])
+        """The time of each ball's first row away from its place of rest, s, shape (balls,); inf if
+        it never moves.
+        """
+        return np.array(
+            [(*track[still:, 0], math.inf)[0] for track, still in zip(self.tracks, self.still)]
+        )
 
     @functools.cached_property
     def cue(self) -> int:
-        """The index of the ball that was struck: the one that moves first; of those that move within 60 ms, the one whose way looks the
-        least as if another had hit it: a ball that is hit goes away from the other."""
+        """The index of the ball that was struck: the one that moves first; of those that move
+        within 60 ms, the one whose way looks the least as if another had hit it: a ball that is hit
+        goes away from the other.
+        """
         moves = self.moves
         if not np.isfinite(moves).any():
-            raise TrackError(f"shot {self.id}: no ball moves by more than {self.away * 1e3:.3g} mm, so there is no strike")
+            raise TrackError(
+                f"shot {self.id}: no ball moves by more than {self.away * 1e3:.3g} mm, so there is no strike"
+            )
         first = np.flatnonzero(moves <= moves.min() + 0.06)
         ways = [self.tracks[k][self.still[k], 1:] - self.rest[k] for k in first]
         # cosines of the ways with the directions from the other balls that move
-        hit = [max([way @ (self.rest[k] - self.rest[j]) / np.hypot(*way) / max(np.hypot(*(self.rest[k] - self.rest[j])), 1e-9) for j in first if j != k],
-                   default=0.0) for k, way in zip(first, ways)]  # fmt: skip
+        hit = [
+            max(
+                [
+                    way
+                    @ (self.rest[k] - self.rest[j])
+                    / np.hypot(*way)
+                    / max(np.hypot(*(self.rest[k] - self.rest[j])), 1e-9)
+                    for j in first
+                    if j != k
+                ],
+                default=0.0,
+            )
+            for k, way in zip(first, ways)
+        ]
         return int(first[int(np.argmin(hit))])
 
     @functools.cached_property
     def moving(self) -> list[npt.NDArray[np.intp]]:
-        """Of each ball the rows that tell a motion: each is farther than `away` from the one before, the first from the place of rest."""
+        """Of each ball the rows that tell a motion: each is farther than `away` from the one
+        before, the first from the place of rest.
+        """
         found = []
         for track, at in zip(self.tracks, self.rest):
             rows = []
@@ -99,7 +137,9 @@ class Recording:
         return max(MOVED, _NOISES * self.noise)
 
     def _still(self, track: Doubles) -> int:
-        """How many rows at the beginning of a track are at its place of rest: about the first row, and then the mean of the first few."""
+        """How many rows at the beginning of a track are at its place of rest: about the first row,
+        and then the mean of the first few.
+        """
         rest, most = track[0, 1:], max(MOVED, 1.5 * _NOISES * self.noise)
         for _ in range(3):
             away = np.hypot(*(track[:, 1:] - rest).T) > most
@@ -112,14 +152,20 @@ class Recording:
 
 
 def noise_of(recordings: Sequence[Recording]) -> float:
-    """The standard deviation of a coordinate, m: by the rows at rest, or by those of slow balls where too few are; NOISE without any.
+    """The standard deviation of a coordinate, m: by the rows at rest, or by those of slow balls
+    where too few are; NOISE without any.
 
-    Of slow balls it is the scatter of each row about the quadratic through it and two rows on each side.
+    Of slow balls it is the scatter of each row about the quadratic through it and two rows on each
+    side.
     """
     slow: list[Doubles] = []
     for shot in recordings:
         for track in shot.tracks:
-            windows = np.lib.stride_tricks.sliding_window_view(track, 5, axis=0) if len(track) >= 5 else np.empty((0, 3, 5))
+            windows = (
+                np.lib.stride_tricks.sliding_window_view(track, 5, axis=0)
+                if len(track) >= 5
+                else np.empty((0, 3, 5))
+            )
             t = windows[:, 0] - windows[:, 0, 2:3]
             ways = np.hypot(*np.diff(windows[:, 1:], axis=2).transpose(1, 0, 2)).sum(axis=1)
             good = (t[:, -1] - t[:, 0] < 0.4) & (ways < 1.0 * (t[:, -1] - t[:, 0]) + 0.02)
@@ -128,7 +174,9 @@ def noise_of(recordings: Sequence[Recording]) -> float:
             A = np.stack([np.ones_like(t), t, t * t], axis=-1)
             hat = A @ np.linalg.pinv(A)
             left = places - np.einsum("nij,nkj->nki", hat, places)
-            slow.append((left[..., 2] / np.sqrt(np.maximum(1.0 - hat[:, None, 2, 2], 1e-9))).ravel())
+            slow.append(
+                (left[..., 2] / np.sqrt(np.maximum(1.0 - hat[:, None, 2, 2], 1e-9))).ravel()
+            )
     misfits = np.abs(np.concatenate([np.zeros(0), *slow]))
     noise = 1.4826 * float(np.median(misfits)) if len(misfits) >= 20 else NOISE
     # rows at rest are those within what moves; frozen places tell nothing
@@ -138,7 +186,9 @@ def noise_of(recordings: Sequence[Recording]) -> float:
         for track, still in zip(known.tracks, known.still):
             if still >= 8:
                 rows = track[:still, 1:]
-                rest.append(((rows - np.median(rows, axis=0)) * math.sqrt(still / (still - 1.0))).ravel())
+                rest.append(
+                    ((rows - np.median(rows, axis=0)) * math.sqrt(still / (still - 1.0))).ravel()
+                )
     lain = np.abs(np.concatenate([np.zeros(0), *rest]))
     if len(lain) >= 60 and np.median(lain) > 0.0:
         noise = 1.4826 * float(np.median(lain))
@@ -149,9 +199,14 @@ def noise_of(recordings: Sequence[Recording]) -> float:
 
 
 def _reached(
-    track: Doubles, first: npt.NDArray[np.intp], last: npt.NDArray[np.intp], noise: float, ends: tuple[Any, Any] | None = None
+    track: Doubles,
+    first: npt.NDArray[np.intp],
+    last: npt.NDArray[np.intp],
+    noise: float,
+    ends: tuple[Any, Any] | None = None,
 ) -> npt.NDArray[np.bool_]:
-    """Whether a ball goes from row `first` to row `last`, by its speed just before and just after two rows, `ends`, which are these.
+    """Whether a ball goes from row `first` to row `last`, by its speed just before and just after
+    two rows, `ends`, which are these.
 
     A ball without rows for long lies still.
     """
@@ -161,8 +216,15 @@ def _reached(
     left, right = ends or (first, last)
     before = np.where(left > 0, speed[left - 1], 0.0)
     after = np.where(right < len(speed), speed[np.minimum(right, len(speed) - 1)], 0.0)
-    most = _FASTER * np.maximum(before, after) * np.minimum(t[last] - t[first], 0.12) + 8.0 * noise + 2e-3
-    return np.asarray(np.hypot(*(r[last] - r[first]).T) <= most + np.where(t[last] - t[first] < 0.2, 0.0, _THINNED))
+    most = (
+        _FASTER * np.maximum(before, after) * np.minimum(t[last] - t[first], 0.12)
+        + 8.0 * noise
+        + 2e-3
+    )
+    return np.asarray(
+        np.hypot(*(r[last] - r[first]).T)
+        <= most + np.where(t[last] - t[first] < 0.2, 0.0, _THINNED)
+    )
 
 
 def without_false(track: Doubles, noise: float) -> Doubles:
@@ -174,13 +236,20 @@ def without_false(track: Doubles, noise: float) -> Doubles:
         k = np.arange(1, n - block)
         # neither reached from before nor from behind, while these reach each other
         before, after = k - 1, k + block
-        reached = [_reached(track, *rows, noise, (before, after)) for rows in ((before, k), (after - 1, after), (before, after))]
+        reached = [
+            _reached(track, *rows, noise, (before, after))
+            for rows in ((before, k), (after - 1, after), (before, after))
+        ]
         false = k[~reached[0] & ~reached[1] & reached[2]]
         track = np.delete(track, np.unique(false[:, None] + np.arange(block)), axis=0)
     # the first row, where those after it are at rest, and the last
     if len(track) >= 5:
-        lie = np.hypot(*(track[1:5, 1:] - track[1:5, 1:].mean(axis=0)).T).max() < max(MOVED, _NOISES * noise)
-        if lie and np.hypot(*(track[0, 1:] - track[1:5, 1:].mean(axis=0))) > max(2.0 * MOVED, 1.5 * _NOISES * noise):
+        lie = np.hypot(*(track[1:5, 1:] - track[1:5, 1:].mean(axis=0)).T).max() < max(
+            MOVED, _NOISES * noise
+        )
+        if lie and np.hypot(*(track[0, 1:] - track[1:5, 1:].mean(axis=0))) > max(
+            2.0 * MOVED, 1.5 * _NOISES * noise
+        ):
             track = track[1:]
         last = np.array([len(track) - 1])
         if track[-1, 0] - track[-2, 0] < 0.2 and not _reached(track, last - 1, last, noise)[0]:
@@ -188,7 +257,9 @@ def without_false(track: Doubles, noise: float) -> Doubles:
     return track
 
 
-def without_swaps(tracks: Sequence[Doubles], noise: float) -> tuple[list[Doubles], list[tuple[int, int, float]]]:
+def without_swaps(
+    tracks: Sequence[Doubles], noise: float
+) -> tuple[list[Doubles], list[tuple[int, int, float]]]:
     """Tracks with their names put right, and which two were swapped from which time on."""
     mended, swaps = list(tracks), list[tuple[int, int, float]]()
     near = 0.04 + 6.0 * noise
@@ -210,10 +281,14 @@ def without_swaps(tracks: Sequence[Doubles], noise: float) -> tuple[list[Doubles
                     at = int(np.searchsorted(other[:, 0], time - 1e-6))
                     if b == a or at == 0 or (found is not None and time >= found[2]):
                         continue
-                    # the one goes to where the other was, which goes to its place or is not seen where rows at rest are left out
+                    # the one goes to where the other was, which goes to its place or is not seen
+                    # where rows at rest are left out
                     there = np.hypot(*(track[row, 1:] - place(other, at - 1, time))) < near
                     back = at == len(other) or other[at, 0] > time + 0.2
-                    back = back or np.hypot(*(other[at, 1:] - place(track, row - 1, other[at, 0]))) < near
+                    back = (
+                        back
+                        or np.hypot(*(other[at, 1:] - place(track, row - 1, other[at, 0]))) < near
+                    )
                     if there and back:
                         found = (a, b, time)
         if found is None:
@@ -229,14 +304,19 @@ def without_swaps(tracks: Sequence[Doubles], noise: float) -> tuple[list[Doubles
 
 
 def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording], list[list[str]]]:
-    """Recordings with the noise that they have, without false rows and swapped names; and what was mended in each."""
+    """Recordings with the noise that they have, without false rows and swapped names; and what was
+    mended in each.
+    """
     mended: list[Recording] = []
     notes: list[list[str]] = []
     for shot in recordings:
         tracks, swaps = without_swaps(shot.tracks, noise)
         tracks = [without_false(track, noise) for track in tracks]
         lost = 1.0 - sum(map(len, tracks)) / sum(map(len, shot.tracks))
-        told = [f"balls {shot.balls[a]} and {shot.balls[b]} swapped from {time:.2f} s on" for a, b, time in swaps]
+        told = [
+            f"balls {shot.balls[a]} and {shot.balls[b]} swapped from {time:.2f} s on"
+            for a, b, time in swaps
+        ]
         if lost > 0.0:
             told.append(f"{100.0 * lost:.2g} % false detections, left out")
         mended.append(replace(shot, tracks=tuple(tracks), noise=noise))
@@ -249,7 +329,9 @@ def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording
 
 @dataclass(frozen=True)
 class Lie:
-    """How tracks lie on the table: places are turned about (0, 0), scaled and moved, and bent by a lens or by a camera that looks askew."""
+    """How tracks lie on the table: places are turned about (0, 0), scaled and moved, and bent by a
+    lens or by a camera that looks askew.
+    """
 
     angle: float = 0.0  # degrees, from x to y
     scale: float = 1.0
@@ -257,14 +339,21 @@ class Lie:
     far: float = 0.0  # m: how far a place is off by it, at most
     error: float = math.inf  # m: of that
     impacts: int = 0  # which tell it
-    bend: tuple[float, ...] = (0.0, 0.0, 0.0)  # k, 1/m^2, and g, 1/m: a place is off by q (k |q|^2 + g q), q being r - middle
+    bend: tuple[float, ...] = (
+        0.0,
+        0.0,
+        0.0,
+    )  # k, 1/m^2, and g, 1/m: a place is off by q (k |q|^2 + g q), q being r - middle
     middle: tuple[float, float] = (0.0, 0.0)  # m, of the table
     bent: float = 0.0  # m: how far a corner is off by that, at most
 
     def places(self, r: Doubles) -> Doubles:
         """Places put right."""
         turn = math.radians(self.angle)
-        back = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]]) / self.scale
+        back = (
+            np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
+            / self.scale
+        )
         return np.asarray((r - self.shift) @ back - self.field(r))
 
     def field(self, r: Doubles) -> Doubles:
@@ -283,25 +372,39 @@ class Lie:
 def _averaged(track: Doubles) -> Doubles:
     """Rows of one bin of time each, in which noise turns nothing round."""
     _, first = np.unique(np.floor(track[:, 0] / _BIN), return_index=True)
-    return np.asarray(np.add.reduceat(track, first, axis=0) / np.diff(np.append(first, len(track)))[:, None])
+    return np.asarray(
+        np.add.reduceat(track, first, axis=0) / np.diff(np.append(first, len(track)))[:, None]
+    )
 
 
 def _turns(track: Doubles, axis: int, noise: float) -> Doubles:
-    """Where the coordinate of an axis turns round, at cushions among others: rows of its value, the other one, and its speed before."""
+    """Where the coordinate of an axis turns round, at cushions among others: rows of its value, the
+    other one, and its speed before.
+    """
     gap = 1e-4
     if noise > _NOISY:
-        track, gap = _averaged(track), 1.1 * _BIN  # a bin beside that of the turn may have a part of it
+        track, gap = (
+            _averaged(track),
+            1.1 * _BIN,
+        )  # a bin beside that of the turn may have a part of it
     x = track[:, 1 + axis]
     found = []
     for k in (np.flatnonzero(np.diff(x[:-1]) * np.diff(x[1:]) < 0.0) + 1).tolist():
-        # lines through the rows before and after, fewer after, where the ball slides; without the row of the turn itself
+        # lines through the rows before and after, fewer after, where the ball slides; without the
+        # row of the turn itself
         t = track[:, 0] - track[k, 0]
-        before, after = np.flatnonzero((t < -gap) & (t > -0.1))[-4:], np.flatnonzero((t > gap) & (t < 0.1))[:4]
+        before, after = (
+            np.flatnonzero((t < -gap) & (t > -0.1))[-4:],
+            np.flatnonzero((t > gap) & (t < 0.1))[:4],
+        )
         after = after[: max(int((t[after] < 0.045).sum()), 2)]
         if len(before) < 2 or len(after) < 2:
             continue
         slid = np.sign(x[after[-1]] - x[k]) * 0.5 * _SLIDING * t[after] ** 2
-        (v, x_0), (w, x_1) = np.polyfit(t[before], x[before], 1), np.polyfit(t[after], x[after] + slid, 1)
+        (v, x_0), (w, x_1) = (
+            np.polyfit(t[before], x[before], 1),
+            np.polyfit(t[after], x[after] + slid, 1),
+        )
         if v * w < 0.0 and min(abs(v), abs(w)) > 0.15:
             time = (x_0 - x_1) / (w - v)
             along = np.interp(time, t, track[:, 2 - axis])
@@ -310,12 +413,16 @@ def _turns(track: Doubles, axis: int, noise: float) -> Doubles:
 
 
 def _least(off: Doubles, A: Doubles) -> tuple[Doubles, Doubles, float]:
-    """The numbers for which A @ numbers is next to `off`, with less weight where it is far; their covariance; the usual distance, m."""
+    """The numbers for which A @ numbers is next to `off`, with less weight where it is far; their
+    covariance; the usual distance, m.
+    """
     weight: Doubles = np.ones(len(A))
     numbers: Doubles = np.zeros(A.shape[1])
     spread = 0.0
     for _ in range(30):
-        numbers = np.asarray(np.linalg.lstsq(A * weight[:, None], off * weight, rcond=None)[0], np.float64)
+        numbers = np.asarray(
+            np.linalg.lstsq(A * weight[:, None], off * weight, rcond=None)[0], np.float64
+        )
         left = off - A @ numbers
         spread = max(1.4826 * float(np.median(np.abs(left))), 1e-4)
         weight = np.asarray(1.0 / np.sqrt(1.0 + (left / (2.0 * spread)) ** 2))
@@ -324,11 +431,13 @@ def _least(off: Doubles, A: Doubles) -> tuple[Doubles, Doubles, float]:
 
 
 def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Lie:
-    """How the tracks lie on the table, by the places of impacts on cushions: the linear least squares of eight numbers.
+    """How the tracks lie on the table, by the places of impacts on cushions: the linear least
+    squares of eight numbers.
 
-    A turn at the cushion x = c lies at c = (1 - s) x + turn y + a + depth v - q_x (k |q|^2 + g q): s of the scale, a of the shift, q from
-    the middle of the table, and the nose gives way by `depth` times the speed v. Places far from what the others tell count less. k and g
-    count where the impacts tell them from 0 by more than their errors can.
+    A turn at the cushion x = c lies at c = (1 - s) x + turn y + a + depth v - q_x (k |q|^2 + g q):
+    s of the scale, a of the shift, q from the middle of the table, and the nose gives way by
+    `depth` times the speed v. Places far from what the others tell count less. k and g count where
+    the impacts tell them from 0 by more than their errors can.
     """
     middle = (0.5 * table[0], 0.5 * table[1])
     rows: list[Doubles] = []
@@ -343,7 +452,11 @@ def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: 
                 turn = along if axis == 0 else -along
                 q = np.stack([x, along] if axis == 0 else [along, x], axis=-1) - middle
                 bent = q[:, axis, None] * np.column_stack([(q * q).sum(axis=1), q])
-                rows.append(np.column_stack([x - c, x, -turn, *((one, none) if axis == 0 else (none, one)), v, bent]))
+                rows.append(
+                    np.column_stack(
+                        [x - c, x, -turn, *((one, none) if axis == 0 else (none, one)), v, bent]
+                    )
+                )
     A = np.concatenate([np.empty((0, 9)), *rows])
     if len(A) < 30:
         return Lie()
@@ -352,13 +465,22 @@ def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: 
     if bend @ np.linalg.pinv(covariance[5:, 5:]) @ bend < _BENT:
         numbers, covariance, spread = _least(A[:, 0], A[:, 1:6])
         bend = np.zeros(3)
-    # turned and scaled places p of places r are (1 + s) T r + shift; the rows tell r = p - (s p + turn + shift)
+    # turned and scaled places p of places r are (1 + s) T r + shift; the rows tell r = p - (s p +
+    # turn + shift)
     s, turn, a, b = numbers[:4].tolist()
     scale = 1.0 / math.hypot(1.0 - s, turn)
     angle = math.atan2(turn, 1.0 - s)
-    back = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]]) / scale
+    back = (
+        np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]]) / scale
+    )
     shift = np.linalg.solve(back.T, np.array([a, b]))
-    lie = Lie(math.degrees(angle), scale, (float(shift[0]), float(shift[1])), bend=tuple(bend.tolist()), middle=middle)
+    lie = Lie(
+        math.degrees(angle),
+        scale,
+        (float(shift[0]), float(shift[1])),
+        bend=tuple(bend.tolist()),
+        middle=middle,
+    )
     corners = np.array([[0.0, 0.0], [table[0], 0.0], [table[0], table[1]], [0.0, table[1]]])
     far = float(np.hypot(*(lie.places(corners) - corners).T).max())
     error = math.sqrt(float(covariance[0, 0] + covariance[1, 1])) * math.hypot(*table)

@@ -1,14 +1,18 @@
 """Finding the strikes of recorded shots, the constants being known: least squares from many starts.
 
-Unknown of a shot are six numbers p: v_x, v_y and R w_x, R w_y, R w_z of the struck ball just after the strike (m/s), and the time of
-the strike (s), on a clock that begins with the last sample of the struck ball at rest. The cost is the sum over all samples of all balls of the pseudo-Huber loss 2 c^2 (sqrt(1 + d^2/c^2) - 1) of the
-distance d between recorded and played place, c = 1 cm: a quadratic for small distances, linear for large ones, which are those after
-an event that the play misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W d.
+Unknown of a shot are six numbers p: v_x, v_y and R w_x, R w_y, R w_z of the struck ball just after
+the strike (m/s), and the time of the strike (s), on a clock that begins with the last sample of the
+struck ball at rest. The cost is the sum over all samples of all balls of the pseudo-Huber loss 2
+c^2 (sqrt(1 + d^2/c^2) - 1) of the distance d between recorded and played place, c = 1 cm: a
+quadratic for small distances, linear for large ones, which are those after an event that the play
+misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W d.
 
-The cost has many minima, as a small change makes a ball miss another. So each shot starts from many spins (and directions and speeds,
-where the first samples do not tell them), at first with the samples of the first second alone. The best go on with more and more of
-them. What the samples so far leave open, later samples decide: so before each stage every strike that goes on has offspring, drawn
-from the normal distribution that the normal equations give, and wider. The plays of all starts of all shots are one batch, in C.
+The cost has many minima, as a small change makes a ball miss another. So each shot starts from many
+spins (and directions and speeds, where the first samples do not tell them), at first with the
+samples of the first second alone. The best go on with more and more of them. What the samples so
+far leave open, later samples decide: so before each stage every strike that goes on has offspring,
+drawn from the normal distribution that the normal equations give, and wider. The plays of all
+starts of all shots are one batch, in C.
 """
 
 from __future__ import annotations
@@ -36,7 +40,8 @@ from carom.tracks._recordings import Recording
 Integers = npt.NDArray[np.int32]
 
 HUBER = 0.01  # c, m
-STEP = 1e-5  # of the forward differences, m/s and s: small against what moves an event, large against rounding
+# of the forward differences, m/s and s: small against what moves an event, large against rounding
+STEP = 1e-5
 EARLIEST, LATEST = -0.03, 0.13  # of a strike on the clock of a play, s
 _STILL = 0.12  # s: a ball was struck no longer before the first row that shows its motion
 _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
@@ -45,8 +50,12 @@ KICKS = 5  # numbers of a contact's kicks, which follow a strike
 EVENTS_MOST = 400  # of a play
 # The first stage: samples up to a time (s), how many starts descend, and iterations.
 _FIRST, _FIRST_ITERATIONS = 0.9, 4
-_FIRST_KEPT = {False: 8, True: 14}  # True: for the strikes of the result, where it counts that none of the worst stays bad
-# The others: samples up to a time (s), offspring of each strike, how many of all descend, iterations, how many go on.
+_FIRST_KEPT = {
+    False: 8,
+    True: 14,
+}  # True: for the strikes of the result, where it counts that none of the worst stays bad
+# The others: samples up to a time (s), offspring of each strike, how many of all descend,
+# iterations, how many go on.
 _STAGES = {
     False: tuple((until, 30, 3, 4, 3) for until in (2.0, 4.0, 8.0, np.inf)),
     True: ((2.0, 40, 8, 4, 8), (4.0, 40, 7, 4, 6), (8.0, 40, 6, 4, 4), (np.inf, 60, 5, 4, 3)),
@@ -57,22 +66,31 @@ _LAST, _SQUARES = 10, 10  # iterations at the end, by the cost and by plain squa
 
 
 class Plays:
-    """Recorded shots of the same number of balls, ready to be played with given constants: all of them, for all shots.
+    """Recorded shots of the same number of balls, ready to be played with given constants: all of
+    them, for all shots.
 
-    `table` has the extents of x and y, m; `radius` is that of the balls, m; `threads` is as in `carom.simulate_batch`.
+    `table` has the extents of x and y, m; `radius` is that of the balls, m; `threads` is as in
+    `carom.simulate_batch`.
     """
 
     def __init__(
-        self, recordings: Sequence[Recording], table: tuple[float, float], radius: float,
-        constants: Mapping[str, float], cushion_model: ShotCushion, threads: int = 0
-    ) -> None:  # fmt: skip
+        self,
+        recordings: Sequence[Recording],
+        table: tuple[float, float],
+        radius: float,
+        constants: Mapping[str, float],
+        cushion_model: ShotCushion,
+        threads: int = 0,
+    ) -> None:
         self.recordings = recordings
         self.radius = radius
         self.threads, self.workers = threads, workers(threads) if threads else 1
-        # the clock of a play begins with the last row at rest of the struck ball, wherever that is in the recording
+        # the clock of a play begins with the last row at rest of the struck ball, wherever that is
+        # in the recording
         self.origins = np.array([origin(shot) for shot in recordings])
         self.tracks = [
-            [track[track[:, 0] >= begin] - (begin, 0.0, 0.0) for track in shot.tracks] for shot, begin in zip(recordings, self.origins)
+            [track[track[:, 0] >= begin] - (begin, 0.0, 0.0) for track in shot.tracks]
+            for shot, begin in zip(recordings, self.origins)
         ]
         tracks = [track for shot in self.tracks for track in shot]
         self.centres = np.array([apart(shot.rest, table, radius) for shot in recordings])
@@ -86,18 +104,27 @@ class Plays:
         self.set(constants)
 
     def set(self, constants: Mapping[str, float], steps: Mapping[str, float] | None = None) -> None:
-        """Takes other constants, and steps of the differences by those that `misfit` is to have derivatives of."""
+        """Takes other constants, and steps of the differences by those that `misfit` is to have
+        derivatives of.
+        """
         steps = steps or {}
         self.constants = dict(constants)
         self.steps = np.array(list(steps.values()), np.float64)
         self.table = _constants.rectangle(self.table_size, constants["nose_height"])
-        changed = [self.constants, *({**self.constants, name: constants[name] + step} for name, step in steps.items())]
-        self.layouts = np.array([_constants.layout(self.centres, self.radius, given) for given in changed])
+        changed = [
+            self.constants,
+            *({**self.constants, name: constants[name] + step} for name, step in steps.items()),
+        ]
+        self.layouts = np.array(
+            [_constants.layout(self.centres, self.radius, given) for given in changed]
+        )
 
     def some(self, rows: npt.ArrayLike) -> Plays:
         """Some of the shots."""
         shots = [self.recordings[row] for row in np.asarray(rows)]
-        return Plays(shots, self.table_size, self.radius, self.constants, self.cushion_model, self.threads)
+        return Plays(
+            shots, self.table_size, self.radius, self.constants, self.cushion_model, self.threads
+        )
 
     def _of_c(self, strikes: Doubles, stride: int = 1, huber: float = HUBER) -> Any:
         """The recordings for C, to be played by strikes with so many numbers."""
@@ -121,33 +148,59 @@ class Plays:
             },
         )
 
-    def played(self, row: int, strike: Doubles, times: Doubles | None = None) -> tuple[Records, Doubles]:
-        """The events of a play of one shot, on the play's clock, whose states `after` are those before kicks; and the places of the balls
-        at ascending times of the plays' clock, (balls, n, 2).
+    def played(
+        self, row: int, strike: Doubles, times: Doubles | None = None
+    ) -> tuple[Records, Doubles]:
+        """The events of a play of one shot, on the play's clock, whose states `after` are those
+        before kicks; and the places of the balls at ascending times of the plays' clock, (balls, n,
+        2).
 
         Raises CaromError: The play ends in an error.
         """
-        strike, when = np.ascontiguousarray(strike), np.ascontiguousarray([] if times is None else times, np.float64)
+        strike, when = (
+            np.ascontiguousarray(strike),
+            np.ascontiguousarray([] if times is None else times, np.float64),
+        )
         events: Array = np.empty(EVENTS_MOST, dtypes.event)
         places, many = np.empty((self.layouts.shape[2], len(when), 2)), ffi.new("int32_t *")
         code = lib.carom_python_kicked(
-            self._of_c(strike), row, pointer("double[]", strike), self.ends[row], len(when), pointer("double[]", when),
-            pointer("carom_event[]", events), many, pointer("double[]", places),
-        )  # fmt: skip
+            self._of_c(strike),
+            row,
+            pointer("double[]", strike),
+            self.ends[row],
+            len(when),
+            pointer("double[]", when),
+            pointer("carom_event[]", events),
+            many,
+            pointer("double[]", places),
+        )
         if code < 0:
             raise CaromError(code)
         return events[: many[0]], places
 
     def misfit(
-        self, of: Integers, strikes: Doubles, until: Doubles, most: Doubles | float, *, huber: float = HUBER, stride: int = 1
+        self,
+        of: Integers,
+        strikes: Doubles,
+        until: Doubles,
+        most: Doubles | float,
+        *,
+        huber: float = HUBER,
+        stride: int = 1,
     ) -> Doubles:
-        """Costs, and normal equations where the cost is below `most`, of n plays: see loops.h. Shape (n, 3 + m + m (m + 1)/2), m = 6 and
-        the number of steps. Play k is of recording of[k], by strikes[k], with the samples up to until[k], s. Kicks of contacts follow each
-        strike: m has five more for each.
+        """Costs, and normal equations where the cost is below `most`, of n plays: see loops.h.
+
+        Shape (n, 3 + m + m (m + 1)/2), m = 6 and the number of steps. Play k is of recording of[k],
+        by strikes[k], with the samples up to until[k], s. Kicks of contacts follow each strike: m
+        has five more for each.
         """
         numbers = strikes.shape[1] + len(self.steps)
         sums = np.empty((len(of), 3 + numbers + numbers * (numbers + 1) // 2))
-        of, strikes, until = np.ascontiguousarray(of, np.int32), np.ascontiguousarray(strikes), np.ascontiguousarray(until)
+        of, strikes, until = (
+            np.ascontiguousarray(of, np.int32),
+            np.ascontiguousarray(strikes),
+            np.ascontiguousarray(until),
+        )
         most = np.ascontiguousarray(np.broadcast_to(most, len(of)), np.float64)
         tracks = self._of_c(strikes, stride, huber)
 
@@ -157,9 +210,14 @@ class Plays:
             for begin in range(rows.start, rows.stop, 256):
                 cut = slice(begin, min(begin + 256, rows.stop))
                 code = code or lib.carom_python_misfit(
-                    tracks, cut.stop - begin, pointer("int32_t[]", of[cut]), pointer("double[]", strikes[cut]),
-                    pointer("double[]", until[cut]), pointer("double[]", most[cut]), pointer("double[]", sums[cut]),
-                )  # fmt: skip
+                    tracks,
+                    cut.stop - begin,
+                    pointer("int32_t[]", of[cut]),
+                    pointer("double[]", strikes[cut]),
+                    pointer("double[]", until[cut]),
+                    pointer("double[]", most[cut]),
+                    pointer("double[]", sums[cut]),
+                )
             return int(code)
 
         cuts = np.linspace(0, len(of), self.workers + 1).astype(int)
@@ -174,16 +232,28 @@ class Plays:
         return sums
 
     def rmse(self, strikes: Doubles) -> Doubles:
-        """Root of the mean squared distance over the samples of each shot that tell a motion, m, shape (shots,); inf where the play is in error."""
+        """Root of the mean squared distance over the samples of each shot that tell a motion, m,
+        shape (shots,); inf where the play is in error.
+        """
         moving = copy.copy(self)
-        tracks = [track[rows] - (begin, 0.0, 0.0) for shot, begin in zip(self.recordings, self.origins) for track, rows in zip(shot.tracks, shot.moving)]
-        moving.samples, moving.first = np.ascontiguousarray(np.concatenate(tracks)), np.cumsum([0, *map(len, tracks)]).astype(np.int64)
+        tracks = [
+            track[rows] - (begin, 0.0, 0.0)
+            for shot, begin in zip(self.recordings, self.origins)
+            for track, rows in zip(shot.tracks, shot.moving)
+        ]
+        moving.samples, moving.first = (
+            np.ascontiguousarray(np.concatenate(tracks)),
+            np.cumsum([0, *map(len, tracks)]).astype(np.int64),
+        )
         sums = moving.misfit(np.arange(len(strikes), dtype=np.int32), strikes, self.ends, -np.inf)
         return np.asarray(np.sqrt(sums[:, 1] / np.maximum(sums[:, 2], 1.0)))
 
 
 def apart(rest: Doubles, table: tuple[float, float], radius: float) -> Doubles:
-    """Places of rest that balls can have: within the cushions and not overlapping. What a camera sees is off by a millimetre."""
+    """Places of rest that balls can have: within the cushions and not overlapping.
+
+    What a camera sees is off by a millimetre.
+    """
     low, high = radius + 1e-9, np.array(table) - radius - 1e-9
     centres = np.clip(rest, low, high)
     for _ in range(20):
@@ -216,27 +286,48 @@ def starts(shot: Recording) -> Doubles:
     still = int(np.searchsorted(track[:, 0], shot.moves[cue]))
     other = min((time for ball, time in enumerate(shot.moves) if ball != cue), default=np.inf)
     # samples under way, up to 80 ms, a picture and more before another ball is seen to move
-    picture = float(np.median(np.diff(track[still : still + 12, 0]))) if len(track) > still + 1 else 0.02
+    picture = (
+        float(np.median(np.diff(track[still : still + 12, 0]))) if len(track) > still + 1 else 0.02
+    )
     known = 1
-    while still + known < len(track) and track[still + known, 0] <= min(track[still, 0] + 0.082, other - 1.05 * picture):
+    while still + known < len(track) and track[still + known, 0] <= min(
+        track[still, 0] + 0.082, other - 1.05 * picture
+    ):
         known += 1
-    # velocity by the line through all but the first quarter, the strike's time by the way back to rest
-    rows = track[still + known // 4 : still + known] if known >= 2 else np.array([[track[still, 0] - picture, *rest], track[still]])
+    # velocity by the line through all but the first quarter, the strike's time by the way back to
+    # rest
+    rows = (
+        track[still + known // 4 : still + known]
+        if known >= 2
+        else np.array([[track[still, 0] - picture, *rest], track[still]])
+    )
     t = rows[:, 0] - rows[:, 0].mean()
     velocity = t @ rows[:, 1:] / (t @ t)
     speed, angle = float(np.hypot(*velocity)), float(np.arctan2(velocity[1], velocity[0]))
     middle = rows.mean(axis=0)
-    begin = middle[0] - float(np.hypot(*(middle[1:] - rest))) / max(speed, 0.1) if known > 1 else track[still, 0] - 0.5 * picture
-    # few samples before the first hit tell the direction roughly, noise as much as it is, and one does not tell the speed
+    begin = (
+        middle[0] - float(np.hypot(*(middle[1:] - rest))) / max(speed, 0.1)
+        if known > 1
+        else track[still, 0] - 0.5 * picture
+    )
+    # few samples before the first hit tell the direction roughly, noise as much as it is, and one
+    # does not tell the speed
     rough = 0.108 if known <= 2 else 0.016 if known == 3 else 0.0
     rough = max(rough, 2.0 * min(shot.noise / (max(speed, 0.3) * float(np.sqrt(t @ t))), 0.1))
     turns = np.linspace(-rough, rough, 13 if rough > 0.05 else 5) if rough > 0.008 else np.zeros(1)
     faster = np.array([1.0, 1.5, 2.2]) if known == 1 else np.ones(1)
-    sides, follows = (np.linspace(-1.3, 1.3, 5), np.linspace(-0.9, 1.0, 4)) if known <= 3 else (
-        np.linspace(-1.3, 1.3, 9), np.linspace(-0.9, 1.0, 6))  # fmt: skip
-    turn, fast, side, follow = (grid.ravel() for grid in np.meshgrid(turns, faster, sides, follows, indexing="ij"))
+    sides, follows = (
+        (np.linspace(-1.3, 1.3, 5), np.linspace(-0.9, 1.0, 4))
+        if known <= 3
+        else (np.linspace(-1.3, 1.3, 9), np.linspace(-0.9, 1.0, 6))
+    )
+    turn, fast, side, follow = (
+        grid.ravel() for grid in np.meshgrid(turns, faster, sides, follows, indexing="ij")
+    )
     v, x, y = speed * fast, np.cos(angle + turn), np.sin(angle + turn)
-    return np.stack([v * x, v * y, -y * follow * v, x * follow * v, side * v, np.full_like(v, begin)], axis=-1)
+    return np.stack(
+        [v * x, v * y, -y * follow * v, x * follow * v, side * v, np.full_like(v, begin)], axis=-1
+    )
 
 
 def _allowed(strikes: Doubles) -> Doubles:
@@ -250,7 +341,10 @@ def _allowed(strikes: Doubles) -> Doubles:
 
 def at_bound(strike: Doubles) -> str:
     """Which number of a strike on the clock of its play is at its bound, if one is."""
-    within = _allowed(np.array([strike - 1e-6, strike + 1e-6]))[[0, 1], :] - (strike - 1e-6, strike + 1e-6)
+    within = _allowed(np.array([strike - 1e-6, strike + 1e-6]))[[0, 1], :] - (
+        strike - 1e-6,
+        strike + 1e-6,
+    )
     names = ("speed", "speed", "spin", "spin", "spin", "time")
     return next((name for name, off in zip(names, np.abs(within).max(axis=0)) if off > 5e-7), "")
 
@@ -265,13 +359,22 @@ def normal(sums: Doubles) -> tuple[Doubles, Doubles]:
 
 
 def descend(
-    plays: Plays, of: Integers, strikes: Doubles, until: Doubles, iterations: int, *, huber: float = HUBER, stride: int = 1,
+    plays: Plays,
+    of: Integers,
+    strikes: Doubles,
+    until: Doubles,
+    iterations: int,
+    *,
+    huber: float = HUBER,
+    stride: int = 1,
     held: Doubles | None = None,
-) -> tuple[Doubles, Doubles]:  # fmt: skip
-    """Levenberg and Marquardt's method from each strike: the strikes found, (n, numbers), and the sums of `misfit` there.
+) -> tuple[Doubles, Doubles]:
+    """Levenberg and Marquardt's method from each strike: the strikes found, (n, numbers), and the
+    sums of `misfit` there.
 
-    An iteration is one play of each start that is not done; where the cost falls, one more of each number for the next step. `held`,
-    (n, numbers), is what the square of a number costs, as kicks that follow the six of a strike do; without, nothing does.
+    An iteration is one play of each start that is not done; where the cost falls, one more of each
+    number for the next step. `held`, (n, numbers), is what the square of a number costs, as kicks
+    that follow the six of a strike do; without, nothing does.
     """
     strikes = _allowed(strikes)
     n, numbers = strikes.shape
@@ -289,16 +392,24 @@ def descend(
         square, gradient = normal(sums[rows])
         square[:, diagonal, diagonal] += held[rows]
         scale = square[:, diagonal, diagonal]
-        square[:, diagonal, diagonal] += damping[rows, None] * scale + 1e-12 * (1.0 + scale.sum(axis=1, keepdims=True))
+        square[:, diagonal, diagonal] += damping[rows, None] * scale + 1e-12 * (
+            1.0 + scale.sum(axis=1, keepdims=True)
+        )
         step = np.linalg.solve(square, -(gradient + held[rows] * strikes[rows])[..., None])[..., 0]
         tried = _allowed(strikes[rows] + step)
         # taken where the cost falls; else a shorter one next time, up to six times
         price = (held[rows] * tried**2).sum(axis=1)
-        new = plays.misfit(of[rows], tried, until[rows], costs[rows] - price, huber=huber, stride=stride)
+        new = plays.misfit(
+            of[rows], tried, until[rows], costs[rows] - price, huber=huber, stride=stride
+        )
         cost = new[:, 0] + price
         better = cost < costs[rows]
         drop = 1.0 - cost / costs[rows]
-        strikes[rows[better]], sums[rows[better]], costs[rows[better]] = tried[better], new[better], cost[better]
+        strikes[rows[better]], sums[rows[better]], costs[rows[better]] = (
+            tried[better],
+            new[better],
+            cost[better],
+        )
         damping[rows] = np.where(better, np.maximum(0.2 * damping[rows], 1e-9), 6.0 * damping[rows])
         failed[rows] = np.where(better, 0, failed[rows] + 1)
         active[rows] = np.where(better, drop > 1e-5, failed[rows] < 6)
@@ -318,8 +429,12 @@ def _best(of: Integers, strikes: Doubles, costs: Doubles, keep: int) -> npt.NDAr
     return np.array(sorted(kept), np.intp)
 
 
-def _offspring(of: Integers, strikes: Doubles, sums: Doubles, each: int, random: np.random.Generator) -> tuple[Integers, Doubles]:
-    """Strikes drawn about each strike, from the normal distribution that its misfit gives, from one to _WIDER deviations wide."""
+def _offspring(
+    of: Integers, strikes: Doubles, sums: Doubles, each: int, random: np.random.Generator
+) -> tuple[Integers, Doubles]:
+    """Strikes drawn about each strike, from the normal distribution that its misfit gives, from one
+    to _WIDER deviations wide.
+    """
     square, _ = normal(sums)
     values, axes = np.linalg.eigh(square)
     most = 0.5 * np.maximum(np.hypot(strikes[:, :1], strikes[:, 1:2]), 0.3)
@@ -332,19 +447,30 @@ def _offspring(of: Integers, strikes: Doubles, sums: Doubles, each: int, random:
 
 
 def find(
-    plays: Plays, seed: int = 0, progress: Callable[[str, float], None] | None = None, *, squares: bool = False
+    plays: Plays,
+    seed: int = 0,
+    progress: Callable[[str, float], None] | None = None,
+    *,
+    squares: bool = False,
 ) -> tuple[Doubles, Doubles]:
-    """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start could be played.
+    """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start
+    could be played.
 
-    With `squares`, those of the least plain squares, which the RMSE is made of; the best few by the cost descend by these in the end.
+    With `squares`, those of the least plain squares, which the RMSE is made of; the best few by the
+    cost descend by these in the end.
     """
     random = np.random.default_rng(seed)
-    first = [starts(shot) - [0.0, 0.0, 0.0, 0.0, 0.0, begin] for shot, begin in zip(plays.recordings, plays.origins)]
+    first = [
+        starts(shot) - [0.0, 0.0, 0.0, 0.0, 0.0, begin]
+        for shot, begin in zip(plays.recordings, plays.origins)
+    ]
     of = np.repeat(np.arange(len(first), dtype=np.int32), [len(rows) for rows in first])
     strikes = _allowed(np.concatenate(first))
     # the best of the starts descend
     until = np.minimum(_FIRST, plays.ends)
-    rows = _best(of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], _FIRST_KEPT[squares])
+    rows = _best(
+        of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], _FIRST_KEPT[squares]
+    )
     of = of[rows]
     strikes, sums = descend(plays, of, strikes[rows], until[of], _FIRST_ITERATIONS)
     rows = _best(of, strikes, sums[:, 0], _FIRST_KEPT[squares])
@@ -358,7 +484,12 @@ def find(
         rows = _best(of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], descending)
         of = of[rows]
         strikes, sums = descend(plays, of, strikes[rows], until[of], iterations)
-        rows = _best(of, strikes, sums[:, 0], keep if number + 1 < len(_STAGES[squares]) else _FINALISTS if squares else 1)
+        rows = _best(
+            of,
+            strikes,
+            sums[:, 0],
+            keep if number + 1 < len(_STAGES[squares]) else _FINALISTS if squares else 1,
+        )
     of = of[rows]
     strikes, sums = descend(plays, of, strikes[rows], plays.ends[of], _LAST)
     if squares:
@@ -373,10 +504,11 @@ def find(
 def derivatives(
     plays: Plays, row: int, strike: Doubles, names: list[str], rest: bool = True
 ) -> tuple[Doubles, Doubles, Doubles, Doubles]:
-    """Of one shot: distances of all samples, (2 n,), and their derivatives by the strike, (2 n, 6), by constants, by places of rest.
+    """Of one shot: distances of all samples, (2 n,), and their derivatives by the strike, (2 n, 6),
+    by constants, by places of rest.
 
-    The last ones are left out without `rest`. They are tangents of the whole shot in double precision. The time of the strike is on the
-    clock of the plays.
+    The last ones are left out without `rest`. They are tangents of the whole shot in double
+    precision. The time of the strike is on the clock of the plays.
     """
     tracks, struck = plays.tracks[row], int(plays.struck[row])
     balls = plays.layouts[0, row].copy()

@@ -25,7 +25,10 @@ from carom.tracks._kicks import Kicks
 from carom.tracks._recordings import Recording
 
 _ROUGH_MOST = 8  # so many are told one by one
-BANDS, _CONTACTS = (0.68, 0.95), (0, 1, 2, 3, 4, 6, 8, 11)  # shares of the samples, and contacts from which a row of bands holds
+BANDS, _CONTACTS = (
+    (0.68, 0.95),
+    (0, 1, 2, 3, 4, 6, 8, 11),
+)  # shares of the samples, and contacts from which a row of bands holds
 _WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels
 _INK, _MARK, _LINE = "#333333", "#1f5fae", "#c0392b"
 _STYLE = (
@@ -43,22 +46,34 @@ class Fit:
     table: tuple[float, float]  # Extents of x and y, m
     radius: float  # m
     cushion_model: ShotCushion
-    constants: dict[str, float]  # What the shots are played with: fields of `carom.dtypes.ball_kind`, and nose_height (m)
-    spread: dict[str, float]  # Of each constant that was fitted, how far it is off by the evidence itself: a standard deviation
-    # (shots, 6): v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and its time (s). NaN where
-    # there is none.
+    constants: dict[
+        str, float
+    ]  # What the shots are played with: fields of `carom.dtypes.ball_kind`, and nose_height (m)
+    spread: dict[
+        str, float
+        # Of each constant that was fitted, how far it is off by the evidence itself: a standard
+        # deviation
+    ]
+    # (shots, 6): v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and
+    # its time (s). NaN where there is none.
     strikes: Doubles
-    # "ok"; "mended: ...", "rough: ..." or "doubtful: ...", with what was mended, is above the noise or is in doubt; else why the shot does
-    # not count
+    # "ok"; "mended: ...", "rough: ..." or "doubtful: ...", with what was mended, is above the noise
+    # or is in doubt; else why the shot does not count
     status: list[str]
-    # (shots,): Root of the mean squared distance between recorded and played places, m, over the samples of balls that move
-    # (`Recording.moving`), so that it depends little on how long and how often a camera sees balls at rest; NaN without a play
+    # (shots,): Root of the mean squared distance between recorded and played places, m, over the
+    # samples of balls that move (`Recording.moving`), so that it depends little on how long and how
+    # often a camera sees balls at rest; NaN without a play
     rmse: Doubles
     train: list[bool] | None = None  # Which shots the constants were fitted to, if not all
     fitted: tuple[str, ...] = ()  # The constants that whole shots told
-    # (fitted, fitted): Of these; the roots of its diagonal are their `spread`. None where fewer than 8 shots tell.
+    # (fitted, fitted): Of these; the roots of its diagonal are their `spread`. None where fewer
+    # than 8 shots tell.
     covariance: Doubles | None = None
-    warnings: Sequence[str] = ()  # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the noise
+    warnings: Sequence[
+        str
+        # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the
+        # noise
+    ] = ()
 
     @property
     def noise(self) -> float:
@@ -68,14 +83,22 @@ class Fit:
     @property
     def counts(self) -> list[bool]:
         """Which shots count."""
-        return [status.partition(":")[0] in ("ok", "mended", "rough", "doubtful") for status in self.status]
+        return [
+            status.partition(":")[0] in ("ok", "mended", "rough", "doubtful")
+            for status in self.status
+        ]
 
     def _counted(self, train: bool | None) -> npt.NDArray[np.bool_]:
-        part = [train is None or self.train is None or one == train for one in self.train or [True] * len(self.status)]
+        part = [
+            train is None or self.train is None or one == train
+            for one in self.train or [True] * len(self.status)
+        ]
         return np.asarray(np.array(self.counts) & np.array(part), np.bool_)
 
     def counted(self, train: bool | None = None) -> Doubles:
-        """The RMSE of the shots that count, m: of all, of those that constants were fitted to, or of the others."""
+        """The RMSE of the shots that count, m: of all, of those that constants were fitted to, or
+        of the others.
+        """
         rmse: Doubles = self.rmse[self._counted(train)]
         return rmse
 
@@ -97,12 +120,19 @@ class Fit:
         table, balls = self._struck(i, self.strikes[[i]], 0.0, {})
         return simulate(table, balls[0], cushion_model=self.cushion_model)
 
-    def _struck(self, i: int, strikes: Doubles, moved: Doubles | float, changed: Mapping[str, Doubles]) -> tuple[Table, Records]:
-        """The table, and the balls of shot i just after each of the strikes, from places of rest that are moved, with changed constants."""
+    def _struck(
+        self, i: int, strikes: Doubles, moved: Doubles | float, changed: Mapping[str, Doubles]
+    ) -> tuple[Table, Records]:
+        """The table, and the balls of shot i just after each of the strikes, from places of rest
+        that are moved, with changed constants.
+        """
         recording = self.recordings[i]
         if not np.isfinite(self.strikes[i]).all():
             raise ValueError(f"shot {recording.id}: no strike was found: {self.status[i]}")
-        centres = [_strikes.apart(places, self.table, self.radius) for places in recording.rest + np.zeros((len(strikes), 1, 1)) + moved]
+        centres = [
+            _strikes.apart(places, self.table, self.radius)
+            for places in recording.rest + np.zeros((len(strikes), 1, 1)) + moved
+        ]
         balls = _constants.layout(np.array(centres), self.radius, self.constants)
         for name, values in changed.items():
             balls["kind"][name] = values[:, None]
@@ -111,9 +141,11 @@ class Fit:
         return _constants.rectangle(self.table, self.constants["nose_height"]), balls
 
     def strike_covariance(self, i: int) -> Doubles:
-        """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being right: by derivatives of the shot.
+        """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being
+        right: by derivatives of the shot.
 
-        It has the noise of the samples, by what they leave over, and that of the places of rest, which contacts magnify.
+        It has the noise of the samples, by what they leave over, and that of the places of rest,
+        which contacts magnify.
 
         Raises ValueError: No strike was found.
         """
@@ -124,46 +156,80 @@ class Fit:
     def _strike_off(self, i: int) -> tuple[Doubles, Doubles, Doubles]:
         self.shot(i)
         plays = self._plays([i])
-        return _covariance.of_strike(plays, 0, self.strikes[i] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]], self.fitted)
+        return _covariance.of_strike(
+            plays, 0, self.strikes[i] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]], self.fitted
+        )
 
     def draws(self, i: int, count: int, seed: int = 0) -> tuple[Table, Records, Doubles]:
-        """Shot i as it may have been, for `simulate_batch`: table, layouts just after the strike, (count, balls), and times of the strike, s.
+        """Shot i as it may have been, for `simulate_batch`: table, layouts just after the strike,
+        (count, balls), and times of the strike, s.
 
-        Constants are drawn by `covariance`, where there is one, places of rest by the noise, and strikes that follow both.
+        Constants are drawn by `covariance`, where there is one, places of rest by the noise, and
+        strikes that follow both.
 
         Raises ValueError: No strike was found.
         """
         own, follow, rest = self._strike_off(i)
-        random, by, names = np.random.default_rng(seed), np.zeros((count, len(self.fitted))), self.fitted
+        random, by, names = (
+            np.random.default_rng(seed),
+            np.zeros((count, len(self.fitted))),
+            self.fitted,
+        )
         if self.covariance is not None and names:
             by = random.multivariate_normal(np.zeros(len(names)), self.covariance, count)
         moved = random.normal(0.0, rest, (count, len(rest)))
-        strikes = random.multivariate_normal(self.strikes[i], own, count) + np.hstack([by, moved]) @ follow.T
-        changed = {name: np.clip(self.constants[name] + off, *_joint.prior(name)[1:]) for name, off in zip(names, by.T)}
+        strikes = (
+            random.multivariate_normal(self.strikes[i], own, count)
+            + np.hstack([by, moved]) @ follow.T
+        )
+        changed = {
+            name: np.clip(self.constants[name] + off, *_joint.prior(name)[1:])
+            for name, off in zip(names, by.T)
+        }
         return (*self._struck(i, strikes, moved.reshape(count, -1, 2), changed), strikes[:, 5])
 
     def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
-        """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2); at rest before the strike."""
+        """The centres of shot i's balls as played at times of the recording's clock, m, shape (...,
+        balls, 2); at rest before the strike.
+        """
         at = np.asarray(times, np.float64)
         return self.shot(i).positions(np.maximum(at - self.strikes[i, 5], 0.0))[..., :2]
 
     def off(self, train: bool | None = None) -> Doubles:
-        """How far the plays of shots that count are off, shape (samples of moving balls, 3): how many contacts were before, of all balls, the
-        distance (m), and a weight, by which shots count alike. Of all shots, of those that constants were fitted to, or of the others.
+        """How far the plays of shots that count are off, shape (samples of moving balls, 3): how
+        many contacts were before, of all balls, the distance (m), and a weight, by which shots
+        count alike. Of all shots, of those that constants were fitted to, or of the others.
         """
         found = [np.zeros((0, 3))]
         for k in np.flatnonzero(self._counted(train)):
             shot, recording = self.shot(int(k)), self.recordings[k]
-            met = shot.events["time"][np.isin(shot.events["type"], (lib.CAROM_EVENT_BALL_BALL, lib.CAROM_EVENT_RAIL))]
-            rows = [(track[moving], ball) for ball, (track, moving) in enumerate(zip(recording.tracks, recording.moving))]
+            met = shot.events["time"][
+                np.isin(shot.events["type"], (lib.CAROM_EVENT_BALL_BALL, lib.CAROM_EVENT_RAIL))
+            ]
+            rows = [
+                (track[moving], ball)
+                for ball, (track, moving) in enumerate(zip(recording.tracks, recording.moving))
+            ]
             t = np.concatenate([track[:, 0] for track, _ in rows]) - self.strikes[k, 5]
-            apart = np.concatenate([shot.positions(np.maximum(track[:, 0] - self.strikes[k, 5], 0.0))[:, ball, :2] - track[:, 1:] for track, ball in rows])
-            found.append(np.stack([np.searchsorted(met, t), np.hypot(*apart.T), np.full(len(t), 1.0 / len(t))], axis=1))
+            apart = np.concatenate(
+                [
+                    shot.positions(np.maximum(track[:, 0] - self.strikes[k, 5], 0.0))[:, ball, :2]
+                    - track[:, 1:]
+                    for track, ball in rows
+                ]
+            )
+            found.append(
+                np.stack(
+                    [np.searchsorted(met, t), np.hypot(*apart.T), np.full(len(t), 1.0 / len(t))],
+                    axis=1,
+                )
+            )
         return np.concatenate(found)
 
     def bands(self, train: bool | None = None) -> Doubles:
-        """Within which distances, m, 68 and 95 % of the samples of another shot are, shape (rows, 3); first a number of contacts, from which
-        a row holds. Of n shots the shares are (n + 1)/n as large, as another one may be farther off than all of them.
+        """Within which distances, m, 68 and 95 % of the samples of another shot are, shape (rows,
+        3); first a number of contacts, from which a row holds. Of n shots the shares are (n + 1)/n
+        as large, as another one may be farther off than all of them.
         """
         off, made = self.off(train), []
         larger = 1.0 + 1.0 / max(off[:, 2].sum(), 1.0)
@@ -172,7 +238,15 @@ class Fit:
             if len(part):
                 part = part[np.argsort(part[:, 1])]
                 reached = np.cumsum(part[:, 2]) / part[:, 2].sum()
-                made.append([least, *(part[np.searchsorted(reached[:-1], larger * share), 1] for share in BANDS)])
+                made.append(
+                    [
+                        least,
+                        *(
+                            part[np.searchsorted(reached[:-1], larger * share), 1]
+                            for share in BANDS
+                        ),
+                    ]
+                )
         return np.array(made).reshape(-1, 3)
 
     def covered(self, bands: Doubles, train: bool | None = None) -> Doubles:
@@ -182,8 +256,8 @@ class Fit:
         return np.asarray(off[:, 2] @ (off[:, 1:2] <= bands[at, 1:]) / off[:, 2].sum())
 
     def kicks(self) -> Kicks:
-        """What the models get wrong at each contact of the shots that count: the small changes of the motion just after it, kicks, with
-        which the shots go as they were recorded.
+        """What the models get wrong at each contact of the shots that count: the small changes of
+        the motion just after it, kicks, with which the shots go as they were recorded.
         """
         rows = [k for k, counts in enumerate(self.counts) if counts]
         plays = self._plays(rows)
@@ -192,11 +266,20 @@ class Fit:
         return _kicks.report(plays, strikes, rows, len(self.recordings))
 
     def _plays(self, rows: Sequence[int]) -> _strikes.Plays:
-        return _strikes.Plays([self.recordings[k] for k in rows], self.table, self.radius, self.constants, self.cushion_model)
+        return _strikes.Plays(
+            [self.recordings[k] for k in rows],
+            self.table,
+            self.radius,
+            self.constants,
+            self.cushion_model,
+        )
 
     def plot(self, i: int, kicks: Kicks | None = None) -> pictures.Picture:
-        """Shot i: lines as played, dots as recorded. Its `svg` is the text of a file. With kicks, as played with them: each contact has a
-        circle, the larger the more of the RMSE it has, and those of more than 3 mm the kick that stands out.
+        """Shot i: lines as played, dots as recorded.
+
+        Its `svg` is the text of a file. With kicks, as played with them: each contact has a circle,
+        the larger the more of the RMSE it has, and those of more than 3 mm the kick that stands
+        out.
         """
         shot: Any = self.shot(i)
         marks = []
@@ -205,28 +288,58 @@ class Fit:
             shot = copy.copy(shot)
             shot.events = plays.played(0, numbers)[0]
             shot.time, shot.count = float(plays.ends[0] - numbers[5]), len(shot.events)
-            shot.positions = lambda times: plays.played(0, numbers, np.asarray(times) + numbers[5])[1].transpose(1, 0, 2)
+            shot.positions = lambda times: plays.played(0, numbers, np.asarray(times) + numbers[5])[
+                1
+            ].transpose(1, 0, 2)
             shot.final = shot.final.copy()
             shot.final["r"][:, :2] = shot.positions([shot.time])[0]
-            marks = [(r, min(0.015 + 3.0 * size, 0.1), long, short if size > 3e-3 else "") for r, size, long, short in kicks.marks(i)]
-        return pictures.Picture(pictures.picture(shot.table, shot, [track[:, 1:] for track in self.recordings[i].tracks], marks))
+            marks = [
+                (r, min(0.015 + 3.0 * size, 0.1), long, short if size > 3e-3 else "")
+                for r, size, long, short in kicks.marks(i)
+            ]
+        return pictures.Picture(
+            pictures.picture(
+                shot.table, shot, [track[:, 1:] for track in self.recordings[i].tracks], marks
+            )
+        )
 
     def to_dict(self, kicks: Kicks | None = None) -> dict[str, Any]:
         """What the command writes, of numbers that JSON has."""
         shots: list[dict[str, Any]] = []
-        for recording, strike, status, rmse in zip(self.recordings, self.strikes, self.status, self.rmse):
+        for recording, strike, status, rmse in zip(
+            self.recordings, self.strikes, self.status, self.rmse
+        ):
             found = bool(np.isfinite(strike).all())
             v_x, v_y, w_x, w_y, w_z, start = strike.tolist()
-            cue = {
-                "ball": recording.balls[recording.cue], "v_x": v_x, "v_y": v_y,
-                "w_x": w_x / self.radius, "w_y": w_y / self.radius, "w_z": w_z / self.radius, "start": start,
-            } if found else None  # fmt: skip
+            cue = (
+                {
+                    "ball": recording.balls[recording.cue],
+                    "v_x": v_x,
+                    "v_y": v_y,
+                    "w_x": w_x / self.radius,
+                    "w_y": w_y / self.radius,
+                    "w_z": w_z / self.radius,
+                    "start": start,
+                }
+                if found
+                else None
+            )
             part = {} if self.train is None else {"train": self.train[len(shots)]}
-            shots.append({**part, "id": recording.id, "status": status, "rmse": float(rmse) if found else None, "cue": cue})
+            shots.append(
+                {
+                    **part,
+                    "id": recording.id,
+                    "status": status,
+                    "rmse": float(rmse) if found else None,
+                    "cue": cue,
+                }
+            )
         return {
             "constants": self.constants,
             "spread": self.spread,
-            "covariance": None if self.covariance is None else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},
+            "covariance": None
+            if self.covariance is None
+            else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},
             "cushion_model": self.cushion_model,
             "table": list(self.table),
             "radius": self.radius,
@@ -245,22 +358,36 @@ def _ticks(low: float, high: float) -> list[float]:
     size = (high - low) / 4.0
     unit = 10.0 ** math.floor(math.log10(size))
     step = next(unit * k for k in (1.0, 2.0, 2.5, 5.0, 10.0) if unit * k >= size)
-    return [step * k for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+    return [
+        step * k for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)
+    ]
 
 
 class _Chart:
     """A chart with axes, as SVG."""
 
-    def __init__(self, x: tuple[float, float], y: tuple[float, float], x_name: str, y_name: str) -> None:
+    def __init__(
+        self, x: tuple[float, float], y: tuple[float, float], x_name: str, y_name: str
+    ) -> None:
         self.ends = x, y
         bottom, right = _HEIGHT - _BELOW, _WIDTH - 10.0
         self.parts = [f'<path d="M{_LEFT},{_ABOVE}V{bottom}H{right}" stroke="{_INK}" fill="none"/>']
         self._text(0.5 * (_LEFT + right), _HEIGHT - 8.0, x_name)
-        self._text(14.0, 0.5 * (_ABOVE + bottom), y_name, f' transform="rotate(-90 14 {0.5 * (_ABOVE + bottom):.1f})"')
+        self._text(
+            14.0,
+            0.5 * (_ABOVE + bottom),
+            y_name,
+            f' transform="rotate(-90 14 {0.5 * (_ABOVE + bottom):.1f})"',
+        )
         for value in _ticks(*x):
             self._text(self._at(value, y[0])[0], bottom + 16.0, f"{value:g}")
         for value in _ticks(*y):
-            self._text(_LEFT - 6.0, self._at(x[0], value)[1] + 4.0, f"{value:g}", ' style="text-anchor:end"')
+            self._text(
+                _LEFT - 6.0,
+                self._at(x[0], value)[1] + 4.0,
+                f"{value:g}",
+                ' style="text-anchor:end"',
+            )
 
     def _text(self, x: float, y: float, text: str, rest: str = "") -> None:
         self.parts.append(f'<text x="{x:.1f}" y="{y:.1f}"{rest}>{html.escape(text)}</text>')
@@ -277,11 +404,17 @@ class _Chart:
         for a, b in zip(x.tolist(), y.tolist()):
             if x_0 <= a <= x_1 and y_0 <= b <= y_1:
                 at = self._at(a, b)
-                self.parts.append(f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="2" fill="{_MARK}" fill-opacity="0.45"/>')
+                self.parts.append(
+                    f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="2" fill="{_MARK}" fill-opacity="0.45"/>'
+                )
 
     def line(self, x: Doubles, y: Doubles) -> None:
-        points = " ".join("{:.1f},{:.1f}".format(*self._at(a, b)) for a, b in zip(x.tolist(), y.tolist()))
-        self.parts.append(f'<polyline points="{points}" stroke="{_LINE}" stroke-width="2" fill="none"/>')
+        points = " ".join(
+            "{:.1f},{:.1f}".format(*self._at(a, b)) for a, b in zip(x.tolist(), y.tolist())
+        )
+        self.parts.append(
+            f'<polyline points="{points}" stroke="{_LINE}" stroke-width="2" fill="none"/>'
+        )
 
     def bars(self, edges: Doubles, heights: Sequence[int]) -> None:
         for left, right, height in zip(edges[:-1].tolist(), edges[1:].tolist(), heights):
@@ -291,7 +424,12 @@ class _Chart:
 
     def svg(self) -> str:
         head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="{_WIDTH:g}" height="{_HEIGHT:g}"'
-        return head + ' font-family="sans-serif" font-size="12" text-anchor="middle">' + "".join(self.parts) + "</svg>"
+        return (
+            head
+            + ' font-family="sans-serif" font-size="12" text-anchor="middle">'
+            + "".join(self.parts)
+            + "</svg>"
+        )
 
 
 def histogram(fit: Fit) -> str:
@@ -307,16 +445,23 @@ def histogram(fit: Fit) -> str:
 
 
 def bands(fit: Fit) -> str:
-    """How far off places are, over the contacts before them, and within which distances 68 and 95 % are."""
+    """How far off places are, over the contacts before them, and within which distances 68 and 95 %
+    are.
+    """
     unseen = None if fit.train is None else False
     off, rows = fit.off(unseen), fit.bands(None if fit.train is None else True)
     shown = off[:: max(len(off) // 1000, 1)]
     top = 200.0 * float(np.median(rows[:, 2]))
     ends = np.append(rows[1:, 0], max(float(off[:, 0].max(initial=0.0)), rows[-1, 0]) + 1.0)
-    chart = _Chart((0.0, float(ends[-1])), (0.0, top), "contacts of the shot before", "distance, cm")
+    chart = _Chart(
+        (0.0, float(ends[-1])), (0.0, top), "contacts of the shot before", "distance, cm"
+    )
     chart.dots(shown[:, 0] + np.modf(0.618034 * np.arange(len(shown)))[0], 100.0 * shown[:, 1])
     for column in (1, 2):
-        chart.line(np.stack([rows[:, 0], ends], axis=1).ravel(), np.repeat(np.minimum(100.0 * rows[:, column], top), 2))
+        chart.line(
+            np.stack([rows[:, 0], ends], axis=1).ravel(),
+            np.repeat(np.minimum(100.0 * rows[:, column], top), 2),
+        )
     return chart.svg()
 
 
@@ -330,7 +475,12 @@ def laws(fit: Fit) -> list[tuple[str, str]]:
     chart.dots(speed, -(rolls["a"] * rolls["v"]).sum(axis=1) / np.maximum(speed, 1e-9))
     x: Doubles = np.linspace(0.0, 3.0, 61)
     chart.line(x, constants["mu_roll"] * gravity + constants["drag"] * x**2)
-    found = [("Rolling: one dot for each piece of a track. Line: mu_roll g + drag v² of the fit.", chart.svg())]
+    found = [
+        (
+            "Rolling: one dot for each piece of a track. Line: mu_roll g + drag v² of the fit.",
+            chart.svg(),
+        )
+    ]
 
     slides = seen.pieces[seen.pieces["sliding"] & (seen.pieces["a_error"] < 0.15)]
     chart = _Chart((0.0, 6.0), (0.0, 4.0), "speed, m/s", "deceleration of sliding, m/s²")
@@ -338,32 +488,60 @@ def laws(fit: Fit) -> list[tuple[str, str]]:
     chart.line(np.array([0.0, 6.0]), np.full(2, constants["mu_slide"] * gravity))
     found.append(("Sliding: one dot for each piece. Line: mu_slide g of the fit.", chart.svg()))
 
-    good = seen.impacts[(seen.impacts["chi2"] < 3) & (seen.impacts["w_error"] < 0.05) & (seen.impacts["v_error"] < 0.05)]
+    good = seen.impacts[
+        (seen.impacts["chi2"] < 3)
+        & (seen.impacts["w_error"] < 0.05)
+        & (seen.impacts["v_error"] < 0.05)
+    ]
     chart = _Chart((0.0, 4.0), (0.5, 1.1), "speed into the cushion, m/s", "speed out / speed in")
     chart.dots(good["v_n"], -good["w_n"] / np.maximum(good["v_n"], 1e-9))
-    found.append(("Cushions: the speed across the cushion after an impact over that before.", chart.svg()))
+    found.append(
+        ("Cushions: the speed across the cushion after an impact over that before.", chart.svg())
+    )
 
-    hits = seen.hits[(seen.hits["chi2"] < 3) & (seen.hits["w_error"] < 0.1) & (seen.hits["z_error"] < 0.1)]
+    hits = seen.hits[
+        (seen.hits["chi2"] < 3) & (seen.hits["w_error"] < 0.1) & (seen.hits["z_error"] < 0.1)
+    ]
     chart = _Chart((0.0, 5.0), (0.7, 1.1), "closing speed, m/s", "restitution")
     chart.dots(hits["v_n"], (hits["z_n"] - hits["w_n"]) / np.maximum(hits["v_n"], 1e-9))
     chart.line(np.array([0.0, 5.0]), np.full(2, constants["restitution"]))
-    found.append(("Hits on a ball at rest: speed of parting over closing speed. Line: restitution of the fit.", chart.svg()))
+    found.append(
+        (
+            "Hits on a ball at rest: speed of parting over closing speed. Line: restitution of the fit.",
+            chart.svg(),
+        )
+    )
     return found
 
 
 def told(fit: Fit) -> list[str]:
-    """What a reader of the result should know: the noise, what holds of all shots, and the shots that are not ok."""
-    lines = [f"noise of a coordinate: {1e3 * fit.noise:.2f} mm", *(f"warning: {text}" for text in fit.warnings)]
-    rough = [float(rmse) for rmse, status in zip(fit.rmse, fit.status) if status.startswith("rough")]
+    """What a reader of the result should know: the noise, what holds of all shots, and the shots
+    that are not ok.
+    """
+    lines = [
+        f"noise of a coordinate: {1e3 * fit.noise:.2f} mm",
+        *(f"warning: {text}" for text in fit.warnings),
+    ]
+    rough = [
+        float(rmse) for rmse, status in zip(fit.rmse, fit.status) if status.startswith("rough")
+    ]
     if len(rough) > _ROUGH_MOST:
         noise = math.sqrt(2.0) * fit.noise
-        lines.append(f"{len(rough)} of {len(fit.status)} shots are rough: RMSE {min(rough) / noise:.2g} to {max(rough) / noise:.2g} times that of the noise")
+        lines.append(
+            f"{len(rough)} of {len(fit.status)} shots are rough: RMSE {min(rough) / noise:.2g} to {max(rough) / noise:.2g} times that of the noise"
+        )
     silent = ("ok", "rough") if len(rough) > _ROUGH_MOST else ("ok",)
-    return lines + [f"shot {shot.id}: {status}" for shot, status in zip(fit.recordings, fit.status) if not status.startswith(silent)]
+    return lines + [
+        f"shot {shot.id}: {status}"
+        for shot, status in zip(fit.recordings, fit.status)
+        if not status.startswith(silent)
+    ]
 
 
 def page(fit: Fit, name: str, kicks: Kicks | None = None) -> str:
-    """The page, of tracks of that name; with kicks, their tables too, and pictures of the shots as played with them."""
+    """The page, of tracks of that name; with kicks, their tables too, and pictures of the shots as
+    played with them.
+    """
     ok = [k for k, counts in enumerate(fit.counts) if counts]
     order = sorted(ok, key=lambda k: float(fit.rmse[k]))
     parts = [f"<h1>{html.escape(name)}</h1>"]
@@ -376,8 +554,14 @@ def page(fit: Fit, name: str, kicks: Kicks | None = None) -> str:
     figures = [("RMSE over all samples of all balls of a shot.", histogram(fit))] if order else []
     if order:
         whose = "shots" if fit.train is None else "shots that the constants were not fitted to"
-        figures.append((f"How far off the places of {whose} are. Lines: the bands of 68 and 95 %.", bands(fit)))
-    for what, k in [("best", order[0]), ("median", order[len(order) // 2]), ("worst", order[-1])] if order else []:
+        figures.append(
+            (f"How far off the places of {whose} are. Lines: the bands of 68 and 95 %.", bands(fit))
+        )
+    for what, k in (
+        [("best", order[0]), ("median", order[len(order) // 2]), ("worst", order[-1])]
+        if order
+        else []
+    ):
         text = f"The {what} shot, {fit.recordings[k].id}: {100 * fit.rmse[k]:.2f} cm. Lines as played, dots as recorded."
         if kicks is not None:
             text += f" Played with kicks: {100 * kicks.rmse[k]:.2f} cm. Circles: contacts, the larger the more of the RMSE they have."
@@ -387,8 +571,13 @@ def page(fit: Fit, name: str, kicks: Kicks | None = None) -> str:
         f"<tr><td>{constant}</td><td>{value:.5g}</td><td>{f'{fit.spread[constant]:.2g}' if constant in fit.spread else 'given'}</td></tr>"
         for constant, value in fit.constants.items()
     ]
-    parts += [f"<figure>{svg}<figcaption>{html.escape(text)}</figcaption></figure>" for text, svg in figures]
-    parts.append(f"<table><tr><th>constant</th><th>value</th><th>spread</th></tr>{''.join(rows)}</table>")
+    parts += [
+        f"<figure>{svg}<figcaption>{html.escape(text)}</figcaption></figure>"
+        for text, svg in figures
+    ]
+    parts.append(
+        f"<table><tr><th>constant</th><th>value</th><th>spread</th></tr>{''.join(rows)}</table>"
+    )
     for table in kicks.tables if kicks is not None else ():
         cells = ["".join(f"<td>{html.escape(cell)}</td>" for cell in row) for row in table]
         parts.append(f"<h2>Kicks</h2><table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>")

@@ -2,8 +2,8 @@
 
     python -m carom.fit TRACKS.csv --table 2.84,1.42 --radius 0.03075 -o fit.json
 
-or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), (2.84, 1.42), 0.03075)`. docs/using/tracks.md explains the method and
-what the numbers mean.
+or, in Python, `carom.fit.fit(carom.tracks.read("TRACKS.csv"), (2.84, 1.42), 0.03075)`.
+docs/using/tracks.md explains the method and what the numbers mean.
 """
 
 from __future__ import annotations
@@ -38,9 +38,15 @@ Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
 _CROOKED = 8e-3  # m: tracks that are farther off are told
 _MANY = 5.0  # standard deviations of a coordinate: an RMSE above is not that of the noise
-_LAW = {"law_a", "law_b"}  # a friction between balls that changes with the slip: a search without the change begins beside it,
+_LAW = {
+    "law_a",
+    "law_b",
+    # a friction between balls that changes with the slip: a search without the change begins beside it,
+}
 _BOTH = 1  # and after this stage that one goes on whose misfit is the smaller
-_ROUGH = 2.0  # an RMSE so many times that of the noise is no longer ok: with the true constants nine in ten shots are below
+# an RMSE so many times that of the noise is no longer ok: with the true constants nine in ten shots
+# are below
+_ROUGH = 2.0
 
 
 def _status(shot: Recording, radius: float) -> str:
@@ -48,10 +54,14 @@ def _status(shot: Recording, radius: float) -> str:
     moves = shot.moves
     if not np.isfinite(moves).any():
         return "no ball moves"
-    # a ball that moves at once was hit before the recording, where the struck ball is too far away to have reached it
+    # a ball that moves at once was hit before the recording, where the struck ball is too far away
+    # to have reached it
     cue, rest, begin = shot.cue, shot.rest, _strikes.origin(shot)
-    speeds = [np.hypot(*np.diff(track[rows, 1:], axis=0).T) / np.diff(track[rows, 0]) for track in shot.tracks
-              for rows in [(track[:, 0] >= begin) & (track[:, 0] < begin + 0.2)]]  # fmt: skip
+    speeds = [
+        np.hypot(*np.diff(track[rows, 1:], axis=0).T) / np.diff(track[rows, 0])
+        for track in shot.tracks
+        for rows in [(track[:, 0] >= begin) & (track[:, 0] < begin + 0.2)]
+    ]
     for ball, time in enumerate(moves - begin):
         gap = float(np.hypot(*(rest[ball] - rest[cue]))) - 2.0 * radius
         fastest = min(1.5 * max([*speeds[cue], *speeds[ball], 1.0]), _FASTEST)
@@ -61,30 +71,47 @@ def _status(shot: Recording, radius: float) -> str:
 
 
 def _priors(
-    free: Sequence[str], priors: Mapping[str, tuple[float, float]], values: Mapping[str, float], cushion_model: ShotCushion
+    free: Sequence[str],
+    priors: Mapping[str, tuple[float, float]],
+    values: Mapping[str, float],
+    cushion_model: ShotCushion,
 ) -> dict[str, tuple[float, float]]:
     """Mean and deviation of each constant that whole shots are to tell."""
-    # a change with the speed is not sought where the usual cushion has none, nor a height where it has no friction
-    usual, some = _constants.usual(cushion_model), ("mu_cushion", "roll_loss", "restitution_log", "mu_log")
-    left_out = {name for name in some if not usual[name]} | ({"nose_height"} if not usual["mu_cushion"] else set())
+    # a change with the speed is not sought where the usual cushion has none, nor a height where it
+    # has no friction
+    usual, some = (
+        _constants.usual(cushion_model),
+        ("mu_cushion", "roll_loss", "restitution_log", "mu_log"),
+    )
+    left_out = {name for name in some if not usual[name]} | (
+        {"nose_height"} if not usual["mu_cushion"] else set()
+    )
     wider = _joint.TABLE if list(free) == ["table"] else {}
     usually = [name for name in wider or _joint.PRIORS if name not in left_out]
     names = usually if list(free) in (["default"], ["table"]) else list(free)
     known = [name for name in _constants.KINDS if name in values]
     unknown = [name for name in [*names, *priors] if name not in known]
     if unknown:
-        raise ValueError(f"free, priors: there is no constant {unknown[0]!r} to fit; known are {', '.join(known)}")
+        raise ValueError(
+            f"free, priors: there is no constant {unknown[0]!r} to fit; known are {', '.join(known)}"
+        )
     for name, (mean, deviation) in priors.items():
         if not (math.isfinite(mean) and math.isfinite(deviation) and deviation > 0.0):
-            raise ValueError(f"priors: {name} must have a finite mean and a deviation above 0, not {mean!r}, {deviation!r}")
+            raise ValueError(
+                f"priors: {name} must have a finite mean and a deviation above 0, not {mean!r}, {deviation!r}"
+            )
     found = {}
     for name in names:
         width, low, high = _joint.prior(name, values[name])
         width = wider.get(name, width)
         if name not in _joint.PRIORS and not low <= values[name] <= high:
-            raise ValueError(f"free: {name} must begin at {low:g} to {high:g}, not at its default of {values[name]:g}: constants gives it")
+            raise ValueError(
+                f"free: {name} must begin at {low:g} to {high:g}, not at its default of {values[name]:g}: constants gives it"
+            )
         if name not in priors and width is None:
-            raise ValueError(f"free: {name} needs its mean and deviation in priors, as its range is wide and it begins with 0")
+            raise ValueError(
+                f"free: {name} needs its mean and deviation in priors, as its range is wide and it begins with 0"
+            )
         found[name] = priors.get(name, (values[name], width or 0.0))
     return found
 
@@ -94,8 +121,14 @@ class _Saved:
 
     def __init__(self, path: Path | None, arguments: Sequence[Any]) -> None:
         shots, *others = arguments
-        text = repr([(shot.id, shot.balls, [track.tolist() for track in shot.tracks]) for shot in shots]) + repr((others, "Newton"))
-        self.path, self.parts, self.key = path, dict[str, Any](), hashlib.sha256(text.encode()).hexdigest()
+        text = repr(
+            [(shot.id, shot.balls, [track.tolist() for track in shot.tracks]) for shot in shots]
+        ) + repr((others, "Newton"))
+        self.path, self.parts, self.key = (
+            path,
+            dict[str, Any](),
+            hashlib.sha256(text.encode()).hexdigest(),
+        )
         if path is not None and path.exists():
             with contextlib.suppress(ValueError, TypeError, KeyError):  # another file: begin anew
                 given = json.loads(path.read_text(encoding="utf-8"))
@@ -117,18 +150,34 @@ class _Saved:
 
 
 def _sound(
-    recordings: list[Recording], table: tuple[float, float], radius: float, train: Sequence[int] | None, calibrate: bool
+    recordings: list[Recording],
+    table: tuple[float, float],
+    radius: float,
+    train: Sequence[int] | None,
+    calibrate: bool,
 ) -> tuple[list[Recording], list[list[str]], float, list[str]]:
-    """The recordings of a fit without what is wrong in them, what was mended in each, the noise, m, and what is to be told."""
+    """The recordings of a fit without what is wrong in them, what was mended in each, the noise, m,
+    and what is to be told.
+    """
     noise = _recordings.noise_of(recordings if train is None else [recordings[k] for k in train])
     recordings, notes = _recordings.sound(recordings, noise)
     lie, told = _recordings.lie_of(recordings, table, radius), list[str]()
     if lie.far > max(_CROOKED, 4.0 * lie.error):
-        told.append(f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}")
+        told.append(
+            f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}"
+        )
     for _ in range(2 if calibrate else 0):
         # the second time finds impacts that were too far from their cushions
-        recordings = [replace(shot, tracks=tuple(np.column_stack([track[:, 0], lie.places(track[:, 1:])]) for track in shot.tracks))
-                      for shot in recordings]  # fmt: skip
+        recordings = [
+            replace(
+                shot,
+                tracks=tuple(
+                    np.column_stack([track[:, 0], lie.places(track[:, 1:])])
+                    for track in shot.tracks
+                ),
+            )
+            for shot in recordings
+        ]
         lie = _recordings.lie_of(recordings, table, radius)
     counts = {len(shot.balls) for shot in recordings}
     if len(counts) > 1:
@@ -138,11 +187,15 @@ def _sound(
             f"all shots must have the same number"
         )
     if not (min(table) > 4.0 * radius > 0.0):
-        raise ValueError(f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0")
+        raise ValueError(
+            f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0"
+        )
     return recordings, notes, noise, told
 
 
-def _seek_again(plays: _strikes.Plays, played: list[int], strikes: Doubles, rmse: Doubles, rough: float) -> None:
+def _seek_again(
+    plays: _strikes.Plays, played: list[int], strikes: Doubles, rmse: Doubles, rough: float
+) -> None:
     """Seeks strikes that may have stuck once more, by way of kicks."""
     stuck = np.array(played)[rmse[played] > rough]
     if len(stuck):
@@ -154,22 +207,43 @@ def _seek_again(plays: _strikes.Plays, played: list[int], strikes: Doubles, rmse
 
 
 def _told_by_events(
-    values: dict[str, float], told: list[str], measured: Mapping[str, float], errors: Mapping[str, float]
+    values: dict[str, float],
+    told: list[str],
+    measured: Mapping[str, float],
+    errors: Mapping[str, float],
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """The constants after single events, and their errors: what events tell worse than that it is a table stays as given."""
-    worse = [name for name in measured if errors.get(name, 0.0) > (_joint.prior(name)[0] or math.inf)]
+    """The constants after single events, and their errors: what events tell worse than that it is a
+    table stays as given.
+    """
+    worse = [
+        name for name in measured if errors.get(name, 0.0) > (_joint.prior(name)[0] or math.inf)
+    ]
     if worse:
-        told.append(f"single events tell {', '.join(worse)} worse than tables differ: begun as given")
+        told.append(
+            f"single events tell {', '.join(worse)} worse than tables differ: begun as given"
+        )
     better = {name: value for name, value in measured.items() if name not in worse}
-    return {**values, **better}, {name: error for name, error in errors.items() if name not in worse}
+    return {**values, **better}, {
+        name: error for name, error in errors.items() if name not in worse
+    }
 
 
 def fit(
-    recordings: Sequence[Recording], table: tuple[float, float], radius: float, *, cushion_model: ShotCushion = "smooth",
-    constants: Mapping[str, float] | Records | np.void | None = None, free: str | Sequence[str] = "default",
-    priors: Mapping[str, tuple[float, float]] | None = None, train: Sequence[int] | None = None, seed: int = 0,
-    threads: int = 0, progress: Progress | None = None, state: Path | None = None, calibrate: bool = False
-) -> Fit:  # fmt: skip
+    recordings: Sequence[Recording],
+    table: tuple[float, float],
+    radius: float,
+    *,
+    cushion_model: ShotCushion = "smooth",
+    constants: Mapping[str, float] | Records | np.void | None = None,
+    free: str | Sequence[str] = "default",
+    priors: Mapping[str, tuple[float, float]] | None = None,
+    train: Sequence[int] | None = None,
+    seed: int = 0,
+    threads: int = 0,
+    progress: Progress | None = None,
+    state: Path | None = None,
+    calibrate: bool = False,
+) -> Fit:
     """Fit recorded shots.
 
     Parameters
@@ -183,26 +257,31 @@ def fit(
     constants : mapping or `carom.dtypes.ball_kind`, optional
         Known constants; the usual ones stand for those that are not given.
     free : "none", "events", "table", "default", or names of constants
-        What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
-        drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all
-        together with mu_spin, law_a and law_b, by whole shots. "table": restitution_cushion, mu_cushion, nose_height, mu_slide, mu_roll and
-        drag, by whole shots, as what else a model has is a law that other tables share: for few shots. Names: these constants alone, by whole shots: any
-        field of `carom.dtypes.ball_kind` but radius and mu_ball, also a cushion's own numbers.
+        What is fitted besides each shot's strike. "none": nothing. "events": the constants that
+        single events tell: mu_slide, mu_roll, drag, restitution, and those of the cushion. What too
+        few events tell stays as given. "default": these first, and then all together with mu_spin,
+        law_a and law_b, by whole shots. "table": restitution_cushion, mu_cushion, nose_height,
+        mu_slide, mu_roll and drag, by whole shots, as what else a model has is a law that other
+        tables share: for few shots. Names: these constants alone, by whole shots: any field of
+        `carom.dtypes.ball_kind` but radius and mu_ball, also a cushion's own numbers.
     priors : mapping, optional
-        Mean and deviation of constants that are fitted by whole shots. Without: about the value before, as wide as the constants of
-        different tables are.
+        Mean and deviation of constants that are fitted by whole shots. Without: about the value
+        before, as wide as the constants of different tables are.
     train : sequence of int, optional
-        The shots, from 0, that constants are fitted to; all without. The others then tell how well the constants predict.
+        The shots, from 0, that constants are fitted to; all without. The others then tell how well
+        the constants predict.
     seed, threads : int
-        Of what is drawn, and most threads: 0 is the calling one alone, -1 all processors. In one environment the bits depend on the seed
-        alone.
+        Of what is drawn, and most threads: 0 is the calling one alone, -1 all processors. In one
+        environment the bits depend on the seed alone.
     progress : callable(what, part), optional
         Is told the name of the work and the part of it that is done, 0 to 1.
     state : path, optional
-        A file that keeps what is done so far. A fit that was interrupted goes on from there when it is called again with the same
-        arguments, and has the same bits; the file is removed at the end.
+        A file that keeps what is done so far. A fit that was interrupted goes on from there when it
+        is called again with the same arguments, and has the same bits; the file is removed at the
+        end.
     calibrate : bool
-        Whether places are put right first where the table lies crooked in the tracks, is too large or small, or bent: by impacts on cushions.
+        Whether places are put right first where the table lies crooked in the tracks, is too large
+        or small, or bent: by impacts on cushions.
 
     Raises ValueError: An argument is wrong: which, and what would be right.
     """
@@ -221,16 +300,27 @@ def fit(
     fitted = [k for k in played if status[k] == "ok" and (train is None or k in set(train))]
     strikes, rmse = np.full((len(recordings), 6), np.nan), np.full(len(recordings), np.nan)
     if played:
-        saved = _Saved(state, [recordings, table, radius, cushion_model, values, free, priors, fitted, seed])
+        saved = _Saved(
+            state, [recordings, table, radius, cushion_model, values, free, priors, fitted, seed]
+        )
         if free[0] in ("events", "default"):
             if progress:
                 progress("events", 0.0)
             shots = [recordings[k] for k in fitted]
             values, spread = _told_by_events(
-                values, told, *saved.get("events", lambda: _from_events.measured(events(shots, table, radius), radius, cushion_model, seed, values))
+                values,
+                told,
+                *saved.get(
+                    "events",
+                    lambda: _from_events.measured(
+                        events(shots, table, radius), radius, cushion_model, seed, values
+                    ),
+                ),
             )
         if free[0] not in ("none", "events") and fitted:
-            plays = _strikes.Plays([recordings[k] for k in fitted], table, radius, values, cushion_model, threads)
+            plays = _strikes.Plays(
+                [recordings[k] for k in fitted], table, radius, values, cushion_model, threads
+            )
             found = saved.get("strikes", lambda: _strikes.find(plays, seed, progress)[0].tolist())
             wanted = _priors(free, priors or {}, values, cushion_model)
             searches = {"": _joint.Search(plays, np.array(found), range(len(fitted)), wanted)}
@@ -240,7 +330,12 @@ def fit(
                 if progress:
                     progress("constants", number / (_joint.STAGES + 2))
                 for law, search in searches.items():
-                    search.resume(saved.get(f"{law}constants {number}", functools.partial(search.stage, number, seed)))
+                    search.resume(
+                        saved.get(
+                            f"{law}constants {number}",
+                            functools.partial(search.stage, number, seed),
+                        )
+                    )
                 if number == _BOTH:
                     searches = dict([min(searches.items(), key=lambda one: one[1].middle)])
             (search,) = searches.values()
@@ -249,15 +344,24 @@ def fit(
                 progress("spread", _joint.STAGES / (_joint.STAGES + 2))
             if search.middle < _joint.MOST:
                 values, names = search.constants(search.values), tuple(search.names)
-                evidence = {name: error for name, error in spread.items() if name not in (priors or {})}
+                evidence = {
+                    name: error for name, error in spread.items() if name not in (priors or {})
+                }
                 covariance = _covariance.of_constants(search, evidence)
             else:
-                told.append("half of the shots are off by centimetres: whole shots tell no constants, which stay as they were before")
+                told.append(
+                    "half of the shots are off by centimetres: whole shots tell no constants, which stay as they were before"
+                )
             if covariance is not None:
                 spread = {**spread, **dict(zip(names, np.sqrt(covariance.diagonal()).tolist()))}
-            told += [f"{name} is at its bound, {values[name]:g}: the recordings do not tell it, or the cushion's model does not fit them"
-                     for name in names if values[name] in _joint.prior(name)[1:]]  # fmt: skip
-        plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
+            told += [
+                f"{name} is at its bound, {values[name]:g}: the recordings do not tell it, or the cushion's model does not fit them"
+                for name in names
+                if values[name] in _joint.prior(name)[1:]
+            ]
+        plays = _strikes.Plays(
+            [recordings[k] for k in played], table, radius, values, cushion_model, threads
+        )
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
         _seek_again(plays, played, strikes, rmse, _ROUGH * noise * math.sqrt(2.0))
@@ -265,15 +369,34 @@ def fit(
             if not np.isfinite(rmse[k]):
                 status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
             elif status[k] == "ok":
-                told_of = [_quality(strike, float(rmse[k]), noise, radius), f"mended: {'; '.join(notes[k])}" if notes[k] else ""]
+                told_of = [
+                    _quality(strike, float(rmse[k]), noise, radius),
+                    f"mended: {'; '.join(notes[k])}" if notes[k] else "",
+                ]
                 status[k] = "; ".join(filter(None, told_of)) or "ok"
         strikes[played, 5] += plays.origins
         saved.done()
     part = None if train is None else [k in set(train) for k in range(len(recordings))]
-    found = Fit(recordings, table, radius, cushion_model, values, spread, strikes, status, rmse, part, names, covariance, told)
+    found = Fit(
+        recordings,
+        table,
+        radius,
+        cushion_model,
+        values,
+        spread,
+        strikes,
+        status,
+        rmse,
+        part,
+        names,
+        covariance,
+        told,
+    )
     if found.median_rmse > _MANY * noise:
-        told.append(f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: the constants or the "
-                    f"models are off by more than the camera")  # fmt: skip
+        told.append(
+            f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: the constants or the "
+            f"models are off by more than the camera"
+        )
     return found
 
 
@@ -284,14 +407,20 @@ def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
         return f"doubtful: RMSE {100.0 * rmse:.1f} cm, {above:.0f} times that of the noise"
     if at := _strikes.at_bound(strike):
         return f"doubtful: {at} of the strike is at its bound"
-    return f"rough: RMSE {1e3 * rmse:.1f} mm, {above:.2g} times that of the noise" if above > _ROUGH else ""
+    return (
+        f"rough: RMSE {1e3 * rmse:.1f} mm, {above:.2g} times that of the noise"
+        if above > _ROUGH
+        else ""
+    )
 
 
 def _extents(text: str) -> tuple[float, float]:
     try:
         width, length = map(float, text.split(","))
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} must be W,L, the extents of x and y in m, such as 2.84,1.42") from None
+        raise argparse.ArgumentTypeError(
+            f"{text!r} must be W,L, the extents of x and y in m, such as 2.84,1.42"
+        ) from None
     return width, length
 
 
@@ -309,24 +438,63 @@ def _read_object(path: Path, such: str) -> dict[str, Any]:
 
 
 def _show(what: str, part: float) -> None:
-    print(f"\r{what}: {100.0 * part:3.0f} %  ", end="\n" if part >= 1.0 else "", file=sys.stderr, flush=True)
+    print(
+        f"\r{what}: {100.0 * part:3.0f} %  ",
+        end="\n" if part >= 1.0 else "",
+        file=sys.stderr,
+        flush=True,
+    )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command; its exit status is 0, 2 for bad usage or unreadable input, or 130 if it was interrupted; then nothing is written."""
-    parser = argparse.ArgumentParser(prog="python -m carom.fit", description="Fits recorded shots: each strike, and constants.")
-    parser.add_argument("tracks", type=Path, help="recorded tracks: a CSV with shot,ball,t,x,y, or JSON Lines; .xz and .gz too")
-    parser.add_argument("--table", type=_extents, required=True, metavar="W,L", help="extents of x and y, m")
+    """The command; its exit status is 0, 2 for bad usage or unreadable input, or 130 if it was
+    interrupted; then nothing is written.
+    """
+    parser = argparse.ArgumentParser(
+        prog="python -m carom.fit", description="Fits recorded shots: each strike, and constants."
+    )
+    parser.add_argument(
+        "tracks",
+        type=Path,
+        help="recorded tracks: a CSV with shot,ball,t,x,y, or JSON Lines; .xz and .gz too",
+    )
+    parser.add_argument(
+        "--table", type=_extents, required=True, metavar="W,L", help="extents of x and y, m"
+    )
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
     parser.add_argument("--cushion-model", default="smooth", choices=list(_constants.STARTS))
-    parser.add_argument("--constants", type=Path, metavar="IN.json", help="known constants; the usual ones otherwise")
-    parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|table|default|NAME,...",
-                        help="constants that are fitted besides the strikes")  # fmt: skip
-    parser.add_argument("--priors", type=Path, metavar="PRIORS.json", help='{"mu_spin": [mean, deviation], ...}')
-    parser.add_argument("--split", action="store_true", help="fit constants to every second shot, and tell how they predict the others")
-    parser.add_argument("--calibrate", action="store_true", help="put right tracks on which the table lies crooked, has another size or is bent")
-    parser.add_argument("--kicks", action="store_true", help="tell what the models get wrong at each contact")
-    parser.add_argument("--summary", type=Path, metavar="OUT.html", help="write a page with pictures")
+    parser.add_argument(
+        "--constants",
+        type=Path,
+        metavar="IN.json",
+        help="known constants; the usual ones otherwise",
+    )
+    parser.add_argument(
+        "--free",
+        default="default",
+        type=lambda text: text.split(","),
+        metavar="none|events|table|default|NAME,...",
+        help="constants that are fitted besides the strikes",
+    )
+    parser.add_argument(
+        "--priors", type=Path, metavar="PRIORS.json", help='{"mu_spin": [mean, deviation], ...}'
+    )
+    parser.add_argument(
+        "--split",
+        action="store_true",
+        help="fit constants to every second shot, and tell how they predict the others",
+    )
+    parser.add_argument(
+        "--calibrate",
+        action="store_true",
+        help="put right tracks on which the table lies crooked, has another size or is bent",
+    )
+    parser.add_argument(
+        "--kicks", action="store_true", help="tell what the models get wrong at each contact"
+    )
+    parser.add_argument(
+        "--summary", type=Path, metavar="OUT.html", help="write a page with pictures"
+    )
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--threads", type=int, default=0, help="0: one; -1: all processors")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT.json")
@@ -336,15 +504,27 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _constants.complete(constants, given.cushion_model, str(given.constants))
         recordings = read(given.tracks, table=given.table, radius=given.radius)
         found = fit(
-            recordings, given.table, given.radius, cushion_model=given.cushion_model, constants=constants, free=given.free,
-            priors=_read_object(given.priors, '{"mu_spin": [0.004, 0.001]}') if given.priors else None,
+            recordings,
+            given.table,
+            given.radius,
+            cushion_model=given.cushion_model,
+            constants=constants,
+            free=given.free,
+            priors=_read_object(given.priors, '{"mu_spin": [0.004, 0.001]}')
+            if given.priors
+            else None,
             train=range(0, len(recordings), 2) if given.split else None,
-            seed=given.seed, threads=given.threads, progress=_show if sys.stderr.isatty() else None,
-            state=given.output.with_name(given.output.name + ".state"), calibrate=given.calibrate,
-        )  # fmt: skip
+            seed=given.seed,
+            threads=given.threads,
+            progress=_show if sys.stderr.isatty() else None,
+            state=given.output.with_name(given.output.name + ".state"),
+            calibrate=given.calibrate,
+        )
         kicks = found.kicks() if given.kicks else None
         if given.summary:
-            given.summary.write_text(_summary.page(found, given.tracks.name, kicks), encoding="utf-8")
+            given.summary.write_text(
+                _summary.page(found, given.tracks.name, kicks), encoding="utf-8"
+            )
         given.output.write_text(json.dumps(found.to_dict(kicks), indent=1) + "\n", encoding="utf-8")
     except (OSError, ValueError) as error:
         print(f"carom.fit: {error}", file=sys.stderr)
@@ -356,14 +536,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for what, part in parts:
         rmse = 100.0 * found.counted(part)
         if len(rmse):
-            print(f"{what}{len(rmse)} of {len(recordings)} shots: RMSE median {np.median(rmse):.2f} cm, p90 {np.percentile(rmse, 90):.2f} cm")
+            print(
+                f"{what}{len(rmse)} of {len(recordings)} shots: RMSE median {np.median(rmse):.2f} cm, p90 {np.percentile(rmse, 90):.2f} cm"
+            )
     if found.train is not None and len(rmse):
         within = 100.0 * found.covered(found.bands(True), False)
-        print(f"of their samples {within[0]:.0f} and {within[1]:.0f} % are within the bands of 68 and 95 % of those that were fitted")
+        print(
+            f"of their samples {within[0]:.0f} and {within[1]:.0f} % are within the bands of 68 and 95 % of those that were fitted"
+        )
     print("\n".join(_summary.told(found)))
     if kicks is not None and np.isfinite(kicks.rmse).any():
         rmse = 100.0 * kicks.rmse[np.isfinite(kicks.rmse)]
-        print(f"with kicks: RMSE median {np.median(rmse):.2f} cm, p90 {np.percentile(rmse, 90):.2f} cm\n\n{kicks.markdown()}")
+        print(
+            f"with kicks: RMSE median {np.median(rmse):.2f} cm, p90 {np.percentile(rmse, 90):.2f} cm\n\n{kicks.markdown()}"
+        )
     return 0
 
 

@@ -1,4 +1,5 @@
-// The laboratory in the address: what differs from the defaults, strokes that are undone, the next shot, and a link.
+// The laboratory in the address: what differs from the defaults, strokes that are undone, the next
+// shot, and a link.
 import { GAMES } from "../table/games.js";
 import { atHead } from "../table/head.js";
 import { wrong } from "../ui.js";
@@ -12,18 +13,25 @@ function stateOf(d: Desk): Record<string, string> {
   const kept: Record<string, string> = {};
   if (d.gameName !== "nineball") kept.game = d.gameName;
   if (d.seed !== 1) kept.seed = String(d.seed);
-  for (const [key, s] of Object.entries(controls.sliders)) if (s.value !== DEFAULTS[key]) kept[key] = String(s.value);
+  for (const [key, s] of Object.entries(controls.sliders))
+    if (s.value !== DEFAULTS[key]) kept[key] = String(s.value);
   if (controls.cushion.select.value !== "han") kept.cushion = controls.cushion.select.value;
   if (d.solver() === "euler") kept.solver = "euler";
   if (d.imported) kept.line = lineOf(d);
-  else if (d.moved || d.faces.some((face) => face !== 0)) kept.at = d.balls.map(({ state: { r, label } }, k) => (label === "pocketed" ? "in" : `${r[0]},${r[1]}${d.faces[k] ? `,${d.faces[k]}` : ""}`)).join(" ");
+  else if (d.moved || d.faces.some((face) => face !== 0))
+    kept.at = d.balls
+      .map(({ state: { r, label } }, k) =>
+        label === "pocketed" ? "in" : `${r[0]},${r[1]}${d.faces[k] ? `,${d.faces[k]}` : ""}`,
+      )
+      .join(" ");
   return kept;
 }
 
 /** Sets the desk to what an address says. */
 export function restore(d: Desk, given: URLSearchParams): void {
   const { controls } = d;
-  const known = (key: string, among: readonly string[]): string => (among.includes(given.get(key) ?? "") ? given.get(key)! : among[0]!);
+  const known = (key: string, among: readonly string[]): string =>
+    among.includes(given.get(key) ?? "") ? given.get(key)! : among[0]!;
   d.gameName = known("game", Object.keys(GAMES));
   d.seed = Number(given.get("seed") ?? 1);
   if (!Number.isSafeInteger(d.seed) || d.seed < 0) d.seed = 1;
@@ -77,7 +85,10 @@ export function undoing(d: Desk, changed: (past: boolean) => void) {
     const { shot, table, carom } = d;
     if (!shot) return;
     commit();
-    d.balls = d.balls.map(({ kind }, k) => ({ kind, state: shot.final[k]!.label === "off" ? pocketed(table, shot.final[k]!) : shot.final[k]! }));
+    d.balls = d.balls.map(({ kind }, k) => ({
+      kind,
+      state: shot.final[k]!.label === "off" ? pocketed(table, shot.final[k]!) : shot.final[k]!,
+    }));
     if (d.balls[0]!.state.label === "pocketed") d.balls = atHead(carom, table, d.balls);
     d.moved = true;
     d.aimed();
@@ -90,7 +101,10 @@ export function undoing(d: Desk, changed: (past: boolean) => void) {
       await navigator.clipboard.writeText(location.href);
       says(d, "The link to this shot is copied.");
     } catch (error) {
-      says(d, `The browser does not let the page copy (${wrong(error)}). The address of the page is the link.`);
+      says(
+        d,
+        `The browser does not let the page copy (${wrong(error)}). The address of the page is the link.`,
+      );
     }
   }
   return { commit, back, nextShot, copyLink };

@@ -3,7 +3,19 @@ import type { Carom, CollideOptions, Impact, Motion, Vec3 } from "carom";
 import { fit } from "../../../player/table.js";
 import { DEGREES } from "../table/drawing.js";
 import { pixelsOf } from "../table/grip.js";
-import { arrow, check, color, drags, eachFrame, el, keep, parameters, slider, type Slider, valuesOf } from "../ui.js";
+import {
+  arrow,
+  check,
+  color,
+  drags,
+  eachFrame,
+  el,
+  keep,
+  parameters,
+  slider,
+  type Slider,
+  valuesOf,
+} from "../ui.js";
 import { type Column, merged, plot } from "./plots.js";
 
 declare const MEASURED: string;
@@ -12,11 +24,24 @@ const R = 0.028575;
 const MASS = 0.170097;
 const CURVE = 121;
 
-const DEFAULTS: Record<string, number> = { speed: 1.5, cut: 30, side: 0, tip: 0.4, mu: 0.06, cloth: 0.2, e: 0.95 };
+const DEFAULTS: Record<string, number> = {
+  speed: 1.5,
+  cut: 30,
+  side: 0,
+  tip: 0.4,
+  mu: 0.06,
+  cloth: 0.2,
+  e: 0.95,
+};
 /** The values of the sliders, and whether friction between the balls follows Alciatore's law. */
-type Setting = Record<"speed" | "cut" | "side" | "tip" | "mu" | "cloth" | "e", number> & { law: boolean };
+type Setting = Record<"speed" | "cut" | "side" | "tip" | "mu" | "cloth" | "e", number> & {
+  law: boolean;
+};
 
-/** The cue ball moves along x; the object ball is to the left at cut angles above 0. Spins are those of a level strike at the tip. */
+/**
+ * The cue ball moves along x; the object ball is to the left at cut angles above 0. Spins are those
+ * of a level strike at the tip.
+ */
 function impactOf(s: Setting, over: Partial<Setting> = {}): Impact {
   const { speed, cut, side, tip, mu, cloth, e, law } = { ...s, ...over };
   const angle = cut / DEGREES;
@@ -30,20 +55,33 @@ function impactOf(s: Setting, over: Partial<Setting> = {}): Impact {
 
 const norm = (v: readonly number[]): number => Math.hypot(...v);
 const direction = (v: Vec3): number => Math.atan2(v[1], v[0]) * DEGREES;
-const energy = (m: Motion): number => 0.5 * MASS * norm(m.v) ** 2 + 0.2 * MASS * R * R * norm(m.w) ** 2;
+const energy = (m: Motion): number =>
+  0.5 * MASS * norm(m.v) ** 2 + 0.2 * MASS * R * R * norm(m.w) ** 2;
 const turn = (degrees: number): number => ((((degrees + 180) % 360) + 360) % 360) - 180;
-const sided = (degrees: number): string => (Math.abs(degrees) < 0.005 ? "0.00°" : `${Math.abs(degrees).toFixed(2)}° ${degrees > 0 ? "left" : "right"}`);
+const sided = (degrees: number): string =>
+  Math.abs(degrees) < 0.005
+    ? "0.00°"
+    : `${Math.abs(degrees).toFixed(2)}° ${degrees > 0 ? "left" : "right"}`;
 
-/** Measured by Mathavan and others, 2014: rolling cue balls of snooker. Directions are those after the balls roll. */
+/**
+ * Measured by Mathavan and others, 2014: rolling cue balls of snooker. Directions are those after
+ * the balls roll.
+ */
 const experiments = MEASURED.trim()
   .split("\n")
   .slice(1)
   .map((line) => line.split(",").map(Number))
   .map((row) => ({ cut: row[3]!, deflection: row[8]! }));
-/** Throw of a stun shot at 45 degrees, as D. Alciatore reports it for four surfaces of balls (data/measured.csv). */
+/**
+ * Throw of a stun shot at 45 degrees, as D. Alciatore reports it for four surfaces of balls
+ * (data/measured.csv).
+ */
 const throws = [3.6, 4.9, 11, 11.6];
 
-/** The setting, the canvas and what is written; how large a ball is on the canvas, pixels, and where the object ball is. */
+/**
+ * The setting, the canvas and what is written; how large a ball is on the canvas, pixels, and where
+ * the object ball is.
+ */
 interface View {
   readonly carom: Carom;
   readonly solver: () => "exact" | "euler";
@@ -60,7 +98,9 @@ function controlsOf(update: () => void) {
   const given = parameters();
   const two = (x: number): string => x.toFixed(2);
   const sliders: Record<Exclude<keyof Setting, "law">, Slider> = {
-    speed: slider("speed", "Speed at the contact", 0.1, 8, 0.1, " m/s", update, (x) => x.toFixed(1)),
+    speed: slider("speed", "Speed at the contact", 0.1, 8, 0.1, " m/s", update, (x) =>
+      x.toFixed(1),
+    ),
     cut: slider("cut", "Cut angle", -85, 85, 0.5, "°", update, (x) => x.toFixed(1)),
     side: slider("side", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", update, two),
     tip: slider("tip", "Tip above (+) or below; 0.4 rolls", -0.7, 0.7, 0.01, " R", update, two),
@@ -77,7 +117,7 @@ function controlsOf(update: () => void) {
   return { sliders, law };
 }
 
-// ---- Curves ----------------------------------------------------------------------------------------------------------------------
+// ---- Curves -------------------------------------------------------------------------------------
 
 function plotsOf(into: HTMLElement) {
   const cut = ["cut angle, °", -85, 85] as const;
@@ -85,20 +125,42 @@ function plotsOf(into: HTMLElement) {
     throwByCut: plot(into, {
       ...{ id: "plot-throw-cut", title: "Throw against cut angle", x: cut, y: "throw, ° (+ left)" },
       note: "Orange: this collision. Grey: throw at 45° without spin, as D. Alciatore reports it for balls cleaned with Aramith (3.6°), used (4.9°), cleaned with alcohol (11°) and chalked at the contact (11.6°).",
-      series: [{ label: "throw", color: "accent" }, { label: "reported at 45°", color: "quiet", points: true }],
+      series: [
+        { label: "throw", color: "accent" },
+        { label: "reported at 45°", color: "quiet", points: true },
+      ],
     }),
     throwBySide: plot(into, {
-      ...{ id: "plot-throw-side", title: "Throw against side spin", x: ["tip to the right, R", -0.7, 0.7], y: "throw, ° (+ left)" },
+      ...{
+        id: "plot-throw-side",
+        title: "Throw against side spin",
+        x: ["tip to the right, R", -0.7, 0.7],
+        y: "throw, ° (+ left)",
+      },
       note: "Where the curve crosses 0 the balls roll on each other like gears.",
       series: [{ label: "throw", color: "accent" }],
     }),
     deflection: plot(into, {
-      ...{ id: "plot-deflection", title: "Deflection of the cue ball, once it rolls", x: cut, y: "deflection, ° (+ left)", band: [27, 34] },
+      ...{
+        id: "plot-deflection",
+        title: "Deflection of the cue ball, once it rolls",
+        x: cut,
+        y: "deflection, ° (+ left)",
+        band: [27, 34],
+      },
       note: "Band: the 30-degree rule, 27° to 34°. Points: five rolling shots measured by Mathavan and others (2014), on a snooker table.",
-      series: [{ label: "deflection", color: "accent" }, { label: "measured", color: "quiet", points: true }],
+      series: [
+        { label: "deflection", color: "accent" },
+        { label: "measured", color: "quiet", points: true },
+      ],
     }),
     inside: plot(into, {
-      ...{ id: "plot-inside", title: "Inside the contact", x: ["normal impulse so far, N s", 0, 0], y: "m/s" },
+      ...{
+        id: "plot-inside",
+        title: "Inside the contact",
+        x: ["normal impulse so far, N s", 0, 0],
+        y: "m/s",
+      },
       note: "The balls press on each other for about 0.2 ms. Slips are speeds of one surface over the other; approach ends where compression turns into restitution.",
       series: [
         { label: "slip of the balls", color: "accent" },
@@ -110,8 +172,16 @@ function plotsOf(into: HTMLElement) {
   };
 }
 
-/** Throw, and the deflection of the cue ball once it rolls, degrees, along a range of one setting. */
-function along({ carom, curve, solver }: View, s: Setting, key: "cut" | "side", from: number, to: number): { x: number[]; thrown: Column; deflected: Column } {
+/**
+ * Throw, and the deflection of the cue ball once it rolls, degrees, along a range of one setting.
+ */
+function along(
+  { carom, curve, solver }: View,
+  s: Setting,
+  key: "cut" | "side",
+  from: number,
+  to: number,
+): { x: number[]; thrown: Column; deflected: Column } {
   const x = Array.from({ length: CURVE }, (_, k) => from + ((to - from) * k) / (CURVE - 1));
   x.forEach((value, k) => curve.set(k, impactOf(s, { [key]: value })));
   carom.collideBatch(curve, { solver: solver() });
@@ -130,22 +200,52 @@ function along({ carom, curve, solver }: View, s: Setting, key: "cut" | "side", 
 function drawCurves(view: View, s: Setting, impact: Impact, thrown: number, rolls: Vec3): void {
   const { carom, plots, solver } = view;
   const byCut = along(view, s, "cut", -85, 85);
-  plots.throwByCut.set(merged(byCut.x, byCut.thrown, throws.map((y, k) => ({ x: 45 + 1e-6 * k, y: -y }))), [{ x: s.cut, y: thrown }]);
+  plots.throwByCut.set(
+    merged(
+      byCut.x,
+      byCut.thrown,
+      throws.map((y, k) => ({ x: 45 + 1e-6 * k, y: -y })),
+    ),
+    [{ x: s.cut, y: thrown }],
+  );
   const bySide = along(view, s, "side", -0.7, 0.7);
   plots.throwBySide.set([bySide.x, bySide.thrown], [{ x: s.side, y: thrown }]);
-  plots.deflection.set(merged(byCut.x, byCut.deflected, experiments.map((one) => ({ x: one.cut, y: -one.deflection }))), norm(rolls) > 1e-6 ? [{ x: s.cut, y: direction(rolls) }] : []);
+  plots.deflection.set(
+    merged(
+      byCut.x,
+      byCut.deflected,
+      experiments.map((one) => ({ x: one.cut, y: -one.deflection })),
+    ),
+    norm(rolls) > 1e-6 ? [{ x: s.cut, y: direction(rolls) }] : [],
+  );
   const trace = carom.trace(impact, 61, { solver: solver() });
-  plots.inside.set([trace.map((p) => p.normal), trace.map((p) => Math.hypot(p.uX, p.uZ)), trace.map((p) => norm(p.d)), trace.map((p) => norm(p.b)), trace.map((p) => p.vN)], []);
+  plots.inside.set(
+    [
+      trace.map((p) => p.normal),
+      trace.map((p) => Math.hypot(p.uX, p.uZ)),
+      trace.map((p) => norm(p.d)),
+      trace.map((p) => norm(p.b)),
+      trace.map((p) => p.vN),
+    ],
+    [],
+  );
 }
 
-// ---- Numbers and drawing -----------------------------------------------------------------------------------------------------------
+// ---- Numbers and drawing ------------------------------------------------------------------------
 
 /** The rows of numbers: their ids, names and texts. */
-function rowsOf(s: Setting, impact: Impact, { a, b, status, detail }: ReturnType<Carom["collideDetail"]>, [rollsA, rollsB]: readonly Vec3[], euler: boolean): [string, string, string][] {
+function rowsOf(
+  s: Setting,
+  impact: Impact,
+  { a, b, status, detail }: ReturnType<Carom["collideDetail"]>,
+  [rollsA, rollsB]: readonly Vec3[],
+  euler: boolean,
+): [string, string, string][] {
   const before = energy({ v: impact.a.v!, w: impact.a.w! });
   const lost = before - energy(a) - energy(b);
   const gearing = Math.sin(s.cut / DEGREES) / 2.5;
-  const way = (v: Vec3, stops = false): string => (stops && norm(v) < 1e-9 ? "stops" : `${sided(direction(v))}, ${norm(v).toFixed(3)} m/s`);
+  const way = (v: Vec3, stops = false): string =>
+    stops && norm(v) < 1e-9 ? "stops" : `${sided(direction(v))}, ${norm(v).toFixed(3)} m/s`;
   return [
     ["throw", "Throw", sided(turn(direction(b.v) - s.cut))],
     ["object", "Object ball", way(b.v)],
@@ -154,8 +254,18 @@ function rowsOf(s: Setting, impact: Impact, { a, b, status, detail }: ReturnType
     ["rolling", "once it rolls", way(rollsA!, true)],
     ["spin", "Side spin transferred", `${b.w[2].toFixed(2)} rad/s`],
     ["vertical", "Roll transferred", `${norm([b.w[0], b.w[1]]).toFixed(2)} rad/s`],
-    ["gearing", "No throw with the tip at", Math.abs(gearing) > 0.7 ? "beyond 0.7 R" : `${Math.abs(gearing).toFixed(3)} R ${gearing > 0 ? "right" : "left"}`],
-    ["energy", "Energy lost", `${(1000 * lost).toFixed(1)} mJ, ${((100 * lost) / before).toFixed(1)} %`],
+    [
+      "gearing",
+      "No throw with the tip at",
+      Math.abs(gearing) > 0.7
+        ? "beyond 0.7 R"
+        : `${Math.abs(gearing).toFixed(3)} R ${gearing > 0 ? "right" : "left"}`,
+    ],
+    [
+      "energy",
+      "Energy lost",
+      `${(1000 * lost).toFixed(1)} mJ, ${((100 * lost) / before).toFixed(1)} %`,
+    ],
     ["impulse", "Normal impulse", `${detail.normal.toFixed(4)} N s`],
     ["friction", "Impulse of friction", `${norm(detail.friction).toFixed(4)} N s`],
     ["stick", "The balls stick", euler ? "unknown with Euler steps" : detail.stick],
@@ -198,14 +308,20 @@ function draw(view: View, s: Setting, a: Motion, b: Motion): void {
   ball(cx, cy, "#fbfaf5");
   ball(ox, oy, "#d8a400");
   const longest = Math.min(width * 0.36, 3.2 * radius);
-  const to = (v: readonly number[]): [number, number] => [(v[0]! / s.speed) * longest, (-v[1]! / s.speed) * longest];
+  const to = (v: readonly number[]): [number, number] => [
+    (v[0]! / s.speed) * longest,
+    (-v[1]! / s.speed) * longest,
+  ];
   arrow(g, cx - longest - radius, cy, longest, 0, "#ffffff");
   arrow(g, cx, cy, ...to(view.carom.rollingVelocity(a, R)), "#0b2f4f", true);
   arrow(g, cx, cy, ...to(a.v), "#0b2f4f");
   arrow(g, ox, oy, ...to(view.carom.rollingVelocity(b, R)), "#4a2a00", true);
   arrow(g, ox, oy, ...to(b.v), "#4a2a00");
   // Side spin: an arc around the ball, in the sense in which it turns.
-  for (const [x, y, w] of [[cx, cy, a.w[2]], [ox, oy, b.w[2]]] as const) {
+  for (const [x, y, w] of [
+    [cx, cy, a.w[2]],
+    [ox, oy, b.w[2]],
+  ] as const) {
     const size = Math.min(Math.abs(w) / 40, 1) * Math.PI * 1.5;
     if (size < 0.2) continue;
     g.strokeStyle = "#b3261e";
@@ -228,13 +344,22 @@ function show(view: View): void {
   const after = carom.collideDetail(impact, { solver: solver() });
   const { a, b } = after;
   const rolls = [carom.rollingVelocity(a, R), carom.rollingVelocity(b, R)];
-  numbers.replaceChildren(...rowsOf(s, impact, after, rolls, euler).map(([id, name, text]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `n-${id}` }, text))));
-  canvas.setAttribute("aria-label", `Two balls from above. Cut ${s.cut.toFixed(1)} degrees; the object ball goes ${sided(direction(b.v))} at ${norm(b.v).toFixed(2)} m/s, the cue ball ${sided(direction(a.v))} at ${norm(a.v).toFixed(2)} m/s.`);
+  numbers.replaceChildren(
+    ...rowsOf(s, impact, after, rolls, euler).map(([id, name, text]) =>
+      el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `n-${id}` }, text)),
+    ),
+  );
+  canvas.setAttribute(
+    "aria-label",
+    `Two balls from above. Cut ${s.cut.toFixed(1)} degrees; the object ball goes ${sided(direction(b.v))} at ${norm(b.v).toFixed(2)} m/s, the cue ball ${sided(direction(a.v))} at ${norm(a.v).toFixed(2)} m/s.`,
+  );
   draw(view, s, a, b);
   drawCurves(view, s, impact, turn(direction(b.v) - s.cut), rolls[0]!);
 
   const kept: Record<string, string> = { view: "collision" };
-  for (const [key, one] of Object.entries(sliders)) if ((key !== "mu" || !law.input.checked) && one.value !== DEFAULTS[key]) kept[key] = String(one.value);
+  for (const [key, one] of Object.entries(sliders))
+    if ((key !== "mu" || !law.input.checked) && one.value !== DEFAULTS[key])
+      kept[key] = String(one.value);
   if (!law.input.checked) kept.law = "0";
   if (euler) kept.solver = "euler";
   keep(kept);
@@ -242,7 +367,10 @@ function show(view: View): void {
 
 /** Lets the cue ball be dragged around the other one, or turned by keys. */
 function handle(view: View, update: () => void): void {
-  const { canvas, controls: { sliders } } = view;
+  const {
+    canvas,
+    controls: { sliders },
+  } = view;
   const soon = eachFrame(update);
   const cutTo = (cut: number): void => void (sliders.cut.value = Math.max(-85, Math.min(85, cut)));
   drags(canvas, (event) => {
@@ -260,23 +388,68 @@ function handle(view: View, update: () => void): void {
   });
 }
 
-export function collisionView(carom: Carom, solver: View["solver"], main: HTMLElement): { update(): void; theme(): void } {
+export function collisionView(
+  carom: Carom,
+  solver: View["solver"],
+  main: HTMLElement,
+): { update(): void; theme(): void } {
   const update = (): void => show(view);
   const controls = controlsOf(update);
-  const canvas = el("canvas", { class: "scene", id: "collision-scene", role: "img", tabindex: "0" });
+  const canvas = el("canvas", {
+    class: "scene",
+    id: "collision-scene",
+    role: "img",
+    tabindex: "0",
+  });
   const [numbers, curves] = [el("tbody"), el("div", { class: "plots" })];
-  const roots = (...keys: Exclude<keyof Setting, "law">[]): HTMLElement[] => keys.map((key) => controls.sliders[key].root);
+  const roots = (...keys: Exclude<keyof Setting, "law">[]): HTMLElement[] =>
+    keys.map((key) => controls.sliders[key].root);
   main.replaceChildren(
     el(
       "div",
       { class: "columns" },
-      el("section", { class: "panel first", "aria-label": "Settings" }, el("h2", {}, "Two balls meet"), ...roots("speed", "cut", "side", "tip"), controls.law.root, ...roots("mu", "cloth", "e")),
-      el("section", { class: "panel scene-panel", "aria-label": "Seen from above" }, canvas, el("p", { class: "note" }, "Drag the white ball around the other one, or use the arrow keys, to set the cut. Solid arrows: just after the contact. Dashed: once the ball rolls. Red arcs: side spin.")),
-      el("section", { class: "panel", "aria-label": "Numbers" }, el("table", { class: "numbers", id: "collision-numbers" }, el("caption", {}, "Just after, and once the balls roll"), numbers)),
+      el(
+        "section",
+        { class: "panel first", "aria-label": "Settings" },
+        el("h2", {}, "Two balls meet"),
+        ...roots("speed", "cut", "side", "tip"),
+        controls.law.root,
+        ...roots("mu", "cloth", "e"),
+      ),
+      el(
+        "section",
+        { class: "panel scene-panel", "aria-label": "Seen from above" },
+        canvas,
+        el(
+          "p",
+          { class: "note" },
+          "Drag the white ball around the other one, or use the arrow keys, to set the cut. Solid arrows: just after the contact. Dashed: once the ball rolls. Red arcs: side spin.",
+        ),
+      ),
+      el(
+        "section",
+        { class: "panel", "aria-label": "Numbers" },
+        el(
+          "table",
+          { class: "numbers", id: "collision-numbers" },
+          el("caption", {}, "Just after, and once the balls roll"),
+          numbers,
+        ),
+      ),
     ),
     curves,
   );
-  const view: View = { carom, solver, controls, canvas, numbers, plots: plotsOf(curves), curve: carom.collisions(CURVE), scale: 1, origin: [0, 0] };
+  const view: View = {
+    carom,
+    solver,
+    controls,
+    canvas,
+    numbers,
+    plots: plotsOf(curves),
+    curve: carom.collisions(CURVE),
+    scale: 1,
+    origin: [0, 0],
+  };
   handle(view, update);
   update();
   return {

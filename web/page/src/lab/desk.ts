@@ -1,5 +1,15 @@
-// The desk of the laboratory: the balls as they lie, the controls of a stroke, and the shot that is shown.
-import { type Carom, type Cue, type Replayed, type Shot, type ShotBall, type ShotOptions, type Table, words } from "carom";
+// The desk of the laboratory: the balls as they lie, the controls of a stroke, and the shot that is
+// shown.
+import {
+  type Carom,
+  type Cue,
+  type Replayed,
+  type Shot,
+  type ShotBall,
+  type ShotOptions,
+  type Table,
+  words,
+} from "carom";
 import type { player } from "../../../player/player.js";
 import { GAMES, type GameOf } from "../table/games.js";
 import { cueWith, strokeControls, strokeOf } from "../table/stroke.js";
@@ -42,16 +52,33 @@ export interface Desk {
   writing: number | undefined;
 }
 
-/** The controls of a stroke, and where its words stand; `aimed` follows a change, `racked` another game. */
+/**
+ * The controls of a stroke, and where its words stand; `aimed` follows a change, `racked` another
+ * game.
+ */
 export function controlsOf(aimed: () => void, racked: () => void) {
   const two = (x: number): string => x.toFixed(2);
-  const stroke = strokeControls(slider("speed", "Speed of the cue", 0.1, 10, 0.05, " m/s", aimed, two), "spin", aimed);
+  const stroke = strokeControls(
+    slider("speed", "Speed of the cue", 0.1, 10, 0.05, " m/s", aimed, two),
+    "spin",
+    aimed,
+  );
   const sliders: Record<string, Slider> = stroke.sliders;
   const set = (key: string, value: number): void => void (sliders[key]!.value = value);
   return {
     ...{ sliders, stroke, set, value: (key: string): number => sliders[key]!.value },
-    games: choice("game", "Game", Object.entries(GAMES).map(([key, { text }]) => [key, text] as const), racked),
-    cushion: choice("cushion", "Cushions", CUSHIONS.map((word) => [word, `${word}: ${about.get(word)}`] as const), aimed),
+    games: choice(
+      "game",
+      "Game",
+      Object.entries(GAMES).map(([key, { text }]) => [key, text] as const),
+      racked,
+    ),
+    cushion: choice(
+      "cushion",
+      "Cushions",
+      CUSHIONS.map((word) => [word, `${word}: ${about.get(word)}`] as const),
+      aimed,
+    ),
     summary: el("tbody"),
     message: el("p", { class: "error", role: "status", id: "message" }),
     line: el("textarea", { id: "line", spellcheck: "false" }),
@@ -59,17 +86,25 @@ export function controlsOf(aimed: () => void, racked: () => void) {
   };
 }
 
-export const says = ({ controls }: Desk, text: string): void => void (controls.message.textContent = text);
-export const cueOf = ({ carom, controls: { stroke }, imported, game }: Desk): Cue => cueWith(imported ?? carom.cue({}, game.game), stroke.value());
+export const says = ({ controls }: Desk, text: string): void =>
+  void (controls.message.textContent = text);
+export const cueOf = ({ carom, controls: { stroke }, imported, game }: Desk): Cue =>
+  cueWith(imported ?? carom.cue({}, game.game), stroke.value());
 /** Sets the sliders to a stroke. */
 export const aim = ({ controls: { stroke } }: Desk, cue: Cue): void => stroke.set(strokeOf(cue));
 export function optionsOf({ solver, controls }: Desk): ShotOptions {
   const euler = solver() === "euler";
   const model = controls.cushion.select.value as NonNullable<ShotOptions["cushionModel"]>;
-  return { ballModel: euler ? "euler" : "exact", cushionModel: euler && model === "mathavan" ? "euler" : model };
+  return {
+    ballModel: euler ? "euler" : "exact",
+    cushionModel: euler && model === "mathavan" ? "euler" : model,
+  };
 }
 
-/** Gives the balls the constants of the game for the cushions that are chosen; those of a line keep their own. What it says where there are none. */
+/**
+ * Gives the balls the constants of the game for the cushions that are chosen; those of a line keep
+ * their own. What it says where there are none.
+ */
 export function suit(d: Desk): string {
   let said = "";
   if (d.imported) return said;
@@ -90,5 +125,15 @@ export function lay(d: Desk): void {
   d.controls.games.select.value = gameName;
   const table = carom.table(game.table);
   const balls = carom.rack(game.rack, table, { seed });
-  Object.assign(d, { game, table, balls, names: balls.map((_, k) => game.names(k)), faces: balls.map(() => 0), chosen: -1, moved: false, imported: undefined, builtIn: true });
+  Object.assign(d, {
+    game,
+    table,
+    balls,
+    names: balls.map((_, k) => game.names(k)),
+    faces: balls.map(() => 0),
+    chosen: -1,
+    moved: false,
+    imported: undefined,
+    builtIn: true,
+  });
 }

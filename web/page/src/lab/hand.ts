@@ -1,25 +1,49 @@
-// The laboratory by pointer and keys: what lies under a pointer, balls that are moved and turned, the aim, and what is drawn for it.
+// The laboratory by pointer and keys: what lies under a pointer, balls that are moved and turned,
+// the aim, and what is drawn for it.
 import type { ShotBall } from "carom";
 import { DEGREES, drawContact, drawStick, ring } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
-import { angleFrom, ARROWS, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, put, within } from "../table/grip.js";
+import {
+  angleFrom,
+  ARROWS,
+  direction,
+  drawnTo,
+  type Film,
+  type Grip,
+  gripAt,
+  movedBy,
+  pixelsOf,
+  type Point,
+  put,
+  within,
+} from "../table/grip.js";
 import { pocketed } from "../table/places.js";
 import { eachFrame } from "../ui.js";
 import { cueOf, type Desk } from "./desk.js";
 import { aimAt } from "./lines.js";
 
-/** What is held, since where, with what value of what it changes; and the shot that is played again before the next frame. */
+/**
+ * What is held, since where, with what value of what it changes; and the shot that is played again
+ * before the next frame.
+ */
 interface Hand {
   held: { grip: Grip; at: Point; from: Point; value: number; taps: boolean } | undefined;
   readonly soon: () => void;
 }
 
-// ---- Drawing ---------------------------------------------------------------------------------------------------------------------
+// ---- Drawing ------------------------------------------------------------------------------------
 
 /** Balls that are not on the table wait on the wood beside it, in this order from the head. */
-const waits = ({ balls }: Desk): number[] => balls.flatMap(({ state }, k) => (onTable(state) ? [] : [k]));
-const waitsAt = ({ table }: Desk, index: number): Point => [-0.045, 0.12 + 0.075 * index + (0.12 + 0.075 * index > table.length / 2 - 0.1 ? 0.2 : 0)];
-/** Whether a ball is picked that lies on the table; the handle that turns it, 36 pixels from its middle. */
+const waits = ({ balls }: Desk): number[] =>
+  balls.flatMap(({ state }, k) => (onTable(state) ? [] : [k]));
+const waitsAt = ({ table }: Desk, index: number): Point => [
+  -0.045,
+  0.12 + 0.075 * index + (0.12 + 0.075 * index > table.length / 2 - 0.1 ? 0.2 : 0),
+];
+/**
+ * Whether a ball is picked that lies on the table; the handle that turns it, 36 pixels from its
+ * middle.
+ */
 const canTurn = ({ chosen, balls }: Desk): boolean => chosen > 0 && onTable(balls[chosen]!.state);
 function turner({ balls, chosen, faces, film }: Desk): Point {
   const { r } = balls[chosen]!.state;
@@ -27,16 +51,22 @@ function turner({ balls, chosen, faces, film }: Desk): Point {
   return [r[0] + away * Math.cos(face), r[1] + away * Math.sin(face)];
 }
 
-/** Draws, at the start of the film, the ball that is picked, the stick, the ghost ball and the tangent line. */
+/**
+ * Draws, at the start of the film, the ball that is picked, the stick, the ghost ball and the
+ * tangent line.
+ */
 export function drawHand(d: Desk, g: CanvasRenderingContext2D): void {
   const { film, balls } = d;
   const [pen, cue] = [{ g, scale: film.scale, place: film.place }, cueOf(d)];
-  waits(d).forEach((k, index) => film.drawBall(g, k, { r: [...waitsAt(d, index), 0], q: [1, 0, 0, 0], seen: true }, 1));
+  waits(d).forEach((k, index) =>
+    film.drawBall(g, k, { r: [...waitsAt(d, index), 0], q: [1, 0, 0, 0], seen: true }, 1),
+  );
   if (film.time > 0 || film.playing || cue.ball !== 0) return;
   const [cueBall] = balls as [ShotBall];
   const R = cueBall.kind.radius;
   const contact = d.shot?.firstContact;
-  if (contact) drawContact(pen, contact, R, [Math.cos(cue.phi / DEGREES), Math.sin(cue.phi / DEGREES)]);
+  if (contact)
+    drawContact(pen, contact, R, [Math.cos(cue.phi / DEGREES), Math.sin(cue.phi / DEGREES)]);
   if (canTurn(d)) {
     g.strokeStyle = g.fillStyle = "#ffe28a";
     g.lineWidth = 2;
@@ -48,9 +78,10 @@ export function drawHand(d: Desk, g: CanvasRenderingContext2D): void {
   if (onTable(cueBall.state)) drawStick(pen, cueBall, cue);
 }
 
-// ---- What a pointer does -----------------------------------------------------------------------------------------------------------
+// ---- What a pointer does ------------------------------------------------------------------------
 
-const position = ({ canvas, unplace }: Film, event: { clientX: number; clientY: number }): Point => unplace(...pixelsOf(canvas, event));
+const position = ({ canvas, unplace }: Film, event: { clientX: number; clientY: number }): Point =>
+  unplace(...pixelsOf(canvas, event));
 /** What lies under a pointer. A finger reaches farther. */
 function under(d: Desk, at: Point, finger: boolean): Grip {
   const reach = (finger ? 22 : 12) / d.film.scale;
@@ -68,12 +99,19 @@ function turnBall(d: Desk, { soon }: Hand, ball: number, degrees: number): void 
   d.faces[ball] = (Math.round(d.faces[ball]! + degrees) + 720) % 360;
   soon();
 }
-/** Puts a ball where there is room, beside another one if need be. Off the table it waits in a pocket; the cue ball does not. */
+/**
+ * Puts a ball where there is room, beside another one if need be. Off the table it waits in a
+ * pocket; the cue ball does not.
+ */
 function moveBall(d: Desk, { soon }: Hand, ball: number, [x, y]: Point): void {
   const { table, balls } = d;
   const out = Math.max(-x, x - table.width, -y, y - table.length) > 1.5 * balls[ball]!.kind.radius;
   const leaves = out && ball !== 0 && table.pockets.length > 0;
-  const laid = leaves ? balls.map((one, k) => (k === ball ? { kind: one.kind, state: pocketed(table, one.state) } : one)) : put(d.carom, table, balls, ball, [x, y]);
+  const laid = leaves
+    ? balls.map((one, k) =>
+        k === ball ? { kind: one.kind, state: pocketed(table, one.state) } : one,
+      )
+    : put(d.carom, table, balls, ball, [x, y]);
   if (!laid) return; // it stays
   d.balls = laid;
   d.moved = true;
@@ -84,11 +122,18 @@ function drag(d: Desk, hand: Hand, at: Point): void {
   const { grip, from, value } = hand.held;
   const [cueBall, picked] = [d.balls[0]!, d.balls[d.chosen]!];
   if (grip.is === "ball") moveBall(d, hand, grip.ball, at);
-  else if (grip.is === "turn") turnBall(d, hand, d.chosen, value + angleFrom(picked, at) - angleFrom(picked, from) - d.faces[d.chosen]!);
+  else if (grip.is === "turn")
+    turnBall(
+      d,
+      hand,
+      d.chosen,
+      value + angleFrom(picked, at) - angleFrom(picked, from) - d.faces[d.chosen]!,
+    );
   else if (grip.is === "stick") {
     d.controls.set("speed", drawnTo(cueBall, value, from, at));
     hand.soon();
-  } else if (grip.is === "line") turnTo(d, hand, value + angleFrom(cueBall, at) - angleFrom(cueBall, from));
+  } else if (grip.is === "line")
+    turnTo(d, hand, value + angleFrom(cueBall, at) - angleFrom(cueBall, from));
   else if (grip.is === "cloth") turnTo(d, hand, angleFrom(cueBall, at));
   hand.held.at = at;
 }
@@ -99,14 +144,25 @@ function clicked(d: Desk, grip: Grip): void {
   } else if (grip.is === "pocket") aimAt(d, grip.pocket);
 }
 
-// ---- Events ----------------------------------------------------------------------------------------------------------------------
+// ---- Events -------------------------------------------------------------------------------------
 
 function down(d: Desk, hand: Hand, event: PointerEvent): void {
   const { film, controls } = d;
   if (film.time > 0 || film.playing) film.go(0);
   const at = position(film, event);
   const grip = under(d, at, event.pointerType === "touch");
-  hand.held = { grip, at, from: at, value: grip.is === "stick" ? controls.value("speed") : grip.is === "turn" ? d.faces[d.chosen]! : controls.value("phi"), taps: true };
+  hand.held = {
+    grip,
+    at,
+    from: at,
+    value:
+      grip.is === "stick"
+        ? controls.value("speed")
+        : grip.is === "turn"
+          ? d.faces[d.chosen]!
+          : controls.value("phi"),
+    taps: true,
+  };
   // A finger on the cloth may be about to scroll the page: what it does waits for its end.
   if (event.pointerType === "touch") return;
   film.canvas.setPointerCapture(event.pointerId);
@@ -132,11 +188,14 @@ function key(d: Desk, hand: Hand, undo: () => void, event: KeyboardEvent): void 
   const [arrow, ball, by] = [ARROWS[event.key], Math.max(d.chosen, 0), event.shiftKey ? 1 : 0.1];
   if (event.key === " ") d.film.play.click();
   else if ((event.ctrlKey || event.metaKey) && event.key === "z") undo();
-  else if (event.key === "," || event.key === ".") turnBall(d, hand, ball, event.key === "." ? 10 : -10);
+  else if (event.key === "," || event.key === ".")
+    turnBall(d, hand, ball, event.key === "." ? 10 : -10);
   // The picked ball, or the cue ball, by 1 mm as one sees it.
-  else if (event.altKey && arrow) moveBall(d, hand, ball, movedBy(d.film, d.balls[ball]!, arrow, by * 0.01 * d.film.scale));
+  else if (event.altKey && arrow)
+    moveBall(d, hand, ball, movedBy(d.film, d.balls[ball]!, arrow, by * 0.01 * d.film.scale));
   else if (!arrow) return;
-  else if (arrow[0] !== 0) set("phi", Math.round(((value("phi") - arrow[0] * by + 360) % 360) * 1e6) / 1e6);
+  else if (arrow[0] !== 0)
+    set("phi", Math.round(((value("phi") - arrow[0] * by + 360) % 360) * 1e6) / 1e6);
   else set("speed", within(value("speed") - arrow[1] * 0.1, 1e6));
   event.preventDefault();
   if (arrow && !event.altKey) d.aimed();
@@ -152,7 +211,8 @@ export function handle(d: Desk, undo: () => void): void {
   canvas.addEventListener("pointercancel", () => (hand.held = undefined));
   canvas.addEventListener("keydown", (event) => key(d, hand, undo, event));
   const touch = (event: TouchEvent): void => {
-    const grip = event.touches.length === 1 ? under(d, position(d.film, event.touches[0]!), true).is : "cloth";
+    const grip =
+      event.touches.length === 1 ? under(d, position(d.film, event.touches[0]!), true).is : "cloth";
     if (grip !== "cloth" && grip !== "pocket" && event.cancelable) event.preventDefault();
   };
   const wheel = (event: WheelEvent): void => {

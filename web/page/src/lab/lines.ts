@@ -1,4 +1,5 @@
-// Shots that come from elsewhere: lines of `carom shoot`, shots of recordings, and what a pocket that is clicked asks for.
+// Shots that come from elsewhere: lines of `carom shoot`, shots of recordings, and what a pocket
+// that is clicked asks for.
 import { fromLine, type Line, type Replayed, toLine } from "carom";
 import { pocketName } from "../../../player/words.js";
 import { GAMES, gameOf, type Read, TABLES } from "../table/games.js";
@@ -6,12 +7,23 @@ import { wrong } from "../ui.js";
 import { aim, cueOf, type Desk, lay, optionsOf, says } from "./desk.js";
 import { present } from "./shown.js";
 
-export const lineOf = (d: Desk, id?: string): string => toLine({ ...(id !== undefined && { id }), tableName: d.game.table, balls: d.balls, cue: cueOf(d), names: d.names });
+export const lineOf = (d: Desk, id?: string): string =>
+  toLine({
+    ...(id !== undefined && { id }),
+    tableName: d.game.table,
+    balls: d.balls,
+    cue: cueOf(d),
+    names: d.names,
+  });
 export function importLine(d: Desk): void {
   try {
     const { name, also } = take(d, d.controls.line.value);
     d.aimed();
-    if (also) says(d, `The balls are read as those of ${GAMES[name]!.text}. If they are of ${GAMES[also]!.text}, choose this game and import again.`);
+    if (also)
+      says(
+        d,
+        `The balls are read as those of ${GAMES[name]!.text}. If they are of ${GAMES[also]!.text}, choose this game and import again.`,
+      );
   } catch (error) {
     says(d, wrong(error));
   }
@@ -19,29 +31,56 @@ export function importLine(d: Desk): void {
 /** Lays the balls of a line and aims as it says. Throws where it cannot be read. */
 export function take(d: Desk, text: string): Read<Line> {
   const read = fromLine(d.carom, text);
-  if (read.cue.ball !== 0) throw new TypeError("cue.ball: this page strikes the first ball; put the cue ball first");
+  if (read.cue.ball !== 0)
+    throw new TypeError("cue.ball: this page strikes the first ball; put the cue ball first");
   return use(d, gameOf(read, d.gameName));
 }
 function use<L extends Line>(d: Desk, read: Read<L>): Read<L> {
   const { balls, names, table, tableName, cue } = read.line;
   d.gameName = read.name;
   lay(d);
-  Object.assign(d, { balls, names, table, imported: cue, game: { ...GAMES[d.gameName]!, table: tableName }, faces: balls.map(() => 0), moved: true });
+  Object.assign(d, {
+    balls,
+    names,
+    table,
+    imported: cue,
+    game: { ...GAMES[d.gameName]!, table: tableName },
+    faces: balls.map(() => 0),
+    moved: true,
+  });
   aim(d, cue);
   return read;
 }
-/** A shot of a recording, which has neither names of balls nor of the table: they are those of the game that it fits. */
+/**
+ * A shot of a recording, which has neither names of balls nor of the table: they are those of the
+ * game that it fits.
+ */
 export function showRecorded(d: Desk, one: Replayed, from: number): void {
   const same = JSON.stringify(one.table);
   const tableName = TABLES.find((name) => JSON.stringify(d.carom.table(name)) === same);
-  const name = tableName && tableName in GAMES ? tableName : one.balls.length > 10 ? "eightball" : "nineball";
-  use(d, gameOf({ ...one, id: "", balls: [...one.balls], tableName: tableName ?? "9ft", names: one.balls.map((_, k) => GAMES[name]!.names(k)) }, name));
+  const name =
+    tableName && tableName in GAMES ? tableName : one.balls.length > 10 ? "eightball" : "nineball";
+  use(
+    d,
+    gameOf(
+      {
+        ...one,
+        id: "",
+        balls: [...one.balls],
+        tableName: tableName ?? "9ft",
+        names: one.balls.map((_, k) => GAMES[name]!.names(k)),
+      },
+      name,
+    ),
+  );
   d.builtIn = tableName !== undefined;
   present(d, cueOf(d), one);
   d.film.go(from);
 }
 
-/** Aims so that a ball rolls to a pocket: the one that was picked, or else the one that is hit now. */
+/**
+ * Aims so that a ball rolls to a pocket: the one that was picked, or else the one that is hit now.
+ */
 export function aimAt(d: Desk, pocket: number): void {
   const { names, table, balls } = d;
   const ball = d.chosen > 0 ? d.chosen : (d.shot?.firstContact?.ball ?? -1);
@@ -53,8 +92,18 @@ export function aimAt(d: Desk, pocket: number): void {
   d.controls.set("phi", Math.round(pot.cue.phi * 1e4) / 1e4);
   d.aimed();
   const [of, other] = [names[met?.a ?? 0], met?.type === "ball_ball" ? names[met.b] : "a cushion"];
-  const why = { falls: "", stick: "the stick would have to be raised too far", rejected: "the jaws send it back", short: `ball ${of} comes to rest on its way`, barred: `ball ${of} meets ${other}` }[is];
+  const why = {
+    falls: "",
+    stick: "the stick would have to be raised too far",
+    rejected: "the jaws send it back",
+    short: `ball ${of} comes to rest on its way`,
+    barred: `ball ${of} meets ${other}`,
+  }[is];
   const [low, high] = pot.speed.map((speed) => speed.toFixed(1));
   if (is !== "falls") says(d, `Aimed, but ${name} does not fall: ${why}.`);
-  else says(d, `Aimed: ${name}. The cut is ${Math.abs(pot.cut).toFixed(1)}°, its way may turn by ${pot.margin.toFixed(2)}° to either side, and it falls at ${low} to ${high} m/s.`);
+  else
+    says(
+      d,
+      `Aimed: ${name}. The cut is ${Math.abs(pot.cut).toFixed(1)}°, its way may turn by ${pot.margin.toFixed(2)}° to either side, and it falls at ${low} to ${high} m/s.`,
+    );
 }

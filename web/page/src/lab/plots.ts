@@ -7,7 +7,10 @@ export interface Mark {
   y: number;
 }
 export type Column = (number | null)[];
-/** What a plot shows: its words, the label and the range of x, the label of y, its curves, and a band of |y|. */
+/**
+ * What a plot shows: its words, the label and the range of x, the label of y, its curves, and a
+ * band of |y|.
+ */
 export interface Shows {
   id: string;
   title: string;
@@ -21,33 +24,66 @@ export interface Shows {
 function drawBand(u: uPlot, [low, high]: readonly [number, number]): void {
   const at = (y: number): number => u.valToPos(y, "y", true);
   u.ctx.fillStyle = color("band");
-  for (const top of [high, -low]) u.ctx.fillRect(u.bbox.left, at(top), u.bbox.width, Math.abs(at(low) - at(high)));
+  for (const top of [high, -low])
+    u.ctx.fillRect(u.bbox.left, at(top), u.bbox.width, Math.abs(at(low) - at(high)));
 }
 function drawMarks(u: uPlot, marks: readonly Mark[]): void {
   for (const mark of marks) {
     u.ctx.fillStyle = color("warm");
     u.ctx.beginPath();
-    u.ctx.arc(u.valToPos(mark.x, "x", true), u.valToPos(mark.y, "y", true), 5 * devicePixelRatio, 0, 7);
+    u.ctx.arc(
+      u.valToPos(mark.x, "x", true),
+      u.valToPos(mark.y, "y", true),
+      5 * devicePixelRatio,
+      0,
+      7,
+    );
     u.ctx.fill();
   }
 }
 
-export function plot(into: HTMLElement, { id, title, note, x, y, series, band }: Shows): { set(data: Column[], marks: Mark[]): void; theme(): void } {
+export function plot(
+  into: HTMLElement,
+  { id, title, note, x, y, series, band }: Shows,
+): { set(data: Column[], marks: Mark[]): void; theme(): void } {
   const place = el("div");
-  into.append(el("section", { class: "panel plot", id, "aria-label": title }, el("h2", {}, title), place, el("p", {}, note)));
+  into.append(
+    el(
+      "section",
+      { class: "panel plot", id, "aria-label": title },
+      el("h2", {}, title),
+      place,
+      el("p", {}, note),
+    ),
+  );
   const wide = (): number => Math.max(place.clientWidth, 240);
   let marks: Mark[] = [];
   let last: Column[] = [[], ...series.map(() => [])];
   const build = (): uPlot => {
-    const axis = { stroke: color("quiet"), grid: { stroke: color("line"), width: 1 }, ticks: { stroke: color("line") } };
-    const curves = series.map(({ label, color: name, dash, points }) => ({ label, stroke: color(name), width: points ? 0 : 2, dash, points: { show: points === true, size: 8, fill: color(name) } }));
+    const axis = {
+      stroke: color("quiet"),
+      grid: { stroke: color("line"), width: 1 },
+      ticks: { stroke: color("line") },
+    };
+    const curves = series.map(({ label, color: name, dash, points }) => ({
+      label,
+      stroke: color(name),
+      width: points ? 0 : 2,
+      dash,
+      points: { show: points === true, size: 8, fill: color(name) },
+    }));
     const options: uPlot.Options = {
       width: wide(),
       height: 230,
       legend: { live: false },
       cursor: { drag: { x: false, y: false } },
-      scales: { x: { time: false, ...(x[2] > x[1] ? { range: [x[1], x[2]] as [number, number] } : {}) } },
-      axes: [{ ...axis, label: x[0], labelSize: 20 }, { ...axis, label: y, labelSize: 20, size: 48 }],
+      scales: {
+        x: { time: false, ...(x[2] > x[1] ? { range: [x[1], x[2]] as [number, number] } : {}) },
+      },
+      axes: [
+        { ...axis, label: x[0], labelSize: 20 },
+        { ...axis, label: y, labelSize: 20, size: 48 },
+      ],
       series: [{ label: x[0] }, ...curves],
       hooks: { drawClear: [(u) => band && drawBand(u, band)], draw: [(u) => drawMarks(u, marks)] },
     };
@@ -69,4 +105,8 @@ export function plot(into: HTMLElement, { id, title, note, x, y, series, band }:
 }
 
 /** A curve and points at x of their own, on one ascending axis. */
-export const merged = (x: number[], y: Column, at: readonly Mark[]): Column[] => uPlot.join([[x, y], [at.map((one) => one.x), at.map((one) => one.y)]]) as Column[];
+export const merged = (x: number[], y: Column, at: readonly Mark[]): Column[] =>
+  uPlot.join([
+    [x, y],
+    [at.map((one) => one.x), at.map((one) => one.y)],
+  ]) as Column[];

@@ -1,11 +1,16 @@
-// A recording that was opened: its shots are played again, compared with what was recorded, and shown one after the other.
+// A recording that was opened: its shots are played again, compared with what was recorded, and
+// shown one after the other.
 import type { Replayed } from "carom";
 import { button, el, wrong } from "../ui.js";
 import { type Desk, says } from "./desk.js";
 import { showRecorded } from "./lines.js";
 
 /** Plays the recording of a file again while it is `wanted`. The page lives meanwhile. */
-async function replayed(d: Desk, given: File, wanted: () => boolean): Promise<{ found: Replayed[]; refused: string }> {
+async function replayed(
+  d: Desk,
+  given: File,
+  wanted: () => boolean,
+): Promise<{ found: Replayed[]; refused: string }> {
   const found: Replayed[] = [];
   try {
     let pause = performance.now() + 30;
@@ -23,16 +28,34 @@ async function replayed(d: Desk, given: File, wanted: () => boolean): Promise<{ 
   }
 }
 
-export function reel(d: Desk): { bar: HTMLElement; open: HTMLElement; accept(on: HTMLElement): void; shows(shot: Replayed | undefined): void; advance(): void; close(): void } {
+export function reel(d: Desk): {
+  bar: HTMLElement;
+  open: HTMLElement;
+  accept(on: HTMLElement): void;
+  shows(shot: Replayed | undefined): void;
+  advance(): void;
+  close(): void;
+} {
   let shots: Replayed[] = [];
   let shown = -1;
   let opened = 0;
   const file = el("output", { id: "reel-file" });
   const said = el("output", { id: "reel-shot" });
-  const back = button("◀ Shot", () => go(shown - 1), { id: "reel-back", "aria-label": "Previous shot of the recording" });
-  const next = button("Shot ▶", () => go(shown + 1), { id: "reel-next", "aria-label": "Next shot of the recording" });
+  const back = button("◀ Shot", () => go(shown - 1), {
+    id: "reel-back",
+    "aria-label": "Previous shot of the recording",
+  });
+  const next = button("Shot ▶", () => go(shown + 1), {
+    id: "reel-next",
+    "aria-label": "Next shot of the recording",
+  });
   const bar = el("div", { class: "row", id: "reel", hidden: "" }, back, next, said, file);
-  const input = el("input", { type: "file", id: "recording", accept: ".jsonl,.json,.txt", hidden: "" });
+  const input = el("input", {
+    type: "file",
+    id: "recording",
+    accept: ".jsonl,.json,.txt",
+    hidden: "",
+  });
   input.addEventListener("change", () => {
     const [given] = input.files ?? [];
     input.value = ""; // the same file may be opened again
@@ -45,7 +68,10 @@ export function reel(d: Desk): { bar: HTMLElement; open: HTMLElement; accept(on:
     if (mine !== opened) return;
     if (found.length === 0) return says(d, `${given.name}: ${refused || "it has no shot"}`);
     const differ = found.filter(({ same }) => !same);
-    const agrees = differ.length === 0 ? "every bit agrees" : `${differ.length} ${differ.length === 1 ? "ends" : "end"} otherwise than recorded, first shot ${differ[0]!.shot} (line ${differ[0]!.line})`;
+    const agrees =
+      differ.length === 0
+        ? "every bit agrees"
+        : `${differ.length} ${differ.length === 1 ? "ends" : "end"} otherwise than recorded, first shot ${differ[0]!.shot} (line ${differ[0]!.line})`;
     file.value = `${given.name}: ${found.length} ${found.length === 1 ? "shot" : "shots"}, ${agrees}.${refused && ` The rest is refused: ${refused}`}`;
     shots = found;
     bar.hidden = false;
@@ -67,7 +93,8 @@ export function reel(d: Desk): { bar: HTMLElement; open: HTMLElement; accept(on:
     if (shot === undefined) said.value = `${where} was changed.`;
     else if (shot.same) said.value = `${where}: as recorded.`;
     else {
-      const end = ({ status, events, time, hash }: Replayed["played"]): string => `${status}, ${events} events, ${time.toFixed(6)} s, hash ${hash}`;
+      const end = ({ status, events, time, hash }: Replayed["played"]): string =>
+        `${status}, ${events} events, ${time.toFixed(6)} s, hash ${hash}`;
       said.value = `${where}, line ${shot.line}: recorded ${end(shot.recorded)}; played ${end(shot.played)}.`;
     }
   }
@@ -75,10 +102,18 @@ export function reel(d: Desk): { bar: HTMLElement; open: HTMLElement; accept(on:
   return {
     bar,
     shows,
-    open: el("span", {}, input, button("Open recording", () => input.click(), { id: "open-recording" })),
+    open: el(
+      "span",
+      {},
+      input,
+      button("Open recording", () => input.click(), { id: "open-recording" }),
+    ),
     // Files may be dropped on the page.
     accept(on) {
-      on.addEventListener("dragover", (event) => event.dataTransfer?.types.includes("Files") && event.preventDefault());
+      on.addEventListener(
+        "dragover",
+        (event) => event.dataTransfer?.types.includes("Files") && event.preventDefault(),
+      );
       on.addEventListener("drop", (event) => {
         const [given] = event.dataTransfer?.files ?? [];
         if (!given) return;

@@ -21,7 +21,9 @@ export function present(d: Desk, stroke: Cue, played?: Replayed): void {
   }
   const computed = performance.now() - begun;
   // Flights are short: their paths need more points.
-  const paths = d.shot ? pathsOf(d.shot, d.shot.events.some((event) => event.type === "slate") ? 150 : 25, 900) : [];
+  const paths = d.shot
+    ? pathsOf(d.shot, d.shot.events.some((event) => event.type === "slate") ? 150 : 25, 900)
+    : [];
   tell(d);
   d.film.show(filmOf({ table, balls, names, turned: d.faces.map(facing) }, d.shot, paths));
   controls.cost.textContent = `The shot was computed in ${computed.toFixed(1)} ms, and drawn with its paths in ${(performance.now() - begun).toFixed(1)} ms.`;
@@ -33,14 +35,40 @@ function tell({ controls, shot, balls, names, game, film }: Desk): void {
   const rows: [string, string, string][] = [];
   const contact = shot?.firstContact;
   if (shot) {
-    const fell = shot.final.map((state, k) => (state.label === "pocketed" && balls[k]!.state.label !== "pocketed" ? names[k]! : "")).filter((name) => name !== "");
+    const fell = shot.final
+      .map((state, k) =>
+        state.label === "pocketed" && balls[k]!.state.label !== "pocketed" ? names[k]! : "",
+      )
+      .filter((name) => name !== "");
     const cushions = shot.events.filter((event) => event.type === "ball_linear_cushion").length;
     const { r, label } = shot.final[0]!;
-    rows.push(["status", "Status", shot.status], ["time", "Lasts", `${shot.time.toFixed(3)} s`], ["count", "Events", String(shot.count)]);
-    rows.push(["contact", "First ball hit", contact ? `${names[contact.ball]} after ${contact.time.toFixed(3)} s` : "none"]);
-    rows.push(["cushions", "Contacts with cushions", String(cushions)], ["pocketed", "Pocketed", fell.join(", ") || "none"]);
-    rows.push(["cue-ball", "Cue ball at the end", label === "pocketed" ? "in a pocket" : `${r[0].toFixed(4)}, ${r[1].toFixed(4)} m`]);
+    rows.push(
+      ["status", "Status", shot.status],
+      ["time", "Lasts", `${shot.time.toFixed(3)} s`],
+      ["count", "Events", String(shot.count)],
+    );
+    rows.push([
+      "contact",
+      "First ball hit",
+      contact ? `${names[contact.ball]} after ${contact.time.toFixed(3)} s` : "none",
+    ]);
+    rows.push(
+      ["cushions", "Contacts with cushions", String(cushions)],
+      ["pocketed", "Pocketed", fell.join(", ") || "none"],
+    );
+    rows.push([
+      "cue-ball",
+      "Cue ball at the end",
+      label === "pocketed" ? "in a pocket" : `${r[0].toFixed(4)}, ${r[1].toFixed(4)} m`,
+    ]);
   }
-  controls.summary.replaceChildren(...rows.map(([id, name, text]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `s-${id}` }, text))));
-  film.canvas.setAttribute("aria-label", `${game.text} table from above. The shot lasts ${shot?.time.toFixed(1) ?? 0} seconds; ${contact ? `ball ${names[contact.ball]} is hit first` : "no ball is hit"}.`);
+  controls.summary.replaceChildren(
+    ...rows.map(([id, name, text]) =>
+      el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `s-${id}` }, text)),
+    ),
+  );
+  film.canvas.setAttribute(
+    "aria-label",
+    `${game.text} table from above. The shot lasts ${shot?.time.toFixed(1) ?? 0} seconds; ${contact ? `ball ${names[contact.ball]} is hit first` : "no ball is hit"}.`,
+  );
 }

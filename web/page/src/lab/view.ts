@@ -1,4 +1,5 @@
-// The view Laboratory: shots are aimed on it and played while one aims; their film and their events.
+// The view Laboratory: shots are aimed on it and played while one aims; their film and their
+// events.
 import type { Carom } from "carom";
 import { player } from "../../../player/player.js";
 import { button, el, parameters } from "../ui.js";
@@ -10,19 +11,31 @@ import { reel } from "./reel.js";
 import { present } from "./shown.js";
 
 function deskOf(carom: Carom, solver: Desk["solver"]): Desk {
-  const controls = controlsOf(() => d.aimed(), () => {
-    d.gameName = controls.games.select.value;
-    // Three-cushion has no rack to break: a shot of medium speed at an angle shows more.
-    controls.set("speed", d.gameName === "threecushion" ? 4 : 8);
-    controls.set("phi", d.gameName === "threecushion" ? 62 : 90);
-    rackUp(d);
-  });
+  const controls = controlsOf(
+    () => d.aimed(),
+    () => {
+      d.gameName = controls.games.select.value;
+      // Three-cushion has no rack to break: a shot of medium speed at an angle shows more.
+      controls.set("speed", d.gameName === "threecushion" ? 4 : 8);
+      controls.set("phi", d.gameName === "threecushion" ? 62 : 90);
+      rackUp(d);
+    },
+  );
   const film = player({
     over: (g) => drawHand(d, g),
     ended: () => d.recorded && d.recording.advance(),
   });
   const d = {
-    ...{ carom, solver, controls, film, recorded: undefined, imported: undefined, shot: undefined, writing: undefined },
+    ...{
+      carom,
+      solver,
+      controls,
+      film,
+      recorded: undefined,
+      imported: undefined,
+      shot: undefined,
+      writing: undefined,
+    },
     aimed: () => present(d, cueOf(d)),
   } as unknown as Desk;
   return Object.assign(d, { recording: reel(d) });
@@ -37,41 +50,106 @@ function rackUp(d: Desk): void {
 /** The page of the laboratory around its desk. */
 function pageOf(d: Desk, tools: HTMLElement): HTMLElement {
   const { controls, film, recording } = d;
-  const roots = (...keys: string[]): HTMLElement[] => keys.map((key) => controls.sliders[key]!.root);
+  const roots = (...keys: string[]): HTMLElement[] =>
+    keys.map((key) => controls.sliders[key]!.root);
   const row = (...parts: HTMLElement[]): HTMLElement => el("div", { class: "row" }, ...parts);
-  const out = button("Export", () => {
-    controls.line.value = lineOf(d, d.gameName);
-    controls.line.select();
-  }, { id: "export" });
-  const lines = el("details", {}, el("summary", {}, "Export and import"), el("label", { for: "line" }, "The shot as the line that carom shoot reads"), controls.line, row(out, button("Import", () => importLine(d), { id: "import" }), recording.open));
-  const numbers = el("table", { class: "numbers", id: "shot-numbers" }, el("caption", {}, "The shot"), controls.summary);
+  const out = button(
+    "Export",
+    () => {
+      controls.line.value = lineOf(d, d.gameName);
+      controls.line.select();
+    },
+    { id: "export" },
+  );
+  const lines = el(
+    "details",
+    {},
+    el("summary", {}, "Export and import"),
+    el("label", { for: "line" }, "The shot as the line that carom shoot reads"),
+    controls.line,
+    row(
+      out,
+      button("Import", () => importLine(d), { id: "import" }),
+      recording.open,
+    ),
+  );
+  const numbers = el(
+    "table",
+    { class: "numbers", id: "shot-numbers" },
+    el("caption", {}, "The shot"),
+    controls.summary,
+  );
   return el(
     "div",
     { class: "table-view" },
-    el("section", { class: "stage", "aria-label": "Table" }, film.canvas, ...roots("speed"), controls.stroke.tip),
+    el(
+      "section",
+      { class: "stage", "aria-label": "Table" },
+      film.canvas,
+      ...roots("speed"),
+      controls.stroke.tip,
+    ),
     el("section", { class: "bar", "aria-label": "Film" }, film.controls, recording.bar, tools),
-    el("section", { class: "panel aim", "aria-label": "The shot" }, ...roots("right", "up", "phi", "theta"), row(controls.games.root, controls.cushion.root), lines),
+    el(
+      "section",
+      { class: "panel aim", "aria-label": "The shot" },
+      ...roots("right", "up", "phi", "theta"),
+      row(controls.games.root, controls.cushion.root),
+      lines,
+    ),
     el(
       "div",
       { class: "below" },
-      el("section", { class: "panel", "aria-label": "How" }, ...HELP.map((text) => el("p", { class: "note" }, text)), controls.cost),
+      el(
+        "section",
+        { class: "panel", "aria-label": "How" },
+        ...HELP.map((text) => el("p", { class: "note" }, text)),
+        controls.cost,
+      ),
       el("section", { class: "panel", "aria-label": "The shot in numbers" }, numbers),
-      el("section", { class: "panel", "aria-label": "What happens" }, el("h2", {}, "Events"), film.events),
+      el(
+        "section",
+        { class: "panel", "aria-label": "What happens" },
+        el("h2", {}, "Events"),
+        film.events,
+      ),
     ),
   );
 }
 
-export function laboratory(carom: Carom, solver: Desk["solver"], main: HTMLElement): { update(): void; theme(): void } {
+export function laboratory(
+  carom: Carom,
+  solver: Desk["solver"],
+  main: HTMLElement,
+): { update(): void; theme(): void } {
   const d = deskOf(carom, solver);
   const { commit, back, nextShot, copyLink } = undoing(d, (past) => (undo.disabled = !past));
   d.settled = commit;
   const undo = button("Undo", back, { id: "undo" });
-  const rack = button("New rack", () => {
-    d.seed += 1;
-    rackUp(d);
-  }, { id: "rack" });
-  const next = button("Next shot", nextShot, { id: "next", title: "The next shot, from where the balls of this one end" });
-  const page = pageOf(d, el("div", { class: "row" }, undo, next, button("Copy link", () => void copyLink(), { id: "copy" }), rack, d.controls.message));
+  const rack = button(
+    "New rack",
+    () => {
+      d.seed += 1;
+      rackUp(d);
+    },
+    { id: "rack" },
+  );
+  const next = button("Next shot", nextShot, {
+    id: "next",
+    title: "The next shot, from where the balls of this one end",
+  });
+  const page = pageOf(
+    d,
+    el(
+      "div",
+      { class: "row" },
+      undo,
+      next,
+      button("Copy link", () => void copyLink(), { id: "copy" }),
+      rack,
+      d.controls.message,
+    ),
+  );
   main.replaceChildren(page);
   d.recording.accept(page);
   handle(d, back);

@@ -1,15 +1,45 @@
-// The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball that may be moved; a tap aims at a place or a ball, or
-// calls a pocket; two fingers, a double tap, or the wheel show a part of the table larger.
+// The table of a game by pointer and keys: a drag turns the aim, draws the stick or moves a ball
+// that may be moved; a tap aims at a place or a ball, or calls a pocket; two fingers, a double tap,
+// or the wheel show a part of the table larger.
 import type { Vec3 } from "carom";
 import { circle, drawNumbers, drawStick, path, type Pen, ring, stroke } from "../table/drawing.js";
 import { onTable } from "../table/filmed.js";
-import { angleFrom, ARROWS, direction, drawnTo, type Film, type Grip, gripAt, movedBy, pixelsOf, type Point, put, within } from "../table/grip.js";
+import {
+  angleFrom,
+  ARROWS,
+  direction,
+  drawnTo,
+  type Film,
+  type Grip,
+  gripAt,
+  movedBy,
+  pixelsOf,
+  type Point,
+  put,
+  within,
+} from "../table/grip.js";
 import { mayLie } from "../table/head.js";
 import { skip } from "./filming.js";
-import { aimed, ballsOn, called, calls, cueOf, free, linesOf, look, NONE, says, type Session, valid } from "./session.js";
+import {
+  aimed,
+  ballsOn,
+  called,
+  calls,
+  cueOf,
+  free,
+  linesOf,
+  look,
+  NONE,
+  says,
+  type Session,
+  valid,
+} from "./session.js";
 import { shoot, undo } from "./turns.js";
 
-/** What the pointers hold: one of them a grip, since it went down; two of them the table; and the tap before. */
+/**
+ * What the pointers hold: one of them a grip, since it went down; two of them the table; and the
+ * tap before.
+ */
 interface Held {
   grip: Grip;
   from: Point;
@@ -25,13 +55,23 @@ interface Hand {
   tapped: { when: number; at: Point; phi: number } | undefined;
 }
 
-/** The way of the ball that is met, and of the cue ball after it, as far as the lines of the game show them. */
+/**
+ * The way of the ball that is met, and of the cue ball after it, as far as the lines of the game
+ * show them.
+ */
 export function drawWays(s: Session, pen: Pen): void {
   const { ball, from, way, ways } = s.first!;
-  if (ball < 0 || s.play.breaks || (s.play.practice && !s.play.setup.drill) || linesOf(s) === "none") return;
+  if (
+    ball < 0 ||
+    s.play.breaks ||
+    (s.play.practice && !s.play.setup.drill) ||
+    linesOf(s) === "none"
+  )
+    return;
   const speed = Math.hypot(way[0]!, way[1]!) || 1;
   pen.g.setLineDash([5, 4]);
-  const lines = ways.length > 0 ? ways : [[from, [0, 1].map((c) => from[c]! + (0.3 * way[c]!) / speed)]];
+  const lines =
+    ways.length > 0 ? ways : [[from, [0, 1].map((c) => from[c]! + (0.3 * way[c]!) / speed)]];
   for (const line of lines) path(pen, line, 1.4, "#ffffffd0");
   pen.g.setLineDash([]);
 }
@@ -41,13 +81,15 @@ export function drawMarks(s: Session, pen: Pen): void {
   const { balls, hand, played, practice, state, table } = s.play;
   if (!free(s)) return;
   const call = calls(s) ? called(s) : undefined;
-  const pocket = table.pockets[call?.pocket ?? (played?.pockets && !practice ? (state.pocket?.[0] ?? 5) : -1)];
+  const pocket =
+    table.pockets[call?.pocket ?? (played?.pockets && !practice ? (state.pocket?.[0] ?? 5) : -1)];
   if (pocket) circle(pen, pocket.centre, pocket.radius + 0.008, 3, MARK);
   if (call) circle(pen, balls[call.ball]!.state.r, balls[call.ball]!.kind.radius + 0.008, 3, MARK);
   if (hand === "no" || !onTable(balls[0]!.state)) return;
   circle(pen, balls[0]!.state.r, balls[0]!.kind.radius + 0.02, 2, MARK);
   pen.g.setLineDash([6, 6]);
-  if (hand === "kitchen") stroke(pen, [0, table.length / 4], [table.width, table.length / 4], 1, MARK);
+  if (hand === "kitchen")
+    stroke(pen, [0, table.length / 4], [table.width, table.length / 4], 1, MARK);
   pen.g.setLineDash([]);
 }
 /** Draws what is aimed, called and in hand over the table. */
@@ -56,8 +98,16 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   const pen = { g, scale: film.scale, place: film.place };
   if (film.time > 0 || film.playing) {
     // Balls that are too small to be read while they roll have their numbers beside them.
-    const poses = play.balls[0]!.kind.radius * film.scale < 8 ? s.filmed!.shots[0]!.at(film.time) : [];
-    return drawNumbers(pen, poses.map(({ r, seen }, k) => ({ kind: play.balls[k]!.kind, state: { r: r as Vec3, label: seen ? "rolling" : "pocketed" } })), play.names);
+    const poses =
+      play.balls[0]!.kind.radius * film.scale < 8 ? s.filmed!.shots[0]!.at(film.time) : [];
+    return drawNumbers(
+      pen,
+      poses.map(({ r, seen }, k) => ({
+        kind: play.balls[k]!.kind,
+        state: { r: r as Vec3, label: seen ? "rolling" : "pocketed" },
+      })),
+      play.names,
+    );
   }
   const [cueBall] = play.balls as [(typeof play.balls)[number]];
   const of = aimed(s);
@@ -74,13 +124,21 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
   drawNumbers(pen, play.balls, play.names);
 }
 
-// ---- One pointer -----------------------------------------------------------------------------------------------------------------
+// ---- One pointer --------------------------------------------------------------------------------
 
 /** What lies under a pointer. A finger reaches farther. */
 function under(s: Session, at: Point, finger: boolean): Grip {
   const { balls, table } = s.play;
   const reach = (finger ? 20 : 10) / s.film.scale;
-  const grip = gripAt(at, reach, table, balls, balls.map(({ state }) => (onTable(state) ? state.r : undefined)), cueOf(s), reach);
+  const grip = gripAt(
+    at,
+    reach,
+    table,
+    balls,
+    balls.map(({ state }) => (onTable(state) ? state.r : undefined)),
+    cueOf(s),
+    reach,
+  );
   return grip.is === "line" ? { is: "cloth" } : grip;
 }
 function set(s: Session, stroke: { phi: number } | { speed: number }): void {
@@ -89,12 +147,21 @@ function set(s: Session, stroke: { phi: number } | { speed: number }): void {
 }
 const turn = (s: Session, phi: number): void => set(s, { phi: direction(phi) });
 /** Whether a ball may be moved. */
-export const movable = ({ play }: Session, ball: number): boolean => play.practice || (ball === 0 && play.hand !== "no");
+export const movable = ({ play }: Session, ball: number): boolean =>
+  play.practice || (ball === 0 && play.hand !== "no");
 export function move(s: Session, ball: number, to: Point): void {
   const { play } = s;
   const { table, balls } = play;
-  const laid = put(s.carom, table, balls, ball, to, play.hand === "kitchen" ? table.length / 4 + balls[0]!.kind.radius + 1e-4 : table.length);
-  if (!laid || (!play.practice && !mayLie(table, play.hand, laid[ball]!.state.r))) return; // it stays
+  const laid = put(
+    s.carom,
+    table,
+    balls,
+    ball,
+    to,
+    play.hand === "kitchen" ? table.length / 4 + balls[0]!.kind.radius + 1e-4 : table.length,
+  );
+  // it stays
+  if (!laid || (!play.practice && !mayLie(table, play.hand, laid[ball]!.state.r))) return;
   play.balls = laid;
   s.changed();
 }
@@ -109,8 +176,10 @@ function choose(s: Session, on: { ball: number } | { pocket: number }): void {
   look(s);
   const met = s.first?.ball ?? -1;
   if ("pocket" in on) s.chosen = { ...valid(s), pocket: on.pocket, met };
-  else s.chosen = calls(s) && ballsOn(s).includes(on.ball) ? { ball: on.ball, pocket: -1, met } : NONE;
-  if ("pocket" in on && calls(s) && !called(s)) says(s, "Which ball? Tap it first, then the pocket.");
+  else
+    s.chosen = calls(s) && ballsOn(s).includes(on.ball) ? { ball: on.ball, pocket: -1, met } : NONE;
+  if ("pocket" in on && calls(s) && !called(s))
+    says(s, "Which ball? Tap it first, then the pocket.");
   s.changed();
 }
 export function tap(s: Session, grip: Grip, at: Point): void {
@@ -123,7 +192,7 @@ export function tap(s: Session, grip: Grip, at: Point): void {
   } else if (grip.is === "cloth") turn(s, angleFrom(cueBall, at));
 }
 
-// ---- Two pointers ----------------------------------------------------------------------------------------------------------------
+// ---- Two pointers -------------------------------------------------------------------------------
 
 const middle = ([a, b]: Point[]): Point => [(a![0] + b![0]) / 2, (a![1] + b![1]) / 2];
 const apart = ([a, b]: Point[]): number => Math.hypot(a![0] - b![0], a![1] - b![1]);
@@ -145,7 +214,7 @@ function pinch(s: Session, hand: Hand): void {
   hand.pinch = { apart: apart(both), zoom: s.film.zoom, middle: s.film.unplace(...middle(both)) };
 }
 
-// ---- Events ----------------------------------------------------------------------------------------------------------------------
+// ---- Events -------------------------------------------------------------------------------------
 
 function down(s: Session, hand: Hand, event: PointerEvent): void {
   const { film, play } = s;
@@ -157,7 +226,14 @@ function down(s: Session, hand: Hand, event: PointerEvent): void {
   if (!free(s) || hand.pointers.size > 1) return;
   const at = film.unplace(...pixelsOf(film.canvas, event));
   const { phi, speed } = cueOf(s);
-  hand.held = { grip: under(s, at, event.pointerType === "touch"), from: at, at, phi, speed, taps: true };
+  hand.held = {
+    grip: under(s, at, event.pointerType === "touch"),
+    from: at,
+    at,
+    phi,
+    speed,
+    taps: true,
+  };
   if (hand.held.grip.is === "ball" && play.practice) play.keep();
 }
 function over(s: Session, { pointers, pinch, held }: Hand, event: PointerEvent): void {
@@ -181,10 +257,17 @@ function up(s: Session, hand: Hand, event: PointerEvent): void {
   if (!was) return;
   if (was.taps && was.grip.is === "ball" && s.play.practice) s.play.past.pop(); // nothing was moved
   if (event.type !== "pointerup" || !was.taps || !free(s)) return;
-  // A second tap at the same place shows it larger, or all of the table; the first one has aimed at nothing.
+  // A second tap at the same place shows it larger, or all of the table; the first one has aimed at
+  // nothing.
   const [at, before] = [pixelsOf(s.film.canvas, event), hand.tapped];
   hand.tapped = { when: event.timeStamp, at, phi: was.phi };
-  if (event.pointerType !== "touch" || !before || event.timeStamp - before.when > 350 || apart([at, before.at]) > 30) return tap(s, was.grip, was.at);
+  if (
+    event.pointerType !== "touch" ||
+    !before ||
+    event.timeStamp - before.when > 350 ||
+    apart([at, before.at]) > 30
+  )
+    return tap(s, was.grip, was.at);
   hand.tapped = undefined;
   turn(s, before.phi);
   if (s.film.zoom > 1) s.film.look(1);
@@ -197,7 +280,10 @@ function key(s: Session, event: KeyboardEvent): void {
   else if (event.key === "Enter") shoot(s);
   else if (!free(s)) return;
   else if ((event.ctrlKey || event.metaKey) && event.key === "z") undo(s);
-  else if (event.key === "c" && play.hasPockets) choose(s, { pocket: (((calls(s) ? called(s) : undefined)?.pocket ?? -1) + 1) % play.table.pockets.length });
+  else if (event.key === "c" && play.hasPockets)
+    choose(s, {
+      pocket: (((calls(s) ? called(s) : undefined)?.pocket ?? -1) + 1) % play.table.pockets.length,
+    });
   else if (!arrow) return;
   else if (event.altKey) {
     if (!movable(s, 0)) return;
@@ -213,7 +299,8 @@ export function aiming(s: Session): void {
   const hand: Hand = { held: undefined, pointers: new Map(), pinch: undefined, tapped: undefined };
   canvas.addEventListener("pointerdown", (event) => down(s, hand, event));
   canvas.addEventListener("pointermove", (event) => over(s, hand, event));
-  for (const type of ["pointerup", "pointercancel"] as const) canvas.addEventListener(type, (event) => up(s, hand, event));
+  for (const type of ["pointerup", "pointercancel"] as const)
+    canvas.addEventListener(type, (event) => up(s, hand, event));
   canvas.addEventListener("keydown", (event) => key(s, event));
   const wheel = (event: WheelEvent): void => {
     event.preventDefault();

@@ -1,5 +1,7 @@
-// What a stroke is set by, beside the table: the part of the ball that the aim meets, the tip on a ball that one touches, the power, a fine wheel for the
-// aim, and Shoot. Slider and stick set the power, and a press of Shoot plays it, however long it is; a press that ends beside the button plays nothing.
+// What a stroke is set by, beside the table: the part of the ball that the aim meets, the tip on a
+// ball that one touches, the power, a fine wheel for the aim, and Shoot. Slider and stick set the
+// power, and a press of Shoot plays it, however long it is; a press that ends beside the button
+// plays nothing.
 import { strokeControls } from "../table/stroke.js";
 import { button, drags, el, slider } from "../ui.js";
 import type { Session } from "./session.js";
@@ -10,7 +12,11 @@ const FASTEST = 10;
 const STEP = 0.02;
 
 function shootButton(s: Session): HTMLButtonElement {
-  const shoot = button("Shoot", () => undefined, { id: "shoot", class: "main", title: "Plays the stroke with the power that is set" });
+  const shoot = button("Shoot", () => undefined, {
+    id: "shoot",
+    class: "main",
+    title: "Plays the stroke with the power that is set",
+  });
   let down: number | undefined;
   shoot.addEventListener("pointerdown", ({ button, pointerId }) => {
     if (button > 0) return;
@@ -34,7 +40,11 @@ function shootButton(s: Session): HTMLButtonElement {
 
 /** A wheel that turns the aim as it is dragged; a tap turns it by a step to its side. */
 function wheelOf(turn: (steps: number) => void): HTMLElement {
-  const wheel = el("div", { id: "wheel", role: "slider", tabindex: "0", "aria-label": "Fine aim", "aria-valuenow": "0" }, el("span", {}, `↺ ${STEP}° ↻`));
+  const wheel = el(
+    "div",
+    { id: "wheel", role: "slider", tabindex: "0", "aria-label": "Fine aim", "aria-valuenow": "0" },
+    el("span", {}, `↺ ${STEP}° ↻`),
+  );
   let [from, last, at] = [0, 0, 0];
   const roll = (steps: number): void => {
     at += steps;
@@ -62,25 +72,44 @@ function wheelOf(turn: (steps: number) => void): HTMLElement {
 }
 
 export function controls(s: Session) {
-  const { sliders, tip, set, value } = strokeControls(slider("power", "Power", 0.1, FASTEST, 0.05, "", s.changed, (x) => `${x.toFixed(1)} m/s`), "tip-ball", s.changed);
+  const { sliders, tip, set, value } = strokeControls(
+    slider("power", "Power", 0.1, FASTEST, 0.05, "", s.changed, (x) => `${x.toFixed(1)} m/s`),
+    "tip-ball",
+    s.changed,
+  );
   tip.classList.add("grows");
   const shoot = shootButton(s);
   const wheel = wheelOf((steps) => {
-    set({ phi: Math.round((sliders.phi.value - STEP * steps + 360) * 1000) / 1000 % 360 });
+    set({ phi: (Math.round((sliders.phi.value - STEP * steps + 360) * 1000) / 1000) % 360 });
     s.changed();
   });
   const part = el("div", { id: "part", role: "img", "aria-label": "The aim meets no ball" });
-  part.innerHTML = '<svg viewBox="-3.1 -1.1 6.2 2.2"><circle r="1" fill="#e8702a" stroke="#000a" stroke-width="0.05"/><circle class="over" r="1" fill="#fbfaf5c0" stroke="#000a" stroke-width="0.05"/></svg>';
+  part.innerHTML =
+    '<svg viewBox="-3.1 -1.1 6.2 2.2"><circle r="1" fill="#e8702a" stroke="#000a" stroke-width="0.05"/><circle class="over" r="1" fill="#fbfaf5c0" stroke="#000a" stroke-width="0.05"/></svg>';
   const share = el("span");
   part.append(share);
 
   return {
-    side: el("section", { class: "side", "aria-label": "The stroke" }, sliders.speed.root, part, tip),
+    side: el(
+      "section",
+      { class: "side", "aria-label": "The stroke" },
+      sliders.speed.root,
+      part,
+      tip,
+    ),
     shoot,
     row: [wheel, shoot],
-    numbers: el("details", { class: "numbers-of" }, el("summary", {}, "Stroke in numbers"), ...(["phi", "right", "up", "theta"] as const).map((key) => sliders[key].root)),
+    numbers: el(
+      "details",
+      { class: "numbers-of" },
+      el("summary", {}, "Stroke in numbers"),
+      ...(["phi", "right", "up", "theta"] as const).map((key) => sliders[key].root),
+    ),
     ...{ set, value },
-    /** Shows which part of a ball is met, as whoever aims sees both: its share of the diameter, and the side of it, 1 the right one; or none. */
+    /**
+     * Shows which part of a ball is met, as whoever aims sees both: its share of the diameter, and
+     * the side of it, 1 the right one; or none.
+     */
     met(of: { share: number; side: number } | undefined, name = ""): void {
       part.style.visibility = of ? "visible" : "hidden";
       if (!of) return;

@@ -1,4 +1,5 @@
-// A diagram to print and to send: balls before a stroke or after it, its path, diamonds, and notes. Its link has all of that, and needs no game.
+// A diagram to print and to send: balls before a stroke or after it, its path, diamonds, and notes.
+// Its link has all of that, and needs no game.
 import { type Carom, CaromError, type Cue, type Shot, type ShotBall } from "carom";
 import { player } from "../../../player/player.js";
 import { drawNumbers, drawStick } from "../table/drawing.js";
@@ -26,8 +27,13 @@ interface Drawn {
 export type Source = readonly [name: string, balls: readonly ShotBall[], cue: Cue | undefined];
 
 function wordsOfCue({ speed, phi, a, b, theta }: Cue): string {
-  const off = [[-a, "right", "left"], [b, "above", "below"]] as const;
-  const tip = off.flatMap(([x, more, less]) => (Math.abs(x) < 0.005 ? [] : `${Math.abs(x).toFixed(2)} R ${x > 0 ? more : less}`));
+  const off = [
+    [-a, "right", "left"],
+    [b, "above", "below"],
+  ] as const;
+  const tip = off.flatMap(([x, more, less]) =>
+    Math.abs(x) < 0.005 ? [] : `${Math.abs(x).toFixed(2)} R ${x > 0 ? more : less}`,
+  );
   return `Cue: ${speed.toFixed(1)} m/s, direction ${phi.toFixed(2)}°, tip ${tip.join(" and ") || "in the middle"}${theta > 0 ? `, butt raised by ${theta.toFixed(0)}°` : ""}.`;
 }
 
@@ -47,8 +53,19 @@ function partsOf(take: (k: number) => void, changed: () => void) {
   // A box for text shows on paper only what fits into it.
   const printed = el("p", { class: "on-paper" });
   notes.addEventListener("input", () => (printed.textContent = notes.value));
-  const [after, path] = [check("diagram-after", "after the stroke", changed), check("diagram-path", "with its path", changed)];
-  return { which, after, path, notes, printed, words: el("p", { id: "diagram-words" }), said: el("p", { class: "error no-print", id: "diagram-said", role: "status" }) };
+  const [after, path] = [
+    check("diagram-after", "after the stroke", changed),
+    check("diagram-path", "with its path", changed),
+  ];
+  return {
+    which,
+    after,
+    path,
+    notes,
+    printed,
+    words: el("p", { id: "diagram-words" }),
+    said: el("p", { class: "error no-print", id: "diagram-said", role: "status" }),
+  };
 }
 function dialogOf({ film, parts }: Diagram, link: () => void): HTMLDialogElement {
   const { which, after, path, notes, printed, words, said } = parts;
@@ -61,7 +78,12 @@ function dialogOf({ film, parts }: Diagram, link: () => void): HTMLDialogElement
     el("label", { for: "notes", class: "no-print" }, "Notes"),
     notes,
     printed,
-    el("div", { class: "row no-print" }, button("Print", () => window.print(), { id: "print-diagram", class: "main" }), button("Link to this diagram", link, { id: "link-diagram" })),
+    el(
+      "div",
+      { class: "row no-print" },
+      button("Print", () => window.print(), { id: "print-diagram", class: "main" }),
+      button("Link to this diagram", link, { id: "link-diagram" }),
+    ),
     said,
   );
   root.addEventListener("close", () => {
@@ -70,8 +92,14 @@ function dialogOf({ film, parts }: Diagram, link: () => void): HTMLDialogElement
   return root;
 }
 
-const cueOf = ({ carom, play }: Diagram, numbers: readonly number[]): Cue => ({ ...carom.cue({}, GAMES[play!.played?.of ?? play!.setup.game]!.game), ...Object.fromEntries(SET.map((key, k) => [key, numbers[k]])) });
-const ballsOf = ({ play, drawn, shot }: Diagram): ShotBall[] => play!.balls.map((ball, k) => (drawn.after && shot ? { kind: ball.kind, state: shot.final[k]! } : ball));
+const cueOf = ({ carom, play }: Diagram, numbers: readonly number[]): Cue => ({
+  ...carom.cue({}, GAMES[play!.played?.of ?? play!.setup.game]!.game),
+  ...Object.fromEntries(SET.map((key, k) => [key, numbers[k]])),
+});
+const ballsOf = ({ play, drawn, shot }: Diagram): ShotBall[] =>
+  play!.balls.map((ball, k) =>
+    drawn.after && shot ? { kind: ball.kind, state: shot.final[k]! } : ball,
+  );
 
 /** Draws numbers and the stick over the balls. */
 function drawOver(d: Diagram, g: CanvasRenderingContext2D): void {
@@ -79,18 +107,32 @@ function drawOver(d: Diagram, g: CanvasRenderingContext2D): void {
   const pen = { g, scale: film.scale, place: film.place };
   const balls = ballsOf(d);
   drawNumbers(pen, balls, play!.names);
-  if (drawn.cue && !drawn.after && onTable(balls[0]!.state)) drawStick(pen, balls[0]!, cueOf(d, drawn.cue));
+  if (drawn.cue && !drawn.after && onTable(balls[0]!.state))
+    drawStick(pen, balls[0]!, cueOf(d, drawn.cue));
 }
 function draw(d: Diagram): void {
   const { play, film, drawn, shot } = d;
   if (!play || film.canvas.closest("dialog")?.open !== true) return;
   const turned = play.balls.map(() => [1, 0, 0, 0] as const);
-  film.show(filmOf({ table: play.table, balls: ballsOf(d), names: play.names, turned }, undefined, drawn.path && shot ? pathsOf(shot) : []));
+  film.show(
+    filmOf(
+      { table: play.table, balls: ballsOf(d), names: play.names, turned },
+      undefined,
+      drawn.path && shot ? pathsOf(shot) : [],
+    ),
+  );
 }
 /** Lays the balls and plays the stroke. Throws where they cannot be. */
 function lay(d: Diagram, of: Drawn): void {
   const { after, path, words } = d.parts;
-  const next = new Play(d.carom, { game: of.game, ...(of.table !== undefined && { table: of.table }), against: "practice", own: "0", seed: 1, at: of.at });
+  const next = new Play(d.carom, {
+    game: of.game,
+    ...(of.table !== undefined && { table: of.table }),
+    against: "practice",
+    own: "0",
+    seed: 1,
+    at: of.at,
+  });
   next.end();
   d.play = next;
   d.drawn = of;
@@ -98,7 +140,10 @@ function lay(d: Diagram, of: Drawn): void {
   for (const one of [after, path]) one.root.hidden = d.shot === undefined;
   after.input.checked = of.after === true;
   path.input.checked = of.path === true;
-  d.film.canvas.setAttribute("aria-label", `Diagram of ${next.balls.filter(({ state }) => onTable(state)).length} balls from above`);
+  d.film.canvas.setAttribute(
+    "aria-label",
+    `Diagram of ${next.balls.filter(({ state }) => onTable(state)).length} balls from above`,
+  );
   words.textContent = `${(next.played ?? GAMES[of.game]!).text}. ${of.cue ? wordsOfCue(cueOf(d, of.cue)) : ""}`;
   draw(d);
 }
@@ -106,7 +151,12 @@ function lay(d: Diagram, of: Drawn): void {
 function take(d: Diagram, k: number): void {
   const [, balls, cue] = d.sources[k]!;
   const { game, table } = d.drawn;
-  const still: Drawn = { game, ...(table !== undefined && { table }), at: placesText(balls), notes: d.parts.notes.value };
+  const still: Drawn = {
+    game,
+    ...(table !== undefined && { table }),
+    at: placesText(balls),
+    notes: d.parts.notes.value,
+  };
   try {
     lay(d, cue ? { ...still, cue: SET.map((key) => cue[key]), path: true } : still);
   } catch (error) {
@@ -115,7 +165,11 @@ function take(d: Diagram, k: number): void {
     lay(d, still);
   }
 }
-function show({ parts: { said, notes, printed, which }, sources }: Diagram, root: HTMLDialogElement, text: string): void {
+function show(
+  { parts: { said, notes, printed, which }, sources }: Diagram,
+  root: HTMLDialogElement,
+  text: string,
+): void {
   said.textContent = "";
   notes.value = printed.textContent = text;
   which.root.hidden = sources.length < 2;
@@ -124,23 +178,52 @@ function show({ parts: { said, notes, printed, which }, sources }: Diagram, root
 /** The diagram of a link. Throws where it is damaged. */
 async function unpacked(packed: string): Promise<Drawn> {
   const of = JSON.parse(await unpack(packed)) as Drawn;
-  if (of.cue !== undefined && !(Array.isArray(of.cue) && of.cue.length === SET.length && of.cue.every(Number.isFinite))) throw new TypeError(`cue: ${SET.length} numbers are needed`);
-  if (typeof of.notes !== "string" || typeof of.at !== "string") throw new TypeError("notes and at: texts are needed");
+  if (
+    of.cue !== undefined &&
+    !(Array.isArray(of.cue) && of.cue.length === SET.length && of.cue.every(Number.isFinite))
+  )
+    throw new TypeError(`cue: ${SET.length} numbers are needed`);
+  if (typeof of.notes !== "string" || typeof of.at !== "string")
+    throw new TypeError("notes and at: texts are needed");
   return of;
 }
 
-export function diagramPage(carom: Carom, coarse: boolean): { root: HTMLDialogElement; open(setup: Setup, sources: readonly Source[]): void; read(packed: string): Promise<void>; theme(): void } {
-  const parts = partsOf((k) => take(d, k), () => {
-    d.drawn = { ...d.drawn, after: parts.after.input.checked, path: parts.path.input.checked };
-    draw(d);
-  });
+export function diagramPage(
+  carom: Carom,
+  coarse: boolean,
+): {
+  root: HTMLDialogElement;
+  open(setup: Setup, sources: readonly Source[]): void;
+  read(packed: string): Promise<void>;
+  theme(): void;
+} {
+  const parts = partsOf(
+    (k) => take(d, k),
+    () => {
+      d.drawn = { ...d.drawn, after: parts.after.input.checked, path: parts.path.input.checked };
+      draw(d);
+    },
+  );
   const film = player({ sharp: 2, over: (g) => drawOver(d, g) }); // for paper
   film.canvas.id = "diagram-scene";
   film.canvas.removeAttribute("tabindex");
-  const d: Diagram = { carom, film, parts, sources: [], drawn: { game: "eightball", at: "", notes: "" }, play: undefined, shot: undefined };
+  const d: Diagram = {
+    carom,
+    film,
+    parts,
+    sources: [],
+    drawn: { game: "eightball", at: "", notes: "" },
+    play: undefined,
+    shot: undefined,
+  };
   const link = async (): Promise<void> => {
     const text = JSON.stringify({ ...d.drawn, notes: parts.notes.value });
-    parts.said.textContent = await send(`${location.href.split("#")[0]}#view=play&d=${await pack(text)}`, "A diagram of billiards", coarse, "The link to this diagram is copied.");
+    parts.said.textContent = await send(
+      `${location.href.split("#")[0]}#view=play&d=${await pack(text)}`,
+      "A diagram of billiards",
+      coarse,
+      "The link to this diagram is copied.",
+    );
   };
   const root = dialogOf(d, () => void link());
   return {
@@ -148,7 +231,9 @@ export function diagramPage(carom: Carom, coarse: boolean): { root: HTMLDialogEl
     open({ game, table }, of) {
       d.sources = of;
       d.drawn = { game, ...(table !== undefined && { table }), at: "", notes: "" };
-      parts.which.select.replaceChildren(...of.map(([name], k) => el("option", { value: String(k) }, name)));
+      parts.which.select.replaceChildren(
+        ...of.map(([name], k) => el("option", { value: String(k) }, name)),
+      );
       show(d, root, "");
       take(d, 0);
     },
@@ -158,7 +243,9 @@ export function diagramPage(carom: Carom, coarse: boolean): { root: HTMLDialogEl
       try {
         lay(d, of);
       } catch (error) {
-        throw error instanceof CaromError ? new TypeError(`the stroke cannot be played: ${error.message}`) : error;
+        throw error instanceof CaromError
+          ? new TypeError(`the stroke cannot be played: ${error.message}`)
+          : error;
       }
       show(d, root, of.notes);
       draw(d);

@@ -1,7 +1,10 @@
-// Drills: layouts with a name and what has to happen in one stroke, of data/drills.csv, and how often each was made in this browser. A goal is a list of
-//     pot=N[@POCKET]   ball N falls, in that pocket         bank=N       and has met a cushion before
+// Drills: layouts with a name and what has to happen in one stroke, of data/drills.csv, and how
+// often each was made in this browser. A goal is a list of
+//     pot=N[@POCKET]   ball N falls, in that pocket         bank=N       and has met a cushion
+//                      before
 //     first=N          the cue ball meets ball N first       kick=N       after N cushions or more
-//     hit=N            it meets N balls or more              cushions=N   it meets N cushions or more
+//     hit=N            it meets N balls or more              cushions=N   it meets N cushions or
+//                      more
 //     cue=X,Y,R        it ends within R of a place, m
 //     clear            a ball falls in each stroke, until none is left
 // The cue ball never falls, and no ball leaves the table.
@@ -20,58 +23,104 @@ export interface Drill {
 }
 
 /** The fields of a line of CSV, of which some are quoted. */
-const fields = (line: string): string[] => [...line.matchAll(/(?:^|,)(?:"([^"]*)"|([^,"]*))/g)].map(([, quoted, plain]) => quoted ?? plain ?? "");
+const fields = (line: string): string[] =>
+  [...line.matchAll(/(?:^|,)(?:"([^"]*)"|([^,"]*))/g)].map(
+    ([, quoted, plain]) => quoted ?? plain ?? "",
+  );
 
 export function drillsOf(csv: string): Drill[] {
-  return csv.trim().split("\n").slice(1).map((line) => {
-    const [name, text, balls, goal, rating] = fields(line) as [string, string, string, string, string];
-    return {
-      ...{ name, text, rating: Number(rating) },
-      balls: new Map(balls.split(" ").map((one) => {
-        const [ball, x, y] = one.split(/[:,]/).map(Number) as [number, number, number];
-        return [ball, [x, y] as const];
-      })),
-      goal: goal.split(" ").map((one) => [one.split("=")[0]!, one.split("=")[1] ?? ""] as const),
-    };
-  });
+  return csv
+    .trim()
+    .split("\n")
+    .slice(1)
+    .map((line) => {
+      const [name, text, balls, goal, rating] = fields(line) as [
+        string,
+        string,
+        string,
+        string,
+        string,
+      ];
+      return {
+        ...{ name, text, rating: Number(rating) },
+        balls: new Map(
+          balls.split(" ").map((one) => {
+            const [ball, x, y] = one.split(/[:,]/).map(Number) as [number, number, number];
+            return [ball, [x, y] as const];
+          }),
+        ),
+        goal: goal.split(" ").map((one) => [one.split("=")[0]!, one.split("=")[1] ?? ""] as const),
+      };
+    });
 }
 /** The layout as the text of a game, for so many balls. */
-export const atOf = ({ balls }: Drill, count: number): string => Array.from({ length: count }, (_, k) => balls.get(k)?.join(",") ?? "in").join(" ");
+export const atOf = ({ balls }: Drill, count: number): string =>
+  Array.from({ length: count }, (_, k) => balls.get(k)?.join(",") ?? "in").join(" ");
 
 const cm = (x: number): string => `${Math.round(100 * Math.abs(x))} cm`;
-/** Where the cue ball came, of a place that is wanted, and what would bring it there: along its aim, on from its first contact or back. */
-function wordsOfPlace({ firstContact, final }: Shot, [x, y, far]: readonly [number, number, number]): string {
+/**
+ * Where the cue ball came, of a place that is wanted, and what would bring it there: along its aim,
+ * on from its first contact or back.
+ */
+function wordsOfPlace(
+  { firstContact, final }: Shot,
+  [x, y, far]: readonly [number, number, number],
+): string {
   const end = final[0]!.r;
   const met = firstContact && firstContact.event.before[firstContact.event.a === 0 ? 0 : 1];
-  const [vx, vy] = met ? [0, 1].map((c) => met.v[c]! / Math.hypot(met.v[0], met.v[1])) as [number, number] : [0, 0];
-  const along = (at: readonly number[]): number => (at[0]! - met!.r[0]) * vx + (at[1]! - met!.r[1]) * vy;
-  if (!met || Math.abs((x - met.r[0]) * vy - (y - met.r[1]) * vx) > 0.1) return `The cue ball ended ${cm(Math.hypot(end[0] - x, end[1] - y))} from the place, of ${cm(far)}: change its speed.`;
+  const [vx, vy] = met
+    ? ([0, 1].map((c) => met.v[c]! / Math.hypot(met.v[0], met.v[1])) as [number, number])
+    : [0, 0];
+  const along = (at: readonly number[]): number =>
+    (at[0]! - met!.r[0]) * vx + (at[1]! - met!.r[1]) * vy;
+  if (!met || Math.abs((x - met.r[0]) * vy - (y - met.r[1]) * vx) > 0.1)
+    return `The cue ball ended ${cm(Math.hypot(end[0] - x, end[1] - y))} from the place, of ${cm(far)}: change its speed.`;
   const [wanted, came] = [along([x, y]), along(end)];
-  if (Math.abs(wanted) < 0.1) return `The cue ball ${came > 0 ? "rolled on" : "came back"} by ${cm(came)}, and was to stop: strike it ${came > 0 ? "lower" : "higher"}.`;
+  if (Math.abs(wanted) < 0.1)
+    return `The cue ball ${came > 0 ? "rolled on" : "came back"} by ${cm(came)}, and was to stop: strike it ${came > 0 ? "lower" : "higher"}.`;
   const share = came / wanted;
   return `The cue ball ${wanted > 0 ? "rolled on" : "came back"} ${cm(Math.max(share, 0) * wanted)} of ${cm(wanted)}: strike it ${share > 1 ? "softer" : wanted > 0 ? "higher or faster" : "lower or faster"}.`;
 }
 
 /** Whether a stroke made it, failed, or goes on; and of what failed, what was wanted and came. */
-export function judge({ goal }: Drill, shot: Shot): { is: "made" | "missed" | "on"; why: string[] } {
+export function judge(
+  { goal }: Drill,
+  shot: Shot,
+): { is: "made" | "missed" | "on"; why: string[] } {
   const { events, final, table } = shot;
   if (!onTable(final[0]!)) return { is: "missed", why: ["The cue ball fell or left the table."] };
-  if (final.some(({ label }) => label === "off")) return { is: "missed", why: ["A ball left the table."] };
+  if (final.some(({ label }) => label === "off"))
+    return { is: "missed", why: ["A ball left the table."] };
   const meets = events.filter(({ type, a, b }) => type === "ball_ball" && (a === 0 || b === 0));
   const other = ({ a, b }: (typeof events)[number]): number => (a === 0 ? b : a);
-  const isCushion = ({ type }: (typeof events)[number]): boolean => type === "ball_linear_cushion" || type === "ball_circular_cushion";
-  const fell = (ball: number): (typeof events)[number] | undefined => events.find(({ type, a }) => type === "ball_pocket" && a === ball);
+  const isCushion = ({ type }: (typeof events)[number]): boolean =>
+    type === "ball_linear_cushion" || type === "ball_circular_cushion";
+  const fell = (ball: number): (typeof events)[number] | undefined =>
+    events.find(({ type, a }) => type === "ball_pocket" && a === ball);
   const met = new Set(meets.map(other)).size;
-  const [kicks, rails] = [events.filter((one) => isCushion(one) && one.a === 0 && meets[0] && one.time < meets[0].time).length, events.filter((one) => one.type === "ball_linear_cushion" && one.a === 0).length];
+  const [kicks, rails] = [
+    events.filter((one) => isCushion(one) && one.a === 0 && meets[0] && one.time < meets[0].time)
+      .length,
+    events.filter((one) => one.type === "ball_linear_cushion" && one.a === 0).length,
+  ];
   const checks: Record<string, (value: string) => boolean> = {
     pot(value) {
       const [ball, pocket] = value.split("@");
       const event = fell(Number(ball));
-      return event !== undefined && (pocket === undefined || pocketName(table, event.b) === `${pocket} pocket`);
+      return (
+        event !== undefined &&
+        (pocket === undefined || pocketName(table, event.b) === `${pocket} pocket`)
+      );
     },
     bank(value) {
       const event = fell(Number(value));
-      return event !== undefined && events.some((one) => one.type === "ball_linear_cushion" && one.a === Number(value) && one.time < event.time);
+      return (
+        event !== undefined &&
+        events.some(
+          (one) =>
+            one.type === "ball_linear_cushion" && one.a === Number(value) && one.time < event.time,
+        )
+      );
     },
     first: (value) => meets[0] !== undefined && other(meets[0]) === Number(value),
     kick: (value) => meets[0] !== undefined && kicks >= Number(value),
@@ -83,16 +132,20 @@ export function judge({ goal }: Drill, shot: Shot): { is: "made" | "missed" | "o
     },
   };
   const words: Record<string, (value: string) => string> = {
-    pot: (value) => `The ${parseInt(value)} did not fall${value.includes("@") ? ` in the ${value.split("@")[1]} pocket` : ""}.`,
-    bank: (value) => `The ${value} ${fell(Number(value)) ? "fell without a cushion" : "did not fall"}.`,
-    first: (value) => `The cue ball met ${meets[0] ? `the ${other(meets[0])}` : "no ball"} first, not the ${value}.`,
+    pot: (value) =>
+      `The ${parseInt(value)} did not fall${value.includes("@") ? ` in the ${value.split("@")[1]} pocket` : ""}.`,
+    bank: (value) =>
+      `The ${value} ${fell(Number(value)) ? "fell without a cushion" : "did not fall"}.`,
+    first: (value) =>
+      `The cue ball met ${meets[0] ? `the ${other(meets[0])}` : "no ball"} first, not the ${value}.`,
     kick: (value) => `It met ${kicks} of ${value} cushions before a ball.`,
     hit: (value) => `It met ${met} of ${value} balls.`,
     cushions: (value) => `The cue ball met ${rails} of ${value} cushions: strike it faster.`,
     cue: (value) => wordsOfPlace(shot, value.split(",").map(Number) as [number, number, number]),
   };
   if (goal[0]![0] === "clear") {
-    if (!events.some(({ type }) => type === "ball_pocket")) return { is: "missed", why: ["No ball fell."] };
+    if (!events.some(({ type }) => type === "ball_pocket"))
+      return { is: "missed", why: ["No ball fell."] };
     return { is: final.some((state, k) => k > 0 && onTable(state)) ? "on" : "made", why: [] };
   }
   const why = goal.flatMap(([word, value]) => (checks[word]!(value) ? [] : words[word]!(value)));

@@ -1,11 +1,25 @@
-// What is seen of a game: the balls as they lie, with the stroke that is aimed; the film of a stroke that was played; and what is told beside both.
+// What is seen of a game: the balls as they lie, with the stroke that is aimed; the film of a
+// stroke that was played; and what is told beside both.
 import { CaromError } from "carom";
 import { pocketName, product } from "../../../player/words.js";
 import { filmOf, lasts, onTable, type Path, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { OPTIONS, type Stroke } from "./game.js";
 import { racksOf } from "./keep.js";
-import { aimed, called, calls, cueOf, free, isSafety, linesOf, look, says, type Session, stateOf, why } from "./session.js";
+import {
+  aimed,
+  called,
+  calls,
+  cueOf,
+  free,
+  isSafety,
+  linesOf,
+  look,
+  says,
+  type Session,
+  stateOf,
+  why,
+} from "./session.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
 
 function show(s: Session, of: NonNullable<Session["filmed"]>): void {
@@ -20,37 +34,53 @@ export function moved(s: Session): void {
   s.sounded = s.film.time;
 }
 
-/** The balls as they lie, with what may be seen of the stroke: in a game the line to the first contact. */
+/**
+ * The balls as they lie, with what may be seen of the stroke: in a game the line to the first
+ * contact.
+ */
 export function rest(s: Session): void {
   const { carom, play, turned } = s;
   s.first = undefined;
   let paths: Path[] = [];
   if (aimed(s) && onTable(play.balls[0]!.state))
     try {
-      if (play.practice && !play.setup.drill) paths = pathsOf(carom.simulate(play.table, play.balls, cueOf(s), OPTIONS));
+      if (play.practice && !play.setup.drill)
+        paths = pathsOf(carom.simulate(play.table, play.balls, cueOf(s), OPTIONS));
       look(s);
     } catch (error) {
       if (!(error instanceof CaromError)) throw error;
       says(s, `This stroke cannot be played: ${error.message}.`);
     }
   s.shown = undefined;
-  show(s, filmOf({ table: play.table, balls: play.balls, names: play.names, turned }, undefined, paths));
+  show(
+    s,
+    filmOf({ table: play.table, balls: play.balls, names: play.names, turned }, undefined, paths),
+  );
   tell(s);
 }
 
-/** Tells whose turn it is, the call and the score, and shows the buttons that have a meaning now. */
+/**
+ * Tells whose turn it is, the call and the score, and shows the buttons that have a meaning now.
+ */
 export function tell(s: Session): void {
   const { play, seat, buttons, words, film } = s;
   const can = free(s);
   const call = can && calls(s) ? called(s) : undefined;
   const [safe, pushes] = [can && isSafety(s), play.state.may?.includes("push") === true];
-  // What comes of a stroke is told after its film. What is read aloud changes only where the words do.
-  const plays = s.then !== undefined && s.shown && !play.practice ? nameOf(play, s.shown.who, seat) : undefined;
-  const told = plays ? `${plays} ${plays === "You" ? "play" : "plays"} …` : `${wordsOfTurn(play, seat, s.thinks, s.hinted)}${call ? ` Call: the ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : safe ? " Call: a safety." : can && calls(s) ? " Nothing is called: aim at a ball, or tap a pocket." : ""}`;
+  // What comes of a stroke is told after its film. What is read aloud changes only where the words
+  // do.
+  const plays =
+    s.then !== undefined && s.shown && !play.practice ? nameOf(play, s.shown.who, seat) : undefined;
+  const told = plays
+    ? `${plays} ${plays === "You" ? "play" : "plays"} …`
+    : `${wordsOfTurn(play, seat, s.thinks, s.hinted)}${call ? ` Call: the ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : safe ? " Call: a safety." : can && calls(s) ? " Nothing is called: aim at a ball, or tap a pocket." : ""}`;
   if (words.turn.textContent !== told) words.turn.textContent = told;
   if (!plays) words.score.textContent = wordsOfScore(play, seat, racksOf(play.setup));
   const { first } = s;
-  s.stroke.met(can && first && first.ball > 0 && (play.practice || linesOf(s) !== "none") ? first : undefined, play.names[first?.ball ?? 0]);
+  s.stroke.met(
+    can && first && first.ball > 0 && (play.practice || linesOf(s) !== "none") ? first : undefined,
+    play.names[first?.ball ?? 0],
+  );
   const laid = play.practice && !play.setup.drill;
   const seen: [HTMLElement, boolean][] = [
     [buttons.hint, play.played !== undefined],
@@ -63,12 +93,22 @@ export function tell(s: Session): void {
     [buttons.link, play.setup.against === "link"],
   ];
   for (const [element, is] of seen) element.hidden = !is;
-  // What does nothing now keeps its place, so that the others keep theirs, and says why when it is pressed.
-  const able: [HTMLElement, boolean][] = [[s.stroke.shoot, can], [buttons.hint, can], [buttons.push, can && (pushes || calls(s))], [buttons.replay, play.last?.shot !== undefined && !["film", "thinking"].includes(stateOf(s))], [buttons.undo, play.past.length > 0]];
+  // What does nothing now keeps its place, so that the others keep theirs, and says why when it is
+  // pressed.
+  const able: [HTMLElement, boolean][] = [
+    [s.stroke.shoot, can],
+    [buttons.hint, can],
+    [buttons.push, can && (pushes || calls(s))],
+    [buttons.replay, play.last?.shot !== undefined && !["film", "thinking"].includes(stateOf(s))],
+    [buttons.undo, play.past.length > 0],
+  ];
   for (const [element, is] of able) element.setAttribute("aria-disabled", String(!is));
   buttons.push.textContent = pushes ? "Push out" : "Safety";
   buttons.push.setAttribute("aria-pressed", String(safe || s.special === "push"));
-  film.canvas.setAttribute("aria-label", `${GAMES[play.played?.of ?? play.setup.game]!.text} table from above. ${words.turn.textContent}`);
+  film.canvas.setAttribute(
+    "aria-label",
+    `${GAMES[play.played?.of ?? play.setup.game]!.text} table from above. ${words.turn.textContent}`,
+  );
 }
 
 /** Shows a stroke that was played, and what comes after it. */
@@ -79,7 +119,14 @@ export function perform(s: Session, one: Stroke, after: () => void): void {
   s.sounded = -1;
   if (!one.shot) return finish(s);
   s.film.look(1);
-  show(s, filmOf({ table: s.play.table, balls: one.balls, names: s.play.names, turned: s.turned }, one.shot, []));
+  show(
+    s,
+    filmOf(
+      { table: s.play.table, balls: one.balls, names: s.play.names, turned: s.turned },
+      one.shot,
+      [],
+    ),
+  );
   s.film.start();
   tell(s);
 }

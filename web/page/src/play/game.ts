@@ -1,6 +1,20 @@
-// A game on its way: who is at the table, the rulings of the library, and the strokes so far. Each stroke is a line of a recording, which another page
-// reads, plays and compares bit by bit. A game is kept and sent as text: what it begins with, and its strokes.
-import { type Call, type Carom, type Cue, games, type GameState, type Recording, type Ruling, type Shot, type ShotBall, type ShotOptions, type Table, type Vec2 } from "carom";
+// A game on its way: who is at the table, the rulings of the library, and the strokes so far. Each
+// stroke is a line of a recording, which another page reads, plays and compares bit by bit. A game
+// is kept and sent as text: what it begins with, and its strokes.
+import {
+  type Call,
+  type Carom,
+  type Cue,
+  games,
+  type GameState,
+  type Recording,
+  type Ruling,
+  type Shot,
+  type ShotBall,
+  type ShotOptions,
+  type Table,
+  type Vec2,
+} from "carom";
 import { onTable } from "../table/filmed.js";
 import { GAMES, PLAYED, type Played, POOL_TABLES } from "../table/games.js";
 import { atHead, mayLie } from "../table/head.js";
@@ -23,7 +37,10 @@ export interface Setup {
   /** The name of the drill that the layout is of. */
   drill?: string;
 }
-/** A stroke: where the cue ball was put, what was called, and the line of the recording; of a pass there is none. */
+/**
+ * A stroke: where the cue ball was put, what was called, and the line of the recording; of a pass
+ * there is none.
+ */
 export interface Entry {
   place?: Vec2;
   call?: Call;
@@ -41,7 +58,11 @@ export interface Stroke {
 }
 
 export const OPTIONS: ShotOptions = { cushionModel: "han" };
-const same = (a: readonly ShotBall[], b: readonly ShotBall[]): boolean => a.every(({ state }, k) => state.label === b[k]!.state.label && state.r.every((x, c) => Object.is(x, b[k]!.state.r[c])));
+const same = (a: readonly ShotBall[], b: readonly ShotBall[]): boolean =>
+  a.every(
+    ({ state }, k) =>
+      state.label === b[k]!.state.label && state.r.every((x, c) => Object.is(x, b[k]!.state.r[c])),
+  );
 
 export class Play {
   readonly played: Played | undefined;
@@ -68,24 +89,34 @@ export class Play {
     this.practice = setup.against === "practice";
     this.played = PLAYED[setup.game];
     const of = GAMES[this.played?.of ?? setup.game];
-    if (!of || (!this.practice && !this.played)) throw new TypeError(`game: there is no game "${setup.game}"`);
+    if (!of || (!this.practice && !this.played))
+      throw new TypeError(`game: there is no game "${setup.game}"`);
     const chosen = POOL_TABLES[setup.table ?? "9ft"];
-    if (!chosen || (setup.table !== undefined && of.game !== "pool")) throw new TypeError(`table: there is no table "${setup.table}" for this game`);
+    if (!chosen || (setup.table !== undefined && of.game !== "pool"))
+      throw new TypeError(`table: there is no table "${setup.table}" for this game`);
     this.table = of.game === "pool" ? carom.table(chosen[1], chosen[2]) : carom.table(of.table);
     const kind = carom.kind(of.game, OPTIONS.cushionModel);
-    this.balls = carom.rack(of.rack, this.table, { seed: setup.seed }).map(({ state }) => ({ kind, state }));
+    this.balls = carom
+      .rack(of.rack, this.table, { seed: setup.seed })
+      .map(({ state }) => ({ kind, state }));
     this.names = this.balls.map((_, k) => of.names(k));
     if (setup.at !== undefined) this.balls = placesOf(setup.at, this.table, this.balls).balls;
     const rules = this.played?.rules ?? "potting";
-    const opens = (games[rules].members as readonly string[]).includes("opening") && setup.at === undefined;
+    const opens =
+      (games[rules].members as readonly string[]).includes("opening") && setup.at === undefined;
     this.state = { rules, group: "open", opening: opens, ...this.played?.state };
     this.hand = this.practice || !this.hasPockets ? "no" : (this.played!.opening as Ruling["hand"]);
     this.#recording = carom.record(this.table, this.balls, OPTIONS);
   }
 
-  /** Whether the next stroke is the first of a rack, whether or not the rules tell it from others. */
+  /**
+   * Whether the next stroke is the first of a rack, whether or not the rules tell it from others.
+   */
   get breaks(): boolean {
-    return this.state.opening === true || (this.setup.at === undefined && this.entries.length === 0 && this.last === undefined);
+    return (
+      this.state.opening === true ||
+      (this.setup.at === undefined && this.entries.length === 0 && this.last === undefined)
+    );
   }
   /** Whether the rules let the player pass. */
   get mayPass(): boolean {
@@ -94,7 +125,9 @@ export class Play {
   get hasPockets(): boolean {
     return this.table.pockets.length > 0;
   }
-  /** Gives the memory of the recording back; no stroke follows. The text is a recording by itself. */
+  /**
+   * Gives the memory of the recording back; no stroke follows. The text is a recording by itself.
+   */
   end(): string {
     return this.#recording.end();
   }
@@ -106,7 +139,11 @@ export class Play {
 
   /** The game as text. */
   text(): string {
-    return JSON.stringify({ ...this.setup, ...(this.practice && !this.setup.drill ? { at: this.at() } : {}), entries: this.entries });
+    return JSON.stringify({
+      ...this.setup,
+      ...(this.practice && !this.setup.drill ? { at: this.at() } : {}),
+      entries: this.entries,
+    });
   }
 
   /** The cue ball in hand, put down; or a ball of practice. Throws where it is not free. */
@@ -152,16 +189,24 @@ export class Play {
   read(entry: Entry): Stroke {
     if (this.winner !== undefined) throw new TypeError("a stroke follows the end of the game");
     if (entry.place) {
-      if (this.hand === "no") throw new TypeError(`stroke ${this.entries.length + 1}: the cue ball is not in hand`);
+      if (this.hand === "no")
+        throw new TypeError(`stroke ${this.entries.length + 1}: the cue ball is not in hand`);
       const [x, y] = entry.place;
-      if (!mayLie(this.table, this.hand, [x, y])) throw new TypeError(`stroke ${this.entries.length + 1}: the cue ball lies beyond the line`);
+      if (!mayLie(this.table, this.hand, [x, y]))
+        throw new TypeError(`stroke ${this.entries.length + 1}: the cue ball lies beyond the line`);
       this.put(0, x, y);
       this.#recording.place(0, x, y);
-    } else if (this.hand !== "no") throw new TypeError(`stroke ${this.entries.length + 1}: the place of the cue ball is missing`);
+    } else if (this.hand !== "no")
+      throw new TypeError(
+        `stroke ${this.entries.length + 1}: the place of the cue ball is missing`,
+      );
     if (entry.call === "pass") return this.#ruled(entry, this.carom.cue(), undefined);
     const replayed = this.#recording.read(entry.line);
     if (!replayed) throw new TypeError(`stroke ${this.entries.length + 1}: its line has no shot`);
-    if (!replayed.same) throw new TypeError(`stroke ${this.entries.length + 1} ends otherwise than it was recorded: it was changed on its way`);
+    if (!replayed.same)
+      throw new TypeError(
+        `stroke ${this.entries.length + 1} ends otherwise than it was recorded: it was changed on its way`,
+      );
     return this.#ruled(entry, replayed.cue, replayed.film);
   }
 
@@ -187,17 +232,21 @@ export class Play {
     // Of points, as whoever plays next sees them.
     const { score } = ruling as { score?: readonly [number, number] };
     const target = this.played!.target;
-    if (target !== undefined && ruling.turn === "keep" && ++this.points[who] >= target) this.winner = who;
+    if (target !== undefined && ruling.turn === "keep" && ++this.points[who] >= target)
+      this.winner = who;
     if (ruling.turn === "win") this.winner = who;
     if (ruling.turn === "lose") this.winner = who === 0 ? 1 : 0;
     if (ruling.turn === "pass") this.turn = who === 0 ? 1 : 0;
-    if (score && this.played!.points && target === undefined) this.points = this.turn === 0 ? [score[0], score[1]] : [score[1], score[0]];
+    if (score && this.played!.points && target === undefined)
+      this.points = this.turn === 0 ? [score[0], score[1]] : [score[1], score[0]];
     this.balls = ruling.balls;
-    // Balls that came back to a spot, or a cue ball that left the table, are another layout for the recording.
+    // Balls that came back to a spot, or a cue ball that left the table, are another layout for the
+    // recording.
     if (this.winner === undefined) {
       const lie = this.#recording.balls;
       if (!same(lie, this.balls)) this.#recording.setBalls(this.balls);
-      if (this.hand !== "no" && this.hasPockets) this.balls = atHead(this.carom, this.table, this.balls, this.hand);
+      if (this.hand !== "no" && this.hasPockets)
+        this.balls = atHead(this.carom, this.table, this.balls, this.hand);
     }
     return (this.last = { who, balls, cue, call: entry.call, state, shot, ruling });
   }

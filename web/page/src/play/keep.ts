@@ -1,4 +1,5 @@
-// What is kept in this browser, and what is on its way to another page: texts, packed for links, and counts.
+// What is kept in this browser, and what is on its way to another page: texts, packed for links,
+// and counts.
 
 import type { Setup } from "./game.js";
 import { wrong } from "../ui.js";
@@ -25,28 +26,44 @@ type Tally = Record<string, [number, number]>;
 export const tally = (key: string): Tally => JSON.parse(kept(key) ?? "{}") as Tally;
 export const countsOf = (key: string, name: string): [number, number] => tally(key)[name] ?? [0, 0];
 /** Counts one more of the first or of the second, or of both. */
-export function count(key: string, name: string, more: readonly [number, number]): [number, number] {
+export function count(
+  key: string,
+  name: string,
+  more: readonly [number, number],
+): [number, number] {
   const [first, second] = countsOf(key, name);
   const now: [number, number] = [first + more[0], second + more[1]];
   keepText(JSON.stringify({ ...tally(key), [name]: now }), key);
   return now;
 }
 /** The racks that each has won of a game against the same one. */
-export const racksOf = ({ game, against }: Setup): readonly [number, number] => countsOf("carom-racks", `${game}/${against}`);
-export const countRack = ({ game, against }: Setup, winner: 0 | 1): unknown => count("carom-racks", `${game}/${against}`, winner === 0 ? [1, 0] : [0, 1]);
+export const racksOf = ({ game, against }: Setup): readonly [number, number] =>
+  countsOf("carom-racks", `${game}/${against}`);
+export const countRack = ({ game, against }: Setup, winner: 0 | 1): unknown =>
+  count("carom-racks", `${game}/${against}`, winner === 0 ? [1, 0] : [0, 1]);
 
-async function through(bytes: Uint8Array<ArrayBuffer>, by: ReadableWritablePair<Uint8Array, BufferSource>): Promise<Uint8Array> {
-  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(by)).arrayBuffer());
+async function through(
+  bytes: Uint8Array<ArrayBuffer>,
+  by: ReadableWritablePair<Uint8Array, BufferSource>,
+): Promise<Uint8Array> {
+  return new Uint8Array(
+    await new Response(new Blob([bytes]).stream().pipeThrough(by)).arrayBuffer(),
+  );
 }
 /** A text for an address: deflated, in the letters of base 64 that addresses leave as they are. */
 export async function pack(text: string): Promise<string> {
   const bytes = await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw"));
-  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))
+    .replaceAll("+", "-")
+    .replaceAll("/", "_")
+    .replace(/=+$/, "");
 }
 export async function unpack(packed: string): Promise<string> {
   let bytes: Uint8Array<ArrayBuffer>;
   try {
-    bytes = Uint8Array.from(atob(packed.replaceAll("-", "+").replaceAll("_", "/")), (letter) => letter.charCodeAt(0));
+    bytes = Uint8Array.from(atob(packed.replaceAll("-", "+").replaceAll("_", "/")), (letter) =>
+      letter.charCodeAt(0),
+    );
     return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw")));
   } catch {
     throw new TypeError("the link is cut off or damaged: ask for it again");
@@ -54,7 +71,12 @@ export async function unpack(packed: string): Promise<string> {
 }
 
 /** Sends a link by what the machine has for that, or copies it. Returns what is to be told. */
-export async function send(url: string, title: string, share: boolean, copied: string): Promise<string> {
+export async function send(
+  url: string,
+  title: string,
+  share: boolean,
+  copied: string,
+): Promise<string> {
   try {
     if (share && "share" in navigator) await navigator.share({ title, url });
     else await navigator.clipboard.writeText(url);

@@ -1,31 +1,62 @@
-// One's own rating on the scale of Fargo ratings by what was won and lost, as carom_rating_of() has it. A drill is a game against the rating whose errors make
-// it, by the best stroke that a search found, in half of the tries: a convention.
+// One's own rating on the scale of Fargo ratings by what was won and lost, as carom_rating_of() has
+// it. A drill is a game against the rating whose errors make it, by the best stroke that a search
+// found, in half of the tries: a convention.
 import type { Carom, Score } from "carom";
 import type { Drill } from "./drills.js";
 import type { Setup } from "./game.js";
 import { count, tally } from "./keep.js";
 
-/** Where the browser keeps games won and lost against each rating, and how often each drill was made, of how many tries. */
+/**
+ * Where the browser keeps games won and lost against each rating, and how often each drill was
+ * made, of how many tries.
+ */
 const GAMES = "carom-ladder";
 export const DRILLS_MADE = "carom-drills";
 
 /** Whether a game counts: against the page's player, with errors of one's own. */
 export const isRated = ({ against, own }: Setup): boolean => /^\d/.test(against) && own !== "0";
-export const countGame = (setup: Setup, winner: 0 | 1): unknown => isRated(setup) && count(GAMES, setup.against, winner === 0 ? [1, 0] : [0, 1]);
+export const countGame = (setup: Setup, winner: 0 | 1): unknown =>
+  isRated(setup) && count(GAMES, setup.against, winner === 0 ? [1, 0] : [0, 1]);
 
 /** What is kept in this browser: games, and tries of drills. */
 function results(drills: readonly Drill[]): { games: Score[]; tries: Score[] } {
   const [games, made] = [tally(GAMES), tally(DRILLS_MADE)];
   return {
-    games: Object.entries(games).map(([against, [won, lost]]) => ({ against: Number(against), won, lost })),
-    tries: drills.flatMap(({ name, rating }) => (made[name] ? { against: rating, won: made[name][0], lost: made[name][1] - made[name][0] } : [])),
+    games: Object.entries(games).map(([against, [won, lost]]) => ({
+      against: Number(against),
+      won,
+      lost,
+    })),
+    tries: drills.flatMap(({ name, rating }) =>
+      made[name]
+        ? { against: rating, won: made[name][0], lost: made[name][1] - made[name][0] }
+        : [],
+    ),
   };
 }
-export function ownRating(carom: Carom, drills: readonly Drill[]): { rating: number; words: string } {
+export function ownRating(
+  carom: Carom,
+  drills: readonly Drill[],
+): { rating: number; words: string } {
   const { games, tries } = results(drills);
   const own = carom.rating([...games, ...tries]);
-  const [rating, low, high] = [own.mean, own.low, own.high].map(Math.round) as [number, number, number];
-  const [won, made, lost, missed] = [games.map((one) => one.won), tries.map((one) => one.won), games.map((one) => one.lost), tries.map((one) => one.lost)].map((all) => all.reduce((sum, x) => sum + x, 0)) as [number, number, number, number];
-  const from = [...games.map((one) => `${one.won} : ${one.lost} against a ${one.against}`), ...(made + missed > 0 ? [`${made} of ${made + missed} tries of drills`] : [])];
-  return { rating, words: `Your rating is about ${rating} (95 %: ${low} to ${high}), ${won + lost + made + missed === 0 ? "a guess before the first game" : `by ${from.join(", ")}`}.` };
+  const [rating, low, high] = [own.mean, own.low, own.high].map(Math.round) as [
+    number,
+    number,
+    number,
+  ];
+  const [won, made, lost, missed] = [
+    games.map((one) => one.won),
+    tries.map((one) => one.won),
+    games.map((one) => one.lost),
+    tries.map((one) => one.lost),
+  ].map((all) => all.reduce((sum, x) => sum + x, 0)) as [number, number, number, number];
+  const from = [
+    ...games.map((one) => `${one.won} : ${one.lost} against a ${one.against}`),
+    ...(made + missed > 0 ? [`${made} of ${made + missed} tries of drills`] : []),
+  ];
+  return {
+    rating,
+    words: `Your rating is about ${rating} (95 %: ${low} to ${high}), ${won + lost + made + missed === 0 ? "a guess before the first game" : `by ${from.join(", ")}`}.`,
+  };
 }

@@ -1,4 +1,5 @@
-// A game by link: it is in the address, goes to the other one as a link, and pages of one machine hear of each stroke, which they compare bit by bit.
+// A game by link: it is in the address, goes to the other one as a link, and pages of one machine
+// hear of each stroke, which they compare bit by bit.
 import { wrong } from "../ui.js";
 import { perform, rest } from "./filming.js";
 import type { Entry, Setup } from "./game.js";
@@ -6,7 +7,14 @@ import { pack, send } from "./keep.js";
 import { says, type Session } from "./session.js";
 import { keep, next } from "./turns.js";
 
-export function byLink(s: Session): { save(): void; send(): Promise<void>; ask(): void; waiting(): boolean; onward(): void; close(): void } {
+export function byLink(s: Session): {
+  save(): void;
+  send(): Promise<void>;
+  ask(): void;
+  waiting(): boolean;
+  onward(): void;
+  close(): void;
+} {
   let queue: Entry[] = [];
   let writing = 0;
 
@@ -16,8 +24,10 @@ export function byLink(s: Session): { save(): void; send(): Promise<void>; ask()
     if (play.setup.against !== "link") return;
     const { entries, ...setup } = JSON.parse(text) as Setup & { entries: Entry[] };
     const known = play.entries.length + queue.length;
-    if (setup.game !== play.setup.game || setup.seed !== play.setup.seed || entries.length <= known) return;
-    if (JSON.stringify(entries.slice(0, play.entries.length)) !== JSON.stringify(play.entries)) return says(s, "The other page has other strokes of this game: send the link again.");
+    if (setup.game !== play.setup.game || setup.seed !== play.setup.seed || entries.length <= known)
+      return;
+    if (JSON.stringify(entries.slice(0, play.entries.length)) !== JSON.stringify(play.entries))
+      return says(s, "The other page has other strokes of this game: send the link again.");
     queue.push(...entries.slice(known));
     // After a film the next stroke follows.
     if (!s.film.playing && s.then === undefined) onward();
@@ -48,7 +58,11 @@ export function byLink(s: Session): { save(): void; send(): Promise<void>; ask()
       const text = s.play.text();
       const mine = ++writing;
       others.postMessage({ text });
-      void pack(text).then((packed) => mine === writing && history.replaceState(null, "", `#view=play&seat=${s.seat}&g=${packed}`));
+      void pack(text).then(
+        (packed) =>
+          mine === writing &&
+          history.replaceState(null, "", `#view=play&seat=${s.seat}&g=${packed}`),
+      );
     },
     async send() {
       const { play } = s;
@@ -56,9 +70,20 @@ export function byLink(s: Session): { save(): void; send(): Promise<void>; ask()
       const seat = play.setup.against === "link" && s.seat === 0 ? 1 : 0;
       const url = `${location.href.split("#")[0]}#view=play&seat=${seat}&g=${await pack(play.text())}`;
       const linked = play.setup.against === "link";
-      const told = await send(url, "A game of billiards", s.coarse, linked ? "The link for the other player is copied." : "The link to this game is copied.");
-      const waits = play.turn === s.seat ? "You are still at the table: send it again after your turn, or the other player waits." : "It has nothing new if you have sent it before.";
-      says(s, `${told}${linked && play.winner === undefined && (play.turn === s.seat || play.last?.who !== s.seat) ? ` ${waits}` : ""}`);
+      const told = await send(
+        url,
+        "A game of billiards",
+        s.coarse,
+        linked ? "The link for the other player is copied." : "The link to this game is copied.",
+      );
+      const waits =
+        play.turn === s.seat
+          ? "You are still at the table: send it again after your turn, or the other player waits."
+          : "It has nothing new if you have sent it before.";
+      says(
+        s,
+        `${told}${linked && play.winner === undefined && (play.turn === s.seat || play.last?.who !== s.seat) ? ` ${waits}` : ""}`,
+      );
     },
     ask: () => others.postMessage({}),
     waiting: () => queue.length > 0,

@@ -1,4 +1,5 @@
-// The log of strokes: what was meant and what it cost, kept by the browser, and a page of them to print.
+// The log of strokes: what was meant and what it cost, kept by the browser, and a page of them to
+// print.
 import { percent } from "../table/words.js";
 import { button, dialog, el } from "../ui.js";
 import { kept, keepText } from "./keep.js";
@@ -7,7 +8,8 @@ const LOG = "carom-log";
 const MOST = 500;
 
 /**
- * A stroke of the log. Errors are those of the aim at the ball that was meant: the direction, degrees, and the speed beyond its range, m/s; and the side of
+ * A stroke of the log. Errors are those of the aim at the ball that was meant: the direction,
+ * degrees, and the speed beyond its range, m/s; and the side of
  * the tip, radii. Of a drill nothing is planned, and `best` is what came and what to change.
  */
 export interface Row {
@@ -23,33 +25,93 @@ export interface Row {
   best: string;
   bestValue?: number;
 }
-/** What a stroke cost against the best one: its chance to win less, never below 0 but for the spread of both plans. */
-export const costOf = ({ value, bestValue }: Row): number | undefined => (value === undefined ? undefined : Math.max(bestValue! - value, 0));
+/**
+ * What a stroke cost against the best one: its chance to win less, never below 0 but for the spread
+ * of both plans.
+ */
+export const costOf = ({ value, bestValue }: Row): number | undefined =>
+  value === undefined ? undefined : Math.max(bestValue! - value, 0);
 
 const rows = (): Row[] => JSON.parse(kept(LOG) ?? "[]") as Row[];
-export const keepRow = (row: Row): void => keepText(JSON.stringify([...rows(), row].slice(-MOST)), LOG);
+export const keepRow = (row: Row): void =>
+  keepText(JSON.stringify([...rows(), row].slice(-MOST)), LOG);
 
 /** The log as a page to print. */
 export function logPage(plan: () => string): { root: HTMLDialogElement; open(): void } {
   const body = el("tbody");
   const sum = el("p", { id: "log-sum" });
-  const head = ["When", "Game", "Meant", "Aim off by, °", "Speed off by, m/s", "Tip to the right, R", "Keeps the turn", "Wins", "Best stroke, or what came", "Best wins", "Cost"];
-  const table = el("table", { class: "numbers log" }, el("caption", {}, "Strokes, the last one first"), el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))), body);
+  const head = [
+    "When",
+    "Game",
+    "Meant",
+    "Aim off by, °",
+    "Speed off by, m/s",
+    "Tip to the right, R",
+    "Keeps the turn",
+    "Wins",
+    "Best stroke, or what came",
+    "Best wins",
+    "Cost",
+  ];
+  const table = el(
+    "table",
+    { class: "numbers log" },
+    el("caption", {}, "Strokes, the last one first"),
+    el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
+    body,
+  );
   const clear = button("Delete all", () => {
     keepText("[]", LOG);
     fill();
   });
-  const root = dialog("log", "What your strokes cost", sum, el("div", { class: "scrolls", tabindex: "0", role: "region", "aria-label": "Strokes" }, table), el("div", { class: "row no-print" }, button("Print", () => window.print(), { id: "print-log" }), clear));
+  const root = dialog(
+    "log",
+    "What your strokes cost",
+    sum,
+    el("div", { class: "scrolls", tabindex: "0", role: "region", "aria-label": "Strokes" }, table),
+    el(
+      "div",
+      { class: "row no-print" },
+      button("Print", () => window.print(), { id: "print-log" }),
+      clear,
+    ),
+  );
   function fill(): void {
     const all = rows();
-    const number = (x: number | undefined, places: number): string => (x === undefined ? "" : x.toFixed(places));
+    const number = (x: number | undefined, places: number): string =>
+      x === undefined ? "" : x.toFixed(places);
     const share = (x: number | undefined): string => (x === undefined ? "" : percent(x));
-    body.replaceChildren(...[...all].reverse().map((row) => el("tr", {}, ...[row.when.replace("T", " "), row.game, row.meant, number(row.phi, 2), number(row.speed, 1), number(row.side, 2), share(row.keep), share(row.value), row.best, share(row.bestValue), share(costOf(row))].map((text) => el("td", {}, text)))));
+    body.replaceChildren(
+      ...[...all]
+        .reverse()
+        .map((row) =>
+          el(
+            "tr",
+            {},
+            ...[
+              row.when.replace("T", " "),
+              row.game,
+              row.meant,
+              number(row.phi, 2),
+              number(row.speed, 1),
+              number(row.side, 2),
+              share(row.keep),
+              share(row.value),
+              row.best,
+              share(row.bestValue),
+              share(costOf(row)),
+            ].map((text) => el("td", {}, text)),
+          ),
+        ),
+    );
     const mean = (of: (row: Row) => number | undefined): number => {
       const known = all.flatMap((row) => of(row) ?? []);
       return known.reduce((total, x) => total + x, 0) / Math.max(known.length, 1);
     };
-    sum.textContent = all.length === 0 ? `No stroke yet: the coach, in New game, and drills write one line for each. ${plan()}` : `${all.length} ${all.length === 1 ? "stroke" : "strokes"}. A stroke cost ${percent(mean(costOf))} of a game on average. The aim was off by ${mean(({ phi }) => phi && Math.abs(phi)).toFixed(2)}°. ${plan()}`;
+    sum.textContent =
+      all.length === 0
+        ? `No stroke yet: the coach, in New game, and drills write one line for each. ${plan()}`
+        : `${all.length} ${all.length === 1 ? "stroke" : "strokes"}. A stroke cost ${percent(mean(costOf))} of a game on average. The aim was off by ${mean(({ phi }) => phi && Math.abs(phi)).toFixed(2)}°. ${plan()}`;
   }
   return {
     root,

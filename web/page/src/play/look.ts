@@ -1,4 +1,5 @@
-// What one sees along the cue before a stroke of a game: where the cue ball first meets something, and which pocket the ball that it meets heads for.
+// What one sees along the cue before a stroke of a game: where the cue ball first meets something,
+// and which pocket the ball that it meets heads for.
 import type { Carom, Cue, EventType, Shot, ShotBall, ShotOptions, Table } from "carom";
 
 export interface Look {
@@ -7,48 +8,91 @@ export interface Look {
   ball: number;
   from: readonly number[];
   way: readonly number[];
-  /** The share of its diameter that is met, and on which side as whoever aims sees it, 1: the right one. */
+  /**
+   * The share of its diameter that is met, and on which side as whoever aims sees it, 1: the right
+   * one.
+   */
   share: number;
   side: number;
-  /** Where the ball that is met and the cue ball go until each meets something, where that was asked for. */
+  /**
+   * Where the ball that is met and the cue ball go until each meets something, where that was asked
+   * for.
+   */
   ways: (readonly number[])[][];
 }
 
-const MEETS: EventType[] = ["ball_ball", "ball_linear_cushion", "ball_circular_cushion", "ball_pocket"];
+const MEETS: EventType[] = [
+  "ball_ball",
+  "ball_linear_cushion",
+  "ball_circular_cushion",
+  "ball_pocket",
+];
 /** A pocket farther off the way of a ball than this is not meant, degrees. */
 const OFF = 25;
 
 /** The way of a ball after an event, to the next thing that it meets, m. */
 function wayOf(shot: Shot, ball: number, from: number): (readonly number[])[] {
-  const to = shot.events.find(({ time, type, a, b }) => time > from && MEETS.includes(type) && (a === ball || (type === "ball_ball" && b === ball)))?.time ?? shot.time;
+  const to =
+    shot.events.find(
+      ({ time, type, a, b }) =>
+        time > from && MEETS.includes(type) && (a === ball || (type === "ball_ball" && b === ball)),
+    )?.time ?? shot.time;
   const all = shot.positionsAt(Array.from({ length: 13 }, (_, k) => from + ((to - from) * k) / 12));
-  return Array.from({ length: 13 }, (_, k) => [...all.subarray(3 * (k * shot.balls.length + ball)).subarray(0, 2)]);
+  return Array.from({ length: 13 }, (_, k) => [
+    ...all.subarray(3 * (k * shot.balls.length + ball)).subarray(0, 2),
+  ]);
 }
 
-export function lookAlong(carom: Carom, table: Table, balls: readonly ShotBall[], cue: Cue, options: ShotOptions, full: boolean): Look | undefined {
+export function lookAlong(
+  carom: Carom,
+  table: Table,
+  balls: readonly ShotBall[],
+  cue: Cue,
+  options: ShotOptions,
+  full: boolean,
+): Look | undefined {
   const shot = carom.simulate(table, balls, cue, full ? options : { ...options, stopAt: MEETS });
-  const event = shot.events.find(({ type, a, b }) => MEETS.includes(type) && (a === 0 || (type === "ball_ball" && b === 0)));
+  const event = shot.events.find(
+    ({ type, a, b }) => MEETS.includes(type) && (a === 0 || (type === "ball_ball" && b === 0)),
+  );
   if (!event) return undefined;
   const own = event.a === 0 ? 0 : 1;
   const { r: at, v } = event.before[own]!;
-  if (event.type !== "ball_ball") return { at, ball: -1, from: [], way: [], share: 0, side: 1, ways: [] };
+  if (event.type !== "ball_ball")
+    return { at, ball: -1, from: [], way: [], share: 0, side: 1, ways: [] };
   const [ball, { r: from, v: way }] = [own === 0 ? event.b : event.a, event.after[1 - own]!];
   // How far the ball lies to the left of the aim, in distances of the middles.
-  const left = (v[0] * (from[1] - at[1]) - v[1] * (from[0] - at[0])) / (Math.hypot(v[0], v[1]) * Math.hypot(from[0] - at[0], from[1] - at[1]) || 1);
-  return { at, ball, from, way, share: 1 - Math.abs(left), side: Math.sign(left) || 1, ways: full ? [ball, 0].map((one) => wayOf(shot, one, event.time)) : [] };
+  const left =
+    (v[0] * (from[1] - at[1]) - v[1] * (from[0] - at[0])) /
+    (Math.hypot(v[0], v[1]) * Math.hypot(from[0] - at[0], from[1] - at[1]) || 1);
+  return {
+    at,
+    ball,
+    from,
+    way,
+    share: 1 - Math.abs(left),
+    side: Math.sign(left) || 1,
+    ways: full ? [ball, 0].map((one) => wayOf(shot, one, event.time)) : [],
+  };
 }
 
 /**
- * The ball that is meant, of those that are on, and the pocket that lies most in its way; -1: none. It is the ball that is met, or the only one that is
+ * The ball that is meant, of those that are on, and the pocket that lies most in its way; -1: none.
+ * It is the ball that is met, or the only one that is
  * on, whatever is met.
  */
-export function guessOf({ pockets }: Table, look: Look | undefined, on: readonly number[]): { ball: number; pocket: number } {
+export function guessOf(
+  { pockets }: Table,
+  look: Look | undefined,
+  on: readonly number[],
+): { ball: number; pocket: number } {
   if (!look || !on.includes(look.ball)) return { ball: on.length === 1 ? on[0]! : -1, pocket: -1 };
   const { from, way } = look;
   let [pocket, most] = [-1, Math.cos((OFF * Math.PI) / 180)];
   pockets.forEach(({ centre }, k) => {
     const [x, y] = [centre[0] - from[0]!, centre[1] - from[1]!];
-    const cosine = (x * way[0]! + y * way[1]!) / (Math.hypot(x, y) * Math.hypot(way[0]!, way[1]!) || 1);
+    const cosine =
+      (x * way[0]! + y * way[1]!) / (Math.hypot(x, y) * Math.hypot(way[0]!, way[1]!) || 1);
     if (cosine > most) [pocket, most] = [k, cosine];
   });
   return { ball: look.ball, pocket };

@@ -15,16 +15,66 @@ export interface Settings {
   coach: boolean;
 }
 /** The settings that the browser has kept; else sound is on where a mouse is. */
-export const settingsOf = (coarse: boolean): Settings => ({ lines: "level", sound: !coarse, coach: false, ...(JSON.parse(kept(KEY) ?? "{}") as Partial<Settings>) });
+export const settingsOf = (coarse: boolean): Settings => ({
+  lines: "level",
+  sound: !coarse,
+  coach: false,
+  ...(JSON.parse(kept(KEY) ?? "{}") as Partial<Settings>),
+});
 
-export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElement; open(): void } {
+export function menu(
+  s: Session,
+  ...more: HTMLElement[]
+): { root: HTMLDialogElement; open(): void } {
   // Practice has every table.
   const others = Object.entries(GAMES).filter(([key]) => !(key in PLAYED));
-  const game = choice("new-which", "Game", [...Object.entries(PLAYED), ...others].map(([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const), told);
-  const against = choice("new-against", "Against", [["practice", "nobody: practice"], ["person", "a person at this page"], ["link", "a person by link"], ...RATINGS.map((r) => [r, `the computer, a ${r}`] as const)], errs);
-  const own = choice("new-own", "Your strokes", [["0", "go where you aim (no rating)"], ...RATINGS.map((r) => [r, r === "800" ? "err a little, like an 800" : `err like a ${r}`] as const)], () => undefined);
-  const table = choice("new-table", "Table", Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const), () => undefined);
-  const lines = choice("lines", "Lines", [["level", "by your rating"], ["none", "none"], ["short", "short: the way of the ball"], ["full", "full: both balls"]], set);
+  const game = choice(
+    "new-which",
+    "Game",
+    [...Object.entries(PLAYED), ...others].map(
+      ([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const,
+    ),
+    told,
+  );
+  const against = choice(
+    "new-against",
+    "Against",
+    [
+      ["practice", "nobody: practice"],
+      ["person", "a person at this page"],
+      ["link", "a person by link"],
+      ...RATINGS.map((r) => [r, `the computer, a ${r}`] as const),
+    ],
+    errs,
+  );
+  const own = choice(
+    "new-own",
+    "Your strokes",
+    [
+      ["0", "go where you aim (no rating)"],
+      ...RATINGS.map(
+        (r) => [r, r === "800" ? "err a little, like an 800" : `err like a ${r}`] as const,
+      ),
+    ],
+    () => undefined,
+  );
+  const table = choice(
+    "new-table",
+    "Table",
+    Object.entries(POOL_TABLES).map(([key, [text]]) => [key, text] as const),
+    () => undefined,
+  );
+  const lines = choice(
+    "lines",
+    "Lines",
+    [
+      ["level", "by your rating"],
+      ["none", "none"],
+      ["short", "short: the way of the ball"],
+      ["full", "full: both balls"],
+    ],
+    set,
+  );
   const note = el("p", { class: "note", id: "new-note" });
   /** Strokes against the page's player err a little, if nothing else is chosen. */
   function errs(): void {
@@ -32,7 +82,11 @@ export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElem
     told();
   }
   function set(): void {
-    Object.assign(s.settings, { lines: lines.select.value, sound: sound.input.checked, coach: coach.input.checked });
+    Object.assign(s.settings, {
+      lines: lines.select.value,
+      sound: sound.input.checked,
+      coach: coach.input.checked,
+    });
     s.sound.on = s.settings.sound;
     s.sound.wake();
     keepText(JSON.stringify(s.settings), KEY);
@@ -44,7 +98,8 @@ export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElem
   sound.input.checked = s.settings.sound;
   coach.input.checked = s.settings.coach;
 
-  const isPool = (): boolean => GAMES[PLAYED[game.select.value]?.of ?? game.select.value]!.game === "pool";
+  const isPool = (): boolean =>
+    GAMES[PLAYED[game.select.value]?.of ?? game.select.value]!.game === "pool";
   function told(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";
@@ -54,13 +109,37 @@ export function menu(s: Session, ...more: HTMLElement[]): { root: HTMLDialogElem
       person: "Both of you play at this page, in turns.",
       link: "You break. Send the link after your turn. The page of the other player repeats your strokes, checks that every bit agrees, and goes on.",
     };
-    note.textContent = notes[against.select.value] ?? `The computer errs like a ${against.select.value} on the scale of Fargo ratings. ${s.training.rating().words} A 300 is a beginner, a 500 plays in a league, a 700 is a strong amateur.`;
+    note.textContent =
+      notes[against.select.value] ??
+      `The computer errs like a ${against.select.value} on the scale of Fargo ratings. ${s.training.rating().words} A 300 is a beginner, a 500 plays in a league, a 700 is a strong amateur.`;
   }
-  const start = button("Start", () => {
-    root.close();
-    begin(s, { game: game.select.value, against: against.select.value as Against, own: against.select.value === "practice" ? "0" : own.select.value, seed: Math.floor(Math.random() * 2 ** 31), ...(isPool() && table.select.value !== "9ft" ? { table: table.select.value } : {}) });
-  }, { id: "start", class: "main" });
-  const root = dialog("menu", "New game", el("div", { class: "fields" }, game.root, table.root, against.root, own.root), note, start, el("h3", {}, "Settings"), lines.root, sound.root, coach.root, el("div", { class: "row" }, el("span", {}, "Speed of the film"), s.film.pace), ...more);
+  const start = button(
+    "Start",
+    () => {
+      root.close();
+      begin(s, {
+        game: game.select.value,
+        against: against.select.value as Against,
+        own: against.select.value === "practice" ? "0" : own.select.value,
+        seed: Math.floor(Math.random() * 2 ** 31),
+        ...(isPool() && table.select.value !== "9ft" ? { table: table.select.value } : {}),
+      });
+    },
+    { id: "start", class: "main" },
+  );
+  const root = dialog(
+    "menu",
+    "New game",
+    el("div", { class: "fields" }, game.root, table.root, against.root, own.root),
+    note,
+    start,
+    el("h3", {}, "Settings"),
+    lines.root,
+    sound.root,
+    coach.root,
+    el("div", { class: "row" }, el("span", {}, "Speed of the film"), s.film.pace),
+    ...more,
+  );
   return {
     root,
     open() {

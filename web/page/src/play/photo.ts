@@ -1,22 +1,28 @@
-// Places on a table from a photo. Four corners of the playing surface, marked where the noses of the cushions would meet, give the homography from the
-// plane of the noses to the picture:
+// Places on a table from a photo. Four corners of the playing surface, marked where the noses of
+// the cushions would meet, give the homography from the plane of the noses to the picture:
 //     s (u, v, 1) = H (x, y, 1),   H = K (r1, r2, t) up to a factor,
-// with columns r1, r2 of the camera's rotation and its place t. The picture's middle is taken for the principal point and pixels for square, so that
-// K = diag(f, f, 1), and that r1 and r2 are orthogonal and of one length are two equations, linear in 1 / f^2, for one unknown: least squares. Balls have
-// their middles below the noses, by `lower`: the homography of that plane has the third column h3 - lower K r3, r3 = r1 x r2. Seen from right above, f
-// stays unknown, and the plane of the noses is taken: the error is then at most lower / height of the camera, of the distance from the middle.
+// with columns r1, r2 of the camera's rotation and its place t. The picture's middle is taken for
+// the principal point and pixels for square, so that K = diag(f, f, 1), and that r1 and r2 are
+// orthogonal and of one length are two equations, linear in 1 / f^2, for one unknown: least
+// squares. Balls have their middles below the noses, by `lower`: the homography of that plane has
+// the third column h3 - lower K r3, r3 = r1 x r2. Seen from right above, f stays unknown, and the
+// plane of the noses is taken: the error is then at most lower / height of the camera, of the
+// distance from the middle.
 
 const BALL = 0.028575;
 export type Pixel = readonly [number, number];
 /** Row by row. */
 type Matrix = readonly [number, number, number, number, number, number, number, number, number];
 
-/** The solution of a square system by Gauss, with the largest pivots; undefined where there is none. */
+/**
+ * The solution of a square system by Gauss, with the largest pivots; undefined where there is none.
+ */
 function solve(rows: number[][]): number[] | undefined {
   const n = rows.length;
   for (let k = 0; k < n; k++) {
     let best = k;
-    for (let i = k + 1; i < n; i++) if (Math.abs(rows[i]![k]!) > Math.abs(rows[best]![k]!)) best = i;
+    for (let i = k + 1; i < n; i++)
+      if (Math.abs(rows[i]![k]!) > Math.abs(rows[best]![k]!)) best = i;
     [rows[k], rows[best]] = [rows[best]!, rows[k]!];
     if (Math.abs(rows[k]![k]!) < 1e-12) return undefined;
     for (let i = 0; i < n; i++) {
@@ -42,7 +48,17 @@ function homography(from: readonly Pixel[], to: readonly Pixel[]): Matrix | unde
 }
 
 function inverse([a, b, c, d, e, f, g, h, i]: Matrix): Matrix {
-  return [e * i - f * h, c * h - b * i, b * f - c * e, f * g - d * i, a * i - c * g, c * d - a * f, d * h - e * g, b * g - a * h, a * e - b * d];
+  return [
+    e * i - f * h,
+    c * h - b * i,
+    b * f - c * e,
+    f * g - d * i,
+    a * i - c * g,
+    c * d - a * f,
+    d * h - e * g,
+    b * g - a * h,
+    a * e - b * d,
+  ];
 }
 function apply(m: Matrix, [x, y]: Pixel): Pixel {
   const w = m[6] * x + m[7] * y + m[8];
@@ -59,10 +75,16 @@ export interface Camera {
 }
 
 /**
- * The camera of a photo with a size, pixels, from the corners of a table in the order 0,0; width,0; width,length; 0,length. `lower`: how far the middles of
+ * The camera of a photo with a size, pixels, from the corners of a table in the order 0,0; width,0;
+ * width,length; 0,length. `lower`: how far the middles of
  * balls are below the noses, m. Throws a TypeError where the corners are no table.
  */
-export function cameraOf([wide, high]: Pixel, corners: readonly Pixel[], [width, length]: Pixel, lower = 0.008): Camera {
+export function cameraOf(
+  [wide, high]: Pixel,
+  corners: readonly Pixel[],
+  [width, length]: Pixel,
+  lower = 0.008,
+): Camera {
   // Pixels from the middle of the picture, in units of its width: numbers of about 1.
   const unit = ([u, v]: Pixel): Pixel => [(u - wide / 2) / wide, (v - high / 2) / wide];
   const seen = corners.map(unit);
@@ -70,24 +92,54 @@ export function cameraOf([wide, high]: Pixel, corners: readonly Pixel[], [width,
     const [q, r] = [seen[(k + 1) % 4]!, seen[(k + 2) % 4]!];
     return Math.sign((q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]));
   });
-  // On a picture, whose v points down, a table that is not mirrored is walked around against the clock.
-  if (!turns.every((turn) => turn === -1)) throw new TypeError("corners: mark them in their order, around the table: head left, head right, foot right, foot left");
-  const H = homography([[0, 0], [width, 0], [width, length], [0, length]], seen);
+  // On a picture, whose v points down, a table that is not mirrored is walked around against the
+  // clock.
+  if (!turns.every((turn) => turn === -1))
+    throw new TypeError(
+      "corners: mark them in their order, around the table: head left, head right, foot right, foot left",
+    );
+  const H = homography(
+    [
+      [0, 0],
+      [width, 0],
+      [width, length],
+      [0, length],
+    ],
+    seen,
+  );
   if (!H) throw new TypeError("corners: three of them lie on a line");
 
   // 1 / f^2 from both equations.
   const [a1, b1] = [H[0] * H[1] + H[3] * H[4], H[6] * H[7]];
   const [a2, b2] = [H[0] ** 2 + H[3] ** 2 - H[1] ** 2 - H[4] ** 2, H[6] ** 2 - H[7] ** 2];
   const inverseSquare = -(a1 * b1 + a2 * b2) / (a1 * a1 + a2 * a2);
-  const focal = inverseSquare > 0.01 && inverseSquare < 25 ? 1 / Math.sqrt(inverseSquare) : undefined;
+  const focal =
+    inverseSquare > 0.01 && inverseSquare < 25 ? 1 / Math.sqrt(inverseSquare) : undefined;
 
   // The third axis, and the plane of the middles of balls.
   let M = H;
   if (focal !== undefined) {
-    const [r1, r2] = [0, 1].map((k) => [H[k]! / focal, H[3 + k]! / focal, H[6 + k]!]) as [number[], number[]];
+    const [r1, r2] = [0, 1].map((k) => [H[k]! / focal, H[3 + k]! / focal, H[6 + k]!]) as [
+      number[],
+      number[],
+    ];
     const size = Math.hypot(...r1);
-    const r3 = [r1[1]! * r2[2]! - r1[2]! * r2[1]!, r1[2]! * r2[0]! - r1[0]! * r2[2]!, r1[0]! * r2[1]! - r1[1]! * r2[0]!].map((x) => x / size);
-    M = [H[0], H[1], H[2] - lower * focal * r3[0]!, H[3], H[4], H[5] - lower * focal * r3[1]!, H[6], H[7], H[8] - lower * r3[2]!];
+    const r3 = [
+      r1[1]! * r2[2]! - r1[2]! * r2[1]!,
+      r1[2]! * r2[0]! - r1[0]! * r2[2]!,
+      r1[0]! * r2[1]! - r1[1]! * r2[0]!,
+    ].map((x) => x / size);
+    M = [
+      H[0],
+      H[1],
+      H[2] - lower * focal * r3[0]!,
+      H[3],
+      H[4],
+      H[5] - lower * focal * r3[1]!,
+      H[6],
+      H[7],
+      H[8] - lower * r3[2]!,
+    ];
   }
   const back = inverse(M);
   return {
@@ -104,22 +156,28 @@ export function cameraOf([wide, high]: Pixel, corners: readonly Pixel[], [width,
 export function radiusAt({ place, pixel }: Camera, [u, v]: Pixel): number {
   const [x, y] = place([u, v]);
   // The largest of both ways: a ball is seen as wide from all sides.
-  return Math.max(...[pixel([x + BALL, y]), pixel([x, y + BALL])].map(([a, b]) => Math.hypot(a - u, b - v)));
+  return Math.max(
+    ...[pixel([x + BALL, y]), pixel([x, y + BALL])].map(([a, b]) => Math.hypot(a - u, b - v)),
+  );
 }
 
 /**
- * Which balls a patch of a picture may be, the likeliest first, of those that are named: red, green, blue and alpha of its pixels. There is one where its
- * colour is much nearer to that of a ball than to any other, and where it is plainly a stripe or none.
+ * Which balls a patch of a picture may be, the likeliest first, of those that are named: red,
+ * green, blue and alpha of its pixels. There is one where its
+ * colour is much nearer to that of a ball than to any other, and where it is plainly a stripe or
+ * none.
  */
 export function suggest(patch: ArrayLike<number>, colours: readonly string[]): number[] {
-  // White pixels make a stripe or the cue ball; the others have the colour, whose hue counts more than its light.
+  // White pixels make a stripe or the cue ball; the others have the colour, whose hue counts more
+  // than its light.
   let [white, count] = [0, 0];
   const sum = [0, 0, 0];
   for (let k = 0; k < patch.length; k += 4) {
     const rgb = [patch[k]!, patch[k + 1]!, patch[k + 2]!];
     count++;
     // White in any light: little colour, and not dark.
-    if (Math.max(...rgb) > 100 && Math.max(...rgb) - Math.min(...rgb) < 0.32 * Math.max(...rgb)) white++;
+    if (Math.max(...rgb) > 100 && Math.max(...rgb) - Math.min(...rgb) < 0.32 * Math.max(...rgb))
+      white++;
     else rgb.forEach((x, c) => (sum[c]! += x));
   }
   const share = white / Math.max(count, 1);
@@ -136,6 +194,18 @@ export function suggest(patch: ArrayLike<number>, colours: readonly string[]): n
   });
   const least = Math.min(...far);
   // Ball k + 1 and ball k + 9 have one colour; ball 8 has no stripe.
-  const near = [...far.keys()].filter((k) => far[k]! < 1.3 * least + 0.01).sort((a, b) => far[a]! - far[b]!);
-  return near.flatMap((k) => (k === 7 ? [8] : share > 0.3 ? (share > 0.36 ? [k + 9] : [k + 9, k + 1]) : share > 0.22 ? [k + 1, k + 9] : [k + 1]));
+  const near = [...far.keys()]
+    .filter((k) => far[k]! < 1.3 * least + 0.01)
+    .sort((a, b) => far[a]! - far[b]!);
+  return near.flatMap((k) =>
+    k === 7
+      ? [8]
+      : share > 0.3
+        ? share > 0.36
+          ? [k + 9]
+          : [k + 9, k + 1]
+        : share > 0.22
+          ? [k + 1, k + 9]
+          : [k + 1],
+  );
 }

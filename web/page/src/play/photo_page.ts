@@ -1,4 +1,5 @@
-// The dialog of a table from a photo: a picture, four corners, and the balls by taps; the layout lies on the table for practice.
+// The dialog of a table from a photo: a picture, four corners, and the balls by taps; the layout
+// lies on the table for practice.
 import { colourOf } from "../../../player/words.js";
 import { ARROWS, pixelsOf } from "../table/grip.js";
 import { button, choice, dialog, drags, el, wrong } from "../ui.js";
@@ -21,7 +22,10 @@ export interface Host {
   use(balls: Map<number, readonly [number, number]>): void;
 }
 
-/** The picture with its marks: corners, and balls by their numbers; where the cross of the keys is, and the mark that is held. */
+/**
+ * The picture with its marks: corners, and balls by their numbers; where the cross of the keys is,
+ * and the mark that is held.
+ */
 interface Photo {
   readonly host: Host;
   readonly canvas: HTMLCanvasElement;
@@ -41,21 +45,30 @@ interface Photo {
 }
 
 /** Pixels of the picture for a pixel of the page. */
-const scaleOf = ({ picture, canvas }: Photo): number => (picture ? picture.width / Math.max(canvas.getBoundingClientRect().width, 1) : 1);
+const scaleOf = ({ picture, canvas }: Photo): number =>
+  picture ? picture.width / Math.max(canvas.getBoundingClientRect().width, 1) : 1;
 /** Width and length of the table of the photo, m. */
 const sizeOf = ({ inputs }: Photo): Pixel => [inputs.wide.valueAsNumber, inputs.long.valueAsNumber];
-const cameraOn = (p: Photo): Camera | undefined => (p.picture && p.corners.length === 4 ? cameraOf([p.picture.width, p.picture.height], p.corners, sizeOf(p), LOWER) : undefined);
+const cameraOn = (p: Photo): Camera | undefined =>
+  p.picture && p.corners.length === 4
+    ? cameraOf([p.picture.width, p.picture.height], p.corners, sizeOf(p), LOWER)
+    : undefined;
 
 function draw(p: Photo): void {
   const { corners, balls, said } = p;
   const asked = balls.find(({ may }) => may);
   p.done.disabled = balls.length === 0 || asked !== undefined;
-  const answers = (asked?.may ?? []).map((ball) => button(p.host.names[ball]!, () => {
-    Object.assign(asked!, { ball, may: undefined });
-    draw(p);
-  }));
-  p.ask.replaceChildren(...(asked ? ["Which ball has the mark with a question mark?", ...answers] : []));
-  if (!p.picture) return void (said.textContent = "Choose or take a photo in which all four corners are seen.");
+  const answers = (asked?.may ?? []).map((ball) =>
+    button(p.host.names[ball]!, () => {
+      Object.assign(asked!, { ball, may: undefined });
+      draw(p);
+    }),
+  );
+  p.ask.replaceChildren(
+    ...(asked ? ["Which ball has the mark with a question mark?", ...answers] : []),
+  );
+  if (!p.picture)
+    return void (said.textContent = "Choose or take a photo in which all four corners are seen.");
   const g = p.canvas.getContext("2d")!;
   g.drawImage(p.picture, 0, 0);
   const unit = scaleOf(p);
@@ -79,12 +92,37 @@ function draw(p: Photo): void {
     const of = cameraOn(p);
     const [w, l] = sizeOf(p);
     // The table as it was found, with its middle line.
-    for (const line of of ? [[[0, 0], [w, 0], [w, l], [0, l], [0, 0]], [[0, l / 2], [w, l / 2]], [[w / 2, 0], [w / 2, l]]] as const : []) {
+    for (const line of of
+      ? ([
+          [
+            [0, 0],
+            [w, 0],
+            [w, l],
+            [0, l],
+            [0, 0],
+          ],
+          [
+            [0, l / 2],
+            [w, l / 2],
+          ],
+          [
+            [w / 2, 0],
+            [w / 2, l],
+          ],
+        ] as const)
+      : []) {
       g.beginPath();
-      line.forEach(([x, y], k) => g[k === 0 ? "moveTo" : "lineTo"](...(of!.pixel([x, y]) as [number, number])));
+      line.forEach(([x, y], k) =>
+        g[k === 0 ? "moveTo" : "lineTo"](...(of!.pixel([x, y]) as [number, number])),
+      );
       g.stroke();
     }
-    said.textContent = corners.length < 4 ? `Mark the corner ${CORNERS[corners.length]}, where the noses of the cushions would meet. The head is where one breaks.` : balls.length === 0 ? "Tap the middle of each ball. Marks can be dragged." : `${balls.length} ${balls.length === 1 ? "ball" : "balls"}. Another tap on a mark of a ball takes the next number.`;
+    said.textContent =
+      corners.length < 4
+        ? `Mark the corner ${CORNERS[corners.length]}, where the noses of the cushions would meet. The head is where one breaks.`
+        : balls.length === 0
+          ? "Tap the middle of each ball. Marks can be dragged."
+          : `${balls.length} ${balls.length === 1 ? "ball" : "balls"}. Another tap on a mark of a ball takes the next number.`;
   } catch (error) {
     said.textContent = wrong(error);
   }
@@ -94,13 +132,26 @@ function draw(p: Photo): void {
 function magnify(p: Photo, [x, y]: Pixel): void {
   const [g, unit] = [p.canvas.getContext("2d")!, scaleOf(p)];
   const lens = LENS * unit;
-  const [u, v] = [Math.min(Math.max(x, lens), p.canvas.width - lens), y > 2.6 * lens ? y - 1.6 * lens : y + 1.6 * lens];
+  const [u, v] = [
+    Math.min(Math.max(x, lens), p.canvas.width - lens),
+    y > 2.6 * lens ? y - 1.6 * lens : y + 1.6 * lens,
+  ];
   g.save();
   g.beginPath();
   g.arc(u, v, lens, 0, 7);
   g.fill();
   g.clip();
-  g.drawImage(p.picture!, x - lens / 4, y - lens / 4, lens / 2, lens / 2, u - lens, v - lens, 2 * lens, 2 * lens);
+  g.drawImage(
+    p.picture!,
+    x - lens / 4,
+    y - lens / 4,
+    lens / 2,
+    lens / 2,
+    u - lens,
+    v - lens,
+    2 * lens,
+    2 * lens,
+  );
   g.strokeRect(u - lens, v, 2 * lens, 0);
   g.strokeRect(u, v - lens, 0, 2 * lens);
   g.restore();
@@ -116,11 +167,16 @@ function ballAt(p: Photo, at: Pixel): number[] {
     p.ball.value = "auto";
     return [asked];
   }
-  const may = suggest(discOf(p.pixels!, at, radiusAt(cameraOn(p)!, at)), names.slice(1, 9).map((name, k) => colourOf(name, k + 1)));
+  const may = suggest(
+    discOf(p.pixels!, at, radiusAt(cameraOn(p)!, at)),
+    names.slice(1, 9).map((name, k) => colourOf(name, k + 1)),
+  );
   const left = may.filter((one) => free.includes(one));
   // Stripe for solid, else the next that is free.
   const [first = -1] = may;
-  return left.length > 0 ? left : [[first > 8 ? first - 8 : first + 8, ...free].find((one) => free.includes(one)) ?? -1];
+  return left.length > 0
+    ? left
+    : [[first > 8 ? first - 8 : first + 8, ...free].find((one) => free.includes(one)) ?? -1];
 }
 function tap(p: Photo, at: Pixel): void {
   if (!p.picture) return;
@@ -130,7 +186,12 @@ function tap(p: Photo, at: Pixel): void {
   } else {
     const to = snapped(p, at);
     const [ball, ...others] = ballAt(p, to);
-    if (ball! >= 0) p.balls.push({ ball: ball!, at: to, may: others.length > 0 ? [ball!, ...others] : undefined });
+    if (ball! >= 0)
+      p.balls.push({
+        ball: ball!,
+        at: to,
+        may: others.length > 0 ? [ball!, ...others] : undefined,
+      });
   }
   draw(p);
 }
@@ -144,7 +205,8 @@ function snap(p: Photo): void {
     return; // the marks are no table yet: draw() says so
   }
 }
-const snapped = (p: Photo, at: Pixel): Pixel => snapDisc(p.pixels!, at, radiusAt(cameraOn(p)!, at), OFF * scaleOf(p));
+const snapped = (p: Photo, at: Pixel): Pixel =>
+  snapDisc(p.pixels!, at, radiusAt(cameraOn(p)!, at), OFF * scaleOf(p));
 /** Gives the places of the balls, where all lie on the table; tells whether they do. */
 function finish(p: Photo): boolean {
   const { size, names, use } = p.host;
@@ -156,15 +218,21 @@ function finish(p: Photo): boolean {
     const [x, y] = of.place(one.at);
     return [one.ball, [x * sx, y * sy] as const] as const;
   });
-  const out = places.find(([, [x, y]]) => !(x > -0.03 && x < size[0] + 0.03 && y > -0.03 && y < size[1] + 0.03));
-  if (out) p.said.textContent = `Ball ${names[out[0]]} lies outside of the table: drag its mark, or those of the corners.`;
+  const out = places.find(
+    ([, [x, y]]) => !(x > -0.03 && x < size[0] + 0.03 && y > -0.03 && y < size[1] + 0.03),
+  );
+  if (out)
+    p.said.textContent = `Ball ${names[out[0]]} lies outside of the table: drag its mark, or those of the corners.`;
   else use(new Map(places));
   return !out;
 }
 
 /** A pointer takes hold of a mark, or of a new one, and shows what is under it. */
 function down(p: Photo, at: Pixel): void {
-  const { canvas, host: { names } } = p;
+  const {
+    canvas,
+    host: { names },
+  } = p;
   const near = ([x, y]: Pixel): boolean => Math.hypot(x - at[0], y - at[1]) < REACH * scaleOf(p);
   const [corner, one] = [p.corners.findIndex(near), p.balls.find(({ at }) => near(at))];
   let [moved, last] = [false, at];
@@ -181,8 +249,15 @@ function down(p: Photo, at: Pixel): void {
     const held = p.held;
     p.held = undefined;
     if (!held) return draw(p); // a second finger came
-    // What is dragged stays where it was put, which mends what snapped to something else. A tap beside a mark is another ball.
-    if (!moved && one && Math.hypot(one.at[0] - at[0], one.at[1] - at[1]) < TAP * scaleOf(p)) Object.assign(one, { may: undefined, ball: names.map((_, k) => (one.ball + 1 + k) % names.length).find((k) => !p.balls.some((other) => other !== one && other.ball === k))! });
+    // What is dragged stays where it was put, which mends what snapped to something else. A tap
+    // beside a mark is another ball.
+    if (!moved && one && Math.hypot(one.at[0] - at[0], one.at[1] - at[1]) < TAP * scaleOf(p))
+      Object.assign(one, {
+        may: undefined,
+        ball: names
+          .map((_, k) => (one.ball + 1 + k) % names.length)
+          .find((k) => !p.balls.some((other) => other !== one && other.ball === k))!,
+      });
     else if (!moved || !(one || corner >= 0)) return tap(p, last);
     draw(p);
   };
@@ -197,10 +272,14 @@ function pinches(p: Photo): void {
     const [a, b] = [...fingers.values()] as [Pixel, Pixel];
     return [Math.hypot(a[0] - b[0], a[1] - b[1]), (a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
   };
-  canvas.addEventListener("pointerdown", ({ pointerId, clientX, clientY }) => {
-    fingers.set(pointerId, [clientX, clientY]);
-    if (fingers.size > 1) p.held = undefined;
-  }, true);
+  canvas.addEventListener(
+    "pointerdown",
+    ({ pointerId, clientX, clientY }) => {
+      fingers.set(pointerId, [clientX, clientY]);
+      if (fingers.size > 1) p.held = undefined;
+    },
+    true,
+  );
   canvas.addEventListener("pointermove", ({ pointerId, clientX, clientY }) => {
     if (!fingers.has(pointerId)) return;
     if (fingers.size !== 2) return void fingers.set(pointerId, [clientX, clientY]);
@@ -210,12 +289,17 @@ function pinches(p: Photo): void {
     const frame = canvas.parentElement!.getBoundingClientRect();
     const more = Math.min(Math.max((zoom * now) / far, 1), 6) / zoom;
     zoom *= more;
-    const stay = (at: number, start: number, k: number, size: number): number => Math.min(Math.max(to[k]! - start - (from[k]! - start - at) * more, size * (1 - zoom)), 0);
-    [x, y] = [stay(x, frame.left, 0, canvas.clientWidth), stay(y, frame.top, 1, canvas.clientHeight)];
+    const stay = (at: number, start: number, k: number, size: number): number =>
+      Math.min(Math.max(to[k]! - start - (from[k]! - start - at) * more, size * (1 - zoom)), 0);
+    [x, y] = [
+      stay(x, frame.left, 0, canvas.clientWidth),
+      stay(y, frame.top, 1, canvas.clientHeight),
+    ];
     canvas.style.transform = `translate(${x}px, ${y}px) scale(${zoom})`;
     draw(p);
   });
-  for (const type of ["pointerup", "pointercancel"] as const) canvas.addEventListener(type, ({ pointerId }) => fingers.delete(pointerId));
+  for (const type of ["pointerup", "pointercancel"] as const)
+    canvas.addEventListener(type, ({ pointerId }) => fingers.delete(pointerId));
 }
 function key(p: Photo, event: KeyboardEvent): void {
   const arrow = ARROWS[event.key];
@@ -224,7 +308,10 @@ function key(p: Photo, event: KeyboardEvent): void {
   const unit = scaleOf(p);
   const by = (event.shiftKey ? 20 : 2) * unit;
   if (!arrow) return tap(p, p.cross);
-  p.cross = [Math.min(Math.max(p.cross[0] + by * arrow[0], 0), p.picture.width), Math.min(Math.max(p.cross[1] + by * arrow[1], 0), p.picture.height)];
+  p.cross = [
+    Math.min(Math.max(p.cross[0] + by * arrow[0], 0), p.picture.width),
+    Math.min(Math.max(p.cross[1] + by * arrow[1], 0), p.picture.height),
+  ];
   draw(p);
   const g = p.canvas.getContext("2d")!;
   g.strokeStyle = "#fff";
@@ -246,27 +333,90 @@ async function open(p: Photo, given: File): Promise<void> {
 }
 
 export function photoPage(host: Host): { root: HTMLDialogElement; open(): void } {
-  const number = (id: string, text: string, value: number): { root: HTMLElement; input: HTMLInputElement } => {
-    const input = el("input", { type: "number", id, min: "1", max: "4", step: "0.01", value: String(value) });
+  const number = (
+    id: string,
+    text: string,
+    value: number,
+  ): { root: HTMLElement; input: HTMLInputElement } => {
+    const input = el("input", {
+      type: "number",
+      id,
+      min: "1",
+      max: "4",
+      step: "0.01",
+      value: String(value),
+    });
     input.addEventListener("change", () => draw(p));
     return { root: el("label", { class: "inline" }, text, input), input };
   };
-  const canvas = el("canvas", { id: "photo", tabindex: "0", role: "img", "aria-label": "The photo. Arrow keys move the cross, Enter marks." });
-  const file = el("input", { type: "file", id: "photo-file", accept: "image/*", "aria-label": "A photo of a table" });
-  const [wide, long] = [number("photo-width", "Width, m", host.size[0]), number("photo-length", "Length, m", host.size[1])];
-  const ball = choice("photo-ball", "Next ball", [["auto", "by its colour"], ...host.names.map((name, k) => [String(k), name === "cue" ? "cue ball" : name] as const)], () => undefined);
-  const done = button("Lay the balls", () => finish(p) && root.close(), { id: "photo-use", class: "main" });
+  const canvas = el("canvas", {
+    id: "photo",
+    tabindex: "0",
+    role: "img",
+    "aria-label": "The photo. Arrow keys move the cross, Enter marks.",
+  });
+  const file = el("input", {
+    type: "file",
+    id: "photo-file",
+    accept: "image/*",
+    "aria-label": "A photo of a table",
+  });
+  const [wide, long] = [
+    number("photo-width", "Width, m", host.size[0]),
+    number("photo-length", "Length, m", host.size[1]),
+  ];
+  const ball = choice(
+    "photo-ball",
+    "Next ball",
+    [
+      ["auto", "by its colour"],
+      ...host.names.map((name, k) => [String(k), name === "cue" ? "cue ball" : name] as const),
+    ],
+    () => undefined,
+  );
+  const done = button("Lay the balls", () => finish(p) && root.close(), {
+    id: "photo-use",
+    class: "main",
+  });
   const said = el("p", { id: "photo-said", role: "status" });
   const ask = el("div", { id: "photo-ask", class: "row", role: "status" });
-  const p: Photo = { ...{ host, canvas, done, said, ask, pixels: undefined, ball: ball.select, inputs: { wide: wide.input, long: long.input } }, picture: undefined, corners: [], balls: [], cross: [0, 0], held: undefined };
+  const p: Photo = {
+    ...{
+      host,
+      canvas,
+      done,
+      said,
+      ask,
+      pixels: undefined,
+      ball: ball.select,
+      inputs: { wide: wide.input, long: long.input },
+    },
+    picture: undefined,
+    corners: [],
+    balls: [],
+    cross: [0, 0],
+    held: undefined,
+  };
   const back = (): void => {
     (p.balls.length > 0 ? p.balls : p.corners).pop();
     draw(p);
   };
-  const root = dialog("photo-page", "A table from a photo", el("div", { class: "row" }, file, wide.root, long.root), said, el("div", { class: "photo-frame" }, canvas), ask, el("div", { class: "row" }, ball.root, button("Take back", back, { id: "photo-back" }), done));
+  const root = dialog(
+    "photo-page",
+    "A table from a photo",
+    el("div", { class: "row" }, file, wide.root, long.root),
+    said,
+    el("div", { class: "photo-frame" }, canvas),
+    ask,
+    el("div", { class: "row" }, ball.root, button("Take back", back, { id: "photo-back" }), done),
+  );
 
-  const pixel = (event: PointerEvent): Pixel => pixelsOf(canvas, event).map((x) => x * scaleOf(p)) as [number, number];
-  drags(canvas, (event, first) => event.isPrimary && (first ? down(p, pixel(event)) : p.held?.(pixel(event))));
+  const pixel = (event: PointerEvent): Pixel =>
+    pixelsOf(canvas, event).map((x) => x * scaleOf(p)) as [number, number];
+  drags(
+    canvas,
+    (event, first) => event.isPrimary && (first ? down(p, pixel(event)) : p.held?.(pixel(event))),
+  );
   pinches(p);
   canvas.addEventListener("keydown", (event) => key(p, event));
   file.addEventListener("change", () => file.files?.[0] && void open(p, file.files[0]));

@@ -1,4 +1,5 @@
-// What practice has besides a table: drills with counts, and a table from a photo. Both are parts of the dialog of a new game.
+// What practice has besides a table: drills with counts, and a table from a photo. Both are parts
+// of the dialog of a new game.
 import type { AimOf, Carom } from "carom";
 import { button, choice, el } from "../ui.js";
 import { atOf, drillsOf, judge } from "./drills.js";
@@ -13,10 +14,30 @@ declare const DRILLS: string;
 
 const BALLS = 16;
 const SIZE = [1.27, 2.54] as const;
-/** Practice with the balls of eight-ball. Strokes of a drill, which count for the rating, err as those of a game do. */
-const setupOf = (at: string, drill?: string): Setup => ({ game: "eightball", against: "practice", own: "0", seed: 1, at, ...(drill === undefined ? {} : { drill, own: "800", seed: Math.floor(Math.random() * 2 ** 31) }) });
+/**
+ * Practice with the balls of eight-ball. Strokes of a drill, which count for the rating, err as
+ * those of a game do.
+ */
+const setupOf = (at: string, drill?: string): Setup => ({
+  game: "eightball",
+  against: "practice",
+  own: "0",
+  seed: 1,
+  at,
+  ...(drill === undefined ? {} : { drill, own: "800", seed: Math.floor(Math.random() * 2 ** 31) }),
+});
 
-export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: HTMLElement[]; photo: HTMLDialogElement; told(name: string): string; played(name: string, stroke: Stroke): { text: string; again: boolean }; rating(): ReturnType<typeof ownRating>; plan(): string } {
+export function practice(
+  carom: Carom,
+  begin: (setup: Setup) => void,
+): {
+  parts: HTMLElement[];
+  photo: HTMLDialogElement;
+  told(name: string): string;
+  played(name: string, stroke: Stroke): { text: string; again: boolean };
+  rating(): ReturnType<typeof ownRating>;
+  plan(): string;
+} {
   const drills = drillsOf(DRILLS);
   const of = (name: string): (typeof drills)[number] => {
     const drill = drills.find((one) => one.name === name);
@@ -24,7 +45,12 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: 
     return drill;
   };
   const note = el("p", { class: "note", id: "drill-note" });
-  const which = choice("drill", "Drill", drills.map(({ name }) => [name, name] as const), told);
+  const which = choice(
+    "drill",
+    "Drill",
+    drills.map(({ name }) => [name, name] as const),
+    told,
+  );
   function made(name: string): string {
     const [good, tries] = countsOf(KEY, name);
     return tries === 0 ? "" : ` Made ${good} of ${tries}.`;
@@ -33,14 +59,30 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: 
     note.textContent = `${of(which.select.value).text}${made(which.select.value)}`;
   }
   const close = (): void => start.closest("dialog")!.close();
-  const start: HTMLButtonElement = button("Start drill", () => {
-    close();
-    begin(setupOf(atOf(of(which.select.value), BALLS), which.select.value));
-  }, { id: "start-drill" });
+  const start: HTMLButtonElement = button(
+    "Start drill",
+    () => {
+      close();
+      begin(setupOf(atOf(of(which.select.value), BALLS), which.select.value));
+    },
+    { id: "start-drill" },
+  );
   const photo = photoPage({
     names: Array.from({ length: BALLS }, (_, k) => (k === 0 ? "cue" : String(k))),
     size: SIZE,
-    use: (balls) => begin(setupOf(Array.from({ length: BALLS }, (_, k) => balls.get(k)?.map((x) => x.toFixed(4)).join(",") ?? (k === 0 ? "0.635,0.635" : "in")).join(" "))),
+    use: (balls) =>
+      begin(
+        setupOf(
+          Array.from(
+            { length: BALLS },
+            (_, k) =>
+              balls
+                .get(k)
+                ?.map((x) => x.toFixed(4))
+                .join(",") ?? (k === 0 ? "0.635,0.635" : "in"),
+          ).join(" "),
+        ),
+      ),
   });
   told();
   return {
@@ -48,22 +90,39 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: 
       el("h3", {}, "Practice"),
       el("div", { class: "fields" }, which.root),
       note,
-      el("div", { class: "row" }, start, button("A table from a photo", () => {
-        close();
-        photo.open();
-      }, { id: "open-photo" })),
+      el(
+        "div",
+        { class: "row" },
+        start,
+        button(
+          "A table from a photo",
+          () => {
+            close();
+            photo.open();
+          },
+          { id: "open-photo" },
+        ),
+      ),
     ],
     photo: photo.root,
     rating: () => ownRating(carom, drills),
-    told: (name) => `${of(name).text}${made(name)} It counts for your rating: strokes err a little, like those of an 800.`,
+    told: (name) =>
+      `${of(name).text}${made(name)} It counts for your rating: strokes err a little, like those of an 800.`,
     /** What to practise next: what was made least, beside how often one's rating makes it. */
     plan() {
       const { rating } = ownRating(carom, drills);
       const rows = drills.map((one) => {
         const [good, tries] = countsOf(KEY, one.name);
-        return { text: `${one.name} (${tries ? `${good} of ${tries}` : "not tried"})`, at: (good + 1) / (tries + 2) - 1 / (1 + 2 ** ((one.rating - rating) / 100)) };
+        return {
+          text: `${one.name} (${tries ? `${good} of ${tries}` : "not tried"})`,
+          at: (good + 1) / (tries + 2) - 1 / (1 + 2 ** ((one.rating - rating) / 100)),
+        };
       });
-      return `Practise next: ${rows.sort((a, b) => a.at - b.at).slice(0, 3).map(({ text }) => text).join(", ")}.`;
+      return `Practise next: ${rows
+        .sort((a, b) => a.at - b.at)
+        .slice(0, 3)
+        .map(({ text }) => text)
+        .join(", ")}.`;
     },
     played(name, { shot, cue, balls }) {
       const { goal, text } = of(name);
@@ -71,16 +130,35 @@ export function practice(carom: Carom, begin: (setup: Setup) => void): { parts: 
       // The aim at the ball that was to fall, in the pocket that it was nearest to.
       const value = (word: string): string | undefined => goal.find((one) => one[0] === word)?.[1];
       const [ball, into] = (value("pot") ?? "").split("@");
-      const way = { ball: Number(ball), ...(value("first") && value("first") !== ball ? { via: [Number(value("first"))] } : {}) };
+      const way = {
+        ball: Number(ball),
+        ...(value("first") && value("first") !== ball ? { via: [Number(value("first"))] } : {}),
+      };
       const all = ball ? (into ? [into] : shot!.table.pockets.keys()) : [];
-      const [off = {}] = [...all].map((pocket) => errors(carom, shot!.table, balls, cue, { ...way, pocket } as AimOf)).filter(({ phi }) => phi !== undefined).sort((a, b) => Math.abs(a.phi!) - Math.abs(b.phi!));
+      const [off = {}] = [...all]
+        .map((pocket) => errors(carom, shot!.table, balls, cue, { ...way, pocket } as AimOf))
+        .filter(({ phi }) => phi !== undefined)
+        .sort((a, b) => Math.abs(a.phi!) - Math.abs(b.phi!));
       const change = `${Math.abs(off.phi ?? 0) >= 0.05 ? ` Turn the aim ${Math.abs(off.phi!).toFixed(2)}° to the ${off.phi! > 0 ? "right" : "left"}.` : ""}${off.speed ? ` Strike ${Math.abs(off.speed).toFixed(1)} m/s ${off.speed > 0 ? "softer" : "faster"}.` : ""}`;
-      const came = is === "missed" ? ` ${why.join(" ")}${why.some((one) => one.includes("fall")) ? change : ""}` : "";
-      keepRow({ when: new Date().toISOString().slice(0, 16), game: name, meant: text, ...off, side: -cue.a || 0, best: is === "missed" ? came.trim() : "Made." });
+      const came =
+        is === "missed"
+          ? ` ${why.join(" ")}${why.some((one) => one.includes("fall")) ? change : ""}`
+          : "";
+      keepRow({
+        when: new Date().toISOString().slice(0, 16),
+        game: name,
+        meant: text,
+        ...off,
+        side: -cue.a || 0,
+        best: is === "missed" ? came.trim() : "Made.",
+      });
       if (is === "on") return { text: "Go on with the next ball.", again: false };
       const [good, tries] = count(KEY, name, [Number(is === "made"), 1]);
       told();
-      return { text: `${is === "made" ? "Made" : "Missed"}: ${good} of ${tries}.${came}`, again: true };
+      return {
+        text: `${is === "made" ? "Made" : "Missed"}: ${good} of ${tries}.${came}`,
+        again: true,
+      };
     },
   };
 }

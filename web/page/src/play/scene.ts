@@ -1,5 +1,6 @@
-// The table from behind the cue, by three.js: cloth, cushions and pockets, balls with stripes and numbers that turn as the library computed, and shadows.
-// A module by itself: the page has it compressed and starts it when it is asked for.
+// The table from behind the cue, by three.js: cloth, cushions and pockets, balls with stripes and
+// numbers that turn as the library computed, and shadows. A module by itself: the page has it
+// compressed and starts it when it is asked for.
 import type { Cue } from "carom";
 import * as THREE from "three";
 import { WOOD } from "../../../player/table.js";
@@ -11,7 +12,10 @@ export interface SceneOf {
   cloth: string;
   wood: string;
 }
-/** The cue, how far its tip is from the cue ball's middle, and where the cue ball first meets something, m. */
+/**
+ * The cue, how far its tip is from the cue ball's middle, and where the cue ball first meets
+ * something, m.
+ */
 export interface Stick {
   cue: Cue;
   gap: number;
@@ -22,7 +26,10 @@ const DEGREES = 180 / Math.PI;
 /** The colour of numbers. */
 const NUMBER = [22, 24, 27];
 
-/** The surface of a ball, around its z: white caps at both ends of x of a stripe, numbers at both ends of z, or six dots of a cue ball. */
+/**
+ * The surface of a ball, around its z: white caps at both ends of x of a stripe, numbers at both
+ * ends of z, or six dots of a cue ball.
+ */
 function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTexture {
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [512, 256];
@@ -36,25 +43,40 @@ function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTextur
   const ink = g.getImageData(0, 0, 128, 128).data;
   const pixels = g.createImageData(512, 256);
   const rgb = (hex: string): number[] => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
-  const [base, ivory, dot] = [rgb(colour), rgb(IVORY), colour === IVORY ? [200, 16, 46] : [255, 255, 255]];
+  const [base, ivory, dot] = [
+    rgb(colour),
+    rgb(IVORY),
+    colour === IVORY ? [200, 16, 46] : [255, 255, 255],
+  ];
   for (let row = 0; row < 256; row++)
     for (let column = 0; column < 512; column++) {
       // three's sphere: u around its y, v from the top; z of the ball is y of the sphere.
       const [around, down] = [(2 * Math.PI * (column + 0.5)) / 512, (Math.PI * (row + 0.5)) / 256];
-      const [x, y, z] = [-Math.cos(around) * Math.sin(down), -Math.sin(around) * Math.sin(down), Math.cos(down)];
+      const [x, y, z] = [
+        -Math.cos(around) * Math.sin(down),
+        -Math.sin(around) * Math.sin(down),
+        Math.cos(down),
+      ];
       let of = base;
       if (number > 8 && Math.abs(x) > Math.cos(0.9)) of = ivory;
       if (number > 0 && Math.abs(z) > Math.cos(0.52)) {
         // The square on the ball: whoever sees the lower end has x to the left.
-        const [u, v] = [64 + 160 * x * Math.sign(z), 64 - 160 * y].map(Math.floor) as [number, number];
+        const [u, v] = [64 + 160 * x * Math.sign(z), 64 - 160 * y].map(Math.floor) as [
+          number,
+          number,
+        ];
         const black = (ink[4 * (128 * v + u) + 3] ?? 0) / 255;
         of = ivory.map((part, k) => part + black * (NUMBER[k]! - part));
       }
-      if (!(number > 0) && Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > Math.cos(0.2)) of = dot;
+      if (!(number > 0) && Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > Math.cos(0.2))
+        of = dot;
       pixels.data.set([...of, 255], 4 * (512 * row + column));
     }
   g.putImageData(pixels, 0, 0);
-  return Object.assign(new THREE.CanvasTexture(canvas), { colorSpace: THREE.SRGBColorSpace, anisotropy: 4 });
+  return Object.assign(new THREE.CanvasTexture(canvas), {
+    colorSpace: THREE.SRGBColorSpace,
+    anisotropy: 4,
+  });
 }
 
 /** A lamp above the table. */
@@ -66,29 +88,67 @@ function lampOver(scene: THREE.Scene, width: number, length: number): void {
   lamp.castShadow = true;
   lamp.shadow.mapSize.set(2048, 2048);
   const half = 0.6 * length;
-  Object.assign(lamp.shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 0.5, far: 5 });
+  Object.assign(lamp.shadow.camera, {
+    left: -half,
+    right: half,
+    top: half,
+    bottom: -half,
+    near: 0.5,
+    far: 5,
+  });
   lamp.shadow.bias = -5e-4;
   scene.add(lamp, lamp.target);
 }
 /** Parts that never move, as one mesh: each mesh that is drawn costs a frame some time. */
-function joined(parts: THREE.Mesh[], material: THREE.Material, receiveShadow: boolean, castShadow = false): THREE.Mesh {
-  const all = parts.map((part) => (part.updateMatrix(), part.geometry.toNonIndexed().applyMatrix4(part.matrix)));
+function joined(
+  parts: THREE.Mesh[],
+  material: THREE.Material,
+  receiveShadow: boolean,
+  castShadow = false,
+): THREE.Mesh {
+  const all = parts.map(
+    (part) => (part.updateMatrix(), part.geometry.toNonIndexed().applyMatrix4(part.matrix)),
+  );
   const geometry = new THREE.BufferGeometry();
-  for (const name of ["position", "normal"]) geometry.setAttribute(name, new THREE.Float32BufferAttribute(all.flatMap((one) => [...one.getAttribute(name)!.array]), 3));
+  for (const name of ["position", "normal"])
+    geometry.setAttribute(
+      name,
+      new THREE.Float32BufferAttribute(
+        all.flatMap((one) => [...one.getAttribute(name)!.array]),
+        3,
+      ),
+    );
   return Object.assign(new THREE.Mesh(geometry, material), { receiveShadow, castShadow });
 }
-/** Slate with cloth up to the middle of the pockets, wood around it, the faces of cushions, and dark pockets. */
+/**
+ * Slate with cloth up to the middle of the pockets, wood around it, the faces of cushions, and dark
+ * pockets.
+ */
 function furnish(scene: THREE.Scene, of: SceneOf): void {
   const { width, length } = of.table;
   const cloth = new THREE.MeshLambertMaterial({ color: of.cloth });
-  const box = (x: number, y: number, w: number, l: number, low: number, high: number): THREE.Mesh => {
+  const box = (
+    x: number,
+    y: number,
+    w: number,
+    l: number,
+    low: number,
+    high: number,
+  ): THREE.Mesh => {
     const mesh = new THREE.Mesh(new THREE.BoxGeometry(w, l, high - low));
     mesh.position.set(x, y, (low + high) / 2);
     return mesh;
   };
   const nose = 0.0365;
   const wood = [-1, 1].flatMap((side) => [
-    box(width / 2 + side * (width / 2 + WOOD), length / 2, WOOD, length + 3 * WOOD, -0.06, 1.2 * nose),
+    box(
+      width / 2 + side * (width / 2 + WOOD),
+      length / 2,
+      WOOD,
+      length + 3 * WOOD,
+      -0.06,
+      1.2 * nose,
+    ),
     box(width / 2, length / 2 + side * (length / 2 + WOOD), width + WOOD, WOOD, -0.06, 1.2 * nose),
   ]);
   const strips = of.table.rails.flatMap(({ p, q, height = nose }) => {
@@ -98,7 +158,14 @@ function furnish(scene: THREE.Scene, of: SceneOf): void {
     const [ux, uy, thick] = [(q[0] - p[0]) / along, (q[1] - p[1]) / along, 0.045];
     const middle = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2] as const;
     const outward = Math.sign(-uy * (middle[0] - width / 2) + ux * (middle[1] - length / 2)) || 1;
-    const mesh = box(middle[0] - (outward * uy * thick) / 2, middle[1] + (outward * ux * thick) / 2, along, thick, height - 0.006, height + 0.006);
+    const mesh = box(
+      middle[0] - (outward * uy * thick) / 2,
+      middle[1] + (outward * ux * thick) / 2,
+      along,
+      thick,
+      height - 0.006,
+      height + 0.006,
+    );
     mesh.rotation.z = Math.atan2(uy, ux);
     return [mesh];
   });
@@ -108,12 +175,21 @@ function furnish(scene: THREE.Scene, of: SceneOf): void {
     hole.position.set(centre[0], centre[1], 0.002);
     return hole;
   });
-  scene.add(joined([box(width / 2, length / 2, width + WOOD, length + WOOD, -0.03, 0)], cloth, true), joined(wood, new THREE.MeshLambertMaterial({ color: of.wood }), true));
-  scene.add(joined(strips, cloth, true, true), joined(holes, new THREE.MeshBasicMaterial({ color: "#050606" }), false));
+  scene.add(
+    joined([box(width / 2, length / 2, width + WOOD, length + WOOD, -0.03, 0)], cloth, true),
+    joined(wood, new THREE.MeshLambertMaterial({ color: of.wood }), true),
+  );
+  scene.add(
+    joined(strips, cloth, true, true),
+    joined(holes, new THREE.MeshBasicMaterial({ color: "#050606" }), false),
+  );
 }
 /** A ball: a sphere whose y is the ball's z. */
 function ballOf(ball: SceneOf["balls"][number]): THREE.Group {
-  const sphere = new THREE.Mesh(new THREE.SphereGeometry(ball.radius, 40, 28), new THREE.MeshPhongMaterial({ map: surface(ball), shininess: 90, specular: "#666666" }));
+  const sphere = new THREE.Mesh(
+    new THREE.SphereGeometry(ball.radius, 40, 28),
+    new THREE.MeshPhongMaterial({ map: surface(ball), shininess: 90, specular: "#666666" }),
+  );
   sphere.rotation.x = Math.PI / 2;
   sphere.castShadow = true;
   return new THREE.Group().add(sphere);
@@ -145,10 +221,18 @@ export class Scene {
     furnish(scene, of);
     this.#balls = of.balls.map(ballOf);
     scene.add(...this.#balls);
-    this.#stick = new THREE.Mesh(new THREE.CylinderGeometry(0.0055, 0.014, 1.4, 16), new THREE.MeshLambertMaterial({ color: "#d9b077" }));
+    this.#stick = new THREE.Mesh(
+      new THREE.CylinderGeometry(0.0055, 0.014, 1.4, 16),
+      new THREE.MeshLambertMaterial({ color: "#d9b077" }),
+    );
     this.#stick.castShadow = true;
-    // The aim on the cloth: a line to the place of the cue ball at its first contact, and a ring there.
-    const light = new THREE.MeshBasicMaterial({ color: "#ffffff", transparent: true, opacity: 0.7 });
+    // The aim on the cloth: a line to the place of the cue ball at its first contact, and a ring
+    // there.
+    const light = new THREE.MeshBasicMaterial({
+      color: "#ffffff",
+      transparent: true,
+      opacity: 0.7,
+    });
     const R = of.balls[0]!.radius;
     this.#aim = new THREE.Mesh(new THREE.BoxGeometry(1, 0.007, 0.001), light);
     this.#ghost = new THREE.Mesh(new THREE.RingGeometry(0.88 * R, R, 32), light);
@@ -169,15 +253,31 @@ export class Scene {
     const along = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)] as const;
     // A tall screen sees the table from higher, or it would show the room above it.
     const high = this.#camera.aspect > 1 ? 0.48 : 0.95;
-    // How far off the outer wood is where the cue points, and behind the cue ball, where the camera stays near it.
-    const wood = (sign: number): number => Math.min(...along.map((d, c) => (Math.abs(d) < 1e-9 ? Infinity : ((sign * d > 0 ? this.#within[c]! + WOOD : -WOOD) - at[c]!) / (sign * d))));
+    // How far off the outer wood is where the cue points, and behind the cue ball, where the camera
+    // stays near it.
+    const wood = (sign: number): number =>
+      Math.min(
+        ...along.map((d, c) =>
+          Math.abs(d) < 1e-9
+            ? Infinity
+            : ((sign * d > 0 ? this.#within[c]! + WOOD : -WOOD) - at[c]!) / (sign * d),
+        ),
+      );
     const [far, back] = [wood(1), Math.min(wood(-1) + 0.5, 1.15)];
     // That wood is seen below the upper edge, but the cue ball never near it.
     const half = this.#camera.fov / 2;
-    const down = Math.min(half - 4 + Math.atan2(high, back + far) * DEGREES, 0.5 * half + Math.atan2(high, back) * DEGREES) / DEGREES;
+    const down =
+      Math.min(
+        half - 4 + Math.atan2(high, back + far) * DEGREES,
+        0.5 * half + Math.atan2(high, back) * DEGREES,
+      ) / DEGREES;
     const [x, y] = [at[0]! - back * along[0], at[1]! - back * along[1]];
     this.#camera.position.set(x, y, high);
-    this.#camera.lookAt(x + along[0] * Math.cos(down), y + along[1] * Math.cos(down), high - Math.sin(down));
+    this.#camera.lookAt(
+      x + along[0] * Math.cos(down),
+      y + along[1] * Math.cos(down),
+      high - Math.sin(down),
+    );
   }
 
   draw(poses: readonly Pose[], stick: Stick | undefined): void {
@@ -202,10 +302,18 @@ export class Scene {
       const [R, { a, b }] = [r[2]!, stick.cue];
       const [phi, theta] = [stick.cue.phi / DEGREES, Math.max(stick.cue.theta, 3) / DEGREES];
       // From the butt to the tip, and what is to the right of it and above.
-      const along = new THREE.Vector3(Math.cos(phi) * Math.cos(theta), Math.sin(phi) * Math.cos(theta), -Math.sin(theta));
+      const along = new THREE.Vector3(
+        Math.cos(phi) * Math.cos(theta),
+        Math.sin(phi) * Math.cos(theta),
+        -Math.sin(theta),
+      );
       const right = new THREE.Vector3(Math.sin(phi), -Math.cos(phi), 0);
       const up = new THREE.Vector3().crossVectors(right, along);
-      this.#stick.position.set(r[0]!, r[1]!, R).addScaledVector(right, -a * R).addScaledVector(up, b * R).addScaledVector(along, -(stick.gap + 0.7));
+      this.#stick.position
+        .set(r[0]!, r[1]!, R)
+        .addScaledVector(right, -a * R)
+        .addScaledVector(up, b * R)
+        .addScaledVector(along, -(stick.gap + 0.7));
       this.#stick.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along);
     }
     this.#renderer.render(this.#scene, this.#camera);
@@ -214,14 +322,24 @@ export class Scene {
   /** Where a place is seen, pixels of the page; NaN: behind the camera. */
   place(x: number, y: number, z: number): [number, number] {
     const at = new THREE.Vector3(x, y, z).project(this.#camera);
-    return at.z > 1 ? [NaN, NaN] : [((at.x + 1) * this.canvas.clientWidth) / 2, ((1 - at.y) * this.canvas.clientHeight) / 2];
+    return at.z > 1
+      ? [NaN, NaN]
+      : [((at.x + 1) * this.canvas.clientWidth) / 2, ((1 - at.y) * this.canvas.clientHeight) / 2];
   }
 
   /** The place at a height that is seen at a pixel of the page; none above the horizon. */
   unplace(px: number, py: number, z: number): [number, number] | undefined {
     const from = this.#camera.position;
-    const way = new THREE.Vector3((2 * px) / this.canvas.clientWidth - 1, 1 - (2 * py) / this.canvas.clientHeight, 0.5).unproject(this.#camera).sub(from);
-    return way.z < -1e-6 ? [from.x - (way.x * (from.z - z)) / way.z, from.y - (way.y * (from.z - z)) / way.z] : undefined;
+    const way = new THREE.Vector3(
+      (2 * px) / this.canvas.clientWidth - 1,
+      1 - (2 * py) / this.canvas.clientHeight,
+      0.5,
+    )
+      .unproject(this.#camera)
+      .sub(from);
+    return way.z < -1e-6
+      ? [from.x - (way.x * (from.z - z)) / way.z, from.y - (way.y * (from.z - z)) / way.z]
+      : undefined;
   }
 
   close(): void {

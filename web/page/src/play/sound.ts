@@ -1,5 +1,5 @@
-// The sound of what meets, by its impulse: clicks of balls, thuds of cushions, the tip, and balls that drop. Each is made of decaying tones and noise;
-// no sound is loaded.
+// The sound of what meets, by its impulse: clicks of balls, thuds of cushions, the tip, and balls
+// that drop. Each is made of decaying tones and noise; no sound is loaded.
 import type { EventType, ShotEvent } from "carom";
 
 interface Voice {
@@ -10,13 +10,53 @@ interface Voice {
   /** The impulse at which it is full, N s. */
   full: number;
 }
-const BALL: Voice = { tones: [[2750, 0.5, 0.012], [4300, 0.25, 0.007], [1500, 0.2, 0.01]], noise: [0.3, 0.003, 0.1], full: 0.8 };
-const CUSHION: Voice = { tones: [[95, 0.9, 0.06], [170, 0.4, 0.04]], noise: [0.25, 0.03, 0.9], full: 1.2 };
-const TIP: Voice = { tones: [[820, 0.5, 0.014], [330, 0.5, 0.02]], noise: [0.4, 0.006, 0.5], full: 1.2 };
-const DROP: Voice = { tones: [[130, 0.7, 0.09], [62, 0.6, 0.12]], noise: [0.4, 0.08, 0.95], full: 0.25 };
-const VOICES: Partial<Record<EventType, Voice>> = { ball_ball: BALL, ball_linear_cushion: CUSHION, ball_circular_cushion: CUSHION, stick_ball: TIP, ball_pocket: DROP, slate: DROP, rail_top: DROP };
+const BALL: Voice = {
+  tones: [
+    [2750, 0.5, 0.012],
+    [4300, 0.25, 0.007],
+    [1500, 0.2, 0.01],
+  ],
+  noise: [0.3, 0.003, 0.1],
+  full: 0.8,
+};
+const CUSHION: Voice = {
+  tones: [
+    [95, 0.9, 0.06],
+    [170, 0.4, 0.04],
+  ],
+  noise: [0.25, 0.03, 0.9],
+  full: 1.2,
+};
+const TIP: Voice = {
+  tones: [
+    [820, 0.5, 0.014],
+    [330, 0.5, 0.02],
+  ],
+  noise: [0.4, 0.006, 0.5],
+  full: 1.2,
+};
+const DROP: Voice = {
+  tones: [
+    [130, 0.7, 0.09],
+    [62, 0.6, 0.12],
+  ],
+  noise: [0.4, 0.08, 0.95],
+  full: 0.25,
+};
+const VOICES: Partial<Record<EventType, Voice>> = {
+  ball_ball: BALL,
+  ball_linear_cushion: CUSHION,
+  ball_circular_cushion: CUSHION,
+  stick_ball: TIP,
+  ball_pocket: DROP,
+  slate: DROP,
+  rail_top: DROP,
+};
 
-/** How loud an event is, 0 to 1: the ear hears about the root of the impulse. A ball that drops has the sound of its weight. */
+/**
+ * How loud an event is, 0 to 1: the ear hears about the root of the impulse. A ball that drops has
+ * the sound of its weight.
+ */
 export function loudness({ type, impulse }: Pick<ShotEvent, "type" | "impulse">): number {
   const voice = VOICES[type];
   if (!voice) return 0;
@@ -24,8 +64,14 @@ export function loudness({ type, impulse }: Pick<ShotEvent, "type" | "impulse">)
   return Math.min(Math.sqrt(impulse / voice.full), 1);
 }
 
-/** The wave of a voice, samples from -1 to 1. The noise is drawn by a fixed rule, so that it is the same each time. */
-export function wave({ tones, noise: [share, decay, low] }: Voice, rate: number): Float32Array<ArrayBuffer> {
+/**
+ * The wave of a voice, samples from -1 to 1. The noise is drawn by a fixed rule, so that it is the
+ * same each time.
+ */
+export function wave(
+  { tones, noise: [share, decay, low] }: Voice,
+  rate: number,
+): Float32Array<ArrayBuffer> {
   const longest = Math.max(decay, ...tones.map(([, , d]) => d));
   const samples = new Float32Array(Math.ceil(6 * longest * rate));
   let [state, smooth] = [12345, 0];
@@ -35,7 +81,8 @@ export function wave({ tones, noise: [share, decay, low] }: Voice, rate: number)
     const white = state / 2 ** 31 - 1;
     smooth += (1 - low) * (white - smooth);
     let sum = share * smooth * Math.exp(-t / decay) * (1 + 2 * low);
-    for (const [hertz, part, d] of tones) sum += part * Math.sin(2 * Math.PI * hertz * t) * Math.exp(-t / d);
+    for (const [hertz, part, d] of tones)
+      sum += part * Math.sin(2 * Math.PI * hertz * t) * Math.exp(-t / d);
     samples[k] = 0.7 * Math.tanh(sum);
   });
   return samples;
@@ -69,7 +116,10 @@ export class Sound {
       buffer.copyToChannel(samples, 0);
       this.#buffers.set(voice, buffer);
     }
-    const source = new AudioBufferSourceNode(context, { buffer, playbackRate: 0.94 + 0.12 * ((event.a * 7 + Math.max(event.b, 0) * 3) % 5) / 5 });
+    const source = new AudioBufferSourceNode(context, {
+      buffer,
+      playbackRate: 0.94 + (0.12 * ((event.a * 7 + Math.max(event.b, 0) * 3) % 5)) / 5,
+    });
     source.connect(new GainNode(context, { gain: 0.9 * loud })).connect(context.destination);
     source.start();
   }

@@ -1,4 +1,5 @@
-// The view from behind the cue, over the flat one: its module is in the page as compressed text, and starts when it is asked for.
+// The view from behind the cue, over the flat one: its module is in the page as compressed text,
+// and starts when it is asked for.
 import { colourOf } from "../../../player/words.js";
 import type { Pose } from "../../../player/words.js";
 import { drawNumbers, stickEnd } from "../table/drawing.js";
@@ -14,7 +15,9 @@ import { aimed, free, type Session } from "./session.js";
 async function load(): Promise<typeof import("./scene.js")> {
   const text = document.getElementById("scene-module")!.textContent!.trim();
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const source = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).blob();
+  const source = await new Response(
+    new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")),
+  ).blob();
   const url = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
   try {
     return (await import(/* @vite-ignore */ url)) as typeof import("./scene.js");
@@ -38,10 +41,13 @@ export class Space {
     readonly felt: HTMLElement,
   ) {}
 
-  /** Shows it, or the flat view again. Rejects where the browser has no WebGL: the flat view stays. */
+  /**
+   * Shows it, or the flat view again. Rejects where the browser has no WebGL: the flat view stays.
+   */
   async toggle(): Promise<void> {
     if (this.on) return this.#hide();
-    if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it has no WebGL 2");
+    if (!document.createElement("canvas").getContext("webgl2"))
+      throw new Error("it has no WebGL 2");
     this.#module ??= await load();
     this.#make();
     this.on = true;
@@ -52,30 +58,54 @@ export class Space {
   #make(): void {
     const play = this.s.play;
     this.close();
-    const balls = play.balls.map(({ kind }, k) => ({ name: play.names[k]!, radius: kind.radius, colour: colourOf(play.names[k]!, k) }));
-    const scene = new this.#module!.Scene({ table: play.table, balls, cloth: color("cloth"), wood: color("rail") });
+    const balls = play.balls.map(({ kind }, k) => ({
+      name: play.names[k]!,
+      radius: kind.radius,
+      colour: colourOf(play.names[k]!, k),
+    }));
+    const scene = new this.#module!.Scene({
+      table: play.table,
+      balls,
+      cloth: color("cloth"),
+      wood: color("rail"),
+    });
     this.#scene = scene;
     this.#of = play;
     const { canvas } = scene;
-    for (const [name, value] of Object.entries({ id: "scene", role: "img", tabindex: "0", "aria-label": "The table from behind the cue" })) canvas.setAttribute(name, value);
+    for (const [name, value] of Object.entries({
+      id: "scene",
+      role: "img",
+      tabindex: "0",
+      "aria-label": "The table from behind the cue",
+    }))
+      canvas.setAttribute(name, value);
     this.#handle(scene);
     canvas.addEventListener("keydown", (event) => {
       if (event.key === "Tab") return;
       event.preventDefault();
       const { key, altKey, shiftKey, ctrlKey, metaKey } = event;
-      this.s.film.canvas.dispatchEvent(new KeyboardEvent("keydown", { key, altKey, shiftKey, ctrlKey, metaKey }));
+      this.s.film.canvas.dispatchEvent(
+        new KeyboardEvent("keydown", { key, altKey, shiftKey, ctrlKey, metaKey }),
+      );
     });
     this.felt.append(canvas, this.#over);
   }
 
-  /** A drag turns the aim, or moves the cue ball that is in hand; a tap aims at a ball or a place, or calls. */
+  /**
+   * A drag turns the aim, or moves the cue ball that is in hand; a tap aims at a ball or a place,
+   * or calls.
+   */
   #handle(scene: Scene): void {
     const { s } = this;
     const { canvas } = scene;
-    let [from, last]: Point[] = [[0, 0], [0, 0]];
+    let [from, last]: Point[] = [
+      [0, 0],
+      [0, 0],
+    ];
     let taps = false;
     let grip: Grip = { is: "cloth" };
-    const at = ([x, y]: Point): Point | undefined => scene.unplace(x, y, s.play.balls[0]!.kind.radius);
+    const at = ([x, y]: Point): Point | undefined =>
+      scene.unplace(x, y, s.play.balls[0]!.kind.radius);
     drags(canvas, (event, first) => {
       const now = pixelsOf(canvas, event);
       if (first) {
@@ -107,9 +137,17 @@ export class Space {
     const { balls, table } = this.s.play;
     const far = (px: number, py: number): number => Math.hypot(px - x, py - y);
     const near = [
-      ...balls.map(({ state: { r } }, ball) => ({ grip: { is: "ball", ball } as Grip, d: onTable(balls[ball]!.state) ? far(...scene.place(r[0], r[1], r[2])) : 99 })),
-      ...table.pockets.map(({ centre }, pocket) => ({ grip: { is: "pocket", pocket } as Grip, d: far(...scene.place(centre[0], centre[1], 0)) })),
-    ].filter(({ d }) => d < 24).sort((a, b) => a.d - b.d);
+      ...balls.map(({ state: { r } }, ball) => ({
+        grip: { is: "ball", ball } as Grip,
+        d: onTable(balls[ball]!.state) ? far(...scene.place(r[0], r[1], r[2])) : 99,
+      })),
+      ...table.pockets.map(({ centre }, pocket) => ({
+        grip: { is: "pocket", pocket } as Grip,
+        d: far(...scene.place(centre[0], centre[1], 0)),
+      })),
+    ]
+      .filter(({ d }) => d < 24)
+      .sort((a, b) => a.d - b.d);
     return near[0]?.grip ?? { is: "cloth" };
   }
 
@@ -118,29 +156,56 @@ export class Space {
     if (this.#of !== this.s.play) this.#make();
     const { clientWidth, clientHeight } = this.s.film.canvas;
     const { canvas } = this.#scene;
-    if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight) this.#scene.size(clientWidth, clientHeight);
+    if (canvas.clientWidth !== clientWidth || canvas.clientHeight !== clientHeight)
+      this.#scene.size(clientWidth, clientHeight);
     const poses = this.s.filmed!.shots[0]!.at(this.s.film.time);
     const of = aimed(this.s);
     // The camera stays where it was while the balls roll, or the cue ball is moved.
     if (of && !this.#moves) this.#scene.look(poses[0]!.r, of.phi);
-    this.#scene.draw(poses, of && { cue: of, gap: stickEnd(this.#of!.balls[0]!.kind.radius, of.speed), first: this.s.first?.at });
+    this.#scene.draw(
+      poses,
+      of && {
+        cue: of,
+        gap: stickEnd(this.#of!.balls[0]!.kind.radius, of.speed),
+        first: this.s.first?.at,
+      },
+    );
     this.#label(poses, of !== undefined);
   }
-  /** Draws the way of a ball that is aimed at, and the number of each ball where it lies over no other one. */
+  /**
+   * Draws the way of a ball that is aimed at, and the number of each ball where it lies over no
+   * other one.
+   */
   #label(poses: readonly Pose[], aims: boolean): void {
     const [over, scene, balls] = [this.#over, this.#scene!, this.#of!.balls];
-    const [{ clientWidth: width, clientHeight: height }, sharp] = [scene.canvas, Math.min(window.devicePixelRatio || 1, 2)];
+    const [{ clientWidth: width, clientHeight: height }, sharp] = [
+      scene.canvas,
+      Math.min(window.devicePixelRatio || 1, 2),
+    ];
     Object.assign(over, { width: width * sharp, height: height * sharp });
     Object.assign(over.style, { width: `${width}px`, height: `${height}px` });
     const g = over.getContext("2d")!;
     g.scale(sharp, sharp);
-    const pen = { g, scale: 1, place: (x: number, y: number) => scene.place(x, y, balls[0]!.kind.radius) };
+    const pen = {
+      g,
+      scale: 1,
+      place: (x: number, y: number) => scene.place(x, y, balls[0]!.kind.radius),
+    };
     if (aims && this.s.first) drawWays(this.s, pen);
     drawMarks(this.s, pen);
     const seen = poses.map(({ r, seen }, k) => {
       const { kind } = balls[k]!;
-      const [[x, y], [u, v]] = [scene.place(r[0]!, r[1]!, r[2]!), scene.place(r[0]!, r[1]!, r[2]! + kind.radius)];
-      return { kind: { ...kind, radius: 1.1 * Math.hypot(u - x, v - y) }, state: { r: [x, y, 0] as const, label: seen && x > 0 && x < width ? ("rolling" as const) : ("pocketed" as const) } };
+      const [[x, y], [u, v]] = [
+        scene.place(r[0]!, r[1]!, r[2]!),
+        scene.place(r[0]!, r[1]!, r[2]! + kind.radius),
+      ];
+      return {
+        kind: { ...kind, radius: 1.1 * Math.hypot(u - x, v - y) },
+        state: {
+          r: [x, y, 0] as const,
+          label: seen && x > 0 && x < width ? ("rolling" as const) : ("pocketed" as const),
+        },
+      };
     });
     drawNumbers({ g, scale: 1, place: (x, y) => [x, y] }, seen, this.#of!.names);
   }

@@ -14,7 +14,8 @@ const groupOf = (play: Play, who: 0 | 1): string => {
   if (group === "open" || who === play.turn) return group;
   return group === "solids" ? "stripes" : "solids";
 };
-const left = (play: Play, from: number, to: number): number => play.balls.filter(({ state }, k) => k >= from && k <= to && onTable(state)).length;
+const left = (play: Play, from: number, to: number): number =>
+  play.balls.filter(({ state }, k) => k >= from && k <= to && onTable(state)).length;
 
 /** carom_foul_string() of each, as far as a reader can do with it. */
 const WHY: Partial<Record<string, string>> = {
@@ -56,19 +57,40 @@ export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = fa
   }
   const name = nameOf(play, play.turn, seat);
   const you = name === "You";
-  const group = play.setup.game === "eightball" && !play.breaks ? (play.state.group === "open" ? ", open table" : `, ${play.state.group}`) : "";
-  const on = play.setup.game === "snooker" && play.winner === undefined ? `, on ${onOf(play)}` : play.played?.pockets ? `, into ${pocketOf(play)}` : group;
+  const group =
+    play.setup.game === "eightball" && !play.breaks
+      ? play.state.group === "open"
+        ? ", open table"
+        : `, ${play.state.group}`
+      : "";
+  const on =
+    play.setup.game === "snooker" && play.winner === undefined
+      ? `, on ${onOf(play)}`
+      : play.played?.pockets
+        ? `, into ${pocketOf(play)}`
+        : group;
   if (thinks) return `${before}${name} thinks${on} …`;
   // Whoever has played has something to send; who has not waits for a link.
-  if (!you && play.setup.against === "link") return `${before}${name} plays${on}: ${play.last?.who === seat ? "send the link." : "wait for the link that comes after this turn."}`;
-  const turn = play.hasPockets && play.breaks ? `${name} ${you ? "break" : "breaks"}` : you ? "Your turn" : `${name}'s turn`;
-  const hand = play.hand === "no" ? "" : ` Cue ball in hand${play.hand === "kitchen" ? " behind the line" : play.hand === "anywhere" ? "" : " in the D"}: drag it.`;
+  if (!you && play.setup.against === "link")
+    return `${before}${name} plays${on}: ${play.last?.who === seat ? "send the link." : "wait for the link that comes after this turn."}`;
+  const turn =
+    play.hasPockets && play.breaks
+      ? `${name} ${you ? "break" : "breaks"}`
+      : you
+        ? "Your turn"
+        : `${name}'s turn`;
+  const hand =
+    play.hand === "no"
+      ? ""
+      : ` Cue ball in hand${play.hand === "kitchen" ? " behind the line" : play.hand === "anywhere" ? "" : " in the D"}: drag it.`;
   return `${before}${turn}${on}.${hand}`;
 }
 
 /** What fell in a stroke. */
 export function wordsOfStroke(play: Play, { who, shot }: Stroke, seat: 0 | 1): string {
-  const fell = (shot?.events ?? []).flatMap(({ type, a }) => (type === "ball_pocket" && a > 0 ? `the ${play.names[a]}` : []));
+  const fell = (shot?.events ?? []).flatMap(({ type, a }) =>
+    type === "ball_pocket" && a > 0 ? `the ${play.names[a]}` : [],
+  );
   return `${nameOf(play, who, seat)} ${shot ? "pocketed" : "passed"}${!shot ? "" : fell.length > 0 ? ` ${fell.join(" and ")}` : " no ball"}.`;
 }
 
@@ -79,12 +101,15 @@ export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, n
     return `${count} ${count === 1 ? "ball" : "balls"}`;
   }
   const names = ([0, 1] as const).map((who) => nameOf(play, who, seat));
-  const of = (parts: readonly (string | number)[]): string => parts.map((part, k) => `${names[k]}: ${part}`.replace(": -", ": −")).join(" · ");
+  const of = (parts: readonly (string | number)[]): string =>
+    parts.map((part, k) => `${names[k]}: ${part}`.replace(": -", ": −")).join(" · ");
   if (play.played?.points) return of(play.points);
   const won = racks[0] + racks[1] > 0 ? `racks won ${racks[0]} : ${racks[1]}` : "";
   if (play.setup.game === "eightball") {
     if (play.state.group === "open") return won;
-    const balls = ([0, 1] as const).map((who) => (groupOf(play, who) === "solids" ? left(play, 1, 7) : left(play, 9, 15)));
+    const balls = ([0, 1] as const).map((who) =>
+      groupOf(play, who) === "solids" ? left(play, 1, 7) : left(play, 9, 15),
+    );
     return `${of(balls.map((count) => (count === 0 ? "on the 8" : `${count} left`)))}${won && ` · ${won}`}`;
   }
   if (play.setup.game === "nineball") {

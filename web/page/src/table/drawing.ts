@@ -1,4 +1,5 @@
-// What is drawn over the table while one aims: the stick, the ghost ball, lines, and rings around balls.
+// What is drawn over the table while one aims: the stick, the ghost ball, lines, and rings around
+// balls.
 import type { Contact, Cue, ShotBall } from "carom";
 import { line } from "../../../player/table.js";
 import { onTable } from "./filmed.js";
@@ -15,33 +16,80 @@ export interface Pen {
   place(x: number, y: number): [number, number];
 }
 
-export function path(pen: Pen, points: readonly (readonly number[])[], width: number, style: string): void {
+export function path(
+  pen: Pen,
+  points: readonly (readonly number[])[],
+  width: number,
+  style: string,
+): void {
   pen.g.strokeStyle = style;
   pen.g.lineWidth = width;
   line(pen.g, pen, points);
 }
-export const stroke = (pen: Pen, from: readonly number[], to: readonly number[], width: number, style: string): void => path(pen, [from, to], width, style);
+export const stroke = (
+  pen: Pen,
+  from: readonly number[],
+  to: readonly number[],
+  width: number,
+  style: string,
+): void => path(pen, [from, to], width, style);
 
 /** A circle of a radius, m, and some pixels more. */
-export function ring({ g, scale, place }: Pen, at: readonly number[], radius: number, more: number): void {
+export function ring(
+  { g, scale, place }: Pen,
+  at: readonly number[],
+  radius: number,
+  more: number,
+): void {
   g.beginPath();
   g.arc(...place(at[0]!, at[1]!), radius * scale + more, 0, 7);
   g.stroke();
 }
 
 /** A circle on the cloth of a radius, m, as it is seen from anywhere. */
-export const circle = (pen: Pen, at: readonly number[], radius: number, width: number, style: string): void =>
-  path(pen, Array.from({ length: 33 }, (_, k) => (k * Math.PI) / 16).map((turn) => [at[0]! + radius * Math.cos(turn), at[1]! + radius * Math.sin(turn)]), width, style);
+export const circle = (
+  pen: Pen,
+  at: readonly number[],
+  radius: number,
+  width: number,
+  style: string,
+): void =>
+  path(
+    pen,
+    Array.from({ length: 33 }, (_, k) => (k * Math.PI) / 16).map((turn) => [
+      at[0]! + radius * Math.cos(turn),
+      at[1]! + radius * Math.sin(turn),
+    ]),
+    width,
+    style,
+  );
 
-/** The ghost ball of a contact, the line of the ball that is met, and the tangent line, to the side where the cue ball goes. */
-export function drawContact(pen: Pen, { event, ball }: Contact, radius: number, [dx, dy]: readonly [number, number]): void {
+/**
+ * The ghost ball of a contact, the line of the ball that is met, and the tangent line, to the side
+ * where the cue ball goes.
+ */
+export function drawContact(
+  pen: Pen,
+  { event, ball }: Contact,
+  radius: number,
+  [dx, dy]: readonly [number, number],
+): void {
   const length = 0.35;
-  const [ghost, object] = event.a === ball ? [event.before[1]!.r, event.before[0]!.r] : [event.before[0]!.r, event.before[1]!.r];
+  const [ghost, object] =
+    event.a === ball
+      ? [event.before[1]!.r, event.before[0]!.r]
+      : [event.before[0]!.r, event.before[1]!.r];
   const [nx, ny] = [(object[0] - ghost[0]) / (2 * radius), (object[1] - ghost[1]) / (2 * radius)];
   pen.g.setLineDash([5, 4]);
   stroke(pen, object, [object[0] + length * nx, object[1] + length * ny], 1.4, "#ffffffd0");
   const turn = Math.sign(dx * -ny + dy * nx) || 1;
-  stroke(pen, ghost, [ghost[0] - length * turn * ny, ghost[1] + length * turn * nx], 1.4, "#ffffffd0");
+  stroke(
+    pen,
+    ghost,
+    [ghost[0] - length * turn * ny, ghost[1] + length * turn * nx],
+    1.4,
+    "#ffffffd0",
+  );
   ring(pen, ghost, radius, 0);
   pen.g.setLineDash([]);
 }
@@ -59,17 +107,27 @@ export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cu
 }
 
 /**
- * The number of each ball beside it, upright, so that one can name a ball however it has turned and however small it is drawn; of a ball that has no room for
+ * The number of each ball beside it, upright, so that one can name a ball however it has turned and
+ * however small it is drawn; of a ball that has no room for
  * it between others there is none.
  */
-export function drawNumbers({ g, scale, place }: Pen, balls: readonly { state: Pick<ShotBall["state"], "r" | "label">; kind: ShotBall["kind"] }[], names: readonly string[]): void {
+export function drawNumbers(
+  { g, scale, place }: Pen,
+  balls: readonly { state: Pick<ShotBall["state"], "r" | "label">; kind: ShotBall["kind"] }[],
+  names: readonly string[],
+): void {
   g.save();
   g.font = "bold 12px sans-serif";
   g.textAlign = "center";
   g.textBaseline = "middle";
   g.lineJoin = "round";
-  // What a number does not cover: the middle and half the size of each ball, and of the numbers that are drawn already.
-  const taken = balls.flatMap(({ state, kind }) => (onTable(state) ? [[...place(state.r[0], state.r[1]), kind.radius * scale, kind.radius * scale]] : []));
+  // What a number does not cover: the middle and half the size of each ball, and of the numbers
+  // that are drawn already.
+  const taken = balls.flatMap(({ state, kind }) =>
+    onTable(state)
+      ? [[...place(state.r[0], state.r[1]), kind.radius * scale, kind.radius * scale]]
+      : [],
+  );
   balls.forEach(({ state, kind }, k) => {
     if (!(Number(names[k]) > 0) || !onTable(state)) return;
     const [x, y] = place(state.r[0], state.r[1]);
@@ -77,8 +135,16 @@ export function drawNumbers({ g, scale, place }: Pen, balls: readonly { state: P
     const near = taken.filter(([bx, by]) => Math.abs(bx! - x) < 80 && Math.abs(by! - y) < 80);
     // Of twelve places around the ball the one that covers least; the first is at the upper right.
     const covers = ([px, py]: readonly [number, number]): number =>
-      near.reduce((sum, [bx, by, bw, bh]) => sum + Math.max(half + bw! - Math.abs(px - bx!), 0) * Math.max(high + bh! - Math.abs(py - by!), 0), 0);
-    const around = Array.from({ length: 12 }, (_, k) => ((1.5 + k) * Math.PI) / 6).map((turn) => [x + (away + half) * Math.cos(turn), y - (away + high) * Math.sin(turn)] as const);
+      near.reduce(
+        (sum, [bx, by, bw, bh]) =>
+          sum +
+          Math.max(half + bw! - Math.abs(px - bx!), 0) *
+            Math.max(high + bh! - Math.abs(py - by!), 0),
+        0,
+      );
+    const around = Array.from({ length: 12 }, (_, k) => ((1.5 + k) * Math.PI) / 6).map(
+      (turn) => [x + (away + half) * Math.cos(turn), y - (away + high) * Math.sin(turn)] as const,
+    );
     const best = around.reduce((one, other) => (covers(other) < covers(one) - 0.5 ? other : one));
     if (covers(best) > 4) return;
     taken.push([...best, half + 6, high]); // two numbers are not read as one

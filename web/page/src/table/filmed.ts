@@ -1,4 +1,5 @@
-// What the player shows of a shot: where its balls are and how they have turned at a time, and the paths that they take.
+// What the player shows of a shot: where its balls are and how they have turned at a time, and the
+// paths that they take.
 import type { BallState, Shot, ShotBall, Table } from "carom";
 import { type Film, type Pose, product, wordsOf } from "../../../player/words.js";
 
@@ -7,23 +8,34 @@ const FALL = 0.16;
 
 export type Path = Film["shots"][number]["paths"][number];
 
-export const onTable = ({ label }: Pick<BallState, "label">): boolean => label !== "pocketed" && label !== "off";
+export const onTable = ({ label }: Pick<BallState, "label">): boolean =>
+  label !== "pocketed" && label !== "off";
 /** How long the film of a shot is: a ball that was pocketed at the end falls after it. */
-export const lasts = ({ time, status, events }: Shot): number => (status === "ok" && events.at(-1)?.type === "ball_pocket" ? time + FALL : time);
+export const lasts = ({ time, status, events }: Shot): number =>
+  status === "ok" && events.at(-1)?.type === "ball_pocket" ? time + FALL : time;
 
 /** The path of each ball that moves: at every event, and so often a second between. */
 export function pathsOf(shot: Shot, often = 25, most = 500): Path[] {
   const times = shot.events.map((event) => event.time);
   const count = Math.min(Math.ceil(shot.time * often), most);
   for (let k = 0; k <= count; k++) times.push((shot.time * k) / Math.max(count, 1));
-  for (const event of shot.events) if (event.type === "ball_pocket") for (let k = 1; k <= 8; k++) times.push(event.time + (FALL * k) / 8);
+  for (const event of shot.events)
+    if (event.type === "ball_pocket")
+      for (let k = 1; k <= 8; k++) times.push(event.time + (FALL * k) / 8);
   times.sort((a, b) => a - b);
-  const moving = new Set(shot.events.flatMap((event) => (event.type === "ball_ball" ? [event.a, event.b] : [event.a])));
+  const moving = new Set(
+    shot.events.flatMap((event) => (event.type === "ball_ball" ? [event.a, event.b] : [event.a])),
+  );
   const found = [...moving].map((ball) => ({ ball, xyz: new Float64Array(3 * times.length) }));
   const end = lasts(shot);
-  const all = shot.positionsAt(times.map((t) => Math.min(t, end)), true);
+  const all = shot.positionsAt(
+    times.map((t) => Math.min(t, end)),
+    true,
+  );
   times.forEach((_, k) => {
-    for (const path of found) for (let c = 0; c < 3; c++) path.xyz[3 * k + c] = all[3 * (k * shot.balls.length + path.ball) + c]!;
+    for (const path of found)
+      for (let c = 0; c < 3; c++)
+        path.xyz[3 * k + c] = all[3 * (k * shot.balls.length + path.ball) + c]!;
   });
   return found;
 }
@@ -38,10 +50,19 @@ export interface Layout {
 /** w, x, y, z of a rotation. */
 export type Quaternion = readonly [number, number, number, number];
 /** The rotation about the vertical by an angle, degrees. */
-export const facing = (degrees: number): Quaternion => [Math.cos((degrees * Math.PI) / 360), 0, 0, Math.sin((degrees * Math.PI) / 360)];
+export const facing = (degrees: number): Quaternion => [
+  Math.cos((degrees * Math.PI) / 360),
+  0,
+  0,
+  Math.sin((degrees * Math.PI) / 360),
+];
 
 /** The film of a shot, or the balls as they lie. */
-export function filmOf({ table, balls, names, turned }: Layout, shot: Shot | undefined, paths: Path[]) {
+export function filmOf(
+  { table, balls, names, turned }: Layout,
+  shot: Shot | undefined,
+  paths: Path[],
+) {
   let last: { time: number; poses: Pose[] } | undefined;
   return {
     table,
@@ -57,13 +78,22 @@ export function filmOf({ table, balls, names, turned }: Layout, shot: Shot | und
           const poses = balls.map(({ state }, k) => {
             const r = places ? [...places.subarray(3 * k, 3 * k + 3)] : state.r;
             const label = frame?.label(k) ?? state.label;
-            const seen = onTable({ label }) || (shot !== undefined && r[2]! > shot.final[k]!.r[2] && label === "pocketed");
-            return { r, q: frame ? product(frame.turned.subarray(4 * k, 4 * k + 4), turned[k]!) : turned[k]!, seen };
+            const seen =
+              onTable({ label }) ||
+              (shot !== undefined && r[2]! > shot.final[k]!.r[2] && label === "pocketed");
+            return {
+              r,
+              q: frame ? product(frame.turned.subarray(4 * k, 4 * k + 4), turned[k]!) : turned[k]!,
+              seen,
+            };
           });
           return (last = { time, poses }).poses;
         },
         paths,
-        events: (shot?.events ?? []).map(({ time, type, a, b }) => ({ time, text: wordsOf(table, names as string[], type, a, b) })),
+        events: (shot?.events ?? []).map(({ time, type, a, b }) => ({
+          time,
+          text: wordsOf(table, names as string[], type, a, b),
+        })),
       },
     ],
   };

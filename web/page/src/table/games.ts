@@ -1,5 +1,16 @@
 // The games of the page: their tables, racks and names of balls.
-import { byNumber, type Cue, type Game, games, type GameState, type Line, type Measures, type RackName, type TableName, words } from "carom";
+import {
+  byNumber,
+  type Cue,
+  type Game,
+  games,
+  type GameState,
+  type Line,
+  type Measures,
+  type RackName,
+  type TableName,
+  words,
+} from "carom";
 
 export interface GameOf {
   text: string;
@@ -14,11 +25,26 @@ const pool = (k: number): string => (k === 0 ? "cue" : String(k));
 export const GAMES: Record<string, GameOf> = {
   nineball: { text: "Nine-ball", table: "9ft", rack: "nineball", game: "pool", names: pool },
   eightball: { text: "Eight-ball", table: "9ft", rack: "eightball", game: "pool", names: pool },
-  snooker: { text: "Snooker", table: "snooker", rack: "snooker", game: "snooker", names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : COLOURS[k - 16]!) },
-  threecushion: { text: "Three-cushion", table: "threecushion", rack: "threecushion", game: "billiard", names: (k) => ["white", "yellow", "red"][k] ?? String(k) },
+  snooker: {
+    text: "Snooker",
+    table: "snooker",
+    rack: "snooker",
+    game: "snooker",
+    names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : COLOURS[k - 16]!),
+  },
+  threecushion: {
+    text: "Three-cushion",
+    table: "threecushion",
+    rack: "threecushion",
+    game: "billiard",
+    names: (k) => ["white", "yellow", "red"][k] ?? String(k),
+  },
 };
 /** The tables of pool, by the key that a game keeps; without one it is that of nine feet. */
-export const POOL_TABLES: Record<string, readonly [text: string, table: TableName, measures?: Partial<Measures>]> = {
+export const POOL_TABLES: Record<
+  string,
+  readonly [text: string, table: TableName, measures?: Partial<Measures>]
+> = {
   "9ft": ["nine feet", "9ft"],
   "8ft": ["eight feet", "8ft"],
   "7ft": ["seven feet", "7ft"],
@@ -35,17 +61,24 @@ export interface Read<L> {
 }
 
 /**
- * The game of a line: the one that its id names; else one that its balls fit by their numbers, with the ball that decides it on the table. Of two
- * such games it is the one that is asked for, or the one all of whose balls are there; where it is neither, the line is refused.
+ * The game of a line: the one that its id names; else one that its balls fit by their numbers, with
+ * the ball that decides it on the table. Of two
+ * such games it is the one that is asked for, or the one all of whose balls are there; where it is
+ * neither, the line is refused.
  */
 export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
-  if (line.tableName in GAMES) return { name: line.tableName, line, also: undefined }; // snooker, threecushion
+  // snooker, threecushion
+  if (line.tableName in GAMES) return { name: line.tableName, line, also: undefined };
   const fitting: Record<string, L> = {};
-  for (const [name, last] of [["nineball", "9"], ["eightball", "8"]] as const)
+  for (const [name, last] of [
+    ["nineball", "9"],
+    ["eightball", "8"],
+  ] as const)
     try {
       const ordered = { ...line, ...byNumber(line, name) };
       if (line.id === name) return { name, line: ordered, also: undefined };
-      if (line.balls.some(({ state }, k) => line.names[k] === last && state.label !== "pocketed")) fitting[name] = ordered;
+      if (line.balls.some(({ state }, k) => line.names[k] === last && state.label !== "pocketed"))
+        fitting[name] = ordered;
     } catch (error) {
       if (line.id === name) throw error;
     }
@@ -53,8 +86,15 @@ export function gameOf<L extends Line>(line: L, asked: string): Read<L> {
   const whole = names.find((one) => fitting[one]!.balls.length === line.balls.length);
   const name = names.includes(asked) ? asked : (whole ?? names[0]);
   if (name === undefined) return { name: "nineball", line, also: undefined };
-  if (names.length > 1 && name !== asked && name !== whole) throw new TypeError(`balls: they fit ${names.map((one) => GAMES[one]!.text).join(" and ")}; choose one of these games, then import again`);
-  return { name, line: fitting[name]!, also: name === whole ? undefined : names.find((one) => one !== name) };
+  if (names.length > 1 && name !== asked && name !== whole)
+    throw new TypeError(
+      `balls: they fit ${names.map((one) => GAMES[one]!.text).join(" and ")}; choose one of these games, then import again`,
+    );
+  return {
+    name,
+    line: fitting[name]!,
+    also: name === whole ? undefined : names.find((one) => one !== name),
+  };
 }
 
 /** A game that is played by the library's rules. */
@@ -63,7 +103,10 @@ export interface Played {
   /** Its key in GAMES: table, rack, names. */
   of: string;
   rules: GameState["rules"];
-  /** Whether ball and pocket are called, the score is points or balls, each has a pocket of his own; and where the cue ball is at first. */
+  /**
+   * Whether ball and pocket are called, the score is points or balls, each has a pocket of his own;
+   * and where the cue ball is at first.
+   */
   calls: boolean;
   points: boolean;
   pockets: boolean;
@@ -77,16 +120,44 @@ export interface Played {
 }
 const BREAK = { speed: 8, phi: 90, a: 0, b: 0 };
 const OWN: Record<string, Partial<Played>> = {
-  straight: { text: "Straight pool, to 25 points", state: { target: 25 }, begin: { ...BREAK, speed: 4 } },
+  straight: {
+    text: "Straight pool, to 25 points",
+    state: { target: 25 },
+    begin: { ...BREAK, speed: 4 },
+  },
   snooker: { calls: false, begin: { ...BREAK, speed: 4 } },
-  threecushion: { text: "Three-cushion, to 10 points", points: true, target: 10, begin: { speed: 4, phi: 62, a: 0, b: 0.2 } },
+  threecushion: {
+    text: "Three-cushion, to 10 points",
+    points: true,
+    target: 10,
+    begin: { speed: 4, phi: 62, a: 0, b: 0.2 },
+  },
 };
 /** The games whose rules the library has, but for its drill. */
 export const PLAYED: Record<string, Played> = Object.fromEntries(
   words.rules.flatMap(([name, text]) => {
     const { rack, calls, opening, members } = games[name];
-    const [points, pockets] = ["score", "pocket"].map((one) => (members as readonly string[]).includes(one)) as [boolean, boolean];
+    const [points, pockets] = ["score", "pocket"].map((one) =>
+      (members as readonly string[]).includes(one),
+    ) as [boolean, boolean];
     const begin = pockets ? { ...BREAK, speed: 2.5, phi: 79.5, b: -0.3 } : BREAK;
-    return name === "potting" ? [] : [[name, { text: text[0]!.toUpperCase() + text.slice(1).split(" by ")[0]!, of: rack, rules: name, calls, points, pockets, opening, begin, ...OWN[name] }]];
+    return name === "potting"
+      ? []
+      : [
+          [
+            name,
+            {
+              text: text[0]!.toUpperCase() + text.slice(1).split(" by ")[0]!,
+              of: rack,
+              rules: name,
+              calls,
+              points,
+              pockets,
+              opening,
+              begin,
+              ...OWN[name],
+            },
+          ],
+        ];
   }),
 );

@@ -1,19 +1,47 @@
-// Where balls lie, as text: "x,y" of each, or "in" for one that waits in a pocket; in the laboratory with how it is turned, degrees.
+// Where balls lie, as text: "x,y" of each, or "in" for one that waits in a pocket; in the
+// laboratory with how it is turned, degrees.
 import type { BallState, ShotBall, Table } from "carom";
 import { onTable } from "./filmed.js";
 
 /** A ball that waits in the first pocket. */
 export function pocketed({ pockets: [pocket] }: Table, from: BallState): BallState {
-  return pocket ? { r: [...pocket.centre, -pocket.depth], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" } : from;
+  return pocket
+    ? { r: [...pocket.centre, -pocket.depth], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" }
+    : from;
 }
 
 /** The balls at the places of a text. */
-export function placesOf(text: string, table: Table, balls: readonly ShotBall[]): { balls: ShotBall[]; faces: number[] } {
-  const places = text.split(" ").map((place) => (place === "in" ? undefined : place.split(",").map(Number)));
-  if (places.length !== balls.length || !places.every((place) => place === undefined || (place.length >= 2 && place.every(Number.isFinite)))) throw new TypeError(`at: ${balls.length} places x,y are needed, with "in" for a ball in a pocket`);
+export function placesOf(
+  text: string,
+  table: Table,
+  balls: readonly ShotBall[],
+): { balls: ShotBall[]; faces: number[] } {
+  const places = text
+    .split(" ")
+    .map((place) => (place === "in" ? undefined : place.split(",").map(Number)));
+  if (
+    places.length !== balls.length ||
+    !places.every(
+      (place) => place === undefined || (place.length >= 2 && place.every(Number.isFinite)),
+    )
+  )
+    throw new TypeError(
+      `at: ${balls.length} places x,y are needed, with "in" for a ball in a pocket`,
+    );
   return {
-    balls: balls.map(({ kind, state }, k) => ({ kind, state: places[k] ? { ...state, r: [places[k][0]!, places[k][1]!, kind.radius] } : pocketed(table, state) })),
+    balls: balls.map(({ kind, state }, k) => ({
+      kind,
+      state: places[k]
+        ? { ...state, r: [places[k][0]!, places[k][1]!, kind.radius] }
+        : pocketed(table, state),
+    })),
     faces: places.map((place) => place?.[2] ?? 0),
   };
 }
-export const placesText = (balls: readonly ShotBall[], text: (x: number) => string | number = String): string => balls.map(({ state }) => (onTable(state) ? `${text(state.r[0])},${text(state.r[1])}` : "in")).join(" ");
+export const placesText = (
+  balls: readonly ShotBall[],
+  text: (x: number) => string | number = String,
+): string =>
+  balls
+    .map(({ state }) => (onTable(state) ? `${text(state.r[0])},${text(state.r[1])}` : "in"))
+    .join(" ");

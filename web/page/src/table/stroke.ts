@@ -1,11 +1,25 @@
-// What a stroke is set by, in a game and in the laboratory: sliders, and the tip on a ball that one touches.
+// What a stroke is set by, in a game and in the laboratory: sliders, and the tip on a ball that one
+// touches.
 import type { Cue } from "carom";
 import { pad, slider, type Slider, valuesOf } from "../ui.js";
 
 export type Stroke = Record<"speed" | "phi" | "right" | "up" | "theta", number>;
 /** The cue with a stroke, and the stroke of a cue: a tip to the right has a negative a. */
-export const cueWith = (cue: Cue, { speed, phi, right, up, theta }: Stroke): Cue => ({ ...cue, speed, phi, a: -right || 0, b: up, theta });
-export const strokeOf = ({ speed, phi, a, b, theta }: Cue): Stroke => ({ speed, phi, right: -a || 0, up: b, theta });
+export const cueWith = (cue: Cue, { speed, phi, right, up, theta }: Stroke): Cue => ({
+  ...cue,
+  speed,
+  phi,
+  a: -right || 0,
+  b: up,
+  theta,
+});
+export const strokeOf = ({ speed, phi, a, b, theta }: Cue): Stroke => ({
+  speed,
+  phi,
+  right: -a || 0,
+  up: b,
+  theta,
+});
 
 export function strokeControls(speed: Slider, padId: string, changed: () => void) {
   const two = (x: number): string => x.toFixed(2);
