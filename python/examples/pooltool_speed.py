@@ -186,10 +186,11 @@ def main() -> None:
 
     def games(kind: Any) -> tuple[str, float, float]:
         others = [opening(kind, 2 + k, 6.0 + 4.0 * k / BREAKS) for k in range(BREAKS)]
-        slow, fast = (
-            once(others, lambda s, play=play: play(s, inplace=True)) for play in (theirs, ours)
-        )  # type: ignore[misc]
-        return f"drop-in, {BREAKS} of {kind}", slow, fast
+
+        def time_of(play: Any) -> float:
+            return once(others, lambda system: play(system, inplace=True))
+
+        return f"drop-in, {BREAKS} of {kind}", time_of(theirs), time_of(ours)
 
     mine, right = ours(system, continuous=True), theirs(system, continuous=True)
     check(mine, right)
