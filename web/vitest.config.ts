@@ -1,8 +1,11 @@
 import { defineConfig } from "vitest/config";
 
+// The package's tests, and one look at each view of the page; with CAROM_PAGE=whole all of its tests.
+const page = process.env.CAROM_PAGE === "whole" ? "**/*" : "smoke";
+
 export default defineConfig({
   test: {
-    include: ["{npm,page}/test/**/*.test.ts"],
+    include: ["npm/test/**/*.test.ts", `page/test/${page}.test.ts`],
     // Limits of what hangs, which nothing reaches on a busy machine: no test is judged by a clock.
     testTimeout: 600_000,
     hookTimeout: 600_000,

@@ -1,0 +1,57 @@
+// One look at each view in a browser: it opens without complaint, does what it is for once, and axe
+// finds nothing. ./test runs this file alone of the page's; the others run before a release, or in
+// web/ by CAROM_PAGE=whole npm test.
+import { describe, expect, test } from "vitest";
+import { browserPath, pages, sizes, violations } from "./page.js";
+
+describe.runIf(browserPath !== undefined)("smoke", () => {
+  const { open, lies, set, text } = pages();
+
+  test.each(sizes)("a game: a stroke is played, ruled and kept: %s", async (_, how) => {
+    const one = await open("", how);
+    expect(await text(one, "turn")).toContain("You break");
+    await set(one, "power", 6);
+    await one.locator("#shoot").click();
+    await one.locator("#skip").click();
+    // The page's player or the one who sits here is next, and the game has the stroke.
+    await expect.poll(() => text(one, "turn")).not.toContain("You break");
+    const kept = await one.evaluate(() => localStorage.getItem("carom-game")!);
+    const { entries } = JSON.parse(kept) as { entries: { line: string }[] };
+    expect(entries.length).toBeGreaterThan(0);
+    const { shot } = JSON.parse(entries[0]!.line) as { shot: object };
+    expect(shot).toHaveProperty("speed");
+    expect(await violations(one)).toEqual([]);
+    await one.close();
+  });
+
+  test("a hint aims the stroke that it names", async () => {
+    const one = await open("");
+    const before = await text(one, "said");
+    await one.locator("#hint").click();
+    await expect.poll(() => text(one, "said")).not.toBe(before);
+    // A break is played harder than the power that the page begins with.
+    await expect
+      .poll(async () => Number(await one.locator("#power").inputValue()))
+      .toBeGreaterThan(5);
+    await one.close();
+  });
+
+  test("the laboratory: a break is played, and balls have moved", async () => {
+    const one = await open("#view=lab");
+    const before = await lies(one);
+    await one.locator("#play").click();
+    await expect.poll(() => one.locator(".events li").count()).toBeGreaterThan(5);
+    expect(Object.keys(before).length).toBeGreaterThan(1);
+    expect(await violations(one)).toEqual([]);
+    await one.close();
+  });
+
+  test("a collision: the numbers follow the cut", async () => {
+    const one = await open("#view=collision&speed=2&cut=10");
+    const before = await text(one, "n-object");
+    await set(one, "cut", 40);
+    await expect.poll(() => text(one, "n-object")).not.toBe(before);
+    expect(await violations(one)).toEqual([]);
+    await one.close();
+  });
+});
