@@ -92,6 +92,8 @@ carom shoot --cue 0.6,0.8 --balls 0.3,1.9 --json > a.jsonl
 carom shoot --cue 0.6,0.9 --balls 0.3,1.9 --json > b.jsonl
 cat a.jsonl b.jsonl > both.jsonl
 try carom ways both.jsonl
+# Errors alone are shown.
+# shellcheck disable=SC2069
 carom ways --table threecushion --balls threecushion --speed 25 --scan 3000 2>&1 > none
 try carom ways --cue 0.6,0.8 --leave 3
 try carom shoot --cue 0.6,0.8 --tip 0,-0.4..0.4..0

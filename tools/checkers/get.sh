@@ -54,10 +54,11 @@ shell_scripts() {
   } | sort -u
 }
 
-# python_sources: files of Python, by their name or by their first line.
+# python_sources: files of Python, by their name or by their first line, except the one that
+# bindings/rows.py writes.
 python_sources() {
   {
-    tracked '*.py'
+    tracked '*.py' | grep -v '^python/src/carom/_described\.py$'
     tracked 'tools/*' | grep -v '\.[a-z]*$' | while read -r file; do
       if head -n 1 "$file" | grep -q '^#!/usr/bin/env python3$'; then echo "$file"; fi
     done

@@ -1,7 +1,4 @@
-"""Words and numbers of the library.
-
-Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows.
-"""
+"""Words and numbers of the library. Written by bindings/rows.py: UPDATE=1 ctest -R bindings/rows."""
 
 from __future__ import annotations
 
@@ -20,29 +17,14 @@ Simultaneous = Literal["cluster", "pairs"]
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler", "smooth"]
 CushionConvention = Literal["paper", "pooltool"]
 CushionLaw = Literal["constant", "han"]
-Game = Literal[
-    "pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"
-]
+Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
 Solver = Literal["exact", "euler"]
 Slip = Literal["paper", "pooltool"]
-Rules = Literal[
-    "eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket", "bank"
-]
+Rules = Literal["eightball", "nineball", "potting", "threecushion", "straight", "snooker", "onepocket", "bank"]
 StopAt = Literal[
-    "contact",
-    "strike",
-    "ball_ball",
-    "rail",
-    "jaw",
-    "pocket",
-    "sliding_rolling",
-    "rolling_spinning",
-    "rolling_stationary",
-    "spinning_stationary",
-    "slate",
-    "rail_top",
-    "left_table",
-]
+    "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
+    "spinning_stationary", "slate", "rail_top", "left_table",
+]  # fmt: skip
 
 
 class Label(enum.IntEnum):
@@ -75,9 +57,8 @@ class EventType(enum.IntEnum):
 
 
 class ShotOptions(NamedTuple):
-    """By what a shot is played.
-
-    `carom.simulate` takes these names as keywords, or an object of this class, or both.
+    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this
+    class, or both.
 
     Attributes
     ----------
@@ -86,17 +67,15 @@ class ShotOptions(NamedTuple):
     ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
         Model of the collision of two balls (default: exact; in the world pooltool inelastic)
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler", "smooth"}
-        Model of the impact on a cushion; mathavan, the exact limit, takes most of the time
-        (default: smooth for balls with a smooth_q, as those of billiard, else han; in the world
-        pooltool stronge)
+        Model of the impact on a cushion; mathavan, the exact limit, takes most of the time (default: smooth for balls with a smooth_q, as
+        those of billiard, else han; in the world pooltool stronge)
     friction : {"alciatore", "constant"}
         Friction between balls: by the speed of slip (default), or their mu_ball
     space : {"3d", "flat"}
         Whether balls can leave the cloth (default: 3d); the world pooltool is flat
     simultaneous : {"cluster", "pairs"}
-        Contacts of several balls at one instant, as in a rack: they last and overlap in time
-        (default), or are resolved one after the other, as always in the world pooltool and by the
-        models euler and inelastic
+        Contacts of several balls at one instant, as in a rack: they last and overlap in time (default), or are resolved one after the
+        other, as always in the world pooltool and by the models euler and inelastic
     cluster_steps : int
         Steps of the integrator of clusters for the duration of a contact; 0: 25
     steps : int
@@ -106,16 +85,14 @@ class ShotOptions(NamedTuple):
     fast : bool
         1: with the instruction set in use; 0: with the bits that all machines share
     t_final : float | None
-        The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still
-        move. Without it a shot that lasts longer than 1000 s is an error.
+        The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that lasts
+        longer than 1000 s is an error.
     stop_at : StopAt | Iterable[StopAt]
-        The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT:
-        "contact", of the cue ball with another, or a type of `carom.EventType` in lower case, such
-        as "pocket". `carom.resume` goes on with a shot that was stopped.
+        The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the cue ball with another, or a
+        type of `carom.EventType` in lower case, such as "pocket". `carom.resume` goes on with a shot that was stopped.
     first_of : int | Iterable[int]
-        Indices of balls. The shot is stopped right after the first contact of the cue ball with
-        another ball, with the status STOPPED_AT_EVENT, unless that ball is one of these. (): it is
-        not stopped.
+        Indices of balls. The shot is stopped right after the first contact of the cue ball with another ball, with the status
+        STOPPED_AT_EVENT, unless that ball is one of these. (): it is not stopped.
     """
 
     world: World = "carom"
@@ -153,13 +130,9 @@ class Changes(TypedDict, total=False):
 
 # What each of them is: words, or a whole number up to this.
 WORDS = {
-    "world": "WORLD",
-    "ball_model": "BALL_MODEL",
-    "cushion_model": "SHOT_CUSHION",
-    "friction": "BALL_FRICTION",
-    "space": "SPACE",
+    "world": "WORLD", "ball_model": "BALL_MODEL", "cushion_model": "SHOT_CUSHION", "friction": "BALL_FRICTION", "space": "SPACE",
     "simultaneous": "SIMULTANEOUS",
-}
+}  # fmt: skip
 COUNTS = {"cluster_steps": 10000, "steps": 2147483647, "events_most": 2147483647, "fast": 1}
 
 
@@ -167,21 +140,15 @@ class CushionNumbers(TypedDict, total=False):
     """Numbers of an impact on a cushion, by the models that read them."""
 
     roll_loss: float
-    """any model: part of the speed along a cushion that an impact takes from the roll along it; 0
-    to 1
-    """
+    """any model: part of the speed along a cushion that an impact takes from the roll along it; 0 to 1"""
     omega_ratio: float
-    """stronge: frequency of the nose along its surface over that across it; 0: 1.8; 0, or between 1
-    and 2
-    """
+    """stronge: frequency of the nose along its surface over that across it; 0: 1.8; 0, or between 1 and 2"""
     restitution_log: float
     """any model: change of the cushion's restitution for each unit of ln(speed); -1 to 1"""
     mu_log: float
     """any model: change of the cushion's friction for each unit of ln(speed); -1 to 1"""
     smooth_q: float
-    """smooth: width of the passage from sticking to sliding; 0: all numbers as on one table; 0, or
-    1e-12 to 0.5
-    """
+    """smooth: width of the passage from sticking to sliding; 0: all numbers as on one table; 0, or 1e-12 to 0.5"""
     smooth_x: float
     """smooth: part of the slip along the cushion that friction takes; 0 to 2"""
     smooth_t: float
@@ -191,16 +158,13 @@ class CushionNumbers(TypedDict, total=False):
     smooth_k: float
     """smooth: part of the impulse that the rebound gains where friction is used up; 0 to 1"""
     smooth_g: float
-    """smooth: part of the impulse that the rebound gains, at most, where friction slides; -1 to 1
-    """
+    """smooth: part of the impulse that the rebound gains, at most, where friction slides; -1 to 1"""
     smooth_g_log: float
     """smooth: change of smooth_g for each unit of ln(speed); -1 to 1"""
     smooth_e: float
     """smooth: restitution that a ball which rolls into the cushion gains, at most; -1 to 1"""
     restitution_log2: float
-    """any model: change of the cushion's restitution with ln(speed)^2, which counts up to 1; -1 to
-    1
-    """
+    """any model: change of the cushion's restitution with ln(speed)^2, which counts up to 1; -1 to 1"""
     roll_loss_log: float
     """any model: change of roll_loss for each unit of ln(speed); -1 to 1"""
 
@@ -239,9 +203,7 @@ class BallNumbers(TypedDict, total=False):
     law_c: npt.ArrayLike | None
     """how fast friction between balls falls with the slip; 0 or more and finite, in s/m"""
     nose_height: npt.ArrayLike | None
-    """height of the noses of all cushions above the cloth; 0: those of the table; 0 or more and
-    finite, in m
-    """
+    """height of the noses of all cushions above the cloth; 0: those of the table; 0 or more and finite, in m"""
     omega_ratio: npt.ArrayLike | None
     """frequency of the nose along its surface over that across it; 0: 1.8; 0, or between 1 and 2"""
     restitution_table: npt.ArrayLike | None
@@ -253,9 +215,7 @@ class BallNumbers(TypedDict, total=False):
     mu_log: npt.ArrayLike | None
     """change of the cushion's friction for each unit of ln(speed); -1 to 1"""
     smooth_q: npt.ArrayLike | None
-    """width of the passage from sticking to sliding; 0: all numbers as on one table; 0, or 1e-12 to
-    0.5
-    """
+    """width of the passage from sticking to sliding; 0: all numbers as on one table; 0, or 1e-12 to 0.5"""
     smooth_x: npt.ArrayLike | None
     """part of the slip along the cushion that friction takes; 0 to 2"""
     smooth_t: npt.ArrayLike | None
