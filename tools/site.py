@@ -22,7 +22,12 @@ from reference import pages
 
 SOURCE, WORK = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
-FOLDERS = {"Using": "docs/using", "Understanding": "docs/understanding", "Study": "docs/study"}
+FOLDERS = {
+    "First steps": "docs/start",
+    "Using": "docs/using",
+    "Understanding": "docs/understanding",
+    "Study": "docs/study",
+}
 OTHERS = [
     "CHANGELOG.md",
     "CONTRIBUTING.md",
@@ -33,6 +38,7 @@ OTHERS = [
     ),
 ]
 FIRST = [
+    "player",
     "command",
     "questions",
     "python",

@@ -66,6 +66,10 @@ ELSEWHERE = {
     "docs/using/web.md": 1,
     "python/README.md": 1,
     "docs/understanding/gradients.md": 1,
+    "docs/start/c.md": 3,
+    "docs/start/javascript.md": 3,
+    "docs/start/player.md": 2,
+    "docs/start/python.md": 1,
 }
 
 # What may be indented instead: formulas and what programs print, but no line that one would paste.
