@@ -365,6 +365,76 @@ TEST(times_after_the_end) {
     ck_assert(isnan(ends[k]));
 }
 
+/* Times that carom_tangent.h refuses: each makes the call an error, wherever it stands, also of a
+ * shot that ended at rest, whose states are known ever after. */
+TEST(times_that_are_refused) {
+  const layout l = of_two(0.9, 0.2, 2.0, 80.0, 0.0, 0.5);
+  differentiate(&l, &by_phi, 1);
+  const double cue[CAROM_CUE_NUMBERS] = {0.0, 1.0};
+  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
+  static const struct {
+    double times[2];
+    carom_status status;
+  } cases[] = {
+      {{0.0, 0.0}, CAROM_OK},
+      {{0.3, DBL_MAX}, CAROM_OK},
+      {{-DBL_TRUE_MIN, 0.3}, CAROM_ERROR_TIME},
+      {{0.3, 0.2}, CAROM_ERROR_TIME},
+      {{0.3, INFINITY}, CAROM_ERROR_TIME},
+      {{INFINITY, INFINITY}, CAROM_ERROR_TIME},
+      {{NAN, 0.3}, CAROM_ERROR_TIME},
+      {{0.3, NAN}, CAROM_ERROR_TIME},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    double at[2 * LAYOUT_BALLS * NUMBERS];
+    carom_tangent t = {.final = ends, .at = at, .times = cases[k].times, .times_count = 2};
+    const carom_status status =
+        carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t);
+    ck_assert_msg(status == cases[k].status, "times %g and %g: %s", cases[k].times[0],
+                  cases[k].times[1], carom_status_name(status));
+  }
+}
+
+/* Every row that a caller asks for is written, and no number beyond the last: all are as many as
+ * the header says, whatever stood there before. The passes take a part of the directions each,
+ * so more are asked for than fit in one. */
+TEST(rows_end_where_the_header_says) {
+  enum { M = 11, TIMES = 3 };
+  const layout l = of_two(0.55, 1.4, 3.0, 80.0, 0.2, 0.3);
+  differentiate(&l, &by_phi, 1);
+  direction by[M];
+  for (int j = 0; j < M; j++)
+    by[j] = (direction){OF_STATE, j / NUMBERS, j % NUMBERS, 1.0};
+  const carom_tangent_seeds seeds = seeds_of(by, M);
+  const double at_times[TIMES] = {0.0, 0.5 * shot.time, shot.time};
+
+  /* [events][2][9][m] before and after, [events][m], [balls][9][m], [times][balls][9][m] */
+  const size_t n[5] = {(size_t)shot.count * 2 * NUMBERS * M, (size_t)shot.count * 2 * NUMBERS * M,
+                       (size_t)shot.count * M, (size_t)l.count * NUMBERS * M,
+                       (size_t)(TIMES * l.count) * NUMBERS * M};
+  edge block[5];
+  for (int k = 0; k < 5; k++) {
+    block[k] = edge_make(n[k] * sizeof(double), false);
+    memset(block[k].memory, 0xff, n[k] * sizeof(double)); /* NaN throughout */
+  }
+  carom_tangent t = {.before = block[0].memory,
+                     .after = block[1].memory,
+                     .time = block[2].memory,
+                     .final = block[3].memory,
+                     .at = block[4].memory,
+                     .times = at_times,
+                     .times_count = TIMES};
+  ck_assert_int_eq(
+      carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
+      CAROM_OK);
+  for (int k = 0; k < 5; k++) {
+    const double *row = block[k].memory;
+    for (size_t x = 0; x < n[k]; x++)
+      ck_assert_msg(!isnan(row[x]), "number %zu of %zu of rows %d is not written", x, n[k], k);
+    edge_free(&block[k]);
+  }
+}
+
 /* A cushion in steps, and one that the exact model refuses, so that its steps take its place. */
 TEST(euler) {
   const carom_shot_options steps = {.ball_model = CAROM_BALL_MODEL_INELASTIC,

@@ -177,6 +177,58 @@ TEST(other_tables) {
   ck_assert(fault.part.kind == CAROM_PART_NONE && fault.other.kind == CAROM_PART_NONE);
 }
 
+/* A table is searched for a place in rings around the middle of its box, in tenths of the box up to
+ * four. Each of these places is found where it is the only free one: four posts, so large that
+ * they are nearly straight, close a room of 10 cm around it and cover all others. Without one of
+ * the posts the room is open. */
+TEST(the_only_free_place) {
+  enum { HALF = 4 };
+  static const double way[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  const double R = 0.028575, radius = 10.0, room = 0.05;
+  for (int k = -HALF; k <= HALF; k++)
+    for (int l = -HALF; l <= HALF; l++) {
+      carom_table t = {.width = 1.0, .length = 1.0, .jaws = 4};
+      carom_table_fault fault;
+      const double x = 0.5 + 0.1 * k, y = 0.5 + 0.1 * l;
+      for (int post = 0; post < 4; post++)
+        t.jaw[post] = (carom_jaw){.centre = {x + (radius + room) * way[post][0],
+                                             y + (radius + room) * way[post][1]},
+                                  .radius = radius,
+                                  .height = 0.036};
+      ck_assert_msg(carom_table_check(&t, R, &fault) == CAROM_OK, "the room at %g, %g", x, y);
+      t.jaws = 3;
+      ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
+    }
+}
+
+/* Two rails of an island that are played from between them. Where a ball does not fit in there, it
+ * can only come to their backs, through which it would pass: the first is named. Where it fits,
+ * each is met. */
+TEST(rails_that_face_each_other) {
+  const double R = 0.028575;
+  const double gaps[] = {R, 2.0 * R - 1e-5, 2.0 * R + 1e-5, 4.0 * R};
+  for (int n = 0; n < 4; n++) {
+    carom_table t;
+    carom_table_fault fault;
+    carom_table_make(CAROM_TABLE_THREECUSHION, &t);
+    const int first = (int)t.rails;
+    const double x = 0.3 * t.width, y = 0.3 * t.length, height = t.rail[0].height;
+    t.rail[t.rails++] =
+        (carom_rail){.p = {x, y}, .q = {x, y + 0.4}, .height = height, .side = 0};
+    t.rail[t.rails++] = (carom_rail){
+        .p = {x + gaps[n], y}, .q = {x + gaps[n], y + 0.4}, .height = height, .side = 1};
+    const carom_status status = carom_table_check(&t, R, &fault);
+    if (gaps[n] > 2.0 * R) {
+      ck_assert_int_eq(status, CAROM_OK);
+      continue;
+    }
+    ck_assert_int_eq(status, CAROM_ERROR_RAIL_SIDE);
+    ck_assert(fault.part.kind == CAROM_PART_RAIL && fault.part.index == first);
+    ck_assert_double_eq_tol(fault.place[0], x, 1e-12);
+    ck_assert_double_eq_tol(fault.place[1], y + 0.2, 1e-12);
+  }
+}
+
 /* ---- Ball in hand */
 
 /* A place is free exactly where carom_shot_check() has nothing against it, and what is in the
