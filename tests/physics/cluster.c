@@ -901,6 +901,64 @@ TEST(no_room_for_all_contacts) {
   ck_assert_double_le(energy(&l, out), energy_before(&l) * (1.0 + 1e-15));
 }
 
+/* ---- Slow contacts */
+
+/* Three balls on the cloth, one of them light, that are not quite in line. A cluster of them that
+ * begins, whatever `slow` is, and then goes on while contacts close at `slow` or faster. Returns
+ * the largest speed at which a contact that has touched still closes in the end, 0 for none. */
+static double closes_at_the_end(carom_cluster_state *c, uint64_t seed, double slow) {
+  random_source random = {seed};
+  memset(c, 0, sizeof *c);
+  c->balls = 3;
+  c->steps = CAROM_CLUSTER_STEPS;
+  for (int k = 0; k < 3; k++) {
+    carom_cluster_ball *b = &c->ball[k];
+    *b = (carom_cluster_ball){.radius = R, .restitution = 0.9, .modulus = 1e9, .which = (int8_t)k};
+    b->r[0] = 2.0 * R * k;
+    b->r[1] = k == 2 ? random_between(&random, -0.01, 0.01) : 0.0;
+    b->r[2] = R;
+    b->inverse_mass = 1.0 / (k == 1 ? random_between(&random, 0.02, 0.1) : 0.17);
+  }
+  c->ball[2].r[0] = 2.0 * R + sqrt(4.0 * R * R - c->ball[2].r[1] * c->ball[2].r[1]);
+  c->ball[0].v[0] = random_between(&random, 1.0, 4.0);
+
+  c->slow = 1e-3;
+  ck_assert_int_eq(carom_cluster_members(c, 0, 1), 2);
+  c->slow = slow;
+  ck_assert(carom_cluster_solve(c));
+
+  /* as the integrator computes it on the cloth */
+  double most = 0.0;
+  for (int k = 0; k < c->contacts; k++) {
+    const carom_cluster_contact_state *x = &c->contact[k];
+    const double v_x = x->p->v[0] - x->q->v[0], v_y = x->p->v[1] - x->q->v[1];
+    if (x->touched)
+      most = fmax(most, v_x * x->n[0] + v_y * x->n[1]);
+  }
+  return most;
+}
+
+/* `slow` is the least speed at which a contact that has touched does so again, and that speed
+ * itself is enough. So a cluster that leaves a contact closing at v, as `slow` is more than that,
+ * goes on at slow = v, and ends just as before for the next larger number. */
+TEST(slow_is_fast_enough) {
+  static carom_cluster_state c, other;
+  random_source random = {test_seed()};
+  int found = 0;
+  for (int n = 0; n < 2000; n++) {
+    const uint64_t seed = (uint64_t)random_between(&random, 1.0, 0x1p50);
+    const double v = closes_at_the_end(&c, seed, 1e3);
+    if (v == 0.0)
+      continue;
+    found++;
+    ck_assert_double_eq(closes_at_the_end(&other, seed, nextafter(v, INFINITY)), v);
+    ck_assert_int_eq(other.taken, c.taken);
+    ck_assert_double_lt(closes_at_the_end(&other, seed, v), v);
+    ck_assert_int_gt(other.taken, c.taken);
+  }
+  ck_assert_int_ge(found, 20);
+}
+
 /* ---- Arguments */
 
 TEST(arguments) {
