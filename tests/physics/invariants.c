@@ -14,6 +14,7 @@
  * the results must agree in every bit.
  */
 #include "ball_ball/frame.h"
+#include "impact/impact.h"
 #include "support.h"
 
 #include <math.h>
@@ -184,4 +185,40 @@ TEST(images_are_exact) {
       }
     }
   }
+}
+
+/* Planar impacts of two balls in which friction drives the slip on the cloth, H < 0, and with it
+ * any error of its direction. Where there is exactly no slip across the plane at the start, and
+ * no rounding, the mirror image in the plane is the same impact. So there is no slip across it
+ * in the end, and no error that friction could drive, also where b passes zero. Where a slip on
+ * the cloth begins that friction would drive too strongly, there is no result. */
+TEST(planar_impacts_stay_planar) {
+  random_source r = {test_seed()};
+  int passed_zero = 0;
+  for (int n = 0; n < FEWER(4000); n++) {
+    const double kappa = random_between(&r, 1.2, 4.0), mu = random_between(&r, 0.0, 1.0);
+    const carom_law law = {.K_x = 3.5 * kappa,
+                           .K_y = 2.5 * kappa,
+                           .C_x = 1.0,
+                           .C_y = 2.5,
+                           .B_0 = -1.0,
+                           .L_x = 1.0,
+                           .L_y = -2.5,
+                           .H = -1.5,
+                           .g_1 = -1.0,
+                           .V_0 = -kappa,
+                           .V_F = 1.0,
+                           .mu = mu,
+                           .mu_c = random_between(&r, 0.0, 0.6),
+                           .e = random_between(&r, 0.5, 1.0)};
+    const double a_y = random_between(&r, 0.0, 3.0), b_y = random_between(&r, -1.0, 1.0);
+    carom_trajectory path;
+    carom_impact_begin(&law, 1.0, 0, 0.0, a_y, 0.0, b_y, 0.0, &path);
+    const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
+    ck_assert(status == CAROM_OK || status == CAROM_ERROR_UNRESOLVED);
+    ck_assert_double_eq(path.across, 0.0);
+    ck_assert(path.at.a_x == 0.0 && path.at.b_x == 0.0);
+    passed_zero += status == CAROM_OK && path.at.b_y * b_y <= 0.0;
+  }
+  ck_assert_int_gt(passed_zero, 100);
 }
