@@ -191,10 +191,10 @@ TEST(the_only_free_place) {
       carom_table_fault fault;
       const double x = 0.5 + 0.1 * k, y = 0.5 + 0.1 * l;
       for (int post = 0; post < 4; post++)
-        t.jaw[post] = (carom_jaw){.centre = {x + (radius + room) * way[post][0],
-                                             y + (radius + room) * way[post][1]},
-                                  .radius = radius,
-                                  .height = 0.036};
+        t.jaw[post] = (carom_jaw){
+            .centre = {x + (radius + room) * way[post][0], y + (radius + room) * way[post][1]},
+            .radius = radius,
+            .height = 0.036};
       ck_assert_msg(carom_table_check(&t, R, &fault) == CAROM_OK, "the room at %g, %g", x, y);
       t.jaws = 3;
       ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
@@ -213,8 +213,7 @@ TEST(rails_that_face_each_other) {
     carom_table_make(CAROM_TABLE_THREECUSHION, &t);
     const int first = (int)t.rails;
     const double x = 0.3 * t.width, y = 0.3 * t.length, height = t.rail[0].height;
-    t.rail[t.rails++] =
-        (carom_rail){.p = {x, y}, .q = {x, y + 0.4}, .height = height, .side = 0};
+    t.rail[t.rails++] = (carom_rail){.p = {x, y}, .q = {x, y + 0.4}, .height = height, .side = 0};
     t.rail[t.rails++] = (carom_rail){
         .p = {x + gaps[n], y}, .q = {x + gaps[n], y + 0.4}, .height = height, .side = 1};
     const carom_status status = carom_table_check(&t, R, &fault);
