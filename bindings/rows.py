@@ -1,4 +1,4 @@
-"""The rows of src/about as data: what the library says of itself at run time, for what is needed
+"""The rows of src/schema as data: what the library says of itself at run time, for what is needed
 before it runs.
 
 rows.py json      numbers of a ball, options and words, as carom_number_of() and carom_word() tell
@@ -102,7 +102,7 @@ def numbers():
     """The numbers of a ball, in the order of carom_ball_kind."""
     found = []
     for kind, (name, key, unit, low, high, other, error, reader, text) in rows(
-        "about/numbers.h", "CAROM_NUMBERS"
+        "schema/numbers.h", "CAROM_NUMBERS"
     ):
         found.append(
             {
@@ -123,7 +123,7 @@ def numbers():
 def words():
     """The words of each enumeration, (word, text), by the names of carom_words."""
     found = {}
-    for _, (of, _value, word, text) in rows("about/words.h", "CAROM_WORD_ROWS"):
+    for _, (of, _value, word, text) in rows("schema/words.h", "CAROM_WORD_ROWS"):
         found.setdefault(of, []).append((text_of(word), text_of(text)))
     models = [
         (text_of(row[1]), text_of(row[-1]))
@@ -160,7 +160,7 @@ def parts():
                 "text": text_of(text),
             }
             for kind, (name, key, unit, low, high, other, error, text) in rows(
-                "about/numbers.h", f"CAROM_{struct.removeprefix('ball_').upper()}_NUMBERS"
+                "schema/numbers.h", f"CAROM_{struct.removeprefix('ball_').upper()}_NUMBERS"
             )
         ]
     return found
@@ -170,7 +170,7 @@ def games():
     """What each game of words()["RULES"] has: its balls and rack, the highest number of a ball,
     where the cue ball is at first, whether a call is made, the members of its state.
     """
-    named = {row[1]: text_of(row[2]) for _, row in rows("about/words.h", "CAROM_WORD_ROWS")}
+    named = {row[1]: text_of(row[2]) for _, row in rows("schema/words.h", "CAROM_WORD_ROWS")}
     return {
         text_of(word): {
             "balls": named[f"GAME_{balls}"],
@@ -216,7 +216,7 @@ def options():
     found = {}
     for group, struct in STRUCTS.items():
         for _, (name, key, form, low, high, error, text, *_place) in rows(
-            "../plan/src/plan_options.h" if group == "PLAN" else "about/options.h",
+            "../plan/src/plan_options.h" if group == "PLAN" else "schema/options.h",
             f"CAROM_{group}_OPTIONS",
         ):
             kind, of = re.fullmatch(r"(\w+)(?:\((.*)\))?", form).groups()
@@ -359,14 +359,14 @@ def python():
         )
     events = [
         value.removeprefix("EVENT_").lower()
-        for _, (of, value, *_) in rows("about/words.h", "CAROM_WORD_ROWS")
+        for _, (of, value, *_) in rows("schema/words.h", "CAROM_WORD_ROWS")
         if of == "EVENT"
     ]
     for name, of, text in (
         ("Label", "LABEL", "How a ball moves."),
         ("EventType", "EVENT", "What happened: to ball a, and to ball, rail, jaw or pocket b."),
     ):
-        values = [row[1] for _, row in rows("about/words.h", "CAROM_WORD_ROWS") if row[0] == of]
+        values = [row[1] for _, row in rows("schema/words.h", "CAROM_WORD_ROWS") if row[0] == of]
         enums += ["", "", f"class {name}(enum.IntEnum):", f'    """{text}"""', ""]
         enums += [
             f"    {value.split('_', 1)[1]} = {k}" for k, value in enumerate(values, of == "EVENT")

@@ -2,11 +2,11 @@
 
 Needs mpmath; what it prints is kept in the tree:
 
-    python3 tools/collocation_rules.py ball_ball > src/ball_ball/quadrature.h python3
-    tools/collocation_rules.py impact > src/impact/quadrature.h && cmake --build build --target
-    format
+    python3 tools/collocation_rules.py ball_ball > src/ball_ball/quadrature.h
+    python3 tools/collocation_rules.py contact_law > src/contact_law/quadrature.h
+    tools/format
 
-For impact: Gauss's rule of 8 nodes on [0, 1] in double precision, described in that file. For
+For contact_law: Gauss's rule of 8 nodes on [0, 1] in double precision, described in that file. For
 ball_ball, in single precision:
 
 Gauss rules of n nodes on [0, 1], and one of Gauss and Jacobi for the weight (1 - x)^4, for steps to
@@ -183,8 +183,8 @@ def print_impact():
 
 
 room = sys.argv[1] if len(sys.argv) == 2 else ""
-if room not in ("ball_ball", "impact"):
-    sys.exit("usage: collocation_rules.py ball_ball|impact")
+if room not in ("ball_ball", "contact_law"):
+    sys.exit("usage: collocation_rules.py ball_ball|contact_law")
 guard = "CAROM_SRC_%s_RULES_H" % room.upper()
 print(
     "/* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed them. */"

@@ -33,7 +33,7 @@ PASSES = [
     ("collocate.c", "ONE F32", "one_steps"),
     ("advance.c", "", "impact"),
 ]
-KERNELS = {"rows.c": "ball_ball", "collocate.c": "ball_ball", "advance.c": "impact"}
+KERNELS = {"rows.c": "ball_ball", "collocate.c": "ball_ball", "advance.c": "contact_law"}
 ISAS = {"plain": "1", "sse2": "x86_64", "avx2": "x86_64", "avx512": "x86_64", "neon": "aarch64"}
 TARGETS = {
     "sse2": "sse2",
@@ -358,7 +358,7 @@ def names_of_pass(name):
     if name == "advance.c":
         part = r"#ifdef CAROM_LANES_AVX2\n#define CAROM_IMPACT_ADVANCE .*?\n#endif\n"
         return "#undef CAROM_IMPACT_ADVANCE\n" + re.search(
-            part, text_of("impact/impact.h"), re.S
+            part, text_of("contact_law/impact.h"), re.S
         ).group(0)
     return re.search(
         r"#ifdef CAROM_LANES_SUFFIX\n.*?PRECISE_KERNEL.*?\n#endif\n",

@@ -179,7 +179,7 @@ def written(root, p):
         "TRACKER": p["tracker"],
     }
     macros = "".join(f'#define PROJECT_{key} "{value}"\n' for key, value in defined.items())
-    texts["src/about/project.h"] = (
+    texts["src/schema/project.h"] = (
         "/* Written by tools/project.py from packaging/project.toml: authors and lines of the citation as\n"
         " * BibTeX, and for CMake where bugs are reported. */\n#ifndef CAROM_PROJECT_H\n#define CAROM_PROJECT_H\n\n"
         + macros

@@ -181,7 +181,7 @@ static void centre(carom_local *c, double *sine, lab_random *r) {
 
 /* The friction of the nose is exactly what unloads the cloth, or holds the nose while the cloth
  * slips to either side or bears nothing, or what holds both; or that of the cloth is what holds
- * both. The formulas: impact/law.h and contact.c. */
+ * both. The formulas: contact_law/law.h and contact.c. */
 static void cones(carom_local *c, double *sine, lab_random *r) {
   (below(r, 2) == 0 ? planar_turn : equal)(c, sine, r);
   const double s = *sine, cosine = sqrt(1 - s * s), A = s * cosine, K = 2.5 + s * s, C = 2.5 - s,

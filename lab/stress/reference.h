@@ -22,9 +22,9 @@ reference_status reference_collide(const carom_impact *in, carom_slip slip, caro
                                    double normal[2]);
 reference_status reference_cushion(const carom_cushion_impact *in, carom_motion *out);
 
-/* The same impacts by the precise solver of src/impact alone, for comparison with calls. They
- * approach. tolerance: see impact/impact.h; calls leave collisions of two balls to PRECISELY. An
- * error: that of the solver. */
+/* The same impacts by the precise solver of src/contact_law alone, for comparison with calls. They
+ * approach. tolerance: see contact_law/impact.h; calls leave collisions of two balls to PRECISELY.
+ * An error: that of the solver. */
 #define PRECISELY 1e-3
 carom_status collide_precisely(const carom_impact *in, carom_slip slip, double tolerance,
                                carom_result *out);

@@ -3,11 +3,11 @@
  *
  * GAME(NAME, rules, word, text, BALLS, RACK, last, OPENING, HAND, calls, members, may): `rules` is
  * the object that its file defines, `members` are those of its state, by the names of
- * CAROM_STATE_MEMBERS of about/numbers.h, and carom_rules_about has the rest. */
+ * CAROM_STATE_MEMBERS of schema/numbers.h, and carom_rules_about has the rest. */
 #ifndef CAROM_PLAN_GAMES_H
 #define CAROM_PLAN_GAMES_H
 
-#include "about/numbers.h"
+#include "schema/numbers.h"
 #include "view.h"
 
 #define CAROM_GAMES(GAME)                                                                         \

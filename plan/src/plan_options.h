@@ -1,4 +1,4 @@
-/* The options of a plan, a row each, as about/options.h has those of shots. */
+/* The options of a plan, a row each, as schema/options.h has those of shots. */
 #ifndef CAROM_PLAN_OPTIONS_H
 #define CAROM_PLAN_OPTIONS_H
 

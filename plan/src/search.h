@@ -209,7 +209,7 @@ carom_choice carom_search_choice(const carom_search *plan, const carom_candidate
 /* The share of the shots that the scan has. */
 double carom_scan_of(const carom_plan_options *o);
 
-/* doubling.c: whether a plan doubles, as it may be stopped. Begins one of so many shots: at once,
+/* anytime.c: whether a plan doubles, as it may be stopped. Begins one of so many shots: at once,
  * or by rounds, of which the first has `first`. Ends a round: true if the next one has begun; else
  * the best so far is the first, and plan->best. */
 bool carom_search_doubles(const carom_search *plan);

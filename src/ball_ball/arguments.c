@@ -6,8 +6,8 @@
  */
 #include "ball_ball/arguments.h"
 
-#include "about/options.h"
 #include "platform/ranges.h"
+#include "schema/options.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -35,7 +35,7 @@
 #define CAROM_SRC_BALL_BALL_REDUCED_H
 
 #include "ball_ball/frame.h"
-#include "impact/impact.h"
+#include "contact_law/impact.h"
 #include "platform/arithmetic.h"
 
 typedef struct carom_reduced {
@@ -86,7 +86,7 @@ static inline void carom_restore(const carom_reduced *r, const carom_integrals *
   c->w_jz += r->j_pressed ? p_wz : o_wz;
 }
 
-/* ---- In the terms of impact/law.h, for the precise solver: it solves inputs that the fast
+/* ---- In the terms of contact_law/law.h, for the precise solver: it solves inputs that the fast
  * steps refuse, and follows traces ---- */
 
 static inline carom_law carom_law_of_balls(const carom_reduced *c) {

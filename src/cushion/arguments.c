@@ -1,9 +1,9 @@
 /* The one place where the arguments of an impact on a cushion are checked, by the conditions of
  * the comments in carom_shot.h.
  */
-#include "about/options.h"
 #include "cushion/models.h"
 #include "platform/ranges.h"
+#include "schema/options.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,9 +1,9 @@
 /* The models of an impact on a cushion: each stands here once. README.md in this folder says how to
- * add one; about/numbers.h has their numbers. */
+ * add one; schema/numbers.h has their numbers. */
 #ifndef CAROM_SRC_CUSHION_LIST_H
 #define CAROM_SRC_CUSHION_LIST_H
 
-#include "about/sources.h"
+#include "schema/sources.h"
 
 /* X(NAME, name, impact, flight, rows, start, sources, text). In `impact` and `flight`, `c` is the
  * contact and `opt` are the options.
@@ -16,7 +16,7 @@
  * start:  restitution, friction and height of the nose (m) that single impacts on the table of
  *         CAROM_GAME_BILLIARD tell by this model, with which a fit of another table begins
  *         (docs/understanding/constants.md); or CAROM_NO_START, and fits refuse the model.
- * sources: the entries of shot/cite.c that it stands on, about/sources.h.
+ * sources: the entries of shot/cite.c that it stands on, schema/sources.h.
  * text:   what help and pages say of it.
  *
  * In flight there is no cloth. Then Mathavan's equations have a constant direction of slip, as

@@ -1,4 +1,4 @@
-/* The exact limit of the model of the 2010 paper: contact.h in the terms of impact/law.h.
+/* The exact limit of the model of the 2010 paper: contact.h in the terms of contact_law/law.h.
  *
  * The driving contact is the nose, where y points along t. With p = P / M the slips and the
  * speed of approach change by

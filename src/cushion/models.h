@@ -4,9 +4,9 @@
 #ifndef CAROM_SRC_CUSHION_MODELS_H
 #define CAROM_SRC_CUSHION_MODELS_H
 
+#include "contact_law/impact.h"
 #include "cushion/contact.h"
 #include "cushion/list.h"
-#include "impact/impact.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
 
@@ -94,7 +94,7 @@ static inline carom_status carom_cushion_by_steps(carom_contact *contact,
                              opt->convention == CAROM_CONVENTION_POOLTOOL, INT64_MAX, &run);
 }
 
-/* The exact limit for the precise solver of src/impact. See mathavan.c. */
+/* The exact limit for the precise solver of src/contact_law. See mathavan.c. */
 static inline carom_law carom_mathavan_law(const carom_contact *c) {
   const double sine = c->sine, cosine = c->cosine;
   return (carom_law){.A_0 = sine * cosine,

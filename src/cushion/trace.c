@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-static const double TOLERANCE = 1e-3; /* see impact/impact.h */
+static const double TOLERANCE = 1e-3; /* see contact_law/impact.h */
 
 /* The impact that is followed. */
 typedef struct subject {

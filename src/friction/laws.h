@@ -3,7 +3,7 @@
  *
  * X(NAME, name, of, numbers, at, ahead, sources, text)
  *
- * of:      the law whose numbers in about/numbers.h it reads: itself, or another.
+ * of:      the law whose numbers in schema/numbers.h it reads: itself, or another.
  * numbers: k[0], k[1], k[2] of a ball of `kind`; a pair has the mean of each. All 0 is no friction.
  * at:      the coefficient at a slip of u, m/s.
  * ahead:   in a contact that lasts: the coefficient once the slip has grown by x, m/s, within a
@@ -11,8 +11,8 @@
 #ifndef CAROM_SRC_FRICTION_LAWS_H
 #define CAROM_SRC_FRICTION_LAWS_H
 
-#include "about/sources.h"
 #include "platform/elementary.h"
+#include "schema/sources.h"
 
 #define CAROM_FRICTION_LAWS(X)                                                                     \
   X(ALCIATORE, "alciatore", ALCIATORE, carom_own_law(kind, k), k[0] + k[1] * carom_exp(-k[2] * u), \

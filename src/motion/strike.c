@@ -17,9 +17,9 @@
  * ball on it. With theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30
  * and TP A-31; pooltool's. */
 #include "motion/strike.h"
-#include "about/numbers.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
+#include "schema/numbers.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -5,12 +5,12 @@
  * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
  * that default, and a reader begins with it. Every other key is refused, and every one that comes
  * twice. */
-#include "about/options.h"
 #include "carom_record.h"
 #include "platform/arithmetic.h"
 #include "platform/fingerprint.h"
 #include "platform/promise.h"
 #include "record/number_text.h"
+#include "schema/options.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,11 +1,11 @@
 /* The one place where the arguments of a shot are checked, by the conditions of the comments in
  * carom_shot.h: the table and the options once for a batch; a layout, its cue, and whether the
  * table suits the radius of its balls, for each. */
-#include "about/options.h"
 #include "cushion/list.h"
 #include "cushion/models.h"
 #include "friction/laws.h"
 #include "motion/strike.h"
+#include "schema/options.h"
 #include "shot/rules.h"
 
 #include <math.h>

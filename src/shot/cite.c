@@ -3,9 +3,9 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
-#include "about/project.h"
 #include "cushion/list.h"
 #include "friction/laws.h"
+#include "schema/project.h"
 #include "shot/rules.h"
 
 #define TEXT_OF(x) #x
@@ -14,7 +14,7 @@
   TEXT(CAROM_VERSION_MAJOR) "." TEXT(CAROM_VERSION_MINOR) "." TEXT(CAROM_VERSION_PATCH)
 
 static const struct {
-  unsigned source; /* about/sources.h */
+  unsigned source; /* schema/sources.h */
   const char *text;
 } entries[] = {
     {CAROM_BY_CAROM,

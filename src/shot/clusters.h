@@ -34,7 +34,8 @@ bool carom_may_push(const carom_sim *sim, const carom_motion *alone);
 int carom_cluster_strike(carom_sim *sim, const carom_cue *cue, double most, bool slate,
                          carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]);
 
-/* late.c. The cue goes on from now, at the speed V, its tip `behind` m behind the ball. */
+/* follow_through.c. The cue goes on from now, at the speed V, its tip `behind` m behind the ball.
+ */
 void carom_follow_on(carom_sim *sim, double V, double behind);
 /* Sets sim->follow.time: when its tip touches the struck ball again. */
 void carom_follow_find(carom_sim *sim);

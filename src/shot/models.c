@@ -1,8 +1,8 @@
 /* Collisions of balls with each other and with cushions, by the model that the options ask for. */
 #include "cushion/models.h"
-#include "about/numbers.h"
 #include "friction/laws.h"
 #include "platform/ranges.h"
+#include "schema/numbers.h"
 #include "shot/rules.h"
 
 #include <math.h>

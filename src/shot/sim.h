@@ -14,7 +14,7 @@ typedef struct carom_meeting {
 
 struct carom_rules;
 
-/* The cue that goes on after its push, late.c. */
+/* The cue that goes on after its push, follow_through.c. */
 typedef struct carom_follow {
   double until;    /* s: it moves up to then; -1: it does not */
   double since, V; /* s: it moves since then; at this speed, m/s */

@@ -8,8 +8,8 @@
  *
  * With the state are kept fingerprints of the table, the balls and the options that it is of, so
  * that it does not go on with others. */
-#include "about/options.h"
 #include "platform/fingerprint.h"
+#include "schema/options.h"
 #include "shot/rules.h"
 
 #include <math.h>

@@ -20,7 +20,7 @@
  *
  * LABELS. A ball that rolls after an event, or lies, keeps doing so where a change of the first
  * order would have it slide for a time of the first order: a slip du becomes the speed -2/7 du. */
-#include "about/options.h"
+#include "schema/options.h"
 #include "tangent/text.h"
 extern "C" {
 #include "tangent/follow_cluster.h"

@@ -8,8 +8,8 @@
 
 #include "tangent/dual.h"
 extern "C" {
+#include "contact_law/variation.h"
 #include "cushion/models.h"
-#include "impact/variation.h"
 #include "shot/shot.h"
 }
 
@@ -19,8 +19,8 @@ extern "C" {
 #undef CAROM_SRC_PLATFORM_ELEMENTARY_H
 #undef CAROM_SRC_CUSHION_CONTACT_H
 #undef CAROM_SRC_CUSHION_MODELS_H
-#undef CAROM_SRC_IMPACT_IMPACT_H
-#undef CAROM_SRC_IMPACT_LAW_H
+#undef CAROM_SRC_CONTACT_LAW_IMPACT_H
+#undef CAROM_SRC_CONTACT_LAW_LAW_H
 #undef CAROM_SRC_SHOT_SHOT_H
 #undef CAROM_SRC_TABLE_TABLE_H
 #undef CAROM_SRC_MOTION_PATH_H

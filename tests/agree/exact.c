@@ -14,7 +14,7 @@
 
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
-#include "impact/impact.h"
+#include "contact_law/impact.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* The derivative by every number of a ball, a cue and a nose, at its default, at 0 and at the ends
  * of its range: right, or with a flag.
  *
- * Numbers are rows of about/numbers.h, so one that is added is here too. Each scene, on the cloth
+ * Numbers are rows of schema/numbers.h, so one that is added is here too. Each scene, on the cloth
  * and in space, with pairs and clusters, is differentiated by it, and compared with differences of
  * whole shots to each side,
  *
@@ -11,8 +11,8 @@
  * taken. At an end of the range the tangent is that of the side within. Where the sides differ it
  * is one of them, with CAROM_TANGENT_KINK. Where 0 stands for a default it is that at the
  * default. */
-#include "about/numbers.h"
 #include "precise_solver.h"
+#include "schema/numbers.h"
 #include "tangent_support.h"
 
 #include <stddef.h>

@@ -5,10 +5,10 @@
  * of the exact model call the precise solver here, by carom_trace() (the linker wraps
  * carom_collide()). */
 #define _POSIX_C_SOURCE 200809L
-#include "about/numbers.h"
+#include "contact_law/variation.h"
 #include "cushion/models.h"
-#include "impact/variation.h"
 #include "precise_solver.h"
+#include "schema/numbers.h"
 #include "tangent_support.h"
 
 /* in which impacts on cushions are drawn */
@@ -28,7 +28,7 @@ static const direction directions[DIRECTIONS] = {
     {OF_KIND, -1, 7, 0.2},  {OF_KIND, -1, 1, 0.0286},
 };
 
-/* Of the shots that the tables report. Tolerances of src/impact/variation_step.h were found on
+/* Of the shots that the tables report. Tolerances of src/contact_law/variation_step.h were found on
  * those of seeds 7 and 28. */
 enum { SEED = 29 };
 static const double NOTHING = 1e-10; /* a derivative that is rounding errors */

@@ -57,7 +57,7 @@ limit="ulimit -v 65536"
 wc -l < big_out.csv
 sed -n '2p;$p' big_out.csv | cut -d, -f14
 echo "--- the time that the solver took is within the time of the whole command, and so many times that of a row"
-python - <<'PYTHON'
+python - << 'PYTHON'
 import os, re, subprocess, time
 rows = open(os.environ["DATA"] + "/collisions-204.csv").read().splitlines()
 with open("timed.csv", "w") as file:

@@ -3,11 +3,11 @@
  * finite with a status that is no error, or is with one that is; a batch with other bits than
  * calls; bytes written beside the results; a trace or a derivative that does not fit. Crashes,
  * hangs and undefined behaviour are for the fuzzer and the sanitizers to see. */
-#include "about/numbers.h"
 #include "ball_ball/kernels.h"
 #include "carom_tangent.h"
 #include "cushion/list.h"
 #include "draws.h"
+#include "schema/numbers.h"
 
 static carom_ball make_ball(void) {
   carom_ball b = {.radius = 0.028575};

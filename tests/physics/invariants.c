@@ -14,7 +14,7 @@
  * the results must agree in every bit.
  */
 #include "ball_ball/frame.h"
-#include "impact/impact.h"
+#include "contact_law/impact.h"
 #include "support.h"
 
 #include <math.h>

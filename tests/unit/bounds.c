@@ -5,14 +5,14 @@
 #include "draws.h"
 #include "support.h"
 
+#include "contact_law/impact.h"
 #include "cushion/models.h"
-#include "impact/impact.h"
 
 #include <math.h>
 #include <stdio.h>
 
 enum {
-  STEP = 12, /* iterations of one step, MOST_ITERATIONS of impact/step.h */
+  STEP = 12, /* iterations of one step, MOST_ITERATIONS of contact_law/step.h */
   IMPACT = CAROM_IMPACT_ITERATIONS + STEP,
   FAST = 1000, /* evaluations that collocation may have spent before */
   DRAWS = 1500,

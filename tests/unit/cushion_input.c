@@ -1,7 +1,7 @@
 /* Bad input of the cushion: each number and each option at fault gets its own status, and hangs
  * nothing. */
-#include "about/numbers.h"
 #include "cushion/models.h"
+#include "schema/numbers.h"
 #include "support.h"
 
 #include <math.h>

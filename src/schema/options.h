@@ -7,10 +7,10 @@
  * FORM: WORDS(OF), an enumeration from 0 of which `high` is the last; COUNT; FLAG, 0 or 1;
  *       SEED, any; NUMBER(unit), a double; SET(OF), whose bits are values with words, or BALLS.
  * low, high, ERROR: as in numbers.h; and 0, which is the default of each. */
-#ifndef CAROM_SRC_ABOUT_OPTIONS_H
-#define CAROM_SRC_ABOUT_OPTIONS_H
+#ifndef CAROM_SRC_SCHEMA_OPTIONS_H
+#define CAROM_SRC_SCHEMA_OPTIONS_H
 
-#include "about/numbers.h"
+#include "schema/numbers.h"
 
 #include <stdint.h>
 

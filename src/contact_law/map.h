@@ -17,10 +17,10 @@
  * D, psi_0 and m follow from a' and its derivative by the direction of u at the beginning of the
  * step. A slip that passes near zero is smooth in tau, and one that goes to zero decays
  * exponentially. e^(-m tau) is the E of step.h. */
-#ifndef CAROM_SRC_IMPACT_MAP_H
-#define CAROM_SRC_IMPACT_MAP_H
+#ifndef CAROM_SRC_CONTACT_LAW_MAP_H
+#define CAROM_SRC_CONTACT_LAW_MAP_H
 
-#include "impact/step.h"
+#include "contact_law/step.h"
 
 /* Found by trial with `carom-lab stress --cushion 20000`. With an ellipse of 2.2 errors in play
  * reach 7.3e-7 instead of 1.1e-7, and with one of 6 impacts of any kind take 5 % longer. With

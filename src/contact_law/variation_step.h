@@ -8,10 +8,10 @@
  *
  * in blocks of eight: the first is inverted, and then its Schur complement, both without pivots
  * as in step.h. */
-#ifndef CAROM_SRC_IMPACT_VARIATION_STEP_H
-#define CAROM_SRC_IMPACT_VARIATION_STEP_H
+#ifndef CAROM_SRC_CONTACT_LAW_VARIATION_STEP_H
+#define CAROM_SRC_CONTACT_LAW_VARIATION_STEP_H
 
-#include "impact/step.h"
+#include "contact_law/step.h"
 
 #include <stddef.h>
 

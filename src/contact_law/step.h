@@ -31,12 +31,12 @@
  *
  * ERROR. The error at the end is of the order of the square of the misfit of the polynomials of a'
  * and b'. The estimate of the misfit is the coefficient of their highest Legendre polynomial. */
-#ifndef CAROM_SRC_IMPACT_STEP_H
-#define CAROM_SRC_IMPACT_STEP_H
+#ifndef CAROM_SRC_CONTACT_LAW_STEP_H
+#define CAROM_SRC_CONTACT_LAW_STEP_H
 
-#include "impact/impact.h"
-#include "impact/nodes.h"
-#include "impact/variation.h"
+#include "contact_law/impact.h"
+#include "contact_law/nodes.h"
+#include "contact_law/variation.h"
 
 /* Found by trial with `carom-lab stress --cushion 20000` and the times of
  * docs/understanding/cushion.md. Angles are in radians, lengths in units

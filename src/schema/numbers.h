@@ -13,8 +13,8 @@
  *
  * Every argument is a name, a number or a text, or CAROM_ABOVE() or CAROM_BELOW() of one, which are
  * the next doubles: scripts read it. */
-#ifndef CAROM_SRC_ABOUT_NUMBERS_H
-#define CAROM_SRC_ABOUT_NUMBERS_H
+#ifndef CAROM_SRC_SCHEMA_NUMBERS_H
+#define CAROM_SRC_SCHEMA_NUMBERS_H
 
 #include <float.h>
 #include <math.h>

@@ -33,8 +33,8 @@
  * s is -1 for the slip of the 2014 paper and +1 for that of pooltool. All speeds are over the
  * speed of approach, so v starts at
  * 1. Derivation: docs/understanding/method.md. */
-#ifndef CAROM_SRC_IMPACT_LAW_H
-#define CAROM_SRC_IMPACT_LAW_H
+#ifndef CAROM_SRC_CONTACT_LAW_LAW_H
+#define CAROM_SRC_CONTACT_LAW_LAW_H
 
 typedef struct carom_law {
   double A_0, K_x, K_y, C_x, C_y;

@@ -1,8 +1,8 @@
 /* Words of enumerations: one row each. cushion/list.h and friction/laws.h have those of models.
  *
  * WORD(OF, VALUE, word, text): OF is a carom_words, CAROM_VALUE the value. */
-#ifndef CAROM_SRC_ABOUT_WORDS_H
-#define CAROM_SRC_ABOUT_WORDS_H
+#ifndef CAROM_SRC_SCHEMA_WORDS_H
+#define CAROM_SRC_SCHEMA_WORDS_H
 
 #define CAROM_WORD_ROWS(WORD)                                                                    \
   WORD(WORLD, WORLD_CAROM, "carom", "an event is where a gap is closed and closing")             \

@@ -1,10 +1,10 @@
 /* Derivatives of an impact with two frictional contacts, of law.h: its variational equations,
  * which follow the precise solver step by step; variation.c has the method. */
-#ifndef CAROM_SRC_IMPACT_VARIATION_H
-#define CAROM_SRC_IMPACT_VARIATION_H
+#ifndef CAROM_SRC_CONTACT_LAW_VARIATION_H
+#define CAROM_SRC_CONTACT_LAW_VARIATION_H
 
-#include "impact/impact.h"
-#include "impact/quadrature.h"
+#include "contact_law/impact.h"
+#include "contact_law/quadrature.h"
 
 /* The variables of derivatives of an impact: the slips at its start, frictions, restitution, and
  * the parameter lambda of the geometry.

@@ -18,8 +18,8 @@
  * row the rest of the impact goes by careful steps: exact ones over even maps, each only a share
  * of the way to where a slip could vanish. The caller bounds the number of iterations of all
  * steps together. */
-#include "impact/map.h"
-#include "impact/variation_step.h"
+#include "contact_law/map.h"
+#include "contact_law/variation_step.h"
 #include "platform/elementary.h"
 
 #include <float.h>

@@ -8,7 +8,7 @@
  *     L_x Q_x + H G_x   = b_x - b_x0                V_f Q_y + V_F G_y = v - v_0 - V_0 p
  *
  * The balance of momentum is therefore exact, whatever the error of the solver. */
-#include "impact/impact.h"
+#include "contact_law/impact.h"
 
 #include "platform/isa.h"
 

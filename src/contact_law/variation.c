@@ -43,7 +43,7 @@
  * Where these equations do not say how an impact goes on, its derivatives are central
  * differences of order 4: motion in a plane, whose perturbations leave it; balls that jam; a
  * slip that passes through zero. A kink is seen there by the differences to each side. */
-#include "impact/variation.h"
+#include "contact_law/variation.h"
 
 #include <math.h>
 #include <stddef.h>

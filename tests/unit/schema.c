@@ -1,5 +1,5 @@
 /* What there is, by its rows: each number is refused outside its range and told by name. */
-#include "about/numbers.h"
+#include "schema/numbers.h"
 #include "support.h"
 
 #include <math.h>

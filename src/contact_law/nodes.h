@@ -5,12 +5,12 @@
  * node alike is a loop over the parts; only integrals join nodes. Each operation is one of IEEE
  * 754 on each number, so that all builds without AVX2 have the same bits. `madd` fuses a product
  * and a sum where the instruction set can. */
-#ifndef CAROM_SRC_IMPACT_NODES_H
-#define CAROM_SRC_IMPACT_NODES_H
+#ifndef CAROM_SRC_CONTACT_LAW_NODES_H
+#define CAROM_SRC_CONTACT_LAW_NODES_H
 
 #include "platform/arithmetic.h"
 
-#include "impact/quadrature.h"
+#include "contact_law/quadrature.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,12 +1,12 @@
 /* An impact with two frictional contacts: the precise solver. law.h has the equations, advance.c
  * the method. */
-#ifndef CAROM_SRC_IMPACT_IMPACT_H
-#define CAROM_SRC_IMPACT_IMPACT_H
+#ifndef CAROM_SRC_CONTACT_LAW_IMPACT_H
+#define CAROM_SRC_CONTACT_LAW_IMPACT_H
 
 #include "platform/arithmetic.h"
 
 #include "carom.h"
-#include "impact/law.h"
+#include "contact_law/law.h"
 
 #include <stdbool.h>
 

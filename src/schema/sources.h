@@ -1,6 +1,6 @@
 /* What models stand on: the entries of shot/cite.c, as a set. */
-#ifndef CAROM_SRC_ABOUT_SOURCES_H
-#define CAROM_SRC_ABOUT_SOURCES_H
+#ifndef CAROM_SRC_SCHEMA_SOURCES_H
+#define CAROM_SRC_SCHEMA_SOURCES_H
 
 enum {
   CAROM_BY_CAROM = 1 << 0, /* of every shot, with the next two */

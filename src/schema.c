@@ -1,12 +1,12 @@
-/* What there is, for programs that ask: the rows of about/ at run time. Nothing here is on the path
- * of an impact. */
+/* What there is, for programs that ask: the rows of schema/ at run time. Nothing here is on the
+ * path of an impact. */
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
-#include "about/options.h"
-#include "about/words.h"
 #include "cushion/list.h"
 #include "friction/laws.h"
+#include "schema/options.h"
+#include "schema/words.h"
 #ifndef CAROM_WITHOUT_PLAN
 #include "carom_plan.h"
 #include "games.h"

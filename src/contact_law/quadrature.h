@@ -1,7 +1,7 @@
 /* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed
  * them. */
-#ifndef CAROM_SRC_IMPACT_QUADRATURE_H
-#define CAROM_SRC_IMPACT_QUADRATURE_H
+#ifndef CAROM_SRC_CONTACT_LAW_QUADRATURE_H
+#define CAROM_SRC_CONTACT_LAW_QUADRATURE_H
 
 enum { NODES = 8 };
 

@@ -26,7 +26,7 @@
  * 2.5e-10; beyond that there is no result.
  *
  * A frictionless contact has no direction and no cone. */
-#include "impact/impact.h"
+#include "contact_law/impact.h"
 
 #include <math.h>
 
