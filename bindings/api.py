@@ -85,11 +85,11 @@ class Header:
         """The comment that ends right above a line, or above up to `over` lines of code right above
         it.
         """
-        for line in range(line - 1, max(line - 2 - over, 0), -1):
+        for number in range(line - 1, max(line - 2 - over, 0), -1):
             for _, last, words in self.comments:
-                if last == line and not self.code[line - 1].strip():
+                if last == number and not self.code[number - 1].strip():
                     return words if not words.startswith(("----", "====")) else ""
-            if not self.code[line - 1].strip():
+            if not self.code[number - 1].strip():
                 break
         return ""
 

@@ -18,7 +18,7 @@ from statistics import median
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "bindings"))
-import api
+import api  # noqa: E402
 
 # ---- The library, by ctypes
 

@@ -68,10 +68,14 @@ def labels_on_rails(picture):
         if rect.get("fill") == "#1d4a3c"
         for y in range(int(float(rect.get("height"))))
     ]
-    crossed = lambda box, a, b: any(
-        box[0] < a[0] + t * (b[0] - a[0]) < box[2] and box[1] < a[1] + t * (b[1] - a[1]) < box[3]
-        for t in (k / 500 for k in range(501))
-    )
+
+    def crossed(box, a, b):
+        return any(
+            box[0] < a[0] + t * (b[0] - a[0]) < box[2]
+            and box[1] < a[1] + t * (b[1] - a[1]) < box[3]
+            for t in (k / 500 for k in range(501))
+        )
+
     return [text for text, box in label_boxes(page) if any(crossed(box, *nose) for nose in noses)]
 
 
@@ -333,7 +337,10 @@ def check_hit(picture, row, after, words):
         ]
     )
     n = [(b - a) / (2 * R) for a, b in zip(*places)]
-    along = lambda far, e: [p + far * R * c for p, c in zip(places[0], e)]
+
+    def along(far, e):
+        return [p + far * R * c for p, c in zip(places[0], e)]
+
     # The way there and on, the line of centres, and the tangent line through the centre of the cue
     # ball.
     lines = [
@@ -354,7 +361,10 @@ def check_hit(picture, row, after, words):
     )
     scale = min(848 / (high[0] - low[0]), 620 / (high[1] - low[1]))
     left = 450 - scale * (low[0] + high[0]) / 2
-    px = lambda r: (left + scale * r[0], 26 + scale * (high[1] - r[1]))
+
+    def px(r):
+        return (left + scale * r[0], 26 + scale * (high[1] - r[1]))
+
     for circle, place in zip(elements(page, "circle"), places):
         report.near("ball", numbers(circle, "cx", "cy", "r"), [*px(place), max(scale * R, 3)])
     dots = [

@@ -113,7 +113,10 @@ def print_rule(name, n, w):
         )
     print("    .all = %s," % text([integral(c, w, zero, one) for c in L]))
     print("    .sum = {%s}," % ",\n".join(text([between(c, at) for at in y]) for c in L))
-    by_node = lambda rows: ",\n".join(text([row[m] for m in span]) for row in rows)
+
+    def by_node(rows):
+        return ",\n".join(text([row[m] for m in span]) for row in rows)
+
     if not w and n < 8:
         twice = [centred([v / ((m + 1) * (m + 2)) for m, v in enumerate(c)]) for c in L]
         print("    .part = {%s}," % ",\n".join(text([p[m] for p in part]) for m in span))
@@ -121,14 +124,17 @@ def print_rule(name, n, w):
     if n == 8 or w:
         print("    .powers = {%s}," % by_node(part))
     if w:
-        turn = (
-            lambda c, at: 2
-            * at**2
-            * sum(
-                v * (-mp.log(at) if m == 2 else (1 - at ** (m - 2)) / (m - 2))
-                for m, v in enumerate(c)
+
+        def turn(c, at):
+            return (
+                2
+                * at**2
+                * sum(
+                    v * (-mp.log(at) if m == 2 else (1 - at ** (m - 2)) / (m - 2))
+                    for m, v in enumerate(c)
+                )
             )
-        )
+
         mean = [2 * at / (1 + at) for at in y]
         print("    .basis = {%s}," % by_node([centred(c) for c in L]))
         print("    .turn = {%s}," % ",\n".join(text([turn(c, at) for at in y]) for c in L))
@@ -154,7 +160,10 @@ def print_impact():
     L = lagrange_basis(x)
     weight = [integral(c, 0, zero, one) for c in L]
     highest = [15 * w * mp.legendre(7, 2 * at - 1) for w, at in zip(weight, x)]
-    text = lambda row: "{" + ", ".join(repr(float(v)) for v in row) + "}"
+
+    def text(row):
+        return "{" + ", ".join(repr(float(v)) for v in row) + "}"
+
     row = "\n/* %s */\nstatic const double __attribute__((aligned(64))) %s = %s;"
     print("enum { NODES = 8 };")
     print(row % ("Nodes on [0, 1], and weights.", "NODE[NODES]", text(x)))

@@ -79,9 +79,10 @@ def main() -> None:
             np.testing.assert_allclose(
                 [np.array(other.tolist()) for other in others], [expected] * 2, rtol=1e-9
             )
-    batch: Callable[[Any], Any] = lambda given: carom.jacobian(
-        TABLE, BALLS, carom.cue(speed=given[:, 0], phi=given[:, 1]), NAMES
-    )  # noqa: E731
+
+    def batch(given: Any) -> Any:
+        return carom.jacobian(TABLE, BALLS, carom.cue(speed=given[:, 0], phi=given[:, 1]), NAMES)  # noqa: E731
+
     for name, ours, given, count in (
         ("one", by_hand, few, 50),
         ("batch of 50", batch, [few], 50),

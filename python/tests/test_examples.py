@@ -18,7 +18,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import carom
 
 pytest.importorskip("matplotlib", reason="matplotlib is not installed")
 EXAMPLES = Path(__file__).parents[1] / "examples"

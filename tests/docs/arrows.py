@@ -139,7 +139,12 @@ no_circle("rooms", rooms)
 # Calls in the library: an arrow from a source to that in which a function stands that it names,
 # itself or in an inline function of a header.
 stands, through, bodies, calls = {}, {}, {}, {}
-words = lambda text: set(re.findall(r"\bcarom_\w+", text))
+
+
+def words(text):
+    return set(re.findall(r"\bcarom_\w+", text))
+
+
 for file in (
     file
     for file in files

@@ -148,7 +148,7 @@ def guarded(shape, dtype, draws):
     )
 
 
-def spoil(array, draws):
+def spoil(array, draws):  # noqa: C901 - a table of what may be wrong with an array
     """The array, or one like it that does not fit."""
     for _ in range(draws.choice(3)):
         if type(array) is not np.ndarray:
@@ -551,13 +551,13 @@ def one(data):
         value.tobytes() if isinstance(value, np.ndarray) and value.dtype != object else None
         for value in values
     ]
+    allowed = OF_OBJECTS if function in (_objects.make, _objects.turn) else ALLOWED
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter(
-                "error", RuntimeWarning
-            )  # numpy's own: carom says itself what is wrong
+            # numpy's own: carom says itself what is wrong
+            warnings.simplefilter("error", RuntimeWarning)
             function(**arguments) if isinstance(arguments, dict) else function(*arguments)
-    except OF_OBJECTS if function in (_objects.make, _objects.turn) else ALLOWED:
+    except allowed:
         pass
     except Exception as wrong:
         raise AssertionError(

@@ -16,7 +16,7 @@ ROOT = STORED.parent.parent
 BUILD = Path(os.environ.get("CAROM_BUILD", ROOT / "build"))
 DOCS = ROOT / "docs" / "figures"
 sys.path.insert(0, str(ROOT))
-from lab.report import __main__ as report
+from lab.report import __main__ as report  # noqa: E402
 
 
 def make(folder, *words):

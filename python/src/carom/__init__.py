@@ -37,10 +37,11 @@ from carom.shots import cite, resume, simulate, simulate_arrow, simulate_batch
 from carom.status import CaromError, Status
 
 _sys.meta_path.append(_Finder())
-for (
-    _name
-) in "collisions cushions derivatives dtypes layouts racks results shots status tables".split():
-    setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))
+_MODULES_OF_LISTINGS = (
+    "collisions cushions derivatives dtypes layouts racks results shots status tables".split()
+)
+for _name in _MODULES_OF_LISTINGS:
+    setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))  # noqa: B010
 
 __dir__ = _listing(__name__)
 __version__: str = _ffi.string(_lib.carom_version()).decode()

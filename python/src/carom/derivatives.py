@@ -35,7 +35,7 @@ from carom._shot_options import Options, chosen, shot_options
 from carom.layouts import Table, of_record
 from carom.results import EventType, Shot, Shots
 from carom.shots import simulate_batch
-from carom.status import CaromError, Status
+from carom.status import CaromError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -274,7 +274,10 @@ def test_memory_that_overlaps_is_refused(impacts):
     inside = memory[: 26 * n].reshape(n, 26)
     inside[:] = impacts
     beside = memory[26 * n : 38 * n].reshape(n, 12)
-    bytes_from = lambda place: memory[place:].view(np.int8)[:n]
+
+    def bytes_from(place):
+        return memory[place:].view(np.int8)[:n]
+
     for out, what in (
         ((memory[: 12 * n].reshape(n, 12), status), r"out\[0\]: .* impacts"),
         ((memory[26 * n - 1 : 38 * n - 1].reshape(n, 12), status), r"out\[0\]: .* impacts"),

@@ -111,9 +111,10 @@ def test_second_derivatives_are_those_of_hessian():
     found, off = carom.hessian(shot, NAMES), shot.final["r"][1, :2] - goal.numpy()
     first = found.first.final["r"][1]
     expected = 2.0 * (first.T @ first + np.einsum("i,ijk->jk", off, found.final["r"][1]))
-    close = lambda found, rtol=1e-9: np.testing.assert_allclose(
-        found.detach().numpy(), expected, rtol=rtol, atol=rtol
-    )  # noqa: E731
+
+    def close(found, rtol=1e-09):
+        return np.testing.assert_allclose(found.detach().numpy(), expected, rtol=rtol, atol=rtol)  # noqa: E731
+
     close(torch.autograd.functional.hessian(miss, AIM))
     aim = AIM.clone().requires_grad_()
     (slope,) = torch.autograd.grad(miss(aim), aim, create_graph=True)

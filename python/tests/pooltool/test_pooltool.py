@@ -32,11 +32,11 @@ with pytest.MonkeyPatch.context() as patch:
         pytest.skip("pooltool 0.6 or later is needed", allow_module_level=True)
     import carom.pooltool as bridge
 
-import attrs
+import attrs  # noqa: E402
 
-import carom
-from carom.games._draws import Draws
-from carom.games.potting import Potting
+import carom  # noqa: E402
+from carom.games._draws import Draws  # noqa: E402
+from carom.games.potting import Potting  # noqa: E402
 
 SEED = int(os.environ.get("CAROM_TEST_SEED", "1"))
 SHOTS = int(os.environ.get("CAROM_TEST_SHOTS", "12"))

@@ -20,7 +20,7 @@ from carom._shot_options import Options
 from carom.layouts import LAST, Table, of_record, one_cue
 from carom.results import Label, Shot, Shots
 from carom.shots import simulate_batch
-from carom.status import CaromError, Status
+from carom.status import CaromError
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

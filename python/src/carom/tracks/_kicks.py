@@ -372,14 +372,12 @@ def _means(
             [np.zeros((6, KICKS)), *(picked[j] * np.diag(turn[j]) for j in range(len(picked)))]
         )
         inverse = one.inverse(one.price)
-        Q, l = (
-            np.diag(one.price) - one.price[:, None] * inverse * one.price,
-            one.price * (inverse @ one.g),
-        )
+        Q = np.diag(one.price) - one.price[:, None] * inverse * one.price
+        linear = one.price * (inverse @ one.g)
         y = np.concatenate([np.zeros(6), one.kicks])
         weight = 1.0 / (one.count * middle + one.cost)
         whole += weight * J.T @ Q @ J
-        slopes.append((weight * J.T @ Q @ J, weight * J.T @ (Q @ y - l)))
+        slopes.append((weight * J.T @ Q @ J, weight * J.T @ (Q @ y - linear)))
     inverted = np.linalg.pinv(whole)
     mean = inverted @ sum(slope for _, slope in slopes)
     left = np.array([slope - part @ mean for part, slope in slopes])
