@@ -408,31 +408,38 @@ TEST(rows_end_where_the_header_says) {
   const carom_tangent_seeds seeds = seeds_of(by, M);
   const double at_times[TIMES] = {0.0, 0.5 * shot.time, shot.time};
 
-  /* [events][2][9][m] before and after, [events][m], [balls][9][m], [times][balls][9][m] */
-  const size_t n[5] = {(size_t)shot.count * 2 * NUMBERS * M, (size_t)shot.count * 2 * NUMBERS * M,
-                       (size_t)shot.count * M, (size_t)l.count * NUMBERS * M,
-                       (size_t)(TIMES * l.count) * NUMBERS * M};
-  edge block[5];
-  for (int k = 0; k < 5; k++) {
+  /* [events][2][9][m] before and after, [events][m], [balls][9][m], [times][balls][9][m], [m] */
+  enum { ROWS = 6 };
+  const size_t count = (size_t)shot.count, all = (size_t)l.count * NUMBERS * M;
+  const size_t n[ROWS] = {
+      count * 2 * NUMBERS * M, count * 2 * NUMBERS * M, count * M, all, TIMES * all, M};
+  edge block[ROWS], flags = edge_make(count * sizeof(int32_t), false);
+  for (int k = 0; k < ROWS; k++) {
     block[k] = edge_make(n[k] * sizeof(double), false);
     memset(block[k].memory, 0xff, n[k] * sizeof(double)); /* NaN throughout */
   }
+  memset(flags.memory, 0xff, count * sizeof(int32_t)); /* negative */
   carom_tangent t = {.before = block[0].memory,
                      .after = block[1].memory,
                      .time = block[2].memory,
                      .final = block[3].memory,
                      .at = block[4].memory,
+                     .reach = block[5].memory,
+                     .flags = flags.memory,
                      .times = at_times,
                      .times_count = TIMES};
   ck_assert_int_eq(
       carom_shot_tangent(table_of(&l), l.ball, l.count, &l.cue, &l.options, &shot, &seeds, &t),
       CAROM_OK);
-  for (int k = 0; k < 5; k++) {
+  for (int k = 0; k < ROWS; k++) {
     const double *row = block[k].memory;
     for (size_t x = 0; x < n[k]; x++)
       ck_assert_msg(!isnan(row[x]), "number %zu of %zu of rows %d is not written", x, n[k], k);
     edge_free(&block[k]);
   }
+  for (size_t k = 0; k < count; k++)
+    ck_assert_int_ge(((const int32_t *)flags.memory)[k], 0);
+  edge_free(&flags);
 }
 
 /* A cushion in steps, and one that the exact model refuses, so that its steps take its place. */
