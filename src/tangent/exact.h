@@ -4,7 +4,7 @@
  *
  * EXACT. An impact is the speed of approach V times a function of the slips over V, of the
  * frictions, e and a parameter of the geometry, the law, lambda: kappa, or the sine of the nose.
- * src/impact has the derivatives by these eight variables. Everything before and behind is
+ * src/contact_law has the derivatives by these eight variables. Everything before and behind is
  * arithmetic.
  *
  * A ball that rolls is taken to go on rolling: by the slip of a ball that rolls and is pressed
