@@ -17,7 +17,9 @@ const game =
 for (const line of saved)
   if (game.read(line)?.same === false) throw new Error("a shot has other bits than were recorded");
 if (saved.length === 0) game.stand({ rules: "nineball", group: "open", opening: true }, 0);
-let [winner, frames, loudest] = [undefined, 0, 0]; // N s
+let winner = undefined;
+let frames = 0;
+let loudest = 0; // N s
 while (winner === undefined) {
   // the game is kept; the player thinks, while the shot of the other is drawn: a page awaits a
   // frame here

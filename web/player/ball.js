@@ -10,7 +10,9 @@ import { colourOf, IVORY, POOL } from "./words.js";
  * Radii of what is drawn on a ball, as angles seen from its middle: a white end of a striped ball,
  * a number, a dot.
  */
-const [END, NUMBER, DOT] = [0.9, 0.52, 0.2];
+const END = 0.9;
+const NUMBER = 0.52;
+const DOT = 0.2;
 
 /**
  * A pixel beside another one, by a way on the table. @param {View} view @param {Point} at @param
@@ -31,13 +33,13 @@ function cap(g, view, at, radius, n, angle, fill) {
   const [ux, uy] = flat > 1e-9 ? [n[0] / flat, n[1] / flat] : [1, 0];
   g.beginPath();
   for (let k = 0; k < 28; k++) {
-    const [c, s] = [
-      Math.sin(angle) * Math.cos((k * Math.PI) / 14),
-      Math.sin(angle) * Math.sin((k * Math.PI) / 14),
-    ];
+    const c = Math.sin(angle) * Math.cos((k * Math.PI) / 14);
+    const s = Math.sin(angle) * Math.sin((k * Math.PI) / 14);
     // On the ball: the middle, and two directions across it, one of them level.
     const along = flat * Math.cos(angle) - n[2] * c;
-    const [x, y, z] = [ux * along - uy * s, uy * along + ux * s, n[2] * Math.cos(angle) + flat * c];
+    const x = ux * along - uy * s;
+    const y = uy * along + ux * s;
+    const z = n[2] * Math.cos(angle) + flat * c;
     const rim = z < 0 ? Math.hypot(x, y) : 1;
     g[k === 0 ? "moveTo" : "lineTo"](...onCanvas(view, at, (radius * x) / rim, (radius * y) / rim));
   }
@@ -110,7 +112,9 @@ export function drawBall(g, view, { name, radius: R }, k, { r, q }, alpha, ring)
   const at = view.place(r[0], r[1]);
   // One that flies looks larger, one that falls in a pocket smaller.
   const radius = Math.max(R * view.scale * (1 + (r[2] > R ? 1 : 3) * (r[2] - R)), 3);
-  const [colour, number, axes] = [colourOf(name, k), Number(name), axesOf(q)];
+  const colour = colourOf(name, k);
+  const number = Number(name);
+  const axes = axesOf(q);
   g.globalAlpha = alpha;
   g.fillStyle = colour;
   disc(g, view, r, radius);

@@ -97,10 +97,8 @@ export function recorded({ table, balls, shots }) {
         // It turns on by its spin.
         const spin = pose.slice(from + 7, from + 10);
         const rate = Math.hypot(...spin);
-        const [c, s] = [
-          Math.cos((rate * since) / 2),
-          rate > 0 ? Math.sin((rate * since) / 2) / rate : 0,
-        ];
+        const c = Math.cos((rate * since) / 2);
+        const s = rate > 0 ? Math.sin((rate * since) / 2) / rate : 0;
         const q = product([c, ...spin.map((part) => part * s)], pose.slice(from + 3, from + 7));
         return { r, q, seen: pose[from + 2] >= 0 && (moves || index === 0) };
       });

@@ -185,7 +185,8 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
  * not the reader's now;
  * `sharp` is how many pixels of the picture there are at least for one of the page. */
 export function player(hooks = {}) {
-  const [of, view] = [parts(), viewOf()];
+  const of = parts();
+  const view = viewOf();
   /** @type {Clock} */
   const clock = {
     film: undefined,
@@ -228,17 +229,15 @@ export function player(hooks = {}) {
   }
 
   return {
-    ...{
-      canvas: of.canvas,
-      controls: of.controls,
-      events: of.events,
-      play: of.play,
-      pace: of.pace,
-      show,
-      draw,
-      look,
-      ...hands,
-    },
+    canvas: of.canvas,
+    controls: of.controls,
+    events: of.events,
+    play: of.play,
+    pace: of.pace,
+    show,
+    draw,
+    look,
+    ...hands,
     /** @param {number} x @param {number} y */
     place: (x, y) => view.place(x, y),
     /** @param {number} px @param {number} py */

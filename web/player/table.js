@@ -66,7 +66,8 @@ export function fit(canvas, ratio, sharp = 1) {
  * {HTMLCanvasElement} canvas @param {Table} table
  * @param {number} sharp */
 export function fitTable(view, canvas, table, sharp) {
-  const [w, l] = [table.width + 2 * WOOD, table.length + 2 * WOOD];
+  const w = table.width + 2 * WOOD;
+  const l = table.length + 2 * WOOD;
   const upright = (view.upright = document.documentElement.clientWidth < 480);
   const ratio = upright ? l / w : w / l;
   // A browser that does not know dvh keeps vh.
@@ -117,7 +118,8 @@ export const disc = (g, view, [x, y], radius) => {
  */
 function drawCloth(g, view, table, bed) {
   g.fillStyle = bed;
-  const [[x0, y0], [x1, y1]] = [view.place(0, 0), view.place(table.width, table.length)];
+  const [x0, y0] = view.place(0, 0);
+  const [x1, y1] = view.place(table.width, table.length);
   g.fillRect(Math.min(x0, x1), Math.min(y0, y1), Math.abs(x1 - x0), Math.abs(y1 - y0));
   g.fillStyle = "#0c0f10";
   for (const pocket of table.pockets) disc(g, view, pocket.centre, pocket.radius * view.scale);

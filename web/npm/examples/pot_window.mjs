@@ -26,8 +26,10 @@ function pots(distance, phi) {
  * pocket.
  */
 function layout(distance) {
-  const [dx, dy] = [Math.SQRT1_2, Math.SQRT1_2]; // towards the pocket
-  const [x, y] = [px - distance * dx, py - distance * dy];
+  const dx = Math.SQRT1_2;
+  const dy = Math.SQRT1_2; // towards the pocket
+  const x = px - distance * dx;
+  const y = py - distance * dy;
   const ghost = [x - 2 * kind.radius * dx, y - 2 * kind.radius * dy];
   const phi = 45 + 30;
   const cue = [ghost[0] - 0.4 * Math.cos(phi * DEGREE), ghost[1] - 0.4 * Math.sin(phi * DEGREE)];
@@ -51,7 +53,8 @@ for (const distance of [0.3, 0.6, 0.9]) {
     pots(distance, at),
   );
   if (inside === undefined) throw new Error(`no direction pots from ${distance} m`);
-  const [from, to] = [edge(distance, inside, inside - 0.02), edge(distance, inside, inside + 4)];
+  const from = edge(distance, inside, inside - 0.02);
+  const to = edge(distance, inside, inside + 4);
   const middle = (from + to) / 2 - phi;
   console.log(
     `${distance} m: ${(to - from).toFixed(2)} degrees wide, its middle ${middle.toFixed(2)} degrees from the ghost ball's direction`,

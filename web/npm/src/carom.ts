@@ -502,8 +502,8 @@ export class Carom {
    * cornerMouth: 0.108 }).
    */
   table(name: TableName, measures: Partial<Measures> = {}): Table {
-    const { table, balls, detail } = this.#at,
-      kind = value("carom_table_kind", name, "table");
+    const { table, balls, detail } = this.#at;
+      const kind = value("carom_table_kind", name, "table");
     this.#refuse(this.#call.carom_table_make(kind, table), "table");
     this.#resident = undefined;
     if (Object.keys(measures).length > 0) {
@@ -1044,20 +1044,16 @@ export class Carom {
       i64[(shot + SHOT.offset.room) / 8] = BigInt(shots.room);
     }
     const job = setStruct(this.#memory, shots.at(7), "carom_shot_job", {
-      ...{
-        table: shots.at(0),
-        balls: shots.at(1),
-        cues: shots.at(2),
-        shots: shots.at(3),
-        status: shots.at(5),
-        options: opt,
-      },
-      ...{
-        count: shots.count,
-        ballStride: shots.layouts.length === 1 ? 0 : shots.count,
-        cueStride: 1,
-        n: shots.n,
-      },
+      table: shots.at(0),
+      balls: shots.at(1),
+      cues: shots.at(2),
+      shots: shots.at(3),
+      status: shots.at(5),
+      options: opt,
+      count: shots.count,
+      ballStride: shots.layouts.length === 1 ? 0 : shots.count,
+      cueStride: 1,
+      n: shots.n,
     });
     return this.statusName(this.#call.carom_shoot_batch(job));
   }

@@ -107,21 +107,17 @@ export class Plans {
     this.#host = host;
     const room = (bytes: number): Pointer => host.memory.allocate(bytes);
     this.#at = {
-      ...{
-        player: room(PLAYER.size),
-        opponent: room(PLAYER.size),
-        rules: room(RULES.size),
-        options: room(OPTIONS.size),
-        job: room(JOB.size),
-      },
-      ...{
-        ruling: room(layout.carom_ruling.size),
-        text: room(256),
-        call: room(8),
-        corners: room(32),
-        found: room(8),
-        pot: room(POT.size),
-      },
+      player: room(PLAYER.size),
+      opponent: room(PLAYER.size),
+      rules: room(RULES.size),
+      options: room(OPTIONS.size),
+      job: room(JOB.size),
+      ruling: room(layout.carom_ruling.size),
+      text: room(256),
+      call: room(8),
+      corners: room(32),
+      found: room(8),
+      pot: room(POT.size),
     };
   }
 
@@ -149,7 +145,8 @@ export class Plans {
 
   rating(scores: readonly Score[]): Rating {
     const memory = this.#memory;
-    const [rows, made] = [memory.allocate(scores.length * SCORE.size + 8), this.#at.corners];
+    const rows = memory.allocate(scores.length * SCORE.size + 8);
+    const made = this.#at.corners;
     try {
       for (const [k, one] of scores.entries())
         writeStruct(memory, rows + k * SCORE.size, "carom_score", one, `scores[${k}]`);
@@ -322,15 +319,13 @@ export class Plans {
     const is = names.carom_pot_is[outcome]!;
     const { type, a, b } = met;
     return {
-      ...{
-        is,
-        cue: readStruct<Cue>(memory, at.cue, "carom_cue"),
-        elevation,
-        cut,
-        margin,
-        phi,
-        speed,
-      },
+      is,
+      cue: readStruct<Cue>(memory, at.cue, "carom_cue"),
+      elevation,
+      cut,
+      margin,
+      phi,
+      speed,
       ...(is === "barred" || is === "short"
         ? { met: { type: names.carom_event_type[type] as EventType, a, b } }
         : {}),
@@ -419,14 +414,12 @@ export class Plans {
       "carom_rules_state",
     );
     return {
-      ...{
-        turn: names.carom_turn_is[turn.is]!,
-        foul: reason !== "none",
-        reason,
-        hand: HANDS[turn.leave]!,
-        points: turn.points,
-        text: memory.text(text)!,
-      },
+      turn: names.carom_turn_is[turn.is]!,
+      foul: reason !== "none",
+      reason,
+      hand: HANDS[turn.leave]!,
+      points: turn.points,
+      text: memory.text(text)!,
       score: [score[0] - lost[0], score[1] - lost[1]],
       facts: this.#readFacts(ruling + RULING.facts, balls.length),
       balls: readBalls(memory, ruling + RULING.balls, balls.length).map((ball, k) => ({

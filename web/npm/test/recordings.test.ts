@@ -50,9 +50,11 @@ test.runIf(thereIsACommand)("what the command records is replayed here", () => {
 });
 
 test("two programs read each other's lines", () => {
-  const [{ carom: first }, { carom: second }] = [builds[0]!, builds[1]!];
+  const { carom: first } = builds[0]!;
+  const { carom: second } = builds[1]!;
   const table = first.table("9ft");
-  const [here, there] = [first.record(table, first.rack("nineball", table)), second.record()];
+  const here = first.record(table, first.rack("nineball", table));
+  const there = second.record();
   for (const line of here.lines) expect(there.read(line)).toBeUndefined();
   here.shoot({ speed: 8, phi: 90 });
   expect(there.read(here.lines.at(-1)!)).toMatchObject({ shot: 1, same: true });

@@ -89,10 +89,8 @@ export function pad(
     '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle class="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
   drags(root, (event, first) => {
     const box = root.getBoundingClientRect();
-    const [x, y] = [
-      (2.1 * (event.clientX - box.left)) / box.width - 1.05,
-      1.05 - (2.1 * (event.clientY - box.top)) / box.height,
-    ];
+    const x = (2.1 * (event.clientX - box.left)) / box.width - 1.05;
+    const y = 1.05 - (2.1 * (event.clientY - box.top)) / box.height;
     const most = Math.min(1, 0.7 / Math.hypot(x, y));
     onInput(Math.round(100 * most * x) / 100, Math.round(100 * most * y) / 100);
     if (!first) return;
@@ -174,7 +172,8 @@ export function arrow(
   const length = Math.hypot(dx, dy);
   if (length < 2) return;
   const head = Math.min(10, length);
-  const [ux, uy] = [dx / length, dy / length];
+  const ux = dx / length;
+  const uy = dy / length;
   g.strokeStyle = g.fillStyle = stroke;
   g.lineWidth = 3;
   g.setLineDash(dashed ? [6, 5] : []);

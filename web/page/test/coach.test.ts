@@ -149,7 +149,8 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
       where([0, 0, width, height], (r, g, b) => Math.max(r, g, b) < 34).length / (width * height);
     expect(room).toBeLessThan(0.3);
     // The aim: a light line before the cue ball, which is in the middle, to the far cushion.
-    const [middle, far] = [Math.round(width / 2), Math.round(0.15 * height)];
+    const middle = Math.round(width / 2);
+    const far = Math.round(0.15 * height);
     const line = where(
       [middle - 3, far, middle + 3, far + 100],
       (r, g, b) => Math.min(r, g, b) > 80,
@@ -157,13 +158,12 @@ describe.runIf(browserPath !== undefined)("beside the game", () => {
     expect(new Set(line.map(([, y]) => y)).size).toBeGreaterThan(60);
     // The number: dark on white in the upper half of the yellow ball; its shadow is below.
     const yellow = where([0, 0, width, height], (r, g, b) => r > 120 && g > 80 && b < 0.5 * g);
-    const [xs, ys] = [yellow.map(([x]) => x), yellow.map(([, y]) => y)];
-    const [left, right, top, bottom] = [
-      Math.min(...xs),
-      Math.max(...xs),
-      Math.min(...ys),
-      Math.max(...ys),
-    ];
+    const xs = yellow.map(([x]) => x);
+    const ys = yellow.map(([, y]) => y);
+    const left = Math.min(...xs);
+    const right = Math.max(...xs);
+    const top = Math.min(...ys);
+    const bottom = Math.max(...ys);
     console.log(
       `behind the cue: ${(100 * room).toFixed(0)} % of the view is room; the 1 has ${right - left + 1} x ${bottom - top + 1} pixels`,
     );

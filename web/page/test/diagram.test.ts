@@ -70,7 +70,8 @@ describe.runIf(browserPath !== undefined)("a diagram", () => {
         expect(await one.locator(what).isVisible(), what).toBe(is);
       expect(await one.locator("#diagram .on-paper").textContent()).toBe(NOTES);
       const box = (await one.locator("#diagram-scene").boundingBox())!;
-      const [long, short] = [Math.max(box.width, box.height), Math.min(box.width, box.height)];
+      const long = Math.max(box.width, box.height);
+      const short = Math.min(box.width, box.height);
       expect(long / short).toBeCloseTo((2.54 + 0.2) / (1.27 + 0.2), 1);
       const pdf = `${tmpdir()}/carom-diagram-${process.pid}.pdf`;
       await one.pdf({ path: pdf });

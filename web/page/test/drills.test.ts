@@ -142,7 +142,8 @@ test("a game of pool is played on the table that it names, with the pockets of t
         "pocketed",
     ).length;
   };
-  const [usual, tight] = [into(on("9ft")), into(on("tight"))];
+  const usual = into(on("9ft"));
+  const tight = into(on("tight"));
   expect(tight).toBeGreaterThan(2);
   expect(tight).toBeLessThan(usual);
   expect(() => on("10ft")).toThrow('table: there is no table "10ft" for this game');

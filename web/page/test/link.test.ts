@@ -84,7 +84,8 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
     await other.locator(".close").first().click();
     expect(await turn(other)).toMatch(/^The other player/);
     expect(await other.locator("#shoot").isEnabled()).toBe(false);
-    let [strokes, heard] = [0, 0];
+    let strokes = 0;
+    let heard = 0;
     for (; strokes < 150; strokes++) {
       if (/won/.test(await turn(one))) break;
       // Whoever may shoot does; the other one's page hears of it.
@@ -115,7 +116,8 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
         .toBe(true);
     }
     expect(heard).toBe(strokes);
-    const [mine, yours] = [await turn(one), await turn(other)];
+    const mine = await turn(one);
+    const yours = await turn(other);
     expect(
       [mine, yours].map((told) => told.match(/(You have|The other player has) won/)![1]).sort(),
     ).toEqual(["The other player has", "You have"]);
@@ -129,7 +131,8 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
   }, 300_000);
 
   test("whoever keeps the turn is told that the other one waits, who knows for what", async () => {
-    const [here, there] = [await contextOf(sizes[1][1]), await contextOf(sizes[0][1])];
+    const here = await contextOf(sizes[1][1]);
+    const there = await contextOf(sizes[0][1]);
     const one = await open(
       here,
       `#view=play&seat=0&g=${packed(JSON.stringify({ game: "nineball", against: "link", own: "0", seed: 7, at: "0.3,0.3 0.1,0.1 in in in in in in in 0.9,1.9", entries: [] }))}`,
@@ -167,7 +170,8 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
   });
 
   test("a link to another machine plays the strokes, and one that was changed is refused", async () => {
-    const [here, there] = [await contextOf(sizes[0][1]), await contextOf(sizes[1][1])];
+    const here = await contextOf(sizes[0][1]);
+    const there = await contextOf(sizes[1][1]);
     const one = await open(here);
     await begin(one, "eightball");
     await one.locator("#shoot").click();

@@ -55,7 +55,8 @@ function seeded(seed: number): void {
 /** Where a place of a 9-ft table, m, is on the page. */
 async function on(one: Page, x: number, y: number): Promise<[number, number]> {
   const box = (await one.locator("#table-scene").boundingBox())!;
-  const [w, l] = [1.27, 2.54];
+  const w = 1.27;
+  const l = 2.54;
   const upright = box.height > box.width;
   const scale = box.width / ((upright ? w : l) + 0.2);
   return upright
@@ -72,7 +73,8 @@ async function drag(
   to: readonly [number, number],
   touch = false,
 ): Promise<void> {
-  const [a, b] = [await on(one, ...from), await on(one, ...to)];
+  const a = await on(one, ...from);
+  const b = await on(one, ...to);
   const steps = Array.from(
     { length: 8 },
     (_, k) => a.map((x, c) => x + ((b[c]! - x) * (k + 1)) / 8) as [number, number],
@@ -146,7 +148,8 @@ async function bright(
   from: readonly [number, number],
   to: readonly [number, number],
 ): Promise<number> {
-  const [[ax, ay], [bx, by]] = [await on(one, ...from), await on(one, ...to)];
+  const [ax, ay] = await on(one, ...from);
+  const [bx, by] = await on(one, ...to);
   const data = await pixels(
     one,
     Math.min(ax, bx),

@@ -6,7 +6,10 @@ import { discOf, type Picture, snapCorners, snapDisc } from "../src/play/snap.js
 import { pinhole as camera } from "./camera.js";
 import { Draws } from "../../test/support.js";
 
-const [W, L, NOSE, R] = [1.27, 2.54, 0.0366, 0.028575];
+const W = 1.27;
+const L = 2.54;
+const NOSE = 0.0366;
+const R = 0.028575;
 const SIZE: Pixel = [4032, 3024];
 const COLOURS = [
   "#e3b505",
@@ -43,7 +46,8 @@ test.each([
     for (let picture = 0; picture < 20; picture++) {
       const camera = cameraOf(SIZE, corners(see).map(off), [W, L], NOSE - R);
       for (let k = 0; k < 16; k++) {
-        const [x, y] = [draws.between(R, W - R), draws.between(R, L - R)];
+        const x = draws.between(R, W - R);
+        const y = draws.between(R, L - R);
         const [px, py] = camera.place(off(see(x, y, R)));
         worst = Math.max(worst, Math.hypot(px - x, py - y));
       }
@@ -58,7 +62,8 @@ test("exact marks give the focal length, and places to a tenth of a millimetre; 
   const camera = cameraOf(SIZE, corners(see), [W, L], NOSE - R);
   expect(camera.focal).toBeCloseTo(3000, 3);
   const flat = cameraOf(SIZE, corners(see), [W, L], 0);
-  let [worst, without] = [0, 0];
+  let worst = 0;
+  let without = 0;
   for (const [x, y] of [
     [0.1, 0.2],
     [1.2, 0.4],
@@ -66,7 +71,8 @@ test("exact marks give the focal length, and places to a tenth of a millimetre; 
     [0.05, 2.4],
     [1.2, 2.5],
   ] as const) {
-    const [[px, py], [fx, fy]] = [camera.place(see(x, y, R)), flat.place(see(x, y, R))];
+    const [px, py] = camera.place(see(x, y, R));
+    const [fx, fy] = flat.place(see(x, y, R));
     worst = Math.max(worst, Math.hypot(px - x, py - y));
     without = Math.max(without, Math.hypot(fx - x, fy - y));
     const [u, v] = camera.pixel([x, y]);
@@ -132,7 +138,9 @@ function photo(
       ),
     ),
   }));
-  const [wood, cloth, white] = [rgb("#5b3a24"), rgb("#1f6f5c"), rgb("#f4f2ea")];
+  const wood = rgb("#5b3a24");
+  const cloth = rgb("#1f6f5c");
+  const white = rgb("#f4f2ea");
   const paint = (x: number, y: number, colour: number[]): void => {
     state = Math.imul(state, 1664525) + 1013904223; // draws of 64 bits would take most of the time
     for (let c = 0; c < 4; c++)
@@ -155,7 +163,8 @@ function photo(
   } of discs)
     for (let y = Math.ceil(v - r); y < v + r; y++)
       for (let x = Math.ceil(u - r); x < u + r; x++) {
-        const [a, b] = [(x - u) / r, (y - v) / r];
+        const a = (x - u) / r;
+        const b = (y - v) / r;
         if (a * a + b * b < 1)
           paint(
             x,
@@ -203,7 +212,8 @@ test.each([
       [W, L],
       NOSE - R,
     );
-    let [worst, asked] = [0, 0];
+    let worst = 0;
+    let asked = 0;
     for (const [ball, x, y] of balls) {
       const mark = finger(see(x, y, R));
       const radius = radiusAt(of, mark);

@@ -4,7 +4,10 @@ import { pinhole } from "./camera.js";
 import { Draws } from "../../test/support.js";
 import { browserPath, pages, sizes, violations } from "./page.js";
 
-const [W, L, NOSE, R] = [1.27, 2.54, 0.0366, 0.028575];
+const W = 1.27;
+const L = 2.54;
+const NOSE = 0.0366;
+const R = 0.028575;
 
 describe.runIf(browserPath !== undefined)("practice", () => {
   const { open, text, set, turnTo } = pages();

@@ -49,7 +49,8 @@ function impactOf(s: Setting, over: Partial<Setting> = {}): Impact {
   return {
     a: { v: [speed, 0, 0], w: [0, (2.5 * speed * tip) / R, (2.5 * speed * side) / R], ...kind },
     b: { r: [2 * R * Math.cos(angle), 2 * R * Math.sin(angle), 0], ...kind },
-    ...{ muBall: law ? undefined : mu, restitution: e },
+    muBall: law ? undefined : mu,
+    restitution: e,
   };
 }
 
@@ -123,7 +124,10 @@ function plotsOf(into: HTMLElement) {
   const cut = ["cut angle, °", -85, 85] as const;
   return {
     throwByCut: plot(into, {
-      ...{ id: "plot-throw-cut", title: "Throw against cut angle", x: cut, y: "throw, ° (+ left)" },
+      id: "plot-throw-cut",
+      title: "Throw against cut angle",
+      x: cut,
+      y: "throw, ° (+ left)",
       note: "Orange: this collision. Grey: throw at 45° without spin, as D. Alciatore reports it for balls cleaned with Aramith (3.6°), used (4.9°), cleaned with alcohol (11°) and chalked at the contact (11.6°).",
       series: [
         { label: "throw", color: "accent" },
@@ -131,23 +135,19 @@ function plotsOf(into: HTMLElement) {
       ],
     }),
     throwBySide: plot(into, {
-      ...{
-        id: "plot-throw-side",
-        title: "Throw against side spin",
-        x: ["tip to the right, R", -0.7, 0.7],
-        y: "throw, ° (+ left)",
-      },
+      id: "plot-throw-side",
+      title: "Throw against side spin",
+      x: ["tip to the right, R", -0.7, 0.7],
+      y: "throw, ° (+ left)",
       note: "Where the curve crosses 0 the balls roll on each other like gears.",
       series: [{ label: "throw", color: "accent" }],
     }),
     deflection: plot(into, {
-      ...{
-        id: "plot-deflection",
-        title: "Deflection of the cue ball, once it rolls",
-        x: cut,
-        y: "deflection, ° (+ left)",
-        band: [27, 34],
-      },
+      id: "plot-deflection",
+      title: "Deflection of the cue ball, once it rolls",
+      x: cut,
+      y: "deflection, ° (+ left)",
+      band: [27, 34],
       note: "Band: the 30-degree rule, 27° to 34°. Points: five rolling shots measured by Mathavan and others (2014), on a snooker table.",
       series: [
         { label: "deflection", color: "accent" },
@@ -155,12 +155,10 @@ function plotsOf(into: HTMLElement) {
       ],
     }),
     inside: plot(into, {
-      ...{
-        id: "plot-inside",
-        title: "Inside the contact",
-        x: ["normal impulse so far, N s", 0, 0],
-        y: "m/s",
-      },
+      id: "plot-inside",
+      title: "Inside the contact",
+      x: ["normal impulse so far, N s", 0, 0],
+      y: "m/s",
       note: "The balls press on each other for about 0.2 ms. Slips are speeds of one surface over the other; approach ends where compression turns into restitution.",
       series: [
         { label: "slip of the balls", color: "accent" },
@@ -285,7 +283,8 @@ function draw(view: View, s: Setting, a: Motion, b: Motion): void {
   view.origin = [width * 0.5, height * 0.5];
   const angle = s.cut / DEGREES;
   const [ox, oy] = view.origin;
-  const [cx, cy] = [ox - 2 * radius * Math.cos(angle), oy + 2 * radius * Math.sin(angle)];
+  const cx = ox - 2 * radius * Math.cos(angle);
+  const cy = oy + 2 * radius * Math.sin(angle);
   const ball = (x: number, y: number, fill: string): void => {
     g.beginPath();
     g.arc(x, y, radius, 0, 7);
@@ -401,7 +400,8 @@ export function collisionView(
     role: "img",
     tabindex: "0",
   });
-  const [numbers, curves] = [el("tbody"), el("div", { class: "plots" })];
+  const numbers = el("tbody");
+  const curves = el("div", { class: "plots" });
   const roots = (...keys: Exclude<keyof Setting, "law">[]): HTMLElement[] =>
     keys.map((key) => controls.sliders[key].root);
   main.replaceChildren(

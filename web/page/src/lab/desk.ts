@@ -66,7 +66,10 @@ export function controlsOf(aimed: () => void, racked: () => void) {
   const sliders: Record<string, Slider> = stroke.sliders;
   const set = (key: string, value: number): void => void (sliders[key]!.value = value);
   return {
-    ...{ sliders, stroke, set, value: (key: string): number => sliders[key]!.value },
+    sliders,
+    stroke,
+    set,
+    value: (key: string): number => sliders[key]!.value,
     games: choice(
       "game",
       "Game",

@@ -47,7 +47,8 @@ const waitsAt = ({ table }: Desk, index: number): Point => [
 const canTurn = ({ chosen, balls }: Desk): boolean => chosen > 0 && onTable(balls[chosen]!.state);
 function turner({ balls, chosen, faces, film }: Desk): Point {
   const { r } = balls[chosen]!.state;
-  const [away, face] = [36 / film.scale, faces[chosen]! / DEGREES];
+  const away = 36 / film.scale;
+  const face = faces[chosen]! / DEGREES;
   return [r[0] + away * Math.cos(face), r[1] + away * Math.sin(face)];
 }
 
@@ -57,7 +58,8 @@ function turner({ balls, chosen, faces, film }: Desk): Point {
  */
 export function drawHand(d: Desk, g: CanvasRenderingContext2D): void {
   const { film, balls } = d;
-  const [pen, cue] = [{ g, scale: film.scale, place: film.place }, cueOf(d)];
+  const pen = { g, scale: film.scale, place: film.place };
+  const cue = cueOf(d);
   waits(d).forEach((k, index) =>
     film.drawBall(g, k, { r: [...waitsAt(d, index), 0], q: [1, 0, 0, 0], seen: true }, 1),
   );
@@ -120,7 +122,8 @@ function moveBall(d: Desk, { soon }: Hand, ball: number, [x, y]: Point): void {
 function drag(d: Desk, hand: Hand, at: Point): void {
   if (!hand.held) return;
   const { grip, from, value } = hand.held;
-  const [cueBall, picked] = [d.balls[0]!, d.balls[d.chosen]!];
+  const cueBall = d.balls[0]!;
+  const picked = d.balls[d.chosen]!;
   if (grip.is === "ball") moveBall(d, hand, grip.ball, at);
   else if (grip.is === "turn")
     turnBall(
@@ -185,7 +188,9 @@ function up(d: Desk, hand: Hand): void {
 }
 function key(d: Desk, hand: Hand, undo: () => void, event: KeyboardEvent): void {
   const { set, value } = d.controls;
-  const [arrow, ball, by] = [ARROWS[event.key], Math.max(d.chosen, 0), event.shiftKey ? 1 : 0.1];
+  const arrow = ARROWS[event.key];
+  const ball = Math.max(d.chosen, 0);
+  const by = event.shiftKey ? 1 : 0.1;
   if (event.key === " ") d.film.play.click();
   else if ((event.ctrlKey || event.metaKey) && event.key === "z") undo();
   else if (event.key === "," || event.key === ".")

@@ -91,7 +91,8 @@ export function aimAt(d: Desk, pocket: number): void {
   if (is === "no_way") return says(d, `No such aim: no direction sends ${name}.`);
   d.controls.set("phi", Math.round(pot.cue.phi * 1e4) / 1e4);
   d.aimed();
-  const [of, other] = [names[met?.a ?? 0], met?.type === "ball_ball" ? names[met.b] : "a cushion"];
+  const of = names[met?.a ?? 0];
+  const other = met?.type === "ball_ball" ? names[met.b] : "a cushion";
   const why = {
     falls: "",
     stick: "the stick would have to be raised too far",

@@ -26,16 +26,14 @@ function deskOf(carom: Carom, solver: Desk["solver"]): Desk {
     ended: () => d.recorded && d.recording.advance(),
   });
   const d = {
-    ...{
-      carom,
-      solver,
-      controls,
-      film,
-      recorded: undefined,
-      imported: undefined,
-      shot: undefined,
-      writing: undefined,
-    },
+    carom,
+    solver,
+    controls,
+    film,
+    recorded: undefined,
+    imported: undefined,
+    shot: undefined,
+    writing: undefined,
     aimed: () => present(d, cueOf(d)),
   } as unknown as Desk;
   return Object.assign(d, { recording: reel(d) });

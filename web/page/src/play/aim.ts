@@ -259,7 +259,8 @@ function up(s: Session, hand: Hand, event: PointerEvent): void {
   if (event.type !== "pointerup" || !was.taps || !free(s)) return;
   // A second tap at the same place shows it larger, or all of the table; the first one has aimed at
   // nothing.
-  const [at, before] = [pixelsOf(s.film.canvas, event), hand.tapped];
+  const at = pixelsOf(s.film.canvas, event);
+  const before = hand.tapped;
   hand.tapped = { when: event.timeStamp, at, phi: was.phi };
   if (
     event.pointerType !== "touch" ||
@@ -275,7 +276,8 @@ function up(s: Session, hand: Hand, event: PointerEvent): void {
 }
 function key(s: Session, event: KeyboardEvent): void {
   const { film, play } = s;
-  const [arrow, { phi, speed }] = [ARROWS[event.key], cueOf(s)];
+  const arrow = ARROWS[event.key];
+  const { phi, speed } = cueOf(s);
   if (film.playing && (event.key === "Enter" || event.key === "Escape")) skip(s);
   else if (event.key === "Enter") shoot(s);
   else if (!free(s)) return;

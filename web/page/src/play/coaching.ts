@@ -22,7 +22,8 @@ import {
   why,
 } from "./session.js";
 
-const [PLAN, TRY] = [1000, 200];
+const PLAN = 1000;
+const TRY = 200;
 
 /** A stroke that a plan is asked for. */
 export interface Asked {

@@ -45,7 +45,9 @@ function wheelOf(turn: (steps: number) => void): HTMLElement {
     { id: "wheel", role: "slider", tabindex: "0", "aria-label": "Fine aim", "aria-valuenow": "0" },
     el("span", {}, `↺ ${STEP}° ↻`),
   );
-  let [from, last, at] = [0, 0, 0];
+  let from = 0;
+  let last = 0;
+  let at = 0;
   const roll = (steps: number): void => {
     at += steps;
     wheel.style.backgroundPositionX = `${at}px`;
@@ -105,7 +107,8 @@ export function controls(s: Session) {
       el("summary", {}, "Stroke in numbers"),
       ...(["phi", "right", "up", "theta"] as const).map((key) => sliders[key].root),
     ),
-    ...{ set, value },
+    set,
+    value,
     /**
      * Shows which part of a ball is met, as whoever aims sees both: its share of the diameter, and
      * the side of it, 1 the right one; or none.

@@ -53,10 +53,8 @@ function partsOf(take: (k: number) => void, changed: () => void) {
   // A box for text shows on paper only what fits into it.
   const printed = el("p", { class: "on-paper" });
   notes.addEventListener("input", () => (printed.textContent = notes.value));
-  const [after, path] = [
-    check("diagram-after", "after the stroke", changed),
-    check("diagram-path", "with its path", changed),
-  ];
+  const after = check("diagram-after", "after the stroke", changed);
+  const path = check("diagram-path", "with its path", changed);
   return {
     which,
     after,

@@ -42,7 +42,9 @@ export function drillsOf(csv: string): Drill[] {
         string,
       ];
       return {
-        ...{ name, text, rating: Number(rating) },
+        name,
+        text,
+        rating: Number(rating),
         balls: new Map(
           balls.split(" ").map((one) => {
             const [ball, x, y] = one.split(/[:,]/).map(Number) as [number, number, number];
@@ -75,7 +77,8 @@ function wordsOfPlace(
     (at[0]! - met!.r[0]) * vx + (at[1]! - met!.r[1]) * vy;
   if (!met || Math.abs((x - met.r[0]) * vy - (y - met.r[1]) * vx) > 0.1)
     return `The cue ball ended ${cm(Math.hypot(end[0] - x, end[1] - y))} from the place, of ${cm(far)}: change its speed.`;
-  const [wanted, came] = [along([x, y]), along(end)];
+  const wanted = along([x, y]);
+  const came = along(end);
   if (Math.abs(wanted) < 0.1)
     return `The cue ball ${came > 0 ? "rolled on" : "came back"} by ${cm(came)}, and was to stop: strike it ${came > 0 ? "lower" : "higher"}.`;
   const share = came / wanted;
@@ -98,11 +101,10 @@ export function judge(
   const fell = (ball: number): (typeof events)[number] | undefined =>
     events.find(({ type, a }) => type === "ball_pocket" && a === ball);
   const met = new Set(meets.map(other)).size;
-  const [kicks, rails] = [
-    events.filter((one) => isCushion(one) && one.a === 0 && meets[0] && one.time < meets[0].time)
-      .length,
-    events.filter((one) => one.type === "ball_linear_cushion" && one.a === 0).length,
-  ];
+  const kicks = events.filter(
+    (one) => isCushion(one) && one.a === 0 && meets[0] && one.time < meets[0].time,
+  ).length;
+  const rails = events.filter((one) => one.type === "ball_linear_cushion" && one.a === 0).length;
   const checks: Record<string, (value: string) => boolean> = {
     pot(value) {
       const [ball, pocket] = value.split("@");

@@ -66,7 +66,8 @@ export function tell(s: Session): void {
   const { play, seat, buttons, words, film } = s;
   const can = free(s);
   const call = can && calls(s) ? called(s) : undefined;
-  const [safe, pushes] = [can && isSafety(s), play.state.may?.includes("push") === true];
+  const safe = can && isSafety(s);
+  const pushes = play.state.may?.includes("push") === true;
   // What comes of a stroke is told after its film. What is read aloud changes only where the words
   // do.
   const plays =

@@ -20,7 +20,8 @@ export const countGame = (setup: Setup, winner: 0 | 1): unknown =>
 
 /** What is kept in this browser: games, and tries of drills. */
 function results(drills: readonly Drill[]): { games: Score[]; tries: Score[] } {
-  const [games, made] = [tally(GAMES), tally(DRILLS_MADE)];
+  const games = tally(GAMES);
+  const made = tally(DRILLS_MADE);
   return {
     games: Object.entries(games).map(([against, [won, lost]]) => ({
       against: Number(against),

@@ -60,7 +60,8 @@ export function lookAlong(
   const { r: at, v } = event.before[own]!;
   if (event.type !== "ball_ball")
     return { at, ball: -1, from: [], way: [], share: 0, side: 1, ways: [] };
-  const [ball, { r: from, v: way }] = [own === 0 ? event.b : event.a, event.after[1 - own]!];
+  const ball = own === 0 ? event.b : event.a;
+  const { r: from, v: way } = event.after[1 - own]!;
   // How far the ball lies to the left of the aim, in distances of the middles.
   const left =
     (v[0] * (from[1] - at[1]) - v[1] * (from[0] - at[0])) /
@@ -88,9 +89,11 @@ export function guessOf(
 ): { ball: number; pocket: number } {
   if (!look || !on.includes(look.ball)) return { ball: on.length === 1 ? on[0]! : -1, pocket: -1 };
   const { from, way } = look;
-  let [pocket, most] = [-1, Math.cos((OFF * Math.PI) / 180)];
+  let pocket = -1;
+  let most = Math.cos((OFF * Math.PI) / 180);
   pockets.forEach(({ centre }, k) => {
-    const [x, y] = [centre[0] - from[0]!, centre[1] - from[1]!];
+    const x = centre[0] - from[0]!;
+    const y = centre[1] - from[1]!;
     const cosine =
       (x * way[0]! + y * way[1]!) / (Math.hypot(x, y) * Math.hypot(way[0]!, way[1]!) || 1);
     if (cosine > most) [pocket, most] = [k, cosine];

@@ -89,7 +89,8 @@ export function cameraOf(
   const unit = ([u, v]: Pixel): Pixel => [(u - wide / 2) / wide, (v - high / 2) / wide];
   const seen = corners.map(unit);
   const turns = seen.map((p, k) => {
-    const [q, r] = [seen[(k + 1) % 4]!, seen[(k + 2) % 4]!];
+    const q = seen[(k + 1) % 4]!;
+    const r = seen[(k + 2) % 4]!;
     return Math.sign((q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]));
   });
   // On a picture, whose v points down, a table that is not mirrored is walked around against the
@@ -110,8 +111,10 @@ export function cameraOf(
   if (!H) throw new TypeError("corners: three of them lie on a line");
 
   // 1 / f^2 from both equations.
-  const [a1, b1] = [H[0] * H[1] + H[3] * H[4], H[6] * H[7]];
-  const [a2, b2] = [H[0] ** 2 + H[3] ** 2 - H[1] ** 2 - H[4] ** 2, H[6] ** 2 - H[7] ** 2];
+  const a1 = H[0] * H[1] + H[3] * H[4];
+  const b1 = H[6] * H[7];
+  const a2 = H[0] ** 2 + H[3] ** 2 - H[1] ** 2 - H[4] ** 2;
+  const b2 = H[6] ** 2 - H[7] ** 2;
   const inverseSquare = -(a1 * b1 + a2 * b2) / (a1 * a1 + a2 * a2);
   const focal =
     inverseSquare > 0.01 && inverseSquare < 25 ? 1 / Math.sqrt(inverseSquare) : undefined;
@@ -170,7 +173,8 @@ export function radiusAt({ place, pixel }: Camera, [u, v]: Pixel): number {
 export function suggest(patch: ArrayLike<number>, colours: readonly string[]): number[] {
   // White pixels make a stripe or the cue ball; the others have the colour, whose hue counts more
   // than its light.
-  let [white, count] = [0, 0];
+  let white = 0;
+  let count = 0;
   const sum = [0, 0, 0];
   for (let k = 0; k < patch.length; k += 4) {
     const rgb = [patch[k]!, patch[k + 1]!, patch[k + 2]!];

@@ -10,9 +10,11 @@ const CORNERS = ["head left", "head right", "foot right", "foot left"];
 /** The noses of cushions, above the middles of balls, m. */
 const LOWER = 0.008;
 /** How near a mark is taken hold of, and how near a tap means it, CSS pixels. */
-const [REACH, TAP] = [18, 8];
+const REACH = 18;
+const TAP = 8;
 /** How far a finger may be off, and the radius of the magnifier, CSS pixels. */
-const [OFF, LENS] = [3, 50];
+const OFF = 3;
+const LENS = 50;
 
 export interface Host {
   /** Names of the balls that may lie there, and the size of their table, m. */
@@ -130,12 +132,11 @@ function draw(p: Photo): void {
 }
 /** The picture around a finger, four times as large, above it, or below where there is no room. */
 function magnify(p: Photo, [x, y]: Pixel): void {
-  const [g, unit] = [p.canvas.getContext("2d")!, scaleOf(p)];
+  const g = p.canvas.getContext("2d")!;
+  const unit = scaleOf(p);
   const lens = LENS * unit;
-  const [u, v] = [
-    Math.min(Math.max(x, lens), p.canvas.width - lens),
-    y > 2.6 * lens ? y - 1.6 * lens : y + 1.6 * lens,
-  ];
+  const u = Math.min(Math.max(x, lens), p.canvas.width - lens);
+  const v = y > 2.6 * lens ? y - 1.6 * lens : y + 1.6 * lens;
   g.save();
   g.beginPath();
   g.arc(u, v, lens, 0, 7);
@@ -234,8 +235,10 @@ function down(p: Photo, at: Pixel): void {
     host: { names },
   } = p;
   const near = ([x, y]: Pixel): boolean => Math.hypot(x - at[0], y - at[1]) < REACH * scaleOf(p);
-  const [corner, one] = [p.corners.findIndex(near), p.balls.find(({ at }) => near(at))];
-  let [moved, last] = [false, at];
+  const corner = p.corners.findIndex(near);
+  const one = p.balls.find(({ at }) => near(at));
+  let moved = false;
+  let last = at;
   p.held = (to) => {
     moved ||= Math.hypot(to[0] - at[0], to[1] - at[1]) > 4 * scaleOf(p);
     last = to;
@@ -267,7 +270,9 @@ function down(p: Photo, at: Pixel): void {
 function pinches(p: Photo): void {
   const { canvas } = p;
   const fingers = new Map<number, Pixel>();
-  let [zoom, x, y] = [1, 0, 0];
+  let zoom = 1;
+  let x = 0;
+  let y = 0;
   const both = (): [number, number, number] => {
     const [a, b] = [...fingers.values()] as [Pixel, Pixel];
     return [Math.hypot(a[0] - b[0], a[1] - b[1]), (a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
@@ -361,10 +366,8 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
     accept: "image/*",
     "aria-label": "A photo of a table",
   });
-  const [wide, long] = [
-    number("photo-width", "Width, m", host.size[0]),
-    number("photo-length", "Length, m", host.size[1]),
-  ];
+  const wide = number("photo-width", "Width, m", host.size[0]);
+  const long = number("photo-length", "Length, m", host.size[1]);
   const ball = choice(
     "photo-ball",
     "Next ball",
@@ -381,16 +384,14 @@ export function photoPage(host: Host): { root: HTMLDialogElement; open(): void }
   const said = el("p", { id: "photo-said", role: "status" });
   const ask = el("div", { id: "photo-ask", class: "row", role: "status" });
   const p: Photo = {
-    ...{
-      host,
-      canvas,
-      done,
-      said,
-      ask,
-      pixels: undefined,
-      ball: ball.select,
-      inputs: { wide: wide.input, long: long.input },
-    },
+    host,
+    canvas,
+    done,
+    said,
+    ask,
+    pixels: undefined,
+    ball: ball.select,
+    inputs: { wide: wide.input, long: long.input },
     picture: undefined,
     corners: [],
     balls: [],

@@ -43,20 +43,17 @@ function surface({ name, colour }: SceneOf["balls"][number]): THREE.CanvasTextur
   const ink = g.getImageData(0, 0, 128, 128).data;
   const pixels = g.createImageData(512, 256);
   const rgb = (hex: string): number[] => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
-  const [base, ivory, dot] = [
-    rgb(colour),
-    rgb(IVORY),
-    colour === IVORY ? [200, 16, 46] : [255, 255, 255],
-  ];
+  const base = rgb(colour);
+  const ivory = rgb(IVORY);
+  const dot = colour === IVORY ? [200, 16, 46] : [255, 255, 255];
   for (let row = 0; row < 256; row++)
     for (let column = 0; column < 512; column++) {
       // three's sphere: u around its y, v from the top; z of the ball is y of the sphere.
-      const [around, down] = [(2 * Math.PI * (column + 0.5)) / 512, (Math.PI * (row + 0.5)) / 256];
-      const [x, y, z] = [
-        -Math.cos(around) * Math.sin(down),
-        -Math.sin(around) * Math.sin(down),
-        Math.cos(down),
-      ];
+      const around = (2 * Math.PI * (column + 0.5)) / 512;
+      const down = (Math.PI * (row + 0.5)) / 256;
+      const x = -Math.cos(around) * Math.sin(down);
+      const y = -Math.sin(around) * Math.sin(down);
+      const z = Math.cos(down);
       let of = base;
       if (number > 8 && Math.abs(x) > Math.cos(0.9)) of = ivory;
       if (number > 0 && Math.abs(z) > Math.cos(0.52)) {
@@ -155,7 +152,9 @@ function furnish(scene: THREE.Scene, of: SceneOf): void {
     // A strip from the nose outwards, over the cloth.
     const along = Math.hypot(q[0] - p[0], q[1] - p[1]);
     if (along < 1e-6) return [];
-    const [ux, uy, thick] = [(q[0] - p[0]) / along, (q[1] - p[1]) / along, 0.045];
+    const ux = (q[0] - p[0]) / along;
+    const uy = (q[1] - p[1]) / along;
+    const thick = 0.045;
     const middle = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2] as const;
     const outward = Math.sign(-uy * (middle[0] - width / 2) + ux * (middle[1] - length / 2)) || 1;
     const mesh = box(
@@ -263,7 +262,8 @@ export class Scene {
             : ((sign * d > 0 ? this.#within[c]! + WOOD : -WOOD) - at[c]!) / (sign * d),
         ),
       );
-    const [far, back] = [wood(1), Math.min(wood(-1) + 0.5, 1.15)];
+    const far = wood(1);
+    const back = Math.min(wood(-1) + 0.5, 1.15);
     // That wood is seen below the upper edge, but the cue ball never near it.
     const half = this.#camera.fov / 2;
     const down =
@@ -271,7 +271,8 @@ export class Scene {
         half - 4 + Math.atan2(high, back + far) * DEGREES,
         0.5 * half + Math.atan2(high, back) * DEGREES,
       ) / DEGREES;
-    const [x, y] = [at[0]! - back * along[0], at[1]! - back * along[1]];
+    const x = at[0]! - back * along[0];
+    const y = at[1]! - back * along[1];
     this.#camera.position.set(x, y, high);
     this.#camera.lookAt(
       x + along[0] * Math.cos(down),
@@ -287,11 +288,13 @@ export class Scene {
       ball.position.set(r[0]!, r[1]!, r[2]!);
       ball.quaternion.set(q[1]!, q[2]!, q[3]!, q[0]!);
     });
-    const [to, { r }] = [stick?.first, poses[0]!];
+    const to = stick?.first;
+    const { r } = poses[0]!;
     this.#stick.visible = stick !== undefined;
     this.#aim.visible = this.#ghost.visible = to !== undefined;
     if (to) {
-      const [dx, dy] = [to[0]! - r[0]!, to[1]! - r[1]!];
+      const dx = to[0]! - r[0]!;
+      const dy = to[1]! - r[1]!;
       const gone = Math.hypot(dx, dy);
       this.#aim.scale.x = Math.max(gone, 1e-3);
       this.#aim.rotation.z = Math.atan2(dy, dx);
@@ -299,8 +302,10 @@ export class Scene {
       this.#ghost.position.set(to[0]!, to[1]!, 0.002);
     }
     if (stick) {
-      const [R, { a, b }] = [r[2]!, stick.cue];
-      const [phi, theta] = [stick.cue.phi / DEGREES, Math.max(stick.cue.theta, 3) / DEGREES];
+      const R = r[2]!;
+      const { a, b } = stick.cue;
+      const phi = stick.cue.phi / DEGREES;
+      const theta = Math.max(stick.cue.theta, 3) / DEGREES;
       // From the butt to the tip, and what is to the right of it and above.
       const along = new THREE.Vector3(
         Math.cos(phi) * Math.cos(theta),

@@ -110,7 +110,8 @@ export const isSafety = (s: Session): boolean => calls(s) && valid(s).pocket ===
  * way.
  */
 export function called(s: Session): { ball: number; pocket: number } | undefined {
-  const [of, given] = [guessOf(s.play.table, s.first, ballsOn(s)), valid(s)];
+  const of = guessOf(s.play.table, s.first, ballsOn(s));
+  const given = valid(s);
   const guess = s.play.setup.game === "bank" ? { ...of, pocket: -1 } : of;
   if (given.pocket === SAFETY) return undefined;
   const ball = given.ball > 0 ? given.ball : guess.ball;

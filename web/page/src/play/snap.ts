@@ -38,17 +38,20 @@ function sideOf(picture: Picture, from: Pixel, to: Pixel, reach: number): { p: P
     const along = length * (0.06 + (0.88 * k) / 59);
     const edge = (off: number): number =>
       apart(at(picture, ...place(along, off - 2)), at(picture, ...place(along, off + 2)));
-    let [best, most] = [0, 0];
+    let best = 0;
+    let most = 0;
     for (let off = -reach; off <= reach; off++) {
       const here = edge(off) * Math.exp(-((off / reach) ** 2));
       if (here > most) [best, most] = [off, here];
     }
     // The middle of the edge, which is as wide as the pixels that are compared.
-    const [offs, edges] = [Array.from({ length: 17 }, (_, k) => best + (k - 8) / 2), edge(best)];
+    const offs = Array.from({ length: 17 }, (_, k) => best + (k - 8) / 2);
+    const edges = edge(best);
     const on = offs.filter((off) => edge(off) > 0.7 * edges);
     return [along, on.reduce((sum, off) => sum + off, 0) / on.length] as const;
   });
-  let [on, line] = [0, [0, 0] as readonly [number, number]];
+  let on = 0;
+  let line = [0, 0] as readonly [number, number];
   for (const [i, a] of seen.entries())
     for (const b of seen.slice(i + 10)) {
       const slope = (b[1] - a[1]) / (b[0] - a[0]);
@@ -62,7 +65,8 @@ function sideOf(picture: Picture, from: Pixel, to: Pixel, reach: number): { p: P
   const near = seen.filter(([along, off]) => Math.abs(off - line[0] - line[1] * along) < 2);
   const mean = (of: (one: readonly [number, number]) => number): number =>
     near.reduce((sum, one) => sum + of(one), 0) / near.length;
-  const [u, v] = [mean(([along]) => along), mean(([, off]) => off)];
+  const u = mean(([along]) => along);
+  const v = mean(([, off]) => off);
   const slope =
     mean(([along, off]) => (along - u) * (off - v)) / mean(([along]) => (along - u) ** 2);
   return { p: place(u, v), d: [d[0] - slope * d[1], d[1] + slope * d[0]] };
@@ -87,7 +91,8 @@ const circles = (radii: readonly number[]): Pixel[] =>
       (_, k) => [r * Math.cos((k * Math.PI) / 12), r * Math.sin((k * Math.PI) / 12)] as const,
     ),
   );
-const [WITHIN, AROUND] = [circles([0.3, 0.6, 0.85]), circles([1.2, 1.4])];
+const WITHIN = circles([0.3, 0.6, 0.85]);
+const AROUND = circles([1.2, 1.4]);
 
 export function snapDisc(picture: Picture, mark: Pixel, radius: number, reach: number): Pixel {
   // The cloth: the middle of the colours around.
@@ -103,7 +108,8 @@ export function snapDisc(picture: Picture, mark: Pixel, radius: number, reach: n
         sum + Math.min(apart(at(picture, x + radius * u, y + radius * v), cloth) / 60, 1),
       0,
     ) / points.length;
-  let [best, most] = [mark, 0.3];
+  let best = mark;
+  let most = 0.3;
   for (let step = Math.max(radius / 5, 1), far = reach; step > 0.4; far = 2 * step, step /= 3) {
     const [x0, y0] = best;
     for (let x = x0 - far; x <= x0 + far; x += step)
@@ -117,7 +123,9 @@ export function snapDisc(picture: Picture, mark: Pixel, radius: number, reach: n
   }
   // The middle of what differs from the cloth there.
   const [x, y] = best;
-  let [sum, u, v] = [0, 0, 0];
+  let sum = 0;
+  let u = 0;
+  let v = 0;
   for (let i = -radius; most > 0.3 && i <= radius; i += 0.5)
     for (let j = -radius; j <= radius; j += 0.5) {
       const weight =

@@ -74,7 +74,8 @@ export function wave(
 ): Float32Array<ArrayBuffer> {
   const longest = Math.max(decay, ...tones.map(([, , d]) => d));
   const samples = new Float32Array(Math.ceil(6 * longest * rate));
-  let [state, smooth] = [12345, 0];
+  let state = 12345;
+  let smooth = 0;
   samples.forEach((_, k) => {
     const t = k / rate;
     state = (Math.imul(state, 1664525) + 1013904223) >>> 0;

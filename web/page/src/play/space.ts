@@ -177,11 +177,11 @@ export class Space {
    * other one.
    */
   #label(poses: readonly Pose[], aims: boolean): void {
-    const [over, scene, balls] = [this.#over, this.#scene!, this.#of!.balls];
-    const [{ clientWidth: width, clientHeight: height }, sharp] = [
-      scene.canvas,
-      Math.min(window.devicePixelRatio || 1, 2),
-    ];
+    const over = this.#over;
+    const scene = this.#scene!;
+    const balls = this.#of!.balls;
+    const { clientWidth: width, clientHeight: height } = scene.canvas;
+    const sharp = Math.min(window.devicePixelRatio || 1, 2);
     Object.assign(over, { width: width * sharp, height: height * sharp });
     Object.assign(over.style, { width: `${width}px`, height: `${height}px` });
     const g = over.getContext("2d")!;
@@ -195,10 +195,8 @@ export class Space {
     drawMarks(this.s, pen);
     const seen = poses.map(({ r, seen }, k) => {
       const { kind } = balls[k]!;
-      const [[x, y], [u, v]] = [
-        scene.place(r[0]!, r[1]!, r[2]!),
-        scene.place(r[0]!, r[1]!, r[2]! + kind.radius),
-      ];
+      const [x, y] = scene.place(r[0]!, r[1]!, r[2]!);
+      const [u, v] = scene.place(r[0]!, r[1]!, r[2]! + kind.radius);
       return {
         kind: { ...kind, radius: 1.1 * Math.hypot(u - x, v - y) },
         state: {

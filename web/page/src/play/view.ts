@@ -28,7 +28,11 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
     if (settings.coach) void chances(s);
   });
   const bare: Omit<Session, "stroke" | "link" | "training" | "space"> = {
-    ...{ carom, coarse, settings, changed, sound: new Sound(settings.sound) },
+    carom,
+    coarse,
+    settings,
+    changed,
+    sound: new Sound(settings.sound),
     words: {
       turn: el("p", { id: "turn", role: "status" }),
       score: el("p", { id: "score" }),
@@ -61,19 +65,21 @@ function sessionOf(carom: Carom, felt: HTMLElement): Session {
       ended: () => finish(s),
     }),
     play: new Play(carom, FIRST),
-    ...{
-      seat: 0,
-      chosen: NONE,
-      special: undefined,
-      hinted: false,
-      first: undefined,
-      turned: [],
-      turnedBefore: [],
-      thinks: false,
-      theirs: undefined,
-      then: undefined,
-    },
-    ...{ shown: undefined, filmed: undefined, sounded: 0, number: 0, asking: 0 },
+    seat: 0,
+    chosen: NONE,
+    special: undefined,
+    hinted: false,
+    first: undefined,
+    turned: [],
+    turnedBefore: [],
+    thinks: false,
+    theirs: undefined,
+    then: undefined,
+    shown: undefined,
+    filmed: undefined,
+    sounded: 0,
+    number: 0,
+    asking: 0,
   };
   const s = bare as Session;
   felt.append(s.film.canvas);

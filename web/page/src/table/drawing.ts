@@ -79,7 +79,8 @@ export function drawContact(
     event.a === ball
       ? [event.before[1]!.r, event.before[0]!.r]
       : [event.before[0]!.r, event.before[1]!.r];
-  const [nx, ny] = [(object[0] - ghost[0]) / (2 * radius), (object[1] - ghost[1]) / (2 * radius)];
+  const nx = (object[0] - ghost[0]) / (2 * radius);
+  const ny = (object[1] - ghost[1]) / (2 * radius);
   pen.g.setLineDash([5, 4]);
   stroke(pen, object, [object[0] + length * nx, object[1] + length * ny], 1.4, "#ffffffd0");
   const turn = Math.sign(dx * -ny + dy * nx) || 1;
@@ -97,7 +98,8 @@ export function drawContact(
 /** The stick behind the cue ball, drawn back by its speed. */
 export function drawStick(pen: Pen, cueBall: ShotBall, { phi, theta, speed }: Cue): void {
   const { r } = cueBall.state;
-  const [dx, dy] = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)];
+  const dx = Math.cos(phi / DEGREES);
+  const dy = Math.sin(phi / DEGREES);
   const at = (s: number): [number, number] => [r[0] - dx * s, r[1] - dy * s];
   const gap = stickEnd(cueBall.kind.radius, speed);
   const thick = Math.max(0.012 * pen.scale, 3);
@@ -131,7 +133,9 @@ export function drawNumbers(
   balls.forEach(({ state, kind }, k) => {
     if (!(Number(names[k]) > 0) || !onTable(state)) return;
     const [x, y] = place(state.r[0], state.r[1]);
-    const [half, high, away] = [g.measureText(names[k]!).width / 2, 5, kind.radius * scale + 2];
+    const half = g.measureText(names[k]!).width / 2;
+    const high = 5;
+    const away = kind.radius * scale + 2;
     const near = taken.filter(([bx, by]) => Math.abs(bx! - x) < 80 && Math.abs(by! - y) < 80);
     // Of twelve places around the ball the one that covers least; the first is at the upper right.
     const covers = ([px, py]: readonly [number, number]): number =>

@@ -57,7 +57,8 @@ export function gripAt(
   );
   if (pocket >= 0) return { is: "pocket", pocket };
   const { r } = balls[0]!.state;
-  const [dx, dy] = [Math.cos(cue.phi / DEGREES), Math.sin(cue.phi / DEGREES)];
+  const dx = Math.cos(cue.phi / DEGREES);
+  const dy = Math.sin(cue.phi / DEGREES);
   const along = (x - r[0]) * dx + (y - r[1]) * dy;
   if (Math.abs((y - r[1]) * dx - (x - r[0]) * dy) >= reach) return { is: "cloth" };
   const end = stickEnd(balls[0]!.kind.radius, cue.speed);
@@ -104,7 +105,8 @@ export function put(
   const R = balls[ball]!.kind.radius;
   const inside = (v: number, most: number): number =>
     Math.min(Math.max(v, R + 1e-4), most - R - 1e-4);
-  let [px, py] = [inside(x, table.width), inside(y, highest)];
+  let px = inside(x, table.width);
+  let py = inside(y, highest);
   const other = balls.find(
     ({ state }, k) =>
       k !== ball && onTable(state) && Math.hypot(state.r[0] - px, state.r[1] - py) < 2 * R + 1e-5,
