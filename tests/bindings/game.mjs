@@ -46,6 +46,20 @@ const NUMBERS = {
 };
 const LINES = { recording: 1n, table: 2n, options: 3n, balls: 4n, shot: 6n };
 
+/** The bits of a number of a line by its name in NUMBERS; those of 0 where it is missing. */
+function bitsOfField(name, value) {
+  if (value === undefined) return 0n;
+  if (name === "hash") return BigInt(`0x${value}`);
+  return name.endsWith("#") ? word(BigInt(value)) : bitsOf(number(value));
+}
+
+/** The stroke of a line of a shot, without what was recorded of its end. */
+function strokeOf(line) {
+  const stroke = { ...line };
+  for (const result of ["status", "events", "time", "hash"]) delete stroke[result];
+  return stroke;
+}
+
 /** The hash with the numbers of an object of a line. */
 function stirObject(hash, kind, object) {
   let place = 0n;
@@ -62,14 +76,7 @@ function stirObject(hash, kind, object) {
     }
     for (let k = 0; k < (Number(many) || 1); k++) {
       const value = many ? object[key]?.[k] : object[key];
-      const bits =
-        value === undefined
-          ? 0n
-          : key === "hash"
-            ? BigInt(`0x${value}`)
-            : name.endsWith("#")
-              ? word(BigInt(value))
-              : bitsOf(number(value));
+      const bits = bitsOfField(name, value);
       place++;
       if (bits !== 0n) hash = stir(stir(hash, place), bits);
     }
@@ -166,7 +173,7 @@ for (const line of readFileSync(process.argv[2], "utf8").trim().split("\n")) {
       },
     }));
   } else if (kind === "shot") {
-    const { status, events, time, hash, ...cue } = given;
+    const { status, hash } = given;
     const shot = carom.simulate(table, balls, {
       miscue: 0,
       tipTime: 0,
@@ -175,14 +182,13 @@ for (const line of readFileSync(process.argv[2], "utf8").trim().split("\n")) {
       theta: 0,
       a: 0,
       b: 0,
-      ...cue,
+      ...strokeOf(given),
     });
     const words = shot.final.flatMap(({ r, v, w, label }) => [
       ...[...r, ...v, ...w].map(bitsOf),
       BigInt(LABELS.indexOf(label)),
     ]);
-    const { status: _s, events: _e, time: _t, hash: _h, ...stroke } = value;
-    const begun = stirObject(stir(before, LINES.shot), "shot", stroke);
+    const begun = stirObject(stir(before, LINES.shot), "shot", strokeOf(value));
     const played = fingerprint(
       fingerprint(begun, [BigInt(status), BigInt(shot.events.length), bitsOf(shot.time)]),
       words,

@@ -110,7 +110,8 @@ const server = createServer((request, answer) => {
   answer.writeHead(existsSync(path) ? 200 : 404, {
     "content-type": TYPES[extname(path)] ?? "application/octet-stream",
   });
-  existsSync(path) ? createReadStream(path).pipe(answer) : answer.end();
+  if (existsSync(path)) createReadStream(path).pipe(answer);
+  else answer.end();
 });
 await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
 await page.goto(`http://127.0.0.1:${server.address().port}/index.html`);

@@ -171,9 +171,10 @@ function winding(of, clock, { ended, moved, still = () => false }, draw) {
         : clock.all.findLast((event) => event.time < clock.time - 1e-9);
     if (next) go(next.time);
   }
-  of.play.addEventListener("click", () =>
-    !clock.playing ? start() : still() ? undefined : stop(),
-  );
+  of.play.addEventListener("click", () => {
+    if (!clock.playing) start();
+    else if (!still()) stop();
+  });
   of.back.addEventListener("click", () => step(-1));
   of.forward.addEventListener("click", () => step(1));
   of.slider.addEventListener("input", () => go(of.slider.valueAsNumber));

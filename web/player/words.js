@@ -75,7 +75,9 @@ export function colourOf(name, k) {
  */
 export function pocketName({ width, length, pockets }, pocket) {
   const [x, y] = pockets[pocket].centre;
-  return `${y < 0.3 * length ? "head" : y < 0.7 * length ? "side" : "foot"}-${x > width / 2 ? "right" : "left"} pocket`;
+  const end = y < 0.3 * length ? "head" : "foot";
+  const isSide = y >= 0.3 * length && y < 0.7 * length;
+  return `${isSide ? "side" : end}-${x > width / 2 ? "right" : "left"} pocket`;
 }
 
 /** @type {Record<string, string>} */

@@ -98,13 +98,13 @@ const RAIL = {
 
 /** How continue() refuses arguments, with nothing played. */
 const REFUSED: readonly number[] = [
-  ...[
-    values.CAROM_ERROR_STATE,
-    values.CAROM_ERROR_STATE_TABLE,
-    values.CAROM_ERROR_STATE_BALLS,
-    values.CAROM_ERROR_STATE_OPTIONS,
-  ],
-  ...[values.CAROM_ERROR_TIME_MOST, values.CAROM_ERROR_STOP_AT, values.CAROM_ERROR_EVENTS_MOST],
+  values.CAROM_ERROR_STATE,
+  values.CAROM_ERROR_STATE_TABLE,
+  values.CAROM_ERROR_STATE_BALLS,
+  values.CAROM_ERROR_STATE_OPTIONS,
+  values.CAROM_ERROR_TIME_MOST,
+  values.CAROM_ERROR_STOP_AT,
+  values.CAROM_ERROR_EVENTS_MOST,
 ];
 
 /** Parts of the memory that every call uses again, one behind the other. */
@@ -503,7 +503,7 @@ export class Carom {
    */
   table(name: TableName, measures: Partial<Measures> = {}): Table {
     const { table, balls, detail } = this.#at;
-      const kind = value("carom_table_kind", name, "table");
+    const kind = value("carom_table_kind", name, "table");
     this.#refuse(this.#call.carom_table_make(kind, table), "table");
     this.#resident = undefined;
     if (Object.keys(measures).length > 0) {
@@ -579,13 +579,10 @@ export class Carom {
     const name = names.carom_part_kind[kind]!;
     if (name === "ball" || name === "state") return `balls[${index}]`;
     if (name === "measures") return `measures.${MEASURES[index]}`;
-    return name === "cue"
-      ? name
-      : name === "options"
-        ? ""
-        : name === "none" || name === "table"
-          ? "table"
-          : `table.${name}s[${index}]`;
+    if (name === "cue") return "cue";
+    if (name === "options") return "";
+    if (name === "none" || name === "table") return "table";
+    return `table.${name}s[${index}]`;
   }
 
   /**
@@ -604,16 +601,10 @@ export class Carom {
     this.#resident = undefined;
     writeTable(this.#memory, this.#at.table, table);
     const { table: of, balls } = this.#at;
-    const drawn =
-      typeof seed === "bigint"
-        ? seed
-        : Number.isSafeInteger(seed) && seed >= 0
-          ? BigInt(seed)
-          : undefined;
-    if (drawn === undefined)
-      throw new RangeError(`seed: it must be a whole number, 0 or more, not ${seed}`);
+    const isWhole = typeof seed === "bigint" || (Number.isSafeInteger(seed) && seed >= 0);
+    if (!isWhole) throw new RangeError(`seed: it must be a whole number, 0 or more, not ${seed}`);
     this.#refuse(
-      this.#call.carom_rack(kind, of, gap, drawn, balls, BALLS_MOST),
+      this.#call.carom_rack(kind, of, gap, BigInt(seed), balls, BALLS_MOST),
       `rack "${name}", gap ${gap}`,
     );
     return readBalls(this.#memory, balls, this.#call.carom_rack_size(kind));
@@ -877,9 +868,9 @@ export class Carom {
     const name = this.#memory
       .text(this.#memory.u32[(row + layout.carom_number.offset.name) / 4]!)!
       .replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());
-    const field = [part, kind === "ball" ? "kind" : kind === "state" ? kind : "", name]
-      .filter(Boolean)
-      .join(".");
+    // The constants of a ball are in its kind, and its place is in its state.
+    const inner = { ball: "kind", state: "state" }[kind as string];
+    const field = [part, inner, name].filter(Boolean).join(".");
     const must = this.#memory.text(text);
     if (must)
       return this.#error(

@@ -19,7 +19,7 @@ import { type Build, simdAvailable, start } from "./memory.js";
 export { Collisions, cueFields, cueSize, Shots } from "./batches.js";
 export type { Carom } from "./carom.js";
 export { CaromError } from "./error.js";
-export { byNumber, fromLine, toLine, type Line } from "./lines.js";
+export { byNumber, fromLine, toLine } from "./lines.js";
 export type { Build } from "./memory.js";
 export { type Replayed, Recording, type ShotEnd } from "./recording.js";
 export { Shot } from "./shot.js";

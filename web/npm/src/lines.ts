@@ -1,20 +1,14 @@
 // Shots as the JSON lines that `carom shoot` reads and writes (docs/using/shots.md has the format).
-import type { Carom } from "./carom.js";
 import { games, names as NAMES, numbers as NUMBERS } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { RulesKind } from "./generated/structs.js";
-import type { BallKind, Cue, Game, ShotBall, Table, TableName } from "./types.js";
+import type { BallKind, Cue, Game, Line, ShotBall, Table, TableName } from "./types.js";
 
-/** A shot as a line has it. */
-export interface Line {
-  id: string;
-  /** The name of a built-in table, as in the line. */
-  tableName: TableName;
-  table: Table;
-  /** Names of the balls, which the line's cue and events use. */
-  names: string[];
-  balls: ShotBall[];
-  cue: Cue;
+/** What the reader of a line needs of the library. */
+interface Library {
+  table(name: TableName): Table;
+  kind(game: Game): BallKind;
+  cue(fields: Partial<Cue>, game: Game): Cue;
 }
 
 /** Keys of lines and fields, in the order of the fields. */
@@ -79,7 +73,7 @@ function fill<Key extends string>(
  * Reads a line of `carom shoot`, with a built-in table. Throws a TypeError that names the key where
  * something is wrong.
  */
-export function fromLine(carom: Carom, text: string): Line {
+export function fromLine(carom: Library, text: string): Line {
   let line: Record<string, unknown>;
   try {
     line = JSON.parse(text.trim()) as Record<string, unknown>;
@@ -156,8 +150,9 @@ const COLOURS = ["yellow", "green", "brown", "blue", "pink", "black"] as const;
 /** The number of a ball by its name in a line; 0 for what has none. */
 function numberOf(name: string, rules: RulesKind): number {
   const colour = rules === "snooker" ? (COLOURS as readonly string[]).indexOf(name) : -1;
+  if (colour >= 0) return 16 + colour;
   const digits = rules === "snooker" ? name.replace(/^red/, "") : name;
-  return colour >= 0 ? 16 + colour : /^\d+$/.test(digits) ? Number(digits) : 0;
+  return /^\d+$/.test(digits) ? Number(digits) : 0;
 }
 
 /**

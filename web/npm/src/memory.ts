@@ -117,19 +117,24 @@ export async function start(build: Build): Promise<Memory> {
   const module = await WebAssembly.compile(await bytesOf(base64));
   // The library asks the system for nothing but the time, and the environment, in which it finds
   // nothing.
-  let memory: WebAssembly.Memory | undefined;
+  let buffer = (): ArrayBufferLike | undefined => undefined; // there is a memory after the start
   const empty = (count: number, size: number): number => {
-    if (memory)
-      new Uint32Array(memory.buffer)[count >>> 2] = new Uint32Array(memory.buffer)[size >>> 2] = 0;
+    const memory = buffer();
+    if (memory === undefined) return 0;
+    const words = new Uint32Array(memory);
+    words[count >>> 2] = 0;
+    words[size >>> 2] = 0;
+    return 0;
+  };
+  const now = (_clock: number, _precision: number, at: number): number => {
+    const nanoseconds = BigInt(Math.round(1e6 * performance.now()));
+    new BigUint64Array(buffer()!)[at >>> 3] = nanoseconds;
     return 0;
   };
   const known: Record<string, (...numbers: number[]) => number | void> = {
     environ_sizes_get: empty as (...numbers: number[]) => number,
     environ_get: () => 0,
-    clock_time_get: (_clock, _precision, at) => (
-      (new BigUint64Array(memory!.buffer)[at! >>> 3] = BigInt(Math.round(1e6 * performance.now()))),
-      0
-    ),
+    clock_time_get: now as (...numbers: number[]) => number,
     emscripten_notify_memory_growth: () => undefined,
   };
   const imports: WebAssembly.Imports = {};
@@ -142,7 +147,7 @@ export async function start(build: Build): Promise<Memory> {
   }
   const instance = await WebAssembly.instantiate(module, imports);
   const exports = instance.exports as unknown as Exports & { _initialize?: () => void };
-  memory = exports.memory;
+  buffer = () => exports.memory.buffer;
   exports._initialize?.();
   return new Memory(exports);
 }

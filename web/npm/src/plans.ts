@@ -86,6 +86,14 @@ function refuseLayout({ pockets }: Table, balls: readonly ShotBall[], rules: str
     );
 }
 
+/** A call as carom_call has it. */
+function numbersOf(call: Call | undefined): { ball: number; pocket: number } {
+  if (call === undefined) return { ball: -1, pocket: -1 };
+  if (call === "push") return { ball: values.CAROM_CALL_PUSH, pocket: -1 };
+  if (call === "pass") return { ball: values.CAROM_CALL_PASS, pocket: -1 };
+  return { ball: call.ball ?? -1, pocket: call.pocket };
+}
+
 export class Plans {
   readonly #host: Host;
   readonly #at: Record<
@@ -135,12 +143,13 @@ export class Plans {
       throw new RangeError(`fargo: it must be 300 to 850, not ${fargo}`);
     if (fargo === undefined) this.#memory.exports.carom_player_of(this.#at.player, errors);
     else this.#memory.exports.carom_player_fargo(this.#at.player, fargo);
-    const { reserved: _, ...player } = readStruct<Player & { reserved: number[] }>(
+    const read = readStruct<Player & { reserved?: number[] }>(
       this.#memory,
       this.#at.player,
       "carom_player",
     );
-    return player;
+    delete read.reserved;
+    return read;
   }
 
   rating(scores: readonly Score[]): Rating {
@@ -379,13 +388,9 @@ export class Plans {
     const memory = this.#memory;
     const { call: callAt, rules, ruling, text } = this.#at;
     this.#writeRules(game, balls);
-    memory.i32[callAt / 4] =
-      call === "push"
-        ? values.CAROM_CALL_PUSH
-        : call === "pass"
-          ? values.CAROM_CALL_PASS
-          : (call?.ball ?? -1);
-    memory.i32[callAt / 4 + 1] = typeof call === "object" ? call.pocket : -1;
+    const { ball, pocket } = numbersOf(call);
+    memory.i32[callAt / 4] = ball;
+    memory.i32[callAt / 4 + 1] = pocket;
     this.#host.refuse(
       memory.exports.carom_referee(
         rules,

@@ -38,8 +38,9 @@ interface Field {
   type: Type;
   size: number;
 }
+const BYTES: Record<Exclude<Type, StructName>, number> = { i32: 4, f64: 8, i64: 8, "": 8 };
 const bytesOf = (type: Type): number =>
-  type === "i32" ? 4 : type === "f64" || type === "i64" || type === "" ? 8 : layout[type].size;
+  type in layout ? layout[type as StructName].size : BYTES[type as keyof typeof BYTES];
 const FIELDS = Object.fromEntries(
   Object.entries(layout).map(([struct, { offset, bytes, type }]) => [
     struct,
@@ -56,6 +57,18 @@ const KEYS_OF = Object.fromEntries(
 /** Refuses what a struct does not have. */
 export function refuseUnknownOf(struct: StructName, from: object, name: string): void {
   refuseUnknown(from, KEYS_OF[struct], name);
+}
+
+/** What a field has to be, in words. */
+function wordsOf(size: number, whole: boolean): string {
+  if (whole) return "a whole number";
+  return size === 1 ? "a number" : `${size} numbers`;
+}
+
+/** The numbers of a field that is one of them or a list; undefined where it is neither. */
+function listOf(given: unknown, size: number): ArrayLike<number> | null | undefined {
+  if (size === 1) return [given as number];
+  return typeof given === "object" ? (given as ArrayLike<number> | null) : undefined;
 }
 
 /**
@@ -77,10 +90,7 @@ export function writeStruct(
       (from as Record<string, unknown>)[key] ??
       (defaults as Record<string, unknown> | undefined)?.[key];
     const whole = type === "i64" || type === "i32";
-    const list = (size === 1 ? [given] : typeof given === "object" ? given : undefined) as
-      | ArrayLike<number>
-      | null
-      | undefined;
+    const list = listOf(given, size);
     if (
       list?.length !== size ||
       ((size === 1 || whole) &&
@@ -89,7 +99,7 @@ export function writeStruct(
         ))
     )
       throw new TypeError(
-        `${name}.${key}: it must be ${whole ? "a whole number" : size === 1 ? "a number" : `${size} numbers`}, not ${JSON.stringify(given)}`,
+        `${name}.${key}: it must be ${wordsOf(size, whole)}, not ${JSON.stringify(given)}`,
       );
     for (let k = 0; k < size; k++)
       if (type === "i64") i64[(at + begin) / 8 + k] = BigInt(list[k]!);
@@ -172,14 +182,12 @@ export function writeOptions(
 /** A struct as an object: numbers, lists of numbers, and structs in it. */
 export function readStruct<T>(memory: Memory, at: Pointer, struct: StructName): T {
   const { f64, i64, i32 } = memory;
-  const one = (type: Type, at: Pointer): unknown =>
-    type === "f64"
-      ? f64[at / 8]
-      : type === "i64"
-        ? Number(i64[at / 8])
-        : type === "i32"
-          ? i32[at / 4]
-          : readStruct(memory, at, type as StructName);
+  const one = (type: Type, at: Pointer): unknown => {
+    if (type === "f64") return f64[at / 8];
+    if (type === "i64") return Number(i64[at / 8]);
+    if (type === "i32") return i32[at / 4];
+    return readStruct(memory, at, type as StructName);
+  };
   const read = ({ key, begin, type, size }: Field): [string, unknown] => [
     key,
     size === 1

@@ -353,3 +353,15 @@ export interface Ruling {
   /** The game as whoever plays next sees it. */
   game: GameState;
 }
+
+/** A shot as a line has it. */
+export interface Line {
+  id: string;
+  /** The name of a built-in table, as in the line. */
+  tableName: TableName;
+  table: Table;
+  /** Names of the balls, which the line's cue and events use. */
+  names: string[];
+  balls: ShotBall[];
+  cue: Cue;
+}

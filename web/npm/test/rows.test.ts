@@ -45,10 +45,8 @@ const options = Object.entries(calls).flatMap(([struct, call]) =>
 
 test.each(options)("option $key of $struct", ({ key, form, words, call }) => {
   const known = words === null ? [] : rows.words[words]!.map(([word]) => word);
-  for (const given of words === null
-    ? [form === "set" ? [1] : form === "number" ? 0.5 : form === "flag" ? 1 : 100]
-    : known)
-    call({ [key]: given });
+  const good: Partial<Record<string, unknown>> = { set: [1], number: 0.5, flag: 1 };
+  for (const given of words === null ? [good[form] ?? 100] : known) call({ [key]: given });
   for (const wrong of ["no such word", form === "number" ? NaN : -1.5])
     expect(() => call({ [key]: wrong })).toThrow(Number.isNaN(wrong) ? /./ : `${key}: it must be`);
   expect(() => call({ [`${key}x`]: 1 })).toThrow("there is no such key; did you mean");
@@ -125,7 +123,7 @@ test("words of games, tables and racks", () => {
     expect(
       carom.rack(
         name as "nineball",
-        carom.table(name === "snooker" ? name : name === "threecushion" ? name : "9ft"),
+        carom.table(name === "snooker" || name === "threecushion" ? name : "9ft"),
       ).length,
     ).toBeGreaterThan(2);
 });

@@ -124,11 +124,8 @@ function typeOf({ type, array = [], pointer }) {
   const [length] = array;
   if (isStruct.has(type)) return length ? `${pascal(type)}[]` : pascal(type);
   if (isEnum.has(type)) return pascal(type);
-  return length === undefined
-    ? "number"
-    : length === 2 || length === 3
-      ? `Vec${length}`
-      : "number[]";
+  if (length === undefined) return "number";
+  return length === 2 || length === 3 ? `Vec${length}` : "number[]";
 }
 let types = `${note}import type { Vec2, Vec3 } from "../types.js";\n`;
 for (const [name, ends] of Object.entries(enums))

@@ -72,7 +72,7 @@ test.runIf(process.env.CAROM_DRILLS)("ratings that make a drill in half of the t
   for (const drill of drills) {
     const { table, balls } = layout(carom, drill);
     const good = (cue: Partial<Cue>): boolean =>
-      judge(drill, carom.simulate(table, balls, cue, OPTIONS)).is !== "missed";
+      judge(drill, carom.simulate(table, balls, cue, OPTIONS)).outcome !== "missed";
     const made: Partial<Cue>[] = [];
     for (const cue of strokes(carom, drill, 4000)) if (good(cue) && made.push(cue) === 200) break;
     const share = (cue: Partial<Cue>, fargo: number, count: number): number =>
@@ -103,10 +103,10 @@ test.each(drills.map((drill) => [drill.name, drill] as const))(
     const { carom } = builds[0]!;
     const { table, balls } = layout(carom, drill);
     const play = (cue: Partial<Cue>): Shot => carom.simulate(table, balls, cue, OPTIONS);
-    expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ is: "missed" });
+    expect(judge(drill, play({ speed: 0.1, phi: 200, b: 0 }))).toMatchObject({ outcome: "missed" });
     // Where three balls are to fall, the stroke goes on.
     for (const cue of strokes(carom, drill, 1000))
-      if (judge(drill, play(cue)).is !== "missed") return;
+      if (judge(drill, play(cue)).outcome !== "missed") return;
     expect.fail(`${drill.name}: no stroke of 1000 makes it`);
   },
 );

@@ -1,5 +1,5 @@
 // The view Collision: the cue ball meets a ball at rest.
-import type { Carom, CollideOptions, Impact, Motion, Vec3 } from "carom";
+import type { Carom, Impact, Motion, Vec3 } from "carom";
 import { fit } from "../../../player/table.js";
 import { DEGREES } from "../table/drawing.js";
 import { pixelsOf } from "../table/grip.js";

@@ -14,19 +14,32 @@ import type { player } from "../../../player/player.js";
 import { GAMES, type GameOf } from "../table/games.js";
 import { cueWith, strokeControls, strokeOf } from "../table/stroke.js";
 import { choice, el, slider, type Slider, wrong } from "../ui.js";
-import type { reel } from "./reel.js";
 
 export const DEFAULTS: Record<string, number> = { speed: 8, phi: 90, right: 0, up: 0.25, theta: 0 };
 /** Models of the cushion, the page's own choice first. */
 const about: ReadonlyMap<string, string> = new Map(words.cushionModel);
 export const CUSHIONS = ["han", ...[...about.keys()].filter((word) => word !== "han")];
 
+/** The recording that is open, of which the laboratory shows one shot after the other. */
+export interface Reel {
+  /** Its buttons and words, and the button that opens a file. */
+  readonly bar: HTMLElement;
+  readonly open: HTMLElement;
+  /** Lets files be dropped on an element. */
+  accept(target: HTMLElement): void;
+  /** The laboratory shows this shot now, or another one that is not recorded. */
+  shows(shot: Replayed | undefined): void;
+  /** The film of a recorded shot has ended: the next one begins. */
+  advance(): void;
+  close(): void;
+}
+
 export interface Desk {
   readonly carom: Carom;
   readonly solver: () => "exact" | "euler";
   readonly controls: ReturnType<typeof controlsOf>;
   readonly film: ReturnType<typeof player>;
-  readonly recording: ReturnType<typeof reel>;
+  readonly recording: Reel;
   /** Plays the shot as it is aimed now, from its start. */
   aimed(): void;
   /** Nothing has changed for a moment: the address is written. */

@@ -90,7 +90,7 @@ function under(d: Desk, at: Point, finger: boolean): Grip {
   const near = ([x, y]: readonly number[]): number => Math.hypot(x! - at[0], y! - at[1]);
   const places: (readonly number[])[] = d.balls.map(({ state }) => state.r);
   waits(d).forEach((k, index) => (places[k] = waitsAt(d, index)));
-  if (canTurn(d) && near(turner(d)) < Math.min(reach, ...places.map(near))) return { is: "turn" };
+  if (canTurn(d) && near(turner(d)) < Math.min(reach, ...places.map(near))) return { kind: "turn" };
   return gripAt(at, reach, d.table, d.balls, places, cueOf(d), 0);
 }
 function turnTo(d: Desk, { soon }: Hand, phi: number): void {
@@ -124,33 +124,40 @@ function drag(d: Desk, hand: Hand, at: Point): void {
   const { grip, from, value } = hand.held;
   const cueBall = d.balls[0]!;
   const picked = d.balls[d.chosen]!;
-  if (grip.is === "ball") moveBall(d, hand, grip.ball, at);
-  else if (grip.is === "turn")
+  if (grip.kind === "ball") moveBall(d, hand, grip.ball, at);
+  else if (grip.kind === "turn")
     turnBall(
       d,
       hand,
       d.chosen,
       value + angleFrom(picked, at) - angleFrom(picked, from) - d.faces[d.chosen]!,
     );
-  else if (grip.is === "stick") {
+  else if (grip.kind === "stick") {
     d.controls.set("speed", drawnTo(cueBall, value, from, at));
     hand.soon();
-  } else if (grip.is === "line")
+  } else if (grip.kind === "line")
     turnTo(d, hand, value + angleFrom(cueBall, at) - angleFrom(cueBall, from));
-  else if (grip.is === "cloth") turnTo(d, hand, angleFrom(cueBall, at));
+  else if (grip.kind === "cloth") turnTo(d, hand, angleFrom(cueBall, at));
   hand.held.at = at;
 }
 function clicked(d: Desk, grip: Grip): void {
-  if (grip.is === "ball" && grip.ball > 0) {
+  if (grip.kind === "ball" && grip.ball > 0) {
     d.chosen = d.chosen === grip.ball ? -1 : grip.ball;
     d.film.draw();
-  } else if (grip.is === "pocket") aimAt(d, grip.pocket);
+  } else if (grip.kind === "pocket") aimAt(d, grip.pocket);
+}
+
+/** What a drag of a grip changes, as it is before. */
+function valueOf({ controls, faces, chosen }: Desk, { kind }: Grip): number {
+  if (kind === "stick") return controls.value("speed");
+  if (kind === "turn") return faces[chosen]!;
+  return controls.value("phi");
 }
 
 // ---- Events -------------------------------------------------------------------------------------
 
 function down(d: Desk, hand: Hand, event: PointerEvent): void {
-  const { film, controls } = d;
+  const { film } = d;
   if (film.time > 0 || film.playing) film.go(0);
   const at = position(film, event);
   const grip = under(d, at, event.pointerType === "touch");
@@ -158,30 +165,26 @@ function down(d: Desk, hand: Hand, event: PointerEvent): void {
     grip,
     at,
     from: at,
-    value:
-      grip.is === "stick"
-        ? controls.value("speed")
-        : grip.is === "turn"
-          ? d.faces[d.chosen]!
-          : controls.value("phi"),
+    value: valueOf(d, grip),
     taps: true,
   };
   // A finger on the cloth may be about to scroll the page: what it does waits for its end.
   if (event.pointerType === "touch") return;
   film.canvas.setPointerCapture(event.pointerId);
-  if (grip.is === "cloth") drag(d, hand, at);
+  if (grip.kind === "cloth") drag(d, hand, at);
 }
 function over(d: Desk, hand: Hand, event: PointerEvent): void {
   if (!hand.held) return;
   const { from, grip } = hand.held;
   const at = position(d.film, event);
   if (Math.hypot(at[0] - from[0], at[1] - from[1]) * d.film.scale > 4) hand.held.taps = false;
-  if (!hand.held.taps && !(event.pointerType === "touch" && grip.is === "cloth")) drag(d, hand, at);
+  if (!hand.held.taps && !(event.pointerType === "touch" && grip.kind === "cloth"))
+    drag(d, hand, at);
 }
 function up(d: Desk, hand: Hand): void {
   const was = hand.held;
   if (was?.taps) {
-    if (was.grip.is === "cloth") drag(d, hand, was.at);
+    if (was.grip.kind === "cloth") drag(d, hand, was.at);
     else clicked(d, was.grip);
   }
   hand.held = undefined;
@@ -217,12 +220,14 @@ export function handle(d: Desk, undo: () => void): void {
   canvas.addEventListener("keydown", (event) => key(d, hand, undo, event));
   const touch = (event: TouchEvent): void => {
     const grip =
-      event.touches.length === 1 ? under(d, position(d.film, event.touches[0]!), true).is : "cloth";
+      event.touches.length === 1
+        ? under(d, position(d.film, event.touches[0]!), true).kind
+        : "cloth";
     if (grip !== "cloth" && grip !== "pocket" && event.cancelable) event.preventDefault();
   };
   const wheel = (event: WheelEvent): void => {
     const grip = under(d, position(d.film, event), false);
-    if (grip.is !== "ball" || !onTable(d.balls[grip.ball]!.state)) return;
+    if (grip.kind !== "ball" || !onTable(d.balls[grip.ball]!.state)) return;
     event.preventDefault();
     turnBall(d, hand, grip.ball, Math.sign(event.deltaY) * 10);
   };

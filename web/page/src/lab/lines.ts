@@ -58,8 +58,9 @@ function use<L extends Line>(d: Desk, read: Read<L>): Read<L> {
 export function showRecorded(d: Desk, one: Replayed, from: number): void {
   const same = JSON.stringify(one.table);
   const tableName = TABLES.find((name) => JSON.stringify(d.carom.table(name)) === same);
-  const name =
-    tableName && tableName in GAMES ? tableName : one.balls.length > 10 ? "eightball" : "nineball";
+  const isGame = tableName !== undefined && tableName in GAMES;
+  const poolGame = one.balls.length > 10 ? "eightball" : "nineball";
+  const name = isGame ? tableName : poolGame;
   use(
     d,
     gameOf(
@@ -87,8 +88,8 @@ export function aimAt(d: Desk, pocket: number): void {
   const name = `ball ${names[ball]} into the ${pocketName(table, pocket)}`;
   if (ball < 0) return says(d, "Which ball? Click it first, then the pocket.");
   const pot = d.carom.aim(table, balls, cueOf(d), { ball, pocket }, optionsOf(d));
-  const { is, met } = pot;
-  if (is === "no_way") return says(d, `No such aim: no direction sends ${name}.`);
+  const { is: outcome, met } = pot;
+  if (outcome === "no_way") return says(d, `No such aim: no direction sends ${name}.`);
   d.controls.set("phi", Math.round(pot.cue.phi * 1e4) / 1e4);
   d.aimed();
   const of = names[met?.a ?? 0];
@@ -99,9 +100,9 @@ export function aimAt(d: Desk, pocket: number): void {
     rejected: "the jaws send it back",
     short: `ball ${of} comes to rest on its way`,
     barred: `ball ${of} meets ${other}`,
-  }[is];
+  }[outcome];
   const [low, high] = pot.speed.map((speed) => speed.toFixed(1));
-  if (is !== "falls") says(d, `Aimed, but ${name} does not fall: ${why}.`);
+  if (outcome !== "falls") says(d, `Aimed, but ${name} does not fall: ${why}.`);
   else
     says(
       d,

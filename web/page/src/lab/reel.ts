@@ -2,7 +2,7 @@
 // shown one after the other.
 import type { Replayed } from "carom";
 import { button, el, wrong } from "../ui.js";
-import { type Desk, says } from "./desk.js";
+import { type Desk, type Reel, says } from "./desk.js";
 import { showRecorded } from "./lines.js";
 
 /** Plays the recording of a file again while it is `wanted`. The page lives meanwhile. */
@@ -28,14 +28,7 @@ async function replayed(
   }
 }
 
-export function reel(d: Desk): {
-  bar: HTMLElement;
-  open: HTMLElement;
-  accept(on: HTMLElement): void;
-  shows(shot: Replayed | undefined): void;
-  advance(): void;
-  close(): void;
-} {
+export function reel(d: Desk): Reel {
   let shots: Replayed[] = [];
   let shown = -1;
   let opened = 0;
@@ -84,7 +77,6 @@ export function reel(d: Desk): {
     showRecorded(d, one, one.continues ? shots[index - 1]!.film.time : 0);
   }
 
-  /** The view shows this shot now, or another one that is not recorded. */
   function shows(shot: Replayed | undefined): void {
     if (bar.hidden) return;
     back.disabled = shown <= 0;
@@ -108,20 +100,18 @@ export function reel(d: Desk): {
       input,
       button("Open recording", () => input.click(), { id: "open-recording" }),
     ),
-    // Files may be dropped on the page.
-    accept(on) {
-      on.addEventListener(
+    accept(target) {
+      target.addEventListener(
         "dragover",
         (event) => event.dataTransfer?.types.includes("Files") && event.preventDefault(),
       );
-      on.addEventListener("drop", (event) => {
+      target.addEventListener("drop", (event) => {
         const [given] = event.dataTransfer?.files ?? [];
         if (!given) return;
         event.preventDefault();
         void read(given);
       });
     },
-    // The film of a recorded shot has ended: the next one begins.
     advance() {
       if (shown >= shots.length - 1) return;
       go(shown + 1);

@@ -19,12 +19,11 @@ import {
   within,
 } from "../table/grip.js";
 import { mayLie } from "../table/head.js";
-import { skip } from "./filming.js";
 import {
   aimed,
   ballsOn,
   called,
-  calls,
+  needsCall,
   cueOf,
   free,
   linesOf,
@@ -80,7 +79,7 @@ const MARK = "#ffe28a";
 export function drawMarks(s: Session, pen: Pen): void {
   const { balls, hand, played, practice, state, table } = s.play;
   if (!free(s)) return;
-  const call = calls(s) ? called(s) : undefined;
+  const call = needsCall(s.play) ? called(s) : undefined;
   const pocket =
     table.pockets[call?.pocket ?? (played?.pockets && !practice ? (state.pocket?.[0] ?? 5) : -1)];
   if (pocket) circle(pen, pocket.centre, pocket.radius + 0.008, 3, MARK);
@@ -139,7 +138,7 @@ function under(s: Session, at: Point, finger: boolean): Grip {
     cueOf(s),
     reach,
   );
-  return grip.is === "line" ? { is: "cloth" } : grip;
+  return grip.kind === "line" ? { kind: "cloth" } : grip;
 }
 function set(s: Session, stroke: { phi: number } | { speed: number }): void {
   s.stroke.set(stroke);
@@ -167,8 +166,8 @@ export function move(s: Session, ball: number, to: Point): void {
 }
 function drag(s: Session, { grip, from, phi, speed }: Held, at: Point): void {
   const [cueBall] = s.play.balls as [(typeof s.play.balls)[number]];
-  if (grip.is === "ball" && movable(s, grip.ball)) move(s, grip.ball, at);
-  else if (grip.is === "stick") set(s, { speed: drawnTo(cueBall, speed, from, at) });
+  if (grip.kind === "ball" && movable(s, grip.ball)) move(s, grip.ball, at);
+  else if (grip.kind === "stick") set(s, { speed: drawnTo(cueBall, speed, from, at) });
   else turn(s, phi + angleFrom(cueBall, at) - angleFrom(cueBall, from));
 }
 /** A ball or a pocket was tapped: it is called. */
@@ -177,19 +176,22 @@ function choose(s: Session, on: { ball: number } | { pocket: number }): void {
   const met = s.first?.ball ?? -1;
   if ("pocket" in on) s.chosen = { ...valid(s), pocket: on.pocket, met };
   else
-    s.chosen = calls(s) && ballsOn(s).includes(on.ball) ? { ball: on.ball, pocket: -1, met } : NONE;
-  if ("pocket" in on && calls(s) && !called(s))
+    s.chosen =
+      needsCall(s.play) && ballsOn(s.play).includes(on.ball)
+        ? { ball: on.ball, pocket: -1, met }
+        : NONE;
+  if ("pocket" in on && needsCall(s.play) && !called(s))
     says(s, "Which ball? Tap it first, then the pocket.");
   s.changed();
 }
 export function tap(s: Session, grip: Grip, at: Point): void {
   const [cueBall] = s.play.balls as [(typeof s.play.balls)[number]];
-  if (grip.is === "pocket") return choose(s, { pocket: grip.pocket });
-  if (grip.is === "ball" && grip.ball > 0) {
+  if (grip.kind === "pocket") return choose(s, { pocket: grip.pocket });
+  if (grip.kind === "ball" && grip.ball > 0) {
     const { r } = s.play.balls[grip.ball]!.state;
     turn(s, angleFrom(cueBall, [r[0], r[1]]));
     choose(s, { ball: grip.ball });
-  } else if (grip.is === "cloth") turn(s, angleFrom(cueBall, at));
+  } else if (grip.kind === "cloth") turn(s, angleFrom(cueBall, at));
 }
 
 // ---- Two pointers -------------------------------------------------------------------------------
@@ -219,7 +221,7 @@ function pinch(s: Session, hand: Hand): void {
 function down(s: Session, hand: Hand, event: PointerEvent): void {
   const { film, play } = s;
   if (event.button > 0) return;
-  if (film.playing) return skip(s);
+  if (film.playing) return s.showing.skip();
   hand.pointers.set(event.pointerId, pixelsOf(film.canvas, event));
   film.canvas.setPointerCapture(event.pointerId);
   if (hand.pointers.size === 2) return pinch(s, hand);
@@ -234,7 +236,7 @@ function down(s: Session, hand: Hand, event: PointerEvent): void {
     speed,
     taps: true,
   };
-  if (hand.held.grip.is === "ball" && play.practice) play.keep();
+  if (hand.held.grip.kind === "ball" && play.practice) play.keep();
 }
 function over(s: Session, { pointers, pinch, held }: Hand, event: PointerEvent): void {
   if (!pointers.has(event.pointerId)) return;
@@ -255,7 +257,7 @@ function up(s: Session, hand: Hand, event: PointerEvent): void {
   const was = hand.held;
   hand.held = undefined;
   if (!was) return;
-  if (was.taps && was.grip.is === "ball" && s.play.practice) s.play.past.pop(); // nothing was moved
+  if (was.taps && was.grip.kind === "ball" && s.play.practice) s.play.past.pop(); // nothing was moved
   if (event.type !== "pointerup" || !was.taps || !free(s)) return;
   // A second tap at the same place shows it larger, or all of the table; the first one has aimed at
   // nothing.
@@ -274,25 +276,35 @@ function up(s: Session, hand: Hand, event: PointerEvent): void {
   if (s.film.zoom > 1) s.film.look(1);
   else enlarge(s.film, 3, was.at, at);
 }
-function key(s: Session, event: KeyboardEvent): void {
+/** A key of an arrow: it turns the aim, sets the power, or with Alt moves the cue ball in hand. */
+function arrowKey(s: Session, arrow: Point, { altKey, shiftKey }: KeyboardEvent): boolean {
   const { film, play } = s;
-  const arrow = ARROWS[event.key];
   const { phi, speed } = cueOf(s);
-  if (film.playing && (event.key === "Enter" || event.key === "Escape")) skip(s);
+  if (altKey) {
+    if (!movable(s, 0)) return false;
+    move(s, 0, movedBy(film, play.balls[0]!, arrow, (shiftKey ? 0.05 : 0.005) * film.scale));
+  } else if (arrow[0] !== 0) turn(s, phi - arrow[0] * (shiftKey ? 1 : 0.1));
+  else set(s, { speed: within(speed - arrow[1] * (shiftKey ? 0.5 : 0.1)) });
+  return true;
+}
+/** Calls the next pocket, which C does. */
+function callNext(s: Session): void {
+  const before = (needsCall(s.play) ? called(s) : undefined)?.pocket ?? -1;
+  choose(s, { pocket: (before + 1) % s.play.table.pockets.length });
+}
+/** Does what a key means now, and returns whether it means anything. */
+function pressed(s: Session, event: KeyboardEvent): boolean {
+  const ends = event.key === "Enter" || event.key === "Escape";
+  if (s.film.playing && ends) s.showing.skip();
   else if (event.key === "Enter") shoot(s);
-  else if (!free(s)) return;
+  else if (!free(s)) return false;
   else if ((event.ctrlKey || event.metaKey) && event.key === "z") undo(s);
-  else if (event.key === "c" && play.hasPockets)
-    choose(s, {
-      pocket: (((calls(s) ? called(s) : undefined)?.pocket ?? -1) + 1) % play.table.pockets.length,
-    });
-  else if (!arrow) return;
-  else if (event.altKey) {
-    if (!movable(s, 0)) return;
-    move(s, 0, movedBy(film, play.balls[0]!, arrow, (event.shiftKey ? 0.05 : 0.005) * film.scale));
-  } else if (arrow[0] !== 0) turn(s, phi - arrow[0] * (event.shiftKey ? 1 : 0.1));
-  else set(s, { speed: within(speed - arrow[1] * (event.shiftKey ? 0.5 : 0.1)) });
-  event.preventDefault();
+  else if (event.key === "c" && s.play.hasPockets) callNext(s);
+  else {
+    const arrow = ARROWS[event.key];
+    return arrow !== undefined && arrowKey(s, arrow, event);
+  }
+  return true;
 }
 
 /** Lets pointers and keys handle the table. */
@@ -303,7 +315,9 @@ export function aiming(s: Session): void {
   canvas.addEventListener("pointermove", (event) => over(s, hand, event));
   for (const type of ["pointerup", "pointercancel"] as const)
     canvas.addEventListener(type, (event) => up(s, hand, event));
-  canvas.addEventListener("keydown", (event) => key(s, event));
+  canvas.addEventListener("keydown", (event) => {
+    if (pressed(s, event)) event.preventDefault();
+  });
   const wheel = (event: WheelEvent): void => {
     event.preventDefault();
     const at = pixelsOf(canvas, event);

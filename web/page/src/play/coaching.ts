@@ -5,11 +5,11 @@ import { drop, far } from "../far.js";
 import { onTable } from "../table/filmed.js";
 import { isSafe, percent, wordsOfChances, wordsOfChoice } from "../table/words.js";
 import { wrong } from "../ui.js";
-import { rest } from "./filming.js";
-import { OPTIONS } from "./game.js";
+import { isComputer, OPTIONS, type Play } from "./game.js";
 import { costOf, keepRow, type Row } from "./log.js";
 import {
   aimAt,
+  type Coach,
   cueOf,
   free,
   levelOf,
@@ -22,11 +22,16 @@ import {
   why,
 } from "./session.js";
 
+/** Shots of a plan, and of the chances of one stroke. */
 const PLAN = 1000;
 const TRY = 200;
+/** How long the aim rests before its chances are asked for, ms. */
+const PAUSE = 120;
+/** Beyond this off the aim, degrees, another ball or pocket was meant. */
+const FARTHEST = 10;
 
-/** A stroke that a plan is asked for. */
-export interface Asked {
+/** A layout, and for whom a plan is asked. */
+interface Request {
   game: string;
   table: Table;
   balls: readonly ShotBall[];
@@ -34,12 +39,33 @@ export interface Asked {
   options: PlanOptions;
 }
 
-const best = (of: Asked, more: PlanOptions = {}): Promise<Choice> =>
-  far("plan", of.table, of.balls, { ...of.options, ...more, best: 1, shots: PLAN }).then(
-    ([one]) => one!,
-  );
-const chance = (of: Asked, cue: Cue): Promise<Choice> =>
-  far("chances", of.table, of.balls, [cue], { ...of.options, shots: TRY }).then(([one]) => one!);
+/** The request for a plan: whoever sits here plays as his rating says. */
+function requestOf(play: Play, level: number): Request {
+  const { against, game, seed } = play.setup;
+  const rating = String(level);
+  return {
+    game,
+    table: play.table,
+    balls: play.balls,
+    names: play.names,
+    options: {
+      ...play.state,
+      player: playerOf(play.carom, rating),
+      opponent: playerOf(play.carom, isComputer(against) ? against : rating),
+      shot: OPTIONS,
+      seed: seed + play.entries.length,
+    },
+  };
+}
+
+async function best({ table, balls, options }: Request, more: PlanOptions = {}): Promise<Choice> {
+  const [choice] = await far("plan", table, balls, { ...options, ...more, best: 1, shots: PLAN });
+  return choice!;
+}
+async function chancesOf({ table, balls, options }: Request, cue: Cue): Promise<Choice> {
+  const [choice] = await far("chances", table, balls, [cue], { ...options, shots: TRY });
+  return choice!;
+}
 const isPot = (call: Call | undefined): call is { ball: number; pocket: number } =>
   typeof call === "object" && call.ball > 0 && call.pocket >= 0;
 
@@ -49,135 +75,135 @@ export function errors(
   table: Table,
   balls: readonly ShotBall[],
   cue: Cue,
-  of: AimOf,
+  target: AimOf,
 ): Pick<Row, "phi" | "speed"> {
-  const aim = carom.aim(table, balls, cue, of, OPTIONS);
+  const aim = carom.aim(table, balls, cue, target, OPTIONS);
   if (aim.is === "no_way") return {};
   const phi = ((cue.phi - aim.cue.phi + 540) % 360) - 180;
-  // Farther off, something else was meant.
-  if (Math.abs(phi) > 10) return {};
+  if (Math.abs(phi) > FARTHEST) return {};
   const [low, high] = aim.speed;
-  return {
-    phi,
-    ...(aim.is === "falls"
-      ? { speed: cue.speed < low ? cue.speed - low : cue.speed > high ? cue.speed - high : 0 }
-      : {}),
-  };
+  if (aim.is !== "falls") return { phi };
+  const nearest = Math.min(Math.max(cue.speed, low), high);
+  return { phi, speed: cue.speed - nearest };
 }
 
-/** What a plan for whoever sits here begins with: he plays as his rating says. */
-export function asked(s: Session): Asked {
-  const { play } = s;
-  const { against, game, seed } = play.setup;
-  const rating = String(levelOf(s));
-  const opponent = playerOf(s, /^\d/.test(against) ? against : rating);
-  return {
-    game,
-    table: play.table,
-    balls: play.balls,
-    names: play.names,
-    options: {
-      ...play.state,
-      player: playerOf(s, rating),
-      opponent,
-      shot: OPTIONS,
-      seed: seed + play.entries.length,
-    },
-  };
+/** The side of the tip that an offset means: one name above 0.1 radii, another below -0.1. */
+function sideOf(offset: number, above: string, below: string): string {
+  if (offset > 0.1) return above;
+  return offset < -0.1 ? below : "";
+}
+/** How a stroke is played: ", at 2.5 m/s with follow and left side". */
+function wordsOfCue({ a, b, speed }: Cue): string {
+  const height = sideOf(b, "follow", "draw");
+  const side = sideOf(a, "left side", "right side");
+  const tip = [height, side].filter(Boolean).join(" and ");
+  return `, at ${speed.toFixed(1)} m/s${tip && ` with ${tip}`}`;
+}
+function wordsOfHint({ play, first }: Session, choice: Choice, level: number): string {
+  const stroke = wordsOfChoice(play.table, play.names, choice, first?.ball === -1);
+  const cue = choice.kind === "pass" ? "" : wordsOfCue(choice.cue);
+  const chances = wordsOfChances(choice, play.setup.game === "threecushion");
+  const errors = play.practice ? "" : " This stroke errs like his.";
+  return `Hint: ${stroke}${cue}. A ${level}, as you are, ${chances}.${errors}`;
 }
 
-export async function advise(s: Session): Promise<void> {
+/** Puts the stroke of a hint on the table: the cue ball in hand, the aim and the call. */
+function setHint(s: Session, choice: Choice): void {
+  if (s.play.hand !== "no") s.play.put(0, ...(choice.place as [number, number]));
+  aimAt(s, choice.cue);
+  look(s);
+  const isPotted = choice.ball > 0 && choice.pocket >= 0;
+  const otherwise = isSafe(choice) ? SAFETY : -1;
+  s.chosen = {
+    ball: isPotted ? choice.ball : -1,
+    pocket: isPotted ? choice.pocket : otherwise,
+    met: s.first?.ball ?? -1,
+    phi: choice.cue.phi,
+  };
+  s.special = choice.kind === "push" ? "push" : undefined;
+  s.hinted = true; // the words of the turn make room for the hint
+  s.showing.rest();
+}
+
+async function advise(s: Session): Promise<void> {
   if (!free(s)) return says(s, why(s));
-  const mine = ++s.number;
-  s.asking++; // chances that come later do not hide the hint
+  const generation = ++s.searchGeneration;
+  s.chancesGeneration++; // chances that come later do not hide the hint
+  const isWanted = (): boolean => generation === s.searchGeneration && free(s);
   says(s, "Looking for the best stroke …");
   try {
-    drop("plan"); // what is planned for another stroke
-    const one = await best(asked(s), { inHand: placeOf(s) });
-    if (mine !== s.number || !free(s)) return;
-    if (s.play.hand !== "no") s.play.put(0, ...(one.place as [number, number]));
-    aimAt(s, one.cue);
-    look(s);
-    const [ball, pocket] =
-      one.ball > 0 && one.pocket >= 0 ? [one.ball, one.pocket] : [-1, isSafe(one) ? SAFETY : -1];
-    s.chosen = { ball, pocket, met: s.first?.ball ?? -1, phi: one.cue.phi };
-    s.special = one.kind === "push" ? "push" : undefined;
-    s.hinted = true; // what came before makes room for the hint
-    rest(s);
-    const tip = [
-      one.cue.b > 0.1 ? "follow" : one.cue.b < -0.1 ? "draw" : "",
-      one.cue.a > 0.1 ? "left side" : one.cue.a < -0.1 ? "right side" : "",
-    ]
-      .filter(Boolean)
-      .join(" and ");
-    const words = `${wordsOfChoice(s.play.table, s.play.names, one, s.first?.ball === -1)}${one.kind === "pass" ? "" : `, at ${one.cue.speed.toFixed(1)} m/s${tip && ` with ${tip}`}`}`;
-    says(
-      s,
-      `Hint: ${words}. A ${levelOf(s)}, as you are, ${wordsOfChances(one, s.play.setup.game === "threecushion")}.${s.play.practice ? "" : " This stroke errs like his."}`,
-    );
+    drop("plan"); // a search for another stroke
+    const choice = await best(requestOf(s.play, levelOf(s)), { inHand: placeOf(s.play) });
+    if (!isWanted()) return;
+    setHint(s, choice);
+    says(s, wordsOfHint(s, choice, levelOf(s)));
   } catch (error) {
-    if (mine === s.number && free(s)) says(s, wrong(error));
+    if (isWanted()) says(s, wrong(error));
   }
 }
 
 /** The chances of the stroke that is aimed, a moment after it was. */
-export async function chances(s: Session): Promise<void> {
-  const mine = ++s.asking;
+async function chances(s: Session): Promise<void> {
+  const generation = ++s.chancesGeneration;
   const { play } = s;
-  if (!free(s) || !play.played || play.setup.drill !== undefined || !onTable(play.balls[0]!.state))
-    return;
-  await new Promise((later) => window.setTimeout(later, 120));
-  if (mine !== s.asking || !free(s)) return;
+  const isGame = play.played && play.setup.drill === undefined;
+  if (!free(s) || !isGame || !onTable(play.balls[0]!.state)) return;
+  await new Promise((later) => window.setTimeout(later, PAUSE));
+  if (generation !== s.chancesGeneration || !free(s)) return;
   try {
-    const one = await chance(asked(s), cueOf(s));
-    if (mine === s.asking && free(s))
-      says(
-        s,
-        `By this stroke a ${levelOf(s)}, as you are, ${wordsOfChances(one, play.setup.game === "threecushion")}.`,
-      );
+    const choice = await chancesOf(requestOf(s.play, levelOf(s)), cueOf(s));
+    if (generation !== s.chancesGeneration || !free(s)) return;
+    const words = wordsOfChances(choice, play.setup.game === "threecushion");
+    says(s, `By this stroke a ${levelOf(s)}, as you are, ${words}.`);
   } catch (error) {
-    if (mine === s.asking) says(s, wrong(error));
+    if (generation === s.chancesGeneration) says(s, wrong(error));
   }
 }
 
-/** Looks back at a stroke: its chances beside those of the best one. */
-export async function lookBack(
-  s: Session,
-  of: Asked,
-  made: Cue,
-  calls: Call | undefined,
-): Promise<void> {
-  s.asking++; // chances of this stroke that come later do not hide its review
+/** What a stroke was meant as: the pot that was called, or what it does most often. */
+function intentionOf(request: Request, choice: Choice, call: Call | undefined): string {
+  const kind = choice.ball < 0 ? "safety" : choice.kind;
+  const meant = isPot(call) ? { ...choice, ...call } : { ...choice, kind };
+  return wordsOfChoice(request.table, request.names, meant);
+}
+/** Looks back at a stroke: its chances beside those of the best one, for the log and in words. */
+async function lookBack(
+  carom: Carom,
+  request: Request,
+  cue: Cue,
+  call: Call | undefined,
+): Promise<string> {
   try {
     // Both plans play as the same player.
-    const [mine, other] = await Promise.all([chance(of, made), best(of)]);
-    const meant = wordsOfChoice(
-      of.table,
-      of.names,
-      isPot(calls)
-        ? { ...mine, ...calls }
-        : { ...mine, kind: mine.ball < 0 ? "safety" : mine.kind },
-    );
-    const wins = {
-      keep: mine.keep,
-      value: mine.value,
-      best: wordsOfChoice(of.table, of.names, other),
-      bestValue: other.value,
-    };
-    const row = {
+    const [own, other] = await Promise.all([chancesOf(request, cue), best(request)]);
+    const { game, table, balls, names } = request;
+    const row: Row = {
       when: new Date().toISOString().slice(0, 16),
-      game: of.game,
-      meant,
-      ...(isPot(calls) ? errors(s.carom, of.table, of.balls, made, calls) : {}),
-      ...wins,
+      game,
+      meant: intentionOf(request, own, call),
+      ...(isPot(call) ? errors(carom, table, balls, cue, call) : {}),
+      keep: own.keep,
+      value: own.value,
+      best: wordsOfChoice(table, names, other),
+      bestValue: other.value,
     };
     keepRow(row);
     const cost = costOf(row)!;
-    says(
-      s,
-      `That stroke wins in ${percent(mine.value)} of tries; the best one, ${row.best}, in ${percent(other.value)}. ${cost < 0.02 ? "You chose well." : `It cost ${percent(cost)}.`}`,
-    );
+    const verdict = cost < 0.02 ? "You chose well." : `It cost ${percent(cost)}.`;
+    return `That stroke wins in ${percent(own.value)} of tries; the best one, ${row.best}, in ${percent(other.value)}. ${verdict}`;
   } catch (error) {
-    says(s, `The review of that stroke failed: ${wrong(error)}`);
+    return `The review of that stroke failed: ${wrong(error)}`;
   }
 }
+
+export const coaching = (s: Session): Coach => ({
+  advise: () => advise(s),
+  chances: () => chances(s),
+  review() {
+    const request = requestOf(s.play, levelOf(s));
+    return async (cue, call) => {
+      s.chancesGeneration++; // chances of this stroke that come later do not hide its review
+      says(s, await lookBack(s.carom, request, cue, call));
+    };
+  },
+});

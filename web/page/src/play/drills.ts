@@ -23,10 +23,16 @@ export interface Drill {
 }
 
 /** The fields of a line of CSV, of which some are quoted. */
-const fields = (line: string): string[] =>
-  [...line.matchAll(/(?:^|,)(?:"([^"]*)"|([^,"]*))/g)].map(
-    ([, quoted, plain]) => quoted ?? plain ?? "",
-  );
+function fields(line: string): string[] {
+  const found = [""];
+  let isQuoted = false;
+  for (const letter of line) {
+    if (letter === '"') isQuoted = !isQuoted;
+    else if (letter === "," && !isQuoted) found.push("");
+    else found[found.length - 1] += letter;
+  }
+  return found;
+}
 
 export function drillsOf(csv: string): Drill[] {
   return csv
@@ -82,18 +88,21 @@ function wordsOfPlace(
   if (Math.abs(wanted) < 0.1)
     return `The cue ball ${came > 0 ? "rolled on" : "came back"} by ${cm(came)}, and was to stop: strike it ${came > 0 ? "lower" : "higher"}.`;
   const share = came / wanted;
-  return `The cue ball ${wanted > 0 ? "rolled on" : "came back"} ${cm(Math.max(share, 0) * wanted)} of ${cm(wanted)}: strike it ${share > 1 ? "softer" : wanted > 0 ? "higher or faster" : "lower or faster"}.`;
+  const harder = wanted > 0 ? "higher or faster" : "lower or faster";
+  const way = wanted > 0 ? "rolled on" : "came back";
+  return `The cue ball ${way} ${cm(Math.max(share, 0) * wanted)} of ${cm(wanted)}: strike it ${share > 1 ? "softer" : harder}.`;
 }
 
 /** Whether a stroke made it, failed, or goes on; and of what failed, what was wanted and came. */
 export function judge(
   { goal }: Drill,
   shot: Shot,
-): { is: "made" | "missed" | "on"; why: string[] } {
+): { outcome: "made" | "missed" | "on"; why: string[] } {
   const { events, final, table } = shot;
-  if (!onTable(final[0]!)) return { is: "missed", why: ["The cue ball fell or left the table."] };
+  if (!onTable(final[0]!))
+    return { outcome: "missed", why: ["The cue ball fell or left the table."] };
   if (final.some(({ label }) => label === "off"))
-    return { is: "missed", why: ["A ball left the table."] };
+    return { outcome: "missed", why: ["A ball left the table."] };
   const meets = events.filter(({ type, a, b }) => type === "ball_ball" && (a === 0 || b === 0));
   const other = ({ a, b }: (typeof events)[number]): number => (a === 0 ? b : a);
   const isCushion = ({ type }: (typeof events)[number]): boolean =>
@@ -147,9 +156,9 @@ export function judge(
   };
   if (goal[0]![0] === "clear") {
     if (!events.some(({ type }) => type === "ball_pocket"))
-      return { is: "missed", why: ["No ball fell."] };
-    return { is: final.some((state, k) => k > 0 && onTable(state)) ? "on" : "made", why: [] };
+      return { outcome: "missed", why: ["No ball fell."] };
+    return { outcome: final.some((state, k) => k > 0 && onTable(state)) ? "on" : "made", why: [] };
   }
   const why = goal.flatMap(([word, value]) => (checks[word]!(value) ? [] : words[word]!(value)));
-  return { is: why.length === 0 ? "made" : "missed", why };
+  return { outcome: why.length === 0 ? "made" : "missed", why };
 }

@@ -9,129 +9,162 @@ import { racksOf } from "./keep.js";
 import {
   aimed,
   called,
-  calls,
   cueOf,
   free,
   isSafety,
   linesOf,
   look,
+  needsCall,
   says,
   type Session,
+  type Showing,
   stateOf,
   why,
 } from "./session.js";
 import { nameOf, wordsOfScore, wordsOfTurn } from "./state.js";
 
-function show(s: Session, of: NonNullable<Session["filmed"]>): void {
-  s.filmed = of;
-  s.film.show(of);
+type Film = NonNullable<Session["filmed"]>;
+function show(s: Pick<Session, "filmed" | "film" | "space">, film: Film): void {
+  s.filmed = film;
+  s.film.show(film);
   s.space.draw();
 }
 /** The time of the film has changed. */
 export function moved(s: Session): void {
+  const { film, shown, sound } = s;
   s.space.draw();
-  if (s.shown?.shot && s.film.playing) s.sound.between(s.shown.shot.events, s.sounded, s.film.time);
-  s.sounded = s.film.time;
+  if (shown?.shot && film.playing) sound.between(shown.shot.events, s.sounded, film.time);
+  s.sounded = film.time;
+}
+
+/** The paths of the balls in free practice, where everything may be seen. */
+function pathsOfPractice(s: Session): Path[] {
+  const { carom, play } = s;
+  if (!play.practice || play.setup.drill) return [];
+  return pathsOf(carom.simulate(play.table, play.balls, cueOf(s), OPTIONS));
 }
 
 /**
  * The balls as they lie, with what may be seen of the stroke: in a game the line to the first
  * contact.
  */
-export function rest(s: Session): void {
-  const { carom, play, turned } = s;
+function rest(s: Session): void {
+  const { table, balls, names } = s.play;
   s.first = undefined;
   let paths: Path[] = [];
-  if (aimed(s) && onTable(play.balls[0]!.state))
+  if (aimed(s) && onTable(balls[0]!.state))
     try {
-      if (play.practice && !play.setup.drill)
-        paths = pathsOf(carom.simulate(play.table, play.balls, cueOf(s), OPTIONS));
+      paths = pathsOfPractice(s);
       look(s);
     } catch (error) {
       if (!(error instanceof CaromError)) throw error;
       says(s, `This stroke cannot be played: ${error.message}.`);
     }
   s.shown = undefined;
-  show(
-    s,
-    filmOf({ table: play.table, balls: play.balls, names: play.names, turned }, undefined, paths),
-  );
-  tell(s);
+  show(s, filmOf({ table, balls, names, turned: s.turned }, undefined, paths));
+  update(s);
 }
 
-/**
- * Tells whose turn it is, the call and the score, and shows the buttons that have a meaning now.
- */
-export function tell(s: Session): void {
-  const { play, seat, buttons, words, film } = s;
-  const can = free(s);
-  const call = can && calls(s) ? called(s) : undefined;
-  const safe = can && isSafety(s);
-  const pushes = play.state.may?.includes("push") === true;
-  // What comes of a stroke is told after its film. What is read aloud changes only where the words
-  // do.
-  const plays =
-    s.then !== undefined && s.shown && !play.practice ? nameOf(play, s.shown.who, seat) : undefined;
-  const told = plays
-    ? `${plays} ${plays === "You" ? "play" : "plays"} …`
-    : `${wordsOfTurn(play, seat, s.thinks, s.hinted)}${call ? ` Call: the ${play.names[call.ball]}, ${pocketName(play.table, call.pocket)}.` : safe ? " Call: a safety." : can && calls(s) ? " Nothing is called: aim at a ball, or tap a pocket." : ""}`;
-  if (words.turn.textContent !== told) words.turn.textContent = told;
-  if (!plays) words.score.textContent = wordsOfScore(play, seat, racksOf(play.setup));
-  const { first } = s;
-  s.stroke.met(
-    can && first && first.ball > 0 && (play.practice || linesOf(s) !== "none") ? first : undefined,
-    play.names[first?.ball ?? 0],
-  );
-  const laid = play.practice && !play.setup.drill;
-  const seen: [HTMLElement, boolean][] = [
+// ---- Words and buttons --------------------------------------------------------------------------
+
+/** Brings the words, the controls and the buttons up to date. */
+function update(s: Session): void {
+  showWords(s);
+  showContact(s);
+  showButtons(s);
+  const { play, film, words } = s;
+  const { text } = GAMES[play.played?.of ?? play.setup.game]!;
+  film.canvas.setAttribute("aria-label", `${text} table from above. ${words.turn.textContent}`);
+}
+
+/** Who plays the stroke that is filmed; its result is told after the film. */
+function playerOnFilm({ play, seat, shown, then }: Session): string | undefined {
+  const isFilmed = then !== undefined && shown && !play.practice;
+  return isFilmed ? nameOf(play, shown.who, seat) : undefined;
+}
+/** What is called for the stroke that is aimed. */
+function wordsOfCall(s: Session): string {
+  const { names, table } = s.play;
+  if (!free(s) || !needsCall(s.play)) return "";
+  const call = called(s);
+  if (call) return ` Call: the ${names[call.ball]}, ${pocketName(table, call.pocket)}.`;
+  if (isSafety(s)) return " Call: a safety.";
+  return " Nothing is called: aim at a ball, or tap a pocket.";
+}
+/** Whose turn it is, the call and the score. */
+function showWords(s: Session): void {
+  const { play, seat, words } = s;
+  const player = playerOnFilm(s);
+  const turn = player
+    ? `${player} ${player === "You" ? "play" : "plays"} …`
+    : wordsOfTurn(play, seat, s.thinks, s.hinted) + wordsOfCall(s);
+  // A screen reader reads each change aloud, also to the same words.
+  if (words.turn.textContent !== turn) words.turn.textContent = turn;
+  if (!player) words.score.textContent = wordsOfScore(play, seat, racksOf(play.setup));
+}
+
+/** The part of the ball that the aim meets, where the lines of the game may show it. */
+function showContact(s: Session): void {
+  const { play, first, stroke } = s;
+  const meetsBall = free(s) && first !== undefined && first.ball > 0;
+  const isShown = meetsBall && (play.practice || linesOf(s) !== "none");
+  stroke.met(isShown ? first : undefined, play.names[first?.ball ?? 0]);
+}
+
+/** Shows the buttons that have a meaning now. */
+function showButtons(s: Session): void {
+  const { play, buttons, film, stroke } = s;
+  const mayAim = free(s);
+  const mayPush = play.state.may?.includes("push") === true;
+  const isFreePractice = play.practice && !play.setup.drill;
+  const isOver = play.winner !== undefined && s.then === undefined;
+  const hasSafety = play.played?.calls === true && !play.practice;
+  const visible: [HTMLElement, boolean][] = [
     [buttons.hint, play.played !== undefined],
-    [buttons.undo, laid],
-    [buttons.rack, laid || (play.winner !== undefined && s.then === undefined)],
-    [buttons.push, (can && pushes) || (play.played?.calls === true && !play.practice)],
-    [buttons.pass, can && play.mayPass],
+    [buttons.undo, isFreePractice],
+    [buttons.rack, isFreePractice || isOver],
+    [buttons.push, (mayAim && mayPush) || hasSafety],
+    [buttons.pass, mayAim && play.mayPass],
     [buttons.skip, film.playing],
-    [s.stroke.shoot, !film.playing],
+    [stroke.shoot, !film.playing],
     [buttons.link, play.setup.against === "link"],
   ];
-  for (const [element, is] of seen) element.hidden = !is;
-  // What does nothing now keeps its place, so that the others keep theirs, and says why when it is
-  // pressed.
-  const able: [HTMLElement, boolean][] = [
-    [s.stroke.shoot, can],
-    [buttons.hint, can],
-    [buttons.push, can && (pushes || calls(s))],
-    [buttons.replay, play.last?.shot !== undefined && !["film", "thinking"].includes(stateOf(s))],
+  for (const [element, isVisible] of visible) element.hidden = !isVisible;
+
+  // A button without an effect now keeps its place, so that the others keep theirs, and says why
+  // when it is pressed.
+  const isBusy = ["film", "thinking"].includes(stateOf(s));
+  const enabled: [HTMLElement, boolean][] = [
+    [stroke.shoot, mayAim],
+    [buttons.hint, mayAim],
+    [buttons.push, mayAim && (mayPush || needsCall(play))],
+    [buttons.replay, play.last?.shot !== undefined && !isBusy],
     [buttons.undo, play.past.length > 0],
   ];
-  for (const [element, is] of able) element.setAttribute("aria-disabled", String(!is));
-  buttons.push.textContent = pushes ? "Push out" : "Safety";
-  buttons.push.setAttribute("aria-pressed", String(safe || s.special === "push"));
-  film.canvas.setAttribute(
-    "aria-label",
-    `${GAMES[play.played?.of ?? play.setup.game]!.text} table from above. ${words.turn.textContent}`,
-  );
+  for (const [element, isEnabled] of enabled)
+    element.setAttribute("aria-disabled", String(!isEnabled));
+
+  const isPressed = (mayAim && isSafety(s)) || s.special === "push";
+  buttons.push.textContent = mayPush ? "Push out" : "Safety";
+  buttons.push.setAttribute("aria-pressed", String(isPressed));
 }
 
+// ---- Films --------------------------------------------------------------------------------------
+
 /** Shows a stroke that was played, and what comes after it. */
-export function perform(s: Session, one: Stroke, after: () => void): void {
+function perform(s: Session, stroke: Stroke, after: () => void): void {
   s.turnedBefore = s.turned;
   s.then = after;
-  s.shown = one;
+  s.shown = stroke;
   s.sounded = -1;
-  if (!one.shot) return finish(s);
+  if (!stroke.shot) return finish(s);
   s.film.look(1);
-  show(
-    s,
-    filmOf(
-      { table: s.play.table, balls: one.balls, names: s.play.names, turned: s.turned },
-      one.shot,
-      [],
-    ),
-  );
+  const { table, names } = s.play;
+  show(s, filmOf({ table, balls: stroke.balls, names, turned: s.turned }, stroke.shot, []));
   s.film.start();
-  tell(s);
+  update(s);
 }
-export function finish(s: Session): void {
+export function finish(s: Pick<Session, "then" | "shown" | "turned">): void {
   const after = s.then;
   if (s.shown?.shot) {
     const end = s.shown.shot.orientations(lasts(s.shown.shot));
@@ -140,19 +173,26 @@ export function finish(s: Session): void {
   s.then = undefined;
   after?.();
 }
-export function skip(s: Session): void {
+function skip(s: Session): void {
   if (!s.film.playing) return;
   s.film.stop();
   finish(s);
 }
-export function replay(s: Session): void {
-  const one = s.play.last;
-  if (!one?.shot) return says(s, "There is no stroke to show yet.");
+function replay(s: Session): void {
+  const { last } = s.play;
+  if (!last?.shot) return says(s, "There is no stroke to show yet.");
   if (["film", "thinking"].includes(stateOf(s))) return says(s, why(s));
-  const now = s.turned;
+  const turnedNow = s.turned;
   s.turned = s.turnedBefore;
-  perform(s, one, () => {
-    s.turned = now;
+  perform(s, last, () => {
+    s.turned = turnedNow;
     rest(s);
   });
 }
+
+export const showing = (s: Session): Showing => ({
+  rest: () => rest(s),
+  perform: (stroke, after) => perform(s, stroke, after),
+  skip: () => skip(s),
+  replay: () => replay(s),
+});

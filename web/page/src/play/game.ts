@@ -22,6 +22,8 @@ import { placesOf, placesText, pocketed } from "../table/places.js";
 
 /** Whom one plays against: a Fargo rating, a person at this page, one by link, or nobody. */
 export type Against = "practice" | "person" | "link" | `${number}`;
+/** Whether one plays against the computer, which has a rating. */
+export const isComputer = (against: Against): boolean => Number(against) > 0;
 export interface Setup {
   /** A key of PLAYED; of practice also one of GAMES. */
   game: string;

@@ -3,7 +3,7 @@
 // found, in half of the tries: a convention.
 import type { Carom, Score } from "carom";
 import type { Drill } from "./drills.js";
-import type { Setup } from "./game.js";
+import { isComputer, type Setup } from "./game.js";
 import { count, tally } from "./keep.js";
 
 /**
@@ -14,7 +14,7 @@ const GAMES = "carom-ladder";
 export const DRILLS_MADE = "carom-drills";
 
 /** Whether a game counts: against the page's player, with errors of one's own. */
-export const isRated = ({ against, own }: Setup): boolean => /^\d/.test(against) && own !== "0";
+export const isRated = ({ against, own }: Setup): boolean => isComputer(against) && own !== "0";
 export const countGame = (setup: Setup, winner: 0 | 1): unknown =>
   isRated(setup) && count(GAMES, setup.against, winner === 0 ? [1, 0] : [0, 1]);
 

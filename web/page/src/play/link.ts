@@ -1,7 +1,6 @@
 // A game by link: it is in the address, goes to the other one as a link, and pages of one machine
 // hear of each stroke, which they compare bit by bit.
 import { wrong } from "../ui.js";
-import { perform, rest } from "./filming.js";
 import type { Entry, Setup } from "./game.js";
 import { pack, send } from "./keep.js";
 import { says, type Session } from "./session.js";
@@ -39,11 +38,11 @@ export function byLink(s: Session): {
       const one = s.play.read(entry);
       says(s, `Stroke ${s.play.entries.length} was repeated; every bit agrees.`);
       keep(s);
-      perform(s, one, onward);
+      s.showing.perform(one, onward);
     } catch (error) {
       queue = [];
       says(s, wrong(error));
-      rest(s);
+      s.showing.rest();
     }
   }
   /** Pages of this machine send the text of a game when it has changed, or ask for it. */

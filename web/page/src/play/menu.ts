@@ -2,7 +2,7 @@
 import { GAMES, PLAYED, POOL_TABLES } from "../table/games.js";
 import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
-import type { Against } from "./game.js";
+import { type Against, isComputer } from "./game.js";
 import { kept, keepText } from "./keep.js";
 import type { Session } from "./session.js";
 import { begin } from "./turns.js";
@@ -78,7 +78,7 @@ export function menu(
   const note = el("p", { class: "note", id: "new-note" });
   /** Strokes against the page's player err a little, if nothing else is chosen. */
   function errs(): void {
-    own.select.value = /^\d/.test(against.select.value) ? "800" : "0";
+    own.select.value = isComputer(against.select.value as Against) ? "800" : "0";
     told();
   }
   function set(): void {

@@ -201,15 +201,13 @@ export function suggest(patch: ArrayLike<number>, colours: readonly string[]): n
   const near = [...far.keys()]
     .filter((k) => far[k]! < 1.3 * least + 0.01)
     .sort((a, b) => far[a]! - far[b]!);
-  return near.flatMap((k) =>
-    k === 7
-      ? [8]
-      : share > 0.3
-        ? share > 0.36
-          ? [k + 9]
-          : [k + 9, k + 1]
-        : share > 0.22
-          ? [k + 1, k + 9]
-          : [k + 1],
-  );
+  return near.flatMap((k) => {
+    const solid = k + 1;
+    const stripe = k + 9;
+    if (solid === 8) return [8];
+    if (share > 0.36) return [stripe];
+    if (share > 0.3) return [stripe, solid];
+    if (share > 0.22) return [solid, stripe];
+    return [solid];
+  });
 }

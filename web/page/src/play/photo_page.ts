@@ -56,6 +56,14 @@ const cameraOn = (p: Photo): Camera | undefined =>
     ? cameraOf([p.picture.width, p.picture.height], p.corners, sizeOf(p), LOWER)
     : undefined;
 
+/** What is to be marked next. */
+function wordsOfMarks(corners: number, balls: number): string {
+  if (corners < 4)
+    return `Mark the corner ${CORNERS[corners]}, where the noses of the cushions would meet. The head is where one breaks.`;
+  if (balls === 0) return "Tap the middle of each ball. Marks can be dragged.";
+  return `${balls} ${balls === 1 ? "ball" : "balls"}. Another tap on a mark of a ball takes the next number.`;
+}
+
 function draw(p: Photo): void {
   const { corners, balls, said } = p;
   const asked = balls.find(({ may }) => may);
@@ -119,12 +127,7 @@ function draw(p: Photo): void {
       );
       g.stroke();
     }
-    said.textContent =
-      corners.length < 4
-        ? `Mark the corner ${CORNERS[corners.length]}, where the noses of the cushions would meet. The head is where one breaks.`
-        : balls.length === 0
-          ? "Tap the middle of each ball. Marks can be dragged."
-          : `${balls.length} ${balls.length === 1 ? "ball" : "balls"}. Another tap on a mark of a ball takes the next number.`;
+    said.textContent = wordsOfMarks(corners.length, balls.length);
   } catch (error) {
     said.textContent = wrong(error);
   }

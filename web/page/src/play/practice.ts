@@ -1,13 +1,13 @@
 // What practice has besides a table: drills with counts, and a table from a photo. Both are parts
 // of the dialog of a new game.
-import type { AimOf, Carom } from "carom";
+import type { AimOf, Carom, Table } from "carom";
 import { button, choice, el } from "../ui.js";
 import { atOf, drillsOf, judge } from "./drills.js";
 import { errors } from "./coaching.js";
 import type { Setup, Stroke } from "./game.js";
 import { count, countsOf } from "./keep.js";
 import { DRILLS_MADE as KEY, ownRating } from "./ladder.js";
-import { keepRow } from "./log.js";
+import { keepRow, type Row } from "./log.js";
 import { photoPage } from "./photo_page.js";
 
 declare const DRILLS: string;
@@ -26,6 +26,20 @@ const setupOf = (at: string, drill?: string): Setup => ({
   at,
   ...(drill === undefined ? {} : { drill, own: "800", seed: Math.floor(Math.random() * 2 ** 31) }),
 });
+
+/** The pockets that a ball of a drill may fall into: the one of its goal, or else every pocket. */
+function pocketsFor(ball: string | undefined, goal: string | undefined, table: Table) {
+  if (!ball) return [];
+  return goal ? [goal] : [...table.pockets.keys()];
+}
+/** What would have made the pot: a turn of the aim, and another speed. */
+function wordsOfChange({ phi = 0, speed = 0 }: Pick<Row, "phi" | "speed">): string {
+  const side = phi > 0 ? "right" : "left";
+  const turn =
+    Math.abs(phi) >= 0.05 ? ` Turn the aim ${Math.abs(phi).toFixed(2)}° to the ${side}.` : "";
+  const force = speed > 0 ? "softer" : "faster";
+  return speed === 0 ? turn : `${turn} Strike ${Math.abs(speed).toFixed(1)} m/s ${force}.`;
+}
 
 export function practice(
   carom: Carom,
@@ -126,7 +140,7 @@ export function practice(
     },
     played(name, { shot, cue, balls }) {
       const { goal, text } = of(name);
-      const { is, why } = judge(of(name), shot!);
+      const { outcome, why } = judge(of(name), shot!);
       // The aim at the ball that was to fall, in the pocket that it was nearest to.
       const value = (word: string): string | undefined => goal.find((one) => one[0] === word)?.[1];
       const [ball, into] = (value("pot") ?? "").split("@");
@@ -134,29 +148,26 @@ export function practice(
         ball: Number(ball),
         ...(value("first") && value("first") !== ball ? { via: [Number(value("first"))] } : {}),
       };
-      const all = ball ? (into ? [into] : shot!.table.pockets.keys()) : [];
-      const [off = {}] = [...all]
+      const [off = {}] = pocketsFor(ball, into, shot!.table)
         .map((pocket) => errors(carom, shot!.table, balls, cue, { ...way, pocket } as AimOf))
         .filter(({ phi }) => phi !== undefined)
         .sort((a, b) => Math.abs(a.phi!) - Math.abs(b.phi!));
-      const change = `${Math.abs(off.phi ?? 0) >= 0.05 ? ` Turn the aim ${Math.abs(off.phi!).toFixed(2)}° to the ${off.phi! > 0 ? "right" : "left"}.` : ""}${off.speed ? ` Strike ${Math.abs(off.speed).toFixed(1)} m/s ${off.speed > 0 ? "softer" : "faster"}.` : ""}`;
-      const came =
-        is === "missed"
-          ? ` ${why.join(" ")}${why.some((one) => one.includes("fall")) ? change : ""}`
-          : "";
+      const wasToFall = why.some((reason) => reason.includes("fall"));
+      const change = wasToFall ? wordsOfChange(off) : "";
+      const review = outcome === "missed" ? ` ${why.join(" ")}${change}` : "";
       keepRow({
         when: new Date().toISOString().slice(0, 16),
         game: name,
         meant: text,
         ...off,
         side: -cue.a || 0,
-        best: is === "missed" ? came.trim() : "Made.",
+        best: outcome === "missed" ? review.trim() : "Made.",
       });
-      if (is === "on") return { text: "Go on with the next ball.", again: false };
-      const [good, tries] = count(KEY, name, [Number(is === "made"), 1]);
+      if (outcome === "on") return { text: "Go on with the next ball.", again: false };
+      const [good, tries] = count(KEY, name, [Number(outcome === "made"), 1]);
       told();
       return {
-        text: `${is === "made" ? "Made" : "Missed"}: ${good} of ${tries}.${came}`,
+        text: `${outcome === "made" ? "Made" : "Missed"}: ${good} of ${tries}.${review}`,
         again: true,
       };
     },

@@ -29,7 +29,29 @@ export interface Chosen {
 export const NONE: Chosen = { ball: -1, pocket: -1, met: -1 };
 export const SAFETY = -2;
 
-export interface Session {
+/** What is seen of a game (filming.ts). */
+export interface Showing {
+  /** Shows the balls as they lie, with the stroke that is aimed. */
+  rest(): void;
+  /** Shows the film of a stroke, and then calls `after`. */
+  perform(stroke: Stroke, after: () => void): void;
+  /** Ends the film that is shown. */
+  skip(): void;
+  replay(): void;
+}
+
+/** The coach at the table (coaching.ts). */
+export interface Coach {
+  /** Sets the best stroke that a search finds. */
+  advise(): Promise<void>;
+  /** Says the chances of the stroke that is aimed. */
+  chances(): Promise<void>;
+  /** Begins the review of a stroke of this layout; what it returns takes the stroke. */
+  review(): (cue: Cue, call: Call | undefined) => Promise<void>;
+}
+
+/** What a game is played by, which is there as long as the view. */
+interface Parts {
   readonly carom: Carom;
   readonly coarse: boolean;
   readonly settings: Settings;
@@ -44,8 +66,14 @@ export interface Session {
   readonly space: Space;
   readonly link: ReturnType<typeof byLink>;
   readonly training: ReturnType<typeof practice>;
+  readonly showing: Showing;
+  readonly coach: Coach;
   /** The aim, the layout or a setting has changed. */
   changed(): void;
+}
+
+/** How the game stands, and what is shown of it now. */
+interface Progress {
   play: Play;
   /** Which of both sits here; of two at this page, whoever is at the table. */
   seat: 0 | 1;
@@ -67,10 +95,31 @@ export interface Session {
   filmed: ReturnType<typeof filmOf> | undefined;
   sounded: number;
   /** Raised by what ends a search: another game, a stroke. */
-  number: number;
+  searchGeneration: number;
   /** Raised by what ends the search of the coach for chances. */
-  asking: number;
+  chancesGeneration: number;
 }
+export interface Session extends Parts, Progress {}
+
+/** How a game is on its way before anything was played. */
+export const progressOf = (play: Play): Progress => ({
+  play,
+  seat: 0,
+  chosen: NONE,
+  special: undefined,
+  hinted: false,
+  first: undefined,
+  turned: [],
+  turnedBefore: [],
+  thinks: false,
+  theirs: undefined,
+  then: undefined,
+  shown: undefined,
+  filmed: undefined,
+  sounded: 0,
+  searchGeneration: 0,
+  chancesGeneration: 0,
+});
 
 export const mine = ({ play, seat }: Session): boolean =>
   play.winner === undefined &&
@@ -78,94 +127,102 @@ export const mine = ({ play, seat }: Session): boolean =>
 export function stateOf(s: Session): "aiming" | "thinking" | "film" | "waiting" | "over" {
   if (s.film.playing || s.then !== undefined) return "film";
   if (s.thinks) return "thinking";
-  return mine(s) ? "aiming" : s.play.winner === undefined ? "waiting" : "over";
+  if (mine(s)) return "aiming";
+  return s.play.winner === undefined ? "waiting" : "over";
 }
 /** Whether whoever is at this page may aim now. */
 export const free = (s: Session): boolean => stateOf(s) === "aiming";
-export const says = (s: Session, text: string): void => void (s.words.said.textContent = text);
+export const says = (s: Pick<Session, "words">, text: string): void =>
+  void (s.words.said.textContent = text);
 
 /** The stroke that the controls set. */
-export const cueOf = ({ carom, play, stroke }: Session): Cue =>
-  cueWith(carom.cue({}, GAMES[play.played?.of ?? play.setup.game]!.game), stroke.value());
-export const aimAt = ({ stroke }: Session, of: Cue): void => stroke.set(strokeOf(of));
+export function cueOf({ carom, play, stroke }: Pick<Session, "carom" | "play" | "stroke">): Cue {
+  const { game } = GAMES[play.played?.of ?? play.setup.game]!;
+  return cueWith(carom.cue({}, game), stroke.value());
+}
+export const aimAt = ({ stroke }: Pick<Session, "stroke">, cue: Cue): void =>
+  stroke.set(strokeOf(cue));
 /** The stroke that is shown: of whoever may aim, or of the page's player before it plays. */
 export const aimed = (s: Session): Cue | undefined => (free(s) ? cueOf(s) : s.theirs);
 
 /** Whether a stroke needs a call. */
-export const calls = ({ play }: Session): boolean =>
+export const needsCall = (play: Play): boolean =>
   play.played?.calls === true && !play.breaks && !play.practice;
-export const ballsOn = ({ carom, play }: Session): number[] =>
-  carom.ballsOn(play.state, play.balls);
+export const ballsOn = ({ carom, state, balls }: Play): number[] => carom.ballsOn(state, balls);
 /** What was chosen, as far as it holds for the aim. */
-export function valid({ first, chosen, stroke }: Session): Chosen {
+export function valid({
+  first,
+  chosen,
+  stroke,
+}: Pick<Session, "first" | "chosen" | "stroke">): Chosen {
   const met = first?.ball ?? -1;
-  const off =
-    chosen.phi === undefined ? 0 : Math.abs(((stroke.value().phi - chosen.phi + 540) % 360) - 180);
-  return off < 2 && (met === -1 || met === chosen.met) ? chosen : NONE;
+  const { phi } = stroke.value();
+  const turnedBy = Math.abs(((phi - (chosen.phi ?? phi) + 540) % 360) - 180);
+  const meetsTheSame = met === -1 || met === chosen.met;
+  return turnedBy < 2 && meetsTheSame ? chosen : NONE;
 }
 /** Whether a safety is called: what falls keeps no turn. */
-export const isSafety = (s: Session): boolean => calls(s) && valid(s).pocket === SAFETY;
+export const isSafety = (s: Session): boolean => needsCall(s.play) && valid(s).pocket === SAFETY;
 /**
  * The ball and the pocket that are called. Of banks nothing is guessed, as no ball counts on its
  * way.
  */
 export function called(s: Session): { ball: number; pocket: number } | undefined {
-  const of = guessOf(s.play.table, s.first, ballsOn(s));
-  const given = valid(s);
-  const guess = s.play.setup.game === "bank" ? { ...of, pocket: -1 } : of;
-  if (given.pocket === SAFETY) return undefined;
-  const ball = given.ball > 0 ? given.ball : guess.ball;
-  const pocket = given.pocket >= 0 ? given.pocket : ball === guess.ball ? guess.pocket : -1;
-  return ball > 0 && pocket >= 0 && onTable(s.play.balls[ball]!.state)
-    ? { ball, pocket }
-    : undefined;
+  const { play } = s;
+  const choice = valid(s);
+  if (choice.pocket === SAFETY) return undefined;
+  const guess = guessOf(play.table, s.first, ballsOn(play));
+  const ball = choice.ball > 0 ? choice.ball : guess.ball;
+  const isGuessed = ball === guess.ball && play.setup.game !== "bank";
+  const guessedPocket = isGuessed ? guess.pocket : -1;
+  const pocket = choice.pocket >= 0 ? choice.pocket : guessedPocket;
+  const isThere = ball > 0 && onTable(play.balls[ball]!.state);
+  return isThere && pocket >= 0 ? { ball, pocket } : undefined;
 }
 export const callOf = (s: Session): Call | undefined =>
-  s.special ?? (calls(s) ? called(s) : undefined);
+  s.special ?? (needsCall(s.play) ? called(s) : undefined);
 /** What the stroke that is shown meets first. */
 export function look(s: Session): void {
-  const of = aimed(s);
-  s.first =
-    of && onTable(s.play.balls[0]!.state)
-      ? lookAlong(
-          s.carom,
-          s.play.table,
-          s.play.balls,
-          of,
-          OPTIONS,
-          !s.play.breaks && !s.play.setup.drill && linesOf(s) === "full",
-        )
-      : undefined;
+  const { carom, play } = s;
+  const cue = aimed(s);
+  if (!cue || !onTable(play.balls[0]!.state)) {
+    s.first = undefined;
+    return;
+  }
+  const showsWays = !play.breaks && !play.setup.drill && linesOf(s) === "full";
+  s.first = lookAlong(carom, play.table, play.balls, cue, OPTIONS, showsWays);
 }
 
 /** The rating of whoever sits here: his own one, or that of his errors where they are larger. */
-export const levelOf = ({
-  play: {
-    setup: { own },
-  },
-  training,
-}: Session): number => Math.min(training.rating().rating, own === "0" ? 800 : Number(own));
+export function levelOf({ play, training }: Pick<Session, "play" | "training">): number {
+  const { own } = play.setup;
+  return Math.min(training.rating().rating, own === "0" ? 800 : Number(own));
+}
 /** What lines show of the balls: by a setting, or by the rating. */
-export function linesOf(s: Session): Lines {
-  const { lines } = s.settings;
-  const level = lines === "level" ? s.training.rating().rating : 0;
-  return lines !== "level" ? lines : level < 500 ? "full" : level < 650 ? "short" : "none";
+export function linesOf({ settings, training }: Pick<Session, "settings" | "training">): Lines {
+  if (settings.lines !== "level") return settings.lines;
+  const { rating } = training.rating();
+  if (rating < 500) return "full";
+  return rating < 650 ? "short" : "none";
 }
 /** Why nothing can be played now. */
-export function why({ play, ...s }: Session): string {
+export function why(s: Pick<Session, "play" | "seat" | "thinks">): string {
+  const { play } = s;
   if (s.thinks) return "The other player thinks: your turn comes after his stroke.";
   if (play.winner !== undefined) return "This game is over: begin another one.";
   if (play.setup.against !== "link") return "Not now: a stroke is on its way.";
-  return `The other player is at the table: ${play.last?.who === s.seat ? "send the link, and open the one that comes back" : "open the link that comes after his turn"}.`;
+  if (play.last?.who === s.seat)
+    return "The other player is at the table: send the link, and open the one that comes back.";
+  return "The other player is at the table: open the link that comes after his turn.";
 }
 
-export const playerOf = ({ carom }: Session, rating: string): Player =>
+export const playerOf = (carom: Carom, rating: string): Player =>
   carom.player(rating === "0" ? { errors: 0 } : { fargo: Number(rating) });
 /** Where the cue ball may be put, for a plan. */
-export const placeOf = ({ play }: Session): PlanOptions["inHand"] =>
-  play.hand === "kitchen"
-    ? [
-        [0, 0],
-        [play.table.width, play.table.length / 4],
-      ]
-    : play.hand !== "no";
+export function placeOf({ hand, table }: Play): PlanOptions["inHand"] {
+  if (hand !== "kitchen") return hand !== "no";
+  return [
+    [0, 0],
+    [table.width, table.length / 4],
+  ];
+}

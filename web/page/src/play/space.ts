@@ -7,7 +7,6 @@ import { onTable } from "../table/filmed.js";
 import { type Grip, pixelsOf, type Point } from "../table/grip.js";
 import { color, drags, el } from "../ui.js";
 import { drawMarks, drawWays, move, movable, tap } from "./aim.js";
-import { skip } from "./filming.js";
 import type { Play } from "./game.js";
 import type { Scene } from "./scene.js";
 import { aimed, free, type Session } from "./session.js";
@@ -98,24 +97,23 @@ export class Space {
   #handle(scene: Scene): void {
     const { s } = this;
     const { canvas } = scene;
-    let [from, last]: Point[] = [
-      [0, 0],
-      [0, 0],
-    ];
+    let from: Point = [0, 0];
+    let last: Point = [0, 0];
     let taps = false;
-    let grip: Grip = { is: "cloth" };
+    let grip: Grip = { kind: "cloth" };
     const at = ([x, y]: Point): Point | undefined =>
       scene.unplace(x, y, s.play.balls[0]!.kind.radius);
     drags(canvas, (event, first) => {
       const now = pixelsOf(canvas, event);
       if (first) {
         taps = !s.film.playing;
-        if (!taps) skip(s);
-        [from, grip] = [now, this.#under(scene, now)];
+        if (!taps) s.showing.skip();
+        from = now;
+        grip = this.#under(scene, now);
       } else if (free(s)) {
         taps &&= Math.hypot(now[0] - from[0], now[1] - from[1]) < 6;
         const to = at(now);
-        this.#moves = !taps && grip.is === "ball" && grip.ball === 0 && movable(s, 0);
+        this.#moves = !taps && grip.kind === "ball" && grip.ball === 0 && movable(s, 0);
         if (this.#moves && to) move(s, 0, to);
         else if (!this.#moves && !taps) {
           s.stroke.set({ phi: (s.stroke.value().phi + (last[0] - now[0]) * 0.08 + 360) % 360 });
@@ -138,17 +136,17 @@ export class Space {
     const far = (px: number, py: number): number => Math.hypot(px - x, py - y);
     const near = [
       ...balls.map(({ state: { r } }, ball) => ({
-        grip: { is: "ball", ball } as Grip,
+        grip: { kind: "ball", ball } as Grip,
         d: onTable(balls[ball]!.state) ? far(...scene.place(r[0], r[1], r[2])) : 99,
       })),
       ...table.pockets.map(({ centre }, pocket) => ({
-        grip: { is: "pocket", pocket } as Grip,
+        grip: { kind: "pocket", pocket } as Grip,
         d: far(...scene.place(centre[0], centre[1], 0)),
       })),
     ]
       .filter(({ d }) => d < 24)
       .sort((a, b) => a.d - b.d);
-    return near[0]?.grip ?? { is: "cloth" };
+    return near[0]?.grip ?? { kind: "cloth" };
   }
 
   draw(): void {

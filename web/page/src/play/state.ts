@@ -29,10 +29,11 @@ const WHY: Partial<Record<string, string>> = {
 };
 
 /** What has just happened, as far as it is not a plain change of turns. */
-function told(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
+function wordsOfFoul(play: Play, { who, ruling }: Stroke, seat: 0 | 1): string {
   if (!ruling?.foul) return "";
   const name = nameOf(play, who, seat);
-  return `${name} ${name === "You" ? "foul" : "fouls"}${WHY[ruling.reason] ? `: ${WHY[ruling.reason]}` : ""}. `;
+  const why = WHY[ruling.reason];
+  return `${name} ${name === "You" ? "foul" : "fouls"}${why ? `: ${why}` : ""}. `;
 }
 
 /** Where balls count for whoever plays. */
@@ -48,50 +49,49 @@ function onOf(play: Play): string {
   return on.length === 1 ? play.names[on[0]!]! : "a colour";
 }
 
+/** The balls that count for whoever plays, or the pocket, behind the name: ", on a red". */
+function aimOf(play: Play): string {
+  const { game } = play.setup;
+  if (game === "snooker") return `, on ${onOf(play)}`;
+  if (play.played?.pockets) return `, into ${pocketOf(play)}`;
+  if (game !== "eightball" || play.breaks) return "";
+  return play.state.group === "open" ? ", open table" : `, ${play.state.group}`;
+}
+const PLACES: Record<string, string> = { kitchen: " behind the line", anywhere: "" };
+function wordsOfHand({ hand }: Play): string {
+  return hand === "no" ? "" : ` Cue ball in hand${PLACES[hand] ?? " in the D"}: drag it.`;
+}
+function wordsOfTable(play: Play, name: string): string {
+  if (play.hasPockets && play.breaks) return `${name} ${name === "You" ? "break" : "breaks"}`;
+  return name === "You" ? "Your turn" : `${name}'s turn`;
+}
+
 export function wordsOfTurn(play: Play, seat: 0 | 1, thinks: boolean, short = false): string {
   if (play.practice) return play.setup.drill ?? "Practice";
-  const before = play.last && !short ? told(play, play.last, seat) : "";
+  const before = play.last && !short ? wordsOfFoul(play, play.last, seat) : "";
   if (play.winner !== undefined) {
-    const name = nameOf(play, play.winner, seat);
-    return `${before}${name} ${name === "You" ? "have" : "has"} won.`;
+    const winner = nameOf(play, play.winner, seat);
+    return `${before}${winner} ${winner === "You" ? "have" : "has"} won.`;
   }
   const name = nameOf(play, play.turn, seat);
-  const you = name === "You";
-  const group =
-    play.setup.game === "eightball" && !play.breaks
-      ? play.state.group === "open"
-        ? ", open table"
-        : `, ${play.state.group}`
-      : "";
-  const on =
-    play.setup.game === "snooker" && play.winner === undefined
-      ? `, on ${onOf(play)}`
-      : play.played?.pockets
-        ? `, into ${pocketOf(play)}`
-        : group;
-  if (thinks) return `${before}${name} thinks${on} …`;
+  const aim = aimOf(play);
+  if (thinks) return `${before}${name} thinks${aim} …`;
   // Whoever has played has something to send; who has not waits for a link.
-  if (!you && play.setup.against === "link")
-    return `${before}${name} plays${on}: ${play.last?.who === seat ? "send the link." : "wait for the link that comes after this turn."}`;
-  const turn =
-    play.hasPockets && play.breaks
-      ? `${name} ${you ? "break" : "breaks"}`
-      : you
-        ? "Your turn"
-        : `${name}'s turn`;
-  const hand =
-    play.hand === "no"
-      ? ""
-      : ` Cue ball in hand${play.hand === "kitchen" ? " behind the line" : play.hand === "anywhere" ? "" : " in the D"}: drag it.`;
-  return `${before}${turn}${on}.${hand}`;
+  if (name !== "You" && play.setup.against === "link") {
+    const sends = play.last?.who === seat;
+    return `${before}${name} plays${aim}: ${sends ? "send the link." : "wait for the link that comes after this turn."}`;
+  }
+  return `${before}${wordsOfTable(play, name)}${aim}.${wordsOfHand(play)}`;
 }
 
 /** What fell in a stroke. */
 export function wordsOfStroke(play: Play, { who, shot }: Stroke, seat: 0 | 1): string {
-  const fell = (shot?.events ?? []).flatMap(({ type, a }) =>
+  const name = nameOf(play, who, seat);
+  if (!shot) return `${name} passed.`;
+  const fallen = shot.events.flatMap(({ type, a }) =>
     type === "ball_pocket" && a > 0 ? `the ${play.names[a]}` : [],
   );
-  return `${nameOf(play, who, seat)} ${shot ? "pocketed" : "passed"}${!shot ? "" : fell.length > 0 ? ` ${fell.join(" and ")}` : " no ball"}.`;
+  return `${name} pocketed ${fallen.length > 0 ? fallen.join(" and ") : "no ball"}.`;
 }
 
 /** The score: what is left of each, or points. */

@@ -1,25 +1,24 @@
 // The turns of a game: it begins, a stroke is played by whoever sits here or by the page's player,
 // and the next one comes to the table.
+import type { Call, Choice, Cue } from "carom";
 import { drop, far } from "../far.js";
 import { angleFrom, direction } from "../table/grip.js";
 import { wordsOfChoice } from "../table/words.js";
 import { parameters, wrong } from "../ui.js";
-import { asked, chances, lookBack } from "./coaching.js";
-import { perform, rest } from "./filming.js";
-import { OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
+import { isComputer, OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
 import { countRack, kept, keepText, unpack } from "./keep.js";
 import { countGame, isRated } from "./ladder.js";
 import {
   aimAt,
   ballsOn,
   callOf,
-  calls,
   cueOf,
   free,
   isSafety,
   levelOf,
   look,
   mine,
+  needsCall,
   NONE,
   placeOf,
   playerOf,
@@ -30,150 +29,181 @@ import {
 } from "./session.js";
 import { nameOf, wordsOfStroke } from "./state.js";
 
+/** Shots of a plan of the page's player. */
 const REPLY = 400;
 /** How long the stroke of the page's player is shown before it is played, ms. */
 const SHOWN = 700;
 /** The power after the break, m/s. */
 const SPEED = 2.5;
 export const FIRST: Setup = { game: "eightball", against: "300", own: "800", seed: 1 };
-const computer = ({ play }: Session): boolean => /^\d/.test(play.setup.against);
 
 // ---- Strokes ------------------------------------------------------------------------------------
 
+/** The rating by which a stroke errs: after a hint that of the player, even where none was chosen. */
+function ratingOfErrors(s: Pick<Session, "play" | "hinted" | "training">): string {
+  const { own } = s.play.setup;
+  const isWithoutErrors = s.play.practice && own === "0";
+  return s.hinted && !isWithoutErrors ? String(levelOf(s)) : own;
+}
+/** A stroke as a player of a rating plays it; "0" makes no errors. */
+function withErrors({ carom, setup }: Play, cue: Cue, rating: string, strokes: number): Cue {
+  if (rating === "0") return cue;
+  return carom.withErrors(cue, playerOf(carom, rating), setup.seed, strokes);
+}
+
 export function shoot(s: Session): void {
   if (!free(s)) return says(s, why(s));
-  const { carom, play, settings, sound } = s;
-  s.number++; // a search for a hint ends here
+  const { coach, play, settings, sound } = s;
+  s.searchGeneration++; // a search for a hint ends here
   sound.wake();
-  const meant = cueOf(s);
-  const { own, seed } = play.setup;
-  const rating = s.hinted && !(play.practice && own === "0") ? String(levelOf(s)) : own;
-  const made =
-    rating === "0"
-      ? meant
-      : carom.withErrors(meant, playerOf(s, rating), seed, play.entries.length + play.past.length);
-  const of = asked(s);
+  const strokes = play.entries.length + play.past.length;
+  const cue = withErrors(play, cueOf(s), ratingOfErrors(s), strokes);
+  const review = coach.review();
   try {
     look(s); // the aim may have changed since the last frame
-    const what = callOf(s);
-    const one = play.stroke(made, what);
+    const call = callOf(s);
+    const stroke = play.stroke(cue, call);
     says(s, "");
-    if (settings.coach && play.played && play.setup.drill === undefined)
-      void lookBack(s, of, made, what);
-    played(s, one);
+    const isReviewed = settings.coach && play.played && play.setup.drill === undefined;
+    if (isReviewed) void review(cue, call);
+    follow(s, stroke);
   } catch (error) {
     says(s, wrong(error));
   }
 }
+/** Chooses a safety or a push-out, or takes the choice back; or passes. */
 export function choose(s: Session, what: "push" | "pass"): void {
   if (!free(s)) return says(s, why(s));
-  if (what === "pass") return played(s, s.play.stroke(cueOf(s), "pass"));
-  // A safety holds as long as the aim meets the same ball.
-  if (calls(s))
-    s.chosen = isSafety(s) ? NONE : { ball: -1, pocket: SAFETY, met: s.first?.ball ?? -1 };
-  else if (s.play.breaks) says(s, "A break calls nothing.");
+  if (what === "pass") return follow(s, s.play.stroke(cueOf(s), "pass"));
+  if (needsCall(s.play)) {
+    // A safety holds as long as the aim meets the same ball.
+    const safety = { ball: -1, pocket: SAFETY, met: s.first?.ball ?? -1 };
+    s.chosen = isSafety(s) ? NONE : safety;
+  } else if (s.play.breaks) says(s, "A break calls nothing.");
   else s.special = s.special === "push" ? undefined : "push";
-  rest(s);
+  s.showing.rest();
+}
+/** Whether a stroke was the first of a rack. */
+function wasBreak({ setup, entries }: Play, stroke: Stroke): boolean {
+  const isFirst = setup.at === undefined && entries.length === 1;
+  return stroke.state.opening === true || isFirst;
 }
 /** A stroke was played: its film, and whoever comes next. */
-function played(s: Session, one: Stroke): void {
+function follow(s: Session, stroke: Stroke): void {
   // Nobody breaks twice: the next stroke begins as one of medium speed.
-  if (
-    (one.state.opening || (s.play.setup.at === undefined && s.play.entries.length === 1)) &&
-    !s.play.breaks
-  )
-    s.stroke.set({ speed: SPEED });
+  if (wasBreak(s.play, stroke) && !s.play.breaks) s.stroke.set({ speed: SPEED });
   s.chosen = NONE;
   s.theirs = undefined;
   s.special = undefined;
   s.hinted = false;
   keep(s);
-  perform(s, one, () => next(s));
+  s.showing.perform(stroke, () => next(s));
 }
 export function undo(s: Session): void {
   if (!s.play.practice) return;
   if (!s.play.undo()) return says(s, "There is nothing to undo.");
   save(s);
-  rest(s);
+  s.showing.rest();
 }
 /**
  * Whoever comes to the table finds the tip in the middle of the cue ball, and the aim at the
  * nearest ball that is on.
  */
-function address(s: Session): void {
-  const r = (ball: number): readonly number[] => s.play.balls[ball]!.state.r;
-  const far = (ball: number): number => Math.hypot(r(ball)[0]! - r(0)[0]!, r(ball)[1]! - r(0)[1]!);
-  const [near] = ballsOn(s).sort((a, b) => far(a) - far(b));
-  s.stroke.set({ right: 0, up: 0, theta: 0 });
-  if (near !== undefined)
-    s.stroke.set({ phi: direction(angleFrom(s.play.balls[0]!, [r(near)[0]!, r(near)[1]!])) });
+function address({ play, stroke }: Pick<Session, "play" | "stroke">): void {
+  const [cueBall] = play.balls as [(typeof play.balls)[number]];
+  const placeOfBall = (ball: number): [number, number] => {
+    const [x, y] = play.balls[ball]!.state.r;
+    return [x, y];
+  };
+  const distance = (ball: number): number => {
+    const [x, y] = placeOfBall(ball);
+    return Math.hypot(x - cueBall.state.r[0], y - cueBall.state.r[1]);
+  };
+  const [nearest] = ballsOn(play).sort((a, b) => distance(a) - distance(b));
+  stroke.set({ right: 0, up: 0, theta: 0 });
+  if (nearest !== undefined)
+    stroke.set({ phi: direction(angleFrom(cueBall, placeOfBall(nearest))) });
 }
+/** Judges a try of a drill, and lays the balls for the next one. */
+function judgeDrill({ play, training, words, carom }: Session): void {
+  const { drill, at } = play.setup;
+  if (drill === undefined || !play.last) return;
+  const { text, again } = training.played(drill, play.last);
+  says({ words }, text);
+  // The next try begins where this one began.
+  if (again) play.lay(new Play(carom, { ...play.setup, at }).balls);
+}
+/** Whoever is at the table now plays. */
 export function next(s: Session): void {
   const { play } = s;
-  const { drill, at } = play.setup;
-  if (drill !== undefined && play.last) {
-    const { text, again } = s.training.played(drill, play.last);
-    says(s, text);
-    // The next try begins where this one began.
-    if (again) play.lay(new Play(s.carom, { ...play.setup, at }).balls);
-  }
+  const isAgainstComputer = isComputer(play.setup.against);
+  judgeDrill(s);
   if (s.link.waiting()) return s.link.onward();
-  if (play.last && play.hasPockets && computer(s) && play.last.who !== s.seat)
-    says(s, wordsOfStroke(play, play.last, s.seat));
+  const isTheirs = play.last !== undefined && play.last.who !== s.seat;
+  if (isTheirs && play.hasPockets && isAgainstComputer)
+    says(s, wordsOfStroke(play, play.last!, s.seat));
   if (play.winner !== undefined && isRated(play.setup)) says(s, s.training.rating().words);
-  if (play.winner === undefined && !mine(s) && computer(s)) void reply(s);
+  if (play.winner === undefined && !mine(s) && isAgainstComputer) void reply(s);
   else {
     if (!play.practice && !play.breaks && mine(s)) address(s);
-    rest(s);
+    s.showing.rest();
   }
   // After a stroke its review is read, until the aim changes.
-  if (s.settings.coach && !play.last) void chances(s);
+  if (s.settings.coach && !play.last) void s.coach.chances();
 }
 
-/** The page's player: he plans in a worker, puts the cue ball, and errs. */
-async function reply(s: Session): Promise<void> {
-  const { carom, play } = s;
-  const mine = ++s.number;
-  s.thinks = true;
-  rest(s);
+// ---- The page's player --------------------------------------------------------------------------
+
+/** The stroke that the page's player chooses, by a plan in a worker. */
+async function choiceOf(play: Play): Promise<Choice> {
   const { against, own, seed } = play.setup;
+  const options = {
+    ...play.state,
+    player: playerOf(play.carom, against),
+    opponent: playerOf(play.carom, own === "0" ? "700" : own),
+    shot: OPTIONS,
+    seed: seed + play.entries.length,
+    inHand: placeOf(play)!,
+    best: 1,
+    shots: REPLY,
+  };
+  const [choice] = await far("plan", play.table, play.balls, options);
+  return choice!;
+}
+/** What a choice calls. */
+function callOfChoice({ kind, ball, pocket }: Choice): Call | undefined {
+  if (kind === "push" || kind === "pass") return kind;
+  return ball > 0 && pocket >= 0 ? { ball, pocket } : undefined;
+}
+/** Shows a choice of the page's player for a moment: the cue ball, the stick, and words. */
+async function announce(s: Session, choice: Choice): Promise<void> {
+  const { play, seat, film } = s;
+  if (play.hand !== "no") play.put(0, ...(choice.place as [number, number]));
+  s.theirs = choice.cue;
+  s.showing.rest();
+  const stroke = wordsOfChoice(play.table, play.names, choice, s.first?.ball === -1);
+  says(s, `${nameOf(play, play.turn, seat)} plays ${stroke}.`);
+  const isInstant = film.pace.value === "1000";
+  await new Promise((later) => window.setTimeout(later, isInstant ? 0 : SHOWN));
+}
+/** The page's player: he plans, puts the cue ball, and errs. */
+async function reply(s: Session): Promise<void> {
+  const { play } = s;
+  const generation = ++s.searchGeneration;
+  const isOver = (): boolean => generation !== s.searchGeneration;
+  s.thinks = true;
+  s.showing.rest();
   try {
-    const options = {
-      ...play.state,
-      player: playerOf(s, against),
-      opponent: playerOf(s, own === "0" ? "700" : own),
-      shot: OPTIONS,
-      seed: seed + play.entries.length,
-      inHand: placeOf(s)!,
-      best: 1,
-      shots: REPLY,
-    };
-    const [one] = await far("plan", play.table, play.balls, options);
-    if (mine !== s.number) return;
-    if (play.hand !== "no") play.put(0, ...(one!.place as [number, number]));
-    s.theirs = one!.cue;
-    rest(s);
-    says(
-      s,
-      `${nameOf(play, play.turn, s.seat)} plays ${wordsOfChoice(play.table, play.names, one!, s.first?.ball === -1)}.`,
-    );
-    await new Promise((later) =>
-      window.setTimeout(later, s.film.pace.value === "1000" ? 0 : SHOWN),
-    );
-    if (mine !== s.number) return;
-    const pot =
-      one!.ball > 0 && one!.pocket >= 0 ? { ball: one!.ball, pocket: one!.pocket } : undefined;
-    const given = one!.kind === "push" || one!.kind === "pass" ? one!.kind : pot;
+    const choice = await choiceOf(play);
+    if (isOver()) return;
+    await announce(s, choice);
+    if (isOver()) return;
     s.thinks = false;
-    played(
-      s,
-      play.stroke(
-        carom.withErrors(one!.cue, playerOf(s, against), seed, play.entries.length),
-        given,
-      ),
-    );
+    const { against } = play.setup;
+    const cue = withErrors(play, choice.cue, against, play.entries.length);
+    follow(s, play.stroke(cue, callOfChoice(choice)));
   } catch (error) {
-    if (mine !== s.number) return;
+    if (isOver()) return;
     s.thinks = false;
     says(s, wrong(error));
   }
@@ -186,7 +216,7 @@ export function start(s: Session, play: Play): void {
   drop("plan");
   const turned = play.balls.map(() => [1, 0, 0, 0] as const);
   Object.assign(s, {
-    number: s.number + 1,
+    searchGeneration: s.searchGeneration + 1,
     then: undefined,
     theirs: undefined,
     thinks: false,
@@ -200,9 +230,15 @@ export function start(s: Session, play: Play): void {
   s.film.stop();
   s.film.look(1);
 }
+/** What a game says as it begins. */
+function wordsOfStart({ setup, practice }: Play, training: Session["training"]): string {
+  if (setup.drill !== undefined) return training.told(setup.drill);
+  if (practice) return "Drag balls to lay them, drag on the cloth to aim, tap Shoot.";
+  return "Drag on the table to aim, then tap Shoot.";
+}
 export function begin(s: Session, setup: Setup): void {
   s.seat = 0;
-  start(s, new Play(s.carom, JSON.parse(JSON.stringify(setup)) as Setup));
+  start(s, new Play(s.carom, structuredClone(setup)));
   const { play } = s;
   aimAt(s, {
     ...cueOf(s),
@@ -210,63 +246,59 @@ export function begin(s: Session, setup: Setup): void {
     ...(play.played?.begin ?? { speed: 4, phi: 62, a: 0, b: 0 }),
     ...(setup.at === undefined ? {} : { speed: 2, phi: 90 }),
   });
-  says(
-    s,
-    setup.drill !== undefined
-      ? s.training.told(setup.drill)
-      : play.practice
-        ? "Drag balls to lay them, drag on the cloth to aim, tap Shoot."
-        : "Drag on the table to aim, then tap Shoot.",
-  );
+  says(s, wordsOfStart(play, s.training));
   save(s);
-  rest(s);
+  s.showing.rest();
 }
 /**
  * Keeps the game: in the browser; one by link in the address and on other pages of this machine.
  */
-function save({ play, link }: Session): void {
+function save({ play, link }: Pick<Session, "play" | "link">): void {
   if (play.setup.against === "link") return link.save();
   keepText(play.text());
   if (location.hash !== "#view=play" && !parameters().has("d"))
     history.replaceState(null, "", "#view=play");
 }
 /** Keeps the game after a stroke, and who has won it. */
-export function keep(s: Session): void {
-  const { winner, setup } = s.play;
+export function keep({ play, link }: Pick<Session, "play" | "link">): void {
+  const { winner, setup } = play;
   if (winner !== undefined) {
     countRack(setup, winner);
     countGame(setup, winner);
   }
-  save(s);
+  save({ play, link });
 }
 
+/** Goes on with a game that was read, for one of both seats. */
+function goOn(s: Session, play: Play, seat: 0 | 1, isLink: boolean): void {
+  start(s, play);
+  s.seat = seat;
+  const begins = play.breaks || play.practice;
+  aimAt(s, {
+    ...cueOf(s),
+    theta: 0,
+    ...(begins ? play.played?.begin : { speed: SPEED }),
+  });
+  save(s);
+  s.link.ask();
+  const { length } = play.entries;
+  const strokes = length === 1 ? "stroke was" : "strokes were";
+  says(s, isLink && length > 0 ? `${length} ${strokes} repeated; every bit agrees.` : "");
+  if (isLink && play.last?.shot && mine(s)) s.showing.perform(play.last, () => next(s));
+  else next(s);
+}
 /** The game of the address, the one that was kept, or a new one. */
 export async function resume(s: Session): Promise<void> {
   const given = parameters();
-  let told = "";
+  let failure = "";
   try {
     const packed = given.get("g");
     const text = packed ? await unpack(packed) : kept();
-    if (text !== undefined) {
-      const one = read(s.carom, text);
-      start(s, one);
-      s.seat = packed && given.get("seat") === "1" ? 1 : 0;
-      aimAt(s, {
-        ...cueOf(s),
-        theta: 0,
-        ...(one.breaks || one.practice ? one.played?.begin : { speed: SPEED }),
-      });
-      if (packed && one.entries.length > 0)
-        told = `${one.entries.length} ${one.entries.length === 1 ? "stroke was" : "strokes were"} repeated; every bit agrees.`;
-      save(s);
-      s.link.ask();
-      says(s, told);
-      if (packed && one.last?.shot && mine(s)) return perform(s, one.last, () => next(s));
-      return next(s);
-    }
+    const seat = packed && given.get("seat") === "1" ? 1 : 0;
+    if (text !== undefined) return goOn(s, read(s.carom, text), seat, Boolean(packed));
   } catch (error) {
-    told = `The game was not read: ${wrong(error)}.`;
+    failure = `The game was not read: ${wrong(error)}.`;
   }
   begin(s, { ...FIRST, seed: Math.floor(Math.random() * 2 ** 31) });
-  if (told) says(s, told);
+  if (failure) says(s, failure);
 }

@@ -5,88 +5,88 @@ import { player as filmPlayer } from "../../../player/player.js";
 import { drop } from "../far.js";
 import { button, eachFrame, el, parameters, wrong } from "../ui.js";
 import { aiming, drawAim } from "./aim.js";
-import { advise, chances } from "./coaching.js";
+import { coaching } from "./coaching.js";
 import { controls } from "./controls.js";
 import { diagramPage, type Source } from "./diagram.js";
-import { finish, moved, replay, rest, skip } from "./filming.js";
+import { finish, moved, showing } from "./filming.js";
 import { Play } from "./game.js";
 import { byLink } from "./link.js";
 import { logPage } from "./log.js";
 import { menu, settingsOf } from "./menu.js";
 import { practice } from "./practice.js";
-import { cueOf, NONE, says, type Session } from "./session.js";
+import { cueOf, progressOf, says, type Session } from "./session.js";
 import { Sound } from "./sound.js";
 import { Space } from "./space.js";
 import { begin, choose, FIRST, resume, start, undo } from "./turns.js";
+
+const wordsOf = (): Session["words"] => ({
+  turn: el("p", { id: "turn", role: "status" }),
+  score: el("p", { id: "score" }),
+  said: el("p", { id: "said", role: "status" }),
+});
+function beginAgain(s: Session): void {
+  const setup = { ...s.play.setup, seed: s.play.setup.seed + 1 };
+  delete setup.at; // the balls lie as in a rack
+  begin(s, setup);
+}
+/** The buttons of the bar; `session` is complete before the first of them is pressed. */
+function buttonsOf(session: () => Session): Session["buttons"] {
+  const named = (
+    id: string,
+    text: string,
+    press: (s: Session) => unknown,
+    more: Record<string, string> = {},
+  ): HTMLButtonElement => button(text, () => void press(session()), { id, ...more });
+  return {
+    menu: named("new-game", "New game", () => undefined),
+    hint: named("hint", "Hint", (s) => s.coach.advise()),
+    replay: named("replay", "Replay", (s) => s.showing.replay()),
+    undo: named("undo-stroke", "Undo", undo),
+    rack: named("rack-up", "New rack", beginAgain),
+    push: named("push", "Push out", (s) => choose(s, "push"), { "aria-pressed": "false" }),
+    pass: named("pass", "Pass", (s) => choose(s, "pass")),
+    skip: named("skip", "Skip", (s) => s.showing.skip()),
+    link: named("send", "Send link", (s) => s.link.send()),
+    space: named("space", "3D", toggle, {
+      "aria-pressed": "false",
+      title: "The view from behind the cue",
+    }),
+  };
+}
 
 /** The game before it begins, with all that it is played by. */
 function sessionOf(carom: Carom, felt: HTMLElement): Session {
   const coarse = window.matchMedia("(pointer: coarse)").matches;
   const settings = settingsOf(coarse);
   const changed = eachFrame(() => {
-    if (!s.film.playing && s.then === undefined) rest(s);
-    if (settings.coach) void chances(s);
+    if (!s.film.playing && s.then === undefined) s.showing.rest();
+    if (settings.coach) void s.coach.chances();
   });
-  const bare: Omit<Session, "stroke" | "link" | "training" | "space"> = {
+  const film = filmPlayer({
+    hidden: () => s.space?.on,
+    over: (g) => drawAim(s, g),
+    moved: () => moved(s),
+    ended: () => finish(s),
+  });
+  felt.append(film.canvas);
+  // Its parts refer to the session, which is complete once all of them are made.
+  const s = progressOf(new Play(carom, FIRST)) as Session;
+  Object.assign(s, {
     carom,
     coarse,
     settings,
+    film,
     changed,
     sound: new Sound(settings.sound),
-    words: {
-      turn: el("p", { id: "turn", role: "status" }),
-      score: el("p", { id: "score" }),
-      said: el("p", { id: "said", role: "status" }),
-    },
-    buttons: {
-      menu: button("New game", () => undefined, { id: "new-game" }),
-      hint: button("Hint", () => void advise(s), { id: "hint" }),
-      replay: button("Replay", () => replay(s), { id: "replay" }),
-      undo: button("Undo", () => undo(s), { id: "undo-stroke" }),
-      rack: button(
-        "New rack",
-        () => begin(s, { ...s.play.setup, seed: s.play.setup.seed + 1, at: undefined as never }),
-        { id: "rack-up" },
-      ),
-      push: button("Push out", () => choose(s, "push"), { id: "push", "aria-pressed": "false" }),
-      pass: button("Pass", () => choose(s, "pass"), { id: "pass" }),
-      skip: button("Skip", () => skip(s), { id: "skip" }),
-      link: button("Send link", () => void s.link.send(), { id: "send" }),
-      space: button("3D", () => void toggle(s), {
-        id: "space",
-        "aria-pressed": "false",
-        title: "The view from behind the cue",
-      }),
-    },
-    film: filmPlayer({
-      hidden: () => s.space?.on,
-      over: (g) => drawAim(s, g),
-      moved: () => moved(s),
-      ended: () => finish(s),
-    }),
-    play: new Play(carom, FIRST),
-    seat: 0,
-    chosen: NONE,
-    special: undefined,
-    hinted: false,
-    first: undefined,
-    turned: [],
-    turnedBefore: [],
-    thinks: false,
-    theirs: undefined,
-    then: undefined,
-    shown: undefined,
-    filmed: undefined,
-    sounded: 0,
-    number: 0,
-    asking: 0,
-  };
-  const s = bare as Session;
-  felt.append(s.film.canvas);
+    words: wordsOf(),
+    buttons: buttonsOf(() => s),
+  });
   return Object.assign(s, {
+    showing: showing(s),
+    coach: coaching(s),
     stroke: controls(s),
     link: byLink(s),
-    training: practice(s.carom, (setup) => begin(s, setup)),
+    training: practice(carom, (setup) => begin(s, setup)),
     space: new Space(s, felt),
   });
 }
@@ -174,7 +174,7 @@ export function playView(
   );
 
   start(s, s.play);
-  rest(s);
+  s.showing.rest();
   const asked = parameters().get("d");
   const ready = resume(s)
     .then(() => (asked ? diagram.read(asked) : undefined))
@@ -191,7 +191,7 @@ export function playView(
     },
     close() {
       s.space.close();
-      s.number++;
+      s.searchGeneration++;
       drop("plan");
       s.film.stop();
       s.link.close();

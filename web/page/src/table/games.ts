@@ -22,6 +22,10 @@ export interface GameOf {
 
 const COLOURS = ["yellow", "green", "brown", "blue", "pink", "black"];
 const pool = (k: number): string => (k === 0 ? "cue" : String(k));
+function snookerName(k: number): string {
+  if (k === 0) return "white";
+  return k < 16 ? `red ${k}` : COLOURS[k - 16]!;
+}
 export const GAMES: Record<string, GameOf> = {
   nineball: { text: "Nine-ball", table: "9ft", rack: "nineball", game: "pool", names: pool },
   eightball: { text: "Eight-ball", table: "9ft", rack: "eightball", game: "pool", names: pool },
@@ -30,7 +34,7 @@ export const GAMES: Record<string, GameOf> = {
     table: "snooker",
     rack: "snooker",
     game: "snooker",
-    names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : COLOURS[k - 16]!),
+    names: snookerName,
   },
   threecushion: {
     text: "Three-cushion",

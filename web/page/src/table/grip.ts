@@ -8,9 +8,9 @@ import { onTable } from "./filmed.js";
 export type Point = [number, number];
 export type Film = ReturnType<typeof player>;
 export type Grip =
-  | { is: "ball"; ball: number }
-  | { is: "pocket"; pocket: number }
-  | { is: "stick" | "line" | "cloth" | "turn" };
+  | { kind: "ball"; ball: number }
+  | { kind: "pocket"; pocket: number }
+  | { kind: "stick" | "line" | "cloth" | "turn" };
 export const ARROWS: Record<string, Point> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
@@ -51,19 +51,19 @@ export function gripAt(
     )
       ball = k;
   });
-  if (ball >= 0) return { is: "ball", ball };
+  if (ball >= 0) return { kind: "ball", ball };
   const pocket = pockets.findIndex(
     ({ centre, radius }) => near(centre) < Math.max(radius + 0.01, ofPocket),
   );
-  if (pocket >= 0) return { is: "pocket", pocket };
+  if (pocket >= 0) return { kind: "pocket", pocket };
   const { r } = balls[0]!.state;
   const dx = Math.cos(cue.phi / DEGREES);
   const dy = Math.sin(cue.phi / DEGREES);
   const along = (x - r[0]) * dx + (y - r[1]) * dy;
-  if (Math.abs((y - r[1]) * dx - (x - r[0]) * dy) >= reach) return { is: "cloth" };
+  if (Math.abs((y - r[1]) * dx - (x - r[0]) * dy) >= reach) return { kind: "cloth" };
   const end = stickEnd(balls[0]!.kind.radius, cue.speed);
-  if (along < 0 && -along > end - reach && -along < end + 1.3) return { is: "stick" };
-  return { is: along > 0 ? "line" : "cloth" };
+  if (along < 0 && -along > end - reach && -along < end + 1.3) return { kind: "stick" };
+  return { kind: along > 0 ? "line" : "cloth" };
 }
 
 /** The direction of a place from a ball, degrees. */

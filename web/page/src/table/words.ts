@@ -35,14 +35,17 @@ export const isSafe = ({ ball, keep }: Choice): boolean => ball < 0 && keep < 0.
 export function wordsOfChoice(
   table: Table,
   names: readonly string[],
-  one: Choice,
-  cushion = false,
+  choice: Choice,
+  cushionFirst = false,
 ): string {
-  if (one.ball < 0)
-    return (
-      WITHOUT[one.kind] ??
-      (isSafe(one) ? "a safety" : "a stroke without a sure pot: which ball falls is luck")
-    );
-  if (table.pockets.length === 0) return `the ${names[one.ball]} ball first`;
-  return `${/^\d/.test(names[one.ball]!) ? "ball" : "the"} ${names[one.ball]} into the ${pocketName(table, one.pocket)}${BY[one.kind] ?? ""}${cushion && one.kind !== "kick" ? ", off a cushion first" : ""}`;
+  const { kind, ball, pocket } = choice;
+  if (ball < 0) {
+    const luck = "a stroke without a sure pot: which ball falls is luck";
+    return WITHOUT[kind] ?? (isSafe(choice) ? "a safety" : luck);
+  }
+  const name = names[ball]!;
+  if (table.pockets.length === 0) return `the ${name} ball first`;
+  const article = Number(name) > 0 ? "ball" : "the";
+  const first = cushionFirst && kind !== "kick" ? ", off a cushion first" : "";
+  return `${article} ${name} into the ${pocketName(table, pocket)}${BY[kind] ?? ""}${first}`;
 }
