@@ -70,8 +70,8 @@ function fill<Key extends string>(
 }
 
 /**
- * Reads a line of `carom shoot`, with a built-in table. Throws a TypeError that names the key where
- * something is wrong.
+ * Reads a line of `carom shoot`, with a built-in table. `carom` is the library that load() returns.
+ * Throws a TypeError that names the key where something is wrong.
  */
 export function fromLine(carom: Library, text: string): Line {
   let line: Record<string, unknown>;

@@ -24,14 +24,14 @@ export function present(d: Desk, stroke: Cue, played?: Replayed): void {
   const paths = d.shot
     ? pathsOf(d.shot, d.shot.events.some((event) => event.type === "slate") ? 150 : 25, 900)
     : [];
-  tell(d);
+  showNumbers(d);
   d.film.show(filmOf({ table, balls, names, turned: d.faces.map(facing) }, d.shot, paths));
   controls.cost.textContent = `The shot was computed in ${computed.toFixed(1)} ms, and drawn with its paths in ${(performance.now() - begun).toFixed(1)} ms.`;
   window.clearTimeout(d.writing);
   d.writing = window.setTimeout(d.settled, 150);
 }
 
-function tell({ controls, shot, balls, names, game, film }: Desk): void {
+function showNumbers({ controls, shot, balls, names, game, film }: Desk): void {
   const rows: [string, string, string][] = [];
   const contact = shot?.firstContact;
   if (shot) {

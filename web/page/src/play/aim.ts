@@ -109,16 +109,16 @@ export function drawAim(s: Session, g: CanvasRenderingContext2D): void {
     );
   }
   const [cueBall] = play.balls as [(typeof play.balls)[number]];
-  const of = aimed(s);
+  const cue = aimed(s);
   g.setLineDash([]);
   drawMarks(s, pen);
-  if (of && onTable(cueBall.state)) {
+  if (cue && onTable(cueBall.state)) {
     if (s.first) {
       stroke(pen, cueBall.state.r, s.first.at, 1.4, "#ffffffd0");
       ring(pen, s.first.at, cueBall.kind.radius, 0);
       drawWays(s, pen);
     }
-    drawStick(pen, cueBall, of);
+    drawStick(pen, cueBall, cue);
   }
   drawNumbers(pen, play.balls, play.names);
 }
@@ -171,17 +171,17 @@ function drag(s: Session, { grip, from, phi, speed }: Held, at: Point): void {
   else turn(s, phi + angleFrom(cueBall, at) - angleFrom(cueBall, from));
 }
 /** A ball or a pocket was tapped: it is called. */
-function choose(s: Session, on: { ball: number } | { pocket: number }): void {
+function choose(s: Session, target: { ball: number } | { pocket: number }): void {
   look(s);
   const met = s.first?.ball ?? -1;
-  if ("pocket" in on) s.chosen = { ...valid(s), pocket: on.pocket, met };
-  else
-    s.chosen =
-      needsCall(s.play) && ballsOn(s.play).includes(on.ball)
-        ? { ball: on.ball, pocket: -1, met }
-        : NONE;
-  if ("pocket" in on && needsCall(s.play) && !called(s))
-    says(s, "Which ball? Tap it first, then the pocket.");
+  if ("pocket" in target) {
+    s.chosen = { ...valid(s), pocket: target.pocket, met };
+    if (needsCall(s.play) && !called(s)) says(s, "Which ball? Tap it first, then the pocket.");
+  } else {
+    const { ball } = target;
+    const mayBeCalled = needsCall(s.play) && ballsOn(s.play).includes(ball);
+    s.chosen = mayBeCalled ? { ball, pocket: -1, met } : NONE;
+  }
   s.changed();
 }
 export function tap(s: Session, grip: Grip, at: Point): void {

@@ -113,11 +113,13 @@ export function controls(s: Session) {
      * Shows which part of a ball is met, as whoever aims sees both: its share of the diameter, and
      * the side of it, 1 the right one; or none.
      */
-    met(of: { share: number; side: number } | undefined, name = ""): void {
-      part.style.visibility = of ? "visible" : "hidden";
-      if (!of) return;
-      part.querySelector(".over")!.setAttribute("cx", String(2 * of.side * (1 - of.share)));
-      share.textContent = `${Math.round(100 * of.share)} %`;
+    met(contact: { share: number; side: number } | undefined, name = ""): void {
+      part.style.visibility = contact ? "visible" : "hidden";
+      if (!contact) return;
+      part
+        .querySelector(".over")!
+        .setAttribute("cx", String(2 * contact.side * (1 - contact.share)));
+      share.textContent = `${Math.round(100 * contact.share)} %`;
       part.setAttribute("aria-label", `The aim meets ${share.textContent} of the ${name}`);
     },
   };

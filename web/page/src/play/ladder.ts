@@ -41,23 +41,16 @@ export function ownRating(
 ): { rating: number; words: string } {
   const { games, tries } = results(drills);
   const own = carom.rating([...games, ...tries]);
-  const [rating, low, high] = [own.mean, own.low, own.high].map(Math.round) as [
-    number,
-    number,
-    number,
-  ];
-  const [won, made, lost, missed] = [
-    games.map((one) => one.won),
-    tries.map((one) => one.won),
-    games.map((one) => one.lost),
-    tries.map((one) => one.lost),
-  ].map((all) => all.reduce((sum, x) => sum + x, 0)) as [number, number, number, number];
+  const rating = Math.round(own.mean);
+  const low = Math.round(own.low);
+  const high = Math.round(own.high);
+  const made = tries.reduce((sum, { won }) => sum + won, 0);
+  const missed = tries.reduce((sum, { lost }) => sum + lost, 0);
+  const isUnknown = [...games, ...tries].every(({ won, lost }) => won + lost === 0);
   const from = [
     ...games.map((one) => `${one.won} : ${one.lost} against a ${one.against}`),
     ...(made + missed > 0 ? [`${made} of ${made + missed} tries of drills`] : []),
   ];
-  return {
-    rating,
-    words: `Your rating is about ${rating} (95 %: ${low} to ${high}), ${won + lost + made + missed === 0 ? "a guess before the first game" : `by ${from.join(", ")}`}.`,
-  };
+  const basis = isUnknown ? "a guess before the first game" : `by ${from.join(", ")}`;
+  return { rating, words: `Your rating is about ${rating} (95 %: ${low} to ${high}), ${basis}.` };
 }

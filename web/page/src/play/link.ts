@@ -35,15 +35,24 @@ export function byLink(s: Session): {
     const entry = queue.shift();
     if (!entry) return next(s);
     try {
-      const one = s.play.read(entry);
+      const stroke = s.play.read(entry);
       says(s, `Stroke ${s.play.entries.length} was repeated; every bit agrees.`);
       keep(s);
-      s.showing.perform(one, onward);
+      s.showing.perform(stroke, onward);
     } catch (error) {
       queue = [];
       says(s, wrong(error));
       s.showing.rest();
     }
+  }
+  /** What a link does not bring that is sent before a stroke, or again after it. */
+  function wordsOfTooEarly(): string {
+    const { play, seat } = s;
+    if (play.winner !== undefined) return "";
+    if (play.turn === seat)
+      return " You are still at the table: send it again after your turn, or the other player waits.";
+    const hasPlayed = play.last?.who === seat;
+    return hasPlayed ? "" : " It has nothing new if you have sent it before.";
   }
   /** Pages of this machine send the text of a game when it has changed, or ask for it. */
   const others = new BroadcastChannel("carom-games");
@@ -55,34 +64,27 @@ export function byLink(s: Session): {
   return {
     save() {
       const text = s.play.text();
-      const mine = ++writing;
+      const generation = ++writing;
       others.postMessage({ text });
       void pack(text).then(
         (packed) =>
-          mine === writing &&
+          generation === writing &&
           history.replaceState(null, "", `#view=play&seat=${s.seat}&g=${packed}`),
       );
     },
     async send() {
       const { play } = s;
       // The other one has the other seat; who goes on elsewhere with a game of his own keeps his.
-      const seat = play.setup.against === "link" && s.seat === 0 ? 1 : 0;
+      const isByLink = play.setup.against === "link";
+      const seat = isByLink && s.seat === 0 ? 1 : 0;
       const url = `${location.href.split("#")[0]}#view=play&seat=${seat}&g=${await pack(play.text())}`;
-      const linked = play.setup.against === "link";
-      const told = await send(
+      const result = await send(
         url,
         "A game of billiards",
         s.coarse,
-        linked ? "The link for the other player is copied." : "The link to this game is copied.",
+        isByLink ? "The link for the other player is copied." : "The link to this game is copied.",
       );
-      const waits =
-        play.turn === s.seat
-          ? "You are still at the table: send it again after your turn, or the other player waits."
-          : "It has nothing new if you have sent it before.";
-      says(
-        s,
-        `${told}${linked && play.winner === undefined && (play.turn === s.seat || play.last?.who !== s.seat) ? ` ${waits}` : ""}`,
-      );
+      says(s, isByLink ? result + wordsOfTooEarly() : result);
     },
     ask: () => others.postMessage({}),
     waiting: () => queue.length > 0,

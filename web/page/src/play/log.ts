@@ -78,7 +78,7 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
   );
   function fill(): void {
     const all = rows();
-    const number = (x: number | undefined, places: number): string =>
+    const fixed = (x: number | undefined, places: number): string =>
       x === undefined ? "" : x.toFixed(places);
     const share = (x: number | undefined): string => (x === undefined ? "" : percent(x));
     body.replaceChildren(
@@ -92,9 +92,9 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
               row.when.replace("T", " "),
               row.game,
               row.meant,
-              number(row.phi, 2),
-              number(row.speed, 1),
-              number(row.side, 2),
+              fixed(row.phi, 2),
+              fixed(row.speed, 1),
+              fixed(row.side, 2),
               share(row.keep),
               share(row.value),
               row.best,
@@ -104,8 +104,8 @@ export function logPage(plan: () => string): { root: HTMLDialogElement; open(): 
           ),
         ),
     );
-    const mean = (of: (row: Row) => number | undefined): number => {
-      const known = all.flatMap((row) => of(row) ?? []);
+    const mean = (value: (row: Row) => number | undefined): number => {
+      const known = all.flatMap((row) => value(row) ?? []);
       return known.reduce((total, x) => total + x, 0) / Math.max(known.length, 1);
     };
     sum.textContent =

@@ -34,7 +34,7 @@ export function menu(
     [...Object.entries(PLAYED), ...others].map(
       ([key, { text }]) => [key, key in PLAYED ? text : `${text} (practice)`] as const,
     ),
-    told,
+    describe,
   );
   const against = choice(
     "new-against",
@@ -45,7 +45,7 @@ export function menu(
       ["link", "a person by link"],
       ...RATINGS.map((r) => [r, `the computer, a ${r}`] as const),
     ],
-    errs,
+    chooseErrors,
   );
   const own = choice(
     "new-own",
@@ -73,15 +73,15 @@ export function menu(
       ["short", "short: the way of the ball"],
       ["full", "full: both balls"],
     ],
-    set,
+    keepSettings,
   );
   const note = el("p", { class: "note", id: "new-note" });
   /** Strokes against the page's player err a little, if nothing else is chosen. */
-  function errs(): void {
+  function chooseErrors(): void {
     own.select.value = isComputer(against.select.value as Against) ? "800" : "0";
-    told();
+    describe();
   }
-  function set(): void {
+  function keepSettings(): void {
     Object.assign(s.settings, {
       lines: lines.select.value,
       sound: sound.input.checked,
@@ -92,15 +92,19 @@ export function menu(
     keepText(JSON.stringify(s.settings), KEY);
     s.changed();
   }
-  const sound = check("sound", "Sound", set);
-  const coach = check("coach", "Coach: tells the chances of a stroke, and then its cost", set);
+  const sound = check("sound", "Sound", keepSettings);
+  const coach = check(
+    "coach",
+    "Coach: tells the chances of a stroke, and then its cost",
+    keepSettings,
+  );
   lines.select.value = s.settings.lines;
   sound.input.checked = s.settings.sound;
   coach.input.checked = s.settings.coach;
 
   const isPool = (): boolean =>
     GAMES[PLAYED[game.select.value]?.of ?? game.select.value]!.game === "pool";
-  function told(): void {
+  function describe(): void {
     if (!(game.select.value in PLAYED)) against.select.value = "practice";
     own.root.hidden = against.select.value === "practice";
     table.root.hidden = !isPool();
@@ -148,7 +152,7 @@ export function menu(
       against.select.value = setup.against;
       own.select.value = setup.own;
       table.select.value = setup.table ?? "9ft";
-      told();
+      describe();
       root.showModal();
     },
   };

@@ -191,10 +191,10 @@ export function suggest(patch: ArrayLike<number>, colours: readonly string[]): n
     const light = r! + g! + b! + 60;
     return [r! / light, g! / light, b! / light, light / 1500];
   };
-  const of = chroma(mean);
+  const own = chroma(mean);
   const far = colours.map((hex) => {
     const other = chroma([1, 3, 5].map((c) => parseInt(hex.slice(c, c + 2), 16)));
-    return Math.hypot(...of.map((x, c) => x - other[c]!));
+    return Math.hypot(...own.map((x, c) => x - other[c]!));
   });
   const least = Math.min(...far);
   // Ball k + 1 and ball k + 9 have one colour; ball 8 has no stripe.

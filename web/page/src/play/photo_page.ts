@@ -41,7 +41,7 @@ interface Photo {
   pixels: ImageData | undefined;
   corners: Pixel[];
   /** Marks of balls; where the colour does not tell which one, those that it may be. */
-  balls: { ball: number; at: Pixel; may?: number[] | undefined }[];
+  balls: { ball: number; at: Pixel; candidates?: number[] | undefined }[];
   cross: Pixel;
   held: ((at: Pixel) => void) | undefined;
 }
@@ -66,11 +66,11 @@ function wordsOfMarks(corners: number, balls: number): string {
 
 function draw(p: Photo): void {
   const { corners, balls, said } = p;
-  const asked = balls.find(({ may }) => may);
+  const asked = balls.find(({ candidates }) => candidates);
   p.done.disabled = balls.length === 0 || asked !== undefined;
-  const answers = (asked?.may ?? []).map((ball) =>
+  const answers = (asked?.candidates ?? []).map((ball) =>
     button(p.host.names[ball]!, () => {
-      Object.assign(asked!, { ball, may: undefined });
+      Object.assign(asked!, { ball, candidates: undefined });
       draw(p);
     }),
   );
@@ -99,10 +99,10 @@ function draw(p: Photo): void {
   };
   corners.forEach((at, k) => mark(at, CORNERS[k]!));
   try {
-    const of = cameraOn(p);
+    const camera = cameraOn(p);
     const [w, l] = sizeOf(p);
     // The table as it was found, with its middle line.
-    for (const line of of
+    for (const line of camera
       ? ([
           [
             [0, 0],
@@ -123,7 +123,7 @@ function draw(p: Photo): void {
       : []) {
       g.beginPath();
       line.forEach(([x, y], k) =>
-        g[k === 0 ? "moveTo" : "lineTo"](...(of!.pixel([x, y]) as [number, number])),
+        g[k === 0 ? "moveTo" : "lineTo"](...(camera!.pixel([x, y]) as [number, number])),
       );
       g.stroke();
     }
@@ -131,7 +131,7 @@ function draw(p: Photo): void {
   } catch (error) {
     said.textContent = wrong(error);
   }
-  for (const one of balls) mark(one.at, one.may ? "?" : p.host.names[one.ball]!);
+  for (const one of balls) mark(one.at, one.candidates ? "?" : p.host.names[one.ball]!);
 }
 /** The picture around a finger, four times as large, above it, or below where there is no room. */
 function magnify(p: Photo, [x, y]: Pixel): void {
@@ -171,13 +171,13 @@ function ballAt(p: Photo, at: Pixel): number[] {
     p.ball.value = "auto";
     return [asked];
   }
-  const may = suggest(
+  const candidates = suggest(
     discOf(p.pixels!, at, radiusAt(cameraOn(p)!, at)),
     names.slice(1, 9).map((name, k) => colourOf(name, k + 1)),
   );
-  const left = may.filter((one) => free.includes(one));
+  const left = candidates.filter((one) => free.includes(one));
   // Stripe for solid, else the next that is free.
-  const [first = -1] = may;
+  const [first = -1] = candidates;
   return left.length > 0
     ? left
     : [[first > 8 ? first - 8 : first + 8, ...free].find((one) => free.includes(one)) ?? -1];
@@ -194,7 +194,7 @@ function tap(p: Photo, at: Pixel): void {
       p.balls.push({
         ball: ball!,
         at: to,
-        may: others.length > 0 ? [ball!, ...others] : undefined,
+        candidates: others.length > 0 ? [ball!, ...others] : undefined,
       });
   }
   draw(p);
@@ -214,12 +214,12 @@ const snapped = (p: Photo, at: Pixel): Pixel =>
 /** Gives the places of the balls, where all lie on the table; tells whether they do. */
 function finish(p: Photo): boolean {
   const { size, names, use } = p.host;
-  const of = cameraOn(p);
-  if (!of) return false;
+  const camera = cameraOn(p);
+  if (!camera) return false;
   // A table of another size: the same shares of width and length.
   const [sx, sy] = [0, 1].map((k) => size[k]! / sizeOf(p)[k]!) as [number, number];
   const places = p.balls.map((one) => {
-    const [x, y] = of.place(one.at);
+    const [x, y] = camera.place(one.at);
     return [one.ball, [x * sx, y * sy] as const] as const;
   });
   const out = places.find(
@@ -259,7 +259,7 @@ function down(p: Photo, at: Pixel): void {
     // beside a mark is another ball.
     if (!moved && one && Math.hypot(one.at[0] - at[0], one.at[1] - at[1]) < TAP * scaleOf(p))
       Object.assign(one, {
-        may: undefined,
+        candidates: undefined,
         ball: names
           .map((_, k) => (one.ball + 1 + k) % names.length)
           .find((k) => !p.balls.some((other) => other !== one && other.ball === k))!,

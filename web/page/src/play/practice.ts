@@ -47,13 +47,13 @@ export function practice(
 ): {
   parts: HTMLElement[];
   photo: HTMLDialogElement;
-  told(name: string): string;
+  wordsOfStart(name: string): string;
   played(name: string, stroke: Stroke): { text: string; again: boolean };
   rating(): ReturnType<typeof ownRating>;
   plan(): string;
 } {
   const drills = drillsOf(DRILLS);
-  const of = (name: string): (typeof drills)[number] => {
+  const drillOf = (name: string): (typeof drills)[number] => {
     const drill = drills.find((one) => one.name === name);
     if (!drill) throw new TypeError(`drill: there is no drill "${name}"`);
     return drill;
@@ -63,21 +63,21 @@ export function practice(
     "drill",
     "Drill",
     drills.map(({ name }) => [name, name] as const),
-    told,
+    describe,
   );
-  function made(name: string): string {
+  function wordsOfTries(name: string): string {
     const [good, tries] = countsOf(KEY, name);
     return tries === 0 ? "" : ` Made ${good} of ${tries}.`;
   }
-  function told(): void {
-    note.textContent = `${of(which.select.value).text}${made(which.select.value)}`;
+  function describe(): void {
+    note.textContent = `${drillOf(which.select.value).text}${wordsOfTries(which.select.value)}`;
   }
   const close = (): void => start.closest("dialog")!.close();
   const start: HTMLButtonElement = button(
     "Start drill",
     () => {
       close();
-      begin(setupOf(atOf(of(which.select.value), BALLS), which.select.value));
+      begin(setupOf(atOf(drillOf(which.select.value), BALLS), which.select.value));
     },
     { id: "start-drill" },
   );
@@ -98,7 +98,7 @@ export function practice(
         ),
       ),
   });
-  told();
+  describe();
   return {
     parts: [
       el("h3", {}, "Practice"),
@@ -120,8 +120,8 @@ export function practice(
     ],
     photo: photo.root,
     rating: () => ownRating(carom, drills),
-    told: (name) =>
-      `${of(name).text}${made(name)} It counts for your rating: strokes err a little, like those of an 800.`,
+    wordsOfStart: (name) =>
+      `${drillOf(name).text}${wordsOfTries(name)} It counts for your rating: strokes err a little, like those of an 800.`,
     /** What to practise next: what was made least, beside how often one's rating makes it. */
     plan() {
       const { rating } = ownRating(carom, drills);
@@ -139,8 +139,8 @@ export function practice(
         .join(", ")}.`;
     },
     played(name, { shot, cue, balls }) {
-      const { goal, text } = of(name);
-      const { outcome, why } = judge(of(name), shot!);
+      const { goal, text } = drillOf(name);
+      const { outcome, why } = judge(drillOf(name), shot!);
       // The aim at the ball that was to fall, in the pocket that it was nearest to.
       const value = (word: string): string | undefined => goal.find((one) => one[0] === word)?.[1];
       const [ball, into] = (value("pot") ?? "").split("@");
@@ -165,7 +165,7 @@ export function practice(
       });
       if (outcome === "on") return { text: "Go on with the next ball.", again: false };
       const [good, tries] = count(KEY, name, [Number(outcome === "made"), 1]);
-      told();
+      describe();
       return {
         text: `${outcome === "made" ? "Made" : "Missed"}: ${good} of ${tries}.${review}`,
         again: true,

@@ -14,7 +14,7 @@ const groupOf = (play: Play, who: 0 | 1): string => {
   if (group === "open" || who === play.turn) return group;
   return group === "solids" ? "stripes" : "solids";
 };
-const left = (play: Play, from: number, to: number): number =>
+const ballsLeft = (play: Play, from: number, to: number): number =>
   play.balls.filter(({ state }, k) => k >= from && k <= to && onTable(state)).length;
 
 /** carom_foul_string() of each, as far as a reader can do with it. */
@@ -97,20 +97,20 @@ export function wordsOfStroke(play: Play, { who, shot }: Stroke, seat: 0 | 1): s
 /** The score: what is left of each, or points. */
 export function wordsOfScore(play: Play, seat: 0 | 1, racks: readonly [number, number]): string {
   if (play.practice) {
-    const count = left(play, 1, play.balls.length);
+    const count = ballsLeft(play, 1, play.balls.length);
     return `${count} ${count === 1 ? "ball" : "balls"}`;
   }
   const names = ([0, 1] as const).map((who) => nameOf(play, who, seat));
-  const of = (parts: readonly (string | number)[]): string =>
+  const wordsOfPoints = (parts: readonly (string | number)[]): string =>
     parts.map((part, k) => `${names[k]}: ${part}`.replace(": -", ": −")).join(" · ");
-  if (play.played?.points) return of(play.points);
+  if (play.played?.points) return wordsOfPoints(play.points);
   const won = racks[0] + racks[1] > 0 ? `racks won ${racks[0]} : ${racks[1]}` : "";
   if (play.setup.game === "eightball") {
     if (play.state.group === "open") return won;
     const balls = ([0, 1] as const).map((who) =>
-      groupOf(play, who) === "solids" ? left(play, 1, 7) : left(play, 9, 15),
+      groupOf(play, who) === "solids" ? ballsLeft(play, 1, 7) : ballsLeft(play, 9, 15),
     );
-    return `${of(balls.map((count) => (count === 0 ? "on the 8" : `${count} left`)))}${won && ` · ${won}`}`;
+    return `${wordsOfPoints(balls.map((count) => (count === 0 ? "on the 8" : `${count} left`)))}${won && ` · ${won}`}`;
   }
   if (play.setup.game === "nineball") {
     const next = play.balls.findIndex(({ state }, k) => k > 0 && onTable(state));

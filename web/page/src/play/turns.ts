@@ -232,7 +232,7 @@ export function start(s: Session, play: Play): void {
 }
 /** What a game says as it begins. */
 function wordsOfStart({ setup, practice }: Play, training: Session["training"]): string {
-  if (setup.drill !== undefined) return training.told(setup.drill);
+  if (setup.drill !== undefined) return training.wordsOfStart(setup.drill);
   if (practice) return "Drag balls to lay them, drag on the cloth to aim, tap Shoot.";
   return "Drag on the table to aim, then tap Shoot.";
 }
