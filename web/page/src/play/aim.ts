@@ -19,6 +19,7 @@ import {
   within,
 } from "../table/grip.js";
 import { mayLie } from "../table/head.js";
+import type { Session } from "./parts.js";
 import {
   aimed,
   ballsOn,
@@ -30,7 +31,6 @@ import {
   look,
   NONE,
   says,
-  type Session,
   valid,
 } from "./session.js";
 import { shoot, undo } from "./turns.js";

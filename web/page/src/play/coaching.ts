@@ -7,9 +7,9 @@ import { isSafe, percent, wordsOfChances, wordsOfChoice } from "../table/words.j
 import { wrong } from "../ui.js";
 import { isComputer, OPTIONS, type Play } from "./game.js";
 import { costOf, keepRow, type Row } from "./log.js";
+import type { Coach, Session } from "./parts.js";
 import {
   aimAt,
-  type Coach,
   cueOf,
   free,
   levelOf,
@@ -18,7 +18,6 @@ import {
   playerOf,
   SAFETY,
   says,
-  type Session,
   why,
 } from "./session.js";
 

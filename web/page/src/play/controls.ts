@@ -4,7 +4,7 @@
 // plays nothing.
 import { strokeControls } from "../table/stroke.js";
 import { button, drags, el, slider } from "../ui.js";
-import type { Session } from "./session.js";
+import type { Controls, Session } from "./parts.js";
 import { shoot as play } from "./turns.js";
 
 const FASTEST = 10;
@@ -73,7 +73,7 @@ function wheelOf(turn: (steps: number) => void): HTMLElement {
   return wheel;
 }
 
-export function controls(s: Session) {
+export function controls(s: Session): Controls {
   const { sliders, tip, set, value } = strokeControls(
     slider("power", "Power", 0.1, FASTEST, 0.05, "", s.changed, (x) => `${x.toFixed(1)} m/s`),
     "tip-ball",
@@ -109,11 +109,7 @@ export function controls(s: Session) {
     ),
     set,
     value,
-    /**
-     * Shows which part of a ball is met, as whoever aims sees both: its share of the diameter, and
-     * the side of it, 1 the right one; or none.
-     */
-    met(contact: { share: number; side: number } | undefined, name = ""): void {
+    met(contact, name = "") {
       part.style.visibility = contact ? "visible" : "hidden";
       if (!contact) return;
       part

@@ -6,6 +6,7 @@ import { filmOf, lasts, onTable, type Path, pathsOf } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { OPTIONS, type Stroke } from "./game.js";
 import { racksOf } from "./keep.js";
+import type { Session, Showing } from "./parts.js";
 import {
   aimed,
   called,
@@ -16,8 +17,6 @@ import {
   look,
   needsCall,
   says,
-  type Session,
-  type Showing,
   stateOf,
   why,
 } from "./session.js";

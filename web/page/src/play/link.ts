@@ -3,17 +3,11 @@
 import { wrong } from "../ui.js";
 import type { Entry, Setup } from "./game.js";
 import { pack, send } from "./keep.js";
-import { says, type Session } from "./session.js";
+import type { Link, Session } from "./parts.js";
+import { says } from "./session.js";
 import { keep, next } from "./turns.js";
 
-export function byLink(s: Session): {
-  save(): void;
-  send(): Promise<void>;
-  ask(): void;
-  waiting(): boolean;
-  onward(): void;
-  close(): void;
-} {
+export function byLink(s: Session): Link {
   let queue: Entry[] = [];
   let writing = 0;
 

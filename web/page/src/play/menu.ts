@@ -4,16 +4,10 @@ import { RATINGS } from "../table/words.js";
 import { button, check, choice, dialog, el } from "../ui.js";
 import { type Against, isComputer } from "./game.js";
 import { kept, keepText } from "./keep.js";
-import type { Session } from "./session.js";
+import type { Session, Settings } from "./parts.js";
 import { begin } from "./turns.js";
 
 const KEY = "carom-settings";
-export type Lines = "none" | "short" | "full";
-export interface Settings {
-  lines: "level" | Lines;
-  sound: boolean;
-  coach: boolean;
-}
 /** The settings that the browser has kept; else sound is on where a mouse is. */
 export const settingsOf = (coarse: boolean): Settings => ({
   lines: "level",

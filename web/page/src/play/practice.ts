@@ -4,10 +4,11 @@ import type { AimOf, Carom, Table } from "carom";
 import { button, choice, el } from "../ui.js";
 import { atOf, drillsOf, judge } from "./drills.js";
 import { errors } from "./coaching.js";
-import type { Setup, Stroke } from "./game.js";
+import type { Setup } from "./game.js";
 import { count, countsOf } from "./keep.js";
 import { DRILLS_MADE as KEY, ownRating } from "./ladder.js";
 import { keepRow, type Row } from "./log.js";
+import type { Training } from "./parts.js";
 import { photoPage } from "./photo_page.js";
 
 declare const DRILLS: string;
@@ -41,17 +42,7 @@ function wordsOfChange({ phi = 0, speed = 0 }: Pick<Row, "phi" | "speed">): stri
   return speed === 0 ? turn : `${turn} Strike ${Math.abs(speed).toFixed(1)} m/s ${force}.`;
 }
 
-export function practice(
-  carom: Carom,
-  begin: (setup: Setup) => void,
-): {
-  parts: HTMLElement[];
-  photo: HTMLDialogElement;
-  wordsOfStart(name: string): string;
-  played(name: string, stroke: Stroke): { text: string; again: boolean };
-  rating(): ReturnType<typeof ownRating>;
-  plan(): string;
-} {
+export function practice(carom: Carom, begin: (setup: Setup) => void): Training {
   const drills = drillsOf(DRILLS);
   const drillOf = (name: string): (typeof drills)[number] => {
     const drill = drills.find((one) => one.name === name);

@@ -2,104 +2,15 @@
 // by whoever sits here, the page's player thinks of one, a stroke is filmed, the other one is
 // waited for, or the game is over.
 import type { Call, Carom, Cue, PlanOptions, Player } from "carom";
-import type { player as filmPlayer } from "../../../player/player.js";
-import { type filmOf, onTable, type Quaternion } from "../table/filmed.js";
+import { onTable } from "../table/filmed.js";
 import { GAMES } from "../table/games.js";
 import { cueWith, strokeOf } from "../table/stroke.js";
-import type { controls } from "./controls.js";
-import { OPTIONS, type Play, type Stroke } from "./game.js";
-import type { byLink } from "./link.js";
-import { guessOf, type Look, lookAlong } from "./look.js";
-import type { Lines, Settings } from "./menu.js";
-import type { practice } from "./practice.js";
-import type { Sound } from "./sound.js";
-import type { Space } from "./space.js";
+import { OPTIONS, type Play } from "./game.js";
+import { guessOf, lookAlong } from "./look.js";
+import type { Chosen, Lines, Progress, Session } from "./parts.js";
 
-/**
- * What was chosen to be called, -1: nothing, pocket -2: a safety, and the ball that the aim met
- * then: the choice does not hold where the aim meets another one. That of a hint,
- * which has a direction, holds near it only.
- */
-export interface Chosen {
-  ball: number;
-  pocket: number;
-  met: number;
-  phi?: number;
-}
 export const NONE: Chosen = { ball: -1, pocket: -1, met: -1 };
 export const SAFETY = -2;
-
-/** What is seen of a game (filming.ts). */
-export interface Showing {
-  /** Shows the balls as they lie, with the stroke that is aimed. */
-  rest(): void;
-  /** Shows the film of a stroke, and then calls `after`. */
-  perform(stroke: Stroke, after: () => void): void;
-  /** Ends the film that is shown. */
-  skip(): void;
-  replay(): void;
-}
-
-/** The coach at the table (coaching.ts). */
-export interface Coach {
-  /** Sets the best stroke that a search finds. */
-  advise(): Promise<void>;
-  /** Says the chances of the stroke that is aimed. */
-  chances(): Promise<void>;
-  /** Begins the review of a stroke of this layout; what it returns takes the stroke. */
-  review(): (cue: Cue, call: Call | undefined) => Promise<void>;
-}
-
-/** What a game is played by, which is there as long as the view. */
-interface Parts {
-  readonly carom: Carom;
-  readonly coarse: boolean;
-  readonly settings: Settings;
-  readonly sound: Sound;
-  readonly words: Record<"turn" | "score" | "said", HTMLElement>;
-  readonly buttons: Record<
-    "menu" | "hint" | "replay" | "undo" | "rack" | "push" | "pass" | "skip" | "link" | "space",
-    HTMLButtonElement
-  >;
-  readonly stroke: ReturnType<typeof controls>;
-  readonly film: ReturnType<typeof filmPlayer>;
-  readonly space: Space;
-  readonly link: ReturnType<typeof byLink>;
-  readonly training: ReturnType<typeof practice>;
-  readonly showing: Showing;
-  readonly coach: Coach;
-  /** The aim, the layout or a setting has changed. */
-  changed(): void;
-}
-
-/** How the game stands, and what is shown of it now. */
-interface Progress {
-  play: Play;
-  /** Which of both sits here; of two at this page, whoever is at the table. */
-  seat: 0 | 1;
-  chosen: Chosen;
-  special: "push" | "pass" | undefined;
-  /** Whether a hint was asked for at this stroke. */
-  hinted: boolean;
-  /** What the aim meets first. */
-  first: Look | undefined;
-  turned: Quaternion[];
-  turnedBefore: Quaternion[];
-  thinks: boolean;
-  /** The stroke of the page's player that is shown before it plays. */
-  theirs: Cue | undefined;
-  /** What follows the film that is shown. */
-  then: (() => void) | undefined;
-  shown: Stroke | undefined;
-  /** What the player of films shows. */
-  filmed: ReturnType<typeof filmOf> | undefined;
-  sounded: number;
-  /** Raised by what ends a search: another game, a stroke. */
-  searchGeneration: number;
-  /** Raised by what ends the search of the coach for chances. */
-  chancesGeneration: number;
-}
-export interface Session extends Parts, Progress {}
 
 /** How a game is on its way before anything was played. */
 export const progressOf = (play: Play): Progress => ({

@@ -9,7 +9,8 @@ import { color, drags, el } from "../ui.js";
 import { drawMarks, drawWays, move, movable, tap } from "./aim.js";
 import type { Play } from "./game.js";
 import type { Scene } from "./scene.js";
-import { aimed, free, type Session } from "./session.js";
+import type { Session, SpaceView } from "./parts.js";
+import { aimed, free } from "./session.js";
 
 async function load(): Promise<typeof import("./scene.js")> {
   const text = document.getElementById("scene-module")!.textContent!.trim();
@@ -25,7 +26,7 @@ async function load(): Promise<typeof import("./scene.js")> {
   }
 }
 
-export class Space {
+export class Space implements SpaceView {
   #module: typeof import("./scene.js") | undefined;
   #scene: Scene | undefined;
   #of: Play | undefined;
@@ -40,9 +41,7 @@ export class Space {
     readonly felt: HTMLElement,
   ) {}
 
-  /**
-   * Shows it, or the flat view again. Rejects where the browser has no WebGL: the flat view stays.
-   */
+  /** Rejects where the browser has no WebGL: the flat view stays. */
   async toggle(): Promise<void> {
     if (this.on) return this.#hide();
     if (!document.createElement("canvas").getContext("webgl2"))

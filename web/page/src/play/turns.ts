@@ -8,6 +8,7 @@ import { parameters, wrong } from "../ui.js";
 import { isComputer, OPTIONS, Play, read, type Setup, type Stroke } from "./game.js";
 import { countRack, kept, keepText, unpack } from "./keep.js";
 import { countGame, isRated } from "./ladder.js";
+import type { Session } from "./parts.js";
 import {
   aimAt,
   ballsOn,
@@ -24,7 +25,6 @@ import {
   playerOf,
   SAFETY,
   says,
-  type Session,
   why,
 } from "./session.js";
 import { nameOf, wordsOfStroke } from "./state.js";

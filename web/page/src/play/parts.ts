@@ -1,0 +1,149 @@
+// What a game at the page is played by, and how it stands: the types of the session, which the
+// files of its parts share.
+import type { Call, Carom, Cue } from "carom";
+import type { player as filmPlayer } from "../../../player/player.js";
+import type { filmOf, Quaternion } from "../table/filmed.js";
+import type { Stroke as StrokeValues } from "../table/stroke.js";
+import type { Play, Stroke } from "./game.js";
+import type { Look } from "./look.js";
+import type { Sound } from "./sound.js";
+
+/**
+ * What was chosen to be called, -1: nothing, pocket -2: a safety, and the ball that the aim met
+ * then: the choice does not hold where the aim meets another one. That of a hint,
+ * which has a direction, holds near it only.
+ */
+export interface Chosen {
+  ball: number;
+  pocket: number;
+  met: number;
+  phi?: number;
+}
+
+export type Lines = "none" | "short" | "full";
+export interface Settings {
+  lines: "level" | Lines;
+  sound: boolean;
+  coach: boolean;
+}
+
+/** What a stroke is set by (controls.ts): its elements, and its values. */
+export interface Controls {
+  readonly side: HTMLElement;
+  readonly shoot: HTMLButtonElement;
+  readonly row: HTMLElement[];
+  readonly numbers: HTMLElement;
+  set(values: Partial<StrokeValues>): void;
+  value(): StrokeValues;
+  /**
+   * Shows which part of a ball is met, as whoever aims sees both: its share of the diameter, and
+   * the side of it, 1 the right one; or none.
+   */
+  met(contact: { share: number; side: number } | undefined, name?: string): void;
+}
+
+/** A game by link (link.ts). */
+export interface Link {
+  save(): void;
+  send(): Promise<void>;
+  /** Asks other pages of this machine for the game. */
+  ask(): void;
+  /** Whether strokes of the other player were heard that are not shown yet. */
+  waiting(): boolean;
+  /** Shows the next one of them. */
+  onward(): void;
+  close(): void;
+}
+
+/** Drills, a table from a photo, and one's own rating (practice.ts). */
+export interface Training {
+  readonly parts: HTMLElement[];
+  readonly photo: HTMLDialogElement;
+  wordsOfStart(name: string): string;
+  /** Counts a try of a drill. */
+  played(name: string, stroke: Stroke): { text: string; again: boolean };
+  rating(): { rating: number; words: string };
+  /** What to practise next. */
+  plan(): string;
+}
+
+/** The view from behind the cue (space.ts). */
+export interface SpaceView {
+  readonly on: boolean;
+  /** Shows it, or the flat view again. */
+  toggle(): Promise<void>;
+  draw(): void;
+  close(): void;
+}
+
+/** What is seen of a game (filming.ts). */
+export interface Showing {
+  /** Shows the balls as they lie, with the stroke that is aimed. */
+  rest(): void;
+  /** Shows the film of a stroke, and then calls `after`. */
+  perform(stroke: Stroke, after: () => void): void;
+  /** Ends the film that is shown. */
+  skip(): void;
+  replay(): void;
+}
+
+/** The coach at the table (coaching.ts). */
+export interface Coach {
+  /** Sets the best stroke that a search finds. */
+  advise(): Promise<void>;
+  /** Says the chances of the stroke that is aimed. */
+  chances(): Promise<void>;
+  /** Begins the review of a stroke of this layout; what it returns takes the stroke. */
+  review(): (cue: Cue, call: Call | undefined) => Promise<void>;
+}
+
+/** What a game is played by, which is there as long as the view. */
+interface Parts {
+  readonly carom: Carom;
+  readonly coarse: boolean;
+  readonly settings: Settings;
+  readonly sound: Sound;
+  readonly words: Record<"turn" | "score" | "said", HTMLElement>;
+  readonly buttons: Record<
+    "menu" | "hint" | "replay" | "undo" | "rack" | "push" | "pass" | "skip" | "link" | "space",
+    HTMLButtonElement
+  >;
+  readonly stroke: Controls;
+  readonly film: ReturnType<typeof filmPlayer>;
+  readonly space: SpaceView;
+  readonly link: Link;
+  readonly training: Training;
+  readonly showing: Showing;
+  readonly coach: Coach;
+  /** The aim, the layout or a setting has changed. */
+  changed(): void;
+}
+
+/** How the game stands, and what is shown of it now. */
+export interface Progress {
+  play: Play;
+  /** Which of both sits here; of two at this page, whoever is at the table. */
+  seat: 0 | 1;
+  chosen: Chosen;
+  special: "push" | "pass" | undefined;
+  /** Whether a hint was asked for at this stroke. */
+  hinted: boolean;
+  /** What the aim meets first. */
+  first: Look | undefined;
+  turned: Quaternion[];
+  turnedBefore: Quaternion[];
+  thinks: boolean;
+  /** The stroke of the page's player that is shown before it plays. */
+  theirs: Cue | undefined;
+  /** What follows the film that is shown. */
+  then: (() => void) | undefined;
+  shown: Stroke | undefined;
+  /** What the player of films shows. */
+  filmed: ReturnType<typeof filmOf> | undefined;
+  sounded: number;
+  /** Raised by what ends a search: another game, a stroke. */
+  searchGeneration: number;
+  /** Raised by what ends the search of the coach for chances. */
+  chancesGeneration: number;
+}
+export interface Session extends Parts, Progress {}
