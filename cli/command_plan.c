@@ -69,33 +69,45 @@ OPTION(plan_job, option_why, "why", why, 0, NULL, set_flag, 0,
 OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the best shot: without errors, thin with errors, and what can go wrong");
 
-static const char *const kinds[] = {"pot",   "scan", "foul", "given",       "push-out", "pass",
-                                    "break", "bank", "kick", "combination", "carom",    "safety"};
+/* What a choice that names no ball does. */
+static const char *words_without_ball(const shot_line *line, const carom_choice *c) {
+  if (line->table->table.pockets == 0)
+    return "no point";
+  if (c->keep < 0.005)
+    return "a safety: nothing is potted";
+  if (c->keep < 0.1)
+    return "a safety: balls fall by luck alone";
+  return "no sure pot: which ball falls is luck";
+}
+
+/* By which kind of stroke a ball falls: ", by a bank"; nothing where it is direct. */
+static void kind_words(const carom_choice *c, char text[40]) {
+  text[0] = '\0';
+  if (c->kind == CAROM_PLAN_SCAN)
+    snprintf(text, 40, ", by several ways");
+  else if (c->kind != CAROM_PLAN_POT && c->kind != CAROM_PLAN_GIVEN)
+    snprintf(text, 40, ", by a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
+}
 
 /* What a choice does, by the names of the file. */
 static void describe(const shot_line *line, const carom_choice *c, char text[200]) {
-  char pocket[WHERE_TEXT], ball[BALL_TEXT];
+  char pocket[WHERE_TEXT], ball[BALL_TEXT], by[40];
   if (c->kind == CAROM_PLAN_FOUL)
     snprintf(text, 200, "no shot without a foul was found");
-  else if (c->kind >= CAROM_PLAN_PUSH && c->kind <= CAROM_PLAN_BREAK)
-    snprintf(text, 200, c->kind == CAROM_PLAN_PASS ? "pass: the other plays" : "a %s",
-             kinds[c->kind]);
+  else if (c->kind == CAROM_PLAN_PASS)
+    snprintf(text, 200, "pass: the other plays");
+  else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_BREAK)
+    snprintf(text, 200, "a %s", carom_plan_kind_name((carom_plan_kind)c->kind));
   else if (c->ball < 0)
-    snprintf(text, 200,
-             line->table->table.pockets == 0 ? "no point"
-             : c->keep < 0.005               ? "a safety: nothing is potted"
-             : c->keep < 0.1                 ? "a safety: balls fall by luck alone"
-                                             : "no sure pot: which ball falls is luck");
+    snprintf(text, 200, "%s", words_without_ball(line, c));
   else if (line->table->table.pockets == 0)
     snprintf(text, 200, "a point, %s%s first", c->kind == CAROM_PLAN_KICK ? "off a cushion, " : "",
              named_ball(line->name[c->ball], ball));
-  else
-    snprintf(text, 200, "%s into %s%s%s", named_ball(line->name[c->ball], ball),
-             pocket_words(line->table, c->pocket, pocket),
-             c->kind == CAROM_PLAN_POT || c->kind == CAROM_PLAN_GIVEN ? ""
-             : c->kind == CAROM_PLAN_SCAN                             ? ", by several ways"
-                                                                      : ", by a ",
-             c->kind > CAROM_PLAN_BREAK ? kinds[c->kind] : "");
+  else {
+    kind_words(c, by);
+    snprintf(text, 200, "%s into %s%s", named_ball(line->name[c->ball], ball),
+             pocket_words(line->table, c->pocket, pocket), by);
+  }
 }
 
 static const char *value_words(const plan_job *job) {
@@ -168,10 +180,10 @@ static void write_rows(FILE *out, const shot_line *line, const carom_choice *cho
     const char *pocket = c->pocket >= 0 ? line->table->pocket[c->pocket] : NULL;
     fprintf(out,
             "%d,%s,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.6f,%.6f,%.6f,%.6f,%.6f,%lld\n",
-            k + 1, kinds[c->kind], c->ball >= 0 ? line->name[c->ball] : "",
-            pocket != NULL ? pocket : "", c->place[0], c->place[1], c->cue.speed, c->cue.phi,
-            c->cue.theta, c->cue.a, c->cue.b, c->value, c->error, c->keep, c->foul, c->lose,
-            (long long)c->seen);
+            k + 1, carom_plan_kind_name((carom_plan_kind)c->kind),
+            c->ball >= 0 ? line->name[c->ball] : "", pocket != NULL ? pocket : "", c->place[0],
+            c->place[1], c->cue.speed, c->cue.phi, c->cue.theta, c->cue.a, c->cue.b, c->value,
+            c->error, c->keep, c->foul, c->lose, (long long)c->seen);
   }
 }
 

@@ -66,10 +66,11 @@ static const char *parts_text(const ways_search *s, const way *w, char text[PART
   for (int k = 0; k < w->parts; k++) {
     const bool rail = w->part[k].kind == CAROM_PART_RAIL;
     const char *name = rail ? carom_rail_name(&s->line->table->table, w->part[k].index) : NULL;
-    snprintf(text + strlen(text), PARTS_TEXT - strlen(text), "%s%s", k > 0 ? ", " : "",
-             name != NULL ? name
-             : rail       ? s->line->table->rail[w->part[k].index]
-                          : s->line->name[w->part[k].index]);
+    if (name == NULL && rail)
+      name = s->line->table->rail[w->part[k].index];
+    else if (!rail)
+      name = s->line->name[w->part[k].index];
+    snprintf(text + strlen(text), PARTS_TEXT - strlen(text), "%s%s", k > 0 ? ", " : "", name);
   }
   return text;
 }
@@ -83,7 +84,7 @@ static const char *way_text(const ways_search *s, const way *w, char text[WAY_TE
     snprintf(text, WAY_TEXT, "%s", w->parts > 0 ? parts : "straight");
   else
     snprintf(text, WAY_TEXT, "%s to %s, %s%s%s", s->line->name[w->ball],
-             pocket != NULL ? pocket : s->line->table->pocket[w->pocket], way_names[w->kind],
+             pocket != NULL ? pocket : s->line->table->pocket[w->pocket], way_name(s, w),
              w->parts > 0 ? ": " : "", parts);
   return text;
 }
@@ -116,7 +117,7 @@ static json_t *way_line(const ways_search *s, const way *w) {
   }
   json_object_set_new(to, "cue", cue);
   json_object_set_new(to, "balls", json_deep_copy(json_object_get(s->line->json, "balls")));
-  json_t *about = json_pack("{s: s, s: s, s: f, s: f, s: [f, f]}", "kind", way_names[w->kind], "by",
+  json_t *about = json_pack("{s: s, s: s, s: f, s: f, s: [f, f]}", "kind", way_name(s, w), "by",
                             parts_text(s, w, parts), "chance", w->chance, "error", w->error,
                             "window", w->phi[0], w->phi[1]);
   if (w->ball < 0)
@@ -134,11 +135,13 @@ static int by_chance(const void *a, const void *b) {
   if (one->chance != other->chance)
     return one->chance < other->chance ? 1 : -1;
   const double wide = one->phi[1] - one->phi[0], others = other->phi[1] - other->phi[0];
-  return wide < others ? 1 : wide > others ? -1 : 0;
+  if (wide == others)
+    return 0;
+  return wide < others ? 1 : -1;
 }
 
 static void tell(FILE *out, const ways_search *s, int most) {
-  const bool counted = s->counted != CAROM;
+  const bool counted = s->aim != TO_POT;
   char text[WAY_TEXT];
   if (s->ways == 0)
     fputs("There is no way.\n", out);
@@ -158,7 +161,7 @@ static void tell(FILE *out, const ways_search *s, int most) {
   }
   if (counted)
     fprintf(out, "%lld of %lld strokes %s, %.2f %%, by %d ways.\n", (long long)s->good,
-            (long long)s->scanned, s->counted == POINT ? "score" : "get there",
+            (long long)s->scanned, s->aim == TO_SCORE ? "score" : "get there",
             100.0 * (double)s->good / (double)(s->scanned + !s->scanned), s->ways);
 }
 
@@ -169,7 +172,7 @@ static void write_rows(FILE *out, const ways_search *s) {
         out);
   for (int k = 0; k < s->ways; k++) {
     const way *w = &s->way[k];
-    fprintf(out, "%d,%s,%s,%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g,", k + 1, way_names[w->kind],
+    fprintf(out, "%d,%s,%s,%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g,", k + 1, way_name(s, w),
             w->ball >= 0 ? s->line->name[w->ball] : "",
             w->pocket >= 0 ? s->line->table->pocket[w->pocket] : "", parts_text(s, w, parts),
             w->cue.speed, w->cue.phi, w->cue.theta, w->cue.a, w->cue.b);
@@ -229,46 +232,51 @@ static bool plot(const ways_search *s, const char *path) {
 
 /* ---- The command */
 
-/* The ball of a name, -1 for any; -2 after a complaint. */
-static int ball_asked(const ways_search *s, const char *name) {
+/* Sets *ball to the ball of a name, -1 for any; false after a complaint. */
+static bool read_ball(const ways_search *s, const char *name, int *ball) {
   char known[CAROM_BALLS_MOST * (PLACE_NAME + 1)] = "any", hint[HINT_TEXT];
+  *ball = -1;
   if (name == NULL || strcmp(name, "any") == 0)
-    return -1;
+    return true;
   for (int k = 0; k < s->line->count; k++) {
     if (k == s->line->cue.ball || is_out_of_play(s->line, k))
       continue;
-    if (strcmp(s->line->name[k], name) == 0)
-      return k;
+    if (strcmp(s->line->name[k], name) == 0) {
+      *ball = k;
+      return true;
+    }
     snprintf(known + strlen(known), sizeof known - strlen(known), "|%s", s->line->name[k]);
   }
   complain("--ball is a ball of the layout or any, not '%.40s'%s", name,
            did_you_mean(name, known, hint));
-  return -2;
+  return false;
 }
 
-/* The pocket of a name or an id, -1 for any; -2 after a complaint. */
-static int pocket_asked(const ways_search *s, const char *name) {
+/* Sets *pocket to the pocket of a name or an id, -1 for any; false after a complaint. */
+static bool read_pocket(const ways_search *s, const char *name, int *pocket) {
   char known[NAMES_TEXT] = "any|", hint[HINT_TEXT];
+  *pocket = -1;
   if (name == NULL || strcmp(name, "any") == 0)
-    return -1;
-  const int at = pocket_named(&s->line->table->table, s->line->table->pocket, name, known);
-  if (at >= 0)
-    return at;
+    return true;
+  *pocket = pocket_named(&s->line->table->table, s->line->table->pocket, name, known);
+  if (*pocket >= 0)
+    return true;
   complain("--pocket is %s, not '%.40s'%s", known, name, did_you_mean(name, known, hint));
-  return -2;
+  return false;
 }
 
 /* Asks for the ways of a job, and sorts them; false after a complaint. */
 static bool find(const ways_job *job, ways_search *s) {
   const carom_table *t = &s->line->table->table;
   int where;
-  s->ball = ball_asked(s, job->ball);
-  s->pocket = s->ball == -2 ? -2 : pocket_asked(s, job->pocket);
-  if (s->ball == -2 || s->pocket == -2)
+  if (!read_ball(s, job->ball, &s->ball) || !read_pocket(s, job->pocket, &s->pocket))
     return false;
-  s->counted = job->leave.given && s->line->count == 1 ? PLACE : t->pockets == 0 ? POINT : CAROM;
+  if (job->leave.given && s->line->count == 1)
+    s->aim = TO_PLACE;
+  else
+    s->aim = t->pockets == 0 ? TO_SCORE : TO_POT;
   leave_into(&job->leave, s);
-  if (s->counted != PLACE && s->line->count < (t->pockets == 0 ? 3 : 2)) {
+  if (s->aim != TO_PLACE && s->line->count < (t->pockets == 0 ? 3 : 2)) {
     complain(t->pockets == 0 ? "to score, three balls are needed"
                              : "the cue ball and one more are needed, or --leave");
     return false;
@@ -289,8 +297,9 @@ static bool find(const ways_job *job, ways_search *s) {
 static const command_form form = {
     .name = "ways",
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
-    .about = "Finds the ways to pot: direct, by a bank, a kick, a combination or a carom; and on a "
-             "table without pockets the ways to score in three-cushion: the rails and balls that "
+    .about = "Finds the ways to pot: direct, by a bank, a kick, a kiss, a carom or a "
+             "combination; and on a table without pockets the ways to score in three-cushion: the "
+             "rails and balls that "
              "the cue ball meets. Of each way it tells the stroke with the best chance for a "
              "player among those that are given: how often it comes off with errors, and between "
              "which directions it does so without. LAYOUT has shots of one layout, of which each "
@@ -339,6 +348,25 @@ static const command_form form = {
     .files = FILE_OR_NONE,
 };
 
+/* The speeds where none are given, m/s. */
+static const char *usual_speeds(const ways_job *job, bool alone, bool points) {
+  if (alone)
+    return "0.5:5:0.25";
+  if (points)
+    return "3,4.5,6";
+  return job->leave.given ? "1:4:0.5" : "1.5,2.5,4";
+}
+
+/* How many strokes in all directions are searched: as asked, or the default, at least one each. */
+static int scan_of(const ways_job *job, const shot_line *line, int strokes) {
+  int scan = SCANNED_EACH * strokes > SCANNED ? SCANNED_EACH * strokes : SCANNED;
+  if (line->table->table.pockets == 0 || line->count == 1)
+    scan = SCANNED_TO_SCORE;
+  if (job->scanned > 0)
+    scan = job->scanned;
+  return scan > strokes ? scan : strokes;
+}
+
 int command_ways(int argc, char **argv) {
   static ways_job job;
   static carom_cue stroke[MOST_STROKES];
@@ -367,11 +395,7 @@ int command_ways(int argc, char **argv) {
   const bool points = job.from.table.kind == 1 + CAROM_TABLE_THREECUSHION;
   const bool alone = job.leave.given && job.from.balls.count == 0 && job.from.balls.rack == 0;
   if (job.from.speed.count == 0 && job.from.ball_speed.count == 0 && has_flags(&job.from))
-    values_default(&job.from.speed, MEASURE_SPEED,
-                   alone             ? "0.5:5:0.25"
-                   : points          ? "3,4.5,6"
-                   : job.leave.given ? "1:4:0.5"
-                                     : "1.5,2.5,4");
+    values_default(&job.from.speed, MEASURE_SPEED, usual_speeds(&job, alone, points));
   if (job.from.tip.count == 0 && job.leave.given && !alone && !points && has_flags(&job.from)) {
     char tips[] = "0,-0.4:0.4:0.2";
     option_tip.set(&option_tip, tips, &job.from.tip);
@@ -388,11 +412,7 @@ int command_ways(int argc, char **argv) {
   int code = EXIT_USAGE;
   FILE *out = s.strokes > 0 ? output_open(job.from.shared.output) : NULL;
   if (out != NULL) {
-    const int least = SCANNED_EACH * s.strokes > SCANNED ? SCANNED_EACH * s.strokes : SCANNED;
-    s.scan = job.scanned > 0                                     ? job.scanned
-             : line.table->table.pockets == 0 || line.count == 1 ? SCANNED_TO_SCORE
-                                                                 : least;
-    s.scan = s.scan > s.strokes ? s.scan : s.strokes;
+    s.scan = scan_of(&job, &line, s.strokes);
     s.way = allocate(MOST_WAYS, sizeof *s.way);
     if (find(&job, &s)) {
       code = s.ways > 0 ? EXIT_GOOD : EXIT_SOME;

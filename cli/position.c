@@ -65,7 +65,7 @@ static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *opt
 static void name_pot(const char *pocket, const shot_line *line, way *w) {
   const char *colon = strchr(pocket, ':');
   char known[NAMES_TEXT] = "";
-  w->kind = DIRECT;
+  w->kind = CAROM_PLAN_POT;
   w->pocket = pocket_named(&line->table->table, line->table->pocket, colon + 1, known);
   for (int k = 0; k < line->count; k++)
     if (strncmp(line->name[k], pocket, (size_t)(colon - pocket)) == 0 &&
@@ -113,8 +113,11 @@ static bool choose(const leave *to, shoot_flags *f, const carom_shot_options *op
                    const carom_player *player, const shot_line *line, const carom_cue *cue,
                    int count, char told[LEFT_TEXT]) {
   static bool good[MOST_ROWS];
-  ways_search s = {.line = line, .options = *options, .player = *player};
-  way w = {.kind = PLACE, .ball = -1, .pocket = -1}, best = {.chance = -1.0};
+  ways_search s = {.line = line,
+                   .options = *options,
+                   .player = *player,
+                   .aim = f->pocket != NULL ? TO_POT : TO_PLACE};
+  way w = {.kind = -1, .ball = -1, .pocket = -1}, best = {.chance = -1.0};
   leave_into(to, &s);
   if (f->pocket != NULL)
     name_pot(f->pocket, line, &w);

@@ -12,11 +12,14 @@
 
 /* strokes with errors for a chance; those of one batch; events of one that are read */
 enum { TRIES = 400, BLOCK = 256, ROOM = 300, HALVINGS = 10 };
-/* m/s, of the cue; degrees, of a pot; and cushions so near to a pocket are beside it: its radii */
-static const double SPEED_LEAST = 0.05, SPEED_MOST = 15.0, WINDOW_LEAST = 0.04, BESIDE = 3.0;
+/* m/s, of the cue; and degrees, of a pot */
+static const double SPEED_LEAST = 0.05, SPEED_MOST = 15.0, WINDOW_LEAST = 0.04;
 
-const char *const way_names[] = {"direct", "bank",  "kick", "combination",
-                                 "carom",  "point", "place"};
+const char *way_name(const ways_search *s, const way *w) {
+  if (s->aim == TO_POT)
+    return carom_plan_kind_name((carom_plan_kind)w->kind);
+  return s->aim == TO_SCORE ? "point" : "place";
+}
 
 bool player_of(const given_player *given, carom_player *player) {
   *player = given->rated ? carom_player_fargo(given->rating)
@@ -55,19 +58,21 @@ static bool play(const ways_search *s, const carom_cue *cues, int n, carom_shot 
 
 bool way_is_good(const ways_search *s, const carom_facts *f, const carom_ball_state *final,
                  const way *w) {
-  const uint32_t cue = (uint32_t)1 << s->line->cue.ball;
-  /* a scratch is none, nor is a double hit, as games rule on it */
-  const bool again = f->touches > 1 && (f->pushed == 0 || f->second_time > 0.0);
-  if (((f->down | f->off) & cue) != 0 || again || (f->pushed & ~f->frozen) != 0)
+  const int cue = (int)s->line->cue.ball;
+
+  /* a stroke that loses the cue ball is none, nor is a double hit, as games rule on it */
+  const uint32_t faults = CAROM_MARK_SCRATCH | CAROM_MARK_DOUBLE_HIT;
+  if ((carom_stroke_marks(f, cue) & faults) != 0 || (f->off >> cue & 1) != 0)
     return false;
-  const double *r = final[s->line->cue.ball].r;
+
+  const double *r = final[cue].r;
   if (s->radius > 0.0 && hypot(r[0] - s->place[0], r[1] - s->place[1]) > s->radius)
     return false;
-  if (w->kind == PLACE)
+  if (s->aim == TO_PLACE)
     return true;
-  return w->kind == POINT
-             ? f->first[1] >= 0 && f->cushions_before[1] >= 3
-             : w->ball >= 0 && (f->down >> w->ball & 1) && f->pocket[w->ball] == w->pocket;
+  if (s->aim == TO_SCORE)
+    return f->first[1] >= 0 && f->cushions_before[1] >= 3;
+  return w->ball >= 0 && (f->down >> w->ball & 1) != 0 && f->pocket[w->ball] == w->pocket;
 }
 
 bool ways_chance(const ways_search *s, way *w) {
@@ -121,14 +126,6 @@ static bool add_rail(const ways_search *s, const carom_event *e, bool hop, way *
   return add_part(w, (carom_part){CAROM_PART_RAIL, name != NULL ? first_rail(t, name) : e->b});
 }
 
-/* Whether a rail ends beside the pocket of a way: a ball may touch it and fall. */
-static bool ends_beside(const ways_search *s, int rail, const way *w) {
-  const carom_table *t = &s->line->table->table;
-  const double *c = t->pocket[w->pocket].centre, *p = t->rail[rail].p, *q = t->rail[rail].q;
-  return fmin(hypot(p[0] - c[0], p[1] - c[1]), hypot(q[0] - c[0], q[1] - c[1])) <
-         BESIDE * t->pocket[w->pocket].radius;
-}
-
 static bool is_of(const carom_event *e, int type, int ball) {
   return e->type == type && (e->a == ball || (type == CAROM_EVENT_BALL_BALL && e->b == ball));
 }
@@ -146,58 +143,95 @@ static const carom_event *first_contact(const carom_shot *shot, int ball, int cu
   return first;
 }
 
+/* The balls of a pot from the ball that falls back to the cue ball, each first met by the next one,
+ * and when; of the cue ball 0. */
+enum { LINKS_MOST = 4 };
+typedef struct pot_chain {
+  int links; /* ball[links] is the cue ball */
+  int ball[LINKS_MOST + 1];
+  double from[LINKS_MOST + 1];
+} pot_chain;
+
+/* False where a ball was met by none, or the chain is too long. */
+static bool find_chain(const carom_shot *shot, int ball, int cue, pot_chain *chain) {
+  int links = 0;
+  for (; ball != cue; links++) {
+    const carom_event *e = first_contact(shot, ball, cue);
+    if (links == LINKS_MOST || e == NULL)
+      return false;
+    chain->ball[links] = ball;
+    chain->from[links] = e->time;
+    ball = e->a == ball ? e->b : e->a;
+  }
+  chain->ball[links] = cue;
+  chain->from[links] = 0.0;
+  chain->links = links;
+  return true;
+}
+
+/* Whether a ball is ball n of a chain or a neighbour of it there. */
+static bool is_neighbour(const pot_chain *chain, int n, int ball) {
+  const int first = n > 0 ? n - 1 : n, last = n < chain->links ? n + 1 : n;
+  for (int k = first; k <= last; k++)
+    if (chain->ball[k] == ball)
+      return true;
+  return false;
+}
+
+/* Rails of a way, and the last ones of them, beside the pocket, that the ball touches as it
+ * falls. */
+typedef struct rail_count {
+  int all, beside;
+} rail_count;
+
+/* Adds to a way the rails and other balls that ball n of the chain meets from its first contact on,
+ * up to that with the next one, or to its fall. False where there is no room. */
+static bool add_link(const ways_search *s, const carom_shot *shot, const pot_chain *chain, int n,
+                     way *w, rail_count *rails) {
+  const carom_table *t = &s->line->table->table;
+  const int ball = chain->ball[n], cue = (int)s->line->cue.ball;
+  const double until = n > 0 ? chain->from[n - 1] : shot->facts->pocket_time[ball];
+  int last = -1; /* rail */
+  for (int64_t k = 0; k < shot->count && shot->events[k].time <= until; k++) {
+    const carom_event *e = &shot->events[k];
+    if (e->time < chain->from[n])
+      continue;
+    if (is_of(e, CAROM_EVENT_RAIL, ball)) {
+      const int before = w->parts;
+      if (!add_rail(s, e, e->b == last, w, &rails->all))
+        return false;
+      last = e->b;
+      const bool falls_by = n == 0 && carom_is_beside(t, e->b, w->pocket);
+      rails->beside = falls_by ? rails->beside + w->parts - before : 0;
+    } else if (is_of(e, CAROM_EVENT_BALL_BALL, ball)) {
+      const int other = e->a == ball ? e->b : e->a;
+      if (other == cue || is_neighbour(chain, n, other))
+        continue;
+      if (!add_part(w, (carom_part){CAROM_PART_BALL, other}))
+        return false;
+      rails->beside = 0;
+    }
+  }
+  return true;
+}
+
 /* The way of a shot that pots its ball: from the cue ball on, by the balls of which each is first
  * met by the one before, the rails and other balls that each meets up to the next. */
 static bool read_pot(const ways_search *s, const carom_shot *shot, way *w) {
-  enum { CHAIN = 4 };
   const int cue = (int)s->line->cue.ball;
-  int chain[CHAIN + 1], links = 0, rails = 0, kicks = 0, others = 0;
-  double from[CHAIN + 1] = {0.0}; /* when each was met first */
-  for (int ball = w->ball; ball != cue; links++) {
-    const carom_event *e = first_contact(shot, ball, cue);
-    if (links == CHAIN || e == NULL)
+  pot_chain chain;
+  rail_count rails = {0, 0};
+  if (!find_chain(shot, w->ball, cue, &chain))
+    return false;
+  for (int n = chain.links; n >= 0; n--) {
+    if (!add_link(s, shot, &chain, n, w, &rails))
       return false;
-    chain[links] = ball;
-    from[links] = e->time;
-    ball = e->a == ball ? e->b : e->a;
-  }
-  chain[links] = cue;
-  from[links] = 0.0;
-
-  int beside = 0; /* of the parts, the last ones, which the ball touches as it falls */
-  for (int n = links; n >= 0; n--) {
-    const int ball = chain[n];
-    const double until = n > 0 ? from[n - 1] : shot->facts->pocket_time[ball];
-    int last = -1;
-    bool good = true;
-    for (int64_t k = 0; k < shot->count && shot->events[k].time <= until && good; k++) {
-      const carom_event *e = &shot->events[k];
-      const int other = e->a == ball ? e->b : e->a, parts = w->parts;
-      if (e->time < from[n])
-        continue;
-      if (is_of(e, CAROM_EVENT_RAIL, ball)) {
-        good = add_rail(s, e, e->b == last, w, &rails);
-        last = e->b;
-        beside = n > 0 || !ends_beside(s, e->b, w) ? 0 : beside + w->parts - parts;
-      } else if (is_of(e, CAROM_EVENT_BALL_BALL, ball) && other != cue &&
-                 other != chain[n > 0 ? n - 1 : 0] && other != chain[n < links ? n + 1 : links]) {
-        others += n > 0 && ball == cue ? 1 : CHAIN;
-        good = add_part(w, (carom_part){CAROM_PART_BALL, other});
-        beside = 0;
-      }
-    }
-    kicks += n == links ? rails : 0;
-    if (!good || (n > 1 && !add_part(w, (carom_part){CAROM_PART_BALL, chain[n - 1]})))
+    if (n > 1 && !add_part(w, (carom_part){CAROM_PART_BALL, chain.ball[n - 1]}))
       return false;
   }
-  w->parts -= beside;
-  rails -= beside;
-  w->kind = links > 1 || others >= CHAIN ? COMBINATION
-            : others > 0                 ? CAROM
-            : kicks > 0                  ? KICK
-            : rails > 0                  ? BANK
-                                         : DIRECT;
-  return rails <= s->rails;
+  w->parts -= rails.beside;
+  w->kind = carom_pot_kind(&s->line->table->table, shot, cue, w->ball, w->pocket);
+  return w->kind >= 0 && rails.all - rails.beside <= s->rails;
 }
 
 /* The way of a point or to a place: what the cue ball meets, of a point up to the second ball. */
@@ -218,11 +252,11 @@ static bool read_point(const ways_search *s, const carom_shot *shot, way *w) {
       if (balls == 2 || !add_part(w, (carom_part){CAROM_PART_BALL, other}))
         return false;
       met[balls++] = other;
-      if (w->kind == POINT && balls == 2)
+      if (s->aim == TO_SCORE && balls == 2)
         return rails >= 3;
     }
   }
-  return rails <= s->rails && w->kind == PLACE;
+  return rails <= s->rails && s->aim == TO_PLACE;
 }
 
 /* The angle from the way of the cue ball, just before its first contact, to the line of centres,
@@ -253,11 +287,12 @@ static told read_stroke(const ways_search *s, const carom_cue *cue, way *w) {
   w->parts = 0;
   if (shot.count > ROOM)
     return NO_ROOM;
-  if (s->counted == CAROM ? read_pot(s, &shot, w) : read_point(s, &shot, w)) {
+  const bool read = s->aim == TO_POT ? read_pot(s, &shot, w) : read_point(s, &shot, w);
+  if (read) {
     w->cut = cut_of(&shot, (int)cue->ball);
     return A_WAY;
   }
-  return w->kind == POINT && w->parts == MOST_PARTS ? NO_ROOM : NOTHING;
+  return s->aim == TO_SCORE && w->parts == MOST_PARTS ? NO_ROOM : NOTHING;
 }
 
 static bool is_same(const way *one, const way *other) {
@@ -270,7 +305,7 @@ static bool is_same(const way *one, const way *other) {
 
 /* Counts a way of direction k of a stroke. Of pots each window of a stroke is a way. */
 static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, double step) {
-  const bool pots = s->counted == CAROM;
+  const bool pots = s->aim == TO_POT;
   int at = 0;
   while (at < s->ways && !(is_same(&s->way[at], seen) &&
                            (!pots || (s->way[at].stroke == stroke && s->way[at].last == k - 1))))
@@ -300,7 +335,7 @@ static void count_way(ways_search *s, const way *seen, int stroke, int64_t k, do
  * is good, or that there was no room for it. */
 static void read_shot(ways_search *s, const carom_shot *shot, const carom_cue *cue, int ball,
                       int stroke, int64_t k, double step) {
-  way seen = {.kind = s->counted, .ball = ball, .pocket = -1};
+  way seen = {.kind = -1, .ball = ball, .pocket = -1};
   if (ball >= 0)
     seen.pocket = shot->facts->pocket[ball];
   if (!way_is_good(s, shot->facts, shot->final, &seen))
@@ -314,7 +349,7 @@ static void read_shot(ways_search *s, const carom_shot *shot, const carom_cue *c
 
 /* Whether the way is that of its stroke with another value of *field, of its cue. */
 static bool holds(const ways_search *s, way *w, double *field, double at) {
-  way seen = {.kind = s->counted == CAROM ? CAROM : w->kind, .ball = w->ball, .pocket = w->pocket};
+  way seen = {.kind = -1, .ball = w->ball, .pocket = w->pocket};
   const double own = *field;
   *field = at;
   const bool same = read_stroke(s, &w->cue, &seen) == A_WAY && is_same(&seen, w);
@@ -348,11 +383,11 @@ static bool finish_way(ways_search *s, way *w, double step) {
   const double middle = 0.5 * (w->phi[0] + w->phi[1]);
   w->cue.phi = w->end - step * (double)((w->longest - 1) / 2);
   w->cue.phi = holds(s, w, &w->cue.phi, middle) ? middle : w->cue.phi;
-  way there = {.kind = s->counted, .ball = w->ball, .pocket = w->pocket};
+  way there = {.kind = -1, .ball = w->ball, .pocket = w->pocket};
   if (read_stroke(s, &w->cue, &there) == A_WAY)
     w->cut = there.cut;
   w->speed[0] = w->speed[1] = w->cue.speed;
-  const bool pots = s->counted == CAROM, narrow = pots && w->phi[1] - w->phi[0] < WINDOW_LEAST;
+  const bool pots = s->aim == TO_POT, narrow = pots && w->phi[1] - w->phi[0] < WINDOW_LEAST;
   for (int end = 0; end < 2 && pots && !narrow; end++)
     w->speed[end] = edge_of(s, w, &w->cue.speed, w->cue.speed, end == 0 ? 1.0 / 1.1 : 1.1, 0.0,
                             SPEED_LEAST, SPEED_MOST);
@@ -397,9 +432,9 @@ static bool scan(ways_search *s) {
       fine = play(s, cue, n, shot);
       for (int k = 0; k < n && fine; k++) {
         s->scanned++;
-        if (s->counted != CAROM)
+        if (s->aim != TO_POT)
           read_shot(s, &shot[k], &cue[k], -1, stroke, from + k, step);
-        for (int ball = 0; ball < s->line->count && s->counted == CAROM; ball++)
+        for (int ball = 0; ball < s->line->count && s->aim == TO_POT; ball++)
           if (ball != s->line->cue.ball && (s->ball < 0 || ball == s->ball) &&
               (s->pocket < 0 || facts[k].pocket[ball] == s->pocket))
             read_shot(s, &shot[k], &cue[k], ball, stroke, from + k, step);
@@ -411,7 +446,7 @@ static bool scan(ways_search *s) {
     progress_show("ways", (double)k, (double)s->ways);
   }
   progress_clear();
-  if (s->counted == CAROM && fine)
+  if (s->aim == TO_POT && fine)
     keep_best(s, step);
   return fine;
 }

@@ -9,14 +9,13 @@
 
 enum { MOST_WAYS = 20000, MOST_PARTS = 12 };
 
-typedef enum way_kind { DIRECT, BANK, KICK, COMBINATION, CAROM, POINT, PLACE } way_kind;
-
-extern const char *const way_names[]; /* by kind */
+/* What the ways of a search do: pot a ball, score, or bring the cue ball to a place. */
+typedef enum way_aim { TO_POT, TO_SCORE, TO_PLACE } way_aim;
 
 /* A way: the rails and balls that are met in their order, and its best stroke. NAN: not known. */
 typedef struct way {
-  way_kind kind;
-  int ball, pocket; /* -1 of a point and a place */
+  int kind;         /* a carom_plan_kind; -1 of a point and a place */
+  int ball, pocket; /* as much */
   int parts;
   carom_part part[MOST_PARTS];
   carom_cue cue;
@@ -36,7 +35,7 @@ typedef struct ways_search {
   carom_player player;
   const carom_cue *stroke; /* each is tried in all directions */
   int strokes;
-  way_kind counted; /* what strokes in all directions are read for: CAROM, POINT or PLACE */
+  way_aim aim;      /* what strokes in all directions are read for */
   int ball, pocket; /* of pots; -1: any */
   int rails;        /* at most, of pots and places */
   int scan;         /* strokes in all directions, of all strokes together, at least 1 for each */
@@ -50,6 +49,9 @@ typedef struct ways_search {
   int64_t scanned, good;
   int64_t left_out; /* good strokes for which there was no room */
 } ways_search;
+
+/* "bank", "point", "place": what a way does. */
+const char *way_name(const ways_search *s, const way *w);
 
 /* Makes the player; complains and returns false where both are given. Without either, errors of
  * scale 1. */

@@ -409,22 +409,49 @@ typedef struct carom_plan_options {
   uint64_t reserved[1];         /* must be 0. */
 } carom_plan_options;
 
-/* What a choice is, by what happens. */
+/* What a choice is, by what happens. Of a pot the first of combination, carom, kiss, kick, bank and
+ * pot that holds; a jaw or a cut of a pocket is no cushion. */
 typedef enum carom_plan_kind {
-  CAROM_PLAN_POT = 0,         /* a direct pot of `ball` into `pocket` */
-  CAROM_PLAN_SCAN = 1,        /* `ball` falls in half of the strokes, by several ways */
-  CAROM_PLAN_FOUL = 2,        /* no shot without a foul was found; this one is gentle */
-  CAROM_PLAN_GIVEN = 3,       /* the caller's, of carom_plan_try() */
-  CAROM_PLAN_PUSH = 4,        /* a push-out, where the rules allow one */
-  CAROM_PLAN_PASS = 5,        /* not to play, where the rules allow that; the stroke says nothing */
-  CAROM_PLAN_BREAK = 6,       /* a break, of rules that have them; no ball is named */
-  CAROM_PLAN_BANK = 7,        /* the cue ball meets `ball`, which meets a cushion and falls */
-  CAROM_PLAN_KICK = 8,        /* the cue ball meets a cushion before any ball */
+  CAROM_PLAN_POT = 0,   /* a direct pot of `ball` into `pocket`: the ball meets nothing else on its
+                          way except a cushion beside the pocket */
+  CAROM_PLAN_SCAN = 1,  /* `ball` falls in half of the strokes, by several ways */
+  CAROM_PLAN_FOUL = 2,  /* no shot without a foul was found; this one is gentle */
+  CAROM_PLAN_GIVEN = 3, /* the caller's, of carom_plan_try() */
+  CAROM_PLAN_PUSH = 4,  /* a push-out, where the rules allow one */
+  CAROM_PLAN_PASS = 5,  /* not to play, where the rules allow that; the stroke says nothing */
+  CAROM_PLAN_BREAK = 6, /* a break, of rules that have them; no ball is named */
+  CAROM_PLAN_BANK = 7,  /* the cue ball meets `ball`, which meets a cushion and falls */
+  CAROM_PLAN_KICK = 8,  /* the cue ball meets a cushion before any ball */
   CAROM_PLAN_COMBINATION = 9, /* another ball meets `ball`, which falls */
   CAROM_PLAN_CAROM = 10,      /* the cue ball meets another ball before `ball`; without pockets: it
                                  meets two */
-  CAROM_PLAN_SAFETY = 11      /* no ball is named */
+  CAROM_PLAN_SAFETY = 11,     /* no ball is named */
+  CAROM_PLAN_KISS = 12        /* the cue ball meets `ball`, which meets another ball and falls */
 } carom_plan_kind;
+
+/* The word for a kind, such as "bank"; "" for a value not listed. */
+CAROM_API const char *carom_plan_kind_name(carom_plan_kind kind);
+
+/* The kind of a shot that pots a ball, read from the events or brief events that were kept: a
+ * carom_plan_kind, or -1 where they do not show that the ball was met and fell into the pocket. */
+CAROM_API int32_t carom_pot_kind(const carom_table *table, const carom_shot *shot, int cue_ball,
+                                 int ball, int pocket);
+
+/* 1 where a rail ends beside a pocket, within three radii of its centre, else 0. A ball that meets
+ * such a rail and falls into the pocket is not banked. */
+CAROM_API int carom_is_beside(const carom_table *table, int rail, int pocket);
+
+/* What else a stroke was, as a set. */
+typedef enum carom_stroke_mark {
+  CAROM_MARK_SCRATCH = 1,    /* the cue ball fell into a pocket */
+  CAROM_MARK_DOUBLE_HIT = 2, /* as CAROM_FOUL_DOUBLE_HIT */
+  CAROM_MARK_SPLIT_HIT = 4,  /* the cue ball met its first two balls less than 1 ms apart. No game
+                                here rules on it: the first of them counts */
+  CAROM_MARK_LEGAL_BREAK = 8 /* a ball fell, or four object balls met cushions or left the table */
+} carom_stroke_mark;
+
+/* The marks of a shot, as a sum of carom_stroke_mark. */
+CAROM_API uint32_t carom_stroke_marks(const carom_facts *facts, int cue_ball);
 
 /* A stroke that a plan proposes, and what comes of it. */
 typedef struct carom_choice {

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_SAFETY + 1 };
+enum { BINS = 10, STROKES_MOST = 2000, KINDS = CAROM_PLAN_KISS + 1 };
 
 typedef struct strength_job {
   shared_options shared;
@@ -169,10 +169,6 @@ static double stretch_of(const tally *t) {
 }
 
 static void report(const tally *t, const strength_job *job) {
-  /* as carom_plan_kind has them */
-  static const char *const kinds[KINDS] = {"pot",  "several ways", "foul",  "given",
-                                           "push", "pass",         "break", "bank",
-                                           "kick", "combination",  "carom", "safety"};
   /* Wilson's interval, 95 % */
   const double n = (double)t->racks, p = (double)t->wins / n, z = 1.96;
   const double wide = 1.0 + z * z / n, middle = (p + z * z / (2.0 * n)) / wide;
@@ -186,6 +182,9 @@ static void report(const tally *t, const strength_job *job) {
     printf("%g points in %ld visits: %.2f a visit, at most %g\n", t->points, t->visits,
            t->points / (double)t->visits, t->best);
   tell_bins(t->bins, BINS, NULL, "kept");
+  const char *kinds[KINDS];
+  for (int k = 0; k < KINDS; k++)
+    kinds[k] = carom_plan_kind_name((carom_plan_kind)k);
   tell_bins(t->kinds, KINDS, kinds, "kept");
   if (job->games) {
     printf("planned to foul: %ld of %ld strokes\n", t->fouls, t->strokes);

@@ -3,6 +3,7 @@
 #ifndef CAROM_PLAN_RULES_H
 #define CAROM_PLAN_RULES_H
 
+#include "pot_kind.h"
 #include "view.h"
 
 static const carom_turn carom_keep = {CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0, 0, 0.0};
@@ -29,16 +30,6 @@ carom_rules_on carom_on_any;
 static inline void carom_add(int32_t *to, int more) {
   *to = *to > INT32_MAX - more ? INT32_MAX : *to + more;
 }
-
-/* A ball that was not frozen was met while the tip was on the cue ball, or the tip touched twice
- * without any that was: a frozen ball may be played through. */
-bool carom_is_double_hit(const carom_facts *facts);
-
-/* How many balls but the cue ball were driven to rails; those that are gone count. */
-int carom_driven(const carom_facts *facts, int cue_ball);
-
-/* Whether a break drives four balls to rails, or pots. */
-bool carom_is_break(const carom_facts *facts, int cue_ball);
 
 /* Games in which eight balls win: a ball that counts, or is no more owed; one that a foul costs, or
  * is owed; what each player needs; and the balls that come back after a stroke. */

@@ -22,23 +22,6 @@ carom_turn carom_give(carom_rules_state *game, carom_turn turn) {
   return turn;
 }
 
-bool carom_is_double_hit(const carom_facts *facts) {
-  const bool again = facts->touches > 1 && (facts->pushed == 0 || facts->second_time > 0.0);
-  return again || (facts->pushed & ~facts->frozen) != 0;
-}
-
-int carom_driven(const carom_facts *facts, int cue_ball) {
-  int driven = 0;
-  for (int k = 0; k < CAROM_BALLS_MOST; k++)
-    driven +=
-        k != cue_ball && (facts->cushions[k] > 0 || ((facts->down | facts->off) >> k & 1) != 0);
-  return driven;
-}
-
-bool carom_is_break(const carom_facts *facts, int cue_ball) {
-  return facts->down != 0 || carom_driven(facts, cue_ball) >= 4;
-}
-
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   const int first = facts->first[0];
   return (facts->down | facts->off) >> cue_ball & 1       ? CAROM_FOUL_CUE_BALL

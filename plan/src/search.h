@@ -1,6 +1,6 @@
 /* The search for the best shot: its state, and what its sources do for each other. Each calls only
  * those that stand before it: drawn_tables.c, rows.c (plays shots), ranking.c (compares
- * candidates), kinds.c, candidates.c (makes strokes), search.c (the stages), plan.c. */
+ * candidates), choice_kind.c, candidates.c (makes strokes), search.c (the stages), plan.c. */
 #ifndef CAROM_PLAN_SEARCH_H
 #define CAROM_PLAN_SEARCH_H
 
@@ -183,7 +183,7 @@ void carom_search_add_up(carom_search *plan);
 void carom_search_lead(carom_search *plan, int64_t k);
 void carom_search_sort(const carom_search *plan, int64_t n);
 
-/* kinds.c: the carom_plan_kind of a choice, by what happens. */
+/* choice_kind.c: the carom_plan_kind of a choice, by what happens. */
 int32_t carom_search_kind(carom_search *plan, const carom_candidate *c, const carom_choice *choice);
 
 /* candidates.c: makes direct pots, up to `most` of them, with the stage that aims them; keeps those

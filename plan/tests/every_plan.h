@@ -62,6 +62,20 @@ EVERY_BODY(rules_fault) {
   return HASH(*carom_rules_fault(CAROM_RULES_EIGHTBALL, &state, &range));
 }
 EVERY_NAMES(foul_string, int)
+EVERY_NAMES(plan_kind_name, carom_plan_kind)
+EVERY_BODY(pot_kind) {
+  static const carom_shot none;
+  STATUS(carom_pot_kind(&in->table, &none, 0, 1, 2));
+  return h;
+}
+EVERY_VALUE(is_beside, carom_is_beside(&in->table, 0, 0))
+EVERY_BODY(stroke_marks) {
+  for (uint32_t down = 0; down < 4; down++) {
+    const carom_facts facts = {.first = {2, -1}, .down = down};
+    STATUS(carom_stroke_marks(&facts, 0));
+  }
+  return h;
+}
 EVERY_BODY(foul_of) {
   for (uint32_t down = 0; down < 4; down++) {
     const carom_facts facts = {.first = {2, -1}, .down = down};
@@ -117,10 +131,11 @@ EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NI
 
 /* clang-format off */
 #define EVERY_OF_PLANS(F) \
-  F(aim) F(foul_of) F(foul_string) F(plan) F(plan_continue) F(plan_hand) F(plan_memory) \
-  F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) F(player_of) F(player_strike) \
+  F(aim) F(foul_of) F(foul_string) F(is_beside) F(plan) F(plan_continue) F(plan_hand) \
+  F(plan_kind_name) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) F(player_fargo) \
+  F(player_of) F(player_strike) F(pot_kind) \
   F(rating_of) F(referee) F(rules_about_of) F(rules_fault) F(ruling_string) F(spot_ball) \
-  F(spot_ball_of) F(turn_settle)
+  F(spot_ball_of) F(stroke_marks) F(turn_settle)
 /* clang-format on */
 
 #endif

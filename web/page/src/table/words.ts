@@ -11,6 +11,7 @@ const BY: Partial<Record<Choice["kind"], string>> = {
   kick: ", by a kick",
   combination: ", by a combination",
   carom: ", by a carom",
+  kiss: ", by a kiss",
 };
 const WITHOUT: Partial<Record<Choice["kind"], string>> = {
   foul: "a foul, as no stroke without one was found",

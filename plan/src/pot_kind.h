@@ -1,0 +1,46 @@
+/* What a stroke was, in the words of the game. This is the one place that says so: the command, the
+ * planner, the page, Python and JavaScript name strokes by it, and docs/using/glossary.md has the
+ * same words (tests/docs/terms.py compares them).
+ *
+ * The terms are those of the glossaries of the BCA and the WPA. These do not exclude each other: a
+ * cue ball can leave a cushion and drive one ball by another. One order of precedence therefore
+ * decides, by what stands between the tip and the pocket. Balls come before cushions, because they
+ * make a stroke harder; and the driver of the ball comes before its own way to the pocket:
+ *
+ *   1. combination: another object ball drives the ball.
+ *   2. carom: the cue ball drives it, and met another ball before.
+ *   3. kiss: the cue ball drives it, and the ball glances off another ball on its way.
+ *   4. kick: the cue ball drives it, and met a cushion before.
+ *   5. bank: the ball meets a cushion on its way.
+ *   6. pot: none of these; the pot is direct.
+ *
+ * A ball that drives another one is that of its first contact; of several contacts of one instant
+ * the cue ball's counts. A jaw or a cut of a pocket is no cushion. Nor is a cushion that ends
+ * beside the pocket, within three radii of it, part of a bank: a ball that runs along it falls as
+ * one that touches nothing. A second contact with the cue ball is no kiss. */
+#ifndef CAROM_PLAN_POT_KIND_H
+#define CAROM_PLAN_POT_KIND_H
+
+#include "carom_plan.h"
+
+#include <stdbool.h>
+
+/* A term, and what it means: a sentence or two. A value of a plan that is no term of the game has
+ * no meaning: "". */
+typedef struct carom_term {
+  const char *name, *meaning;
+} carom_term;
+
+/* Term k, or NULL beyond the last one. The first ones are those of carom_plan_kind. */
+const carom_term *carom_term_of(int k);
+
+/* Whether rules call it a double hit, with a push through a ball that was not frozen. */
+bool carom_is_double_hit(const carom_facts *facts);
+
+/* The number of object balls that met a cushion or are no longer on the table. */
+int carom_driven(const carom_facts *facts, int cue_ball);
+
+/* Whether an opening break is legal: a ball fell, or four object balls were driven to cushions. */
+bool carom_is_break(const carom_facts *facts, int cue_ball);
+
+#endif
