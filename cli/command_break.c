@@ -114,7 +114,7 @@ static void count_break(const breaker *b, const carom_facts *f, const carom_ball
   c->breaks++;
   c->balls += made;
   c->makes += made > 0;
-  c->scratch += (f->down & 1) != 0;
+  c->scratch += (carom_stroke_marks(f, 0) & CAROM_MARK_SCRATCH) != 0;
   c->off += f->off != 0;
   c->wing += (f->down & wings) != 0;
   carom_plan_rules rules;

@@ -111,9 +111,9 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
 }
 
 static const char *value_words(const plan_job *job) {
-  return job->game.rules == CAROM_RULES_POTTING        ? "share potted"
-         : job->game.rules == CAROM_RULES_THREECUSHION ? "scores"
-                                                       : "wins";
+  if (job->game.rules == CAROM_RULES_POTTING)
+    return "share potted";
+  return job->game.rules == CAROM_RULES_THREECUSHION ? "scores" : "wins";
 }
 
 static void tell(FILE *out, const plan_job *job, const carom_plan_job *asked, const shot_line *line,
@@ -270,11 +270,15 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)job->game.rules);
   const bool kitchen = (job->game.opening ? about->opening : about->hand) == CAROM_LEAVE_KITCHEN;
   const double high[2] = {line->table->table.width, 0.25 * line->table->table.length};
-  const carom_status status =
-      job->value  ? tell_value(job, &asked, out)
-      : tried > 0 ? carom_plan_try(&asked, strokes, tried, choices)
-      : job->hand ? carom_plan_hand(&asked, NULL, kitchen ? high : NULL, choices, BEST, &n)
-                  : carom_plan(&asked, choices, BEST, &n);
+  carom_status status;
+  if (job->value)
+    status = tell_value(job, &asked, out);
+  else if (tried > 0)
+    status = carom_plan_try(&asked, strokes, tried, choices);
+  else if (job->hand)
+    status = carom_plan_hand(&asked, NULL, kitchen ? high : NULL, choices, BEST, &n);
+  else
+    status = carom_plan(&asked, choices, BEST, &n);
   if (status != CAROM_OK) {
     free(asked.memory);
     complain("%s:%zu: by --rules %s: %s", file, line->number,

@@ -123,7 +123,11 @@ static void play(const strength_job *job, uint64_t number, lab_rack *rack, tally
     to->pots += kept;
     to->fouls += best.foul > 0.5;
   }
-  const int winner = turn.is == CAROM_TURN_WIN ? who : turn.is == CAROM_TURN_LOSE ? 1 - who : -1;
+  int winner = -1;
+  if (turn.is == CAROM_TURN_WIN)
+    winner = who;
+  else if (turn.is == CAROM_TURN_LOSE)
+    winner = 1 - who;
   to->wins += winner == 0;
   for (int k = 0; k < n && winner >= 0; k++) {
     const double v = fmin(fmax(value[k], 1e-6), 1.0 - 1e-6);

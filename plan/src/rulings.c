@@ -24,13 +24,19 @@ carom_turn carom_give(carom_rules_state *game, carom_turn turn) {
 
 carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   const int first = facts->first[0];
-  return (facts->down | facts->off) >> cue_ball & 1       ? CAROM_FOUL_CUE_BALL
-         : first < 0                                      ? CAROM_FOUL_NO_BALL
-         : !(on >> first & 1)                             ? CAROM_FOUL_FIRST
-         : facts->off != 0                                ? CAROM_FOUL_OFF
-         : carom_is_double_hit(facts)                     ? CAROM_FOUL_DOUBLE_HIT
-         : facts->down == 0 && facts->cushions_after == 0 ? CAROM_FOUL_CUSHION
-                                                          : CAROM_FOUL_NONE;
+  if ((facts->down | facts->off) >> cue_ball & 1)
+    return CAROM_FOUL_CUE_BALL;
+  if (first < 0)
+    return CAROM_FOUL_NO_BALL;
+  if (!(on >> first & 1))
+    return CAROM_FOUL_FIRST;
+  if (facts->off != 0)
+    return CAROM_FOUL_OFF;
+  if (carom_is_double_hit(facts))
+    return CAROM_FOUL_DOUBLE_HIT;
+  if (facts->down == 0 && facts->cushions_after == 0)
+    return CAROM_FOUL_CUSHION;
+  return CAROM_FOUL_NONE;
 }
 
 const char *carom_foul_string(int foul) {
@@ -128,13 +134,20 @@ void carom_pay_ball(carom_rules_state *game) {
     carom_add(&game->lost[0], 1);
 }
 
+/* A number between 0 and the most. */
+static int32_t clamped(int32_t x, int32_t most) {
+  if (x < 0)
+    return 0;
+  return x < most ? x : most;
+}
+
 /* With those that are owed; of states that no game has, at least one and at most 16. */
 void carom_left_of_eight(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
   for (int who = 0; who < 2; who++) {
-    const int32_t own = game->score[who], owed = game->lost[who];
-    needed[who] = (own < CAROM_BALLS_THAT_WIN ? CAROM_BALLS_THAT_WIN - (own > 0 ? own : 0) : 1) +
-                  (owed < CAROM_BALLS_THAT_WIN ? (owed > 0 ? owed : 0) : CAROM_BALLS_THAT_WIN);
+    const int32_t own = clamped(game->score[who], CAROM_BALLS_THAT_WIN - 1);
+    const int32_t owed = clamped(game->lost[who], CAROM_BALLS_THAT_WIN);
+    needed[who] = CAROM_BALLS_THAT_WIN - own + owed;
   }
 }
 
