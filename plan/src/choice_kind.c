@@ -1,5 +1,5 @@
-/* The kind of a choice: that of the first of its strokes, without errors and then with some, in which
- * the ball that is named falls. */
+/* The kind of a choice: that of the first of its strokes, without errors and then with some, in
+ * which the ball that is named falls. */
 #include "pot_kind.h"
 #include "search.h"
 

@@ -22,7 +22,10 @@ def terms() -> dict[str, str]:
     rows = re.findall(rf"\[\w+\] = \{{\s*({STRING}),\s*((?:{STRING}\s*)+)\}}", table)
     if len(rows) != len(re.findall(r"\[\w+\] =", table)):
         sys.exit("plan/src/pot_kind.c has a row of another form than [TERM] = {NAME, MEANING}")
-    found = {name[1:-1]: "".join(part[1:-1] for part in re.findall(STRING, meaning)) for name, meaning in rows}
+    found = {
+        name[1:-1]: "".join(part[1:-1] for part in re.findall(STRING, meaning))
+        for name, meaning in rows
+    }
     return {name: meaning for name, meaning in found.items() if meaning}
 
 
