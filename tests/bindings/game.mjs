@@ -69,9 +69,8 @@ function stirObject(hash, kind, object) {
       place++;
       const list = object[key] ?? [];
       if (list.length > 0) hash = stir(stir(hash, place), BigInt(list.length));
-      list.forEach(
-        (_, k) => (hash = stirObject(hash, key, Object.assign({}, ...list.slice(0, k + 1)))),
-      );
+      for (const k of list.keys())
+        hash = stirObject(hash, key, Object.assign({}, ...list.slice(0, k + 1)));
       continue;
     }
     for (let k = 0; k < (Number(many) || 1); k++) {
@@ -88,9 +87,10 @@ function stirObject(hash, kind, object) {
 function fingerprint(before, words) {
   const chains = [before, 1n, 2n, 3n];
   const whole = words.length - (words.length % 4);
-  words.forEach(
-    (bits, k) => (chains[k < whole ? k % 4 : 0] = stir(chains[k < whole ? k % 4 : 0], bits)),
-  );
+  words.forEach((bits, k) => {
+    const chain = k < whole ? k % 4 : 0;
+    chains[chain] = stir(chains[chain], bits);
+  });
   return chains.reduce(stir);
 }
 

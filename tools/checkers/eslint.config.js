@@ -28,8 +28,10 @@ export default [
     rules: {
       complexity: ["error", 20],
       "max-statements-per-line": ["error", { max: 1 }],
+      "no-multi-assign": "error",
       "no-nested-ternary": "error",
       "no-restricted-syntax": ["error", ...packed, keywords],
+      "no-sequences": "error",
       "no-undef": "off", // the compiler of TypeScript knows what is defined
       "one-var": ["error", { initialized: "never" }],
     },

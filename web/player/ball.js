@@ -87,7 +87,8 @@ let light;
 function lightOf() {
   if (light) return light;
   light = document.createElement("canvas");
-  light.width = light.height = 128;
+  light.width = 128;
+  light.height = 128;
   const g = /** @type {CanvasRenderingContext2D} */ (light.getContext("2d"));
   const rim = g.createRadialGradient(58, 56, 40, 64, 64, 64);
   rim.addColorStop(0, "#0000");

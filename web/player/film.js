@@ -35,7 +35,8 @@ const SHOTS = [
  */
 export function drawTrails(g, view, { balls, shots, apart = false }) {
   g.lineWidth = 1.6;
-  g.lineJoin = g.lineCap = "round";
+  g.lineJoin = "round";
+  g.lineCap = "round";
   for (const [index, { paths }] of shots.entries())
     for (const { ball, xyz } of paths) {
       const colour = colourOf(balls[ball].name, ball);

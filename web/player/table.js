@@ -68,7 +68,8 @@ export function fit(canvas, ratio, sharp = 1) {
 export function fitTable(view, canvas, table, sharp) {
   const w = table.width + 2 * WOOD;
   const l = table.length + 2 * WOOD;
-  const upright = (view.upright = document.documentElement.clientWidth < 480);
+  const upright = document.documentElement.clientWidth < 480;
+  view.upright = upright;
   const ratio = upright ? l / w : w / l;
   // A browser that does not know dvh keeps vh.
   for (const unit of ["vh", "dvh"])

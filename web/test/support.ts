@@ -28,7 +28,8 @@ export class Draws {
   constructor(private state: bigint) {}
 
   between(low: number, high: number): number {
-    let z = (this.state = (this.state + 0x9e3779b97f4a7c15n) & MASK);
+    this.state = (this.state + 0x9e3779b97f4a7c15n) & MASK;
+    let z = this.state;
     z = ((z ^ (z >> 30n)) * 0xbf58476d1ce4e5b9n) & MASK;
     z = ((z ^ (z >> 27n)) * 0x94d049bb133111ebn) & MASK;
     z ^= z >> 31n;

@@ -62,7 +62,8 @@ export const KEYS = {
 function distance(a: string, b: string): number {
   const rows = [Array.from({ length: b.length + 1 }, (_, k) => k)];
   for (let i = 1; i <= a.length; i++) {
-    const row = (rows[i] = [i]);
+    const row = [i];
+    rows[i] = row;
     for (let k = 1; k <= b.length; k++) {
       row[k] = Math.min(
         row[k - 1]! + 1,

@@ -174,7 +174,8 @@ export function arrow(
   const head = Math.min(10, length);
   const ux = dx / length;
   const uy = dy / length;
-  g.strokeStyle = g.fillStyle = stroke;
+  g.strokeStyle = stroke;
+  g.fillStyle = stroke;
   g.lineWidth = 3;
   g.setLineDash(dashed ? [6, 5] : []);
   g.beginPath();

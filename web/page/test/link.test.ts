@@ -142,15 +142,10 @@ describe.runIf(browserPath !== undefined)("a game by link", () => {
       ["up", "-0.35"],
       ["power", "1.2"],
     ] as const)
-      await one
-        .locator(`#${id}`)
-        .evaluate(
-          (input: HTMLInputElement, value) => (
-            (input.value = value),
-            input.dispatchEvent(new Event("input"))
-          ),
-          value,
-        );
+      await one.locator(`#${id}`).evaluate((input: HTMLInputElement, value) => {
+        input.value = value;
+        input.dispatchEvent(new Event("input"));
+      }, value);
     await one.locator("#shoot").click();
     await one.locator("#skip").click();
     await expect.poll(() => turn(one)).toMatch(/^Your turn/);

@@ -236,7 +236,10 @@ export function pages() {
     // A picture of the same origin, where what an earlier game has kept goes.
     await one.goto(`file://${page.replace("index.html", "icon.svg")}`);
     await one.evaluate(
-      (text) => (localStorage.clear(), text && localStorage.setItem("carom-game", text)),
+      (text) => {
+        localStorage.clear();
+        if (text) localStorage.setItem("carom-game", text);
+      },
       game && JSON.stringify(game),
     );
     await one.goto(`file://${page}${hash}`);

@@ -70,7 +70,8 @@ export function drawHand(d: Desk, g: CanvasRenderingContext2D): void {
   if (contact)
     drawContact(pen, contact, R, [Math.cos(cue.phi / DEGREES), Math.sin(cue.phi / DEGREES)]);
   if (canTurn(d)) {
-    g.strokeStyle = g.fillStyle = "#ffe28a";
+    g.strokeStyle = "#ffe28a";
+    g.fillStyle = "#ffe28a";
     g.lineWidth = 2;
     ring(pen, balls[d.chosen]!.state.r, R, 3);
     g.beginPath();

@@ -169,7 +169,8 @@ function show(
   text: string,
 ): void {
   said.textContent = "";
-  notes.value = printed.textContent = text;
+  notes.value = text;
+  printed.textContent = text;
   which.root.hidden = sources.length < 2;
   if (!root.open) root.showModal();
 }

@@ -222,7 +222,8 @@ export class Play {
     });
     if (!onTable(this.balls[0]!.state)) this.balls = atHead(this.carom, this.table, this.balls);
     this.state = { ...state, opening: false };
-    return (this.last = { who: 0, balls, cue, call: undefined, state, shot, ruling: undefined });
+    this.last = { who: 0, balls, cue, call: undefined, state, shot, ruling: undefined };
+    return this.last;
   }
 
   #ruled(entry: Entry, cue: Cue, shot: Shot | undefined): Stroke {
@@ -250,7 +251,8 @@ export class Play {
       if (this.hand !== "no" && this.hasPockets)
         this.balls = atHead(this.carom, this.table, this.balls, this.hand);
     }
-    return (this.last = { who, balls, cue, call: entry.call, state, shot, ruling });
+    this.last = { who, balls, cue, call: entry.call, state, shot, ruling };
+    return this.last;
   }
 }
 

@@ -83,7 +83,8 @@ function draw(p: Photo): void {
   g.drawImage(p.picture, 0, 0);
   const unit = scaleOf(p);
   g.lineWidth = 2 * unit;
-  g.strokeStyle = g.fillStyle = "#ffe28a";
+  g.strokeStyle = "#ffe28a";
+  g.fillStyle = "#ffe28a";
   g.font = `bold ${15 * unit}px sans-serif`;
   const mark = ([x, y]: Pixel, text: string): void => {
     g.beginPath();

@@ -103,9 +103,10 @@ function joined(
   receiveShadow: boolean,
   castShadow = false,
 ): THREE.Mesh {
-  const all = parts.map(
-    (part) => (part.updateMatrix(), part.geometry.toNonIndexed().applyMatrix4(part.matrix)),
-  );
+  const all = parts.map((part) => {
+    part.updateMatrix();
+    return part.geometry.toNonIndexed().applyMatrix4(part.matrix);
+  });
   const geometry = new THREE.BufferGeometry();
   for (const name of ["position", "normal"])
     geometry.setAttribute(
@@ -291,7 +292,8 @@ export class Scene {
     const to = stick?.first;
     const { r } = poses[0]!;
     this.#stick.visible = stick !== undefined;
-    this.#aim.visible = this.#ghost.visible = to !== undefined;
+    this.#aim.visible = to !== undefined;
+    this.#ghost.visible = to !== undefined;
     if (to) {
       const dx = to[0]! - r[0]!;
       const dy = to[1]! - r[1]!;

@@ -125,7 +125,8 @@ export class Space implements SpaceView {
       canvas.addEventListener(type, () => {
         const to = at(from);
         if (type === "pointerup" && taps && to && free(s)) tap(s, grip, to);
-        this.#moves = taps = false;
+        this.#moves = false;
+        taps = false;
         s.changed();
       });
   }

@@ -104,8 +104,13 @@ async function toggle(s: Session): Promise<void> {
 function dialogs(s: Session): { all: HTMLElement[]; diagram: ReturnType<typeof diagramPage> } {
   const log = logPage(s.training.plan);
   const diagram = diagramPage(s.carom, s.coarse);
-  const shut = (text: string, id: string, then: () => void): HTMLElement =>
-    button(text, () => (games.root.close(), then()), { id });
+  const shut = (text: string, id: string, then: () => void): HTMLElement => {
+    const press = (): void => {
+      games.root.close();
+      then();
+    };
+    return button(text, press, { id });
+  };
   const draw = (): void => {
     const { play } = s;
     const sources: Source[] = play.last?.shot

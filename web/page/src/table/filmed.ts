@@ -87,7 +87,8 @@ export function filmOf(
               seen,
             };
           });
-          return (last = { time, poses }).poses;
+          last = { time, poses };
+          return poses;
         },
         paths,
         events: (shot?.events ?? []).map(({ time, type, a, b }) => ({
