@@ -110,8 +110,9 @@ uint32_t carom_stroke_marks(const carom_facts *facts, int cue_ball) {
 
 /* ---- The kind of a pot */
 
-static double distance_of(const double one[2], const double other[2]) {
-  return hypot(one[0] - other[0], one[1] - other[1]);
+static double square_of_distance(const double one[2], const double other[2]) {
+  const double x = one[0] - other[0], y = one[1] - other[1];
+  return x * x + y * y;
 }
 
 int carom_is_beside(const carom_table *table, int rail, int pocket) {
@@ -120,8 +121,9 @@ int carom_is_beside(const carom_table *table, int rail, int pocket) {
     return 0;
   const carom_rail *r = &table->rail[rail];
   const carom_pocket *hole = &table->pocket[pocket];
-  const double nearest = fmin(distance_of(r->p, hole->centre), distance_of(r->q, hole->centre));
-  return nearest < BESIDE * hole->radius;
+  const double near = BESIDE * hole->radius;
+  return square_of_distance(r->p, hole->centre) < near * near ||
+         square_of_distance(r->q, hole->centre) < near * near;
 }
 
 /* Event k of a shot, from whichever of its lists is kept. */
