@@ -173,7 +173,7 @@ def of_python(source):
     given = next(
         node.value
         for node in package
-        if isinstance(node, ast.Assign) and node.targets[0].id == "__all__"
+        if isinstance(node, ast.Assign) and node.targets[0].id == "_OFFERED"
     )
     return (
         text

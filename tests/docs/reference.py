@@ -23,7 +23,7 @@ package = ast.parse((SOURCE / "python/src/carom/__init__.py").read_text(encoding
 names = next(
     node.value
     for node in package.body
-    if isinstance(node, ast.Assign) and node.targets[0].id == "__all__"
+    if isinstance(node, ast.Assign) and node.targets[0].id == "_OFFERED"
 )
 modules = {path.stem for path in (SOURCE / "python/src/carom").glob("[a-z]*.py")}
 methods = re.findall(

@@ -20,33 +20,94 @@ import importlib as _importlib
 import sys as _sys
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from carom import dtypes, racks, tables
+from carom import dtypes as dtypes
+from carom import racks as racks
+from carom import tables as tables
 from carom._carom import ffi as _ffi
 from carom._carom import lib as _lib
 from carom._rows import listing as _listing
-from carom._short_names import MODULES as _MODULES
-from carom._short_names import Finder as _Finder
-from carom._shot_options import Options
-from carom._impacts import Outcome
-from carom.collisions import ALL_THREADS, alciatore, collide, impacts, mu_ball, trace
-from carom.cushions import cushion, cushion_impacts, cushion_trace
-from carom.derivatives import Flag, Hessian, Tangents, aim_slope, hessian, jacobian, tangents
-from carom.layouts import Table, balls, by_number, cue, place_ball, struck
-from carom.results import EventType, Features, Label, Shot, Shots
-from carom.shots import cite, resume, simulate, simulate_arrow, simulate_batch
-from carom.status import CaromError, Status
-
-_sys.meta_path.append(_Finder())
-_MODULES_OF_LISTINGS = (
-    "collisions cushions derivatives dtypes layouts racks results shots status tables".split()
+from carom._shot_options import Options as Options
+from carom._impacts import Outcome as Outcome
+from carom.collisions import (
+    ALL_THREADS as ALL_THREADS,
+    alciatore as alciatore,
+    collide as collide,
+    impacts as impacts,
+    mu_ball as mu_ball,
+    trace as trace,
 )
-for _name in _MODULES_OF_LISTINGS:
-    setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))  # noqa: B010
+from carom.cushions import (
+    cushion as cushion,
+    cushion_impacts as cushion_impacts,
+    cushion_trace as cushion_trace,
+)
+from carom.derivatives import (
+    Flag as Flag,
+    Hessian as Hessian,
+    Tangents as Tangents,
+    aim_slope as aim_slope,
+    hessian as hessian,
+    jacobian as jacobian,
+    tangents as tangents,
+)
+from carom.layouts import (
+    Table as Table,
+    balls as balls,
+    by_number as by_number,
+    cue as cue,
+    place_ball as place_ball,
+    struck as struck,
+)
+from carom.results import (
+    EventType as EventType,
+    Features as Features,
+    Label as Label,
+    Shot as Shot,
+    Shots as Shots,
+)
+from carom.shots import (
+    cite as cite,
+    resume as resume,
+    simulate as simulate,
+    simulate_arrow as simulate_arrow,
+    simulate_batch as simulate_batch,
+)
+from carom.status import (
+    CaromError as CaromError,
+    Status as Status,
+)
 
-__dir__ = _listing(__name__)
-__version__: str = _ffi.string(_lib.carom_version()).decode()
+if _TYPE_CHECKING:
+    from carom import drills as drills
+    from carom import fit as fit
+    from carom import gymnasium as gymnasium
+    from carom import matches as matches
+    from carom import pettingzoo as pettingzoo
+    from carom import plans as plans
+    from carom import pool as pool
+    from carom import potting as potting
+    from carom import rules as rules
+    from carom.games import (
+        Facts as Facts,
+        Foul as Foul,
+        Pot as Pot,
+        Rating as Rating,
+        Rules as Rules,
+        Ruling as Ruling,
+        Turn as Turn,
+        aim as aim,
+        chances as chances,
+        plan as plan,
+        player as player,
+        rating as rating,
+        referee as referee,
+        value as value,
+        with_errors as with_errors,
+    )
 
-__all__ = [
+# What the package gives, as dir(carom) shows it. It has no __all__, since help(carom) would print the
+# whole of every name there.
+_OFFERED = [
     "ALL_THREADS",
     "CaromError",
     "EventType",
@@ -105,27 +166,38 @@ __all__ = [
     "with_errors",
 ]
 
-if _TYPE_CHECKING:
-    from carom.games import Facts, Foul, Pot, Rating, Rules, Ruling, Turn
-    from carom.games import aim, chances, plan, player, rating, referee, value, with_errors
-else:
-    _names = __all__
-    del __all__
+# Names of the folder games, and modules of folders, which are loaded when they are asked for.
+_OF_GAMES = frozenset(
+    "Facts Foul Pot Rating Rules Ruling Turn aim chances plan player rating referee value "
+    "with_errors".split()
+)
+_MODULES_OF_FOLDERS = frozenset(
+    "drills fit gymnasium matches pettingzoo plans pool potting rules".split()
+)
 
-    def __getattr__(name: str) -> object:
-        """What lies in a folder: a module by its short name, or what `carom.games` gives. pydoc
-        would print the whole of all that `__all__` has.
-        """
-        if name == "__all__" and _sys._getframe(1).f_code.co_name != "docmodule":
-            return _names
-        try:
-            if f"carom.{name}" in _MODULES:
-                return _importlib.import_module(f"carom.{name}")
-            if name in _names:
-                return getattr(_importlib.import_module("carom.games"), name)
-        except ModuleNotFoundError as missing:
-            raise AttributeError(f"carom.{name}: {missing}", name=name) from missing
-        raise AttributeError(f"module 'carom' has no attribute {name!r}", name=name)
+_MODULES_OF_LISTINGS = (
+    "collisions cushions derivatives dtypes layouts racks results shots status tables".split()
+)
+for _name in _MODULES_OF_LISTINGS:
+    setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))  # noqa: B010
+
+__version__: str = _ffi.string(_lib.carom_version()).decode()
+
+
+def __dir__() -> list[str]:
+    return sorted(_OFFERED)
+
+
+def __getattr__(name: str) -> object:
+    """What lies in a folder of the package, which the core loads only when it is asked for."""
+    try:
+        if name in _MODULES_OF_FOLDERS:
+            return _importlib.import_module(f"carom.{name}")
+        if name in _OF_GAMES:
+            return getattr(_importlib.import_module("carom.games"), name)
+    except ModuleNotFoundError as missing:
+        raise AttributeError(f"carom.{name}: {missing}", name=name) from missing
+    raise AttributeError(f"module 'carom' has no attribute {name!r}", name=name)
 
 
 def isa_in_force() -> str:

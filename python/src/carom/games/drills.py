@@ -17,6 +17,7 @@ from carom.games.potting import Potting
 from carom.games.rules import Game as RulesGame
 from carom.layouts import Game
 
+__all__ = ["Break", "ThreeCushion"]
 __dir__ = listing(__name__)
 
 

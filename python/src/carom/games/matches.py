@@ -19,6 +19,7 @@ from carom.games.potting import Strokes, Turned
 from carom.games.rules import Made, State
 from carom.results import Label, Shot
 
+__all__ = ["Match"]
 __dir__ = listing(__name__)
 
 

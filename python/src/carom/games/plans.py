@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from carom._shot_options import Changes
 
+__all__ = ["Pot", "Rating", "aim", "chances", "plan", "player", "rating", "value", "with_errors"]
 __dir__ = listing(__name__)
 
 _USUAL = Options()

@@ -33,6 +33,7 @@ from carom.layouts import Table
 from carom.results import Label, Shot, Shots
 from carom.shots import simulate_batch
 
+__all__ = ["Hand", "Pool", "Position", "Stroke"]
 __dir__ = listing(__name__)
 
 _ONE = np.zeros(1, np.int64)

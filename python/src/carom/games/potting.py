@@ -44,6 +44,7 @@ from carom.results import Label, Shot
 from carom.shots import simulate
 from carom.status import CaromError
 
+__all__ = ["Potting", "Strokes", "Turned"]
 __dir__ = listing(__name__)
 
 _STATIONARY, _POCKETED = (

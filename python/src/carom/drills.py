@@ -1,0 +1,3 @@
+"""Environments of single tasks: `carom.games.drills`."""
+
+from carom.games.drills import *

@@ -1,0 +1,3 @@
+"""Environments of Gymnasium: `carom.games.gymnasium`."""
+
+from carom.games.gymnasium import *

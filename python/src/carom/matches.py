@@ -1,0 +1,3 @@
+"""Matches of two players: `carom.games.matches`."""
+
+from carom.games.matches import *

@@ -1,0 +1,3 @@
+"""Environments of PettingZoo: `carom.games.pettingzoo`."""
+
+from carom.games.pettingzoo import *

@@ -1,0 +1,3 @@
+"""Players and plans: `carom.games.plans`."""
+
+from carom.games.plans import *

@@ -1,0 +1,3 @@
+"""Pool by its rules, as an environment: `carom.games.pool`."""
+
+from carom.games.pool import *

@@ -1,0 +1,3 @@
+"""Practice of pots, as an environment: `carom.games.potting`."""
+
+from carom.games.potting import *
