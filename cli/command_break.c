@@ -1,16 +1,16 @@
 /* `carom break`: what comes of many breaks of a rack, with a player's errors. */
-#include "command.h"
-#include "memory.h"
-#include "message.h"
-#include "options.h"
-#include "output.h"
-#include "picture.h"
-#include "quantities.h"
-#include "shoot_flags.h"
-#include "shot_file.h"
-#include "shot_picture.h"
+#include "game/ways.h"
+#include "pictures/picture.h"
+#include "pictures/shot_picture.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/options.h"
+#include "program/output.h"
+#include "rows/quantities.h"
+#include "shots/shoot_flags.h"
+#include "shots/shot_file.h"
 #include "subcommands.h"
-#include "ways.h"
 
 #include <math.h>
 #include <stdlib.h>

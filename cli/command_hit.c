@@ -4,12 +4,12 @@
  * The cue ball comes along +x. A cut above 0 sends the object ball to the left as seen from
  * above.
  */
-#include "command.h"
-#include "contact_picture.h"
-#include "message.h"
-#include "picture.h"
-#include "quantities.h"
-#include "series.h"
+#include "pictures/contact_picture.h"
+#include "pictures/picture.h"
+#include "pictures/series.h"
+#include "program/command.h"
+#include "program/message.h"
+#include "rows/quantities.h"
 #include "subcommands.h"
 
 #include <math.h>

@@ -1,10 +1,10 @@
 /* `carom models`: what there is, by the rows of the library: models, words and numbers. */
-#include "command.h"
-#include "message.h"
-#include "options.h"
-#include "output.h"
+#include "program/command.h"
+#include "program/message.h"
+#include "program/options.h"
+#include "program/output.h"
+#include "program/words.h"
 #include "subcommands.h"
-#include "words.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,12 +4,12 @@
  * The cushion lies along x, and the ball comes to it towards +y and, at an angle of incidence
  * above 0, +x: to the right. Right english then is running english, left english is reverse.
  */
-#include "command.h"
-#include "contact_picture.h"
-#include "message.h"
-#include "picture.h"
-#include "quantities.h"
-#include "series.h"
+#include "pictures/contact_picture.h"
+#include "pictures/picture.h"
+#include "pictures/series.h"
+#include "program/command.h"
+#include "program/message.h"
+#include "rows/quantities.h"
 #include "subcommands.h"
 
 #include <math.h>

@@ -2,13 +2,13 @@
  * carom_record.h. docs/using/games.md has the format. */
 #include "carom_record.h"
 
-#include "command.h"
-#include "memory.h"
-#include "message.h"
-#include "number.h"
-#include "options.h"
-#include "output.h"
-#include "shot_file.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/options.h"
+#include "program/output.h"
+#include "rows/number.h"
+#include "shots/shot_file.h"
 #include "subcommands.h"
 
 #include <errno.h>

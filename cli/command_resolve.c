@@ -1,6 +1,6 @@
 /* `carom resolve`: rows from a file, by the library's solvers. */
-#include "help.h"
-#include "row_solver.h"
+#include "rows/help.h"
+#include "rows/row_solver.h"
 #include "subcommands.h"
 
 static const command_form form = {

@@ -1,19 +1,19 @@
 /* `carom ways`: the ways to pot a ball, to score on a table without pockets, or to bring the cue
  * ball to a place. ways.c finds them; here they are asked for and told. */
-#include "command.h"
-#include "memory.h"
-#include "message.h"
-#include "options.h"
-#include "output.h"
-#include "picture.h"
-#include "position.h"
-#include "shoot_aim.h"
-#include "shoot_flags.h"
-#include "shot_file.h"
-#include "shot_picture.h"
+#include "game/position.h"
+#include "game/ways.h"
+#include "pictures/picture.h"
+#include "pictures/shot_picture.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/options.h"
+#include "program/output.h"
+#include "program/words.h"
+#include "shots/shoot_aim.h"
+#include "shots/shoot_flags.h"
+#include "shots/shot_file.h"
 #include "subcommands.h"
-#include "ways.h"
-#include "words.h"
 
 #include <math.h>
 #include <stdlib.h>

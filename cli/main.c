@@ -1,5 +1,5 @@
 /* `carom`: the program for users. */
-#include "command.h"
+#include "program/command.h"
 #include "subcommands.h"
 
 int main(int argc, char **argv) {

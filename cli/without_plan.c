@@ -1,8 +1,8 @@
 /* What stands for the planner's commands and options in a build without it (-DCAROM_PLAN=OFF), of
  * `carom` and of `carom-lab`: each says that there is no planner. */
-#include "command.h"
-#include "message.h"
-#include "position.h"
+#include "game/position.h"
+#include "program/command.h"
+#include "program/message.h"
 #include "subcommands.h"
 
 static bool refuse(const char *what) {

@@ -2,7 +2,7 @@
 #include "machine.h"
 
 #include "commit.h"
-#include "monotonic.h"
+#include "program/monotonic.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -8,9 +8,9 @@
  * interrupted sample is too long, none is ever too short. */
 #include "rounds.h"
 
-#include "memory.h"
-#include "monotonic.h"
 #include "pinning.h"
+#include "program/memory.h"
+#include "program/monotonic.h"
 
 #include <math.h>
 #include <stdlib.h>

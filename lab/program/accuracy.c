@@ -1,7 +1,7 @@
 /* How far results are from a reference. */
 #include "accuracy.h"
 
-#include "memory.h"
+#include "program/memory.h"
 #include "rounds.h"
 
 #include <math.h>

@@ -4,12 +4,12 @@
  * none gains energy. The ratio to Han is that of the same round, so what disturbs the machine for
  * longer than a round meets both; its spread is over the rounds. The clock is the processor's. */
 #include "bench_job.h"
-#include "command.h"
 #include "draws.h"
 #include "machine.h"
-#include "memory.h"
-#include "message.h"
-#include "monotonic.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/monotonic.h"
 #include "sheet.h"
 
 enum { IMPACTS = 512, HAN = 0 };

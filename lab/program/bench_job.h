@@ -3,7 +3,7 @@
 #ifndef CAROM_LAB_BENCH_JOB_H
 #define CAROM_LAB_BENCH_JOB_H
 
-#include "options.h"
+#include "program/options.h"
 #include "rounds.h"
 
 #include <stdio.h>

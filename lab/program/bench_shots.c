@@ -6,13 +6,13 @@
  * refused. With one thread the clock is the processor's time, which other programs disturb
  * least, as pooltool's was taken. */
 #include "bench_job.h"
-#include "command.h"
 #include "machine.h"
-#include "memory.h"
-#include "message.h"
-#include "monotonic.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/monotonic.h"
 #include "sheet.h"
-#include "shot_file.h"
+#include "shots/shot_file.h"
 
 #include <math.h>
 #include <stdlib.h>

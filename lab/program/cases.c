@@ -1,10 +1,10 @@
 /* The reference collisions in data/. */
 #include "cases.h"
 
-#include "memory.h"
-#include "message.h"
-#include "number.h"
-#include "source.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "rows/number.h"
+#include "rows/source.h"
 
 #include <limits.h>
 #include <stdint.h>

@@ -3,7 +3,7 @@
 #define CAROM_LAB_CASES_H
 
 #include "carom.h"
-#include "records.h"
+#include "rows/records.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,13 +1,13 @@
 /* `carom-lab experiments`: the 2014 paper's five shots, measured, as it predicted them, and as
  * the solvers compute them. */
 #include "cases.h"
-#include "command.h"
 #include "kernel.h"
-#include "memory.h"
-#include "message.h"
-#include "output.h"
-#include "place.h"
-#include "records.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/output.h"
+#include "program/place.h"
+#include "rows/records.h"
 #include "sheet.h"
 #include "subcommands.h"
 

@@ -1,7 +1,7 @@
 /* `carom-lab kernels`: the table of kernels. */
-#include "command.h"
 #include "kernel.h"
-#include "output.h"
+#include "program/command.h"
+#include "program/output.h"
 #include "sheet.h"
 #include "subcommands.h"
 

@@ -4,11 +4,11 @@
  * to where pooltool's own histories part when the start is moved by 1e-13, have the same types
  * and balls in the same order, and times and states are within 1e-12 + 5e-13 times the recorded
  * amplification. */
-#include "command.h"
-#include "memory.h"
-#include "message.h"
-#include "options.h"
-#include "shot_file.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/options.h"
+#include "shots/shot_file.h"
 #include "subcommands.h"
 
 #include <math.h>

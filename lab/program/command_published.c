@@ -1,10 +1,10 @@
 /* `carom-lab published`: lab/published.py, which sets the values of data/measured.csv beside those
  * of carom.
  * It reads carom's headers and calls the shared library. */
-#include "command.h"
-#include "options.h"
-#include "output.h"
-#include "place.h"
+#include "program/command.h"
+#include "program/options.h"
+#include "program/output.h"
+#include "program/place.h"
 #include "subcommands.h"
 
 #include <limits.h>

@@ -1,10 +1,10 @@
 /* `carom-lab resolve`: collisions from a file, by any kernel: a solver of the library, or a rung
  * of the ladder in any build. */
-#include "command.h"
-#include "help.h"
 #include "kernel.h"
-#include "message.h"
-#include "row_solver.h"
+#include "program/command.h"
+#include "program/message.h"
+#include "rows/help.h"
+#include "rows/row_solver.h"
 #include "subcommands.h"
 
 typedef struct resolve_job {

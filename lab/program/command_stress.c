@@ -5,15 +5,15 @@
  * solved by single calls. The precise solver behind the calls, whose own error is about 1e-9 at
  * most, is what they are compared with. The reference of lab/stress decides where it and a call
  * differ by more than REFERENCE_FROM, and for 1 row in 1000 of each group. */
-#include "command.h"
 #include "draws.h"
-#include "memory.h"
-#include "message.h"
-#include "number.h"
-#include "options.h"
-#include "output.h"
-#include "precision.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/options.h"
+#include "program/output.h"
 #include "reference.h"
+#include "rows/number.h"
+#include "rows/precision.h"
 #include "subcommands.h"
 
 #include "ball_ball/frame.h"

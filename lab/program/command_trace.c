@@ -1,13 +1,13 @@
 /* `carom-lab trace`: a reference collision over normal impulse, by the exact solver and by Euler's
  * method, as the CSV file that lab/figures/trace.gp draws. */
 #include "cases.h"
-#include "command.h"
-#include "kind.h"
-#include "memory.h"
-#include "message.h"
-#include "number.h"
-#include "output.h"
-#include "place.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/output.h"
+#include "program/place.h"
+#include "rows/kind.h"
+#include "rows/number.h"
 #include "subcommands.h"
 
 #include <math.h>

@@ -1,12 +1,12 @@
 /* `carom-lab verify`: every kernel against the references, with a bound on each. */
 #include "accuracy.h"
 #include "cases.h"
-#include "command.h"
 #include "kernel.h"
-#include "memory.h"
-#include "message.h"
-#include "output.h"
-#include "place.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/output.h"
+#include "program/place.h"
 #include "sheet.h"
 #include "subcommands.h"
 

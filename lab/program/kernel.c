@@ -1,7 +1,7 @@
 /* The kernels that the program knows. */
 #include "kernel.h"
 
-#include "message.h"
+#include "program/message.h"
 
 #include <string.h>
 

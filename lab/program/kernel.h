@@ -5,7 +5,7 @@
 
 #include "carom.h"
 #include "ladder.h"
-#include "options.h"
+#include "program/options.h"
 
 /* What a kernel must reach on the reference cases, checked by `carom-lab verify`. */
 typedef struct kernel_claim {

@@ -1,6 +1,6 @@
 /* `carom-lab`: the program of the study. A new subcommand is a file command_NAME.c, a line in
  * subcommands.h and a row here. */
-#include "command.h"
+#include "program/command.h"
 #include "subcommands.h"
 
 int main(int argc, char **argv) {

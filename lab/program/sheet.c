@@ -1,7 +1,7 @@
 /* The rows are gathered, so that each column can be as wide as its widest cell. */
 #include "sheet.h"
 
-#include "memory.h"
+#include "program/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -10,10 +10,10 @@
  * balls count for each player it is gentle or hard, and those that are down are shared out at
  * random.
  */
-#include "command.h"
-#include "memory.h"
-#include "message.h"
-#include "options.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/options.h"
 #include "rack_play.h"
 #include "subcommands.h"
 

@@ -2,11 +2,11 @@
  * ball in hand by a player who errs, or played to the end by two; and how often shots come off
  * and games are won beside the chances that were predicted for them. Of games of points also how
  * many a visit makes. */
-#include "command.h"
-#include "memory.h"
-#include "message.h"
-#include "monotonic.h"
-#include "options.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/monotonic.h"
+#include "program/options.h"
 #include "rack_play.h"
 #include "subcommands.h"
 

@@ -1,7 +1,7 @@
 /* Racks and breaks, and strokes by plans. */
 #include "rack_play.h"
-#include "memory.h"
-#include "message.h"
+#include "program/memory.h"
+#include "program/message.h"
 
 bool lab_game_is_played(int rules) {
   const bool known = carom_rules_about_of((carom_rules_kind)rules)->last > 0;

@@ -1,5 +1,5 @@
 /* Options of `carom plan` are those of the library. */
-#include "options.h"
+#include "program/options.h"
 #include "support.h"
 
 #include "carom_plan.h"

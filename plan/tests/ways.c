@@ -1,6 +1,6 @@
 /* Ways: each window of directions that a sweep finds is listed, with its kind, and direct aims find
  * those at rails. The kind is read off the events here too, from the ball's side. */
-#include "ways.h"
+#include "game/ways.h"
 #include "plan_support.h"
 
 enum { SWEPT = 18000, LEAST = 10, ROOM = 300, SPEEDS = 3 };

@@ -3,8 +3,8 @@
  * exit code is none of the command's, if the output depends on the number of threads, or if a
  * file is refused and yet something is written. Crashes, hangs and undefined behaviour are for
  * the fuzzer and the sanitizers to see. */
-#include "command.h"
-#include "message.h"
+#include "program/command.h"
+#include "program/message.h"
 #include "subcommands.h"
 
 #include <getopt.h>

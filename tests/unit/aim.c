@@ -1,9 +1,9 @@
 /* Aiming at a ball: what is found holds, and what is refused is not there. The judge plays
  * shots, and knows nothing of paths.
  */
-#include "ball_aim.h"
-#include "quantities.h"
+#include "rows/quantities.h"
 #include "shot_support.h"
+#include "shots/ball_aim.h"
 
 #include <math.h>
 #include <stdio.h>

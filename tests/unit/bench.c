@@ -1,8 +1,8 @@
 /* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that
  * the test turns by hand. Nothing here asserts a real time. */
 #include "machine.h"
-#include "monotonic.h"
 #include "pinning.h"
+#include "program/monotonic.h"
 #include "rounds.h"
 #include "support.h"
 

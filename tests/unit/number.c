@@ -1,6 +1,6 @@
 /* Numbers as text: what is read, and that what is written is the shortest of %.15g, %.16g and
  * %.17g that reads back. */
-#include "number.h"
+#include "rows/number.h"
 #include "support.h"
 
 #include <float.h>

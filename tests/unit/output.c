@@ -7,8 +7,8 @@
  * beside it; and its handler must unlink nothing but the file beside. The same where no file can
  * be made beside the old one, which is then overwritten. Freed memory is overwritten first, so
  * that a handler that reads it is seen without an address sanitizer too. */
-#include "output.h"
-#include "message.h"
+#include "program/output.h"
+#include "program/message.h"
 #include "support.h"
 
 #include <dirent.h>

@@ -1,5 +1,5 @@
 /* CSV records: what real files contain. */
-#include "records.h"
+#include "rows/records.h"
 #include "support.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Words that the command has are those of the library. */
-#include "options.h"
-#include "shoot_flags.h"
+#include "program/options.h"
+#include "shots/shoot_flags.h"
 #include "support.h"
 
 #include <string.h>

@@ -1,0 +1,149 @@
+/* Aims at pockets from words: the planner's, and why there is none. */
+#include "carom_plan.h"
+#include "program/message.h"
+#include "program/words.h"
+#include "shots/places.h"
+#include "shots/shot_story.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A way in words: " by a kick off the head rail" for rails before the first ball, " by ball 2", "
+ * off the left rail". */
+static void say_way(const layout *l, const carom_pot *pot, char words[AIMED_TEXT]) {
+  int first = 0;
+  while (first < pot->vias && pot->via[first].kind == CAROM_PART_RAIL)
+    first++;
+  words[0] = '\0';
+  for (int k = 0; k < pot->vias; k++) {
+    const carom_part *part = &pot->via[k];
+    const bool again = k > 0 && part[-1].kind == CAROM_PART_RAIL;
+    char *end = words + strlen(words);
+    const size_t room = (size_t)(words + AIMED_TEXT - end);
+    if (part->kind == CAROM_PART_RAIL)
+      snprintf(end, room, "%s the %s rail",
+               again                            ? ","
+               : k < first && first < pot->vias ? " by a kick off"
+                                                : " off",
+               carom_rail_name(&l->table, part->index));
+    else if (part->index != pot->ball)
+      snprintf(end, room, " by ball %s", l->name[part->index]);
+  }
+}
+
+/* The way of --via; false after a complaint. */
+static bool read_via(const layout *l, const char *via, carom_pot *pot) {
+  char names[NAMES_TEXT], one[PLACE_NAME] = "", hint[HINT_TEXT];
+  bool named = false, good = true;
+  for (size_t size; via != NULL && good; via = via[size] != '\0' ? via + size + 1 : NULL) {
+    size = strcspn(via, ",");
+    carom_part part = {.index = ball_named(l, via, size, names)};
+    part.kind = part.index >= 0 ? CAROM_PART_BALL : CAROM_PART_NONE;
+    for (int rail = 0; rail < l->table.rails; rail++) {
+      const char *name = carom_rail_name(&l->table, rail);
+      if (part.kind == CAROM_PART_NONE && name != NULL && strlen(name) == size &&
+          strncmp(name, via, size) == 0)
+        part = (carom_part){CAROM_PART_RAIL, rail};
+    }
+    snprintf(one, sizeof one, "%.*s", (int)(size < sizeof one ? size : sizeof one - 1), via);
+    good = part.kind != CAROM_PART_NONE && pot->vias < CAROM_VIA_MOST &&
+           !(named && part.kind == CAROM_PART_BALL);
+    for (int k = 0; k < pot->vias; k++) /* a ball is met once */
+      good &= part.kind != CAROM_PART_BALL || pot->via[k].kind != part.kind ||
+              pot->via[k].index != part.index;
+    if (!good)
+      break;
+    named |= part.kind == CAROM_PART_BALL && part.index == pot->ball;
+    pot->via[pot->vias++] = part;
+  }
+  snprintf(names + strlen(names), NAMES_TEXT - strlen(names), RAILS);
+  if (!good)
+    complain("--via is up to %d of balls, the one of --pocket last, and rails (head, foot, left, "
+             "right), such as 2,left, or head,%s for a kick; '%s' is none that can be there%s",
+             CAROM_VIA_MOST, l->name[pot->ball], one, did_you_mean(one, names, hint));
+  return good;
+}
+
+/* Says why there is no aim. */
+static void complain_of(const char *pocket, const char *via, const layout *l, const carom_pot *pot,
+                        double speed) {
+  const carom_brief_event *met = &pot->met;
+  char text[BALL_TEXT], more[BALL_TEXT], why[160] = "the jaws send the ball back at this speed";
+  const char *what = pot->vias > 0 ? "by this way" : "there directly";
+  /* of two balls that meet the one on its way comes first, unless both are */
+  const bool first = met->a == 0 || met->a == pot->ball;
+  const int own = first ? met->a : met->b, other = first ? met->b : met->a;
+  bool twice = other == 0 || other == pot->ball;
+  for (int k = 0; k < pot->vias; k++)
+    twice |= pot->via[k].kind == CAROM_PART_BALL && pot->via[k].index == other;
+  if (pot->is == CAROM_POT_STICK)
+    snprintf(why, sizeof why,
+             "the stick would be raised by %.4g degrees over what is behind the cue ball, and "
+             "nobody plays above 60; give a higher --tip",
+             pot->elevation);
+  else if (pot->is == CAROM_POT_NO_WAY)
+    snprintf(why, sizeof why, "no direction of the cue sends the ball %s", what);
+  else if (pot->is == CAROM_POT_SHORT)
+    snprintf(why, sizeof why,
+             "%s comes to rest on its way, with the cue at %.3g m/s; give a higher --speed",
+             ball_words(l, met->a, text), speed);
+  else if (pot->is == CAROM_POT_BARRED && met->type == CAROM_EVENT_BALL_BALL && twice)
+    snprintf(why, sizeof why, "%s and %s meet twice", ball_words(l, own, text),
+             ball_words(l, other, more));
+  else if (pot->is == CAROM_POT_BARRED)
+    snprintf(why, sizeof why, "%s is in the way of %s", obstacle(l, met->type, other, text),
+             ball_words(l, own, more));
+  complain("--pocket %s%s%s: no such aim: %s", pocket, via != NULL ? " --via " : "",
+           via != NULL ? via : "", why);
+}
+
+bool aim_at_pocket(const char *pocket, const char *via, const layout *l,
+                   const carom_shot_options *options, carom_cue *cue, char told[AIMED_TEXT]) {
+  const char *colon = strchr(pocket, ':'), *name = colon != NULL ? colon + 1 : "";
+  char known[NAMES_TEXT] = "", balls[NAMES_TEXT], by[AIMED_TEXT], hint[HINT_TEXT];
+  char ball[PLACE_NAME];
+  named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
+  carom_pot pot = {.pocket = pocket_named(&l->table, t->pocket, name, known),
+                   .ball =
+                       ball_named(l, pocket, colon != NULL ? (size_t)(colon - pocket) : 0, balls)};
+  snprintf(ball, sizeof ball, "%.*s", (int)strcspn(pocket, ":"), pocket);
+  bool good = false;
+  free_table(t);
+  if (l->table.pockets == 0)
+    complain("--pocket: the table has none");
+  else if (pot.ball < 0 || pot.pocket < 0)
+    complain("--pocket is BALL:POCKET, such as 1:foot-left, with a ball of --balls and one of %s "
+             "or its id; not '%.60s'%s",
+             known, pocket,
+             pot.ball < 0 ? did_you_mean(ball, balls, hint) : did_you_mean(name, known, hint));
+  else if (!read_via(l, via, &pot))
+    return false;
+  else if (carom_aim(&l->table, l->ball, l->count, options, &pot, cue) != CAROM_OK) {
+    cue->theta = isnan(cue->theta) ? 0.0 : cue->theta;
+    good = true; /* which is told when it is played */
+  } else if (pot.is != CAROM_POT_FALLS) {
+    *l->missed = true;
+    if (!l->quiet)
+      complain_of(pocket, via, l, &pot, cue->speed);
+  } else {
+    char margin[80] = "the ball touches a jaw", raise[96] = "";
+    say_way(l, &pot, by);
+    if (pot.margin > 0.0)
+      snprintf(margin, sizeof margin, "the ball's way may turn by %.2f degrees to either jaw",
+               pot.margin);
+    if (cue->theta < pot.elevation)
+      snprintf(raise, sizeof raise,
+               "stick  meets a cushion or a ball: this needs %.1f degrees, --elevation least\n",
+               pot.elevation);
+    good =
+        snprintf(
+            told, AIMED_TEXT,
+            "aim    %s to the %s pocket%s: cut %.1f degrees to the %s; %s\n       falls with aims "
+            "of %.2f to %.2f degrees at this speed, and with %.3g to %.3g m/s of the cue at this "
+            "aim\n%s",
+            l->name[pot.ball], carom_pocket_name(&l->table, pot.pocket), by, fabs(pot.cut),
+            pot.cut < 0.0 ? "right" : "left", margin, pot.phi[0], pot.phi[1], pot.speed[0],
+            pot.speed[1], raise) > 0;
+  }
+  return good;
+}

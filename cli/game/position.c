@@ -1,0 +1,186 @@
+/* Where the cue ball shall end. `carom ways` counts it for the chance of a way; here it chooses the
+ * speed and the tip of a shot: each stroke is played without errors, and of those by which the cue
+ * ball ends there the one with the best chance is taken. */
+#include "game/position.h"
+
+#include "game/ways.h"
+#include "program/memory.h"
+#include "program/message.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+OPTION_SET(set_leave) {
+  leave *to = field;
+  char copy[PLACE_TEXT], spelt[PLACE_TEXT], *rest = NULL;
+  value *part[] = {&to->x, &to->y, &to->radius};
+  int parts = 0;
+  bool good = strlen(text) < sizeof copy;
+  snprintf(copy, sizeof copy, "%s", place_spelt(text, spelt));
+  value_of(MEASURE_LENGTH, "0.15", &to->radius);
+  for (char *one = strtok_r(copy, ",", &rest); one != NULL && good;
+       one = strtok_r(NULL, ",", &rest), parts++)
+    good = parts < 3 && value_of(MEASURE_PLACE, one, part[parts]);
+  to->given = good && parts >= 2 && to->radius.x > 0.0;
+  if (!to->given)
+    complain("--%s is X,Y or X,Y,R in m, or with units: 2d,4d,20cm, or PLACE or PLACE,R: " PLACES
+             "; not '%.60s'",
+             row->name, text);
+  return to->given;
+}
+
+void leave_into(const leave *to, ways_search *s) {
+  const carom_table *t = &s->line->table->table;
+  s->radius = to->given ? place_along(&to->radius, 0.125 * t->length) : 0.0;
+  s->place[0] = place_along(&to->x, 0.25 * t->width);
+  s->place[1] = place_along(&to->y, 0.125 * t->length);
+}
+
+/* A file of the strokes of all values, without those by which the ball cannot be aimed; *text is to
+ * be freed in the end. NULL after a complaint. */
+static shot_file *strokes_of(const shoot_flags *f, const carom_shot_options *options, char **text) {
+  static shoot_flags all; /* what is not given becomes what is usual */
+  size_t size;
+  all = *f;
+  all.tries = true;
+  if (f->speed.count == 0 && f->ball_speed.count == 0)
+    values_default(&all.speed, MEASURE_SPEED, "0.5:4:0.1");
+  if (f->tip.count == 0)
+    option_tip.set(&option_tip, (char[]){"0,-0.4:0.4:0.2"}, &all.tip);
+  FILE *lines = open_text(text, &size);
+  const bool good = flags_write(lines, &all, options, MOST_ROWS);
+  close_text(lines, text);
+  if (good && size == 0)
+    complain("--leave: by no speed and tip that is tried there is such an aim");
+  if (!good || size == 0)
+    return NULL;
+  FILE *in = fmemopen(*text, size, "r");
+  if (in == NULL)
+    out_of_memory();
+  return shot_file_of(in, "the shot given");
+}
+
+/* The ball and the pocket of --pocket, which has been aimed at. */
+static void name_pot(const char *pocket, const shot_line *line, way *w) {
+  const char *colon = strchr(pocket, ':');
+  char known[NAMES_TEXT] = "";
+  w->kind = CAROM_PLAN_POT;
+  w->pocket = pocket_named(&line->table->table, line->table->pocket, colon + 1, known);
+  for (int k = 0; k < line->count; k++)
+    if (strncmp(line->name[k], pocket, (size_t)(colon - pocket)) == 0 &&
+        line->name[k][colon - pocket] == '\0')
+      w->ball = k;
+}
+
+/* How far from the place the cue ball ends without errors, m; `good` where all is as it shall. */
+static double miss_of(const ways_search *s, const way *w, bool *good) {
+  carom_facts facts;
+  carom_ball_state final[CAROM_BALLS_MOST];
+  carom_shot shot = {.facts = &facts, .final = final};
+  const carom_status status = carom_shoot(&s->line->table->table, s->line->ball, s->line->count,
+                                          &w->cue, &s->options, &shot);
+  *good = status >= 0 && way_is_good(s, &facts, final, w);
+  const carom_ball_state *cue = &final[s->line->cue.ball];
+  return status >= 0 && cue->label == CAROM_BALL_STATIONARY
+             ? hypot(cue->r[0] - s->place[0], cue->r[1] - s->place[1])
+             : INFINITY;
+}
+
+/* Gives the flags the one stroke. */
+static void take(shoot_flags *f, const carom_cue *cue) {
+  const place_list tip = {.count = 1, .at = {{.x = {.x = 0.0 - cue->a}, .y = {.x = cue->b}}}};
+  f->ball_speed.count = 0;
+  f->speed.count = f->elevation.count = 1;
+  f->speed.at[0] = (value){.x = cue->speed};
+  f->elevation.at[0] = (value){.x = cue->theta};
+  f->tip = tip;
+  if (f->pocket != NULL) /* is aimed at again */
+    return;
+  f->at_ball = NULL;
+  f->cut.count = f->to.count = 0;
+  f->aim.count = 1;
+  f->aim.at[0] = (value){.x = cue->phi};
+}
+
+/* Whether a stroke follows another in the range of its speeds. */
+static bool follows(const carom_cue *b, const carom_cue *a) {
+  return a->a == b->a && a->b == b->b && a->theta == b->theta && b->speed > a->speed;
+}
+
+/* Chooses among the strokes; false after a complaint. */
+static bool choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
+                   const carom_player *player, const shot_line *line, const carom_cue *cue,
+                   int count, char told[LEFT_TEXT]) {
+  static bool good[MOST_ROWS];
+  ways_search s = {.line = line,
+                   .options = *options,
+                   .player = *player,
+                   .aim = f->pocket != NULL ? TO_POT : TO_PLACE};
+  way w = {.kind = -1, .ball = -1, .pocket = -1}, best = {.chance = -1.0};
+  leave_into(to, &s);
+  if (f->pocket != NULL)
+    name_pot(f->pocket, line, &w);
+
+  /* the best of those that end there, and else the nearest */
+  int at = -1, nearest = -1, there = 0;
+  double least = INFINITY;
+  bool fine = true;
+  for (int k = 0; k < count && fine; k++) {
+    w.cue = cue[k];
+    const double miss = miss_of(&s, &w, &good[k]);
+    nearest = miss < least ? k : nearest;
+    least = fmin(miss, least);
+    there += good[k];
+    if (!good[k])
+      continue;
+    fine = ways_chance(&s, &w);
+    at = w.chance > best.chance ? k : at;
+    best = w.chance > best.chance ? w : best;
+    progress_show("strokes", (double)k, (double)count);
+  }
+  progress_clear();
+  if (fine && at < 0 && nearest < 0)
+    complain("--leave: by none of %d strokes the cue ball stays on the table", count);
+  else if (fine && at < 0)
+    complain(
+        "--leave: none of %d strokes does it; the nearest, with the cue at %.3g m/s and the tip "
+        "%.2f R right and %.2f above, leaves the cue ball %.2f m away",
+        count, cue[nearest].speed, 0.0 - cue[nearest].a, cue[nearest].b, least);
+  if (at >= 0) {
+    /* neighbouring speeds with the same tip */
+    int low = at, high = at;
+    while (low > 0 && good[low - 1] && follows(&cue[low], &cue[low - 1]))
+      low--;
+    while (high + 1 < count && good[high + 1] && follows(&cue[high + 1], &cue[high]))
+      high++;
+    snprintf(told, LEFT_TEXT,
+             "leave  within %.3g m of x = %.3f, y = %.3f m: %.1f %% of this player's strokes, the "
+             "best of %d, of which %d do it\n       with this tip from %.3g to %.3g m/s of the cue "
+             "without errors\n",
+             s.radius, s.place[0], s.place[1], 100.0 * best.chance, count, there, cue[low].speed,
+             cue[high].speed);
+    take(f, &cue[at]);
+  }
+  return at >= 0;
+}
+
+bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
+                  char told[LEFT_TEXT]) {
+  static carom_cue cue[MOST_ROWS];
+  static shot_line line;
+  char *text;
+  carom_player player;
+  if (!player_of(&f->shared.player, &player))
+    return false;
+  without_bounds(&player);
+  shot_file *file = strokes_of(f, options, &text);
+  const int count = file != NULL ? strokes_read(file, &f->shared, &line, cue, MOST_ROWS) : 0;
+  const bool found = count > 0 && choose(to, f, options, &player, &line, cue, count, told);
+  if (count > 0)
+    shot_line_free(&line);
+  if (file != NULL)
+    shot_file_close(file);
+  free(text);
+  return found;
+}

@@ -1,0 +1,35 @@
+/* The colours of balls in pictures, by their names. */
+#include "pictures/ball_colours.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *const ball_colours[16] = {
+    "#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd",
+    "#111111", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"};
+
+const char *named_colour(const char *name) {
+  static const struct {
+    const char *name, *colour;
+  } named[] = {{"cue", "#ffffff"},   {"white", "#ffffff"}, {"yellow", "#ffd84a"},
+               {"green", "#b6f09c"}, {"brown", "#c9a27a"}, {"blue", "#8fc1ff"},
+               {"pink", "#f2a0bd"},  {"black", "#111111"}};
+  for (size_t k = 0; k < sizeof named / sizeof named[0]; k++)
+    if (strcmp(name, named[k].name) == 0)
+      return named[k].colour;
+  return strncmp(name, "red", 3) == 0 ? "#ff8d80" : NULL;
+}
+
+const char *colour_of(const char *name, int index) {
+  char *end;
+  const long number = strtol(name, &end, 10);
+  return named_colour(name) != NULL                    ? named_colour(name)
+         : *end == '\0' && number >= 1 && number <= 15 ? ball_colours[number]
+                                                       : ball_colours[index % 16];
+}
+
+bool is_striped(const char *name) {
+  char *end;
+  const long number = strtol(name, &end, 10);
+  return *end == '\0' && number >= 9 && number <= 15;
+}

@@ -1,0 +1,102 @@
+/* The best shot of a plan as a picture: without errors, some strokes with errors, and what comes of
+ * many. */
+#include "pictures/plan_picture.h"
+
+#include "pictures/picture.h"
+#include "pictures/shot_picture.h"
+#include "program/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The best shot as a picture. */
+typedef struct best_shot {
+  played shot;
+  const char *words;
+} best_shot;
+
+static void draw(FILE *out, const void *data) {
+  const best_shot *best = data;
+  shots_draw(out, &best->shot, 1, best->words);
+}
+
+/* Strokes with errors, of which some are drawn. */
+enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_DOUBLE_HIT + 1, MISS = FOULS, LOSS, WAYS };
+
+/* Plays the best shot with the player's errors, and says how often which failure comes of it, the
+ * most frequent first. The first of the shots are kept, with their events. */
+static void say_failures(const planned *p, const shot_line *line, uint64_t seed, carom_shot *kept,
+                         FILE *out) {
+  int times[WAYS] = {0}, good = 0;
+  uint32_t in_play = 0;
+  for (int k = 0; k < line->count && k < CAROM_BALLS_MOST; k++)
+    in_play |= (uint32_t)(line->ball[k].state.label != CAROM_BALL_POCKETED) << k;
+  for (int n = 0; n < TRIED; n++) {
+    carom_facts facts;
+    carom_ball_state final[CAROM_BALLS_MOST];
+    carom_shot unkept = {.final = final}, *shot = n < DRAWN ? &kept[n] : &unkept;
+    shot_line stroke = *line;
+    carom_player_strike(&p->player, seed, (uint64_t)n, &stroke.cue);
+    shot->facts = &facts;
+    if (n < DRAWN)
+      shot_line_play(&stroke, NULL, shot);
+    else
+      carom_shoot(&line->table->table, line->ball, line->count, &stroke.cue, NULL, shot);
+    shot->facts = NULL;
+
+    /* by the rules */
+    carom_rules_state state = p->rules.state;
+    const carom_turn turn =
+        p->rules.judge(&state, in_play, 0, &facts, (carom_call){p->best.ball, p->best.pocket});
+    const bool keeps = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+    good += keeps;
+    if (!keeps)
+      times[turn.foul != 0 ? turn.foul : turn.is == CAROM_TURN_LOSE ? LOSS : MISS]++;
+  }
+
+  const bool points = line->table->table.pockets == 0;
+  fprintf(out, "Of %d strokes with errors %d %s.", TRIED, good, points ? "score" : "play on");
+  for (int said = 0; said < 3; said++) {
+    int most = 0;
+    for (int k = 1; k < WAYS; k++)
+      most = times[k] > times[most] ? k : most;
+    if (times[most] > 0)
+      fprintf(out, " %d %s%s.", times[most], most < FOULS ? "foul: " : "",
+              most == LOSS   ? "lose the game"
+              : most == MISS ? points ? "score nothing" : "pot nothing that counts, without a foul"
+                             : carom_foul_string(most));
+    times[most] = 0;
+  }
+  fputc('\n', out);
+}
+
+bool plan_draw(const char *path, shot_line *line, const planned *p, uint64_t seed,
+               const char *what) {
+  const carom_choice *c = &p->best;
+  static carom_ball_state final[DRAWN + 1][CAROM_BALLS_MOST];
+  carom_shot shot = {.final = final[DRAWN]}, kept[DRAWN] = {0};
+  line->cue = c->cue;
+  line->cue.speed = c->kind == CAROM_PLAN_PASS ? 0.0 : c->cue.speed;
+  line->ball[0].state.r[0] = c->place[0];
+  line->ball[0].state.r[1] = c->place[1];
+  line->ball[0].state.r[2] = line->ball[0].kind.radius;
+  line->ball[0].state.label = CAROM_BALL_STATIONARY;
+  shot_line_play(line, NULL, &shot);
+  char *words;
+  size_t size;
+  FILE *said = open_text(&words, &size);
+  fprintf(said, "The best: %s.\n", what);
+  const int drawn = c->kind == CAROM_PLAN_PASS ? 0 : DRAWN;
+  for (int n = 0; n < drawn; n++)
+    kept[n].final = final[n];
+  if (drawn > 0)
+    say_failures(p, line, seed, kept, said);
+  close_text(said, &words);
+  const best_shot best = {{line, &shot, NULL, kept, drawn}, words};
+  const bool good = svg_draw(path, draw, &best);
+  for (int n = 0; n < drawn; n++)
+    free(kept[n].events);
+  free(shot.events);
+  free(words);
+  return good;
+}

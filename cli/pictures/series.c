@@ -1,0 +1,338 @@
+/* Impacts from words. */
+#include "pictures/series.h"
+
+#include "pictures/contact_picture.h"
+#include "pictures/picture.h"
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/output.h"
+#include "rows/doubts.h"
+#include "rows/number.h"
+#include "rows/quantities.h"
+#include "rows/sink.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum { MOST_COMBINED = 1000000 }; /* of a table */
+
+static int inputs_of(const series *s) {
+  int count = 0;
+  while (s->scene->inputs[count].name != NULL)
+    count++;
+  return count;
+}
+
+/* The input that is a range; -1 if there is none. */
+static int range_of(const series *s) {
+  int range = -1;
+  for (int k = 0; k < inputs_of(s); k++)
+    range = s->in[k].range ? k : range;
+  return range;
+}
+
+/* How many combinations there are, or INT_MAX. */
+static int count_of(const series *s) {
+  double count = 1.0;
+  for (int k = 0; k < inputs_of(s); k++)
+    count *= s->in[k].count;
+  return (int)fmin(count, INT_MAX);
+}
+
+/* Whether a curve's footer tells it as another input, or as the law. */
+static bool is_tacit(const series *s, int k) {
+  return isnan(s->in[k].at[0].x) || s->scene->inputs[k].measure == MEASURE_MODEL;
+}
+
+/* Combination number `index`: a range changes fastest, then the last of the lists. */
+static void make_case(const series *s, int index, one_case *c) {
+  const int range = range_of(s), inputs = inputs_of(s);
+  *c = (one_case){.asked = s->asked};
+  for (int k = inputs; k >= 0; k--) {
+    const int input = k == inputs ? range : k;
+    if (input < 0 || c->given[input] != NULL)
+      continue;
+    c->given[input] = &s->in[input].at[index % s->in[input].count];
+    index /= s->in[input].count;
+  }
+  /* The first value, and those of lists. */
+  for (int k = 0; k < inputs; k++)
+    if (k == 0 || s->in[k].count > 1)
+      snprintf(c->id + strlen(c->id), sizeof c->id - strlen(c->id), "%s%s", k > 0 ? "-" : "",
+               c->given[k]->name);
+  for (char *blank = c->id; (blank = strchr(blank, ' ')) != NULL;)
+    memmove(blank, blank + 1, strlen(blank));
+  s->scene->make(s, c);
+}
+
+static carom_status resolve_case(const series *s, int index, one_case *c) {
+  int8_t status;
+  make_case(s, index, c);
+  s->scene->kind->solve(&c->asked, false, c->row, 1, c->result, &status);
+  return (carom_status)status;
+}
+
+/* Whether all can be resolved; else a complaint. */
+static bool check_all(const series *s, int count) {
+  const row_kind *kind = s->scene->kind;
+  doubts found = {0}, tips = {0};
+  bool strange = false;
+  one_case c;
+  for (int k = 0; k < count; k++) {
+    int field = -1;
+    const carom_status status = resolve_case(s, k, &c);
+    if (status != CAROM_OK) {
+      kind->check(c.row, &c.asked, &field);
+      complain("no such %s (%s): %s%s%s (%s)", kind->noun, c.id,
+               field >= 0 ? kind->columns[field].name : "", field >= 0 ? ": " : "",
+               carom_status_string(status), carom_status_name(status));
+      return false;
+    }
+    const double tip = tip_offset(c.given, inputs_of(s), c.row[kind->radius]);
+    if (tip > 1.0) {
+      complain("no such %s (%s): the tip is %.4g R from the centre, beside the ball", kind->noun,
+               c.id, tip);
+      return false;
+    }
+    strange |= doubts_about(&found, kind, c.row) != NULL;
+    strange |= doubts_about_tip(&tips, tip) != NULL;
+  }
+  for (int k = 0; k < inputs_of(s); k++)
+    strange |= s->in[k].comma;
+  doubts_report(&found, kind->noun, "the values given");
+  doubts_report(&tips, kind->noun, "the values given");
+  return !(s->asked.strict && strange);
+}
+
+/* ---- Velocities and spins in words */
+
+const char *side_of(double degrees) {
+  return degrees > 0.0 ? "left" : "right";
+}
+
+const char *velocity_text(const double v[2], double scale, char text[64]) {
+  const double speed = hypot(v[0], v[1]), angle = angle_between((const double[]){1.0, 0.0}, v);
+  if (speed < 1e-9 * scale)
+    snprintf(text, 64, "at rest");
+  else {
+    const int size = snprintf(text, 64, speed < 1e6 ? "%.3f m/s, " : "%.4g m/s, ", speed);
+    if (fabs(angle) < 0.005 || fabs(angle) > 179.995)
+      snprintf(text + size, (size_t)(64 - size), "straight %s", fabs(angle) < 90.0 ? "on" : "back");
+    else
+      snprintf(text + size, (size_t)(64 - size), "%.2f degrees to the %s", fabs(angle),
+               side_of(angle));
+  }
+  return text;
+}
+
+void tell_spin(FILE *out, const double w[3]) {
+  const double level = hypot(w[0], w[1]), upright = fabs(w[2]) < 0.005 ? 0.0 : w[2]; /* not -0.00 */
+  fprintf(out,
+          fmax(fabs(w[2]), level) < 1e9 ? "              spin after:  %.2f rad/s about the "
+                                          "vertical, %.2f rad/s about a horizontal axis\n"
+                                        : "              spin after:  %.4g rad/s about the "
+                                          "vertical, %.4g rad/s about a horizontal axis\n",
+          upright, level);
+}
+
+/* ---- Tables */
+
+static void write_rows(FILE *out, const series *s, int count) {
+  one_case c;
+  write_row_header(out, s->scene->kind);
+  for (int k = 0; k < count; k++) {
+    make_case(s, k, &c);
+    write_row(out, s->scene->kind, c.id, c.row);
+  }
+}
+
+/* The word of a quantity; returns whether there is one. */
+static bool quantity_word(const series *s, int quantity, char word[32]) {
+  const char *at = s->scene->quantities;
+  for (int k = 0; k < quantity && at != NULL; k++)
+    at = strchr(at, '|') != NULL ? strchr(at, '|') + 1 : NULL;
+  if (at != NULL)
+    snprintf(word, 32, "%.*s", (int)strcspn(at, "|"), at);
+  return at != NULL;
+}
+
+/* The values that are several, as they were given, and the quantity asked for, or all. */
+static void write_table(FILE *out, const series *s, int count) {
+  const int first = s->quantity != NO_QUANTITY ? s->quantity : 0;
+  char word[32];
+  one_case c;
+  for (int k = 0; k < inputs_of(s); k++)
+    if (s->in[k].count > 1)
+      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k].name,
+              s->in[k].unit);
+  for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY); q++)
+    fprintf(out, "%s%s", q > first ? "," : "", word);
+  fputc('\n', out);
+  for (int k = 0; k < count; k++) {
+    resolve_case(s, k, &c);
+    for (int input = 0; input < inputs_of(s); input++)
+      if (s->in[input].count > 1) {
+        char text[NUMBER_TEXT];
+        fprintf(out, "%s,",
+                isnan(c.given[input]->given) ? c.given[input]->name
+                                             : number_text(c.given[input]->given, text));
+      }
+    for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY);
+         q++) {
+      char text[NUMBER_TEXT];
+      fprintf(out, "%s%s", q > first ? "," : "",
+              number_text(s->scene->measure(s, &c, q) + 0.0, text));
+    }
+    fputc('\n', out);
+  }
+}
+
+static void write_words(FILE *out, const series *s, int count) {
+  one_case c;
+  for (int k = 0; k < count; k++) {
+    resolve_case(s, k, &c);
+    fputs(k > 0 ? "\n" : "", out);
+    s->scene->tell(out, s, &c);
+  }
+}
+
+/* ---- Pictures */
+
+/* The data of figures/curves.gp: a curve for each combination of the lists, over the range. */
+static void write_curves(FILE *out, const void *data) {
+  const series *s = data;
+  const int range = range_of(s), points = s->in[range].count, curves = count_of(s) / points;
+  const int quantity = s->quantity != NO_QUANTITY ? s->quantity : 0;
+  char law[80];
+  one_case c;
+  fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range].name, s->in[range].unit,
+          s->scene->quantity[quantity]);
+  /* What is the same for all, on lines of a few, and the law. */
+  int said = 0;
+  for (int k = 0; k < inputs_of(s); k++)
+    if (s->in[k].count == 1 && !is_tacit(s, k))
+      fprintf(out, "%s%s %s",
+              said % 3 > 0 ? ", "
+              : said > 0   ? "\n# footer: "
+                           : "",
+              s->scene->inputs[k].name, s->in[k].at[0].name),
+          said++;
+  if (s->scene->law(s, law)[0] != '\0')
+    fprintf(out, "\n# footer: %s", law);
+  putc('\n', out);
+  for (int curve = 0; curve < curves; curve++) {
+    make_case(s, curve * points, &c);
+    fprintf(out, "# curve %d: ", curve + 1);
+    for (int k = 0, named = 0; k < inputs_of(s); k++)
+      if (k != range && s->in[k].count > 1)
+        fprintf(out, "%s%s%s%s", named++ > 0 ? ", " : "",
+                isnan(c.given[k]->given) ? "" : s->scene->inputs[k].name,
+                isnan(c.given[k]->given) ? "" : " ", c.given[k]->name);
+    fputc('\n', out);
+  }
+  fputs("curve,x,y\n", out);
+  for (int k = 0; k < curves * points; k++) {
+    resolve_case(s, k, &c);
+    fprintf(out, "%d,%.9g,%.9g\n", k / points + 1, c.given[range]->given,
+            s->scene->measure(s, &c, quantity));
+  }
+}
+
+/* All of the cases, below each other. */
+static void write_pictures(FILE *out, const void *data) {
+  const series *s = data;
+  char *body, *words;
+  size_t body_size, words_size;
+  double top = 0.0;
+  FILE *part = open_text(&body, &body_size);
+  for (int k = 0; k < count_of(s); k++) {
+    one_case c;
+    FILE *said = open_text(&words, &words_size);
+    resolve_case(s, k, &c);
+    s->scene->tell(said, s, &c);
+    close_text(said, &words);
+    top += s->scene->draw(part, top, s, &c, words);
+    free(words);
+  }
+  close_text(part, &body);
+  svg_begin(out, CONTACT_WIDTH, top, "fill=\"#fff\"");
+  fwrite(body, 1, body_size, out);
+  fputs("</svg>\n", out);
+  free(body);
+}
+
+static bool draw(const series *s) {
+  const int range = range_of(s);
+  if (range < 0)
+    return svg_draw(s->picture, write_pictures, s);
+  return picture_draw(s->picture, "curves", "", write_curves, s);
+}
+
+/* ---- */
+
+/* What is asked for and cannot be; false after a complaint. */
+static bool is_possible(const series *s, int count) {
+  int ranges = 0;
+  for (int k = 0; k < inputs_of(s); k++)
+    ranges += s->in[k].range;
+  if (ranges > 1)
+    complain("one number can be a range, and the others lists, with commas");
+  else if (ranges == 0 && count > MOST_CASES)
+    complain(
+        "%d combinations are too many: at most %d, or a range of one number, such as --speed 1:5",
+        count, MOST_CASES);
+  else if (count > MOST_COMBINED)
+    complain("%d combinations are too many: at most %d", count, MOST_COMBINED);
+  else if (ranges > 0 && s->picture != NULL && count / s->in[range_of(s)].count > MOST_CASES)
+    complain("%d curves are too many to draw: at most %d", count / s->in[range_of(s)].count,
+             MOST_CASES);
+  else if (s->csv && s->quantity == NO_QUANTITY && s->asked.models != 0)
+    complain(
+        "--csv writes rows, which have no model: give --model to `carom resolve --cushion`, or "
+        "--quantity here");
+  else if (s->csv && s->quantity == NO_QUANTITY && s->asked.options.solver != CAROM_SOLVER_EXACT)
+    complain("--csv writes rows, which have no solver: give --solver to `carom resolve`, or "
+             "--quantity here");
+  else if (ranges == 0 && s->quantity != NO_QUANTITY && !s->csv && s->picture != NULL)
+    complain("--quantity is for curves and tables: give a range, such as --speed 1:5");
+  else
+    return true;
+  return false;
+}
+
+int series_command(series *s, const command_form *form, int argc, char **argv, int angle,
+                   const char *complaint) {
+  s->quantity = NO_QUANTITY;
+  for (int k = 0; k < inputs_of(s); k++)
+    values_default(&s->in[k], s->scene->inputs[k].measure, s->scene->inputs[k].usual);
+  const int code = parse_arguments(form, argc, argv, s, NULL), count = count_of(s);
+  if (code >= 0)
+    return code;
+  bool good = true;
+  for (int k = 0; k < s->in[angle].count && good; k++)
+    if (!(good = fabs(s->in[angle].at[k].x) < 90.0))
+      complain("%s", complaint);
+  for (int k = 0; k < s->in[SPEED_INPUT].count && good; k++)
+    if (!(good = s->in[SPEED_INPUT].at[k].x > 0.0))
+      complain("--speed is above 0");
+  if (!good)
+    return EXIT_USAGE;
+  if (!is_possible(s, count) || !output_possible(s->picture) || !check_all(s, count))
+    return EXIT_USAGE;
+  /* With a picture of curves the table is only written where it is asked for. */
+  const bool curves = range_of(s) >= 0, table = s->quantity != NO_QUANTITY || !s->csv;
+  if (!curves || s->picture == NULL || s->csv || s->asked.output != NULL) {
+    FILE *out = output_open(s->asked.output != NULL ? s->asked.output : "-");
+    if (out == NULL)
+      return EXIT_USAGE;
+    if (!curves && !s->csv && s->quantity == NO_QUANTITY)
+      write_words(out, s, count);
+    else
+      (table ? write_table : write_rows)(out, s, count);
+    if (!output_commit())
+      return EXIT_USAGE;
+  }
+  return s->picture == NULL || draw(s) ? EXIT_GOOD : EXIT_USAGE;
+}

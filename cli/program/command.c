@@ -1,0 +1,149 @@
+/* A program of subcommands: finds the one that is asked for and hands over. */
+#include "program/command.h"
+
+#include "carom.h"
+#include "program/manual.h"
+#include "program/message.h"
+#include "program/output.h"
+#include "program/report.h"
+#include "program/words.h"
+
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static void print_help(FILE *to, const program *p) {
+  fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
+  for (size_t k = 0; k < p->count; k++)
+    fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
+  fprintf(to, "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n", p->name,
+          p->name);
+  if (p->cites != NULL)
+    fprintf(
+        to,
+        "`%s --cite` lists what to cite, as BibTeX, with the models of `%s`,\n`%s --report` what "
+        "a report of a bug needs.\n",
+        p->name, p->cites, p->name);
+  fprintf(to, "\nexample:\n  %s\n", p->example);
+}
+
+/* The same as a page of the manual. */
+static void print_manual(FILE *to, const program *p) {
+  manual_begin(to, p->name, NULL, "COMMAND [ARGUMENTS]", p->about);
+  manual_section(to, "DESCRIPTION", p->about);
+  manual_section(to, "COMMANDS", "");
+  for (size_t k = 0; k < p->count; k++)
+    manual_item(to, p->commands[k].name, NULL, p->commands[k].text);
+  manual_section(to, "OPTIONS", "");
+  manual_item(to, "--help", NULL, "the commands; behind a command, its arguments");
+  manual_item(to, "--version", NULL, "the version");
+  if (p->cites != NULL) {
+    manual_item(to, "--cite", NULL,
+                "what to cite, as BibTeX: the sources of the models of shots; options such as "
+                "--cushion choose them");
+    manual_item(to, "--report", NULL, "what a report of a bug needs: versions, system, processor");
+  }
+  manual_section(to, "ENVIRONMENT", "");
+  manual_item(to, "CAROM_ISA", NULL,
+              "the largest instruction set to use: plain, sse2, avx2 or avx512; on arm64 plain or "
+              "neon. With plain, results have the same bits on every machine");
+  manual_end(
+      to,
+      "0 if all went well; 1 if some rows or shots are in error, or a picture could not be drawn, "
+      "and all others were computed; 2 for bad usage or unreadable input, with nothing written",
+      p->example);
+}
+
+/* What could not be written was not said, so the run was not good. */
+static int finish(int code) {
+  if (code == EXIT_USAGE || (fflush(stdout) == 0 && !ferror(stdout)))
+    return code;
+  complain("cannot write standard output");
+  return EXIT_USAGE;
+}
+
+/* The library ignores what it does not know, as it cannot speak; a command can. */
+static bool isa_is_known(void) {
+  const char *wanted = getenv("CAROM_ISA"), *name;
+  char names[100] = "";
+  if (wanted == NULL || wanted[0] == '\0')
+    return true;
+  for (int isa = 0; (name = carom_isa_name((carom_isa)isa)) != NULL; isa++) {
+    if (strcmp(wanted, name) == 0)
+      return true;
+    const size_t used = strlen(names);
+    snprintf(names + used, sizeof names - used, "%s%s", isa == 0 ? "" : ", ", name);
+  }
+  complain("CAROM_ISA is '%s', which is none of the instruction sets %s", wanted, names);
+  return false;
+}
+
+/* Where standard input, output or error are closed, something stands in their places on which
+ * every reading and writing fails: else the next file opened would take the number, and be what
+ * the program and gnuplot write to. */
+static void hold_standard_places(void) {
+  for (int place = STDIN_FILENO; place <= STDERR_FILENO; place++)
+    if (fcntl(place, F_GETFD) < 0 &&
+        open("/dev/null", place == STDIN_FILENO ? O_WRONLY : O_RDONLY) != place)
+      exit(EXIT_USAGE);
+}
+
+int program_run(const program *p, int argc, char **argv) {
+  program_name = p->name;
+  hold_standard_places();
+  atexit(output_abandon); /* a program that ends early leaves no half-written output */
+  if (argc < 2) {
+    print_help(stderr, p);
+    return EXIT_USAGE;
+  }
+  const char *name = argv[1];
+  static char help[] = "--help";
+  char *for_help[] = {argv[0], argc > 2 ? argv[2] : NULL, help, NULL};
+  if (strcmp(name, "help") == 0 && argc > 2) { /* help COMMAND */
+    name = argv[2];
+    argc = 3;
+    argv = for_help;
+  }
+  if (name[0] == '-' && strcmp(name, "--cite") != 0 && argc > 2) {
+    complain("%s stands alone, without '%s'", name, argv[2]);
+    return EXIT_USAGE;
+  }
+  if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
+    print_help(stdout, p);
+    return finish(EXIT_GOOD);
+  }
+  if (strcmp(name, "--complete") == 0) { /* for the shells: completion.* */
+    for (size_t k = 0; k < p->count; k++)
+      puts(p->commands[k].name);
+    return finish(EXIT_GOOD);
+  }
+  if (strcmp(name, "--manual") == 0) { /* for manual.cmake */
+    print_manual(stdout, p);
+    return finish(EXIT_GOOD);
+  }
+  if (strcmp(name, "--version") == 0) {
+    printf("%s %s\n", p->name, carom_version());
+    return finish(EXIT_GOOD);
+  }
+  if (p->cites != NULL && strcmp(name, "--report") == 0)
+    return finish(print_report(p->name));
+  const bool cite = p->cites != NULL && strcmp(name, "--cite") == 0;
+  if (cite) /* an argument of that command, as what follows */
+    name = p->cites;
+  if (!isa_is_known())
+    return EXIT_USAGE;
+  for (size_t k = 0; k < p->count; k++)
+    if (strcmp(name, p->commands[k].name) == 0)
+      return finish(p->commands[k].run(argc - !cite, argv + !cite));
+  char words[256] = "--help|--version", hint[HINT_TEXT];
+  if (p->cites != NULL)
+    strcat(words, "|--cite|--report");
+  for (size_t k = 0; k < p->count; k++)
+    snprintf(words + strlen(words), sizeof words - strlen(words), "|%s", p->commands[k].name);
+  complain("no command '%s'; `%s --help` lists them%s", name, p->name,
+           did_you_mean(name, words, hint));
+  return EXIT_USAGE;
+}

@@ -1,0 +1,84 @@
+/* Texts of the help as roff. A line is a paragraph; one that begins with blanks is an item of a
+ * list, whose head ends with two.
+ */
+#include "program/manual.h"
+
+#include <string.h>
+
+/* What roff would take for requests and escapes is put right. A line may break behind a bar or a
+ * comma. */
+static void write_roff(FILE *out, const char *text, size_t size) {
+  if (size > 0 && (text[0] == '.' || text[0] == '\''))
+    fputs("\\&", out);
+  for (size_t k = 0; k < size; k++)
+    text[k] == '-'                     ? fputs("\\-", out)
+    : text[k] == '\\'                  ? fputs("\\e", out)
+    : text[k] == '|' || text[k] == ',' ? fprintf(out, "%c\\:", text[k])
+                                       : putc(text[k], out);
+}
+
+static void write_text(FILE *out, const char *text) {
+  for (size_t size; *text != '\0'; text += size + (text[size] == '\n')) {
+    size = strcspn(text, "\n");
+    const size_t own = strspn(text, " ");
+    const char *gap = own > 0 ? strstr(text + own, "  ") : NULL, *rest = text + own;
+    if (size == 0)
+      continue;
+    if (gap != NULL && gap < text + size) {
+      fputs(".TP\n.B ", out);
+      write_roff(out, text + own, (size_t)(gap - text) - own);
+      rest = gap + strspn(gap, " ");
+    } else
+      fputs(".PP", out);
+    putc('\n', out);
+    write_roff(out, rest, (size_t)(text + size - rest));
+    putc('\n', out);
+  }
+}
+
+void manual_section(FILE *out, const char *name, const char *text) {
+  fprintf(out, ".SH %s\n", name);
+  write_text(out, text);
+}
+
+void manual_item(FILE *out, const char *head, const char *argument, const char *text) {
+  fputs(".TP\n\\fB", out);
+  write_roff(out, head, strlen(head));
+  fputs("\\fR", out);
+  if (argument != NULL) {
+    fputs(" \\fI", out);
+    write_roff(out, argument, strlen(argument));
+    fputs("\\fR", out);
+  }
+  putc('\n', out);
+  write_roff(out, text, strlen(text));
+  putc('\n', out);
+}
+
+void manual_begin(FILE *out, const char *program, const char *command, const char *usage,
+                  const char *about) {
+  char name[64];
+  snprintf(name, sizeof name, "%s%s%s", program, command != NULL ? "-" : "",
+           command != NULL ? command : "");
+  fputs(".SH NAME\n", out);
+  write_roff(out, name, strlen(name));
+  fputs(" \\- ", out);
+  write_roff(out, about, strcspn(about, "."));
+  fputs("\n.SH SYNOPSIS\n", out);
+  for (const char *other;; usage = other + 3) { /* the ways, a line each */
+    other = strstr(usage, " | ");
+    fprintf(out, ".B %s%s%s\n", program, command != NULL ? " " : "",
+            command != NULL ? command : "");
+    write_roff(out, usage, other != NULL ? (size_t)(other - usage) : strlen(usage));
+    fputs(other != NULL ? "\n.br\n" : "\n", out);
+    if (other == NULL)
+      break;
+  }
+}
+
+void manual_end(FILE *out, const char *exits, const char *example) {
+  manual_section(out, "EXIT STATUS", exits);
+  fputs(".SH EXAMPLES\n.nf\n", out);
+  write_roff(out, example, strlen(example));
+  fputs("\n.fi\n", out);
+}

@@ -1,0 +1,262 @@
+/* The options of a subcommand: help and parsing from one table. What the fields are is known to
+ * fields.c. */
+#include "program/options.h"
+
+#include "program/command.h"
+#include "program/manual.h"
+#include "program/message.h"
+#include "program/words.h"
+
+#include <getopt.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_ROWS = 48, FIRST_CODE = UCHAR_MAX + 1 };
+enum { HELP_WIDTH = 80, OPTION_WIDTH = 23 }; /* columns of the help */
+
+static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
+
+/* ---- Help */
+
+/* "  -o, --output OUT"; choices that do not fit into a line are listed in the details. */
+static int write_head(const option_row *row, char text[80]) {
+  const char letter[] = {'-', row->letter, ',', ' ', '\0'};
+  const char *argument = argument_of(row) != NULL ? argument_of(row) : "";
+  if (strlen(argument) > HELP_WIDTH - OPTION_WIDTH)
+    argument = "NAME";
+  return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name,
+                  argument[0] != '\0' ? " " : "", argument);
+}
+
+/* The help beside the head, or below it where that is long. */
+static void print_row(FILE *out, const option_row *row) {
+  char head[80], text[1024];
+  const int width = write_head(row, head);
+  if (width + 2 > OPTION_WIDTH)
+    fprintf(out, "%s\n", head);
+  snprintf(text, sizeof text, "%-*s%s", OPTION_WIDTH, width + 2 > OPTION_WIDTH ? " " : head,
+           row->help);
+  print_wrapped(out, text, HELP_WIDTH);
+}
+
+static void print_item(FILE *out, const option_row *row) {
+  char head[80];
+  snprintf(head, sizeof head, "-%c, --%s", row->letter, row->name);
+  manual_item(out, row->letter != 0 ? head : head + 4, argument_of(row), row->help);
+}
+
+/* Prints the options that are for one kind of rows, or all, by one of these. */
+enum { EVERY_ROW = -1 };
+static void print_options(FILE *out, const command_form *form, int only,
+                          void (*print)(FILE *out, const option_row *row)) {
+  for (size_t k = 0; form->options[k] != NULL; k++)
+    if (only == EVERY_ROW || form->options[k]->only == only)
+      print(out, form->options[k]);
+}
+
+/* Whether the subcommand works on both kinds of rows. */
+static bool has_kinds(const command_form *form) {
+  size_t k = 0;
+  while (form->options[k] != NULL && form->options[k] != &option_cushion)
+    k++;
+  return form->options[k] != NULL;
+}
+
+/* All options; `title` stands before those for a kind of rows. */
+static void print_all_options(FILE *out, const command_form *form, const char *title,
+                              void (*print)(FILE *out, const option_row *row)) {
+  print_options(out, form, has_kinds(form) ? ANY_KIND : EVERY_ROW, print);
+  print(out, &help_row);
+  for (int kind = BALLS_ONLY; kind <= CUSHION_ONLY && has_kinds(form); kind++) {
+    fprintf(out, title,
+            kind == BALLS_ONLY ? "for collisions of two balls"
+                               : "for impacts on a cushion, with --cushion");
+    print_options(out, form, kind, print);
+  }
+}
+
+static void print_help(FILE *out, const command_form *form) {
+  fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "",
+          form->usage);
+  print_wrapped(out, form->about, HELP_WIDTH);
+  fputs("\noptions:\n", out);
+  print_all_options(out, form, "\noptions %s:\n", print_row);
+  putc('\n', out);
+  print_wrapped(out, form->details, HELP_WIDTH);
+  fprintf(out, "\nexample:\n  %s\n", form->example);
+}
+
+/* The same as a page of the manual. */
+static void print_manual(FILE *out, const command_form *form) {
+  static const char exits[] = "exit code: ";
+  char text[4096];
+  const char *exit = strstr(form->details, exits);
+  manual_begin(out, program_name, form->name, form->usage, form->about);
+  snprintf(text, sizeof text, "%s\n%.*s", form->about, (int)(exit - form->details), form->details);
+  manual_section(out, "DESCRIPTION", text);
+  manual_section(out, "OPTIONS", "");
+  print_all_options(out, form, ".SS Options %s\n", print_item);
+  manual_end(out, exit + sizeof exits - 1, form->example);
+}
+
+int usage_hint(const command_form *form) {
+  fprintf(stderr, "`%s %s --help` lists the arguments\n", program_name, form->name);
+  return EXIT_USAGE;
+}
+
+/* The form with the rows of the library; its own stand for those of the same name. */
+static const command_form *with_all_rows(const command_form *form) {
+  static option_row
+      of_library[2 * MOST_OF_LIBRARY]; /* of a form, at most two rows without a name */
+  static const option_row *rows[MOST_ROWS];
+  static command_form whole;
+  int count = 0;
+  option_row *next = of_library;
+  for (int k = 0; form->options[k] != NULL; k++) {
+    if (form->options[k]->name != NULL) {
+      rows[count++] = form->options[k];
+      continue;
+    }
+    const int more = rows_of(form->options[k], next);
+    for (int j = 0; j < more; j++) {
+      int own = 0;
+      while (form->options[own] != NULL && (form->options[own]->name == NULL ||
+                                            strcmp(form->options[own]->name, next[j].name) != 0))
+        own++;
+      if (form->options[own] == NULL)
+        rows[count++] = &next[j];
+    }
+    next += more;
+  }
+  whole = *form;
+  whole.options = rows;
+  return &whole;
+}
+
+static const option_row *row_of(const command_form *form, int code) {
+  for (int k = 0; form->options[k] != NULL; k++)
+    if (code == FIRST_CODE + k || (code != 0 && code == form->options[k]->letter))
+      return form->options[k];
+  return code == help_row.letter ? &help_row : NULL;
+}
+
+/* What getopt wants to know of the table. */
+static void list_options(const command_form *form, struct option longs[MOST_ROWS],
+                         char shorts[2 * MOST_ROWS]) {
+  int k = 0;
+  for (; form->options[k] != NULL && k < MOST_ROWS - 3; k++) {
+    const option_row *row = form->options[k];
+    longs[k] =
+        (struct option){row->name, argument_of(row) != NULL ? required_argument : no_argument, NULL,
+                        FIRST_CODE + k};
+    if (row->letter != 0)
+      strcat(strncat(shorts, &row->letter, 1), argument_of(row) != NULL ? ":" : "");
+  }
+  longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
+}
+
+/* What an option that there is not may have been; its value may stand behind it. Nothing of the
+ * beginnings of several. */
+static void hint_at_option(const command_form *form, char *text) {
+  char words[32 * MOST_ROWS] = "--help", hint[HINT_TEXT];
+  text[strcspn(text, "=")] = '\0';
+  for (int k = 0; form->options[k] != NULL; k++) {
+    snprintf(words + strlen(words), sizeof words - strlen(words), "|--%s", form->options[k]->name);
+    if (strncmp(text + 2, form->options[k]->name, strlen(text + 2)) == 0)
+      return;
+  }
+  if (did_you_mean(text, words, hint)[0] != '\0')
+    fprintf(stderr, "%s %s: %s\n", program_name, form->name, hint + 2);
+}
+
+/* Whether the options that were given are for the kind of rows that is asked for; complains
+ * where one is not. */
+static bool are_for_kind(const command_form *form, const bool given[MOST_ROWS], const void *job) {
+  for (int k = 0; form->options[k] != NULL; k++) {
+    const option_row *row = form->options[k];
+    if (!given[k] || row->only == ANY_KIND ||
+        (row->only == CUSHION_ONLY) == ((const shared_options *)job)->cushion)
+      continue;
+    complain("%s: option '--%s' goes %s --cushion", form->name, row->name,
+             row->only == CUSHION_ONLY ? "with" : "without");
+    return false;
+  }
+  return true;
+}
+
+/* Prints what may stand where `word` is being typed, a line each: values of the option before
+ * it, or options. Upper-case words of an argument, such as OUT, are no values. */
+static void complete(const command_form *form, const char *before, const char *word) {
+  for (int k = 0; form->options[k] != NULL; k++) {
+    const char *value = argument_of(form->options[k]);
+    if (value == NULL || strncmp(before, "--", 2) != 0 ||
+        strcmp(before + 2, form->options[k]->name) != 0)
+      continue;
+    for (size_t size; *value != '\0'; value += size + (value[size] == '|')) {
+      size = strcspn(value, "|");
+      if (*value < 'A' || *value > 'Z')
+        printf("%.*s\n", (int)size, value);
+    }
+    return;
+  }
+  for (int k = 0; form->options[k] != NULL && (word[0] == '-' || form->files == NO_FILES); k++)
+    printf("--%s\n", form->options[k]->name);
+}
+
+/* Sets the fields; -1, or an exit code. */
+static int parse_options(const command_form *form, int argc, char **argv, void *job) {
+  struct option longs[MOST_ROWS] = {0};
+  char shorts[2 * MOST_ROWS] = "h", name[80];
+  bool given[MOST_ROWS] = {false};
+  int option;
+  /* getopt complains in the name of the subcommand. */
+  snprintf(name, sizeof name, "%s %s", program_name, form->name);
+  argv[0] = name;
+  if (argc == 4 && strcmp(argv[1], "--complete") == 0) {
+    complete(form, argv[2], argv[3]);
+    return EXIT_GOOD;
+  }
+  if (argc == 2 && strcmp(argv[1], "--manual") == 0) { /* for manual.cmake */
+    print_manual(stdout, form);
+    return EXIT_GOOD;
+  }
+  list_options(form, longs, shorts);
+  while ((option = getopt_long(argc, argv, shorts, longs, NULL)) != -1) {
+    const option_row *row = row_of(form, option);
+    if (row == NULL && optopt == 0 && optind > 1 && strncmp(argv[optind - 1], "--", 2) == 0)
+      hint_at_option(form, argv[optind - 1]);
+    if (row == NULL)
+      return usage_hint(form);
+    if (row == &help_row) {
+      print_help(stdout, form);
+      return EXIT_GOOD;
+    }
+    if (!row->set(row, optarg, (char *)job + row->field))
+      return EXIT_USAGE;
+    for (int k = 0; k < MOST_ROWS && form->options[k] != NULL; k++)
+      given[k] |= form->options[k] == row;
+  }
+  return are_for_kind(form, given, job) && numbers_are_read(job) ? -1 : usage_hint(form);
+}
+
+int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file) {
+  form = with_all_rows(form);
+  const int code = parse_options(form, argc, argv, job), files = argc - optind;
+  if (code >= 0)
+    return code;
+  if (form->files == NO_FILES && files > 0)
+    complain("%s takes no files, but got '%s'", form->name, argv[optind]);
+  else if (form->files == ONE_FILE && files == 0)
+    complain("%s needs the name of a file", form->name);
+  else if (files > 1)
+    complain("%s takes one file, but got %d", form->name, files);
+  else if (files == 1 && argv[optind][0] == '\0')
+    complain("%s needs the name of a file, and got an empty one", form->name);
+  else {
+    if (file != NULL)
+      *file = files == 1 ? argv[optind] : NULL;
+    return -1;
+  }
+  return usage_hint(form);
+}

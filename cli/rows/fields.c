@@ -1,0 +1,497 @@
+/* What options read into their fields, and the rows that several tables have. */
+#include "program/message.h"
+#include "program/options.h"
+#include "program/words.h"
+#include "rows/number.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* 2^53: greater whole numbers may not be doubles. */
+static const double WHOLE_MOST = 9007199254740992.0;
+
+OPTION_SET(set_flag) {
+  (void)row;
+  (void)text;
+  *(bool *)field = true;
+  return true;
+}
+
+OPTION_SET(set_text) {
+  (void)row;
+  *(const char **)field = text;
+  return true;
+}
+
+/* Why a list is none of an option's values. */
+static const char *one_hint(const char *text) {
+  if (strchr(text, ':') != NULL || strstr(text, "..") != NULL)
+    return "; it takes one value, no range";
+  return strchr(text, ',') != NULL ? "; it takes one value, in which decimals have a point" : "";
+}
+
+OPTION_SET(set_count) {
+  char *end;
+  errno = 0;
+  const long value = strtol(text, &end, 10);
+  if (end == text || *end != '\0' || errno != 0 || value < row->least || value > INT_MAX) {
+    complain("--%s is a whole number from %d to %d, not '%s'%s", row->name, row->least, INT_MAX,
+             text, one_hint(text));
+    return false;
+  }
+  *(int *)field = (int)value;
+  return true;
+}
+
+/* 0 stands for all, as in other commands. */
+static OPTION_SET(set_threads) {
+  int *threads = field;
+  if (!set_count(row, text, threads))
+    return false;
+  if (*threads == 0)
+    *threads = CAROM_ALL_THREADS;
+  return true;
+}
+
+OPTION_SET(set_number) {
+  if (parse_number(text, field) && isfinite(*(double *)field))
+    return true;
+  complain("--%s is a number, not '%s'%s", row->name, text, one_hint(text));
+  return false;
+}
+
+OPTION_SET(set_amount) {
+  if (parse_number(text, field) && *(double *)field >= 0.0 && isfinite(*(double *)field))
+    return true;
+  complain("--%s is a number, 0 or more, not '%s'%s", row->name, text, one_hint(text));
+  return false;
+}
+
+bool set_place(const option_row *row, const char *text, const char *words, int *place) {
+  const int found = place_among(words, text, strlen(text));
+  char list[120] = "", hint[HINT_TEXT]; /* "this, that or another" */
+  for (const char *at = words; found < 0 && *at != '\0';) {
+    const size_t used = strlen(list), size = strcspn(at, "|");
+    const bool last = at[size] == '\0';
+    snprintf(list + used, sizeof list - used, "%s%.*s",
+             at == words ? ""
+             : last      ? " or "
+                         : ", ",
+             (int)size, at);
+    at += size + !last;
+  }
+  if (found >= 0)
+    *place = found;
+  else
+    complain("--%s is %s, not '%s'%s", row->name, list, text,
+             place_among(words, text, strcspn(text, ",:")) >= 0 ? "; it takes one value"
+                                                                : did_you_mean(text, words, hint));
+  return found >= 0;
+}
+
+OPTION_SET(set_choice) {
+  return set_place(row, text, row->argument, field);
+}
+
+const char *words_of(int of, bool with_default, char text[MOST_WORDS]) {
+  int size = 0;
+  const char *word;
+  text[0] = '\0';
+  for (int value = 0; (word = carom_word((carom_words)of, value)) != NULL; value++)
+    if (with_default || strcmp(word, "default") != 0)
+      size += snprintf(text + size, MOST_WORDS - (size_t)size, "%s%s", size > 0 ? "|" : "", word);
+  return text;
+}
+
+OPTION_SET(set_named) {
+  char all[MOST_WORDS];
+  return set_place(row, text, words_of(row->least, true, all), field);
+}
+
+/* ---- Options of the library, as it tells them */
+
+static carom_part_kind part_of(const option_row *row) {
+  return row->part == CAROM_PART_NONE ? CAROM_PART_OPTIONS : (carom_part_kind)row->part;
+}
+
+static const carom_number *option_of(const option_row *row) {
+  return row->set == set_option ? carom_number_of(part_of(row), row->least) : NULL;
+}
+
+OPTION_SET(set_option) {
+  const carom_number *n = option_of(row);
+  char all[MOST_WORDS], must[100];
+  double x;
+  if (n->words >= 0)
+    return set_place(row, text, words_of(n->words, true, all), field);
+  const bool whole = n->type != CAROM_TYPE_DOUBLE;
+  const double most = n->type == CAROM_TYPE_UINT64 ? WHOLE_MOST : n->high;
+  if (parse_number(text, &x) && ((x >= n->low && x <= most) || x == n->other) &&
+      (!whole || x == floor(x))) {
+    if (n->type == CAROM_TYPE_UINT64)
+      *(uint64_t *)field = (uint64_t)x;
+    else if (whole)
+      *(int32_t *)field = (int32_t)x;
+    else
+      *(double *)field = x;
+    return true;
+  }
+  if (n->type == CAROM_TYPE_UINT64)
+    snprintf(must, sizeof must, "0 to %.0f", WHOLE_MOST);
+  else
+    carom_number_range(n, must, sizeof must);
+  complain("--%s is %s%s, not '%s'%s", row->name, whole ? "a whole number, " : "a number, ", must,
+           text, one_hint(text));
+  return false;
+}
+
+int rows_of(const option_row *for_all, option_row rows[MOST_OF_LIBRARY]) {
+  const carom_number *n;
+  int count = 0;
+  for (int k = 0; (n = carom_number_of(part_of(for_all), k)) != NULL; k++)
+    if (n->key[0] != '\0' && (n->reader == CAROM_READ_ALWAYS || (int)n->reader == for_all->least))
+      rows[count++] = (option_row){.name = n->key,
+                                   .help = n->text,
+                                   .set = set_option,
+                                   .field = for_all->field + (size_t)n->offset,
+                                   .least = k,
+                                   .part = for_all->part};
+  return count;
+}
+
+const char *argument_of(const option_row *row) {
+  static char text[MOST_WORDS];
+  const carom_number *n = option_of(row);
+  if (n != NULL && n->words < 0)
+    return n->type == CAROM_TYPE_DOUBLE ? "X" : "N";
+  if (n != NULL || row->set == set_named)
+    return words_of(n != NULL ? n->words : row->least, false, text);
+  if (row->words == 0)
+    return row->argument;
+  words_of(row->words, false, text);
+  if (row->argument != NULL)
+    snprintf(text + strlen(text), sizeof text - strlen(text), "|%s", row->argument);
+  return text;
+}
+
+/* ---- Numbers of balls and cues */
+
+/* Whose numbers --with may name, in the order in which a name is looked up. */
+static const struct {
+  carom_part_kind part;
+  const char *whose;
+} owners[] = {{CAROM_PART_BALL, "a ball"},     {CAROM_PART_CUE, "a cue"},
+              {CAROM_PART_TABLE, "a table"},   {CAROM_PART_RAIL, "a rail"},
+              {CAROM_PART_JAW, "a jaw"},       {CAROM_PART_POCKET, "a pocket"},
+              {CAROM_PART_MEASURES, "a table"}};
+enum { OWNERS = sizeof owners / sizeof owners[0] };
+
+/* Why an option does not take a number; NULL: it does. Those of one impact on a cushion are
+ * numbers of its model. */
+static const char *refusal(const option_row *row, carom_part_kind part, const carom_number *n) {
+  if (part == CAROM_PART_MEASURES)
+    return "--table has it by its key, as in --table 9ft,corner=4.25in";
+  if (part != CAROM_PART_BALL && part != CAROM_PART_CUE)
+    return "a table in a file for `carom shoot` has it";
+  if (part == CAROM_PART_CUE && n->error == CAROM_OK)
+    return "no strike reads it";
+  if (part == CAROM_PART_CUE && n->type != CAROM_TYPE_DOUBLE)
+    return "a file for `carom shoot` has it";
+  if (part == CAROM_PART_CUE && n->offset <= (int32_t)offsetof(carom_cue, b))
+    return "--speed, --aim, --elevation and --tip of `carom shoot`, or its file, say it";
+  return row->only == CUSHION_ONLY && n->cushion_offset < 0
+             ? "`carom shoot --with` takes it, here only those of the model are taken"
+             : NULL;
+}
+
+/* A number that the option takes, by its name or its key of files, with its place; NULL after a
+ * complaint. */
+static const carom_number *number_named(const option_row *row, const char *name,
+                                        carom_part_kind *part, int *place) {
+  char known[1200] = "", hint[HINT_TEXT];
+  const carom_number *n, *other = NULL;
+  int of_other = 0;
+  for (int of = 0, size = 0; of < OWNERS; of++)
+    for (int k = 0; (n = carom_number_of(owners[of].part, k)) != NULL; k++) {
+      const bool named =
+          strcmp(n->name, name) == 0 || (name[0] != '\0' && strcmp(n->key, name) == 0);
+      *part = owners[of].part;
+      *place = k;
+      if (refusal(row, *part, n) == NULL && named)
+        return n;
+      if (refusal(row, *part, n) == NULL)
+        size += snprintf(known + size, sizeof known - (size_t)size, "%s%s", size > 0 ? "|" : "",
+                         n->name);
+      else if (named && other == NULL) {
+        other = n;
+        of_other = of;
+      }
+    }
+  if (other != NULL)
+    complain("--%s: %s is a number of %s; %s", row->name, name, owners[of_other].whose,
+             refusal(row, owners[of_other].part, other));
+  else if (name[strspn(name, "+-.:0123456789")] == '\0')
+    complain("--%s is NAME=X,...; '%.40s' has no NAME, as each number takes one value", row->name,
+             name);
+  else
+    complain("--%s is NAME=X,...; there is no number '%.40s'%s; `carom models` lists them",
+             row->name, name, did_you_mean(name, known, hint));
+  return NULL;
+}
+
+/* Gives the numbers of a fit, which `python -m carom.fit -o` wrote: constants, radius, cushion. */
+static bool give_fit(const char *path, given_numbers *given) {
+  json_error_t error;
+  json_t *fit = json_load_file(path, 0, &error), *of = json_object_get(fit, "constants"), *x;
+  const char *name, *model = json_string_value(json_object_get(fit, "cushion_model"));
+  bool good = json_is_object(of);
+  json_object_set(of, "radius", json_object_get(fit, "radius"));
+  json_object_foreach(of, name, x) good =
+      good && give_number(given, name, json_is_number(x) ? json_number_value(x) : NAN);
+  if (!good)
+    complain("--with %.200s: %s", path,
+             fit == NULL ? error.text : "no fit, whose `constants` are numbers of balls");
+  for (int k = 0; model != NULL && carom_word(CAROM_WORDS_CUSHION_MODEL, k) != NULL; k++)
+    if (strcmp(carom_word(CAROM_WORDS_CUSHION_MODEL, k), model) == 0)
+      given->fitted = (carom_shot_cushion)(k + 1);
+  given->of_fit = given->which;
+  of = json_object_get(fit, "bands");
+  double *row = given->band[0];
+  for (given->bands = 0; given->bands < 8; row = given->band[++given->bands])
+    if (json_unpack(json_array_get(of, (size_t)given->bands), "[FFF]", row, row + 1, row + 2) != 0)
+      break;
+  json_decref(fit);
+  return good;
+}
+
+/* given_numbers: NAME=X,... of the library's numbers of balls and cues, or the file of a fit */
+static OPTION_SET(set_numbers) {
+  given_numbers *given = field;
+  char *rest = NULL;
+  for (char *one = strtok_r(text, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
+    char *value = strchr(one, '='), must[100];
+    carom_part_kind part;
+    int k;
+    double x;
+    if (value != NULL)
+      *value++ = '\0';
+    else if (strstr(one, ".json") != NULL) {
+      if (give_fit(one, given))
+        continue;
+      return false;
+    }
+    const carom_number *n = number_named(row, one, &part, &k);
+    if (n == NULL)
+      return false;
+    if (value == NULL || !parse_number(value, &x) ||
+        !((x >= n->low && x <= n->high) || x == n->other)) {
+      carom_number_range(n, must, sizeof must);
+      complain("--%s: %s must be %s, not '%.40s'%s", row->name, n->name, must,
+               value != NULL ? value : "", one_hint(value != NULL ? value : ""));
+      return false;
+    }
+    const bool of_cue = part == CAROM_PART_CUE;
+    memcpy((of_cue ? (char *)&given->cue : (char *)&given->kind) + n->offset, &x, sizeof x);
+    *(of_cue ? &given->of_cue : &given->which) |= (uint64_t)1 << k;
+  }
+  return true;
+}
+
+bool give_number(given_numbers *given, const char *name, double x) {
+  const option_row with = {.name = name};
+  char one[200];
+  snprintf(one, sizeof one, "%s=%.17g", name, x);
+  for (char *dash = one; (dash = strchr(dash, '-')) != NULL && dash < strchr(one, '=');)
+    *dash = '_';
+  return set_numbers(&with, one, given);
+}
+
+void give_cue(const given_numbers *given, carom_cue *cue) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++)
+    if ((given->of_cue >> k & 1) != 0)
+      memcpy((char *)cue + n->offset, (const char *)&given->cue + n->offset, sizeof(double));
+}
+
+static void give(const given_numbers *given, void *to, bool to_cushion) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
+    if ((given->which >> k & 1) != 0)
+      memcpy((char *)to + (to_cushion ? n->cushion_offset : n->offset),
+             (const char *)&given->kind + n->offset, sizeof(double));
+}
+
+void give_ball(const given_numbers *given, carom_ball_kind *kind) {
+  give(given, kind, false);
+}
+
+const char *reader_of(const carom_number *n, const char *of_cushion, char text[160]) {
+  static const carom_ball_kind any = {0};
+  const bool cushion = n->reader == CAROM_READ_BY_CUSHION;
+  size_t size = (size_t)snprintf(text, 160, "--%s", cushion ? of_cushion : "friction");
+  if (cushion)
+    snprintf(text + size, 160 - size, " %s", carom_word(CAROM_WORDS_CUSHION_MODEL, n->model));
+
+  /* several laws may read the same numbers */
+  const char *word, *before = " ";
+  for (int k = 0; !cushion && (word = carom_word(CAROM_WORDS_BALL_FRICTION, k)) != NULL; k++) {
+    const carom_shot_options options = {.friction = (carom_ball_friction)k};
+    if (size < 160 && carom_number_is_read(n, &any, &options)) {
+      size += (size_t)snprintf(text + size, 160 - size, "%s%s", before, word);
+      before = "|";
+    }
+  }
+  return text;
+}
+
+/* Whether the shots, or one of the models of impacts, read a number of --with. */
+static bool is_read(const shared_options *shared, uint32_t models, const carom_number *n) {
+  carom_shot_options options = shared->shot;
+  bool read = false;
+  for (int model = 0; carom_word(CAROM_WORDS_CUSHION_MODEL, model) != NULL && !read; model++) {
+    if (shared->cushion && (models >> model & 1) == 0)
+      continue;
+    if (shared->cushion)
+      options.cushion_model = (carom_shot_cushion)(model + 1);
+    read = carom_number_is_read(n, &shared->with.kind, &options);
+  }
+  return read;
+}
+
+bool numbers_are_read(shared_options *shared) {
+  const given_numbers *with = &shared->with;
+  const uint32_t models = shared->models != 0 ? shared->models : 1U << shared->rail.model;
+  const carom_number *n;
+  char reader[160];
+  if (with->fitted != CAROM_SHOT_CUSHION_SMOOTH && shared->shot.cushion_model == 0)
+    shared->shot.cushion_model = with->fitted; /* balls with a smooth_q have the smooth one */
+  /* a fit has numbers of all models */
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
+    if (((with->which & ~with->of_fit) >> k & 1) != 0 && !is_read(shared, models, n)) {
+      complain("--with: %s has no effect; %s reads it", n->name,
+               reader_of(n, shared->cushion ? "model" : "cushion", reader));
+      return false;
+    }
+  if (!shared->cushion)
+    return true;
+  give(with, &shared->rail, true);
+  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  char must[100];
+  give_ball(with, &kind);
+  if ((n = carom_ball_fault(&kind, must, sizeof must)) != NULL)
+    complain("--with: %s must be %s", n->name, must);
+  return n == NULL;
+}
+
+static OPTION_SET(set_law) {
+  friction_law *law = field;
+  static const char name[] = "alciatore";
+  const size_t size = sizeof name - 1;
+  char rest, hint[HINT_TEXT];
+  double mu;
+  *law = (friction_law){.given = true, .law = carom_alciatore()};
+  if (parse_number(text, &mu) && mu >= 0.0 && mu <= 1.0) {
+    law->law = (carom_speed_law){.a = mu};
+    return true;
+  }
+  if (strncmp(text, name, size) == 0 &&
+      (text[size] == '\0' ||
+       (text[size] == '=' && sscanf(text + size + 1, "%lf,%lf,%lf%c", &law->law.a, &law->law.b,
+                                    &law->law.c, &rest) == 3)))
+    return true;
+  complain("--%s is alciatore, alciatore=a,b,c (mu = a + b exp(-c |u|)) or a number from 0 to 1, "
+           "not '%s'%s",
+           row->name, text,
+           strpbrk(text, "=abc") == NULL
+               ? one_hint(text)
+               : did_you_mean(strchr(text, '=') == NULL ? text : name, name, hint));
+  return false;
+}
+
+static OPTION_SET(set_player) {
+  given_player *given = field;
+  given->rated = true;
+  if (!set_number(row, text, &given->rating))
+    return false;
+  const bool good = given->rating >= 300.0 && given->rating <= 850.0;
+  if (!good)
+    complain("--%s: it must be 300 to 850, not %g", row->name, given->rating);
+  return good;
+}
+
+static OPTION_SET(set_errors) {
+  given_player *given = field;
+  given->errs = true;
+  return set_amount(row, text, &given->scale);
+}
+
+/* ---- The rows */
+
+#define ROW(row, name, member, letter, argument, set, least, only, help) \
+  OPTION_ROW(shared_options, only, row, name, member, letter, argument, set, least, help)
+
+ROW(option_solver, "solver", options.solver, 0, NULL, set_named, CAROM_WORDS_SOLVER, BALLS_ONLY,
+    "exact: the limit of infinitely many steps (default); euler: N steps of equal impulse, as in "
+    "the 2014 paper");
+ROW(option_slip, "slip", options.slip, 0, NULL, set_named, CAROM_WORDS_SLIP, BALLS_ONLY,
+    "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
+ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,
+    "friction between the balls, instead of the column u_b: a number; or alciatore, which falls "
+    "with the slip speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other "
+    "constants");
+ROW(option_data, "data", folder, 0, "DIR", set_text, 0, BALLS_ONLY,
+    "folder of the reference collisions (default: $CAROM_DATA, else what came with carom)");
+ROW(option_steps, "steps", options.steps, 0, "N", set_count, 1, ANY_KIND,
+    "steps of Euler's method, 1 or more (default 1000)");
+ROW(option_threads, "threads", options.threads, 0, "N", set_threads, 0, ANY_KIND,
+    "largest number of threads; 0: one for each processor (default)");
+ROW(option_precision, "precision", precision, 0, "double|single", set_choice, 0, ANY_KIND,
+    "precision of the results, and of the solver for two balls (default: single for a float32 "
+    "array, else double)");
+ROW(option_output, "output", output, 'o', "OUT", set_text, 0, ANY_KIND,
+    "file to write; - is standard output (default). OUT is never incomplete: carom writes a file "
+    "beside it, and renames it at the end. If the folder cannot be written, carom overwrites OUT "
+    "at the end");
+ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0, ANY_KIND,
+    "more columns after the status: angles, rolling velocities, energy");
+ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0, ANY_KIND,
+    "treat warnings as errors: centres whose distance is not R1 + R2 to 1 %, more than 50 m/s or "
+    "2,000 rad/s, a radius above 0.5 m, a mass above 10 kg, a tip more than 0.5 R from the centre, "
+    "two values that look like one with a decimal comma");
+ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
+    "print counts and the time on standard error at the end");
+ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
+    "impacts of a ball on a cushion, instead of collisions of two balls");
+ROW(option_model, "model", rail.model, 0, NULL, set_named, CAROM_WORDS_CUSHION_MODEL, CUSHION_ONLY,
+    "model of the impact, which `carom models NAME` tells (default: mathavan, but of `carom rail` "
+    "han, as in shots)");
+ROW(option_convention, "convention", rail.convention, 0, NULL, set_named,
+    CAROM_WORDS_CUSHION_CONVENTION, CUSHION_ONLY,
+    "the conventions to follow where pooltool differs from the papers (default: paper)");
+ROW(option_law, "law", rail.law, 0, NULL, set_named, CAROM_WORDS_CUSHION_LAW, CUSHION_ONLY,
+    "restitution and friction of the cushion: from the columns (default), or by Han's fits over "
+    "speed and angle");
+ROW(option_least_step, "least-step", rail.least_step, 0, "P", set_amount, 0, CUSHION_ONLY,
+    "smallest step of euler, N s (default 0; pooltool: 0.001)");
+ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
+    "numbers of the model, such as smooth_q=0.2,smooth_x=1,smooth_t=1: `carom models NAME` lists "
+    "them");
+
+ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
+    "a player by a Fargo rating, 300 to 850, such as 500. It holds for plans of 300 shots, which "
+    "is then their default; with more he is stronger");
+ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
+    "a player by his errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
+
+/* Of whole shots: rows without a name stand for those of rows_of(). */
+ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);
+ROW(options_of_motion, NULL, shot, 0, NULL, set_option, CAROM_READ_ALWAYS, ANY_KIND, NULL);
+ROW(option_with_of_shots, "with", with, 0, "NAME=X,...", set_numbers, 0, ANY_KIND,
+    "numbers of all balls, their cushions and the cue, instead of those of IN, such as "
+    "mu_slide=0.15,u_b=0.03,end_mass=0.01: `carom models` lists them. M is the cue's mass. Or the "
+    "file of a fit, FIT.json");

@@ -1,0 +1,165 @@
+/* Rows from a file, resolved, to a file.
+ *
+ * While one block of rows is solved and written, in the order of the file, another thread reads
+ * the next.
+ */
+#include "rows/row_solver.h"
+
+#include "program/command.h"
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/monotonic.h"
+#include "rows/doubts.h"
+#include "rows/precision.h"
+#include "rows/sink.h"
+#include "rows/source.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_NAMED = 1000 };             /* rows in error that are named */
+static const double least_timed = 10e6; /* ns; less is mostly cold caches, and no time is told */
+
+/* A block of the input, and how reading it ended. */
+typedef struct reading {
+  row_source *in;
+  source_block block;
+  read_result result;
+} reading;
+
+typedef struct run {
+  const row_job *job;
+  const shared_options *asked;
+  const row_kind *kind;
+  bool single;
+  row_source *in;
+  result_sink *out;
+  long long ok, separating, errors;
+  double solving; /* ns */
+  doubts doubts;
+  double *result;
+  float *narrow, *narrow_result; /* rows and results in single precision */
+  int8_t *status;
+} run;
+
+static void *read_block(void *argument) {
+  reading *r = argument;
+  r->result = source_read(r->in, &r->block);
+  return NULL;
+}
+
+/* Writes row k of a block that has been solved, counts it, and says what is wrong with it. */
+static void finish_row(run *r, const source_block *block, size_t k) {
+  const row_note *note = block->note != NULL ? &block->note[k] : NULL;
+  const carom_status status = r->status[k];
+  const size_t results = (size_t)r->kind->results;
+  const double *row = source_row(r->in, block, k);
+  double *result = r->result + k * results;
+  /* What --strict refuses has no results. */
+  const char *error = note != NULL ? note->error : NULL;
+  const char *doubt = error == NULL && status >= 0 ? doubts_about(&r->doubts, r->kind, row) : NULL;
+  if (r->asked->strict && doubt != NULL) {
+    error = doubt;
+    memset(result, 0xff, results * sizeof *result); /* NaN throughout */
+  }
+  const bool bad = error != NULL || status < 0;
+  if (bad && r->errors < MOST_NAMED)
+    source_report(r->in, block, k, status, doubt);
+  sink_write(r->out, note != NULL ? note->id : NULL, row, result, status, error);
+  r->ok += !bad && status == CAROM_OK;
+  r->separating += !bad && status == CAROM_SEPARATING;
+  r->errors += bad;
+}
+
+static void solve_and_write(run *r, const source_block *block) {
+  const size_t count = block->count, numbers = count * (size_t)r->kind->numbers,
+               results = count * (size_t)r->kind->results;
+  const bool narrow = r->single && r->kind->has_single;
+  const void *in = narrow ? (void *)r->narrow : block->numbers;
+  void *out = narrow ? (void *)r->narrow_result : r->result;
+  /* Single precision: rows and results are rounded to it, whoever solves. */
+  if (r->single)
+    to_single(block->numbers, r->narrow, numbers);
+  if (r->single && !narrow)
+    to_double(r->narrow, block->numbers, numbers);
+  const double before = clock_ns();
+  if (r->job->solve != NULL)
+    r->job->solve(r->job->context, &r->asked->options, narrow, in, count, out, r->status);
+  else
+    r->kind->solve(r->asked, narrow, in, count, out, r->status);
+  r->solving += clock_ns() - before;
+  if (r->single && !narrow)
+    to_single(r->result, r->narrow_result, results);
+  if (r->single)
+    to_double(r->narrow_result, r->result, results);
+  for (size_t k = 0; k < block->count; k++)
+    finish_row(r, block, k);
+}
+
+/* Two readings take turns: one is solved and written while the other is filled. False after a
+ * complaint. */
+static bool resolve_all(run *r) {
+  reading readings[2] = {{.in = r->in}, {.in = r->in}}, *now = &readings[0], *next = &readings[1];
+  for (read_block(now); now->result == READ_ONE;
+       now = next, next = now == &readings[0] ? &readings[1] : &readings[0]) {
+    pthread_t reader;
+    /* Where no thread can be started, the next block is read when this one is done. */
+    const bool apart = pthread_create(&reader, NULL, read_block, next) == 0;
+    solve_and_write(r, &now->block);
+    if (apart)
+      pthread_join(reader, NULL);
+    else
+      read_block(next);
+    const double share = source_share(r->in), rows = (double)(r->ok + r->separating + r->errors);
+    progress_show("rows", rows, share > 0.0 ? rows / share : -1.0);
+  }
+  progress_clear();
+  if (r->errors > MOST_NAMED)
+    complain("%lld more rows are in error; the column status says of each why",
+             r->errors - MOST_NAMED);
+  doubts_report(&r->doubts, r->kind->noun, source_name(r->in));
+  source_free_block(&now->block);
+  source_free_block(&next->block);
+  return now->result == READ_END;
+}
+
+static void print_summary(const run *r) {
+  fprintf(stderr, "%lld rows: %lld ok, %lld separating, %lld in error",
+          r->ok + r->separating + r->errors, r->ok, r->separating, r->errors);
+  if (r->solving >= least_timed)
+    fprintf(stderr, "; %s took %.3g s, %.3g us per %s",
+            r->job->solve != NULL ? r->job->solver : r->kind->name(r->asked), 1e-9 * r->solving,
+            1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1), r->kind->noun);
+  fputc('\n', stderr);
+}
+
+int resolve_file(const row_job *job, const char *file) {
+  run r = {.job = job,
+           .asked = &job->shared,
+           .kind = kind_of(&job->shared),
+           .in = source_open(file, &job->shared)};
+  int code = EXIT_USAGE;
+  if (r.in == NULL)
+    return code;
+  const int precision = job->shared.precision;
+  r.single = precision == ANY_PRECISION ? source_is_single(r.in) : precision == SINGLE_PRECISION;
+  r.result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof *r.result);
+  r.narrow = allocate(NPY_BLOCK, (size_t)r.kind->numbers * sizeof *r.narrow);
+  r.narrow_result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof *r.narrow_result);
+  r.status = allocate(NPY_BLOCK, 1);
+  /* Nothing is written before the input has been opened; what stands there appears when all is
+   * written. */
+  r.out = sink_open(&job->shared, r.single);
+  if (r.out != NULL && sink_close(r.out, resolve_all(&r)))
+    code = r.errors > 0 ? EXIT_SOME : EXIT_GOOD;
+  free(r.narrow);
+  free(r.narrow_result);
+  free(r.result);
+  free(r.status);
+  source_close(r.in);
+  if (job->shared.summary && code != EXIT_USAGE)
+    print_summary(&r);
+  return code;
+}

@@ -1,0 +1,374 @@
+/* Lists and ranges of numbers with units.
+ *
+ * Percent of english: 100 % is the spin of a ball that a level cue strikes half a radius off its
+ * centre, without loss,
+ * 5/2 (1/2) V/R. A tip is an offset of 13 mm, the width of a usual tip. Percent of follow and
+ * draw are of the spin of a rolling ball, V/R.
+ *
+ * Words of speed are the middles of the ranges of a ball's speed at
+ * billiards.colostate.edu/faq/speed/typical.
+ */
+#include "rows/values.h"
+
+#include "program/message.h"
+#include "program/words.h"
+#include "rows/number.h"
+#include "rows/quantities.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { POINTS = 161, MOST_TEXT = 256, LIST_TEXT = MOST_VALUES * VALUE_NAME };
+
+#define BALL_FRACTION \
+  ((double)NAN) /* an angle by the part x of the ball that is hit, 0 to 1:
+                                       asin(1 - x) */
+static const double strike = 2.5, tip_width = 0.013, mph = 0.44704;
+
+/* The first unit of a measure is that of a bare number; a spin has none. */
+static const struct {
+  int measure;
+  const char *name, *axis;
+  double factor;
+  int times;
+} units[] = {
+    {MEASURE_NUMBER, "", "", 1.0, FIXED},
+    {MEASURE_SPEED, "m/s", "m/s", 1.0, FIXED},
+    {MEASURE_SPEED, "mph", "mph", mph, FIXED},
+    {MEASURE_SPEED, "km/h", "km/h", 1.0 / 3.6, FIXED},
+    {MEASURE_CUT, "deg", "degrees", 1.0, FIXED},
+    {MEASURE_CUT, "ball", "part of the ball that is hit", BALL_FRACTION, FIXED},
+    {MEASURE_CUT, "\u00b0", "degrees", 1.0, FIXED},
+    {MEASURE_ANGLE, "deg", "degrees", 1.0, FIXED},
+    {MEASURE_ANGLE, "\u00b0", "degrees", 1.0, FIXED},
+    {MEASURE_ELEVATION, "deg", "degrees", 1.0, FIXED},
+    {MEASURE_ELEVATION, "\u00b0", "degrees", 1.0, FIXED},
+    {MEASURE_LENGTH, "m", "m", 1.0, FIXED},
+    {MEASURE_LENGTH, "mm", "mm", 1e-3, FIXED},
+    {MEASURE_LENGTH, "cm", "cm", 1e-2, FIXED},
+    {MEASURE_LENGTH, "in", "inches", 0.0254, FIXED},
+    {MEASURE_LENGTH, "ft", "feet", 0.3048, FIXED},
+    {MEASURE_PLACE, "m", "m", 1.0, FIXED},
+    {MEASURE_PLACE, "mm", "mm", 1e-3, FIXED},
+    {MEASURE_PLACE, "cm", "cm", 1e-2, FIXED},
+    {MEASURE_PLACE, "in", "inches", 0.0254, FIXED},
+    {MEASURE_PLACE, "ft", "feet", 0.3048, FIXED},
+    {MEASURE_PLACE, "d", "diamonds", 1.0, DIAMONDS},
+    {MEASURE_MASS, "kg", "kg", 1.0, FIXED},
+    {MEASURE_MASS, "g", "g", 1e-3, FIXED},
+    {MEASURE_MASS, "oz", "ounces", 0.028349523125, FIXED},
+    {MEASURE_OBJECT_MASS, "kg", "kg", 1.0, FIXED},
+    {MEASURE_OBJECT_MASS, "g", "g", 1e-3, FIXED},
+    {MEASURE_OBJECT_MASS, "oz", "ounces", 0.028349523125, FIXED},
+    {MEASURE_FRICTION, "", "", 1.0, FIXED},
+    {MEASURE_TIP, "R", "R", 1.0, FIXED},
+    {MEASURE_TIP, "tip", "tips", tip_width, OFFSET},
+    {MEASURE_SHARE, "%", "%", 0.01, FIXED},
+    {MEASURE_SPIN, "rad/s", "rad/s", 1.0, FIXED},
+    {MEASURE_SPIN, "%", "% of rolling", 0.01, ROLLING},
+    {MEASURE_SPIN, "tip", "tips above the centre", strike *tip_width, OFFSET},
+    {MEASURE_SIDE, "rad/s", "rad/s counterclockwise", 1.0, FIXED},
+    {MEASURE_SIDE, "%", "% of right english", 0.01 * strike * 0.5, ROLLING},
+    {MEASURE_SIDE, "tip", "tips to the right", strike *tip_width, OFFSET},
+    {MEASURE_SIDE_RAIL, "rad/s", "rad/s counterclockwise", 1.0, FIXED},
+    {MEASURE_SIDE_RAIL, "%", "% of right english", 0.01 * strike * 0.5, ROLLING},
+    {MEASURE_SIDE_RAIL, "tip", "tips to the right", strike *tip_width, OFFSET},
+};
+
+static const struct {
+  int measure;
+  const char *name;
+  double x;
+  int times;
+} words[] = {
+    {MEASURE_CUT, "full", 0.0, FIXED},
+    {MEASURE_CUT, "three-quarter", 14.477512185929925, FIXED},
+    {MEASURE_CUT, "half", 30.0, FIXED},
+    {MEASURE_CUT, "quarter", 48.590377890729144, FIXED},
+    {MEASURE_CUT, "thin", 61.044975628140819, FIXED}, /* an eighth */
+    {MEASURE_ELEVATION, "least", (double)NAN, FIXED},
+    {MEASURE_OBJECT_MASS, "same", (double)NAN, FIXED},
+    {MEASURE_FRICTION, "alciatore", (double)NAN, FIXED},
+    {MEASURE_SPEED, "soft", 0.5 * mph, OF_BALL},
+    {MEASURE_SPEED, "slow", 1.5 * mph, OF_BALL},
+    {MEASURE_SPEED, "medium", 3.0 * mph, OF_BALL},
+    {MEASURE_SPEED, "fast", 5.5 * mph, OF_BALL},
+    {MEASURE_SPEED, "power", 8.5 * mph, OF_BALL},
+    {MEASURE_SPEED, "break", 27.5 * mph, OF_BALL},
+    {MEASURE_SPIN, "stun", 0.0, FIXED},
+    {MEASURE_SPIN, "follow", 1.0, ROLLING},
+    {MEASURE_SPIN, "roll", 1.0, ROLLING},
+    {MEASURE_SPIN, "draw", -1.0, ROLLING},
+    {MEASURE_SIDE, "none", 0.0, FIXED},
+    {MEASURE_SIDE, "right", 1.25, ROLLING},
+    {MEASURE_SIDE, "left", -1.25, ROLLING},
+    {MEASURE_SIDE, "outside", 1.25, GEARED},
+    {MEASURE_SIDE, "inside", -1.25, GEARED},
+    {MEASURE_SIDE, "gearing", 1.0, GEARING},
+    {MEASURE_SIDE_RAIL, "none", 0.0, FIXED},
+    {MEASURE_SIDE_RAIL, "right", 1.25, ROLLING},
+    {MEASURE_SIDE_RAIL, "left", -1.25, ROLLING},
+    {MEASURE_SIDE_RAIL, "running", 1.25, GEARED},
+    {MEASURE_SIDE_RAIL, "reverse", -1.25, GEARED},
+    {MEASURE_SIDE_RAIL, "gearing", 1.0, GEARING},
+};
+
+enum {
+  UNITS = sizeof units / sizeof units[0],
+  WORDS = sizeof words / sizeof words[0],
+  NO_UNIT = -1
+};
+
+/* The unit of that name, "" for that of a bare number; NO_UNIT if there is none. */
+static int find_unit(int measure, const char *name) {
+  const bool plural = strcmp(name, "tips") == 0;
+  for (int k = 0; k < UNITS; k++)
+    if (units[k].measure == measure && ((name[0] == '\0' && measure < MEASURE_SPIN) ||
+                                        strcmp(plural ? "tip" : name, units[k].name) == 0))
+      return k;
+  return NO_UNIT;
+}
+
+/* Sets a value of a number in a unit; false where it is out of range. */
+static bool set_value(value *v, double given, int unit) {
+  v->given = given;
+  v->times = units[unit].times;
+  v->x = isnan(units[unit].factor)
+             ? asin(given >= 0.0 && given <= 1.0 ? 1.0 - given : (double)NAN) / degree
+             : given * units[unit].factor;
+  const bool apart = units[unit].name[0] >= 'a' && units[unit].times != DIAMONDS; /* 2d, 2 m */
+  snprintf(v->name, sizeof v->name, "%.6g%s%s", given, apart ? " " : "", units[unit].name);
+  return isfinite(v->x);
+}
+
+/* Splits "7mph" or "1/4ball" into number and unit; the unit of none is ""; false where it is no
+ * number. */
+static bool split(const char *text, double *number, const char **unit) {
+  char digits[64];
+  double over = 1.0;
+  const size_t size = strspn(text, "+-.0123456789"), power = text[size] == 'e' || text[size] == 'E';
+  const size_t more = power ? 1 + strspn(text + size + 1, "+-0123456789") : 0;
+  snprintf(digits, sizeof digits, "%.*s", (int)(size + more), text);
+  *unit = text + size + more + strspn(text + size + more, " ");
+  if (size + more >= sizeof digits || !parse_number(digits, number))
+    return false;
+  if (**unit == '/') {
+    const size_t below = strspn(*unit + 1, "0123456789");
+    snprintf(digits, sizeof digits, "%.*s", (int)below, *unit + 1);
+    *unit += 1 + below;
+    if (below == 0 || !parse_number(digits, &over))
+      return false;
+    *number /= over;
+  }
+  return isfinite(*number);
+}
+
+/* "m/s, mph or km/h", and the words. */
+static void list_units(int measure, char *text, size_t room) {
+  const char *between = "";
+  for (int k = 0; k < WORDS; k++)
+    if (words[k].measure == measure) {
+      snprintf(text + strlen(text), room - strlen(text), "%s%s", between, words[k].name);
+      between = ", ";
+    }
+  snprintf(text + strlen(text), room - strlen(text), "%sa number",
+           between[0] != '\0' ? ", or " : "");
+  between = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
+  for (int k = 0; k < UNITS; k++)
+    if (units[k].measure == measure && units[k].name[0] != '\0') {
+      snprintf(text + strlen(text), room - strlen(text), "%s%s", between, units[k].name);
+      between = ", ";
+    }
+}
+
+static bool refuse(const option_row *row, const char *text) {
+  char list[MOST_TEXT] = "", known[MOST_TEXT] = "", hint[HINT_TEXT];
+  const char *word = text + strspn(text, "+-.0123456789");
+  list_units(row->least, list, sizeof list);
+  for (int k = 0; k < WORDS + UNITS; k++)
+    if ((k < WORDS ? words[k].measure : units[k - WORDS].measure) == row->least)
+      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|",
+               k < WORDS ? words[k].name : units[k - WORDS].name);
+  complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name,
+           list, text, did_you_mean(word, known, hint));
+  return false;
+}
+
+bool too_many(const option_row *row, double count, int most) {
+  complain("--%s: these are %.0f values; at most %d", row->name, count, most);
+  return false;
+}
+
+/* A word, of parts of a ball also as half-ball. */
+static bool set_word(const char *text, int measure, value *v) {
+  const char *end = measure == MEASURE_CUT ? strstr(text, "-ball") : NULL;
+  const size_t size = end != NULL && end[5] == '\0' ? (size_t)(end - text) : strlen(text);
+  for (int k = 0; k < WORDS; k++)
+    if (words[k].measure == measure && strlen(words[k].name) == size &&
+        strncmp(words[k].name, text, size) == 0) {
+      *v = (value){.x = words[k].x, .given = (double)NAN, .times = words[k].times};
+      snprintf(v->name, sizeof v->name, "%s", text);
+      return true;
+    }
+  return false;
+}
+
+/* A range, whose ends are split at the colons of `copy`; those of speeds and cuts may be words, in
+ * SI units. */
+static bool set_range(const option_row *row, const char *text, char *copy, values *list) {
+  char *rest = NULL;
+  double end[3];
+  const char *unit = "", *own;
+  int parts = 0, worded = 0;
+  value word = {.times = FIXED};
+  for (char *part = strtok_r(copy, ":", &rest); part != NULL;
+       part = strtok_r(NULL, ":", &rest), parts++) {
+    const bool is_word =
+        parts < 3 && row->least < MEASURE_SPIN && set_word(part, row->least, &word);
+    worded += is_word;
+    if (is_word) {
+      end[parts] = word.x;
+      continue;
+    }
+    if (parts == 3 || !split(part, &end[parts], &own))
+      return refuse(row, text);
+    unit = own[0] != '\0' ? own : unit;
+  }
+  if (worded > 0 && unit[0] != '\0')
+    return refuse(row, text);
+  const int found = find_unit(row->least, unit);
+  const double steps = parts == 3 ? (end[1] - end[0]) / end[2] : POINTS - 1;
+  if (parts < 2 || found == NO_UNIT || !(steps >= 1.0 - 1e-9) || isinf(steps))
+    return refuse(row, text);
+  if (steps > MOST_VALUES - 1)
+    return too_many(row, floor(steps) + 1.0, MOST_VALUES);
+  *list = (values){.count = (int)(steps + 1.0 + 1e-9), .range = true, .unit = units[found].axis};
+  for (int k = 0; k < list->count; k++) {
+    const double x = parts == 3 ? end[0] + k * end[2] : end[0] + (end[1] - end[0]) * k / steps;
+    if (!set_value(&list->at[k], x, found))
+      return refuse(row, text);
+    list->at[k].times = worded > 0 ? word.times : list->at[k].times;
+  }
+  return true;
+}
+
+static bool read_values(const option_row *row, const char *text, values *list) {
+  static char copy[LIST_TEXT]; /* in which ranges have colons */
+  const int measure = row->least;
+  char *rest = NULL, *to = copy, all[MOST_WORDS];
+  double number, several = 1.0;
+  const char *own, *last = strrchr(text, ',');
+  /* The unit of the last is that of those without. */
+  if (!split(last != NULL ? last + 1 : text, &number, &own))
+    own = "";
+  const int common = find_unit(measure, own);
+  *list = (values){.unit = common != NO_UNIT ? units[common].axis : ""};
+  for (const char *from = text; *from != '\0'; from++)
+    several += *from == ',';
+  if (several > MOST_VALUES || strlen(text) >= LIST_TEXT)
+    return too_many(row, several, MOST_VALUES);
+  for (const char *from = text; *from != '\0'; from++) {
+    const bool dots = strncmp(from, "..", 2) == 0;
+    *to++ = dots ? ':' : *from;
+    from += dots;
+  }
+  *to = '\0';
+  if (strchr(copy, ':') != NULL)
+    return set_range(row, text, copy, list);
+  for (char *one = strtok_r(copy, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
+    const char *unit;
+    value *v = &list->at[list->count++];
+    int place;
+    if (set_word(one, measure, v))
+      continue;
+    if (measure == MEASURE_MODEL) {
+      if (!set_place(row, one, words_of(CAROM_WORDS_CUSHION_MODEL, false, all), &place))
+        return false;
+      *v = (value){.x = place, .given = (double)NAN};
+      snprintf(v->name, sizeof v->name, "%s", one);
+      continue;
+    }
+    if (!split(one, &number, &unit))
+      return refuse(row, one);
+    int found = unit[0] == '\0' ? common : find_unit(measure, unit);
+    if (found == NO_UNIT && number == 0.0 && unit[0] == '\0') /* 0 of any unit */
+      found = find_unit(measure, "rad/s");
+    if (found == NO_UNIT && unit[0] == '\0' && measure >= MEASURE_SPIN) {
+      complain("--%s %s needs a unit: %srad/s, %s%%%s or %stip", row->name, one, one, one,
+               measure == MEASURE_SPIN ? " of rolling" : " of english", one);
+      return false;
+    }
+    if (found == NO_UNIT || !set_value(v, number, found))
+      return refuse(row, one);
+  }
+  return list->count > 0 ? true : refuse(row, text);
+}
+
+/* Whether two whole numbers look like one with a decimal comma: 1,5 or 0,90 but not 20,30 or
+ * 0,50%, nor 0,40 of degrees. Warns.
+ */
+static bool warn_of_comma(const option_row *row, const char *text) {
+  static const char digits[] = "0123456789";
+  const int whole = (int)strspn(text, digits),
+            part = text[whole] == ',' ? (int)strspn(text + whole + 1, digits) : 0;
+  const char *second = text + whole + 1, *unit = second + part;
+  const bool angle =
+      row->least == MEASURE_CUT || row->least == MEASURE_ANGLE || row->least == MEASURE_ELEVATION;
+  if (whole == 0 || part == 0 || strpbrk(unit, ",.:%") != NULL || unit[0] == 'e' ||
+      unit[0] == 'E' || (angle && part > 1) ||
+      (whole > 1 && text[0] != '0' && part > 1 && second[0] != '0' && second[part - 1] == '0'))
+    return false;
+  complain("--%s %s is two values, %.*s and %s; decimals have a point: %.*s.%s. Two values that "
+           "are meant: %.*s.0,%.*s.0%s",
+           row->name, text, whole, text, second, whole, text, second, whole, text, part, second,
+           unit);
+  return true;
+}
+
+OPTION_SET(set_values) {
+  const bool comma = row->set == set_values && warn_of_comma(row, text),
+             good = read_values(row, text, field);
+  ((values *)field)->comma = comma;
+  return good;
+}
+
+bool value_of(int measure, const char *text, value *v) {
+  double number;
+  const char *unit;
+  if (!split(text, &number, &unit))
+    return false;
+  const int found = find_unit(measure, unit);
+  return found != NO_UNIT && set_value(v, number, found);
+}
+
+void values_default(values *list, int measure, const char *text) {
+  const option_row row = {.name = "default", .least = measure};
+  read_values(&row, text, list);
+}
+
+double tip_offset(const value *const *given, int count, double radius) {
+  double square = 0.0;
+  for (int k = 0; k < count; k++)
+    square += given[k]->times == OFFSET ? given[k]->x * given[k]->x : 0.0;
+  return sqrt(square) / (strike * radius);
+}
+
+const char *share_of_rolling(const value *v) {
+  return v->times == ROLLING && !isnan(v->given) ? " of rolling" : "";
+}
+
+double spin_of(const value *v, double speed, double radius, double gearing) {
+  switch (v->times) {
+  case ROLLING:
+    return v->x * speed / radius;
+  case OFFSET:
+    return v->x * speed / (radius * radius);
+  case GEARING:
+    return gearing;
+  case GEARED:
+    return copysign(v->x, v->x * gearing) * speed / radius;
+  default:
+    return v->x;
+  }
+}

@@ -1,0 +1,87 @@
+/* Values out of JSON objects. */
+#include "shots/json_values.h"
+
+#include "program/memory.h"
+#include "program/words.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+bool json_wrong(json_fault *f, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(f->text, sizeof f->text, format, arguments);
+  va_end(arguments);
+  return false;
+}
+
+bool json_get_part(const json_t *object, const char *where, carom_part_kind part, void *to,
+                   json_fault *f) {
+  const carom_number *n;
+  for (int k = 0; (n = carom_number_of(part, k)) != NULL; k++) {
+    const json_t *v = n->key[0] != '\0' ? json_object_get(object, n->key) : NULL;
+    if (v != NULL && !json_is_number(v))
+      return json_wrong(f, "%s%s must be a number", where, n->key);
+    if (v != NULL && n->type == CAROM_TYPE_DOUBLE)
+      memcpy((char *)to + n->offset, &(double){json_number_value(v)}, sizeof(double));
+  }
+  return true;
+}
+
+const char *json_keys_of(carom_part_kind part, const char *besides, char text[JSON_KEYS]) {
+  const carom_number *n;
+  int size = snprintf(text, JSON_KEYS, "%s", besides);
+  for (int k = 0; (n = carom_number_of(part, k)) != NULL; k++)
+    if (n->key[0] != '\0')
+      size += snprintf(text + size, (size_t)(JSON_KEYS - size), " %s", n->key);
+  return text;
+}
+
+bool json_only(const json_t *object, const char *where, const char *keys, json_fault *f) {
+  const char *key;
+  json_t *v;
+  json_object_foreach((json_t *)object, key, v) {
+    char hint[HINT_TEXT];
+    if (place_among(keys, key, strlen(key)) < 0)
+      return json_wrong(f, "%s%.40s is no key; there are %s%s", where, key, keys,
+                        did_you_mean(key, keys, hint));
+  }
+  return true;
+}
+
+bool json_get_numbers(const json_t *array, const char *where, size_t count, double *value,
+                      json_fault *f) {
+  if (!json_is_array(array) || json_array_size(array) < count)
+    return json_wrong(f, "%s must be an array of %zu numbers", where, count);
+  for (size_t k = 0; k < count; k++) {
+    const json_t *v = json_array_get(array, k);
+    if (!json_is_number(v))
+      return json_wrong(f, "%s[%zu] must be a number", where, k);
+    value[k] = json_number_value(v);
+  }
+  return true;
+}
+
+bool json_get_id(const json_t *object, const char *where, char **id, json_fault *f) {
+  const json_t *v = json_object_get(object, "id");
+  char digits[32];
+  if (json_is_integer(v)) {
+    snprintf(digits, sizeof digits, "%lld", (long long)json_integer_value(v));
+    *id = copy_text(digits);
+  } else if (json_is_string(v)) {
+    *id = copy_text(json_string_value(v));
+  } else {
+    return json_wrong(f, "%sid must be a text", where);
+  }
+  return true;
+}
+
+bool json_get_list(const json_t *object, const char *key, size_t most, const json_t **list,
+                   json_fault *f) {
+  *list = json_object_get(object, key);
+  if (*list != NULL && !json_is_array(*list))
+    return json_wrong(f, "%s must be an array", key);
+  return json_array_size(*list) <= most ? true
+                                        : json_wrong(f, "%s has more than %zu elements", key, most);
+}

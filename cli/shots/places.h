@@ -1,0 +1,44 @@
+/* Places on a table and offsets of the tip, as players write them. */
+#ifndef CAROM_CLI_PLACES_H
+#define CAROM_CLI_PLACES_H
+
+#include "rows/values.h"
+#include "shots/shoot_aim.h"
+
+enum { MOST_PLACES = 64 };
+
+/* A pair of numbers, with the name that stood before it. Of a ball that touches a rail or another
+ * ball, x is how far along the rail, or the direction from that ball, degrees. */
+typedef struct given_place {
+  char name[PLACE_NAME], touches[PLACE_NAME];
+  value x, y;
+} given_place;
+
+typedef struct place_list {
+  int count;
+  int rack; /* 1 + the carom_rack_kind that stood there instead; or 0 */
+  given_place at[MOST_PLACES];
+} place_list;
+
+/* For a place_list: X,Y:X,Y:..., each perhaps behind NAME=, where balls are named, or the name of a
+ * rack, by row->words. Of a ball on a spot of snooker that is its name. frozen-NAME,X in place of
+ * X,Y touches a rail or a ball. */
+OPTION_SET(set_places);
+
+/* Places that have a name, as help and complaints list them. */
+#define PLACES                                                                              \
+  "head-spot, centre, foot-spot, head-left, head-right, side-left, side-right, foot-left, " \
+  "foot-right; or a spot of snooker: yellow, green, brown, blue, pink, black"
+
+enum { COLOURS = 6 };
+extern const char *const colours_of_snooker[COLOURS];
+
+/* A text that begins with the name of a place, up to a comma or its end, as X,Y in diamonds; other
+ * texts as they are. `to` has the room. */
+enum { PLACE_TEXT = 128 };
+char *place_spelt(char *text, char to[PLACE_TEXT]);
+
+/* A place, m: `diamond` is the distance of two diamonds. */
+double place_along(const value *v, double diamond);
+
+#endif

@@ -1,0 +1,85 @@
+/* Aims at balls from words: ball_aim.h's, and why there is none. */
+#include "shots/shoot_aim.h"
+
+#include "program/message.h"
+#include "program/words.h"
+#include "shots/ball_aim.h"
+
+#include <math.h>
+#include <string.h>
+
+int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_TEXT]) {
+  int found = -1;
+  names[0] = '\0';
+  for (int k = 1; k < l->count; k++) {
+    snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s|", l->name[k]);
+    if (strlen(l->name[k]) == size && strncmp(l->name[k], name, size) == 0)
+      found = k;
+  }
+  return found;
+}
+
+const char *named_ball(const char *name, char text[BALL_TEXT]) {
+  const size_t letters = strspn(name, "abcdefghijklmnopqrstuvwxyz");
+  const char *article = letters < 2 ? "ball " : name[letters] == '\0' ? "the " : "";
+  snprintf(text, BALL_TEXT, "%s%s", article, name);
+  return text;
+}
+
+const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]) {
+  return ball == 0 ? "the cue ball" : named_ball(l->name[ball], text);
+}
+
+const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT]) {
+  return type == CAROM_EVENT_BALL_BALL    ? ball_words(l, other, text)
+         : type == CAROM_EVENT_POCKET     ? "a pocket"
+         : type == CAROM_EVENT_LEFT_TABLE ? "the end of the table"
+         : type == CAROM_EVENT_JAW        ? "the jaw of a pocket"
+                                          : "a cushion";
+}
+
+bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
+                 carom_cue *cue) {
+  char text[BALL_TEXT], names[NAMES_TEXT], hint[HINT_TEXT];
+  carom_event met;
+  const int at = ball_named(l, name, strlen(name), names);
+  if (at < 0)
+    complain("--at-ball '%s': there is no such ball; --balls says where balls are%s", name,
+             did_you_mean(name, names, hint));
+  else if (!(fabs(cut) < 90.0))
+    complain("--cut is between -90 and 90 degrees");
+  else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
+    return true; /* which is told when it is played */
+  else {
+    const aim_result found = aim_at(&l->table, l->ball, l->count, options, at, cut, cue, &met);
+    *l->missed |= found != AIM_FOUND;
+    switch (l->quiet ? AIM_FOUND : found) {
+    case AIM_FOUND:
+      return found == AIM_FOUND;
+    case AIM_BARRED:
+      complain("--at-ball %s: at a cut of %.4g degrees %s is in the way", name, cut,
+               obstacle(l, met.type, met.a == 0 ? met.b : met.a, text));
+      break;
+    case AIM_NOT_REACHED:
+      complain("--at-ball %s: at a cut of %.4g degrees the cue ball comes to rest before it; give "
+               "a higher --speed",
+               name, cut);
+      break;
+    default:
+      complain("--at-ball %s: no direction of this cue makes the cue ball meet it first at a cut "
+               "of %.4g degrees",
+               name, cut);
+    }
+  }
+  return false;
+}
+
+int pocket_named(const carom_table *t, char *const id[], const char *name, char names[NAMES_TEXT]) {
+  int found = -1;
+  for (int p = 0; p < t->pockets; p++) {
+    const char *own = carom_pocket_name(t, p) != NULL ? carom_pocket_name(t, p) : id[p];
+    snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", p > 0 ? "|" : "", own);
+    found = strcmp(own, name) == 0 || strcmp(id[p], name) == 0 ? p : found;
+  }
+  return found;
+}

@@ -1,0 +1,585 @@
+/* Shots from words.
+ *
+ * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. */
+#include "shots/shoot_flags.h"
+
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/words.h"
+#include "rows/doubts.h"
+#include "rows/number.h"
+#include "rows/quantities.h"
+#include "shots/places.h"
+#include "shots/shot_fault.h"
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+enum { MOST_TEXT = 1024 };
+
+static OPTION_SET(set_table) {
+  struct chosen_table *table = field;
+  char all[MOST_WORDS], name[MOST_WORDS];
+  json_fault fault;
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ","), text);
+  if (!set_place(row, name, words_of(row->words, true, all), &table->kind))
+    return false;
+  table->kind++;
+  table->text = text;
+  named_table *made = built_in_table(text, &fault);
+  if (made == NULL)
+    complain("--%s %.80s: %s", row->name, text, fault.text);
+  else
+    free_table(made);
+  return made != NULL;
+}
+
+#define ROW(row, name, member, argument, set, least, help) \
+  OPTION_ROW(shoot_flags, ANY_KIND, row, name, member, 0, argument, set, least, help)
+
+const option_row option_table = {
+    .name = "table",
+    .help = "play one shot on this table, instead of those of a file (default 9ft). x runs across "
+            "the table, y along it. Measures may change it, with units: "
+            "9ft,corner=4.25in,side_cut=104; "
+            "`carom models` lists them. A table of one's own stands in a file",
+    .set = set_table,
+    .field = offsetof(shoot_flags, table),
+    .words = CAROM_WORDS_TABLE};
+ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
+    "place of the cue ball, m, or with a unit: 2,3ft, or 2,3d in diamonds from the left and the "
+    "head; or a place: " PLACES ". Corners and sides lie at the noses. frozen-left,4d touches that "
+    "rail, frozen-1,90 ball 1 in that direction, degrees (default: head-spot, or the place in the "
+    "rack)");
+const option_row option_balls = {.name = "balls",
+                                 .argument = "X,Y:...",
+                                 .help = "places of the other balls, as in --cue, with colons "
+                                         "between them: 0.6,1.5:foot-spot. They are named 1, "
+                                         "2, ..., after their spot of snooker, or as 8=0.6,1.5 "
+                                         "says. Or a rack",
+                                 .set = set_places,
+                                 .field = offsetof(shoot_flags, balls),
+                                 .least = MEASURE_PLACE,
+                                 .words = CAROM_WORDS_RACK};
+ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
+    "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin "
+    "turns the ball off it by squirt");
+ROW(option_to, "to", to, "X,Y", set_places, MEASURE_PLACE,
+    "the cue ball leaves towards this place instead, whatever squirt does: as in --cue, 4d,6d or "
+    "foot-right; several with colons, 4d,6d:4d,7d. Spin may bend its way after that");
+ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
+    "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, "
+    "swerve and hops do; an error where no direction does");
+ROW(option_pocket, "pocket", pocket, "BALL:POCKET", set_text, 0,
+    "aim so that this ball falls into this pocket, whatever squirt and throw do: 1:foot-left, "
+    "1:side-right, or by its id, 1:lt. Tells the cut, how far the ball's way may turn to either "
+    "jaw, and with which directions and speeds of the cue it falls; or why there is no such aim");
+ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
+    "with --pocket: the way, in its order. left: a bank of the ball; 2: a combination by ball 2; "
+    "2,left: both; head,1: a kick of the cue ball at ball 1, the one of --pocket. Rails are head, "
+    "foot, left and right");
+ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES", set_values,
+    MEASURE_CUT, "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
+ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
+    "speed of the cue just before the strike, m/s, or with a unit: mph, km/h (default 2). A word "
+    "is the speed of the ball after it: " SPEEDS);
+ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
+    "speed of the cue ball just after the strike instead, which a level cue gives it");
+ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
+    "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip; several "
+    "with colons, or ranges: 0,-0.4:0.4:0.2. Right is "
+    "positive, as english is everywhere in this command (default 0,0.25). Beyond 0.5 R a chalked "
+    "tip "
+    "slips off the ball, of which carom warns");
+ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
+    "of the butt of the cue (default 0). With --pocket also least: as little as the stick needs "
+    "over the cushions and balls behind the cue ball");
+ROW(option_tip_time, "tip-time", tip_time, "SECONDS", set_values, MEASURE_NUMBER,
+    "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.001, of "
+    "leather; of hard resin, which lets balls jump: 0.0008). -1: no time");
+ROW(option_tip_restitution, "tip-restitution", tip_restitution, "E", set_values, MEASURE_NUMBER,
+    "restitution of the tip and the ball, above 0 to 1: the speed of the ball is in proportion to "
+    "1 + E (default 0.73, of leather; of phenolic resin 0.85; of pooltool 1)");
+ROW(option_json, "json", json, NULL, set_flag, 0,
+    "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign "
+    "holds: a > 0 is left");
+
+#define GAP_HELP \
+  "gap between neighbours of a rack, m, or with a unit: 0.1mm (the default); 0 is a frozen rack"
+#define SEED_HELP "draws how the balls of a rack are moved and placed (default 1)"
+ROW(option_gap, "gap", gap, "G", set_values, MEASURE_LENGTH, GAP_HELP);
+ROW(option_seed, "seed", seed, "N", set_values, MEASURE_NUMBER, SEED_HELP);
+/* Where the balls lie once, or a seed is that of the first rack of many. */
+static OPTION_SET(set_single) {
+  values *list = field;
+  if (!set_values(row, text, list))
+    return false;
+  if (list->count > 1)
+    complain("--%s takes one value here, not '%s'; `carom shoot` takes a list", row->name, text);
+  return list->count == 1;
+}
+ROW(option_one_gap, "gap", gap, "G", set_single, MEASURE_LENGTH, GAP_HELP);
+ROW(option_one_seed, "seed", seed, "N", set_single, MEASURE_NUMBER, SEED_HELP);
+
+/* Whether one of the lists is given, or looks like a number with a decimal comma. */
+static bool any_list(const shoot_flags *f, bool comma) {
+  const values *const all[] = {&f->speed,    &f->ball_speed,      &f->aim, &f->cut, &f->elevation,
+                               &f->tip_time, &f->tip_restitution, &f->gap, &f->seed};
+  bool any = false;
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    any |= comma ? all[k]->comma : all[k]->count > 0;
+  return any;
+}
+
+bool has_flags(const shoot_flags *f) {
+  return f->table.kind != 0 || f->at_ball != NULL || f->pocket != NULL || f->via != NULL ||
+         f->json || f->cue.count > 0 || f->to.count > 0 || f->balls.count > 0 ||
+         f->balls.rack > 0 || f->tip.count > 0 || any_list(f, false);
+}
+
+/* Names of the balls of a rack, by carom_rack()'s order. */
+static void name_rack(layout *l, carom_rack_kind kind) {
+  static const char *const billiard[] = {"white", "yellow", "red"};
+  for (int k = 0; k < l->count; k++)
+    if (kind == CAROM_RACK_THREECUSHION)
+      snprintf(l->name[k], PLACE_NAME, "%s", billiard[k]);
+    else if (kind == CAROM_RACK_SNOOKER && k > 15)
+      snprintf(l->name[k], PLACE_NAME, "%s", colours_of_snooker[k - 16]);
+    else
+      snprintf(l->name[k], PLACE_NAME, kind == CAROM_RACK_SNOOKER ? "red%d" : "%d", k);
+  if (kind != CAROM_RACK_THREECUSHION)
+    snprintf(l->name[0], PLACE_NAME, "%s", kind == CAROM_RACK_SNOOKER ? "white" : "cue");
+}
+
+/* Of RAILS; -1: no rail. */
+static int rail_of(const char *name) {
+  return place_among(RAILS, name, strlen(name));
+}
+
+/* Puts ball k at rest at a place, which may touch one of the first `laid` balls; false after a
+ * complaint. */
+static bool lay(layout *l, int k, const given_place *at, int laid) {
+  enum { HEAD, FOOT, LEFT, RIGHT };
+  const double width = l->table.width, length = l->table.length, R = l->ball[k].kind.radius;
+  const int rail = rail_of(at->touches);
+  double x = place_along(&at->x, 0.25 * width), y = place_along(&at->y, 0.125 * length);
+  if (rail == HEAD || rail == FOOT) {
+    y = rail == HEAD ? R : length - R;
+  } else if (rail == LEFT || rail == RIGHT) {
+    y = place_along(&at->x, 0.125 * length);
+    x = rail == LEFT ? R : width - R;
+  } else if (at->touches[0] != '\0') {
+    int other = laid - 1;
+    while (other >= 0 && strcmp(l->name[other], at->touches) != 0)
+      other--;
+    if (other < 0 || other == k) {
+      complain("frozen-%s: it is a rail, " RAILS ", or a ball that lies already: cue, or one that "
+               "stands before it",
+               at->touches);
+      return false;
+    }
+    const carom_shot_ball *ball = &l->ball[other];
+    const double apart = R + ball->kind.radius;
+    x = ball->state.r[0] + apart * cos(at->x.x * degree);
+    y = ball->state.r[1] + apart * sin(at->x.x * degree);
+  }
+  l->ball[k].state = (carom_ball_state){.r = {x, y, R}};
+  return true;
+}
+
+/* The layout with rack number `which` of those that gaps and seeds ask for; false after a
+ * complaint. */
+static bool lay_out(const shoot_flags *f, layout *l, carom_shot_cushion cushion, int which) {
+  const carom_table_kind kind =
+      f->table.kind != 0 ? (carom_table_kind)(f->table.kind - 1) : CAROM_TABLE_POOL_9FT;
+  l->table_name = f->table.text != NULL ? f->table.text : carom_table_name(kind);
+  named_table *t = built_in_table(l->table_name, &(json_fault){{0}});
+  l->table = t->table;
+  free_table(t);
+  l->game = game_of_table(kind);
+  carom_ball_kind ball;
+  kind_of_game(l->game, cushion, &ball);
+  give_ball(&f->shared.with, &ball);
+  snprintf(l->name[0], PLACE_NAME, "cue");
+  l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
+  l->count = 1 + f->balls.count;
+  const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
+  if (f->balls.rack > 0) {
+    l->count = carom_rack_size(rack);
+    carom_rack(rack, &l->table, f->gap.at[which % f->gap.count].x,
+               (uint64_t)f->seed.at[which / f->gap.count].x, l->ball, CAROM_BALLS_MOST);
+    name_rack(l, rack);
+  }
+  for (int k = 0; k < l->count; k++) {
+    l->ball[k].kind = ball;
+    l->ball[k].state.r[2] = ball.radius;
+  }
+
+  /* The places given. A cue ball that touches a ball is put there after it. */
+  const given_place *cue = f->cue.count > 0 ? &f->cue.at[0] : NULL;
+  const bool last = cue != NULL && cue->touches[0] != '\0' && rail_of(cue->touches) < 0;
+  if (cue != NULL && !last && !lay(l, 0, cue, 0))
+    return false;
+  if (f->balls.rack == 0)
+    for (int k = 1; k < l->count; k++) {
+      const given_place *at = &f->balls.at[k - 1];
+      if (at->name[0] != '\0')
+        snprintf(l->name[k], PLACE_NAME, "%s", at->name);
+      else
+        snprintf(l->name[k], PLACE_NAME, "%d", k);
+      if (!lay(l, k, at, k))
+        return false;
+    }
+  return !last || lay(l, 0, cue, l->count);
+}
+
+static double tip_of(const value *v, double radius) {
+  return v->times == OFFSET ? v->x / radius : v->x;
+}
+
+/* What differs between shots, as text. */
+static void name_value(char *id, const char *what, const values *list, int k) {
+  if (list->count > 1)
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s %s", id[0] != '\0' ? ", " : "", what,
+             list->at[k].name);
+}
+
+/* Gives a level cue the speed with which its ball leaves it at `speed`; false after a complaint.
+ * The ball's speed is in proportion to the cue's. Along x, and by a root, it has the same bits in
+ * other languages. */
+static bool strike_to(double speed, const carom_ball_kind *kind, carom_cue *cue) {
+  carom_motion after;
+  if (cue->theta > 0.0) {
+    complain("--ball-speed, and a word as --speed, is the speed that a level cue gives the ball; "
+             "with --elevation give --speed as a number, the speed of the cue");
+    return false;
+  }
+  cue->speed = 1.0;
+  if (carom_strike(cue, kind, &after) != CAROM_OK)
+    return true; /* which is told when it is played */
+  cue->speed = speed / sqrt(after.v[0] * after.v[0] + after.v[1] * after.v[1]);
+  return true;
+}
+
+/* Turns a cue so that its ball leaves towards a place; false after a complaint. */
+static bool aim_to(const given_place *to, const layout *l, carom_cue *cue) {
+  const double *from = l->ball[0].state.r;
+  const double ahead[2] = {place_along(&to->x, 0.25 * l->table.width) - from[0],
+                           place_along(&to->y, 0.125 * l->table.length) - from[1]};
+  carom_motion after;
+  if (to->touches[0] != '\0' || hypot(ahead[0], ahead[1]) < l->ball[0].kind.radius) {
+    complain("--to is a place away from the cue ball, X,Y or one that has a name");
+    return false;
+  }
+  cue->phi = 0.0;
+  if (carom_strike(cue, &l->ball[0].kind, &after) == CAROM_OK)
+    cue->phi = (atan2(ahead[1], ahead[0]) - atan2(after.v[1], after.v[0])) / degree;
+  return true;
+}
+
+static int directions_of(const shoot_flags *f) {
+  return f->to.count > 0 ? f->to.count : f->cut.count > 0 ? f->cut.count : f->aim.count;
+}
+
+/* Which value of each number a combination has: the speed changes fastest. */
+typedef struct combination {
+  const values *speeds;
+  int speed, tip, rise, time, bounce, way, rack;
+} combination;
+
+static int many(const values *list) {
+  return list->count > 0 ? list->count : 1;
+}
+
+/* Takes a place among `count` off the index of a combination. */
+static int take(int *index, int count) {
+  const int place = *index % count;
+  *index /= count;
+  return place;
+}
+
+static combination combination_at(const shoot_flags *f, int index) {
+  combination c = {.speeds = f->ball_speed.count > 0 ? &f->ball_speed : &f->speed};
+  c.speed = take(&index, c.speeds->count);
+  c.tip = take(&index, f->tip.count);
+  c.rise = take(&index, f->elevation.count);
+  c.time = take(&index, many(&f->tip_time));
+  c.bounce = take(&index, many(&f->tip_restitution));
+  c.way = take(&index, directions_of(f));
+  c.rack = index;
+  return c;
+}
+
+/* The strike of a combination, towards +x; false after a complaint where there is no such one. */
+static bool strike_of(const shoot_flags *f, const layout *l, const combination *c,
+                      const given_numbers *with, carom_cue *cue) {
+  const double R = l->ball[0].kind.radius;
+  const bool least = isnan(f->elevation.at[c->rise].x);
+  carom_motion after;
+  *cue = carom_cue_of(l->game);
+  cue->speed = c->speeds->at[c->speed].x;
+  cue->phi = 0.0;
+  cue->theta = least ? 0.0 : f->elevation.at[c->rise].x;
+  give_cue(with, cue);
+  cue->a = -tip_of(&f->tip.at[c->tip].x, R);
+  cue->b = tip_of(&f->tip.at[c->tip].y, R);
+  if (!(cue->speed > 0.0)) {
+    complain("--%s is above 0", f->ball_speed.count > 0 ? "ball-speed" : "speed");
+    return false;
+  }
+  if (least && f->pocket == NULL) {
+    complain("--elevation least is of a pot that is aimed: give --pocket");
+    return false;
+  }
+  const carom_status bad = carom_strike(cue, &l->ball[0].kind, &after);
+  if (bad == CAROM_ERROR_MISCUE)
+    complain("--tip: it is %.4g R from the centre%s tip slips off beyond %g R",
+             hypot(cue->a, cue->b), cue->miscue > 0.0 ? "; this" : ", beside the ball; a chalked",
+             cue->miscue > 0.0 ? cue->miscue : TIP_LIMIT);
+  else if (bad != CAROM_OK)
+    complain("no such strike: %s", carom_status_string(bad));
+  const bool of_ball = f->ball_speed.count > 0 || c->speeds->at[c->speed].times == OF_BALL;
+  return bad == CAROM_OK && (!of_ball || strike_to(cue->speed, &l->ball[0].kind, cue));
+}
+
+/* Turns the cue as the combination says; false after a complaint. */
+static bool aim_of(shoot_flags *f, const layout *l, const carom_shot_options *options,
+                   const combination *c, carom_cue *cue) {
+  char told[AIMED_TEXT] = "";
+  if (f->pocket != NULL) {
+    if (isnan(f->elevation.at[c->rise].x))
+      cue->theta = (double)NAN;
+    if (!aim_at_pocket(f->pocket, f->via, l, options, cue, told))
+      return false;
+    if (f->written < MOST_SHOTS)
+      memcpy(f->aimed[f->written], told, sizeof told);
+    return true;
+  }
+  if (f->to.count > 0)
+    return aim_to(&f->to.at[c->way], l, cue);
+  if (f->cut.count > 0)
+    return aim_at_ball(f->at_ball != NULL ? f->at_ball : "1", l, options, f->cut.at[c->way].x, cue);
+  cue->phi = f->aim.at[c->way].x;
+  return true;
+}
+
+/* What differs between the shots. */
+static void name_shot(const shoot_flags *f, const combination *c, char id[MOST_TEXT]) {
+  id[0] = '\0';
+  name_value(id, "gap", &f->gap, c->rack % f->gap.count);
+  name_value(id, "seed", &f->seed, c->rack / f->gap.count);
+  name_value(id, "aim", &f->aim, c->way);
+  name_value(id, "cut", &f->cut, c->way);
+  if (f->to.count > 1)
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%sto %s,%s", id[0] != '\0' ? ", " : "",
+             f->to.at[c->way].x.name, f->to.at[c->way].y.name);
+  name_value(id, "elevation", &f->elevation, c->rise);
+  name_value(id, "tip-time", &f->tip_time, c->time);
+  name_value(id, "tip-restitution", &f->tip_restitution, c->bounce);
+  name_value(id, "speed", c->speeds, c->speed);
+  if (f->tip.count > 1)
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "",
+             f->tip.at[c->tip].x.name, f->tip.at[c->tip].y.name);
+}
+
+static void write_line(FILE *out, const layout *l, const given_numbers *given, const char *id,
+                       const carom_cue *cue) {
+  char number[NUMBER_TEXT];
+  const carom_number *n;
+  fprintf(out, "{\"kind\": \"shot\", \"id\": \"%s\", \"table\": \"%s\", \"cue\": {",
+          id[0] != '\0' ? id : "shot", l->table_name);
+  for (int k = 0; (n = carom_number_of(CAROM_PART_CUE, k)) != NULL; k++) {
+    double x = 0.0;
+    if (n->key[0] != '\0')
+      memcpy(&x, (const char *)cue + n->offset, sizeof x);
+    /* the stroke is always said */
+    if (x != 0.0 || (given->of_cue >> k & 1) != 0 || n->offset <= (int32_t)offsetof(carom_cue, b))
+      fprintf(out, "\"%s\": %s, ", n->key, number_text(x + 0.0, number));
+  }
+  fprintf(out, "\"ball\": \"%s\"}, \"balls\": [", l->name[0]);
+  for (int k = 0; k < l->count; k++) {
+    static const char *const games[] = {"pool", "snooker", "billiard"};
+    fprintf(out, "%s{\"id\": \"%s\", \"params\": {\"game\": \"%s\"", k > 0 ? ", " : "", l->name[k],
+            games[l->game]);
+    for (int j = 0; (n = carom_number_of(CAROM_PART_BALL, j)) != NULL; j++) {
+      double x;
+      memcpy(&x, (const char *)&l->ball[k].kind + n->offset, sizeof x);
+      if ((given->which >> j & 1) != 0)
+        fprintf(out, ", \"%s\": %s", n->key, number_text(x, number));
+    }
+    fputs("}, \"state\": [0", out);
+    for (int axis = 0; axis < 2; axis++)
+      fprintf(out, ", %s", number_text(l->ball[k].state.r[axis], number));
+    fprintf(out, ", %s, 0, 0, 0, 0, 0, 0]}", number_text(l->ball[0].kind.radius, number));
+  }
+  fputs("]}\n", out);
+}
+
+/* One of the combinations; false after a complaint. */
+static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
+                       const carom_shot_options *options, int index) {
+  const combination c = combination_at(f, index);
+  given_numbers with = f->shared.with;
+  carom_cue cue;
+  char id[MOST_TEXT];
+  if (f->tip_time.count > 0 && !give_number(&with, "tip-time", f->tip_time.at[c.time].x))
+    return false;
+  if (f->tip_restitution.count > 0 &&
+      !give_number(&with, "tip-restitution", f->tip_restitution.at[c.bounce].x))
+    return false;
+  if (!strike_of(f, l, &c, &with, &cue) || !aim_of(f, l, options, &c, &cue))
+    return false;
+  name_shot(f, &c, id);
+  write_line(out, l, &with, id, &cue);
+  return true;
+}
+
+bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most) {
+  static layout l;
+  const bool aim = f->aim.count > 0, at_ball = f->cut.count > 0 || f->at_ball != NULL;
+  const struct {
+    bool wrong;
+    const char *why;
+  } rules[] = {
+      {aim && at_ball, "--aim is a direction, --at-ball and --cut aim at a ball: give one of both"},
+      {f->pocket != NULL && (aim || at_ball),
+       "--pocket says the direction, and so do --aim, --at-ball and --cut: give one of them"},
+      {f->to.count > 0 && (aim || at_ball || f->pocket != NULL),
+       "--to says the direction, and so do --aim, --at-ball, --cut and --pocket: give one of them"},
+      {f->via != NULL && f->pocket == NULL,
+       "--via is the way of a ball to its pocket: give --pocket too"},
+      {f->speed.count > 0 && f->ball_speed.count > 0,
+       "--speed is that of the cue, --ball-speed that of the ball: give one of both"},
+      {(f->gap.count > 0 || f->seed.count > 0) && f->balls.rack == 0,
+       "--gap and --seed are of a rack: give --balls nineball or the like"},
+      {f->cue.count > 1, "--cue is one place"}};
+  for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
+    if (rules[k].wrong) {
+      complain("%s", rules[k].why);
+      return false;
+    }
+  /* What is not given: carom_cue_of() says the same. */
+  if (f->at_ball != NULL && f->cut.count == 0)
+    values_default(&f->cut, MEASURE_CUT, "0");
+  if (f->aim.count == 0 && f->cut.count == 0)
+    values_default(&f->aim, MEASURE_ANGLE, "90");
+  if (f->speed.count == 0)
+    values_default(&f->speed, MEASURE_SPEED, "2");
+  if (f->gap.count == 0)
+    values_default(&f->gap, MEASURE_LENGTH, "0.0001");
+  if (f->seed.count == 0)
+    values_default(&f->seed, MEASURE_NUMBER, "1");
+  for (int k = 0; k < f->gap.count || k < f->seed.count; k++) {
+    const double gap = f->gap.at[k % f->gap.count].x, seed = f->seed.at[k % f->seed.count].x;
+    if (gap >= 0.0 && gap <= GAP_MOST && seed >= 1.0 && seed <= INT_MAX && seed == floor(seed))
+      continue;
+    complain("--gap is 0 to %g m, and --seed a whole number, 1 to %d", GAP_MOST, INT_MAX);
+    return false;
+  }
+  if (f->elevation.count == 0)
+    values_default(&f->elevation, MEASURE_ELEVATION, "0");
+  if (f->tip.count == 0)
+    f->tip = (place_list){.count = 1, .at = {{.y = {.x = 0.25}}}};
+  if (f->shared.strict && any_list(f, true))
+    return false;
+  const int speeds = f->ball_speed.count > 0 ? f->ball_speed.count : f->speed.count;
+  const int racks = f->gap.count * f->seed.count;
+  const double all = (double)speeds * f->tip.count * f->elevation.count * many(&f->tip_time) *
+                     many(&f->tip_restitution) * directions_of(f) * racks;
+  const int count = all <= most ? (int)all : 0;
+  bool good = all <= most;
+  if (!good)
+    complain("these are %.0f shots; at most %d are told and drawn at once, and %d with --csv", all,
+             MOST_SHOTS, MOST_ROWS);
+  const carom_shot_cushion cushion =
+      options != NULL ? options->cushion_model : CAROM_SHOT_CUSHION_DEFAULT;
+  /* of several shots those that cannot be aimed are left out, and the first of them told */
+  bool missed = false;
+  l.missed = &missed;
+  f->written = 0;
+  for (int k = 0; k < count && good; k++) {
+    missed = false;
+    if (k % (count / racks) == 0 && !lay_out(f, &l, cushion, k / (count / racks)))
+      return false;
+    l.quiet = f->tries || k > f->written;
+    const bool written = write_shot(out, f, &l, options, k);
+    f->written += written;
+    good = written || (missed && (f->tries || count > 1));
+  }
+  f->left_out = good ? count - f->written : 0;
+  if (!f->tries && good && f->written == 0)
+    return false;
+  if (!f->tries && f->left_out > 0)
+    complain("%d of %d shots are left out: they cannot be aimed", f->left_out, count);
+  return good;
+}
+
+shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most, char **text) {
+  size_t size;
+  FILE *lines = open_text(text, &size);
+  const bool good = flags_write(lines, f, options, most);
+  close_text(lines, text);
+  if (!good) {
+    free(*text);
+    *text = NULL;
+    return NULL;
+  }
+  FILE *in = fmemopen(*text, size, "r");
+  if (in == NULL)
+    out_of_memory();
+  return shot_file_of(in, "the shot given");
+}
+
+shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_options *options,
+                       int most, char **text) {
+  *text = NULL;
+  if (has_flags(f) == (path != NULL)) {
+    complain(path != NULL ? "a file has its own balls: give it, or --cue, --balls and the like"
+                          : "the balls are needed: a file of shots, or --cue 0.6,0.8 --balls "
+                            "0.5,1.6:0.9,1.2");
+    return NULL;
+  }
+  return path != NULL ? shot_file_open(path, options->cushion_model)
+                      : flags_open(f, options, most, text);
+}
+
+int strokes_read(shot_file *file, const shared_options *shared, shot_line *line, carom_cue *cues,
+                 int most) {
+  shot_line next;
+  char many[80];
+  uint64_t told = 0;
+  int n = 0;
+  for (shot_read what;
+       (n == 0 || most > 1) && (what = shot_file_next_shot(file, &next)) != SHOT_END;) {
+    if (what == SHOT_SHOT)
+      shot_numbers(&next, shared, shot_file_name(file), &told);
+    snprintf(many, sizeof many, "there are more strokes than %d, the most that are read", most);
+    const char *wrong = what == SHOT_FAILED  ? "" /* which was told */
+                        : next.error != NULL ? next.error
+                        : n == most          ? many
+                                             : NULL;
+    if (wrong == NULL && n > 0) {
+      bool same = next.count == line->count && next.cue.ball == line->cue.ball;
+      for (int k = 0; k < line->count && same; k++)
+        same = memcmp(&next.ball[k], &line->ball[k], sizeof next.ball[k]) == 0;
+      wrong = same ? NULL : "the balls must be those of the first shot";
+    }
+    if (wrong != NULL && wrong[0] != '\0')
+      complain("%s:%zu: %s", shot_file_name(file), next.number, wrong);
+    if (wrong == NULL)
+      cues[n++] = next.cue;
+    if (wrong == NULL && n == 1)
+      *line = next;
+    else if (what == SHOT_SHOT)
+      shot_line_free(&next);
+    if (wrong != NULL) {
+      if (n > 0)
+        shot_line_free(line);
+      return 0;
+    }
+  }
+  if (n == 0)
+    complain("%s: there is no shot", shot_file_name(file));
+  return n;
+}

@@ -1,0 +1,347 @@
+/* Tables and shots from JSON Lines. What is missing takes pooltool's defaults; what is wrong is
+ * told by its key. */
+#include "shots/shot_file.h"
+
+#include "program/memory.h"
+#include "program/message.h"
+#include "program/options.h"
+#include "rows/records.h"
+#include "shots/json_values.h"
+#include "shots/shot_table.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FIRST_ROOM = 512 }; /* for events */
+
+struct shot_file {
+  FILE *in;
+  const char *path;
+  char *text;
+  size_t space, number;
+  bool begun;          /* a line has been met that is not blank */
+  named_table **table; /* each stays where it is, for the shots that refer to it */
+  size_t tables, room;
+  char engine[64];
+  carom_shot_cushion cushion; /* whose constants balls have by the name of their game */
+};
+
+static named_table *find_table(const shot_file *file, const char *id) {
+  for (size_t k = file->tables; k-- > 0;)
+    if (strcmp(file->table[k]->id, id) == 0)
+      return file->table[k];
+  return NULL;
+}
+
+static void keep_table(shot_file *file, named_table *t) {
+  file->table = grow(file->table, &file->room, file->tables + 1, sizeof *file->table);
+  file->table[file->tables++] = t;
+}
+
+/* ---- Shots */
+
+/* The numbers of a ball by their keys; the bits of `given` become those that differ from the
+ * game's. */
+static bool read_kind(const json_t *params, const char *where, carom_ball_kind *kind,
+                      uint64_t *given, json_fault *f) {
+  const carom_ball_kind of_game = *kind;
+  char known[JSON_KEYS];
+  const carom_number *n;
+  if (!json_get_part(params, where, CAROM_PART_BALL, kind, f) ||
+      !json_only(params, where, json_keys_of(CAROM_PART_BALL, "game", known), f))
+    return false;
+  for (int k = 0; (n = carom_number_of(CAROM_PART_BALL, k)) != NULL; k++)
+    if (memcmp((const char *)kind + n->offset, (const char *)&of_game + n->offset,
+               sizeof(double)) != 0)
+      *given |= (uint64_t)1 << k;
+  return true;
+}
+
+void kind_of_game(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind) {
+  static bool told = false;
+  if (!carom_ball_kind_for(game, cushion, kind) && !told)
+    complain("%s has no constants for the cushion %s: the balls have those for its default model",
+             carom_word(CAROM_WORDS_GAME, (int)game),
+             carom_word(CAROM_WORDS_SHOT_CUSHION, (int)cushion));
+  told |= !carom_ball_kind_for(game, cushion, NULL);
+}
+
+/* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */
+static bool read_game(shot_file *file, const json_t *params, const char *where,
+                      carom_ball_kind *kind, json_fault *f) {
+  const json_t *game = json_object_get(params, "game");
+  *kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
+  if (game == NULL)
+    return true;
+  const char *name;
+  for (int k = 0; (name = carom_word(CAROM_WORDS_GAME, k)) != NULL; k++)
+    if (json_is_string(game) && strcmp(name, json_string_value(game)) == 0) {
+      kind_of_game((carom_game)k, file->cushion, kind);
+      return true;
+    }
+  return json_wrong(f, "%sgame must be %s", where,
+                    words_of(CAROM_WORDS_GAME, true, (char[MOST_WORDS]){""}));
+}
+
+static bool read_ball(shot_file *file, const json_t *v, int k, shot_line *line, json_fault *f) {
+  char where[64], key[80];
+  snprintf(where, sizeof where, "balls[%d].", k);
+  if (!json_get_id(v, where, &line->name[k], f))
+    return false;
+  for (int other = 0; other < k; other++)
+    if (strcmp(line->name[other], line->name[k]) == 0)
+      return json_wrong(f, "%sid '%s' is that of another ball", where, line->name[k]);
+  carom_ball_kind *kind = &line->ball[k].kind;
+  const json_t *params = json_object_get(v, "params");
+  if (params != NULL && !json_is_object(params))
+    return json_wrong(f, "%sparams must be an object", where);
+  snprintf(key, sizeof key, "%sparams.", where);
+  if (!read_game(file, params, key, kind, f) || !read_kind(params, key, kind, &line->given, f))
+    return false;
+  if (json_object_get(params, "u_sp") == NULL && json_object_get(params, "game") == NULL)
+    kind->mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind->radius;
+  double state[10];
+  snprintf(key, sizeof key, "%sstate", where);
+  if (!json_get_numbers(json_object_get(v, "state"), key, 10, state, f))
+    return false;
+  if (!(state[0] >= 0.0 && state[0] <= 9.0))
+    return json_wrong(f, "%s[0] must be a label, 0 to 6", key);
+  carom_ball_state *s = &line->ball[k].state;
+  *s = (carom_ball_state){.r = {state[1], state[2], state[3]},
+                          .v = {state[4], state[5], state[6]},
+                          .w = {state[7], state[8], state[9]},
+                          .label = (int64_t)state[0]};
+  return true;
+}
+
+static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
+  const json_t *v = json_object_get(json, "cue");
+  carom_cue *cue = &line->cue;
+  *cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
+  cue->phi = 0.0;
+  if (v == NULL)
+    return true;
+  if (!json_is_object(v))
+    return json_wrong(f, "cue must be an object");
+  char known[JSON_KEYS];
+  if (!json_get_part(v, "cue.", CAROM_PART_CUE, cue, f) ||
+      !json_only(v, "cue.", json_keys_of(CAROM_PART_CUE, "ball", known), f))
+    return false;
+  /* A strike says how high it is: the cue's usual b is not the centre. */
+  if (json_object_get(v, "b") == NULL && json_object_size(v) > (json_object_get(v, "ball") != NULL))
+    return json_wrong(f, "cue.b is missing: how far above the centre the tip touches, in radii of "
+                         "the ball; 0 is the centre");
+  const json_t *ball = json_object_get(v, "ball");
+  if (ball == NULL)
+    return true;
+  if (!json_is_string(ball))
+    return json_wrong(f, "cue.ball must be the id of a ball");
+  for (cue->ball = 0; cue->ball < line->count; cue->ball++)
+    if (strcmp(line->name[cue->ball], json_string_value(ball)) == 0)
+      return true;
+  return json_wrong(f, "cue.ball '%s' is no ball of the shot", json_string_value(ball));
+}
+
+static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json_fault *f) {
+  const json_t *id = json_object_get(json, "id"), *table = json_object_get(json, "table"), *balls,
+               *v;
+  size_t k;
+  if (id != NULL)
+    line->id = json_dumps(id, JSON_ENCODE_ANY);
+  if (table != NULL && !json_is_string(table))
+    return json_wrong(f, "table must be the id of a table");
+  if (!json_get_list(json, "balls", CAROM_BALLS_MOST, &balls, f))
+    return false;
+  if (json_array_size(balls) == 0)
+    return json_wrong(f, "balls must be an array of 1 to %d balls", CAROM_BALLS_MOST);
+  json_array_foreach((json_t *)balls, k, v) {
+    if (!read_ball(file, v, (int)k, line, f))
+      return false;
+    line->count++;
+  }
+  if (!read_cue(json, line, f))
+    return false;
+  const char *name = table != NULL ? json_string_value(table) : "pooltool";
+  const named_table *found = find_table(file, name);
+  named_table *built_in = found == NULL ? built_in_table(name, f) : NULL;
+  if (built_in != NULL)
+    keep_table(file, built_in);
+  found = found != NULL ? found : built_in;
+  char known[MOST_WORDS];
+  if (found == NULL && f->text[0] != '\0') {
+    const json_fault of_measures = *f;
+    return json_wrong(f, "table '%.80s': %s", name, of_measures.text);
+  }
+  if (found == NULL)
+    return json_wrong(f, "table '%s' is not in the lines above, nor one of carom's: %s", name,
+                      words_of(CAROM_WORDS_TABLE, true, known));
+  line->table = found;
+  return true;
+}
+
+/* ---- The file */
+
+/* Jansson's memory: so none of its values is ever missing for want of it. */
+static void *json_memory(size_t size) {
+  return allocate(size, 1);
+}
+
+shot_file *shot_file_open(const char *path, carom_shot_cushion cushion) {
+  FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+  if (in == NULL) {
+    complain("cannot read %s: %s", path, strerror(errno));
+    return NULL;
+  }
+  shot_file *file = shot_file_of(in, in == stdin ? "standard input" : path);
+  file->cushion = cushion;
+  return file;
+}
+
+shot_file *shot_file_of(FILE *in, const char *name) {
+  shot_file *file = allocate(1, sizeof *file);
+  json_set_alloc_funcs(json_memory, free);
+  file->in = in;
+  file->path = name;
+  return file;
+}
+
+const char *shot_file_name(const shot_file *file) {
+  return file->path;
+}
+
+static shot_read bad_line(shot_line *line, const char *text) {
+  line->error = copy_text(text);
+  return SHOT_SHOT;
+}
+
+/* Whether the file is of another kind, by its first line, which is `json` or cannot be read as
+ * such: says what it is. */
+static bool is_other_kind(const shot_file *file, size_t size, const json_t *json) {
+  const char *first = file->text + strspn(file->text, " \t"),
+             *kind = is_text(file->text, size) ? NULL : NOT_TEXT;
+  if (kind == NULL && *first == '[')
+    kind = "one array of JSON; each shot is a line (`jq -c '.[]'` makes lines of it)";
+  else if (kind == NULL && json == NULL && *first == '{' && strpbrk(first, ":,}") == NULL)
+    kind = "JSON over several lines; each shot is one line (`jq -c .` makes lines of it)";
+  else if (kind == NULL && json == NULL && *first != '{')
+    kind = "other text; CSV is read by `carom resolve`";
+  if (kind != NULL)
+    complain("%s: not JSON Lines, but %s", file->path, kind);
+  return kind != NULL;
+}
+
+shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
+  ssize_t size;
+  while ((size = getline(&file->text, &file->space, file->in)) >= 0) {
+    if (file->number++ == 0 && size >= 3 && memcmp(file->text, "\xEF\xBB\xBF", 3) == 0)
+      memmove(file->text, file->text + 3, (size_t)(size -= 3) + 1); /* the byte-order mark */
+    if (strspn(file->text, " \t\r\n") == (size_t)size)
+      continue;
+    *line = (shot_line){.number = file->number};
+    json_fault f;
+    json_error_t error;
+    json_t *json = json_loadb(file->text, (size_t)size, 0, &error);
+    if (!file->begun && is_other_kind(file, (size_t)size, json)) {
+      json_decref(json);
+      return SHOT_FAILED;
+    }
+    file->begun = true;
+    if (json == NULL) {
+      json_wrong(&f, "no JSON at column %d: %s", error.column, error.text);
+      return bad_line(line, f.text);
+    }
+    line->json = json;
+    const char *kind = json_string_value(json_object_get(json, "kind"));
+    if (kind == NULL)
+      return bad_line(line, "kind must be a text");
+    if (strcmp(kind, "shot") == 0) {
+      if (!read_shot(file, json, line, &f)) {
+        line->table = NULL;
+        return bad_line(line, f.text);
+      }
+      return SHOT_SHOT;
+    }
+    if (strcmp(kind, "table") == 0) {
+      named_table *t = allocate(1, sizeof *t);
+      if (!read_table(json, t, &f)) {
+        free_table(t);
+        return bad_line(line, f.text);
+      }
+      keep_table(file, t);
+      json_decref(json);
+      line->json = NULL;
+      *text = file->text;
+      return SHOT_TABLE;
+    }
+    const char *engine = json_string_value(json_object_get(json, "engine"));
+    if (engine != NULL)
+      snprintf(file->engine, sizeof file->engine, "%s", engine);
+    json_decref(json);
+  }
+  if (!feof(file->in)) {
+    complain("cannot read %s: %s", file->path, strerror(errno));
+    return SHOT_FAILED;
+  }
+  if (!file->begun) {
+    complain("%s: empty; a shot is a line of JSON", file->path);
+    return SHOT_FAILED;
+  }
+  return SHOT_END;
+}
+
+shot_read shot_file_next_shot(shot_file *file, shot_line *line) {
+  const char *unused;
+  shot_read what;
+  while ((what = shot_file_next(file, line, &unused)) == SHOT_TABLE)
+    continue;
+  return what;
+}
+
+void shot_line_give(shot_line *line, const carom_number *n, double x) {
+  for (int k = 0; k < line->count; k++) {
+    memcpy((char *)&line->ball[k].kind + n->offset, &x, sizeof x);
+    json_t *ball = json_array_get(json_object_get(line->json, "balls"), (size_t)k);
+    json_t *params = json_object_get(ball, "params");
+    if (params == NULL)
+      json_object_set_new(ball, "params", params = json_object());
+    json_object_set_new(params, n->key, json_real(x));
+  }
+}
+
+/* Once more, with room for all, where the events are more than there was room for. */
+carom_status shot_line_play(const shot_line *line, const carom_shot_options *options,
+                            carom_shot *shot) {
+  for (shot->room = FIRST_ROOM;; shot->room = shot->count) {
+    shot->events = allocate((size_t)shot->room, sizeof *shot->events);
+    const carom_status status =
+        carom_shoot(&line->table->table, line->ball, line->count, &line->cue, options, shot);
+    if (shot->count <= shot->room)
+      return status;
+    free(shot->events);
+  }
+}
+
+const char *shot_file_engine(const shot_file *file) {
+  return file->engine;
+}
+
+void shot_line_free(shot_line *line) {
+  for (int k = 0; k < CAROM_BALLS_MOST; k++)
+    free(line->name[k]);
+  free(line->id);
+  free(line->error);
+  json_decref(line->json);
+  *line = (shot_line){0};
+}
+
+void shot_file_close(shot_file *file) {
+  for (size_t k = 0; k < file->tables; k++)
+    free_table(file->table[k]);
+  free(file->table);
+  free(file->text);
+  if (file->in != stdin)
+    fclose(file->in);
+  free(file);
+}

@@ -1,0 +1,81 @@
+/* Shots in JSON Lines: tables and shots read, tables and results written. docs/using/shots.md
+ * has the format. */
+#ifndef CAROM_CLI_SHOT_FILE_H
+#define CAROM_CLI_SHOT_FILE_H
+
+#include "shots/shot_table.h"
+
+#include "carom_shot.h"
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* A shot as it was read. */
+typedef struct shot_line {
+  size_t number;            /* of the line, from 1 */
+  char *id;                 /* as JSON text, or NULL where there is none */
+  const named_table *table; /* NULL where the line is in error */
+  int count;
+  carom_shot_ball ball[CAROM_BALLS_MOST];
+  char *name[CAROM_BALLS_MOST]; /* the balls' ids */
+  carom_cue cue;
+  uint64_t given; /* numbers of balls that are not those of the game: bit k is number k */
+  char *error;    /* what is wrong with the line, or NULL */
+  json_t *json;   /* the line; NULL where it is no JSON */
+} shot_line;
+
+typedef struct shot_file shot_file;
+
+/* Opens a file, "-" for stdin, of which games have their constants for the model of the cushion.
+ * Complains and returns NULL if that fails. */
+shot_file *shot_file_open(const char *path, carom_shot_cushion cushion);
+
+/* The same of a stream, which it closes; `name` is for messages. */
+shot_file *shot_file_of(FILE *in, const char *name);
+
+/* The balls of a game for a model of the cushion; tells once where the game has none for it. */
+void kind_of_game(carom_game game, carom_shot_cushion cushion, carom_ball_kind *kind);
+
+/* The name of the file for messages. */
+const char *shot_file_name(const shot_file *file);
+
+typedef enum shot_read { SHOT_END, SHOT_SHOT, SHOT_TABLE, SHOT_FAILED } shot_read;
+
+/* Reads on to the next shot or table; other kinds of lines are passed over. SHOT_SHOT: *line is
+ * to be freed by shot_line_free(). SHOT_TABLE: *text is the line, until the next call. A table
+ * that is wrong is a shot in error. SHOT_FAILED: after a complaint. */
+shot_read shot_file_next(shot_file *file, shot_line *line, const char **text);
+
+/* Reads on to the next shot, over tables. */
+shot_read shot_file_next_shot(shot_file *file, shot_line *line);
+
+/* Gives all balls a number besides those that were read; the line says so where it is written. */
+void shot_line_give(shot_line *line, const carom_number *number, double x);
+
+/* Plays a shot that was read without error; shot->events, all of them, are to be freed. */
+carom_status shot_line_play(const shot_line *line, const carom_shot_options *options,
+                            carom_shot *shot);
+
+/* The engine that the last line of kind meta named, or "". */
+const char *shot_file_engine(const shot_file *file);
+
+void shot_line_free(shot_line *line);
+void shot_file_close(shot_file *file);
+
+/* The name of an event's type as it stands in the files ("ball_ball"), or NULL. */
+const char *shot_event_name(int type);
+/* The id of the rail, jaw or pocket that ball a met, or NULL where the event is of no such
+ * thing. */
+const char *shot_part_name(const named_table *table, const carom_event *event);
+
+enum { EVENTS_NONE, EVENTS_BRIEF, EVENTS_FULL };
+
+/* Writes a shot with its result as one line; `spread` may be NULL, else it is taken over. */
+void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status,
+                int events, json_t *spread);
+/* Writes a line in error. */
+void shot_write_error(FILE *out, const shot_line *line, const char *status, const char *error);
+
+#endif

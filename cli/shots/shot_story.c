@@ -1,0 +1,478 @@
+/* A shot as moments of its balls, from its events.
+ *
+ * Contacts of one instant, as in a rack that breaks, change a ball at the first of them alone, so
+ * the others are left out; contacts with one ball within SAME_CONTACT are one. A ball passes
+ * another where the gap between them has a minimum below a radius and they never meet: found by
+ * samples and the golden section. */
+#include "shots/shot_story.h"
+
+#include "rows/number.h"
+#include "rows/quantities.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SAMPLES = 1024, REFINEMENTS = 40 };
+/* where more balls move, all but that of the cue are told shortly */
+enum { MOST_TOLD = 4 };
+enum { MOST_MOMENTS = 512 };
+
+typedef enum moment_kind {
+  MOMENT_LEAVES, /* the ball of the cue, struck */
+  MOMENT_MEETS,  /* another ball; value: the cut, degrees, NaN where that ball moves */
+  MOMENT_RAIL,   /* a cushion; value: where, in diamonds */
+  MOMENT_JAW,    /* the cut of a pocket, or its jaw */
+  MOMENT_ROLLS,  /* it rolls from here on */
+  MOMENT_PASSES, /* another ball, without contact; value: the gap, m */
+  MOMENT_FALLS,  /* into a pocket */
+  MOMENT_OFF,    /* it leaves the table */
+  MOMENT_RESTS,
+  MOMENT_MOVES /* still, at the end */
+} moment_kind;
+
+typedef struct moment {
+  moment_kind kind;
+  int with; /* a ball, a rail or a pocket; -1 */
+  double time, x, y, value;
+  double speed, direction; /* just after, m/s and degrees counterclockwise from +x; NaN at rest */
+} moment;
+
+static bool has_ball(const carom_event *e, int ball) {
+  return e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
+}
+
+static int64_t kept_events(const carom_shot *shot) {
+  return shot->count < shot->room ? shot->count : shot->room;
+}
+
+/* ---- What counts */
+
+static double length_of(const carom_rail *r) {
+  return hypot(r->q[0] - r->p[0], r->q[1] - r->p[1]);
+}
+
+bool is_cushion(const carom_table *t, int rail) {
+  double longest = 0.0;
+  for (int r = 0; r < t->rails; r++)
+    longest = fmax(longest, length_of(&t->rail[r]));
+  return length_of(&t->rail[rail]) > 0.2 * longest;
+}
+
+bool counts_as_rail(const shot_line *line, const carom_shot *shot, int64_t k, int ball) {
+  const carom_event *e = &shot->events[k];
+  const carom_table *t = &line->table->table;
+  bool counts = e->type == CAROM_EVENT_RAIL && e->a == ball && is_cushion(t, (int)e->b);
+  for (int64_t before = k - 1;
+       before >= 0 && counts && e->time - shot->events[before].time < SAME_CONTACT; before--)
+    counts = !(shot->events[before].type == e->type && shot->events[before].a == ball &&
+               shot->events[before].b == e->b);
+  return counts;
+}
+
+bool ball_moved(const carom_shot *shot, int ball) {
+  for (int64_t k = 0; k < shot->count && k < shot->room; k++)
+    if (has_ball(&shot->events[k], ball))
+      return true;
+  return false;
+}
+
+/* ---- Places in words */
+
+const char *rail_words(const named_table *t, int rail, char text[WHERE_TEXT]) {
+  const char *name = carom_rail_name(&t->table, rail);
+  snprintf(text, WHERE_TEXT, name != NULL ? "the %.40s rail" : "rail %.40s",
+           name != NULL ? name : t->rail[rail]);
+  return text;
+}
+
+const char *pocket_words(const named_table *t, int pocket, char text[WHERE_TEXT]) {
+  const char *name = carom_pocket_name(&t->table, pocket);
+  snprintf(text, WHERE_TEXT, name != NULL ? "the %.40s pocket" : "pocket %.40s",
+           name != NULL ? name : t->pocket[pocket]);
+  return text;
+}
+
+/* "the left rail": the rail beyond which a place lies. */
+static const char *side_words(const named_table *t, double x, double y) {
+  static const char *const sides[] = {"the left rail", "the right rail", "the head rail",
+                                      "the foot rail"};
+  const double beyond[4] = {-x, x - t->table.width, -y, y - t->table.length};
+  int side = 0;
+  for (int k = 1; k < 4; k++)
+    side = beyond[k] > beyond[side] ? k : side;
+  return sides[side];
+}
+
+static int nearest_pocket(const carom_table *t, const double r[2]) {
+  int nearest = -1;
+  double least = (double)INFINITY;
+  for (int k = 0; k < t->pockets; k++) {
+    const double d = hypot(t->pocket[k].centre[0] - r[0], t->pocket[k].centre[1] - r[1]);
+    nearest = d < least ? k : nearest;
+    least = fmin(d, least);
+  }
+  return nearest;
+}
+
+double diamonds_at(const carom_table *t, int rail, const double r[2]) {
+  const char *name = carom_rail_name(t, rail);
+  return name == NULL                       ? (double)NAN
+         : name[0] == 'l' || name[0] == 'r' ? 8.0 * r[1] / t->length
+                                            : 4.0 * r[0] / t->width;
+}
+
+/* ---- Moments */
+
+static moment moment_at(moment_kind kind, double time, const carom_ball_state *s) {
+  const double speed = hypot(s->v[0], s->v[1]), turn = atan2(s->v[1], s->v[0]) / degree;
+  return (moment){.kind = kind,
+                  .with = -1,
+                  .time = time,
+                  .x = s->r[0],
+                  .y = s->r[1],
+                  .value = (double)NAN,
+                  .speed = speed,
+                  .direction = !(speed > 0.0) ? (double)NAN
+                               : turn < 0.0   ? turn + 360.0
+                                              : turn};
+}
+
+/* The cut of a ball on another one at rest, degrees. */
+static double cut_of(const carom_ball_state *own, const carom_ball_state *other) {
+  const double along[2] = {other->r[0] - own->r[0], other->r[1] - own->r[1]};
+  return hypot(other->v[0], other->v[1]) == 0.0 && hypot(own->v[0], own->v[1]) > 0.0
+             ? fabs(angle_between(own->v, along))
+             : (double)NAN;
+}
+
+/* The moment of an event, if it is one that is told. */
+static bool moment_of(const shot_line *line, const carom_shot *shot, int64_t k, int ball,
+                      moment *m) {
+  const carom_event *e = &shot->events[k];
+  const carom_table *t = &line->table->table;
+  const int side = e->a == ball ? 0 : 1;
+  *m = moment_at(MOMENT_LEAVES, e->time, &e->after[side]);
+  switch (e->type) {
+  case CAROM_EVENT_STRIKE:
+    return true;
+  case CAROM_EVENT_BALL_BALL:
+    m->kind = MOMENT_MEETS;
+    m->with = (int)(side == 0 ? e->b : e->a);
+    /* of a push the motion before is not known: the ball of the cue has the one after it */
+    m->value = e->cluster > 0 && shot->events[0].type == CAROM_EVENT_STRIKE &&
+                       e->time == shot->events[0].time
+                   ? (double)NAN
+                   : cut_of(&e->before[side], &e->before[1 - side]);
+    return true;
+  case CAROM_EVENT_RAIL:
+  case CAROM_EVENT_JAW:
+    m->kind = MOMENT_JAW;
+    m->with = nearest_pocket(t, e->after[0].r);
+    if (e->type == CAROM_EVENT_RAIL && is_cushion(t, (int)e->b)) {
+      m->kind = MOMENT_RAIL;
+      m->with = (int)e->b;
+      m->value = diamonds_at(t, m->with, e->after[0].r);
+      return counts_as_rail(line, shot, k, ball);
+    }
+    return true;
+  case CAROM_EVENT_SLIDING_ROLLING:
+    m->kind = MOMENT_ROLLS;
+    return true;
+  case CAROM_EVENT_POCKET:
+    m->kind = MOMENT_FALLS;
+    m->with = (int)e->b;
+    return true;
+  case CAROM_EVENT_LEFT_TABLE:
+    m->kind = MOMENT_OFF;
+    return true;
+  default:
+    return false;
+  }
+}
+
+/* ---- Balls that pass */
+
+static double gap_at(const shot_line *line, const carom_shot *shot, int a, int b, double time) {
+  carom_ball_state s[CAROM_BALLS_MOST];
+  carom_shot_at(line->ball, line->count, shot, time, s);
+  if (s[a].label == CAROM_BALL_POCKETED || s[b].label == CAROM_BALL_POCKETED)
+    return (double)INFINITY;
+  const double d[3] = {s[a].r[0] - s[b].r[0], s[a].r[1] - s[b].r[1], s[a].r[2] - s[b].r[2]};
+  return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - line->ball[a].kind.radius -
+         line->ball[b].kind.radius;
+}
+
+static bool ever_meet(const carom_shot *shot, int a, int b) {
+  for (int64_t k = 0; k < kept_events(shot); k++)
+    if (shot->events[k].type == CAROM_EVENT_BALL_BALL && has_ball(&shot->events[k], a) &&
+        has_ball(&shot->events[k], b))
+      return true;
+  return false;
+}
+
+/* The least gap of two balls on the way, where it is below a radius, as a moment of `ball`. */
+static bool passes(const shot_line *line, const carom_shot *shot, int ball, int other, moment *m) {
+  double gap[SAMPLES + 1];
+  int least = 0;
+  for (int k = 0; k <= SAMPLES; k++) {
+    gap[k] = gap_at(line, shot, ball, other, shot->time * k / SAMPLES);
+    least = gap[k] < gap[least] ? k : least;
+  }
+  /* at the ends they only begin or rest side by side */
+  if (least == 0 || gap[least] >= gap[SAMPLES])
+    return false;
+  double early = shot->time * (least - 1) / SAMPLES, late = shot->time * (least + 1) / SAMPLES;
+  for (int k = 0; k < REFINEMENTS; k++) {
+    const double one = early + 0.382 * (late - early), two = early + 0.618 * (late - early);
+    if (gap_at(line, shot, ball, other, one) < gap_at(line, shot, ball, other, two))
+      late = two;
+    else
+      early = one;
+  }
+  carom_ball_state s[CAROM_BALLS_MOST];
+  const double time = 0.5 * (early + late);
+  carom_shot_at(line->ball, line->count, shot, time, s);
+  *m = moment_at(MOMENT_PASSES, time, &s[ball]);
+  m->with = other;
+  m->value = gap_at(line, shot, ball, other, time);
+  if (m->value > line->ball[ball].kind.radius)
+    return false;
+  /* of two that move the faster one passes */
+  const double own = hypot(s[ball].v[0], s[ball].v[1]), its = hypot(s[other].v[0], s[other].v[1]);
+  return own > its || (own == its && ball < other);
+}
+
+/* The moments of a ball in their order, at most MOST_MOMENTS; how many. */
+static int story_of(const shot_line *line, const carom_shot *shot, int ball,
+                    moment to[MOST_MOMENTS]) {
+  int count = 0;
+  double last = 0.0, met = -INFINITY; /* the last contact with a ball */
+  for (int64_t k = 0; k < kept_events(shot) && count < MOST_MOMENTS - 2 * CAROM_BALLS_MOST; k++) {
+    const carom_event *e = &shot->events[k];
+    moment m;
+    if (!has_ball(e, ball))
+      continue;
+    last = e->time;
+    if (!moment_of(line, shot, k, ball, &m))
+      continue;
+    const moment *before = count > 0 ? &to[count - 1] : NULL;
+    if (m.kind == MOMENT_MEETS && before != NULL && before->kind == MOMENT_MEETS &&
+        before->time == m.time)
+      continue;
+    /* a ball that is pushed along is met once, and left when it is met last */
+    const bool rolled = before != NULL && before->kind == MOMENT_ROLLS && count > 1;
+    moment *same = rolled ? &to[count - 2] : count > 0 ? &to[count - 1] : NULL;
+    const double since = m.time - met;
+    met = m.kind == MOMENT_MEETS ? m.time : met;
+    if (m.kind == MOMENT_MEETS && same != NULL && same->kind == MOMENT_MEETS &&
+        same->with == m.with && since < SAME_CONTACT) {
+      same->speed = m.speed;
+      same->direction = m.direction;
+      count -= rolled;
+      continue;
+    }
+    to[count++] = m;
+  }
+  const carom_ball_state *final = &shot->final[ball];
+  if (final->label != CAROM_BALL_POCKETED && final->label != CAROM_BALL_OFF) {
+    const bool rests = final->label == CAROM_BALL_STATIONARY;
+    to[count++] = moment_at(rests ? MOMENT_RESTS : MOMENT_MOVES, rests ? last : shot->time, final);
+  }
+  for (int other = 0; other < line->count; other++) {
+    moment m;
+    if (other == ball || ever_meet(shot, ball, other) || !passes(line, shot, ball, other, &m))
+      continue;
+    int at = count++;
+    for (; at > 0 && to[at - 1].time > m.time; at--)
+      to[at] = to[at - 1];
+    to[at] = m;
+  }
+  return count;
+}
+
+/* ---- Rows */
+
+static void put_number(FILE *out, double x) {
+  char text[NUMBER_TEXT];
+  fprintf(out, ",%s", isnan(x) ? "" : number_text(x, text));
+}
+
+void story_rows(FILE *out, int number, const shot_line *line, const carom_shot *shot) {
+  static const char *const what[] = {"leaves", "meets", "rail", "jaw",   "rolls",
+                                     "passes", "falls", "off",  "rests", "moves"};
+  static moment m[MOST_MOMENTS];
+  const json_t *id = json_object_get(line->json, "id");
+  for (int ball = 0; ball < line->count; ball++) {
+    const int count = ball_moved(shot, ball) ? story_of(line, shot, ball, m) : 0;
+    for (int k = 0; k < count; k++) {
+      const moment_kind kind = m[k].kind;
+      char text[WHERE_TEXT] = "";
+      const char *with = kind == MOMENT_MEETS || kind == MOMENT_PASSES ? line->name[m[k].with]
+                         : kind == MOMENT_RAIL ? rail_words(line->table, m[k].with, text)
+                         : (kind == MOMENT_JAW && m[k].with >= 0) || kind == MOMENT_FALLS
+                             ? pocket_words(line->table, m[k].with, text)
+                         : kind == MOMENT_OFF ? side_words(line->table, m[k].x, m[k].y)
+                                              : "";
+      fprintf(out, "%d,\"%s\",%s,%s,%s", number, json_is_string(id) ? json_string_value(id) : "",
+              line->name[ball], what[kind], with);
+      put_number(out, m[k].time);
+      put_number(out, m[k].x);
+      put_number(out, m[k].y);
+      put_number(out, m[k].speed);
+      put_number(out, m[k].direction);
+      put_number(out, kind == MOMENT_MEETS ? m[k].value : (double)NAN);
+      put_number(out, kind == MOMENT_RAIL ? m[k].value : (double)NAN);
+      put_number(out, kind == MOMENT_PASSES ? 1e3 * m[k].value : (double)NAN);
+      putc('\n', out);
+    }
+  }
+}
+
+/* ---- Words */
+
+/* "rests at x = 0.637, y = 0.681 m after 6.16 s"; for a ball that has left the table, where. */
+static void tell_end(FILE *out, const shot_line *line, const moment *m) {
+  char text[WHERE_TEXT];
+  if (m->kind == MOMENT_FALLS)
+    fprintf(out, "falls into %s (%s) after %.2f s\n", pocket_words(line->table, m->with, text),
+            line->table->pocket[m->with], m->time);
+  else if (m->kind == MOMENT_OFF)
+    fprintf(out, "leaves the table over %s after %.2f s\n", side_words(line->table, m->x, m->y),
+            m->time);
+  else
+    fprintf(out, "%s at x = %.3f, y = %.3f m after %.2f s\n",
+            m->kind == MOMENT_RESTS ? "rests" : "is", m->x, m->y, m->time);
+}
+
+/* "meets 1 after 0.32 s at a cut of 20.0 degrees" */
+static void tell_contact(FILE *out, const shot_line *line, const moment *m) {
+  fprintf(out, "meets %s after %.2f s", line->name[m->with], m->time);
+  if (!isnan(m->value))
+    fprintf(out, " at a cut of %.1f degrees", m->value);
+}
+
+static void tell_direction(FILE *out, const moment *m) {
+  if (m->speed > 0.0)
+    fprintf(out, "%s at %.1f degrees with %.3g m/s",
+            m->kind == MOMENT_LEAVES ? "leaves" : ", leaves", m->direction, m->speed);
+}
+
+/* A moment; the start of a roll stands in the line of the contact before it. */
+static void tell_moment(FILE *out, const shot_line *line, const moment *m, bool first) {
+  char text[WHERE_TEXT];
+  if (m->kind == MOMENT_ROLLS && !first) {
+    fprintf(out, ",\n         rolls after %.2f s from x = %.3f, y = %.3f m at %.1f degrees",
+            m->time, m->x, m->y, m->direction);
+    return;
+  }
+  if (!first)
+    fputs("\n       ", out);
+  switch (m->kind) {
+  case MOMENT_MEETS:
+    tell_contact(out, line, m);
+    tell_direction(out, m);
+    break;
+  case MOMENT_RAIL:
+    fprintf(out, "meets %s", rail_words(line->table, m->with, text));
+    if (!isnan(m->value))
+      fprintf(out, " at diamond %.2f", m->value);
+    fprintf(out, " after %.2f s", m->time);
+    tell_direction(out, m);
+    break;
+  case MOMENT_JAW:
+    fprintf(out, "meets the jaw of %s after %.2f s",
+            m->with >= 0 ? pocket_words(line->table, m->with, text) : "a pocket", m->time);
+    tell_direction(out, m);
+    break;
+  case MOMENT_ROLLS:
+    fprintf(out, "rolls after %.2f s at %.1f degrees", m->time, m->direction);
+    break;
+  case MOMENT_PASSES:
+    fprintf(out, "passes %s by %.0f mm after %.2f s", line->name[m->with], 1e3 * m->value, m->time);
+    break;
+  case MOMENT_LEAVES:
+    tell_direction(out, m);
+    break;
+  default:
+    tell_end(out, line, m);
+  }
+}
+
+/* What the ball of the cue meets first, the cushions of a ball in one line, with the times of the
+ * first of them, and its end. */
+static void tell_shortly(FILE *out, const shot_line *line, const moment *m, int count) {
+  int rails = 0, met = m[0].kind == MOMENT_LEAVES ? 0 : count;
+  for (int k = 0; k < count; k++)
+    rails += m[k].kind == MOMENT_RAIL;
+  while (met < count && m[met].kind != MOMENT_MEETS)
+    met++;
+  if (met < count) {
+    tell_contact(out, line, &m[met]);
+    fputs("; ", out);
+  }
+  fprintf(out, rails == 1 ? "%d rail" : "%d rails", rails);
+  for (int k = 0, told = 0; k < count && told < 5; k++)
+    if (m[k].kind == MOMENT_RAIL)
+      fprintf(out, "%s%.2f", told++ > 0 ? ", " : " after ", m[k].time);
+  fputs(rails > 5 ? ", ... s; " : rails > 0 ? " s; " : "; ", out);
+  tell_end(out, line, &m[count - 1]);
+}
+
+static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, int ball,
+                      bool shortly) {
+  static moment m[MOST_MOMENTS];
+  const int count = story_of(line, shot, ball, m);
+  fprintf(out, "%-6s ", line->name[ball]);
+  if (shortly)
+    tell_shortly(out, line, m, count);
+  else
+    for (int k = 0; k < count; k++)
+      tell_moment(out, line, &m[k], k == 0);
+}
+
+/* What the cue ball meets before the tip has left it. */
+static void tell_push(FILE *out, const shot_line *line, const carom_facts *facts) {
+  for (int k = 0; k < line->count; k++)
+    if (facts->pushed >> k & 1)
+      fprintf(out,
+              facts->frozen >> k & 1
+                  ? "frozen to ball %s: pushed, both go\n"
+                  : "a double hit: ball %s is met while the tip is on the cue ball\n",
+              line->name[k]);
+  if (facts->touches > 1)
+    fprintf(out, "the tip touches the cue ball %s, at %.2f m/s after %.2g s, at %.3f,%.3f\n",
+            facts->touches > 2 ? "again and again, first" : "again", facts->second_speed,
+            facts->second_time, facts->second_place[0], facts->second_place[1]);
+}
+
+void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s,
+               bool shortly) {
+  const carom_cue *cue = &line->cue;
+  const double *v = shot->events[0].after[0].v;
+  fprintf(out, "%s table, cue at %.4g m/s, ball %s at %.4g m/s, aim %.2f degrees", line->table->id,
+          cue->speed, line->name[cue->ball], hypot(v[0], v[1]), cue->phi);
+  if (cue->theta != 0.0)
+    fprintf(out, ", cue raised by %.4g degrees", cue->theta);
+  if (cue->a == 0.0 && cue->b == 0.0)
+    fputs(", tip at the centre\n", out);
+  else
+    fputs(", tip ", out);
+  if (cue->a != 0.0)
+    fprintf(out, "%.3g R %s%s", fabs(cue->a), cue->a > 0.0 ? "left" : "right",
+            cue->b != 0.0 ? " and " : " of the centre\n");
+  if (cue->b != 0.0)
+    fprintf(out, "%.3g R %s the centre\n", fabs(cue->b), cue->b < 0.0 ? "below" : "above");
+  if (shot->facts != NULL)
+    tell_push(out, line, shot->facts);
+  int moved = 0;
+  for (int k = 0; k < line->count; k++)
+    moved += ball_moved(shot, k);
+  for (int k = 0; k < line->count; k++)
+    if (ball_moved(shot, k)) {
+      tell_ball(out, line, shot, k, shortly || (moved > MOST_TOLD && k != cue->ball));
+      if (s != NULL && shot->final[k].label != CAROM_BALL_POCKETED)
+        spread_tell_ball(out, s, k);
+    }
+  if (s != NULL)
+    spread_tell(out, s, line);
+}

@@ -1,0 +1,142 @@
+/* Shots with their results as JSON Lines; numbers read back to the same doubles. */
+#include "shots/shot_file.h"
+
+#include <math.h>
+
+const char *shot_event_name(int type) {
+  return carom_event_name((carom_event_type)type);
+}
+
+const char *shot_part_name(const named_table *table, const carom_event *event) {
+  const int64_t rails = table->table.rails;
+  switch (event->type) {
+  case CAROM_EVENT_RAIL:
+    return table->rail[event->b];
+  case CAROM_EVENT_JAW:
+    return table->jaw[event->b];
+  case CAROM_EVENT_POCKET:
+    return table->pocket[event->b];
+  case CAROM_EVENT_RAIL_TOP:
+    return event->b < rails ? table->rail[event->b] : table->jaw[event->b - rails];
+  default:
+    return NULL;
+  }
+}
+
+/* ---- Parts of a line. Non-finite numbers, which JSON has not, become null. */
+
+static void append_numbers(json_t *array, const double *x, int count) {
+  for (int k = 0; k < count; k++)
+    json_array_append_new(array, isfinite(x[k]) ? json_real(x[k]) : json_null());
+}
+
+/* [label, r, v, w] */
+static json_t *state_of(const carom_ball_state *s) {
+  json_t *state = json_pack("[i]", (int)s->label);
+  append_numbers(state, s->r, 3);
+  append_numbers(state, s->v, 3);
+  append_numbers(state, s->w, 3);
+  return state;
+}
+
+/* [time, type, ids], and in full the states before and after. */
+static json_t *event_of(const shot_line *line, const carom_event *e, int detail) {
+  const bool pair = e->type == CAROM_EVENT_BALL_BALL;
+  const char *part = shot_part_name(line->table, e);
+  json_t *ids = json_array();
+  /* What took part. */
+  if (e->type == CAROM_EVENT_STRIKE)
+    json_array_append_new(ids, json_string("cue_stick"));
+  json_array_append_new(ids, json_string(line->name[e->a]));
+  if (pair || part != NULL)
+    json_array_append_new(ids, json_string(pair ? line->name[e->b] : part));
+  json_t *event = json_pack("[f, s, o]", e->time, shot_event_name(e->type), ids);
+  /* How it moved. */
+  for (int side = 0; side < 2 && detail == EVENTS_FULL; side++) {
+    const carom_ball_state *states = side == 0 ? e->before : e->after;
+    json_t *both = json_pack("[o]", state_of(&states[0]));
+    if (pair)
+      json_array_append_new(both, state_of(&states[1]));
+    json_array_append_new(event, both);
+  }
+  return event;
+}
+
+/* pooltool's lists of events have one of nothing at either end. */
+static json_t *nothing_at(double time, int detail) {
+  return detail == EVENTS_FULL ? json_pack("[f, s, [], [], []]", time, "none")
+                               : json_pack("[f, s, []]", time, "none");
+}
+
+/* Which balls fell where: by the final states, which lie at the pockets' centres. */
+static json_t *pockets_of(const shot_line *line, const carom_ball_state *final) {
+  const named_table *t = line->table;
+  json_t *pockets = json_object();
+  for (int p = 0; p < t->table.pockets; p++) {
+    const double *centre = t->table.pocket[p].centre;
+    json_t *in = json_array();
+    for (int k = 0; k < line->count; k++)
+      if (final[k].label == CAROM_BALL_POCKETED && final[k].r[0] == centre[0] &&
+          final[k].r[1] == centre[1])
+        json_array_append_new(in, json_string(line->name[k]));
+    json_object_set_new(pockets, t->pocket[p], in);
+  }
+  return pockets;
+}
+
+/* ---- Lines */
+
+static json_t *head_of(const shot_line *line) {
+  json_t *id = json_object_get(line->json, "id");
+  return json_pack("{s: s, s: O}", "kind", "shot", "id", id != NULL ? id : json_null());
+}
+
+/* What was read, as it was read. */
+static void set_given(json_t *to, const shot_line *line, const char *key) {
+  json_t *given = json_object_get(line->json, key);
+  if (given != NULL)
+    json_object_set(to, key, given);
+}
+
+static void write_line(FILE *out, json_t *line) {
+  json_dumpf(line, out, JSON_REAL_PRECISION(17));
+  putc('\n', out);
+  json_decref(line);
+}
+
+void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status,
+                int events, json_t *spread) {
+  json_t *all = head_of(line), *balls = json_object();
+  set_given(all, line, "family");
+  json_object_set_new(all, "table", json_string(line->table->id));
+  set_given(all, line, "cue");
+  set_given(all, line, "balls");
+  /* What happened. */
+  json_object_set_new(all, "n_events", json_integer(shot->count + 2));
+  if (events != EVENTS_NONE) {
+    json_t *list = json_pack("[o]", nothing_at(0.0, events));
+    for (int64_t k = 0; k < shot->count && k < shot->room; k++)
+      json_array_append_new(list, event_of(line, &shot->events[k], events));
+    json_array_append_new(list, nothing_at(shot->time, events));
+    json_object_set_new(all, "events", list);
+  }
+  /* How it ended. */
+  for (int k = 0; k < line->count; k++)
+    json_object_set_new(balls, line->name[k], state_of(&shot->final[k]));
+  json_object_set_new(all, "final",
+                      json_pack("{s: f, s: o, s: o}", "t", shot->time, "balls", balls, "pockets",
+                                pockets_of(line, shot->final)));
+  if (spread != NULL)
+    json_object_set_new(all, "spread", spread);
+  json_object_set_new(all, "status", json_string(carom_status_name(status)));
+  if (status < 0)
+    json_object_set_new(all, "error", json_string(carom_status_string(status)));
+  write_line(out, all);
+}
+
+void shot_write_error(FILE *out, const shot_line *line, const char *status, const char *error) {
+  json_t *all = head_of(line);
+  json_object_set_new(all, "status", json_string(status));
+  json_object_set_new(all, "error", json_string(error));
+  write_line(out, all);
+}
