@@ -294,7 +294,7 @@ bool carom_search_scan(search *plan) {
       drawn[1] *= far;
       tip = drawn;
     }
-    const bool pushes = (plan->may & CAROM_MAY_PUSH) && plan->tried % 2 == 1;
+    const bool pushes = (plan->permissions & CAROM_MAY_PUSH) && plan->tried % 2 == 1;
     carom_search_add(plan, (candidate){.speed = carom_tip_gain(plan->job.cue) * scan_speed[speed],
                                        .phi = 360.0 * turn,
                                        .a = tip[0],

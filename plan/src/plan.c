@@ -58,7 +58,9 @@ static bool good_player(const carom_player *p) {
 }
 
 static int64_t shots_of(const carom_plan_options *o) {
-  return o->shots > 0 ? o->shots : o->seconds > 0.0 ? SHOTS_IN_TIME : SHOTS_USUAL;
+  if (o->shots > 0)
+    return o->shots;
+  return o->seconds > 0.0 ? SHOTS_IN_TIME : SHOTS_USUAL;
 }
 
 /* A quarter of the shots are strokes of pots, each of which is played once without errors; then
@@ -109,9 +111,11 @@ static carom_status check_stroke(const search *plan, const carom_cue *stroke) {
 /* Once for all shots of a plan; with_cue: and its cue, whose stroke is not looked at. */
 static carom_status prepare(search *plan, const carom_shot_ball *balls, bool with_cue) {
   int where;
-  const carom_status bad = carom_prepare(plan->job.table, balls, plan->job.count, &plan->shot,
-                                         &plan->features, &plan->layout, &where);
-  return bad != CAROM_OK || !with_cue ? bad : check_stroke(plan, &(carom_cue){0});
+  const carom_status status = carom_prepare(plan->job.table, balls, plan->job.count, &plan->shot,
+                                            &plan->features, &plan->layout, &where);
+  if (status != CAROM_OK || !with_cue)
+    return status;
+  return check_stroke(plan, &(carom_cue){0});
 }
 
 static bool is_whole(const carom_plan_job *job) {
@@ -134,96 +138,148 @@ static uint64_t fingerprint_of(const carom_plan_job *job) {
   return h;
 }
 
-/* Checks the arguments, and makes all of a plan but its candidates. */
-static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand) {
+/* Whether rules have their functions, and numbers that this version knows. */
+static bool good_rules(const carom_plan_rules *rules) {
+  if (rules->on == NULL || rules->judge == NULL || rules->left == NULL)
+    return false;
+  return (uint32_t)rules->breaks <= 2 && (uint32_t)rules->race <= CAROM_RACE_POINTS &&
+         (uint32_t)rules->rack <= CAROM_RACK_THREECUSHION && rules->learned >= 0 &&
+         CAROM_RESERVED_IS_ZERO(rules);
+}
+
+/* Checks what a job says of itself; the table and the balls are checked with the layout. */
+static carom_status check_job(const carom_plan_job *job) {
   if (!is_whole(job))
     return CAROM_ERROR_NULL;
   const carom_plan_options *options = job->options != NULL ? job->options : &no_options;
-  const carom_plan_rules *rules = job->rules;
-  const bool good = check_options(options) == CAROM_OK && good_player(job->player) &&
-                    (options->opponent == NULL || good_player(options->opponent)) &&
-                    rules->on != NULL && rules->judge != NULL && rules->left != NULL &&
-                    (uint32_t)rules->breaks <= 2 && (uint32_t)rules->race <= CAROM_RACE_POINTS &&
-                    (uint32_t)rules->rack <= CAROM_RACK_THREECUSHION && rules->learned >= 0 &&
-                    CAROM_RESERVED_IS_ZERO(rules) && CAROM_RESERVED_IS_ZERO(job);
-  if (!good)
-    return CAROM_ERROR_OPTIONS;
+  const bool good_players =
+      good_player(job->player) && (options->opponent == NULL || good_player(options->opponent));
+  const bool good = check_options(options) == CAROM_OK && good_players && good_rules(job->rules) &&
+                    CAROM_RESERVED_IS_ZERO(job);
+  return good ? CAROM_OK : CAROM_ERROR_OPTIONS;
+}
 
-  /* The memory is as long as good options ask; no plan is in it from here on. */
-  plan->fingerprint = 0;
-  if (job->count < 2 || job->count > CAROM_BALLS_MOST)
-    return CAROM_ERROR_BALLS;
-
-  /* Its shots have the caller's options but for when to stop, which the plan says itself. */
+/* Takes a job, its options and its player. Shots have the caller's options but for when to stop,
+ * which the plan says itself. */
+static void take_job(search *plan, const carom_plan_job *job) {
   plan->job = *job;
-  plan->options = *options;
+  plan->options = job->options != NULL ? *job->options : no_options;
   plan->player = carom_player_bounded(job->player, job->cue);
   plan->shot = job->shot != NULL ? *job->shot : no_shot;
   plan->shot.threads = 0;
   plan->shot.stop_at = 0;
   plan->shot.first_of = 0;
   plan->shot.time_most = 0.0;
-  /* in hand the cue's ball may be down */
-  const carom_status bad = prepare(plan, job->balls, !in_hand);
-  if (bad != CAROM_OK || job->cue->ball < 0 || job->cue->ball >= job->count)
-    return bad != CAROM_OK ? bad : CAROM_ERROR_CUE_BALL;
-  if (!carom_is_at_rest(&plan->layout, in_hand ? (int)job->cue->ball : -1))
-    return CAROM_ERROR_IN_MOTION;
+}
 
-  /* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
+/* Checks the layout once for all shots of a plan. In hand the cue's ball may be down, and its
+ * stroke is checked when it is placed. */
+static carom_status check_layout(search *plan, bool in_hand) {
+  const carom_plan_job *job = &plan->job;
+  const carom_status status = prepare(plan, job->balls, !in_hand);
+  if (status != CAROM_OK)
+    return status;
+  if (job->cue->ball < 0 || job->cue->ball >= job->count)
+    return CAROM_ERROR_CUE_BALL;
+  const bool at_rest = carom_is_at_rest(&plan->layout, in_hand ? (int)job->cue->ball : -1);
+  return at_rest ? CAROM_OK : CAROM_ERROR_IN_MOTION;
+}
+
+/* Candidates, outcomes and tables stand behind the plan in the caller's memory. */
+static void share_memory(search *plan) {
+  const int64_t shots = shots_of(&plan->options);
+  const double scan = carom_scan_of(&plan->options);
   plan->count = 0;
-  plan->most = most_candidates(shots_of(options), carom_scan_of(options));
-  plan->room = most_rows(shots_of(options), carom_scan_of(options));
+  plan->most = most_candidates(shots, scan);
+  plan->room = most_rows(shots, scan);
   plan->found = (candidate *)(plan + 1);
   plan->outcome = (outcome *)(plan->found + plan->most);
   plan->drawn = NULL;
+}
 
-  /* The layout by the rules. */
-  carom_view_make(&plan->view, &plan->job, options);
-  for (int k = 0; k < job->count; k++)
-    plan->state[k] = job->balls[k].state;
+/* Reads the layout by the rules: which balls are in play, which of them may be met first, and what
+ * the stroke may do. */
+static carom_status ask_rules(search *plan, bool in_hand) {
+  const carom_plan_rules *rules = plan->job.rules;
+  const uint32_t cue_ball = UINT32_C(1) << plan->view.cue_ball;
+  for (int k = 0; k < plan->job.count; k++)
+    plan->state[k] = plan->job.balls[k].state;
 
-  /* which balls are in play, which of them may be met first, and what the stroke may do */
-  const int cue_ball = plan->view.cue_ball;
-  plan->in_play =
-      carom_in_play(plan->state, plan->view.count) | (in_hand ? UINT32_C(1) << cue_ball : 0);
-  plan->on = rules->on(&rules->state, plan->in_play) & plan->in_play & ~(UINT32_C(1) << cue_ball);
+  /* the balls */
+  plan->in_play = carom_in_play(plan->state, plan->view.count) | (in_hand ? cue_ball : 0);
+  plan->on = rules->on(&rules->state, plan->in_play) & plan->in_play & ~cue_ball;
   if (plan->on == 0)
     return CAROM_ERROR_GAME_OVER;
+
+  /* the stroke */
   plan->breaks = rules->breaks && rules->state.opening == 1;
-  plan->may = (uint32_t)rules->state.may;
+  plan->permissions = (uint32_t)rules->state.may;
   plan->pockets = rules->pockets != NULL ? rules->pockets(&rules->state) : ~UINT32_C(0);
-  plan->first_decides = rules->first_decides && !(plan->may & CAROM_MAY_PUSH);
-  carom_search_lay_out(plan, job->balls);
+  plan->first_decides = rules->first_decides && !(plan->permissions & CAROM_MAY_PUSH);
+  carom_search_lay_out(plan, plan->job.balls);
+
+  /* the balls that are left to the player, at least one */
   int32_t left[2];
   rules->left(&rules->state, plan->in_play, left);
   plan->left = left[0] > 1 ? left[0] : 1;
+  return CAROM_OK;
+}
 
-  /* A foul at the first contact leaves about the layout that there is. */
+/* The value of a foul at the first contact, which leaves about the layout that there is. */
+static double foul_value_of(const search *plan) {
+  const carom_plan_rules *rules = plan->job.rules;
   carom_rules_state game = rules->state; /* rules change it as they judge */
-  const carom_turn turn =
-      rules->judge(&game, plan->in_play, cue_ball, &carom_no_facts, (carom_call){-1, -1});
-  const bool hand = turn.leave >= CAROM_LEAVE_HAND;
-  plan->foul_value =
-      turn.is == CAROM_TURN_LOSE        ? 0.0
-      : rules->race == CAROM_RACE_ALONE ? 0.0
-      : turn.is == CAROM_TURN_KEEP
-          ? carom_value_of(&plan->view, &game, plan->state, 0, hand)
-          : carom_search_foul(1.0 - carom_value_of(&plan->view, &game, plan->state, 1, hand));
+  const carom_turn turn = rules->judge(&game, plan->in_play, plan->view.cue_ball, &carom_no_facts,
+                                       (carom_call){-1, -1});
+  if (turn.is == CAROM_TURN_LOSE || rules->race == CAROM_RACE_ALONE)
+    return 0.0;
+  const bool in_hand = turn.leave >= CAROM_LEAVE_HAND;
+  if (turn.is == CAROM_TURN_KEEP)
+    return carom_value_of(&plan->view, &game, plan->state, 0, in_hand);
+  return carom_search_foul(1.0 - carom_value_of(&plan->view, &game, plan->state, 1, in_hand));
+}
+
+/* Checks the arguments, and makes all of a plan but its candidates. */
+static carom_status begin(search *plan, const carom_plan_job *job, bool in_hand) {
+  carom_status status = check_job(job);
+  if (status != CAROM_OK)
+    return status;
+
+  /* The memory is as long as good options ask; no plan is in it from here on. */
+  plan->fingerprint = 0;
+  if (job->count < 2 || job->count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
+  take_job(plan, job);
+  status = check_layout(plan, in_hand);
+  if (status != CAROM_OK)
+    return status;
+  share_memory(plan);
+
+  /* the layout as the player and the rules see it */
+  carom_view_make(&plan->view, &plan->job, &plan->options);
+  status = ask_rules(plan, in_hand);
+  if (status != CAROM_OK)
+    return status;
+  plan->foul_value = foul_value_of(plan);
   plan->ended = false;
   plan->slice = INT64_MAX;
   return CAROM_OK;
 }
 
-/* Begins a plan that plays shots, in its memory. */
-static carom_status begin_to_play(search *plan, const carom_plan_job *job, bool in_hand) {
-  const carom_status bad = begin(plan, job, in_hand);
-  if (bad != CAROM_OK)
-    return bad;
+/* Prepares a job once for all that is played of it: its plan, in the job's memory, from which shots
+ * can be played. */
+static carom_status prepare_job(const carom_plan_job *job, bool in_hand, search **prepared) {
+  search *plan = place(job);
+  if (plan == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_status status = begin(plan, job, in_hand);
+  if (status != CAROM_OK)
+    return status;
   plan->late = plan->joins = false;
   plan->seconds = plan->options.seconds;
   if (plan->options.unsure > 0.0)
     carom_search_tables(plan, (carom_drawn_table *)(plan->outcome + plan->room));
+  *prepared = plan;
   return CAROM_OK;
 }
 
@@ -243,7 +299,7 @@ static void plan_here(void *context, carom_crew *crew) {
     if (!carom_search_run(plan))
       return;
   } while (carom_search_double(plan));
-  if (plan->may & CAROM_MAY_PASS)
+  if (plan->permissions & CAROM_MAY_PASS)
     carom_search_pass(plan);
   plan->ended = true;
 }
@@ -347,38 +403,57 @@ static void temper(const search *plan, const candidate *best, carom_choice *c) {
   c->error *= n / all;
 }
 
-/* The best choice of each ball, pocket and kind, the best first. One without a ball is none to a
- * player who is alone, if there is another; one that looks better than the best was played too
- * seldom. A plan that was stopped has not sorted what it found: the first is the best. */
+/* Whether a further candidate is a choice behind the best. One that was not played tells nothing;
+ * one without a ball is none to a player who is alone; and one that looks better than the best was
+ * played too seldom. */
+static bool is_choice(const search *plan, const candidate *from, const carom_choice *choice) {
+  const candidate *best = &plan->found[0];
+  const bool alone = plan->job.rules->race == CAROM_RACE_ALONE && !plan->breaks;
+  if (choice->seen == 0 && choice->kind != CAROM_PLAN_PASS)
+    return false;
+  if (choice->ball < 0 && alone)
+    return false;
+  const double mean = from->sum / (double)from->seen;
+  const double best_mean = best->sum / (double)best->seen;
+  return !(mean > best_mean && from->round < best->round);
+}
+
+/* Whether n choices hold one of the same ball, pocket and kind. */
+static bool has_same(const carom_choice *choices, int n, const carom_choice *choice) {
+  for (int k = 0; k < n; k++)
+    if (choices[k].ball == choice->ball && choices[k].pocket == choice->pocket &&
+        choices[k].kind == choice->kind)
+      return true;
+  return false;
+}
+
+/* Sorts a choice in behind n choices, the best first; of two of one value the earlier is first. */
+static void sort_in(carom_choice *choices, int n, const carom_choice *choice) {
+  int at = n;
+  for (; at > 0 && choices[at - 1].value < choice->value; at--)
+    choices[at] = choices[at - 1];
+  choices[at] = *choice;
+}
+
+/* The best choice of each ball, pocket and kind, the best first. A plan that was stopped has not
+ * sorted what it found: the first is the best. */
 static int give(search *plan, carom_choice *choices, int room) {
   const int most = carom_is_stopped(plan) ? 1 : room;
-  double best = 0.0;
   int n = 0;
   for (int64_t k = 0; n < most && k < plan->count; k++) {
     const candidate *from = &plan->found[k];
-    const double mean = from->sum / (double)from->seen;
-    best = k == 0 ? mean : best;
-    carom_choice c = carom_search_choice(plan, from);
-    const bool played = c.seen > 0 || c.kind == CAROM_PLAN_PASS;
-    const bool nothing = c.ball < 0 && plan->job.rules->race == CAROM_RACE_ALONE && !plan->breaks;
-    if (n > 0 && (!played || nothing || (mean > best && from->round < plan->found[0].round)))
+    carom_choice choice = carom_search_choice(plan, from);
+    if (n > 0 && !is_choice(plan, from, &choice))
       continue;
-    if (n == 0)
-      temper(plan, from, &c);
-    c.kind = carom_search_kind(plan, from, &c);
-    c.value = n > 0 ? fmin(c.value, choices[0].value) : c.value;
 
-    /* where it is not there yet, it is sorted in */
-    int same = 0;
-    while (same < n && (choices[same].ball != c.ball || choices[same].pocket != c.pocket ||
-                        choices[same].kind != c.kind))
-      same++;
-    if (same < n)
-      continue;
-    int at = n++;
-    for (; at > 0 && choices[at - 1].value < c.value; at--)
-      choices[at] = choices[at - 1];
-    choices[at] = c;
+    /* the best counts with what the layout was worth; no other is worth more */
+    if (n == 0)
+      temper(plan, from, &choice);
+    else
+      choice.value = fmin(choice.value, choices[0].value);
+    choice.kind = carom_search_kind(plan, from, &choice);
+    if (!has_same(choices, n, &choice))
+      sort_in(choices, n++, &choice);
   }
   return n;
 }
@@ -395,10 +470,10 @@ static carom_status play_slice(search *plan, carom_choice *choices, int room, in
 carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room, int *found) {
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
-  search *plan = place(job);
-  const carom_status bad = plan == NULL ? CAROM_ERROR_NULL : begin_to_play(plan, job, false);
-  if (bad != CAROM_OK)
-    return bad;
+  search *plan;
+  const carom_status status = prepare_job(job, false, &plan);
+  if (status != CAROM_OK)
+    return status;
   plan->fingerprint = fingerprint_of(job);
   plan->go = plan_here;
   carom_search_begin_doubling(plan, FIRST, shots_of(&plan->options));
@@ -417,72 +492,116 @@ carom_status carom_plan_continue(const carom_plan_job *job, carom_choice *choice
   return same ? play_slice(plan, choices, room, found) : CAROM_ERROR_STATE;
 }
 
+/* Where a cue ball in hand may be put: the rectangle within the cushions that the caller and the
+ * rules allow. */
+typedef struct hand_range {
+  double low[2], high[2];
+} hand_range;
+
+/* The range of places; low and high are the caller's bounds, or NULL. False where there is no
+ * place: the range is empty, or has NaN. */
+static bool range_of(const search *plan, const double low[2], const double high[2],
+                     hand_range *range) {
+  const double R = plan->view.radius[plan->view.cue_ball];
+  const double size[2] = {plan->view.width, plan->view.length};
+  for (int x = 0; x < 2; x++) {
+    range->low[x] = low == NULL || low[x] <= R ? R : low[x];
+    range->high[x] = high == NULL || high[x] >= size[x] - R ? size[x] - R : high[x];
+  }
+
+  /* in snooker the box around the D */
+  if (plan->job.rules->rack == CAROM_RACK_SNOOKER) {
+    const carom_d d = carom_d_of(size[0], size[1]);
+    const double d_low[2] = {d.x - d.radius, d.y - d.radius}, d_high[2] = {d.x + d.radius, d.y};
+    for (int x = 0; x < 2; x++) {
+      range->low[x] = fmax(range->low[x], d_low[x]);
+      range->high[x] = fmin(range->high[x], d_high[x]);
+    }
+  }
+  return range->low[0] <= range->high[0] && range->low[1] <= range->high[1];
+}
+
+/* The place number k at random in the range. */
+static void draw_place(const search *plan, const hand_range *range, uint64_t k, double r[2]) {
+  for (int x = 0; x < 2; x++) {
+    const double share = carom_uniform(plan->options.seed, DRAW_PLACES, k, (uint32_t)x);
+    r[x] = range->low[x] + (range->high[x] - range->low[x]) * share;
+  }
+}
+
+/* The place number k of a break: one of six across, where the range ends, or at the head line, from
+ * which a game is opened, if the caller has no upper bound. */
+static void break_place(const search *plan, const hand_range *range, bool bounded, uint64_t k,
+                        double r[2]) {
+  static const double across[PLACES_PLANNED] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
+  const double head = 0.25 * plan->view.length;
+  r[0] = range->low[0] + (range->high[0] - range->low[0]) * across[k % PLACES_PLANNED];
+  r[1] = !bounded && range->high[1] > head ? head : range->high[1];
+}
+
+/* Puts the cue ball in hand on a place. False where rules or balls do not allow it. */
+static bool place_in_hand(search *plan, const double r[2]) {
+  const carom_plan_job *job = &plan->job;
+  if (job->rules->rack == CAROM_RACK_SNOOKER && !carom_is_in_d(job->table, r[0], r[1]))
+    return false;
+  return carom_place_ball(job->table, plan->hand, (int)job->count, plan->view.cue_ball, r[0], r[1],
+                          NULL) == CAROM_OK;
+}
+
+/* Sorts the place on which the cue ball is in among the best, by the value of the layout. */
+static void keep_place(search *plan, const double r[2]) {
+  const int cue_ball = plan->view.cue_ball;
+  plan->state[cue_ball] = plan->hand[cue_ball].state;
+  const double value = carom_value_of(&plan->view, &plan->job.rules->state, plan->state, 0, false);
+  int at = plan->places < PLACES_PLANNED ? plan->places++ : PLACES_PLANNED;
+  for (; at > 0 && plan->best_place[at - 1].value < value; at--)
+    plan->best_place[at] = plan->best_place[at - 1];
+  plan->best_place[at] = (carom_place_in_hand){{r[0], r[1]}, value};
+}
+
+/* Finds the places that are planned from: of places at random the best by the value of the layout;
+ * for a break all of those on the upper edge. False where there is none. */
+static bool find_places(search *plan, const double low[2], const double high[2]) {
+  hand_range range;
+  plan->places = 0;
+  if (!range_of(plan, low, high, &range))
+    return false;
+  const uint64_t draws = plan->breaks ? PLACES_PLANNED : 50 * PLACES;
+  int tried = 0;
+  for (uint64_t k = 0; k < draws && tried < PLACES; k++) {
+    double r[2];
+    if (plan->breaks)
+      break_place(plan, &range, high != NULL, k, r);
+    else
+      draw_place(plan, &range, k, r);
+    if (!place_in_hand(plan, r))
+      continue;
+    tried++;
+    keep_place(plan, r);
+  }
+  return plan->places > 0;
+}
+
 carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
                              carom_choice *choices, int room, int *found) {
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
-  search *plan = place(job);
-  const carom_status bad = plan == NULL ? CAROM_ERROR_NULL : begin_to_play(plan, job, true);
-  if (bad != CAROM_OK)
-    return bad;
-
-  /* Places at random, of which the best by the value of the layout are kept; for a break on the
-   * upper edge, all of them. */
-  carom_shot_ball *balls = plan->hand;
-  memcpy(balls, job->balls, (size_t)job->count * sizeof *balls);
-  const int cue_ball = plan->view.cue_ball;
-  const double R = plan->view.radius[cue_ball], size[2] = {plan->view.width, plan->view.length};
-  const double head = 0.25 * plan->view.length; /* the line from which a game is opened */
-  const bool in_d = job->rules->rack == CAROM_RACK_SNOOKER;
-  const carom_d d = carom_d_of(size[0], size[1]);
-  const double d_low[2] = {d.x - d.radius, d.y - d.radius}, d_high[2] = {d.x + d.radius, d.y};
-  static const double edge[PLACES_PLANNED] = {0.5, 0.3, 0.7, 0.15, 0.85, 0.0};
-  int tried = 0;
-  plan->places = 0;
-  const uint64_t draws = plan->breaks ? PLACES_PLANNED : 50 * PLACES;
-  for (uint64_t k = 0; k < draws && tried < PLACES; k++) {
-    /* drawn within what the caller allows, and inside the cushions */
-    double r[2];
-    for (int x = 0; x < 2; x++) {
-      /* an empty range, and one with NaN, has no place */
-      double least = low == NULL || low[x] <= R ? R : low[x];
-      double most = high == NULL || high[x] >= size[x] - R ? size[x] - R : high[x];
-      if (in_d) {
-        least = fmax(least, d_low[x]);
-        most = fmin(most, d_high[x]);
-      }
-      if (!(least <= most))
-        return CAROM_ERROR_OFF_TABLE;
-      r[x] =
-          least + (most - least) * carom_uniform(plan->options.seed, DRAW_PLACES, k, (uint32_t)x);
-      /* a break: at one of six places across, at the head line or where the range ends */
-      if (plan->breaks)
-        r[x] = x == 1 ? (high == NULL && most > head ? head : most)
-                      : least + (most - least) * edge[k % PLACES_PLANNED];
-    }
-    if ((in_d && !carom_is_in_d(job->table, r[0], r[1])) ||
-        carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) !=
-            CAROM_OK)
-      continue;
-
-    /* the best are sorted in by value */
-    tried++;
-    plan->state[cue_ball] = balls[cue_ball].state;
-    const double value = carom_value_of(&plan->view, &job->rules->state, plan->state, 0, false);
-    int at = plan->places < PLACES_PLANNED ? plan->places++ : PLACES_PLANNED;
-    for (; at > 0 && plan->best_place[at - 1].value < value; at--)
-      plan->best_place[at] = plan->best_place[at - 1];
-    plan->best_place[at] = (carom_place_in_hand){{r[0], r[1]}, value};
-  }
-  if (plan->places == 0)
+  search *plan;
+  carom_status status = prepare_job(job, true, &plan);
+  if (status != CAROM_OK)
+    return status;
+  memcpy(plan->hand, job->balls, (size_t)job->count * sizeof *plan->hand);
+  if (!find_places(plan, low, high))
     return CAROM_ERROR_OFF_TABLE;
 
   /* with the cue ball on the best place the layout can be checked */
-  plan->job.balls = balls;
+  plan->job.balls = plan->hand;
   put(plan, 0);
-  const carom_status refused = prepare(plan, balls, true);
-  if (refused != CAROM_OK)
-    return refused;
+  status = prepare(plan, plan->hand, true);
+  if (status != CAROM_OK)
+    return status;
+
+  /* the first of the small plans */
   plan->fingerprint = fingerprint_of(job);
   plan->go = plan_places;
   plan->place = 0;
@@ -495,17 +614,16 @@ carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, in
   enum { MOST = 1000 };
   if (choices == NULL || cues == NULL)
     return CAROM_ERROR_NULL;
-  search *plan = place(job);
-  const carom_status bad = plan == NULL        ? CAROM_ERROR_NULL
-                           : n < 0 || n > MOST ? CAROM_ERROR_OPTIONS
-                                               : begin_to_play(plan, job, false);
-  if (bad != CAROM_OK)
-    return bad;
-  for (int k = 0; k < n; k++) {
-    const carom_status wrong = check_stroke(plan, &cues[k]);
-    if (wrong != CAROM_OK)
-      return wrong;
-  }
+  if (place(job) == NULL)
+    return CAROM_ERROR_NULL;
+  if (n < 0 || n > MOST)
+    return CAROM_ERROR_OPTIONS;
+  search *plan;
+  carom_status status = prepare_job(job, false, &plan);
+  for (int k = 0; k < n && status == CAROM_OK; k++)
+    status = check_stroke(plan, &cues[k]);
+  if (status != CAROM_OK)
+    return status;
   plan->cues = cues;
   plan->choices = choices;
   plan->tries = n;
@@ -517,9 +635,9 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   if (value == NULL)
     return CAROM_ERROR_NULL;
   search plan;
-  const carom_status bad = begin(&plan, job, in_hand != 0);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = begin(&plan, job, in_hand != 0);
+  if (status != CAROM_OK)
+    return status;
   const double found = carom_value_of(&plan.view, &job->rules->state, plan.state, 0, in_hand != 0);
   *value = job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL
                ? carom_search_share(&plan, found)

@@ -90,7 +90,9 @@ typedef struct carom_search {
   carom_prepared layout;   /* all balls */
   carom_view view;
   carom_player player;
-  uint32_t in_play, on, may, pockets;
+  uint32_t in_play, on;                     /* balls in play; those of them that may be met first */
+  uint32_t permissions;                     /* of the stroke: the bits CAROM_MAY_... */
+  uint32_t pockets;                         /* that count */
   bool breaks;                              /* the stroke is a break */
   bool blind;                               /* no pot is direct */
   bool first_decides;                       /* a shot ends at a wrong first ball */
