@@ -54,44 +54,76 @@ static candidate gentle(const search *plan) {
                      .pocket = -1};
 }
 
+/* A pot that a choice names; ball and pocket -1: none. */
+typedef struct named_pot {
+  int ball, pocket, cushions;
+} named_pot;
+
+/* Luck alone names no pot: where most strokes with errors pot nothing, it is that of the shot
+ * without errors. A break names none. */
+static named_pot pot_of(const candidate *c) {
+  const bool often = 2 * c->keep >= c->seen;
+  const bool has_pot = c->ball < 0 || c->pots || often;
+  if (c->kind == CAROM_PLAN_BREAK || !has_pot)
+    return (named_pot){-1, -1, 0};
+  if (c->pots && !often)
+    return (named_pot){c->own_ball, c->own_pocket, c->own_cushions};
+  return (named_pot){c->ball, c->pocket, c->cushions};
+}
+
+/* The kind of a candidate, as far as it tells itself: a direct pot is that of the ball that was
+ * aimed at; another pot is a find of the scan. */
+static int kind_of(const candidate *c, const named_pot *pot) {
+  const bool aimed = pot->ball == c->aimed_ball && pot->pocket == c->aimed_pocket;
+  return c->kind == CAROM_PLAN_POT && !aimed ? CAROM_PLAN_SCAN : c->kind;
+}
+
+/* The standard error of the mean of the worths of a candidate. */
+static double error_of(const candidate *c) {
+  const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
+  return c->seen > 1 && variance > 0.0 ? sqrt(variance / (n - 1.0)) : 0.0;
+}
+
 carom_choice carom_search_choice(const search *plan, const candidate *c) {
   CAROM_PROMISE(c->seen > 0 || carom_is_stopped(plan));
-  const double n = (double)c->seen, mean = c->sum / n, variance = c->squares / n - mean * mean;
-  const double error = c->seen > 1 && variance > 0.0 ? sqrt(variance / (n - 1.0)) : 0.0;
+  const double n = (double)c->seen, error = error_of(c);
+  const double *place = plan->job.balls[plan->view.cue_ball].state.r;
+
   /* The shots that chose a stroke were lucky for it, by about so much: the games of
    * understanding/plan.md tell it. What is not a number stays none. */
-  const double luck = c->kind == CAROM_PLAN_GIVEN ? 0.0 : 0.75 * error, told = mean - luck;
-  const double *place = plan->job.balls[plan->view.cue_ball].state.r;
-  /* Luck alone names no pot: where most strokes with errors pot nothing, it is that without. A
-   * direct pot is that of the ball that was aimed at. */
-  const bool often = 2 * c->keep >= c->seen, own = c->pots && !often;
-  const bool named = c->kind != CAROM_PLAN_BREAK && (c->ball < 0 || c->pots || often);
-  const int ball = own ? c->own_ball : c->ball, pocket = own ? c->own_pocket : c->pocket;
-  const bool aimed = named && ball == c->aimed_ball && pocket == c->aimed_pocket;
-  carom_choice made = {.cue = *plan->job.cue,
-                       .place = {place[0], place[1]},
-                       .kind = c->kind == CAROM_PLAN_POT && !aimed ? CAROM_PLAN_SCAN : c->kind,
-                       .ball = named ? ball : -1,
-                       .pocket = named ? pocket : -1,
-                       .cushions = !named ? 0
-                                   : own  ? c->own_cushions
-                                          : c->cushions,
-                       .value = told < 0.0 ? 0.0 : told,
-                       .error = error,
-                       .keep = (double)c->keep / n,
-                       .foul = (double)c->foul / n,
-                       .lose = (double)c->lose / n,
-                       .seen = c->round > 0 && c->kind != CAROM_PLAN_PASS ? c->seen : 0};
-  made.cue.speed = c->speed;
-  made.cue.phi = c->phi;
-  made.cue.theta = c->theta;
-  made.cue.a = c->a;
-  made.cue.b = c->b;
-  return made;
+  const double luck = c->kind == CAROM_PLAN_GIVEN ? 0.0 : 0.75 * error;
+  const double value = c->sum / n - luck;
+
+  /* what its shots told */
+  const named_pot pot = pot_of(c);
+  const bool played = c->round > 0 && c->kind != CAROM_PLAN_PASS;
+  carom_choice choice = {.cue = *plan->job.cue,
+                         .place = {place[0], place[1]},
+                         .kind = kind_of(c, &pot),
+                         .ball = pot.ball,
+                         .pocket = pot.pocket,
+                         .cushions = pot.cushions,
+                         .value = value < 0.0 ? 0.0 : value,
+                         .error = error,
+                         .keep = (double)c->keep / n,
+                         .foul = (double)c->foul / n,
+                         .lose = (double)c->lose / n,
+                         .seen = played ? c->seen : 0};
+
+  /* its stroke, by the caller's cue */
+  choice.cue.speed = c->speed;
+  choice.cue.phi = c->phi;
+  choice.cue.theta = c->theta;
+  choice.cue.a = c->a;
+  choice.cue.b = c->b;
+  return choice;
 }
 
 double carom_scan_of(const carom_plan_options *o) {
-  return o->scan == 0.0 ? 0.5 : o->scan > 0.0 ? o->scan : 0.0;
+  static const double usual = 0.5;
+  if (o->scan == 0.0)
+    return usual;
+  return o->scan > 0.0 ? o->scan : 0.0;
 }
 
 /* ---- The course of a search: each of these sets the next stage, and what comes after it */
@@ -128,7 +160,10 @@ static void look_again(search *plan) {
   plan->found[plan->better] = first;
   plan->found[0].round = ROUNDS - 1;
   int64_t each = left_for_rounds(plan) / ROUNDS / 2;
-  each = each < 2 ? 2 : each > plan->room ? plan->room : each;
+  if (each > plan->room)
+    each = plan->room;
+  if (each < 2)
+    each = 2;
   carom_search_stage(plan, 0, 1, each, DRAW_ROUND + ROUNDS - 1);
   plan->look++;
   plan->next = NEXT_LOOK;
@@ -139,7 +174,9 @@ static int64_t in_round(search *plan) {
   const int64_t keep = plan->shots / 25 > 6 ? plan->shots / 25 : 6;
   int64_t n = keep >> (2 * plan->round);
   n = n < 2 ? 2 : n;
-  return plan->round == 0 ? first_round(plan, n) : n < plan->count ? n : plan->count;
+  if (plan->round == 0)
+    return first_round(plan, n);
+  return n < plan->count ? n : plan->count;
 }
 
 /* Strokes near the best are played once without errors. False where there are none. */
