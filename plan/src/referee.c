@@ -34,14 +34,64 @@ static int64_t list_falls(const carom_facts *facts, int count, carom_fall *fall)
   return falls;
 }
 
+/* Whether all that the referee reads is there. */
+static bool is_whole(const carom_plan_rules *rules, const carom_table *table,
+                     const carom_shot_ball *balls, const carom_shot *shot) {
+  if (rules == NULL || rules->judge == NULL || table == NULL || balls == NULL)
+    return false;
+  return shot == NULL || (shot->facts != NULL && shot->final != NULL);
+}
+
+/* The layout that the turn leaves, before balls come back; shot NULL: there is none. */
+static void lay_out(const carom_shot_ball *balls, int count, const carom_shot *shot,
+                    carom_ruling *ruling) {
+  const bool taken_back = shot == NULL || ruling->turn.leave == CAROM_LEAVE_BEFORE;
+  for (int k = 0; k < count; k++) {
+    ruling->balls[k] = balls[k];
+    if (!taken_back)
+      ruling->balls[k].state = shot->final[k];
+  }
+}
+
+/* The balls that the referee moves from where the stroke left them, as a set. */
+static uint32_t moved_by_referee(const carom_shot_ball *balls, int count, const carom_shot *shot,
+                                 const carom_ruling *ruling) {
+  uint32_t moved = 0;
+  for (int k = 0; k < count; k++) {
+    const carom_ball_state *left = shot != NULL ? &shot->final[k] : &balls[k].state;
+    moved |= (uint32_t)(memcmp(&ruling->balls[k].state, left, sizeof *left) != 0) << k;
+  }
+  return moved;
+}
+
+/* Who plays next, 0 the player and 1 the other, and who has won; -1: nobody. */
+static void name_players(carom_ruling *ruling) {
+  ruling->next = ruling->winner = -1;
+  switch (ruling->turn.is) {
+  case CAROM_TURN_KEEP:
+    ruling->next = 0;
+    break;
+  case CAROM_TURN_PASS:
+    ruling->next = 1;
+    break;
+  case CAROM_TURN_WIN:
+    ruling->winner = 0;
+    break;
+  case CAROM_TURN_LOSE:
+    ruling->winner = 1;
+    break;
+  }
+}
+
 carom_status carom_referee(const carom_plan_rules *rules, const carom_table *table,
                            const carom_shot_ball *balls, int count, int cue_ball,
                            const carom_shot *shot, carom_call call, carom_ruling *ruling) {
-  if (rules == NULL || rules->judge == NULL || table == NULL || balls == NULL || ruling == NULL ||
-      (shot != NULL && (shot->facts == NULL || shot->final == NULL)))
+  if (ruling == NULL || !is_whole(rules, table, balls, shot))
     return CAROM_ERROR_NULL;
   if (count < 1 || count > CAROM_BALLS_MOST || cue_ball < 0 || cue_ball >= count)
     return CAROM_ERROR_BALLS;
+
+  /* what happened; without a shot no ball was met */
   memset(ruling, 0, sizeof *ruling);
   ruling->state = rules->state;
   ruling->facts.first[0] = ruling->facts.first[1] = -1;
@@ -52,24 +102,14 @@ carom_status carom_referee(const carom_plan_rules *rules, const carom_table *tab
       rules->judge(&ruling->state, in_play(balls, count), cue_ball, &ruling->facts, call);
 
   /* the layout, with balls that come back */
-  const bool taken_back = shot == NULL || ruling->turn.leave == CAROM_LEAVE_BEFORE;
-  for (int k = 0; k < count; k++) {
-    ruling->balls[k] = balls[k];
-    if (!taken_back)
-      ruling->balls[k].state = shot->final[k];
-  }
+  lay_out(balls, count, shot, ruling);
   const carom_status status =
       carom_turn_settle(rules, &ruling->state, table, ruling->balls, count, &ruling->turn);
-  for (int k = 0; k < count; k++) {
-    const carom_ball_state *left = shot != NULL ? &shot->final[k] : &balls[k].state;
-    ruling->put |= (uint32_t)(memcmp(&ruling->balls[k].state, left, sizeof *left) != 0) << k;
-  }
+  ruling->put = moved_by_referee(balls, count, shot, ruling);
 
   /* who plays next, and how */
-  const carom_turn_is is = ruling->turn.is;
   ruling->hand = ruling->turn.leave >= CAROM_LEAVE_HAND ? 1 : 0;
-  ruling->next = is == CAROM_TURN_PASS ? 1 : is == CAROM_TURN_KEEP ? 0 : -1;
-  ruling->winner = is == CAROM_TURN_WIN ? 0 : is == CAROM_TURN_LOSE ? 1 : -1;
+  name_players(ruling);
   if (ruling->next >= 0 && rules->on != NULL)
     ruling->on =
         rules->on(&ruling->state, in_play(ruling->balls, count) & ~(UINT32_C(1) << cue_ball));
@@ -85,11 +125,12 @@ size_t carom_ruling_string(const carom_ruling *ruling, char *text, size_t room) 
       (uint32_t)ruling->turn.leave > CAROM_LEAVE_D)
     return 0;
   const bool foul = ruling->turn.foul != CAROM_FOUL_NONE;
-  const int32_t may = ruling->next >= 0 ? ruling->state.may : 0;
+  const int32_t permissions = ruling->next >= 0 ? ruling->state.may : 0;
   const int size = snprintf(
       text, room, "%s%s%s%s%s%s%s%s", foul ? "foul: " : "", carom_foul_string(ruling->turn.foul),
       foul ? "; " : "", turns[ruling->turn.is], ruling->next >= 0 ? leaves[ruling->turn.leave] : "",
-      may & CAROM_MAY_PASS ? "; may pass" : "", may & CAROM_MAY_PUSH ? "; may push out" : "",
-      may & CAROM_MAY_FREE_BALL ? "; has a free ball" : "");
+      permissions & CAROM_MAY_PASS ? "; may pass" : "",
+      permissions & CAROM_MAY_PUSH ? "; may push out" : "",
+      permissions & CAROM_MAY_FREE_BALL ? "; has a free ball" : "");
   return size > 0 ? (size_t)size : 0;
 }

@@ -18,8 +18,12 @@ static int64_t score(const carom_rules_state *game, int who) {
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   (void)in_play;
   for (int who = 0; who < 2; who++) {
-    const int64_t n = game->target - score(game, who);
-    needed[who] = n < 1 ? 1 : n > INT32_MAX ? INT32_MAX : (int32_t)n;
+    int64_t points = game->target - score(game, who);
+    if (points < 1)
+      points = 1;
+    if (points > INT32_MAX)
+      points = INT32_MAX;
+    needed[who] = (int32_t)points;
   }
 }
 
@@ -45,28 +49,28 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     return carom_give(game, racked(game, CAROM_TURN_PASS, 0));
 
   /* Fouls: what fell comes back. */
-  int32_t bad = (int32_t)carom_foul_of(facts, balls, cue_ball);
+  const int32_t foul = (int32_t)carom_foul_of(facts, balls, cue_ball);
   const bool called =
-      bad == CAROM_FOUL_NONE && carom_is_called(facts, call) && (balls >> call.ball & 1);
+      foul == CAROM_FOUL_NONE && carom_is_called(facts, call) && (balls >> call.ball & 1);
   const bool bad_break = opening && !called && !is_open(facts, cue_ball);
-  carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, gone, 0.0};
-  if (bad == CAROM_FOUL_CUE_BALL)
+  carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, gone, 0.0};
+  if (foul == CAROM_FOUL_CUE_BALL)
     turn.leave = CAROM_LEAVE_KITCHEN;
   if (bad_break) {
-    turn.foul = bad != CAROM_FOUL_NONE ? bad : CAROM_FOUL_BREAK;
+    turn.foul = foul != CAROM_FOUL_NONE ? foul : CAROM_FOUL_BREAK;
     carom_add(&game->lost[0], BAD_BREAK);
     carom_give(game, turn);
     game->may = CAROM_MAY_PASS;
     return turn;
   }
-  if (bad != CAROM_FOUL_NONE) {
+  if (foul != CAROM_FOUL_NONE) {
     carom_add(&game->lost[0], 1);
     carom_add(&game->fouls[0], 1);
     if (game->fouls[0] < FOULS_MOST)
       return carom_give(game, turn);
     carom_add(&game->lost[0], MANY_FOULS);
     game->fouls[0] = 0;
-    return racked(game, CAROM_TURN_KEEP, bad);
+    return racked(game, CAROM_TURN_KEEP, foul);
   }
 
   /* A miss or a safety; else points, and a new rack where one ball is left, or none. */
@@ -108,6 +112,53 @@ static bool is_in_rack(const carom_shot_ball *ball, double place[LAST_BALL][2]) 
   return in;
 }
 
+/* Puts balls of the set back on their spots, one after another: where one has no place, no other
+ * has. */
+static void spot_each(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot) {
+  carom_status status = CAROM_OK;
+  for (int k = 1; spot >> k != 0 && status == CAROM_OK; k++)
+    if (spot >> k & 1)
+      status = carom_spot_ball(table, balls, count, k);
+}
+
+/* The ball of a rack of 15 that does not fall; 0: all fall. */
+static int fifteenth_of(uint32_t spot) {
+  int fifteenth = 0;
+  for (int k = 1; k <= LAST_BALL; k++)
+    if (!(spot >> k & 1))
+      fifteenth = k;
+  return fifteenth;
+}
+
+static void take_up(carom_shot_ball *ball) {
+  ball->state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+}
+
+/* Puts a ball on the head spot, or on the centre where the head spot is taken. */
+static void place_at_head(const carom_table *table, carom_shot_ball *balls, int count, int ball,
+                          const double head[2], bool taken) {
+  const double x = taken ? 0.5 * table->width : head[0];
+  const double y = taken ? 0.5 * table->length : head[1];
+  carom_place_ball(table, balls, count, ball, x, y, NULL);
+}
+
+/* Puts the balls of the set in their order on the places of the triangle; 14 leave the front one. */
+static void rack_up(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot,
+                    double place[LAST_BALL][2]) {
+  int n = spot == all ? 0 : 1;
+  for (int k = 1; k <= LAST_BALL; k++)
+    if (spot >> k & 1) {
+      carom_place_ball(table, balls, count, k, place[n][0], place[n][1], NULL);
+      n++;
+    }
+}
+
+/* Whether balls that come back are racked: 14 or all 15 of them, in straight pool or as a break. */
+static bool is_racked(const carom_rules_state *game, uint32_t spot, int count) {
+  const bool racks = game->target > 0 || game->opening != 0;
+  return racks && carom_count_of(spot) >= RACKED && count > LAST_BALL;
+}
+
 /* Racks 14 balls without the front one, or all 15. The fifteenth leaves the rack for the head spot,
  * or for the centre where the cue ball is there. A cue ball in the rack is in hand; but with the
  * fifteenth behind the head string it goes to the head spot, or to the centre where the fifteenth
@@ -115,53 +166,43 @@ static bool is_in_rack(const carom_shot_ball *ball, double place[LAST_BALL][2]) 
 void carom_settle_rack(carom_rules_state *game, const carom_table *table, carom_shot_ball *balls,
                        int count, carom_turn *turn) {
   uint32_t spot = turn->spot;
-  if ((game->target <= 0 && game->opening == 0) || carom_count_of(spot) < RACKED ||
-      count <= LAST_BALL) {
-    carom_status found = CAROM_OK; /* where one has no place, no other has */
-    for (int k = 1; spot >> k != 0 && found == CAROM_OK; k++)
-      if (spot >> k & 1)
-        found = carom_spot_ball(table, balls, count, k);
+  if (!is_racked(game, spot, count)) {
+    spot_each(table, balls, count, spot);
     return;
   }
 
   /* who is where */
   const double R = balls[1].kind.radius;
   double place[LAST_BALL][2], head[2] = {0.0, 0.0};
-  const double centre[2] = {0.5 * table->width, 0.5 * table->length};
   places_of(table, R, place);
   carom_spot_of(CAROM_RACK_EIGHTBALL, table, 0, head);
-  int last = 0;
-  for (int k = 1; k <= LAST_BALL; k++)
-    last = spot >> k & 1 ? last : k;
-  const bool hand = turn->leave == CAROM_LEAVE_KITCHEN;
-  const bool cue_in = is_in_rack(&balls[0], place),
-             last_in = last > 0 && is_in_rack(&balls[last], place);
-  if (cue_in && last_in)
+  const int fifteenth = fifteenth_of(spot);
+  const bool in_hand = turn->leave == CAROM_LEAVE_KITCHEN;
+  const bool cue_in_rack = is_in_rack(&balls[0], place);
+  const bool fifteenth_in_rack = fifteenth > 0 && is_in_rack(&balls[fifteenth], place);
+  if (cue_in_rack && fifteenth_in_rack)
     spot = turn->spot = all;
 
   /* all that is racked, and a cue ball that is in hand, make room */
-  for (int k = 0; k <= LAST_BALL; k++)
-    if (spot >> k & 1 || (k == 0 && (hand || cue_in)))
-      balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
-  if (last_in && !cue_in) {
-    const bool taken = is_near(balls[0].state.r, head, R) && !hand;
-    carom_place_ball(table, balls, count, last, taken ? centre[0] : head[0],
-                     taken ? centre[1] : head[1], NULL);
+  if (in_hand || cue_in_rack || spot & 1)
+    take_up(&balls[0]);
+  for (int k = 1; k <= LAST_BALL; k++)
+    if (spot >> k & 1)
+      take_up(&balls[k]);
+  if (fifteenth_in_rack && !cue_in_rack) {
+    const bool taken = is_near(balls[0].state.r, head, R) && !in_hand;
+    place_at_head(table, balls, count, fifteenth, head, taken);
   }
-  for (int k = 1, n = spot == all ? 0 : 1; k <= LAST_BALL; k++)
-    if (spot >> k & 1) {
-      carom_place_ball(table, balls, count, k, place[n][0], place[n][1], NULL);
-      n++;
-    }
+  rack_up(table, balls, count, spot, place);
 
   /* a cue ball that was in the rack */
-  if (!cue_in || hand)
+  if (!cue_in_rack || in_hand)
     return;
-  const bool behind = spot != all && balls[last].state.r[1] < head[1];
-  const bool on_head = spot != all && is_near(balls[last].state.r, head, R);
+  const double *last = balls[fifteenth].state.r;
+  const bool behind = spot != all && last[1] < head[1];
+  const bool on_head = spot != all && is_near(last, head, R);
   if (on_head || behind)
-    carom_place_ball(table, balls, count, 0, on_head ? centre[0] : head[0],
-                     on_head ? centre[1] : head[1], NULL);
+    place_at_head(table, balls, count, 0, head, on_head);
   else
     turn->leave = CAROM_LEAVE_KITCHEN;
 }
