@@ -70,7 +70,9 @@ typedef struct progress {
 
 /* An angle of less than three half turns, as one of at most half a turn. */
 static double wrapped(double angle) {
-  return angle > pi ? angle - 2.0 * pi : angle < -pi ? angle + 2.0 * pi : angle;
+  if (angle > pi)
+    return angle - 2.0 * pi;
+  return angle < -pi ? angle + 2.0 * pi : angle;
 }
 
 /* Whether two rails are on one line. */
@@ -99,41 +101,85 @@ static bool meets_soon(const int *ball, const carom_brief_event *events, int64_t
   return false;
 }
 
+/* Whether an event is a contact or an end of the ball that is on its way. */
+static bool concerns(const carom_brief_event *e, int ball) {
+  if (e->type == CAROM_EVENT_STRIKE || e->type == CAROM_EVENT_SLATE ||
+      e->type == CAROM_EVENT_SLIDING_ROLLING)
+    return false;
+  return e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
+}
+
+/* Whether an event is the next link: `ball` is on its way, and `target` the ball behind it. */
+static bool is_next_link(const way *w, const progress *p, const carom_brief_event *e, int ball,
+                         int target) {
+  if (p->links == w->links)
+    return false;
+  const carom_part *next = &w->link[p->links];
+  if (e->type == CAROM_EVENT_BALL_BALL)
+    return next->kind == CAROM_PART_BALL && (e->a == ball ? e->b : e->a) == target;
+  return e->type == CAROM_EVENT_RAIL && is_on(w, next, e->b);
+}
+
+/* Whether the ball on its way, of index `at`, meets the one before it again: in the instant of the
+ * last link; or the cue ball follows a ball that it touched from the start. */
+static bool meets_last_again(const progress *p, const int *ball, int at,
+                             const carom_brief_event *e) {
+  if (e->type != CAROM_EVENT_BALL_BALL || at == 0)
+    return false;
+  const int other = e->a == ball[at] ? e->b : e->a;
+  const bool touched = at == 1 && p->since == 0.0;
+  return other == ball[at - 1] && (e->time == p->since || touched);
+}
+
+/* Whether event k is a contact with a rail that may be: a hop along the rail of the last link; or,
+ * where directions are swept, one of the cue ball just before it meets the first ball. */
+static bool may_touch_rail(const way *w, const progress *p, const int *ball,
+                           const carom_brief_event *events, int64_t count, int64_t k) {
+  const carom_brief_event *e = &events[k];
+  if (e->type != CAROM_EVENT_RAIL)
+    return false;
+  const carom_part *last = p->links > 0 ? &w->link[p->links - 1] : NULL;
+  if (is_on(w, last, e->b) && e->time - p->since < same_contact)
+    return true;
+  return w->swept && p->links == 0 && meets_soon(ball, events, count, k);
+}
+
+/* The first event of the instant of event k. */
+static int64_t first_of_instant(const carom_brief_event *events, int64_t k) {
+  const double time = events[k].time;
+  while (k > 0 && events[k - 1].time == time)
+    k--;
+  return k;
+}
+
 /* Follows the events of a shot along the way; `ball` are the indices of its balls there. */
 static progress follow(const way *w, const int *ball, const carom_brief_event *events,
                        int64_t count) {
   progress p = {0};
-  int at = 0;
-  for (int64_t k = 0; k < count && p.end.type == 0; k++) {
-    /* events of the ball that is on its way, but those that are no contact */
+  int at = 0; /* of the ball that is on its way */
+  int64_t k = 0;
+  while (k < count && p.end.type == 0) {
     const carom_brief_event *e = &events[k];
-    const bool meets = e->type == CAROM_EVENT_BALL_BALL, rail = e->type == CAROM_EVENT_RAIL;
-    if ((e->a != ball[at] && !(meets && e->b == ball[at])) || e->type == CAROM_EVENT_STRIKE ||
-        e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_SLIDING_ROLLING)
+    int64_t next = k + 1;
+    if (!concerns(e, ball[at])) {
+      k = next;
       continue;
-    const int other = e->a == ball[at] ? e->b : e->a;
-    /* the link that is to come, and the one that was done */
-    const carom_part *next = p.links < w->links ? &w->link[p.links] : NULL,
-                     *last = p.links > 0 ? &w->link[p.links - 1] : NULL;
-
-    if (meets && next != NULL && next->kind == CAROM_PART_BALL && other == ball[at + 1]) {
-      p.first = at++ == 0 ? e->time : p.first;
+    }
+    const int target = at + 1 < w->balls ? ball[at + 1] : -1;
+    if (is_next_link(w, &p, e, ball[at], target)) {
       p.since = e->time;
       p.links++;
-      /* the contacts of one instant are in any order */
-      while (k > 0 && events[k - 1].time == e->time)
-        k--;
-      k--;
-    } else if (meets && at > 0 && other == ball[at - 1] &&
-               (e->time == p.since || (at == 1 && p.since == 0.0))) {
-      continue; /* the cue ball may follow a ball that it touched, and meet it again */
-    } else if (rail && is_on(w, next, e->b)) {
-      p.since = e->time;
-      p.links++;
-    } else if (!(rail && is_on(w, last, e->b) && e->time - p.since < same_contact) &&
-               !(rail && w->swept && p.links == 0 && meets_soon(ball, events, count, k))) {
+      if (e->type == CAROM_EVENT_BALL_BALL) {
+        /* the next ball is on its way; the contacts of one instant are in any order */
+        p.first = at == 0 ? e->time : p.first;
+        at++;
+        next = first_of_instant(events, k);
+      }
+    } else if (!meets_last_again(&p, ball, at, e) &&
+               !may_touch_rail(w, &p, ball, events, count, k)) {
       p.end = *e;
     }
+    k = next;
   }
   p.until = p.end.time;
   return p;
@@ -305,8 +351,11 @@ static double cut_of(const way *w, carom_cue cue) {
 /* What comes of a root; where the ball falls, with how much may be erred. */
 static void judge(const way *w, const carom_shot_ball *balls, int count, const carom_cue *root,
                   double half, carom_pot *pot, carom_cue *cue) {
-  const double phi = root->phi;
-  cue->phi = phi < 0.0 ? phi + 360.0 : phi >= 360.0 ? phi - 360.0 : phi;
+  cue->phi = root->phi;
+  if (root->phi < 0.0)
+    cue->phi = root->phi + 360.0;
+  else if (root->phi >= 360.0)
+    cue->phi = root->phi - 360.0;
   pot->elevation = stick_of(w, *cue);
   cue->theta = w->raised ? fmax(root->theta, pot->elevation) : root->theta;
   pot->is = (int32_t)fate(w, balls, count, cue, &pot->met);
@@ -450,23 +499,9 @@ static void sweep(way *w, const carom_shot_ball *balls, int count, double mid, d
 
 /* ---- The call */
 
-/* The way as the caller asks for it; false where that cannot be. */
-static bool way_of(const carom_table *table, const carom_shot_ball *balls, int count,
-                   const carom_shot_options *options, const carom_pot *pot, int cue_ball, way *w) {
-  if (pot->pocket < 0 || pot->pocket >= table->pockets || pot->vias < 0 ||
-      pot->vias > CAROM_VIA_MOST)
-    return false;
-  memset(w, 0, sizeof *w); /* a literal would take its room on the stack a second time */
-  w->table = table;
-  w->options = *options;
-  w->pocket = &table->pocket[pot->pocket];
-  w->mouth = carom_mouth_of(table, pot->pocket);
-  w->balls = 1;
-  w->ball[0] = cue_ball;
-  w->options.stop_at = w->options.first_of = 0;
-  w->options.time_most = 0.0;
-
-  /* The ball that falls comes after the last other ball, where via[] does not name it. */
+/* The links: those that the caller names in via[], and the ball that falls, which comes after the
+ * last other ball where via[] does not name it. */
+static void make_links(const carom_pot *pot, way *w) {
   int last = -1;
   bool named = false;
   for (int k = 0; k < pot->vias; k++)
@@ -480,8 +515,10 @@ static bool way_of(const carom_table *table, const carom_shot_ball *balls, int c
     if (k == last && !named)
       w->link[w->links++] = (carom_part){CAROM_PART_BALL, pot->ball};
   }
+}
 
-  /* the balls of the links, after one another; a rail is one of the table's */
+/* The balls of the links, after one another. False where a rail is none of the table's. */
+static bool list_balls(const carom_table *table, way *w) {
   for (int k = 0; k < w->links; k++) {
     const carom_part *link = &w->link[k];
     if (link->kind == CAROM_PART_BALL)
@@ -489,19 +526,112 @@ static bool way_of(const carom_table *table, const carom_shot_ball *balls, int c
     else if (link->kind != CAROM_PART_RAIL || link->index < 0 || link->index >= table->rails)
       return false;
   }
+  return true;
+}
 
-  /* All are there, once. */
+/* Whether a ball of the layout is on the table. */
+static bool is_there(const carom_shot_ball *balls, int count, int ball) {
+  return ball >= 0 && ball < count && balls[ball].state.label != CAROM_BALL_POCKETED &&
+         balls[ball].state.label != CAROM_BALL_OFF;
+}
+
+/* Takes the balls of the way out of the layout. False where one is not there, or comes twice. */
+static bool take_alone(const carom_shot_ball *balls, int count, way *w) {
   for (int k = 0; k < w->balls; k++) {
-    const int ball = w->ball[k];
-    if (ball < 0 || ball >= count || balls[ball].state.label == CAROM_BALL_POCKETED ||
-        balls[ball].state.label == CAROM_BALL_OFF)
+    if (!is_there(balls, count, w->ball[k]))
       return false;
     for (int other = 0; other < k; other++)
-      if (w->ball[other] == ball)
+      if (w->ball[other] == w->ball[k])
         return false;
-    w->alone[k] = balls[ball];
+    w->alone[k] = balls[w->ball[k]];
   }
   return true;
+}
+
+/* The way as the caller asks for it; false where that cannot be. */
+static bool way_of(const carom_table *table, const carom_shot_ball *balls, int count,
+                   const carom_shot_options *options, const carom_pot *pot, int cue_ball, way *w) {
+  if (pot->pocket < 0 || pot->pocket >= table->pockets || pot->vias < 0 ||
+      pot->vias > CAROM_VIA_MOST)
+    return false;
+  memset(w, 0, sizeof *w); /* a literal would take its room on the stack a second time */
+  w->table = table;
+  w->options = *options;
+  w->pocket = &table->pocket[pot->pocket];
+  w->mouth = carom_mouth_of(table, pot->pocket);
+  w->layout = balls;
+  w->count = count;
+  w->balls = 1;
+  w->ball[0] = cue_ball;
+  w->options.stop_at = w->options.first_of = 0;
+  w->options.time_most = 0.0;
+  make_links(pot, w);
+  return list_balls(table, w) && take_alone(balls, count, w);
+}
+
+/* The place of the first ball, or its image in the rails before it, of which there are *rails. */
+static void image_of_first(const way *w, double image[2], int *rails) {
+  const carom_shot_ball *first = &w->alone[1];
+  image[0] = first->state.r[0];
+  image[1] = first->state.r[1];
+  *rails = 0;
+  while (w->link[*rails].kind == CAROM_PART_RAIL)
+    ++*rails;
+  for (int k = *rails - 1; k >= 0; k--) {
+    double l[3];
+    carom_rail_line(&w->table->rail[w->link[k].index], l);
+    const double off = l[0] * image[0] + l[1] * image[1] + l[2] - w->alone[0].kind.radius;
+    image[0] -= 2.0 * off * l[0];
+    image[1] -= 2.0 * off * l[1];
+  }
+}
+
+/* Directions of the cue, degrees: their middle, and half their range. */
+typedef struct directions {
+  double mid, half;
+} directions;
+
+/* The directions in which a straight path meets the first ball, or its image. No rail reflects as a
+ * mirror does, and a raised cue's path curves. `along` gets the greatest elevation of the stick. */
+static directions directions_of(const way *w, carom_cue *along) {
+  const carom_shot_ball *own = &w->alone[0], *first = &w->alone[1];
+  double image[2];
+  int rails;
+  image_of_first(w, image, &rails);
+
+  /* to either side of the middle, by the size of the balls */
+  const double x = image[0] - own->state.r[0], y = image[1] - own->state.r[1];
+  const double sine = (own->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
+  directions range;
+  range.half = (sine < 1.0 ? carom_asin(sine) : 0.5 * pi) / degree;
+  for (int side = -1; side <= 1 && w->raised; side++) {
+    along->phi = carom_angle_of(x, y) / degree + range.half * side;
+    along->theta = fmax(along->theta, stick_of(w, *along));
+  }
+
+  /* the squirt turns the middle; the curve and rails widen the range */
+  carom_motion struck = {.v = {1.0}};
+  along->phi = 0.0;
+  carom_strike(along, &own->kind, &struck);
+  range.mid = (carom_angle_of(x, y) - carom_angle_of(struck.v[0], struck.v[1])) / degree;
+  range.half += (along->theta > 0.0 ? 2.0 + along->theta : 0.0) + kick_wide * rails;
+  return range;
+}
+
+/* Searches with the least elevation of each direction; where it jumps over the root, with the
+ * greater one. */
+static void search_raised(const way *w, directions range, carom_pot *pot, carom_cue *cue) {
+  search(w, w->layout, w->count, range.mid, range.half, pot, cue);
+  const double jump = *w->jump;
+  if (!w->raised || pot->is != CAROM_POT_NO_WAY || !(jump > 0.0))
+    return;
+  carom_cue high = *cue;
+  high.theta = jump;
+  search(w, w->layout, w->count, range.mid, range.half, pot, &high);
+  if (pot->elevation > jump)
+    pot->is = CAROM_POT_NO_WAY;
+  else if (pot->is != CAROM_POT_NO_WAY)
+    *cue = high;
 }
 
 carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, int count,
@@ -512,70 +642,35 @@ carom_status carom_aim(const carom_table *table, const carom_shot_ball *balls, i
   int where;
   carom_cue along = *cue;
   along.theta = isnan(cue->theta) ? 0.0 : cue->theta;
-  const carom_status bad = carom_shot_check(table, balls, count, &along, options, &where);
-  if (bad != CAROM_OK)
-    return bad;
+  const carom_status status = carom_shot_check(table, balls, count, &along, options, &where);
+  if (status != CAROM_OK)
+    return status;
+
+  /* the way, with its room */
   way w;
   if (!way_of(table, balls, count, options, pot, (int)cue->ball, &w))
     return CAROM_ERROR_BALLS;
   carom_brief_event events[EVENTS];
-  w.events = events;
   double jump = 0.0;
+  w.events = events;
   w.jump = &jump;
-  w.layout = balls;
-  w.count = count;
   w.raised = isnan(cue->theta);
+  const directions range = directions_of(&w, &along);
 
-  /* The directions in which a straight path meets the first ball, or its image in the rails before
-   * it. No rail reflects as a mirror does, and a raised cue's path curves. */
-  const carom_shot_ball *own = &w.alone[0], *first = &w.alone[1];
-  double to[2] = {first->state.r[0], first->state.r[1]};
-  int rails = 0;
-  while (w.link[rails].kind == CAROM_PART_RAIL)
-    rails++;
-  for (int k = rails - 1; k >= 0; k--) {
-    double l[3];
-    carom_rail_line(&table->rail[w.link[k].index], l);
-    const double off = l[0] * to[0] + l[1] * to[1] + l[2] - own->kind.radius;
-    to[0] -= 2.0 * off * l[0];
-    to[1] -= 2.0 * off * l[1];
-  }
-
-  /* a direction to either side of the middle, by the size of the balls and the curve */
-  const double x = to[0] - own->state.r[0], y = to[1] - own->state.r[1];
-  const double sine = (own->kind.radius + first->kind.radius) / sqrt(x * x + y * y);
-  carom_motion struck = {.v = {1.0}};
-  double half = (sine < 1.0 ? carom_asin(sine) : 0.5 * pi) / degree;
-  for (int side = -1; side <= 1 && w.raised; side++) {
-    along.phi = carom_angle_of(x, y) / degree + half * side;
-    along.theta = fmax(along.theta, stick_of(&w, along));
-  }
-  along.phi = 0.0;
-  carom_strike(&along, &own->kind, &struck);
-  const double mid = (carom_angle_of(x, y) - carom_angle_of(struck.v[0], struck.v[1])) / degree;
-  half += (along.theta > 0.0 ? 2.0 + along.theta : 0.0) + kick_wide * rails;
-
+  /* the roots */
   pot->elevation = pot->cut = pot->margin = pot->phi[0] = pot->phi[1] = pot->speed[0] =
       pot->speed[1] = 0.0;
   pot->met = (carom_brief_event){0};
-  search(&w, balls, count, mid, half, pot, cue);
-  /* where the elevation jumps over the root, the greater one */
-  if (w.raised && pot->is == CAROM_POT_NO_WAY && jump > 0.0) {
-    carom_cue high = *cue;
-    high.theta = jump;
-    search(&w, balls, count, mid, half, pot, &high);
-    if (pot->elevation > jump)
-      pot->is = CAROM_POT_NO_WAY;
-    else if (pot->is != CAROM_POT_NO_WAY)
-      *cue = high;
+  search_raised(&w, range, pot, cue);
+
+  /* without one, the directions one by one */
+  if (pot->is == CAROM_POT_NO_WAY || pot->is == CAROM_POT_BARRED || pot->is == CAROM_POT_REJECTED) {
+    const double wider = w.links == 1 && is_near_rail(&w) ? kick_wide : 0.0;
+    sweep(&w, balls, count, range.mid, range.half + wider, pot, cue);
   }
 
-  if (pot->is == CAROM_POT_NO_WAY || pot->is == CAROM_POT_BARRED || pot->is == CAROM_POT_REJECTED)
-    sweep(&w, balls, count, mid, half + (w.links == 1 && is_near_rail(&w) ? kick_wide : 0.0), pot,
-          cue);
-
   /* whether the stick alone is in the way of all directions */
-  along.phi = mid;
+  along.phi = range.mid;
   const double least = w.raised && pot->is == CAROM_POT_NO_WAY ? stick_of(&w, along) : 0.0;
   if (least > STICK_MOST) {
     pot->is = CAROM_POT_STICK;
