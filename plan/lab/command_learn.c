@@ -158,7 +158,11 @@ static void play(const learn_job *job, int number, visit *to) {
     open_rack(&rack, &draw, 1.0, 8.0);
 
   /* some balls are down; the cue ball is anywhere, or in hand once in eight */
-  const int balls = groups ? 7 : snooker ? 15 : about->last - (breaks ? 1 : 2);
+  int balls = breaks ? about->last - 1 : about->last - 2;
+  if (snooker)
+    balls = 15;
+  if (groups)
+    balls = 7;
   if (groups)
     rack.rules.state.group = CAROM_GROUP_SOLIDS;
   for (int group = 0; group < (groups ? 2 : 1); group++)
@@ -274,8 +278,10 @@ static double likelihood(const sample *s, size_t count, chance_of what, int n, c
   double sum = 0.0, all = 0.0;
   for (size_t k = 0; k < count; k++) {
     const double p = chance(w, s[k].x, n);
-    sum += s[k].what == what ? log(s[k].kept ? p : 1.0 - p) : 0.0;
-    all += s[k].what == what;
+    if (s[k].what == what) {
+      sum += log(s[k].kept ? p : 1.0 - p);
+      all += 1.0;
+    }
   }
   return sum / all;
 }

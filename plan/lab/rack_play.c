@@ -13,10 +13,10 @@ bool lab_game_is_played(int rules) {
 void lab_rack_begin(lab_rack *rack, carom_rules_kind game, double errors) {
   const carom_rules_about *about = carom_rules_about_of(game);
   const bool breaks = carom_plan_rules_of(game).breaks == 1;
-  carom_table_make(about->balls == CAROM_GAME_SNOOKER ? CAROM_TABLE_SNOOKER
-                   : breaks                           ? CAROM_TABLE_POOL_7FT
-                                                      : CAROM_TABLE_POOL_9FT,
-                   &rack->table);
+  carom_table_kind table = breaks ? CAROM_TABLE_POOL_7FT : CAROM_TABLE_POOL_9FT;
+  if (about->balls == CAROM_GAME_SNOOKER)
+    table = CAROM_TABLE_SNOOKER;
+  carom_table_make(table, &rack->table);
   rack->cue = carom_cue_of((carom_game)about->balls);
   rack->player = carom_player_of(errors);
   rack->shot = (carom_shot_options){.space = CAROM_SPACE_FLAT};
@@ -91,9 +91,9 @@ bool lab_rack_stroke(lab_rack *rack, carom_choice *choice, carom_turn *turn) {
   int found;
   rack->options.seed = rack->state.state;
   const double high[2] = {job->table->width, 0.25 * job->table->length};
-  const carom_status status =
-      rack->hand ? carom_plan_hand(job, NULL, rack->kitchen ? high : NULL, choice, 1, &found)
-                 : carom_plan(job, choice, 1, &found);
+  const double *bound = rack->kitchen ? high : NULL;
+  const carom_status status = rack->hand ? carom_plan_hand(job, NULL, bound, choice, 1, &found)
+                                         : carom_plan(job, choice, 1, &found);
   if (status < 0) {
     complain("a plan: %s", carom_status_string(status));
     return false;

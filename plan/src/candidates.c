@@ -99,7 +99,12 @@ static bool aim(const search *plan, candidate *c) {
     if (!(v[0] * v[0] + v[1] * v[1] > 4e-4))
       return false;
     double off = psi - carom_angle_of(v[0], v[1]);
-    off += off > 180.0 * degree ? -360.0 * degree : off < -180.0 * degree ? 360.0 * degree : 0.0;
+    double back = 0.0;
+    if (off > 180.0 * degree)
+      back = -360.0 * degree;
+    else if (off < -180.0 * degree)
+      back = 360.0 * degree;
+    off += back;
     to += off;
   }
   c->phi += c->phi < 0.0 ? 360.0 : 0.0;
@@ -135,11 +140,18 @@ void carom_search_near(search *plan, int64_t parents) {
       const bool more = way % 2 == 1;
       const double turn = way < POT_WAYS ? 0.0 : turned[(way - POT_WAYS) / 2];
       c.round = 0;
-      c.speed = way > 1 ? c.speed : more ? c.speed * faster : c.speed / faster;
-      c.a += way / 2 != 1 ? 0.0 : more ? farther : -farther;
-      c.b += way / 2 != 2 ? 0.0 : more ? farther : -farther;
+      const double aside = more ? farther : -farther;
+      if (way / 2 == 0)
+        c.speed = more ? c.speed * faster : c.speed / faster;
+      c.a += way / 2 == 1 ? aside : 0.0;
+      c.b += way / 2 == 2 ? aside : 0.0;
       c.phi += more ? turn : -turn;
-      c.phi += c.phi < 0.0 ? 360.0 : c.phi >= 360.0 ? -360.0 : 0.0;
+      double back = 0.0;
+      if (c.phi < 0.0)
+        back = 360.0;
+      else if (c.phi >= 360.0)
+        back = -360.0;
+      c.phi += back;
       bound(plan, &c);
       if (pot) {
         c.phi = plan->view.window[c.aimed_ball][c.aimed_pocket].psi / degree;
@@ -185,9 +197,11 @@ void carom_search_pots(search *plan, int64_t most) {
   CAROM_PROMISE(ways <= CAROM_BALLS_MOST * CAROM_POCKETS_MOST);
   const int64_t fit = most / STROKES > 4 ? most / STROKES : 4;
   ways = ways > fit ? (int)fit : ways;
-  const int64_t share = ways > 0 ? most / ways : 0, strokes = share > STROKES ? STROKES
-                                                              : share < 3     ? 3
-                                                                              : share;
+  int64_t strokes = ways > 0 ? most / ways : 0;
+  if (strokes > STROKES)
+    strokes = STROKES;
+  if (strokes < 3)
+    strokes = 3;
 
   for (int w = 0; w < ways; w++)
     for (int n = 0; n < strokes; n++) {

@@ -78,8 +78,12 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
     /* the two best of all balls */
     count++;
     sum += likeliest;
-    second = likeliest > best ? best : likeliest > second ? likeliest : second;
-    best = likeliest > best ? likeliest : best;
+    if (likeliest > best) {
+      second = best;
+      best = likeliest;
+    } else if (likeliest > second) {
+      second = likeliest;
+    }
     if (each != NULL)
       each[k] = likeliest;
   }
@@ -95,6 +99,6 @@ void carom_plan_features(const carom_view *view, const carom_ball_state *balls, 
 }
 
 double carom_stretched(const carom_view *view, double value) {
-  const double least = 1e-9, v = value < least ? least : value > 1.0 - least ? 1.0 - least : value;
+  const double least = 1e-9, v = carom_within(value, least, 1.0 - least);
   return 1.0 / (1.0 + carom_exp(-numbers_of(view)->stretch * carom_log(v / (1.0 - v))));
 }

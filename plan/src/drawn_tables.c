@@ -23,7 +23,9 @@ static const double spread[NUMBERS] = {0.1155, 0.1681, 0.2887, 0.2624};
 /* At most 1: all are shares. */
 static double times(double number, double factor) {
   const double product = number * factor;
-  return product < 1.0 ? product : number < 1.0 ? 1.0 : number;
+  if (product < 1.0)
+    return product;
+  return number < 1.0 ? 1.0 : number;
 }
 
 void carom_search_tables(carom_search *plan, carom_drawn_table *room) {

@@ -11,7 +11,9 @@ double carom_angle_of(double x, double y) {
     return 0.0;
   if (fabs(x) >= fabs(y)) {
     const double angle = carom_atan(y / x);
-    return x > 0.0 ? angle : y >= 0.0 ? angle + pi : angle - pi;
+    if (x > 0.0)
+      return angle;
+    return y >= 0.0 ? angle + pi : angle - pi;
   }
   return (y > 0.0 ? 0.5 : -0.5) * pi - carom_atan(x / y);
 }

@@ -34,8 +34,11 @@ carom_player carom_player_bounded(const carom_player *player, const carom_cue *c
   const double gain = carom_tip_gain(cue), usual_least = 0.5 * gain, usual_most = 8.0 * gain;
   bounded.speed = gain * player->speed;
   const double least = player->speed_least, most = player->speed_most;
-  bounded.speed_least = least > 0.0 ? least : most > 0.0 && most < usual_least ? most : usual_least;
-  bounded.speed_most = most > 0.0 ? most : least > usual_most ? least : usual_most;
+  const bool is_slow = most > 0.0 && most < usual_least;
+  if (!(least > 0.0))
+    bounded.speed_least = is_slow ? most : usual_least;
+  if (!(most > 0.0))
+    bounded.speed_most = least > usual_most ? least : usual_most;
   bounded.tip_most = player->tip_most > 0.0 ? player->tip_most : 0.5;
   return bounded;
 }

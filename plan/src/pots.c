@@ -24,7 +24,11 @@ carom_mouth carom_mouth_of(const carom_table *table, int index) {
     const double x = table->jaw[k].centre[0] - pocket->centre[0],
                  y = table->jaw[k].centre[1] - pocket->centre[1];
     const double square = x * x + y * y;
-    const int at = square < least[0] ? 0 : square < least[1] ? 1 : 2;
+    int at = 2; /* among the two nearest, or behind them */
+    if (square < least[0])
+      at = 0;
+    else if (square < least[1])
+      at = 1;
     if (at == 0) {
       least[1] = least[0];
       nearest[1] = nearest[0];
@@ -79,7 +83,12 @@ carom_window carom_window_of(const carom_mouth *mouth, const double o[2], double
       const double sine = (mouth->jaw[side][2] + 0.93 * R) / sqrt(jx * jx + jy * jy);
       between = sine >= 1.0;
       turn[side] = carom_angle_of(jx, jy) - mid;
-      turn[side] += turn[side] > pi ? -2.0 * pi : turn[side] < -pi ? 2.0 * pi : 0.0;
+      double back = 0.0;
+      if (turn[side] > pi)
+        back = -2.0 * pi;
+      else if (turn[side] < -pi)
+        back = 2.0 * pi;
+      turn[side] += back;
       tangent[side] = between ? 0.0 : carom_asin(sine);
     }
 

@@ -73,7 +73,10 @@ carom_status carom_rating_of(const carom_score *rows, int64_t count, carom_ratin
   /* its mass and mean, in cells from low on */
   for (int k = 0; k <= 2 * CELLS; k++) {
     f[k] = carom_exp(likely(rows, count, low + 0.5 * k * cell, &slope) - top);
-    const double weight = (k % 2 == 1 ? 4.0 : k == 0 || k == 2 * CELLS ? 1.0 : 2.0) / 6.0 * f[k];
+    double simpson = k % 2 == 1 ? 4.0 : 2.0;
+    if (k == 0 || k == 2 * CELLS)
+      simpson = 1.0;
+    const double weight = simpson / 6.0 * f[k];
     sum += weight;
     first += 0.5 * k * weight;
   }

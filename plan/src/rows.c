@@ -120,10 +120,11 @@ static outcome judge(const search *plan, const carom_facts *facts, carom_ball_st
   const bool in_hand = turn.leave >= CAROM_LEAVE_HAND;
   const bool passes = turn.is == CAROM_TURN_PASS;
   const double value = carom_value_of(&plan->view, &game, final, passes, in_hand);
-  o.worth = passes && turn.foul != 0 ? carom_search_foul(1.0 - value)
-            : passes                 ? 1.0 - value
-            : alone                  ? carom_search_share(plan, turn.points + value)
-                                     : value;
+  o.worth = value;
+  if (passes)
+    o.worth = turn.foul != 0 ? carom_search_foul(1.0 - value) : 1.0 - value;
+  else if (alone)
+    o.worth = carom_search_share(plan, turn.points + value);
   return o;
 }
 

@@ -21,7 +21,9 @@ static carom_turn foul_for(int32_t why) {
 /* Of a game that is not over. */
 static uint32_t eightball_targets(const carom_rules_state *game, uint32_t in_play) {
   const uint32_t own = in_play & balls_of[(uint32_t)game->group <= STRIPES ? game->group : OPEN];
-  return game->opening != 0 ? in_play & 0xfffe : own != 0 ? own : in_play & eight;
+  if (game->opening != 0)
+    return in_play & 0xfffe;
+  return own != 0 ? own : in_play & eight;
 }
 
 static uint32_t eightball_on(const carom_rules_state *game, uint32_t in_play) {
@@ -32,12 +34,15 @@ static void eightball_left(const carom_rules_state *game, uint32_t in_play, int3
   const int solids = carom_count_of(in_play & balls_of[SOLIDS]),
             stripes = carom_count_of(in_play & balls_of[STRIPES]);
   const bool open = game->group == OPEN;
-  left[0] = 1 + (open                    ? (solids < stripes ? solids : stripes)
-                 : game->group == SOLIDS ? solids
-                                         : stripes);
-  left[1] = 1 + (open                    ? (solids < stripes ? stripes : solids)
-                 : game->group == SOLIDS ? stripes
-                                         : solids);
+  const int fewer = solids < stripes ? solids : stripes;
+  const int more = solids < stripes ? stripes : solids;
+  const bool has_solids = game->group == SOLIDS;
+  left[0] = 1 + (has_solids ? solids : stripes);
+  left[1] = 1 + (has_solids ? stripes : solids);
+  if (open) {
+    left[0] = 1 + fewer;
+    left[1] = 1 + more;
+  }
 }
 
 /* The turn goes to the other: the state becomes his. */
@@ -45,6 +50,15 @@ static carom_turn give(carom_rules_state *game, carom_turn turn) {
   if (game->group == SOLIDS || game->group == STRIPES)
     game->group = SOLIDS + STRIPES - game->group;
   return turn;
+}
+
+/* The turn after an opening break: nothing is called. */
+static carom_turn turn_of_break(const carom_facts *facts, int cue_ball, int32_t foul) {
+  if (foul != CAROM_FOUL_NONE)
+    return foul_for(foul);
+  if (!carom_is_break(facts, cue_ball))
+    return foul_for(CAROM_FOUL_BREAK);
+  return (facts->down & 0xfffe) != 0 ? carom_keep : carom_pass;
 }
 
 static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
@@ -55,10 +69,7 @@ static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int
   /* The break: nothing is called, the eight comes back, and the table is open after it. */
   if (game->opening != 0) {
     game->opening = 0;
-    carom_turn turn = bad != 0                           ? foul_for(bad)
-                      : !carom_is_break(facts, cue_ball) ? foul_for(CAROM_FOUL_BREAK)
-                      : (facts->down & 0xfffe) != 0      ? carom_keep
-                                                         : carom_pass;
+    carom_turn turn = turn_of_break(facts, cue_ball, bad);
     turn.leave = bad != 0 ? CAROM_LEAVE_KITCHEN : turn.leave;
     turn.spot = (facts->down | facts->off) & eight;
     return turn;
@@ -101,6 +112,14 @@ static void nineball_left(const carom_rules_state *game, uint32_t in_play, int32
   left[0] = left[1] = carom_count_of(in_play & 0x3fe);
 }
 
+/* The foul of a push-out, which may meet any ball or none, and needs no cushion; not that the cue
+ * ball is gone. */
+static carom_foul push_out_foul_of(const carom_facts *facts) {
+  if (facts->off != 0)
+    return CAROM_FOUL_OFF;
+  return carom_is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT : CAROM_FOUL_NONE;
+}
+
 static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                  const carom_facts *facts, carom_call call) {
   const bool opening = game->opening != 0;
@@ -110,12 +129,10 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
   if (passes)
     return carom_give(game, carom_pass);
 
-  /* A push-out may meet any ball or none, and needs no cushion. */
+  /* the foul, of a push-out or of another stroke */
   int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(game, in_play), cue_ball);
   if (pushes && bad != CAROM_FOUL_CUE_BALL)
-    bad = facts->off != 0              ? CAROM_FOUL_OFF
-          : carom_is_double_hit(facts) ? CAROM_FOUL_DOUBLE_HIT
-                                       : CAROM_FOUL_NONE;
+    bad = (int32_t)push_out_foul_of(facts);
   if (bad == CAROM_FOUL_NONE && opening && !carom_is_break(facts, cue_ball))
     bad = CAROM_FOUL_BREAK;
   if (bad != CAROM_FOUL_NONE) {
@@ -167,11 +184,15 @@ static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int c
   const uint32_t on = potting_on(game, in_play);
   int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
   bad = bad == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : bad;
-  carom_turn turn = bad                        ? foul_for(bad)
-                    : facts->down == 0         ? carom_pass
-                    : (facts->down & on) == on ? win
-                                               : carom_keep;
-  turn.points = bad ? 0.0 : carom_count_of(facts->down & on);
+  if (bad != CAROM_FOUL_NONE) {
+    carom_turn turn = foul_for(bad);
+    turn.points = 0.0;
+    return turn;
+  }
+  carom_turn turn = carom_pass;
+  if (facts->down != 0)
+    turn = (facts->down & on) == on ? win : carom_keep;
+  turn.points = carom_count_of(facts->down & on);
   return turn;
 }
 
@@ -189,11 +210,13 @@ static void threecushion_left(const carom_rules_state *game, uint32_t in_play, i
 static carom_turn threecushion_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                      const carom_facts *facts, carom_call call) {
   (void)game, (void)in_play, (void)cue_ball, (void)call;
-  const int32_t bad = facts->off != 0                            ? CAROM_FOUL_OFF
-                      : facts->pushed != 0 || facts->touches > 1 ? CAROM_FOUL_DOUBLE_HIT
-                                                                 : CAROM_FOUL_NONE;
-  if (bad || facts->first[1] < 0 || facts->cushions_before[1] < 3)
-    return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, 0, 0.0};
+  int32_t foul = CAROM_FOUL_NONE;
+  if (facts->off != 0)
+    foul = CAROM_FOUL_OFF;
+  else if (facts->pushed != 0 || facts->touches > 1)
+    foul = CAROM_FOUL_DOUBLE_HIT;
+  if (foul != CAROM_FOUL_NONE || facts->first[1] < 0 || facts->cushions_before[1] < 3)
+    return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, 0, 0.0};
   carom_turn turn = carom_keep;
   turn.points = 1.0;
   return turn;

@@ -32,7 +32,9 @@ static int highest(uint32_t set) {
 /* The balls on, but for a free ball. */
 static uint32_t due_of(const carom_rules_state *game, uint32_t in_play) {
   const uint32_t red = in_play & reds, colour = in_play & colours;
-  return game->on != 0 ? colour : red != 0 ? red : colour & (~colour + 1);
+  if (game->on != 0)
+    return colour;
+  return red != 0 ? red : colour & (~colour + 1);
 }
 
 static uint32_t on(const carom_rules_state *game, uint32_t in_play) {
@@ -64,23 +66,27 @@ static bool is_claimed(int64_t lead, uint32_t balls) {
   return balls == black && lead > MOST;
 }
 
+/* The points after which a lead of less than `reach` cannot be drawn level: at least 1. */
+static int32_t points_beyond(int64_t reach) {
+  return reach < 2 ? 1 : (int32_t)(reach / 2 + 1);
+}
+
 /* Points after which the other cannot draw level; 0 of a frame that is won. */
 static void left(const carom_rules_state *game, uint32_t in_play, int32_t needed[2]) {
   int pots;
   const int64_t rest = remaining(game, in_play, &pots), lead = lead_of(game);
   const uint32_t balls = in_play & (reds | colours);
-  const int64_t own = rest - lead, other = rest + lead;
-  needed[0] = is_claimed(lead, balls) ? 0 : own < 2 ? 1 : (int32_t)(own / 2 + 1);
-  needed[1] = is_claimed(-lead, balls) ? 0 : other < 2 ? 1 : (int32_t)(other / 2 + 1);
+  needed[0] = is_claimed(lead, balls) ? 0 : points_beyond(rest - lead);
+  needed[1] = is_claimed(-lead, balls) ? 0 : points_beyond(rest + lead);
 }
 
 static double points(const carom_rules_state *game, uint32_t in_play, int ball) {
   int pots;
   const int rest = remaining(game, in_play, &pots);
   const uint32_t due = due_of(game, in_play);
-  return ball < 0        ? (pots > 0 ? (double)rest / pots : 1.0)
-         : game->on != 0 ? worth(ball)
-                         : highest(due);
+  if (ball < 0)
+    return pots > 0 ? (double)rest / pots : 1.0;
+  return game->on != 0 ? worth(ball) : highest(due);
 }
 
 /* The last black is gone: who has more has won; else it comes back. */
@@ -123,12 +129,15 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const bool calls = call.ball >= 0 && call.ball <= BLACK && choice >> call.ball & 1;
   const uint32_t called = calls ? UINT32_C(1) << call.ball : choice;
   const int first = first_of(facts, !colour && (called & due) != 0 ? due : called);
-  const int named = calls ? call.ball : first >= 0 && choice >> first & 1 ? first : -1;
+  const int met = first >= 0 && choice >> first & 1 ? first : -1;
+  const int named = calls ? call.ball : met;
   const uint32_t its = named < 0 ? 0 : UINT32_C(1) << named;
   const bool free_ball = !colour && its != 0 && (its & due) == 0;
   const uint32_t to_meet = colour || free_ball ? its : due;
-  const uint32_t to_fall = colour ? its : due | (free_ball ? its : 0);
-  const int value = !colour ? highest(due) : named >= 0 ? worth(named) : MOST;
+  const uint32_t free_set = free_ball ? its : 0;
+  const uint32_t to_fall = colour ? its : due | free_set;
+  const int of_colour = named >= 0 ? worth(named) : MOST;
+  const int value = colour ? of_colour : highest(due);
 
   /* Fouls. Reds stay down. */
   const uint32_t gone = (facts->down | facts->off) & balls;
@@ -136,13 +145,19 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const bool off_cue = (facts->down | facts->off) >> cue_ball & 1;
   const bool wrong_first = first >= 0 && !(to_meet >> first & 1);
   const bool pushes = facts->pushed != 0 || facts->touches > 1;
-  const int32_t bad = off_cue                      ? CAROM_FOUL_CUE_BALL
-                      : first < 0                  ? CAROM_FOUL_NO_BALL
-                      : wrong_first                ? CAROM_FOUL_FIRST
-                      : (facts->off & balls) != 0  ? CAROM_FOUL_OFF
-                      : pushes                     ? CAROM_FOUL_DOUBLE_HIT
-                      : (facts->down & wrong) != 0 ? CAROM_FOUL_POT
-                                                   : CAROM_FOUL_NONE;
+  int32_t bad = CAROM_FOUL_NONE;
+  if (off_cue)
+    bad = CAROM_FOUL_CUE_BALL;
+  else if (first < 0)
+    bad = CAROM_FOUL_NO_BALL;
+  else if (wrong_first)
+    bad = CAROM_FOUL_FIRST;
+  else if ((facts->off & balls) != 0)
+    bad = CAROM_FOUL_OFF;
+  else if (pushes)
+    bad = CAROM_FOUL_DOUBLE_HIT;
+  else if ((facts->down & wrong) != 0)
+    bad = CAROM_FOUL_POT;
   carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, gone & colours, 0.0};
   game->on = 0;
   if (bad != CAROM_FOUL_NONE) {
@@ -158,7 +173,8 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
     if (turn.is != CAROM_TURN_PASS)
       return turn;
     /* a black that comes back is a new beginning */
-    game->may = balls == black ? 0 : off_cue ? CAROM_MAY_PASS | CAROM_MAY_PLACE : CAROM_MAY_PASS;
+    if (balls != black)
+      game->may = off_cue ? CAROM_MAY_PASS | CAROM_MAY_PLACE : CAROM_MAY_PASS;
     return carom_give(game, turn);
   }
 

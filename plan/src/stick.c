@@ -78,7 +78,9 @@ static double most_between(const stick *axis, const nose *n, double low, double 
   double at[2], theta[2];
   for (int step = -2; step < STEPS; step++) {
     /* two places; then the worse one is an end, and a place comes on the other side */
-    const int next = step < 0 ? step + 2 : theta[0] < theta[1] ? 1 : 0;
+    int next = step + 2;
+    if (step >= 0)
+      next = theta[0] < theta[1] ? 1 : 0;
     if (step >= 0) {
       *(next == 1 ? &low : &high) = at[1 - next];
       at[1 - next] = at[next];

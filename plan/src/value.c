@@ -97,7 +97,10 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   const int32_t most = alone ? CAROM_BALLS_MOST : MOST_LEFT;
   int32_t left[2];
   for (int k = 0; k < 2; k++)
-    left[k] = given[k] < 1 ? 1 : given[k] > most ? most : given[k];
+    if (given[k] < 1)
+      left[k] = 1;
+    else
+      left[k] = given[k] > most ? most : given[k];
   CAROM_PROMISE(who == 0 || who == 1);
   double x[NEXT_NUMBERS];
   carom_plan_features(view, balls, in_play, targets, pockets, who, in_hand, NULL, x);

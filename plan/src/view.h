@@ -11,7 +11,9 @@
 static const double pi = 3.14159265358979323846, degree = 3.14159265358979323846 / 180.0;
 
 static inline double carom_within(double x, double least, double most) {
-  return x < least ? least : x > most ? most : x;
+  if (x < least)
+    return least;
+  return x > most ? most : x;
 }
 
 /* Whether a point, `to` from where a way begins, is nearer than `least` to the way: so long, in the
