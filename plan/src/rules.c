@@ -64,13 +64,13 @@ static carom_turn turn_of_break(const carom_facts *facts, int cue_ball, int32_t 
 static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
                                   const carom_facts *facts, carom_call call) {
   const uint32_t on = eightball_targets(game, in_play);
-  const int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
+  const int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
 
   /* The break: nothing is called, the eight comes back, and the table is open after it. */
   if (game->opening != 0) {
     game->opening = 0;
-    carom_turn turn = turn_of_break(facts, cue_ball, bad);
-    turn.leave = bad != 0 ? CAROM_LEAVE_KITCHEN : turn.leave;
+    carom_turn turn = turn_of_break(facts, cue_ball, foul);
+    turn.leave = foul != 0 ? CAROM_LEAVE_KITCHEN : turn.leave;
     turn.spot = (facts->down | facts->off) & eight;
     return turn;
   }
@@ -78,11 +78,11 @@ static carom_turn eightball_judge(carom_rules_state *game, uint32_t in_play, int
   /* The eight wins as the last ball, in the pocket that was called, without a foul. */
   const bool called = carom_is_called(facts, call);
   if (((facts->down | facts->off) & eight) != 0)
-    return on == eight && !bad && called && call.ball == 8
+    return on == eight && !foul && called && call.ball == 8
                ? win
-               : (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, bad, 0, 0.0};
-  if (bad)
-    return give(game, foul_for(bad));
+               : (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, foul, 0, 0.0};
+  if (foul)
+    return give(game, foul_for(foul));
 
   /* The first ball that is called and falls decides the groups. */
   if (!called || !(on >> call.ball & 1))
@@ -130,13 +130,13 @@ static carom_turn nineball_judge(carom_rules_state *game, uint32_t in_play, int 
     return carom_give(game, carom_pass);
 
   /* the foul, of a push-out or of another stroke */
-  int32_t bad = (int32_t)carom_foul_of(facts, nineball_on(game, in_play), cue_ball);
-  if (pushes && bad != CAROM_FOUL_CUE_BALL)
-    bad = (int32_t)push_out_foul_of(facts);
-  if (bad == CAROM_FOUL_NONE && opening && !carom_is_break(facts, cue_ball))
-    bad = CAROM_FOUL_BREAK;
-  if (bad != CAROM_FOUL_NONE) {
-    carom_turn turn = foul_for(bad);
+  int32_t foul = (int32_t)carom_foul_of(facts, nineball_on(game, in_play), cue_ball);
+  if (pushes && foul != CAROM_FOUL_CUE_BALL)
+    foul = (int32_t)push_out_foul_of(facts);
+  if (foul == CAROM_FOUL_NONE && opening && !carom_is_break(facts, cue_ball))
+    foul = CAROM_FOUL_BREAK;
+  if (foul != CAROM_FOUL_NONE) {
+    carom_turn turn = foul_for(foul);
     turn.spot = (facts->down | facts->off) & nine;
     carom_add(&game->fouls[0], 1);
     turn.is = game->fouls[0] >= FOULS_MOST ? CAROM_TURN_LOSE : turn.is;
@@ -182,10 +182,10 @@ static carom_turn potting_judge(carom_rules_state *game, uint32_t in_play, int c
                                 const carom_facts *facts, carom_call call) {
   (void)call;
   const uint32_t on = potting_on(game, in_play);
-  int32_t bad = (int32_t)carom_foul_of(facts, on, cue_ball);
-  bad = bad == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : bad;
-  if (bad != CAROM_FOUL_NONE) {
-    carom_turn turn = foul_for(bad);
+  int32_t foul = (int32_t)carom_foul_of(facts, on, cue_ball);
+  foul = foul == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : foul;
+  if (foul != CAROM_FOUL_NONE) {
+    carom_turn turn = foul_for(foul);
     turn.points = 0.0;
     return turn;
   }

@@ -145,22 +145,22 @@ static carom_turn judge(carom_rules_state *game, uint32_t in_play, int cue_ball,
   const bool off_cue = (facts->down | facts->off) >> cue_ball & 1;
   const bool wrong_first = first >= 0 && !(to_meet >> first & 1);
   const bool pushes = facts->pushed != 0 || facts->touches > 1;
-  int32_t bad = CAROM_FOUL_NONE;
+  int32_t foul = CAROM_FOUL_NONE;
   if (off_cue)
-    bad = CAROM_FOUL_CUE_BALL;
+    foul = CAROM_FOUL_CUE_BALL;
   else if (first < 0)
-    bad = CAROM_FOUL_NO_BALL;
+    foul = CAROM_FOUL_NO_BALL;
   else if (wrong_first)
-    bad = CAROM_FOUL_FIRST;
+    foul = CAROM_FOUL_FIRST;
   else if ((facts->off & balls) != 0)
-    bad = CAROM_FOUL_OFF;
+    foul = CAROM_FOUL_OFF;
   else if (pushes)
-    bad = CAROM_FOUL_DOUBLE_HIT;
+    foul = CAROM_FOUL_DOUBLE_HIT;
   else if ((facts->down & wrong) != 0)
-    bad = CAROM_FOUL_POT;
-  carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, bad, gone & colours, 0.0};
+    foul = CAROM_FOUL_POT;
+  carom_turn turn = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, foul, gone & colours, 0.0};
   game->on = 0;
-  if (bad != CAROM_FOUL_NONE) {
+  if (foul != CAROM_FOUL_NONE) {
     int cost = value > LEAST ? value : LEAST;
     const int by_first = wrong_first ? worth(first) : 0,
               by_fall = highest((wrong | facts->pushed) & ~(free_ball ? its : 0));
