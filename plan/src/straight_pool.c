@@ -142,7 +142,7 @@ static void place_at_head(const carom_table *table, carom_shot_ball *balls, int 
   carom_place_ball(table, balls, count, ball, x, y, NULL);
 }
 
-/* Puts the balls of the set in their order on the places of the triangle; 14 leave the front one. */
+/* Puts the balls of the set in order on the places of the triangle; 14 leave the front one free. */
 static void rack_up(const carom_table *table, carom_shot_ball *balls, int count, uint32_t spot,
                     double place[LAST_BALL][2]) {
   int n = spot == all ? 0 : 1;
