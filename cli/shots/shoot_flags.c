@@ -279,7 +279,9 @@ static bool aim_to(const given_place *to, const layout *l, carom_cue *cue) {
 }
 
 static int directions_of(const shoot_flags *f) {
-  return f->to.count > 0 ? f->to.count : f->cut.count > 0 ? f->cut.count : f->aim.count;
+  if (f->to.count > 0)
+    return f->to.count;
+  return f->cut.count > 0 ? f->cut.count : f->aim.count;
 }
 
 /* Which value of each number a combination has: the speed changes fastest. */
@@ -288,7 +290,8 @@ typedef struct combination {
   int speed, tip, rise, time, bounce, way, rack;
 } combination;
 
-static int many(const values *list) {
+/* How many values a combination chooses from; a list that is not given counts as one. */
+static int choices_of(const values *list) {
   return list->count > 0 ? list->count : 1;
 }
 
@@ -304,8 +307,8 @@ static combination combination_at(const shoot_flags *f, int index) {
   c.speed = take(&index, c.speeds->count);
   c.tip = take(&index, f->tip.count);
   c.rise = take(&index, f->elevation.count);
-  c.time = take(&index, many(&f->tip_time));
-  c.bounce = take(&index, many(&f->tip_restitution));
+  c.time = take(&index, choices_of(&f->tip_time));
+  c.bounce = take(&index, choices_of(&f->tip_restitution));
   c.way = take(&index, directions_of(f));
   c.rack = index;
   return c;
@@ -332,28 +335,28 @@ static bool strike_of(const shoot_flags *f, const layout *l, const combination *
     complain("--elevation least is of a pot that is aimed: give --pocket");
     return false;
   }
-  const carom_status bad = carom_strike(cue, &l->ball[0].kind, &after);
-  if (bad == CAROM_ERROR_MISCUE)
+  const carom_status status = carom_strike(cue, &l->ball[0].kind, &after);
+  if (status == CAROM_ERROR_MISCUE)
     complain("--tip: it is %.4g R from the centre%s tip slips off beyond %g R",
              hypot(cue->a, cue->b), cue->miscue > 0.0 ? "; this" : ", beside the ball; a chalked",
              cue->miscue > 0.0 ? cue->miscue : TIP_LIMIT);
-  else if (bad != CAROM_OK)
-    complain("no such strike: %s", carom_status_string(bad));
+  else if (status != CAROM_OK)
+    complain("no such strike: %s", carom_status_string(status));
   const bool of_ball = f->ball_speed.count > 0 || c->speeds->at[c->speed].times == OF_BALL;
-  return bad == CAROM_OK && (!of_ball || strike_to(cue->speed, &l->ball[0].kind, cue));
+  return status == CAROM_OK && (!of_ball || strike_to(cue->speed, &l->ball[0].kind, cue));
 }
 
 /* Turns the cue as the combination says; false after a complaint. */
 static bool aim_of(shoot_flags *f, const layout *l, const carom_shot_options *options,
                    const combination *c, carom_cue *cue) {
-  char told[AIMED_TEXT] = "";
+  char report[AIMED_TEXT] = "";
   if (f->pocket != NULL) {
     if (isnan(f->elevation.at[c->rise].x))
       cue->theta = (double)NAN;
-    if (!aim_at_pocket(f->pocket, f->via, l, options, cue, told))
+    if (!aim_at_pocket(f->pocket, f->via, l, options, cue, report))
       return false;
     if (f->written < MOST_SHOTS)
-      memcpy(f->aimed[f->written], told, sizeof told);
+      memcpy(f->aimed[f->written], report, sizeof report);
     return true;
   }
   if (f->to.count > 0)
@@ -435,11 +438,11 @@ static bool write_shot(FILE *out, shoot_flags *f, const layout *l,
   return true;
 }
 
-bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most) {
-  static layout l;
+/* Complains of options that exclude or need each other; returns whether there are none. */
+static bool options_agree(const shoot_flags *f) {
   const bool aim = f->aim.count > 0, at_ball = f->cut.count > 0 || f->at_ball != NULL;
   const struct {
-    bool wrong;
+    bool broken;
     const char *why;
   } rules[] = {
       {aim && at_ball, "--aim is a direction, --at-ball and --cut aim at a ball: give one of both"},
@@ -455,11 +458,15 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
        "--gap and --seed are of a rack: give --balls nineball or the like"},
       {f->cue.count > 1, "--cue is one place"}};
   for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
-    if (rules[k].wrong) {
+    if (rules[k].broken) {
       complain("%s", rules[k].why);
       return false;
     }
-  /* What is not given: carom_cue_of() says the same. */
+  return true;
+}
+
+/* Fills in what is not given: carom_cue_of() says the same. */
+static void fill_defaults(shoot_flags *f) {
   if (f->at_ball != NULL && f->cut.count == 0)
     values_default(&f->cut, MEASURE_CUT, "0");
   if (f->aim.count == 0 && f->cut.count == 0)
@@ -470,49 +477,91 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, i
     values_default(&f->gap, MEASURE_LENGTH, "0.0001");
   if (f->seed.count == 0)
     values_default(&f->seed, MEASURE_NUMBER, "1");
-  for (int k = 0; k < f->gap.count || k < f->seed.count; k++) {
-    const double gap = f->gap.at[k % f->gap.count].x, seed = f->seed.at[k % f->seed.count].x;
-    if (gap >= 0.0 && gap <= GAP_MOST && seed >= 1.0 && seed <= INT_MAX && seed == floor(seed))
-      continue;
-    complain("--gap is 0 to %g m, and --seed a whole number, 1 to %d", GAP_MOST, INT_MAX);
-    return false;
-  }
   if (f->elevation.count == 0)
     values_default(&f->elevation, MEASURE_ELEVATION, "0");
   if (f->tip.count == 0)
     f->tip = (place_list){.count = 1, .at = {{.y = {.x = 0.25}}}};
-  if (f->shared.strict && any_list(f, true))
-    return false;
-  const int speeds = f->ball_speed.count > 0 ? f->ball_speed.count : f->speed.count;
-  const int racks = f->gap.count * f->seed.count;
-  const double all = (double)speeds * f->tip.count * f->elevation.count * many(&f->tip_time) *
-                     many(&f->tip_restitution) * directions_of(f) * racks;
-  const int count = all <= most ? (int)all : 0;
-  bool good = all <= most;
-  if (!good)
-    complain("these are %.0f shots; at most %d are told and drawn at once, and %d with --csv", all,
-             MOST_SHOTS, MOST_ROWS);
+}
+
+static bool gap_is_valid(double gap) {
+  return gap >= 0.0 && gap <= GAP_MOST;
+}
+
+static bool seed_is_valid(double seed) {
+  return seed >= 1.0 && seed <= INT_MAX && seed == floor(seed);
+}
+
+/* Whether every gap and seed is in its bounds; false after a complaint. */
+static bool racks_are_valid(const shoot_flags *f) {
+  bool valid = true;
+  for (int k = 0; k < f->gap.count; k++)
+    valid &= gap_is_valid(f->gap.at[k].x);
+  for (int k = 0; k < f->seed.count; k++)
+    valid &= seed_is_valid(f->seed.at[k].x);
+  if (!valid)
+    complain("--gap is 0 to %g m, and --seed a whole number, 1 to %d", GAP_MOST, INT_MAX);
+  return valid;
+}
+
+/* How many combinations there are, at most `most`; 0 after a complaint where there are more. */
+static int combinations_of(const shoot_flags *f, int most) {
+  const values *speeds = f->ball_speed.count > 0 ? &f->ball_speed : &f->speed;
+  /* The product may exceed an int. */
+  const double all = (double)speeds->count * f->tip.count * f->elevation.count *
+                     choices_of(&f->tip_time) * choices_of(&f->tip_restitution) * directions_of(f) *
+                     f->gap.count * f->seed.count;
+  if (all <= most)
+    return (int)all;
+  complain("these are %.0f shots; at most %d are told and drawn at once, and %d with --csv", all,
+           MOST_SHOTS, MOST_ROWS);
+  return 0;
+}
+
+/* Writes `count` combinations. Of several shots, those that cannot be aimed are left out, and only
+ * the first of them is complained of. */
+static bool write_combinations(FILE *out, shoot_flags *f, const carom_shot_options *options,
+                               int count) {
+  static layout l;
+  const int shots_per_rack = count / (f->gap.count * f->seed.count);
+  const bool may_leave_out = f->tries || count > 1;
   const carom_shot_cushion cushion =
       options != NULL ? options->cushion_model : CAROM_SHOT_CUSHION_DEFAULT;
-  /* of several shots those that cannot be aimed are left out, and the first of them told */
-  bool missed = false;
-  l.missed = &missed;
-  f->written = 0;
-  for (int k = 0; k < count && good; k++) {
-    missed = false;
-    if (k % (count / racks) == 0 && !lay_out(f, &l, cushion, k / (count / racks)))
+  bool cannot_be_aimed = false;
+  l.missed = &cannot_be_aimed;
+  for (int k = 0; k < count; k++) {
+    cannot_be_aimed = false;
+    if (k % shots_per_rack == 0 && !lay_out(f, &l, cushion, k / shots_per_rack))
       return false;
     l.quiet = f->tries || k > f->written;
-    const bool written = write_shot(out, f, &l, options, k);
-    f->written += written;
-    good = written || (missed && (f->tries || count > 1));
+    if (write_shot(out, f, &l, options, k))
+      f->written++;
+    else if (!cannot_be_aimed || !may_leave_out)
+      return false;
   }
-  f->left_out = good ? count - f->written : 0;
-  if (!f->tries && good && f->written == 0)
+  return true;
+}
+
+bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options, int most) {
+  f->written = 0;
+  f->left_out = 0;
+  if (!options_agree(f))
     return false;
-  if (!f->tries && f->left_out > 0)
+  fill_defaults(f);
+  if (!racks_are_valid(f))
+    return false;
+  /* A decimal comma was warned of when its list was read. */
+  if (f->shared.strict && any_list(f, true))
+    return false;
+  const int count = combinations_of(f, most);
+  if (count == 0 || !write_combinations(out, f, options, count))
+    return false;
+
+  f->left_out = count - f->written;
+  if (f->tries)
+    return true;
+  if (f->written > 0 && f->left_out > 0)
     complain("%d of %d shots are left out: they cannot be aimed", f->left_out, count);
-  return good;
+  return f->written > 0;
 }
 
 shot_file *flags_open(shoot_flags *f, const carom_shot_options *options, int most, char **text) {
@@ -544,42 +593,63 @@ shot_file *layout_open(shoot_flags *f, const char *path, const carom_shot_option
                       : flags_open(f, options, most, text);
 }
 
+/* Whether the balls of two shots are the same ones in the same places. */
+static bool same_balls(const shot_line *a, const shot_line *b) {
+  if (a->count != b->count || a->cue.ball != b->cue.ball)
+    return false;
+  for (int k = 0; k < a->count; k++)
+    if (memcmp(&a->ball[k], &b->ball[k], sizeof a->ball[k]) != 0)
+      return false;
+  return true;
+}
+
+/* Why a shot cannot be the next stroke after `strokes` others, of which `first` is the first; ""
+ * where the reader has complained already, and NULL where it can. */
+static const char *stroke_fault(shot_read outcome, const shot_line *shot, const shot_line *first,
+                                int strokes, int most, char text[FAULT_TEXT]) {
+  if (outcome == SHOT_FAILED)
+    return "";
+  if (shot->error != NULL)
+    return shot->error;
+  if (strokes == most) {
+    snprintf(text, FAULT_TEXT, "there are more strokes than %d, the most that are read", most);
+    return text;
+  }
+  if (strokes > 0 && !same_balls(shot, first))
+    return "the balls must be those of the first shot";
+  return NULL;
+}
+
 int strokes_read(shot_file *file, const shared_options *shared, shot_line *line, carom_cue *cues,
                  int most) {
   shot_line next;
-  char many[80];
-  uint64_t told = 0;
-  int n = 0;
-  for (shot_read what;
-       (n == 0 || most > 1) && (what = shot_file_next_shot(file, &next)) != SHOT_END;) {
-    if (what == SHOT_SHOT)
-      shot_numbers(&next, shared, shot_file_name(file), &told);
-    snprintf(many, sizeof many, "there are more strokes than %d, the most that are read", most);
-    const char *wrong = what == SHOT_FAILED  ? "" /* which was told */
-                        : next.error != NULL ? next.error
-                        : n == most          ? many
-                                             : NULL;
-    if (wrong == NULL && n > 0) {
-      bool same = next.count == line->count && next.cue.ball == line->cue.ball;
-      for (int k = 0; k < line->count && same; k++)
-        same = memcmp(&next.ball[k], &line->ball[k], sizeof next.ball[k]) == 0;
-      wrong = same ? NULL : "the balls must be those of the first shot";
-    }
-    if (wrong != NULL && wrong[0] != '\0')
-      complain("%s:%zu: %s", shot_file_name(file), next.number, wrong);
-    if (wrong == NULL)
-      cues[n++] = next.cue;
-    if (wrong == NULL && n == 1)
+  char text[FAULT_TEXT];
+  uint64_t warned = 0;
+  int strokes = 0;
+  while (strokes == 0 || most > 1) {
+    const shot_read outcome = shot_file_next_shot(file, &next);
+    if (outcome == SHOT_END)
+      break;
+    if (outcome == SHOT_SHOT)
+      shot_numbers(&next, shared, shot_file_name(file), &warned);
+    const char *fault = stroke_fault(outcome, &next, line, strokes, most, text);
+    if (fault != NULL && fault[0] != '\0')
+      complain("%s:%zu: %s", shot_file_name(file), next.number, fault);
+    if (fault == NULL)
+      cues[strokes++] = next.cue;
+
+    /* The first shot stays as *line. */
+    if (fault == NULL && strokes == 1)
       *line = next;
-    else if (what == SHOT_SHOT)
+    else if (outcome == SHOT_SHOT)
       shot_line_free(&next);
-    if (wrong != NULL) {
-      if (n > 0)
+    if (fault != NULL) {
+      if (strokes > 0)
         shot_line_free(line);
       return 0;
     }
   }
-  if (n == 0)
+  if (strokes == 0)
     complain("%s: there is no shot", shot_file_name(file));
-  return n;
+  return strokes;
 }
