@@ -197,61 +197,117 @@ static bool add_short(words *w, double x) {
   return x == 0;
 }
 
-/* Writes an end of a range; returns whether it belongs to it. The next double to a short number
+/* ---- The words of a range */
+
+/* How a range ends on one side: nowhere, at the largest double, before a number, or at it. */
+typedef enum range_end { END_NOWHERE, END_FINITE, END_EXCLUDED, END_INCLUDED } range_end;
+
+/* What stands before the low end of a range, and what between its low and its high end. */
+typedef struct range_phrase {
+  const char *before_low, *before_high;
+} range_phrase;
+
+/* "0 to 1", "0 or more and finite", "above 0 and at most 1", "between 1 and 2", "at most 1" */
+static const range_phrase range_phrases[][4] = {
+    [END_NOWHERE] = {[END_NOWHERE] = {"at most ", ""},
+                     [END_FINITE] = {"finite", ""},
+                     [END_EXCLUDED] = {"at most ", ""},
+                     [END_INCLUDED] = {"at most ", ""}},
+    [END_EXCLUDED] = {[END_NOWHERE] = {"above ", " or more"},
+                      [END_FINITE] = {"above ", " and finite"},
+                      [END_EXCLUDED] = {"between ", " and "},
+                      [END_INCLUDED] = {"above ", " and at most "}},
+    [END_INCLUDED] = {[END_NOWHERE] = {"", " or more"},
+                      [END_FINITE] = {"", " or more and finite"},
+                      [END_EXCLUDED] = {"", " or more and below "},
+                      [END_INCLUDED] = {"", " to "}},
+};
+
+/* Writes an end of a range, and says whether it belongs to the range. The next double to a short number
  * stands for an end that does not. */
-static bool add_end(words *w, double x, double outwards) {
+static range_end add_end(words *w, double x, double outwards) {
   if (add_short(w, x))
-    return true;
+    return END_INCLUDED;
   add_short(w, nextafter(x, outwards));
-  return false;
+  return END_EXCLUDED;
+}
+
+static range_end add_low_end(words *w, const carom_number *n) {
+  if (n->low == -DBL_MAX)
+    return END_NOWHERE;
+  return add_end(w, n->low, -INFINITY);
+}
+
+/* A whole number that may be as large as its type allows has no end. */
+static range_end add_high_end(words *w, const carom_number *n) {
+  if (n->high == DBL_MAX)
+    return END_FINITE;
+  if (n->type != CAROM_TYPE_DOUBLE && n->high >= INT32_MAX)
+    return END_NOWHERE;
+  return add_end(w, n->high, INFINITY);
+}
+
+static void add_interval(words *w, const carom_number *n) {
+  char low_text[32], high_text[32];
+  words low = {low_text, sizeof low_text, 0}, high = {high_text, sizeof high_text, 0};
+
+  /* The text of an end that is nowhere, or only finite, is empty. */
+  const range_end low_end = add_low_end(&low, n);
+  const range_end high_end = add_high_end(&high, n);
+  end_of(&low);
+  end_of(&high);
+
+  const range_phrase phrase = range_phrases[low_end][high_end];
+  add(w, phrase.before_low);
+  add(w, low_text);
+  add(w, phrase.before_high);
+  add(w, high_text);
+}
+
+static void add_bits(words *w, const carom_number *n) {
+  int last_bit = 0;
+  for (double above = 2; above < n->high; above *= 2)
+    last_bit++;
+  add(w, "a set of bits 0 to ");
+  add_whole(w, last_bit);
+}
+
+/* "a", "a or b", "a, b or c" */
+static void add_choices(words *w, carom_words of) {
+  const char *word = carom_word(of, 0);
+  for (int k = 0; word != NULL; k++) {
+    const char *next = carom_word(of, k + 1);
+    if (k > 0 && next == NULL)
+      add(w, " or ");
+    else if (k > 0)
+      add(w, ", ");
+    add(w, word);
+    word = next;
+  }
+}
+
+/* The number that is right beside a range, where there is one; the interval; the unit. */
+static void add_measure(words *w, const carom_number *n) {
+  const bool has_other = add_short(w, n->other); /* it is NAN where there is none */
+  if (has_other)
+    add(w, ", or ");
+  add_interval(w, n);
+  if (n->unit[0] != '\0') {
+    add(w, ", in ");
+    add(w, n->unit);
+  }
 }
 
 size_t carom_number_range(const carom_number *n, char *text, size_t room) {
   words w = {text, room, 0};
   if (n == NULL)
     return end_of(&w);
-  if (n->type == CAROM_TYPE_UINT64) {
-    int bit = 0;
-    for (double above = 2; above < n->high; above *= 2)
-      bit++;
-    add(&w, "a set of bits 0 to ");
-    add_whole(&w, bit);
-    return end_of(&w);
-  }
-  const char *word = NULL;
-  for (int k = 0; n->words >= 0 && (word = carom_word((carom_words)n->words, k)) != NULL; k++) {
-    const bool last = carom_word((carom_words)n->words, k + 1) == NULL;
-    add(&w, k == 0 ? "" : last ? " or " : ", ");
-    add(&w, word);
-  }
-  if (n->words >= 0)
-    return end_of(&w);
-  if (add_short(&w, n->other)) /* not NAN */
-    add(&w, ", or ");
-  char low_text[32], high_text[32];
-  words low = {low_text, sizeof low_text, 0}, high = {high_text, sizeof high_text, 0};
-  const bool finite = n->high == DBL_MAX, any = n->low == -DBL_MAX,
-             open = finite || (n->type != CAROM_TYPE_DOUBLE && n->high >= INT32_MAX);
-  const bool from = any || add_end(&low, n->low, -INFINITY),
-             to = open || add_end(&high, n->high, INFINITY);
-  end_of(&low);
-  end_of(&high);
-
-  /* "0 to 1", "0 or more and finite", "above 0 and at most 1", "between 1 and 2", "at most 1" */
-  add(&w, any ? finite ? "finite" : "at most " : from ? "" : to ? "above " : "between ");
-  add(&w, low_text);
-  add(&w, any            ? ""
-          : finite       ? from ? " or more and finite" : " and finite"
-          : open         ? " or more"
-          : from && to   ? " to "
-          : !from && !to ? " and "
-          : to           ? " and at most "
-                         : " or more and below ");
-  add(&w, open ? "" : high_text);
-  if (n->unit[0] != '\0') {
-    add(&w, ", in ");
-    add(&w, n->unit);
-  }
+  if (n->type == CAROM_TYPE_UINT64)
+    add_bits(&w, n);
+  else if (n->words >= 0)
+    add_choices(&w, (carom_words)n->words);
+  else
+    add_measure(&w, n);
   return end_of(&w);
 }
 

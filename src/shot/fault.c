@@ -3,25 +3,40 @@
 #include "platform/arithmetic.h"
 
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 /* The value of element k of a number. */
 static double value_of(const carom_number *n, const void *object, int k) {
-  const char *at = (const char *)object + n->offset;
-  return n->type == CAROM_TYPE_INT32    ? ((const int32_t *)(const void *)at)[k]
-         : n->type == CAROM_TYPE_INT64  ? (double)((const int64_t *)(const void *)at)[k]
-         : n->type == CAROM_TYPE_UINT64 ? (double)((const uint64_t *)(const void *)at)[k]
-                                        : ((const double *)(const void *)at)[k];
+  const void *at = (const char *)object + n->offset;
+  switch (n->type) {
+  case CAROM_TYPE_INT32:
+    return ((const int32_t *)at)[k];
+  case CAROM_TYPE_INT64:
+    return (double)((const int64_t *)at)[k];
+  case CAROM_TYPE_UINT64:
+    return (double)((const uint64_t *)at)[k];
+  default:
+    return ((const double *)at)[k];
+  }
 }
 
 /* The status of the numbers that a status is about, beside others. */
 static carom_status status_of_numbers(carom_status status) {
-  const bool place = status == CAROM_ERROR_OVERLAP || status == CAROM_ERROR_OFF_TABLE;
-  return place                                 ? CAROM_ERROR_POSITION
-         : status == CAROM_ERROR_VERTICAL      ? CAROM_ERROR_VELOCITY
-         : status == CAROM_ERROR_RADII_DIFFER  ? CAROM_ERROR_RADIUS
-         : status == CAROM_ERROR_MASSES_DIFFER ? CAROM_ERROR_MASS
-         : status == CAROM_ERROR_CUE_BALL_OUT  ? CAROM_ERROR_CUE_BALL
-                                               : status;
+  static const struct {
+    carom_status beside_others, of_numbers;
+  } rows[] = {
+      {CAROM_ERROR_OVERLAP, CAROM_ERROR_POSITION},
+      {CAROM_ERROR_OFF_TABLE, CAROM_ERROR_POSITION},
+      {CAROM_ERROR_VERTICAL, CAROM_ERROR_VELOCITY},
+      {CAROM_ERROR_RADII_DIFFER, CAROM_ERROR_RADIUS},
+      {CAROM_ERROR_MASSES_DIFFER, CAROM_ERROR_MASS},
+      {CAROM_ERROR_CUE_BALL_OUT, CAROM_ERROR_CUE_BALL},
+  };
+  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++)
+    if (rows[k].beside_others == status)
+      return rows[k].of_numbers;
+  return status;
 }
 
 /* Blames the first number of a part that has the status of the fault and is outside its range; or
@@ -41,6 +56,57 @@ static bool blame(carom_fault *f, carom_part_kind part, int index, const void *o
   return false;
 }
 
+/* A part of a shot that may be at fault. */
+typedef struct suspect {
+  carom_part_kind part;
+  int index;
+  const void *object;
+} suspect;
+
+enum { SUSPECTS_MOST = 8 };
+
+/* Lists what comes once in a shot, and the parts and the ball at the place `at` of the fault, in the
+ * order of blame; returns how many there are. */
+static int list_suspects(const carom_table *t, const carom_shot_ball *ball, int at,
+                         const carom_cue *cue, const carom_shot_options *opt,
+                         suspect suspects[SUSPECTS_MOST]) {
+  int count = 0;
+  if (opt != NULL)
+    suspects[count++] = (suspect){CAROM_PART_OPTIONS, 0, opt};
+  suspects[count++] = (suspect){CAROM_PART_TABLE, 0, t};
+
+  if (at >= 0 && at < CAROM_RAILS_MOST && at < t->rails)
+    suspects[count++] = (suspect){CAROM_PART_RAIL, at, &t->rail[at]};
+  if (at >= 0 && at < CAROM_JAWS_MOST && at < t->jaws)
+    suspects[count++] = (suspect){CAROM_PART_JAW, at, &t->jaw[at]};
+  if (at >= 0 && at < CAROM_POCKETS_MOST && at < t->pockets)
+    suspects[count++] = (suspect){CAROM_PART_POCKET, at, &t->pocket[at]};
+
+  if (ball != NULL) {
+    suspects[count++] = (suspect){CAROM_PART_BALL, at, &ball->kind};
+    suspects[count++] = (suspect){CAROM_PART_STATE, at, &ball->state};
+  }
+  if (cue != NULL)
+    suspects[count++] = (suspect){CAROM_PART_CUE, 0, cue};
+  return count;
+}
+
+/* Blames a number that is in its range, but not beside others: of the cue, or of the ball at the
+ * place; where no number of that ball is to blame, the ball itself. */
+static void blame_beside_others(carom_fault *f, const carom_shot_ball *ball, int at,
+                                const carom_cue *cue) {
+  if (cue != NULL && blame(f, CAROM_PART_CUE, 0, cue, true))
+    return;
+  const bool about_table = f->status == CAROM_ERROR_TABLE || f->status == CAROM_ERROR_NOSE_HEIGHT;
+  if (ball == NULL || about_table)
+    return;
+  if (blame(f, CAROM_PART_STATE, at, &ball->state, true))
+    return;
+  if (blame(f, CAROM_PART_BALL, at, &ball->kind, true))
+    return;
+  f->part = (carom_part){CAROM_PART_BALL, at};
+}
+
 carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls, int count,
                               const carom_cue *cue, const carom_shot_options *opt,
                               carom_fault *fault, char *text, size_t room) {
@@ -52,31 +118,21 @@ carom_status carom_shot_fault(const carom_table *t, const carom_shot_ball *balls
   if (fault->status >= 0 || fault->status == CAROM_ERROR_NULL)
     return fault->status;
 
-  /* a number outside its range: of what comes once, and of the part or the ball at the place */
-  const bool rail = at >= 0 && at < CAROM_RAILS_MOST && at < t->rails,
-             jaw = at >= 0 && at < CAROM_JAWS_MOST && at < t->jaws,
-             pocket = at >= 0 && at < CAROM_POCKETS_MOST && at < t->pockets,
-             ball = at >= 0 && at < count;
-  if ((opt != NULL && blame(fault, CAROM_PART_OPTIONS, 0, opt, false)) ||
-      blame(fault, CAROM_PART_TABLE, 0, t, false) ||
-      (rail && blame(fault, CAROM_PART_RAIL, at, &t->rail[at], false)) ||
-      (jaw && blame(fault, CAROM_PART_JAW, at, &t->jaw[at], false)) ||
-      (pocket && blame(fault, CAROM_PART_POCKET, at, &t->pocket[at], false)) ||
-      (ball && blame(fault, CAROM_PART_BALL, at, &balls[at].kind, false)) ||
-      (ball && blame(fault, CAROM_PART_STATE, at, &balls[at].state, false)) ||
-      (cue != NULL && blame(fault, CAROM_PART_CUE, 0, cue, false))) {
-    carom_number_range(fault->row, text, room);
-    return fault->status;
-  }
+  /* A number outside its range has the range as its text. */
+  const carom_shot_ball *ball = at >= 0 && at < count ? &balls[at] : NULL;
+  suspect suspects[SUSPECTS_MOST];
+  const int suspect_count = list_suspects(t, ball, at, cue, opt, suspects);
+  for (int k = 0; k < suspect_count; k++)
+    if (blame(fault, suspects[k].part, suspects[k].index, suspects[k].object, false)) {
+      carom_number_range(fault->row, text, room);
+      return fault->status;
+    }
 
-  /* one beside others: of a ball, whose conditions have texts, of the cue, or of a state */
-  const carom_number *n = ball ? carom_ball_fault(&balls[at].kind, text, room) : NULL;
+  /* Of the numbers beside others, those of a ball have conditions with texts of their own. */
+  const carom_number *n = ball != NULL ? carom_ball_fault(&ball->kind, text, room) : NULL;
   if (n != NULL)
-    *fault = (carom_fault){n->error, {CAROM_PART_BALL, at}, 0, n, value_of(n, &balls[at].kind, 0)};
-  else if (!(cue != NULL && blame(fault, CAROM_PART_CUE, 0, cue, true)) && ball &&
-           fault->status != CAROM_ERROR_TABLE && fault->status != CAROM_ERROR_NOSE_HEIGHT &&
-           !blame(fault, CAROM_PART_STATE, at, &balls[at].state, true) &&
-           !blame(fault, CAROM_PART_BALL, at, &balls[at].kind, true))
-    fault->part = (carom_part){CAROM_PART_BALL, at};
+    *fault = (carom_fault){n->error, {CAROM_PART_BALL, at}, 0, n, value_of(n, &ball->kind, 0)};
+  else
+    blame_beside_others(fault, ball, at, cue);
   return fault->status;
 }
