@@ -106,35 +106,115 @@ static const char *read_exponent(const char *at, const char *end, int *e) {
   return n == 0 || n == 5 ? NULL : at;
 }
 
+static bool is_digit_at(const char *at, const char *end) {
+  return at < end && *at >= '0' && *at <= '9';
+}
+
+/* The digits behind the point, at most as many as the fraction of a double has; NULL where there is
+ * no digit, or one too many. */
+static const char *read_fraction(const char *at, const char *end, uint64_t *fraction) {
+  int count = 0;
+  for (; at < end && *at != '\0'; at++) {
+    const char *digit = strchr(digits, *at);
+    if (digit == NULL)
+      break;
+    if (count == MANTISSA / 4)
+      return NULL;
+    *fraction |= (uint64_t)(digit - digits) << (MANTISSA - 4 - 4 * count);
+    count++;
+  }
+  return count == 0 ? NULL : at;
+}
+
+/* Whether 2^e (1 + fraction) with `normal`, else 2^e fraction, is in the one form that is written:
+ * 1.5 of a normal number, 0.5 of one below these. */
+static bool is_written_form(bool normal, int e, uint64_t fraction) {
+  if (normal)
+    return e >= 1 - BIAS && e <= BIAS;
+  return e == 1 - BIAS && fraction != 0;
+}
+
+/* What stands behind the first quote, to the second one. */
 static const char *read_hexadecimal(const char *at, const char *end, double *x) {
+  /* The sign, and 0x0 or 0x1. */
   const bool negative = at < end && *at == '-';
   at += negative;
-  if (end - at < 3 || at[0] != '0' || at[1] != 'x' || (at[2] != '0' && at[2] != '1'))
+  if (end - at < 3 || at[0] != '0' || at[1] != 'x')
+    return NULL;
+  if (at[2] != '0' && at[2] != '1')
     return NULL;
   const bool normal = at[2] == '1';
   at += 3;
+
+  /* The fraction, which may be missing with its point. */
   uint64_t fraction = 0;
   if (at < end && *at == '.') {
-    const char *digit;
-    int n = 0;
-    for (at++; at < end && *at != '\0' && (digit = strchr(digits, *at)) != NULL; at++, n++) {
-      if (n == MANTISSA / 4)
-        return NULL;
-      fraction |= (uint64_t)(digit - digits) << (MANTISSA - 4 - 4 * n);
-    }
-    if (n == 0)
+    at = read_fraction(at + 1, end, &fraction);
+    if (at == NULL)
       return NULL;
   }
+
+  /* The exponent of two, which may not be missing. */
   int e;
-  if (at == end || *at++ != 'p' || (at = read_exponent(at, end, &e)) == NULL)
+  if (at == end || *at != 'p')
     return NULL;
-  /* only the form that is written: 1.5 of a normal number, 0.5 of one below these */
-  if (normal ? e < 1 - BIAS || e > BIAS : e != 1 - BIAS || fraction == 0)
+  at = read_exponent(at + 1, end, &e);
+  if (at == NULL || !is_written_form(normal, e, fraction))
     return NULL;
-  const uint64_t bits =
-      (uint64_t)negative << 63 | (uint64_t)(normal ? e + BIAS : 0) << MANTISSA | fraction;
+
+  /* A double is its sign, its exponent and its fraction, side by side. */
+  const uint64_t biased = normal ? (uint64_t)(e + BIAS) : 0;
+  const uint64_t bits = (uint64_t)negative << 63 | biased << MANTISSA | fraction;
   memcpy(x, &bits, sizeof *x);
   return at < end && *at == '"' ? at + 1 : NULL;
+}
+
+/* A decimal number without its sign: m 10^e, or not exact where m has too many digits. */
+typedef struct decimal {
+  uint64_t m;
+  int e;
+  bool exact;
+} decimal;
+
+/* The digits, of which at least one stands before the point, and at least one behind it. */
+static const char *read_digits(const char *at, const char *end, decimal *d) {
+  const uint64_t most = UINT64_C(1) << (MANTISSA + 1);
+  bool behind_point = false;
+  *d = (decimal){.exact = true};
+  for (; at < end; at++) {
+    if (*at == '.' && !behind_point && is_digit_at(at + 1, end)) {
+      behind_point = true;
+      continue;
+    }
+    if (!is_digit_at(at, end))
+      break;
+
+    /* m keeps the digits for as long as it is exact; e counts those behind the point. */
+    d->exact = d->exact && d->m <= most / 10 - 1;
+    if (d->exact)
+      d->m = 10 * d->m + (uint64_t)(*at - '0');
+    if (behind_point)
+      d->e--;
+  }
+  return at;
+}
+
+static const char *read_decimal(const char *at, const char *end, decimal *d) {
+  /* A zero is the only digit before the point. */
+  if (!is_digit_at(at, end))
+    return NULL;
+  if (*at == '0' && is_digit_at(at + 1, end))
+    return NULL;
+  at = read_digits(at, end, d);
+
+  if (at < end && (*at == 'e' || *at == 'E')) {
+    int tens;
+    at = read_exponent(at + 1, end, &tens);
+    d->e += tens;
+  }
+  if (d->m == 0)
+    d->e = 0;
+  return at;
 }
 
 const char *carom_number_read(const char *at, const char *end, double *x, const char **why) {
@@ -142,44 +222,20 @@ const char *carom_number_read(const char *at, const char *end, double *x, const 
     *why = "is no hexadecimal number such as \"0x1.8p+1\"";
     return read_hexadecimal(at + 1, end, x);
   }
+
   *why = "must be a number";
-
-  /* a sign, and a digit that no other follows a zero */
   const bool negative = at < end && *at == '-';
-  at += negative;
-  if (at == end || *at < '0' || *at > '9' ||
-      (end - at > 1 && *at == '0' && at[1] >= '0' && at[1] <= '9'))
+  decimal d;
+  at = read_decimal(at + negative, end, &d);
+  if (at == NULL)
     return NULL;
-
-  /* m of all digits, e of those behind the point */
-  const uint64_t most = UINT64_C(1) << (MANTISSA + 1);
-  uint64_t m = 0;
-  int e = 0, tens = 0;
-  bool behind = false, exact = true;
-  for (; at < end; at++) {
-    if (*at == '.' && !behind && end - at > 1 && at[1] >= '0' && at[1] <= '9') {
-      behind = true;
-      continue;
-    }
-    if (*at < '0' || *at > '9')
-      break;
-    exact = exact && m <= most / 10 - 1;
-    m = exact ? 10 * m + (uint64_t)(*at - '0') : m;
-    e -= behind;
-  }
-
-  /* the power of ten; both parts exact, so that one division or product rounds once */
-  if (at < end && (*at == 'e' || *at == 'E') && (at = read_exponent(at + 1, end, &tens)) == NULL)
-    return NULL;
-  e += tens;
-  if (m == 0)
-    e = 0;
-  if (!exact || e <= -TENS || e >= TENS) {
+  if (!d.exact || d.e <= -TENS || d.e >= TENS) {
     *why = "has more digits than can be read exactly: 15, and 22 places; write it as \"0x1.8p+1\"";
     return NULL;
   }
 
-  const double size = e < 0 ? (double)m / ten[-e] : (double)m * ten[e];
+  /* Both m and the power of ten are exact, so that one division or product rounds once. */
+  const double size = d.e < 0 ? (double)d.m / ten[-d.e] : (double)d.m * ten[d.e];
   *x = negative ? -size : size;
   return at;
 }
