@@ -223,8 +223,8 @@ static const range_phrase range_phrases[][4] = {
                       [END_INCLUDED] = {"", " to "}},
 };
 
-/* Writes an end of a range, and says whether it belongs to the range. The next double to a short number
- * stands for an end that does not. */
+/* Writes an end of a range, and says whether it belongs to the range. The next double to a short
+ * number stands for an end that does not. */
 static range_end add_end(words *w, double x, double outwards) {
   if (add_short(w, x))
     return END_INCLUDED;
