@@ -281,10 +281,10 @@ static bool find(const ways_job *job, ways_search *s) {
                              : "the cue ball and one more are needed, or --leave");
     return false;
   }
-  const carom_status bad =
+  const carom_status status =
       carom_shot_check(t, s->line->ball, s->line->count, &s->stroke[0], &s->options, &where);
-  if (bad != CAROM_OK) {
-    complain("the layout cannot be played: %s", carom_status_string(bad));
+  if (status != CAROM_OK) {
+    complain("the layout cannot be played: %s", carom_status_string(status));
     return false;
   }
   if (!ways_find(s))
@@ -367,21 +367,86 @@ static int scan_of(const ways_job *job, const shot_line *line, int strokes) {
   return scan > strokes ? scan : strokes;
 }
 
-int command_ways(int argc, char **argv) {
-  static ways_job job;
+/* Fills in the strokes that are usual in the game, where the options give none. */
+static void fill_strokes(ways_job *job) {
+  shoot_flags *from = &job->from;
+  const bool points = from->table.kind == 1 + CAROM_TABLE_THREECUSHION;
+  const bool alone = job->leave.given && from->balls.count == 0 && from->balls.rack == 0;
+  const bool by_options = has_flags(from);
+  if (by_options && from->speed.count == 0 && from->ball_speed.count == 0)
+    values_default(&from->speed, MEASURE_SPEED, usual_speeds(job, alone, points));
+  if (from->tip.count > 0)
+    return;
+  if (points) {
+    from->tip = (place_list){.count = 3,
+                             .at = {{.y = {.x = 0.25}},
+                                    {.x = {.x = 0.3}, .y = {.x = 0.2}},
+                                    {.x = {.x = -0.3}, .y = {.x = 0.2}}}};
+  } else if (by_options && job->leave.given && !alone) {
+    char tips[] = "0,-0.4:0.4:0.2";
+    option_tip.set(&option_tip, tips, &from->tip);
+  }
+}
+
+/* Writes each way as the line of its stroke. */
+static void write_lines(FILE *out, const ways_search *s) {
+  for (int k = 0; k < s->ways; k++) {
+    json_t *shot = way_line(s, &s->way[k]);
+    json_dumpf(shot, out, JSON_REAL_PRECISION(17));
+    fputc('\n', out);
+    json_decref(shot);
+  }
+}
+
+/* Finds the ways, writes them to the output, which is open, and draws them; an exit code. */
+static int write_ways(const ways_job *job, ways_search *s, FILE *out) {
+  if (!find(job, s)) {
+    output_abandon();
+    return EXIT_USAGE;
+  }
+  if (job->csv)
+    write_rows(out, s);
+  else if (job->json)
+    write_lines(out, s);
+  else
+    tell(out, s, s->ways);
+  if (!output_commit())
+    return EXIT_USAGE;
+  if (job->plot != NULL && !plot(s, job->plot))
+    return EXIT_SOME;
+  return s->ways > 0 ? EXIT_GOOD : EXIT_SOME;
+}
+
+/* The ways of the layout and the strokes of a file; an exit code. */
+static int ways_of_file(const ways_job *job, ways_search *s, shot_file *file) {
   static carom_cue stroke[MOST_STROKES];
   static shot_line line;
+  s->line = &line;
+  s->stroke = stroke;
+  s->strokes = strokes_read(file, &job->from.shared, &line, stroke, MOST_STROKES);
+  if (s->strokes == 0)
+    return EXIT_USAGE;
+  int code = EXIT_USAGE;
+  FILE *out = output_open(job->from.shared.output);
+  if (out != NULL) {
+    s->scan = scan_of(job, &line, s->strokes);
+    s->way = allocate(MOST_WAYS, sizeof *s->way);
+    code = write_ways(job, s, out);
+    free(s->way);
+  }
+  shot_line_free(&line);
+  return code;
+}
+
+int command_ways(int argc, char **argv) {
+  static ways_job job;
   const char *path;
   char *lines = NULL;
   job = (ways_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}, .rails = 2};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;
-  ways_search s = {.line = &line,
-                   .stroke = stroke,
-                   .options = job.from.shared.shot,
-                   .rails = job.rails,
-                   .each = job.each};
+  ways_search s = {.options = job.from.shared.shot, .rails = job.rails, .each = job.each};
   s.options.threads = job.from.shared.options.threads;
   if (!player_of(&job.from.shared.player, &s.player) || !svg_possible(job.plot))
     return EXIT_USAGE;
@@ -391,51 +456,11 @@ int command_ways(int argc, char **argv) {
     return EXIT_USAGE;
   }
 
-  /* the usual strokes of the game */
-  const bool points = job.from.table.kind == 1 + CAROM_TABLE_THREECUSHION;
-  const bool alone = job.leave.given && job.from.balls.count == 0 && job.from.balls.rack == 0;
-  if (job.from.speed.count == 0 && job.from.ball_speed.count == 0 && has_flags(&job.from))
-    values_default(&job.from.speed, MEASURE_SPEED, usual_speeds(&job, alone, points));
-  if (job.from.tip.count == 0 && job.leave.given && !alone && !points && has_flags(&job.from)) {
-    char tips[] = "0,-0.4:0.4:0.2";
-    option_tip.set(&option_tip, tips, &job.from.tip);
-  }
-  if (job.from.tip.count == 0 && points)
-    job.from.tip = (place_list){.count = 3,
-                                .at = {{.y = {.x = 0.25}},
-                                       {.x = {.x = 0.3}, .y = {.x = 0.2}},
-                                       {.x = {.x = -0.3}, .y = {.x = 0.2}}}};
+  fill_strokes(&job);
   shot_file *file = layout_open(&job.from, path, &s.options, MOST_STROKES, &lines);
   if (file == NULL)
     return EXIT_USAGE;
-  s.strokes = strokes_read(file, &job.from.shared, &line, stroke, MOST_STROKES);
-  int code = EXIT_USAGE;
-  FILE *out = s.strokes > 0 ? output_open(job.from.shared.output) : NULL;
-  if (out != NULL) {
-    s.scan = scan_of(&job, &line, s.strokes);
-    s.way = allocate(MOST_WAYS, sizeof *s.way);
-    if (find(&job, &s)) {
-      code = s.ways > 0 ? EXIT_GOOD : EXIT_SOME;
-      if (job.csv)
-        write_rows(out, &s);
-      else if (!job.json)
-        tell(out, &s, s.ways);
-      for (int k = 0; k < s.ways && job.json; k++) {
-        json_t *shot = way_line(&s, &s.way[k]);
-        json_dumpf(shot, out, JSON_REAL_PRECISION(17));
-        fputc('\n', out);
-        json_decref(shot);
-      }
-      if (!output_commit())
-        code = EXIT_USAGE;
-      else if (job.plot != NULL && !plot(&s, job.plot))
-        code = EXIT_SOME;
-    } else
-      output_abandon();
-    free(s.way);
-  }
-  if (s.strokes > 0)
-    shot_line_free(&line);
+  const int code = ways_of_file(&job, &s, file);
   shot_file_close(file);
   free(lines);
   return code;

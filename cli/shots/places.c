@@ -128,60 +128,113 @@ static bool read_touching(const char *text, given_place *to) {
   return value_of(rail ? MEASURE_PLACE : MEASURE_ANGLE, comma + 1, &to->x);
 }
 
+/* One of the entries between colons: "NAME=NUMBERS" or "NUMBERS". */
+typedef struct place_entry {
+  const char *name; /* not terminated */
+  size_t name_size; /* 0: no name stands there */
+  int colour;       /* of a ball that is named after its spot of snooker; -1: none */
+  char *numbers;
+  bool touches; /* frozen-NAME,X */
+  char spelt[PLACE_TEXT];
+} place_entry;
+
+/* Takes an entry apart, with the names of places spelt out. */
+static void split_entry(const option_row *row, char *text, place_entry *entry) {
+  char *equals = strchr(text, '=');
+  const bool balls_are_named = row->words != 0;
+  entry->name = text;
+  entry->name_size = equals != NULL ? (size_t)(equals - text) : 0;
+  entry->colour = balls_are_named && entry->name_size == 0 ? colour_at(text) : -1;
+  entry->numbers = equals != NULL ? equals + 1 : text;
+  entry->touches = false;
+  if (row->least == MEASURE_PLACE) {
+    entry->numbers = place_spelt(entry->numbers, entry->spelt);
+    entry->touches = strncmp(entry->numbers, frozen, strlen(frozen)) == 0;
+  }
+}
+
+/* Whether a name is allowed, and short and plain enough; no name always is. */
+static bool name_is_valid(const option_row *row, const place_entry *entry) {
+  if (entry->name_size >= PLACE_NAME || (entry->name_size > 0 && row->words == 0))
+    return false;
+  for (size_t k = 0; k < entry->name_size; k++) {
+    const char letter = entry->name[k];
+    if (!isalnum((unsigned char)letter) && letter != '-' && letter != '_')
+      return false;
+  }
+  return true;
+}
+
+/* Whether a text has two numbers' characters, units included, and a comma. */
+static bool looks_like_pair(const char *text) {
+  return strspn(text, "+-.,0123456789/ eEacdfhimnprtR\"\1") == strlen(text) &&
+         strchr(text, ',') != NULL;
+}
+
+/* Reads the numbers of an entry into its place; false where they are none. */
+static bool read_numbers(const option_row *row, const place_entry *entry, given_place *to) {
+  static values pair;
+  if (entry->touches)
+    return read_touching(entry->numbers, to);
+  if (!set_values(row, entry->numbers, &pair) || pair.count != 2)
+    return false;
+  to->x = pair.at[0];
+  to->y = pair.at[1];
+  return true;
+}
+
+/* Adds the place of an entry, or the places of a range; false after a complaint. `whole` is the
+ * text of all entries, which complaints show. */
+static bool add_entry(const option_row *row, const place_entry *entry, const char *whole,
+                      place_list *list) {
+  if (!name_is_valid(row, entry) || !(entry->touches || looks_like_pair(entry->numbers)))
+    return refuse(row, whole);
+  if (row->least == MEASURE_TIP && strchr(entry->numbers, RANGE) != NULL)
+    return add_ranges(row, entry->numbers, list);
+  given_place *to = &list->at[list->count++];
+  if (!read_numbers(row, entry, to))
+    return refuse(row, whole);
+  if (entry->colour >= 0)
+    snprintf(to->name, PLACE_NAME, "%s", colours_of_snooker[entry->colour]);
+  else
+    snprintf(to->name, PLACE_NAME, "%.*s", (int)entry->name_size, entry->name);
+  return true;
+}
+
+/* 1 + the carom_rack_kind of a text that names a rack, where the option takes racks; else 0. */
+static int rack_named(const option_row *row, const char *text) {
+  char racks[MOST_WORDS];
+  if (row->words == 0)
+    return 0;
+  return 1 + place_among(words_of(row->words, true, racks), text, strlen(text));
+}
+
 OPTION_SET(set_places) {
   place_list *list = field;
-  char copy[MOST_TEXT], racks[MOST_WORDS], *rest;
-  static values pair;
-  *list = (place_list){0};
-  list->rack =
-      row->words != 0 ? 1 + place_among(words_of(row->words, true, racks), text, strlen(text)) : 0;
+  char copy[MOST_TEXT], *rest;
+  *list = (place_list){.rack = rack_named(row, text)};
+  if (list->rack > 0)
+    return true;
   if (strlen(text) >= sizeof copy)
     return refuse(row, text);
   if (row->least == MEASURE_TIP)
     spell_ranges(text, copy);
   else
     memcpy(copy, text, strlen(text) + 1);
-  int several = 1;
+
+  int entries = 1;
   for (const char *at = copy; (at = strchr(at, ':')) != NULL; at++)
-    several++;
-  for (char *one = strtok_r(copy, ":", &rest); one != NULL && list->rack == 0;
-       one = strtok_r(NULL, ":", &rest)) {
-    char *equals = strchr(one, '='), *numbers = equals != NULL ? equals + 1 : one;
-    const size_t name = equals != NULL ? (size_t)(equals - one) : 0;
-    const int colour = row->words != 0 && name == 0 ? colour_at(one) : -1;
-    char spelt[PLACE_TEXT];
-    if (row->least == MEASURE_PLACE)
-      numbers = place_spelt(numbers, spelt);
-    const bool touches =
-        row->least == MEASURE_PLACE && strncmp(numbers, frozen, strlen(frozen)) == 0;
+    entries++;
+  char *next = strtok_r(copy, ":", &rest);
+  for (; next != NULL; next = strtok_r(NULL, ":", &rest)) {
+    place_entry entry;
     if (list->count == MOST_PLACES)
-      return too_many(row, several, MOST_PLACES);
-    if (name >= PLACE_NAME || (name > 0 && row->words == 0))
-      return refuse(row, text);
-    if (!touches && (strspn(numbers, "+-.,0123456789/ eEacdfhimnprtR\"\1") != strlen(numbers) ||
-                     strchr(numbers, ',') == NULL))
-      return refuse(row, text);
-    for (size_t k = 0; k < name; k++)
-      if (!isalnum((unsigned char)one[k]) && one[k] != '-' && one[k] != '_')
-        return refuse(row, text);
-    if (row->least == MEASURE_TIP && strchr(numbers, RANGE) != NULL) {
-      if (!add_ranges(row, numbers, list))
-        return false;
-      continue;
-    }
-    given_place *to = &list->at[list->count++];
-    if (touches ? !read_touching(numbers, to) : !set_values(row, numbers, &pair) || pair.count != 2)
-      return refuse(row, text);
-    if (colour >= 0)
-      snprintf(to->name, PLACE_NAME, "%s", colours_of_snooker[colour]);
-    else
-      snprintf(to->name, PLACE_NAME, "%.*s", (int)name, one);
-    if (!touches) {
-      to->x = pair.at[0];
-      to->y = pair.at[1];
-    }
+      return too_many(row, entries, MOST_PLACES);
+    split_entry(row, next, &entry);
+    if (!add_entry(row, &entry, text, list))
+      return false;
   }
-  return list->rack > 0 || list->count > 0 ? true : refuse(row, text);
+  return list->count > 0 || refuse(row, text);
 }
 
 double place_along(const value *v, double diamond) {
