@@ -1,5 +1,5 @@
-/* What a stroke was, in the words of the game. This is the one place that says so: the command, the
- * planner, the page, Python and JavaScript name strokes by it, and docs/using/glossary.md has the
+/* What a stroke was, in the words of the game. The command and the planner name strokes by it, and
+ * the page, Python and JavaScript get the kinds that plans name. docs/using/glossary.md has the
  * same words (tests/docs/terms.py compares them).
  *
  * The terms are those of the glossaries of the BCA and the WPA. These do not exclude each other: a

@@ -11,9 +11,9 @@ import pytest
 import carom
 
 ABSENT = [name for name in ("gymnasium", "pettingzoo") if not importlib.util.find_spec(name)]
-MODULES = {"carom.fit": "carom.tracks.fit"} | {
-    f"carom.{name}": f"carom.games.{name}"
-    for name in "drills gymnasium matches pettingzoo plans pool potting rules".split()
+MODULES = {
+    f"carom.{name}": f"carom.{'tracks' if name == 'fit' else 'games'}.{name}"
+    for name in sorted(carom._MODULES_OF_FOLDERS)
 }
 SHORT = [name for name in MODULES if name[6:] not in ABSENT]
 

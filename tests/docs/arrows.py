@@ -215,14 +215,15 @@ def folder_of(module):
     return next((folder for folder in FOLDERS if f"{module}.".startswith(f"{folder}.")), "the core")
 
 
-# Modules by short names, which are those of folders; the core imports none of them by itself.
-SHORT = {"carom.fit"} | {
-    f"carom.{name}"
-    for name in "drills gymnasium matches pettingzoo plans pool potting rules".split()
-}
+def is_short_name(module):
+    """Whether it gives all that the module of its name in a folder offers, and nothing else."""
+    name = module.removeprefix("carom.")
+    text = modules[module].read_text(encoding="utf-8")
+    return any(f"\nfrom {folder}.{name} import *\n" in text for folder in FOLDERS)
+
 
 for module, names in imports.items():
-    if module in SHORT:
+    if is_short_name(module):
         continue
     may = ("carom.games",) if module == "carom" else FOLDERS.get(folder_of(module), ())
     there = {folder_of(name) for name in names} - {folder_of(module), "the core", *may}

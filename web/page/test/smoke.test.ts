@@ -5,7 +5,7 @@ import { describe, expect, test } from "vitest";
 import { browserPath, pages, sizes, violations } from "./page.js";
 
 describe.runIf(browserPath !== undefined)("smoke", () => {
-  const { open, lies, set, text } = pages();
+  const { open, set, text } = pages();
 
   test.each(sizes)("a game: a stroke is played, ruled and kept: %s", async (_, how) => {
     const one = await open("", how);
@@ -27,23 +27,22 @@ describe.runIf(browserPath !== undefined)("smoke", () => {
   test("a hint aims the stroke that it names", async () => {
     const one = await open("");
     const before = await text(one, "said");
+    await set(one, "power", 1);
     await one.locator("#hint").click();
     await expect.poll(() => text(one, "said")).not.toBe(before);
-    // A break is played harder than the power that the page begins with.
+    // A break is played hard.
     await expect
       .poll(async () => Number(await one.locator("#power").inputValue()))
       .toBeGreaterThan(5);
     await one.close();
   });
 
-  test("the laboratory: a break is played, and balls have moved", async () => {
+  test("the laboratory: a break is played, and its events are listed", async () => {
     const one = await open("#view=lab");
     // Of the page at rest: what a film lights up changes its colour as it plays.
     expect(await violations(one)).toEqual([]);
-    const before = await lies(one);
     await one.locator("#play").click();
     await expect.poll(() => one.locator(".events li").count()).toBeGreaterThan(5);
-    expect(Object.keys(before).length).toBeGreaterThan(1);
     await one.close();
   });
 
