@@ -36,7 +36,8 @@ OPTION(break_job, option_racks, "racks", racks, 0, "N", set_count, 1,
 OPTION(break_job, option_break_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write a row for each speed, tip and gap instead of words");
 OPTION(break_job, option_break_plot, "plot", plot, 0, "OUT", set_picture, 0,
-       "draw the break without errors, thin forty with errors, and what comes of all");
+       "draw the break without errors, forty breaks with errors as thin lines, and the results of "
+       "all breaks");
 
 /* What came of the breaks of one stroke and gap: how many, and sums over the cue balls that stayed
  * on the table. */
@@ -250,9 +251,9 @@ static const command_form form = {
     .name = "break",
     .usage = "[OPTIONS]",
     .about = "Plays many breaks of a rack, each with a rack of its own and a player's errors, and "
-             "tells how often a ball falls, the player plays on, the cue ball falls and a wing "
-             "ball falls, and where the cue ball ends. Several speeds, tips and gaps are several "
-             "rows. The cue aims at the middle of the ball in front.\n",
+             "reports how often a ball falls, the player plays on, the cue ball falls and a wing "
+             "ball falls, and where the cue ball ends. Each speed, tip and gap has a row. The cue "
+             "aims at the middle of the ball in front.\n",
     .options =
         (const option_row *const[]){
             &option_rules,         &option_racks,      &option_gap,           &option_one_seed,
@@ -260,14 +261,16 @@ static const command_form form = {
             &option_ball_speed,    &option_tip,        &option_elevation,     &option_player,
             &option_player_errors, &options_of_motion, &option_with_of_shots, &option_break_csv,
             &option_break_plot,    &option_threads,    &option_output,        NULL},
-    .details = "speed where none is given: 9 m/s\n"
-               "columns of --csv: rules,speed,right,above,gap_mm,racks,makes,makes_error,balls,"
-               "plays_on,foul,scratch,off,wing,x,y,spread\n"
+    .details = "speed if none is given: 9 m/s\n"
+               "columns of --csv: "
+               "rules,speed,right,above,gap_mm,racks,makes,makes_error,balls,plays_on,foul,scratch,"
+               "off,wing,x,y,spread\n"
                "  makes, plays_on, foul, scratch, off, wing  shares of the breaks; by the rules of "
                "eight-ball and nine-ball, empty for other racks\n"
-               "  balls                balls made of a break\n"
+               "  balls                balls made in a break\n"
                "  x y spread           mean place of the cue balls that stay, and their standard "
-               "deviation, m\n\n"
+               "deviation, m\n"
+               "\n"
                "exit code: 0; 2 for bad usage\n",
     .example = "carom break --rules nineball --speed 8,9,10m/s --gap 0.1mm --racks 500",
     .files = NO_FILES,

@@ -63,11 +63,11 @@ OPTION(
     "a cut to the left; inside: on the other; gearing: the balls roll on each other without slip; "
     "none (default)");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
-       "of the balls, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
+       "radius of the balls, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "of the balls, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
+       "mass of the balls, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
 OPTION(series, option_object_mass, "object-mass", in[OBJECT_MASS], 0, "same|M", set_values,
-       MEASURE_OBJECT_MASS, "of the object ball, where that is another one");
+       MEASURE_OBJECT_MASS, "mass of the object ball, if it is another one");
 
 /* alciatore=a,b,c is a law, and all else values. */
 static OPTION_SET(set_frictions) {
@@ -80,12 +80,12 @@ static OPTION_SET(set_frictions) {
 
 OPTION(series, option_frictions, "friction", in[FRICTION], 0, "alciatore|MU", set_frictions,
        MEASURE_FRICTION,
-       "between the balls: numbers; or alciatore (default), which falls with the slip speed u as "
-       "mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants");
+       "friction between the balls: numbers; or alciatore (default), which falls with the slip "
+       "speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants");
 OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
        "friction with the cloth (default 0.2)");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "of the balls (default 0.95)");
+       MEASURE_NUMBER, "restitution of the balls (default 0.95)");
 OPTION(series, option_quantity, "quantity", quantity, 0, QUANTITIES, set_choice, 0,
        "the quantity that curves and tables show (default: throw for curves, all for tables)");
 OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
@@ -183,9 +183,8 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   if (isfinite(d.energy_lost))
     fprintf(out, "energy        lost:        %.2f %% of %.4g J\n", 100.0 * d.energy_lost, energy);
   else
-    fputs(
-        "energy        lost:        cannot be told: the energies are beyond the range of numbers\n",
-        out);
+    fputs("energy        lost:        unknown: the energies are beyond the range of numbers\n",
+          out);
 }
 
 static double draw(FILE *out, double top, const series *s, const one_case *c, const char *words) {

@@ -127,11 +127,11 @@ static const command_form form = {
     .name = "models",
     .usage = "[OPTIONS] [NAME]",
     .about = "Lists the models and their words, the options of shots, and the numbers of balls, "
-             "cushions, cues and tables with ranges and units. With NAME, tells what has that "
-             "name: a model with its own numbers, or a "
-             "number with its range and the model that reads it.\n",
+             "cushions, cues and tables with ranges and units. With NAME, describes the model of "
+             "this name with its own numbers, or the number of this name with its range and the "
+             "model that reads it.\n",
     .options = (const option_row *const[]){&option_output, NULL},
-    .details = "exit code: 0; 2 for bad usage or a name that there is not\n",
+    .details = "exit code: 0; 2 for bad usage or an unknown name\n",
     .example = "carom models smooth",
     .files = FILE_OR_NONE,
 };

@@ -32,42 +32,45 @@ typedef struct plan_job {
 } plan_job;
 
 OPTION(plan_job, option_rules, "rules", game.rules, 0, NULL, set_named, CAROM_WORDS_RULES,
-       "the game (default eightball; potting is none: all balls count). Balls are named cue and by "
-       "their numbers, those of snooker as "
-       "in its rack: red1, yellow; potting and threecushion take any names");
+       "the game (default eightball; potting has no rules: all balls count). The cue ball is named "
+       "cue, and the others by their numbers, or in snooker as in its rack: red1, yellow; potting "
+       "and threecushion take any names");
 OPTION(plan_job, option_group, "group", game.group, 0, "open|solids|stripes", set_choice, 0,
        "the balls of the player, where each has a group (default open: any but the eight)");
 OPTION(plan_job, option_may, "may", game.may, 0, "shoot|push-out|pass|free-ball", set_choice, 0,
-       "what the rules let the player do besides a shot (default shoot: nothing); free-ball: to "
-       "pass, and to play any ball");
+       "what the player may do besides a shot (default shoot: nothing); free-ball: pass, or play "
+       "any ball");
 OPTION(plan_job, option_score, "score", game.score, 0, "OWN,OTHER", set_score, 0,
-       "points, or balls, of the player and of the other; below 0 those that he lost or owes "
-       "(default 0,0)");
+       "points, or balls, of the player and of the opponent; below 0 if the player lost or owes "
+       "them (default 0,0)");
 OPTION(plan_job, option_own_pocket, "own-pocket", game.pocket, 0, "foot-right|foot-left",
-       set_choice, 0, "that of the player, where each has one (default foot-right)");
+       set_choice, 0,
+       "the player's pocket, in games where each player has one (default foot-right)");
 OPTION(plan_job, option_target, "target", game.target, 0, "N", set_count, 1,
        "points that win, where the rules leave it open");
 OPTION(plan_job, option_colour, "colour", game.colour, 0, NULL, set_flag, 0,
-       "of snooker: a colour is on, after a red");
+       "in snooker: a colour is on, after a red");
 OPTION(plan_job, option_opening, "opening", game.opening, 0, NULL, set_flag, 0,
        "the stroke is the break. With --in-hand the cue ball is put on the head string, or behind "
        "it");
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
-       "the cue ball is in hand: where to put it, too, as far as the rules leave it");
+       "the cue ball is in hand: the plan also says where to put it, within the rules");
 static const option_row options_of_plan = {
     .set = set_option, .field = offsetof(plan_job, plan), .part = CAROM_PART_PLAN_OPTIONS};
 OPTION(plan_job, option_try, "try", tries, 0, NULL, set_flag, 0,
-       "no plan: the chances of the strokes of the file, the first shot's and those of up to 999 "
-       "further ones from the same layout, in their order");
+       "instead of a plan: the chances of the strokes in the file, that of the first shot and "
+       "those of up to 999 more shots from the same layout, in their order");
 OPTION(plan_job, option_value, "value", value, 0, NULL, set_flag, 0,
-       "no plan: the chance to win from the layout, an estimate that plays no shot");
+       "instead of a plan: the chance to win from the layout, an estimate for which carom plays no "
+       "shot");
 OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write rows of CSV instead of words");
 OPTION(plan_job, option_why, "why", why, 0, NULL, set_flag, 0,
-       "tell of each shot how to aim it, what it leaves, how often it misses and what that leaves, "
-       "and what errors cost");
-OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
-       "draw the best shot: without errors, thin with errors, and what can go wrong");
+       "explain each shot: how to aim it, what it leaves, how often it misses and what a miss "
+       "leaves, and what errors cost");
+OPTION(
+    plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
+    "draw the best shot: its paths without errors, thin lines with errors, and what can go wrong");
 
 /* What a choice that names no ball does. */
 static const char *words_without_ball(const shot_line *line, const carom_choice *c) {
@@ -197,9 +200,9 @@ static bool are_together(const plan_job *job) {
   if (job->tries && (job->value || job->hand))
     complain("--try is of strokes from where the cue ball lies: without --value and --in-hand");
   else if (job->value && job->game.rules == CAROM_RULES_THREECUSHION)
-    complain("--value: no estimate of a layout of three-cushion is known; a plan tells chances");
+    complain("--value: no estimate of a layout of three-cushion is known; a plan reports chances");
   else if (job->why && (job->csv || job->value))
-    complain("--why is told in words, of shots: without --csv and --value");
+    complain("--why explains shots in words: give it without --csv and --value");
   else if (job->value && job->plot != NULL)
     complain("--value finds no shot that --plot could draw");
   else
@@ -302,10 +305,10 @@ static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
     .about =
-        "Finds the shots that win most often from a layout, for a player whose strokes err. "
-        "LAYOUT is a file as of carom shoot, of which the first shot counts: its table, balls "
-        "and cue; its stroke is read by --try alone. Balls that are missing are down. The five "
-        "best shots are told in words: what they do, how to strike, and their chances.\n",
+        "Finds the shots that win most often from a layout, for a player who makes errors. LAYOUT "
+        "is a file as for `carom shoot`. carom reads the table, the balls and the cue of its first "
+        "shot, and the stroke only with --try. Balls that are missing count as potted. carom "
+        "describes the five best shots in words: what they do, how to strike, and their chances.\n",
     .options = (const option_row *const[]){&option_rules,         &option_table,
                                            &option_cue,           &option_balls,
                                            &option_one_gap,       &option_group,
@@ -322,11 +325,12 @@ static const command_form form = {
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"
-               "  value error          chance to win and its standard error; of potting the share "
-               "of the balls potted\n"
+               "  value error          chance to win and its standard error; for potting the share "
+               "of the balls that are potted\n"
                "  keep foul lose       chances that the player plays on or wins, fouls, loses\n"
                "  seen                 how often the shot was played with errors\n"
-               "The choice depends on the input, --shots and --seed alone, not on --threads.\n\n"
+               "The choice depends only on the input, --shots and --seed, not on --threads.\n"
+               "\n"
                "exit code: 0; 2 for bad usage or unreadable input\n",
     .example =
         "carom plan --rules eightball --group solids --shots 4000 --plot best.svg layout.jsonl",

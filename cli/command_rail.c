@@ -54,18 +54,18 @@ OPTION(
     "english (100%: 1.25 V/R) or tip; right, left, running, reverse: 100%; "
     "gearing: the ball rolls along the cushion; none (default)");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
-       "of the nose above the cloth, m, or with a unit: mm, in (default 0.036576, that of a pool "
-       "table)");
+       "height of the nose above the cloth, m, or with a unit: mm, in (default 0.036576, that of a "
+       "pool table)");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
-       MEASURE_NUMBER, "of the cushion (default 0.85)");
+       MEASURE_NUMBER, "restitution of the cushion (default 0.85)");
 OPTION(series, option_friction_rail, "friction", in[FRICTION], 0, "MU", set_values, MEASURE_NUMBER,
-       "of the cushion (default 0.2)");
+       "friction of the cushion (default 0.2)");
 OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
        "friction with the cloth (default 0.2)");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
-       "of the ball, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
+       "radius of the ball, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
-       "of the ball, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
+       "mass of the ball, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
 
 static OPTION_SET(set_models) {
   series *s = (series *)(void *)((char *)field - row->field);
@@ -79,7 +79,7 @@ static OPTION_SET(set_models) {
 
 static const option_row option_models = {
     .name = "model",
-    .help = "of the impact, which `carom models NAME` tells (default: han, as in shots)",
+    .help = "model of the impact; `carom models NAME` describes it (default: han, as in shots)",
     .set = set_models,
     .field = offsetof(series, in[MODEL]),
     .least = MEASURE_MODEL,

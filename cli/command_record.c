@@ -24,8 +24,8 @@ typedef struct record_job {
 } record_job;
 
 OPTION(record_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
-       "what to record of events: nothing; time, type and balls (the default is none); or the "
-       "states too. `carom verify` then tells the first event with other bits");
+       "what to record about events: nothing; time, type and balls (the default is none); or the "
+       "states too. `carom verify` then reports the first event whose bits differ");
 
 /* ---- Playing, with room for all events ------------------------------------------------------- */
 
@@ -120,7 +120,7 @@ static const command_form record_form = {
     .options =
         (const option_row *const[]){&options_of_motion, &option_events, &option_output, NULL},
     .details = "exit code: 0 if all shots were recorded and came to rest; 1 if some have errors, "
-               "which are told; 2 for bad usage or unreadable input\n",
+               "which carom names; 2 for bad usage or unreadable input\n",
     .example = "carom record -o game.jsonl shots.jsonl",
     .files = ONE_FILE,
 };

@@ -55,31 +55,32 @@ typedef struct block {
 } block;
 
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
-       "what to write of events: nothing; time, type and ids; or the states before and after too "
-       "(default full). With a shot by options: write it as a line like those of a file, instead "
-       "of words");
+       "what to write about events: nothing; time, type and ids; or the states before and after "
+       "too (default full). With a shot by options: write it as a line like those of a file, "
+       "instead of words");
 OPTION(shoot_job, option_story, "csv", csv, 0, NULL, set_flag, 0,
-       "with a shot by options: write what the balls do as rows, instead of words: where each "
-       "leaves, rolls from, meets a rail, passes another ball and rests");
+       "with a shot by options: write what the balls do as rows, instead of words: where each ball "
+       "leaves, begins to roll, meets a rail, passes another ball and rests");
 OPTION(shoot_job, option_plot, "plot", drawn.path[PICTURE], 0, "OUT", set_picture, 0,
        "draw the table and the paths of the balls in the first shot without an error, or in all "
-       "that options describe; from the side too where a ball flies");
+       "shots that options describe; if a ball flies, also from the side");
 OPTION(shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
        "standard deviations of a player's error: speed in %, aim in degrees, tip in radii, such as "
-       "1%,0.05,0.01,0.01. Tells the standard deviations of the places where balls end, to first "
-       "order, and with --plot draws them as bands around the paths, up to 0.3 m, with how far "
-       "this holds");
-OPTION(shoot_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
-       "with a shot by options: the cue ball shall end within R (default 0.15 m) of this place, as "
-       "in `carom ways`. Of the speeds and tips that are given, or of 0.5 to 4 m/s and five tips "
-       "from draw to follow, the one is played by which most strokes of a player do so, and pot "
-       "the ball of --pocket; tells how many, and with which speeds it ends there");
-OPTION(shoot_job, option_animate, "animate", drawn.path[FILM], 0, "OUT.html", set_animation, 0,
-       "write a page that plays what --plot draws; it is one file and needs nothing else");
+       "1%,0.05,0.01,0.01. carom reports the standard deviations of the places where the balls "
+       "end, to first order. With --plot it draws them as bands around the paths, up to 0.3 m, and "
+       "shows how far they hold");
+OPTION(
+    shoot_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
+    "with a shot by options: the cue ball is to end within R (default 0.15 m) of this place, as in "
+    "`carom ways`. carom tries the speeds and tips that are given, or 0.5 to 4 m/s and five tips "
+    "from draw to follow. It plays the stroke with which most strokes of a player do this, and pot "
+    "the ball of --pocket. It reports how many do, and with which speeds the cue ball ends there");
+OPTION(
+    shoot_job, option_animate, "animate", drawn.path[FILM], 0, "OUT.html", set_animation, 0,
+    "write a page that plays the shots which --plot draws; it is one file and needs nothing else");
 OPTION(shoot_job, option_cite, "cite", cite, 0, NULL, set_flag, 0,
        "write the sources of these models as BibTeX, and play nothing; needs no IN");
-OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0,
-       "draw the shot of this id instead");
+OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot with this id");
 
 static carom_shot_options options_of(const shoot_job *job) {
   carom_shot_options options = job->from.shared.shot;
@@ -326,11 +327,12 @@ static int shoot_all(shoot_job *job, shot_file *file, FILE *out) {
 static const command_form form = {
     .name = "shoot",
     .usage = "[OPTIONS] IN.jsonl | --cue X,Y --aim DEGREES [OPTIONS]",
-    .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and "
-             "shots as JSON Lines (docs/using/shots.md has the format; recorded results in them "
-             "are ignored) and writes each table and each shot with its events and final states. "
-             "IN may be -. Or plays a shot that options describe, and tells it in words; several "
-             "values with commas give several shots, drawn over each other.\n",
+    .about =
+        "Plays whole shots, from the strike of the cue until nothing moves. With a file, carom "
+        "reads tables and shots as JSON Lines (docs/using/shots.md has the format; carom ignores "
+        "recorded results) and writes each table and each shot with its events and final states. "
+        "IN may be -. With options that describe a shot, carom plays this shot and describes it in "
+        "words; several values with commas give several shots, drawn over each other.\n",
     .options = (const option_row *const[]){&option_table,      &option_cue,
                                            &option_balls,      &option_aim,
                                            &option_to,         &option_at_ball,
@@ -350,7 +352,7 @@ static const command_form form = {
                                            &option_output,     NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
-        "the error; the others are played); 2 for bad usage or unreadable input\n",
+        "the error; carom plays the others); 2 for bad usage or unreadable input\n",
     .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 "
                "--plot shot.svg",
     .files = FILE_OR_NONE,
@@ -369,7 +371,7 @@ static int write_sources(const carom_shot_options *options) {
 static bool go_together(const shoot_job *job, bool words, const char *path) {
   const bool json = job->from.json, drawn = drawings_asked(&job->drawn);
   if (job->cite && (job->together || path != NULL))
-    complain("--cite tells the sources of models and plays nothing: give it without a shot");
+    complain("--cite prints the sources of models and plays nothing: give it without a shot");
   else if (json && (job->csv || !words || job->error.given || drawn))
     complain("--json prints the shot and plays nothing: give it without --%s",
              job->csv           ? "csv"
@@ -389,9 +391,8 @@ static bool go_together(const shoot_job *job, bool words, const char *path) {
 static bool chooses(shoot_job *job, const carom_shot_options *options) {
   const given_player *given = &job->from.shared.player;
   if (!job->leave.given && (given->rated || given->errs))
-    complain(
-        "--player and --errors are of --leave; `carom ways` tells how often a player pots a ball, "
-        "--spread what errors make of a shot");
+    complain("--player and --errors belong to --leave; `carom ways` reports how often a player "
+             "pots a ball, and --spread what errors make of a shot");
   else if (job->leave.given && !job->together)
     complain("--leave is of a shot by options: --cue, --balls and the like");
   else if (!job->leave.given)

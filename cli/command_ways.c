@@ -35,21 +35,20 @@ typedef struct ways_job {
 OPTION(ways_job, option_ball, "ball", ball, 0, "NAME|any", set_text, 0,
        "the ball to be potted (default any)");
 OPTION(ways_job, option_to_pocket, "pocket", pocket, 0, "NAME|any", set_text, 0,
-       "the pocket that it shall fall into, such as foot-left (default any)");
+       "the pocket into which it is to fall, such as foot-left (default any)");
 OPTION(ways_job, option_rails, "rails", rails, 0, "0|1|2", set_choice, 0,
-       "most rails of banks, kicks and caroms (default 2)");
+       "largest number of rails in banks, kicks and caroms (default 2)");
 OPTION(ways_job, option_leave, "leave", leave, 0, LEAVE_ARGUMENT, set_leave, 0,
-       "the cue ball shall end within R (default 0.15 m) of this place, m, or with units, "
-       "2d,4d,20cm, or named as in --cue, foot-spot,20cm. It counts for the chance, so that of "
-       "several speeds and tips the one is told that brings it there. The cue ball alone is sent "
-       "there without a pot");
+       "the cue ball is to end within R (default 0.15 m) of this place, m, or with units, "
+       "2d,4d,20cm, or named as in --cue, foot-spot,20cm. This counts for the chance, so carom "
+       "reports which of several speeds and tips brings the cue ball there. Without other balls, "
+       "the cue ball is sent there alone");
 OPTION(ways_job, option_scan, "scan", scanned, 0, "N", set_count, 0,
-       "strokes in all directions that are searched (default 20000, or 1800 for each speed and tip "
+       "how many strokes in all directions to try (default 20000, or 1800 for each speed and tip "
        "if that is more; for points and places 100000); 0: the default");
-OPTION(
-    ways_job, option_each, "each", each, 0, NULL, set_flag, 0,
-    "tell each stroke by which a way comes off, in the order of the strokes, instead of the best "
-    "one: how wide it is over speeds and tips");
+OPTION(ways_job, option_each, "each", each, 0, NULL, set_flag, 0,
+       "report each stroke with which a way succeeds, in the order of the strokes, instead of the "
+       "best one. This shows how wide the way is over speeds and tips");
 OPTION(ways_job, option_ways_csv, "csv", csv, 0, NULL, set_flag, 0, "write rows instead of words");
 OPTION(ways_job, option_ways_json, "json", json, 0, NULL, set_flag, 0,
        "write each way as the line of its stroke, for `carom shoot`, with an object `way`");
@@ -297,13 +296,12 @@ static bool find(const ways_job *job, ways_search *s) {
 static const command_form form = {
     .name = "ways",
     .usage = "[OPTIONS] LAYOUT.jsonl | --balls X,Y:... [OPTIONS]",
-    .about = "Finds the ways to pot: direct, by a bank, a kick, a kiss, a carom or a "
-             "combination; and on a table without pockets the ways to score in three-cushion: the "
-             "rails and balls that "
-             "the cue ball meets. Of each way it tells the stroke with the best chance for a "
-             "player among those that are given: how often it comes off with errors, and between "
-             "which directions it does so without. LAYOUT has shots of one layout, of which each "
-             "stroke is tried, but for its direction.\n",
+    .about = "Finds the ways to pot a ball: directly, or with a bank, a kick, a kiss, a carom or a "
+             "combination. On a table without pockets it finds the ways to score in three-cushion: "
+             "the rails and balls that the cue ball meets. For each way carom reports which of the "
+             "given strokes has the best chance for a player: how often it succeeds with errors, "
+             "and between which directions it succeeds without. LAYOUT has shots of one layout; "
+             "carom tries the stroke of each of them in all directions.\n",
     .options = (const option_row *const[]){&option_ball,
                                            &option_to_pocket,
                                            &option_rails,
@@ -330,19 +328,29 @@ static const command_form form = {
                                            &option_output,
                                            NULL},
     .details =
-        "strokes where none are given: 1.5, 2.5 and 4 m/s; with --leave 1 to 4 m/s, each with five "
-        "tips from draw to follow; of points 3, 4.5 and 6 m/s, each with the tip on either side "
-        "and in the middle; of the cue ball alone 0.5 to 5 m/s\n"
-        "columns: chance, of 400 strokes "
-        "with errors: the ball falls and the cue ball does not, or "
-        "it scores, and ends where --leave says; window, degrees of the cue's direction; cut of "
-        "the cue ball on its first ball, degrees, or of points the share of all strokes; speed of "
-        "the cue, m/s; tip right and "
-        "above, R; aim, degrees from +x; and the way, with what is met in its order\n"
+        "strokes if none are given:\n"
+        "  to pot               1.5, 2.5 and 4 m/s; with --leave 1 to 4 m/s, each with five tips "
+        "from draw to follow\n"
+        "  to score             3, 4.5 and 6 m/s, each with the tip on either side and in the "
+        "middle\n"
+        "  cue ball alone       0.5 to 5 m/s\n"
+        "\n"
+        "columns:\n"
+        "  chance               share of 400 strokes with errors that succeed: the ball falls and "
+        "the cue ball does not, or the stroke scores; and the cue ball ends where --leave says\n"
+        "  window               range of the cue's direction, degrees\n"
+        "  cut                  of the cue ball on its first ball, degrees; in three-cushion the "
+        "share of all strokes instead\n"
+        "  speed                of the cue, m/s\n"
+        "  tip                  right and above, R\n"
+        "  aim                  degrees from +x\n"
+        "  way                  the rails and balls that are met, in their order\n"
+        "\n"
         "columns of --csv: "
         "rank,kind,ball,pocket,way,speed,phi,theta,a,b,cut,phi_low,phi_high,speed_low,speed_high,"
         "chance,error,found,scanned\n"
-        "Pots with a window below 0.04 degrees are left out.\n\n"
+        "Pots with a window below 0.04 degrees are left out.\n"
+        "\n"
         "exit code: 0; 1 if there is no way; 2 for bad usage or unreadable input\n",
     .example = "carom ways --cue 0.6,0.8 --balls 0.3,1.9:0.9,1.7 --ball 1 --plot ways.svg",
     .files = FILE_OR_NONE,

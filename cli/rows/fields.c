@@ -468,7 +468,7 @@ ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
 ROW(option_model, "model", rail.model, 0, NULL, set_named, CAROM_WORDS_CUSHION_MODEL, CUSHION_ONLY,
-    "model of the impact, which `carom models NAME` tells (default: mathavan, but of `carom rail` "
+    "model of the impact; `carom models NAME` describes it (default: mathavan; `carom rail` uses "
     "han, as in shots)");
 ROW(option_convention, "convention", rail.convention, 0, NULL, set_named,
     CAROM_WORDS_CUSHION_CONVENTION, CUSHION_ONLY,
@@ -483,10 +483,10 @@ ROW(option_with, "with", with, 0, "NAME=X,...", set_numbers, 0, CUSHION_ONLY,
     "them");
 
 ROW(option_player, "player", player, 0, "RATING", set_player, 0, ANY_KIND,
-    "a player by a Fargo rating, 300 to 850, such as 500. It holds for plans of 300 shots, which "
-    "is then their default; with more he is stronger");
+    "a player with this Fargo rating, 300 to 850, such as 500. The rating holds for plans of 300 "
+    "shots, which is then the default; with more shots the player is stronger");
 ROW(option_player_errors, "errors", player, 0, "SCALE", set_errors, 0, ANY_KIND,
-    "a player by his errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
+    "a player with these errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
 
 /* Of whole shots: rows without a name stand for those of rows_of(). */
 ROW(options_of_shots, NULL, shot, 0, NULL, set_option, CAROM_READ_TO_STOP, ANY_KIND, NULL);

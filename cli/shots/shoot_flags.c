@@ -41,73 +41,74 @@ static OPTION_SET(set_table) {
 const option_row option_table = {
     .name = "table",
     .help = "play one shot on this table, instead of those of a file (default 9ft). x runs across "
-            "the table, y along it. Measures may change it, with units: "
-            "9ft,corner=4.25in,side_cut=104; "
-            "`carom models` lists them. A table of one's own stands in a file",
+            "the table, y along it. Measures change it: 9ft,corner=4.25in,side_cut=104; `carom "
+            "models` lists them. To use a table of your own, give a file",
     .set = set_table,
     .field = offsetof(shoot_flags, table),
     .words = CAROM_WORDS_TABLE};
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_PLACE,
     "place of the cue ball, m, or with a unit: 2,3ft, or 2,3d in diamonds from the left and the "
-    "head; or a place: " PLACES ". Corners and sides lie at the noses. frozen-left,4d touches that "
-    "rail, frozen-1,90 ball 1 in that direction, degrees (default: head-spot, or the place in the "
-    "rack)");
-const option_row option_balls = {.name = "balls",
-                                 .argument = "X,Y:...",
-                                 .help = "places of the other balls, as in --cue, with colons "
-                                         "between them: 0.6,1.5:foot-spot. They are named 1, "
-                                         "2, ..., after their spot of snooker, or as 8=0.6,1.5 "
-                                         "says. Or a rack",
-                                 .set = set_places,
-                                 .field = offsetof(shoot_flags, balls),
-                                 .least = MEASURE_PLACE,
-                                 .words = CAROM_WORDS_RACK};
+    "head; or a place: " PLACES
+    ". Corners and sides lie at the noses. At frozen-left,4d the ball touches that rail, at "
+    "frozen-1,90 it touches ball 1 in that direction, degrees (default: head-spot, or the place in "
+    "the rack)");
+const option_row option_balls = {
+    .name = "balls",
+    .argument = "X,Y:...",
+    .help = "places of the other balls, as in --cue, with colons between them: 0.6,1.5:foot-spot. "
+            "Their names are 1, 2, ..., those of their spots of snooker, or given, as in "
+            "8=0.6,1.5. A word is a rack",
+    .set = set_places,
+    .field = offsetof(shoot_flags, balls),
+    .least = MEASURE_PLACE,
+    .words = CAROM_WORDS_RACK};
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
-    "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin "
-    "turns the ball off it by squirt");
+    "direction of the cue, counterclockwise from +x; 90 (default) is along the table. With side "
+    "spin the ball leaves a little beside it, because of squirt");
 ROW(option_to, "to", to, "X,Y", set_places, MEASURE_PLACE,
-    "the cue ball leaves towards this place instead, whatever squirt does: as in --cue, 4d,6d or "
-    "foot-right; several with colons, 4d,6d:4d,7d. Spin may bend its way after that");
+    "instead of --aim: the cue ball leaves towards this place, because carom corrects for squirt. "
+    "The place is written as in --cue, 4d,6d or foot-right; several with colons, 4d,6d:4d,7d. Spin "
+    "may bend the path after that");
 ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
     "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, "
     "swerve and hops do; an error where no direction does");
 ROW(option_pocket, "pocket", pocket, "BALL:POCKET", set_text, 0,
-    "aim so that this ball falls into this pocket, whatever squirt and throw do: 1:foot-left, "
-    "1:side-right, or by its id, 1:lt. Tells the cut, how far the ball's way may turn to either "
-    "jaw, and with which directions and speeds of the cue it falls; or why there is no such aim");
+    "aim so that this ball falls into this pocket: 1:foot-left, 1:side-right, or with the id of "
+    "the pocket, 1:lt. carom corrects for squirt and throw. It reports the cut, how far the path "
+    "of the ball may turn to either jaw, and with which directions and speeds of the cue the ball "
+    "falls; or why there is no such aim");
 ROW(option_via, "via", via, "BALL|RAIL,...", set_text, 0,
-    "with --pocket: the way, in its order. left: a bank of the ball; 2: a combination by ball 2; "
-    "2,left: both; head,1: a kick of the cue ball at ball 1, the one of --pocket. Rails are head, "
-    "foot, left and right");
+    "with --pocket: the rails and balls on the way, in their order. left: a bank of the ball off "
+    "this rail; 2: a combination with ball 2; 2,left: both; head,1: a kick of the cue ball off "
+    "this rail at ball 1, the ball of --pocket. Rails are head, foot, left and right");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|thin|DEGREES", set_values,
     MEASURE_CUT, "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, SPEED_WORDS "|V", set_values, MEASURE_SPEED,
     "speed of the cue just before the strike, m/s, or with a unit: mph, km/h (default 2). A word "
-    "is the speed of the ball after it: " SPEEDS);
+    "is the speed of the ball after the strike: " SPEEDS);
 ROW(option_ball_speed, "ball-speed", ball_speed, "V", set_values, MEASURE_SPEED,
-    "speed of the cue ball just after the strike instead, which a level cue gives it");
+    "instead of --speed: speed of the cue ball just after the strike of a level cue");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip; several "
-    "with colons, or ranges: 0,-0.4:0.4:0.2. Right is "
-    "positive, as english is everywhere in this command (default 0,0.25). Beyond 0.5 R a chalked "
-    "tip "
-    "slips off the ball, of which carom warns");
+    "with colons, or ranges: 0,-0.4:0.4:0.2. Right is positive, as it is for english everywhere in "
+    "this command (default 0,0.25). Beyond 0.5 R a chalked tip slips off the ball, and carom "
+    "warns");
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ELEVATION,
-    "of the butt of the cue (default 0). With --pocket also least: as little as the stick needs "
-    "over the cushions and balls behind the cue ball");
+    "elevation of the butt of the cue (default 0). With a --pocket it may be least: as little as "
+    "the stick needs to clear the cushions and balls behind the cue ball");
 ROW(option_tip_time, "tip-time", tip_time, "SECONDS", set_values, MEASURE_NUMBER,
-    "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.001, of "
-    "leather; of hard resin, which lets balls jump: 0.0008). -1: no time");
+    "how long the tip of a raised cue presses the ball on the slate, at most 0.01 (default 0.001, "
+    "for leather; 0.0008 for hard resin, with which balls jump). -1: no time");
 ROW(option_tip_restitution, "tip-restitution", tip_restitution, "E", set_values, MEASURE_NUMBER,
-    "restitution of the tip and the ball, above 0 to 1: the speed of the ball is in proportion to "
-    "1 + E (default 0.73, of leather; of phenolic resin 0.85; of pooltool 1)");
+    "restitution of the tip and the ball, above 0 to 1: the speed of the ball is proportional to 1 "
+    "+ E (default 0.73, for leather; 0.85 for phenolic resin; 1 in pooltool)");
 ROW(option_json, "json", json, NULL, set_flag, 0,
-    "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign "
-    "holds: a > 0 is left");
+    "print the shot as a line of JSON for a file, instead of playing it. The line has pooltool's "
+    "sign: a > 0 is left");
 
 #define GAP_HELP \
   "gap between neighbours of a rack, m, or with a unit: 0.1mm (the default); 0 is a frozen rack"
-#define SEED_HELP "draws how the balls of a rack are moved and placed (default 1)"
+#define SEED_HELP "seed of the random numbers that move and place the balls of a rack (default 1)"
 ROW(option_gap, "gap", gap, "G", set_values, MEASURE_LENGTH, GAP_HELP);
 ROW(option_seed, "seed", seed, "N", set_values, MEASURE_NUMBER, SEED_HELP);
 /* Where the balls lie once, or a seed is that of the first rack of many. */
@@ -512,8 +513,8 @@ static int combinations_of(const shoot_flags *f, int most) {
                      f->gap.count * f->seed.count;
   if (all <= most)
     return (int)all;
-  complain("these are %.0f shots; at most %d are told and drawn at once, and %d with --csv", all,
-           MOST_SHOTS, MOST_ROWS);
+  complain("these are %.0f shots; at most %d are described and drawn at once, and %d with --csv",
+           all, MOST_SHOTS, MOST_ROWS);
   return 0;
 }
 

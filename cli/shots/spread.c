@@ -254,7 +254,7 @@ void spread_tell_ball(FILE *out, const spread *s, int ball) {
     return;
   const spread_axes axes = axes_of(s->final[ball]);
   if (axes.along > spread_most)
-    fprintf(out, "       standard deviation above %g m: derivatives tell nothing of this place\n",
+    fprintf(out, "       standard deviation above %g m: derivatives say nothing about this place\n",
             spread_most);
   else
     fprintf(out, "       standard deviation %.2g m at %.0f degrees, %.2g m across\n", axes.along,
@@ -291,7 +291,7 @@ void spread_tell(FILE *out, const spread *s, const shot_line *line) {
     fprintf(out, "       beyond reach from %.2f s on (dashed)\n", s->until);
   if (cut)
     fprintf(out,
-            "       bands end where the standard deviation is above %g m: derivatives tell nothing "
+            "       bands end where the standard deviation is above %g m: derivatives say nothing "
             "there\n",
             spread_most);
   if ((s->flags & (CAROM_TANGENT_SIMULTANEOUS | CAROM_TANGENT_KINK)) != 0)

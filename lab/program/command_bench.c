@@ -685,11 +685,11 @@ OPTION(bench_job, option_kernel, "kernel", kernels, 0, "NAME,...", set_kernels, 
        "only these kernels (see `carom-lab kernels`); may be repeated");
 OPTION(bench_job, option_config, "config", configs, 0, "NAME,...", set_names, 0,
        "these builds of the ladder's kernels, or all (default: default); without --kernel, only "
-       "the ladder");
+       "kernels of the ladder");
 OPTION(bench_job, option_counts, "steps", steps, 0, "N,...", set_counts, 1,
        "steps of Euler's method (default 1000); several make a sweep");
 OPTION(bench_job, option_batch, "batch", batch, 0, NULL, set_flag, 0,
-       "batches only, of all of the library's solvers (with euler about a minute)");
+       "only batches, with every solver of the library (with euler about a minute)");
 OPTION(
     bench_job, option_isa, "isa", isas, 0, "NAME,...", set_isas, 0,
     "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or best");
@@ -711,9 +711,9 @@ OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
        "more columns in the CSV: slip, and the pair error against the exact reference, median and "
        "largest");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
-       "time the whole shots of this file instead, beside pooltool's recorded times");
+       "instead: time the whole shots of this file, beside pooltool's recorded times");
 OPTION(bench_job, option_cushions, "cushions", cushions, 0, NULL, set_flag, 0,
-       "time impacts on a cushion by each model instead, beside Han's");
+       "instead: time impacts on a cushion with each model, beside Han's");
 static const char about[] =
     "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each "
     "kernel is verified first; one whose error is above its bound is not timed. Times are "
@@ -724,9 +724,10 @@ static const char about[] =
 
 static const char details[] =
     "Spread is the median absolute deviation: half of the rounds lie within it. "
-    "docs/study/measuring.md explains how to read the figures.\n\n"
-    "exit code: 0 if all was timed; 1 if a kernel was refused (the others are timed); 2 for bad "
-    "usage or unreadable data\n";
+    "docs/study/measuring.md explains how to read the figures.\n"
+    "\n"
+    "exit code: 0 if all kernels were timed; 1 if some were refused (the others are timed); 2 for "
+    "bad usage or unreadable data\n";
 
 static const command_form form = {
     .name = "bench",

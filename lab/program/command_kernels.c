@@ -15,17 +15,17 @@ typedef struct kernels_job {
 } kernels_job;
 
 OPTION(kernels_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV: kernel,precision,parent,needs,paper,idea, the last of which may be quoted. A "
-       "solver has no parent; what a kernel of the ladder needs is scalar, avx2 or avx512; paper "
-       "is the speedup that the seed paper gives, a number or words");
+       "as CSV: kernel,precision,parent,needs,paper,idea. The idea may be quoted. A solver has no "
+       "parent. A kernel of the ladder needs scalar, avx2 or avx512. paper is the speedup in the "
+       "seed paper, a number or words");
 
 static const command_form form = {
     .name = "kernels",
     .usage = "[OPTIONS]",
     .about = "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is "
              "the default. The ladder has the seed paper's kernels, built by every compiler in "
-             "every configuration: --config names both, such as gcc-o3, or the configuration "
-             "alone, then of the first compiler listed.\n",
+             "every configuration: --config names both, such as gcc-o3, or only the configuration, "
+             "which then means that of the first compiler in the list.\n",
     .options = (const option_row *const[]){&option_csv, &option_output, NULL},
     .details = "exit code: 0, or 2 for bad usage\n",
     .example = "carom-lab kernels",

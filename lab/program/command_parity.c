@@ -208,9 +208,9 @@ static bool print_families(const parity_job *job) {
 static const command_form form = {
     .name = "parity",
     .usage = "[OPTIONS] IN.jsonl",
-    .about = "Plays recorded shots by pooltool's rules and models, and compares every event with "
-             "pooltool's record, up to the first event that rounding errors can change, as the "
-             "recording says.\n",
+    .about = "Plays recorded shots with pooltool's rules and models, and compares every event with "
+             "pooltool's record. The recording says which event is the first that rounding errors "
+             "can change; the comparison ends there.\n",
     .options = (const option_row *const[]){&option_verbose, NULL},
     .details =
         "columns: shots; events compared; shots that agree; shots that agree to their end, where "

@@ -22,14 +22,13 @@ OPTION(published_job, published_csv, "csv", csv, 0, NULL, set_flag, 0,
 static const command_form form = {
     .name = "published",
     .usage = "[OPTIONS]",
-    .about = "Values that others measured or stated (data/measured.csv) beside those that carom "
-             "computes. The verdict is low or high where carom's value lies outside the bounds of "
-             "the source. Breaks are 1600 each; the standard error of what was counted stands "
-             "beside it. "
-             "docs/understanding/published.md reads the table.\n",
+    .about = "Prints values that others measured or stated (data/measured.csv) beside those that "
+             "carom computes. The verdict is low or high if carom's value lies outside the bounds "
+             "of the source. A share of breaks is counted in 1600 breaks, and its standard error "
+             "stands beside it. docs/understanding/published.md explains the table.\n",
     .options = (const option_row *const[]){&option_data, &published_csv, &option_output, NULL},
-    .details = "exit code: 0; 1 where a value that measured.csv calls ok lies outside its bounds; "
-               "2 for bad usage or unreadable data\n",
+    .details = "exit code: 0; 1 if a value that measured.csv calls ok lies outside its bounds; 2 "
+               "for bad usage or unreadable data\n",
     .example = "carom-lab published --csv -o published.csv",
 };
 

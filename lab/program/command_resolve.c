@@ -52,8 +52,8 @@ int command_resolve(int argc, char **argv) {
   if (!kernel_module(job.kernel, job.config, &job.module))
     return EXIT_USAGE;
   if (job.kernel->is_rung && job.rows.shared.precision == SINGLE_PRECISION) {
-    complain("the kernels of the ladder have a precision of their own; --precision is for the "
-             "library's solvers");
+    complain("each kernel of the ladder has its own precision; --precision is for the solvers of "
+             "the library");
     return EXIT_USAGE;
   }
   if (job.kernel->is_rung)

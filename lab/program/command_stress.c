@@ -346,23 +346,23 @@ OPTION(stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
        "realistic: collisions of play (default); regimes: the special cases of the tests; extreme: "
        "everything that carom accepts");
 OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
-       "draw so many impacts on a cushion of each kind instead: of play, and any");
+       "instead: number of impacts on a cushion of each kind, those of play and any");
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
-       "draw so many impacts of each kind of coincidence instead, of two balls and on a cushion: "
+       "instead: number of impacts of each kind of coincidence, of two balls and on a cushion: "
        "numbers that are exactly equal, zero or at the edge of a friction cone; planar motion; "
        "slips that are rounding errors; grazing impacts");
 
 static const command_form form = {
     .name = "stress",
     .usage = "[OPTIONS]",
-    .about = "Draws random collisions and solves them by single calls and in batches, in double "
-             "and in single precision. The results are compared with the precise solver; where "
+    .about = "Draws random collisions and solves them with single calls and in batches, in double "
+             "and in single precision. It compares the results with the precise solver, and where "
              "they differ, with a reference in extended precision.\n",
     .options =
         (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions,
                                     &option_coincidences, &option_threads, &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has "
-               "other bits than single calls; 2 for bad usage\n",
+               "bits other than those of single calls; 2 for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
 };
 

@@ -103,9 +103,9 @@ OPTION(trace_job, option_points, "points", points, 0, "N", set_count, 2,
 static const command_form form = {
     .name = "trace",
     .usage = "--id X [OPTIONS]",
-    .about = "Writes the state during one of the 204 reference collisions, from contact to "
-             "separation, in equal steps of normal impulse, by the exact solver and by Euler's "
-             "method.\n",
+    .about =
+        "Writes the state during one of the 204 reference collisions, from contact to separation, "
+        "in equal steps of normal impulse, with the exact solver and with Euler's method.\n",
     .options = (const option_row *const[]){&option_trace_id, &option_points, &option_steps,
                                            &option_slip, &option_data, &option_output, NULL},
     .details =

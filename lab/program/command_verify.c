@@ -184,17 +184,18 @@ OPTION(verification, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "as CSV; NA where the paper gives no count");
 
 static const char about[] =
-    "Compares the reference collisions by every kernel with their references: kernels of the "
-    "ladder in every configuration of every compiler, the library's solvers by single calls and in "
-    "the lanes of every instruction set of this processor.\n";
+    "Solves the reference collisions with every kernel and compares the results with the "
+    "references. The kernels of the ladder run in every configuration of every compiler. The "
+    "solvers of the library run as single calls and in the lanes of every instruction set of this "
+    "processor.\n";
 
 static const char details[] =
     "Pair error: the largest deviation of a velocity or R times an angular velocity, over the "
     "largest such value of the pair. Component errors compare each number with itself; the columns "
     "over_1e3 and over_1e2 count the cases with one above 0.1 % or 1 %, and the next columns are "
-    "the "
-    "seed paper's own counts. A bound of 0 requires the same bits in every component.\n\n"
-    "exit code: 0 if all is within its bounds, 1 if something is not, 2 for bad usage or "
+    "the seed paper's own counts. A bound of 0 requires the same bits in every component.\n"
+    "\n"
+    "exit code: 0 if every kernel is within its bounds; 1 if some are not; 2 for bad usage or "
     "unreadable data\n";
 
 static const command_form form = {

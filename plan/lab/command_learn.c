@@ -35,7 +35,7 @@ OPTION(learn_job, learn_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_R
        "the game (default eightball)");
 
 OPTION(learn_job, learn_racks, "racks", racks, 0, "N", set_count, 10,
-       "racks to be played (default 100000)");
+       "number of racks to play (default 100000)");
 OPTION(learn_job, learn_shots, "shots", shots, 0, "N", set_count, 100,
        "shots of a plan (default 200)");
 OPTION(learn_job, learn_seed, "seed", seed, 0, "N", set_count, 0, "seed of the racks (default 0)");
@@ -323,7 +323,7 @@ static void print_row(const learn_job *job, const sample *s, size_t count) {
 static const command_form form = {
     .name = "learn",
     .usage = "[OPTIONS]",
-    .about = "Plays racks of a game by plans and fits the chances of pots to what came of them. "
+    .about = "Plays racks of a game with plans, and fits the chances of pots to the results. "
              "Prints the row of the game in plan/src/games.h.\n",
     .options = (const option_row *const[]){&learn_rules, &learn_racks, &learn_shots, &learn_seed,
                                            &option_threads, NULL},

@@ -24,28 +24,29 @@ typedef struct strength_job {
 } strength_job;
 
 OPTION(strength_job, option_rules, "rules", rules, 0, NULL, set_named, CAROM_WORDS_RULES,
-       "the game (default eightball). Games whose break is a stroke like others are played from "
-       "their racks, by two players");
+       "the game (default eightball). If the break of a game is a stroke like others, two players "
+       "play it from its rack");
 OPTION(strength_job, option_games, "games", games, 0, NULL, set_flag, 0,
-       "play each rack to the end, by two players of the same errors; and tell the chances to win");
+       "two players with the same errors play each rack to the end; report the chances to win");
 
 OPTION(strength_job, option_run_out, "run-out", run_out, 0, NULL, set_flag, 0, "plan to run out");
 OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
-       "racks to be played (default 100)");
+       "number of racks to play (default 100)");
 OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100,
        "shots of a plan (default 2000)");
 OPTION(strength_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
        "scale of the player's errors (default 1)");
 OPTION(strength_job, option_unsure, "unsure", unsure, 0, "SHARE", set_amount, 0,
-       "how little the player knows of the table, 0 to 1 (default 0)");
+       "how little the player knows about the table, 0 to 1 (default 0)");
 OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0,
        "seed of racks, plans and strokes (default 0)");
 
 OPTION(strength_job, option_left, "left", left, 0, "N", set_count, 1,
-       "end games: N balls of the player, one more of the other, and the eight; of nine-ball N");
+       "end games: N balls of the player, one more of the opponent, and the eight; in nine-ball N "
+       "balls");
 
 OPTION(strength_job, option_target, "target", target, 0, "N", set_count, 1,
-       "of straight: points that win (default 100)");
+       "in straight pool: points that win (default 100)");
 
 /* A row of the comparison of chances. `off` is what came of the strokes of one rack less what was
  * predicted of them. They are not independent, so the variance adds up off^2 rack by rack. */
@@ -200,10 +201,11 @@ static void report(const tally *t, const strength_job *job) {
 static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS]",
-    .about = "Plays racks by plans: each is run out from ball in hand after a break that potted "
-             "nothing, by a player whose strokes err. Tells how many are run out, and how often "
-             "shots keep the turn beside the chance that was predicted. With --games it is played "
-             "to the end, and chances to win stand beside how often they were won.\n",
+    .about =
+        "Plays racks with plans. A player who makes errors tries to run out each rack, from ball "
+        "in hand after a break that potted nothing. Reports how many racks are run out, and how "
+        "often shots keep the turn, beside the predicted chance. With --games each rack is played "
+        "to the end, and the predicted chances to win stand beside the share of games won.\n",
     .options =
         (const option_row *const[]){&option_rules, &option_games, &option_run_out, &option_left,
                                     &option_target, &option_racks, &option_shots, &option_errors,
@@ -228,7 +230,7 @@ int command_plan(int argc, char **argv) {
     return EXIT_USAGE;
   const bool racked = carom_plan_rules_of((carom_rules_kind)job.rules).breaks != 1;
   if (racked && job.left > 0) {
-    complain("--left is of eight-ball and nine-ball");
+    complain("--left is for eight-ball and nine-ball");
     return EXIT_USAGE;
   }
   job.games |= racked;

@@ -24,20 +24,20 @@
          1)                                                                                        \
   OPTION(cushion_model, "cushion", WORDS(SHOT_CUSHION), 0, CAROM_CUSHION_MODEL_COUNT,              \
          SHOT_CUSHION_MODEL,                                                                       \
-         "model of the impact on a cushion; mathavan, the exact limit, takes most of the time "    \
-         "(default: smooth for balls with a smooth_q, as those of billiard, else han; in the "     \
-         "world pooltool stronge)",                                                                \
+         "model of the impact on a cushion; mathavan, the exact limit, is the slowest (default: "  \
+         "smooth for balls with a smooth_q, such as those of billiard, else han; in the world "    \
+         "pooltool stronge)",                                                                      \
          2)                                                                                        \
   OPTION(friction, "friction", WORDS(BALL_FRICTION), 0, CAROM_LAW_COUNT - 1, FRICTION,             \
-         "friction between balls: by the speed of slip (default), or their mu_ball", 3)            \
+         "friction between balls: a function of the speed of slip (default), or their mu_ball", 3) \
   OPTION(steps, "steps", COUNT, 0, INT32_MAX, STEPS, "steps of Euler's models; 0: 1000", 5)        \
   OPTION(space, "space", WORDS(SPACE), 0, CAROM_SPACE_FLAT, SPACE,                                 \
          "whether balls can leave the cloth (default: 3d); the world pooltool is flat", 4)         \
   OPTION(simultaneous, "simultaneous", WORDS(SIMULTANEOUS), 0, CAROM_SIMULTANEOUS_PAIRS,           \
          SIMULTANEOUS,                                                                             \
          "contacts of several balls at one instant, as in a rack: they last and overlap in time "  \
-         "(default), or are resolved one after the other, as always in the world pooltool and by " \
-         "the models euler and inelastic",                                                         \
+         "(default), or are resolved one after the other, as always in the world pooltool and "    \
+         "with the models euler and inelastic",                                                    \
          7)                                                                                        \
   OPTION(cluster_steps, "cluster-steps", COUNT, 0, 10000, CLUSTER_STEPS,                           \
          "steps of the integrator of clusters for the duration of a contact; 0: 25", 8)
@@ -45,7 +45,8 @@
 /* Options of carom_shot_options that decide when a shot stops. */
 #define CAROM_STOP_OPTIONS(OPTION)                                                                 \
   OPTION(time_most, "time-most", NUMBER("s"), 0, DBL_MAX, TIME_MOST,                               \
-         "time of its clock, s, at which a shot is stopped; 0: none, but 1000 s are an error")     \
+         "time on the clock of a shot, s, at which the shot is stopped; 0: none, but 1000 s are "  \
+         "an error")                                                                               \
   OPTION(                                                                                          \
       stop_at, "", SET(EVENT), 0, 8191, STOP_AT,                                                   \
       "events right after which a shot is stopped; bit 0: a contact of the cue ball with another") \
@@ -56,10 +57,10 @@
          "largest number of events of a shot; 0: 10000")
 
 /* Options of carom_shot_options that decide how it is computed. */
-#define CAROM_THREAD_OPTIONS(OPTION)                                                            \
-  OPTION(threads, "threads", COUNT, -1, INT32_MAX, THREADS,                                     \
-         "most threads of a batch, the calling one among them; 0: that one alone; -1: one for " \
-         "each processor")
+#define CAROM_THREAD_OPTIONS(OPTION)                                                               \
+  OPTION(threads, "threads", COUNT, -1, INT32_MAX, THREADS,                                        \
+         "largest number of threads of a batch, including the calling one; 0: only that one; -1: " \
+         "one for each processor")
 #define CAROM_COMPUTE_OPTIONS(OPTION)                                                    \
   OPTION(fast, "", FLAG, 0, 1, FAST,                                                     \
          "1: with the instruction set in use; 0: with the bits that all machines share") \

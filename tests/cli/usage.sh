@@ -28,7 +28,7 @@ try env CAROM_ISA= "$CAROM" resolve -o /dev/null "$DATA/collisions-204.csv"
 ls out.csv* 2> /dev/null || echo "no output"
 # Every option that does not take any text says what it takes, and options of the same name the same.
 for command in resolve hit rail shoot ways break; do
-  for option in $(carom $command --help | sed -n 's/^  *\(-., \)\{0,1\}--\([a-z-]*\) [^ ].*/\2/p'); do
+  for option in $(carom $command --help | sed -n 's/^  \(-., \)\{0,1\}--\([a-z-]*\) [^ ].*/\2/p'); do
     case $option in output | id) continue ;; esac
     try carom $command "--$option" "no such" > said 2>&1
     grep -qx "exit 2" said || echo "$command --$option takes any text"
