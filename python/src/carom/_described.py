@@ -67,15 +67,15 @@ class ShotOptions(NamedTuple):
     ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
         Model of the collision of two balls (default: exact; in the world pooltool inelastic)
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler", "smooth"}
-        Model of the impact on a cushion; mathavan, the exact limit, takes most of the time (default: smooth for balls with a smooth_q, as
+        Model of the impact on a cushion; mathavan, the exact limit, is the slowest (default: smooth for balls with a smooth_q, such as
         those of billiard, else han; in the world pooltool stronge)
     friction : {"alciatore", "constant"}
-        Friction between balls: by the speed of slip (default), or their mu_ball
+        Friction between balls: a function of the speed of slip (default), or their mu_ball
     space : {"3d", "flat"}
         Whether balls can leave the cloth (default: 3d); the world pooltool is flat
     simultaneous : {"cluster", "pairs"}
         Contacts of several balls at one instant, as in a rack: they last and overlap in time (default), or are resolved one after the
-        other, as always in the world pooltool and by the models euler and inelastic
+        other, as always in the world pooltool and with the models euler and inelastic
     cluster_steps : int
         Steps of the integrator of clusters for the duration of a contact; 0: 25
     steps : int
