@@ -40,11 +40,11 @@ typedef struct carom_cushion_impact {
 } carom_cushion_impact;
 
 /* How the impact is computed. STRONGE, HAN and SMOOTH work along the inclined normal of the nose
- * and drop the vertical velocity, so they can leave a ball that still moves into the cushion,
- * with CAROM_OK: without friction where e < tan^2 theta, sin(theta) = (height - radius) /
- * radius, which is 0.085 at a pool table's nose; with friction and much spin at larger e too. In
- * a whole shot of the world carom such a ball parts from the cushion in the same event, as after
- * a slow contact (docs/using/shots.md).
+ * and drop the vertical velocity, so they can leave a ball that still moves into the cushion, with
+ * CAROM_OK: without friction where e < tan^2 theta, sin(theta) = (height - radius) / radius, which
+ * is 0.085 at a pool table's nose; with friction and much spin at larger e too. A whole shot in the
+ * world carom separates such a ball from the cushion in the same event, as after a slow contact
+ * (docs/using/shots.md).
  */
 typedef enum carom_cushion_model {
   CAROM_CUSHION_MATHAVAN = 0, /* rigid cushion, friction at nose and cloth, energetic
@@ -55,8 +55,8 @@ typedef enum carom_cushion_model {
                                  (2000); the default of pooltool. */
   CAROM_CUSHION_HAN = 2,      /* rigid nose, no cloth: I. Han, J. Mech. Sci. Technol. 19 (2005)
                                  976-984. */
-  CAROM_CUSHION_MIRROR = 3,   /* the velocity across the cushion is turned back and multiplied by
-                                 e; spin stays. */
+  CAROM_CUSHION_MIRROR = 3,   /* reverses the velocity across the cushion and multiplies it by e;
+                                 spin stays. */
   CAROM_CUSHION_EULER = 4,    /* the model of MATHAVAN in N steps of impulse, as pooltool takes
                                  them. */
   CAROM_CUSHION_SMOOTH = 5,   /* HAN without its corner between sticking and sliding, and with an
@@ -64,8 +64,8 @@ typedef enum carom_cushion_model {
                                  docs/understanding/cushion.md. No cloth. */
 } carom_cushion_model;
 
-/* Which conventions are used where the simulator pooltool differs from the papers. POOLTOOL is
- * for parity with it only. */
+/* Which conventions are used where the simulator pooltool differs from the papers. POOLTOOL only
+ * serves parity with it. */
 typedef enum carom_cushion_convention {
   CAROM_CONVENTION_PAPER = 0,    /* the nose is touched at its height: sin(theta) = (h - R) / R.
                                     The cloth cannot pull. Without slip there is no friction. */
@@ -91,42 +91,45 @@ typedef struct carom_cushion_options {
   carom_cushion_law law;               /* default CAROM_CUSHION_LAW_CONSTANT. */
   int steps;          /* Euler's N: compression and restitution take about so many steps each; 0:
                          CAROM_DEFAULT_STEPS. */
-  int threads;        /* most threads that a batch may use, the calling one among them. 0, the
-                         default: that one alone; CAROM_ALL_THREADS: one for each processor.
+  int threads;        /* largest number of threads that a batch may use, including the calling one.
+                         0, the default: only that one; CAROM_ALL_THREADS: one for each processor.
                          Results do not depend on it. */
   int plain;          /* 1: with CAROM_ISA_PLAIN, as in carom_options. Default 0. */
-  double least_step;  /* N s, >= 0: EULER takes no step of less impulse, but for the last ones.
-                         Default 0; pooltool: 0.001. */
-  double omega_ratio; /* STRONGE: frequency of the nose along its surface over that across it, 1
-                         to 2 without the ends. 0: 1.8, which is that of pooltool. */
-  double smooth_q;    /* SMOOTH: width of the passage from sticking to sliding, 1e-12 to 0.5.
-                         Where it is 0, all numbers of SMOOTH must be 0; they stand for those
-                         measured on one table: q 0.35, x 1.3, t 1.18, a 0.25, k 0, g 0.067,
-                         g_log -0.059, e 0.06. */
+  double least_step;  /* N s, >= 0: EULER takes no step with a smaller impulse, except for the last
+                         ones. Default 0; pooltool: 0.001. */
+  double omega_ratio; /* STRONGE: frequency of the nose along its surface divided by that across it,
+                         between 1 and 2, without these ends. 0: 1.8, the number of pooltool. */
+  double smooth_q;    /* SMOOTH: width of the change from sticking to sliding, 1e-12 to 0.5. If it
+                         is 0, all numbers of SMOOTH must be 0, and the model uses those measured on
+                         one table: q 0.35, x 1.3, t 1.18, a 0.25, k 0, g 0.067, g_log -0.059, e
+                         0.06. */
   double smooth_x;    /* SMOOTH: part of the slip along the cushion that friction takes if it can,
-                         above 0, at most 2. 1 stops the slip; more turns a part of it round. */
+                         above 0, at most 2. 1 stops the slip; more than 1 reverses a part of it. */
   double smooth_t;    /* SMOOTH: the same for the slip across the cushion, above 0, at most 2. */
-  double smooth_a;    /* SMOOTH: friction across the cushion reaches 1 + a times as far, 0 to 1. */
-  double smooth_k;    /* SMOOTH: where friction is used up, rebound gains this part of the
-                         impulse, 0 to 1, up to an impulse that reverses the closing speed. */
+  double smooth_a;    /* SMOOTH: friction across the cushion reaches 1 + smooth_a times as far as
+                         along it. 0 to 1. */
+  double smooth_k;    /* SMOOTH: where friction reaches its limit, the rebound gains this part of
+                         the impulse, 0 to 1, at most up to an impulse that reverses the closing
+                         speed. */
   double restitution_log;  /* any model: change of restitution for each unit of ln(v), -1 to 1;
-                              default 0. At v = 1 m/s restitution is that of the impact; in total
-                              it is limited to 0 to 1. v is the speed across the cushion, at
-                              least 0.1 m/s: the closing speed at the nose over cos(theta). In
-                              flight, too, theta is that of a ball on the cloth. Not read with
+                              default 0. At v = 1 m/s restitution is that of the impact; in total it
+                              is limited to 0 to 1. v is the speed across the cushion, at least 0.1
+                              m/s: the closing speed at the nose over cos(theta). theta is that of a
+                              ball on the cloth, also in flight. Not read with
                               CAROM_CUSHION_LAW_HAN. */
   double mu_log;           /* any model: the same for friction, -1 to 1; default 0. */
-  double smooth_g;         /* SMOOTH: rebound gains up to this part of the impulse the more
-                              friction slides, at v = 1 m/s, -1 to 1. Energy bounds it. */
+  double smooth_g;         /* SMOOTH: the further friction is from sticking, the more impulse the
+                              rebound gains, at most this part of it, at v = 1 m/s. -1 to 1. The
+                              energy bounds the gain. */
   double smooth_g_log;     /* SMOOTH: change of smooth_g for each unit of ln(v), -1 to 1. */
-  double smooth_e;         /* SMOOTH: restitution gains up to this where the ball's surface moves
-                              down the nose, as that of a ball that rolls into it, -1 to 1. */
-  double restitution_log2; /* any model: as restitution_log, for each unit of ln(v)^2, which
-                              counts up to 1, as at 0.37 and 2.7 m/s. -1 to 1. */
-  double roll_loss;        /* any model: the ball's roll along the cushion loses this part of the
-                              ball's speed along the cushion before the impact, 0 to 1. */
-  double roll_loss_log;    /* any model: change of roll_loss for each unit of ln(v), -1 to 1; in
-                              total 0 to 1. */
+  double smooth_e;         /* SMOOTH: restitution gains at most this if the surface of the ball
+                              moves down the nose, as when a ball rolls into it. -1 to 1. */
+  double restitution_log2; /* any model: as restitution_log, for each unit of ln(v)^2. ln(v)^2
+                              counts up to 1, which it reaches at 0.37 and 2.7 m/s. -1 to 1. */
+  double roll_loss;        /* any model: an impact takes this part of the speed along the cushion,
+                              as it was before the impact, from the ball's roll along it. 0 to 1. */
+  double roll_loss_log;    /* any model: change of roll_loss for each unit of ln(v), -1 to 1. The
+                              total is limited to 0 to 1. */
   uint64_t reserved[2];    /* must be 0. */
 } carom_cushion_options;
 
@@ -138,23 +141,23 @@ CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
  * the cushion, and `*out` is its motion before. An error: every number of `*out` is NaN (but
  * `*out` is untouched when a pointer is NULL).
  *
- * MATHAVAN: impacts of play (mu_cloth and mu_cushion 0.1 to 0.4, e from 0.6, the nose 1.2 to
- * 1.45 radii high) within 1e-6 of the fastest of the numbers, times the radius for spins;
- * anything else that is accepted within 1e-5, or its status is CAROM_ERROR_UNRESOLVED; 3 of 2
- * million random impacts of play were. Window: with both frictions near those at which the ball
- * jams (docs/understanding/cushion.md), 1 of 2 million random impacts beyond play was 6e-4 off.
- * Down to an approach of 1e-9 of the speed. 2.4 us in the mean of play with AVX2, 3.7 in plain
- * C. The solver ends after 400 iterations, at most 3,300 evaluations of the equations and 200
- * us. */
+ * MATHAVAN: impacts of play (mu_cloth and mu_cushion 0.1 to 0.4, e from 0.6, the nose 1.2 to 1.45
+ * radii high) have errors within 1e-6 of the fastest of the numbers (spins times the radius). All
+ * other accepted impacts have errors within 1e-5, or the status CAROM_ERROR_UNRESOLVED; 3 of 2
+ * million random impacts of play had this status. There is one exception: with both frictions near
+ * those at which the ball jams (docs/understanding/cushion.md), 1 of 2 million random impacts
+ * beyond play had an error of 6e-4. The bounds hold down to an approach of 1e-9 of the speed. An
+ * impact of play takes 2.4 us in the mean with AVX2, and 3.7 us in plain C. The solver ends after
+ * 400 iterations, at most 3,300 evaluations of the equations and 200 us. */
 CAROM_API carom_status carom_cushion(const carom_cushion_impact *in,
                                      const carom_cushion_options *opt, carom_motion *out);
 
-/* Resolves `n` impacts, in[0..n-1] to out[0..n-1], each as carom_cushion() does, bit for bit: a
- * bad row gets NaN and its own status and changes nothing for the others. `status` takes the n
- * statuses, each the value of a carom_status; it may be NULL. `in`, `out` and `status` may not
- * overlap; with n = 0 they may be NULL. Returns CAROM_OK if no row is in error, else the status
- * of the first row in error. NULL or bad options are an error of the call, and then nothing is
- * written. */
+/* Resolves `n` impacts, in[0..n-1] to out[0..n-1], with the bits of carom_cushion(). A bad row gets
+ * NaN and its own status, and does not change the other rows. `status` takes the n statuses, each
+ * the value of a carom_status; it may be NULL. `in`, `out` and `status` may not overlap; with n = 0
+ * they may be NULL. Returns CAROM_OK if no row is in error, and otherwise the status of the first
+ * row in error. If a pointer is NULL or an option is bad, the call returns that error and writes
+ * nothing. */
 CAROM_API carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,
                                            const carom_cushion_options *opt, carom_motion *out,
                                            int8_t *status);
@@ -175,8 +178,8 @@ typedef struct carom_cushion_point {
   double normal;      /* normal impulse so far, N s. It grows during the whole impact. */
   double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
   carom_phase phase;  /* CAROM_PHASE_COMPRESSION up to v_n = 0. */
-  int nose_sticks;    /* 1 where the ball does not slip on the nose, */
-  int cloth_sticks;   /* and on the cloth; else 0, and always by Euler's method. */
+  int nose_sticks;    /* 1 if the ball does not slip on the nose, */
+  int cloth_sticks;   /* and on the cloth; otherwise 0. Always 0 with Euler's method. */
   int unused;         /* 0. */
   double v_n;         /* speed into the nose, along the normal there, m/s; negative while they
                          part. */
@@ -189,19 +192,19 @@ typedef struct carom_cushion_point {
 
 /* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of
  * normal impulse (EULER: the nearest whole steps) from 0 at points[0] to the end, which is the
- * result of carom_cushion() without the loss of roll. `opt` may be NULL. It is not made for
- * speed: MATHAVAN may take 400 iterations for each point, EULER takes n/2 times an impact.
- * Returns the status of carom_cushion(), or CAROM_ERROR_CUSHION_MODEL for a model in closed form.
- * CAROM_SEPARATING: every point is the motion before, with impulse 0. An error: every number is
- * NaN (but nothing is written when a pointer is NULL or n < 2). */
+ * result of carom_cushion() without the loss of roll. `opt` may be NULL. The call is not made for
+ * speed: MATHAVAN may take 400 iterations for each point, and EULER takes n/2 times as long as an
+ * impact. Returns the status of carom_cushion(), or CAROM_ERROR_CUSHION_MODEL for a model in closed
+ * form. CAROM_SEPARATING: every point is the motion before, with impulse 0. An error: every number
+ * is NaN (but nothing is written when a pointer is NULL or n < 2). */
 CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
                                            const carom_cushion_options *opt, size_t n,
                                            carom_cushion_point *points);
 
 /* ==== Whole shots ================================================================================
  *
- * From the strike of a cue to rest, event by event. Between events every ball moves by a closed
- * form, and no contact is missed.
+ * A shot goes from the strike of the cue to rest, event by event. Between events every ball moves
+ * by a closed form, so no contact is missed.
  *
  *     carom_table table;
  *     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
@@ -223,13 +226,13 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
  * and the cloth at z = 0: a ball on it has its centre at z = R. docs/using/shots.md describes
  * the models, the rules and the bounds.
  *
- * Bits: they are the same on every machine, by every model and in both worlds, unless
- * options.fast asks for the instruction set in use; those of a batch are those of single calls,
- * for any number of threads and any cut. Cost: about 0.4 us an event with Han's cushions, the
- * default, so 3 us for a shot with two balls and 40 us for a nine-ball break, of which
- * options.fast saves 1 to 2 %. The exact limit of a cushion costs some 7 to 10 us an impact
- * besides, of which options.fast saves two fifths. Stack: 53 KiB; a batch 58, with threads 60.
- * Nothing is allocated, but for the threads of a batch. */
+ * Bits: a shot has the same bits on every machine, with every model and in both worlds, unless
+ * options.fast asks for the instruction set in use. A batch has the bits of single calls, for any
+ * number of threads and any split. Cost: an event takes about 0.4 us with Han's cushions, the
+ * default. A shot with two balls takes 3 us, and a nine-ball break 40 us; options.fast saves 1 to 2
+ * % of this. The exact limit of a cushion adds 7 to 10 us for each impact, of which options.fast
+ * saves two fifths. Stack: 53 KiB; a batch 58, with threads 60. Nothing is allocated, except for
+ * the threads of a batch. */
 
 /* ---- Balls ----------------------------------------------------------------------------------- */
 
@@ -240,12 +243,12 @@ typedef enum carom_label {
   CAROM_BALL_SLIDING = 2,    /* u is not 0; sliding friction acts against u */
   CAROM_BALL_ROLLING = 3,    /* u = 0; rolling resistance acts against v */
   CAROM_BALL_POCKETED = 4,   /* in a pocket, out of play */
-  CAROM_BALL_AIRBORNE = 5,   /* above the cloth, or about to leave it or to land: it flies
-                                freely, and its spin is constant */
-  CAROM_BALL_OFF = 6         /* off the table, out of play; its place is where it left */
+  CAROM_BALL_AIRBORNE = 5,   /* above the cloth, or about to leave it or to land. It flies freely,
+                                and its spin is constant */
+  CAROM_BALL_OFF = 6         /* off the table, out of play. Its place is where it left the table */
 } carom_label;
 
-/* Its name ("sliding"), or NULL for a value not listed. */
+/* The name of a label ("sliding"), or NULL for a value not listed. */
 CAROM_API const char *carom_label_name(carom_label label);
 
 /* The constants of a ball and of its cloth. All doubles, without gaps. */
@@ -257,30 +260,31 @@ typedef struct carom_ball_kind {
   double mu_roll;             /* rolling resistance, > 0, at most 1. Pool 0.01. */
   double mu_spin;             /* friction of the ball turning on the spot, > 0, at most 1: w_z
                                  falls at 5 mu_spin g / (2 R). */
-  double mu_ball;             /* ball and ball, 0 to 1; a pair has the mean. Read with
-                                 CAROM_FRICTION_CONSTANT only. */
-  double restitution;         /* ball and ball, 0 to 1; a pair has the mean. Pool 0.95. */
-  double mu_cushion;          /* ball and cushion, 0 to 1. Pool 0.2. */
-  double restitution_cushion; /* ball and cushion, 0 to 1. Pool 0.85. */
-  double gravity;             /* g, m/s^2, > 0, at most 1e6. */
-  double drag;                /* k, 1/m, 0 to 1: a rolling ball slows by mu_roll g + k v^2,
-                                 m/s^2. 0: by mu_roll g alone. */
-  double roll_loss; /* 0 to 1: an impact on a cushion takes this part of the ball's speed along
-                       the cushion from its roll along it: from R w_n, w_n the spin about the
-                       normal, which does not fall below 0 by it. */
-  double law_a, law_b, law_c; /* friction with another ball at a slip of u, m/s: law_a + law_b
-                                 exp(-law_c u), law_c in s/m. Each >= 0, law_a + law_b <= 1; a
-                                 pair has the mean of each. All 0: carom_alciatore(). Not read with
+  double mu_ball;             /* friction between balls, 0 to 1; a pair has the mean. Only read with
                                  CAROM_FRICTION_CONSTANT. */
-  double nose_height; /* of every cushion that the ball meets, above the cloth, m, below 2 R; 0:
-                         that of the rail or jaw. */
-  double omega_ratio; /* of Stronge's cushions, as in carom_cushion_options: 1 to 2 without the
-                         ends; 0: 1.8. */
-  double restitution_table; /* ball and slate, at most 0.98; 0: 0.5, which is a convention; -1:
-                               none. */
-  double modulus;           /* E/(1 - nu^2) of the ball's material, 1e6 to 1e15 Pa; 0: 6.6e9,
-                               that of one phenolic resin. It counts where several balls touch at
-                               one instant. */
+  double restitution;         /* restitution of two balls, 0 to 1; a pair has the mean. Pool
+                                 0.95. */
+  double mu_cushion;          /* friction of ball and cushion, 0 to 1. Pool 0.2. */
+  double restitution_cushion; /* restitution of ball and cushion, 0 to 1. Pool 0.85. */
+  double gravity;             /* g, m/s^2, > 0, at most 1e6. */
+  double drag;                /* k, 1/m, 0 to 1: a rolling ball has the deceleration mu_roll g + k
+                                 v^2, m/s^2. 0: only mu_roll g. */
+  double roll_loss; /* 0 to 1: an impact on a cushion takes this part of the ball's speed along the
+                       cushion from its roll along it. The roll is R w_n, where w_n is the spin
+                       about the normal; it does not fall below 0. */
+  double law_a, law_b, law_c; /* friction with another ball that slips at the speed u, m/s: law_a +
+                                 law_b exp(-law_c u), law_c in s/m. Each >= 0, and law_a + law_b <=
+                                 1; a pair has the mean of each. All 0: carom_alciatore(). Not read
+                                 with CAROM_FRICTION_CONSTANT. */
+  double nose_height; /* height of the nose of every cushion that the ball meets, above the cloth,
+                         m, below 2 R; 0: that of the rail or jaw. */
+  double omega_ratio; /* of Stronge's cushions, as in carom_cushion_options: between 1 and 2,
+                         without these ends; 0: 1.8. */
+  double restitution_table; /* restitution of ball and slate, at most 0.98; 0: 0.5, a convention;
+                               -1: none. */
+  double modulus;           /* E/(1 - nu^2) of the ball's material, 1e6 to 1e15 Pa; 0: 6.6e9, that
+                               of one phenolic resin. It matters if several balls touch at one
+                               instant. */
   double restitution_log, mu_log; /* of cushions: restitution and friction change by these for
                                      each unit of ln(v), v in m/s the speed across the cushion,
                                      as in carom_cushion_options. */
@@ -296,10 +300,10 @@ typedef struct carom_ball_state {
   double r[3];   /* centre, m; r[2] = R on the cloth. */
   double v[3];   /* velocity, m/s; v[2] = 0 on the cloth. */
   double w[3];   /* angular velocity, rad/s. */
-  int64_t label; /* a carom_label. In a layout POCKETED, AIRBORNE and OFF are kept and the others
-                    derived: AIRBORNE where v[2] is not 0 or the ball is more than 1e-6 m above
-                    the cloth, else from v and w: a slip or a speed of at most 1e-12 m/s counts
-                    as 0. */
+  int64_t label; /* a carom_label. In a layout, carom keeps POCKETED, AIRBORNE and OFF, and derives
+                    all other labels. A ball is AIRBORNE if v[2] is not 0 or if it is more than 1e-6
+                    m above the cloth. The rest follows from v and w, where a slip or a speed of at
+                    most 1e-12 m/s counts as 0. */
 } carom_ball_state;
 
 /* A ball of a layout: what it is, and where. */
@@ -308,34 +312,34 @@ typedef struct carom_shot_ball {
   carom_ball_state state;
 } carom_shot_ball;
 
-/* Games, for their balls and cues. docs/understanding/constants.md has the source of each
- * number. The numbers of the cushion are for the default of the world carom: the smooth model for
- * BILLIARD, else Han's; carom_ball_kind_for() has those for other models. */
+/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number.
+ * The numbers of the cushion belong to the default model of the world carom: the smooth model for
+ * BILLIARD, Han's model for the others. carom_ball_kind_for() has the numbers for other models. */
 typedef enum carom_game {
-  CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published;
-                                      no table was measured */
+  CAROM_GAME_POOL = 0,             /* typical numbers, each within the published range; no table was
+                                      measured */
   CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
   CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded
                                       shots, with drag, loss of roll and the numbers of
                                       CAROM_CUSHION_SMOOTH */
-  CAROM_GAME_POOLTOOL_POOL = 3,    /* the figures of pooltool's balls, for parity with it: pool, */
+  CAROM_GAME_POOLTOOL_POOL = 3,    /* the numbers of pooltool's balls, for parity with it: pool, */
   CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
   CAROM_GAME_POOLTOOL_BILLIARD = 5 /* and carom */
 } carom_game;
 
-/* The balls of a game; those of pool for a value not listed. Racks have those of the first
- * three. */
+/* The constants of the balls of a game; those of pool for a value not listed. Racks use the balls
+ * of the first three games. */
 CAROM_API carom_ball_kind carom_ball_kind_of(carom_game game);
 
 /* ---- Tables ---------------------------------------------------------------------------------- */
 
-/* How many rails, jaws and pockets a table may have, and balls a layout. */
+/* The largest numbers of rails, jaws and pockets of a table, and of balls in a layout. */
 enum { CAROM_RAILS_MOST = 32, CAROM_JAWS_MOST = 32, CAROM_POCKETS_MOST = 8, CAROM_BALLS_MOST = 32 };
 
-/* A straight piece of cushion: a vertical wall above the segment from p to q. `line` is lx, ly,
- * l0 of the line lx x + ly y + l0 = 0 through both, as a caller has it, or all 0: it is then
- * derived. `side` says where balls are: 0 where lx x + ly y + l0 < 0, 1 where it is > 0. With a
- * derived line, side 1 is on the left of p -> q, side 0 on its right. */
+/* A straight piece of cushion: a vertical wall above the segment from p to q. `line` is lx, ly, l0
+ * of the line lx x + ly y + l0 = 0 through both ends. A caller gives it, or leaves it all 0, and
+ * carom then derives it. `side` says where balls are: 0 where lx x + ly y + l0 < 0, 1 where it is >
+ * 0. With a derived line, side 1 is on the left of p -> q, side 0 on its right. */
 typedef struct carom_rail {
   double p[2], q[2], height; /* m; height of the nose above the cloth, between 0 and 2 R. */
   double line[3];
@@ -343,15 +347,14 @@ typedef struct carom_rail {
   double mu_cushion, restitution; /* of this rail, 0 to 1; 0: those of the ball. */
 } carom_rail;
 
-/* A rounded end of a cushion: a vertical cylinder, of which balls touch the outside. radius >=
- * 0. */
+/* A rounded end of a cushion: a vertical cylinder, whose outside balls touch. radius >= 0. */
 typedef struct carom_jaw {
   double centre[2], radius, height; /* m; */
   double mu_cushion, restitution;   /* 0 to 1, as of a rail. */
 } carom_jaw;
 
-/* A pocket takes a ball when the ball's centre crosses the circle inward. A pocketed ball's state
- * is at z = -depth. */
+/* A pocket takes a ball when the centre of the ball crosses the circle inward. The state of a
+ * pocketed ball is at z = -depth. */
 typedef struct carom_pocket {
   double centre[2], radius, depth; /* m; radius 1e-9 or more. */
 } carom_pocket;
@@ -363,19 +366,19 @@ typedef struct carom_table {
   carom_rail rail[CAROM_RAILS_MOST];
   carom_jaw jaw[CAROM_JAWS_MOST];
   carom_pocket pocket[CAROM_POCKETS_MOST];
-  /* Read with CAROM_SPACE_3D only. All >= 0, m; 0 means the default. */
-  double ball_radius; /* m, of the balls that touch a rail on the cloth when their centre is their
-                         radius from its line, which places the nose; 0: that of the last ball of
-                         the layout. */
-  double rail_width;  /* of the tops of the rails, behind the noses, which balls may fall on; at
-                         least the radius of the largest ball; 0: 0.12 m, a convention. */
-  double pocket_back; /* an airborne ball over a pocket falls into it if its centre is not higher
-                         than this, m, above the cloth where it leaves the circle; 0: the greatest
-                         height of a nose. */
+  /* Only read with CAROM_SPACE_3D. All >= 0, m; 0 means the default. */
+  double ball_radius; /* m, radius of the balls for which rails are placed: such a ball on the cloth
+                         touches a rail when its centre is one radius from the rail's line. This
+                         places the nose. 0: that of the last ball of the layout. */
+  double rail_width;  /* width of the tops of the rails, behind the noses, on which balls may fall;
+                         at least the radius of the largest ball; 0: 0.12 m, a convention. */
+  double pocket_back; /* height of the backs of pockets, m: an airborne ball over a pocket falls
+                         into it if its centre is at most this high above the cloth where it leaves
+                         the circle; 0: the greatest height of a nose. */
 } carom_table;
 
-/* Built-in tables, with their playing areas. Those of pool have the pockets of the WPA's rules, by
- * the middles of its ranges; carom_table_measures() tells them. */
+/* Built-in tables, with their playing areas. The pool tables have the pockets of the WPA's rules,
+ * in the middle of its ranges; carom_table_measures() returns the measures. */
 typedef enum carom_table_kind {
   CAROM_TABLE_POOL_7FT = 0,     /* 0.9906 x 1.9812 m */
   CAROM_TABLE_POOL_8FT = 1,     /* 1.1176 x 2.2352 m */
@@ -386,17 +389,18 @@ typedef enum carom_table_kind {
                                    its pockets, bit for bit */
 } carom_table_kind;
 
-/* Its name ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value not
- * listed. */
+/* The name of a table ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value
+ * not listed. */
 CAROM_API const char *carom_table_name(carom_table_kind kind);
 
-/* Fills *table. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE where there is no such kind. */
+/* Fills *table. Returns CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE if there is no such
+ * kind. */
 CAROM_API carom_status carom_table_make(carom_table_kind kind, carom_table *table);
 
-/* Where a rail or a pocket of a rectangular table is, as players say who stand at the head, y = 0,
- * and look along the table: "head", "foot", "left" or "right"; "head-left", "side-left",
+/* The name of a rail or a pocket of a rectangular table, for a player who stands at the head, y =
+ * 0, and looks along the table: "head", "foot", "left" or "right"; "head-left", "side-left",
  * "foot-left", "head-right", "side-right" or "foot-right". NULL for a rail that is the cut of a
- * pocket, for other tables, and for an index that cannot be. */
+ * pocket, for other tables, and for an invalid index. */
 CAROM_API const char *carom_rail_name(const carom_table *table, int rail);
 CAROM_API const char *carom_pocket_name(const carom_table *table, int pocket);
 
@@ -410,7 +414,7 @@ typedef enum carom_part_kind {
   /* what else has numbers; see carom_number_of() */
   CAROM_PART_OPTIONS = 5,         /* carom_shot_options */
   CAROM_PART_IMPACT_OPTIONS = 6,  /* carom_options */
-  CAROM_PART_CUSHION_OPTIONS = 7, /* carom_cushion_options, but for the numbers of a ball's
+  CAROM_PART_CUSHION_OPTIONS = 7, /* carom_cushion_options, except for the numbers of a ball's
                                      cushions */
   CAROM_PART_PLAN_OPTIONS = 8,    /* carom_plan_options */
   CAROM_PART_CUE = 9,             /* carom_cue */
@@ -425,35 +429,36 @@ typedef struct carom_part {
   int32_t index; /* in its array; 0 of CAROM_PART_NONE. */
 } carom_part;
 
-/* What is wrong with a table, and where. A measure is a part too, by its place in its struct. */
+/* What is wrong with a table, and where. A measure is a part too; its index is its place in its
+ * struct. */
 typedef struct carom_table_fault {
-  carom_part part, other; /* the part at fault; of a hole, the parts on both of its sides. */
-  double place[2];        /* m: the middle of the hole or of the rail; 0 where a number of the
-                             part is bad. */
-  double gap;             /* m: width of the hole, from surface to surface; else 0. */
+  carom_part part, other; /* the part at fault; for a hole, the parts on both of its sides. */
+  double place[2];        /* m: the middle of the hole or of the rail; 0 if a number of the part is
+                             bad. */
+  double gap;             /* m: width of the hole, from surface to surface; otherwise 0. */
 } carom_table_fault;
 
-/* Checks a table of one's own for balls of a radius; it is made for the workshop, not for each
- * shot (some milliseconds). In this order: each part by itself, as carom_shoot() does; that
- * lines of rails pass through their ends, within 1e-6 m; that the ring of rails, jaws and
- * pockets around the middle (width/2, length/2) is closed, or that around a place beside the
- * longest rail, where the middle is outside, so that no ball can leave the table but into a
- * pocket; that the played side of each rail is the one where balls are, where a ball
- * has a place beside it; and that a jaw, of radius 0 if need be, stands where a ball could come
- * in between the ends of two rails, at which there is nothing to be hit (gap then is how far
- * apart the centres of balls that touch the two rails are). The first fault is told in *fault,
- * which may be NULL. Balls of other radii beside these may find a hole between noses of different
- * heights, which is not looked for. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_RADIUS,
- * CAROM_ERROR_TABLE, CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE, CAROM_ERROR_TABLE_OPEN (of
- * all holes the one that has to be closed last is told; CAROM_PART_NONE where there is no ring, or
- * no place for a ball in its middle), CAROM_ERROR_RAIL_SIDE. */
+/* Checks a table of your own for balls of a radius. Call it while you build a table, not for each
+ * shot, because it takes some milliseconds. It checks in this order that (1) each part is right by
+ * itself, as carom_shoot() does; (2) the line of each rail passes through its ends, within 1e-6 m;
+ * (3) the ring of rails, jaws and pockets around the middle (width/2, length/2) is closed, so that
+ * a ball can leave the table only through a pocket. If the middle is outside, the ring around a
+ * place beside the longest rail counts; (4) the played side of each rail is the one where balls
+ * are, if a ball has room beside the rail; (5) a jaw, if need be of radius 0, stands wherever a
+ * ball could enter between the ends of two rails without hitting anything. *fault describes the
+ * first fault, and may be NULL. In case (5), gap is the distance between the centres of balls that
+ * touch the two rails. The check does not look for holes between noses of different heights,
+ * through which balls of other radii may pass. Returns CAROM_OK, CAROM_ERROR_NULL,
+ * CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE, CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE,
+ * CAROM_ERROR_TABLE_OPEN (with the hole that has to be closed last; CAROM_PART_NONE if there is no
+ * ring, or no room for a ball in its middle), or CAROM_ERROR_RAIL_SIDE. */
 CAROM_API carom_status carom_table_check(const carom_table *table, double radius,
                                          carom_table_fault *fault);
 
 /* The measures of a table, as rule books have them. A mouth lies between the points where the noses
- * would meet the facings of the pocket, were they not rounded; a cut is the angle of nose and
- * facing; a shelf goes from the middle of the mouth to the edge of the hole, past which a ball's
- * centre falls. carom_number_of(CAROM_PART_MEASURES, k) has the range of each. */
+ * would meet the facings of the pocket if they were not rounded. A cut is the angle between nose
+ * and facing. A shelf goes from the middle of the mouth to the edge of the hole; a ball falls when
+ * its centre passes this edge. carom_number_of(CAROM_PART_MEASURES, k) has the range of each. */
 typedef struct carom_measures {
   double width, length; /* m, of the playing area, between the noses. */
   double nose_height;   /* m */
@@ -464,33 +469,35 @@ typedef struct carom_measures {
   double side_mouth, side_cut, side_shelf, side_jaw, side_hole; /* the same, m and degrees. */
 } carom_measures;
 
-/* The measures of a built-in table. Statuses as of carom_table_make(). */
+/* The measures of a built-in table. Statuses are those of carom_table_make(). */
 CAROM_API carom_status carom_table_measures(carom_table_kind kind, carom_measures *measures);
 
-/* Makes a table from its measures, and checks it by carom_table_check() for balls of a radius,
- * whose status and *fault are those of the call; *fault may be NULL. CAROM_ERROR_TABLE with
- * CAROM_PART_MEASURES: that measure is outside its range, or, where fault->other is one too, not
- * below fault->gap, as that other asks. */
+/* Makes a table from its measures, and checks it with carom_table_check() for balls of a radius.
+ * The status and *fault are those of the check; *fault may be NULL. CAROM_ERROR_TABLE with
+ * CAROM_PART_MEASURES means that the measure is outside its range. If fault->other is a measure
+ * too, the first one must be below fault->gap because of the other. */
 CAROM_API carom_status carom_table_measured(const carom_measures *measures, double ball_radius,
                                             carom_table *table, carom_table_fault *fault);
 
-/* A corner of a table of any closed shape: its place, m, from 0, and the width of a pocket's mouth
- * there, from jaw to jaw, m; 0: no pocket. A corner on a straight side makes a side pocket. */
+/* A corner of a table of any closed shape: its place, m, 0 or more, and the width of the pocket's
+ * mouth there, from jaw to jaw, m; 0: no pocket. A corner on a straight side makes a side
+ * pocket. */
 typedef struct carom_corner {
   double x, y, mouth;
 } carom_corner;
 
 /* Makes a table from its corners, 3 to CAROM_RAILS_MOST, in the order of a walk around it, in
- * either direction. nose_height, m, is that of all noses; jaw_radius, m, that of the rounded ends
- * of rails at pockets; ball_radius, m, that of the balls. Rails end where mouths begin. The pocket
- * is a circle as wide as the mouth, behind it, or a little in it where a ball could slip past.
- * There must be room for a ball in the middle (width/2, length/2), where width and length are the
- * greatest x and y, or, as in an L or a U, beside the longest rail. The result is checked by
- * carom_table_check(), whose status and *fault are those of the call; *fault may be NULL. Further
- * errors: CAROM_ERROR_CORNERS for their number; CAROM_ERROR_SIDES_CROSS, with the two sides as
- * rails by the corners where they begin; CAROM_ERROR_TABLE with
- * CAROM_PART_NONE for a number below 0 or not finite, mouths that leave nothing of a rail, or more
- * than CAROM_POCKETS_MOST pockets or CAROM_JAWS_MOST jaws. */
+ * either direction. nose_height, m, is the height of all noses; jaw_radius, m, the radius of the
+ * rounded ends of rails at pockets; ball_radius, m, that of the balls. Rails end where mouths
+ * begin. A pocket is a circle as wide as the mouth. It lies behind the mouth, or a little inside it
+ * if a ball could otherwise slip past. There must be room for a ball in the middle (width/2,
+ * length/2), where width and length are the greatest x and y, or beside the longest rail, as in an
+ * L or a U. carom_table_check() checks the result; the status and *fault are those of the check,
+ * and *fault may be NULL. Further errors are CAROM_ERROR_CORNERS for the number of corners;
+ * CAROM_ERROR_SIDES_CROSS, with the two sides as rails that have the index of the corner where they
+ * begin; and CAROM_ERROR_TABLE with CAROM_PART_NONE for a number below 0 or not finite, for mouths
+ * that leave nothing of a rail, and for more than CAROM_POCKETS_MOST pockets or CAROM_JAWS_MOST
+ * jaws. */
 CAROM_API carom_status carom_table_polygon(const carom_corner *corner, int count,
                                            double nose_height, double jaw_radius,
                                            double ball_radius, carom_table *table,
@@ -508,23 +515,23 @@ typedef enum carom_rack_kind {
   CAROM_RACK_THREECUSHION = 4 /* 3 balls: white, yellow, red, as for the opening. */
 } carom_rack_kind;
 
-/* Its name ("eightball"), or NULL for a value not listed. */
+/* The name of a rack ("eightball"), or NULL for a value not listed. */
 CAROM_API const char *carom_rack_name(carom_rack_kind kind);
 
 /* The number of balls of a rack; 0 if there is no such kind. */
 CAROM_API int carom_rack_size(carom_rack_kind kind);
 
 /* Sets up a rack on the table. Neighbours are `gap` apart, and each ball is moved by up to a
- * quarter of it in a direction drawn from `seed`, which also draws where the other balls of the
- * rack go; gap 0 is a frozen rack. `room` is the number of elements of balls[]. CAROM_OK,
- * CAROM_ERROR_NULL, or CAROM_ERROR_RACK: no such kind, a gap below 0 or above R, too little
- * room. */
+ * quarter of the gap in a random direction. gap 0 is a frozen rack. `seed` determines these
+ * directions, and the places of the balls that have no fixed one. `room` is the number of elements
+ * of balls[]. Returns CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_RACK if there is no such kind, the
+ * gap is below 0 or above R, or there is too little room. */
 CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap,
                                   uint64_t seed, carom_shot_ball *balls, int room);
 
-/* The spot of a ball of a rack, m, by the rules of its game: of a colour of snooker its own; of the
- * balls of pool, and of the reds, the foot spot; of the cue ball the place where carom_rack() puts
- * it. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_RACK where the rack has no such ball. */
+/* The spot of a ball of a rack, m, by the rules of its game. A colour of snooker has its own spot.
+ * The balls of pool and the reds have the foot spot. The cue ball has the place where carom_rack()
+ * puts it. Returns CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_RACK if the rack has no such ball. */
 CAROM_API carom_status carom_spot_of(carom_rack_kind kind, const carom_table *table, int ball,
                                      double place[2]);
 
@@ -532,60 +539,63 @@ CAROM_API carom_status carom_spot_of(carom_rack_kind kind, const carom_table *ta
 
 /* A stroke, and the cue with which it is played. */
 typedef struct carom_cue {
-  double speed;    /* V0 of the cue before the strike, m/s, 0 to 1000. 0: no strike. */
+  double speed;    /* speed V0 of the cue before the strike, m/s, 0 to 1000. 0: no strike. */
   double phi;      /* direction in the plane, degrees from +x towards +y, -1e9 to 1e9. */
   double theta;    /* elevation of the butt, degrees, 0 to 90. The tip presses the ball on the
-                        slate, which throws it up after a short contact of the tip; with
-                        CAROM_SPACE_FLAT the part of the blow that goes down is lost. */
+                      slate, and the slate throws the ball up after the short contact of the tip.
+                      With CAROM_SPACE_FLAT the downward part of the blow is lost. */
   double a, b;     /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre.
                         a^2 + b^2 < miscue^2. */
   double mass;     /* M, kg, > 0. */
-  double end_mass; /* effective mass of the tip's end, which makes squirt, kg, > 0. */
-  double tip_restitution; /* e of the tip and the ball, 0 to 1; 0: 1, without loss. The speed of
-                             the ball is in proportion to 1 + e. Leather 0.73, phenolic 0.85,
-                             pooltool 1. carom_cue_of() gives the cues of carom's games that of
-                             leather; a cue of pooltool's has 1, and its old bits. */
-  double tip_radius;      /* m; not used by the strike, kept with the cue. */
+  double end_mass; /* effective mass of the end of the cue at the tip, which causes squirt, kg, >
+                      0. */
+  double tip_restitution; /* restitution e of the tip and the ball, 0 to 1; 0: 1, without loss. The
+                             speed of the ball is proportional to 1 + e. Leather 0.73, phenolic
+                             resin 0.85, pooltool 1. carom_cue_of() gives carom's games a tip of
+                             leather, and pooltool's games 1, with the bits of pooltool. */
+  double tip_radius;      /* m; the strike does not use it; it is kept with the cue. */
   int64_t ball;           /* index of the ball that is struck. */
-  double miscue;          /* R, 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its
-                        edge. Chalked tips reach 0.5. */
-  double tip_time;        /* s, to 0.01: how long the tip of a raised cue touches the ball. 0:
-                        CAROM_TIP_TIME; tips of hard resin, 0.0008. -1: no time; blow and landing
-                        are two events, as before revision 8. */
-  double follow; /* m, 0 to 1: how far the cue goes on after it has touched the ball, at the speed
-                    that is left. What it touches then is another event STRIKE. 0: it stops at
-                    once; carom_cue_of() gives CAROM_CUE_FOLLOW. */
+  double miscue;          /* R, 0 to 1: the offset at which the tip slips off the ball; 0: 1, the
+                             edge of the ball. Chalked tips reach 0.5. */
+  double tip_time;        /* s, at most 0.01: how long the tip of a raised cue touches the ball. 0:
+                             CAROM_TIP_TIME; tips of hard resin have 0.0008. -1: no time; blow and
+                             landing are then two events, as before revision 8. */
+  double follow; /* m, 0 to 1: how far the cue goes on after it has touched the ball, with the speed
+                    that it has left. If it touches a ball then, this is another event STRIKE. 0: it
+                    stops at once; carom_cue_of() gives CAROM_CUE_FOLLOW. */
 } carom_cue;
 
-/* m: the follow-through of carom's games. A convention: who follows through goes on for longer, and
- * who plays at a near ball stops the cue, or plays from the side. */
+/* m: the follow-through of carom's games. This is a convention: players who follow through go on
+ * for longer, and players who play at a near ball stop the cue, or play from the side. */
 #define CAROM_CUE_FOLLOW 0.03
 
-/* s, of a leather tip. Measured are 0.001 to 0.003 for leather, from 0.0008 on for hard resin
- * (billiards.colostate.edu, "How long is the tip in contact with the cue ball?"); the place in
- * that range is a convention. Only its ratio to the contact of ball and slate counts. */
+/* s, for a leather tip. Measurements have 0.001 to 0.003 for leather, and 0.0008 or more for hard
+ * resin (billiards.colostate.edu, "How long is the tip in contact with the cue ball?"). The place
+ * in that range is a convention. Only the ratio to the duration of the contact between ball and
+ * slate matters. */
 #define CAROM_TIP_TIME 0.001
 
 /* The restitution of a leather tip: billiards.colostate.edu, "cue tip efficiency", 0.71 to 0.75.
  * One of phenolic resin has 0.81 to 0.87 there. */
 #define CAROM_TIP_LEATHER 0.73
 
-/* The usual cue: speed 2, phi 90 (along the table), b = 0.25, ball 0, a tip of leather; for
- * pooltool's games one without loss. */
+/* The usual cue: speed 2, phi 90 (along the table), b = 0.25, ball 0, and a tip of leather; for
+ * pooltool's games a tip without loss. */
 CAROM_API carom_cue carom_cue_of(carom_game game);
 
-/* The motion of a ball at rest after a strike, into out->v and out->w, as with CAROM_SPACE_FLAT:
- * v[2] = 0. CAROM_OK; an error of a field of the cue, or of the mass or radius of the ball,
- * whose other fields are not read; or CAROM_ERROR_OVERFLOW. With an error *out is untouched. */
+/* Writes the motion of a ball at rest after a strike to out->v and out->w, as with
+ * CAROM_SPACE_FLAT: v[2] = 0. Of the ball only the mass and the radius are read. Returns CAROM_OK;
+ * an error of a field of the cue, or of the mass or radius of the ball; or CAROM_ERROR_OVERFLOW.
+ * With an error *out is untouched. */
 CAROM_API carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind,
                                     carom_motion *out);
 
 /* ---- Options --------------------------------------------------------------------------------- */
 
-/* The rules of contact. CAROM_WORLD_CAROM: an event is where the gap is <= 0 and closing;
- * nothing moves but by its motion. CAROM_WORLD_POOLTOOL: pooltool's, with its spacers of 1 um,
- * its order of simultaneous events, and its exchange between balls that touch for long; for the
- * same histories as pooltool's. */
+/* The rules of contact. CAROM_WORLD_CAROM: an event occurs where the gap is <= 0 and closing, and
+ * balls change place only by their motion. CAROM_WORLD_POOLTOOL: the rules of pooltool, with its
+ * spacers of 1 um, its order of simultaneous events, and its exchange between balls that touch for
+ * long. They give the same histories as pooltool. */
 typedef enum carom_world { CAROM_WORLD_CAROM = 0, CAROM_WORLD_POOLTOOL = 1 } carom_world;
 
 /* The collision of two balls. DEFAULT is EXACT in the world carom, INELASTIC in pooltool. */
@@ -596,32 +606,32 @@ typedef enum carom_ball_model {
                                      the world pooltool */
   CAROM_BALL_MODEL_INELASTIC = 3, /* one closed-form impulse, as pooltool's default; for equal
                                      masses */
-  CAROM_BALL_MODEL_MIRROR = 4     /* no friction: normal velocities by the restitution alone */
+  CAROM_BALL_MODEL_MIRROR = 4     /* no friction: only the normal velocities change, by the
+                                     restitution */
 } carom_ball_model;
 
-/* Friction between two balls: from their speed of slip, by Alciatore's law or the one of the
- * balls; or mu_ball of the balls. */
+/* Friction between two balls: ALCIATORE depends on their speed of slip, by Alciatore's law or the
+ * law of the balls; CONSTANT is mu_ball of the balls. */
 typedef enum carom_ball_friction {
   CAROM_FRICTION_ALCIATORE = 0,
   CAROM_FRICTION_CONSTANT = 1
 } carom_ball_friction;
 
-/* Whether balls can leave the cloth. In 3D a shot in which no ball does so has the bits that it
- * has with FLAT, and its speed: two balls on the cloth collide by the 2014 model, and a ball on
- * the cloth and a cushion by the flat model. Where a ball flies, or two radii differ, contacts
- * are those of spheres in space (carom_impact3()). The world pooltool is flat whatever this
- * says. */
+/* Whether balls can leave the cloth. With 3D, a shot in which no ball leaves the cloth has the same
+ * bits and the same speed as with FLAT: two balls on the cloth collide by the 2014 model, and a
+ * ball on the cloth meets a cushion by the flat model. If a ball flies, or two radii differ,
+ * contacts are those of spheres in space (carom_impact3()). The world pooltool is always flat. */
 typedef enum carom_space {
   CAROM_SPACE_3D = 0,  /* elevated cues make balls hop; balls jump, fall on each other and on
                           rails, and leave the table */
-  CAROM_SPACE_FLAT = 1 /* balls stay on the cloth, whatever pushes them up or down */
+  CAROM_SPACE_FLAT = 1 /* balls stay on the cloth, even if something pushes them up or down */
 } carom_space;
 
-/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is
- * STRONGE in the world pooltool; in carom SMOOTH for a ball whose smooth_q is above 0, as that of
- * CAROM_GAME_BILLIARD, and else HAN. HAN predicts recorded shots as well as MATHAVAN, the exact
- * limit, for a tenth of the cost or less (docs/understanding/reality.md). These values are not
- * those of carom_cushion_model, in which 0 is a model: compilers warn where the two are mixed
+/* The impact of a ball on a cushion, with the models of carom_cushion_model. In the world pooltool,
+ * DEFAULT is STRONGE. In the world carom it is SMOOTH for a ball whose smooth_q is above 0, such as
+ * those of CAROM_GAME_BILLIARD, and otherwise HAN. HAN predicts recorded shots as well as MATHAVAN,
+ * the exact limit, at a tenth of the cost or less (docs/understanding/reality.md). These values are
+ * not those of carom_cushion_model, in which 0 is a model. Compilers warn if the two are mixed
  * (-Wenum-conversion, which -Wextra of gcc turns on). */
 typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_DEFAULT = 0,
@@ -633,17 +643,17 @@ typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_SMOOTH = 6
 } carom_shot_cushion;
 
-/* The balls of a game with the constants of a model of the cushion, which belong to it: writes
- * them and returns 1. Returns 0 where the game has none for the model, and writes those of
- * carom_ball_kind_of(). The games of pooltool have one set for all models, and so has POOL for all
- * but SMOOTH. A NULL kind is not written. */
+/* Writes the constants of a game's balls that belong to a model of the cushion, and returns 1. If
+ * the game has none for the model, writes those of carom_ball_kind_of() and returns 0. The games of
+ * pooltool have one set for all models, and POOL has one set for all models except SMOOTH. If kind
+ * is NULL, nothing is written. */
 CAROM_API int carom_ball_kind_for(carom_game game, carom_shot_cushion cushion,
                                   carom_ball_kind *kind);
 
-/* Contacts of several balls at one instant. CLUSTER: they last and overlap in time, by
- * carom_cluster(); with the ball models EXACT and MIRROR, which has them without friction.
- * PAIRS: one after the other, the fastest first. The world pooltool and the other ball models
- * have PAIRS whatever this says. */
+/* Contacts of several balls at one instant. CLUSTER: they last and overlap in time, as in
+ * carom_cluster(). The ball models EXACT and MIRROR have this; MIRROR has no friction. PAIRS: they
+ * are resolved one after the other, the fastest first. The world pooltool and the other ball models
+ * always use PAIRS. */
 typedef enum carom_simultaneous {
   CAROM_SIMULTANEOUS_CLUSTER = 0,
   CAROM_SIMULTANEOUS_PAIRS = 1
@@ -656,33 +666,35 @@ typedef struct carom_shot_options {
   carom_shot_cushion cushion_model;
   carom_ball_friction friction;
   int32_t steps;       /* of Euler's models; 0: 1000. */
-  int32_t events_most; /* events of a shot, but that those of a cluster are not parted; 0: 10000. */
-  int32_t threads;     /* most threads of a batch, the calling one among them; 0: that one alone;
-                          CAROM_ALL_THREADS. */
+  int32_t events_most; /* largest number of events of a shot; the events of one cluster stay
+                          together. 0: 10000. */
+  int32_t threads;     /* largest number of threads of a batch, including the calling one; 0: only
+                          that one; CAROM_ALL_THREADS. */
   carom_space space;
-  double time_most; /* s: the shot is stopped at exactly this time of its clock, after the events
-                       of that instant, with CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s
-                       with CAROM_ERROR_TOO_LONG. */
-  uint64_t stop_at; /* the shot is stopped right after an event of this set, or its cluster, with
-                       CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)   of each carom_event_type,
-                       CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
+  double time_most; /* s: the shot is stopped at exactly this time on its clock, after the events of
+                       that instant, with CAROM_STOPPED_AT_TIME. 0: it is not stopped, but ends
+                       after 1000 s with CAROM_ERROR_TOO_LONG. */
+  uint64_t stop_at; /* the shot is stopped right after an event of this set, or after its cluster,
+                       with CAROM_STOPPED_AT_EVENT. The set is CAROM_STOP_AT(type) of a
+                       carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: it is not
+                       stopped. */
   int32_t fast;     /* 0: with the bits that all machines share (CAROM_ISA_PLAIN). 1: with the
                        instruction set in use. */
   carom_simultaneous simultaneous;
-  int32_t cluster_steps; /* of the integrator of clusters, for the duration of a contact, at most
-                            10000; 0: 25. */
+  int32_t cluster_steps; /* steps of the integrator of clusters for the duration of a contact, at
+                            most 10000; 0: 25. */
   int32_t unused;        /* must be 0. */
-  uint64_t first_of;     /* the shot is stopped right after the first contact of the cue ball
-                            with another ball, with CAROM_STOPPED_AT_EVENT, unless that ball is
-                            of this set: bit k is ball k of the layout. 0: it is not stopped; the
-                            bit of the cue ball alone: at any ball. */
+  uint64_t first_of;     /* the shot is stopped right after the first contact of the cue ball with
+                            another ball, with CAROM_STOPPED_AT_EVENT, unless that ball is of this
+                            set: bit k is ball k of the layout. 0: it is not stopped. Only the bit
+                            of the cue ball: it is stopped at any ball. */
   uint64_t reserved[1];  /* must be 0. */
 } carom_shot_options;
 
-/* The sources of the models by which shots with these options are played, carom itself first, as
- * BibTeX; NULL: of the defaults. Writes the text to text[room], cut there, with a closing 0 if room
- * is above 0; text may be NULL if it is 0. Returns the length of the whole text without the 0, or
- * 0 where carom_shoot() refuses the options. */
+/* Writes the sources of the models that shots with these options use, as BibTeX, with carom itself
+ * first; options NULL: the defaults. The text goes to text[room] and is cut there, with a closing 0
+ * if room is above 0; text may be NULL if room is 0. Returns the length of the whole text without
+ * the 0, or 0 if carom_shoot() refuses the options. */
 CAROM_API size_t carom_cite(const carom_shot_options *options, char *text, size_t room);
 
 /* ---- What happened --------------------------------------------------------------------------- */
@@ -699,185 +711,190 @@ typedef enum carom_event_type {
   CAROM_EVENT_ROLLING_STATIONARY = 8,
   CAROM_EVENT_SPINNING_STATIONARY = 9,
   CAROM_EVENT_SLATE = 10,     /* airborne ball a lands on the slate */
-  CAROM_EVENT_RAIL_TOP = 11,  /* airborne ball a falls on the top of rail b, or of jaw b - the
-                                 table's rails */
-  CAROM_EVENT_LEFT_TABLE = 12 /* airborne ball a leaves the table: it falls or flies beyond it,
-                                 or comes to lie on a rail. The shot goes on. */
+  CAROM_EVENT_RAIL_TOP = 11,  /* airborne ball a falls on the top of rail b, or of jaw b minus the
+                                 number of rails */
+  CAROM_EVENT_LEFT_TABLE = 12 /* airborne ball a leaves the table: it falls or flies off it, or
+                                 comes to rest on a rail. The shot goes on. */
 } carom_event_type;
 
-/* Its name ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL for a value
- * not listed. */
+/* The name of an event ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL
+ * for a value not listed. */
 CAROM_API const char *carom_event_name(carom_event_type type);
 
-/* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, else all
- * zero. The contacts of a cluster are events one after another, in the order in which they
- * touched. A ball changes at its first one; before and after the others it has the state that it
- * has at the end. So momentum and energy balance over all events of a cluster, not over one. */
+/* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, and otherwise
+ * all zero. Each contact of a cluster is an event; the events are in the order in which the balls
+ * touched. A ball changes its state at its first event of the cluster. At its other events it has
+ * its final state before and after. Momentum and energy therefore balance over all events of a
+ * cluster, but not over a single one. */
 typedef struct carom_event {
   double time; /* s */
   int32_t type, a, b;
-  int32_t cluster; /* of a CAROM_EVENT_BALL_BALL: contacts of its cluster; 0: a contact of two
-                      balls alone. */
-  double impulse;  /* N s, for sounds: the size of what ball a got from cue, ball, cushion or
-                      slate; in a cluster from ball b alone. 0 of every other event. */
+  int32_t cluster; /* of a CAROM_EVENT_BALL_BALL: the number of contacts in its cluster; 0: a
+                      contact of only two balls. */
+  double impulse;  /* N s, for sounds: the size of the impulse that ball a got from the cue, ball,
+                      cushion or slate; in a cluster only from ball b. 0 for every other event. */
   carom_ball_state before[2], after[2];
 } carom_event;
 
-/* An event without states, as long as three doubles. */
+/* An event without states, with the size of three doubles. */
 typedef struct carom_brief_event {
   double time; /* s */
   int32_t type, a, b, reserved;
 } carom_brief_event;
 
-/* For options.stop_at: events of a type; */
+/* For options.stop_at: the events of a type, */
 #define CAROM_STOP_AT(type) (UINT64_C(1) << (type))
 /* and a contact of the cue ball, which is that of the cue, or ball 0 without a cue, with another
  * ball. */
 #define CAROM_STOP_AT_CONTACT UINT64_C(1)
 
-/* All that a stopped shot needs to go on, with its count, time and facts but without its events;
- * see carom_shot_continue(). Its bytes may be copied, kept in a file and read by the same build of
- * the library, which refuses them where one has changed. They depend on the arguments of the
- * calls alone, and are 0 where they hold nothing. */
+/* Everything that a stopped shot needs to go on, with its count, time and facts, but without its
+ * events; see carom_shot_continue(). The bytes may be copied, kept in a file and read by the same
+ * build of the library, which refuses them if a byte has changed. They depend only on the arguments
+ * of the calls, and are 0 where they hold nothing. */
 typedef struct carom_shot_state {
   uint64_t opaque[4096];
 } carom_shot_state;
 
-/* What happened in a shot, for rules of games. The library fills it in while the shot is played,
- * so no event has to be kept. An index is -1 and a time infinite where there is none. The cue
- * ball is that of the cue, or ball 0 without a cue. A cushion is a rail or a jaw. Bit k of a set
- * is ball k. */
+/* What happened in a shot, for rules of games. The library fills it in while it plays the shot, so
+ * no event has to be kept. If there is no such thing, an index is -1 and a time is infinite. The
+ * cue ball is that of the cue, or ball 0 without a cue. A cushion is a rail or a jaw. Bit k of a
+ * set is ball k. */
 typedef struct carom_facts {
   int32_t first[2];                 /* the first two different balls that the cue ball met, */
   int32_t cushions_before[2];       /* impacts of the cue ball on cushions before it met each of
                                        them; 0 where it met none, */
   double first_time[2];             /* and when it met them, s. */
-  int32_t cushions_after;           /* impacts of all balls on cushions after the first contact; not
-                                       those of a ball on a cushion that it touched, to 1e-6 m, as
-                                       the shot began, before it left it. */
+  int32_t cushions_after;           /* impacts of all balls on cushions after the first contact. If
+                                       a ball touches a cushion, within 1e-6 m, when the shot
+                                       begins, its impacts on it do not count until it has left the
+                                       cushion. */
   uint32_t down;                    /* the set of the balls that fell into a pocket in this shot, */
   uint32_t off;                     /* of those that left the table in this shot, */
   uint32_t moved;                   /* and of those that were struck or met by another ball. */
   int32_t pocket[CAROM_BALLS_MOST]; /* the pocket that took each ball in this shot, */
   double pocket_time[CAROM_BALLS_MOST]; /* and when, s. */
   int32_t cushions[CAROM_BALLS_MOST];   /* impacts of each ball on cushions. */
-  uint32_t frozen; /* the set of the balls that touched the cue ball, to 1e-9 m,
-                                           when it was struck, */
-  uint32_t pushed; /* and of those that it met before the tip left it: while it was pushed, or where
-                      the tip touched it again within the push. */
-  int32_t touches; /* of the tip: 0 without a strike, 1, or 2 and more of a double hit: within the
-                      push, during which positions stay, or later by cue.follow. */
-  uint32_t banked; /* the set of the balls that met a cushion beside its jaws and cuts. */
-  double second_time;     /* when the second of these touches was, s; infinite where there was none;
-                             0: within the push, */
-  double second_speed;    /* at which speed the tip closed, m/s, */
-  double second_place[2]; /* and where the cue ball was, m. 0 where there was none. */
+  uint32_t frozen; /* the set of the balls that touched the cue ball, within 1e-9 m, when it was
+                      struck, */
+  uint32_t pushed; /* and of those that it met before the tip left it: while the tip pushed it, or
+                      while the tip touched it again within the push. */
+  int32_t touches; /* how often the tip touched the cue ball: 0 without a strike, 1, or 2 and more
+                      in a double hit. A second touch occurs within the push, during which positions
+                      stay, or later because of cue.follow. */
+  uint32_t banked; /* the set of the balls that met a cushion outside of the jaws and cuts of
+                      pockets. */
+  double second_time;     /* time of the second of these touches, s; infinite if there was none; 0:
+                             within the push, */
+  double second_speed;    /* the closing speed of the tip then, m/s, */
+  double second_place[2]; /* and the place of the cue ball, m. 0 if there was none. */
 } carom_facts;
 
-/* How a game stands for the player at the table. Of a pair the first is his, the second the
- * other's. A game of carom_plan.h reads the members that carom_rules_kind names; the others are
- * 0. */
+/* The state of a game for the player at the table. The first number of a pair belongs to this
+ * player, the second to the opponent. A game of carom_plan.h reads the members that
+ * carom_rules_kind names; the others are 0. */
 typedef struct carom_rules_state {
-  int32_t opening;  /* 1: the stroke is a break, else 0. */
-  int32_t group;    /* a carom_group of carom_plan.h, the player's. */
-  int32_t fouls[2]; /* in their last successive strokes, 0 to 2. */
-  int32_t score[2]; /* points, or balls that count; the score is these less lost. 0 to 1,000,000. */
-  int32_t lost[2];  /* points that fouls cost, or balls that are owed, 0 to 1,000,000. */
-  int32_t pocket[2]; /* indices of the pockets in which balls count for each, 0 to
+  int32_t opening;   /* 1: the stroke is a break, else 0. */
+  int32_t group;     /* a carom_group of carom_plan.h, the player's. */
+  int32_t fouls[2];  /* successive fouls in their last strokes, 0 to 2. */
+  int32_t score[2];  /* points, or balls that count, 0 to 1,000,000. The score of a player is score
+                       less lost. */
+  int32_t lost[2];   /* points that fouls cost, or balls that are owed, 0 to 1,000,000. */
+  int32_t pocket[2]; /* indices of the pockets in which balls count for each of them, 0 to
                         CAROM_POCKETS_MOST - 1. */
   int32_t may;       /* the sum of the carom_may of the player. */
   int32_t on;        /* 1: a colour is on after a red, else 0. */
-  int32_t free_ball; /* the ball that the other has just named as a free ball, else 0; from judge()
-                        to carom_turn_settle(), which reads it. */
+  int32_t free_ball; /* the ball that the opponent has just named as a free ball, otherwise 0.
+                        judge() sets it, and carom_turn_settle() reads it. */
   int32_t target;    /* points that win, 1 to 1,000,000. */
-  uint64_t user[8];  /* eight words of the rules of a caller; no game here reads them. */
+  uint64_t user[8];  /* eight words for rules of the caller; no game here reads them. */
 } carom_rules_state;
 
-/* The result of a shot. All zero is a shot of which only count and time are wanted; the caller
- * sets the others. */
+/* The result of a shot. The caller sets the members that it wants; with all zero, the shot returns
+ * only count and time. */
 typedef struct carom_shot {
-  carom_event *events;      /* in the order in which they happened; the first `room` of them are
+  carom_event *events;      /* in the order in which they happened. The first `room` of them are
                                kept. May be NULL, */
-  carom_brief_event *brief; /* and so may these: the same events without states. */
+  carom_brief_event *brief; /* and so may brief: the same events without states. */
   int64_t room;             /* elements of events[], of brief[], or of each of both. 0 if both
                                are NULL. */
   int64_t count;            /* events that happened, also beyond room. */
   carom_ball_state *final;  /* the states at the end, one for each ball; may be NULL. */
-  double time; /* s: up to when the shot was followed: time_most, where the shot was stopped
-                  there; else when the last event happened, or a ball left the table; where
-                  events_most ended the shot while balls with drag rolled, up to when they were
-                  followed. carom_shot_at() knows no later state of a shot that ended while balls
-                  moved. */
-  carom_shot_state *state; /* where the shot stopped, for carom_shot_continue(); may be
+  double time; /* s: the time up to which the shot was followed. This is time_most if the shot was
+                  stopped there, and otherwise the time of the last event, or the time at which a
+                  ball left the table. If events_most ended the shot while balls with drag rolled,
+                  it is the time up to which they were followed. If the shot ended while balls
+                  moved, carom_shot_at() knows no later state. */
+  carom_shot_state *state; /* the state in which the shot stopped, for carom_shot_continue(); may be
                               NULL. */
   carom_facts *facts;      /* of the whole shot, also after carom_shot_continue(); may be NULL. */
   uint64_t reserved[3];    /* not read or written yet. */
 } carom_shot;
 
-/* The collision of two spheres in space along any line of centres: one impulse in closed form,
- * of any radii and masses, with restitution e and Coulomb's friction mu_ball, which stops the
- * slip or slips to the end. The cloth takes no part: mu_cloth is not read. Only the direction of
- * b.r - a.r counts. CAROM_OK; CAROM_SEPARATING where the balls do not close, with the motion
- * before; an error of a field; or CAROM_ERROR_OVERFLOW where speeds are above 1e300 m/s or
- * impulses are not within 1e-290 to 1e300 kg m/s. With an error *out is all NaN (untouched when
- * a pointer is NULL). */
+/* The collision of two spheres in space along any line of centres: one impulse in closed form, for
+ * any radii and masses, with restitution e and Coulomb's friction mu_ball, which either stops the
+ * slip or slips to the end. The cloth takes no part, so mu_cloth is not read. Only the direction of
+ * b.r - a.r matters. Returns CAROM_OK; CAROM_SEPARATING, with the motion before, if the balls do
+ * not close; an error of a field; or CAROM_ERROR_OVERFLOW if speeds are above 1e300 m/s or impulses
+ * are not within 1e-290 to 1e300 kg m/s. With an error *out is all NaN (untouched when a pointer is
+ * NULL). */
 CAROM_API carom_status carom_impact3(const carom_impact *in, carom_result *out);
 
 /* One contact of a cluster. */
 typedef struct carom_cluster_contact {
   int32_t a, b;       /* indices of its balls, a < b. */
-  double touched;     /* s: when it touched first, by the inner time of the cluster, in which 0
-                         is its start. */
-  double impulse;     /* N s: along the normal, on ball b away from a; the reverse on a. */
+  double touched;     /* s: time of the first touch, on the inner clock of the cluster, which begins
+                         with 0. */
+  double impulse;     /* N s: along the normal, on ball b away from a; the opposite on a. */
   double normal[3];   /* unit vector from ball a to ball b where they touched. */
-  double friction[3]; /* N s: impulse of ball b's friction on ball a; the reverse on b. */
+  double friction[3]; /* N s: impulse of ball b's friction on ball a; the opposite on b. */
 } carom_cluster_contact;
 
-/* Contacts that last: resolves all balls that touch at one instant together, in the limit of
- * stiff contacts. Positions stay. Each contact has Hertz's force with restitution e and
- * Coulomb's friction, for which mu falls with the greatest slip so far; on the cloth, the
- * friction of the cloth too. Balls that are not in contact yet, but near, take part where they
- * are touched while a contact lasts (0.2 to 0.6 ms in truth). docs/understanding/clusters.md has
- * the equations, their limits and what follows. One contact alone has the law of
+/* Contacts that last: resolves together all balls that touch at one instant, in the limit of stiff
+ * contacts. Positions stay. Each contact has Hertz's force with restitution e and Coulomb's
+ * friction, for which mu falls with the greatest slip so far. Balls on the cloth also have the
+ * friction of the cloth. Balls that are near, but not yet in contact, take part if a ball reaches
+ * them while a contact lasts (0.2 to 0.6 ms in reality). docs/understanding/clusters.md has the
+ * equations, their limits and their consequences. A single contact follows the law of
  * carom_collide(), within 4e-4 of the closing speed.
  *
- * Balls touch that are less than 1e-9 m apart. They are in space where one of them is
- * CAROM_BALL_AIRBORNE or two radii differ, unless opt->space is FLAT, else on the cloth; the
- * slate takes no part in space. Balls out of play are left out. Read of `opt`, which may be NULL
- * for the defaults: ball_model, which may be EXACT or MIRROR, friction, space, cluster_steps.
- * Restitutions below 0.2 are computed as 0.2.
+ * Two balls touch if they are less than 1e-9 m apart. The cluster is in space if one of its balls
+ * is CAROM_BALL_AIRBORNE or two radii differ, unless opt->space is FLAT; otherwise it is on the
+ * cloth. The slate takes no part in space. Balls out of play are left out. The call reads these
+ * members of `opt`, which may be NULL for the defaults: ball_model, which may be EXACT or MIRROR,
+ * friction, space, cluster_steps. A restitution below 0.2 counts as 0.2.
  *
- * out[] takes `count` motions. contacts[] takes the contacts that had an impulse, in the order
- * in which they touched; `room` of them are kept, and *contacts_count, which may be NULL,
- * becomes their number. CAROM_OK; CAROM_SEPARATING, with the motion before, where no balls touch
- * and close at 1 mm/s or faster; CAROM_ERROR_UNRESOLVED where it takes more than 20,000 steps,
- * which needs long rows of balls of small restitution, or there is no room for the contacts of
- * balls of very unlike size; an error of a field. With an error *out is all NaN (untouched when
- * a pointer is NULL). About 80 us for a full rack, 6 us for three balls. */
+ * out[] takes `count` motions. contacts[] takes the contacts that had an impulse, in the order in
+ * which they touched; `room` of them are kept, and *contacts_count, which may be NULL, becomes
+ * their number. Returns CAROM_OK; CAROM_SEPARATING, with the motion before, if no balls touch and
+ * close at 1 mm/s or faster; CAROM_ERROR_UNRESOLVED if the cluster takes more than 20,000 steps,
+ * which only long rows of balls with a small restitution do, or if there is no room for the
+ * contacts of balls of very different sizes; or an error of a field. With an error *out is all NaN
+ * (untouched when a pointer is NULL). About 80 us for a full rack, 6 us for three balls. */
 CAROM_API carom_status carom_cluster(const carom_shot_ball *balls, int count,
                                      const carom_shot_options *opt, carom_motion *out,
                                      carom_cluster_contact *contacts, int room,
                                      int *contacts_count);
 
-/* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue
- * is NULL or its speed 0, there is no strike. `opt` may be NULL for the defaults. Returns
- * CAROM_OK; CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT where the options ask for that;
- * CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where a bound ended it; an error of a
- * field, with count 0 and nothing else written (carom_shot_check() returns the field); or
- * CAROM_ERROR_LEFT_TABLE, where a ball on the cloth found a hole between the cushions, or one of
+/* Plays a shot until nothing moves, with 1 to CAROM_BALLS_MOST balls. There is no strike if a ball
+ * already moves, if cue is NULL, or if its speed is 0. `opt` may be NULL for the defaults. Returns
+ * CAROM_OK; CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT if the options ask for that;
+ * CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG if a bound ended the shot; or an error of a
+ * field, with count 0 and nothing else written (carom_shot_check() returns the field). It returns
+ * CAROM_ERROR_LEFT_TABLE if a ball on the cloth found a hole between the cushions, or the error of
  * a collision, with everything up to that event. The final states are those at shot->time. */
 CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
                                    int count, const carom_cue *cue, const carom_shot_options *opt,
                                    carom_shot *shot);
 
-/* Goes on with a shot that was stopped, by its options or by a bound, as if it had not been:
- * every event and state has the bits of the unbroken shot, however often it is stopped. Table
- * and balls are those of the call that stopped, for which shot->state was set; the options say
- * when to stop again, and keep the models. `shot` may be another one with a copy of the state:
- * count, time and facts so far come from the state, whatever `shot` says. The caller keeps the
- * events: shot->events and ->brief are NULL, or hold all so far, with any room for more; or as
- * many as fitted, with the same room. A shot that has come to rest stays as it is, with CAROM_OK.
- * With table, balls, cue, shot and moved of the sample above:
+/* Goes on with a shot that its options or a bound stopped. Every event and state has the bits of
+ * the uninterrupted shot, however often it is stopped. Table and balls are those of the call that
+ * stopped, for which shot->state was set. The options say when to stop again, and have the same
+ * models. `shot` may be another struct with a copy of the state: count, time and facts so far
+ * always come from the state. The caller keeps the events: shot->events and shot->brief are NULL,
+ * or hold all events so far with any room for more, or hold as many as fitted with the same room. A
+ * shot that has come to rest stays as it is, with CAROM_OK. With table, balls, cue, shot and moved
+ * of the sample above:
  *
  *     static carom_shot_state state;
  *     static carom_shot_options options;                                 // all zero: the defaults
@@ -891,60 +908,64 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
  *       status = carom_shot_continue(&table, balls, 10, &options, &shot);
  *     }
  *
- * Returns the status of carom_shoot(). With nothing written: CAROM_ERROR_STATE: shot->state is
- * damaged or of another build, the shot ended in an error other than a bound, or shot->count or
- * ->time cannot be. CAROM_ERROR_STATE_TABLE, CAROM_ERROR_STATE_BALLS, CAROM_ERROR_STATE_OPTIONS:
- * the table, the balls or their layout, or `options` other than those of when to stop, are not
- * those of the call that stopped. CAROM_ERROR_EVENTS_LOST: shot->events or ->brief are not those
- * so far. CAROM_ERROR_TIME_MOST: time_most is before the time at which the shot stopped. */
+ * Returns the status of carom_shoot(), or one of these errors with nothing written.
+ * CAROM_ERROR_STATE: shot->state is damaged or of another build, the shot ended in an error other
+ * than a bound, or shot->count or shot->time is invalid. CAROM_ERROR_STATE_TABLE,
+ * CAROM_ERROR_STATE_BALLS, CAROM_ERROR_STATE_OPTIONS: the table, the balls or their layout, or the
+ * options that do not say when to stop, are not those of the call that stopped.
+ * CAROM_ERROR_EVENTS_LOST: shot->events or shot->brief are not the events so far.
+ * CAROM_ERROR_TIME_MOST: time_most is before the time at which the shot stopped. */
 CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls,
                                            int count, const carom_shot_options *opt,
                                            carom_shot *shot);
 
-/* The states of all balls at a time, by evaluation of the motion after each ball's last event.
- * After the end: as at the end, where nothing moves any more. CAROM_OK, or an error with nothing
- * written: CAROM_ERROR_NULL; CAROM_ERROR_ROOM; CAROM_ERROR_BALLS; CAROM_ERROR_EVENTS_LOST where
- * shot->room was too small to know; CAROM_ERROR_TIME for a time that is below 0 or not a number,
- * and for one after shot->time where balls still move then, since a bound or an error ended the
- * shot. CAROM_ERROR_UNRESOLVED, with some states written: an event or a ball was damaged, and its
- * motion is not finite or takes more steps than that of any shot. */
+/* The states of all balls at a time. The call evaluates the motion of each ball after its last
+ * event. After the end of a shot in which nothing moves any more, the states are those at the end.
+ * Returns CAROM_OK, or one of these errors with nothing written: CAROM_ERROR_NULL;
+ * CAROM_ERROR_ROOM; CAROM_ERROR_BALLS; CAROM_ERROR_EVENTS_LOST if shot->room was too small for the
+ * events that are needed; CAROM_ERROR_TIME if the time is below 0 or not a number, or if it is
+ * after shot->time and balls still move then because a bound or an error ended the shot.
+ * CAROM_ERROR_UNRESOLVED, with some states written, means that an event or a ball was damaged: its
+ * motion is not finite, or takes more steps than that of any shot. */
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count,
                                      const carom_shot *shot, double time, carom_ball_state *states);
 
-/* The states at `n` times: those of times[k] go to states[k * count ...], each with the bits of
- * carom_shot_at(). Times in ascending order cost some 20 ns a ball; every one before the last
- * begins anew with the first event. Returns the status of carom_shot_at(), of the first time in
- * error; the states of the times before it have been written. */
+/* The states at `n` times: those of times[k] go to states[k * count ...], with the bits of
+ * carom_shot_at(). Times in ascending order cost about 20 ns a ball. If a time is before the one
+ * that precedes it, the call begins again with the first event. Returns the status of
+ * carom_shot_at() for the first time in error; the states of the times before it have been
+ * written. */
 CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int count,
                                            const carom_shot *shot, const double *times, size_t n,
                                            carom_ball_state *states);
 
 /* The same for drawing: a pocketed ball falls freely from the edge, along the wall of its pocket
- * and around balls that lie there. It comes to lie at the pocket's depth or on them, and stays
- * there, also after the end of the shot. Its label is CAROM_BALL_POCKETED. Brief events have no
- * states to fall from. CAROM_ERROR_NULL without a table. */
+ * and around balls that lie there. It comes to rest at the depth of the pocket or on these balls,
+ * and stays there, also after the end of the shot. Its label is CAROM_BALL_POCKETED. The call needs
+ * events with states, because brief events do not say where a fall begins. CAROM_ERROR_NULL without
+ * a table. */
 CAROM_API carom_status carom_shot_drawn(const carom_table *table, const carom_shot_ball *balls,
                                         int count, const carom_shot *shot, const double *times,
                                         size_t n, carom_ball_state *states);
 
-/* The falls alone, for states of carom_shot_frames() at the same times: those of pocketed balls are
- * replaced. Its errors are those of carom_shot_drawn(). */
+/* Only the falls, for states of carom_shot_frames() at the same times: replaces the states of
+ * pocketed balls. The errors are those of carom_shot_drawn(). */
 CAROM_API carom_status carom_shot_falls(const carom_table *table, const carom_shot_ball *balls,
                                         int count, const carom_shot *shot, const double *times,
                                         size_t n, carom_ball_state *states);
 
-/* How fast the surfaces of ball a and of what it meets pass each other as they meet, m/s: with
- * event->impulse it says how a contact sounds. By the motion before the event, in a cluster before
- * the cluster. 0 of the strike, of pockets and of events without a contact; NaN for a pointer that
- * is NULL, or a ball or part that is not there. */
+/* How fast the surfaces of ball a and of the thing that it meets pass each other at the event, m/s.
+ * Together with event->impulse it determines how a contact sounds. It is computed from the motion
+ * before the event, or before the cluster. 0 for the strike, for pockets and for events without a
+ * contact; NaN if a pointer is NULL, or if there is no such ball or part. */
 CAROM_API double carom_event_slip(const carom_table *table, const carom_shot_ball *balls, int count,
                                   const carom_event *event);
 
-/* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of
- * cues[k * cue_stride]. In place of `balls`, 328 bytes a ball, a job may have `kinds` for all shots
- * and `states`, 80 bytes a ball: shot k is of the kinds[0 ... count - 1] with the states from
- * states[k * ball_stride] on. Its bits are the same.
- * With table, balls and cue of the sample above:
+/* Many shots on one table. Shot k has the `count` balls from balls[k * ball_stride] on, and the cue
+ * cues[k * cue_stride]. Instead of `balls`, with 328 bytes a ball, a job may have `kinds` for all
+ * shots and `states`, with 80 bytes a ball: shot k then has kinds[0 ... count - 1] with the states
+ * from states[k * ball_stride] on. Its bits are the same. With table, balls and cue of the sample
+ * above:
  *
  *     static carom_cue cues[100];
  *     static carom_shot shots[100];
@@ -966,75 +987,76 @@ typedef struct carom_shot_job {
   const carom_shot_ball *balls;
   const carom_cue *cues;             /* NULL: no strikes. */
   int64_t count;                     /* balls of a shot. */
-  uint64_t ball_stride;              /* from the layout of a shot to that of the next, in balls
-                                        or states, as a rule `count`; */
-  uint64_t cue_stride;               /* and from cue to cue, as a rule 1. 0: all shots have the
+  uint64_t ball_stride;              /* distance from the layout of a shot to that of the next, in
+                                        balls or states, usually `count`; */
+  uint64_t cue_stride;               /* and from cue to cue, usually 1. 0: all shots have the
                                         first. */
   uint64_t n;                        /* shots. */
   const carom_shot_options *options; /* NULL: the defaults. `threads` is read here only. */
-  carom_shot *shots;                 /* n results, in which the caller has set the wanted members,
-                                        as for carom_shoot(). */
+  carom_shot *shots;                 /* n results, in which the caller has set the members that it
+                                        wants, as for carom_shoot(). */
   int8_t *status;                    /* n statuses; may be NULL. */
-  const carom_ball_kind *kinds;      /* in place of `balls`, then NULL: `count` kinds, those of all
-                                        shots; */
+  const carom_ball_kind *kinds;      /* instead of `balls`, which is NULL then: `count` kinds, those
+                                        of all shots; */
   const carom_ball_state *states;    /* and the layouts. */
   uint64_t reserved[2];              /* must be 0. */
 } carom_shot_job;
 
-/* Plays all shots of a job. Each has the bits and the status of carom_shoot(), and a bad one costs
- * itself: each layout has balls and a radius of its own and is checked with them (one that
- * successive shots share, once), and balls too small or too large for the noses of the table cost
- * their own shot only. Returns CAROM_OK or the status of the first shot in error; if the call
- * itself cannot be served (NULL, a bad option, a bad count, a part of the table that is bad for
- * every radius), that error, with nothing written. CAROM_ERROR_NULL: neither balls nor both of
- * kinds and states; CAROM_ERROR_SHOT_OPTIONS: balls and one of these. With n = 0 nothing else is
- * read. */
+/* Plays all shots of a job. Each shot has the bits and the status of carom_shoot(), and a bad shot
+ * does not change the others: each layout has its own balls and radius and is checked with them (a
+ * layout that successive shots share is checked once), and balls that are too small or too large
+ * for the noses of the table cost only their own shot. Returns CAROM_OK or the status of the first
+ * shot in error. If the call itself is wrong (NULL, a bad option, a bad count, a part of the table
+ * that is bad for every radius), it returns that error and writes nothing. CAROM_ERROR_NULL: there
+ * are neither balls nor both kinds and states; CAROM_ERROR_SHOT_OPTIONS: there are balls and also
+ * kinds or states. With n = 0 nothing else is read. */
 CAROM_API carom_status carom_shoot_batch(const carom_shot_job *job);
 
 /* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball,
- * rail, jaw or pocket at fault, or -1; it may be NULL. CAROM_ERROR_OFF_TABLE: a ball is in a
- * cushion by more than 1e-6 m; or its centre is behind one, outside the ring of rails, jaws and
- * pockets; or its centre is in a pocket and its label is not CAROM_BALL_POCKETED. A place is
- * outside if no ball of that radius can be rolled to it from the middle of the table (width/2,
- * length/2). On a table that carom_table_check() refuses as open, a place outside may pass. An
- * airborne ball may be over a pocket or over the top of a rail; it must not be in a nose or
- * below a top, nor lower than the cloth. */
+ * rail, jaw or pocket at fault, or -1; where may be NULL. CAROM_ERROR_OFF_TABLE means that a ball
+ * is in a cushion by more than 1e-6 m; or that its centre is behind one, outside the ring of rails,
+ * jaws and pockets; or that its centre is in a pocket and its label is not CAROM_BALL_POCKETED. A
+ * place is outside if no ball of that radius can roll to it from the middle of the table (width/2,
+ * length/2). On a table that carom_table_check() refuses as open, the check may accept a place
+ * outside. An airborne ball may be over a pocket or over the top of a rail. It must not be in a
+ * nose, below a top, or lower than the cloth. */
 CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls,
                                         int count, const carom_cue *cue,
                                         const carom_shot_options *opt, int *where);
 
-/* Ball in hand: puts balls[ball] at rest at (x, y), if that place is free of the other balls,
- * which need not be at rest, of cushions and pockets, within the bounds of carom_shot_check().
- * Its kind is kept; it may have been out of play. CAROM_OK; CAROM_ERROR_OVERLAP for a place that
- * another ball takes, CAROM_ERROR_OFF_TABLE for one in a cushion or a pocket, or outside the
- * ring: *in_the_way then is that ball or part (CAROM_PART_NONE: outside), and nothing is moved.
- * Or an error of the table, of the ball's radius, CAROM_ERROR_POSITION, CAROM_ERROR_BALLS for a
- * count or an index that cannot be. `in_the_way` may be NULL. */
+/* Ball in hand: puts balls[ball] at rest at (x, y) if no other ball, cushion or pocket is in the
+ * way, within the bounds of carom_shot_check(). The other balls need not be at rest. The ball keeps
+ * its kind; it may have been out of play. Returns CAROM_OK; CAROM_ERROR_OVERLAP if another ball
+ * takes the place; or CAROM_ERROR_OFF_TABLE if the place is in a cushion or a pocket, or outside
+ * the ring. With these two errors *in_the_way is that ball or part (CAROM_PART_NONE: outside), and
+ * nothing moves. Other errors are those of the table and of the ball's radius,
+ * CAROM_ERROR_POSITION, and CAROM_ERROR_BALLS for an invalid count or index. `in_the_way` may be
+ * NULL. */
 CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count,
                                         int ball, double x, double y, carom_part *in_the_way);
 
-/* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x,
- * y, z), which turn the marks on a ball from the start to the time. They follow from the events
- * alone, whatever was asked before. Exact but for rounding while the axis of the spin keeps its
- * direction (in flight, on the spot, rolling without side spin, in straight slides), else within
- * 1e-7 rad for each phase of the ball. `turned` takes `count` of them. Returns the status of
- * carom_shot_at(), and CAROM_ERROR_UNRESOLVED where balls turn by more than 5,000,000 rad, with
- * some of them written. A call costs some 0.1 us for each radian that balls with side spin have
- * turned; carom_shot_frames() goes on from the time before. */
+/* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x, y,
+ * z), which turn the marks on a ball from the start to the time. They follow only from the events,
+ * not from earlier calls. They are exact except for rounding while the axis of the spin keeps its
+ * direction (in flight, on the spot, rolling without side spin, in straight slides), and otherwise
+ * within 1e-7 rad for each phase of the ball. `turned` takes `count` quaternions. Returns the
+ * status of carom_shot_at(), or CAROM_ERROR_UNRESOLVED, with some quaternions written, if balls
+ * turn by more than 5,000,000 rad. A call costs about 0.1 us for each radian that balls with side
+ * spin have turned. carom_shot_frames() is cheaper, because it goes on from the time before. */
 CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count,
                                               const carom_shot *shot, double time,
                                               double (*turned)[4]);
 
 /* How far carom_shot_frames() has gone: the caller's memory, all zero before the first call. It is
- * of one process: it is not to be kept in files. */
+ * valid in one process only, so do not keep it in files. */
 typedef struct carom_frames {
   uint64_t opaque[2048];
 } carom_frames;
 
-/* Frames: states and turns at `n` times, those of times[k] from states[k * count] and
+/* Frames: states and quaternions at `n` times, those of times[k] from states[k * count] and
  * turned[k * count] on, with the bits of carom_shot_at() and carom_shot_orientation(). With
- * `onward` a call goes on from the last time of the call before, where the balls and the events
- * until then are the same, as they are after carom_shot_continue(); else, and at an earlier time,
+ * `onward`, a call goes on from the last time of the call before, if the balls and the events until
+ * then are the same, as they are after carom_shot_continue(). Otherwise, and for an earlier time,
  * it begins with the first event. The bits are the same. `onward` may be NULL. A frame of the 16
  * balls of a break takes 2 us. Errors are those of carom_shot_at_times() and
  * carom_shot_orientation().
@@ -1051,8 +1073,8 @@ CAROM_API carom_status carom_shot_frames(const carom_shot_ball *balls, int count
 
 /* ==== What there is ============================================================================
  *
- * Names, ranges and texts of numbers and words, for programs that ask users for them: the command
- * and the packages of other languages have theirs from here. */
+ * Names, ranges and texts of numbers and words, for programs that ask users for them. The command
+ * and the packages of other languages take theirs from here. */
 
 /* What reads a number. */
 typedef enum carom_reader {
@@ -1068,64 +1090,71 @@ typedef enum carom_type {
   CAROM_TYPE_DOUBLE = 0,
   CAROM_TYPE_INT32 = 1,
   CAROM_TYPE_INT64 = 2,
-  CAROM_TYPE_UINT64 = 3 /* a set: bit k is value k of `words`, or ball k; or any number, a seed */
+  CAROM_TYPE_UINT64 = 3 /* a set, whose bit k is value k of `words`, or ball k; or a seed, any
+                           number */
 } carom_type;
 
-/* A number of a struct: low to high, to which both ends belong, or `other`. Later versions add
+/* A number of a struct. It may be low to high, including both ends, or `other`. Later versions add
  * members at the end. */
 typedef struct carom_number {
   const char *name;       /* of the member. */
-  const char *key;        /* in files of `carom shoot`; of options that of the command; "": none. */
+  const char *key;        /* its key in files of `carom shoot`, or for options that of the command;
+                             "": none. */
   const char *unit;       /* "" without one. */
   const char *text;       /* what it is, in a few words. */
   double low, high;       /* the range. */
-  double other;           /* a value beside the range: 0, which is a default, or -1; NaN: none. */
-  int32_t offset;         /* bytes in the struct, */
-  int32_t cushion_offset; /* and of a ball's in carom_cushion_options; -1: it is not there. */
-  carom_status error;     /* of a number that it may not be. */
+  double other;           /* an allowed value outside the range: 0, which is a default, or -1; NaN:
+                             none. */
+  int32_t offset;         /* its place in the struct, bytes, */
+  int32_t cushion_offset; /* and in carom_cushion_options, for numbers of a ball; -1: it is not
+                             there. */
+  carom_status error;     /* the error for a value that is not allowed. */
   carom_reader reader;    /* what reads it, */
-  int32_t model;          /* of these the one that does. */
+  int32_t model;          /* which of its models or laws. */
   carom_type type;
-  int32_t words; /* of values that have words a carom_words, else -1. */
-  int32_t count; /* numbers of an array; 1. */
+  int32_t words; /* a carom_words if its values have words, otherwise -1. */
+  int32_t count; /* how many numbers an array has; otherwise 1. */
 } carom_number;
 
-/* Number k of a part, in the order of its struct, options in that of their rows; NULL beyond the
- * last, or of a part without numbers. */
+/* Number k of a part, in the order of its struct; options are in the order of their rows. NULL
+ * beyond the last number, and for a part without numbers. */
 CAROM_API const carom_number *carom_number_of(carom_part_kind part, int k);
 
-/* Writes what it may be, such as "0, or 1e6 to 1e15, in Pa" or "3d or flat", into text[room], cut
- * there, with a closing 0. Returns the length of the whole without the 0. */
+/* Writes what a number may be, such as "0, or 1e6 to 1e15, in Pa" or "3d or flat", to text[room].
+ * The text is cut there, with a closing 0. Returns the length of the whole text without the 0. */
 CAROM_API size_t carom_number_range(const carom_number *number, char *text, size_t room);
 
-/* Returns the number of a ball that is at fault, and writes what it must be into text[room], as
- * above; NULL where all are right. */
+/* Returns the number of a ball that is at fault, and writes what it must be to text[room], as
+ * above. Returns NULL if all numbers are right. */
 CAROM_API const carom_number *carom_ball_fault(const carom_ball_kind *kind, char *text,
                                                size_t room);
 
 /* What carom_shot_check() refuses. */
 typedef struct carom_fault {
   carom_status status;     /* CAROM_OK: nothing. */
-  carom_part part;         /* what is at fault; of balls CAROM_PART_BALL or CAROM_PART_STATE. */
-  int32_t element;         /* of an array, which number; -1: all together. */
-  const carom_number *row; /* the number of the part; NULL: none alone. */
-  double value;            /* that it has. */
+  carom_part part;         /* what is at fault; for balls CAROM_PART_BALL or CAROM_PART_STATE. */
+  int32_t element;         /* which number of an array; -1: all together. */
+  const carom_number *row; /* the number of the part; NULL: no single number. */
+  double value;            /* the value that it has. */
 } carom_fault;
 
-/* carom_shot_check() with the number at fault; writes what it must be into text[room], as above,
- * or nothing where that is not its range alone, which the text of the status tells. */
+/* carom_shot_check() with the number at fault. Writes what the number must be to text[room], as
+ * above. It writes nothing if more than the range of the number matters; the text of the status
+ * then says what is wrong. */
 CAROM_API carom_status carom_shot_fault(const carom_table *table, const carom_shot_ball *balls,
                                         int count, const carom_cue *cue,
                                         const carom_shot_options *opt, carom_fault *fault,
                                         char *text, size_t room);
 
-/* Whether a shot with these options, NULL for the defaults, reads the number of this ball. */
+/* Whether a shot with these options reads the number of this ball, 1 or 0. options NULL: the
+ * defaults. */
 CAROM_API int carom_number_is_read(const carom_number *number, const carom_ball_kind *kind,
                                    const carom_shot_options *options);
 
-/* With what a fit of recorded shots begins for a model of the cushion: writes restitution_cushion,
- * mu_cushion and nose_height as single impacts on the table of CAROM_GAME_BILLIARD tell them by
- * it, and returns 1. Returns 0 and writes nothing where the model has no such start. */
+/* The start of a fit of recorded shots for a model of the cushion: writes the restitution_cushion,
+ * mu_cushion and nose_height that the model needs for single impacts on the table of
+ * CAROM_GAME_BILLIARD, and returns 1. Returns 0 and writes nothing if the model has no such
+ * start. */
 CAROM_API int carom_cushion_start(carom_cushion_model model, carom_ball_kind *kind);
 
 /* Enumerations whose values have words. */
@@ -1146,10 +1175,10 @@ typedef enum carom_words {
   CAROM_WORDS_RACK = 13,              /* carom_rack_kind, */
   CAROM_WORDS_SOLVER = 14,            /* carom_solver, */
   CAROM_WORDS_SLIP = 15,              /* carom_slip, */
-  CAROM_WORDS_RULES = 16              /* carom_rules_kind; none without the planner. */
+  CAROM_WORDS_RULES = 16              /* carom_rules_kind; without the planner it has no words. */
 } carom_words;
 
-/* The word of a value ("han"), and what it is in a few words; NULL where there is none. */
+/* The word of a value ("han"), and its meaning in a few words; NULL if there is none. */
 CAROM_API const char *carom_word(carom_words of, int value);
 CAROM_API const char *carom_word_text(carom_words of, int value);
 
