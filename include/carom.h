@@ -1,8 +1,7 @@
 /* carom: collisions of two billiard balls on a table.
  *
- * This header is the manual of collisions, from simple to advanced. Cushions and whole shots are
- * in carom_shot.h.
- * The samples of the headers are valid in C and in C++.
+ * This header is the manual of collisions, from simple to advanced. Cushions and whole shots are in
+ * carom_shot.h. The samples in the headers are valid in C and in C++.
  *
  *     // r, v, w, radius, mass, mu_cloth; then a, b, mu_ball, restitution
  *     carom_ball ball = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0.028575, 0.17, 0.2};
@@ -20,16 +19,17 @@
  * the cloth. Friction acts between the balls, and between the cloth and the ball that is pressed
  * into it.
  *
- * Scope. One collision of two balls of the same radius at the same height, of any masses. The
- * caller finds the contact. Three balls that touch at once and balls that jump are not included.
+ * Scope. A call solves one collision of two balls with the same radius at the same height, and with
+ * any masses. The caller finds the contact. This header does not cover three balls that touch at
+ * once, or balls that jump.
  *
- * Calls. Every function is reentrant and may be called from many threads at once. None prints,
- * aborts or allocates memory. A batch starts threads only if options.threads asks for them. They
- * receive no signals of the process and end with the call. The only global state is the
- * instruction set in use.
+ * Calls. Every function is reentrant and may be called from many threads at once. No function
+ * prints, aborts or allocates memory. A batch starts threads only if options.threads asks for them.
+ * These threads receive no signals of the process and end with the call. The only global state is
+ * the instruction set in use.
  *
- * Accuracy of the exact solver, the default. Errors are against the limit of Mathavan's
- * equations, over the fastest of the twelve numbers (spins times the radius).
+ * Accuracy of the exact solver, the default. Errors are differences from the limit of Mathavan's
+ * equations, divided by the fastest of the twelve numbers (spins times the radius).
  *   - Double precision, collisions of play (mu_ball up to 0.2, mu_cloth up to 0.5, e from 0.5,
  *     masses within 1 : 2, any speeds and spins): within 1e-6, median 2e-9.
  *   - Double precision, anything else that is accepted: within 1e-5, or the status is
@@ -53,24 +53,24 @@
  * C library uses. On x86-64 a single call takes at most 8 KiB, a trace 10, a batch 47, and a
  * batch with threads 55 in the calling thread (tests/unit/stack.c measures them).
  *
- * Determinism. Equal bits have:
+ * Determinism. These have equal bits:
  *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours
  *     and thread count.
  *   - Two runs on one processor with one instruction set.
- *   - All machines and compilers: shots, unless options.fast is set; other calls with
- *     options.plain = 1, with the environment variable CAROM_ISA=plain, or after
- *     carom_isa_limit(CAROM_ISA_PLAIN): for lockstep, replays and tests. This holds for every
- *     function, also under flags such as -mfma, -march=native and LTO.
+ *   - All machines and compilers, for lockstep, replays and tests: shots, unless options.fast is
+ *     set; other calls with options.plain = 1, with the environment variable CAROM_ISA=plain, or
+ *     after carom_isa_limit(CAROM_ISA_PLAIN). This holds for every function, also with flags such
+ *     as -mfma, -march=native and LTO.
  *     tests/platforms/bits.expected has hashes on which gcc and clang, Linux on x86-64 and
  *     arm64, Windows and WebAssembly agree.
- *   - All instruction sets, by Euler's method in double precision.
+ *   - All instruction sets, for Euler's method in double precision.
  *
  * Otherwise the exact solver's bits differ between instruction sets. With sse2 and avx2 they
  * also differ between makes of processors, whose estimates of reciprocals differ. Results then
  * differ within the solver's errors. The bits of a NaN are not specified.
  *
  * Floating-point environment.
- *   - The rounding mode must be to nearest. With another mode, ordinary collisions are some 1e-6
+ *   - The rounding mode must be to nearest. With another mode, ordinary collisions are about 1e-6
  *     less accurate and have other bits.
  *   - Exceptions must be masked, as in every C program at its start. Lanes of a batch compute on
  *     bad or missing rows too, so invalid operations, overflow and division by zero occur and
@@ -115,8 +115,8 @@ typedef struct carom_ball {
   double r[3];     /* centre, m. Both balls of a pair lie at the same height r[2]. */
   double v[3];     /* velocity, m/s. v[2] must be 0: the model keeps both balls on the table. */
   double w[3];     /* angular velocity, rad/s. */
-  double radius;   /* m, > 0, the same for both balls of a pair within 1e-9 of it; that of ball a
-                      is computed with. */
+  double radius;   /* m, > 0, the same for both balls of a pair within 1e-9 of it. The computation
+                      uses that of ball a. */
   double mass;     /* kg, > 0, may differ between the balls. The moment of inertia is that of a
                       solid ball, 2/5 M R^2. */
   double mu_cloth; /* coefficient of sliding friction between this ball and the cloth, 0 to 1. */
@@ -145,9 +145,9 @@ typedef struct carom_result {
 
 /* ---- How a call ended ------------------------------------------------------------------------ */
 
-/* 0 is success, a positive value a valid outcome of another kind, a negative value an error.
- * Values are never renumbered or used again. -30 to -39 are reserved for cushions, -40 to -109
- * for shots. carom_status_string() describes each. */
+/* 0 is success, a positive value is a valid outcome of another kind, and a negative value is an
+ * error. Values are never renumbered or used again. -30 to -39 are reserved for cushions, -40 to
+ * -109 for shots. carom_status_string() describes each value. */
 typedef enum carom_status {
   CAROM_OK = 0,                      /* resolved. */
   CAROM_SEPARATING = 1,              /* the balls do not approach each other; their state is
@@ -168,18 +168,17 @@ typedef enum carom_status {
   CAROM_ERROR_MU_CLOTH = -10,        /* the friction of ball and cloth is not in [0, 1]. */
   CAROM_ERROR_MU_BALL = -11,         /* the friction of ball and ball is not in [0, 1]. */
   CAROM_ERROR_RESTITUTION = -12,     /* the restitution is not in [0, 1]. */
-  CAROM_ERROR_RADII_DIFFER = -13,    /* the balls have different radii, by more than 1e-9 of
-                                        them. */
+  CAROM_ERROR_RADII_DIFFER = -13,    /* the radii of the balls differ by more than 1e-9 of them. */
   CAROM_ERROR_HEIGHTS_DIFFER = -14,  /* the centres are at different heights. */
   CAROM_ERROR_VERTICAL = -15,        /* a vertical velocity is not 0: both balls stay on the
                                         table. */
   CAROM_ERROR_COINCIDENT = -16,      /* the centres coincide, so there is no line of centres. */
-  CAROM_ERROR_TOO_SLOW = -17,        /* Euler's steps are lost in rounding, or more than 16 N of
-                                        them are needed. */
+  CAROM_ERROR_TOO_SLOW = -17,        /* Euler's steps are lost in rounding, or the collision needs
+                                        more than 16 N of them. */
   CAROM_ERROR_OVERFLOW = -18,        /* the collision overflows the range of double, or of float
                                         for single precision. */
-  CAROM_ERROR_MASSES_DIFFER = -19,   /* the masses differ, in a shot by pooltool's rules or
-                                        models, or a kernel of the study. */
+  CAROM_ERROR_MASSES_DIFFER = -19,   /* the masses differ, in a shot with pooltool's rules or
+                                        models, or in a kernel of the study. */
   CAROM_ERROR_THREADS = -20,         /* options.threads is neither CAROM_ALL_THREADS nor 0 or
                                         more. */
   CAROM_ERROR_POINTS = -21,          /* a trace needs at least 2 points. */
@@ -219,24 +218,25 @@ typedef enum carom_status {
                                         and at most 1. */
   CAROM_ERROR_GRAVITY = -49,         /* gravity is not above 0 and at most 1e6 m/s^2. */
   CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
-  CAROM_ERROR_TABLE = -52, /* too many parts, or one not finite, without length, with a bad mu or
-                              e; or a small rail_width. */
-  CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little
-                              room. */
+  CAROM_ERROR_TABLE = -52, /* there are too many parts; or a part is not finite, has no length, or
+                              has a bad mu or e; or rail_width is too small. */
+  CAROM_ERROR_RACK = -53,  /* there is no such rack, the gap is not between 0 and R, or there is too
+                              little room. */
   CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(), carom_shot_continue(): not all events so
                                       far are in shot.events. */
-  CAROM_ERROR_TIME = -55,          /* carom_shot_at(): below 0, no number, or after the end
-                                      of a shot stopped while balls moved. */
+  CAROM_ERROR_TIME = -55,          /* carom_shot_at(): the time is below 0, not a number, or after
+                                      the end of a shot that stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,          /* the drag of a rolling ball is not in [0, 1] 1/m. */
   CAROM_ERROR_BALL_CUSHION = -57,  /* roll_loss of a ball is not 0 to 1, or its nose_height not 0
                                       to below 2 R. */
   CAROM_ERROR_MODULUS = -58,       /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
-  CAROM_ERROR_STATE = -60,         /* carom_shot_continue(): shot.state is damaged, or of no shot
-                                      that can go on. carom_plan_continue(): likewise of a plan's
-                                      memory. Of the next three, shot.state */
-  CAROM_ERROR_STATE_TABLE = -64,   /* is that of a shot on another table, */
-  CAROM_ERROR_STATE_BALLS = -65,   /* of other balls, or of another layout, */
-  CAROM_ERROR_STATE_OPTIONS = -66, /* or with other options, besides those that say when to stop. */
+  CAROM_ERROR_STATE = -60,         /* carom_shot_continue(): shot.state is damaged, or belongs to no
+                                      shot that can go on. carom_plan_continue(): the same for a
+                                      plan's memory. With the next three, shot.state */
+  CAROM_ERROR_STATE_TABLE = -64,   /* belongs to a shot on another table, */
+  CAROM_ERROR_STATE_BALLS = -65,   /* with other balls, or from another layout, */
+  CAROM_ERROR_STATE_OPTIONS = -66, /* or with other options, apart from those that say when to
+                                      stop. */
   CAROM_ERROR_ROOM = -67,          /* shot.room is negative, or is not 0 where shot.events and
                                       shot.brief are both NULL. */
   CAROM_ERROR_TABLE_OPEN = -61,    /* carom_table_check(): a ball can leave the table, or has no
@@ -249,8 +249,8 @@ typedef enum carom_status {
                                       or model. */
   CAROM_ERROR_DIRECTIONS = -71,    /* carom_tangent.h: the number of directions is not 1 to
                                       CAROM_DIRECTIONS_MOST. */
-  CAROM_ERROR_NO_TANGENTS = -72,   /* carom_tangent.h: this library was built without
-                                      derivatives, as it was without C++. */
+  CAROM_ERROR_NO_TANGENTS = -72,   /* carom_tangent.h: this library was built without derivatives,
+                                      as it is without C++. */
 
   CAROM_ERROR_CUE_SPEED = -80,           /* cue.speed is not 0 to 1000 m/s. */
   CAROM_ERROR_CUE_PHI = -81,             /* cue.phi is not -1e9 to 1e9 degrees. */
@@ -273,24 +273,25 @@ typedef enum carom_status {
   CAROM_ERROR_SPACE = -94,              /* options.space is not one of carom_space. */
   CAROM_ERROR_EVENTS_MOST = -95,        /* options.events_most is negative. */
   CAROM_ERROR_TIME_MOST = -96,          /* options.time_most is negative, not finite, or before the
-                                       time of a shot that goes on. */
+                                           time of a shot that goes on. */
   CAROM_ERROR_STOP_AT = -97,            /* options.stop_at has a bit that stands for no event. */
   CAROM_ERROR_PLAIN = -98,              /* options.plain is neither 0 nor 1. */
   CAROM_ERROR_SIMULTANEOUS = -99,       /* options.simultaneous is not one of carom_simultaneous. */
   CAROM_ERROR_CLUSTER_STEPS = -100,     /* options.cluster_steps is not 0 to 10000. */
   CAROM_ERROR_RECORD = -101,            /* carom_record.h: record.fault says what is wrong. */
-  CAROM_ERROR_REVISION = -102,          /* carom_record.h: of another revision of the physics. */
+  CAROM_ERROR_REVISION = -102,          /* carom_record.h: the recording is of another revision of
+                                           the physics. */
   CAROM_ERROR_IN_MOTION = -103,         /* carom_plan.h: a ball of the layout moves. */
-  CAROM_ERROR_GAME_OVER = -104,         /* carom_plan.h: the rules have no ball to be played. */
+  CAROM_ERROR_GAME_OVER = -104,         /* carom_plan.h: the rules have no ball to play. */
   CAROM_ERROR_FAST = -105,              /* options.fast is neither 0 nor 1. */
   CAROM_ERROR_CORNERS = -106,           /* a polygon has fewer than 3 or more than 32 corners. */
-  CAROM_ERROR_SIDES_CROSS = -107,       /* two of its sides that are no neighbours meet. */
+  CAROM_ERROR_SIDES_CROSS = -107,       /* two sides of a polygon that are not neighbours meet. */
   CAROM_ERROR_CUE_FOLLOW = -108,        /* cue.follow is not 0 to 1 m. */
   CAROM_ERROR_SCORE = -109              /* carom_plan.h: a score of games is wrong. */
 } carom_status;
 
-/* The short name of a status ("separating"), as in the command's output. "unknown" for a value
- * not listed. Arrays of statuses are of int8_t, each with the value of a carom_status. */
+/* The short name of a status ("separating"), as in the command's output; "unknown" for a value not
+ * listed. Arrays of statuses have elements of int8_t, each with the value of a carom_status. */
 CAROM_API const char *carom_status_name(carom_status status);
 
 /* The meaning of the status, in one sentence without a full stop, for use in messages. Never
@@ -309,13 +310,13 @@ typedef enum carom_solver {
 
 /* How the slip on the cloth is computed. */
 typedef enum carom_slip {
-  CAROM_SLIP_PAPER = 0,    /* v_x - R w_y, v_y + R w_x: the 2014 paper's. A rolling ball does not
-                              slip. */
-  CAROM_SLIP_POOLTOOL = 1, /* v_x + R w_y, v_y - R w_x: that of the simulator pooltool, with the
-                              opposite sign of the spin. For parity with pooltool only. */
+  CAROM_SLIP_PAPER = 0,    /* v_x - R w_y, v_y + R w_x, as in the 2014 paper. A rolling ball does
+                              not slip. */
+  CAROM_SLIP_POOLTOOL = 1, /* v_x + R w_y, v_y - R w_x, as in the simulator pooltool, with the
+                              opposite sign of the spin. It only serves parity with pooltool. */
 } carom_slip;
 
-/* The names above as text ("euler", "paper"), or NULL for a value not listed. */
+/* The names of these values ("euler", "paper"), or NULL for a value not listed. */
 CAROM_API const char *carom_solver_name(carom_solver solver);
 CAROM_API const char *carom_slip_name(carom_slip slip);
 
@@ -331,14 +332,14 @@ typedef struct carom_options {
   carom_slip slip;      /* default CAROM_SLIP_PAPER. */
   int steps;            /* Euler's N, the approximate number of steps; the error falls like 1/N.
                            0: CAROM_DEFAULT_STEPS. */
-  int threads;          /* most threads that a batch may use, the calling one among them. 0, the
-                           default: that one alone. CAROM_ALL_THREADS: one for each processor
-                           that the process may use, by its affinity and the limit of its control
-                           group. Results do not depend on it. Small batches, single calls, and
-                           libraries built without threads start none. */
-  int plain;            /* 1: this call computes with CAROM_ISA_PLAIN, whatever instruction set
-                           is in use, and so has the bits that all machines share. 0, the
-                           default: with the one in use. */
+  int threads;          /* largest number of threads that a batch may use, including the calling
+                           one. 0, the default: only that one. CAROM_ALL_THREADS: one for each
+                           processor that the process may use, according to its affinity and the
+                           limit of its control group. Results do not depend on it. Small batches,
+                           single calls, and libraries built without threads start none. */
+  int plain;            /* 1: this call computes with CAROM_ISA_PLAIN instead of the instruction set
+                           in use, so it has the bits that all machines share. 0, the default: it
+                           computes with the one in use. */
   int unused;           /* must be 0. */
   uint64_t reserved[5]; /* must be 0. Room for future options, for which 0 will mean the default. */
 } carom_options;
@@ -350,12 +351,12 @@ typedef struct carom_options {
 CAROM_API carom_status carom_collide(const carom_impact *in, const carom_options *opt,
                                      carom_result *out);
 
-/* Resolves `n` collisions, in[0..n-1] to out[0..n-1], each as carom_collide() does, bit for bit:
- * a bad pair gets NaN and its own status and changes nothing for the others. `status` takes the
- * n statuses; it may be NULL. `in`, `out` and `status` may not overlap; with n = 0 they may be
- * NULL. A caller with its own threads may split a batch in any way. Returns CAROM_OK if no pair
- * is in error, else the status of the first pair in error. A NULL pointer or bad options are an
- * error of the call, and then nothing is written. */
+/* Resolves `n` collisions, in[0..n-1] to out[0..n-1], with the bits of carom_collide(). A bad pair
+ * gets NaN and its own status, and does not change the other pairs. `status` takes the n statuses;
+ * it may be NULL. `in`, `out` and `status` may not overlap; with n = 0 they may be NULL. A caller
+ * with its own threads may split a batch in any way. Returns CAROM_OK if no pair is in error, and
+ * otherwise the status of the first pair in error. If a pointer is NULL or an option is bad, the
+ * call returns that error and writes nothing. */
 CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n,
                                            const carom_options *opt, carom_result *out,
                                            int8_t *status);
@@ -368,13 +369,13 @@ typedef struct carom_speed_law {
   double a, b, c; /* -, -, s/m */
 } carom_speed_law;
 
-/* The usual fit for pool balls, a = 0.009951, b = 0.108, c = 1.088: D. Alciatore, TP A-14, to
- * measurements by W. C. Marlow. */
+/* The usual fit for pool balls, a = 0.009951, b = 0.108, c = 1.088: by D. Alciatore, TP A-14, to
+ * measurements of W. C. Marlow. */
 CAROM_API carom_speed_law carom_alciatore(void);
 
-/* The friction between the balls of `*in` by the law, |u| being the slip just before the
- * collision; in->mu_ball is not read. Assign it to in->mu_ball. A law that leaves [0, 1] or
- * motion that is not finite gives a number that carom_collide() refuses. NaN if `in` is NULL. */
+/* The friction between the balls of `*in` according to the law, where |u| is the slip just before
+ * the collision. in->mu_ball is not read; assign the result to it. If the law leaves [0, 1] or the
+ * motion is not finite, carom_collide() refuses the result. NaN if `in` is NULL. */
 CAROM_API double carom_mu_ball(const carom_impact *in, carom_speed_law law);
 
 /* ---- After the collision --------------------------------------------------------------------- */
@@ -423,7 +424,7 @@ CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_
  * highest that the processor has is used. Results differ within the solver's errors from one to
  * another. The environment variable CAROM_ISA, set to one of the names ("plain", "sse2", "neon",
  * "avx2", "avx512") before the first call, limits it for the whole process; other values are
- * ignored. A single call computes with plain where options.plain is 1, a shot unless
+ * ignored. A single call uses plain if options.plain is 1, and a shot uses it unless
  * carom_shot_options.fast is 1. */
 typedef enum carom_isa {
   CAROM_ISA_ANY = -1, /* no limit: for carom_isa_limit(). */
@@ -437,7 +438,7 @@ typedef enum carom_isa {
 /* The name of an instruction set, or NULL for a value not listed. */
 CAROM_API const char *carom_isa_name(carom_isa isa);
 
-/* Whether this build and this processor have it: 1 or 0. */
+/* Whether this build and this processor have the instruction set: 1 or 0. */
 CAROM_API int carom_isa_available(carom_isa isa);
 
 /* The instruction set in use. */
@@ -454,7 +455,7 @@ CAROM_API carom_isa carom_isa_limit(carom_isa isa);
 typedef enum carom_stick {
   CAROM_STICK_NEVER = 0,          /* they slipped to the end */
   CAROM_STICK_IN_COMPRESSION = 1, /* while the balls still approached each other */
-  CAROM_STICK_IN_RESTITUTION = 2, /* while they were parting */
+  CAROM_STICK_IN_RESTITUTION = 2, /* while they were separating */
 } carom_stick;
 
 /* More about a collision. Impulses are in N s, as vectors along the axes of the table where they
@@ -464,18 +465,19 @@ typedef struct carom_detail {
   int64_t evaluations;     /* how often the exact solver evaluated the equations; 0 for other
                               solvers. */
   double normal;           /* impulse along the line of centres, on the second ball away from the
-                              first; the reverse on it. */
-  double friction[3];      /* impulse of the second ball's friction on the first ball; the
-                              reverse on the second. */
+                              first; the opposite on the first. */
+  double friction[3];      /* impulse of the second ball's friction on the first ball; the opposite
+                              on the second. */
   double cloth_a[3];       /* impulse of the cloth's friction on the first ball, */
-  double cloth_b[3];       /* and on the second: only one of them is pressed into the cloth by
-                              the other's friction. */
+  double cloth_b[3];       /* and on the second. The friction of one ball presses only the other one
+                              into the cloth. */
   double work_compression; /* work of the normal force until the balls no longer approach, J. */
-  double work;             /* the same over the whole collision: (1 + e^2) of it; by Euler's
+  double work;             /* the same over the whole collision: (1 + e^2) of it; with Euler's
                               method up to a step more. */
-  carom_stick stick;       /* always CAROM_STICK_NEVER by Euler's method, whose slip alternates
-                              in sign instead. */
-  double stick_normal;     /* the normal impulse so far when they stuck; NaN if they never did. */
+  carom_stick stick;       /* always CAROM_STICK_NEVER with Euler's method, because its slip
+                              alternates in sign instead. */
+  double stick_normal;     /* the normal impulse when the balls began to stick; NaN if they never
+                              did. */
   double reserved[4];      /* 0; room for future fields. */
 } carom_detail;
 
@@ -484,7 +486,7 @@ typedef struct carom_detail {
 CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt,
                                             carom_result *out, carom_detail *detail);
 
-/* Compression lasts while the balls approach each other; in restitution they part. */
+/* Compression lasts while the balls approach each other; in restitution they separate. */
 typedef enum carom_phase { CAROM_PHASE_COMPRESSION = 0, CAROM_PHASE_RESTITUTION = 1 } carom_phase;
 
 /* One point of a collision. Slips are in the collision frame: y is the line of centres from the
@@ -494,9 +496,9 @@ typedef struct carom_trace_point {
   double normal;      /* normal impulse so far, N s. It grows during the whole collision. */
   double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
   carom_phase phase;  /* CAROM_PHASE_COMPRESSION up to v_n = 0. */
-  int sticks;         /* 1 from where the balls no longer slip on each other, else 0; always 0 by
-                         Euler's method. */
-  double v_n;         /* speed at which the balls part along y, m/s; negative while they
+  int sticks;         /* 1 from where the balls no longer slip on each other, otherwise 0; always 0
+                         with Euler's method. */
+  double v_n;         /* speed at which the balls separate along y, m/s; negative while they
                          approach. */
   double u_x, u_z;    /* slip of the first ball on the second; 0 once they stick. */
   double d_x, d_y;    /* slip of the first ball over the cloth, with the sign of options.slip, */
@@ -506,12 +508,13 @@ typedef struct carom_trace_point {
 } carom_trace_point;
 
 /* Follows one collision through `n` >= 2 points at equal steps of normal impulse, from 0 at
- * points[0] to the end, which is the result of carom_collide() (by the exact solver within about
- * 1e-6, because the precise solver computes it). Euler's method gives the nearest whole steps.
- * `opt` may be NULL; `points` may not overlap `in`. It is not made for speed: it takes about a
- * millisecond by the exact solver, n/2 times a collision by Euler's method. Returns the
- * status of carom_collide(). CAROM_SEPARATING: every point is the state before, with impulse 0. An
- * error: every number is NaN (but nothing is written when a pointer is NULL or n < 2). */
+ * points[0] to the end, which is the result of carom_collide() (with the exact solver within about
+ * 1e-6, because the precise solver computes the trace). Euler's method gives the nearest whole
+ * steps. `opt` may be NULL; `points` may not overlap `in`. The call is not made for speed: it takes
+ * about a millisecond with the exact solver, and n/2 times as long as a collision with Euler's
+ * method. Returns the status of carom_collide(). CAROM_SEPARATING: every point is the state before,
+ * with impulse 0. An error: every number is NaN (but nothing is written when a pointer is NULL or n
+ * < 2). */
 CAROM_API carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t n,
                                    carom_trace_point *points);
 
@@ -540,9 +543,9 @@ CAROM_API int carom_version_number(void);
  * with the same number. */
 CAROM_API int carom_physics_revision(void);
 
-/* Whether a caller compiled with the header of that version can use this library, 1 or 0:
- * carom_serves(CAROM_VERSION_NUMBER). Before 1.0 the minor version must be equal. From then on
- * the major version must be equal, and the minor one not above the library's. */
+/* Whether a caller that was compiled with the header of this version can use this library, 1 or 0:
+ * call carom_serves(CAROM_VERSION_NUMBER). Before 1.0 the minor version must be equal. From 1.0 on,
+ * the major version must be equal, and the minor one must not be above the library's. */
 CAROM_API int carom_serves(int header_version_number);
 
 #ifdef __cplusplus

@@ -1,9 +1,9 @@
 /* carom_record.h: recordings of games that verify themselves.
  *
- * A recording is text, a line of JSON after the other: the table, the balls, the options, each
- * stroke of the cue with a hash of all lines up to it and of the bits in which its shot ended.
- * docs/using/games.md has the format. Whoever plays it again with this library has the same bits,
- * or is told where not.
+ * A recording is text in lines of JSON: the table, the balls, the options, and each stroke of the
+ * cue with a hash of all lines up to it and of the bits in which its shot ended.
+ * docs/using/games.md has the format. If you play a recording again with this library, you get the
+ * same bits, or the library reports where they differ.
  *
  *     static carom_record game;                                         // all zero
  *     static char text[CAROM_RECORD_TEXT];
@@ -36,97 +36,97 @@ typedef enum carom_record_kind {
   CAROM_RECORD_TABLE = 2,    /* "table" */
   CAROM_RECORD_OPTIONS = 3,  /* "options": the models; without this line, the defaults */
   CAROM_RECORD_BALLS = 4,    /* "balls": their constants, places and motion */
-  CAROM_RECORD_PLACE = 5,    /* "place": a ball comes in hand, or is put from there */
-  CAROM_RECORD_SHOT = 6,     /* "shot": a stroke, when to stop its shot, and how that ended */
+  CAROM_RECORD_PLACE = 5,    /* "place": a ball is in hand, or is placed from the hand */
+  CAROM_RECORD_SHOT = 6,     /* "shot": a stroke, when to stop its shot, and how the shot ended */
   CAROM_RECORD_CONTINUE = 7, /* "continue": a stopped shot goes on */
-  CAROM_RECORD_EVENT = 8,    /* "event": of the shot before it; may be left out */
-  CAROM_RECORD_END = 9,      /* "end": the last line, without which a recording was cut off */
+  CAROM_RECORD_EVENT = 8,    /* "event": an event of the shot before it; may be left out */
+  CAROM_RECORD_END = 9,      /* "end": the last line; a recording without it was cut off */
   CAROM_RECORD_GAME = 10,    /* "game": the rules, who is at the table, and how the game stands */
-  CAROM_RECORD_WRONG = 11    /* a line that was refused; nothing is read behind it */
+  CAROM_RECORD_WRONG = 11    /* a line that was refused; nothing is read after it */
 } carom_record_kind;
 
-/* Bytes with room for any line: of 32 balls that have nothing in common. */
+/* The bytes that any line fits into, even that of 32 balls that have nothing in common. */
 enum { CAROM_RECORD_TEXT = 65536 };
 
 /* How a shot ended, or a part of it. */
 typedef struct carom_record_end {
   int64_t status; /* a carom_status. */
-  int64_t events; /* their number, */
+  int64_t events; /* number of events, */
   double time;    /* s: and carom_shot.time. */
-  uint64_t hash;  /* of the lines so far, the stroke, these three and all final states: equal
-                     where every bit is equal, and but for 1 chance in 2^64 not elsewhere. It is
-                     no signature. */
+  uint64_t hash;  /* hash of the lines so far, the stroke, these three numbers and all final states.
+                     It is equal if every bit is equal; otherwise it differs, except for 1 chance in
+                     2^64. It is no signature. */
 } carom_record_end;
 
-/* A game on its way: its state after the lines so far. All zero before the first line. */
+/* A game in progress: its state after the lines so far. All zero before the first line. */
 typedef struct carom_record {
-  int64_t kind;     /* of the last line: a carom_record_kind. */
+  int64_t kind;     /* kind of the last line, a carom_record_kind. */
   int64_t line;     /* lines so far. */
   int64_t revision; /* carom_physics_revision() of the library that recorded it. */
-  int64_t format;   /* of the text: 2. */
-  int64_t shots;    /* strokes and continuations so far. */
-  uint64_t hash;    /* of all lines so far but the end. */
-  int64_t count;    /* of balls. */
+  int64_t format;   /* format of the text, 2. */
+  int64_t shots;    /* number of strokes and continuations so far. */
+  uint64_t hash;    /* hash of all lines so far, except the end. */
+  int64_t count;    /* number of balls. */
   carom_shot_ball balls[CAROM_BALLS_MOST];  /* at the start of the last shot, for
-                                              carom_shot_at(); */
+                                               carom_shot_at(); */
   carom_ball_state final[CAROM_BALLS_MOST]; /* and at its end. */
   carom_table table;
-  carom_shot_options options; /* fast and threads are not read. When to stop counts for the next
-                                 shot or continuation only. */
+  carom_shot_options options; /* fast and threads are not read. The options of when to stop only
+                                 hold for the next shot or continuation. */
   carom_cue cue;
   int64_t placed;  /* the last ball in hand, */
-  double place[2]; /* m: and where it was put. */
-  int64_t hand;    /* 1: it is not placed yet: it is in hand. */
-  int64_t rules;   /* a carom_rules_kind of carom_plan.h: the game's. */
+  double place[2]; /* m: and the place where it was put. */
+  int64_t hand;    /* 1: it is in hand and not placed yet. */
+  int64_t rules;   /* the rules of the game, a carom_rules_kind of carom_plan.h. */
   int64_t player;  /* who is at the table, 0 or 1. */
-  /* How the game stands for him; carom_rules_fault() tells whether it can. */
+  /* The state of the game for this player; carom_rules_fault() checks it. */
   carom_rules_state standing;
-  carom_record_end recorded; /* of the line of a shot that was read; */
-  carom_record_end played;   /* of the shot that was played. */
-  carom_event event;         /* of the last line with an event; */
-  int64_t before, after;     /* balls of which it has states: 0, 1 or 2. */
-  int64_t pending;           /* 1: the shot of the last line was not played yet. */
+  carom_record_end recorded; /* how the last shot that was read had ended; */
+  carom_record_end played;   /* how the shot that was played ended. */
+  carom_event event;         /* the event of the last line that had one; */
+  int64_t before, after;     /* for how many balls it has states: 0, 1 or 2. */
+  int64_t pending;           /* 1: the shot of the last line has not been played yet. */
   int64_t moved;             /* 1: final[] has not been put into balls[] yet. */
-  carom_facts facts;         /* of the last shot. */
+  carom_facts facts;         /* facts of the last shot. */
   carom_shot_state state;
   char fault[192]; /* the fault, with the key, after CAROM_ERROR_RECORD. */
 } carom_record;
 
-/* Reads a line of `size` bytes, with its end of line or without, into the record. A ball in hand
- * is placed. The shot of a line CAROM_RECORD_SHOT or CAROM_RECORD_CONTINUE is to be played by
- * carom_record_play() before the next shot is read.
+/* Reads a line of `size` bytes, with or without its end of line, into the record, and places a ball
+ * in hand. After a line CAROM_RECORD_SHOT or CAROM_RECORD_CONTINUE, call carom_record_play() before
+ * you read the next shot.
  *
- * CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_REVISION for a recording of another revision of the
- * physics, which would give other bits: it is not read on; CAROM_ERROR_RECORD for a line that is
- * wrong, by a key or a value or its place, or at the end other shots than were read: record->fault
- * names the fault. */
+ * Returns CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_REVISION for a recording of another revision of
+ * the physics, which is not read further because it would give other bits; or CAROM_ERROR_RECORD
+ * for a line with a wrong key, a wrong value or a wrong place, or for an end that counts shots
+ * other than those that were read. record->fault then names the fault. */
 CAROM_API carom_status carom_record_read(carom_record *record, const char *line, size_t size);
 
-/* Plays the shot of record->cue, or with CAROM_RECORD_CONTINUE goes on with one that was stopped,
- * with the bits that all machines share. The balls begin where the shot before left them. `shot`
- * may be NULL; else events, brief and room in it are the caller's, and the rest is set. Returns
- * the status of carom_shoot(), or CAROM_ERROR_NULL or CAROM_ERROR_RECORD where there is nothing to
- * play. record->played says how it ended; after a line that was read it is to be compared with
- * record->recorded. A shot with a wrong argument changes nothing. */
+/* Plays the shot of record->cue, or with CAROM_RECORD_CONTINUE goes on with a shot that was
+ * stopped, with the bits that all machines share. The balls begin where the shot before left them.
+ * `shot` may be NULL; otherwise the caller sets events, brief and room in it, and the call sets the
+ * rest. Returns the status of carom_shoot(), or CAROM_ERROR_NULL, or CAROM_ERROR_RECORD if there is
+ * nothing to play. record->played says how the shot ended; after a line that was read, compare it
+ * with record->recorded. A shot with a wrong argument changes nothing. */
 CAROM_API carom_status carom_record_play(carom_record *record, carom_record_kind kind,
                                          carom_shot *shot);
 
-/* Ball in hand, by carom_place_ball() after the last shot. */
+/* Ball in hand: carom_place_ball() after the last shot. */
 CAROM_API carom_status carom_record_place(carom_record *record, int ball, double x, double y,
                                           carom_part *in_the_way);
 
-/* A ball comes in hand after the last shot, and is out of play until it is placed: its label is
- * CAROM_BALL_POCKETED. CAROM_RECORD_PLACE writes this as well. CAROM_ERROR_BALLS for an index that
- * cannot be. */
+/* Takes a ball in hand after the last shot. The ball is out of play until it is placed: its label
+ * is CAROM_BALL_POCKETED. CAROM_RECORD_PLACE writes this as well. CAROM_ERROR_BALLS for an invalid
+ * index. */
 CAROM_API carom_status carom_record_hand(carom_record *record, int ball);
 
-/* Puts the states at the end of the last shot into record->balls. A caller does so who changes
- * them and writes CAROM_RECORD_BALLS. CAROM_ERROR_BALLS for a record->count that cannot be. */
+/* Puts the states at the end of the last shot into record->balls. Call it before you change the
+ * balls and write CAROM_RECORD_BALLS. CAROM_ERROR_BALLS for an invalid record->count. */
 CAROM_API carom_status carom_record_settle(carom_record *record);
 
-/* Writes the next line of the record, with its end of line and a closing 0, to text[room]:
- * CAROM_RECORD_TEXT bytes are enough. Returns its length without the 0; 0 where the room is too
- * small, or the line cannot stand here, as of a shot that was not played. */
+/* Writes the next line of the record, with its end of line and a closing 0, to text[room];
+ * CAROM_RECORD_TEXT bytes are enough. Returns its length without the 0. Returns 0 if the room is
+ * too small, or if the line is not allowed here, such as that of a shot that was not played. */
 CAROM_API size_t carom_record_write(carom_record *record, carom_record_kind kind, char *text,
                                     size_t room);
 

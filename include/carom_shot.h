@@ -463,9 +463,12 @@ typedef struct carom_measures {
   double width, length; /* m, of the playing area, between the noses. */
   double nose_height;   /* m */
   double cushion_depth; /* m, to which the facings go back behind the noses. */
-  double corner_mouth, corner_cut, corner_shelf, corner_jaw, corner_hole; /* m and degrees;
-                           jaw and hole are radii, of the rounded point and of the hole. Both
-                           mouths 0: a table without pockets. */
+  double corner_mouth, corner_cut, corner_shelf, corner_jaw, corner_hole; /* m and degrees; jaw and
+                                                                             hole are radii, of the
+                                                                             rounded point and of
+                                                                             the hole. Both mouths
+                                                                             0: a table without
+                                                                             pockets. */
   double side_mouth, side_cut, side_shelf, side_jaw, side_hole; /* the same, m and degrees. */
 } carom_measures;
 
@@ -544,8 +547,8 @@ typedef struct carom_cue {
   double theta;    /* elevation of the butt, degrees, 0 to 90. The tip presses the ball on the
                       slate, and the slate throws the ball up after the short contact of the tip.
                       With CAROM_SPACE_FLAT the downward part of the blow is lost. */
-  double a, b;     /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre.
-                        a^2 + b^2 < miscue^2. */
+  double a, b;     /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre. a^2
+                      + b^2 < miscue^2. */
   double mass;     /* M, kg, > 0. */
   double end_mass; /* effective mass of the end of the cue at the tip, which causes squirt, kg, >
                       0. */
@@ -798,7 +801,7 @@ typedef struct carom_rules_state {
   int32_t group;     /* a carom_group of carom_plan.h, the player's. */
   int32_t fouls[2];  /* successive fouls in their last strokes, 0 to 2. */
   int32_t score[2];  /* points, or balls that count, 0 to 1,000,000. The score of a player is score
-                       less lost. */
+                        less lost. */
   int32_t lost[2];   /* points that fouls cost, or balls that are owed, 0 to 1,000,000. */
   int32_t pocket[2]; /* indices of the pockets in which balls count for each of them, 0 to
                         CAROM_POCKETS_MOST - 1. */

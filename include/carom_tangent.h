@@ -3,8 +3,8 @@
  *
  * A direction says how all inputs change together: numbers of the cue, constants of the balls,
  * their states, noses and cushions of the table. A tangent is the derivative of a result in a
- * direction: its change, per unit of the direction, while the events and their order stay as
- * they are. It is exact for small changes and says nothing about larger ones. With table, balls,
+ * direction: its change, per unit of the direction, while the events and their order stay as they
+ * are. It is exact for infinitesimal changes and says nothing about large ones. With table, balls,
  * cue and shot of the sample of whole shots in carom_shot.h:
  *
  *     static double seed[CAROM_CUE_NUMBERS][2];                // two directions; all else is zero:
@@ -24,11 +24,11 @@
  *     // change[i][0][1]: by how many metres the place x of ball i moves per degree of phi,
  *     // for less than reach[1] degrees
  *
- * docs/using/derivatives.md tells the meaning and the limits of tangents;
- * docs/understanding/gradients.md has the equations and the errors that were measured.
+ * docs/using/derivatives.md explains the meaning and the limits of tangents;
+ * docs/understanding/gradients.md has the equations and the measured errors.
  *
- * Units are those of carom_shot.h; of the angles phi and theta degrees. Arrays are in row order
- * with the directions last. */
+ * Units are those of carom_shot.h; the angles phi and theta are in degrees. Arrays are in row
+ * order, with the directions last. */
 #ifndef CAROM_TANGENT_H
 #define CAROM_TANGENT_H
 
@@ -38,11 +38,11 @@
 extern "C" {
 #endif
 
-/* Directions of a call; and how many numbers a cue (speed, phi, theta, a, b, mass, end_mass,
- * tip_restitution), a state (x, y, v_x, v_y, w_x, w_y, w_z, z, v_z), the cushions of a table
- * (height of the noses, mu_cushion, restitution) and a carom_ball_kind (its fields) have. The last
- * two numbers of a state are those of flight: of a ball on the cloth z changes as its radius does,
- * and v_z not at all, whatever their seeds are. */
+/* The largest number of directions of a call; and how many numbers a cue (speed, phi, theta, a, b,
+ * mass, end_mass, tip_restitution), a state (x, y, v_x, v_y, w_x, w_y, w_z, z, v_z), the cushions
+ * of a table (height of the noses, mu_cushion, restitution) and a carom_ball_kind (its fields)
+ * have. The last two numbers of a state belong to flight: for a ball on the cloth, z changes as its
+ * radius does, and v_z does not change, whatever their seeds are. */
 enum {
   CAROM_DIRECTIONS_MOST = 64,
   CAROM_CUE_NUMBERS = 8,
@@ -51,89 +51,90 @@ enum {
 };
 #define CAROM_KIND_NUMBERS ((int)(sizeof(carom_ball_kind) / sizeof(double)))
 
-/* What a tangent at an event has to be read with. A sum of these, 0 for none. */
+/* What limits a tangent at an event. A sum of these, 0 for none. */
 typedef enum carom_tangent_flag {
-  CAROM_TANGENT_GRAZING = 1, /* the contact closes at less than 1 % of the speed, or it is the
-                                last hop of a ball on the slate or nearly so: derivatives grow
-                                without bound there. Or it is a strike whose hop comes or goes
-                                within 1 % of its speed. */
-  CAROM_TANGENT_SLOW = 2,    /* a slow contact, which the rule of docs/using/shots.md resolves. */
-  CAROM_TANGENT_SIMULTANEOUS = 4, /* a ball of it was in another contact less than 1e-9 s before,
-                                     or it is a contact at the start whose gap changes: a small
-                                     change may reverse their order, or part them, so the
-                                     derivative holds to one side at most. */
-  CAROM_TANGENT_KINK = 8,   /* the model has no derivative here, or it was not found to 1e-4. So
-                               by theta at theta = 0 where balls can leave the cloth: the
-                               derivative is that upward. */
-  CAROM_TANGENT_EULER = 16, /* the cushion was resolved in steps: the derivative is that of the
+  CAROM_TANGENT_GRAZING = 1, /* the contact closes at less than 1 % of the speed, or it is the last
+                                hop of a ball on the slate, or nearly the last. Derivatives grow
+                                without bound there. Or it is a strike whose hop comes or goes if
+                                its speed changes by 1 %. */
+  CAROM_TANGENT_SLOW = 2,    /* a slow contact, for which docs/using/shots.md has the rule. */
+  CAROM_TANGENT_SIMULTANEOUS = 4, /* a ball of the contact was in another contact less than 1e-9 s
+                                     before, or it is a contact at the start whose gap changes. A
+                                     small change may reverse the order of the contacts, or separate
+                                     them, so the derivative holds to one side at most. */
+  CAROM_TANGENT_KINK = 8,   /* the model has no derivative here, or it was not found to 1e-4. An
+                               example is the derivative with respect to theta at theta = 0 if balls
+                               can leave the cloth: it is the one upward. */
+  CAROM_TANGENT_EULER = 16, /* the cushion was resolved in steps, and the derivative is that of the
                                steps, by differences. */
-  CAROM_TANGENT_DIFFERENCES = 32, /* the derivative of this contact is by central differences of
-                                     the one contact: of exact models where the motion is planar
-                                     or a ball jams, and of Euler's steps. */
-  CAROM_TANGENT_DRAG = 64,    /* not set any more: derivatives of a roll with drag are those of the
-                              pieces that shots follow. */
-  CAROM_TANGENT_CLUSTER = 128 /* it is a contact of a cluster, a further touch of the tip, or a
-                                 contact by itself with a third ball within 1 mm: the reach counts
-                                 no touch of balls that comes or goes there, and not their order. */
+  CAROM_TANGENT_DIFFERENCES = 32, /* the derivative of this contact comes from central differences
+                                     of the one contact. This happens for exact models if the motion
+                                     is planar or a ball jams, and for Euler's steps. */
+  CAROM_TANGENT_DRAG = 64,        /* no longer set: derivatives of a roll with drag are those of the
+                                     pieces that shots follow. */
+  CAROM_TANGENT_CLUSTER = 128     /* it is a contact of a cluster, a further touch of the tip, or a
+                                     single contact with a third ball within 1 mm. The reach does
+                                     not count touches of balls that come or go there, nor their
+                                     order. */
 } carom_tangent_flag;
 
-/* The changes in each of `directions` m, 1 to 64. NULL stands for zeros. Numbers that a
- * shot does not use are not read: nose heights and cushions of the table count where the ball,
- * or the part, has none of its own. */
+/* The changes in each direction; `directions` is their number m, 1 to 64. NULL stands for zeros.
+ * Numbers that a shot does not use are not read: nose heights and cushions of the table count if
+ * the ball, or the part, has none of its own. */
 typedef struct carom_tangent_seeds {
   int64_t directions;
   const double *cue;    /* [8][m] */
-  const double *kind;   /* [balls][CAROM_KIND_NUMBERS][m]; balls of one radius have to change it
+  const double *kind;   /* [balls][CAROM_KIND_NUMBERS][m]; balls of the same radius must change it
                            together. */
-  const double *state;  /* [balls][9][m]: at the start. Of the ball that the cue strikes, only x
-                           and y count. */
-  const double *table;  /* [3][m]: of all rails and jaws together */
+  const double *state;  /* [balls][9][m]: states at the start. Of the ball that the cue strikes,
+                           only x and y count. */
+  const double *table;  /* [3][m]: numbers of all rails and jaws together */
   uint64_t reserved[4]; /* must be 0. */
 } carom_tangent_seeds;
 
 /* Results, per unit of the seeds. `final` is needed; each of the others may be NULL. */
 typedef struct carom_tangent {
-  double *final;  /* [balls][9][m]: of the states at the end of the shot. 0 of a pocketed ball;
-                     of one that left the table by where it did. */
-  double *time;   /* [events][m], s: of the times of the events. */
-  double *before; /* [events][2][9][m]: of the states of its balls just before each event, whose
-                     time changes too; */
-  double *after;  /* and just after it. 0 where an event has one ball. */
-  double *at;     /* [times][balls][9][m]: of the states at fixed times. */
-  const double *times;  /* [times], s: ascending, for `at`. */
-  int64_t times_count;  /* how many. */
-  int32_t *flags;       /* [events]: sums of carom_tangent_flag. */
-  double *reach;        /* [m], in the unit of the direction: the least change at which, to first
-                           order, a ball meets something else or in another order: a hit becomes
-                           a miss, a miss a hit, two events of a ball swap, or a spin about the
-                           vertical ends before a contact instead of after it. Infinite where
-                           nothing does. A tangent holds for changes well below it. Needs
-                           `time`. */
-  double error;         /* written: the largest relative error of the derivatives that were found
-                           by differences. */
-  int64_t all_flags;    /* written: the flags of all events together. */
+  double *final;       /* [balls][9][m]: derivatives of the states at the end of the shot. 0 for a
+                          pocketed ball; for a ball that left the table, those of the place where it
+                          left. */
+  double *time;        /* [events][m], s: derivatives of the times of the events. */
+  double *before;      /* [events][2][9][m]: derivatives of the states of the balls just before each
+                          event, whose time changes too; */
+  double *after;       /* and just after it. 0 for the second ball of an event with one ball. */
+  double *at;          /* [times][balls][9][m]: derivatives of the states at fixed times. */
+  const double *times; /* [times], s: ascending, for `at`. */
+  int64_t times_count; /* number of times. */
+  int32_t *flags;      /* [events]: sums of carom_tangent_flag. */
+  double *reach;       /* [m], in the unit of the direction: the smallest change at which, to first
+                          order, a ball meets something else, or in another order. A hit becomes a
+                          miss, a miss becomes a hit, two events of a ball swap, or a spin about the
+                          vertical ends before a contact instead of after it. Infinite if nothing of
+                          this happens. A tangent holds for changes well below the reach. Needs
+                          `time`. */
+  double error;        /* written: the largest relative error of the derivatives that were found by
+                          differences. */
+  int64_t all_flags;   /* written: the flags of all events together. */
   uint64_t reserved[4]; /* not read or written yet. */
 } carom_tangent;
 
-/* Derivatives of a shot that carom_shoot() has played: table, balls, cue and options are those
- * of that call, and shot->events holds all of its events. Tangents follow each ball from event
- * to event, on the cloth and in flight; nothing is played again but clusters, once for each
- * direction. All events of a cluster have the flags and the tangent of the time of its first
- * one, and CAROM_TANGENT_CLUSTER. A touch inside it that begins to stick has no flag.
- * Nothing is allocated; stack: 59 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
+/* Derivatives of a shot that carom_shoot() has played: table, balls, cue and options are those of
+ * that call, and shot->events holds all of its events. Tangents follow each ball from event to
+ * event, on the cloth and in flight. Only clusters are played again, once for each direction. All
+ * events of a cluster have the flags and the tangent of the time of its first one, and
+ * CAROM_TANGENT_CLUSTER. A touch inside it that begins to stick has no flag. Nothing is allocated.
+ * Stack: 59 KiB; a batch 60. Cost: docs/understanding/gradients.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;
- * CAROM_ERROR_DIRECTIONS for other than 1 to 64; CAROM_ERROR_EVENTS_LOST where shot->room was
- * too small or events is NULL; CAROM_ERROR_STATE where an event cannot be one of this shot, and
- * for a shot that was refused or never played;
- * CAROM_ERROR_TIME for times below 0, not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for
- * a reserved field; or an error of the table or of an option. CAROM_ERROR_NO_TANGENTS from a
- * library that was built without derivatives. CAROM_ERROR_TANGENT where derivatives are not
- * known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, by
- * CAROM_BALL_MODEL_EULER, and through clusters that are not those of the events, or have more than
- * 40 contacts. Or CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved,
- * CAROM_ERROR_OVERFLOW where a number of `final` is not finite, or an error of a
- * collision. Then every number of `final` is NaN, and others may have been written. */
+ * CAROM_ERROR_DIRECTIONS if there are not 1 to 64; CAROM_ERROR_EVENTS_LOST if shot->room was too
+ * small or events is NULL; CAROM_ERROR_STATE if an event cannot be one of this shot, and for a shot
+ * that was refused or never played; CAROM_ERROR_TIME for times below 0, not finite or not
+ * ascending; CAROM_ERROR_SHOT_OPTIONS for a reserved field; or an error of the table or of an
+ * option. CAROM_ERROR_NO_TANGENTS from a library that was built without derivatives.
+ * CAROM_ERROR_TANGENT if derivatives are not known: in CAROM_WORLD_POOLTOOL, whose spacers are not
+ * differentiable, with CAROM_BALL_MODEL_EULER, and through clusters that are not those of the
+ * events, or have more than 40 contacts. Three errors set every number of `final` to NaN, and may
+ * write others: CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved,
+ * CAROM_ERROR_OVERFLOW if a number of `final` is not finite, and an error of a collision. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls,
                                           int count, const carom_cue *cue,
                                           const carom_shot_options *opt, const carom_shot *shot,
@@ -141,37 +142,39 @@ CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_
 
 /* Derivatives of all shots of a job that carom_shoot_batch() has played. */
 typedef struct carom_tangent_job {
-  const carom_shot_job *played;     /* with its shots; its options say how many threads to use. */
-  const carom_tangent_seeds *seeds; /* of shot k: seeds[k * seeds_stride]. */
-  uint64_t seeds_stride;            /* 0: all shots have the first; else as a rule 1. */
+  const carom_shot_job *played;     /* the job with its shots; its options say how many threads to
+                                       use. */
+  const carom_tangent_seeds *seeds; /* the seeds of shot k are seeds[k * seeds_stride]. */
+  uint64_t seeds_stride;            /* 0: all shots have the first; otherwise usually 1. */
   carom_tangent *tangents;          /* n results. */
-  int8_t *status;                   /* n statuses; may be NULL. Shots in error (played->status)
-                                       are skipped, with theirs. */
+  int8_t *status;                   /* n statuses; may be NULL. Shots in error (played->status) are
+                                       skipped and keep their status. */
   uint64_t reserved[4];             /* must be 0. */
 } carom_tangent_job;
 
-/* Each shot has the bits and the status of carom_shot_tangent(), whatever the threads. Returns
- * CAROM_OK, or the status of the first shot in error; errors of the call as carom_shoot_batch()
- * has them, with nothing written. */
+/* Each shot has the bits and the status of carom_shot_tangent(), for any number of threads. Returns
+ * CAROM_OK, or the status of the first shot in error. Errors of the call are those of
+ * carom_shoot_batch(), with nothing written. */
 CAROM_API carom_status carom_shot_tangent_batch(const carom_tangent_job *job);
 
-/* Derivatives of carom_collide() by the exact solver: tangent[12][m] = J seeds[26][m], in the order
- * of the doubles of carom_result and carom_impact. Of the seeds only those of r[0] and r[1], v[0]
- * and v[1], w, radius of a, mass, mu_cloth, mu_ball and restitution are read. By the slip of a ball
- * that rolls and is pressed into the cloth there is no derivative: it is taken to go on rolling in
- * every direction, and directions in which it would slide set CAROM_TANGENT_KINK. It rolls where
- * its slip is at most 1e-12 of its speeds. *flags (may be NULL) becomes a sum of CAROM_TANGENT_KINK
- * and CAROM_TANGENT_DIFFERENCES. Returns the status of carom_collide(): after CAROM_SEPARATING the
- * tangents are those of the motion before, after an error all are NaN; CAROM_ERROR_DIRECTIONS;
- * CAROM_ERROR_TANGENT for options other than the exact solver and the slip of the paper. */
+/* Derivatives of carom_collide() with the exact solver: tangent[12][m] = J seeds[26][m], in the
+ * order of the doubles of carom_result and carom_impact. Only the seeds of r[0] and r[1], v[0] and
+ * v[1], w, radius of a, mass, mu_cloth, mu_ball and restitution are read. There is no derivative
+ * with respect to the slip of a ball that rolls and is pressed into the cloth. The call assumes
+ * that this ball goes on rolling in every direction, and directions in which it would slide set
+ * CAROM_TANGENT_KINK. A ball rolls if its slip is at most 1e-12 of its speeds. *flags (may be NULL)
+ * becomes a sum of CAROM_TANGENT_KINK and CAROM_TANGENT_DIFFERENCES. Returns the status of
+ * carom_collide(): after CAROM_SEPARATING the tangents are those of the motion before, and after an
+ * error all are NaN. Also returns CAROM_ERROR_DIRECTIONS, and CAROM_ERROR_TANGENT for options other
+ * than the exact solver and the slip of the paper. */
 CAROM_API carom_status carom_collide_tangent(const carom_impact *in, const carom_options *opt,
                                              int64_t directions, const double *seeds,
                                              double *tangent, int32_t *flags);
 
 /* Derivatives of carom_cushion(): tangent[6][m] = J seeds[15][m], in the order of the doubles of
- * carom_motion and carom_cushion_impact; v[2] and jaw_radius are not read. As
- * carom_collide_tangent(); CAROM_ERROR_TANGENT for the convention of pooltool, and where Euler's
- * steps give up beside the input, where derivatives by differences look. */
+ * carom_motion and carom_cushion_impact; v[2] and jaw_radius are not read. Otherwise the call is
+ * like carom_collide_tangent(). CAROM_ERROR_TANGENT for the convention of pooltool, and if Euler's
+ * steps give up for an input next to this one, which the differences need. */
 CAROM_API carom_status carom_cushion_tangent(const carom_cushion_impact *in,
                                              const carom_cushion_options *opt, int64_t directions,
                                              const double *seeds, double *tangent, int32_t *flags);

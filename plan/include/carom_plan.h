@@ -221,7 +221,7 @@ typedef struct carom_plan_rules {
   carom_rules_judge *judge;
   carom_rules_left *left;
   carom_rules_value *value;     /* NULL: an estimate from the two best pots and the balls that are
-                               left. */
+                                   left. */
   carom_rules_pockets *pockets; /* NULL: all. */
   int32_t race;                 /* a carom_race. */
   int32_t calls;                /* 1: shots are called. A candidate then calls the pot that it makes
@@ -430,7 +430,7 @@ typedef struct carom_plan_options {
  * cushion. */
 typedef enum carom_plan_kind {
   CAROM_PLAN_POT = 0,   /* a direct pot of `ball` into `pocket`: the ball meets nothing else on its
-                          way except a cushion beside the pocket */
+                           way except a cushion beside the pocket */
   CAROM_PLAN_SCAN = 1,  /* `ball` falls in half of the strokes, in several ways */
   CAROM_PLAN_FOUL = 2,  /* the plan found no shot without a foul; this one is gentle */
   CAROM_PLAN_GIVEN = 3, /* a stroke of the caller, for carom_plan_try() */
