@@ -1,6 +1,6 @@
-/* carom.hpp: the library from C++20, header only. Structs and functions are those of the headers of
- * C; C++ adds spans for arrays with their lengths, vectors where memory is owned, exceptions where
- * they are on.
+/* carom.hpp: the library from C++20, header only. Structs and functions are those of the C headers.
+ * C++ adds spans for arrays with their lengths, vectors for owned memory, and exceptions if they
+ * are enabled.
  *
  * A function that can fail returns its carom_status. With exceptions, a negative one is thrown as
  * carom::error instead; without them (-fno-exceptions) the caller looks at it. Positive ones, such
@@ -55,8 +55,8 @@ private:
 };
 #endif
 
-/* The status; a negative one is thrown where exceptions are on, with what is wrong where that is
- * known. */
+/* Returns the status. If exceptions are enabled, a negative status is thrown, with the fault if it
+ * is known. */
 inline carom_status checked(carom_status code, [[maybe_unused]] const char *fault = "") {
 #ifdef __cpp_exceptions
   if (code < 0)
@@ -68,7 +68,7 @@ inline carom_status checked(carom_status code, [[maybe_unused]] const char *faul
 /* ---- Impacts */
 
 /* Resolves in[k] to out[k]. The spans have the same length; `status` may be empty. A row in error
- * is no error of the call: its status is in status[k], and the first one is returned. */
+ * is no error of the call: status[k] has its status, and the call returns the first one. */
 inline carom_status collide(std::span<const carom_impact> in, std::span<carom_result> out,
                             std::span<std::int8_t> status = {}, const carom_options &options = {}) {
   if (out.size() != in.size() || (!status.empty() && status.size() != in.size()))
@@ -93,8 +93,8 @@ inline carom_table table(carom_table_kind kind) {
   return made;
 }
 
-/* The measures of a built-in table, and a table made by such measures, checked for balls of a
- * radius, m; an error names the measure that is wrong. */
+/* The measures of a built-in table; and a table made from measures and checked for balls of a
+ * radius, m. An error names the wrong measure. */
 inline carom_measures measures(carom_table_kind kind) {
   carom_measures made{};
   checked(carom_table_measures(kind, &made));
@@ -109,7 +109,7 @@ inline carom_table table(const carom_measures &by, double radius = 0.028575) {
   return made;
 }
 
-/* A rack, with the cue ball first; empty where it cannot be. */
+/* A rack, with the cue ball first; empty after an error. */
 inline std::vector<carom_shot_ball> rack(carom_rack_kind kind, const carom_table &on, double gap,
                                          std::uint64_t seed) {
   std::vector<carom_shot_ball> balls(static_cast<std::size_t>(carom_rack_size(kind)));
@@ -118,8 +118,8 @@ inline std::vector<carom_shot_ball> rack(carom_rack_kind kind, const carom_table
   return balls;
 }
 
-/* Ball in hand: puts balls[ball] at rest at (x, y). Where that place is not free, which is no error
- * here, the ball stays; `in_the_way` is what is there. */
+/* Ball in hand: puts balls[ball] at rest at (x, y). If that place is not free, the ball stays, and
+ * `in_the_way` is what takes the place; this is no error here. */
 struct placed {
   carom_status status;
   carom_part in_the_way;
@@ -136,11 +136,11 @@ inline placed place(const carom_table &on, std::span<carom_shot_ball> balls, int
 
 /* ---- Shots */
 
-/* A shot with its events, however many, and its final states. It keeps the balls that it began
- * with, so that states at any time can be asked for. */
+/* A shot with its events, however many, and its final states. It keeps the balls with which it
+ * began, so that it can compute the states at any time. */
 class shot {
 public:
-  /* Plays it; with options.time_most or stop_at up to there. */
+  /* Plays the shot; with options.time_most or stop_at only up to there. */
   carom_status play(const carom_table &on, std::span<const carom_shot_ball> balls,
                     const carom_cue &cue, const carom_shot_options &options = {}) {
     table_ = on;
@@ -171,7 +171,7 @@ public:
     return shot_.time;
   }
 
-  /* The layout that it leaves. */
+  /* The layout after the shot. */
   std::vector<carom_shot_ball> layout() const {
     std::vector<carom_shot_ball> balls = balls_;
     for (std::size_t k = 0; k < balls.size(); k++)
@@ -202,13 +202,14 @@ public:
     return at;
   }
 
-  /* How fast surfaces pass each other in an event, m/s: with its impulse, how it sounds. */
+  /* How fast surfaces pass each other in an event, m/s. Together with the impulse it determines the
+   * sound. */
   double slip(const carom_event &event) const {
     return carom_event_slip(&table_, balls_.data(), count(), &event);
   }
 
-  /* shot_ points to the vectors: a shot is moved, and not copied. One that was moved from is as one
-   * that was not played. */
+  /* shot_ points to the vectors, so a shot can be moved but not copied. A shot that was moved from
+   * is like one that was not played. */
   shot() = default;
   shot(shot &&other) noexcept {
     swap(other);
@@ -239,7 +240,8 @@ private:
     return static_cast<int>(balls_.size());
   }
 
-  /* Plays, and once more with room for all events where there were more: with the same bits. */
+  /* Plays. If there were more events than room, plays again with room for all of them, with the
+   * same bits. */
   template <class Play> carom_status with_room(Play play) {
     final_.resize(balls_.size());
     const std::unique_ptr<carom_shot_state> kept =
@@ -270,15 +272,15 @@ private:
   std::unique_ptr<carom_shot_state> state_;
 };
 
-/* Frames: of time k of a call the states of all balls are states[k n ...], n the number of balls,
- * and their turns (w, x, y, z) turned[k n ...]. */
+/* Frames: for time k of a call, the states of all n balls are states[k n ...], and their
+ * quaternions (w, x, y, z) are turned[k n ...]. */
 struct frames {
   std::span<const carom_ball_state> states;
   std::span<const std::array<double, 4>> turned;
 };
 
-/* A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the one
- * before, where that was of the same shot and earlier. */
+/* A film of shots, for drawing, in which pocketed balls fall: each frame goes on from the frame
+ * before if that one was earlier in the same shot. */
 class film {
 public:
   /* Valid until the next call; empty after an error. */
@@ -314,7 +316,7 @@ inline carom_status aim(const carom_table &on, std::span<const carom_shot_ball> 
       carom_aim(&on, balls.data(), static_cast<int>(balls.size()), &options, &pot, &cue));
 }
 
-/* What a shot that was played comes to by the rules, with the state of the game before it. */
+/* Judges a shot that was played by the rules, which have the state of the game before it. */
 inline carom_ruling referee(const carom_plan_rules &rules, const shot &of,
                             carom_call call = {-1, -1}, int cue_ball = 0) {
   carom_ruling made{};
@@ -333,7 +335,8 @@ inline std::string words(const carom_ruling &of) {
   return text;
 }
 
-/* The stroke of a player who means `of`, with errors drawn from the seed and its number. */
+/* The stroke of a player who intends `of`, with errors that follow from the seed and the number of
+ * the stroke. */
 inline carom_cue strike(const carom_player &by, std::uint64_t seed, std::int64_t number,
                         carom_cue of) {
   carom_player_strike(&by, seed, static_cast<std::uint64_t>(number), &of);
@@ -354,11 +357,13 @@ inline carom_plan_job job(const carom_table &on, std::span<const carom_shot_ball
   return made;
 }
 
-/* A plan that is made in slices, for an opponent who thinks between the frames of a game. All that
- * the job points to stays as it is until the end; its memory is allocated here. */
+/* A plan that is made in slices, for an opponent who thinks between the frames of a game.
+ * Everything that the job points to must stay unchanged until the end. The memory of the job is
+ * allocated here. */
 class thinking {
 public:
-  /* A slice is so many events, about; 0: all at once. Up to `most` strokes are wanted. */
+  /* A slice has about `slice` events; 0: all at once. `most` is the largest number of strokes to
+   * return. */
   explicit thinking(const carom_plan_job &job, std::int64_t slice, int most = 1,
                     bool in_hand = false)
       : job_(job), options_(std::make_unique<carom_plan_options>()), in_hand_(in_hand),
@@ -383,7 +388,7 @@ public:
     ended_ = code < 0 || found_ > 0;
     return checked(code);
   }
-  /* Whether it has ended, also by an error. */
+  /* Whether the plan has ended, also with an error. */
   bool ended() const {
     return ended_;
   }
@@ -401,7 +406,7 @@ private:
   std::vector<double> memory_;
 };
 
-/* The best strokes, best first, at most `most`; the job's memory is allocated here. */
+/* The best strokes, best first, at most `most`. The memory of the job is allocated here. */
 inline std::vector<carom_choice> plan(const carom_plan_job &job, int most = 1,
                                       bool in_hand = false) {
   thinking all(job, 0, most, in_hand);
@@ -412,8 +417,8 @@ inline std::vector<carom_choice> plan(const carom_plan_job &job, int most = 1,
 
 /* ---- Recordings */
 
-/* A game that is recorded, or read: see carom_record.h. `game()` is the record; its table, balls,
- * count, cue and options are set before their lines are written. */
+/* A game that is recorded or read; see carom_record.h. `game()` is the record. Set its table,
+ * balls, count, cue and options before you write their lines. */
 class recording {
 public:
   recording() : game_(std::make_unique<carom_record>()), text_(CAROM_RECORD_TEXT) {
@@ -449,7 +454,7 @@ public:
     return {game_->balls, static_cast<std::size_t>(game_->count)};
   }
 
-  /* The game's next line, valid until the next call; empty where it cannot be written. */
+  /* The next line of the game, valid until the next call; empty if it cannot be written. */
   std::string_view write(carom_record_kind kind) {
     return {text_.data(), carom_record_write(game_.get(), kind, text_.data(), text_.size())};
   }
@@ -457,7 +462,7 @@ public:
     const carom_status code = carom_record_read(game_.get(), line.data(), line.size());
     return checked(code, code == CAROM_ERROR_RECORD ? game_->fault : "");
   }
-  /* Plays a stroke, or goes on; the shot is last() then, with all its events. */
+  /* Plays a stroke, or goes on. last() is then the shot, with all its events. */
   carom_status play(carom_record_kind kind = CAROM_RECORD_SHOT) {
     const auto before = std::make_unique<carom_record>(*game_);
     if (kind != CAROM_RECORD_CONTINUE)
@@ -474,7 +479,8 @@ public:
   }
   /* Plays a stroke, and returns its line. */
   std::string_view shoot(const carom_cue &cue);
-  /* Reads lines, and plays their shots. False at one with other bits than were recorded. */
+  /* Reads lines and plays their shots. Returns false at a shot whose bits differ from the recorded
+   * ones. */
   bool load(std::string_view lines);
   const shot &last() const {
     return last_;
@@ -482,7 +488,7 @@ public:
   carom_status place(int ball, double x, double y) {
     return checked(carom_record_place(game_.get(), ball, x, y, nullptr));
   }
-  /* A ball comes in hand, and is out of play until it is placed. */
+  /* Takes a ball in hand; it is out of play until it is placed. */
   carom_status hand(int ball) {
     return checked(carom_record_hand(game_.get(), ball));
   }
@@ -517,7 +523,7 @@ inline bool recording::load(std::string_view lines) {
 }
 
 #ifdef CAROM_PLAN_H
-/* The line that tells how a game stands, and who of both is at the table. */
+/* The line with the state of a game and the player who is at the table. */
 inline std::string_view stand(recording &of, carom_rules_kind rules, const carom_rules_state &state,
                               int player) {
   of.game().rules = rules;
@@ -526,8 +532,8 @@ inline std::string_view stand(recording &of, carom_rules_kind rules, const carom
   return of.write(CAROM_RECORD_GAME);
 }
 
-/* Lays the layout of the next stroke into a game: the lines of balls that come back, and of a cue
- * ball in hand. */
+/* Puts the layout of the next stroke into a game. Returns the lines for balls that come back, and
+ * for a cue ball in hand. */
 inline std::string settle(recording &of, const carom_ruling &by, int cue_ball = 0) {
   std::string lines;
   carom_record_settle(&of.game());
