@@ -92,7 +92,8 @@ typedef struct breaker {
 /* Rack number k and its stroke; number -1 is the first one without errors. */
 static void set_up(const breaker *b, const shot_line *line, double gap, int number,
                    carom_shot_ball *ball, carom_cue *cue) {
-  const int seed = (int)b->job->from.seed.at[0].x, k = number < 0 ? 0 : number;
+  const int seed = (int)b->job->from.seed.at[0].x;
+  const int k = number < 0 ? 0 : number;
   carom_rack(b->rack, &line->table->table, gap, (uint64_t)(seed + k), ball, CAROM_BALLS_MOST);
   for (int n = 0; n < line->count; n++)
     ball[n].kind = line->ball[n].kind;
@@ -276,33 +277,78 @@ static const command_form form = {
     .files = NO_FILES,
 };
 
-/* Tells all strokes and gaps; false after a complaint. */
+/* Tells all strokes and gaps, and those of the first one to *words, which are to be freed; false
+ * after a complaint. */
 static bool tell_all(breaker *b, const shot_line *first, const carom_cue *stroke, int strokes,
-                     const values *gaps, FILE *out, char **words, double *gap_drawn) {
+                     const values *gaps, FILE *out, char **words) {
   if (b->job->csv)
     fputs("rules,speed,right,above,gap_mm,racks,makes,makes_error,balls,plays_on,foul,scratch,off,"
           "wing,x,y,spread\n",
           out);
   for (int g = 0; g < gaps->count; g++)
     for (int k = 0; k < strokes; k++) {
+      const double gap = gaps->at[g].x;
       shot_line line = *first;
       counts c;
       line.cue = stroke[k];
-      if (!play(b, &line, gaps->at[g].x, &c))
+      if (!play(b, &line, gap, &c))
         return false;
       if (b->job->csv)
-        write_row(out, b, &line, gaps->at[g].x, &c);
+        write_row(out, b, &line, gap, &c);
       else
-        tell(out, b, &line, gaps->at[g].x, &c);
+        tell(out, b, &line, gap, &c);
       if (*words == NULL) {
         size_t size;
         FILE *said = open_text(words, &size);
-        tell(said, b, &line, gaps->at[g].x, &c);
+        tell(said, b, &line, gap, &c);
         close_text(said, words);
-        *gap_drawn = gaps->at[g].x;
       }
     }
   return true;
+}
+
+static carom_table_kind table_of(carom_rack_kind rack) {
+  switch (rack) {
+  case CAROM_RACK_SNOOKER:
+    return CAROM_TABLE_SNOOKER;
+  case CAROM_RACK_THREECUSHION:
+    return CAROM_TABLE_THREECUSHION;
+  default:
+    return CAROM_TABLE_POOL_9FT;
+  }
+}
+
+/* Takes the gaps from the flags, of which each is a row of its own; false after a complaint. */
+static bool take_gaps(shoot_flags *f, values *gaps) {
+  *gaps = f->gap;
+  if (gaps->count == 0)
+    values_default(gaps, MEASURE_LENGTH, "0.0001");
+  f->gap.count = 0;
+  for (int g = 0; g < gaps->count; g++)
+    if (!(gaps->at[g].x >= 0.0 && gaps->at[g].x <= GAP_MOST)) {
+      complain("--gap is 0 to %g m, not %g", GAP_MOST, gaps->at[g].x);
+      return false;
+    }
+  return true;
+}
+
+/* Plays, tells and draws the breaks of the strokes of a file; an exit code. */
+static int run(breaker *b, const shot_line *line, const carom_cue *stroke, int strokes,
+               const values *gaps) {
+  const break_job *job = b->job;
+  FILE *out = output_open(job->from.shared.output);
+  if (out == NULL)
+    return EXIT_USAGE;
+  char *words = NULL;
+  int code = EXIT_USAGE;
+  if (!tell_all(b, line, stroke, strokes, gaps, out, &words))
+    output_abandon();
+  else if (output_commit()) {
+    const bool drawn = job->plot == NULL || plot(b, line, gaps->at[0].x, words);
+    code = drawn ? EXIT_GOOD : EXIT_SOME;
+  }
+  free(words);
+  return code;
 }
 
 int command_break(int argc, char **argv) {
@@ -310,7 +356,7 @@ int command_break(int argc, char **argv) {
   static carom_cue stroke[MOST_STROKES];
   static shot_line line;
   static values gaps;
-  char *lines = NULL, *words = NULL;
+  char *lines = NULL;
   job = (break_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"},
                              .balls = {.rack = CAROM_RACK_EIGHTBALL}},
                     .racks = RACKS};
@@ -330,37 +376,19 @@ int command_break(int argc, char **argv) {
   /* the rack stands on the table of its game, and breaks have a speed of their own */
   f->balls.rack = 1 + (int)b.rack;
   if (f->table.kind == 0)
-    f->table.kind = 1 + (b.rack == CAROM_RACK_SNOOKER        ? CAROM_TABLE_SNOOKER
-                         : b.rack == CAROM_RACK_THREECUSHION ? CAROM_TABLE_THREECUSHION
-                                                             : CAROM_TABLE_POOL_9FT);
+    f->table.kind = 1 + (int)table_of(b.rack);
   if (f->speed.count == 0 && f->ball_speed.count == 0)
     values_default(&f->speed, MEASURE_SPEED, "9");
-  gaps = f->gap;
-  if (gaps.count == 0)
-    values_default(&gaps, MEASURE_LENGTH, "0.0001");
-  f->gap.count = 0;
-  for (int g = 0; g < gaps.count; g++)
-    if (!(gaps.at[g].x >= 0.0 && gaps.at[g].x <= GAP_MOST)) {
-      complain("--gap is 0 to %g m, not %g", GAP_MOST, gaps.at[g].x);
-      return EXIT_USAGE;
-    }
+  if (!take_gaps(f, &gaps))
+    return EXIT_USAGE;
   shot_file *file = flags_open(f, &b.options, MOST_STROKES, &lines);
   const int strokes =
       file != NULL ? strokes_read(file, &f->shared, &line, stroke, MOST_STROKES) : 0;
-  FILE *out = strokes > 0 ? output_open(f->shared.output) : NULL;
-  double gap_drawn = 0.0;
-  int code = EXIT_USAGE;
-  if (out != NULL && tell_all(&b, &line, stroke, strokes, &gaps, out, &words, &gap_drawn)) {
-    code = !output_commit()                                         ? EXIT_USAGE
-           : job.plot != NULL && !plot(&b, &line, gap_drawn, words) ? EXIT_SOME
-                                                                    : EXIT_GOOD;
-  } else if (out != NULL)
-    output_abandon();
+  const int code = strokes > 0 ? run(&b, &line, stroke, strokes, &gaps) : EXIT_USAGE;
   if (strokes > 0)
     shot_line_free(&line);
   if (file != NULL)
     shot_file_close(file);
-  free(words);
   free(lines);
   return code;
 }

@@ -104,7 +104,8 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
   else if (c->ball < 0)
     snprintf(text, 200, "%s", words_without_ball(line, c));
   else if (line->table->table.pockets == 0)
-    snprintf(text, 200, "a point, %s%s first", c->kind == CAROM_PLAN_KICK ? "off a cushion, " : "",
+    snprintf(text, 200,
+             c->kind == CAROM_PLAN_KICK ? "a point, off a cushion, %s first" : "a point, %s first",
              named_ball(line->name[c->ball], ball));
   else {
     kind_words(c, by);
@@ -158,15 +159,15 @@ static void play_again(const carom_plan_job *asked, carom_choice *choices, int n
   job.memory_size = carom_plan_memory(&options);
   job.memory = allocate(1, job.memory_size);
   for (int k = 0; k < n; k++) {
-    carom_choice c = choices[k], told;
+    carom_choice c = choices[k], again;
     const bool strikes = c.kind != CAROM_PLAN_PASS && c.kind != CAROM_PLAN_PUSH;
-    if (strikes && carom_plan_try(&job, &c.cue, 1, &told) == CAROM_OK) {
-      c.value = told.value;
-      c.error = told.error;
-      c.keep = told.keep;
-      c.foul = told.foul;
-      c.lose = told.lose;
-      c.seen = told.seen;
+    if (strikes && carom_plan_try(&job, &c.cue, 1, &again) == CAROM_OK) {
+      c.value = again.value;
+      c.error = again.error;
+      c.keep = again.keep;
+      c.foul = again.foul;
+      c.lose = again.lose;
+      c.seen = again.seen;
     }
     int at = k;
     for (; at > 0 && choices[at - 1].value < c.value; at--)
@@ -221,39 +222,67 @@ static carom_status tell_value(const plan_job *job, const carom_plan_job *asked,
   return status;
 }
 
+/* Whether a game can be played on a layout; complains where it cannot. */
+static bool is_playable(const plan_job *job, const shot_line *line, const char *file) {
+  const bool pockets = line->table->table.pockets > 0;
+  const bool scores = job->game.rules == CAROM_RULES_THREECUSHION;
+  if (!scores && !pockets)
+    complain("%s:%zu: the table has no pockets, which this game needs", file, line->number);
+  else if (scores && pockets)
+    complain("%s:%zu: the table has pockets; threecushion needs one without, such as --table "
+             "threecushion",
+             file, line->number);
+  else if (scores && line->count < 3)
+    complain("%s:%zu: threecushion needs three balls", file, line->number);
+  else if (line->count < 2)
+    complain("%s:%zu: a plan needs the cue ball and one more", file, line->number);
+  else
+    return true;
+  return false;
+}
+
+/* Makes the ball of the cue ball 0. */
+static void put_cue_ball_first(shot_line *line) {
+  const int64_t cue = line->cue.ball;
+  const carom_shot_ball ball = line->ball[0];
+  char *const name = line->name[0];
+  line->ball[0] = line->ball[cue];
+  line->name[0] = line->name[cue];
+  line->ball[cue] = ball;
+  line->name[cue] = name;
+  line->cue.ball = 0;
+}
+
+/* Asks the library for the estimate, the chances of the strokes that were given, or the best
+ * shots: n of them. */
+static carom_status ask(const plan_job *job, const carom_plan_job *asked, const carom_cue *strokes,
+                        int tried, carom_choice *choices, int *n, FILE *out) {
+  *n = tried;
+  if (job->value)
+    return tell_value(job, asked, out);
+  if (tried > 0)
+    return carom_plan_try(asked, strokes, tried, choices);
+  if (!job->hand)
+    return carom_plan(asked, choices, BEST, n);
+  const carom_table *table = asked->table;
+  const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)job->game.rules);
+  const int leave = job->game.opening ? about->opening : about->hand;
+  const double kitchen[2] = {table->width, 0.25 * table->length};
+  return carom_plan_hand(asked, NULL, leave == CAROM_LEAVE_KITCHEN ? kitchen : NULL, choices, BEST,
+                         n);
+}
+
 /* Plans for a layout, or judges `tried` strokes, writes the choices and keeps the best; an exit
  * code. */
 static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out,
                 const carom_cue *strokes, int tried, planned *p) {
-  if ((line->table->table.pockets == 0) != (job->game.rules == CAROM_RULES_THREECUSHION)) {
-    complain("%s:%zu: %s", file, line->number,
-             line->table->table.pockets == 0
-                 ? "the table has no pockets, which this game needs"
-                 : "the table has pockets; threecushion needs one without, such as "
-                   "--table threecushion");
+  if (!is_playable(job, line, file) || !plan_game_order(&job->game, line, file))
     return EXIT_USAGE;
-  }
-  if (line->count < 3 && job->game.rules == CAROM_RULES_THREECUSHION) {
-    complain("%s:%zu: threecushion needs three balls", file, line->number);
-    return EXIT_USAGE;
-  }
-  if (line->count < 2) {
-    complain("%s:%zu: a plan needs the cue ball and one more", file, line->number);
-    return EXIT_USAGE;
-  }
-  if (!plan_game_order(&job->game, line, file))
-    return EXIT_USAGE;
-  if (line->cue.ball != 0) { /* where names are any: the cue ball is ball 0 */
-    const carom_shot_ball ball = line->ball[0];
-    char *const name = line->name[0];
-    line->ball[0] = line->ball[line->cue.ball];
-    line->name[0] = line->name[line->cue.ball];
-    line->ball[line->cue.ball] = ball;
-    line->name[line->cue.ball] = name;
-    line->cue.ball = 0;
-  }
+  if (line->cue.ball != 0)
+    put_cue_ball_first(line);
   player_of(&job->from.shared.player, &p->player);
   plan_game_state(&job->game, line, &p->rules);
+
   carom_plan_options options = job->plan;
   options.threads = job->from.shared.options.threads;
   if (job->from.shared.player.rated && options.shots == 0)
@@ -269,25 +298,15 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
                           .memory_size = carom_plan_memory(&options)};
   asked.memory = allocate(1, asked.memory_size);
   static carom_choice choices[TRIED_MOST];
-  int n = tried;
-  const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)job->game.rules);
-  const bool kitchen = (job->game.opening ? about->opening : about->hand) == CAROM_LEAVE_KITCHEN;
-  const double high[2] = {line->table->table.width, 0.25 * line->table->table.length};
-  carom_status status;
-  if (job->value)
-    status = tell_value(job, &asked, out);
-  else if (tried > 0)
-    status = carom_plan_try(&asked, strokes, tried, choices);
-  else if (job->hand)
-    status = carom_plan_hand(&asked, NULL, kitchen ? high : NULL, choices, BEST, &n);
-  else
-    status = carom_plan(&asked, choices, BEST, &n);
+  int n;
+  const carom_status status = ask(job, &asked, strokes, tried, choices, &n, out);
   if (status != CAROM_OK) {
     free(asked.memory);
     complain("%s:%zu: by --rules %s: %s", file, line->number,
              carom_word(CAROM_WORDS_RULES, job->game.rules), carom_status_string(status));
     return EXIT_USAGE;
   }
+
   if (job->why && tried == 0)
     play_again(&asked, choices, n);
   if (job->csv && !job->value)
@@ -297,7 +316,8 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   free(asked.memory);
   p->best = choices[0];
   for (int k = 1; k < n; k++)
-    p->best = choices[k].value > p->best.value ? choices[k] : p->best;
+    if (choices[k].value > p->best.value)
+      p->best = choices[k];
   return EXIT_GOOD;
 }
 

@@ -108,21 +108,26 @@ static void play(block *b, int from, int end, const carom_shot_options *options)
                               .status = b->batch_status};
   const carom_status bad = carom_shoot_batch(&job);
   for (int k = 0; k < n; k++) {
+    const shot_line *line = &b->line[from + k];
     carom_shot *shot = &b->shot[from + k];
     carom_status *status = &b->status[from + k];
-    /* what is common to the batch may be at fault, and then nothing was played */
     *status = (carom_status)b->batch_status[k];
+
+    /* what is common to the batch may be at fault, and then nothing was played */
     int where;
-    const carom_status common = bad != CAROM_OK
-                                    ? carom_shot_check(&first->table->table, b->line[from + k].ball,
-                                                       count, &b->cue[k], options, &where)
-                                    : CAROM_OK;
-    if (common != CAROM_OK)
+    carom_status common = CAROM_OK;
+    if (bad != CAROM_OK)
+      common =
+          carom_shot_check(&line->table->table, line->ball, count, &line->cue, options, &where);
+    if (common != CAROM_OK) {
       *status = common;
+      continue;
+    }
+
     /* once more, with room for all */
-    if (common == CAROM_OK && shot->room > 0 && shot->count > shot->room) {
+    if (shot->room > 0 && shot->count > shot->room) {
       free(shot->events);
-      *status = shot_line_play(&b->line[from + k], options, shot);
+      *status = shot_line_play(line, options, shot);
     }
   }
 }
@@ -205,58 +210,78 @@ static void find_spread(block *b, int k, const shoot_job *job, const carom_shot_
     b->status[k] = to->status;
 }
 
-/* Plays what has been read and writes it; returns whether all was good. */
-static bool finish_block(block *b, shoot_job *job, FILE *out) {
-  played good_ones[BLOCK];
-  spread spreads[BLOCK] = {0};
-  int goods = 0;
-  const carom_shot_options options = options_of(job);
+/* Plays what has been read: lines without error, by runs of one table and one number of balls. */
+static void play_block(block *b, const carom_shot_options *options) {
   for (int from = 0, end; from < b->count; from = end) {
     end = from + 1;
     if (b->line[from].error != NULL)
       continue;
     while (end < b->count && goes_with(&b->line[from], &b->line[end]))
       end++;
-    play(b, from, end, &options);
+    play(b, from, end, options);
   }
+}
+
+/* Says what is wrong with line k, and writes it as a line in error. */
+static void write_wrong(block *b, int k, const shoot_job *job, FILE *out, const char *status,
+                        const char *wrong) {
+  const shot_line *line = &b->line[k];
+  if (is_named(b))
+    complain("%s:%zu: %s", b->file, line->number, wrong);
+  if (!job->words)
+    shot_write_error(out, line, status, wrong);
+}
+
+/* Writes shot k, which was played, and draws it where it is drawn alone. */
+static void write_played(block *b, int k, shoot_job *job, FILE *out, const played *shot) {
+  if (!job->words)
+    shot_write(out, shot->line, shot->shot, b->status[k], job->events,
+               shot->spread != NULL ? spread_json(shot->spread, shot->line) : NULL);
+  if (!job->together && shot_has_id(shot->line, job->id))
+    draw_alone(job, shot);
+}
+
+/* Plays what has been read and writes it; returns whether all was good. */
+static bool finish_block(block *b, shoot_job *job, FILE *out) {
+  const carom_shot_options options = options_of(job);
+  played shots[BLOCK];
+  spread spreads[BLOCK] = {0};
+  int count = 0;
   bool good = true;
+  play_block(b, &options);
   for (int k = 0; k < b->count; k++) {
     const shot_line *line = &b->line[k];
     char text[FAULT_TEXT];
     if (line->error != NULL) {
-      if (is_named(b))
-        complain("%s:%zu: %s", b->file, line->number, line->error);
-      if (!job->words)
-        shot_write_error(out, line, "bad_line", line->error);
+      write_wrong(b, k, job, out, "bad_line", line->error);
       good = false;
-    } else if (b->status[k] < 0 && shot_fault(line, &options, text)) {
-      if (is_named(b))
-        complain("%s:%zu: %s", b->file, line->number, text);
-      if (!job->words)
-        shot_write_error(out, line, carom_status_name(b->status[k]), text);
-      good = false;
-    } else {
-      if (b->status[k] < 0 && is_named(b))
-        complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time,
-                 carom_status_string(b->status[k]));
-      spread *s = job->error.given ? &spreads[job->together ? goods : 0] : NULL;
-      if (s != NULL)
-        find_spread(b, k, job, &options, s);
-      good &= b->status[k] >= 0;
-      good_ones[goods] = (played){.line = line, .shot = &b->shot[k], .spread = s};
-      if (!job->words)
-        shot_write(out, line, &b->shot[k], b->status[k], job->events,
-                   s != NULL ? spread_json(s, line) : NULL);
-      if (!job->together && shot_has_id(line, job->id))
-        draw_alone(job, &good_ones[goods]);
-      if (!job->together && s != NULL)
-        spread_free(s);
-      goods++;
+      continue;
     }
+    if (b->status[k] < 0 && shot_fault(line, &options, text)) {
+      write_wrong(b, k, job, out, carom_status_name(b->status[k]), text);
+      good = false;
+      continue;
+    }
+
+    /* it was played, to its end or up to an error on the way */
+    if (b->status[k] < 0 && is_named(b))
+      complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time,
+               carom_status_string(b->status[k]));
+    played *shot = &shots[count];
+    *shot = (played){.line = line, .shot = &b->shot[k]};
+    if (job->error.given) {
+      shot->spread = &spreads[count];
+      find_spread(b, k, job, &options, &spreads[count]);
+    }
+    good &= b->status[k] >= 0;
+    write_played(b, k, job, out, shot);
+    if (!job->together)
+      spread_free(&spreads[count]);
+    count++;
   }
   if (job->together)
-    tell_block(job, out, good_ones, goods);
-  for (int k = 0; k < goods; k++)
+    tell_block(job, out, shots, count);
+  for (int k = 0; k < count && job->together; k++)
     spread_free(&spreads[k]);
   return good;
 }
@@ -278,6 +303,36 @@ static void clear_block(block *b) {
   b->count = 0;
 }
 
+/* Reads shots up to a whole block, a table or the end. */
+static shot_read fill_block(block *b, shoot_job *job, shot_file *file, const char **text) {
+  shot_read what = SHOT_SHOT;
+  while (b->count < BLOCK) {
+    shot_line *line = &b->line[b->count];
+    what = shot_file_next(file, line, text);
+    if (what != SHOT_SHOT)
+      break;
+    shot_numbers(line, &job->from.shared, b->file, &b->unread);
+    carom_cue *cue = &line->cue;
+    const bool plays =
+        line->error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 && tip_off_centre(cue) < 1.0;
+    if (plays && doubts_about_tip(&b->tips, tip_off_centre(cue)) != NULL && job->from.shared.strict)
+      cue->miscue = TIP_LIMIT;
+    begin_shot(b, job->events != EVENTS_NONE || job->together || drawings_asked(&job->drawn) ||
+                      job->error.given);
+    b->count++;
+  }
+  return what;
+}
+
+/* Whether --plot and --animate found a shot to draw, where they are given; else a complaint. */
+static bool was_drawn(const shoot_job *job) {
+  if (!drawings_asked(&job->drawn) || drawings_made(&job->drawn))
+    return true;
+  complain("nothing to draw: there is no shot without an error%s%s", job->id != NULL ? " " : "",
+           job->id != NULL ? job->id : "");
+  return false;
+}
+
 /* All shots of a file; an exit code. */
 static int shoot_all(shoot_job *job, shot_file *file, FILE *out) {
   block *b = allocate(1, sizeof *b);
@@ -287,41 +342,25 @@ static int shoot_all(shoot_job *job, shot_file *file, FILE *out) {
   bool good = true;
   double done = 0.0;
   shot_read what;
-  while ((what = shot_file_next(file, &b->line[b->count], &text)) == SHOT_SHOT ||
-         what == SHOT_TABLE) {
-    if (what == SHOT_TABLE) { /* behind the shots before it */
-      good &= finish_block(b, job, out);
-      clear_block(b);
-      fputs(text, out);
-      continue;
-    }
-    shot_numbers(&b->line[b->count], &job->from.shared, b->file, &b->unread);
-    carom_cue *cue = &b->line[b->count].cue;
-    const bool plays = b->line[b->count].error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 &&
-                       tip_off_centre(cue) < 1.0;
-    if (plays && doubts_about_tip(&b->tips, tip_off_centre(cue)) != NULL && job->from.shared.strict)
-      cue->miscue = TIP_LIMIT;
-    begin_shot(b, job->events != EVENTS_NONE || job->together || drawings_asked(&job->drawn) ||
-                      job->error.given);
-    if (++b->count == BLOCK) {
-      good &= finish_block(b, job, out);
-      clear_block(b);
+  do {
+    what = fill_block(b, job, file, &text);
+    const bool whole = b->count == BLOCK;
+    good &= finish_block(b, job, out);
+    clear_block(b);
+    if (whole)
       progress_show("shots", done += (double)BLOCK, -1.0);
-    }
-  }
-  good &= finish_block(b, job, out);
-  clear_block(b);
+    if (what == SHOT_TABLE) /* behind the shots before it */
+      fputs(text, out);
+  } while (what == SHOT_SHOT || what == SHOT_TABLE);
   if (b->unnamed > 0)
     complain("%s: %lld more lines in error", b->file, b->unnamed);
   doubts_report(&b->tips, "shot", b->file);
   free(b);
   progress_clear();
-  if (drawings_asked(&job->drawn) && !drawings_made(&job->drawn)) {
-    complain("nothing to draw: there is no shot without an error%s%s", job->id != NULL ? " " : "",
-             job->id != NULL ? job->id : "");
-    good = false;
-  }
-  return what == SHOT_FAILED ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
+  good &= was_drawn(job);
+  if (what == SHOT_FAILED)
+    return EXIT_USAGE;
+  return good ? EXIT_GOOD : EXIT_SOME;
 }
 
 static const command_form form = {
@@ -369,15 +408,20 @@ static int write_sources(const carom_shot_options *options) {
 
 /* Options that others would ignore in silence; false after a complaint. */
 static bool go_together(const shoot_job *job, bool words, const char *path) {
-  const bool json = job->from.json, drawn = drawings_asked(&job->drawn);
+  const bool drawn = drawings_asked(&job->drawn);
+  const char *playing = NULL; /* an option for which the shot would be played */
+  if (job->csv)
+    playing = "csv";
+  else if (!words)
+    playing = "events";
+  else if (job->error.given)
+    playing = "spread";
+  else if (drawn)
+    playing = "plot and --animate";
   if (job->cite && (job->together || path != NULL))
     complain("--cite prints the sources of models and plays nothing: give it without a shot");
-  else if (json && (job->csv || !words || job->error.given || drawn))
-    complain("--json prints the shot and plays nothing: give it without --%s",
-             job->csv           ? "csv"
-             : !words           ? "events"
-             : job->error.given ? "spread"
-                                : "plot and --animate");
+  else if (job->from.json && playing != NULL)
+    complain("--json prints the shot and plays nothing: give it without --%s", playing);
   else if (job->csv && job->error.given)
     complain("--csv has no columns for --spread: give one of both");
   else if (job->id != NULL && (job->together || !drawn))
@@ -402,69 +446,84 @@ static bool chooses(shoot_job *job, const carom_shot_options *options) {
   return false;
 }
 
+/* What the options of a shot that is played need; false after a complaint. */
+static bool can_play(const shoot_job *job) {
+  const carom_shot_options *shot = &job->from.shared.shot;
+  if (job->csv && !job->words)
+    complain("--csv writes a shot by options, without --events; a file's shots are written as "
+             "lines of JSON");
+  else if (job->error.given && shot->world == CAROM_WORLD_POOLTOOL)
+    complain("--spread needs derivatives, which shots by --models pooltool do not have; --models "
+             "carom has them");
+  else if (job->error.given && shot->ball_model == CAROM_BALL_MODEL_EULER)
+    complain("--spread needs derivatives, which --ball-ball euler does not have; exact, its limit, "
+             "has them");
+  else
+    return drawings_possible(&job->drawn);
+  return false;
+}
+
+/* Plays the shots of a file to an output, and draws; an exit code. `lines` is what --json writes
+ * instead. */
+static int shoot_file(shoot_job *job, shot_file *file, const char *lines) {
+  FILE *out = output_open(job->from.shared.output);
+  if (out == NULL)
+    return EXIT_USAGE;
+  int code = EXIT_GOOD;
+  if (job->from.json)
+    fputs(lines, out);
+  else
+    code = shoot_all(job, file, out);
+  if (code == EXIT_USAGE) {
+    output_abandon();
+    return code;
+  }
+  if (!output_commit())
+    return EXIT_USAGE;
+  if (!drawings_write(&job->drawn) || (code == EXIT_GOOD && job->from.left_out > 0))
+    return EXIT_SOME;
+  return code;
+}
+
 int command_shoot(int argc, char **argv) {
   static shoot_job job;
   const char *path;
-  char *lines = NULL;
   job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}},
                     .events = EVENTS_USUAL};
-  int code = parse_arguments(&form, argc, argv, &job, &path);
-  if (code >= 0)
-    return code;
+  const int parsed = parse_arguments(&form, argc, argv, &job, &path);
+  if (parsed >= 0)
+    return parsed;
   job.together = has_flags(&job.from);
   job.words = job.together && job.events == EVENTS_USUAL;
-  job.events = job.events == EVENTS_USUAL ? EVENTS_FULL : job.events;
+  if (job.events == EVENTS_USUAL)
+    job.events = EVENTS_FULL;
   if (!go_together(&job, !job.together || job.words, path))
     return EXIT_USAGE;
-  if (job.cite) {
-    const carom_shot_options options = options_of(&job);
+  const carom_shot_options options = options_of(&job);
+  if (job.cite)
     return write_sources(&options);
-  }
   if (job.together == (path != NULL)) {
-    complain(job.together
-                 ? "a file has its own shots: give it, or the shot by --cue, --aim and the like"
-                 : "shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 "
-                   "--speed 2");
+    if (job.together)
+      complain("a file has its own shots: give it, or the shot by --cue, --aim and the like");
+    else
+      complain("shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 "
+               "--speed 2");
     return usage_hint(&form);
   }
-  if (job.csv && !job.words) {
-    complain("--csv writes a shot by options, without --events; a file's shots are written as "
-             "lines of JSON");
+  if (!can_play(&job) || !chooses(&job, &options))
     return EXIT_USAGE;
-  }
-  if (job.error.given && job.from.shared.shot.world == CAROM_WORLD_POOLTOOL) {
-    complain("--spread needs derivatives, which shots by --models pooltool do not have; --models "
-             "carom has them");
-    return EXIT_USAGE;
-  }
-  if (job.error.given && job.from.shared.shot.ball_model == CAROM_BALL_MODEL_EULER) {
-    complain("--spread needs derivatives, which --ball-ball euler does not have; exact, its limit, "
-             "has them");
-    return EXIT_USAGE;
-  }
-  if (!drawings_possible(&job.drawn))
-    return EXIT_USAGE;
-  const carom_shot_options options = options_of(&job);
-  if (!chooses(&job, &options))
-    return EXIT_USAGE;
-  shot_file *file = job.together
-                        ? flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS, &lines)
-                        : shot_file_open(path, options.cushion_model);
-  FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;
-  code = EXIT_USAGE;
-  if (out != NULL && job.from.json) {
-    fputs(lines, out);
-    code = EXIT_GOOD;
-  } else if (out != NULL)
-    code = shoot_all(&job, file, out);
-  if (file != NULL)
+
+  char *lines = NULL;
+  shot_file *file;
+  if (job.together)
+    file = flags_open(&job.from, &options, job.csv ? MOST_ROWS : MOST_SHOTS, &lines);
+  else
+    file = shot_file_open(path, options.cushion_model);
+  int code = EXIT_USAGE;
+  if (file != NULL) {
+    code = shoot_file(&job, file, lines);
     shot_file_close(file);
-  if (out != NULL && code == EXIT_USAGE)
-    output_abandon();
-  else if (out != NULL && !output_commit())
-    code = EXIT_USAGE;
-  else if (!drawings_write(&job.drawn) || (code == EXIT_GOOD && job.from.left_out > 0))
-    code = EXIT_SOME;
+  }
   free(lines);
   return code;
 }

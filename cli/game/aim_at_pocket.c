@@ -17,15 +17,15 @@ static void say_way(const layout *l, const carom_pot *pot, char words[AIMED_TEXT
   words[0] = '\0';
   for (int k = 0; k < pot->vias; k++) {
     const carom_part *part = &pot->via[k];
-    const bool again = k > 0 && part[-1].kind == CAROM_PART_RAIL;
     char *end = words + strlen(words);
     const size_t room = (size_t)(words + AIMED_TEXT - end);
+    const char *before = " off";
+    if (k > 0 && part[-1].kind == CAROM_PART_RAIL)
+      before = ",";
+    else if (k < first && first < pot->vias)
+      before = " by a kick off";
     if (part->kind == CAROM_PART_RAIL)
-      snprintf(end, room, "%s the %s rail",
-               again                            ? ","
-               : k < first && first < pot->vias ? " by a kick off"
-                                                : " off",
-               carom_rail_name(&l->table, part->index));
+      snprintf(end, room, "%s the %s rail", before, carom_rail_name(&l->table, part->index));
     else if (part->index != pot->ball)
       snprintf(end, room, " by ball %s", l->name[part->index]);
   }

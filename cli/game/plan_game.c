@@ -26,8 +26,8 @@ static int number_of(const char *name, bool snooker) {
   char *end;
   const char *digits = snooker && strncmp(name, "red", RED) == 0 ? name + RED : name;
   const long number = strtol(digits, &end, 10);
-  return end != digits && *end == '\0' && number >= 1 && number <= CAROM_BALLS_MOST ? (int)number
-                                                                                    : 0;
+  const bool is_number = end != digits && *end == '\0';
+  return is_number && number >= 1 && number <= CAROM_BALLS_MOST ? (int)number : 0;
 }
 
 /* The pocket at the foot of a table; -1 where it has none of that name. */
@@ -41,13 +41,49 @@ static int foot_of(const shot_line *line, bool is_left) {
   return -1;
 }
 
+/* The balls of a line, by their numbers in a game; NULL is the name of one that is missing. */
+typedef struct numbered_balls {
+  carom_shot_ball ball[CAROM_BALLS_MOST];
+  char *name[CAROM_BALLS_MOST];
+} numbered_balls;
+
+/* Puts each ball where its number is; false after a complaint. */
+static bool number_balls(const shot_line *line, const char *file, const carom_rules_about *about,
+                         numbered_balls *to) {
+  const bool snooker = about->rack == CAROM_RACK_SNOOKER;
+  const char *known = about->last == 9 ? "1 to 9" : "1 to 15";
+  if (snooker)
+    known = "red1 to red15, yellow, green, brown, blue, pink, black";
+  for (int k = 0; k < line->count; k++) {
+    const bool cue = k == line->cue.ball;
+    const int number = cue ? 0 : number_of(line->name[k], snooker);
+    const bool good = cue || (number >= 1 && number <= about->last);
+    if (!good || to->name[number] != NULL) {
+      complain("%s:%zu: ball '%s': the balls of this game are the cue ball and %s, each once", file,
+               line->number, line->name[k], known);
+      return false;
+    }
+    to->ball[number] = line->ball[k];
+    to->name[number] = line->name[k];
+  }
+  return true;
+}
+
+/* The name of a ball by its number; to be freed. */
+static char *name_of(int number, bool snooker) {
+  char text[16];
+  if (snooker && number >= YELLOW)
+    return strdup(colours_of_snooker[number - YELLOW]);
+  snprintf(text, sizeof text, snooker ? "red%d" : "%d", number);
+  return strdup(text);
+}
+
 /* Puts the balls where their numbers are, with those that are missing in a pocket: the line's
  * balls and names change. */
 bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
   const carom_rules_about *about = carom_rules_about_of((carom_rules_kind)game->rules);
   const carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)game->rules);
   const int last = about->last;
-  const bool snooker = about->rack == CAROM_RACK_SNOOKER;
   if (last == 0)
     return true;
   if (rules.pockets != NULL && (foot_of(line, true) < 0 || foot_of(line, false) < 0)) {
@@ -55,50 +91,31 @@ bool plan_game_order(const plan_game *game, shot_line *line, const char *file) {
              about->name);
     return false;
   }
-
-  carom_shot_ball ball[CAROM_BALLS_MOST];
-  char *name[CAROM_BALLS_MOST] = {0};
-  bool good = true;
-  for (int k = 0; k < line->count && good; k++) {
-    const bool cue = k == line->cue.ball;
-    const int number = cue ? 0 : number_of(line->name[k], snooker);
-    good = cue || (number >= 1 && number <= last);
-    if (!good || name[number] != NULL) {
-      complain("%s:%zu: ball '%s': the balls of this game are the cue ball and %s, each once", file,
-               line->number, line->name[k],
-               snooker     ? "red1 to red15, yellow, green, brown, blue, pink, black"
-               : last == 9 ? "1 to 9"
-                           : "1 to 15");
-      return false;
-    }
-    ball[number] = line->ball[k];
-    name[number] = line->name[k];
-  }
+  numbered_balls all = {.name = {NULL}};
+  if (!number_balls(line, file, about, &all))
+    return false;
 
   /* where balls count, those are down */
-  const int own = game->score[0] > 0 ? game->score[0] : 0,
-            other = game->score[1] > 0 ? game->score[1] : 0;
+  int scored = 0;
+  for (int who = 0; who < 2; who++)
+    if (game->score[who] > 0)
+      scored += game->score[who];
   const int down = last + 1 - line->count;
-  if (rules.race == CAROM_RACE_OWN && own + other > down) {
-    complain("%s:%zu: --score: %d balls count, but %d of %d are down", file, line->number,
-             own + other, down, last);
+  if (rules.race == CAROM_RACE_OWN && scored > down) {
+    complain("%s:%zu: --score: %d balls count, but %d of %d are down", file, line->number, scored,
+             down, last);
     return false;
   }
 
   /* missing balls are down */
   for (int k = 0; k <= last; k++)
-    if (name[k] == NULL) {
-      char text[16];
-      if (snooker && k >= YELLOW)
-        snprintf(text, sizeof text, "%s", colours_of_snooker[k - YELLOW]);
-      else
-        snprintf(text, sizeof text, snooker ? "red%d" : "%d", k);
-      name[k] = strdup(text);
-      ball[k] = line->ball[0];
-      ball[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+    if (all.name[k] == NULL) {
+      all.name[k] = name_of(k, about->rack == CAROM_RACK_SNOOKER);
+      all.ball[k] = line->ball[0];
+      all.ball[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
     }
-  memcpy(line->ball, ball, sizeof ball);
-  memcpy(line->name, name, sizeof name);
+  memcpy(line->ball, all.ball, sizeof all.ball);
+  memcpy(line->name, all.name, sizeof all.name);
   line->count = last + 1;
   line->cue.ball = 0;
   return true;
@@ -113,13 +130,26 @@ void plan_game_state(const plan_game *game, const shot_line *line, carom_plan_ru
   state->group = game->group;
   state->may = may[game->may];
   state->on = game->colour;
-  state->target = game->target > 0 ? game->target : state->target;
+  if (game->target > 0)
+    state->target = game->target;
   for (int who = 0; who < 2; who++) {
-    state->score[who] = game->score[who] > 0 ? game->score[who] : 0;
-    state->lost[who] = game->score[who] < 0 ? -game->score[who] : 0;
+    const int score = game->score[who];
+    state->score[who] = score > 0 ? score : 0;
+    state->lost[who] = score < 0 ? -score : 0;
     if (rules->pockets != NULL || game->pocket >= 0)
       state->pocket[who] = line != NULL ? foot_of(line, (game->pocket == 1) == (who == 0)) : 1;
   }
+}
+
+/* The option that gives a number of the state of a game's rules. */
+static const char *option_of(const char *number) {
+  static const struct {
+    const char *number, *option;
+  } named[] = {{"on", "colour"}, {"lost", "score"}, {"pocket", "own-pocket"}};
+  for (size_t k = 0; k < sizeof named / sizeof named[0]; k++)
+    if (strcmp(number, named[k].number) == 0)
+      return named[k].option;
+  return number;
 }
 
 /* What is given and the game does not have, by the library's rows. */
@@ -130,10 +160,6 @@ bool plan_game_fits(const plan_game *game) {
   const char *wrong = carom_rules_fault((carom_rules_kind)game->rules, &rules.state, &range);
   if (wrong != NULL)
     complain("--rules %s: --%s: it must be %s", carom_word(CAROM_WORDS_RULES, game->rules),
-             strcmp(wrong, "on") == 0       ? "colour"
-             : strcmp(wrong, "lost") == 0   ? "score"
-             : strcmp(wrong, "pocket") == 0 ? "own-pocket"
-                                            : wrong,
-             range);
+             option_of(wrong), range);
   return wrong == NULL;
 }

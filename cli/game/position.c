@@ -82,9 +82,9 @@ static double miss_of(const ways_search *s, const way *w, bool *good) {
                                           &w->cue, &s->options, &shot);
   *good = status >= 0 && way_is_good(s, &facts, final, w);
   const carom_ball_state *cue = &final[s->line->cue.ball];
-  return status >= 0 && cue->label == CAROM_BALL_STATIONARY
-             ? hypot(cue->r[0] - s->place[0], cue->r[1] - s->place[1])
-             : INFINITY;
+  if (status < 0 || cue->label != CAROM_BALL_STATIONARY)
+    return INFINITY;
+  return hypot(cue->r[0] - s->place[0], cue->r[1] - s->place[1]);
 }
 
 /* Gives the flags the one stroke. */
@@ -108,79 +108,110 @@ static bool follows(const carom_cue *b, const carom_cue *a) {
   return a->a == b->a && a->b == b->b && a->theta == b->theta && b->speed > a->speed;
 }
 
-/* Chooses among the strokes; false after a complaint. */
-static bool choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
-                   const carom_player *player, const shot_line *line, const carom_cue *cue,
-                   int count, char told[LEFT_TEXT]) {
-  static bool good[MOST_ROWS];
-  ways_search s = {.line = line,
-                   .options = *options,
-                   .player = *player,
-                   .aim = f->pocket != NULL ? TO_POT : TO_PLACE};
-  way w = {.kind = -1, .ball = -1, .pocket = -1}, best = {.chance = -1.0};
-  leave_into(to, &s);
-  if (f->pocket != NULL)
-    name_pot(f->pocket, line, &w);
+/* The strokes of a choice, and what came of them. */
+typedef struct trial {
+  const carom_cue *cue;
+  int count;
+  bool good[MOST_ROWS]; /* whether the cue ball ends there without errors */
+  int best;             /* that with the best chance of those; -1: there is none */
+  int nearest;          /* -1: by none the cue ball stays on the table */
+  int there;            /* how many end there */
+  double miss;          /* of the nearest one, m */
+  double chance;        /* of the best one */
+} trial;
 
-  /* the best of those that end there, and else the nearest */
-  int at = -1, nearest = -1, there = 0;
-  double least = INFINITY;
+/* Plays the strokes, each as `w` but for its cue; false after a complaint. */
+static bool try_strokes(const ways_search *s, way w, trial *t) {
+  t->best = t->nearest = -1;
+  t->there = 0;
+  t->miss = INFINITY;
+  t->chance = -1.0;
   bool fine = true;
-  for (int k = 0; k < count && fine; k++) {
-    w.cue = cue[k];
-    const double miss = miss_of(&s, &w, &good[k]);
-    nearest = miss < least ? k : nearest;
-    least = fmin(miss, least);
-    there += good[k];
-    if (!good[k])
+  for (int k = 0; k < t->count && fine; k++) {
+    w.cue = t->cue[k];
+    const double miss = miss_of(s, &w, &t->good[k]);
+    if (miss < t->miss) {
+      t->nearest = k;
+      t->miss = miss;
+    }
+    if (!t->good[k])
       continue;
-    fine = ways_chance(&s, &w);
-    at = w.chance > best.chance ? k : at;
-    best = w.chance > best.chance ? w : best;
-    progress_show("strokes", (double)k, (double)count);
+    t->there++;
+    fine = ways_chance(s, &w);
+    if (w.chance > t->chance) {
+      t->best = k;
+      t->chance = w.chance;
+    }
+    progress_show("strokes", (double)k, (double)t->count);
   }
   progress_clear();
-  if (fine && at < 0 && nearest < 0)
-    complain("--leave: by none of %d strokes the cue ball stays on the table", count);
-  else if (fine && at < 0)
-    complain(
-        "--leave: none of %d strokes does it; the nearest, with the cue at %.3g m/s and the tip "
-        "%.2f R right and %.2f above, leaves the cue ball %.2f m away",
-        count, cue[nearest].speed, 0.0 - cue[nearest].a, cue[nearest].b, least);
-  if (at >= 0) {
-    /* neighbouring speeds with the same tip */
-    int low = at, high = at;
-    while (low > 0 && good[low - 1] && follows(&cue[low], &cue[low - 1]))
-      low--;
-    while (high + 1 < count && good[high + 1] && follows(&cue[high + 1], &cue[high]))
-      high++;
-    snprintf(told, LEFT_TEXT,
-             "leave  within %.3g m of x = %.3f, y = %.3f m: %.1f %% of this player's strokes, the "
-             "best of %d, of which %d do it\n       with this tip from %.3g to %.3g m/s of the cue "
-             "without errors\n",
-             s.radius, s.place[0], s.place[1], 100.0 * best.chance, count, there, cue[low].speed,
-             cue[high].speed);
-    take(f, &cue[at]);
+  return fine;
+}
+
+/* Says that no stroke does it, and which one comes nearest. */
+static void complain_of_none(const trial *t) {
+  if (t->nearest < 0) {
+    complain("--leave: by none of %d strokes the cue ball stays on the table", t->count);
+    return;
   }
-  return at >= 0;
+  const carom_cue *nearest = &t->cue[t->nearest];
+  complain("--leave: none of %d strokes does it; the nearest, with the cue at %.3g m/s and the tip "
+           "%.2f R right and %.2f above, leaves the cue ball %.2f m away",
+           t->count, nearest->speed, 0.0 - nearest->a, nearest->b, t->miss);
+}
+
+/* Tells the best stroke, with the neighbouring speeds of the same tip that do it too. */
+static void tell_best(const ways_search *s, const trial *t, char text[LEFT_TEXT]) {
+  int low = t->best, high = t->best;
+  while (low > 0 && t->good[low - 1] && follows(&t->cue[low], &t->cue[low - 1]))
+    low--;
+  while (high + 1 < t->count && t->good[high + 1] && follows(&t->cue[high + 1], &t->cue[high]))
+    high++;
+  snprintf(text, LEFT_TEXT,
+           "leave  within %.3g m of x = %.3f, y = %.3f m: %.1f %% of this player's strokes, the "
+           "best of %d, of which %d do it\n       with this tip from %.3g to %.3g m/s of the cue "
+           "without errors\n",
+           s->radius, s->place[0], s->place[1], 100.0 * t->chance, t->count, t->there,
+           t->cue[low].speed, t->cue[high].speed);
+}
+
+/* Chooses among the strokes of `t`, and gives the flags the best; false after a complaint. */
+static bool choose(const leave *to, shoot_flags *f, ways_search *s, trial *t,
+                   char text[LEFT_TEXT]) {
+  way w = {.kind = -1, .ball = -1, .pocket = -1};
+  s->aim = f->pocket != NULL ? TO_POT : TO_PLACE;
+  leave_into(to, s);
+  if (f->pocket != NULL)
+    name_pot(f->pocket, s->line, &w);
+  if (!try_strokes(s, w, t))
+    return false;
+  if (t->best < 0) {
+    complain_of_none(t);
+    return false;
+  }
+  tell_best(s, t, text);
+  take(f, &t->cue[t->best]);
+  return true;
 }
 
 bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
-                  char told[LEFT_TEXT]) {
+                  char text[LEFT_TEXT]) {
   static carom_cue cue[MOST_ROWS];
   static shot_line line;
-  char *text;
-  carom_player player;
-  if (!player_of(&f->shared.player, &player))
+  static trial strokes;
+  ways_search s = {.line = &line, .options = *options};
+  char *lines;
+  if (!player_of(&f->shared.player, &s.player))
     return false;
-  without_bounds(&player);
-  shot_file *file = strokes_of(f, options, &text);
-  const int count = file != NULL ? strokes_read(file, &f->shared, &line, cue, MOST_ROWS) : 0;
-  const bool found = count > 0 && choose(to, f, options, &player, &line, cue, count, told);
-  if (count > 0)
+  without_bounds(&s.player);
+  shot_file *file = strokes_of(f, options, &lines);
+  strokes.cue = cue;
+  strokes.count = file != NULL ? strokes_read(file, &f->shared, &line, cue, MOST_ROWS) : 0;
+  const bool found = strokes.count > 0 && choose(to, f, &s, &strokes, text);
+  if (strokes.count > 0)
     shot_line_free(&line);
   if (file != NULL)
     shot_file_close(file);
-  free(text);
+  free(lines);
   return found;
 }

@@ -24,6 +24,6 @@ void leave_into(const leave *to, struct ways_search *s);
  * --pocket; and what is to be told of it. False after a complaint. */
 enum { LEFT_TEXT = 400 };
 bool leave_choose(const leave *to, shoot_flags *f, const carom_shot_options *options,
-                  char told[LEFT_TEXT]);
+                  char text[LEFT_TEXT]);
 
 #endif

@@ -22,11 +22,15 @@ const char *way_name(const ways_search *s, const way *w) {
 }
 
 bool player_of(const given_player *given, carom_player *player) {
-  *player = given->rated ? carom_player_fargo(given->rating)
-                         : carom_player_of(given->errs ? given->scale : 1.0);
-  if (given->rated && given->errs)
+  if (given->rated && given->errs) {
     complain("--player is a rating, --errors are errors: give one of both");
-  return !(given->rated && given->errs);
+    return false;
+  }
+  if (given->rated)
+    *player = carom_player_fargo(given->rating);
+  else
+    *player = carom_player_of(given->errs ? given->scale : 1.0);
+  return true;
 }
 
 void without_bounds(carom_player *player) {
@@ -171,9 +175,8 @@ static bool find_chain(const carom_shot *shot, int ball, int cue, pot_chain *cha
 
 /* Whether a ball is ball n of a chain or a neighbour of it there. */
 static bool is_neighbour(const pot_chain *chain, int n, int ball) {
-  const int first = n > 0 ? n - 1 : n, last = n < chain->links ? n + 1 : n;
-  for (int k = first; k <= last; k++)
-    if (chain->ball[k] == ball)
+  for (int k = n - 1; k <= n + 1; k++)
+    if (k >= 0 && k <= chain->links && chain->ball[k] == ball)
       return true;
   return false;
 }
@@ -273,9 +276,9 @@ static double cut_of(const carom_shot *shot, int cue) {
   return NAN;
 }
 
-/* Plays a stroke, and reads its way, of which kind, ball and pocket are given. What it tells: */
-typedef enum told { NOTHING, NO_ROOM, A_WAY } told;
-static told read_stroke(const ways_search *s, const carom_cue *cue, way *w) {
+/* Plays a stroke, and reads its way, of which kind, ball and pocket are given. What comes of it: */
+typedef enum stroke_read { NO_WAY, NO_ROOM, A_WAY } stroke_read;
+static stroke_read read_stroke(const ways_search *s, const carom_cue *cue, way *w) {
   static carom_event event[ROOM];
   static carom_facts facts;
   static carom_ball_state final[CAROM_BALLS_MOST];
@@ -283,7 +286,7 @@ static told read_stroke(const ways_search *s, const carom_cue *cue, way *w) {
   if (carom_shoot(&s->line->table->table, s->line->ball, s->line->count, cue, &s->options, &shot) <
           0 ||
       !way_is_good(s, &facts, final, w))
-    return NOTHING;
+    return NO_WAY;
   w->parts = 0;
   if (shot.count > ROOM)
     return NO_ROOM;
@@ -292,13 +295,12 @@ static told read_stroke(const ways_search *s, const carom_cue *cue, way *w) {
     w->cut = cut_of(&shot, (int)cue->ball);
     return A_WAY;
   }
-  return s->aim == TO_SCORE && w->parts == MOST_PARTS ? NO_ROOM : NOTHING;
+  return s->aim == TO_SCORE && w->parts == MOST_PARTS ? NO_ROOM : NO_WAY;
 }
 
-static bool is_same(const way *one, const way *other) {
-  return one->kind == other->kind && one->ball == other->ball && one->pocket == other->pocket &&
-         one->parts == other->parts &&
-         memcmp(one->part, other->part, (size_t)one->parts * sizeof *one->part) == 0;
+static bool is_same(const way *a, const way *b) {
+  return a->kind == b->kind && a->ball == b->ball && a->pocket == b->pocket &&
+         a->parts == b->parts && memcmp(a->part, b->part, (size_t)a->parts * sizeof *a->part) == 0;
 }
 
 /* ---- Strokes in all directions */
@@ -340,11 +342,17 @@ static void read_shot(ways_search *s, const carom_shot *shot, const carom_cue *c
     seen.pocket = shot->facts->pocket[ball];
   if (!way_is_good(s, shot->facts, shot->final, &seen))
     return;
-  const told is = read_stroke(s, cue, &seen);
-  s->left_out += is == NO_ROOM;
-  s->good += is == A_WAY;
-  if (is == A_WAY)
+  switch (read_stroke(s, cue, &seen)) {
+  case A_WAY:
+    s->good++;
     count_way(s, &seen, stroke, k, step);
+    break;
+  case NO_ROOM:
+    s->left_out++;
+    break;
+  case NO_WAY:
+    break;
+  }
 }
 
 /* Whether the way is that of its stroke with another value of *field, of its cue. */
@@ -368,7 +376,10 @@ static double edge_of(const ways_search *s, way *w, double *field, double in, do
   }
   for (int k = 0; k < HALVINGS; k++) {
     const double middle = 0.5 * (in + out);
-    *(holds(s, w, field, middle) ? &in : &out) = middle;
+    if (holds(s, w, field, middle))
+      in = middle;
+    else
+      out = middle;
   }
   return in;
 }
@@ -382,7 +393,8 @@ static bool finish_way(ways_search *s, way *w, double step) {
   w->phi[1] = edge_of(s, w, &w->cue.phi, w->end, 1.0, step, begin, begin + 360.0);
   const double middle = 0.5 * (w->phi[0] + w->phi[1]);
   w->cue.phi = w->end - step * (double)((w->longest - 1) / 2);
-  w->cue.phi = holds(s, w, &w->cue.phi, middle) ? middle : w->cue.phi;
+  if (holds(s, w, &w->cue.phi, middle))
+    w->cue.phi = middle;
   way there = {.kind = -1, .ball = w->ball, .pocket = w->pocket};
   if (read_stroke(s, &w->cue, &there) == A_WAY)
     w->cut = there.cut;
@@ -404,7 +416,8 @@ static void keep_best(ways_search *s, double step) {
     if (w.phi[1] - w.phi[0] < WINDOW_LEAST || w.phi[0] <= -step)
       continue;
     for (int n = 0; n < kept && !s->each; n++)
-      at = is_same(&s->way[n], &w) ? n : at;
+      if (is_same(&s->way[n], &w))
+        at = n;
     if (at == kept || w.chance > s->way[at].chance)
       s->way[at] = w;
     kept += at == kept;
@@ -412,33 +425,47 @@ static void keep_best(ways_search *s, double step) {
   s->ways = kept;
 }
 
-/* Plays strokes in all directions; false after a complaint. */
-static bool scan(ways_search *s) {
+/* Whether a shot pots a ball that is asked for into a pocket that is. */
+static bool is_asked(const ways_search *s, const carom_facts *facts, int ball) {
+  return ball != s->line->cue.ball && (s->ball < 0 || ball == s->ball) &&
+         (s->pocket < 0 || facts->pocket[ball] == s->pocket);
+}
+
+/* Plays n directions of a stroke, from direction `first` on, and counts their ways; false after a
+ * complaint. */
+static bool scan_block(ways_search *s, int stroke, int64_t first, int n, double step) {
   static carom_shot shot[BLOCK];
   static carom_facts facts[BLOCK];
   static carom_cue cue[BLOCK];
   static carom_ball_state final[BLOCK][CAROM_BALLS_MOST];
+  for (int k = 0; k < n; k++) {
+    cue[k] = s->stroke[stroke];
+    cue[k].phi = step * (double)(first + k);
+    shot[k] = (carom_shot){.facts = &facts[k], .final = final[k]};
+  }
+  if (!play(s, cue, n, shot))
+    return false;
+
+  for (int k = 0; k < n; k++) {
+    s->scanned++;
+    if (s->aim != TO_POT)
+      read_shot(s, &shot[k], &cue[k], -1, stroke, first + k, step);
+    for (int ball = 0; ball < s->line->count && s->aim == TO_POT; ball++)
+      if (is_asked(s, &facts[k], ball))
+        read_shot(s, &shot[k], &cue[k], ball, stroke, first + k, step);
+  }
+  return true;
+}
+
+/* Plays strokes in all directions; false after a complaint. */
+static bool scan(ways_search *s) {
   const int64_t each = s->scan / s->strokes;
   const double step = 360.0 / (double)each;
   bool fine = true;
   for (int stroke = 0; stroke < s->strokes && fine; stroke++)
     for (int64_t from = 0; from < each && fine; from += BLOCK) {
-      const int n = (int)(each - from < BLOCK ? each - from : BLOCK);
-      for (int k = 0; k < n; k++) {
-        cue[k] = s->stroke[stroke];
-        cue[k].phi = step * (double)(from + k);
-        shot[k] = (carom_shot){.facts = &facts[k], .final = final[k]};
-      }
-      fine = play(s, cue, n, shot);
-      for (int k = 0; k < n && fine; k++) {
-        s->scanned++;
-        if (s->aim != TO_POT)
-          read_shot(s, &shot[k], &cue[k], -1, stroke, from + k, step);
-        for (int ball = 0; ball < s->line->count && s->aim == TO_POT; ball++)
-          if (ball != s->line->cue.ball && (s->ball < 0 || ball == s->ball) &&
-              (s->pocket < 0 || facts[k].pocket[ball] == s->pocket))
-            read_shot(s, &shot[k], &cue[k], ball, stroke, from + k, step);
-      }
+      const int64_t left = each - from;
+      fine = scan_block(s, stroke, from, left < BLOCK ? (int)left : BLOCK, step);
       progress_show("strokes", (double)s->scanned, (double)(each * s->strokes));
     }
   for (int k = 0; k < s->ways && fine; k++) {

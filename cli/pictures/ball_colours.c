@@ -20,16 +20,21 @@ const char *named_colour(const char *name) {
   return strncmp(name, "red", 3) == 0 ? "#ff8d80" : NULL;
 }
 
-const char *colour_of(const char *name, int index) {
+/* The number that a ball has for a name, 1 to 15; 0 where its name is none. */
+static long number_of(const char *name) {
   char *end;
   const long number = strtol(name, &end, 10);
-  return named_colour(name) != NULL                    ? named_colour(name)
-         : *end == '\0' && number >= 1 && number <= 15 ? ball_colours[number]
-                                                       : ball_colours[index % 16];
+  return *end == '\0' && number >= 1 && number <= 15 ? number : 0;
+}
+
+const char *colour_of(const char *name, int index) {
+  const char *named = named_colour(name);
+  if (named != NULL)
+    return named;
+  const long number = number_of(name);
+  return number > 0 ? ball_colours[number] : ball_colours[index % 16];
 }
 
 bool is_striped(const char *name) {
-  char *end;
-  const long number = strtol(name, &end, 10);
-  return *end == '\0' && number >= 9 && number <= 15;
+  return number_of(name) >= 9;
 }

@@ -155,14 +155,17 @@ static void draw_path(sketch *s, const contact_picture *p, const motion *m, int 
   put_label(&s->labels, x + 14.0 * cos(angle), y - 14.0 * sin(angle), p->way[ball]);
 }
 
+/* The largest of 1, 2, 5, 10, 20 ... that is not above a length. */
+static double round_length(double most) {
+  const double power = pow(10.0, floor(log10(most))), share = most / power;
+  if (share >= 5.0)
+    return 5.0 * power;
+  return share >= 2.0 ? 2.0 * power : power;
+}
+
 /* A bar of a round length, about a sixth of the width. */
 static void draw_scale(sketch *s) {
-  const double wanted = CONTACT_WIDTH / 6.0 / s->scale, power = pow(10.0, floor(log10(wanted))),
-               share = wanted / power;
-  const double length = power * (share >= 5.0   ? 5.0
-                                 : share >= 2.0 ? 2.0
-                                                : 1.0),
-               x = CONTACT_WIDTH - margin;
+  const double length = round_length(CONTACT_WIDTH / 6.0 / s->scale), x = CONTACT_WIDTH - margin;
   char text[40];
   snprintf(text, sizeof text, length < 1.0 ? "%.3g cm" : "%.3g m",
            length < 1.0 ? 100.0 * length : length);

@@ -178,7 +178,12 @@ void svg_text(FILE *out, double x, double y, const char *text, int most, const c
   va_end(list);
   putc('>', out);
   for (int k = 0; k < most && text[k] != '\0'; k++)
-    text[k] == '<' ? fputs("&lt;", out) : text[k] == '&' ? fputs("&amp;", out) : putc(text[k], out);
+    if (text[k] == '<')
+      fputs("&lt;", out);
+    else if (text[k] == '&')
+      fputs("&amp;", out);
+    else
+      putc(text[k], out);
   fputs("</text>\n", out);
 }
 

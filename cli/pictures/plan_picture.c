@@ -23,6 +23,25 @@ static void draw(FILE *out, const void *data) {
 /* Strokes with errors, of which some are drawn. */
 enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_DOUBLE_HIT + 1, MISS = FOULS, LOSS, WAYS };
 
+/* How a stroke failed: the foul, a loss or a miss. */
+static int failure_of(const carom_turn *turn) {
+  if (turn->foul != 0)
+    return turn->foul;
+  return turn->is == CAROM_TURN_LOSE ? LOSS : MISS;
+}
+
+/* Says how often a failure came. */
+static void say_failure(FILE *out, int failure, int times, bool points) {
+  if (failure < FOULS)
+    fprintf(out, " %d foul: %s.", times, carom_foul_string(failure));
+  else if (failure == LOSS)
+    fprintf(out, " %d lose the game.", times);
+  else if (points)
+    fprintf(out, " %d score nothing.", times);
+  else
+    fprintf(out, " %d pot nothing that counts, without a foul.", times);
+}
+
 /* Plays the best shot with the player's errors, and says how often which failure comes of it, the
  * most frequent first. The first of the shots are kept, with their events. */
 static void say_failures(const planned *p, const shot_line *line, uint64_t seed, carom_shot *kept,
@@ -51,7 +70,7 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
     const bool keeps = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
     good += keeps;
     if (!keeps)
-      times[turn.foul != 0 ? turn.foul : turn.is == CAROM_TURN_LOSE ? LOSS : MISS]++;
+      times[failure_of(&turn)]++;
   }
 
   const bool points = line->table->table.pockets == 0;
@@ -59,12 +78,10 @@ static void say_failures(const planned *p, const shot_line *line, uint64_t seed,
   for (int said = 0; said < 3; said++) {
     int most = 0;
     for (int k = 1; k < WAYS; k++)
-      most = times[k] > times[most] ? k : most;
+      if (times[k] > times[most])
+        most = k;
     if (times[most] > 0)
-      fprintf(out, " %d %s%s.", times[most], most < FOULS ? "foul: " : "",
-              most == LOSS   ? "lose the game"
-              : most == MISS ? points ? "score nothing" : "pot nothing that counts, without a foul"
-                             : carom_foul_string(most));
+      say_failure(out, most, times[most], points);
     times[most] = 0;
   }
   fputc('\n', out);

@@ -29,7 +29,8 @@ static int inputs_of(const series *s) {
 static int range_of(const series *s) {
   int range = -1;
   for (int k = 0; k < inputs_of(s); k++)
-    range = s->in[k].range ? k : range;
+    if (s->in[k].range)
+      range = k;
   return range;
 }
 
@@ -85,9 +86,11 @@ static bool check_all(const series *s, int count) {
     const carom_status status = resolve_case(s, k, &c);
     if (status != CAROM_OK) {
       kind->check(c.row, &c.asked, &field);
-      complain("no such %s (%s): %s%s%s (%s)", kind->noun, c.id,
-               field >= 0 ? kind->columns[field].name : "", field >= 0 ? ": " : "",
-               carom_status_string(status), carom_status_name(status));
+      char where[40] = "";
+      if (field >= 0)
+        snprintf(where, sizeof where, "%s: ", kind->columns[field].name);
+      complain("no such %s (%s): %s%s (%s)", kind->noun, c.id, where, carom_status_string(status),
+               carom_status_name(status));
       return false;
     }
     const double tip = tip_offset(c.given, inputs_of(s), c.row[kind->radius]);
@@ -129,12 +132,12 @@ const char *velocity_text(const double v[2], double scale, char text[64]) {
 
 void tell_spin(FILE *out, const double w[3]) {
   const double level = hypot(w[0], w[1]), upright = fabs(w[2]) < 0.005 ? 0.0 : w[2]; /* not -0.00 */
-  fprintf(out,
-          fmax(fabs(w[2]), level) < 1e9 ? "              spin after:  %.2f rad/s about the "
-                                          "vertical, %.2f rad/s about a horizontal axis\n"
-                                        : "              spin after:  %.4g rad/s about the "
-                                          "vertical, %.4g rad/s about a horizontal axis\n",
-          upright, level);
+  const char *line = "              spin after:  %.2f rad/s about the vertical, %.2f rad/s about a "
+                     "horizontal axis\n";
+  if (fmax(fabs(w[2]), level) >= 1e9)
+    line = "              spin after:  %.4g rad/s about the vertical, %.4g rad/s about a "
+           "horizontal axis\n";
+  fprintf(out, line, upright, level);
 }
 
 /* ---- Tables */
@@ -167,23 +170,26 @@ static void write_table(FILE *out, const series *s, int count) {
     if (s->in[k].count > 1)
       fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k].name,
               s->in[k].unit);
-  for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY); q++)
-    fprintf(out, "%s%s", q > first ? "," : "", word);
+  const char *between = "";
+  for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY);
+       q++) {
+    fprintf(out, "%s%s", between, word);
+    between = ",";
+  }
   fputc('\n', out);
   for (int k = 0; k < count; k++) {
+    char text[NUMBER_TEXT];
     resolve_case(s, k, &c);
     for (int input = 0; input < inputs_of(s); input++)
       if (s->in[input].count > 1) {
-        char text[NUMBER_TEXT];
-        fprintf(out, "%s,",
-                isnan(c.given[input]->given) ? c.given[input]->name
-                                             : number_text(c.given[input]->given, text));
+        const value *v = c.given[input];
+        fprintf(out, "%s,", isnan(v->given) ? v->name : number_text(v->given, text));
       }
+    between = "";
     for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY);
          q++) {
-      char text[NUMBER_TEXT];
-      fprintf(out, "%s%s", q > first ? "," : "",
-              number_text(s->scene->measure(s, &c, q) + 0.0, text));
+      fprintf(out, "%s%s", between, number_text(s->scene->measure(s, &c, q) + 0.0, text));
+      between = ",";
     }
     fputc('\n', out);
   }
@@ -210,26 +216,28 @@ static void write_curves(FILE *out, const void *data) {
   fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range].name, s->in[range].unit,
           s->scene->quantity[quantity]);
   /* What is the same for all, on lines of a few, and the law. */
-  int said = 0;
-  for (int k = 0; k < inputs_of(s); k++)
-    if (s->in[k].count == 1 && !is_tacit(s, k))
-      fprintf(out, "%s%s %s",
-              said % 3 > 0 ? ", "
-              : said > 0   ? "\n# footer: "
-                           : "",
-              s->scene->inputs[k].name, s->in[k].at[0].name),
-          said++;
+  const char *between = "";
+  for (int k = 0, said = 0; k < inputs_of(s); k++)
+    if (s->in[k].count == 1 && !is_tacit(s, k)) {
+      fprintf(out, "%s%s %s", between, s->scene->inputs[k].name, s->in[k].at[0].name);
+      said++;
+      between = said % 3 > 0 ? ", " : "\n# footer: ";
+    }
   if (s->scene->law(s, law)[0] != '\0')
     fprintf(out, "\n# footer: %s", law);
   putc('\n', out);
   for (int curve = 0; curve < curves; curve++) {
     make_case(s, curve * points, &c);
     fprintf(out, "# curve %d: ", curve + 1);
-    for (int k = 0, named = 0; k < inputs_of(s); k++)
-      if (k != range && s->in[k].count > 1)
-        fprintf(out, "%s%s%s%s", named++ > 0 ? ", " : "",
-                isnan(c.given[k]->given) ? "" : s->scene->inputs[k].name,
-                isnan(c.given[k]->given) ? "" : " ", c.given[k]->name);
+    between = "";
+    for (int k = 0; k < inputs_of(s); k++)
+      if (k != range && s->in[k].count > 1) {
+        fputs(between, out);
+        if (!isnan(c.given[k]->given))
+          fprintf(out, "%s ", s->scene->inputs[k].name);
+        fputs(c.given[k]->name, out);
+        between = ", ";
+      }
     fputc('\n', out);
   }
   fputs("curve,x,y\n", out);
@@ -264,8 +272,7 @@ static void write_pictures(FILE *out, const void *data) {
 }
 
 static bool draw(const series *s) {
-  const int range = range_of(s);
-  if (range < 0)
+  if (range_of(s) < 0)
     return svg_draw(s->picture, write_pictures, s);
   return picture_draw(s->picture, "curves", "", write_curves, s);
 }
@@ -302,6 +309,37 @@ static bool is_possible(const series *s, int count) {
   return false;
 }
 
+/* Whether all angles are below 90 degrees, and all speeds above 0; else a complaint. */
+static bool are_in_range(const series *s, int angle, const char *complaint) {
+  const values *angles = &s->in[angle], *speeds = &s->in[SPEED_INPUT];
+  for (int k = 0; k < angles->count; k++)
+    if (!(fabs(angles->at[k].x) < 90.0)) {
+      complain("%s", complaint);
+      return false;
+    }
+  for (int k = 0; k < speeds->count; k++)
+    if (!(speeds->at[k].x > 0.0)) {
+      complain("--speed is above 0");
+      return false;
+    }
+  return true;
+}
+
+/* Writes the words, the table or the rows; false after a complaint. */
+static bool write_all(const series *s, int count) {
+  const bool curves = range_of(s) >= 0, quantity = s->quantity != NO_QUANTITY;
+  FILE *out = output_open(s->asked.output != NULL ? s->asked.output : "-");
+  if (out == NULL)
+    return false;
+  if (s->csv && !quantity)
+    write_rows(out, s, count);
+  else if (curves || quantity)
+    write_table(out, s, count);
+  else
+    write_words(out, s, count);
+  return output_commit();
+}
+
 int series_command(series *s, const command_form *form, int argc, char **argv, int angle,
                    const char *complaint) {
   s->quantity = NO_QUANTITY;
@@ -310,29 +348,12 @@ int series_command(series *s, const command_form *form, int argc, char **argv, i
   const int code = parse_arguments(form, argc, argv, s, NULL), count = count_of(s);
   if (code >= 0)
     return code;
-  bool good = true;
-  for (int k = 0; k < s->in[angle].count && good; k++)
-    if (!(good = fabs(s->in[angle].at[k].x) < 90.0))
-      complain("%s", complaint);
-  for (int k = 0; k < s->in[SPEED_INPUT].count && good; k++)
-    if (!(good = s->in[SPEED_INPUT].at[k].x > 0.0))
-      complain("--speed is above 0");
-  if (!good)
-    return EXIT_USAGE;
-  if (!is_possible(s, count) || !output_possible(s->picture) || !check_all(s, count))
+  if (!are_in_range(s, angle, complaint) || !is_possible(s, count) ||
+      !output_possible(s->picture) || !check_all(s, count))
     return EXIT_USAGE;
   /* With a picture of curves the table is only written where it is asked for. */
-  const bool curves = range_of(s) >= 0, table = s->quantity != NO_QUANTITY || !s->csv;
-  if (!curves || s->picture == NULL || s->csv || s->asked.output != NULL) {
-    FILE *out = output_open(s->asked.output != NULL ? s->asked.output : "-");
-    if (out == NULL)
-      return EXIT_USAGE;
-    if (!curves && !s->csv && s->quantity == NO_QUANTITY)
-      write_words(out, s, count);
-    else
-      (table ? write_table : write_rows)(out, s, count);
-    if (!output_commit())
-      return EXIT_USAGE;
-  }
+  const bool writes = range_of(s) < 0 || s->picture == NULL || s->csv || s->asked.output != NULL;
+  if (writes && !write_all(s, count))
+    return EXIT_USAGE;
   return s->picture == NULL || draw(s) ? EXIT_GOOD : EXIT_USAGE;
 }

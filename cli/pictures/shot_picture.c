@@ -63,45 +63,46 @@ static void draw_arrow(const view *v, FILE *out, const char *colour, const carom
             -11.0 * x - 4.5 * y, -11.0 * y + 4.5 * x, 9.0 * y, -9.0 * x);
 }
 
+static bool is_moving(int64_t label) {
+  return label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING || label == CAROM_BALL_AIRBORNE;
+}
+
 /* The path of one ball, from event to event that it is in; thin, without arrows. */
 static void draw_path(const view *v, const shot_line *line, const carom_shot *shot, int ball,
                       const char *colour, const char *dashes, bool thin) {
   char *heads;
   size_t heads_size;
   FILE *head = open_text(&heads, &heads_size);
-  carom_ball_state states[CAROM_BALLS_MOST], middle;
+  carom_ball_state states[CAROM_BALLS_MOST];
   double last = 0.0;
   bool moved = false;
   for (int64_t k = 0; last < shot->time; k++) {
     /* The next event, or the end of the picture. */
     const bool is_event = k < shot->count && k < shot->room && shot->events[k].time <= shot->time;
     const carom_event *e = is_event ? &shot->events[k] : NULL;
-    const int side = e == NULL || e->a == ball                          ? 0
-                     : e->type == CAROM_EVENT_BALL_BALL && e->b == ball ? 1
-                                                                        : -1;
+    const int side = is_event ? shot_event_side(e, ball) : 0;
     if (side < 0)
       continue;
-    const double time = e != NULL ? e->time : shot->time;
+    const double time = is_event ? e->time : shot->time;
+    const carom_ball_state *to = is_event ? &e->before[side] : &shot->final[ball];
     carom_shot_at(line->ball, line->count, shot, 0.5 * (last + time), states);
-    middle = states[ball];
-    const int64_t label = e != NULL ? e->before[side].label : middle.label;
-    const bool moves =
-        label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING || label == CAROM_BALL_AIRBORNE;
-    if (e != NULL ? moved || time > last : moves) {
-      if (!moved) {
-        carom_shot_at(line->ball, line->count, shot, last, states);
+    const carom_ball_state middle = states[ball];
+    const int64_t label = is_event ? to->label : middle.label;
+    carom_shot_at(line->ball, line->count, shot, last, states);
+
+    /* a piece from the event before, unless the ball has not moved yet or lies at the end */
+    if (is_event ? moved || time > last : is_moving(label)) {
+      if (!moved)
         fprintf(v->out,
                 "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\"%s "
                 "d=\"M%.1f %.1f",
                 colour, thin ? "0.8" : "2.2", dashes, across(v, states[ball].r),
                 down(v, states[ball].r));
-        moved = true;
-      }
-      const double *to = e != NULL ? e->before[side].r : shot->final[ball].r;
-      carom_shot_at(line->ball, line->count, shot, last, states);
-      draw_piece(v, line, shot, ball, last, time, states[ball].r, to, label == CAROM_BALL_SLIDING);
+      moved = true;
+      draw_piece(v, line, shot, ball, last, time, states[ball].r, to->r,
+                 label == CAROM_BALL_SLIDING);
       if (!thin)
-        draw_arrow(v, head, colour, &states[ball], to, &middle);
+        draw_arrow(v, head, colour, &states[ball], to->r, &middle);
     }
     last = time;
   }
@@ -137,7 +138,10 @@ static void draw_band(const view *v, const shot_line *line, const spread *s, int
           k + 1 < s->points[ball] && !band[k + 1].begins && (band[k + 1].time > s->until) == beyond;
       if (!goes_on && from >= 0)
         draw_part(v, part, band, from, k);
-      from = !goes_on ? -1 : from < 0 ? k : from;
+      if (!goes_on)
+        from = -1;
+      else if (from < 0)
+        from = k;
     }
     close_text(part, &parts);
     if (size > 0)
@@ -249,15 +253,46 @@ static double rise_of(const shot_line *line, const carom_shot *shot, int ball) {
   const bool flies =
       start->label == CAROM_BALL_AIRBORNE || start->v[2] != 0.0 || start->r[2] > R + 1e-6;
   double most = flies ? start->r[2] - R + 0.5 * start->v[2] * fabs(start->v[2]) / g : 0.0;
-  for (int64_t k = 0; k < shot->count && k < shot->room; k++)
-    for (int side = 0; side < 2; side++) {
-      const carom_event *e = &shot->events[k];
-      const carom_ball_state *s = &e->after[side];
-      if ((side == 0 ? e->a : e->b) == ball && (side == 0 || e->type == CAROM_EVENT_BALL_BALL) &&
-          s->label == CAROM_BALL_AIRBORNE)
-        most = fmax(most, s->r[2] - R + (s->v[2] > 0.0 ? 0.5 * s->v[2] * s->v[2] / g : 0.0));
-    }
+  for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
+    const int side = shot_event_side(&shot->events[k], ball);
+    if (side < 0)
+      continue;
+    const carom_ball_state *s = &shot->events[k].after[side];
+    const double climb = s->v[2] > 0.0 ? 0.5 * s->v[2] * s->v[2] / g : 0.0;
+    if (s->label == CAROM_BALL_AIRBORNE)
+      most = fmax(most, s->r[2] - R + climb);
+  }
   return most;
+}
+
+/* The heights of one ball, up to the last time that it is on the table. */
+static void draw_heights(const view *v, const shot_line *line, const carom_shot *shot, int ball,
+                         double cloth) {
+  enum { PIECES = 24 };
+  carom_ball_state states[CAROM_BALLS_MOST];
+  fprintf(v->out,
+          "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"",
+          colour_of(line->name[ball], ball));
+  double last = 0.0;
+  for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
+    const carom_event *e = &shot->events[k];
+    const int side = shot_event_side(e, ball);
+    if (side < 0)
+      continue;
+    const int pieces = e->time > last ? PIECES : 0;
+    for (int n = 0; n <= pieces; n++) {
+      const carom_ball_state *s = &e->before[side];
+      if (n < pieces) {
+        const double time = last + (e->time - last) * n / pieces;
+        carom_shot_at(line->ball, line->count, shot, time, states);
+        s = &states[ball];
+      }
+      const char command = last == 0.0 && n == 0 ? 'M' : 'L';
+      fprintf(v->out, "%c%.1f %.1f", command, across(v, s->r), cloth - v->scale * s->r[2]);
+    }
+    last = e->time;
+  }
+  fputs("\"/>\n", v->out);
 }
 
 /* The side view of the balls that rise by more than a millimetre, above a line for the cloth at
@@ -273,33 +308,9 @@ static void draw_side(const view *v, const shot_line *line, const carom_shot *sh
       fprintf(v->out, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#1d4a3c\" stroke-width=\"2\"/>\n", x,
               cloth, cloth - v->scale * t->rail[k].height);
     }
-  carom_ball_state states[CAROM_BALLS_MOST];
   for (int ball = line->count - 1; ball >= 0; ball--) {
-    if (rise_of(line, shot, ball) > 1e-3) {
-      /* up to the last time that it is on the table */
-      fprintf(
-          v->out,
-          "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"",
-          colour_of(line->name[ball], ball));
-      double last = 0.0;
-      for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
-        const carom_event *e = &shot->events[k];
-        const bool in = e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
-        const int pieces = in && e->time > last ? 24 : 0;
-        for (int n = 0; n <= pieces && in; n++) {
-          const double time = pieces > 0 ? last + (e->time - last) * n / pieces : e->time;
-          const carom_ball_state *s = e->a == ball ? &e->before[0] : &e->before[1];
-          if (n < pieces) {
-            carom_shot_at(line->ball, line->count, shot, time, states);
-            s = &states[ball];
-          }
-          fprintf(v->out, "%c%.1f %.1f", last == 0.0 && n == 0 ? 'M' : 'L', across(v, s->r),
-                  cloth - v->scale * s->r[2]);
-        }
-        last = in ? e->time : last;
-      }
-      fputs("\"/>\n", v->out);
-    }
+    if (rise_of(line, shot, ball) > 1e-3)
+      draw_heights(v, line, shot, ball, cloth);
     draw_start(v, line, ball, cloth - v->scale * line->ball[ball].state.r[2]);
   }
 }

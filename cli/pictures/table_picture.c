@@ -68,20 +68,23 @@ static void draw_diamonds(const view *v, const carom_table *t) {
 
 /* The names of the pockets, on the wood beside them. */
 static void name_pockets(const view *v, const carom_table *t, double width, double height) {
-  static const char *const anchors[] = {"start", "middle", "end"};
-  const double band = 0.5 * v->scale * v->margin, size = v->labels->size;
+  const double band = 0.5 * v->scale * v->margin, size = v->labels->size, edge = 0.8 * band;
   for (int k = 0; k < t->pockets && v->turned; k++) {
     const char *name = carom_pocket_name(t, k);
     const double x = across(v, t->pocket[k].centre), y = down(v, t->pocket[k].centre);
-    const int place = x < 0.25 * width ? 0 : x < 0.75 * width ? 1 : 2;
+    const char *anchor = "middle";
+    double at = x;
+    if (x < 0.25 * width) {
+      at = edge;
+      anchor = "start";
+    } else if (x >= 0.75 * width) {
+      at = width - edge;
+      anchor = "end";
+    }
     if (name != NULL)
-      svg_text(v->out,
-               place == 0   ? 0.8 * band
-               : place == 1 ? x
-                            : width - 0.8 * band,
-               (y < 0.5 * height ? 0.0 : height - band) + 0.8 * band, name, 20,
+      svg_text(v->out, at, (y < 0.5 * height ? 0.0 : height - band) + edge, name, 20,
                "class=\"pocket\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\"", size,
-               anchors[place]);
+               anchor);
   }
 }
 

@@ -91,6 +91,40 @@ static void hold_standard_places(void) {
       exit(EXIT_USAGE);
 }
 
+/* An option of the program itself, which stands alone: --help, --version and the like. Returns
+ * whether `name` is one, which then is done. */
+static bool run_option(const program *p, const char *name) {
+  if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0)
+    print_help(stdout, p);
+  else if (strcmp(name, "--complete") == 0) /* for the shells: completion.* */
+    for (size_t k = 0; k < p->count; k++)
+      puts(p->commands[k].name);
+  else if (strcmp(name, "--manual") == 0) /* for manual.cmake */
+    print_manual(stdout, p);
+  else if (strcmp(name, "--version") == 0)
+    printf("%s %s\n", p->name, carom_version());
+  else
+    return false;
+  return true;
+}
+
+static const command *find_command(const program *p, const char *name) {
+  for (size_t k = 0; k < p->count; k++)
+    if (strcmp(name, p->commands[k].name) == 0)
+      return &p->commands[k];
+  return NULL;
+}
+
+static void complain_unknown(const program *p, const char *name) {
+  char words[256] = "--help|--version", hint[HINT_TEXT];
+  if (p->cites != NULL)
+    strcat(words, "|--cite|--report");
+  for (size_t k = 0; k < p->count; k++)
+    snprintf(words + strlen(words), sizeof words - strlen(words), "|%s", p->commands[k].name);
+  complain("no command '%s'; `%s --help` lists them%s", name, p->name,
+           did_you_mean(name, words, hint));
+}
+
 int program_run(const program *p, int argc, char **argv) {
   program_name = p->name;
   hold_standard_places();
@@ -99,51 +133,36 @@ int program_run(const program *p, int argc, char **argv) {
     print_help(stderr, p);
     return EXIT_USAGE;
   }
+
+  /* help COMMAND is COMMAND --help */
   const char *name = argv[1];
   static char help[] = "--help";
   char *for_help[] = {argv[0], argc > 2 ? argv[2] : NULL, help, NULL};
-  if (strcmp(name, "help") == 0 && argc > 2) { /* help COMMAND */
+  if (strcmp(name, "help") == 0 && argc > 2) {
     name = argv[2];
     argc = 3;
     argv = for_help;
   }
+
+  /* options of the program; --cite is also one of the command that cites, as what follows */
+  const bool cite = p->cites != NULL && strcmp(name, "--cite") == 0;
   if (name[0] == '-' && strcmp(name, "--cite") != 0 && argc > 2) {
     complain("%s stands alone, without '%s'", name, argv[2]);
     return EXIT_USAGE;
   }
-  if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
-    print_help(stdout, p);
+  if (run_option(p, name))
     return finish(EXIT_GOOD);
-  }
-  if (strcmp(name, "--complete") == 0) { /* for the shells: completion.* */
-    for (size_t k = 0; k < p->count; k++)
-      puts(p->commands[k].name);
-    return finish(EXIT_GOOD);
-  }
-  if (strcmp(name, "--manual") == 0) { /* for manual.cmake */
-    print_manual(stdout, p);
-    return finish(EXIT_GOOD);
-  }
-  if (strcmp(name, "--version") == 0) {
-    printf("%s %s\n", p->name, carom_version());
-    return finish(EXIT_GOOD);
-  }
   if (p->cites != NULL && strcmp(name, "--report") == 0)
     return finish(print_report(p->name));
-  const bool cite = p->cites != NULL && strcmp(name, "--cite") == 0;
-  if (cite) /* an argument of that command, as what follows */
+  if (cite)
     name = p->cites;
   if (!isa_is_known())
     return EXIT_USAGE;
-  for (size_t k = 0; k < p->count; k++)
-    if (strcmp(name, p->commands[k].name) == 0)
-      return finish(p->commands[k].run(argc - !cite, argv + !cite));
-  char words[256] = "--help|--version", hint[HINT_TEXT];
-  if (p->cites != NULL)
-    strcat(words, "|--cite|--report");
-  for (size_t k = 0; k < p->count; k++)
-    snprintf(words + strlen(words), sizeof words - strlen(words), "|%s", p->commands[k].name);
-  complain("no command '%s'; `%s --help` lists them%s", name, p->name,
-           did_you_mean(name, words, hint));
-  return EXIT_USAGE;
+
+  const command *found = find_command(p, name);
+  if (found == NULL) {
+    complain_unknown(p, name);
+    return EXIT_USAGE;
+  }
+  return finish(found->run(argc - !cite, argv + !cite));
 }

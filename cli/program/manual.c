@@ -11,10 +11,20 @@ static void write_roff(FILE *out, const char *text, size_t size) {
   if (size > 0 && (text[0] == '.' || text[0] == '\''))
     fputs("\\&", out);
   for (size_t k = 0; k < size; k++)
-    text[k] == '-'                     ? fputs("\\-", out)
-    : text[k] == '\\'                  ? fputs("\\e", out)
-    : text[k] == '|' || text[k] == ',' ? fprintf(out, "%c\\:", text[k])
-                                       : putc(text[k], out);
+    switch (text[k]) {
+    case '-':
+      fputs("\\-", out);
+      break;
+    case '\\':
+      fputs("\\e", out);
+      break;
+    case '|':
+    case ',':
+      fprintf(out, "%c\\:", text[k]);
+      break;
+    default:
+      putc(text[k], out);
+    }
 }
 
 static void write_text(FILE *out, const char *text) {
@@ -58,22 +68,29 @@ void manual_item(FILE *out, const char *head, const char *argument, const char *
 void manual_begin(FILE *out, const char *program, const char *command, const char *usage,
                   const char *about) {
   char name[64];
-  snprintf(name, sizeof name, "%s%s%s", program, command != NULL ? "-" : "",
-           command != NULL ? command : "");
+  if (command != NULL)
+    snprintf(name, sizeof name, "%s-%s", program, command);
+  else
+    snprintf(name, sizeof name, "%s", program);
   fputs(".SH NAME\n", out);
   write_roff(out, name, strlen(name));
   fputs(" \\- ", out);
   write_roff(out, about, strcspn(about, "."));
   fputs("\n.SH SYNOPSIS\n", out);
-  for (const char *other;; usage = other + 3) { /* the ways, a line each */
+  /* the ways to call it, a line each */
+  for (const char *other;; usage = other + 3) {
     other = strstr(usage, " | ");
-    fprintf(out, ".B %s%s%s\n", program, command != NULL ? " " : "",
-            command != NULL ? command : "");
-    write_roff(out, usage, other != NULL ? (size_t)(other - usage) : strlen(usage));
-    fputs(other != NULL ? "\n.br\n" : "\n", out);
+    fprintf(out, ".B %s", program);
+    if (command != NULL)
+      fprintf(out, " %s", command);
+    putc('\n', out);
     if (other == NULL)
       break;
+    write_roff(out, usage, (size_t)(other - usage));
+    fputs("\n.br\n", out);
   }
+  write_roff(out, usage, strlen(usage));
+  putc('\n', out);
 }
 
 void manual_end(FILE *out, const char *exits, const char *example) {

@@ -27,13 +27,19 @@ static double length(const double x[3]) {
   return hypot(hypot(x[0], x[1]), x[2]);
 }
 
+static bool is_doubtful(int kind, double x) {
+  if (kind == DOUBT_APART)
+    return !(fabs(x - 1.0) <= looseness);
+  return x > bounds[kind].most;
+}
+
 /* Counts the first of the numbers that is beyond its bound; returns its name. */
-static const char *count_doubt(doubts *d, const double is[DOUBTS]) {
+static const char *count_doubt(doubts *d, const double numbers[DOUBTS]) {
   d->rows++;
   for (int k = 0; k < DOUBTS; k++)
-    if (k == DOUBT_APART ? !(fabs(is[k] - 1.0) <= looseness) : is[k] > bounds[k].most) {
+    if (is_doubtful(k, numbers[k])) {
       if (++d->count[k] == 1)
-        d->first[k] = is[k];
+        d->first[k] = numbers[k];
       return bounds[k].name;
     }
   return NULL;
@@ -48,14 +54,15 @@ static double share_of(const double *in) {
 }
 
 const char *doubts_about(doubts *d, const row_kind *kind, const double *in) {
-  double is[DOUBTS] = {kind == &ball_kind ? share_of(in) : 1.0, 0.0, 0.0, in[kind->radius],
-                       in[kind->radius + 1]};
+  double numbers[DOUBTS] = {kind == &ball_kind ? share_of(in) : 1.0, 0.0, 0.0, in[kind->radius],
+                            in[kind->radius + 1]};
   /* The fastest of the balls. */
   for (int k = 0; k < 2 && kind->motion[k] >= 0; k++) {
-    is[DOUBT_SPEED] = fmax(is[DOUBT_SPEED], length(in + kind->motion[k]));
-    is[DOUBT_SPIN] = fmax(is[DOUBT_SPIN], length(in + kind->motion[k] + 3));
+    const double *v = in + kind->motion[k], *w = v + 3;
+    numbers[DOUBT_SPEED] = fmax(numbers[DOUBT_SPEED], length(v));
+    numbers[DOUBT_SPIN] = fmax(numbers[DOUBT_SPIN], length(w));
   }
-  return count_doubt(d, is);
+  return count_doubt(d, numbers);
 }
 
 const char *doubts_about_tip(doubts *d, double offset) {
@@ -66,14 +73,20 @@ static bool near(double x, double wanted) {
   return fabs(x / wanted - 1.0) < 0.03;
 }
 
+/* What the distance of the centres over R1 + R2 may come from. */
 static const char *guess(double share) {
-  return near(share, 100.0)    ? "; are the positions in cm?"
-         : near(share, 1000.0) ? "; are the positions in mm?"
-         : near(share, 0.5)    ? "; is R the diameter?"
-         : near(share, 0.01)   ? "; is R in cm?"
-         : near(share, 0.001)  ? "; is R in mm?"
-         : share < 1.0         ? "; the balls overlap"
-                               : "; the balls do not touch";
+  static const struct {
+    double share;
+    const char *guess;
+  } mistakes[] = {{100.0, "; are the positions in cm?"},
+                  {1000.0, "; are the positions in mm?"},
+                  {0.5, "; is R the diameter?"},
+                  {0.01, "; is R in cm?"},
+                  {0.001, "; is R in mm?"}};
+  for (size_t k = 0; k < sizeof mistakes / sizeof mistakes[0]; k++)
+    if (near(share, mistakes[k].share))
+      return mistakes[k].guess;
+  return share < 1.0 ? "; the balls overlap" : "; the balls do not touch";
 }
 
 void doubts_report(const doubts *d, const char *noun, const char *file) {

@@ -74,24 +74,24 @@ OPTION_SET(set_amount) {
 
 bool set_place(const option_row *row, const char *text, const char *words, int *place) {
   const int found = place_among(words, text, strlen(text));
+  if (found >= 0) {
+    *place = found;
+    return true;
+  }
   char list[120] = "", hint[HINT_TEXT]; /* "this, that or another" */
-  for (const char *at = words; found < 0 && *at != '\0';) {
+  for (const char *at = words; *at != '\0';) {
     const size_t used = strlen(list), size = strcspn(at, "|");
     const bool last = at[size] == '\0';
-    snprintf(list + used, sizeof list - used, "%s%.*s",
-             at == words ? ""
-             : last      ? " or "
-                         : ", ",
-             (int)size, at);
+    const char *before = "";
+    if (at != words)
+      before = last ? " or " : ", ";
+    snprintf(list + used, sizeof list - used, "%s%.*s", before, (int)size, at);
     at += size + !last;
   }
-  if (found >= 0)
-    *place = found;
-  else
-    complain("--%s is %s, not '%s'%s", row->name, list, text,
-             place_among(words, text, strcspn(text, ",:")) >= 0 ? "; it takes one value"
-                                                                : did_you_mean(text, words, hint));
-  return found >= 0;
+  const bool first_is_one = place_among(words, text, strcspn(text, ",:")) >= 0;
+  complain("--%s is %s, not '%s'%s", row->name, list, text,
+           first_is_one ? "; it takes one value" : did_you_mean(text, words, hint));
+  return false;
 }
 
 OPTION_SET(set_choice) {
@@ -404,12 +404,14 @@ static OPTION_SET(set_law) {
        (text[size] == '=' && sscanf(text + size + 1, "%lf,%lf,%lf%c", &law->law.a, &law->law.b,
                                     &law->law.c, &rest) == 3)))
     return true;
+  const char *advice;
+  if (strpbrk(text, "=abc") == NULL)
+    advice = one_hint(text);
+  else
+    advice = did_you_mean(strchr(text, '=') == NULL ? text : name, name, hint);
   complain("--%s is alciatore, alciatore=a,b,c (mu = a + b exp(-c |u|)) or a number from 0 to 1, "
            "not '%s'%s",
-           row->name, text,
-           strpbrk(text, "=abc") == NULL
-               ? one_hint(text)
-               : did_you_mean(strchr(text, '=') == NULL ? text : name, name, hint));
+           row->name, text, advice);
   return false;
 }
 

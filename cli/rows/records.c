@@ -103,22 +103,25 @@ bool is_text(const char *bytes, size_t size) {
 /* What a file is, by its first line, that is no CSV; NULL if it may be. */
 static const char *kind_of(const record_reader *r) {
   const char *first = r->line + strspn(r->line, " \t");
-  return !is_text(r->line, r->line_size)     ? NOT_TEXT
-         : r->line_size > 1 && *first == '{' ? "JSON; whole shots in it are played by `carom shoot`"
-                                             : NULL;
+  if (!is_text(r->line, r->line_size))
+    return NOT_TEXT;
+  if (r->line_size > 1 && *first == '{')
+    return "JSON; whole shots in it are played by `carom shoot`";
+  return NULL;
 }
 
 /* What stands between fields: of comma, semicolon and tab, the first that is as frequent in the
  * first line as any. */
 static void find_delimiter(record_reader *r) {
   size_t most = 0;
-  for (const char *one = ",;\t"; *one != '\0'; one++) {
+  for (const char *delimiter = ",;\t"; *delimiter != '\0'; delimiter++) {
     size_t count = 0;
     for (size_t k = 0; k < r->line_size; k++)
-      count += r->line[k] == *one;
-    if (count > most)
-      csv_set_delim(&r->parser, (unsigned char)*one);
-    most = count > most ? count : most;
+      count += r->line[k] == *delimiter;
+    if (count > most) {
+      csv_set_delim(&r->parser, (unsigned char)*delimiter);
+      most = count;
+    }
   }
 }
 

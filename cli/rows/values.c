@@ -134,9 +134,10 @@ static int find_unit(int measure, const char *name) {
 static bool set_value(value *v, double given, int unit) {
   v->given = given;
   v->times = units[unit].times;
-  v->x = isnan(units[unit].factor)
-             ? asin(given >= 0.0 && given <= 1.0 ? 1.0 - given : (double)NAN) / degree
-             : given * units[unit].factor;
+  if (isnan(units[unit].factor)) /* BALL_FRACTION */
+    v->x = given >= 0.0 && given <= 1.0 ? asin(1.0 - given) / degree : (double)NAN;
+  else
+    v->x = given * units[unit].factor;
   const bool apart = units[unit].name[0] >= 'a' && units[unit].times != DIAMONDS; /* 2d, 2 m */
   snprintf(v->name, sizeof v->name, "%.6g%s%s", given, apart ? " " : "", units[unit].name);
   return isfinite(v->x);
@@ -253,56 +254,83 @@ static bool set_range(const option_row *row, const char *text, char *copy, value
   return true;
 }
 
-static bool read_values(const option_row *row, const char *text, values *list) {
-  static char copy[LIST_TEXT]; /* in which ranges have colons */
+/* The name of a cushion model. */
+static bool set_model(const option_row *row, const char *text, value *v) {
+  char all[MOST_WORDS];
+  int place;
+  if (!set_place(row, text, words_of(CAROM_WORDS_CUSHION_MODEL, false, all), &place))
+    return false;
+  *v = (value){.x = place, .given = (double)NAN};
+  snprintf(v->name, sizeof v->name, "%s", text);
+  return true;
+}
+
+/* One value of a list; `common` is the unit of those without. */
+static bool set_one(const option_row *row, const char *text, int common, value *v) {
   const int measure = row->least;
-  char *rest = NULL, *to = copy, all[MOST_WORDS];
-  double number, several = 1.0;
-  const char *own, *last = strrchr(text, ',');
-  /* The unit of the last is that of those without. */
-  if (!split(last != NULL ? last + 1 : text, &number, &own))
-    own = "";
-  const int common = find_unit(measure, own);
-  *list = (values){.unit = common != NO_UNIT ? units[common].axis : ""};
-  for (const char *from = text; *from != '\0'; from++)
-    several += *from == ',';
-  if (several > MOST_VALUES || strlen(text) >= LIST_TEXT)
-    return too_many(row, several, MOST_VALUES);
-  for (const char *from = text; *from != '\0'; from++) {
+  double number;
+  const char *unit;
+  if (set_word(text, measure, v))
+    return true;
+  if (measure == MEASURE_MODEL)
+    return set_model(row, text, v);
+  if (!split(text, &number, &unit))
+    return refuse(row, text);
+  const bool bare = unit[0] == '\0';
+  int found = bare ? common : find_unit(measure, unit);
+  if (found == NO_UNIT && bare && number == 0.0) /* 0 of any unit */
+    found = find_unit(measure, "rad/s");
+  if (found == NO_UNIT && bare && measure >= MEASURE_SPIN) {
+    const char *of = measure == MEASURE_SPIN ? " of rolling" : " of english";
+    complain("--%s %s needs a unit: %srad/s, %s%%%s or %stip", row->name, text, text, text, of,
+             text);
+    return false;
+  }
+  if (found == NO_UNIT || !set_value(v, number, found))
+    return refuse(row, text);
+  return true;
+}
+
+/* The unit of the last value of a list, which those without have too; NO_UNIT of none. */
+static int unit_of_last(int measure, const char *text) {
+  const char *last = strrchr(text, ','), *unit;
+  double number;
+  if (!split(last != NULL ? last + 1 : text, &number, &unit))
+    unit = "";
+  return find_unit(measure, unit);
+}
+
+/* Copies a text with a colon for each "..". */
+static void copy_with_colons(const char *from, char *to) {
+  for (; *from != '\0'; from++) {
     const bool dots = strncmp(from, "..", 2) == 0;
     *to++ = dots ? ':' : *from;
     from += dots;
   }
   *to = '\0';
+}
+
+static bool read_values(const option_row *row, const char *text, values *list) {
+  static char copy[LIST_TEXT];
+  const int common = unit_of_last(row->least, text);
+  *list = (values){.unit = common != NO_UNIT ? units[common].axis : ""};
+
+  /* how many there are */
+  double several = 1.0;
+  for (const char *at = text; *at != '\0'; at++)
+    several += *at == ',';
+  if (several > MOST_VALUES || strlen(text) >= LIST_TEXT)
+    return too_many(row, several, MOST_VALUES);
+
+  /* a range, or values with commas */
+  copy_with_colons(text, copy);
   if (strchr(copy, ':') != NULL)
     return set_range(row, text, copy, list);
-  for (char *one = strtok_r(copy, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
-    const char *unit;
-    value *v = &list->at[list->count++];
-    int place;
-    if (set_word(one, measure, v))
-      continue;
-    if (measure == MEASURE_MODEL) {
-      if (!set_place(row, one, words_of(CAROM_WORDS_CUSHION_MODEL, false, all), &place))
-        return false;
-      *v = (value){.x = place, .given = (double)NAN};
-      snprintf(v->name, sizeof v->name, "%s", one);
-      continue;
-    }
-    if (!split(one, &number, &unit))
-      return refuse(row, one);
-    int found = unit[0] == '\0' ? common : find_unit(measure, unit);
-    if (found == NO_UNIT && number == 0.0 && unit[0] == '\0') /* 0 of any unit */
-      found = find_unit(measure, "rad/s");
-    if (found == NO_UNIT && unit[0] == '\0' && measure >= MEASURE_SPIN) {
-      complain("--%s %s needs a unit: %srad/s, %s%%%s or %stip", row->name, one, one, one,
-               measure == MEASURE_SPIN ? " of rolling" : " of english", one);
+  char *rest = NULL;
+  for (char *part = strtok_r(copy, ",", &rest); part != NULL; part = strtok_r(NULL, ",", &rest))
+    if (!set_one(row, part, common, &list->at[list->count++]))
       return false;
-    }
-    if (found == NO_UNIT || !set_value(v, number, found))
-      return refuse(row, one);
-  }
-  return list->count > 0 ? true : refuse(row, text);
+  return list->count > 0 || refuse(row, text);
 }
 
 /* Whether two whole numbers look like one with a decimal comma: 1,5 or 0,90 but not 20,30 or

@@ -185,5 +185,7 @@ aim_result aim_at(const carom_table *table, const carom_shot_ball *balls, int co
       if (holds(&t, q, time, cue, first, &barred))
         return AIM_FOUND;
   }
-  return barred ? AIM_BARRED : reached ? AIM_NONE : AIM_NOT_REACHED;
+  if (barred)
+    return AIM_BARRED;
+  return reached ? AIM_NONE : AIM_NOT_REACHED;
 }

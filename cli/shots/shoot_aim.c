@@ -21,7 +21,11 @@ int ball_named(const layout *l, const char *name, size_t size, char names[NAMES_
 
 const char *named_ball(const char *name, char text[BALL_TEXT]) {
   const size_t letters = strspn(name, "abcdefghijklmnopqrstuvwxyz");
-  const char *article = letters < 2 ? "ball " : name[letters] == '\0' ? "the " : "";
+  const char *article = "";
+  if (letters < 2)
+    article = "ball ";
+  else if (name[letters] == '\0')
+    article = "the ";
   snprintf(text, BALL_TEXT, "%s%s", article, name);
   return text;
 }
@@ -31,11 +35,18 @@ const char *ball_words(const layout *l, int ball, char text[BALL_TEXT]) {
 }
 
 const char *obstacle(const layout *l, int type, int other, char text[BALL_TEXT]) {
-  return type == CAROM_EVENT_BALL_BALL    ? ball_words(l, other, text)
-         : type == CAROM_EVENT_POCKET     ? "a pocket"
-         : type == CAROM_EVENT_LEFT_TABLE ? "the end of the table"
-         : type == CAROM_EVENT_JAW        ? "the jaw of a pocket"
-                                          : "a cushion";
+  switch (type) {
+  case CAROM_EVENT_BALL_BALL:
+    return ball_words(l, other, text);
+  case CAROM_EVENT_POCKET:
+    return "a pocket";
+  case CAROM_EVENT_LEFT_TABLE:
+    return "the end of the table";
+  case CAROM_EVENT_JAW:
+    return "the jaw of a pocket";
+  default:
+    return "a cushion";
+  }
 }
 
 bool aim_at_ball(const char *name, const layout *l, const carom_shot_options *options, double cut,
@@ -79,7 +90,8 @@ int pocket_named(const carom_table *t, char *const id[], const char *name, char 
   for (int p = 0; p < t->pockets; p++) {
     const char *own = carom_pocket_name(t, p) != NULL ? carom_pocket_name(t, p) : id[p];
     snprintf(names + strlen(names), NAMES_TEXT - strlen(names), "%s%s", p > 0 ? "|" : "", own);
-    found = strcmp(own, name) == 0 || strcmp(id[p], name) == 0 ? p : found;
+    if (strcmp(own, name) == 0 || strcmp(id[p], name) == 0)
+      found = p;
   }
   return found;
 }

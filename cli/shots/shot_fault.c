@@ -12,6 +12,45 @@ double tip_off_centre(const carom_cue *cue) {
   return hypot(cue->a, cue->b);
 }
 
+/* The key of a number in a file; its name where files do not have it. */
+static const char *key_of(const carom_number *n) {
+  return n->key[0] != '\0' ? n->key : n->name;
+}
+
+/* "cue.": the part of a shot's line that a number is in; "" of an option. */
+static const char *part_words(carom_part_kind kind) {
+  switch (kind) {
+  case CAROM_PART_BALL:
+    return "params.";
+  case CAROM_PART_CUE:
+    return "cue.";
+  default:
+    return "";
+  }
+}
+
+/* Says where the fault is, "balls[1] ('2'): ", or nothing; returns the length of it. */
+static int say_where(const shot_line *line, carom_status bad, const carom_part *part,
+                     char text[FAULT_TEXT]) {
+  if (bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT)
+    return snprintf(text, FAULT_TEXT, "table '%s': ", line->table->id);
+  if (part->kind == CAROM_PART_BALL || part->kind == CAROM_PART_STATE)
+    return snprintf(text, FAULT_TEXT, "balls[%d] ('%s'): ", part->index, line->name[part->index]);
+  return 0;
+}
+
+/* Says of a ball that is not on the table where it is. */
+static void say_off_table(const carom_shot_ball *ball, char *text, size_t room) {
+  const double *r = ball->state.r, R = ball->kind.radius;
+  const char *wrong = carom_status_string(CAROM_ERROR_OFF_TABLE);
+  if (fabs(r[2] - R) > 1e-6)
+    snprintf(text, room, "%s: its centre must lie at z = R = %.6g m, not at z = %.6g", wrong, R,
+             r[2]);
+  else
+    snprintf(text, room, "%s: x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s",
+             wrong, r[0], r[1], fmax(r[0], r[1]) > 10.0 ? "; are places in m?" : "");
+}
+
 /* What is wrong with the arguments of a shot, with the key. False if nothing is. */
 bool shot_fault(const shot_line *line, const carom_shot_options *options, char text[FAULT_TEXT]) {
   static const char *const lists[] = {
@@ -20,18 +59,11 @@ bool shot_fault(const shot_line *line, const carom_shot_options *options, char t
   char must[100];
   const carom_status bad = carom_shot_fault(&line->table->table, line->ball, line->count,
                                             &line->cue, options, &f, must, sizeof must);
-  const carom_number *n = f.row;
-  const char *key = n == NULL ? "" : n->key[0] != '\0' ? n->key : n->name;
-  const int at = f.part.index;
   if (bad == CAROM_OK)
     return false;
 
-  /* where it is */
-  int size = 0;
-  if (bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT)
-    size = snprintf(text, FAULT_TEXT, "table '%s': ", line->table->id);
-  else if (f.part.kind == CAROM_PART_BALL || f.part.kind == CAROM_PART_STATE)
-    size = snprintf(text, FAULT_TEXT, "balls[%d] ('%s'): ", at, line->name[at]);
+  const carom_number *n = f.row;
+  const int at = f.part.index, size = say_where(line, bad, &f.part, text);
   char *rest = text + size;
   const size_t room = (size_t)(FAULT_TEXT - size);
 
@@ -40,27 +72,16 @@ bool shot_fault(const shot_line *line, const carom_shot_options *options, char t
     snprintf(rest, room,
              "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on",
              tip_off_centre(&line->cue), line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
-  else if (bad == CAROM_ERROR_OFF_TABLE && at >= 0 && at < line->count) {
-    const double *r = line->ball[at].state.r, R = line->ball[at].kind.radius;
-    size = snprintf(rest, room, "%s", carom_status_string(bad));
-    if (fabs(r[2] - R) > 1e-6)
-      snprintf(rest + size, room - (size_t)size,
-               ": its centre must lie at z = R = %.6g m, not at z = %.6g", R, r[2]);
-    else
-      snprintf(rest + size, room - (size_t)size,
-               ": x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s", r[0], r[1],
-               fmax(r[0], r[1]) > 10.0 ? "; are places in m?" : "");
-  } else if (n == NULL || must[0] == '\0' || f.part.kind == CAROM_PART_STATE)
+  else if (bad == CAROM_ERROR_OFF_TABLE && at >= 0 && at < line->count)
+    say_off_table(&line->ball[at], rest, room);
+  else if (n == NULL || must[0] == '\0' || f.part.kind == CAROM_PART_STATE)
     snprintf(rest, room, "%s", carom_status_string(bad));
   else if (f.part.kind <= CAROM_PART_POCKET)
-    snprintf(rest, room, "%s[%d].%s must be %s, not %.6g", lists[f.part.kind], at, key, must,
+    snprintf(rest, room, "%s[%d].%s must be %s, not %.6g", lists[f.part.kind], at, key_of(n), must,
              f.value);
   else
-    snprintf(rest, room, "%s%s must be %s, not %.6g",
-             f.part.kind == CAROM_PART_BALL  ? "params."
-             : f.part.kind == CAROM_PART_CUE ? "cue."
-                                             : "",
-             key, must, f.value);
+    snprintf(rest, room, "%s%s must be %s, not %.6g", part_words(f.part.kind), key_of(n), must,
+             f.value);
   return true;
 }
 

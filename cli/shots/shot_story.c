@@ -37,8 +37,14 @@ typedef struct moment {
   double speed, direction; /* just after, m/s and degrees counterclockwise from +x; NaN at rest */
 } moment;
 
+/* The moments of a ball, in their order. */
+typedef struct story {
+  int count;
+  moment at[MOST_MOMENTS];
+} story;
+
 static bool has_ball(const carom_event *e, int ball) {
-  return e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
+  return shot_event_side(e, ball) >= 0;
 }
 
 static int64_t kept_events(const carom_shot *shot) {
@@ -80,15 +86,19 @@ bool ball_moved(const carom_shot *shot, int ball) {
 
 const char *rail_words(const named_table *t, int rail, char text[WHERE_TEXT]) {
   const char *name = carom_rail_name(&t->table, rail);
-  snprintf(text, WHERE_TEXT, name != NULL ? "the %.40s rail" : "rail %.40s",
-           name != NULL ? name : t->rail[rail]);
+  if (name != NULL)
+    snprintf(text, WHERE_TEXT, "the %.40s rail", name);
+  else
+    snprintf(text, WHERE_TEXT, "rail %.40s", t->rail[rail]);
   return text;
 }
 
 const char *pocket_words(const named_table *t, int pocket, char text[WHERE_TEXT]) {
   const char *name = carom_pocket_name(&t->table, pocket);
-  snprintf(text, WHERE_TEXT, name != NULL ? "the %.40s pocket" : "pocket %.40s",
-           name != NULL ? name : t->pocket[pocket]);
+  if (name != NULL)
+    snprintf(text, WHERE_TEXT, "the %.40s pocket", name);
+  else
+    snprintf(text, WHERE_TEXT, "pocket %.40s", t->pocket[pocket]);
   return text;
 }
 
@@ -99,7 +109,8 @@ static const char *side_words(const named_table *t, double x, double y) {
   const double beyond[4] = {-x, x - t->table.width, -y, y - t->table.length};
   int side = 0;
   for (int k = 1; k < 4; k++)
-    side = beyond[k] > beyond[side] ? k : side;
+    if (beyond[k] > beyond[side])
+      side = k;
   return sides[side];
 }
 
@@ -108,41 +119,56 @@ static int nearest_pocket(const carom_table *t, const double r[2]) {
   double least = (double)INFINITY;
   for (int k = 0; k < t->pockets; k++) {
     const double d = hypot(t->pocket[k].centre[0] - r[0], t->pocket[k].centre[1] - r[1]);
-    nearest = d < least ? k : nearest;
-    least = fmin(d, least);
+    if (d < least) {
+      nearest = k;
+      least = d;
+    }
   }
   return nearest;
 }
 
 double diamonds_at(const carom_table *t, int rail, const double r[2]) {
   const char *name = carom_rail_name(t, rail);
-  return name == NULL                       ? (double)NAN
-         : name[0] == 'l' || name[0] == 'r' ? 8.0 * r[1] / t->length
-                                            : 4.0 * r[0] / t->width;
+  if (name == NULL)
+    return (double)NAN;
+  const bool is_long = name[0] == 'l' || name[0] == 'r'; /* left, right */
+  return is_long ? 8.0 * r[1] / t->length : 4.0 * r[0] / t->width;
 }
 
 /* ---- Moments */
 
+/* Degrees from 0 to 360, counterclockwise from +x; NaN of a ball at rest. */
+static double direction_of(const double v[3]) {
+  if (!(hypot(v[0], v[1]) > 0.0))
+    return (double)NAN;
+  const double turn = atan2(v[1], v[0]) / degree;
+  return turn < 0.0 ? turn + 360.0 : turn;
+}
+
 static moment moment_at(moment_kind kind, double time, const carom_ball_state *s) {
-  const double speed = hypot(s->v[0], s->v[1]), turn = atan2(s->v[1], s->v[0]) / degree;
   return (moment){.kind = kind,
                   .with = -1,
                   .time = time,
                   .x = s->r[0],
                   .y = s->r[1],
                   .value = (double)NAN,
-                  .speed = speed,
-                  .direction = !(speed > 0.0) ? (double)NAN
-                               : turn < 0.0   ? turn + 360.0
-                                              : turn};
+                  .speed = hypot(s->v[0], s->v[1]),
+                  .direction = direction_of(s->v)};
 }
 
-/* The cut of a ball on another one at rest, degrees. */
+/* The cut of a ball on another one at rest, degrees; NaN where the other one moves. */
 static double cut_of(const carom_ball_state *own, const carom_ball_state *other) {
   const double along[2] = {other->r[0] - own->r[0], other->r[1] - own->r[1]};
-  return hypot(other->v[0], other->v[1]) == 0.0 && hypot(own->v[0], own->v[1]) > 0.0
-             ? fabs(angle_between(own->v, along))
-             : (double)NAN;
+  if (hypot(other->v[0], other->v[1]) != 0.0 || !(hypot(own->v[0], own->v[1]) > 0.0))
+    return (double)NAN;
+  return fabs(angle_between(own->v, along));
+}
+
+/* Whether a contact is part of a push, while the tip is on the ball of the cue: the motion before
+ * it is not known, as that ball has the motion after the push. */
+static bool is_push(const carom_shot *shot, const carom_event *e) {
+  const carom_event *first = &shot->events[0];
+  return e->cluster > 0 && first->type == CAROM_EVENT_STRIKE && e->time == first->time;
 }
 
 /* The moment of an event, if it is one that is told. */
@@ -158,11 +184,8 @@ static bool moment_of(const shot_line *line, const carom_shot *shot, int64_t k, 
   case CAROM_EVENT_BALL_BALL:
     m->kind = MOMENT_MEETS;
     m->with = (int)(side == 0 ? e->b : e->a);
-    /* of a push the motion before is not known: the ball of the cue has the one after it */
-    m->value = e->cluster > 0 && shot->events[0].type == CAROM_EVENT_STRIKE &&
-                       e->time == shot->events[0].time
-                   ? (double)NAN
-                   : cut_of(&e->before[side], &e->before[1 - side]);
+    if (!is_push(shot, e))
+      m->value = cut_of(&e->before[side], &e->before[1 - side]);
     return true;
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
@@ -216,18 +239,20 @@ static bool passes(const shot_line *line, const carom_shot *shot, int ball, int 
   int least = 0;
   for (int k = 0; k <= SAMPLES; k++) {
     gap[k] = gap_at(line, shot, ball, other, shot->time * k / SAMPLES);
-    least = gap[k] < gap[least] ? k : least;
+    if (gap[k] < gap[least])
+      least = k;
   }
   /* at the ends they only begin or rest side by side */
   if (least == 0 || gap[least] >= gap[SAMPLES])
     return false;
   double early = shot->time * (least - 1) / SAMPLES, late = shot->time * (least + 1) / SAMPLES;
   for (int k = 0; k < REFINEMENTS; k++) {
-    const double one = early + 0.382 * (late - early), two = early + 0.618 * (late - early);
-    if (gap_at(line, shot, ball, other, one) < gap_at(line, shot, ball, other, two))
-      late = two;
+    const double first = early + 0.382 * (late - early);
+    const double second = early + 0.618 * (late - early);
+    if (gap_at(line, shot, ball, other, first) < gap_at(line, shot, ball, other, second))
+      late = second;
     else
-      early = one;
+      early = first;
   }
   carom_ball_state s[CAROM_BALLS_MOST];
   const double time = 0.5 * (early + late);
@@ -242,88 +267,134 @@ static bool passes(const shot_line *line, const carom_shot *shot, int ball, int 
   return own > its || (own == its && ball < other);
 }
 
-/* The moments of a ball in their order, at most MOST_MOMENTS; how many. */
-static int story_of(const shot_line *line, const carom_shot *shot, int ball,
-                    moment to[MOST_MOMENTS]) {
-  int count = 0;
-  double last = 0.0, met = -INFINITY; /* the last contact with a ball */
-  for (int64_t k = 0; k < kept_events(shot) && count < MOST_MOMENTS - 2 * CAROM_BALLS_MOST; k++) {
-    const carom_event *e = &shot->events[k];
+/* ---- The story of a ball */
+
+/* Adds a contact with another ball; `met` is the time of the contact before. Of contacts at one
+ * instant the first counts. A ball that is pushed along is met once, and left when it is met last:
+ * its start to roll between the two is left out. */
+static void add_contact(story *s, const moment *m, double *met) {
+  int last = s->count - 1;
+  if (last >= 0 && s->at[last].kind == MOMENT_MEETS && s->at[last].time == m->time)
+    return;
+  const bool is_soon = m->time - *met < SAME_CONTACT;
+  *met = m->time;
+  if (last > 0 && s->at[last].kind == MOMENT_ROLLS)
+    last--;
+  if (last >= 0 && s->at[last].kind == MOMENT_MEETS && s->at[last].with == m->with && is_soon) {
+    s->at[last].speed = m->speed;
+    s->at[last].direction = m->direction;
+    s->count = last + 1;
+  } else
+    s->at[s->count++] = *m;
+}
+
+/* Adds the moments of the events of a ball; returns the time of the last event. */
+static double add_events(const shot_line *line, const carom_shot *shot, int ball, story *s) {
+  const int most = MOST_MOMENTS - 2 * CAROM_BALLS_MOST; /* with room for its end and those passed */
+  double last = 0.0, met = -INFINITY;
+  for (int64_t k = 0; k < kept_events(shot) && s->count < most; k++) {
     moment m;
-    if (!has_ball(e, ball))
+    if (!has_ball(&shot->events[k], ball))
       continue;
-    last = e->time;
+    last = shot->events[k].time;
     if (!moment_of(line, shot, k, ball, &m))
       continue;
-    const moment *before = count > 0 ? &to[count - 1] : NULL;
-    if (m.kind == MOMENT_MEETS && before != NULL && before->kind == MOMENT_MEETS &&
-        before->time == m.time)
-      continue;
-    /* a ball that is pushed along is met once, and left when it is met last */
-    const bool rolled = before != NULL && before->kind == MOMENT_ROLLS && count > 1;
-    moment *same = rolled ? &to[count - 2] : count > 0 ? &to[count - 1] : NULL;
-    const double since = m.time - met;
-    met = m.kind == MOMENT_MEETS ? m.time : met;
-    if (m.kind == MOMENT_MEETS && same != NULL && same->kind == MOMENT_MEETS &&
-        same->with == m.with && since < SAME_CONTACT) {
-      same->speed = m.speed;
-      same->direction = m.direction;
-      count -= rolled;
-      continue;
-    }
-    to[count++] = m;
+    if (m.kind == MOMENT_MEETS)
+      add_contact(s, &m, &met);
+    else
+      s->at[s->count++] = m;
   }
+  return last;
+}
+
+/* Adds where a ball that stays on the table ends; `last` is the time of its last event. */
+static void add_end(const carom_shot *shot, int ball, double last, story *s) {
   const carom_ball_state *final = &shot->final[ball];
-  if (final->label != CAROM_BALL_POCKETED && final->label != CAROM_BALL_OFF) {
-    const bool rests = final->label == CAROM_BALL_STATIONARY;
-    to[count++] = moment_at(rests ? MOMENT_RESTS : MOMENT_MOVES, rests ? last : shot->time, final);
-  }
+  if (final->label == CAROM_BALL_STATIONARY)
+    s->at[s->count++] = moment_at(MOMENT_RESTS, last, final);
+  else if (final->label != CAROM_BALL_POCKETED && final->label != CAROM_BALL_OFF)
+    s->at[s->count++] = moment_at(MOMENT_MOVES, shot->time, final);
+}
+
+/* Adds the balls that it passes without contact, each at its time. */
+static void add_passes(const shot_line *line, const carom_shot *shot, int ball, story *s) {
   for (int other = 0; other < line->count; other++) {
     moment m;
     if (other == ball || ever_meet(shot, ball, other) || !passes(line, shot, ball, other, &m))
       continue;
-    int at = count++;
-    for (; at > 0 && to[at - 1].time > m.time; at--)
-      to[at] = to[at - 1];
-    to[at] = m;
+    int at = s->count++;
+    for (; at > 0 && s->at[at - 1].time > m.time; at--)
+      s->at[at] = s->at[at - 1];
+    s->at[at] = m;
   }
-  return count;
+}
+
+static void story_of(const shot_line *line, const carom_shot *shot, int ball, story *s) {
+  s->count = 0;
+  const double last = add_events(line, shot, ball, s);
+  add_end(shot, ball, last, s);
+  add_passes(line, shot, ball, s);
 }
 
 /* ---- Rows */
 
 static void put_number(FILE *out, double x) {
   char text[NUMBER_TEXT];
-  fprintf(out, ",%s", isnan(x) ? "" : number_text(x, text));
+  putc(',', out);
+  if (!isnan(x))
+    fputs(number_text(x, text), out);
+}
+
+/* The number that a moment of one kind has; NaN of another kind. */
+static double value_of_kind(const moment *m, moment_kind kind) {
+  return m->kind == kind ? m->value : (double)NAN;
+}
+
+/* The ball, rail, pocket or side of the table that a moment is with; "" where there is none. */
+static const char *with_words(const shot_line *line, const moment *m, char text[WHERE_TEXT]) {
+  switch (m->kind) {
+  case MOMENT_MEETS:
+  case MOMENT_PASSES:
+    return line->name[m->with];
+  case MOMENT_RAIL:
+    return rail_words(line->table, m->with, text);
+  case MOMENT_JAW:
+    return m->with >= 0 ? pocket_words(line->table, m->with, text) : "";
+  case MOMENT_FALLS:
+    return pocket_words(line->table, m->with, text);
+  case MOMENT_OFF:
+    return side_words(line->table, m->x, m->y);
+  default:
+    return "";
+  }
+}
+
+static void write_moment(FILE *out, const moment *m) {
+  put_number(out, m->time);
+  put_number(out, m->x);
+  put_number(out, m->y);
+  put_number(out, m->speed);
+  put_number(out, m->direction);
+  put_number(out, value_of_kind(m, MOMENT_MEETS));
+  put_number(out, value_of_kind(m, MOMENT_RAIL));
+  put_number(out, 1e3 * value_of_kind(m, MOMENT_PASSES));
+  putc('\n', out);
 }
 
 void story_rows(FILE *out, int number, const shot_line *line, const carom_shot *shot) {
   static const char *const what[] = {"leaves", "meets", "rail", "jaw",   "rolls",
                                      "passes", "falls", "off",  "rests", "moves"};
-  static moment m[MOST_MOMENTS];
+  static story s;
   const json_t *id = json_object_get(line->json, "id");
   for (int ball = 0; ball < line->count; ball++) {
-    const int count = ball_moved(shot, ball) ? story_of(line, shot, ball, m) : 0;
-    for (int k = 0; k < count; k++) {
-      const moment_kind kind = m[k].kind;
-      char text[WHERE_TEXT] = "";
-      const char *with = kind == MOMENT_MEETS || kind == MOMENT_PASSES ? line->name[m[k].with]
-                         : kind == MOMENT_RAIL ? rail_words(line->table, m[k].with, text)
-                         : (kind == MOMENT_JAW && m[k].with >= 0) || kind == MOMENT_FALLS
-                             ? pocket_words(line->table, m[k].with, text)
-                         : kind == MOMENT_OFF ? side_words(line->table, m[k].x, m[k].y)
-                                              : "";
+    if (!ball_moved(shot, ball))
+      continue;
+    story_of(line, shot, ball, &s);
+    for (int k = 0; k < s.count; k++) {
+      char text[WHERE_TEXT];
       fprintf(out, "%d,\"%s\",%s,%s,%s", number, json_is_string(id) ? json_string_value(id) : "",
-              line->name[ball], what[kind], with);
-      put_number(out, m[k].time);
-      put_number(out, m[k].x);
-      put_number(out, m[k].y);
-      put_number(out, m[k].speed);
-      put_number(out, m[k].direction);
-      put_number(out, kind == MOMENT_MEETS ? m[k].value : (double)NAN);
-      put_number(out, kind == MOMENT_RAIL ? m[k].value : (double)NAN);
-      put_number(out, kind == MOMENT_PASSES ? 1e3 * m[k].value : (double)NAN);
-      putc('\n', out);
+              line->name[ball], what[s.at[k].kind], with_words(line, &s.at[k], text));
+      write_moment(out, &s.at[k]);
     }
   }
 }
@@ -352,9 +423,11 @@ static void tell_contact(FILE *out, const shot_line *line, const moment *m) {
 }
 
 static void tell_direction(FILE *out, const moment *m) {
-  if (m->speed > 0.0)
-    fprintf(out, "%s at %.1f degrees with %.3g m/s",
-            m->kind == MOMENT_LEAVES ? "leaves" : ", leaves", m->direction, m->speed);
+  if (!(m->speed > 0.0))
+    return;
+  if (m->kind != MOMENT_LEAVES)
+    fputs(", ", out);
+  fprintf(out, "leaves at %.1f degrees with %.3g m/s", m->direction, m->speed);
 }
 
 /* A moment; the start of a roll stands in the line of the contact before it. */
@@ -400,44 +473,50 @@ static void tell_moment(FILE *out, const shot_line *line, const moment *m, bool 
 
 /* What the ball of the cue meets first, the cushions of a ball in one line, with the times of the
  * first of them, and its end. */
-static void tell_shortly(FILE *out, const shot_line *line, const moment *m, int count) {
-  int rails = 0, met = m[0].kind == MOMENT_LEAVES ? 0 : count;
-  for (int k = 0; k < count; k++)
-    rails += m[k].kind == MOMENT_RAIL;
-  while (met < count && m[met].kind != MOMENT_MEETS)
+static void tell_shortly(FILE *out, const shot_line *line, const story *s) {
+  enum { MOST_TIMES = 5 };
+  int met = 0, rails = 0;
+  while (met < s->count && s->at[met].kind != MOMENT_MEETS)
     met++;
-  if (met < count) {
-    tell_contact(out, line, &m[met]);
+  if (s->at[0].kind == MOMENT_LEAVES && met < s->count) {
+    tell_contact(out, line, &s->at[met]);
     fputs("; ", out);
   }
+  for (int k = 0; k < s->count; k++)
+    rails += s->at[k].kind == MOMENT_RAIL;
   fprintf(out, rails == 1 ? "%d rail" : "%d rails", rails);
-  for (int k = 0, told = 0; k < count && told < 5; k++)
-    if (m[k].kind == MOMENT_RAIL)
-      fprintf(out, "%s%.2f", told++ > 0 ? ", " : " after ", m[k].time);
-  fputs(rails > 5 ? ", ... s; " : rails > 0 ? " s; " : "; ", out);
-  tell_end(out, line, &m[count - 1]);
+  const char *before = " after ";
+  for (int k = 0, times = 0; k < s->count && times < MOST_TIMES; k++)
+    if (s->at[k].kind == MOMENT_RAIL) {
+      fprintf(out, "%s%.2f", before, s->at[k].time);
+      before = ", ";
+      times++;
+    }
+  if (rails > MOST_TIMES)
+    fputs(", ...", out);
+  fputs(rails > 0 ? " s; " : "; ", out);
+  tell_end(out, line, &s->at[s->count - 1]);
 }
 
 static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, int ball,
                       bool shortly) {
-  static moment m[MOST_MOMENTS];
-  const int count = story_of(line, shot, ball, m);
+  static story s;
+  story_of(line, shot, ball, &s);
   fprintf(out, "%-6s ", line->name[ball]);
   if (shortly)
-    tell_shortly(out, line, m, count);
+    tell_shortly(out, line, &s);
   else
-    for (int k = 0; k < count; k++)
-      tell_moment(out, line, &m[k], k == 0);
+    for (int k = 0; k < s.count; k++)
+      tell_moment(out, line, &s.at[k], k == 0);
 }
 
 /* What the cue ball meets before the tip has left it. */
 static void tell_push(FILE *out, const shot_line *line, const carom_facts *facts) {
   for (int k = 0; k < line->count; k++)
-    if (facts->pushed >> k & 1)
-      fprintf(out,
-              facts->frozen >> k & 1
-                  ? "frozen to ball %s: pushed, both go\n"
-                  : "a double hit: ball %s is met while the tip is on the cue ball\n",
+    if ((facts->pushed & facts->frozen) >> k & 1)
+      fprintf(out, "frozen to ball %s: pushed, both go\n", line->name[k]);
+    else if (facts->pushed >> k & 1)
+      fprintf(out, "a double hit: ball %s is met while the tip is on the cue ball\n",
               line->name[k]);
   if (facts->touches > 1)
     fprintf(out, "the tip touches the cue ball %s, at %.2f m/s after %.2g s, at %.3f,%.3f\n",

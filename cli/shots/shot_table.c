@@ -104,9 +104,14 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
 }
 
 carom_game game_of_table(carom_table_kind kind) {
-  return kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
-         : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
-                                            : CAROM_GAME_POOL;
+  switch (kind) {
+  case CAROM_TABLE_SNOOKER:
+    return CAROM_GAME_SNOOKER;
+  case CAROM_TABLE_THREECUSHION:
+    return CAROM_GAME_BILLIARD;
+  default:
+    return CAROM_GAME_POOL;
+  }
 }
 
 /* Changes measures by "corner=4.25in,side_cut=104", which it cuts up. */

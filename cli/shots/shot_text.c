@@ -3,6 +3,12 @@
 
 #include <math.h>
 
+int shot_event_side(const carom_event *event, int ball) {
+  if (event->a == ball)
+    return 0;
+  return event->type == CAROM_EVENT_BALL_BALL && event->b == ball ? 1 : -1;
+}
+
 const char *shot_event_name(int type) {
   return carom_event_name((carom_event_type)type);
 }

@@ -107,9 +107,7 @@ static void make_band(spread *s, const shot_tangents *t, const shot_line *line,
   s->band[ball] = allocate((size_t)(TIMES + 2 * (shot->count + 1)), sizeof *s->band[ball]);
   for (int64_t k = 0; k <= shot->count && !s->cut[ball]; k++) {
     const carom_event *e = k < shot->count ? &shot->events[k] : NULL;
-    const int side = e == NULL || e->a == ball                          ? 0
-                     : e->type == CAROM_EVENT_BALL_BALL && e->b == ball ? 1
-                                                                        : -1;
+    const int side = e != NULL ? shot_event_side(e, ball) : 0;
     if (side < 0)
       continue;
     const double until = e != NULL ? e->time : shot->time;
