@@ -1,9 +1,10 @@
 /* A plan that may be stopped plays rounds: a whole plan of 100 shots, one of 200, of 400 and so on,
  * each with errors of its own. So whenever it is stopped it has the best stroke of a whole plan of
  * about half of its shots, which also joins the candidates of the next one. */
-#include "search.h"
+#include "anytime.h"
 
 #include "platform/arithmetic.h"
+#include "search.h"
 
 typedef carom_candidate candidate;
 typedef carom_search search;

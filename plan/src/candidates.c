@@ -1,9 +1,12 @@
 /* Candidates: direct pots, with six speeds and five places of the tip, aimed by shots of two balls
  * that stop at the contact; and strokes in all directions, of which those stay that meet a ball
  * first that is on. */
+#include "candidates.h"
+
 #include "platform/elementary.h"
 #include "platform/promise.h"
-#include "search.h"
+#include "ranking.h"
+#include "rows.h"
 
 #include <math.h>
 

@@ -1,7 +1,10 @@
 /* The kind of a choice: that of the first of its strokes, without errors and then with some, in
  * which the ball that is named falls. */
+#include "choice_kind.h"
+
+#include "drawn_tables.h"
 #include "pot_kind.h"
-#include "search.h"
+#include "rows.h"
 
 typedef carom_search search;
 

@@ -12,8 +12,9 @@
  * friction of cushions was measured as 0.14 (Mathavan 2010) and 0.255
  * (docs/understanding/constants.md), of one table each. So `unsure` 1 is a player who knows nothing
  * of this table but that it is one. */
+#include "drawn_tables.h"
+
 #include "platform/elementary.h"
-#include "search.h"
 
 #include <math.h>
 

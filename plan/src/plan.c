@@ -15,9 +15,15 @@
  * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
  * threads and added up in their order, so no bit of a sum depends on threads. The rows of a stage
  * are played at once or in slices, between which all of the plan is in the caller's memory. */
+#include "anytime.h"
+#include "candidates.h"
+#include "choice_kind.h"
+#include "drawn_tables.h"
 #include "plan_options.h"
 #include "platform/fingerprint.h"
 #include "platform/ranges.h"
+#include "ranking.h"
+#include "rows.h"
 #include "schema/options.h"
 #include "search.h"
 #include "table/spots.h"

@@ -1,6 +1,7 @@
 /* What candidates are worth, and which is better. */
+#include "ranking.h"
+
 #include "platform/promise.h"
-#include "search.h"
 
 typedef carom_candidate candidate;
 typedef carom_outcome outcome;

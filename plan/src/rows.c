@@ -1,7 +1,9 @@
 /* The rows of a search: a candidate that is played once, with or without errors, and what that is
  * worth to the player. A row's errors are a function of seed, round and number. Rows are computed
  * by threads and added up in their order, so no bit of a sum depends on threads. */
-#include "search.h"
+#include "rows.h"
+
+#include "drawn_tables.h"
 
 #include <math.h>
 #include <string.h>

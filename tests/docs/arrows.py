@@ -179,6 +179,18 @@ assert len(stands) > 200 and sum(map(len, calls.values())) > 100, (
 )
 no_circle("calls", calls)
 
+# Of the sources that share the state of a search, a header stands for its source: what a unit
+# includes and what it calls are one order, so no two units take each other's types and calls.
+STATE = "plan/src/search_state"
+search = {unit for unit, others in units.items() if STATE in others}
+assert len(search) >= 7, f"only {sorted(search)} include {STATE}.h"
+both = {unit: set(units[unit]) for unit in search}
+for file, others in calls.items():
+    unit = str(Path(file).with_suffix(""))
+    if unit in search:
+        both[unit] |= {str(Path(other).with_suffix("")) for other in others}
+no_circle("units and calls of the search", both)
+
 # Python: every import, at the top, in a function or for annotations alone.
 PACKAGE = ROOT / "python" / "src"
 modules = {

@@ -1,0 +1,31 @@
+/* The rows of a stage: shots of candidates, and what they are worth. */
+#ifndef CAROM_PLAN_ROWS_H
+#define CAROM_PLAN_ROWS_H
+
+#include "search_state.h"
+
+/* Takes the balls in play of a layout as those of shots. */
+void carom_search_lay_out(carom_search *plan, const carom_shot_ball *balls);
+/* Sets the next stage: candidates from the one of index `first` on, `each` times with the errors of
+ * these draws; 0: without errors. */
+void carom_search_stage(carom_search *plan, int64_t first, int64_t candidates, int64_t each,
+                        uint32_t draws);
+/* Plays rows of the stage, whose outcomes come in their order. Returns whether the stage is done:
+ * all rows are played, or those before the plan was stopped, at least one. It is not done where the
+ * slice has ended. */
+bool carom_search_play(carom_search *plan);
+/* The stroke of a candidate, with the errors of a row; draws 0: without errors. */
+carom_cue carom_search_stroke(const carom_search *plan, const carom_candidate *c, uint32_t draws,
+                              int64_t row);
+/* Whether a stroke of the scan met a ball first that is on. */
+bool carom_search_begins_well(const carom_search *plan, int first);
+/* What a foul counts that is worth `worth`. Values of layouts are right to some hundredths, and a
+ * legal stroke that is as good is to be chosen. */
+static inline double carom_search_foul(double worth) {
+  const double less = 0.03;
+  return worth > less ? worth - less : 0.0;
+}
+/* Points as a share of the balls left before the shot. */
+double carom_search_share(const carom_search *plan, double points);
+
+#endif

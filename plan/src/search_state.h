@@ -1,0 +1,149 @@
+/* The state of a search for the best shot: all that its sources share. What they do stands in a
+ * header of each. A source knows this file and the headers that stand before its own, in this
+ * order: drawn_tables.h, rows.h, ranking.h, choice_kind.h, candidates.h, search.h, anytime.h. */
+#ifndef CAROM_PLAN_SEARCH_STATE_H
+#define CAROM_PLAN_SEARCH_STATE_H
+
+#include "platform/clock.h"
+#include "platform/threads.h"
+#include "shot/shot.h"
+#include "view.h"
+
+/* Stages of draws. */
+enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_BREAKS = 5, DRAW_TABLES, DRAW_ROUND = 16 };
+enum { PLACES_PLANNED = 6 }; /* of a cue ball in hand */
+enum { ROWS_LEAST = 4 };     /* rows worth a thread */
+
+/* A stroke that may be chosen, and what its shots have told. `sum`, `squares`, `keep`, `foul`,
+ * `lose` and `seen` count the shots with errors. Until there is one, they hold the shot without. */
+typedef struct carom_candidate {
+  double speed, phi, theta, a, b; /* as in carom_cue */
+  double sum, squares;            /* of the worths of its shots, and of their squares */
+  int64_t seen;                   /* number of shots */
+  int64_t keep, foul, lose;       /* shots by which the player keeps his turn, fouls, loses */
+  int32_t order;       /* when it was added; of two that are as good, the first is chosen */
+  int32_t votes;       /* for the pot that is named, where rules have no calls */
+  int16_t kind, round; /* a carom_plan_kind; rounds that it was played in */
+  int16_t aimed_ball, aimed_pocket;           /* the direct pot that it was aimed at */
+  int16_t ball, pocket, cushions;             /* the pot that is named, */
+  int16_t pots;                               /* 1: the shot without errors pots a ball: */
+  int16_t own_ball, own_pocket, own_cushions; /* this one */
+} carom_candidate;
+
+/* What one shot tells. */
+typedef struct carom_outcome {
+  double worth;        /* to the player, 0 to 1 */
+  int8_t is, foul;     /* a carom_turn_is; 1: a foul */
+  int8_t ball, pocket; /* the pot that keeps the turn, or -1 */
+  int16_t cushions;    /* impacts of that ball on cushions */
+  int8_t first;        /* the ball that was met first, or -1 */
+  uint8_t events;      /* of the shot, at most 255 */
+} carom_outcome;
+
+/* A stage plays each of some candidates several times. Row k is the shot of candidate
+ * first + k / each, with the errors number k % each of the draws. */
+typedef struct carom_stage {
+  carom_part_worker *work;
+  int64_t first, each, rows;
+  int64_t done;   /* rows that have been played */
+  uint32_t draws; /* 0: without errors */
+} carom_stage;
+
+/* What the search does when all rows of its stage have been played. */
+typedef enum carom_search_next {
+  NEXT_ENDED, /* nothing: the best candidate is the first */
+  NEXT_AIMED, /* it plays the pots that could be aimed, once without errors */
+  NEXT_TAKEN, /* it takes them as candidates, and begins the scan */
+  NEXT_SCAN,  /* it takes the strokes of a block of the scan, and plays the next block */
+  NEXT_ROUND, /* it sorts the candidates of a round with errors, and begins the next round */
+  NEXT_NEAR,  /* it takes strokes near the best one into the round */
+  NEXT_LOOK,  /* it compares another pot, which was played again, with the best */
+  NEXT_GENTLE /* it ends: a gentle stroke is the only one */
+} carom_search_next;
+
+/* A direct pot that is a candidate. */
+typedef struct carom_pot_found {
+  carom_way way;
+  int ball, pocket;
+} carom_pot_found;
+
+/* A place of a cue ball in hand, and the value of the layout with it. */
+typedef struct carom_place_in_hand {
+  double r[2], value;
+} carom_place_in_hand;
+
+/* A table as it may be, where the player does not know it; the kinds are those of the balls in
+ * play. */
+enum { TABLES = 32 };
+typedef struct carom_drawn_table {
+  carom_table table;
+  carom_ball_kind kind[CAROM_BALLS_MOST];
+} carom_drawn_table;
+
+/* All of a plan. It is in the caller's memory, since shots need most of a small stack. */
+typedef struct carom_search {
+  carom_crew *crew;   /* the threads that play its shots */
+  carom_plan_job job; /* with shot and options of its own */
+  carom_shot_options shot;
+  carom_plan_options options;
+  carom_features features; /* of the table, for */
+  carom_prepared layout;   /* all balls */
+  carom_view view;
+  carom_player player;
+  uint32_t in_play, on;                     /* balls in play; those of them that may be met first */
+  uint32_t permissions;                     /* of the stroke: the bits CAROM_MAY_... */
+  uint32_t pockets;                         /* that count */
+  bool breaks;                              /* the stroke is a break */
+  bool blind;                               /* no pot is direct */
+  bool first_decides;                       /* a shot ends at a wrong first ball */
+  double foul_value;                        /* of a foul at the first contact */
+  int32_t left;                             /* balls before the shot */
+  carom_candidate *found;                   /* all candidates, the best first after a round */
+  carom_outcome *outcome;                   /* of the rows of a stage */
+  carom_drawn_table *drawn;                 /* TABLES of them; NULL: the table is known */
+  int64_t count, most;                      /* of candidates */
+  int64_t room;                             /* of outcomes */
+  carom_ball_state state[CAROM_BALLS_MOST]; /* of the layout that is laid out */
+  carom_shot_ball hand[CAROM_BALLS_MOST];   /* the layout with the cue ball in hand */
+  /* the balls in play, which alone take part in shots: which they are, and their set in shots
+   * of the balls that are on, where the first contact decides */
+  carom_shot_ball played[CAROM_BALLS_MOST];
+  int32_t plays, which[CAROM_BALLS_MOST], cue_ball;
+  carom_pot_found pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
+  carom_brief_event event[128];                       /* of a stroke whose kind is asked */
+  carom_place_in_hand best_place[PLACES_PLANNED + 1]; /* the best first */
+  const carom_cue *cues;                              /* `tries` strokes of the caller, */
+  carom_choice *choices;                              /* and the room for their choices */
+  int places, tries;
+  /* The state of a plan in slices between two calls. */
+  uint64_t fingerprint;  /* of the job; 0: no plan */
+  carom_crew_caller *go; /* the function that goes on with it */
+  bool ended;
+  bool late;      /* its seconds are over */
+  bool joins;     /* `best` is of a round of doubling, and joins the next one */
+  int64_t slice;  /* events that this call may still play */
+  int64_t first;  /* shots of the next round of doubling, */
+  int64_t rest;   /* and of all that have not begun */
+  double seconds; /* that are left to it between two calls, */
+  double end;     /* and when they are over; 0: never */
+  carom_stage stage;
+  carom_search_next next;
+  int64_t shots;                  /* of all stages, about, */
+  int64_t scan, scan_end, tried;  /* those of the scan; where its candidates end; tried so far */
+  int64_t better;                 /* the candidate that is looked at again */
+  int64_t entered;                /* candidates of that round from the one before, */
+  int64_t near;                   /* and strokes near the best that join it; -1: none yet */
+  int round, look, place, chosen; /* of places in hand: on its way, the best */
+  carom_candidate best;           /* and the stroke from there */
+} carom_search;
+
+static inline bool carom_is_stopped(const carom_search *plan) {
+  return plan->late || (plan->options.stop != NULL && *plan->options.stop != 0);
+}
+
+/* Whether the seconds of a plan are over, whose clock runs in its calls. */
+static inline bool carom_is_late(const carom_search *plan) {
+  return plan->end > 0.0 && carom_seconds() >= plan->end;
+}
+
+#endif
