@@ -132,8 +132,8 @@ def places(p):
     minor = p["version"].rpartition(".")[0]
     yield (
         "README.md",
-        r"(?m)^(In a clone of this repository \().*(it takes a minute\))",
-        f"`git clone {p['address']} carom`; " if p["address"] else "",
+        r"(?m)^(Run these commands in a clone of this repository)(?: \(.*?\))?(\. They take)",
+        f" (`git clone {p['address']} carom`)" if p["address"] else "",
     )
     yield (
         "SECURITY.md",

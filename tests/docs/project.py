@@ -126,7 +126,7 @@ with tempfile.TemporaryDirectory() as work:
         and csharp["documentationUrl"] == FIELDS["address"]
     )
     assert "Copyright 2031 The Example Society\n" in (work / "NOTICE").read_text(encoding="utf-8")
-    assert "(`git clone https://example.org/carom.git carom`; it takes" in (
+    assert "repository (`git clone https://example.org/carom.git carom`). They take" in (
         work / "README.md"
     ).read_text(encoding="utf-8")
     assert "Report a weakness to Zoë Kö <zoe@example.org>, not" in (work / "SECURITY.md").read_text(

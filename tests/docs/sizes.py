@@ -73,7 +73,7 @@ FIGURES = [
     ("docs/using/games.md", r"bytes a ball instead of (\d+)\. A", 1, "carom_shot_ball", EXACT),
     ("docs/using/games.md", r"(\d+) KiB: all that the shot needs", KIB, "carom_shot_state", EXACT),
     ("docs/using/python.md", r"an event is (\d+) bytes", 1, "carom_brief_event", EXACT),
-    ("docs/using/python.md", r"states alone: (\d+) bytes a ball", 1, "carom_ball_state", EXACT),
+    ("docs/using/python.md", r"contain only states: (\d+) bytes a ball", 1, "carom_ball_state", EXACT),
     ("docs/using/python.md", r"bytes a ball\s+instead of (\d+)\.", 1, "carom_shot_ball", EXACT),
     (
         "docs/using/scale.md",
